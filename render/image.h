@@ -1,0 +1,41 @@
+#pragma once
+/// Pictures as pixels and as PNG bytes with text in them.
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace neve::render {
+
+struct ImageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// 8-bit sRGB, top row first.
+struct Image {
+  int width = 0, height = 0, channels = 3;
+  std::vector<std::uint8_t> pixels;
+};
+
+/// Text stored in a PNG, keyword to UTF-8 text (iTXt). Keywords are 1 to 79 Latin-1 characters.
+using PngText = std::map<std::string, std::string>;
+
+std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text = {});
+
+/// @throws ImageError when the bytes are no whole PNG
+Image decode_png(std::span<const std::uint8_t> bytes);
+PngText read_png_text(std::span<const std::uint8_t> bytes);
+
+/// Largest and mean absolute difference over all channels, 0 to 255.
+struct Difference {
+  double max = 0, mean = 0;
+};
+/// @throws ImageError when the sizes differ
+Difference compare(const Image& a, const Image& b);
+/// |a - b| amplified so that small differences can be seen.
+Image difference_image(const Image& a, const Image& b);
+
+}  // namespace neve::render

@@ -1,0 +1,33 @@
+#pragma once
+/// Integer hashing: random numbers keyed by what they are for, and order-free state hashes.
+
+#include <cstdint>
+#include <cstring>
+
+namespace neve {
+
+/// Bijective 64-bit mixer. Source: finalizer of SplitMix64 (Steele, Lea, Flood 2014).
+constexpr std::uint64_t mix64(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ull;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
+/// Hash of two numbers, order matters.
+constexpr std::uint64_t mix64(std::uint64_t a, std::uint64_t b) { return mix64(mix64(a) ^ b); }
+
+/// Uniform in [0, 1) with 53 bits, from a hash.
+constexpr double unit_double(std::uint64_t hash) {
+  return static_cast<double>(hash >> 11) * 0x1.0p-53;
+}
+
+/// FNV-1a over bytes, for file contents.
+inline std::uint64_t hash_bytes(const void* data, std::size_t size,
+                                std::uint64_t hash = 0xcbf29ce484222325ull) {
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  for (std::size_t k = 0; k < size; ++k) hash = (hash ^ bytes[k]) * 0x100000001b3ull;
+  return hash;
+}
+
+}  // namespace neve

@@ -1,0 +1,53 @@
+#pragma once
+/// Shapes that bodies fill and colliders keep clear.
+
+#include <string>
+#include <variant>
+
+#include "sim/math.h"
+
+namespace neve::sim {
+
+struct Sphere {
+  Vec3d center{0, 0, 0};
+  double radius = 0.1;
+};
+struct Box {
+  Vec3d center{0, 0, 0};
+  Vec3d size{0.2, 0.2, 0.2};
+};
+struct Capsule {
+  Vec3d a{0, 0, 0}, b{0, 0.2, 0};
+  double radius = 0.1;
+};
+/// Axis y, center in the middle of the axis; so are cone (apex up) and torus.
+struct Cylinder {
+  Vec3d center{0, 0, 0};
+  double radius = 0.1, height = 0.2;
+};
+struct Cone {
+  Vec3d center{0, 0, 0};
+  double radius = 0.1, height = 0.2;
+};
+struct Torus {
+  Vec3d center{0, 0, 0};
+  double major_radius = 0.15, minor_radius = 0.05;
+};
+/// Solid where (x - point) . normal <= 0.
+struct Plane {
+  Vec3d point{0, 0, 0};
+  Vec3d normal{0, 1, 0};
+};
+/// A closed triangle mesh in an OBJ file, scaled about the file's origin, which goes to center.
+struct Mesh {
+  std::string file;  ///< resolved path
+  double scale = 1.0;
+  Vec3d center{0, 0, 0};
+};
+
+struct Shape {
+  std::variant<Sphere, Box, Capsule, Cylinder, Cone, Torus, Plane, Mesh> form;
+  Vec3d rotation{0, 0, 0};  ///< degrees, R = Rz Ry Rx, about the shape's centre
+};
+
+}  // namespace neve::sim

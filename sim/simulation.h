@@ -1,0 +1,138 @@
+#pragma once
+/// A snow simulation: particles in, steps, particles out. Knows no files and no graphics.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/collider.h"
+#include "sim/material.h"
+#include "sim/settings.h"
+
+namespace neve::sim {
+
+/// Particles as plain arrays in id order, SI units. Empty optional arrays take their defaults.
+struct ParticleArrays {
+  std::vector<Vec3d> x;        ///< m, measured from the lattice origin
+  std::vector<Vec3d> v;        ///< m/s
+  std::vector<double> m;       ///< kg
+  std::vector<double> V0;      ///< m3; empty or 0: estimated in the first step (the paper's step 2)
+  std::vector<Mat3d> F_E;      ///< default I
+  std::vector<double> J_P;     ///< det F_P, default 1
+  std::vector<Mat3d> C;        ///< 1/s, APIC and MLS, default 0
+  std::vector<int> material;   ///< index, default 0
+};
+
+/// What limited a time step.
+enum class DtLimit { max_dt, cfl, acoustic, strain, fixed, frame_end };
+inline constexpr int dt_limit_count = 6;
+const char* name(DtLimit limit);
+
+/// Sums and extremes over all particles at one time.
+struct Summary {
+  double time = 0;
+  std::size_t particles = 0;
+  double mass = 0;
+  double kinetic_energy = 0, elastic_energy = 0;  ///< J
+  Vec3d momentum{0, 0, 0}, centre_of_mass{0, 0, 0};
+  Vec3d angular_momentum{0, 0, 0};  ///< about the lattice origin
+  double max_speed = 0, min_J_P = 1, max_J_P = 1;
+};
+
+/// Steps taken by one call of advance_to.
+struct AdvanceReport {
+  std::size_t steps = 0;
+  double dt_min = 0, dt_max = 0;
+  std::array<std::size_t, dt_limit_count> ruled{};  ///< steps that each limit ruled
+  DtLimit limit() const;                            ///< the one that ruled most
+};
+
+/// Why a run had to stop. Numerical trouble is data, not an exception.
+struct Divergence {
+  std::size_t step = 0;
+  double time = 0;
+  std::string stage;       ///< name of the stage that broke the rule
+  std::string rule;        ///< energy, speed_cfl, acoustic_cfl, J_P, inverted, not_finite, overflow
+  std::int64_t particle = -1;  ///< id of a culprit, -1 if none stands out
+  Vec3d x{0, 0, 0}, v{0, 0, 0};
+  Mat3d F_E = Mat3d::Identity();
+  double J_E = 1, J_P = 1;
+  double value = 0, limit = 0;  ///< what was found and what the rule allows
+  double dt = 0, dt_that_holds = 0;
+  std::vector<std::uint32_t> culprits;  ///< ids, at most 1000
+  std::string sentence;    ///< one line for people
+};
+
+/// What was noticed but did not stop the run.
+struct Warnings {
+  std::size_t inverted_trials = 0;     ///< trial det F_E <= 0, repaired by the projection
+  double worst_acoustic_cfl = 0;       ///< of fixed steps
+  double worst_speed_cfl = 0;
+};
+
+class Simulation {
+ public:
+  /// @param lattice_origin in blocks of 4 cells; x is measured from it. Moving it changes no bit of
+  ///        the result but the cells.
+  /// @throws std::invalid_argument when arrays disagree in length or hold non-finite numbers
+  Simulation(const SolverSettings& settings, const std::vector<Material>& materials,
+             const std::vector<Collider>& colliders, const ParticleArrays& particles,
+             int threads = 0, const Vec3i& lattice_origin = Vec3i::Zero());
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  double time() const;
+  std::size_t steps() const;
+  std::size_t particle_count() const;
+  int threads() const;
+  const char* simd() const;
+
+  /// One step of exactly dt seconds through the fused driver.
+  void step(double dt);
+
+  /// Steps chosen by the settings until `time` is reached, ending on it exactly. Stops early on
+  /// divergence, or after a step when `interrupted` (polled, may be null) returns true.
+  AdvanceReport advance_to(double time, bool (*interrupted)() = nullptr);
+
+  /// The dt that the settings would choose now, and which limit rules it.
+  struct Choice {
+    double dt;
+    DtLimit limit;
+  };
+  Choice choose_dt(double remaining) const;
+
+  /// Set once a rule of a healthy run was broken.
+  const std::optional<Divergence>& divergence() const;
+  const Warnings& warnings() const;
+
+  Summary summary() const;
+
+  /// All particles in id order; V0 is 0 before the first step of an estimated body.
+  ParticleArrays particles() const;
+
+  /// Kirchhoff stress tau = P F_E^T in Pa, id order.
+  std::vector<Mat3d> kirchhoff() const;
+
+  /// Cell of each particle (lattice units, absolute) and offset in it, id order.
+  std::vector<Vec3i> cells() const;
+
+  /// Commutative sum of per-particle hashes keyed by id; cells enter relative to the lattice origin.
+  std::uint64_t state_hash() const;
+
+  struct Impl;
+
+ private:
+  friend struct StagedAccess;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Bytes that a simulation of so many particles needs, grid and buffers included. An estimate from
+/// above for packed snow; computed before anything is allocated.
+std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,
+                              const SolverSettings& settings, int threads);
+
+}  // namespace neve::sim
