@@ -1,0 +1,34 @@
+#pragma once
+/// JSON with keys in the order they were written, and a reader that cannot be made to recurse deep.
+
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
+
+namespace neve::app {
+
+using Json = nlohmann::ordered_json;
+
+/// @throws nlohmann::json::exception; values nested deeper than 64 levels are dropped
+inline Json parse_json(std::string_view text) {
+  const auto keep = [](int depth, Json::parse_event_t, Json&) { return depth <= 64; };
+  return Json::parse(text.begin(), text.end(), keep);
+}
+
+inline Json parse_json(std::span<const std::uint8_t> bytes) {
+  return parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// JSON has no NaN and no infinities: they become null.
+inline Json number_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+/// Text for people and files; bytes that are no UTF-8 become U+FFFD instead of an exception.
+inline std::string to_text(const Json& json, int indent = 2) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace neve::app

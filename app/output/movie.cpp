@@ -1,0 +1,103 @@
+#include "app/output/movie.h"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+#include "app/output/atomic_file.h"
+#include "app/output/process.h"
+
+namespace neve::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Shortest text that reads back as the same number, with a point in every locale.
+std::string decimal(double value) {
+  char buffer[64];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed);
+  return {buffer, end.ptr};
+}
+
+std::string last_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+  const std::size_t start = text.find_last_of("\r\n");
+  return start == std::string::npos ? text : text.substr(start + 1);
+}
+
+/// Appends the words of a constant text.
+void append_words(std::vector<std::string>& arguments, const char* text) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;) arguments.push_back(word);
+}
+
+/// Pictures are named relative to their folder: its path may hold a '%', a pattern character.
+/// yuv420p needs even sides; players take high definition for BT.709 whatever the file says.
+ProcessResult encode(const fs::path& ffmpeg, const MovieRequest& request, const fs::path& target) {
+  std::vector<std::string> arguments;
+  append_words(arguments, "-nostdin -v error -y -f image2 -framerate");
+  arguments.push_back(decimal(request.fps));
+  arguments.insert(arguments.end(), {"-start_number", std::to_string(request.first_frame)});
+  append_words(arguments, "-i %04d.png -frames:v");
+  arguments.push_back(std::to_string(request.last_frame - request.first_frame + 1));
+  append_words(arguments,
+               "-vf pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv "
+               "-c:v libx264 -crf 18 -pix_fmt yuv420p "
+               "-colorspace bt709 -color_primaries bt709 -color_trc bt709 "
+               "-movflags +faststart -f mp4");
+  arguments.push_back(fs::absolute(target).string());
+  return run_process(ffmpeg, arguments, request.picture_folder);
+}
+
+/// Frames that can be decoded, -1 when ffmpeg could not say.
+long count_frames(const fs::path& ffmpeg, const fs::path& movie) {
+  std::vector<std::string> arguments{"-nostdin", "-v", "error", "-i", fs::absolute(movie).string()};
+  append_words(arguments, "-map 0:v:0 -f null -progress pipe:1 /dev/null");
+  const ProcessResult result = run_process(ffmpeg, arguments, "/");
+  if (!result.has_started || result.exit_code != 0) return -1;
+  const std::string key = "frame=";
+  const std::size_t found = result.output.rfind(key);
+  if (found == std::string::npos) return -1;
+  long count = -1;
+  const char* begin = result.output.data() + found + key.size();
+  std::from_chars(begin, result.output.data() + result.output.size(), count);
+  return count;
+}
+
+}  // namespace
+
+MovieResult write_movie(const MovieRequest& request) {
+  const auto ffmpeg = find_program("ffmpeg");
+  if (!ffmpeg) return {MovieOutcome::no_ffmpeg, {}};
+
+  const fs::path temporary = temporary_name(request.file);
+  const auto fail = [&](const std::string& reason) {
+    std::error_code error;
+    fs::remove(temporary, error);
+    return MovieResult{MovieOutcome::failed, reason};
+  };
+  const ProcessResult result = encode(*ffmpeg, request, temporary);
+  if (!result.has_started) return fail("ffmpeg does not start: " + result.errors);
+  if (result.exit_code != 0)
+    return fail("ffmpeg failed (" + std::to_string(result.exit_code) +
+                "): " + last_line(result.errors));
+
+  const long expected = request.last_frame - request.first_frame + 1;
+  const long counted = count_frames(*ffmpeg, temporary);
+  if (counted != expected) {
+    const std::string said = last_line(result.errors);
+    return fail("ffmpeg made " + std::to_string(std::max(counted, 0L)) + " of " +
+                std::to_string(expected) + " frames" + (said.empty() ? "" : ": " + said));
+  }
+  try {
+    move_into_place(temporary, request.file);
+  } catch (const IoError& error) {
+    return fail(error.what());
+  }
+  return {MovieOutcome::written, {}};
+}
+
+}  // namespace neve::app

@@ -1,0 +1,28 @@
+#pragma once
+/// A movie of finished pictures, made by ffmpeg where there is one.
+
+#include <filesystem>
+#include <string>
+
+namespace neve::app {
+
+struct MovieRequest {
+  std::filesystem::path picture_folder;  ///< holds 0000.png ...
+  std::filesystem::path file;            ///< the movie
+  int first_frame = 0, last_frame = 0;
+  double fps = 24;
+};
+
+enum class MovieOutcome { written, no_ffmpeg, failed };
+
+struct MovieResult {
+  MovieOutcome outcome = MovieOutcome::failed;
+  std::string reason;  ///< of a failure
+};
+
+/// H.264 with even sides, written under a temporary name, decoded again to count its frames (ffmpeg
+/// exits 0 on broken input) and only then put in place. A movie of another length is not kept.
+/// Never throws for what ffmpeg does.
+MovieResult write_movie(const MovieRequest& request);
+
+}  // namespace neve::app

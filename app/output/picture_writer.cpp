@@ -1,0 +1,64 @@
+#include "app/output/picture_writer.h"
+
+#include "app/output/atomic_file.h"
+
+namespace neve::app {
+
+PictureWriter::PictureWriter() : worker_([this] { work(); }) {}
+
+PictureWriter::~PictureWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_closing_ = true;
+  }
+  changed_.notify_all();
+  worker_.join();
+}
+
+void PictureWriter::write(Picture picture) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return failure_ || queue_.size() < picture_queue_capacity; });
+  rethrow_failure();
+  queue_.push_back(std::move(picture));
+  changed_.notify_all();
+}
+
+void PictureWriter::finish() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return failure_ || (queue_.empty() && !is_writing_); });
+  rethrow_failure();
+}
+
+void PictureWriter::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return is_closing_ || !queue_.empty(); });
+    if (queue_.empty()) return;
+    const Picture picture = std::move(queue_.front());
+    queue_.pop_front();
+    is_writing_ = true;
+    lock.unlock();
+
+    std::exception_ptr failure;
+    try {
+      write_file(picture.file, render::encode_png(picture.image, picture.text));
+    } catch (...) {
+      failure = std::current_exception();
+    }
+
+    lock.lock();
+    is_writing_ = false;
+    if (failure) {
+      // What is still waiting would most likely fail the same way.
+      if (!failure_) failure_ = failure;
+      queue_.clear();
+    }
+    changed_.notify_all();
+  }
+}
+
+void PictureWriter::rethrow_failure() {
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+}  // namespace neve::app

@@ -1,0 +1,50 @@
+#pragma once
+/// Encodes and writes pictures on a worker thread while the next frame is simulated.
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include "render/image.h"
+
+namespace neve::app {
+
+struct Picture {
+  std::filesystem::path file;
+  render::Image image;
+  render::PngText text;
+};
+
+/// Pictures that may wait for the worker; with the one it holds, what memory has to be planned for.
+inline constexpr std::size_t picture_queue_capacity = 3;
+
+class PictureWriter {
+ public:
+  PictureWriter();
+  /// Writes what is waiting; errors nobody asked for are dropped.
+  ~PictureWriter();
+  PictureWriter(const PictureWriter&) = delete;
+  PictureWriter& operator=(const PictureWriter&) = delete;
+
+  /// Waits while the queue is full. @throws what an earlier picture failed with
+  void write(Picture picture);
+
+  /// Waits until everything is on disk. @throws what a picture failed with
+  void finish();
+
+ private:
+  void work();
+  void rethrow_failure();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Picture> queue_;
+  bool is_writing_ = false, is_closing_ = false;
+  std::exception_ptr failure_;
+  std::thread worker_;
+};
+
+}  // namespace neve::app

@@ -1,0 +1,51 @@
+#pragma once
+/// run.json: what a run did so far, in names that scripts depend on.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/json.h"
+#include "sim/simulation.h"
+
+namespace neve::app {
+
+enum class RunStatus { running, ok, diverged, interrupted, failed };
+const char* name(RunStatus status);
+
+struct FrameRecord {
+  int frame = 0;
+  double time = 0;  ///< s, frame / fps
+  sim::AdvanceReport advance;
+  double seconds_sim = 0, seconds_render = 0;
+  sim::Summary summary;
+  std::uint64_t state_hash = 0;
+};
+
+struct RunRecord {
+  std::string scene;  ///< resolved, TOML
+  std::string scene_file;
+  std::vector<std::string> overrides;
+  std::vector<std::string> views;
+  std::string backend, gl_renderer;
+  int threads = 0;
+  std::string simd;
+  RunStatus status = RunStatus::running;
+  std::string error;  ///< of a run that failed
+  std::vector<FrameRecord> frames;
+  std::optional<sim::Divergence> divergence;
+};
+
+/// 16 hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
+
+Json to_json(const FrameRecord& frame);
+Json to_json(const sim::Divergence& divergence);
+Json to_json(const RunRecord& run);
+
+/// @throws IoError
+void write_run_json(const std::filesystem::path& folder, const RunRecord& run);
+
+}  // namespace neve::app

@@ -1,0 +1,105 @@
+#include "app/output/sequence.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <system_error>
+#include <vector>
+
+#include "app/json.h"
+#include "app/output/atomic_file.h"
+
+namespace neve::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int max_frame = 99'999'999;
+
+/// What an earlier run.json claims to have written.
+struct EarlierRun {
+  std::set<std::string> views;
+  std::set<int> frames;
+};
+
+EarlierRun read_earlier_run(const fs::path& file) {
+  EarlierRun run;
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return run;
+  Json json;
+  try {
+    json = parse_json(read_file(file));
+  } catch (const std::exception&) {
+    return run;
+  }
+  if (!json.is_object()) return run;
+  for (const Json& view : json.value("views", Json::array()))
+    if (view.is_string() && is_plain_name(view.get<std::string>()))
+      run.views.insert(view.get<std::string>());
+  for (const Json& entry : json.value("frames", Json::array())) {
+    if (!entry.is_object() || !entry.contains("frame")) continue;
+    const Json& frame = entry["frame"];
+    if (frame.is_number_unsigned() && frame.get<std::uint64_t>() <= max_frame)
+      run.frames.insert(frame.get<int>());
+  }
+  return run;
+}
+
+/// Links are left alone: what they point to is not ours.
+std::size_t remove_regular(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return 0;
+  return fs::remove(file, error) ? 1 : 0;
+}
+
+}  // namespace
+
+bool is_plain_name(const std::string& name) {
+  const auto is_plain = [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  return !name.empty() && name.size() <= 200 && std::all_of(name.begin(), name.end(), is_plain);
+}
+
+fs::path frame_path(const fs::path& folder, const std::string& view, int frame) {
+  char name[32];
+  std::snprintf(name, sizeof name, "%04d.png", frame);
+  return folder / view / name;
+}
+
+fs::path movie_path(const fs::path& folder, const std::string& view) {
+  return folder / (view + ".mp4");
+}
+
+fs::path diverged_path(const fs::path& folder, const std::string& view) {
+  return folder / ("diverged_" + view + ".png");
+}
+
+fs::path incident_path(const fs::path& folder) {
+  return folder / "incident.json";
+}
+
+fs::path run_json_path(const fs::path& folder) {
+  return folder / "run.json";
+}
+
+std::size_t remove_earlier_run(const fs::path& folder) {
+  const EarlierRun run = read_earlier_run(run_json_path(folder));
+  std::size_t removed = 0;
+  std::error_code error;
+  for (const std::string& view : run.views) {
+    removed += remove_regular(movie_path(folder, view));
+    removed += remove_regular(diverged_path(folder, view));
+    const fs::path view_folder = folder / view;
+    if (!fs::is_directory(fs::symlink_status(view_folder, error))) continue;
+    for (const int frame : run.frames) removed += remove_regular(frame_path(folder, view, frame));
+    // Succeeds only when nothing else is left in it.
+    fs::remove(view_folder, error);
+  }
+  if (!run.views.empty()) removed += remove_regular(incident_path(folder));
+  return removed;
+}
+
+}  // namespace neve::app

@@ -1,0 +1,28 @@
+#pragma once
+/// The layout of an output folder, and the removal of what an earlier run left in it.
+
+#include <filesystem>
+#include <string>
+
+namespace neve::app {
+
+/// [A-Za-z0-9_-]+: safe as the name of a folder.
+bool is_plain_name(const std::string& name);
+
+/// DIR/<view>/0024.png
+std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& view,
+                                 int frame);
+/// DIR/<view>.mp4
+std::filesystem::path movie_path(const std::filesystem::path& folder, const std::string& view);
+/// DIR/diverged_<view>.png
+std::filesystem::path diverged_path(const std::filesystem::path& folder, const std::string& view);
+std::filesystem::path incident_path(const std::filesystem::path& folder);
+std::filesystem::path run_json_path(const std::filesystem::path& folder);
+
+/// Removes the pictures and movies that DIR/run.json lists, and nothing else: names that could lead
+/// out of DIR, links and unknown files are left alone. No run.json, or one that cannot be read:
+/// nothing is removed.
+/// @return how many files were removed
+std::size_t remove_earlier_run(const std::filesystem::path& folder);
+
+}  // namespace neve::app

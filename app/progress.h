@@ -1,0 +1,66 @@
+#pragma once
+/// The one way a run reports how far it is, on stderr.
+
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <ostream>
+#include <string>
+
+namespace neve::app {
+
+enum class Verbosity { quiet, normal, verbose };
+
+/// What a line says.
+struct ProgressState {
+  int frame = 0, last_frame = 0;
+  double time = 0;                ///< s, simulated
+  std::size_t steps = 0;          ///< since the start
+  double seconds_per_frame = -1;  ///< over the trailing window, negative: not known yet
+};
+
+/// "frame 12/48  t = 0.500 s  320 steps  0.42 s/frame  15 s left"
+std::string progress_text(const ProgressState& state);
+
+/// "8 s", "3 min 20 s", "2 h 05 min"
+std::string duration_text(double seconds);
+
+/// Whether a stream can take an updating line: a terminal that is not dumb, without NO_COLOR.
+bool can_update_lines(int fd);
+
+class Progress {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// @param updates one line that is rewritten; otherwise a plain line every 10 s
+  Progress(std::ostream& out, Verbosity verbosity, bool updates);
+  ~Progress();
+
+  void start(int last_frame);
+  /// A step was made; cheap.
+  void step();
+  /// A frame was finished.
+  void frame(int frame, double time);
+
+  /// A message between the lines; not in quiet runs.
+  void note(const std::string& message);
+  /// A message for --verbose.
+  void detail(const std::string& message);
+  /// A warning; always printed.
+  void warning(const std::string& message);
+  /// Removes the updating line.
+  void clear();
+
+ private:
+  void show(Clock::time_point now);
+
+  std::ostream& out_;
+  Verbosity verbosity_;
+  bool updates_;
+  bool has_line_ = false;
+  ProgressState state_;
+  Clock::time_point shown_at_;
+  std::deque<Clock::time_point> finished_at_;  ///< of the last frames: the window of the estimate
+};
+
+}  // namespace neve::app

@@ -1,0 +1,55 @@
+#include "app/text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+
+namespace neve::app {
+
+namespace {
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string fixed_text(double value, int digits) {
+  char buffer[400];
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, digits);
+  return {buffer, end.ptr};
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  static const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+  auto value = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; value >= 1024 && unit + 1 < std::size(units); ++unit) value /= 1024;
+  return fixed_text(value, unit == 0 || value >= 100 ? 0 : 1) + " " + units[unit];
+}
+
+std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names) {
+  std::string nearest;
+  // A third of the letters wrong is still a typing error; more is another word.
+  std::size_t best = std::max<std::size_t>(1, wrong.size() / 3) + 1;
+  if (wrong.size() > 64) return nearest;
+  for (const std::string& name : names) {
+    const std::size_t distance = edit_distance(wrong, name);
+    if (distance < best) best = distance, nearest = name;
+  }
+  return nearest;
+}
+
+}  // namespace neve::app

@@ -1,0 +1,17 @@
+#pragma once
+/// Numbers as text, the same in every locale, and the nearest of some names.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace neve::app {
+
+/// With so many digits after the point.
+std::string fixed_text(double value, int digits);
+/// "1.2 GiB"
+std::string bytes_text(std::uint64_t bytes);
+/// The name closest to a misspelt one, or empty when none is close.
+std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names);
+
+}  // namespace neve::app
