@@ -88,8 +88,10 @@ void write_file(const std::filesystem::path& path, std::string_view text, Durabi
 }
 
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
-  return path.parent_path() /
-         ("." + path.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
+  std::string name(1, '.');
+  name += path.filename().string();
+  name += "." + std::to_string(::getpid()) + ".tmp";
+  return path.parent_path() / name;
 }
 
 void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path) {

@@ -1,0 +1,92 @@
+#include "app/attributes.h"
+
+#include <cmath>
+
+namespace neve::app {
+
+namespace {
+
+using sim::Mat3d;
+
+double J_E(const Snapshot& s, std::size_t p) {
+  return s.particles.F_E.empty() ? 1.0 : s.particles.F_E[p].determinant();
+}
+
+double J_P(const Snapshot& s, std::size_t p) {
+  return s.particles.J_P.empty() ? 1.0 : s.particles.J_P[p];
+}
+
+/// Density at the start: of the volume the solver uses, or of the material before it is known.
+double rho_0(const Scene& scene, const Snapshot& s, std::size_t p) {
+  if (!s.particles.V0.empty() && s.particles.V0[p] > 0) return s.particles.m[p] / s.particles.V0[p];
+  const int material = s.particles.material.empty() ? 0 : s.particles.material[p];
+  return scene.materials[static_cast<std::size_t>(material)].density;
+}
+
+/// Cauchy stress from Kirchhoff stress: sigma = tau / J.
+Mat3d sigma(const Snapshot& s, std::size_t p) {
+  return s.kirchhoff[p] / (J_E(s, p) * J_P(s, p));
+}
+
+double von_mises(const Mat3d& stress) {
+  const Mat3d deviator = stress - stress.trace() / 3 * Mat3d::Identity();
+  return std::sqrt(1.5) * deviator.norm();
+}
+
+double attribute(const Scene& scene, ColorBy color_by, const Snapshot& s, std::size_t p) {
+  switch (color_by) {
+    case ColorBy::snow:
+      return 0;
+    case ColorBy::speed:
+      return s.particles.v[p].norm();
+    case ColorBy::density:
+      return rho_0(scene, s, p) / (J_E(s, p) * J_P(s, p));
+    case ColorBy::J_E:
+      return J_E(s, p);
+    case ColorBy::J_P:
+      return J_P(s, p);
+    case ColorBy::pressure:
+      return -sigma(s, p).trace() / 3;
+    case ColorBy::von_mises:
+      return von_mises(sigma(s, p));
+    case ColorBy::id:
+      return static_cast<double>(p);
+  }
+  return 0;
+}
+
+}  // namespace
+
+AttributeName attribute_name(ColorBy color_by) {
+  switch (color_by) {
+    case ColorBy::snow:
+      return {"", ""};
+    case ColorBy::speed:
+      return {"speed", "m/s"};
+    case ColorBy::density:
+      return {"density", "kg/m3"};
+    case ColorBy::J_E:
+      return {"J_E, elastic volume", ""};
+    case ColorBy::J_P:
+      return {"J_P, plastic volume", ""};
+    case ColorBy::pressure:
+      return {"pressure", "Pa"};
+    case ColorBy::von_mises:
+      return {"von Mises stress", "Pa"};
+    case ColorBy::id:
+      return {"particle", ""};
+  }
+  return {"", ""};
+}
+
+std::vector<double> attribute_values(const Scene& scene, ColorBy color_by,
+                                     const Snapshot& snapshot) {
+  std::vector<double> values;
+  if (color_by == ColorBy::snow) return values;
+  values.reserve(snapshot.particles.x.size());
+  for (std::size_t p = 0; p < snapshot.particles.x.size(); ++p)
+    values.push_back(attribute(scene, color_by, snapshot, p));
+  return values;
+}
+
+}  // namespace neve::app

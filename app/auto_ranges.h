@@ -1,0 +1,12 @@
+#pragma once
+/// Colour ranges from constants of the scene, so that they mean the same in every frame.
+
+#include "app/scene/scene.h"
+
+namespace neve::app {
+
+/// Round numbers that hold what the attribute usually does in this scene; never what was drawn.
+/// @param particle_count of the whole scene
+Range automatic_range(const Scene& scene, ColorBy color_by, std::size_t particle_count);
+
+}  // namespace neve::app

@@ -1,0 +1,20 @@
+#pragma once
+/// A short, strongly coarsened run of a scene: where its snow goes, roughly.
+
+#include <vector>
+
+#include "app/scene/scene.h"
+
+namespace neve::app {
+
+/// Positions of the coarse particles at one time.
+struct Moment {
+  double time = 0;
+  std::vector<sim::Vec3d> x;
+};
+
+/// About a thousand particles over the whole scene, or as long as a fixed budget of steps times
+/// particles lasts: what comes out depends on the scene alone, never on the machine.
+std::vector<Moment> dry_run(const Scene& scene);
+
+}  // namespace neve::app

@@ -1,0 +1,16 @@
+#pragma once
+/// What this machine has: memory, the folder of the program, the scenes that come with it.
+
+#include <cstdint>
+#include <filesystem>
+
+namespace neve::app {
+
+/// Bytes that can be had without swapping: the least of the system's estimate and what the control
+/// group still allows.
+std::uint64_t available_memory();
+
+/// The scene that is drawn when none is named. @throws IoError when it is not there
+std::filesystem::path default_scene();
+
+}  // namespace neve::app

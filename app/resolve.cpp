@@ -1,0 +1,60 @@
+#include "app/resolve.h"
+
+#include <algorithm>
+
+#include "app/auto_camera.h"
+#include "app/auto_ranges.h"
+#include "app/dry_run.h"
+
+namespace neve::app {
+
+namespace {
+
+bool has_place(const CameraSettings& camera) {
+  return camera.eye && camera.target;
+}
+
+double aspect_of(const PictureSize& size) {
+  return static_cast<double>(size.width) / static_cast<double>(size.height);
+}
+
+/// The narrowest of the views that share the scene's camera.
+double shared_aspect(const Scene& scene) {
+  double aspect = aspect_of(scene.size);
+  bool is_first = true;
+  for (const View& view : scene.views) {
+    if (view.camera) continue;
+    const double own = aspect_of(size_of(scene, view));
+    aspect = is_first ? own : std::min(aspect, own);
+    is_first = false;
+  }
+  return aspect;
+}
+
+void resolve_cameras(Scene& scene) {
+  bool is_shared = false, is_needed = false;
+  for (const View& view : scene.views) {
+    if (!view.camera) is_shared = true;
+    if (view.camera && !has_place(*view.camera)) is_needed = true;
+  }
+  const CameraSettings lens = scene.camera.value_or(CameraSettings{});
+  is_shared = is_shared && !has_place(lens);
+  if (!is_shared && !is_needed) return;
+
+  const std::vector<Moment> moments = dry_run(scene);
+  if (is_shared) scene.camera = automatic_camera(scene, moments, lens, shared_aspect(scene));
+  for (View& view : scene.views)
+    if (view.camera && !has_place(*view.camera))
+      view.camera = automatic_camera(scene, moments, *view.camera, aspect_of(size_of(scene, view)));
+}
+
+}  // namespace
+
+void resolve(Scene& scene, std::size_t particle_count) {
+  resolve_cameras(scene);
+  for (View& view : scene.views)
+    if (!view.particles.range && view.particles.color_by != ColorBy::snow)
+      view.particles.range = automatic_range(scene, view.particles.color_by, particle_count);
+}
+
+}  // namespace neve::app

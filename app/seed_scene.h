@@ -1,0 +1,19 @@
+#pragma once
+/// Bodies of a scene to the arrays that a simulation starts from.
+
+#include "app/scene/scene.h"
+#include "sim/simulation.h"
+
+namespace neve::app {
+
+/// All bodies in the order of the scene; particles of a body follow each other.
+/// @throws sim::ShapeError
+sim::ParticleArrays seed_scene(const Scene& scene);
+
+/// Appends one body. @param index in the scene: the key of its random numbers
+void append_body(const Scene& scene, std::size_t index, sim::ParticleArrays& particles);
+
+/// The index of a material by its name; scenes were checked when they were read.
+std::size_t material_index(const Scene& scene, const std::string& name);
+
+}  // namespace neve::app
