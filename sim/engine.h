@@ -1,0 +1,124 @@
+#pragma once
+/// The state of a simulation in one precision and the drivers that advance it.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sim/base/thread_pool.h"
+#include "sim/kernels.h"
+#include "sim/partition.h"
+#include "sim/simulation.h"
+#include "sim/staged.h"
+#include "sim/time_step.h"
+
+namespace neve::sim {
+
+/// Memory for kernels: aligned to a cache line, never shrinks, not initialised.
+template <class Real>
+class LaneBuffer {
+ public:
+  LaneBuffer() = default;
+  LaneBuffer(const LaneBuffer&) {}  // scratch: a copied engine makes its own
+  LaneBuffer& operator=(const LaneBuffer&) = delete;
+
+  Quad<Real>* at_least(std::size_t quads) {
+    if (quads > capacity_) {
+      capacity_ = quads + quads / 4;
+      data_.reset();
+      data_.reset(::operator new(capacity_ * 4 * sizeof(Real), alignment));
+    }
+    return static_cast<Quad<Real>*>(data_.get());
+  }
+
+ private:
+  static constexpr std::align_val_t alignment{64};
+  struct Free {
+    void operator()(void* p) const { ::operator delete(p, alignment); }
+  };
+  std::unique_ptr<void, Free> data_;
+  std::size_t capacity_ = 0;
+};
+
+/// What energy the run may have: start, and what gravity and colliders put in.
+struct EnergyBudget {
+  double start = 0;          ///< J, kinetic and elastic
+  double contact_work = 0;   ///< J, only what contacts added
+  double largest = 0;        ///< J, the largest budget so far: the scale of the rule
+  Vec3d centre_of_mass{0, 0, 0};
+};
+
+template <class Real>
+class Engine {
+ public:
+  Engine(const SolverSettings& settings, const std::vector<Material>& materials,
+         const std::vector<Collider>& colliders, const ParticleArrays& particles, int threads,
+         const Vec3i& lattice_origin);
+
+  void step(double dt);
+  AdvanceReport advance_to(double time, bool (*interrupted)());
+  StagedStep staged_step(double dt) const;
+  Simulation::Choice choose_dt(double remaining) const;
+
+  double time() const { return time_; }
+  std::size_t steps() const { return steps_; }
+  std::size_t particle_count() const { return particles_.size(); }
+  int threads() const { return pool_->thread_count(); }
+  const std::optional<Divergence>& divergence() const { return divergence_; }
+  const Warnings& warnings() const { return warnings_; }
+
+  Summary summary() const;
+  ParticleArrays particles() const;
+  std::vector<Mat3d> kirchhoff() const;
+  std::vector<Vec3i> cells() const;
+  std::uint64_t state_hash() const;
+
+ private:
+  void load(const ParticleArrays& in);
+  void prepare();
+  SweepArgs<Real> args(double dt);
+  void place_colliders();
+  void partition();
+  void sort_storage();
+  /// Calls a sweep over particle blocks (weighted by particles) or node blocks, on all threads.
+  void over_particle_blocks(Sweep<Real> sweep, const SweepArgs<Real>& a);
+  void over_node_blocks(Sweep<Real> sweep, const SweepArgs<Real>& a);
+  int active_threads() const;
+  void note(double dt);
+  BlockReport<Real> combined_report() const;
+  void check(double dt, const StateLimits& before, const BlockReport<Real>& report);
+  void check_energy();
+  void diverge(const char* rule, const char* stage, double dt, double value, double limit);
+  void read_back(const SweepArgs<Real>& a, StagedStep& out) const;
+
+  SolverSettings settings_;
+  std::vector<Material> material_list_;
+  std::vector<MaterialConstants<Real>> materials_;
+  std::vector<Collider> colliders_;
+  std::vector<ColliderPose> poses_;
+  Vec3i lattice_origin_;
+  std::shared_ptr<ThreadPool> pool_;
+  const Sweeps<Real>* sweeps_ = nullptr;
+  int kernel_nodes_ = cubic_nodes;
+
+  std::vector<Particle<Real>> particles_, sorted_;
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint16_t> locals_;
+  Partition partition_;
+  LaneBuffer<Real> tiles_, nodes_;
+  std::vector<BlockReport<Real>> reports_;
+  std::vector<double> node_contact_work_;
+
+  double time_ = 0;
+  std::size_t steps_ = 0;
+  StateLimits limits_;
+  double rest_dt_ = 0;
+  EnergyBudget energy_;
+  std::optional<Divergence> divergence_;
+  Warnings warnings_;
+};
+
+extern template class Engine<float>;
+extern template class Engine<double>;
+
+}  // namespace neve::sim

@@ -1,0 +1,125 @@
+#include "sim/simulation.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "sim/engine.h"
+
+namespace neve::sim {
+
+DtLimit AdvanceReport::limit() const {
+  return static_cast<DtLimit>(std::max_element(ruled.begin(), ruled.end()) - ruled.begin());
+}
+
+struct Simulation::Impl {
+  std::variant<Engine<float>, Engine<double>> engine;
+
+  template <class Call>
+  decltype(auto) visit(Call&& call) {
+    return std::visit(call, engine);
+  }
+};
+
+namespace {
+
+std::variant<Engine<float>, Engine<double>> make_engine(const SolverSettings& settings,
+                                                        const std::vector<Material>& materials,
+                                                        const std::vector<Collider>& colliders,
+                                                        const ParticleArrays& particles,
+                                                        int threads,
+                                                        const Vec3i& lattice_origin) {
+  if (settings.precision == Precision::real64)
+    return Engine<double>(settings, materials, colliders, particles, threads, lattice_origin);
+  return Engine<float>(settings, materials, colliders, particles, threads, lattice_origin);
+}
+
+}  // namespace
+
+Simulation::Simulation(const SolverSettings& settings, const std::vector<Material>& materials,
+                       const std::vector<Collider>& colliders, const ParticleArrays& particles,
+                       int threads, const Vec3i& lattice_origin)
+    : impl_(std::make_unique<Impl>(
+          make_engine(settings, materials, colliders, particles, threads, lattice_origin))) {}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+double Simulation::time() const {
+  return impl_->visit([](const auto& e) { return e.time(); });
+}
+std::size_t Simulation::steps() const {
+  return impl_->visit([](const auto& e) { return e.steps(); });
+}
+std::size_t Simulation::particle_count() const {
+  return impl_->visit([](const auto& e) { return e.particle_count(); });
+}
+int Simulation::threads() const {
+  return impl_->visit([](const auto& e) { return e.threads(); });
+}
+const char* Simulation::simd() const { return "baseline"; }
+
+void Simulation::step(double dt) {
+  impl_->visit([&](auto& e) { e.step(dt); });
+}
+AdvanceReport Simulation::advance_to(double time, bool (*interrupted)()) {
+  return impl_->visit([&](auto& e) { return e.advance_to(time, interrupted); });
+}
+Simulation::Choice Simulation::choose_dt(double remaining) const {
+  return impl_->visit([&](const auto& e) { return e.choose_dt(remaining); });
+}
+const std::optional<Divergence>& Simulation::divergence() const {
+  return impl_->visit([](const auto& e) -> const std::optional<Divergence>& {
+    return e.divergence();
+  });
+}
+const Warnings& Simulation::warnings() const {
+  return impl_->visit([](const auto& e) -> const Warnings& { return e.warnings(); });
+}
+Summary Simulation::summary() const {
+  return impl_->visit([](const auto& e) { return e.summary(); });
+}
+ParticleArrays Simulation::particles() const {
+  return impl_->visit([](const auto& e) { return e.particles(); });
+}
+std::vector<Mat3d> Simulation::kirchhoff() const {
+  return impl_->visit([](const auto& e) { return e.kirchhoff(); });
+}
+std::vector<Vec3i> Simulation::cells() const {
+  return impl_->visit([](const auto& e) { return e.cells(); });
+}
+std::uint64_t Simulation::state_hash() const {
+  return impl_->visit([](const auto& e) { return e.state_hash(); });
+}
+
+struct StagedAccess {
+  static StagedStep run(const Simulation& simulation, double dt) {
+    return simulation.impl_->visit([&](const auto& e) { return e.staged_step(dt); });
+  }
+};
+
+StagedStep staged_step(const Simulation& simulation, double dt) {
+  return StagedAccess::run(simulation, dt);
+}
+
+std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,
+                              const SolverSettings& settings, int threads) {
+  const bool is_double = settings.precision == Precision::real64;
+  const double real = is_double ? 8 : 4;
+  const double record = static_cast<double>(is_double ? sizeof(Particle<double>)
+                                                      : sizeof(Particle<float>));
+  // Two copies of the records (sorting), key, local, order, block index, and what prepare() gathers.
+  const double gathered = static_cast<double>(is_double ? sizeof(Gathered<double>)
+                                                        : sizeof(Gathered<float>));
+  const double per_particle = 2 * record + 8 + 2 + 4 + 4 + gathered;
+  // Snow fills about half of the blocks that it touches; each has a tile, and about two node blocks.
+  const double cells = static_cast<double>(particles) / particles_per_cell;
+  const double blocks = std::min(2.0 * cells / block_nodes + 64, static_cast<double>(particles));
+  const double tile = tile_channels * Tile<cubic_nodes>::nodes * 4 * real;
+  const double nodes = 2 * (node_channels + 6) * block_nodes * 4 * real;
+  const double total = static_cast<double>(particles) * per_particle + blocks * (tile + nodes) +
+                       static_cast<double>(threads) * 1e6 + 8e6;
+  return total < 1e18 ? static_cast<std::uint64_t>(total) : std::uint64_t(1e18);
+}
+
+}  // namespace neve::sim

@@ -1,0 +1,70 @@
+#include "sim/time_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace neve::sim {
+
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+double ratio(double numerator, double denominator) {
+  return denominator > 0 ? numerator / denominator : unlimited;
+}
+
+/// dt so that sound crosses acoustic_cfl cells. Snow that hits something at speed v compresses by up
+/// to 0.7 v dt/h within the step (the steepest slope of the cubic weights) and hardens by
+/// e^(xi 0.7 v dt/h): the step is shortened until sound still crosses less than a cell afterwards.
+double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
+  const double h = s.cell_size, c = limits.max_sound_speed;
+  double dt = ratio(s.acoustic_cfl * h, c);
+  if (!(dt < unlimited)) return dt;
+  for (int round = 0; round < 40; ++round) {
+    const double squeeze = 0.7 * limits.max_speed * dt / h;
+    const double c_after = c * std::exp(0.5 * limits.max_hardening * squeeze);
+    if (c_after * dt <= std::max(1.0, s.acoustic_cfl) * h) break;
+    dt *= 0.8;
+  }
+  return dt;
+}
+
+}  // namespace
+
+const char* name(DtLimit limit) {
+  static constexpr const char* names[dt_limit_count] = {"max_dt", "cfl",   "acoustic",
+                                                        "strain", "fixed", "frame_end"};
+  return names[static_cast<int>(limit)];
+}
+
+Simulation::Choice choose_dt(const SolverSettings& s, const StateLimits& limits,
+                             double remaining) {
+  // Rounding of the remaining time must not leave a step of 1e-18 s.
+  constexpr double slack = 1 + 1e-9;
+  if (s.time_step == TimeStep::fixed) {
+    if (remaining <= s.dt * slack) return {remaining, DtLimit::frame_end};
+    return {s.dt, DtLimit::fixed};
+  }
+  Simulation::Choice best{s.max_dt, DtLimit::max_dt};
+  const auto consider = [&](double dt, DtLimit limit) {
+    if (dt < best.dt) best = {dt, limit};
+  };
+  consider(ratio(s.cfl * s.cell_size, limits.max_speed), DtLimit::cfl);
+  consider(acoustic_dt(s, limits), DtLimit::acoustic);
+  consider(ratio(s.strain_limit, limits.max_strain_rate), DtLimit::strain);
+  if (remaining <= best.dt * slack) return {remaining, DtLimit::frame_end};
+  if (remaining < 2 * best.dt) return {0.5 * remaining, DtLimit::frame_end};
+  return best;
+}
+
+double stable_dt(const SolverSettings& s, const StateLimits& limits) {
+  return std::min(ratio(s.cfl * s.cell_size, limits.max_speed), acoustic_dt(s, limits));
+}
+
+double flip_share(const SolverSettings& s, double dt) {
+  if (s.flip_reference_dt <= 0) return s.flip_ratio;
+  return std::pow(s.flip_ratio, dt / s.flip_reference_dt);
+}
+
+}  // namespace neve::sim

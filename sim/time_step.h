@@ -1,0 +1,28 @@
+#pragma once
+/// The limits on dt, and which one rules.
+
+#include "sim/settings.h"
+#include "sim/simulation.h"
+
+namespace neve::sim {
+
+/// Extremes of a state that limit the next step.
+struct StateLimits {
+  double max_speed = 0;        ///< m/s
+  double max_sound_speed = 0;  ///< m/s, of the stiffest particle, hardened
+  double max_strain_rate = 0;  ///< 1/s, largest |entry| of grad v
+  double max_hardening = 0;    ///< largest xi of the materials in use
+};
+
+/// dt of the next step and the limit that rules it. `remaining` is the time to the end of the frame;
+/// the last two steps before it share what is left, so that none is tiny.
+Simulation::Choice choose_dt(const SolverSettings& settings, const StateLimits& limits,
+                             double remaining);
+
+/// The largest dt that speed and sound allow now, whatever the settings say about fixed steps.
+double stable_dt(const SolverSettings& settings, const StateLimits& limits);
+
+/// alpha of a step of dt: flip_ratio^(dt / flip_reference_dt), or flip_ratio itself.
+double flip_share(const SolverSettings& settings, double dt);
+
+}  // namespace neve::sim

@@ -1,0 +1,184 @@
+#pragma once
+/// Reading of reference vectors: step_*.json, traj_*/ and unit.json of one folder, NEVE_ORACLE_DIR or
+/// the set that comes with the sources.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "sim/simulation.h"
+
+namespace oracle {
+
+using neve::sim::Mat3d;
+using neve::sim::Vec3d;
+using neve::sim::Vec3i;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+inline fs::path folder() {
+  const char* chosen = std::getenv("NEVE_ORACLE_DIR");
+  return chosen && *chosen ? fs::path(chosen) : fs::path(NEVE_ORACLE_DEFAULT);
+}
+
+inline Json read_json(const fs::path& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  return Json::parse(file);
+}
+
+/// Entries of the folder whose names start with `prefix` (and end with `suffix`), sorted.
+inline std::vector<fs::path> entries(const std::string& prefix, const std::string& suffix) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder())) {
+    const std::string file = entry.path().filename().string();
+    if (file.starts_with(prefix) && file.ends_with(suffix)) found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+inline Vec3d vec3(const Json& j) { return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()}; }
+inline Mat3d mat3(const Json& j) {
+  Mat3d m;
+  for (int a = 0; a < 3; ++a) m.row(a) = vec3(j[static_cast<std::size_t>(a)]).transpose();
+  return m;
+}
+template <class Convert>
+auto list(const Json& j, Convert convert) {
+  std::vector<decltype(convert(j))> out;
+  for (const Json& item : j) out.push_back(convert(item));
+  return out;
+}
+
+inline neve::sim::Collider collider(const Json& j) {
+  using namespace neve::sim;
+  Collider c;
+  c.name = j["shape"].get<std::string>();
+  const Vec3d point = vec3(j["point"]);
+  if (c.name == "half_space") {
+    c.shape.form = Plane{point, vec3(j["normal"])};
+  } else if (c.name == "sphere") {
+    c.shape.form = Sphere{point, j["radius"].get<double>()};
+  } else {
+    c.shape.form = Box{point, 2 * vec3(j["half"])};
+    const Vec3d zyx = mat3(j["rotation"]).eulerAngles(2, 1, 0) * (180.0 / EIGEN_PI);
+    c.shape.rotation = Vec3d(zyx[2], zyx[1], zyx[0]);
+  }
+  c.contact = j["mode"] == "sticky" ? Contact::sticky : Contact::separate;
+  c.friction = j["friction"].get<double>();
+  c.velocity = vec3(j["velocity"]);
+  c.angular_velocity = vec3(j["omega"]);
+  return c;
+}
+
+/// A scene of the reference as settings of ours. Nodes of the reference are ours plus `first_node`.
+struct Setup {
+  neve::sim::SolverSettings settings;
+  neve::sim::Material material;
+  std::vector<neve::sim::Collider> colliders;
+  Vec3i first_node;
+  double dt = 0;
+  std::string unsupported;  ///< why this scene cannot be run, empty if it can
+};
+
+inline Setup setup(const Json& scene, neve::sim::Precision precision) {
+  using namespace neve::sim;
+  Setup s;
+  s.settings.precision = precision;
+  s.settings.cell_size = scene["grid"]["h"].get<double>();
+  const Vec3d origin = vec3(scene["grid"]["origin"]) / s.settings.cell_size;
+  for (int a = 0; a < 3; ++a) s.first_node[a] = static_cast<int>(std::lround(origin[a]));
+  s.settings.kernel = scene["kernel"] == "cubic" ? Kernel::cubic : Kernel::quadratic;
+  const std::string transfer = scene["transfer"];
+  s.settings.transfer = transfer == "flip"   ? Transfer::flip
+                        : transfer == "apic" ? Transfer::apic
+                                             : Transfer::mls;
+  s.settings.flip_ratio = scene["alpha"].get<double>();
+  s.settings.flip_reference_dt = 0;
+  s.settings.advect = scene["advect"] == "pic" ? Advect::pic : Advect::particle;
+  s.settings.time_step = TimeStep::fixed;
+  s.settings.gravity = vec3(scene["gravity"]);
+  s.dt = s.settings.dt = scene["dt"].get<double>();
+  const Json& m = scene["material"];
+  const bool is_plastic = m["plastic"].get<bool>();
+  s.material.model = m["model"] == "neo_hookean" ? Model::neo_hookean
+                     : is_plastic                ? Model::snow
+                                                 : Model::corotated;
+  s.material.youngs_modulus = m["E"].get<double>();
+  s.material.poisson_ratio = m["nu"].get<double>();
+  s.material.hardening = m["xi"].get<double>();
+  s.material.critical_compression = m["theta_c"].get<double>();
+  s.material.critical_stretch = m["theta_s"].get<double>();
+  for (const Json& c : scene["colliders"]) s.colliders.push_back(collider(c));
+  if (scene["beta"].get<double>() > 0) s.unsupported = "semi-implicit steps";
+  else if (scene["mass_epsilon"].get<double>() > 0) s.unsupported = "a mass below which nodes rest";
+  else if (s.material.model == Model::neo_hookean && is_plastic)
+    s.unsupported = "neo-Hookean with plasticity";
+  return s;
+}
+
+inline neve::sim::ParticleArrays particles(const Json& j) {
+  neve::sim::ParticleArrays p;
+  p.x = list(j["x"], vec3);
+  p.v = list(j["v"], vec3);
+  p.m = j["mass"].get<std::vector<double>>();
+  // What a set leaves out is what a particle starts with.
+  const auto has = [&](const char* key) { return j.contains(key) && !j[key].is_null(); };
+  if (has("volume0")) p.V0 = j["volume0"].get<std::vector<double>>();
+  if (has("FE")) p.F_E = list(j["FE"], mat3);
+  if (has("FP")) p.J_P = list(j["FP"], [](const Json& F) { return mat3(F).determinant(); });
+  if (has("C")) p.C = list(j["C"], mat3);
+  return p;
+}
+
+/// Columns of a CSV file by name.
+inline std::map<std::string, std::vector<double>> read_csv(const fs::path& path) {
+  std::ifstream file(path);
+  std::string line, cell;
+  std::vector<std::string> names;
+  std::getline(file, line);
+  for (std::istringstream row(line); std::getline(row, cell, ',');) names.push_back(cell);
+  std::map<std::string, std::vector<double>> columns;
+  while (std::getline(file, line)) {
+    std::istringstream row(line);
+    for (const std::string& name : names) {
+      std::getline(row, cell, ',');
+      columns[name].push_back(std::stod(cell));
+    }
+  }
+  return columns;
+}
+
+/// Largest absolute difference over largest absolute expected value.
+class RelativeError {
+ public:
+  void add(double expected, double found) {
+    scale_ = std::max(scale_, std::abs(expected));
+    const double difference = std::abs(expected - found);
+    // NaN must count as the largest difference there is.
+    worst_ = difference <= worst_ ? worst_ : difference;
+    if (!(difference == difference)) worst_ = HUGE_VAL;
+  }
+  template <class A, class B>
+  void add_all(const Eigen::MatrixBase<A>& expected, const Eigen::MatrixBase<B>& found) {
+    for (Eigen::Index a = 0; a < expected.rows(); ++a)
+      for (Eigen::Index b = 0; b < expected.cols(); ++b) add(expected(a, b), found(a, b));
+  }
+  double value() const { return scale_ > 0 ? worst_ / scale_ : worst_; }
+  double worst() const { return worst_; }
+
+ private:
+  double scale_ = 0, worst_ = 0;
+};
+
+}  // namespace oracle
