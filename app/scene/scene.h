@@ -29,7 +29,8 @@ struct ParticleStyle {
 };
 
 struct CameraSettings {
-  sim::Vec3d eye{2, 1, 2}, target{0, 0, 0}, up{0, 1, 0};
+  std::optional<sim::Vec3d> eye, target;  ///< both or neither; automatic when absent
+  sim::Vec3d up{0, 1, 0};
   double fov = 30;  ///< vertical, degrees
 };
 

@@ -101,12 +101,18 @@ class Rewriter {
 
   void ascii(char c) {
     switch (state_) {
-      case State::plain: return plain(c);
-      case State::comment: return copy(1);
-      case State::basic: return basic(c);
-      case State::basic_block: return basic_block(c);
-      case State::literal: return literal(c);
-      case State::literal_block: return literal_block(c);
+      case State::plain:
+        return plain(c);
+      case State::comment:
+        return copy(1);
+      case State::basic:
+        return basic(c);
+      case State::basic_block:
+        return basic_block(c);
+      case State::literal:
+        return literal(c);
+      case State::literal_block:
+        return literal_block(c);
     }
   }
 
@@ -195,8 +201,8 @@ class Rewriter {
   int line_ = 1, column_ = 1, out_column_ = 1;
   int dots_ = 0, depth_ = 0;
   State state_ = State::plain;
-  Location opened_{};         // where the string we are in began
-  bool is_escaped_ = false;   // the previous character was a backslash that escapes
+  Location opened_{};        // where the string we are in began
+  bool is_escaped_ = false;  // the previous character was a backslash that escapes
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ bool is_bare(std::string_view key) {
 }
 
 std::string key_text(std::string_view key) {
-  return is_bare(key) ? std::string(key) : quoted(key);
+  return is_bare(key) ? std::string(key) : toml_string(key);
 }
 
 std::string inline_table(const Table& table) {
@@ -42,7 +42,7 @@ struct Literal {
   std::string operator()(bool b) const { return b ? "true" : "false"; }
   std::string operator()(std::int64_t i) const { return std::to_string(i); }
   std::string operator()(double x) const { return number_text(x); }
-  std::string operator()(const std::string& s) const { return quoted(s); }
+  std::string operator()(const std::string& s) const { return toml_string(s); }
   std::string operator()(Date) const { return "a date"; }
   std::string operator()(const Array& a) const { return array_text(a); }
   std::string operator()(const Table& t) const { return inline_table(t); }
@@ -54,8 +54,7 @@ bool is_list_of_tables(const Value& value) {
 }
 
 bool is_table_of_tables(const Table& table) {
-  return !table.entries.empty() &&
-         std::holds_alternative<Table>(table.entries.front().value.data);
+  return !table.entries.empty() && std::holds_alternative<Table>(table.entries.front().value.data);
 }
 
 std::string lines(const Table& table) {
@@ -78,7 +77,8 @@ std::string section(const Entry& entry) {
   const Table& table = std::get<Table>(entry.value.data);
   if (!is_table_of_tables(table)) return "\n[" + key + "]\n" + lines(table);
   for (const Entry& item : table.entries) {
-    text += "\n[" + key + "." + key_text(item.key) + "]\n" + lines(std::get<Table>(item.value.data));
+    text +=
+        "\n[" + key + "." + key_text(item.key) + "]\n" + lines(std::get<Table>(item.value.data));
   }
   return text;
 }
@@ -116,7 +116,7 @@ std::string toml_document(const Table& root) {
   return keys + sections;
 }
 
-std::string quoted(std::string_view text) {
+std::string toml_string(std::string_view text) {
   constexpr std::string_view hex = "0123456789abcdef";
   std::string out = "\"";
   for (const char c : text) {

@@ -45,7 +45,7 @@ std::string toml_literal(const Value& value, std::size_t limit = 0);
 std::string toml_document(const Table& root);
 
 /// "text" with quotes, backslashes and control bytes escaped: a TOML basic string.
-std::string quoted(std::string_view text);
+std::string toml_string(std::string_view text);
 
 /// Shortest text that reads back as the same double, whatever the locale; a TOML number.
 std::string number_text(double x);

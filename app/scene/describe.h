@@ -1,0 +1,295 @@
+#pragma once
+/// Every parameter of a scene, once. Whatever reads, writes, sets or lists parameters is a visitor
+/// of these functions; there is no second list.
+///
+/// A visitor has
+///   visit(key, member, unit, valid, change, help)  a parameter; its type follows from the member
+///   visit.section(key, help, describe_members)     a table that is always there
+///   visit.optional(key, member, help)              a table that may be absent
+///   visit.named(key, items, help)                  tables by name: [material.snow]
+///   visit.list(key, items, help)                   [[body]], each with a name or its number
+///   visit.shape(key, shape, help, describe_forms)  a table with exactly one form
+///   visit.form<Form>(key, shape, change, help)     one of these forms
+/// Nested tables are described by calling back with a visitor for them.
+
+#include "app/scene/scene.h"
+#include "app/scene/valid.h"
+
+namespace neve::app {
+
+namespace unit {
+inline constexpr const char *none = "", *metre = "m", *second = "s", *per_second = "1/s",
+                            *velocity = "m/s", *acceleration = "m/s2", *spin = "rad/s",
+                            *density = "kg/m3", *pascal = "Pa", *degrees = "degrees",
+                            *pixels = "px", *bytes = "B";
+}
+
+/// Beyond these, single precision and 64-bit counts stop making sense.
+inline constexpr Valid position = within(1e6);
+inline constexpr Valid length = above(0).at_most(1e6);
+inline constexpr Valid speed = within(1e6);
+
+/// The item that a new entry of a list starts from.
+template <class T>
+T fresh() {
+  return T{};
+}
+template <>
+inline sim::Body fresh<sim::Body>() {
+  sim::Body body;
+  body.material = sim::Material{}.name;
+  return body;
+}
+template <>
+inline View fresh<View>() {
+  View view;
+  view.name.clear();
+  return view;
+}
+
+template <class V>
+void describe(V& visit, sim::SolverSettings& s) {
+  using enum Change;
+  visit("cell_size", s.cell_size, unit::metre, at_least(1e-9).at_most(1e6), restart,
+        "Spacing h of the grid.");
+  visit("kernel", s.kernel, unit::none, anything, live,
+        "B-spline that moves data between particles and grid.");
+  visit("transfer", s.transfer, unit::none, anything, live,
+        "How particles take their velocity from the grid.");
+  visit("flip_ratio", s.flip_ratio, unit::none, between(0, 1), live,
+        "The paper's alpha: share of FLIP, the rest is PIC.");
+  visit("flip_reference_dt", s.flip_reference_dt, unit::second, between(0, 1), live,
+        "Step that flip_ratio is meant for, so that damping does not depend on dt; 0: per step.");
+  visit("advect", s.advect, unit::none, anything, live,
+        "Move particles with their own velocity (the paper) or with the grid's.");
+  visit("time_step", s.time_step, unit::none, anything, live,
+        "Choose each step from the limits below, or take dt as it is.");
+  visit("dt", s.dt, unit::second, between(1e-9, 1), live, "The step when time_step is fixed.");
+  visit("max_dt", s.max_dt, unit::second, between(1e-9, 1), live, "Longest adaptive step.");
+  visit("cfl", s.cfl, unit::none, between(1e-3, 1e3), live,
+        "Cells that snow may move in an adaptive step.");
+  visit("acoustic_cfl", s.acoustic_cfl, unit::none, between(1e-3, 1e3), live,
+        "Cells that sound may travel in an adaptive step.");
+  visit("strain_limit", s.strain_limit, unit::none, between(1e-3, 1e3), live,
+        "Largest |dt grad v| of an adaptive step.");
+  visit("gravity", s.gravity, unit::acceleration, within(1e6), live, "Acceleration of all snow.");
+  visit("precision", s.precision, unit::none, anything, restart, "Arithmetic of the solver.");
+}
+
+template <class V>
+void describe(V& visit, Limits& l) {
+  using enum Change;
+  constexpr double exact = 9007199254740992;  // 2^53: whole numbers that JSON keeps exactly
+  visit("memory", l.memory, unit::bytes, between(0, exact), restart,
+        "Memory a run may use, in bytes or as \"8GiB\"; 0: 80 % of what is available.");
+  visit("particles", l.particles, unit::none, between(1, exact), restart,
+        "Particles a run may have.");
+  visit("pixels", l.pixels, unit::none, between(1, exact), restart, "Pixels a picture may have.");
+}
+
+template <class V>
+void describe(V& visit, sim::Material& m) {
+  using enum Change;
+  visit("model", m.model, unit::none, anything, live,
+        "Elastic law; all harden when compacted, only snow also yields.");
+  visit("density", m.density, unit::density, between(1e-3, 1e5), restart,
+        "Mass per volume at the start.");
+  visit("youngs_modulus", m.youngs_modulus, unit::pascal, between(1e-3, 1e12), live,
+        "Stiffness of undeformed snow.");
+  visit("poisson_ratio", m.poisson_ratio, unit::none, at_least(0).below(0.5), live,
+        "Sideways bulge under compression.");
+  visit("hardening", m.hardening, unit::none, between(0, 100), live,
+        "The paper's xi: how fast packed snow stiffens.");
+  visit("critical_compression", m.critical_compression, unit::none, at_least(0).below(1), live,
+        "The paper's theta_c: compression where snow starts to yield.");
+  visit("critical_stretch", m.critical_stretch, unit::none, between(0, 100), live,
+        "The paper's theta_s: stretch where snow starts to break.");
+}
+
+template <class V>
+void describe(V& visit, sim::Sphere& s, Change change) {
+  visit("center", s.center, unit::metre, position, change, "Centre.");
+  visit("radius", s.radius, unit::metre, length, change, "Radius.");
+}
+
+template <class V>
+void describe(V& visit, sim::Box& b, Change change) {
+  visit("center", b.center, unit::metre, position, change, "Centre.");
+  visit("size", b.size, unit::metre, length, change, "Edge lengths.");
+}
+
+template <class V>
+void describe(V& visit, sim::Capsule& c, Change change) {
+  visit("a", c.a, unit::metre, position, change, "One end of the axis.");
+  visit("b", c.b, unit::metre, position, change, "The other end of the axis.");
+  visit("radius", c.radius, unit::metre, length, change, "Radius.");
+}
+
+template <class V>
+void describe(V& visit, sim::Cylinder& c, Change change) {
+  visit("center", c.center, unit::metre, position, change, "Middle of the axis, along y.");
+  visit("radius", c.radius, unit::metre, length, change, "Radius.");
+  visit("height", c.height, unit::metre, length, change, "Length of the axis.");
+}
+
+template <class V>
+void describe(V& visit, sim::Cone& c, Change change) {
+  visit("center", c.center, unit::metre, position, change,
+        "Middle of the axis, along y; the apex is up.");
+  visit("radius", c.radius, unit::metre, length, change, "Radius of the base.");
+  visit("height", c.height, unit::metre, length, change, "From base to apex.");
+}
+
+template <class V>
+void describe(V& visit, sim::Torus& t, Change change) {
+  visit("center", t.center, unit::metre, position, change, "Centre; the axis is y.");
+  visit("major_radius", t.major_radius, unit::metre, length, change,
+        "From the centre to the middle of the tube.");
+  visit("minor_radius", t.minor_radius, unit::metre, length, change, "Radius of the tube.");
+}
+
+template <class V>
+void describe(V& visit, sim::Plane& p, Change change) {
+  visit("point", p.point, unit::metre, position, change, "A point of the surface.");
+  visit("normal", p.normal, unit::none, within(1e6), change,
+        "Out of the solid side, of any length.");
+}
+
+template <class V>
+void describe(V& visit, sim::Mesh& m, Change change) {
+  visit("file", m.file, unit::none, file_path, change,
+        "A closed triangle mesh, OBJ; relative to the scene file.");
+  visit("scale", m.scale, unit::none, length, change, "Metres per unit of the file.");
+  visit("center", m.center, unit::metre, position, change, "Where the origin of the file goes.");
+}
+
+/// Every form can be turned.
+template <class V>
+void describe_rotation(V& visit, sim::Shape& shape, Change change) {
+  visit("rotation", shape.rotation, unit::degrees, within(1e6), change,
+        "Angles about x, y, z through the centre; x turns first.");
+}
+
+template <class V>
+void describe_body_forms(V& visit, sim::Shape& shape) {
+  visit.template form<sim::Sphere>("sphere", shape, Change::restart, "A ball.");
+  visit.template form<sim::Box>("box", shape, Change::restart, "A box.");
+  visit.template form<sim::Capsule>("capsule", shape, Change::restart,
+                                    "A cylinder with round ends.");
+  visit.template form<sim::Cylinder>("cylinder", shape, Change::restart, "A cylinder.");
+  visit.template form<sim::Cone>("cone", shape, Change::restart, "A cone.");
+  visit.template form<sim::Torus>("torus", shape, Change::restart, "A ring.");
+  visit.template form<sim::Mesh>("mesh", shape, Change::restart, "The inside of a triangle mesh.");
+}
+
+template <class V>
+void describe_collider_forms(V& visit, sim::Shape& shape) {
+  visit.template form<sim::Plane>("plane", shape, Change::live, "A half space.");
+  visit.template form<sim::Sphere>("sphere", shape, Change::live, "A ball.");
+  visit.template form<sim::Box>("box", shape, Change::live, "A box.");
+}
+
+template <class V>
+void describe(V& visit, sim::Body& b) {
+  using enum Change;
+  visit("name", b.name, unit::none, identifier, restart,
+        "What addresses call it; otherwise its number from 1.");
+  visit("material", b.material, unit::none, identifier, restart, "Name of a material.");
+  visit.shape("shape", b.shape, "What is filled with snow.",
+              [](auto& v, sim::Shape& shape) { describe_body_forms(v, shape); });
+  visit("velocity", b.velocity, unit::velocity, speed, restart, "Velocity at the start.");
+  visit("angular_velocity", b.angular_velocity, unit::spin, speed, restart,
+        "Spin about the shape's centre at the start.");
+  visit("particles_per_cell", b.particles_per_cell, unit::none, between(0.1, 1000), restart,
+        "How densely particles are placed.");
+  visit("sampling", b.sampling, unit::none, anything, restart, "How particles are placed.");
+  visit("volumes", b.volumes, unit::none, anything, restart,
+        "Particle volumes from the density on the grid (the paper) or body volume / particles.");
+}
+
+template <class V>
+void describe(V& visit, sim::Collider& c) {
+  using enum Change;
+  visit("name", c.name, unit::none, identifier, restart,
+        "What addresses call it; otherwise its number from 1.");
+  visit.shape("shape", c.shape, "What snow keeps out of.",
+              [](auto& v, sim::Shape& shape) { describe_collider_forms(v, shape); });
+  visit("contact", c.contact, unit::none, anything, live,
+        "separate: leaves freely, slides with friction; slip: cannot leave, slides freely; "
+        "sticky: moves along.");
+  visit("friction", c.friction, unit::none, between(0, 1000), live,
+        "Coulomb coefficient of separate contact.");
+  visit("velocity", c.velocity, unit::velocity, speed, live, "Constant velocity.");
+  visit("angular_velocity", c.angular_velocity, unit::spin, speed, live,
+        "Constant spin about the shape's centre; of a plane only its surface moves.");
+}
+
+template <class V>
+void describe(V& visit, CameraSettings& c) {
+  using enum Change;
+  visit("eye", c.eye, unit::metre, position, live,
+        "Where the camera is; with target, or neither: all is framed.");
+  visit("target", c.target, unit::metre, position, live, "What it looks at.");
+  visit("up", c.up, unit::none, within(1e6), live, "Upward direction of the picture.");
+  visit("fov", c.fov, unit::degrees, between(1, 170), live, "Vertical angle of view.");
+}
+
+template <class V>
+void describe(V& visit, LightSettings& l) {
+  using enum Change;
+  visit("direction", l.direction, unit::none, within(1e6), live, "Towards the light.");
+  visit("intensity", l.intensity, unit::none, between(0, 100), live, "Strength of the light.");
+  visit("ambient", l.ambient, unit::none, between(0, 100), live, "Strength of the sky.");
+}
+
+template <class V>
+void describe(V& visit, ParticleStyle& p) {
+  using enum Change;
+  visit("color_by", p.color_by, unit::none, anything, live, "What the colour shows.");
+  visit("colormap", p.colormap, unit::none, anything, live, "Colours of the values.");
+  visit("range", p.range, unit::none, within(1e30), live,
+        "Values at the ends of the colour map, or \"auto\".");
+}
+
+template <class V>
+void describe_size(V& visit, const char* key, auto& size, const char* help) {
+  visit(key, size, unit::pixels, between(16, 16384), Change::live, help);
+}
+
+template <class V>
+void describe(V& visit, View& view) {
+  using enum Change;
+  visit("name", view.name, unit::none, identifier, restart,
+        "Its folder, and what addresses call it; otherwise its number from 1.");
+  visit("layers", view.layers, unit::none, anything, live, "What is drawn.");
+  describe_size(visit, "size", view.size,
+                "Width and height of this view; without it the output's.");
+  visit.section("particles", "How particles are drawn.",
+                [&](auto& v) { describe(v, view.particles); });
+  visit.optional("camera", view.camera, "The camera of this view; without it the scene's.");
+}
+
+template <class V>
+void describe(V& visit, Scene& s) {
+  using enum Change;
+  visit("title", s.title, unit::none, anything, live, "Shown in the caption.");
+  visit("frames", s.frames, unit::none, between(0, 100000), live,
+        "Last frame; frame 0 is the initial state.");
+  visit("fps", s.fps, unit::per_second, between(0.01, 1e5), restart,
+        "Frames per second of simulated time.");
+  visit("seed", s.seed, unit::none, between(0, 9007199254740992), restart,
+        "Placement of the particles.");
+  visit.section("solver", "Time integration.", [&](auto& v) { describe(v, s.solver); });
+  visit.section("limits", "What a run may use before it is refused.",
+                [&](auto& v) { describe(v, s.limits); });
+  visit.named("material", s.materials, "A named material.");
+  visit.list("body", s.bodies, "A piece of snow.");
+  visit.list("collider", s.colliders, "A rigid obstacle.");
+  visit.optional("camera", s.camera, "Without it the whole scene is framed.");
+  visit.section("light", "The sun and the sky.", [&](auto& v) { describe(v, s.light); });
+  visit.list("view", s.views, "One picture per frame.");
+  visit.section("output", "The pictures.",
+                [&](auto& v) { describe_size(v, "size", s.size, "Width and height."); });
+}
+
+}  // namespace neve::app

@@ -1,0 +1,220 @@
+#include "app/scene/leaf.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+#include "app/scene/error.h"
+#include "app/text.h"
+
+namespace neve::app {
+namespace {
+
+/// Long strings are cut in messages.
+constexpr std::size_t max_shown = 60;
+
+/// A number, whole or not, within the bounds; `kind` says what was expected otherwise.
+double number(const Leaf& leaf, const std::string& kind) {
+  double x = 0;
+  if (const auto* i = std::get_if<std::int64_t>(&leaf.value.data)) {
+    x = static_cast<double>(*i);
+  } else if (const auto* f = std::get_if<double>(&leaf.value.data)) {
+    x = *f;
+  } else {
+    leaf.fail(kind);
+  }
+  if (!std::isfinite(x)) leaf.fail("a finite number");
+  if (!leaf.valid.contains(x)) leaf.fail(leaf.valid.text_of_bounds());
+  return x;
+}
+
+/// Bounds of integers stay below 2^53, so going through double loses nothing that is valid.
+double whole_number(const Leaf& leaf) {
+  const double x = number(leaf, "a whole number");
+  if (x != std::trunc(x)) leaf.fail("a whole number");
+  return x;
+}
+
+/// "8GiB" or "1.5 MB" in bytes.
+std::optional<double> bytes_of(std::string_view text) {
+  struct Suffix {
+    std::string_view name;
+    double factor;
+  };
+  constexpr Suffix suffixes[] = {{"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}, {"TiB", 0x1p40},
+                                 {"kB", 1e3},     {"KB", 1e3},     {"MB", 1e6},     {"GB", 1e9},
+                                 {"TB", 1e12},    {"B", 1}};
+  double count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc{}) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  for (const Suffix& suffix : suffixes) {
+    if (text == suffix.name) return std::trunc(count * suffix.factor);
+  }
+  return std::nullopt;
+}
+
+std::string existing_file(const Leaf& leaf, const std::string& name) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path file = fs::absolute(fs::path(leaf.source.base_dir) / name, error);
+  if (name.empty() || !fs::is_regular_file(file, error)) {
+    leaf.fail("a file that exists", "looked for " + file.lexically_normal().string());
+  }
+  return file.lexically_normal().string();
+}
+
+}  // namespace
+
+void Source::fail(Location where, const std::string& message, const std::string& hint) const {
+  if (where.override_index >= 0) {
+    const Override& given = overrides[static_cast<std::size_t>(where.override_index)];
+    throw UsageError("--set " + given.address + "=" + given.value, message, hint);
+  }
+  throw SceneError(file, where.line, where.column, message, hint);
+}
+
+void Leaf::fail(const std::string& expected, const std::string& hint) const {
+  const std::string wanted = "expected " + expected;
+  // A --set is shown as it was typed; repeating it would say nothing new.
+  if (value.where.override_index >= 0) source.fail(value.where, wanted, hint);
+  source.fail(value.where, address + " = " + toml_literal(value, max_shown),
+              hint.empty() ? wanted : wanted + "; " + hint);
+}
+
+Leaf Leaf::element(std::size_t index) const {
+  const Value& item = std::get<Array>(value.data)[index];
+  return {source, item, address + "[" + std::to_string(index) + "]", unit, valid};
+}
+
+const Array& Leaf::array(std::size_t count, const std::string& what) const {
+  const Array* items = std::get_if<Array>(&value.data);
+  if (!items || (count != 0 && items->size() != count)) fail(what);
+  return *items;
+}
+
+const std::string& Leaf::text(const std::string& what) const {
+  const std::string* content = std::get_if<std::string>(&value.data);
+  if (!content) fail(what);
+  return *content;
+}
+
+void read_leaf(const Leaf& leaf, double& member) {
+  member = number(leaf, "a number");
+}
+
+void read_leaf(const Leaf& leaf, int& member) {
+  member = static_cast<int>(whole_number(leaf));
+}
+
+void read_leaf(const Leaf& leaf, std::uint64_t& member) {
+  const auto* text = std::get_if<std::string>(&leaf.value.data);
+  const bool is_bytes = std::string_view(leaf.unit) == "B";
+  if (!text || !is_bytes) {
+    member = static_cast<std::uint64_t>(whole_number(leaf));
+    return;
+  }
+  const std::optional<double> bytes = bytes_of(*text);
+  if (!bytes) leaf.fail("bytes, or a size such as \"8GiB\" or \"500MB\"");
+  if (!leaf.valid.contains(*bytes)) leaf.fail(leaf.valid.text_of_bounds());
+  member = static_cast<std::uint64_t>(*bytes);
+}
+
+void read_leaf(const Leaf& leaf, std::string& member) {
+  const std::string& text = leaf.text("a string");
+  if (leaf.valid.text == Valid::Text::name && !is_identifier(text)) {
+    leaf.fail("a name of 1 to 64 letters, digits, _ and -");
+  }
+  member = leaf.valid.text == Valid::Text::file ? existing_file(leaf, text) : text;
+}
+
+void read_leaf(const Leaf& leaf, sim::Vec3d& member) {
+  leaf.array(3, "three numbers [x, y, z]");
+  for (std::size_t k = 0; k < 3; ++k) {
+    read_leaf(leaf.element(k), member[static_cast<Eigen::Index>(k)]);
+  }
+}
+
+void read_leaf(const Leaf& leaf, PictureSize& member) {
+  leaf.array(2, "two whole numbers [width, height]");
+  read_leaf(leaf.element(0), member.width);
+  read_leaf(leaf.element(1), member.height);
+}
+
+void read_leaf(const Leaf& leaf, std::optional<Range>& member) {
+  member.reset();
+  if (const auto* text = std::get_if<std::string>(&leaf.value.data)) {
+    if (*text == "auto") return;
+  }
+  leaf.array(2, "\"auto\" or two numbers [min, max]");
+  Range range;
+  read_leaf(leaf.element(0), range.min);
+  read_leaf(leaf.element(1), range.max);
+  // Colours are looked up in single precision.
+  if (!(static_cast<float>(range.min) < static_cast<float>(range.max))) leaf.fail("min < max");
+  member = range;
+}
+
+Value to_value(double member) {
+  return {member};
+}
+Value to_value(int member) {
+  return {std::int64_t{member}};
+}
+Value to_value(std::uint64_t member) {
+  return {static_cast<std::int64_t>(member)};
+}
+Value to_value(const std::string& member) {
+  return {member};
+}
+Value to_value(const sim::Vec3d& member) {
+  return {Array{to_value(member.x()), to_value(member.y()), to_value(member.z())}};
+}
+Value to_value(const PictureSize& member) {
+  return {Array{to_value(member.width), to_value(member.height)}};
+}
+Value to_value(const std::optional<Range>& member) {
+  if (!member) return {std::string("auto")};
+  return {Array{to_value(member->min), to_value(member->max)}};
+}
+
+std::string type_of(const double&) {
+  return "number";
+}
+std::string type_of(const int&) {
+  return "integer";
+}
+std::string type_of(const std::uint64_t&) {
+  return "integer";
+}
+std::string type_of(const std::string&) {
+  return "string";
+}
+std::string type_of(const sim::Vec3d&) {
+  return "vector";
+}
+std::string type_of(const PictureSize&) {
+  return "size";
+}
+std::string type_of(const std::optional<Range>&) {
+  return "range";
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (k > 0) text += k + 1 == names.size() ? " or " : ", ";
+    text += toml_string(names[k]);
+  }
+  return text;
+}
+
+void fail_choice(const Leaf& leaf, const std::vector<std::string>& allowed) {
+  const auto* text = std::get_if<std::string>(&leaf.value.data);
+  const std::string nearest = text ? nearest_name(*text, allowed) : "";
+  leaf.fail(list_of(allowed), nearest.empty() ? "" : "did you mean " + toml_string(nearest) + "?");
+}
+
+}  // namespace neve::app

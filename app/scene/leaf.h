@@ -1,0 +1,150 @@
+#pragma once
+/// One parameter's value: from TOML with complaints, to TOML, and what to call its type.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/names.h"
+#include "app/scene/override.h"
+#include "app/scene/scene.h"
+#include "app/scene/valid.h"
+#include "app/scene/value.h"
+
+namespace neve::app {
+
+/// What a document is read from: for messages, relative paths and values given by --set.
+struct Source {
+  std::string file;
+  std::string base_dir;
+  std::vector<Override> overrides;
+
+  /// Throws a SceneError at the place, or a UsageError when it is a --set.
+  [[noreturn]] void fail(Location where, const std::string& message,
+                         const std::string& hint = {}) const;
+};
+
+/// A value about to become a parameter.
+struct Leaf {
+  const Source& source;
+  const Value& value;
+  std::string address;  ///< "material.snow.hardening"
+  const char* unit;
+  const Valid& valid;
+
+  /// "ADDRESS = FOUND; expected EXPECTED; HINT"
+  [[noreturn]] void fail(const std::string& expected, const std::string& hint = {}) const;
+  /// One element of an array.
+  Leaf element(std::size_t index) const;
+  /// An array, of exactly `count` elements unless that is 0; `what` names it in the message.
+  const Array& array(std::size_t count, const std::string& what) const;
+  const std::string& text(const std::string& what) const;
+};
+
+void read_leaf(const Leaf& leaf, double& member);
+void read_leaf(const Leaf& leaf, int& member);
+void read_leaf(const Leaf& leaf, std::uint64_t& member);
+void read_leaf(const Leaf& leaf, std::string& member);
+void read_leaf(const Leaf& leaf, sim::Vec3d& member);
+void read_leaf(const Leaf& leaf, PictureSize& member);
+void read_leaf(const Leaf& leaf, std::optional<Range>& member);
+
+Value to_value(double member);
+Value to_value(int member);
+Value to_value(std::uint64_t member);
+Value to_value(const std::string& member);
+Value to_value(const sim::Vec3d& member);
+Value to_value(const PictureSize& member);
+Value to_value(const std::optional<Range>& member);
+
+std::string type_of(const double&);
+std::string type_of(const int&);
+std::string type_of(const std::uint64_t&);
+std::string type_of(const std::string&);
+std::string type_of(const sim::Vec3d&);
+std::string type_of(const PictureSize&);
+std::string type_of(const std::optional<Range>&);
+
+/// "a, b or c", quoted as in TOML.
+std::string list_of(const std::vector<std::string>& names);
+
+template <Choice E>
+std::vector<std::string> choices() {
+  std::vector<std::string> texts;
+  for (const auto& name : names(E{})) texts.emplace_back(name.text);
+  return texts;
+}
+
+/// Fails with the names that are allowed, and the nearest.
+[[noreturn]] void fail_choice(const Leaf& leaf, const std::vector<std::string>& allowed);
+
+template <Choice E>
+void read_leaf(const Leaf& leaf, E& member) {
+  const auto* text = std::get_if<std::string>(&leaf.value.data);
+  const std::optional<E> value = text ? value_named<E>(*text) : std::nullopt;
+  if (!value) fail_choice(leaf, choices<E>());
+  member = *value;
+}
+
+template <Choice E>
+void read_leaf(const Leaf& leaf, std::vector<E>& member) {
+  member.clear();
+  const std::size_t count = leaf.array(0, "a list of " + list_of(choices<E>())).size();
+  for (std::size_t k = 0; k < count; ++k) {
+    E item{};
+    read_leaf(leaf.element(k), item);
+    for (const E& other : member) {
+      if (other == item) leaf.element(k).fail("each at most once");
+    }
+    member.push_back(item);
+  }
+}
+
+template <class T>
+void read_leaf(const Leaf& leaf, std::optional<T>& member) {
+  read_leaf(leaf, member.emplace());
+}
+
+template <Choice E>
+Value to_value(E member) {
+  return {std::string(name_of(member))};
+}
+
+template <Choice E>
+Value to_value(const std::vector<E>& member) {
+  Array array;
+  for (const E& item : member) array.push_back(to_value(item));
+  return {std::move(array)};
+}
+
+/// Nothing for an optional parameter that is absent.
+template <class T>
+std::optional<Value> value_if_any(const T& member) {
+  return to_value(member);
+}
+template <class T>
+std::optional<Value> value_if_any(const std::optional<T>& member) {
+  if (!member) return std::nullopt;
+  return to_value(*member);
+}
+/// A range without numbers is written "auto".
+inline std::optional<Value> value_if_any(const std::optional<Range>& member) {
+  return to_value(member);
+}
+
+template <Choice E>
+std::string type_of(const E&) {
+  return "choice";
+}
+
+template <Choice E>
+std::string type_of(const std::vector<E>&) {
+  return "list of choices";
+}
+
+template <class T>
+std::string type_of(const std::optional<T>&) {
+  return type_of(T{});
+}
+
+}  // namespace neve::app

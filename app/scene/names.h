@@ -1,0 +1,99 @@
+#pragma once
+/// How the values of each choice are written in scenes.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "app/scene/scene.h"
+
+namespace neve::app {
+
+template <class E>
+struct Name {
+  E value;
+  const char* text;
+};
+
+constexpr auto names(sim::Kernel) {
+  using enum sim::Kernel;
+  return std::array{Name{cubic, "cubic"}, Name{quadratic, "quadratic"}};
+}
+constexpr auto names(sim::Transfer) {
+  using enum sim::Transfer;
+  return std::array{Name{flip, "flip"}, Name{apic, "apic"}, Name{mls, "mls"}};
+}
+constexpr auto names(sim::Advect) {
+  using enum sim::Advect;
+  return std::array{Name{particle, "particle"}, Name{pic, "pic"}};
+}
+constexpr auto names(sim::TimeStep) {
+  using enum sim::TimeStep;
+  return std::array{Name{adaptive, "adaptive"}, Name{fixed, "fixed"}};
+}
+constexpr auto names(sim::Precision) {
+  using enum sim::Precision;
+  return std::array{Name{single, "float"}, Name{real64, "double"}};
+}
+constexpr auto names(sim::Model) {
+  using enum sim::Model;
+  return std::array{Name{snow, "snow"}, Name{corotated, "corotated"},
+                    Name{neo_hookean, "neo_hookean"}};
+}
+constexpr auto names(sim::Sampling) {
+  using enum sim::Sampling;
+  return std::array{Name{jittered, "jittered"}, Name{poisson, "poisson"}, Name{lattice, "lattice"}};
+}
+constexpr auto names(sim::Volumes) {
+  using enum sim::Volumes;
+  return std::array{Name{estimated, "estimated"}, Name{given, "given"}};
+}
+constexpr auto names(sim::Contact) {
+  using enum sim::Contact;
+  return std::array{Name{separate, "separate"}, Name{slip, "slip"}, Name{sticky, "sticky"}};
+}
+constexpr auto names(ColorBy) {
+  using enum ColorBy;
+  return std::array{Name{snow, "snow"},
+                    Name{speed, "speed"},
+                    Name{density, "density"},
+                    Name{J_E, "J_E"},
+                    Name{J_P, "J_P"},
+                    Name{pressure, "pressure"},
+                    Name{von_mises, "von_mises"},
+                    Name{id, "id"}};
+}
+constexpr auto names(render::ColorMap) {
+  using enum render::ColorMap;
+  return std::array{Name{viridis, "viridis"}, Name{magma, "magma"}, Name{turbo, "turbo"},
+                    Name{coolwarm, "coolwarm"}};
+}
+constexpr auto names(Layer) {
+  using enum Layer;
+  return std::array{Name{ground, "ground"}, Name{colliders, "colliders"},
+                    Name{particles, "particles"}, Name{legend, "legend"}, Name{caption, "caption"}};
+}
+
+template <class E>
+concept Choice = requires(E e) {
+  names(e);
+};
+
+template <Choice E>
+constexpr const char* name_of(E value) {
+  for (const auto& name : names(E{})) {
+    if (name.value == value) return name.text;
+  }
+  return "";
+}
+
+template <Choice E>
+constexpr std::optional<E> value_named(std::string_view text) {
+  for (const auto& name : names(E{})) {
+    if (name.text == text) return name.value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace neve::app

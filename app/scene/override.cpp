@@ -1,0 +1,189 @@
+#include "app/scene/override.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "app/scene/error.h"
+#include "app/scene/params.h"
+#include "app/scene/toml_source.h"
+#include "app/scene/toml_text.h"
+#include "app/text.h"
+
+namespace neve::app {
+namespace {
+
+using Path = std::vector<std::string>;
+
+std::string argument(const Override& change) {
+  return "--set " + change.address + "=" + change.value;
+}
+
+std::string trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
+}
+
+Path split(const std::string& address) {
+  Path path;
+  std::size_t from = 0;
+  for (std::size_t dot; (dot = address.find('.', from)) != std::string::npos; from = dot + 1) {
+    path.push_back(address.substr(from, dot - from));
+  }
+  path.push_back(address.substr(from));
+  return path;
+}
+
+/// The parameter with NAME replaced by each name there is.
+std::vector<std::string> addresses_of(const ParamInfo& info, const Table& root) {
+  const std::string placeholder = ".NAME.";
+  const auto at = info.address.find(placeholder);
+  if (at == std::string::npos) return {info.address};
+  const Entry* items = root.find(info.address.substr(0, at));
+  std::vector<std::string> addresses;
+  if (!items) return addresses;
+  for (const std::string& name : item_names(items->value)) {
+    addresses.push_back(info.address.substr(0, at + 1) + name +
+                        info.address.substr(at + placeholder.size() - 1));
+  }
+  return addresses;
+}
+
+[[noreturn]] void fail_unknown(const Override& change, const std::vector<std::string>& known) {
+  std::string nearest;
+  for (const std::string& address : known) {
+    // "hardening" alone: say where it is.
+    if (nearest.empty() && address.ends_with("." + change.address)) nearest = address;
+  }
+  if (nearest.empty()) nearest = nearest_name(change.address, known);
+  throw UsageError(argument(change), "unknown parameter " + toml_string(change.address),
+                   nearest.empty() ? "neve params lists all of them"
+                                   : "did you mean " + toml_string(nearest) + "?");
+}
+
+/// Whether the address is that of a table inside an item or at the top: "camera",
+/// "body.ball.shape", but not "body" or "body.ball", whose names must stay.
+bool is_table_address(const std::string& address, const std::string& known, bool is_in_item) {
+  const auto dots = std::count(address.begin(), address.end(), '.');
+  return known.starts_with(address + ".") && (!is_in_item || dots >= 2);
+}
+
+struct Target {
+  std::string type;  ///< of the parameter; "table" for tables
+  bool is_in_item;   ///< of a list, whose name is the second word
+};
+
+Target resolve(const Override& change, const Table& root) {
+  std::vector<std::string> known;
+  std::optional<Target> table;
+  for (const ParamInfo& info : params()) {
+    const bool is_in_item = info.address.find(".NAME.") != std::string::npos;
+    for (std::string& address : addresses_of(info, root)) {
+      if (address == change.address) return {info.type, is_in_item};
+      if (is_table_address(change.address, address, is_in_item)) table = {"table", is_in_item};
+      known.push_back(std::move(address));
+    }
+  }
+  if (!table) fail_unknown(change, known);
+  return *table;
+}
+
+void set_place(Value& value, int index) {
+  value.where = {0, 0, index};
+  if (Array* array = std::get_if<Array>(&value.data)) {
+    for (Value& item : *array) set_place(item, index);
+  } else if (Table* table = std::get_if<Table>(&value.data)) {
+    for (Entry& entry : table->entries) {
+      entry.where = {0, 0, index};
+      set_place(entry.value, index);
+    }
+  }
+}
+
+Value value_of(const Override& change, const std::string& type) {
+  const std::string text = trimmed(change.value);
+  if (!is_clean_text(text) || text.find_first_of("\r\n") != std::string::npos) {
+    throw UsageError(argument(change), "a value is one line of UTF-8 without control bytes");
+  }
+  Value value{text};
+  try {
+    value = parse_toml("value = " + text, "").entries.at(0).value;
+  } catch (const SceneError& error) {
+    // Words need no quotes; what starts like other TOML was meant to be that.
+    if (!text.empty() && std::string_view("[{\"'").find(text[0]) != std::string_view::npos) {
+      throw UsageError(argument(change), error.message, error.hint);
+    }
+  }
+  // A title may be a number, and so may a name.
+  const bool wants_text = type == "string" || type == "choice";
+  if (wants_text && !std::holds_alternative<std::string>(value.data)) value.data = text;
+  return value;
+}
+
+/// The table called `name` in a list or a table of tables.
+Table* item_called(Value& items, const std::string& name) {
+  const std::vector<std::string> names = item_names(items);
+  const auto k = std::find(names.begin(), names.end(), name) - names.begin();
+  if (static_cast<std::size_t>(k) == names.size()) return nullptr;
+  if (Array* array = std::get_if<Array>(&items.data)) {
+    return std::get_if<Table>(&(*array)[static_cast<std::size_t>(k)].data);
+  }
+  return std::get_if<Table>(
+      &std::get<Table>(items.data).entries[static_cast<std::size_t>(k)].value.data);
+}
+
+Entry& entry_called(Table& table, const std::string& key, int index) {
+  if (Entry* entry = table.find(key)) return *entry;
+  return table.entries.emplace_back(Entry{key, {0, 0, index}, {Table{}, {0, 0, index}}});
+}
+
+}  // namespace
+
+Override parse_override(std::string_view text) {
+  const auto equals = text.find('=');
+  if (equals == std::string_view::npos || trimmed(text.substr(0, equals)).empty()) {
+    throw UsageError("--set " + std::string(text), "expected ADDRESS=VALUE",
+                     "for example --set material.snow.hardening=5");
+  }
+  return {trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1))};
+}
+
+std::vector<std::string> item_names(const Value& items) {
+  std::vector<std::string> names;
+  if (const Table* table = std::get_if<Table>(&items.data)) {
+    for (const Entry& entry : table->entries) names.push_back(entry.key);
+  } else if (const Array* array = std::get_if<Array>(&items.data)) {
+    for (const Value& item : *array) {
+      const Table* members = std::get_if<Table>(&item.data);
+      const Entry* name = members ? members->find("name") : nullptr;
+      const std::string* text = name ? std::get_if<std::string>(&name->value.data) : nullptr;
+      names.push_back(text ? *text : std::to_string(names.size() + 1));
+    }
+  }
+  return names;
+}
+
+void apply_override(Table& root, const Override& change, int index) {
+  const Target target = resolve(change, root);
+  Value value = value_of(change, target.type);
+  set_place(value, index);
+
+  Path path = split(change.address);
+  const std::string last = path.back();
+  path.pop_back();
+  Table* table = &root;
+  std::size_t depth = 0;
+  if (target.is_in_item) {
+    table = item_called(root.find(path[0])->value, path[1]);
+    depth = 2;
+  }
+  for (; table && depth < path.size(); ++depth) {
+    table = std::get_if<Table>(&entry_called(*table, path[depth], index).value.data);
+  }
+  if (!table) return;  // the file has something else here, which reading it will tell
+  Entry& entry = entry_called(*table, last, index);
+  entry.where = {0, 0, index};
+  entry.value = std::move(value);
+}
+
+}  // namespace neve::app

@@ -1,0 +1,30 @@
+#pragma once
+/// `--set ADDRESS=VALUE`: changes to a scene before it is checked.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/scene/value.h"
+
+namespace neve::app {
+
+struct Override {
+  std::string address;  ///< "material.snow.hardening", "body.1.velocity"
+  std::string value;    ///< in TOML; a bare word is a string
+};
+
+/// Splits at the first '='.
+/// @throws UsageError
+Override parse_override(std::string_view argument);
+
+/// Puts the value into the document, creating tables on the way. Later ones win.
+/// @param index  of this override, kept as the location of what it sets
+/// @throws UsageError when nothing has this address (with the nearest that has) or the value is
+///         no TOML
+void apply_override(Table& root, const Override& change, int index);
+
+/// What the entries of a list or table of tables are called: names, or numbers from 1.
+std::vector<std::string> item_names(const Value& items);
+
+}  // namespace neve::app

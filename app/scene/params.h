@@ -1,0 +1,33 @@
+#pragma once
+/// Every parameter as a table: for `neve params`, and to resolve addresses.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/valid.h"
+#include "app/scene/value.h"
+
+namespace neve::app {
+
+struct ParamInfo {
+  std::string address;  ///< "material.NAME.hardening"
+  std::string type;     ///< number, integer, string, vector, choice, list of choices, size or range
+  std::string unit;
+  Valid valid;
+  std::vector<std::string> choices;    ///< of choices, what may be written
+  std::optional<Value> default_value;  ///< absent: nothing, the help says what then happens
+  bool is_live = false;                ///< may change while a simulation runs
+  std::string help;
+};
+
+/// In the order of describe.h.
+std::vector<ParamInfo> params();
+
+/// Aligned columns for people.
+std::string params_table();
+/// A list of objects: address, type, unit, min, max, default, live, help; and choices where there
+/// are some, min_open or max_open where the bound itself is not allowed.
+std::string params_json();
+
+}  // namespace neve::app

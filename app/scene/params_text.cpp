@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+
+#include "app/json.h"
+#include "app/scene/params.h"
+
+namespace neve::app {
+namespace {
+
+struct ToJson {
+  Json operator()(bool b) const { return b; }
+  Json operator()(std::int64_t i) const { return i; }
+  Json operator()(double x) const { return number_or_null(x); }
+  Json operator()(const std::string& s) const { return s; }
+  Json operator()(Date) const { return {}; }
+  Json operator()(const Array& array) const {
+    Json list = Json::array();
+    for (const Value& value : array) list.push_back(std::visit(*this, value.data));
+    return list;
+  }
+  Json operator()(const Table& table) const {
+    Json object = Json::object();
+    for (const Entry& entry : table.entries)
+      object[entry.key] = std::visit(*this, entry.value.data);
+    return object;
+  }
+};
+
+/// Whole bounds as integers: 16, not 16.0.
+Json bound(double x) {
+  if (std::isfinite(x) && x == std::trunc(x) && std::abs(x) < 1e16) {
+    return static_cast<std::int64_t>(x);
+  }
+  return number_or_null(x);
+}
+
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+bool is_bounded(const Valid& valid) {
+  return std::isfinite(valid.min) || std::isfinite(valid.max);
+}
+
+std::string range_text(const ParamInfo& info) {
+  if (!info.choices.empty()) return joined(info.choices, " ");
+  return is_bounded(info.valid) ? info.valid.text_of_bounds() : info.type;
+}
+
+}  // namespace
+
+std::string params_table() {
+  struct Row {
+    std::string address, value, unit, range, change, help;
+  };
+  std::vector<Row> rows{{"ADDRESS", "DEFAULT", "UNIT", "RANGE", "CHANGE", "MEANING"}};
+  for (const ParamInfo& info : params()) {
+    rows.push_back({info.address, info.default_value ? toml_literal(*info.default_value) : "-",
+                    info.unit.empty() ? "-" : info.unit, range_text(info),
+                    info.is_live ? "live" : "restart", info.help});
+  }
+  const auto width = [&](std::string Row::*column, std::size_t limit) {
+    std::size_t widest = 0;
+    for (const Row& row : rows) {
+      if ((row.*column).size() <= limit) widest = std::max(widest, (row.*column).size());
+    }
+    return widest;
+  };
+  // A few long cells push their own row aside instead of widening every row.
+  const std::size_t widths[] = {width(&Row::address, 60), width(&Row::value, 20),
+                                width(&Row::unit, 20), width(&Row::range, 40),
+                                width(&Row::change, 20)};
+  std::string text;
+  for (const Row& row : rows) {
+    std::size_t k = 0;
+    for (const std::string* cell : {&row.address, &row.value, &row.unit, &row.range, &row.change}) {
+      text += *cell + std::string(std::max(widths[k], cell->size()) - cell->size() + 2, ' ');
+      ++k;
+    }
+    text += row.help + "\n";
+  }
+  return text;
+}
+
+std::string params_json() {
+  Json list = Json::array();
+  for (const ParamInfo& info : params()) {
+    Json item;
+    item["address"] = info.address;
+    item["type"] = info.type;
+    item["unit"] = info.unit;
+    item["min"] = bound(info.valid.min);
+    item["max"] = bound(info.valid.max);
+    item["default"] = info.default_value ? std::visit(ToJson{}, info.default_value->data) : Json();
+    item["live"] = info.is_live;
+    item["help"] = info.help;
+    if (!info.choices.empty()) item["choices"] = info.choices;
+    if (info.valid.is_min_open) item["min_open"] = true;
+    if (info.valid.is_max_open) item["max_open"] = true;
+    list.push_back(std::move(item));
+  }
+  return to_text(list) + "\n";
+}
+
+}  // namespace neve::app

@@ -1,0 +1,31 @@
+#pragma once
+/// Scene files in, with every complaint located; resolved scenes out.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/scene/error.h"
+#include "app/scene/override.h"
+#include "app/scene/scene.h"
+
+namespace neve::app {
+
+/// @throws SceneError for the file, UsageError for an override
+Scene read_scene_file(const std::string& file, const std::vector<Override>& overrides = {});
+
+/// @param name      the file in messages
+/// @param base_dir  what the paths of meshes are relative to; "" for the current directory
+Scene read_scene_text(std::string_view text, const std::string& name,
+                      const std::string& base_dir = {},
+                      const std::vector<Override>& overrides = {});
+
+/// The scene as TOML with every parameter written out; reading it gives the same scene, bit for
+/// bit. Mesh files are written as absolute paths, so it reads the same from anywhere.
+std::string write_scene(const Scene& scene);
+
+/// The view of this name, or the built-in one.
+/// @throws UsageError with the nearest name
+View find_view(const Scene& scene, const std::string& name);
+
+}  // namespace neve::app

@@ -1,0 +1,167 @@
+#pragma once
+/// The visitor of describe.h that fills a scene from a TOML document.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/scene/describe.h"
+#include "app/scene/leaf.h"
+
+namespace neve::app {
+
+/// What all readers of one document share.
+struct Reading {
+  Source source;
+  std::map<std::string, Location> places;  ///< where each address was given
+
+  /// Of the address, or of the closest thing around it that was written.
+  Location place_of(std::string address) const;
+};
+
+/// The visitor that collects the keys of one table.
+class Keys {
+ public:
+  std::vector<std::string> keys;
+
+  template <class... Rest>
+  void operator()(const char* key, Rest&&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void section(const char* key, Rest&&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void optional(const char* key, Rest&&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void named(const char* key, Rest&&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void list(const char* key, Rest&&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void shape(const char* key, Rest&&...) {
+    keys.emplace_back(key);
+  }
+  template <class Form, class... Rest>
+  void form(const char* key, Rest&&...) {
+    keys.emplace_back(key);
+  }
+};
+
+class Reader {
+ public:
+  /// @param address  of the table, "" for the document
+  Reader(Reading& reading, const Table& table, std::string address)
+      : reading_(reading), table_(table), address_(std::move(address)) {}
+
+  template <class T>
+  void operator()(const char* key, T& member, const char* unit, const Valid& valid, Change,
+                  const char*) {
+    if (const Entry* entry = given(key)) {
+      read_leaf(Leaf{reading_.source, entry->value, address_of(key), unit, valid}, member);
+    }
+  }
+
+  template <class Describe>
+  void section(const char* key, const char*, Describe describe_members) {
+    if (const Entry* entry = given(key)) enter(entry->value, address_of(key), describe_members);
+  }
+
+  template <class T>
+  void optional(const char* key, std::optional<T>& member, const char*) {
+    const Entry* entry = given(key);
+    if (!entry) return;
+    member = fresh<T>();
+    enter(entry->value, address_of(key), [&](auto& v) { describe(v, *member); });
+  }
+
+  template <class T>
+  void named(const char* key, std::vector<T>& items, const char*) {
+    const Entry* entry = given(key);
+    if (!entry) return;
+    for (const Entry& item : table_of(entry->value, address_of(key)).entries) {
+      const std::string address = address_of(key) + "." + item.key;
+      require_name(item, address_of(key));
+      T& member = items.emplace_back(fresh<T>());
+      member.name = item.key;
+      enter(item.value, address, [&](auto& v) { describe(v, member); });
+    }
+  }
+
+  template <class T>
+  void list(const char* key, std::vector<T>& items, const char*) {
+    const Entry* entry = given(key);
+    if (!entry) return;
+    const Array& array = list_of_tables(*entry);
+    const std::vector<std::string> names = unique_names(*entry);
+    for (std::size_t k = 0; k < array.size(); ++k) {
+      T& member = items.emplace_back(fresh<T>());
+      enter(array[k], address_of(key) + "." + names[k], [&](auto& v) { describe(v, member); });
+      member.name = names[k];
+    }
+  }
+
+  template <class Describe>
+  void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
+    const Entry* entry = given(key);
+    if (!entry) fail_without_shape(key);
+    Keys forms;
+    describe_forms(forms, shape);
+    require_one_form(*entry, forms.keys);
+    Reader inner(reading_, std::get<Table>(entry->value.data), address_of(key));
+    describe_forms(inner, shape);
+  }
+
+  template <class Form>
+  void form(const char* key, sim::Shape& shape, Change change, const char*) {
+    const Entry* entry = given(key);
+    if (!entry) return;
+    Form& form = shape.form.emplace<Form>();
+    enter(entry->value, address_of(key), [&](auto& v) {
+      describe(v, form, change);
+      describe_rotation(v, shape, change);
+    });
+  }
+
+  /// Reads the members of this table after refusing keys that are none of them.
+  template <class Describe>
+  void read(Describe describe_members) {
+    Keys known;
+    describe_members(known);
+    refuse_unknown(known.keys);
+    describe_members(*this);
+  }
+
+ private:
+  template <class Describe>
+  void enter(const Value& value, const std::string& address, Describe describe_members) {
+    reading_.places[address] = value.where;
+    Reader(reading_, table_of(value, address), address).read(describe_members);
+  }
+
+  std::string address_of(const std::string& key) const {
+    return address_.empty() ? key : address_ + "." + key;
+  }
+
+  /// The key's entry, remembered as the place of its address.
+  const Entry* given(const char* key);
+  const Table& table_of(const Value& value, const std::string& address) const;
+  const Array& list_of_tables(const Entry& entry) const;
+  std::vector<std::string> unique_names(const Entry& list) const;
+  void require_name(const Entry& item, const std::string& list) const;
+  void require_one_form(const Entry& shape, const std::vector<std::string>& forms) const;
+  void refuse_unknown(const std::vector<std::string>& known) const;
+  [[noreturn]] void fail_without_shape(const char* key) const;
+
+  Reading& reading_;
+  const Table& table_;
+  std::string address_;
+};
+
+}  // namespace neve::app

@@ -1,0 +1,41 @@
+#include "app/scene/valid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scene/value.h"
+
+namespace neve::app {
+namespace {
+
+constexpr std::size_t max_name_length = 64;  // views name folders
+
+bool is_word(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-';
+}
+
+}  // namespace
+
+bool Valid::contains(double x) const {
+  return std::isfinite(x) && (is_min_open ? x > min : x >= min) &&
+         (is_max_open ? x < max : x <= max);
+}
+
+std::string Valid::text_of_bounds() const {
+  std::string bounds = "value";
+  if (std::isfinite(min)) {
+    // One bound reads better with the value first: value > 0.
+    if (!std::isfinite(max)) return bounds + (is_min_open ? " > " : " >= ") + number_text(min);
+    bounds = number_text(min) + (is_min_open ? " < " : " <= ") + bounds;
+  }
+  if (std::isfinite(max)) bounds += (is_max_open ? " < " : " <= ") + number_text(max);
+  return bounds;
+}
+
+bool is_identifier(const std::string& text) {
+  return !text.empty() && text.size() <= max_name_length &&
+         std::all_of(text.begin(), text.end(), is_word);
+}
+
+}  // namespace neve::app

@@ -1,0 +1,50 @@
+#pragma once
+/// Which values a parameter may take, and when a change takes effect.
+
+#include <limits>
+#include <string>
+
+namespace neve::app {
+
+/// live: may change while a simulation runs; restart: only from frame 0.
+enum class Change { live, restart };
+
+/// Numbers (of vectors: every component) between two bounds, each open or closed.
+struct Valid {
+  enum class Text { any, name, file };
+
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool is_min_open = false, is_max_open = false;
+  Text text = Text::any;
+
+  constexpr Valid below(double x) const { return {min, x, is_min_open, true, text}; }
+  constexpr Valid at_most(double x) const { return {min, x, is_min_open, false, text}; }
+
+  /// False for NaN and infinities as well.
+  bool contains(double x) const;
+  /// "0 <= value < 0.5"
+  std::string text_of_bounds() const;
+};
+
+inline constexpr Valid anything{};
+inline constexpr Valid identifier{.text = Valid::Text::name};  ///< [A-Za-z0-9_-]+
+inline constexpr Valid file_path{.text = Valid::Text::file};   ///< of a file that exists
+
+constexpr Valid above(double x) {
+  return Valid{.min = x, .is_min_open = true};
+}
+constexpr Valid at_least(double x) {
+  return Valid{.min = x};
+}
+constexpr Valid between(double low, double high) {
+  return Valid{.min = low, .max = high};
+}
+constexpr Valid within(double x) {
+  return between(-x, x);
+}
+
+/// Whether `text` can name a body, material, collider or view.
+bool is_identifier(const std::string& text);
+
+}  // namespace neve::app
