@@ -33,8 +33,8 @@ struct Attempt {
 
 /// No backend worked; what() lists what was tried and why each failed. Exit code 4.
 struct ContextError : std::runtime_error {
-  ContextError(const std::string& message, std::vector<Attempt> attempts)
-      : std::runtime_error(message), attempts(std::move(attempts)) {}
+  ContextError(const std::string& message, std::vector<Attempt> all)
+      : std::runtime_error(message), attempts(std::move(all)) {}
   std::vector<Attempt> attempts;
 };
 

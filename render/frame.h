@@ -23,8 +23,8 @@ struct Points {
   std::vector<Vec3f> position;
   std::vector<std::uint32_t> id;  ///< breaks ties and seeds the small variation of shade
   std::vector<float> value;
-  float radius = 0.005f;          ///< m, as drawn
-  float spacing = 0.01f;          ///< m, mean distance of packed points: scale of the light volume
+  float radius = 0.005f;  ///< m, as drawn
+  float spacing = 0.01f;  ///< m, mean distance of packed points: scale of the light volume
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;
 };

@@ -1,0 +1,49 @@
+#pragma once
+/// Dear ImGui on our own function table: fonts, and drawing of what ImGui produced. Its packaged
+/// OpenGL backend loads its functions through libGL and fails under OSMesa.
+
+#include <imgui.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "render/gl_objects.h"
+#include "render/gl_program.h"
+
+namespace neve::render {
+
+class ImGuiDraw {
+ public:
+  ImGuiDraw(const Gl& gl, const ShaderLibrary& library);
+  ImGuiDraw(const ImGuiDraw&) = delete;
+  ImGuiDraw& operator=(const ImGuiDraw&) = delete;
+  ~ImGuiDraw();
+
+  /// Starts an ImGui frame. Fonts are rasterised at their exact size, with the characters of texts
+  /// and those of Western Europe; they are made anew when size or characters change.
+  /// @param font_size height of a line of text, pixels
+  void begin(int width, int height, int font_size, const std::vector<std::string>& texts);
+  /// Ends the frame and draws it over the bound framebuffer.
+  void end();
+
+  ImFont* text_font() const { return text_font_; }
+  ImFont* title_font() const { return title_font_; }
+
+ private:
+  void make_fonts(int font_size);
+  void draw(const ImDrawData& data);
+
+  const Gl& gl_;
+  Program program_;
+  VertexArray vertex_array_;
+  Buffer vertex_buffer_, index_buffer_;
+  Texture font_texture_;
+  ImGuiContext* context_ = nullptr;
+  ImFont* text_font_ = nullptr;
+  ImFont* title_font_ = nullptr;
+  int font_size_ = 0;
+  std::set<ImWchar> characters_;
+};
+
+}  // namespace neve::render

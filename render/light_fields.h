@@ -1,0 +1,29 @@
+#pragma once
+/// The steps of make_light_volume, one scalar field over a LightGrid each.
+
+#include <functional>
+#include <vector>
+
+#include "render/lighting.h"
+
+namespace neve::render {
+
+/// Runs task(0) ... task(count - 1), on the pool where there is one.
+void for_each_task(int count, ThreadPool* pool, const std::function<void(int)>& task);
+
+/// How full each cell is: 1 for packed points and above, trilinear, a stray point far below 1.
+std::vector<float> bin_points(const Points& points, const LightGrid& grid, ThreadPool* pool);
+
+/// Marks the cells that the surfaces of the meshes pass through with 1.
+std::vector<float> voxelize(const std::vector<TriangleMesh>& meshes, const LightGrid& grid);
+
+/// Two passes of a box of 3 cells along every axis; outside is empty.
+std::vector<float> blur(const std::vector<float>& field, const LightGrid& grid, ThreadPool* pool);
+
+/// Part of the light from a direction that reaches each cell through the others.
+/// @param toward_light unit vector
+/// @param extinction what one cell of full thickness takes away (1/e at 1), per cell
+std::vector<float> sweep_light(const std::vector<float>& extinction, const LightGrid& grid,
+                               Vec3f toward_light);
+
+}  // namespace neve::render

@@ -1,0 +1,43 @@
+#pragma once
+/// Light on a body of snow, computed on the CPU on a coarse grid around the points: how much of the
+/// key light and of the sky reaches each place, and which way the surface of the body faces.
+/// Depends on the frame alone: not on the order of the points, not on the number of threads.
+
+#include <cstdint>
+#include <vector>
+
+#include "render/frame.h"
+#include "sim/base/thread_pool.h"
+
+namespace neve::render {
+
+/// A box of cells; index = (z * size.y + y) * size.x + x.
+struct LightGrid {
+  Vec3f origin;    ///< lower corner, m
+  float cell = 1;  ///< edge of a cell, m
+  Vec3i size{1, 1, 1};
+
+  std::size_t count() const {
+    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+           static_cast<std::size_t>(size.z);
+  }
+};
+
+struct LightVolume {
+  LightGrid grid;
+  /// Four signed bytes per cell: the outward normal of the body times how sure it is, and density.
+  std::vector<std::int8_t> body;
+  /// Two 16-bit fractions per cell: key light and sky that arrive there.
+  std::vector<std::uint16_t> light;
+};
+
+/// Unit vector towards the key light; straight up where the frame names no direction.
+Vec3f toward_light(const Light& light);
+
+/// Fits a grid to the points (leaving out far strays) and to meshes near them.
+LightGrid fit_light_grid(const Points& points, const std::vector<TriangleMesh>& meshes);
+
+/// @param pool may be null
+LightVolume make_light_volume(const Frame& frame, ThreadPool* pool);
+
+}  // namespace neve::render

@@ -1,0 +1,59 @@
+#include "render/mesh_shapes.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace neve::render {
+namespace {
+
+Vec3f rotate(const Rotation& r, Vec3f v) {
+  return {r[0] * v.x + r[1] * v.y + r[2] * v.z, r[3] * v.x + r[4] * v.y + r[5] * v.z,
+          r[6] * v.x + r[7] * v.y + r[8] * v.z};
+}
+
+}  // namespace
+
+TriangleMesh sphere_mesh(Vec3f center, float radius) {
+  constexpr std::uint32_t rings = 48, segments = 96;
+  constexpr float pi = std::numbers::pi_v<float>;
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i <= rings; ++i) {
+    const float polar = pi * static_cast<float>(i) / rings;
+    for (std::uint32_t j = 0; j <= segments; ++j) {
+      const float around = 2 * pi * static_cast<float>(j) / segments;
+      const Vec3f n = {std::sin(polar) * std::cos(around), std::cos(polar),
+                       std::sin(polar) * std::sin(around)};
+      mesh.position.push_back(center + radius * n);
+      mesh.normal.push_back(n);
+    }
+  }
+  for (std::uint32_t i = 0; i < rings; ++i) {
+    for (std::uint32_t j = 0; j < segments; ++j) {
+      const std::uint32_t a = i * (segments + 1) + j, b = a + segments + 1;
+      mesh.index.insert(mesh.index.end(), {a, a + 1, b, b, a + 1, b + 1});
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh box_mesh(Vec3f center, Vec3f size, const Rotation& rotation) {
+  TriangleMesh mesh;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0f, 1.0f}) {
+      Vec3f n, u, v;
+      n[axis] = side;
+      u[(axis + 1) % 3] = 1;
+      v[(axis + 2) % 3] = side;  // keeps the winding outward on both sides
+      const auto first = static_cast<std::uint32_t>(mesh.position.size());
+      for (const auto& [a, b] : {std::array{-1.f, -1.f}, {1.f, -1.f}, {1.f, 1.f}, {-1.f, 1.f}}) {
+        mesh.position.push_back(center + rotate(rotation, 0.5f * (size * (n + a * u + b * v))));
+        mesh.normal.push_back(rotate(rotation, n));
+      }
+      mesh.index.insert(mesh.index.end(),
+                        {first, first + 1, first + 2, first, first + 2, first + 3});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace neve::render

@@ -1,0 +1,62 @@
+#include <cmath>
+
+#include "render/passes.h"
+
+namespace neve::render {
+namespace {
+
+/// Along the grid lines: the x axis of the world laid into the plane, where it is not the normal.
+Vec3f tangent_of(Vec3f normal) {
+  const Vec3f axis = std::abs(normal.x) < 0.9f ? Vec3f{1, 0, 0} : Vec3f{0, 0, 1};
+  return normalized(axis - dot(axis, normal) * normal);
+}
+
+/// Where the eye is between two lines, in units of their spacing. In double and on the CPU, so that
+/// lines stand still far from the origin.
+float between_lines(Vec3f eye, Vec3f direction, float spacing) {
+  const double lines =
+      (double{eye.x} * direction.x + double{eye.y} * direction.y + double{eye.z} * direction.z) /
+      double{spacing};
+  return static_cast<float>(lines - std::floor(lines));
+}
+
+}  // namespace
+
+GroundPass::GroundPass(const Gl& gl, const ShaderLibrary& library)
+    : gl_(gl), program_(gl, library, "fullscreen.vert", "ground.frag"), vertex_array_(gl) {}
+
+void GroundPass::draw(const Frame& frame, const View& view) {
+  if (frame.grounds.empty()) return;
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LESS);
+  gl_.DepthMask(GL_TRUE);
+  gl_.Disable(GL_BLEND);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.Disable(GL_SCISSOR_TEST);
+  gl_.BindVertexArray(vertex_array_.id());
+  program_.use();
+  set_view(program_, view);
+  const float target_distance = length(frame.camera.target - view.eye);
+  program_.set("fade_distance", 0.62f * std::max(target_distance, 1e-6f));
+  program_.set("samples_per_pixel", static_cast<float>(frame.supersampling));
+  for (const GroundPlane& ground : frame.grounds) {
+    const Vec3f normal = normalized(ground.normal);
+    const Vec3f point = ground.point - view.eye;
+    if (!(dot(point, normal) < 0)) continue;
+    const Vec3f target = frame.camera.target - view.eye;
+    const Vec3f tangent = tangent_of(normal), bitangent = cross(tangent, normal);
+    const float spacing = ground.line_spacing > 0 ? ground.line_spacing : 1e9f;
+    program_.set("plane_point", point);
+    program_.set("plane_normal", normal);
+    program_.set("tangent", tangent);
+    program_.set("bitangent", bitangent);
+    program_.set("eye_on_grid", between_lines(view.eye, tangent, spacing),
+                 between_lines(view.eye, bitangent, spacing));
+    program_.set("line_spacing", spacing);
+    program_.set("fade_center", target - dot(target - point, normal) * normal);
+    program_.set("color", ground.color);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+}
+
+}  // namespace neve::render

@@ -1,0 +1,154 @@
+#include "render/pass_overlay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/colormap.h"
+#include "render/text_layout.h"
+#include "render/ticks.h"
+
+namespace neve::render {
+namespace {
+
+constexpr ImU32 bright = IM_COL32(240, 244, 250, 255);
+constexpr ImU32 soft = IM_COL32(205, 213, 224, 255);
+constexpr ImU32 shadow = IM_COL32(8, 10, 16, 150);
+constexpr ImU32 mark_color = IM_COL32(255, 122, 40, 255);
+
+/// Height of text: 16 pixels at 1280x720, in proportion elsewhere, but never too small to read.
+int font_size_for(int width, int height) {
+  const float scale = std::min(static_cast<float>(height) / 720, static_cast<float>(width) / 1120);
+  return std::clamp(static_cast<int>(std::lround(16 * scale)), 10, 160);
+}
+
+/// One unit of layout: a pixel at 720p.
+float unit_of(const ImFont& font) {
+  return font.FontSize / 16;
+}
+
+/// With a shadow, so that it reads on snow as well as on the background.
+void draw_text(const ImFont& font, ImVec2 at, ImU32 color, const std::string& text) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float offset = std::max(1.0f, std::round(unit_of(font)));
+  at = ImVec2(std::round(at.x), std::round(at.y));
+  const char* end = text.c_str() + text.size();
+  list.AddText(&font, font.FontSize, ImVec2(at.x + offset, at.y + offset), shadow, text.c_str(),
+               end);
+  list.AddText(&font, font.FontSize, at, color, text.c_str(), end);
+}
+
+std::string title_of(const Legend& legend) {
+  return legend.unit.empty() ? legend.title : legend.title + " (" + legend.unit + ")";
+}
+
+std::vector<std::string> all_texts(const Frame& frame) {
+  std::vector<std::string> texts = frame.caption;
+  for (const Legend& legend : frame.legends) texts.push_back(title_of(legend));
+  return texts;
+}
+
+/// A colour bar standing on `bottom`, its text ending at `right`.
+/// @return its left edge
+float draw_legend(const Legend& legend, const ImFont& font, float right, float bottom, float height,
+                  float max_width) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float unit = unit_of(font);
+  const int tick_count = std::clamp(static_cast<int>(height / (1.6f * font.FontSize)), 1, 5);
+  const std::vector<Tick> ticks = nice_ticks(legend.min, legend.max, tick_count);
+  float label_width = 0;
+  for (const Tick& tick : ticks) label_width = std::max(label_width, text_width(font, tick.label));
+
+  const float bar_width = std::max(6.0f, std::round(14 * unit)), gap = std::round(7 * unit);
+  const std::string title = elide(font, title_of(legend), max_width);
+  const float width = std::max(text_width(font, title), bar_width + gap + label_width);
+  const float left = std::round(right - width), top = std::round(bottom - height);
+  draw_text(font, ImVec2(left, top - 1.7f * font.FontSize), bright, title);
+
+  for (float y = top; y < bottom; y += 1) {
+    const Rgb8 c = map_color(legend.colormap, (bottom - y - 0.5f) / (bottom - top));
+    list.AddRectFilled(ImVec2(left, y), ImVec2(left + bar_width, y + 1),
+                       IM_COL32(c.r, c.g, c.b, 255));
+  }
+  list.AddRect(ImVec2(left, top), ImVec2(left + bar_width, bottom), IM_COL32(0, 0, 0, 110));
+  const double range = static_cast<double>(legend.max) - static_cast<double>(legend.min);
+  for (const Tick& tick : ticks) {
+    const double part =
+        ticks.size() == 1 ? 0.5 : (tick.value - static_cast<double>(legend.min)) / range;
+    const float y = bottom - static_cast<float>(part) * (bottom - top);
+    list.AddLine(ImVec2(left + bar_width, y), ImVec2(left + bar_width + 0.6f * gap, y), soft,
+                 std::max(1.0f, unit));
+    draw_text(font, ImVec2(left + bar_width + gap, y - 0.5f * font.FontSize), soft, tick.label);
+  }
+  return left;
+}
+
+}  // namespace
+
+float OverlayPass::draw_legends(const Frame& frame) const {
+  const ImFont& font = *imgui_.text_font();
+  const float unit = unit_of(font);
+  const float width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
+  const float margin = std::round(24 * unit);
+  float right = width - margin;
+  // A picture too small for a bar, its title and two ticks gets none.
+  if (height < 7 * font.FontSize || width < 12 * font.FontSize) return right;
+  const float bar_height = std::round(std::min(210 * unit, 0.5f * height));
+  for (const Legend& legend : frame.legends) {
+    if (right < 0.4f * width) break;
+    const float left = draw_legend(legend, font, right, height - margin, bar_height, 0.35f * width);
+    right = left - margin;
+  }
+  return right;
+}
+
+void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
+  const float unit = unit_of(*imgui_.text_font());
+  const float height = static_cast<float>(frame.height);
+  const float margin = std::round(20 * unit);
+  const float width = std::min(right_limit, 0.66f * static_cast<float>(frame.width)) - margin;
+  // The snow is in the middle: text keeps to the upper half.
+  const float bottom = 0.5f * height;
+  float y = std::round(16 * unit);
+  for (std::size_t i = 0; i < frame.caption.size(); ++i) {
+    const ImFont& font = i == 0 ? *imgui_.title_font() : *imgui_.text_font();
+    const float line_height = std::round(1.25f * font.FontSize);
+    const int room = static_cast<int>((bottom - y) / line_height);
+    const auto max_lines = static_cast<std::size_t>(std::max(room, i == 0 ? 1 : 0));
+    for (const std::string& line : wrap(font, frame.caption[i], width,
+                                        i == 0 ? std::min<std::size_t>(max_lines, 2) : max_lines)) {
+      draw_text(font, ImVec2(margin, y), i == 0 ? bright : soft, line);
+      y += line_height;
+    }
+    if (i == 0) y += std::round(3 * unit);
+  }
+}
+
+void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float unit = unit_of(*imgui_.text_font());
+  for (const Vec3f& mark : frame.marks) {
+    const Vec3f p = view.project(mark);
+    if (!(p.z > 0)) continue;
+    const ImVec2 center(p.x, static_cast<float>(view.height) - p.y);
+    const float on_picture = frame.points.radius * view.pixels_per_slope / p.z;
+    const float radius = std::clamp(2 * on_picture, 8 * unit, 40 * unit);
+    const float d = 0.7071f;
+    const ImVec2 start(center.x + d * radius, center.y - d * radius);
+    const ImVec2 end(center.x + d * (radius + 22 * unit), center.y - d * (radius + 22 * unit));
+    for (const auto& [color, width] : {std::pair{shadow, 4.0f}, std::pair{mark_color, 2.0f}}) {
+      list.AddCircle(center, radius, color, 32, width * unit);
+      list.AddLine(start, end, color, width * unit);
+    }
+  }
+}
+
+void OverlayPass::draw(const Frame& frame, const View& view) {
+  if (frame.caption.empty() && frame.legends.empty() && frame.marks.empty()) return;
+  imgui_.begin(frame.width, frame.height, font_size_for(frame.width, frame.height),
+               all_texts(frame));
+  draw_marks(frame, view);
+  draw_caption(frame, draw_legends(frame));
+  imgui_.end();
+}
+
+}  // namespace neve::render

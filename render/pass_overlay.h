@@ -1,0 +1,26 @@
+#pragma once
+/// Text and signs over the finished picture: caption in the upper left corner, legends in the lower
+/// right one, rings around marked places.
+
+#include "render/frame.h"
+#include "render/imgui_draw.h"
+#include "render/view.h"
+
+namespace neve::render {
+
+class OverlayPass {
+ public:
+  OverlayPass(const Gl& gl, const ShaderLibrary& library) : imgui_(gl, library) {}
+  /// @param view of the finished picture, not of its samples
+  void draw(const Frame& frame, const View& view);
+
+ private:
+  /// @return left edge of what was drawn, pixels
+  float draw_legends(const Frame& frame) const;
+  void draw_caption(const Frame& frame, float right_limit) const;
+  void draw_marks(const Frame& frame, const View& view) const;
+
+  ImGuiDraw imgui_;
+};
+
+}  // namespace neve::render

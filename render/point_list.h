@@ -1,0 +1,30 @@
+#pragma once
+/// Turns the points of a frame into what the particle pass uploads.
+
+#include <cstdint>
+#include <vector>
+
+#include "render/frame.h"
+#include "render/view.h"
+
+namespace neve::render {
+
+/// One sphere for the shaders: centre relative to the eye and albedo in sRGB.
+struct PointVertex {
+  Vec3f center;
+  std::uint8_t color[4];
+};
+
+struct PointList {
+  std::vector<PointVertex> small;  ///< drawn as points, front to back, ties in the order of ids
+  std::vector<PointVertex> large;  ///< drawn as quads, same order
+};
+
+/// Smallest radius on the picture, in samples, at which a sphere cannot fall between samples.
+inline constexpr float min_radius_pixels = 0.75f;
+
+/// Leaves out what lies outside the picture, behind the eye, or is not a finite position.
+/// @param max_point_size largest point of the driver, pixels
+PointList list_points(const Points& points, const View& view, float max_point_size);
+
+}  // namespace neve::render

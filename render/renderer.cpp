@@ -1,0 +1,160 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "render/pass_overlay.h"
+#include "render/passes.h"
+
+namespace neve::render {
+namespace {
+
+void check_mesh(const TriangleMesh& mesh) {
+  const std::size_t count = mesh.position.size();
+  if (!mesh.normal.empty() && mesh.normal.size() != count)
+    throw std::invalid_argument("Frame: a mesh has " + std::to_string(count) + " positions and " +
+                                std::to_string(mesh.normal.size()) + " normals");
+  for (const std::uint32_t i : mesh.index) {
+    if (i >= count)
+      throw std::invalid_argument("Frame: a mesh names a vertex that it does not have");
+  }
+}
+
+void check_frame(const Frame& frame, int max_size) {
+  const int largest = std::max(frame.width, frame.height);
+  if (frame.width < 1 || frame.height < 1 ||
+      (frame.supersampling != 1 && frame.supersampling != 2) ||
+      largest > max_size / frame.supersampling)
+    throw std::invalid_argument(
+        "Frame: " + std::to_string(frame.width) + "x" + std::to_string(frame.height) + " with " +
+        std::to_string(frame.supersampling) + " samples per axis; this context draws up to " +
+        std::to_string(max_size) + " samples per side, 1 or 2 per pixel");
+  const std::size_t count = frame.points.position.size();
+  for (const std::size_t other : {frame.points.id.size(), frame.points.value.size()}) {
+    if (other != 0 && other != count)
+      throw std::invalid_argument("Frame: " + std::to_string(count) + " points and " +
+                                  std::to_string(other) + " ids or values");
+  }
+  for (const TriangleMesh& mesh : frame.meshes) check_mesh(mesh);
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  Context& context;
+  ThreadPool* pool;
+  Gl gl;
+  ShaderLibrary library;
+  GroundPass ground;
+  MeshPass meshes;
+  ParticlePass particles;
+  ShadePass shade;
+  ResolvePass resolve;
+  OverlayPass overlay;
+  std::optional<Targets> targets;
+
+  Impl(Context& c, const std::string& shader_dir, ThreadPool* p)
+      : context(c),
+        pool(p),
+        gl(load_gl(c)),
+        library(shader_dir),
+        ground(gl, library),
+        meshes(gl, library),
+        particles(gl, library),
+        shade(gl, library),
+        resolve(gl, library),
+        overlay(gl, library) {}
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  /// The members delete OpenGL names, so the context has to be ours again.
+  ~Impl() { context.make_current(); }
+
+  int max_size() const {
+    GLint texture = 0, viewport[2] = {0, 0};
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+    gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+    return std::min({texture, viewport[0], viewport[1]});
+  }
+
+  void prepare_targets(const Frame& frame) {
+    if (targets && targets->width == frame.width && targets->height == frame.height &&
+        targets->supersampling == frame.supersampling)
+      return;
+    targets.reset();  // frees the memory before the new ones take theirs
+    targets.emplace(gl, frame.width, frame.height, frame.supersampling);
+  }
+
+  void bind(const Framebuffer& framebuffer, int width, int height) const {
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    gl.Viewport(0, 0, width, height);
+    gl.Disable(GL_SCISSOR_TEST);
+  }
+
+  void clear_gbuffer() const {
+    const GLfloat nothing[4] = {0, 0, 0, 0}, far_away = 1;
+    gl.DepthMask(GL_TRUE);
+    gl.ClearBufferfv(GL_COLOR, 0, nothing);
+    gl.ClearBufferfv(GL_COLOR, 1, nothing);
+    gl.ClearBufferfv(GL_DEPTH, 0, &far_away);
+  }
+
+  Image read_back(const Frame& frame) const {
+    Image image{frame.width, frame.height, 3, {}};
+    const auto width = static_cast<std::size_t>(frame.width);
+    const auto height = static_cast<std::size_t>(frame.height);
+    std::vector<std::uint8_t> rgba(4 * width * height);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
+    gl.ReadPixels(0, 0, frame.width, frame.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    image.pixels.resize(3 * width * height);
+    for (std::size_t y = 0; y < height; ++y) {
+      const std::uint8_t* from = rgba.data() + 4 * width * (height - 1 - y);
+      std::uint8_t* to = image.pixels.data() + 3 * width * y;
+      for (std::size_t x = 0; x < width; ++x) {
+        for (std::size_t c = 0; c < 3; ++c) to[3 * x + c] = from[4 * x + c];
+      }
+    }
+    return image;
+  }
+
+  Image draw(const Frame& frame) {
+    context.make_current();
+    check_frame(frame, max_size());
+    prepare_targets(frame);
+    const LightVolume light = make_light_volume(frame, pool);
+    const View view = make_view(frame.camera, targets->sample_width(), targets->sample_height());
+
+    bind(targets->gbuffer, view.width, view.height);
+    clear_gbuffer();
+    ground.draw(frame, view);
+    meshes.draw(frame.meshes, view);
+    particles.draw(frame.points, view);
+
+    bind(targets->shaded, view.width, view.height);
+    shade.draw(*targets, light, frame.light, view);
+
+    bind(targets->finished, frame.width, frame.height);
+    if (frame.supersampling > 1) resolve.draw(*targets);
+    overlay.draw(frame, make_view(frame.camera, frame.width, frame.height));
+    return read_back(frame);
+  }
+};
+
+Renderer::Renderer(Context& context, const std::string& shader_dir, ThreadPool* pool) {
+  context.make_current();
+  impl_ = std::make_unique<Impl>(context, shader_dir, pool);
+}
+
+Renderer::~Renderer() = default;
+
+Image Renderer::draw(const Frame& frame) {
+  return impl_->draw(frame);
+}
+
+int Renderer::max_size() const {
+  impl_->context.make_current();
+  return impl_->max_size();
+}
+
+}  // namespace neve::render
