@@ -1,9 +1,9 @@
 #include "app/scene/check.h"
 
-#include <cmath>
+#include <Eigen/Geometry>
 #include <vector>
 
-#include "app/scene/value.h"
+#include "app/scene/leaf.h"
 #include "app/text.h"
 
 namespace neve::app {
@@ -67,20 +67,21 @@ Place place(const sim::Mesh& m) {
   return {".mesh.center", m.center};
 }
 
-Found body_problem(const Scene& scene, const sim::Body& body) {
-  const std::string address = "body." + body.name;
+Found material_problem(const Scene& scene, const sim::Body& body, const std::string& address) {
   std::vector<std::string> names;
   for (const sim::Material& material : scene.materials) {
-    if (material.name == body.material) names.clear();
+    if (material.name == body.material) return {};
     names.push_back(material.name);
-    if (material.name == body.material) break;
   }
-  if (names.empty() || names.back() != body.material) {
-    const std::string nearest = nearest_name(body.material, names);
-    return Problem{address + ".material", "there is no material " + toml_string(body.material),
-                   nearest.empty() ? "add [material." + body.material + "]"
-                                   : "did you mean " + toml_string(nearest) + "?"};
-  }
+  const std::string nearest = nearest_name(body.material, names);
+  return Problem{address + ".material", "there is no material " + toml_string(body.material),
+                 nearest.empty() ? "expected " + list_of(names)
+                                 : "did you mean " + toml_string(nearest) + "?"};
+}
+
+Found body_problem(const Scene& scene, const sim::Body& body) {
+  const std::string address = "body." + body.name;
+  if (const Found found = material_problem(scene, body, address)) return found;
   const Place at = std::visit([](const auto& form) { return place(form); }, body.shape.form);
   if (at.point.cwiseAbs().maxCoeff() > max_cells_from_origin * scene.solver.cell_size) {
     return Problem{address + ".shape" + at.key, "more than 2^30 cells from the origin",
@@ -102,7 +103,7 @@ Found camera_problem(const CameraSettings& camera, const std::string& at) {
     return Problem{at + ".target", "eye and target are the same point", ""};
   }
   if (forward.normalized().cross(camera.up.normalized()).norm() <= negligible) {
-    return Problem{at + (".up"), "up is parallel to the direction of view", "try up = [0, 0, -1]"};
+    return Problem{at + ".up", "up is parallel to the direction of view", "try up = [0, 0, -1]"};
   }
   return {};
 }

@@ -28,6 +28,7 @@ inline constexpr const char *none = "", *metre = "m", *second = "s", *per_second
 inline constexpr Valid position = within(1e6);
 inline constexpr Valid length = above(0).at_most(1e6);
 inline constexpr Valid speed = within(1e6);
+inline constexpr double max_count = 0x1p53;  // JSON and double keep whole numbers up to here
 
 /// The item that a new entry of a list starts from.
 template <class T>
@@ -79,12 +80,12 @@ void describe(V& visit, sim::SolverSettings& s) {
 template <class V>
 void describe(V& visit, Limits& l) {
   using enum Change;
-  constexpr double exact = 9007199254740992;  // 2^53: whole numbers that JSON keeps exactly
-  visit("memory", l.memory, unit::bytes, between(0, exact), restart,
+  visit("memory", l.memory, unit::bytes, between(0, max_count), restart,
         "Memory a run may use, in bytes or as \"8GiB\"; 0: 80 % of what is available.");
-  visit("particles", l.particles, unit::none, between(1, exact), restart,
+  visit("particles", l.particles, unit::none, between(1, max_count), restart,
         "Particles a run may have.");
-  visit("pixels", l.pixels, unit::none, between(1, exact), restart, "Pixels a picture may have.");
+  visit("pixels", l.pixels, unit::none, between(1, max_count), restart,
+        "Pixels a picture may have.");
 }
 
 template <class V>
@@ -277,8 +278,7 @@ void describe(V& visit, Scene& s) {
         "Last frame; frame 0 is the initial state.");
   visit("fps", s.fps, unit::per_second, between(0.01, 1e5), restart,
         "Frames per second of simulated time.");
-  visit("seed", s.seed, unit::none, between(0, 9007199254740992), restart,
-        "Placement of the particles.");
+  visit("seed", s.seed, unit::none, between(0, max_count), restart, "Placement of the particles.");
   visit.section("solver", "Time integration.", [&](auto& v) { describe(v, s.solver); });
   visit.section("limits", "What a run may use before it is refused.",
                 [&](auto& v) { describe(v, s.limits); });

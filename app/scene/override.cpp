@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/scene/error.h"
+#include "app/scene/leaf.h"
 #include "app/scene/params.h"
 #include "app/scene/toml_source.h"
 #include "app/scene/toml_text.h"
@@ -49,6 +50,20 @@ std::vector<std::string> addresses_of(const ParamInfo& info, const Table& root) 
   return addresses;
 }
 
+/// body.bull.velocity: the kind is one, the name is none.
+void refuse_unknown_name(const Override& change, const Table& root) {
+  const Path path = split(change.address);
+  if (path.size() < 2) return;
+  for (const ParamInfo& info : params()) {
+    if (!info.address.starts_with(path[0] + ".NAME.")) continue;
+    const Entry* items = root.find(path[0]);
+    const Path known = items ? item_names(items->value) : Path{};
+    if (std::find(known.begin(), known.end(), path[1]) != known.end()) return;
+    throw UsageError(argument(change), "there is no " + path[0] + " " + toml_string(path[1]),
+                     known.empty() ? "the scene has none" : "expected " + list_of(known));
+  }
+}
+
 [[noreturn]] void fail_unknown(const Override& change, const std::vector<std::string>& known) {
   std::string nearest;
   for (const std::string& address : known) {
@@ -84,7 +99,10 @@ Target resolve(const Override& change, const Table& root) {
       known.push_back(std::move(address));
     }
   }
-  if (!table) fail_unknown(change, known);
+  if (!table) {
+    refuse_unknown_name(change, root);
+    fail_unknown(change, known);
+  }
   return *table;
 }
 
@@ -157,7 +175,7 @@ std::vector<std::string> item_names(const Value& items) {
       const Table* members = std::get_if<Table>(&item.data);
       const Entry* name = members ? members->find("name") : nullptr;
       const std::string* text = name ? std::get_if<std::string>(&name->value.data) : nullptr;
-      names.push_back(text ? *text : std::to_string(names.size() + 1));
+      names.push_back(text && is_identifier(*text) ? *text : std::to_string(names.size() + 1));
     }
   }
   return names;

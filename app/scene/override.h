@@ -24,7 +24,8 @@ Override parse_override(std::string_view argument);
 ///         no TOML
 void apply_override(Table& root, const Override& change, int index);
 
-/// What the entries of a list or table of tables are called: names, or numbers from 1.
+/// What the entries of a list or table of tables are called: names, or numbers from 1 where there
+/// is none that could be one.
 std::vector<std::string> item_names(const Value& items);
 
 }  // namespace neve::app

@@ -46,18 +46,19 @@ bool is_bounded(const Valid& valid) {
 
 std::string range_text(const ParamInfo& info) {
   if (!info.choices.empty()) return joined(info.choices, " ");
-  return is_bounded(info.valid) ? info.valid.text_of_bounds() : info.type;
+  return is_bounded(info.valid) ? info.valid.text_of_bounds() : "-";
 }
 
 }  // namespace
 
 std::string params_table() {
   struct Row {
-    std::string address, value, unit, range, change, help;
+    std::string address, type, value, unit, range, change, help;
   };
-  std::vector<Row> rows{{"ADDRESS", "DEFAULT", "UNIT", "RANGE", "CHANGE", "MEANING"}};
+  std::vector<Row> rows{{"ADDRESS", "TYPE", "DEFAULT", "UNIT", "RANGE", "CHANGE", "MEANING"}};
   for (const ParamInfo& info : params()) {
-    rows.push_back({info.address, info.default_value ? toml_literal(*info.default_value) : "-",
+    rows.push_back({info.address, info.type,
+                    info.default_value ? toml_literal(*info.default_value) : "-",
                     info.unit.empty() ? "-" : info.unit, range_text(info),
                     info.is_live ? "live" : "restart", info.help});
   }
@@ -69,13 +70,14 @@ std::string params_table() {
     return widest;
   };
   // A few long cells push their own row aside instead of widening every row.
-  const std::size_t widths[] = {width(&Row::address, 60), width(&Row::value, 20),
-                                width(&Row::unit, 20), width(&Row::range, 40),
-                                width(&Row::change, 20)};
+  const std::size_t widths[] = {width(&Row::address, 60), width(&Row::type, 20),
+                                width(&Row::value, 20),   width(&Row::unit, 20),
+                                width(&Row::range, 40),   width(&Row::change, 20)};
   std::string text;
   for (const Row& row : rows) {
     std::size_t k = 0;
-    for (const std::string* cell : {&row.address, &row.value, &row.unit, &row.range, &row.change}) {
+    for (const std::string* cell :
+         {&row.address, &row.type, &row.value, &row.unit, &row.range, &row.change}) {
       text += *cell + std::string(std::max(widths[k], cell->size()) - cell->size() + 2, ' ');
       ++k;
     }

@@ -12,9 +12,10 @@ constexpr std::size_t max_shown = 60;
 std::string advice(const std::string& key, const std::vector<std::string>& known) {
   const std::string nearest = nearest_name(key, known);
   if (!nearest.empty()) return "did you mean " + toml_string(nearest) + "?";
-  // A key of another table was put into this one.
+  // A key of another table was put into this one; single letters say too little to guess.
   for (const ParamInfo& info : params()) {
-    if (info.address.ends_with("." + key)) return "did you mean " + info.address + "?";
+    if (key.size() > 1 && info.address.ends_with("." + key))
+      return "did you mean " + info.address + "?";
   }
   return "expected " + list_of(known);
 }

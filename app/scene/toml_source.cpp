@@ -61,6 +61,13 @@ class Converter {
   const AsciiToml& source_;
 };
 
+/// The parser's own words, without saying error twice.
+std::string message_of(const toml::parse_error& error) {
+  const std::string text(error.description());
+  const std::string prefix = "Error while parsing ";
+  return text.starts_with(prefix) ? "cannot parse " + text.substr(prefix.size()) : text;
+}
+
 }  // namespace
 
 Table parse_toml(std::string_view text, const std::string& file) {
@@ -70,7 +77,7 @@ Table parse_toml(std::string_view text, const std::string& file) {
     return convert.table(toml::parse(source.text));
   } catch (const toml::parse_error& error) {
     const Location at = convert.where(error.source());
-    throw SceneError(file, at.line, at.column, std::string(error.description()));
+    throw SceneError(file, at.line, at.column, message_of(error));
   }
 }
 

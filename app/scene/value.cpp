@@ -145,12 +145,18 @@ std::string number_text(double x) {
   if (std::isinf(x)) return x < 0 ? "-inf" : "inf";
   if (x == 0) return std::signbit(x) ? "-0.0" : "0";
   // Whole numbers without exponent: 100000, not 1e+05.
-  if (std::abs(x) < 1e15 && x == std::trunc(x)) {
+  if (std::abs(x) <= 0x1p53 && x == std::trunc(x)) {
     return std::to_string(static_cast<std::int64_t>(x));
   }
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x).ptr;
   std::string text(buffer.data(), end);
+  // 5e-4 and 1e30, as people write them, not 5e-04 and 1e+30.
+  if (const auto e = text.find('e'); e != std::string::npos) {
+    if (text[e + 1] == '+') text.erase(e + 1, 1);
+    const auto digits = text.find_first_of("0123456789", e);
+    if (text[digits] == '0') text.erase(digits, 1);
+  }
   // Without a point or exponent TOML would take it for an integer, which may not fit 64 bits.
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
