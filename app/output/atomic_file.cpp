@@ -90,7 +90,9 @@ void write_file(const std::filesystem::path& path, std::string_view text, Durabi
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
   std::string name(1, '.');
   name += path.filename().string();
-  name += "." + std::to_string(::getpid()) + ".tmp";
+  name += '.';
+  name += std::to_string(::getpid());
+  name += ".tmp";
   return path.parent_path() / name;
 }
 

@@ -1,0 +1,236 @@
+#include "app/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <functional>
+#include <iostream>
+
+#include "app/argument_text.h"
+#include "app/commands.h"
+#include "app/errors.h"
+#include "app/picture_record.h"
+#include "app/scene/error.h"
+#include "app/text.h"
+#include "app/version.h"
+#include "render/context.h"
+
+namespace neve::app {
+
+namespace {
+
+/// What parsing leaves to run.
+using Action = std::function<int()>;
+
+constexpr const char* footer =
+    "Exit codes: 0 ok, 1 internal, 2 usage, 3 scene invalid, 4 no GL backend, 5 diverged,\n"
+    "6 input or output failed, 8 refused by a limit, 9 a check failed, 130 interrupted.";
+
+/// Values that CLI11 hands over as text; turned into options when parsing is done.
+struct RenderTexts {
+  std::string frames, size, quality;
+  bool is_quiet = false, is_verbose = false;
+};
+
+RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
+  if (!texts.frames.empty()) options.frames = parse_frames(texts.frames);
+  if (!texts.size.empty()) options.size = parse_size(texts.size);
+  if (!texts.quality.empty()) options.quality = quality_named(texts.quality);
+  if (texts.is_quiet) options.verbosity = Verbosity::quiet;
+  if (texts.is_verbose) options.verbosity = Verbosity::verbose;
+  if (options.threads < 0 || options.threads > 1024)
+    throw UsageError("--threads", "cannot use " + std::to_string(options.threads),
+                     "expected 0 (one per core) to 1024");
+  if (!(options.reference_threshold >= 0))
+    throw UsageError("--reference-threshold", "is negative", "expected 0 to 255");
+  const auto& backends = render::backend_names();
+  if (std::find(backends.begin(), backends.end(), options.backend) == backends.end()) {
+    std::string known;
+    for (const std::string& backend : backends) known += (known.empty() ? "" : ", ") + backend;
+    throw UsageError("--backend", "unknown backend \"" + options.backend + "\"",
+                     "expected one of " + known);
+  }
+  return options;
+}
+
+/// A repeatable option that takes one value each time, so that it does not swallow the scene.
+void add_repeatable(CLI::App& command, const char* flag, std::vector<std::string>& values,
+                    const char* type, const char* help) {
+  command.add_option(flag, values, help)
+      ->type_name(type)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_render(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("render", "Simulate a scene and draw its frames");
+  const auto options = std::make_shared<RenderOptions>();
+  const auto texts = std::make_shared<RenderTexts>();
+  command
+      ->add_option("SCENE", options->scene,
+                   "Scene file (TOML), or a picture made by neve: that frame and view again; "
+                   "without it the default scene, a falling snowball")
+      ->type_name("");
+  add_repeatable(*command, "--set", options->overrides, "ADDRESS=VALUE",
+                 "Change a parameter, as in material.snow.hardening=5 (repeatable; neve params "
+                 "lists addresses)");
+  command->add_option("--frames", texts->frames, "Frames to draw: A-B, or N for 0-N")
+      ->type_name("A-B");
+  add_repeatable(*command, "--view", options->views, "NAME", "Draw only this view (repeatable)");
+  command->add_option("--size", texts->size, "Picture size of all views")->type_name("WxH");
+  command->add_option("--out", options->out, "Output folder instead of out/<scene name>")
+      ->type_name("DIR");
+  command->add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
+  command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
+      ->type_name("NAME");
+  command
+      ->add_option("--quality", texts->quality,
+                   "draft: half the width and height; preview: as the scene says (default); "
+                   "final: four samples per pixel")
+      ->type_name("NAME");
+  command
+      ->add_option("--reference", options->reference,
+                   "Compare the last frame of the first view with this picture; exit 9 when it "
+                   "differs, and leave DIR/difference.png")
+      ->type_name("PNG");
+  command
+      ->add_option("--reference-threshold", options->reference_threshold,
+                   "Mean difference allowed, 0 to 255")
+      ->type_name("MEAN")
+      ->capture_default_str();
+  command->add_option("--shader-dir", options->shader_dir, "Read shaders from a folder")
+      ->type_name("DIR");
+  command->add_flag("--dry-run", options->is_dry_run,
+                    "Print particles, memory, pixels and frames; make nothing");
+  command->add_flag("--json", options->is_json, "Print the result, or the error, as JSON");
+  CLI::Option* quiet = command->add_flag("--quiet,-q", texts->is_quiet, "Only errors and warnings");
+  command->add_flag("--verbose,-v", texts->is_verbose, "More about each frame")->excludes(quiet);
+  command->final_callback([=, &action] {
+    action = [options, texts] { return run_render(finished(*options, *texts)); };
+  });
+}
+
+void add_compare(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "compare", "Compare two pictures, or the states of two runs frame by frame");
+  const auto options = std::make_shared<CompareOptions>();
+  command->add_option("A", options->a, "A PNG, or the folder of a run")->required()->type_name("");
+  command->add_option("B", options->b, "The other one")->required()->type_name("");
+  command
+      ->add_option("--threshold", options->threshold,
+                   "Mean difference of pictures that is allowed, 0 to 255")
+      ->type_name("MEAN")
+      ->capture_default_str();
+  command->add_flag("--json", options->is_json, "Print the result as JSON");
+  command->final_callback([=, &action] { action = [options] { return run_compare(*options); }; });
+}
+
+/// A subcommand that takes nothing but --json.
+void add_report(CLI::App& app, Action& action, const char* name, const char* help,
+                int (*run)(bool)) {
+  CLI::App* command = app.add_subcommand(name, help);
+  const auto is_json = std::make_shared<bool>(false);
+  command->add_flag("--json", *is_json, "Print JSON");
+  command->final_callback([=, &action] { action = [=] { return run(*is_json); }; });
+}
+
+void add_info(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("info", "Which scene and parameters made a picture; the state of a run");
+  const auto path = std::make_shared<std::string>();
+  const auto is_json = std::make_shared<bool>(false);
+  command->add_option("FILE", *path, "A PNG, run.json, or the folder of a run")
+      ->required()
+      ->type_name("");
+  command->add_flag("--json", *is_json, "Print JSON");
+  command->final_callback([=, &action] { action = [=] { return run_info(*path, *is_json); }; });
+}
+
+int print_version() {
+  std::cout << "neve " << version << "\n";
+  return exit_ok;
+}
+
+std::vector<std::string> subcommand_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+std::string suggestion(const std::string& wrong, const std::vector<std::string>& names,
+                       const std::string& otherwise) {
+  const std::string nearest = nearest_name(wrong, names);
+  return nearest.empty() ? otherwise : "did you mean " + nearest + "?";
+}
+
+/// CLI11 says of a misspelt subcommand only that one is required.
+void check_subcommand(const CLI::App& app, int argc, char** argv) {
+  const std::string word = argv[1];
+  const std::vector<std::string> names = subcommand_names(app);
+  if (argc < 2 || word.starts_with("-")) return;
+  if (std::find(names.begin(), names.end(), word) == names.end())
+    throw UsageError("", "unknown subcommand \"" + word + "\"",
+                     suggestion(word, names, "neve --help lists them"));
+}
+
+void check_leftovers(const CLI::App& command) {
+  const std::vector<std::string> leftovers = command.remaining();
+  if (leftovers.empty()) return;
+  std::string word = leftovers.front();
+  if (!word.starts_with("-"))
+    throw UsageError("", "unexpected argument \"" + word + "\"",
+                     "neve " + command.get_name() + " --help lists what it takes");
+  word = word.substr(0, word.find('='));
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+  throw UsageError(
+      "", "unknown option " + word,
+      suggestion(word, flags, "neve " + command.get_name() + " --help lists what it takes"));
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("neve simulates snow and draws it, without a window.", "neve");
+  Action action;
+  add_render(app, action);
+  add_report(app, action, "doctor", "Which OpenGL backends work here, and why others do not",
+             run_doctor);
+  add_info(app, action);
+  add_report(app, action, "params", "Every parameter: address, unit, range, default", run_params);
+  add_compare(app, action);
+  CLI::App* version_command = app.add_subcommand("version", "Print the version");
+  version_command->final_callback([&] { action = print_version; });
+  CLI::App* help_command = app.add_subcommand("help", "Print this help");
+  app.set_version_flag("--version", std::string("neve ") + version);
+  app.footer(footer);
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+    command->allow_extras();
+
+  if (argc < 2) {
+    std::cerr << app.help();
+    return exit_usage;
+  }
+  check_subcommand(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {
+    return app.exit(request, std::cout, std::cerr);  // --help, --version
+  } catch (const CLI::ParseError& error) {
+    throw UsageError("", error.what(), "see neve --help");
+  }
+  for (const CLI::App* command : app.get_subcommands()) check_leftovers(*command);
+  if (help_command->parsed()) {
+    std::cout << app.help();
+    return exit_ok;
+  }
+  return action();
+}
+
+bool wants_json(int argc, char** argv) {
+  return std::any_of(argv, argv + argc,
+                     [](const char* word) { return std::string_view(word) == "--json"; });
+}
+
+}  // namespace neve::app

@@ -1,0 +1,162 @@
+#include <unistd.h>
+#include <cmath>
+#include <iostream>
+
+#include "app/commands.h"
+#include "app/errors.h"
+#include "app/interrupt.h"
+#include "app/output/atomic_file.h"
+#include "app/render_job.h"
+#include "app/render_run.h"
+#include "app/resolve.h"
+#include "app/seed_scene.h"
+#include "app/text.h"
+#include "render/context.h"
+
+namespace neve::app {
+
+namespace {
+
+render::Image read_reference(const std::string& file) {
+  try {
+    return render::decode_png(read_file(file));
+  } catch (const render::ImageError& error) {
+    throw Error(exit_invalid_scene, file + ": error: " + error.what(), file);
+  }
+}
+
+void print_plan(const RenderJob& job, const Plan& plan, bool is_json) {
+  if (is_json) {
+    Json json = to_json(plan);
+    json["out"] = job.folder.string();
+    json["views"] = Json::array();
+    for (const View& view : job.scene.views) json["views"].push_back(view.name);
+    std::cout << to_text(json) << "\n";
+    return;
+  }
+  std::cout << "particles  about " << fixed_text(plan.particles, 0) << "\n"
+            << "memory     about " << bytes_text(plan.memory) << " of "
+            << bytes_text(plan.memory_limit) << " allowed\n"
+            << "frames     " << plan.frames.first << " to " << plan.frames.last << "\n";
+  for (const View& view : job.scene.views) {
+    const PictureSize size = size_of(job.scene, view);
+    std::cout << "view       " << view.name << ", " << size.width << "x" << size.height << "\n";
+  }
+  std::cout << "out        " << job.folder.string() << "\n";
+}
+
+void check_picture_sizes(const Scene& scene, Quality quality, int largest) {
+  for (const View& view : scene.views) {
+    const PictureSize size = size_of(scene, view);
+    if (std::max(size.width, size.height) * supersampling(quality) > largest)
+      throw LimitError("refused: the view " + view.name + " is larger than the " +
+                           std::to_string(largest) + " samples a side that this backend draws",
+                       "view." + view.name + ".size", "draw smaller pictures with --size");
+  }
+}
+
+/// @return the exit code; leaves DIR/difference.png when the pictures differ
+int compare_with_reference(const RenderOptions& options, const RenderJob& job,
+                           const render::Image& picture, const render::Image& reference) {
+  if (picture.width != reference.width || picture.height != reference.height)
+    throw Error(exit_check_failed,
+                "the picture is " + std::to_string(picture.width) + "x" +
+                    std::to_string(picture.height) + " and " + options.reference + " is " +
+                    std::to_string(reference.width) + "x" + std::to_string(reference.height),
+                options.reference, "give the size of the reference with --size");
+  const render::Difference difference = render::compare(picture, reference);
+  const std::string found = "mean difference " + fixed_text(difference.mean, 3) + ", largest " +
+                            fixed_text(difference.max, 0) + " of 255";
+  if (difference.mean <= options.reference_threshold) {
+    if (options.verbosity != Verbosity::quiet) std::cerr << "as the reference: " << found << "\n";
+    return exit_ok;
+  }
+  const std::filesystem::path file = job.folder / "difference.png";
+  write_file(file, render::encode_png(render::difference_image(picture, reference)));
+  throw Error(
+      exit_check_failed,
+      "the picture differs from " + options.reference + ": " + found + "; see " + file.string(),
+      options.reference, "raise --reference-threshold if this is expected");
+}
+
+void print_result(const RenderJob& job, const RenderRun& run, const RenderResult& result) {
+  Json json;
+  json["status"] = name(result.status);
+  json["out"] = job.folder.string();
+  json["frames"] = run.record().frames.size();
+  json["movies"] = Json::array();
+  for (const auto& movie : result.movies) json["movies"].push_back(movie.string());
+  if (!run.record().frames.empty())
+    json["state_hash"] = hash_text(run.record().frames.back().state_hash);
+  std::cout << to_text(json) << "\n";
+}
+
+/// Fixed steps are used as they are; what that risks is said once.
+void warn_about_steps(const sim::Simulation& simulation, Progress& progress) {
+  const sim::Warnings& warnings = simulation.warnings();
+  if (warnings.worst_acoustic_cfl > 1.5)
+    progress.warning("fixed steps: the acoustic CFL reached " +
+                     fixed_text(warnings.worst_acoustic_cfl, 1) +
+                     "; above 1.5 steps are unstable, make solver.dt smaller");
+  if (warnings.inverted_trials > 0)
+    progress.detail(std::to_string(warnings.inverted_trials) +
+                    " trial deformations were inverted and repaired");
+}
+
+int finish(const RenderOptions& options, const RenderJob& job, const RenderRun& run,
+           const RenderResult& result, Progress& progress) {
+  progress.clear();
+  if (result.status == RunStatus::diverged)
+    throw Error(exit_diverged, run.record().divergence->sentence, job.scene_file,
+                "see incident.json in " + job.folder.string());
+  if (options.is_json) print_result(job, run, result);
+  if (result.status == RunStatus::interrupted) {
+    std::cerr << "neve: interrupted; " << run.record().frames.size() << " frames are in "
+              << job.folder.string() << std::endl;
+    return exit_interrupted;
+  }
+  progress.note(std::to_string(run.record().frames.size()) +
+                (run.record().frames.size() == 1 ? " frame" : " frames") + " in " +
+                job.folder.string());
+  return exit_ok;
+}
+
+}  // namespace
+
+int run_render(const RenderOptions& options) {
+  RenderJob job = make_job(options);
+  const Plan plan = make_plan(job.scene, job.frames, job.quality, options.threads);
+  if (options.is_dry_run) {
+    print_plan(job, plan, options.is_json);
+    return exit_ok;
+  }
+  check_limits(job.scene, plan);
+  std::optional<render::Image> reference;
+  if (!options.reference.empty()) reference = read_reference(options.reference);
+
+  catch_interrupts();
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  const auto context = render::open_context(options.backend);
+  progress.note("OpenGL: " + context->backend + ", " + context->renderer + ", " + context->version);
+  ThreadPool pool(options.threads);
+  render::Renderer renderer(*context, options.shader_dir, &pool);
+  check_picture_sizes(job.scene, job.quality, renderer.max_size());
+
+  const sim::ParticleArrays particles = seed_scene(job.scene);
+  resolve(job.scene, particles.x.size());
+  sim::Simulation simulation(job.scene.solver, job.scene.materials, job.scene.colliders, particles,
+                             options.threads);
+  const auto count = static_cast<double>(particles.x.size());
+  progress.note(job.scene_file + ": " + std::to_string(particles.x.size()) + " particles, about " +
+                bytes_text(plan.memory) + " of memory");
+
+  RenderRun run(job, simulation, *context, renderer, std::cbrt(plan.volume / count), progress);
+  const RenderResult result = run.run();
+  warn_about_steps(simulation, progress);
+  const int code = finish(options, job, run, result, progress);
+  if (code == exit_ok && reference && result.last_picture)
+    return compare_with_reference(options, job, *result.last_picture, *reference);
+  return code;
+}
+
+}  // namespace neve::app

@@ -1,0 +1,43 @@
+#pragma once
+/// One function per subcommand, and what the command line tells it. Each returns an exit code.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/plan.h"
+#include "app/progress.h"
+
+namespace neve::app {
+
+struct RenderOptions {
+  std::string scene;  ///< a scene file or a picture; empty: the default scene
+  std::vector<std::string> overrides;
+  std::optional<FrameRange> frames;
+  std::vector<std::string> views;
+  std::optional<PictureSize> size;
+  std::string out;
+  int threads = 0;  ///< 0: one per core
+  std::string backend = "auto";
+  std::optional<Quality> quality;
+  std::string reference;
+  double reference_threshold = 0.5;
+  std::string shader_dir;
+  Verbosity verbosity = Verbosity::normal;
+  bool is_dry_run = false;
+  bool is_json = false;
+};
+
+struct CompareOptions {
+  std::string a, b;
+  double threshold = 0;  ///< of the mean difference, 0 to 255
+  bool is_json = false;
+};
+
+int run_render(const RenderOptions& options);
+int run_compare(const CompareOptions& options);
+int run_info(const std::string& path, bool is_json);
+int run_doctor(bool is_json);
+int run_params(bool is_json);
+
+}  // namespace neve::app

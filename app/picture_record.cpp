@@ -1,0 +1,157 @@
+#include "app/picture_record.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+
+#include "app/errors.h"
+#include "app/output/atomic_file.h"
+#include "app/output/run_json.h"
+#include "app/output/sequence.h"
+#include "app/scene/error.h"
+#include "sim/base/hash.h"
+
+namespace neve::app {
+
+namespace {
+
+constexpr std::array quality_names{"draft", "preview", "final"};
+
+/// Reads the texts of one PNG and says which one is wrong.
+class TextReader {
+ public:
+  TextReader(std::string file, const render::PngText& text) : file_(std::move(file)), text_(text) {}
+
+  std::string text(const char* key) const {
+    const auto found = text_.find(key);
+    if (found == text_.end()) fail(std::string("it holds no text ") + key);
+    return found->second;
+  }
+
+  template <class Number>
+  Number number(const char* key) const {
+    const std::string digits = text(key);
+    Number value{};
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (result.ec != std::errc() || result.ptr != digits.data() + digits.size())
+      fail(std::string("its text ") + key + " is no number");
+    return value;
+  }
+
+  Json json(const char* key) const {
+    try {
+      return parse_json(std::string_view(text(key)));
+    } catch (const nlohmann::json::exception&) {
+      fail(std::string("its text ") + key + " is no JSON");
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw Error(exit_invalid_scene, file_ + ": error: not a picture made by neve: " + reason, file_,
+                "name a picture that neve render wrote");
+  }
+
+ private:
+  std::string file_;
+  const render::PngText& text_;
+};
+
+}  // namespace
+
+const char* name(Quality quality) {
+  return quality_names[static_cast<std::size_t>(quality)];
+}
+
+Quality quality_named(const std::string& name) {
+  const auto found = std::find(quality_names.begin(), quality_names.end(), name);
+  if (found == quality_names.end())
+    throw UsageError("--quality", "unknown quality \"" + name + "\"",
+                     "expected draft, preview or final");
+  return static_cast<Quality>(found - quality_names.begin());
+}
+
+render::PngText to_png_text(const PictureRecord& record) {
+  return {{"neve:scene", record.scene},
+          {"neve:overrides", to_text(Json(record.overrides), -1)},
+          {"neve:changes", "[]"},
+          {"neve:seed", std::to_string(record.seed)},
+          {"neve:version", record.version},
+          {"neve:state_hash", record.state_hash},
+          {"neve:frame", std::to_string(record.frame)},
+          {"neve:view", record.view},
+          {"neve:quality", record.quality},
+          {"neve:files", to_text(Json(record.files), -1)}};
+}
+
+Json to_json(const PictureRecord& record) {
+  Json json;
+  json["scene"] = record.scene;
+  json["overrides"] = record.overrides;
+  json["changes"] = Json::array();
+  json["seed"] = record.seed;
+  json["version"] = record.version;
+  json["state_hash"] = record.state_hash;
+  json["frame"] = record.frame;
+  json["view"] = record.view;
+  json["quality"] = record.quality;
+  json["files"] = record.files;
+  return json;
+}
+
+PictureRecord read_picture_record(const std::filesystem::path& file) {
+  const std::vector<std::uint8_t> bytes = read_file(file);
+  render::PngText text;
+  try {
+    text = render::read_png_text(bytes);
+  } catch (const render::ImageError& error) {
+    throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string());
+  }
+  const TextReader reader(file.string(), text);
+  PictureRecord record;
+  record.scene = reader.text("neve:scene");
+  for (const Json& item : reader.json("neve:overrides"))
+    if (item.is_string()) record.overrides.push_back(item.get<std::string>());
+  record.seed = reader.number<std::uint64_t>("neve:seed");
+  record.version = reader.text("neve:version");
+  record.state_hash = reader.text("neve:state_hash");
+  record.frame = reader.number<int>("neve:frame");
+  record.view = reader.text("neve:view");
+  record.quality = reader.text("neve:quality");
+  const Json files = reader.json("neve:files");
+  for (const auto& [path, hash] : files.items())
+    if (hash.is_string()) record.files[path] = hash.get<std::string>();
+  if (record.frame < 0) reader.fail("its frame is negative");
+  if (!is_plain_name(record.view)) reader.fail("the name of its view is none");
+  return record;
+}
+
+std::map<std::string, std::string> hash_files(const Scene& scene) {
+  std::map<std::string, std::string> files;
+  for (const sim::Body& body : scene.bodies)
+    if (const auto* mesh = std::get_if<sim::Mesh>(&body.shape.form)) {
+      const std::vector<std::uint8_t> bytes = read_file(mesh->file);
+      files[mesh->file] = hash_text(hash_bytes(bytes.data(), bytes.size()));
+    }
+  return files;
+}
+
+void check_files(const PictureRecord& record) {
+  for (const auto& [path, hash] : record.files) {
+    const std::vector<std::uint8_t> bytes = read_file(path);
+    if (hash_text(hash_bytes(bytes.data(), bytes.size())) != hash)
+      throw Error(
+          exit_invalid_scene,
+          path + ": error: has changed since the picture was made; the picture used " + hash, path,
+          "put the old file back, or render the scene file instead");
+  }
+}
+
+bool is_png(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, 4> start{};
+  in.read(start.data(), start.size());
+  return in && start == std::array<char, 4>{'\x89', 'P', 'N', 'G'};
+}
+
+}  // namespace neve::app

@@ -1,0 +1,48 @@
+#pragma once
+/// What a picture knows of its own making, as text in the PNG.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/json.h"
+#include "app/plan.h"
+#include "app/scene/scene.h"
+#include "render/image.h"
+
+namespace neve::app {
+
+struct PictureRecord {
+  std::string scene;  ///< resolved, TOML
+  std::vector<std::string> overrides;
+  std::uint64_t seed = 0;
+  std::string version;
+  std::string state_hash;  ///< 16 hexadecimal digits
+  int frame = 0;
+  std::string view;
+  std::string quality;                       ///< draft, preview, final
+  std::map<std::string, std::string> files;  ///< of the scene: path to content hash
+};
+
+const char* name(Quality quality);
+/// @throws UsageError for a name that is none
+Quality quality_named(const std::string& name);
+
+render::PngText to_png_text(const PictureRecord& record);
+Json to_json(const PictureRecord& record);
+
+/// @throws Error with exit_invalid_scene when the file is no PNG, or holds no or broken records
+PictureRecord read_picture_record(const std::filesystem::path& file);
+
+/// The files that a scene names, each with the hash of its content. @throws IoError
+std::map<std::string, std::string> hash_files(const Scene& scene);
+
+/// @throws Error naming the file that is missing or has changed since the picture was made
+void check_files(const PictureRecord& record);
+
+/// Whether the file starts like a PNG.
+bool is_png(const std::filesystem::path& file);
+
+}  // namespace neve::app

@@ -1,0 +1,25 @@
+#pragma once
+/// What `neve render` is asked to make, put together from the scene, the flags, or a picture.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/scene/scene.h"
+
+namespace neve::app {
+
+struct RenderJob {
+  Scene scene;             ///< with the chosen views and sizes; cameras and ranges not yet resolved
+  std::string scene_file;  ///< as named by the user
+  std::filesystem::path folder;
+  FrameRange frames;
+  Quality quality = Quality::preview;
+  std::vector<std::string> overrides;  ///< for the caption; those of a picture come first
+};
+
+/// @throws SceneError, UsageError, IoError, Error
+RenderJob make_job(const RenderOptions& options);
+
+}  // namespace neve::app

@@ -1,0 +1,194 @@
+#include "app/render_run.h"
+
+#include <chrono>
+#include <system_error>
+
+#include "app/interrupt.h"
+#include "app/output/atomic_file.h"
+#include "app/output/movie.h"
+#include "app/output/sequence.h"
+#include "app/scene/read.h"
+#include "app/text.h"
+#include "app/version.h"
+#include "render/context.h"
+
+namespace neve::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The poll of a simulation has no argument; a process renders one scene at a time.
+Progress* stepping = nullptr;
+
+bool after_step() {
+  if (stepping) stepping->step();
+  return is_interrupted();
+}
+
+}  // namespace
+
+RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
+                     const render::Context& context, render::Renderer& renderer, double spacing,
+                     Progress& progress)
+    : job_(job),
+      simulation_(simulation),
+      renderer_(renderer),
+      progress_(progress),
+      builder_(job.scene, spacing, job.quality, job.overrides) {
+  record_.scene = write_scene(job.scene);
+  record_.scene_file = job.scene_file;
+  record_.overrides = job.overrides;
+  for (const View& view : job.scene.views) record_.views.push_back(view.name);
+  record_.backend = context.backend;
+  record_.gl_renderer = context.renderer;
+  record_.threads = simulation.threads();
+  record_.simd = simulation.simd();
+
+  picture_record_.scene = record_.scene;
+  picture_record_.overrides = job.overrides;
+  picture_record_.seed = job.scene.seed;
+  picture_record_.version = version;
+  picture_record_.quality = name(job.quality);
+  picture_record_.files = hash_files(job.scene);
+}
+
+RenderResult RenderRun::run() {
+  make_folder(job_.folder);
+  remove_earlier_run(job_.folder);
+  for (const std::string& view : record_.views) make_folder(job_.folder / view);
+  write_run_json(job_.folder, record_);
+  try {
+    make_frames();
+    writer_.finish();
+    write_movies();
+    record_.status = result_.status;
+    write_run_json(job_.folder, record_);
+  } catch (const std::exception& error) {
+    record_.status = RunStatus::failed;
+    record_.error = error.what();
+    forget_unwritten_frames();
+    try {
+      write_run_json(job_.folder, record_);
+    } catch (const IoError&) {
+      // The first error is the one to report; the disk may be full for this file too.
+    }
+    throw;
+  }
+  return result_;
+}
+
+void RenderRun::make_frames() {
+  progress_.start(job_.frames.last);
+  for (int frame = 0; frame <= job_.frames.last; ++frame) {
+    advance_ = {};
+    seconds_sim_ = 0;
+    if (frame > 0 && !advance_to_frame(frame)) return;
+    if (frame >= job_.frames.first) draw_frame(frame);
+    progress_.frame(frame, frame / job_.scene.fps);
+    if (is_interrupted() && frame < job_.frames.last) {
+      result_.status = RunStatus::interrupted;
+      return;
+    }
+  }
+}
+
+/// @return whether the frame was reached in good health
+bool RenderRun::advance_to_frame(int frame) {
+  const auto start = Clock::now();
+  stepping = &progress_;
+  advance_ = simulation_.advance_to(frame / job_.scene.fps, after_step);
+  stepping = nullptr;
+  seconds_sim_ = seconds_since(start);
+  if (simulation_.divergence()) {
+    record_.divergence = simulation_.divergence();
+    result_.status = RunStatus::diverged;
+    draw_incident();
+    return false;
+  }
+  if (is_interrupted()) {
+    result_.status = RunStatus::interrupted;
+    return false;
+  }
+  return true;
+}
+
+void RenderRun::draw_frame(int frame) {
+  const auto start = Clock::now();
+  const Snapshot snapshot = take_snapshot(simulation_, frame, needs_stress(job_.scene));
+  picture_record_.state_hash = hash_text(simulation_.state_hash());
+  std::vector<Picture> pictures;
+  for (const View& view : job_.scene.views) {
+    render::Image image = renderer_.draw(builder_.build(view, snapshot));
+    if (pictures.empty()) result_.last_picture = image;
+    pictures.push_back(
+        {frame_path(job_.folder, view.name, frame), std::move(image), png_text(view, frame)});
+  }
+  record_.frames.push_back({frame, frame / job_.scene.fps, advance_, seconds_sim_,
+                            seconds_since(start), simulation_.summary(), simulation_.state_hash()});
+  // Listed first and written then: whenever the process is killed, the next run knows every picture
+  // that it has to remove.
+  write_run_json(job_.folder, record_);
+  for (Picture& picture : pictures) writer_.write(std::move(picture));
+  progress_.detail("frame " + std::to_string(frame) + ": " + std::to_string(advance_.steps) +
+                   " steps, simulated in " + fixed_text(seconds_sim_, 2) + " s, drawn in " +
+                   fixed_text(record_.frames.back().seconds_render, 2) + " s");
+}
+
+/// The state that broke a rule, with the culprits marked; a picture, but not a frame.
+void RenderRun::draw_incident() {
+  const sim::Divergence& divergence = *record_.divergence;
+  const int frame = static_cast<int>(divergence.time * job_.scene.fps);
+  Snapshot snapshot = take_snapshot(simulation_, frame, needs_stress(job_.scene));
+  snapshot.time = divergence.time;
+  picture_record_.state_hash = hash_text(simulation_.state_hash());
+  for (const View& view : job_.scene.views)
+    writer_.write({diverged_path(job_.folder, view.name),
+                   renderer_.draw(builder_.build_incident(view, snapshot, divergence)),
+                   png_text(view, frame)});
+  Json incident = to_json(divergence);
+  incident["scene"] = record_.scene;
+  write_file(incident_path(job_.folder), to_text(incident) + "\n");
+}
+
+void RenderRun::write_movies() {
+  // One picture is no movie.
+  if (record_.frames.size() < 2) return;
+  for (const std::string& view : record_.views) {
+    const MovieRequest request{job_.folder / view, movie_path(job_.folder, view),
+                               record_.frames.front().frame, record_.frames.back().frame,
+                               job_.scene.fps};
+    const MovieResult movie = write_movie(request);
+    if (movie.outcome == MovieOutcome::no_ffmpeg) {
+      progress_.note("no movie: ffmpeg is not installed; the pictures are in " +
+                     job_.folder.string());
+      return;
+    }
+    if (movie.outcome == MovieOutcome::written)
+      result_.movies.push_back(request.file);
+    else
+      progress_.warning("no movie " + request.file.string() + ": " + movie.reason);
+  }
+}
+
+void RenderRun::forget_unwritten_frames() {
+  std::erase_if(record_.frames, [&](const FrameRecord& frame) {
+    std::error_code error;
+    for (const std::string& view : record_.views)
+      if (!std::filesystem::exists(frame_path(job_.folder, view, frame.frame), error)) return true;
+    return false;
+  });
+}
+
+render::PngText RenderRun::png_text(const View& view, int frame) const {
+  PictureRecord record = picture_record_;
+  record.view = view.name;
+  record.frame = frame;
+  return to_png_text(record);
+}
+
+}  // namespace neve::app

@@ -1,0 +1,60 @@
+#pragma once
+/// The frame loop of `neve render`: simulate, draw, write, record.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/frame_builder.h"
+#include "app/output/picture_writer.h"
+#include "app/output/run_json.h"
+#include "app/picture_record.h"
+#include "app/progress.h"
+#include "app/render_job.h"
+#include "render/renderer.h"
+#include "sim/simulation.h"
+
+namespace neve::app {
+
+struct RenderResult {
+  RunStatus status = RunStatus::ok;
+  std::vector<std::filesystem::path> movies;
+  std::optional<render::Image> last_picture;  ///< of the first view
+};
+
+class RenderRun {
+ public:
+  /// @param job with a resolved scene; must outlive the run, like the others
+  RenderRun(const RenderJob& job, sim::Simulation& simulation, const render::Context& context,
+            render::Renderer& renderer, double spacing, Progress& progress);
+
+  /// Removes what an earlier run left, then makes all frames and movies. run.json says at every
+  /// moment how far it got, also when this throws.
+  RenderResult run();
+
+  const RunRecord& record() const { return record_; }
+
+ private:
+  void make_frames();
+  bool advance_to_frame(int frame);
+  void draw_frame(int frame);
+  void draw_incident();
+  void write_movies();
+  void forget_unwritten_frames();
+  render::PngText png_text(const View& view, int frame) const;
+
+  const RenderJob& job_;
+  sim::Simulation& simulation_;
+  render::Renderer& renderer_;
+  Progress& progress_;
+  FrameBuilder builder_;
+  RunRecord record_;
+  PictureRecord picture_record_;
+  RenderResult result_;
+  sim::AdvanceReport advance_;  ///< of the frame being made
+  double seconds_sim_ = 0;
+  PictureWriter writer_;  ///< last: stops before what it was given goes away
+};
+
+}  // namespace neve::app

@@ -1,0 +1,78 @@
+#include "app/report_error.h"
+
+#include <iostream>
+#include <new>
+
+#include "app/errors.h"
+#include "app/json.h"
+#include "app/scene/error.h"
+#include "render/context.h"
+#include "sim/seeding.h"
+
+namespace neve::app {
+
+namespace {
+
+struct Report {
+  int code = exit_internal;
+  std::string line;  ///< as printed
+  std::string message, where, hint;
+};
+
+Report plain(int code, const std::string& message, const std::string& where = {},
+             const std::string& hint = {}) {
+  return {code, "neve: error: " + message, message, where, hint};
+}
+
+Report of_error(const Error& error) {
+  Report report = plain(error.code, error.what(), error.where, error.hint);
+  // Errors in files start with the file already.
+  if (!error.where.empty() && report.message.starts_with(error.where + ": error: "))
+    report.line = report.message;
+  return report;
+}
+
+Report describe_current_error() {
+  try {
+    throw;
+  } catch (const SceneError& error) {
+    const std::string place =
+        error.line > 0 ? ":" + std::to_string(error.line) + ":" + std::to_string(error.column) : "";
+    return {exit_invalid_scene, error.what(), error.message, error.file + place, error.hint};
+  } catch (const UsageError& error) {
+    const std::string hint = error.hint.empty() ? "" : "; " + error.hint;
+    const std::string where = error.where.empty() ? "" : error.where + ": ";
+    Report report = plain(exit_usage, where + error.message + hint, error.where, error.hint);
+    report.message = error.message;
+    return report;
+  } catch (const Error& error) {
+    return of_error(error);
+  } catch (const sim::ShapeError& error) {
+    return plain(exit_invalid_scene, error.what());
+  } catch (const render::ContextError& error) {
+    return plain(exit_no_backend, error.what(), {}, "neve doctor explains each backend");
+  } catch (const std::bad_alloc&) {
+    return plain(exit_refused, "out of memory", {}, "make solver.cell_size larger");
+  } catch (const std::exception& error) {
+    return plain(exit_internal, error.what());
+  } catch (...) {
+    return plain(exit_internal, "unknown exception");
+  }
+}
+
+}  // namespace
+
+int report_current_error(bool is_json) {
+  const Report report = describe_current_error();
+  std::cerr << report.line << std::endl;
+  if (is_json) {
+    Json json;
+    json["error"] = report.message;
+    json["where"] = report.where;
+    json["hint"] = report.hint;
+    std::cout << to_text(json) << std::endl;
+  }
+  return report.code;
+}
+
+}  // namespace neve::app
