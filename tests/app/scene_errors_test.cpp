@@ -1,0 +1,290 @@
+// Every kind of mistake in a scene file is reported at its line and column.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "app/scene/read.h"
+
+namespace neve::app {
+namespace {
+
+std::string error_of(std::string_view text) {
+  try {
+    read_scene_text(text, "s.toml");
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string file_error_of(const std::string& file) {
+  try {
+    read_scene_file(file);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// A scene that is fine, to which the mistake is added from line 4 on.
+std::string with_ball(const std::string& mistake) {
+  return "[[body]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\n" + mistake;
+}
+
+/// The mistake inside a body from line 2 on.
+std::string in_body(const std::string& mistake) {
+  return "[[body]]\n" + mistake;
+}
+
+TEST(SceneErrors, PartsOfAnErrorAreKept) {
+  try {
+    read_scene_text("titel = 1", "s.toml");
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_EQ(error.file, "s.toml");
+    EXPECT_EQ(error.line, 1);
+    EXPECT_EQ(error.column, 1);
+    EXPECT_EQ(error.message, "unknown key \"titel\"");
+    EXPECT_EQ(error.hint, "did you mean \"title\"?");
+  }
+}
+
+TEST(SceneErrors, UnknownKeysNameTheNearest) {
+  EXPECT_EQ(error_of("frame = 3"),
+            "s.toml:1:1: error: unknown key \"frame\"; did you mean \"frames\"?");
+  EXPECT_EQ(error_of(with_ball("[material.snow]\nyoungs_modulos = 1")),
+            "s.toml:5:1: error: unknown key \"youngs_modulos\" in [material.snow]; did you mean "
+            "\"youngs_modulus\"?");
+  EXPECT_EQ(error_of(in_body("  shape = { sphere = { center = [0,0,0], raduis = 1 } }")),
+            "s.toml:2:42: error: unknown key \"raduis\" in [body.1.shape.sphere]; did you mean "
+            "\"radius\"?");
+  EXPECT_EQ(error_of("[[view]]\nparticles = { colour_by = \"id\" }"),
+            "s.toml:2:15: error: unknown key \"colour_by\" in [view.1.particles]; did you mean "
+            "\"color_by\"?");
+}
+
+TEST(SceneErrors, KeysInTheWrongTableNameTheRightOne) {
+  EXPECT_EQ(error_of("gravity = [0, 0, 0]"),
+            "s.toml:1:1: error: unknown key \"gravity\"; did you mean solver.gravity?");
+}
+
+TEST(SceneErrors, KeysOfOtherVersionsListWhatThereIs) {
+  EXPECT_EQ(error_of(with_ball("[light]\nbeta = 0.5")),
+            "s.toml:5:1: error: unknown key \"beta\" in [light]; expected \"direction\", "
+            "\"intensity\" or \"ambient\"");
+}
+
+TEST(SceneErrors, RangesAreNamed) {
+  EXPECT_EQ(error_of(with_ball("[material.snow]\npoisson_ratio = 0.62")),
+            "s.toml:5:17: error: material.snow.poisson_ratio = 0.62; expected 0 <= value < 0.5");
+  EXPECT_EQ(error_of("frames = -1"),
+            "s.toml:1:10: error: frames = -1; expected 0 <= value <= 100000");
+  EXPECT_EQ(error_of("[solver]\ngravity = [0, 0, 1e9]"),
+            "s.toml:2:18: error: solver.gravity[2] = 1000000000; expected -1000000 <= value <= "
+            "1000000");
+  EXPECT_EQ(error_of(in_body("shape = { sphere = { radius = 0 } }")),
+            "s.toml:2:31: error: body.1.shape.sphere.radius = 0; expected 0 < value <= 1000000");
+  EXPECT_EQ(error_of("[output]\nsize = [640, 15]"),
+            "s.toml:2:14: error: output.size[1] = 15; expected 16 <= value <= 16384");
+  EXPECT_EQ(error_of("seed = 9223372036854775807"),
+            "s.toml:1:8: error: seed = 9223372036854775807; expected 0 <= value <= "
+            "9007199254740992");
+}
+
+TEST(SceneErrors, ColumnsAfterAccentsAreRight) {
+  EXPECT_EQ(error_of("[[body]]\nname = \"né\""),
+            "s.toml:2:8: error: body.1.name = \"né\"; expected a name of 1 to 64 letters, digits, "
+            "_ and -");
+  EXPECT_EQ(error_of("camera = { up = \"é\", fov = 0 }"),
+            "s.toml:1:17: error: camera.up = \"é\"; expected three numbers [x, y, z]");
+  EXPECT_EQ(error_of("x = [\"éé\", \"é\", 1e999]"),
+            "s.toml:1:22: error: cannot parse floating-point: '1e999' could not be interpreted as "
+            "a value");
+}
+
+TEST(SceneErrors, NumbersAreFinite) {
+  EXPECT_EQ(error_of("fps = nan"), "s.toml:1:7: error: fps = nan; expected a finite number");
+  EXPECT_EQ(error_of("fps = inf"), "s.toml:1:7: error: fps = inf; expected a finite number");
+  EXPECT_EQ(error_of("frames = -inf"),
+            "s.toml:1:10: error: frames = -inf; expected a finite number");
+  EXPECT_EQ(error_of("[solver]\ngravity = [0, nan, 0]"),
+            "s.toml:2:15: error: solver.gravity[1] = nan; expected a finite number");
+}
+
+TEST(SceneErrors, TypesAreNamed) {
+  EXPECT_EQ(error_of("frames = \"3\""),
+            "s.toml:1:10: error: frames = \"3\"; expected a whole number");
+  EXPECT_EQ(error_of("frames = 48.5"),
+            "s.toml:1:10: error: frames = 48.5; expected a whole number");
+  EXPECT_EQ(error_of("fps = true"), "s.toml:1:7: error: fps = true; expected a number");
+  EXPECT_EQ(error_of("title = 3"), "s.toml:1:9: error: title = 3; expected a string");
+  EXPECT_EQ(error_of("title = 1979-05-27"), "s.toml:1:9: error: title = a date; expected a string");
+  EXPECT_EQ(error_of("solver = 3"), "s.toml:1:10: error: solver = 3; expected a table");
+  EXPECT_EQ(error_of("[solver]\ngravity = [0, 1]"),
+            "s.toml:2:11: error: solver.gravity = [0, 1]; expected three numbers [x, y, z]");
+  EXPECT_EQ(error_of("[solver]\ngravity = 9.81"),
+            "s.toml:2:11: error: solver.gravity = 9.81; expected three numbers [x, y, z]");
+  EXPECT_EQ(error_of("[output]\nsize = [1, 2, 3]"),
+            "s.toml:2:8: error: output.size = [1, 2, 3]; expected two whole numbers [width, "
+            "height]");
+  EXPECT_EQ(error_of("[limits]\nmemory = \"8 bananas\""),
+            "s.toml:2:10: error: limits.memory = \"8 bananas\"; expected bytes, or a size such as "
+            "\"8GiB\" or \"500MB\"");
+  EXPECT_EQ(error_of("body = [3]"), "s.toml:1:9: error: body.1 = 3; expected a table");
+}
+
+TEST(SceneErrors, ChoicesAreListed) {
+  EXPECT_EQ(error_of("[solver]\nkernel = \"cubik\""),
+            "s.toml:2:10: error: solver.kernel = \"cubik\"; expected \"cubic\" or \"quadratic\"; "
+            "did you mean \"cubic\"?");
+  EXPECT_EQ(error_of("[solver]\nkernel = 3"),
+            "s.toml:2:10: error: solver.kernel = 3; expected \"cubic\" or \"quadratic\"");
+  EXPECT_EQ(error_of("[[view]]\nlayers = [\"ground\", \"smoke\"]"),
+            "s.toml:2:21: error: view.1.layers[1] = \"smoke\"; expected \"ground\", \"colliders\", "
+            "\"particles\", \"legend\" or \"caption\"");
+  EXPECT_EQ(error_of("[[view]]\nlayers = [\"ground\", \"ground\"]"),
+            "s.toml:2:21: error: view.1.layers[1] = \"ground\"; expected each at most once");
+}
+
+TEST(SceneErrors, NamesAreUnique) {
+  const std::string ball = "[[body]]\nname = \"x\"\nshape = { box = {} }\n";
+  EXPECT_EQ(error_of(ball + ball),
+            "s.toml:5:8: error: duplicate body name \"x\"; names are unique among them");
+  EXPECT_EQ(error_of("[[body]]\nshape = { box = {} }\n[[body]]\nname = \"1\""),
+            "s.toml:4:8: error: duplicate body name \"1\"; the unnamed one there is called by its "
+            "number");
+  EXPECT_EQ(error_of("[[view]]\nname = \"2\"\n[[view]]"),
+            "s.toml:2:8: error: duplicate view name \"2\"; the unnamed one there is called by its "
+            "number");
+  EXPECT_EQ(error_of("[material.\"a b\"]"),
+            "s.toml:1:11: error: bad material name \"a b\"; expected 1 to 64 letters, digits, _ "
+            "and -");
+}
+
+TEST(SceneErrors, ListsNeedTwoBracketsAndMaterialsAName) {
+  EXPECT_EQ(error_of("[body]\nshape = {}"),
+            "s.toml:1:2: error: \"body\" is a list; write [[body]], with two brackets");
+  EXPECT_EQ(error_of("[material]\ndensity = 1"),
+            "s.toml:2:1: error: unknown key \"density\" in [material]; each material has a name: "
+            "[material.NAME]");
+}
+
+TEST(SceneErrors, MaterialsOfBodiesExist) {
+  EXPECT_EQ(error_of(with_ball("material = \"snw\"")),
+            "s.toml:4:12: error: there is no material \"snw\"; did you mean \"snow\"?");
+  EXPECT_EQ(error_of(with_ball("material = \"powder\"\n[material.ice]")),
+            "s.toml:4:12: error: there is no material \"powder\"; expected \"snow\" or \"ice\"");
+}
+
+TEST(SceneErrors, AShapeHasExactlyOneForm) {
+  const std::string example =
+      "; for example shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }";
+  EXPECT_EQ(error_of("\n[[body]]\nname = \"a\""),
+            "s.toml:2:1: error: body.a has no shape" + example);
+  EXPECT_EQ(error_of(in_body("shape = {}")),
+            "s.toml:2:9: error: body.1.shape is empty; expected \"sphere\", \"box\", \"capsule\", "
+            "\"cylinder\", \"cone\", \"torus\" or \"mesh\"");
+  EXPECT_EQ(error_of(in_body("shape = { sphere = {}, box = {} }")),
+            "s.toml:2:24: error: body.1.shape has two forms, \"sphere\" and \"box\"; expected "
+            "exactly one");
+  EXPECT_EQ(error_of(in_body("shape = { spere = {} }")),
+            "s.toml:2:11: error: unsupported shape \"spere\" in body.1.shape; did you mean "
+            "\"sphere\"?");
+  EXPECT_EQ(error_of(in_body("shape = { plane = {} }")),
+            "s.toml:2:11: error: unsupported shape \"plane\" in body.1.shape; expected \"sphere\", "
+            "\"box\", \"capsule\", \"cylinder\", \"cone\", \"torus\" or \"mesh\"");
+  EXPECT_EQ(error_of(with_ball("[[collider]]\nshape = { torus = {} }")),
+            "s.toml:5:11: error: unsupported shape \"torus\" in collider.1.shape; expected "
+            "\"plane\", \"sphere\" or \"box\"");
+}
+
+TEST(SceneErrors, DegenerateShapesAreRefused) {
+  EXPECT_EQ(error_of(in_body("shape = { torus = { minor_radius = 0.2 } }")),
+            "s.toml:2:36: error: minor_radius is larger than major_radius; a tube thicker than its "
+            "ring overlaps itself");
+  EXPECT_EQ(error_of(with_ball("[[collider]]\nshape = { plane = { normal = [0, 0, 0] } }")),
+            "s.toml:5:30: error: normal is zero; it points out of the solid side");
+  EXPECT_EQ(error_of(in_body("shape = { mesh = { scale = 2 } }")),
+            "s.toml:2:18: error: mesh has no file; give file = \"NAME.obj\"");
+  EXPECT_EQ(error_of(in_body("shape = { box = { size = [1, 0, 1] } }")),
+            "s.toml:2:30: error: body.1.shape.box.size[1] = 0; expected 0 < value <= 1000000");
+  EXPECT_EQ(error_of("[solver]\ncell_size = 1e-9\n" + in_body("shape = { box = { center = [9, 0, "
+                                                              "0] } }")),
+            "s.toml:4:28: error: more than 2^30 cells from the origin; move it closer or enlarge "
+            "solver.cell_size");
+}
+
+TEST(SceneErrors, MeshFilesExist) {
+  try {
+    read_scene_text(in_body("shape = { mesh = { file = \"none.obj\" } }"), "s.toml", "/nowhere");
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_STREQ(error.what(),
+                 "s.toml:2:27: error: body.1.shape.mesh.file = \"none.obj\"; expected a file that "
+                 "exists; looked for /nowhere/none.obj");
+  }
+}
+
+TEST(SceneErrors, CamerasCanSee) {
+  EXPECT_EQ(error_of(with_ball("[camera]\neye = [1, 1, 1]\ntarget = [1, 1, 1]")),
+            "s.toml:6:10: error: eye and target are the same point");
+  EXPECT_EQ(error_of(with_ball("[camera]\neye = [1, 1, 1]")),
+            "s.toml:5:7: error: eye and target go together; give both, or neither to frame the "
+            "whole scene");
+  EXPECT_EQ(error_of(with_ball("[[view]]\ncamera = { eye = [0, 1, 0], target = [0, 0, 0] }")),
+            "s.toml:5:10: error: up is parallel to the direction of view; try up = [0, 0, -1]");
+  EXPECT_EQ(error_of(with_ball("[camera]\nup = [0, 0, 0]")), "s.toml:5:6: error: up is zero");
+  EXPECT_EQ(error_of(with_ball("[light]\ndirection = [0, 0, 0]")),
+            "s.toml:5:13: error: direction is zero; it points towards the light");
+}
+
+TEST(SceneErrors, ColourRangesAreNotEmpty) {
+  EXPECT_EQ(error_of("[[view]]\nparticles = { range = [1, 1] }"),
+            "s.toml:2:23: error: view.1.particles.range = [1, 1]; expected min < max");
+  EXPECT_EQ(error_of("[[view]]\nparticles = { range = \"all\" }"),
+            "s.toml:2:23: error: view.1.particles.range = \"all\"; expected \"auto\" or two "
+            "numbers [min, max]");
+}
+
+TEST(SceneErrors, ASceneHasABody) {
+  const std::string none =
+      "s.toml:1:1: error: the scene has no body; add [[body]] with shape = { sphere = { center = "
+      "[0, 0.5, 0], radius = 0.1 } }";
+  EXPECT_EQ(error_of("title = \"nothing\""), none);
+  EXPECT_EQ(error_of("body = []"), none);
+}
+
+TEST(SceneErrors, SyntaxErrorsAreLocated) {
+  EXPECT_EQ(error_of("frames = 1\nframes = 2"),
+            "s.toml:2:10: error: cannot parse key-value pair: cannot redefine existing integer "
+            "'frames'");
+}
+
+TEST(SceneErrors, ControlBytesOfNamesAreNotEchoed) {
+  EXPECT_EQ(error_of("[[body]]\nname = \"\\u001b[31m\""),
+            "s.toml:2:8: error: body.1.name = \"\\u001b[31m\"; expected a name of 1 to 64 letters, "
+            "digits, _ and -");
+}
+
+TEST(SceneErrors, LongValuesAreCutBetweenCharacters) {
+  std::string name;
+  for (int k = 0; k < 200; ++k) name += "é";
+  const std::string error = error_of("[[body]]\nname = \"" + name + "\"");
+  EXPECT_LT(error.size(), 200u);
+  EXPECT_NE(error.find("é...; expected"), std::string::npos) << error;
+}
+
+TEST(SceneErrors, FilesThatAreNoScenesAreExplained) {
+  const std::string directory = testing::TempDir();
+  EXPECT_EQ(file_error_of("/nowhere/s.toml"), "/nowhere/s.toml: error: No such file or directory");
+  EXPECT_EQ(file_error_of(directory), directory + ": error: is a directory; name a scene file");
+  const std::string empty = directory + "scene_errors_empty.toml";
+  std::ofstream(empty).close();
+  EXPECT_EQ(file_error_of(empty), empty + ": error: is empty; a scene needs at least one [[body]]");
+  EXPECT_EQ(file_error_of("/dev/zero"), "/dev/zero: error: larger than 1 MiB");
+  std::filesystem::remove(empty);
+}
+
+}  // namespace
+}  // namespace neve::app

@@ -1,0 +1,292 @@
+// Whatever describe.h describes survives writing and reading. A visitor changes every parameter
+// and another reads them all back, so a new parameter is covered as soon as it is described.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "app/scene/describe.h"
+#include "app/scene/names.h"
+#include "app/scene/read.h"
+
+namespace neve::app {
+namespace {
+
+/// The two ways to walk a scene share how they descend.
+template <class Self>
+class Walker {
+ public:
+  explicit Walker(std::string prefix) : prefix_(std::move(prefix)) {}
+
+  template <class Describe>
+  void section(const char* key, const char*, Describe describe_members) {
+    Self inner = self().inside(key);
+    describe_members(inner);
+  }
+  template <class T>
+  void optional(const char* key, std::optional<T>& member, const char*) {
+    if (!member) return;
+    Self inner = self().inside(key);
+    describe(inner, *member);
+  }
+  template <class T>
+  void named(const char* key, std::vector<T>& items, const char*) {
+    list(key, items, "");
+  }
+  template <class T>
+  void list(const char* key, std::vector<T>& items, const char*) {
+    for (T& item : items) {
+      Self inner = self().inside(key + ("." + item.name));
+      describe(inner, item);
+    }
+  }
+  template <class Describe>
+  void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
+    Self inner = self().inside(key);
+    describe_forms(inner, shape);
+  }
+  template <class Form>
+  void form(const char* key, sim::Shape& shape, Change change, const char*) {
+    Form* form = std::get_if<Form>(&shape.form);
+    if (!form) return;
+    Self inner = self().inside(key);
+    describe(inner, *form, change);
+    describe_rotation(inner, shape, change);
+  }
+
+ protected:
+  std::string prefix_;
+
+ private:
+  Self& self() { return static_cast<Self&>(*this); }
+};
+
+/// Sets every parameter to a valid value that is not its default, each to another one.
+class Perturb : public Walker<Perturb> {
+ public:
+  Perturb(std::string prefix, int& count) : Walker(std::move(prefix)), count_(count) {}
+  Perturb inside(const std::string& key) { return {prefix_ + key + ".", count_}; }
+
+  template <class T>
+  void operator()(const char* key, T& member, const char*, const Valid& valid, Change,
+                  const char*) {
+    if (valid.text != Valid::Text::any) return;  // names and files hold the scene together
+    ++count_;
+    change(member, valid, prefix_ + key);
+  }
+
+ private:
+  /// Between the bounds, with digits that only an exact round trip keeps.
+  double fraction(const Valid& valid) {
+    const double low = std::isfinite(valid.min) ? valid.min : 0;
+    const double high = std::isfinite(valid.max) ? valid.max : low + 1;
+    return low + (high - low) * std::fmod(0.6180339887498949 * (count_ + 1), 1.0);
+  }
+  void change(double& x, const Valid& valid, const std::string&) { x = fraction(valid); }
+  void change(int& i, const Valid& valid, const std::string&) {
+    i = static_cast<int>(fraction(valid));
+  }
+  void change(std::uint64_t& i, const Valid& valid, const std::string&) {
+    i = static_cast<std::uint64_t>(fraction(valid));
+  }
+  void change(std::string& s, const Valid&, const std::string&) {
+    s = "\"névé\" \\ 😀\n\t\x01\x7f #'";
+  }
+  void change(sim::Vec3d& v, const Valid& valid, const std::string& at) {
+    for (double& x : {std::ref(v.x()), std::ref(v.y()), std::ref(v.z())}) {
+      ++count_;
+      change(x, valid, at);
+    }
+  }
+  void change(PictureSize& size, const Valid& valid, const std::string& at) {
+    change(size.width, valid, at);
+    ++count_;
+    change(size.height, valid, at);
+  }
+  void change(std::optional<Range>& range, const Valid&, const std::string&) {
+    range = Range{-1.0 / 3, 1e30};
+  }
+  template <class T>
+  void change(std::optional<T>& member, const Valid& valid, const std::string& at) {
+    change(member.emplace(), valid, at);
+  }
+  template <Choice E>
+  void change(E& e, const Valid&, const std::string& at) {
+    const E before = e;
+    e = names(E{}).back().value;
+    EXPECT_NE(e, before) << at;
+  }
+  template <Choice E>
+  void change(std::vector<E>& list, const Valid&, const std::string&) {
+    list = {names(E{}).back().value, names(E{}).front().value};
+  }
+
+  int& count_;
+};
+
+/// Every parameter's exact value by address.
+class Flatten : public Walker<Flatten> {
+ public:
+  using Values = std::map<std::string, std::vector<std::uint64_t>>;
+  Flatten(std::string prefix, Values& values) : Walker(std::move(prefix)), values_(values) {}
+  Flatten inside(const std::string& key) { return {prefix_ + key + ".", values_}; }
+
+  template <class T>
+  void operator()(const char* key, T& member, const char*, const Valid&, Change, const char*) {
+    add(values_[prefix_ + key], member);
+  }
+
+ private:
+  using Bits = std::vector<std::uint64_t>;
+  static void add(Bits& bits, double x) { bits.push_back(std::bit_cast<std::uint64_t>(x)); }
+  static void add(Bits& bits, int i) { bits.push_back(static_cast<std::uint64_t>(i)); }
+  static void add(Bits& bits, std::uint64_t i) { bits.push_back(i); }
+  static void add(Bits& bits, const std::string& s) {
+    for (const char c : s) bits.push_back(static_cast<unsigned char>(c));
+  }
+  static void add(Bits& bits, const sim::Vec3d& v) {
+    for (const double x : {v.x(), v.y(), v.z()}) add(bits, x);
+  }
+  static void add(Bits& bits, const PictureSize& size) {
+    add(bits, size.width);
+    add(bits, size.height);
+  }
+  static void add(Bits& bits, const Range& range) {
+    add(bits, range.min);
+    add(bits, range.max);
+  }
+  template <class T>
+  static void add(Bits& bits, const std::optional<T>& member) {
+    if (member) add(bits, *member);
+  }
+  template <Choice E>
+  static void add(Bits& bits, const E& e) {
+    bits.push_back(static_cast<std::uint64_t>(e));
+  }
+  template <Choice E>
+  static void add(Bits& bits, const std::vector<E>& list) {
+    for (const E& e : list) add(bits, e);
+  }
+
+  Values& values_;
+};
+
+Flatten::Values values_of(Scene scene) {
+  Flatten::Values values;
+  Flatten flatten("", values);
+  describe(flatten, scene);
+  return values;
+}
+
+/// A scene with every optional part and every form, named and unnamed things.
+Scene full_scene(const std::string& mesh_file) {
+  std::string text = "[camera]\neye = [0, 1, 2]\ntarget = [0, 0, 0]\n[material.ice]\n";
+  for (const char* form : {"sphere", "box", "capsule", "cylinder", "cone", "torus"}) {
+    text += "[[body]]\nmaterial = \"ice\"\nshape = { " + std::string(form) + " = {} }\n";
+  }
+  text += "[[body]]\nname = \"mesh\"\nshape = { mesh = { file = \"" + mesh_file + "\" } }\n";
+  for (const char* form : {"plane", "sphere", "box"}) {
+    text += "[[collider]]\nshape = { " + std::string(form) + " = {} }\n";
+  }
+  text += "[[view]]\n[[view]]\nname = \"close\"\ncamera = { eye = [1,1,1], target = [0,0,0] }\n";
+  return read_scene_text(text, "full", std::filesystem::path(mesh_file).parent_path().string());
+}
+
+class RoundTrip : public testing::Test {
+ protected:
+  RoundTrip() { std::ofstream(mesh_) << "v 0 0 0\n"; }
+  ~RoundTrip() override { std::filesystem::remove(mesh_); }
+  std::string mesh_ = testing::TempDir() + "round_trip_é.obj";
+};
+
+TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {
+  const Scene plain = full_scene(mesh_);
+  Scene scene = plain;
+  int count = 0;
+  Perturb perturb("", count);
+  describe(perturb, scene);
+  EXPECT_GT(count, 150) << "the visitor did not get everywhere";
+  // Put right what only holds together.
+  auto& torus = std::get<sim::Torus>(scene.bodies[5].shape.form);
+  torus.minor_radius = torus.major_radius / 3;
+  scene.solver.cell_size = 0.1;
+
+  const std::string text = write_scene(scene);
+  const Scene again = read_scene_text(text, "written");
+  const auto before = values_of(scene), after = values_of(again), unchanged = values_of(plain);
+  EXPECT_EQ(before.size(), after.size());
+  for (const auto& [address, bits] : before) EXPECT_EQ(after.at(address), bits) << address;
+  EXPECT_EQ(write_scene(again), text);
+
+  // And the test would notice a parameter that was left alone.
+  int same = 0;
+  for (const auto& [address, bits] : before)
+    same += unchanged.contains(address) && unchanged.at(address) == bits;
+  EXPECT_EQ(same, 12 + 7 + 1) << "only names, materials and files stay";
+}
+
+TEST_F(RoundTrip, KeepsAnAutomaticScene) {
+  const Scene scene = read_scene_text("[camera]\nfov = 20\n[[body]]\nshape = {box = {}}", "s");
+  const Scene again = read_scene_text(write_scene(scene), "written");
+  EXPECT_EQ(values_of(scene), values_of(again));
+  EXPECT_FALSE(again.camera->eye.has_value());
+  EXPECT_FALSE(again.views.at(0).camera.has_value());
+  EXPECT_FALSE(again.views.at(0).size.has_value());
+  EXPECT_FALSE(again.views.at(0).particles.range.has_value());
+}
+
+TEST_F(RoundTrip, FindsMeshesFromAnywhere) {
+  const Scene scene = full_scene(mesh_);
+  const std::string file = std::get<sim::Mesh>(scene.bodies.back().shape.form).file;
+  EXPECT_TRUE(std::filesystem::path(file).is_absolute());
+  const Scene again = read_scene_text(write_scene(scene), "written", "/elsewhere");
+  EXPECT_EQ(std::get<sim::Mesh>(again.bodies.back().shape.form).file, file);
+}
+
+TEST(NumberText, ReadsBackExactly) {
+  EXPECT_EQ(number_text(5e-4), "5e-4");
+  EXPECT_EQ(number_text(0.001), "0.001");
+  EXPECT_EQ(number_text(1e30), "1e30");
+  EXPECT_EQ(number_text(100000), "100000");
+  EXPECT_EQ(number_text(-0.0), "-0.0");
+  EXPECT_EQ(number_text(1e-300), "1e-300");
+  EXPECT_EQ(number_text(12345678901234567890.0), "12345678901234567168.0");
+  EXPECT_EQ(number_text(0.1 + 0.2), "0.30000000000000004");
+}
+
+TEST(SceneDefaults, AreThoseOfTheStructs) {
+  const Scene scene = read_scene_text("[[body]]\nshape = { box = {} }", "s");
+  EXPECT_EQ(scene.frames, Scene{}.frames);
+  ASSERT_EQ(scene.materials.size(), 1u);
+  EXPECT_EQ(scene.materials[0].name, "snow");
+  EXPECT_EQ(scene.materials[0].hardening, sim::Material{}.hardening);
+  EXPECT_EQ(scene.bodies[0].name, "1");
+  EXPECT_EQ(scene.bodies[0].material, "snow");
+  ASSERT_EQ(scene.views.size(), 1u);
+  EXPECT_EQ(scene.views[0].name, "particles");
+  EXPECT_FALSE(scene.camera.has_value());
+}
+
+TEST(SceneReader, AcceptsWholeFloatsAsIntegersAndBack) {
+  const Scene scene = read_scene_text(
+      "frames = 12.0\nfps = 30\n[limits]\nmemory = \"1.5 kB\"\nparticles = 2e7\n[[body]]\nshape = "
+      "{ sphere = { radius = 1 } }",
+      "s");
+  EXPECT_EQ(scene.frames, 12);
+  EXPECT_EQ(scene.fps, 30);
+  EXPECT_EQ(scene.limits.memory, 1500u);
+  EXPECT_EQ(scene.limits.particles, 20'000'000u);
+}
+
+TEST(SceneReader, OverridesOnlyWhatAMaterialSays) {
+  const Scene scene =
+      read_scene_text("[material.snow]\nhardening = 7\n[[body]]\nshape = { sphere = {} }", "s");
+  EXPECT_EQ(scene.materials.at(0).hardening, 7);
+  EXPECT_EQ(scene.materials.at(0).density, sim::Material{}.density);
+}
+
+}  // namespace
+}  // namespace neve::app

@@ -1,0 +1,150 @@
+// --set ADDRESS=VALUE.
+#include <gtest/gtest.h>
+
+#include "app/scene/read.h"
+
+namespace neve::app {
+namespace {
+
+constexpr const char* scene_text = R"(
+frames = 10
+[material.wet]
+density = 500
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.1 } }
+[[body]]
+shape = { box = {} }
+[[collider]]
+name = "floor"
+shape = { plane = {} }
+[[view]]
+name = "close"
+camera = { fov = 20 }
+)";
+
+Scene set(const std::vector<std::string>& arguments, const char* text = scene_text) {
+  std::vector<Override> overrides;
+  for (const std::string& argument : arguments) overrides.push_back(parse_override(argument));
+  return read_scene_text(text, "s.toml", "", overrides);
+}
+
+std::string error_of(const std::string& argument) {
+  try {
+    set({argument});
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "no usage error";
+}
+
+TEST(Set, ReachesEveryKindOfAddress) {
+  EXPECT_EQ(set({"solver.cell_size=0.05"}).solver.cell_size, 0.05);
+  EXPECT_EQ(set({"material.snow.hardening=5"}).materials[0].hardening, 5);
+  EXPECT_EQ(set({"material.wet.hardening=5"}).materials[1].hardening, 5);
+  EXPECT_EQ(set({"body.ball.velocity=[0,-5,0]"}).bodies[0].velocity.y(), -5);
+  EXPECT_EQ(set({"body.2.velocity=[0, -5, 0]"}).bodies[1].velocity.y(), -5);
+  EXPECT_EQ(set({"collider.floor.friction=0.1"}).colliders[0].friction, 0.1);
+  EXPECT_EQ(set({"view.close.size=[64, 48]"}).views[0].size->width, 64);
+  EXPECT_EQ(set({"view.close.camera.fov=33"}).views[0].camera->fov, 33);
+  EXPECT_EQ(set({"camera.fov=33"}).camera->fov, 33);
+  EXPECT_EQ(set({"output.size=[64,48]"}).size.height, 48);
+  EXPECT_EQ(set({"frames=3"}).frames, 3);
+  const Scene scene = set({"body.ball.shape.sphere.radius=0.3"});
+  EXPECT_EQ(std::get<sim::Sphere>(scene.bodies[0].shape.form).radius, 0.3);
+}
+
+TEST(Set, ReachesTheBuiltInView) {
+  const char* text = "[[body]]\nshape = { box = {} }";
+  EXPECT_EQ(set({"view.particles.particles.color_by=id"}, text).views[0].particles.color_by,
+            ColorBy::id);
+}
+
+TEST(Set, TakesTheLastOfTwo) {
+  EXPECT_EQ(set({"frames=3", "frames=4"}).frames, 4);
+}
+
+TEST(Set, TakesWholeTables) {
+  const Scene scene = set(
+      {"body.ball.shape={ box = { size = [1, 1, 1] } }", "camera={eye=[0,0,2],target=[0,0,0]}"});
+  EXPECT_TRUE(std::holds_alternative<sim::Box>(scene.bodies[0].shape.form));
+  EXPECT_EQ(scene.camera->eye->z(), 2);
+}
+
+TEST(Set, TakesBareWordsAsStrings) {
+  EXPECT_EQ(set({"solver.kernel=quadratic"}).solver.kernel, sim::Kernel::quadratic);
+  EXPECT_EQ(set({"title=Boule de névé # 2"}).title, "Boule de névé # 2");
+  EXPECT_EQ(set({"title=\"quoted\""}).title, "quoted");
+  EXPECT_EQ(set({"title=2024"}).title, "2024");
+  EXPECT_EQ(set({"title="}).title, "");
+  EXPECT_EQ(set({"title=a=b"}).title, "a=b");
+  EXPECT_EQ(set({"limits.memory=8GiB"}).limits.memory, 8ull << 30);
+  EXPECT_EQ(set({"view.close.particles.range=auto"}).views[0].particles.range.has_value(), false);
+}
+
+TEST(Set, ErrorsShowTheArgument) {
+  EXPECT_EQ(error_of("material.snow.poisson_ratio=0.62"),
+            "--set material.snow.poisson_ratio=0.62: error: expected 0 <= value < 0.5");
+  EXPECT_EQ(error_of("body.ball.velocity=[0, -5]"),
+            "--set body.ball.velocity=[0, -5]: error: expected three numbers [x, y, z]");
+  EXPECT_EQ(error_of("body.ball.velocity=[0, -5"),
+            "--set body.ball.velocity=[0, -5: error: cannot parse array: encountered end-of-file");
+  EXPECT_EQ(error_of("body.ball.material=ice"),
+            "--set body.ball.material=ice: error: there is no material \"ice\"; expected \"snow\" "
+            "or \"wet\"");
+  EXPECT_EQ(error_of("solver.kernel=cubik"),
+            "--set solver.kernel=cubik: error: expected \"cubic\" or \"quadratic\"; did you mean "
+            "\"cubic\"?");
+  EXPECT_EQ(error_of("camera={fow=3}"),
+            "--set camera={fow=3}: error: unknown key \"fow\" in [camera]; did you mean \"fov\"?");
+  EXPECT_EQ(error_of("frames=3\nseed=4"),
+            "--set frames=3\nseed=4: error: a value is one line of UTF-8 without control bytes");
+}
+
+TEST(Set, UnknownAddressesNameTheNearest) {
+  EXPECT_EQ(error_of("material.snow.hardenin=5"),
+            "--set material.snow.hardenin=5: error: unknown parameter "
+            "\"material.snow.hardenin\"; did you mean \"material.snow.hardening\"?");
+  EXPECT_EQ(error_of("hardening=5"),
+            "--set hardening=5: error: unknown parameter \"hardening\"; did you mean "
+            "\"material.snow.hardening\"?");
+  EXPECT_EQ(error_of("body.bull.velocity=[0,0,0]"),
+            "--set body.bull.velocity=[0,0,0]: error: there is no body \"bull\"; expected "
+            "\"ball\" or \"2\"");
+  EXPECT_EQ(error_of("view.smoke.size=[1,1]"),
+            "--set view.smoke.size=[1,1]: error: there is no view \"smoke\"; expected \"close\"");
+  EXPECT_EQ(error_of("body=3"),
+            "--set body=3: error: unknown parameter \"body\"; neve params lists all of them");
+}
+
+TEST(Set, NeedsAnAddressAndAValue) {
+  EXPECT_THROW(parse_override("frames"), UsageError);
+  EXPECT_THROW(parse_override("=3"), UsageError);
+  EXPECT_THROW(parse_override(""), UsageError);
+}
+
+TEST(Set, HostileTextIsAUsageError) {
+  for (const std::string value : {"[\\", "{{{{{{{{", "\"\\", "'", "\"\"\"", "[[[[[[[[", "{a={a={a=",
+                                  "\xFF", "é", "[é]", "{é=1}", "nan", "-inf", "1e999", "\x1b"}) {
+    for (const std::string address : {"frames", "solver.gravity", "camera", "body.ball.shape",
+                                      "view.close.layers", "solver.kernel"}) {
+      EXPECT_THROW(set({address + "=" + value}), UsageError) << address << "=" << value;
+    }
+  }
+}
+
+TEST(Set, MistakesOfTheFileStayWithTheFile) {
+  EXPECT_THROW(set({"solver.dt=1e-4"}, "solver = 3"), SceneError);
+  EXPECT_THROW(set({"camera.fov=3"}, "camera = [1]"), SceneError);
+  EXPECT_THROW(set({"material.snow.density=3"}, "material = {snow = 4}"), SceneError);
+}
+
+TEST(FindView, KnowsTheBuiltInOne) {
+  const Scene scene = set({});
+  EXPECT_EQ(find_view(scene, "close").camera->fov, 20);
+  EXPECT_EQ(find_view(scene, "particles").name, "particles");
+  EXPECT_THROW(find_view(scene, "clos"), UsageError);
+}
+
+}  // namespace
+}  // namespace neve::app

@@ -1,0 +1,129 @@
+// The guard in front of the TOML parser: what it lets through, and where it says things are.
+#include <gtest/gtest.h>
+
+#include "app/scene/error.h"
+#include "app/scene/toml_source.h"
+#include "app/scene/toml_text.h"
+
+namespace neve::app {
+namespace {
+
+std::string error_of(std::string_view text) {
+  try {
+    parse_toml(text, "f");
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string string_of(std::string_view text) {
+  return std::get<std::string>(parse_toml(text, "f").entries.at(0).value.data);
+}
+
+TEST(TomlText, IsAsciiAfterwards) {
+  const AsciiToml toml = to_ascii_toml("a = \"é😀\" # ü\n", "f");
+  EXPECT_EQ(toml.text, "a = \"\\u00E9\\U0001F600\" # ?\n");
+}
+
+TEST(TomlText, ColumnsAreThoseOfTheUser) {
+  const AsciiToml toml = to_ascii_toml("a = \"é😀\" x", "f");
+  EXPECT_EQ(toml.original(1, 5).column, 5);    // the quote
+  EXPECT_EQ(toml.original(1, 6).column, 6);    // é
+  EXPECT_EQ(toml.original(1, 11).column, 6);   // still é
+  EXPECT_EQ(toml.original(1, 12).column, 7);   // the face
+  EXPECT_EQ(toml.original(1, 22).column, 8);   // the closing quote
+  EXPECT_EQ(toml.original(1, 24).column, 10);  // x
+  EXPECT_EQ(toml.original(2, 24).column, 24);  // another line
+}
+
+TEST(TomlText, StringsKeepTheirContent) {
+  EXPECT_EQ(string_of("t = \"Boule de névé\""), "Boule de névé");
+  EXPECT_EQ(string_of("t = \"\\\"é\\\\é\""), "\"é\\é");
+  EXPECT_EQ(string_of("t = \"\"\"é\"\"\"\"\""), "é\"\"");
+  EXPECT_EQ(string_of("t = \"\"\"\"\"é\"\"\""), "\"\"é");
+  EXPECT_EQ(string_of("t = \"\"\"a\\\n   é\"\"\""), "aé");
+  EXPECT_EQ(string_of("t = \"\"\"a\\\r\n\r\n é\"\"\""), "aé");
+  EXPECT_EQ(string_of("t = \"\"\"\né\\\"\"\"\"\""), "é\"\"") << "an escaped quote closes nothing";
+  EXPECT_EQ(string_of("t = '\\'"), "\\");
+  EXPECT_EQ(string_of("t = '''a'b''c'''"), "a'b''c");
+  EXPECT_EQ(string_of("t = \"# no comment\" # but this is: é"), "# no comment");
+  EXPECT_EQ(string_of("t = ''\n# é"), "");
+  EXPECT_EQ(string_of("t = \"\"\nu = \"é\""), "");
+}
+
+TEST(TomlText, MarksAndLineEndingsAreAccepted) {
+  EXPECT_EQ(string_of("\xEF\xBB\xBFt = \"a\"\r\nu = 1\r\n"), "a");
+  EXPECT_EQ(error_of("\xEF\xBB\xBFt = \"a\"\r\nu 1\r\n"),
+            "f:2:3: error: cannot parse key-value pair: expected '=', saw '1'");
+}
+
+TEST(TomlText, MoreThanAsciiOutsideBasicStringsIsLocated) {
+  const std::string hint =
+      "; only comments and strings in \"double quotes\" may hold more than ASCII";
+  EXPECT_EQ(error_of("title = \"é\"\nné = 1"), "f:2:2: error: U+00E9 outside a string" + hint);
+  EXPECT_EQ(error_of("t = 'né'"), "f:1:7: error: U+00E9 in a literal string" + hint);
+  EXPECT_EQ(error_of("t = '''\nné'''"), "f:2:2: error: U+00E9 in a literal string" + hint);
+  EXPECT_EQ(error_of("t = \"é\" ｻ"), "f:1:9: error: U+FF7B outside a string" + hint);
+}
+
+TEST(TomlText, BackslashBeforeMoreThanAsciiIsLocated) {
+  EXPECT_EQ(error_of("t = \"\"\"\\é\"\"\""), "f:1:9: error: a backslash cannot escape U+00E9");
+  EXPECT_NE(error_of("t = \"\"\"\\ é\"\"\""), "no error");
+}
+
+TEST(TomlText, UnclosedStringsAreBlamedOnTheirQuote) {
+  EXPECT_EQ(error_of("a = 1\nt = \"abc\nb = 2"), "f:2:5: error: string is never closed");
+  EXPECT_EQ(error_of("t = 'abc"), "f:1:5: error: string is never closed");
+  EXPECT_EQ(error_of("t = \"\"\"abc\"\"\n"), "f:1:5: error: string is never closed");
+  EXPECT_EQ(error_of("t = '''abc"), "f:1:5: error: string is never closed");
+  EXPECT_EQ(error_of("t = \"abc\\\""), "f:1:5: error: string is never closed");
+}
+
+TEST(TomlText, BadBytesAreLocated) {
+  EXPECT_EQ(error_of("t = \"é\xFF\""), "f:1:7: error: invalid UTF-8");
+  EXPECT_EQ(error_of("# \xC0\x80"), "f:1:3: error: invalid UTF-8") << "overlong";
+  EXPECT_EQ(error_of("# \xED\xA0\x80"), "f:1:3: error: invalid UTF-8") << "surrogate";
+  EXPECT_EQ(error_of("# \xF4\x90\x80\x80"), "f:1:3: error: invalid UTF-8") << "beyond U+10FFFF";
+  EXPECT_EQ(error_of("# \xE2\x82"), "f:1:3: error: invalid UTF-8") << "cut off";
+  EXPECT_EQ(error_of("[\x1b"), "f:1:2: error: control character U+001B");
+  EXPECT_EQ(error_of(std::string_view("a\0", 2)), "f:1:2: error: control character U+0000");
+  EXPECT_EQ(error_of("a = 1\rb = 2"), "f:1:6: error: carriage return without line feed");
+}
+
+TEST(TomlText, SizeAndDepthAreBounded) {
+  EXPECT_EQ(error_of(std::string(max_toml_bytes + 1, '#')), "f: error: larger than 1 MiB");
+  EXPECT_EQ(error_of(std::string(max_toml_bytes, '#')), "no error");
+  EXPECT_EQ(error_of("a" + std::string(65, '.')), "f:1:66: error: more than 64 dots in one line");
+  EXPECT_EQ(error_of("# " + std::string(65, '.')), "no error");
+  EXPECT_EQ(error_of("a = " + std::string(33, '[')), "f:1:37: error: nested more than 32 deep");
+}
+
+TEST(TomlText, AssertionsOfTheParserDoNotAbort) {
+  EXPECT_EQ(error_of("[\\"),
+            "f:1:2: error: cannot parse key: expected bare key starting character or string "
+            "delimiter, saw '\\'");
+}
+
+TEST(TomlSource, KeepsTheOrderOfTheFile) {
+  const Table root = parse_toml("z = 1\na = 2\n[m]\nb = 1\na = [{y = 1, x = 2}]", "f");
+  ASSERT_EQ(root.entries.size(), 3u);
+  EXPECT_EQ(root.entries[0].key, "z");
+  EXPECT_EQ(root.entries[1].key, "a");
+  EXPECT_EQ(root.entries[2].key, "m");
+  EXPECT_EQ(toml_document(root), "z = 1\na = 2\n\n[m]\nb = 1\na = [{ y = 1, x = 2 }]\n");
+}
+
+TEST(TomlSource, KnowsWhereEveryValueIs) {
+  const Table root = parse_toml("t = \"é\"\nlist = [\"é\", { \"é\" = 5 }]", "f");
+  const Array& list = std::get<Array>(root.entries[1].value.data);
+  EXPECT_EQ(root.entries[1].where.line, 2);
+  EXPECT_EQ(root.entries[1].value.where.column, 8);
+  EXPECT_EQ(list[1].where.column, 14);
+  const Entry& inner = std::get<Table>(list[1].data).entries[0];
+  EXPECT_EQ(inner.where.column, 16);
+  EXPECT_EQ(inner.value.where.column, 22);
+}
+
+}  // namespace
+}  // namespace neve::app
