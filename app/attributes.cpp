@@ -1,5 +1,6 @@
 #include "app/attributes.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace neve::app {

@@ -1,5 +1,6 @@
 #include "app/auto_camera.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

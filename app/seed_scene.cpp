@@ -1,5 +1,6 @@
 #include "app/seed_scene.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <stdexcept>
 
