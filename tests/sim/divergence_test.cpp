@@ -1,0 +1,164 @@
+/// A run that goes wrong stops, says which rule broke and at which particle; a healthy one does not.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/snow.h"
+
+namespace {
+
+using namespace neve::sim;
+using namespace neve::test;
+
+std::vector<Collider> floor_plane() { return {plane({0, 0.003, 0}, {0, 1, 0}, 0.5)}; }
+
+ParticleArrays falling_ball(double speed) {
+  return ball_of_snow({0, 0.13, 0}, 0.12, 0.015, {0, -speed, 0});
+}
+
+std::string rule_of(const SolverSettings& s, const Material& m, const ParticleArrays& p,
+                    double until = 0.1) {
+  Simulation simulation(s, {m}, floor_plane(), p, 1);
+  simulation.advance_to(until);
+  return simulation.divergence() ? simulation.divergence()->rule : "";
+}
+
+TEST(Divergence, HealthyImpactsPass) {
+  for (const double speed : {0.0, 3.0, 10.0, 30.0, 80.0}) {
+    SolverSettings s;
+    s.cell_size = 0.03;
+    EXPECT_EQ(rule_of(s, Material{}, falling_ball(speed), 0.05), "") << speed << " m/s";
+  }
+}
+
+TEST(Divergence, HealthyImpactsOfElasticModelsPass) {
+  for (const Model model : {Model::corotated, Model::neo_hookean}) {
+    SolverSettings s;
+    s.cell_size = 0.03;
+    Material m;
+    m.model = model;
+    EXPECT_EQ(rule_of(s, m, falling_ball(3), 0.1), "");
+  }
+}
+
+TEST(Divergence, StepOfAWholeFrameIsNamed) {
+  SolverSettings s;
+  s.cell_size = 0.03;
+  s.time_step = TimeStep::fixed;
+  s.dt = 1.0 / 24;
+  Simulation simulation(s, {Material{}}, floor_plane(), falling_ball(5), 1);
+  simulation.advance_to(0.5);
+  ASSERT_TRUE(simulation.divergence());
+  const Divergence& d = *simulation.divergence();
+  EXPECT_EQ(d.rule, "speed_cfl");
+  EXPECT_GE(d.particle, 0);
+  EXPECT_FALSE(d.culprits.empty());
+  EXPECT_GT(d.dt_that_holds, 1e-5);
+  EXPECT_LT(d.dt_that_holds, 3e-3);
+  EXPECT_NE(d.sentence.find("diverged at step"), std::string::npos) << d.sentence;
+}
+
+TEST(Divergence, TooStiffForAFixedStepIsFound) {
+  SolverSettings s;
+  s.cell_size = 0.03;
+  s.time_step = TimeStep::fixed;
+  s.dt = 1e-3;
+  Material m;
+  m.model = Model::corotated;
+  m.youngs_modulus = 1e8;
+  EXPECT_NE(rule_of(s, m, falling_ball(5)), "");
+}
+
+TEST(Divergence, NotANumberIsFoundInTheStepItAppears) {
+  SolverSettings s;
+  s.cell_size = 0.03;
+  ParticleArrays p = falling_ball(0);
+  p.v[17][1] = std::numeric_limits<double>::quiet_NaN();
+  Simulation simulation(s, {Material{}}, {}, p, 1);
+  simulation.step(1e-4);
+  ASSERT_TRUE(simulation.divergence());
+  EXPECT_EQ(simulation.divergence()->rule, "not_finite");
+  EXPECT_EQ(simulation.divergence()->step, 1u);
+}
+
+TEST(Divergence, FarFlightIsAnOverflowNotACrash) {
+  SolverSettings s;
+  s.cell_size = 0.03;
+  s.time_step = TimeStep::fixed;
+  s.dt = 1.0;
+  s.precision = Precision::real64;  // in float, the rounding of such a speed alone tears F apart
+  ParticleArrays p = falling_ball(0);
+  for (Vec3d& v : p.v) v = {1e7, 0, 0};
+  Simulation simulation(s, {Material{}}, {}, p, 1);
+  simulation.advance_to(10);
+  ASSERT_TRUE(simulation.divergence());
+  EXPECT_EQ(simulation.divergence()->rule, "overflow");
+}
+
+TEST(Divergence, InitialCompressionBeyondTheRuleIsFound) {
+  SolverSettings s;
+  s.cell_size = 0.03;
+  ParticleArrays p = falling_ball(0);
+  p.J_P.assign(p.x.size(), 0.05);
+  EXPECT_EQ(rule_of(s, Material{}, p, 0.01), "J_P");
+}
+
+TEST(Divergence, ElasticMatterTurnedInsideOutIsFound) {
+  SolverSettings s;
+  s.cell_size = 0.03;
+  Material m;
+  m.model = Model::neo_hookean;
+  ParticleArrays p = falling_ball(0);
+  p.F_E.assign(p.x.size(), Mat3d::Identity());
+  p.F_E[5](2, 2) = -1;
+  EXPECT_EQ(rule_of(s, m, p, 0.01), "inverted");
+}
+
+TEST(Divergence, EnergyFromNowhereIsFound) {
+  // A compressed elastic ball at rest whose step is so long that its release overshoots: fixed steps
+  // report sound, they do not stop for it, so the sum of energies has to notice.
+  SolverSettings s;
+  s.cell_size = 0.03;
+  s.time_step = TimeStep::fixed;
+  s.gravity.setZero();
+  s.flip_ratio = 1;
+  Material m;
+  m.model = Model::corotated;
+  m.hardening = 0;
+  s.dt = 2.2 * s.cell_size / sound_speed(m);
+  ParticleArrays p = ball_of_snow({0, 0.13, 0}, 0.12, 0.015, {0, 0, 0});
+  p.F_E.assign(p.x.size(), 0.999 * Mat3d::Identity());
+  Simulation simulation(s, {m}, {}, p, 1);
+  for (int frame = 1; frame <= 60 && !simulation.divergence(); ++frame)
+    simulation.advance_to(frame * 10 * s.dt);
+  ASSERT_TRUE(simulation.divergence());
+  EXPECT_TRUE(simulation.divergence()->rule == "energy" || simulation.divergence()->rule == "speed_cfl" ||
+              simulation.divergence()->rule == "inverted") << simulation.divergence()->rule;
+}
+
+TEST(Simulation, RefusesArraysThatDoNotFit) {
+  const SolverSettings s;
+  ParticleArrays p = falling_ball(0);
+  p.v.pop_back();
+  EXPECT_THROW(Simulation(s, {Material{}}, {}, p), std::invalid_argument);
+  p = falling_ball(0);
+  p.m[3] = 0;
+  EXPECT_THROW(Simulation(s, {Material{}}, {}, p), std::invalid_argument);
+  p = falling_ball(0);
+  p.x[3][0] = 1e30;
+  EXPECT_THROW(Simulation(s, {Material{}}, {}, p), std::invalid_argument);
+  p = falling_ball(0);
+  p.material.assign(p.x.size(), 1);
+  EXPECT_THROW(Simulation(s, {Material{}}, {}, p), std::invalid_argument);
+}
+
+TEST(Simulation, WithoutParticlesOnlyTimePasses) {
+  Simulation simulation(SolverSettings{}, {Material{}}, {}, {}, 1);
+  simulation.advance_to(0.1);
+  EXPECT_EQ(simulation.time(), 0.1);
+  EXPECT_EQ(simulation.summary().particles, 0u);
+}
+
+}  // namespace

@@ -1,0 +1,237 @@
+/// Energy, stress, projection and the arithmetic below them.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+#include <random>
+
+#include "sim/constitutive.h"
+#include "sim/diagnostics.h"
+
+namespace {
+
+using namespace neve;
+using namespace neve::sim;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double operator()() { return unit_(engine_); }
+  Mat3d matrix() {
+    return Mat3d::NullaryExpr([this] { return unit_(engine_); });
+  }
+  Mat3d rotation() { return Eigen::Quaterniond(Eigen::Vector4d(matrix()(0), matrix()(1), matrix()(2), matrix()(3)).normalized()).toRotationMatrix(); }
+
+ private:
+  std::mt19937 engine_;
+  std::uniform_real_distribution<double> unit_{-1, 1};
+};
+
+template <class Real>
+Particle<Real> particle(const Mat3d& F_E, double J_P, ModelKind model) {
+  Particle<Real> p{};
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) p.F_E[3 * a + b] = static_cast<Real>(F_E(a, b));
+  p.J_P = static_cast<Real>(J_P);
+  p.m = p.V0 = p.stiffness = p.threshold = 1;
+  p.model = static_cast<std::uint8_t>(model);
+  return p;
+}
+
+template <class Real>
+Mat3d F_of(const Particle<Real>& p) {
+  Mat3d F;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) F(a, b) = static_cast<double>(p.F_E[3 * a + b]);
+  return F;
+}
+
+template <class Real>
+Mat3d tau_of(const Particle<Real>& p) {
+  const Real* t = p.tau;
+  Mat3d tau;
+  tau << t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2];
+  return tau;
+}
+
+template <class Real>
+MaterialConstants<Real> constants(const Material& m) {
+  const Lame l = lame(m.youngs_modulus, m.poisson_ratio);
+  return {Real(l.mu), Real(l.lambda), Real(m.hardening), Real(m.critical_compression),
+          Real(m.critical_stretch)};
+}
+
+constexpr Model models[] = {Model::snow, Model::corotated, Model::neo_hookean};
+
+TEST(Energy, StressIsItsDerivative) {
+  Random random(1);
+  for (const Model model : models) {
+    Material m;
+    m.model = model;
+    for (int trial = 0; trial < 50; ++trial) {
+      const Mat3d F = random.rotation() * (Mat3d::Identity() + 0.2 * random.matrix());
+      if (F.determinant() < 0.2) continue;
+      const double J_P = 1 + 0.1 * random();
+      const Mat3d P = first_piola(m, F, J_P), dF = random.matrix();
+      // Central differences: the error is the third derivative (about mu) times epsilon^2 = 1e-10,
+      // and rounding of psi (1e-16 mu) over epsilon, 1e-11: 1e-7 of mu leaves room for both.
+      const double epsilon = 1e-5;
+      const double slope = (energy_density(m, F + epsilon * dF, J_P) -
+                            energy_density(m, F - epsilon * dF, J_P)) / (2 * epsilon);
+      const double scale = m.youngs_modulus * std::exp(m.hardening * (1 - J_P));
+      EXPECT_NEAR(P.cwiseProduct(dF).sum(), slope, 1e-7 * scale);
+    }
+  }
+}
+
+TEST(Stress, OfKernelsIsFirstPiolaTimesTransposedF) {
+  Random random(2);
+  for (const Model model : models) {
+    Material m;
+    m.model = model;
+    // Thresholds wide open: nothing is projected, so F_E stays what it was.
+    m.critical_compression = 0.95;
+    m.critical_stretch = 3;
+    for (const double strain : {1e-6, 1e-3, 0.02, 0.15, 0.3}) {
+      const Mat3d F = random.rotation() * (Mat3d::Identity() + strain * random.matrix());
+      const double J_P = 1 + 0.05 * random();
+      const Mat3d expected = first_piola(m, F, J_P) * F.transpose();
+      const double scale = 2 * m.youngs_modulus;
+      auto p = particle<double>(F, J_P, static_cast<ModelKind>(static_cast<int>(model)));
+      update_material(p, constants<double>(m));
+      // Double: F - R cancels, 1e-13 of the moduli. Float: F itself is rounded to 6e-8.
+      EXPECT_LE((tau_of(p) - expected).cwiseAbs().maxCoeff(), 1e-12 * scale) << strain;
+      auto q = particle<float>(F, J_P, static_cast<ModelKind>(static_cast<int>(model)));
+      update_material(q, constants<float>(m));
+      EXPECT_LE((tau_of(q) - expected).cwiseAbs().maxCoeff(), 2e-6 * scale) << strain;
+    }
+  }
+}
+
+TEST(Stress, VanishesInRotationAndTurnsWithIt) {
+  Random random(3);
+  for (const Model model : models) {
+    Material m;
+    m.model = model;
+    const auto kind = static_cast<ModelKind>(static_cast<int>(model));
+    const Mat3d Q = random.rotation(), F = Mat3d::Identity() + 0.004 * random.matrix();
+    auto turned = particle<double>(Q, 1, kind), at_rest = particle<double>(F, 1, kind),
+         both = particle<double>(Q * F, 1, kind);
+    for (auto* p : {&turned, &at_rest, &both}) update_material(*p, constants<double>(m));
+    EXPECT_LE(tau_of(turned).cwiseAbs().maxCoeff(), 1e-13 * m.youngs_modulus);
+    EXPECT_LE((tau_of(both) - Q * tau_of(at_rest) * Q.transpose()).cwiseAbs().maxCoeff(),
+              1e-12 * m.youngs_modulus);
+  }
+}
+
+TEST(Stress, OfTwoPathsMeetsAtTheBorderOfTheSeries) {
+  Material m;
+  m.model = Model::corotated;
+  for (const double border : {series_min_stretch, series_max_stretch}) {
+    auto inside = particle<double>(Vec3d(border * (border < 1 ? 1 + 1e-9 : 1 - 1e-9), 1, 1).asDiagonal(), 1,
+                                   ModelKind::corotated);
+    auto outside = particle<double>(Vec3d(border * (border < 1 ? 1 - 1e-9 : 1 + 1e-9), 1, 1).asDiagonal(), 1,
+                                    ModelKind::corotated);
+    update_material(inside, constants<double>(m));
+    update_material(outside, constants<double>(m));
+    // 2e-9 apart in stretch: about 1e-8 of the modulus, were both exact.
+    EXPECT_LE((tau_of(inside) - tau_of(outside)).cwiseAbs().maxCoeff(), 2e-8 * m.youngs_modulus);
+  }
+}
+
+TEST(Snow, ProjectionClampsStretchesAndKeepsTheProduct) {
+  Random random(4);
+  const Material m;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Mat3d F = random.rotation() * (Mat3d::Identity() + 0.1 * random.matrix());
+    const double J_P = 1 + 0.1 * random();
+    auto p = particle<double>(F, J_P, ModelKind::snow);
+    update_material(p, constants<double>(m));
+    const Vec3d s = F_of(p).jacobiSvd().singularValues();
+    EXPECT_GE(s.minCoeff(), 1 - m.critical_compression - 1e-12);
+    EXPECT_LE(s.maxCoeff(), 1 + m.critical_stretch + 1e-12);
+    EXPECT_NEAR(F_of(p).determinant() * p.J_P, F.determinant() * J_P, 1e-12);
+  }
+}
+
+TEST(Snow, InsideTheThresholdsNothingChangesABit) {
+  Random random(5);
+  const Material m;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Mat3d F = random.rotation() * (Mat3d::Identity() + 0.002 * random.matrix());
+    auto p = particle<float>(F, 0.97, ModelKind::snow);
+    const auto before = p;
+    update_material(p, constants<float>(m));
+    EXPECT_EQ(0, std::memcmp(p.F_E, before.F_E, sizeof p.F_E));
+    EXPECT_EQ(p.J_P, before.J_P);
+  }
+}
+
+TEST(Snow, HardeningGrowsUnderCompressionOnly) {
+  const Material m;
+  auto pressed = particle<double>(Vec3d(1, 0.9, 1).asDiagonal(), 1, ModelKind::snow);
+  auto pulled = particle<double>(Vec3d(1, 1.1, 1).asDiagonal(), 1, ModelKind::snow);
+  update_material(pressed, constants<double>(m));
+  update_material(pulled, constants<double>(m));
+  EXPECT_NEAR(pressed.J_P, 0.9 / 0.975, 1e-12);
+  EXPECT_NEAR(pulled.J_P, 1.1 / 1.0075, 1e-12);
+}
+
+TEST(Decomposition, RebuildsAnyMatrixInFloatAndDouble) {
+  Random random(6);
+  double worst_float = 0, worst_double = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    Mat3d F = random.matrix() * std::pow(10.0, 4 * random());
+    if (trial % 4 == 1) F = random.rotation() * (Mat3d::Identity() + 1e-4 * random.matrix());
+    if (trial % 4 == 2) F.col(2) = F.col(0) + 1e-6 * F.col(1);
+    if (trial % 16 == 3) F = F.col(0) * F.row(1);
+    if (trial % 64 == 7) F.setZero();
+    const double scale = std::max(F.cwiseAbs().maxCoeff(), 1e-300);
+    const auto check = [&](auto real, double& worst) {
+      using Real = decltype(real);
+      const auto p = particle<Real>(F, 1, ModelKind::snow);
+      const SignedSvd<Real> svd = signed_svd(p.F_E);
+      Mat3d U, V;
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+          U(a, b) = static_cast<double>(svd.U[3 * a + b]);
+          V(a, b) = static_cast<double>(svd.V[3 * a + b]);
+        }
+      const Vec3d s(svd.s[0], svd.s[1], svd.s[2]);
+      const double error = std::max({(U * s.asDiagonal() * V.transpose() - F_of(p)).cwiseAbs().maxCoeff() / scale,
+                                     (U.transpose() * U - Mat3d::Identity()).cwiseAbs().maxCoeff(),
+                                     (V.transpose() * V - Mat3d::Identity()).cwiseAbs().maxCoeff(),
+                                     std::abs(U.determinant() - 1), std::abs(V.determinant() - 1)});
+      worst = std::max(worst, error);
+    };
+    check(0.0f, worst_float);
+    check(0.0, worst_double);
+  }
+  // A few rotations of rounding error each: some tens of units in the last place. V of a nearly
+  // singular F inherits the orthogonality that the sweeps stop at.
+  EXPECT_LE(worst_float, 1e-5);
+  EXPECT_LE(worst_double, 1e-14);
+}
+
+TEST(Arithmetic, ExponentialAndLogarithmMatchTheLibrary) {
+  for (double x = -30; x < 30; x += 0.0137) {
+    EXPECT_NEAR(exponential(x) / std::exp(x), 1, 1e-15 * 4) << x;
+    const float y = static_cast<float>(x);
+    EXPECT_NEAR(static_cast<double>(exponential(y)) / std::exp(static_cast<double>(y)), 1, 3e-7) << x;
+    EXPECT_NEAR(logarithm(std::exp(x)), x, 1e-15 * (4 + std::abs(x))) << x;
+  }
+  EXPECT_EQ(exponential(0.0f), 1.0f);
+  EXPECT_EQ(exponential(0.0), 1.0);
+}
+
+TEST(WaveSpeed, OfPaperSnowAtRest) {
+  // mu 58333.3, lambda 38888.9 Pa, rho 400: sqrt(155555.6 / 400) = 19.72 m/s.
+  EXPECT_NEAR(sound_speed(Material{}), 19.7203, 1e-4);
+  EXPECT_NEAR(wave_speed(Material{}, Mat3d::Identity(), 1, 400), 19.7203, 1e-4);
+  EXPECT_NEAR(wave_speed(Material{}, Mat3d::Identity(), 0.8, 400), 19.7203 * std::exp(1.0), 1e-3);
+}
+
+}  // namespace

@@ -1,0 +1,103 @@
+/// Which limit rules dt, and that frames end on time.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/time_step.h"
+#include "tests/support/snow.h"
+
+namespace {
+
+using namespace neve::sim;
+using namespace neve::test;
+
+StateLimits slow() { return {0.1, 1.0, 0.1, 10}; }
+
+TEST(TimeStep, SmallestLimitRules) {
+  SolverSettings s;  // h = 0.02
+  EXPECT_EQ(choose_dt(s, slow(), 1).limit, DtLimit::max_dt);
+  EXPECT_EQ(choose_dt(s, slow(), 1).dt, s.max_dt);
+  StateLimits fast = slow();
+  fast.max_speed = 100;
+  fast.max_hardening = 0;
+  EXPECT_EQ(choose_dt(s, fast, 1).limit, DtLimit::cfl);
+  EXPECT_NEAR(choose_dt(s, fast, 1).dt, 0.4 * 0.02 / 100, 1e-15);
+  StateLimits stiff = slow();
+  stiff.max_sound_speed = 40;
+  EXPECT_EQ(choose_dt(s, stiff, 1).limit, DtLimit::acoustic);
+  EXPECT_NEAR(choose_dt(s, stiff, 1).dt, 0.5 * 0.02 / 40, 1e-15);
+  StateLimits strained = slow();
+  strained.max_strain_rate = 3000;
+  EXPECT_EQ(choose_dt(s, strained, 1).limit, DtLimit::strain);
+  EXPECT_NEAR(choose_dt(s, strained, 1).dt, 0.3 / 3000, 1e-15);
+}
+
+TEST(TimeStep, FastSnowTakesStepsThatItsHardeningCannotOutrun) {
+  SolverSettings s;
+  StateLimits impact{20, 19.7, 0, 10};
+  const double dt = choose_dt(s, impact, 1).dt;
+  const double c_after = 19.7 * std::exp(0.5 * 10 * 0.7 * 20 * dt / s.cell_size);
+  EXPECT_LE(c_after * dt, 1.0 * s.cell_size);
+}
+
+TEST(TimeStep, FixedIsTakenAsItIs) {
+  SolverSettings s;
+  s.time_step = TimeStep::fixed;
+  s.dt = 7e-3;
+  StateLimits impact{20, 190, 900, 10};
+  EXPECT_EQ(choose_dt(s, impact, 1).dt, 7e-3);
+  EXPECT_EQ(choose_dt(s, impact, 1).limit, DtLimit::fixed);
+  EXPECT_EQ(choose_dt(s, impact, 2e-3).dt, 2e-3);
+  EXPECT_EQ(choose_dt(s, impact, 2e-3).limit, DtLimit::frame_end);
+}
+
+TEST(TimeStep, LastStepsOfAFrameShareWhatIsLeft) {
+  SolverSettings s;
+  const Simulation::Choice choice = choose_dt(s, slow(), 1.5e-3);
+  EXPECT_EQ(choice.limit, DtLimit::frame_end);
+  EXPECT_NEAR(choice.dt, 0.75e-3, 1e-15);
+}
+
+TEST(TimeStep, FramesEndExactlyAndCountTheirSteps) {
+  for (const TimeStep kind : {TimeStep::adaptive, TimeStep::fixed}) {
+    SolverSettings s;
+    s.time_step = kind;
+    s.dt = 1e-4;
+    Simulation simulation(s, {Material{}}, {}, box_of_snow({0, 0, 0}, {0.1, 0.1, 0.1}, 0.01), 1);
+    std::size_t steps = 0;
+    for (int frame = 1; frame <= 10; ++frame) {
+      const AdvanceReport report = simulation.advance_to(frame / 24.0);
+      EXPECT_EQ(simulation.time(), frame / 24.0);
+      steps += report.steps;
+      std::size_t ruled = 0;
+      for (const std::size_t n : report.ruled) ruled += n;
+      EXPECT_EQ(ruled, report.steps);
+      // 1/24 s in steps of 1e-4 s: 416 whole ones and a shortened one.
+      if (kind == TimeStep::fixed) {
+        EXPECT_EQ(report.steps, 417u);
+        EXPECT_EQ(report.limit(), DtLimit::fixed);
+      }
+      EXPECT_GT(report.dt_min, 1e-6);
+    }
+    EXPECT_EQ(simulation.steps(), steps);
+  }
+}
+
+TEST(FlipShare, DampsByTimeNotBySteps) {
+  SolverSettings s;
+  EXPECT_NEAR(flip_share(s, 5e-4), 0.95, 1e-15);
+  EXPECT_NEAR(std::pow(flip_share(s, 1e-4), 5), 0.95, 1e-14);
+  s.flip_reference_dt = 0;
+  EXPECT_EQ(flip_share(s, 1e-5), 0.95);
+}
+
+TEST(Interruption, EndsAfterAStep) {
+  SolverSettings s;
+  Simulation simulation(s, {Material{}}, {}, box_of_snow({0, 0, 0}, {0.1, 0.1, 0.1}, 0.01), 1);
+  const AdvanceReport report = simulation.advance_to(1, [] { return true; });
+  EXPECT_EQ(report.steps, 1u);
+  EXPECT_LT(simulation.time(), 0.01);
+}
+
+}  // namespace
