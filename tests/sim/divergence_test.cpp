@@ -15,7 +15,7 @@ using namespace neve::test;
 std::vector<Collider> floor_plane() { return {plane({0, 0.003, 0}, {0, 1, 0}, 0.5)}; }
 
 ParticleArrays falling_ball(double speed) {
-  return ball_of_snow({0, 0.13, 0}, 0.12, 0.015, {0, -speed, 0});
+  return ball_of_snow({0, 0.13, 0}, 0.12, 0.02, {0, -speed, 0});
 }
 
 std::string rule_of(const SolverSettings& s, const Material& m, const ParticleArrays& p,
