@@ -5,22 +5,22 @@
 #include "gbuffer.glsl"
 
 flat in vec3 center;
-flat in vec3 color;
+flat in vec3 root_color;
 flat in float sphere_radius;
 
 uniform float kind;
 
 void main() {
-  vec3 ray = normalize(view_ray(gl_FragCoord.xy));
+  vec3 ray = view_ray(gl_FragCoord.xy);  // not normalised: 1 along the view, so lengths are depths
+  float per_length = 1.0 / dot(ray, ray);
   // From the centre to the nearest point of the ray: small numbers, where |center|^2 - r^2 would
   // lose the sphere in rounding.
-  float along = dot(ray, center);
+  float along = dot(ray, center) * per_length;
   vec3 offset = ray * along - center;
   float inside = sphere_radius * sphere_radius - dot(offset, offset);
   if (inside < 0.0) discard;
-  float depth_in_sphere = sqrt(inside);
-  vec3 hit = ray * (along - depth_in_sphere);
-  gl_FragDepth = depth_of(dot(hit, view_forward));
-  out_normal_kind = vec4((offset - ray * depth_in_sphere) / sphere_radius, kind);
-  out_albedo = vec4(pow(color, vec3(1.1)), 1.0);  // sRGB to the square root of linear light
+  float half_chord = sqrt(inside * per_length);
+  gl_FragDepth = depth_of(along - half_chord);
+  out_normal_kind = vec4((offset - ray * half_chord) / sphere_radius, kind);
+  out_albedo = vec4(root_color, 1.0);
 }

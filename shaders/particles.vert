@@ -11,13 +11,13 @@ uniform float radius;
 uniform float min_radius_pixels;
 
 flat out vec3 center;
-flat out vec3 color;
+flat out vec3 root_color;
 flat out float sphere_radius;
 
 void main() {
   float z = dot(in_center, view_forward);
   center = in_center;
-  color = in_color.rgb;
+  root_color = pow(in_color.rgb, vec3(1.1));  // sRGB to the square root of linear light
   // Never so small that a sphere falls between samples and flickers.
   sphere_radius = max(radius, min_radius_pixels * z / pixels_per_slope);
 #ifdef QUADS

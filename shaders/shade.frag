@@ -22,7 +22,7 @@ const float kind_snow = 3.0;
 
 const vec3 sun = vec3(1.30, 1.22, 1.08);
 const vec3 sky = vec3(0.42, 0.56, 0.80);
-const vec3 bounce = vec3(0.26, 0.30, 0.36);
+const vec3 bounce = vec3(0.23, 0.29, 0.38);
 const vec3 scatter = vec3(0.10, 0.16, 0.24);
 const vec3 background_top = vec3(0.060, 0.072, 0.098);
 const vec3 background_bottom = vec3(0.190, 0.215, 0.260);
@@ -59,9 +59,10 @@ vec3 lit(vec3 albedo, vec3 n, float key, float open_sky, float contrast) {
   const float wrap = 0.3;
   float facing = max(0.0, (dot(n, toward_light) + wrap) / (1.0 + wrap));
   facing = mix(1.0, facing, contrast) * (0.65 + 0.35 * facing);
-  float shade = pow(key, 0.7 * contrast);
+  // Light that has gone through snow is bluer: red is absorbed first.
+  vec3 shade = pow(vec3(key), vec3(0.90, 0.78, 0.66) * contrast);
   float open = mix(1.0, open_sky, contrast);
-  vec3 ambient = mix(bounce, sky, 0.5 + 0.5 * n.y) * (0.18 + 0.82 * open) * 0.75;
+  vec3 ambient = mix(bounce, sky, 0.5 + 0.5 * n.y) * (0.08 + 0.92 * open) * 0.75;
   vec3 inside = scatter * (0.6 * open * (1.0 - key) + 0.15);
   return albedo * (sun * facing * shade * key_intensity + (ambient + inside) * ambient_intensity);
 }
@@ -84,7 +85,7 @@ vec3 surface(vec3 p, vec4 normal_kind, vec3 albedo) {
   vec3 n = normal_kind.xyz;
   float kind = normal_kind.w;
   if (kind == kind_ground || kind == kind_solid) {
-    vec3 above = p + n * cell * (kind == kind_solid ? 1.5 : 0.5);
+    vec3 above = p + n * cell * (kind == kind_solid ? 2.5 : 0.5);
     vec3 color = lit(albedo, n, key_light(above), sky_light(above), 1.0);
     if (kind == kind_solid) {
       float rim = 1.0 - abs(dot(n, normalize(p)));

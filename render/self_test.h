@@ -1,0 +1,14 @@
+#pragma once
+/// Draws a picture whose content is known and looks at it: a driver can open a context and still
+/// draw nothing.
+
+#include <string>
+
+#include "render/context.h"
+
+namespace neve::render {
+
+/// @return "" or what was wrong with the picture; never throws
+std::string self_test(Context& context);
+
+}  // namespace neve::render
