@@ -1,0 +1,103 @@
+/// Automatic framing and ranges: everything in the picture, round numbers, the scene alone decides.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "app/auto_ranges.h"
+#include "app/dry_run.h"
+#include "app/resolve.h"
+#include "app/scene/read.h"
+
+namespace neve::app {
+namespace {
+
+const char* const drop = R"(
+frames = 12
+[[body]]
+shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
+[[collider]]
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+)";
+
+/// Larger of the coordinates of a point in the picture, 1 at its border.
+double reach(const CameraSettings& camera, double aspect, const sim::Vec3d& point) {
+  const sim::Vec3d forward = (*camera.target - *camera.eye).normalized();
+  const sim::Vec3d right = forward.cross(camera.up).normalized();
+  const sim::Vec3d up = right.cross(forward);
+  const sim::Vec3d q = point - *camera.eye;
+  const double half = std::tan(camera.fov * std::numbers::pi / 360) * q.dot(forward);
+  return std::max(std::abs(q.dot(right)) / (half * aspect), std::abs(q.dot(up)) / half);
+}
+
+TEST(AutomaticCamera, ShowsWhereTheSnowStartsAndLands) {
+  Scene scene = read_scene_text(drop, "drop.toml");
+  resolve(scene, 1000);
+  ASSERT_TRUE(scene.camera && scene.camera->eye);
+  EXPECT_GT(scene.camera->eye->y(), 0) << "the eye is below the floor";
+  double largest = 0;
+  for (const double y : {0.0, 0.4, 0.6})
+    largest = std::max(largest, reach(*scene.camera, 16.0 / 9, {0, y, 0}));
+  EXPECT_LT(largest, 0.9);
+  EXPECT_GT(largest, 0.4);
+}
+
+TEST(AutomaticCamera, IsTheSameEveryTime) {
+  Scene a = read_scene_text(drop, "drop.toml"), b = a;
+  resolve(a, 1000);
+  resolve(b, 1000);
+  EXPECT_EQ(write_scene(a), write_scene(b));
+}
+
+TEST(AutomaticCamera, LeavesAGivenPlaceAlone) {
+  Scene scene = read_scene_text(
+      std::string(drop) + "[camera]\neye = [3, 1, 0]\ntarget = [0, 0, 0]\n", "drop.toml");
+  resolve(scene, 1000);
+  EXPECT_EQ(*scene.camera->eye, sim::Vec3d(3, 1, 0));
+}
+
+TEST(AutomaticCamera, StaysOnTheOpenSideOfASlope) {
+  Scene scene = read_scene_text(R"(
+frames = 12
+[[body]]
+shape = { box = { center = [0, 0.2, 0], size = [0.2, 0.2, 0.2], rotation = [0, 0, -30] } }
+[[collider]]
+shape = { plane = { point = [0, 0, 0], normal = [0.5, 0.866, 0] } }
+)",
+                                "slope.toml");
+  resolve(scene, 1000);
+  EXPECT_GT(scene.camera->eye->dot(sim::Vec3d(0.5, 0.866, 0)), 0);
+}
+
+TEST(DryRun, CoversTheWholeScene) {
+  const Scene scene = read_scene_text(drop, "drop.toml");
+  const std::vector<Moment> moments = dry_run(scene);
+  ASSERT_GT(moments.size(), 2u);
+  EXPECT_DOUBLE_EQ(moments.back().time, 0.5);
+  EXPECT_LT(moments.front().x.size(), 2000u);
+}
+
+TEST(AutomaticRange, OfSpeedReachesTheImpact) {
+  const Scene scene = read_scene_text(drop, "drop.toml");
+  // From rest through half a metre: sqrt(2 g 0.5) = 3.13 m/s, rounded up.
+  EXPECT_EQ(automatic_range(scene, ColorBy::speed, 10).max, 4);
+  EXPECT_EQ(automatic_range(scene, ColorBy::speed, 10).min, 0);
+}
+
+TEST(AutomaticRange, HoldsTheNeutralValue) {
+  const Scene scene = read_scene_text(drop, "drop.toml");
+  const auto holds = [&](ColorBy color_by, double value) {
+    const Range range = automatic_range(scene, color_by, 10);
+    return range.min < value && value < range.max;
+  };
+  EXPECT_TRUE(holds(ColorBy::J_E, 1));
+  EXPECT_TRUE(holds(ColorBy::J_P, 1));
+  EXPECT_TRUE(holds(ColorBy::density, 400));
+  EXPECT_TRUE(holds(ColorBy::pressure, 0));
+  EXPECT_EQ(automatic_range(scene, ColorBy::id, 10).max, 9);
+}
+
+}  // namespace
+}  // namespace neve::app

@@ -1,0 +1,98 @@
+/// Movies: the right number of frames, or none and a reason.
+
+#include "app/output/movie.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "app/output/atomic_file.h"
+#include "app/output/process.h"
+#include "app/output/sequence.h"
+#include "render/image.h"
+#include "tests/support/temporary_folder.h"
+
+namespace neve::app {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder;
+
+/// Odd sides, as yuv420p cannot hold them.
+void write_pictures(const fs::path& folder, int first, int last) {
+  for (int frame = first; frame <= last; ++frame) {
+    render::Image image;
+    image.width = 33, image.height = 17;
+    image.pixels.assign(33 * 17 * 3, static_cast<std::uint8_t>(20 * (frame % 10)));
+    write_file(frame_path(folder, "v", frame), render::encode_png(image));
+  }
+}
+
+MovieRequest request(const fs::path& folder, int first, int last) {
+  return {folder / "v", folder / "v.mp4", first, last, 24};
+}
+
+/// A folder whose name is full of what shells and patterns treat specially.
+struct Fixture {
+  TemporaryFolder outer;
+  fs::path folder = outer / "a %d 'b' $(c)";
+  Fixture() { fs::create_directories(folder / "v"); }
+};
+
+std::size_t file_count(const fs::path& folder) {
+  const auto entries = fs::directory_iterator(folder);
+  return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
+}
+
+class Movie : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!find_program("ffmpeg")) GTEST_SKIP() << "ffmpeg is not installed";
+  }
+};
+
+TEST_F(Movie, HoldsEveryFrameOfOddSizeFromAStrangeFolder) {
+  const Fixture f;
+  write_pictures(f.folder, 3, 8);
+  const MovieResult result = write_movie(request(f.folder, 3, 8));
+  EXPECT_EQ(result.outcome, MovieOutcome::written) << result.reason;
+  EXPECT_GT(fs::file_size(f.folder / "v.mp4"), 0u);
+  EXPECT_EQ(file_count(f.folder), 2u) << "a temporary file is left";
+}
+
+TEST_F(Movie, GoesOnPastFrame9999) {
+  const Fixture f;
+  write_pictures(f.folder, 9998, 10001);
+  EXPECT_EQ(write_movie(request(f.folder, 9998, 10001)).outcome, MovieOutcome::written);
+}
+
+TEST_F(Movie, IgnoresPicturesBehindTheLastFrame) {
+  const Fixture f;
+  write_pictures(f.folder, 0, 9);
+  EXPECT_EQ(write_movie(request(f.folder, 0, 4)).outcome, MovieOutcome::written);
+}
+
+TEST_F(Movie, IsNotKeptWhenAPictureIsEmptyOrMissing) {
+  for (const bool is_missing : {false, true}) {
+    const Fixture f;
+    write_pictures(f.folder, 0, 7);
+    fs::remove(f.folder / "v/0004.png");
+    if (!is_missing) write_file(f.folder / "v/0004.png", std::string_view());
+    const MovieResult result = write_movie(request(f.folder, 0, 7));
+    EXPECT_EQ(result.outcome, MovieOutcome::failed);
+    EXPECT_FALSE(result.reason.empty());
+    EXPECT_EQ(file_count(f.folder), 1u) << "something else than the pictures is left";
+  }
+}
+
+TEST(MovieWithoutFfmpeg, IsNoError) {
+  const TemporaryFolder folder;
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder.path().c_str(), 1);
+  const MovieResult result = write_movie(request(folder.path(), 0, 1));
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(result.outcome, MovieOutcome::no_ffmpeg);
+}
+
+}  // namespace
+}  // namespace neve::app

@@ -1,0 +1,98 @@
+/// Progress lines, and the small texts around them.
+
+#include "app/progress.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "app/argument_text.h"
+#include "app/frame_builder.h"
+#include "app/round_number.h"
+#include "app/scene/error.h"
+#include "app/text.h"
+
+namespace neve::app {
+namespace {
+
+TEST(Progress, LineSaysFrameTimeStepsAndWhatIsLeft) {
+  EXPECT_EQ(progress_text({12, 48, 0.5, 320, 0.42}),
+            "frame 12/48  t = 0.500 s  320 steps  0.42 s/frame  15 s left");
+  EXPECT_EQ(progress_text({0, 48, 0, 7, -1}), "frame 0/48  t = 0.000 s  7 steps");
+}
+
+TEST(Progress, DurationsUseTwoUnits) {
+  EXPECT_EQ(duration_text(7.6), "8 s");
+  EXPECT_EQ(duration_text(200), "3 min 20 s");
+  EXPECT_EQ(duration_text(7500), "2 h 05 min");
+}
+
+TEST(Progress, RewritesItsLineOnlyOnATerminal) {
+  for (const bool updates : {true, false}) {
+    std::ostringstream out;
+    {
+      Progress progress(out, Verbosity::normal, updates);
+      progress.start(4);
+      progress.frame(1, 0.1);
+      progress.note("hello");
+    }
+    EXPECT_EQ(out.str().find('\r') != std::string::npos, updates);
+    EXPECT_NE(out.str().find("hello\n"), std::string::npos);
+  }
+}
+
+TEST(Progress, QuietRunsPrintOnlyWarnings) {
+  std::ostringstream out;
+  Progress progress(out, Verbosity::quiet, true);
+  progress.start(4);
+  progress.frame(1, 0.1);
+  progress.note("note");
+  progress.detail("detail");
+  EXPECT_EQ(out.str(), "");
+  progress.warning("careful");
+  EXPECT_EQ(out.str(), "neve: warning: careful\n");
+}
+
+TEST(RoundNumber, IsOneThatPeopleWouldChoose) {
+  EXPECT_EQ(round_up(4.4), 5);
+  EXPECT_EQ(round_up(3), 3);
+  EXPECT_EQ(round_up(8.1), 10);
+  EXPECT_EQ(round_up(0), 0);
+  EXPECT_EQ(round_down(0.13), 0.1);
+  EXPECT_EQ(round_down(199), 100);
+  EXPECT_EQ(round_to(1.23456, 1, 3), 1.23);
+  EXPECT_EQ(round_to(12345, 12345, 2), 12000);
+}
+
+TEST(FrameArguments, AreRangesOrALastFrame) {
+  EXPECT_EQ(parse_frames("3-7").first, 3);
+  EXPECT_EQ(parse_frames("3-7").last, 7);
+  EXPECT_EQ(parse_frames("48").first, 0);
+  EXPECT_EQ(parse_frames("48").last, 48);
+  for (const char* wrong : {"", "-", "5-", "-5", "7-3", "a", "1-b", "1 - 2", "99999999999"})
+    EXPECT_THROW(parse_frames(wrong), UsageError) << wrong;
+}
+
+TEST(SizeArguments, AreTwoSides) {
+  EXPECT_EQ(parse_size("1280x720").width, 1280);
+  EXPECT_EQ(parse_size("1280x720").height, 720);
+  for (const char* wrong : {"", "x", "1280", "1280x", "0x720", "-5x9", "1280X720", "99999x99999"})
+    EXPECT_THROW(parse_size(wrong), UsageError) << wrong;
+}
+
+TEST(Caption, NamesOverridesByTheirLastWordUnlessTwoAreAlike) {
+  const std::vector<std::string> lines =
+      override_lines({"material.snow.hardening=5", "body.a.velocity=[0,1,0]",
+                      "body.b.velocity=[0,2,0]", "material.snow.hardening=6"});
+  const std::vector<std::string> expected{"hardening = 6", "body.a.velocity = [0,1,0]",
+                                          "body.b.velocity = [0,2,0]"};
+  EXPECT_EQ(lines, expected);
+}
+
+TEST(NearestName, IsFoundForTypingErrorsOnly) {
+  EXPECT_EQ(nearest_name("rendr", {"render", "doctor"}), "render");
+  EXPECT_EQ(nearest_name("banana", {"render", "doctor"}), "");
+}
+
+}  // namespace
+}  // namespace neve::app

@@ -1,0 +1,67 @@
+/// run.json: the names that scripts depend on.
+
+#include "app/output/run_json.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace neve::app {
+namespace {
+
+std::vector<std::string> keys(const Json& json) {
+  std::vector<std::string> result;
+  for (const auto& item : json.items()) result.push_back(item.key());
+  return result;
+}
+
+TEST(RunJson, HasTheFieldsOfTheContract) {
+  RunRecord run;
+  run.frames.emplace_back();
+  const Json json = to_json(run);
+  for (const char* key : {"version", "scene", "overrides", "backend", "gl_renderer", "threads",
+                          "simd", "status", "frames"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  const std::vector<std::string> expected{
+      "frame",          "time",        "steps",          "dt_min",    "dt_max",
+      "dt_limit",       "seconds_sim", "seconds_render", "particles", "kinetic_energy",
+      "elastic_energy", "momentum",    "centre_of_mass", "max_speed", "min_J_P",
+      "max_J_P",        "state_hash"};
+  EXPECT_EQ(keys(json["frames"][0]), expected);
+}
+
+TEST(RunJson, FrameZeroHasNoSteps) {
+  const Json json = to_json(FrameRecord{});
+  EXPECT_EQ(json["steps"], 0);
+  EXPECT_TRUE(json["dt_min"].is_null());
+  EXPECT_TRUE(json["dt_max"].is_null());
+  EXPECT_TRUE(json["dt_limit"].is_null());
+}
+
+TEST(RunJson, NamesTheLimitThatRuledMostSteps) {
+  FrameRecord frame;
+  frame.advance.steps = 5;
+  frame.advance.ruled[static_cast<std::size_t>(sim::DtLimit::cfl)] = 4;
+  frame.advance.ruled[static_cast<std::size_t>(sim::DtLimit::frame_end)] = 1;
+  EXPECT_EQ(to_json(frame)["dt_limit"], "cfl");
+}
+
+TEST(RunJson, WritesNanAsNullAndHashesWithAllDigits) {
+  FrameRecord frame;
+  frame.summary.max_speed = std::numeric_limits<double>::quiet_NaN();
+  frame.summary.momentum.x() = std::numeric_limits<double>::infinity();
+  frame.state_hash = 0xabc;
+  const Json json = to_json(frame);
+  EXPECT_TRUE(json["max_speed"].is_null());
+  EXPECT_TRUE(json["momentum"][0].is_null());
+  EXPECT_EQ(json["state_hash"], "0000000000000abc");
+}
+
+TEST(RunJson, SurvivesTextThatIsNoUtf8) {
+  RunRecord run;
+  run.scene_file = "caf\xe9.toml";
+  EXPECT_NO_THROW(to_text(to_json(run)));
+}
+
+}  // namespace
+}  // namespace neve::app
