@@ -15,6 +15,8 @@ struct Name {
   E value;
   const char* text;
 };
+template <class E>
+Name(E, const char*) -> Name<E>;
 
 constexpr auto names(sim::Kernel) {
   using enum sim::Kernel;

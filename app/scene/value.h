@@ -21,6 +21,14 @@ struct Entry;
 struct Date {};  ///< TOML has dates and times; no parameter is one
 using Array = std::vector<Value>;
 struct Table {
+  // Defined where Entry is complete; until then a vector of it can be neither copied nor destroyed.
+  Table();
+  Table(const Table& other);
+  Table(Table&& other) noexcept;
+  Table& operator=(const Table& other);
+  Table& operator=(Table&& other) noexcept;
+  ~Table();
+
   std::vector<Entry> entries;  ///< in the order written
 
   const Entry* find(std::string_view key) const;
