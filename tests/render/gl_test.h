@@ -1,0 +1,75 @@
+#pragma once
+/// What tests that draw share: opening a context or skipping, small frames, looking at pixels.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "render/renderer.h"
+
+/// Skips the test without OpenGL; fails instead where NEVE_REQUIRE_GL=1 says that there must be
+/// one.
+#define OPEN_OR_SKIP(context, choice)                                           \
+  std::string context##_reason;                                                 \
+  const auto context = neve::render::open_or_explain(choice, context##_reason); \
+  if (!context) {                                                               \
+    const char* required = std::getenv("NEVE_REQUIRE_GL");                      \
+    if (required && std::string(required) == "1") FAIL() << context##_reason;   \
+    GTEST_SKIP() << context##_reason;                                           \
+  }
+
+namespace neve::render {
+
+inline std::unique_ptr<Context> open_or_explain(const std::string& choice, std::string& reason) {
+  try {
+    return open_context(choice);
+  } catch (const ContextError& error) {
+    reason = error.what();
+    return nullptr;
+  }
+}
+
+struct Pixel {
+  int r = 0, g = 0, b = 0;
+  int brightness() const { return (r + g + b) / 3; }
+};
+
+inline Pixel pixel(const Image& image, int x, int y) {
+  const std::size_t at = 3 * static_cast<std::size_t>(y * image.width + x);
+  return {image.pixels.at(at), image.pixels.at(at + 1), image.pixels.at(at + 2)};
+}
+
+/// Looking along -z from distance 2 at the origin; one unit there is as high as the picture.
+inline Frame small_frame(int width = 120, int height = 90) {
+  Frame frame;
+  frame.width = width;
+  frame.height = height;
+  frame.camera = {.eye = {0, 0, 2}, .target = {0, 0, 0}, .up = {0, 1, 0}, .fov = 28.0725f};
+  frame.light.direction = {0, 0.3f, 1};
+  return frame;
+}
+
+inline void add_point(Frame& frame, Vec3f position) {
+  frame.points.id.push_back(static_cast<std::uint32_t>(frame.points.position.size()));
+  frame.points.position.push_back(position);
+}
+
+/// A ball of packed points.
+inline void add_ball(Frame& frame, Vec3f center, float radius, float spacing) {
+  frame.points.spacing = spacing;
+  frame.points.radius = 0.7f * spacing;
+  const int n = static_cast<int>(radius / spacing);
+  for (int i = -n; i <= n; ++i) {
+    for (int j = -n; j <= n; ++j) {
+      for (int k = -n; k <= n; ++k) {
+        const Vec3f p =
+            spacing * Vec3f{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)};
+        if (length(p) <= radius) add_point(frame, center + p);
+      }
+    }
+  }
+}
+
+}  // namespace neve::render

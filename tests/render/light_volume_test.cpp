@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gl_test.h"
+#include "render/lighting.h"
+#include "render/mesh_shapes.h"
+
+namespace neve::render {
+namespace {
+
+struct Sample {
+  Vec3f body;
+  float key, sky;
+};
+
+/// The cell that a place lies in.
+Sample sample(const LightVolume& volume, Vec3f place) {
+  const Vec3f x = (place - volume.grid.origin) / volume.grid.cell;
+  const auto index = [&](float v, int n) {
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(v), 0, n - 1));
+  };
+  const Vec3i n = volume.grid.size;
+  const std::size_t i = (index(x.z, n.z) * static_cast<std::size_t>(n.y) + index(x.y, n.y)) *
+                            static_cast<std::size_t>(n.x) +
+                        index(x.x, n.x);
+  const auto body = [&](std::size_t c) { return static_cast<float>(volume.body[4 * i + c]) / 127; };
+  return {{body(0), body(1), body(2)},
+          static_cast<float>(volume.light[2 * i]) / 65535,
+          static_cast<float>(volume.light[2 * i + 1]) / 65535};
+}
+
+Frame ball() {
+  Frame frame;
+  frame.light.direction = {0, 1, 0};
+  add_ball(frame, {0, 0, 0}, 0.3f, 0.02f);
+  return frame;
+}
+
+TEST(LightVolume, LightComesFromTheLightAndNotThroughTheBody) {
+  for (const Vec3f direction : {Vec3f{0, 1, 0}, Vec3f{-1, 0, 0}, Vec3f{0.1f, 0.2f, 1},
+                                Vec3f{-0.6f, 0.6f, 0.5f}, Vec3f{0.3f, -1, 0.2f}}) {
+    Frame frame = ball();
+    frame.light.direction = direction;
+    const LightVolume volume = make_light_volume(frame, nullptr);
+    const Vec3f l = normalized(direction);
+    EXPECT_GT(sample(volume, 0.34f * l).key, 0.9f);
+    EXPECT_LT(sample(volume, -0.34f * l).key, 0.1f);
+    EXPECT_LT(sample(volume, {0, 0, 0}).key, 0.2f);
+  }
+}
+
+TEST(LightVolume, SkyIsOpenAboveAndClosedBelow) {
+  const LightVolume volume = make_light_volume(ball(), nullptr);
+  EXPECT_GT(sample(volume, {0, 0.34f, 0}).sky, 0.9f);
+  EXPECT_LT(sample(volume, {0, -0.33f, 0}).sky, 0.4f);
+}
+
+TEST(LightVolume, BodyNormalPointsOutward) {
+  const LightVolume volume = make_light_volume(ball(), nullptr);
+  for (const Vec3f n : {Vec3f{1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, 0, -1}, Vec3f{0.6f, -0.8f, 0}}) {
+    const Vec3f body = sample(volume, 0.3f * n).body;
+    EXPECT_GT(length(body), 0.5f);
+    EXPECT_GT(dot(normalized(body), n), 0.95f);
+  }
+}
+
+TEST(LightVolume, StrayHasHardlyABody) {
+  Frame frame = ball();
+  add_point(frame, {0.5f, 0.2f, 0});
+  const LightVolume volume = make_light_volume(frame, nullptr);
+  EXPECT_LT(length(sample(volume, {0.5f, 0.2f, 0}).body), 0.3f);
+  EXPECT_GT(sample(volume, {0.5f, 0.25f, 0}).key, 0.9f);
+}
+
+TEST(LightVolume, DependsNeitherOnOrderNorOnThreads) {
+  Frame frame = ball();
+  for (int i = 0; i < 4; ++i)  // enough for several parts
+    frame.points.position.insert(frame.points.position.end(), frame.points.position.begin(),
+                                 frame.points.position.begin() + 10000);
+  ASSERT_GT(frame.points.position.size(), 40000u);
+  const LightVolume one = make_light_volume(frame, nullptr);
+  for (const int threads : {2, 3, 5}) {
+    ThreadPool pool(threads);
+    std::reverse(frame.points.position.begin(), frame.points.position.end());
+    const LightVolume many = make_light_volume(frame, &pool);
+    EXPECT_EQ(one.body, many.body);
+    EXPECT_EQ(one.light, many.light);
+  }
+}
+
+TEST(LightGrid, FarStrayDoesNotCoarsenIt) {
+  Frame frame = ball();
+  const LightGrid without = fit_light_grid(frame.points, {});
+  for (const Vec3f stray : {Vec3f{1e6f, 0, 0}, Vec3f{0, -1e30f, 3}, Vec3f{NAN, INFINITY, 0}})
+    add_point(frame, stray);
+  const LightGrid with = fit_light_grid(frame.points, {});
+  EXPECT_LE(with.cell, 1.3f * without.cell);
+  const LightVolume volume = make_light_volume(frame, nullptr);
+  EXPECT_LT(sample(volume, {0, 0, 0}).key, 0.2f);
+}
+
+TEST(LightGrid, StaysWithin96CellsAndAroundThePoints) {
+  Frame frame;
+  for (const float extent : {1e-5f, 1.0f, 1e5f}) {
+    frame.points.position = {{0, 0, 0}, {extent, 0.5f * extent, 0.1f * extent}};
+    const LightGrid grid = fit_light_grid(frame.points, {});
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LE(grid.size[axis], 96);
+      EXPECT_LT(grid.origin[axis], 0);
+      EXPECT_GT(grid.origin[axis] + grid.cell * static_cast<float>(grid.size[axis]),
+                frame.points.position[1][axis]);
+    }
+  }
+  frame.points.position.clear();
+  EXPECT_EQ(fit_light_grid(frame.points, {}).count(), 1u);
+}
+
+TEST(LightVolume, MeshNearTheSnowThrowsAShadow) {
+  Frame frame = ball();
+  frame.meshes.push_back(box_mesh({0, 0.5f, 0}, {0.4f, 0.05f, 0.4f}));
+  EXPECT_LT(sample(make_light_volume(frame, nullptr), {0, 0.35f, 0}).key, 0.1f);
+}
+
+TEST(LightGrid, FarOrHugeMeshDoesNotCoarsenIt) {
+  const Frame frame = ball();
+  const float cell = fit_light_grid(frame.points, {}).cell;
+  EXPECT_EQ(fit_light_grid(frame.points, {box_mesh({50, 0, 0}, {1, 1, 1})}).cell, cell);
+  EXPECT_LE(fit_light_grid(frame.points, {box_mesh({0, -20, 0}, {40, 39, 40})}).cell, 3 * cell);
+}
+
+}  // namespace
+}  // namespace neve::render

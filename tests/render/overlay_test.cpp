@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gl_test.h"
+#include "render/colormap.h"
+
+namespace neve::render {
+namespace {
+
+/// Largest box that contains everything that differs, by more than the noise of the picture: there
+/// is none, drawing is deterministic.
+struct Changed {
+  int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1, count = 0;
+};
+
+Changed changed(const Image& a, const Image& b) {
+  Changed c;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) {
+      const Pixel p = pixel(a, x, y), q = pixel(b, x, y);
+      if (p.r == q.r && p.g == q.g && p.b == q.b) continue;
+      c.left = std::min(c.left, x);
+      c.right = std::max(c.right, x);
+      c.top = std::min(c.top, y);
+      c.bottom = std::max(c.bottom, y);
+      ++c.count;
+    }
+  }
+  return c;
+}
+
+Image draw_caption(Renderer& renderer, const std::string& text, int width = 480, int height = 270) {
+  Frame frame = small_frame(width, height);
+  if (!text.empty()) frame.caption = {text};
+  return renderer.draw(frame);
+}
+
+TEST(Caption, IsDrawnWithItsAccents) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  const Image nothing = draw_caption(renderer, "");
+  const Image with = draw_caption(renderer, "Boule de névé");
+  const Image without = draw_caption(renderer, "Boule de neve");
+  EXPECT_GT(changed(nothing, with).count, 150);
+  const Changed accents = changed(with, without);
+  EXPECT_GT(accents.count, 2);
+  EXPECT_LT(accents.count, changed(nothing, with).count / 2);
+}
+
+TEST(Caption, DrawsScriptsBeyondLatin) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  // Different letters that would all be the same box if the font lacked them.
+  const Image greek = draw_caption(renderer, "αβγ"), other = draw_caption(renderer, "δεζ");
+  const Image cyrillic = draw_caption(renderer, "снег"), symbols = draw_caption(renderer, "∇≤→");
+  EXPECT_GT(changed(greek, other).count, 10);
+  EXPECT_GT(changed(cyrillic, draw_caption(renderer, "лёд?")).count, 10);
+  EXPECT_GT(changed(symbols, draw_caption(renderer, "∂≥←")).count, 10);
+}
+
+TEST(Caption, StaysInsideThePictureAndOffTheLegend) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  const std::string long_word(400, 'W');
+  for (const auto& [width, height] : {std::pair{320, 180}, {1280, 720}, {400, 800}}) {
+    Frame frame = small_frame(width, height);
+    const Image nothing = renderer.draw(frame);
+    frame.caption = {long_word, "many words " + long_word + " and more of them, again and again"};
+    const Changed caption = changed(nothing, renderer.draw(frame));
+    frame.caption.clear();
+    frame.legends.push_back({.title = "von Mises stress", .unit = "Pa", .min = 0, .max = 1e6f});
+    const Changed legend = changed(nothing, renderer.draw(frame));
+    ASSERT_GT(caption.count, 100) << width;
+    ASSERT_GT(legend.count, 100) << width;
+    EXPECT_LT(caption.right, width - 1) << width;
+    EXPECT_LT(legend.right, width - 1) << width;
+    EXPECT_LT(legend.bottom, height - 1) << width;
+    EXPECT_TRUE(caption.right < legend.left || caption.bottom < legend.top) << width;
+  }
+}
+
+TEST(Caption, GrowsWithThePicture) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  const auto height_of = [&](int width, int height) {
+    const Changed c = changed(draw_caption(renderer, "", width, height),
+                              draw_caption(renderer, "Hxh", width, height));
+    return static_cast<double>(c.bottom - c.top + 1);
+  };
+  const double at_720 = height_of(1280, 720);
+  EXPECT_NEAR(height_of(2560, 1440) / at_720, 2, 0.2);
+  EXPECT_GE(height_of(320, 180), 7);  // still to be read
+}
+
+TEST(Caption, OddTextIsHarmless) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  for (const char* text : {"", " ", "%s %n %d", "\xff\xfe broken", "a\tb\nc", "\xf0\x9f\x8f\x94"})
+    EXPECT_NO_THROW(draw_caption(renderer, text)) << text;
+  EXPECT_NO_THROW(draw_caption(renderer, "tiny", 8, 8));
+}
+
+TEST(Legend, ShowsTheColoursOfTheMap) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame(640, 360);
+  const Image nothing = renderer.draw(frame);
+  frame.legends.push_back({.title = "v", .unit = "", .colormap = ColorMap::turbo});
+  const Image image = renderer.draw(frame);
+  // The top of the bar is the end of the map; text is grey, so pure colours are the bar.
+  for (const float t : {0.05f, 0.5f, 0.95f}) {
+    const Rgb8 c = map_color(ColorMap::turbo, t);
+    bool is_found = false;
+    for (int y = 0; y < image.height && !is_found; ++y) {
+      for (int x = 320; x < image.width && !is_found; ++x) {
+        const Pixel p = pixel(image, x, y);
+        is_found = std::abs(p.r - c.r) + std::abs(p.g - c.g) + std::abs(p.b - c.b) < 12;
+      }
+    }
+    EXPECT_TRUE(is_found) << t;
+  }
+  EXPECT_GT(changed(nothing, image).left, 320);
+}
+
+TEST(Legend, AnyRangeIsDrawn) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  const float huge = 3e38f;
+  for (const auto& [min, max] : {std::pair{1.0f, 1.0f},
+                                 {-huge, huge},
+                                 {0.0f, 1e-30f},
+                                 {5.0f, 1.0f},
+                                 {NAN, 1.0f},
+                                 {0.0f, INFINITY}}) {
+    Frame frame = small_frame(320, 180);
+    frame.legends.push_back({.title = "t", .unit = "", .min = min, .max = max});
+    EXPECT_NO_THROW(renderer.draw(frame)) << min << " " << max;
+  }
+}
+
+TEST(Legend, SeveralStandSideBySide) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame(640, 360);
+  const Image nothing = renderer.draw(frame);
+  frame.legends.push_back({.title = "speed", .unit = "m/s"});
+  const Changed one = changed(nothing, renderer.draw(frame));
+  frame.legends.push_back({.title = "pressure", .unit = "Pa"});
+  const Changed two = changed(nothing, renderer.draw(frame));
+  EXPECT_EQ(one.right, two.right);
+  EXPECT_LT(two.left, one.left - 20);
+}
+
+TEST(Marks, RingSurroundsTheMarkedPlace) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame(480, 270);
+  const Image nothing = renderer.draw(frame);
+  frame.marks = {{0, 0, 0}};
+  const Image image = renderer.draw(frame);
+  const Changed c = changed(nothing, image);
+  EXPECT_LT(c.left, 240);
+  EXPECT_GT(c.right, 240);
+  EXPECT_GT(c.bottom, 135);
+  const Pixel inside = pixel(image, 240, 135), before = pixel(nothing, 240, 135);
+  EXPECT_EQ(inside.brightness(), before.brightness());
+  frame.marks = {{0, 0, 5}};  // behind the eye
+  EXPECT_EQ(renderer.draw(frame).pixels, nothing.pixels);
+}
+
+}  // namespace
+}  // namespace neve::render

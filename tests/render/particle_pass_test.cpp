@@ -1,0 +1,182 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gl_test.h"
+#include "render/colormap.h"
+#include "render/view.h"
+
+namespace neve::render {
+namespace {
+
+/// Bounding box and area of what differs from a picture without points.
+struct Silhouette {
+  int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1, area = 0;
+};
+
+Silhouette silhouette(Renderer& renderer, const Frame& frame) {
+  Frame empty = frame;
+  empty.points = {};
+  const Image with = renderer.draw(frame), without = renderer.draw(empty);
+  Silhouette s;
+  for (int y = 0; y < with.height; ++y) {
+    for (int x = 0; x < with.width; ++x) {
+      const Pixel a = pixel(with, x, y), b = pixel(without, x, y);
+      if (std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) < 8) continue;
+      s.left = std::min(s.left, x);
+      s.right = std::max(s.right, x);
+      s.top = std::min(s.top, y);
+      s.bottom = std::max(s.bottom, y);
+      ++s.area;
+    }
+  }
+  return s;
+}
+
+/// Radius in pixels of a sphere seen head on: the rays that graze it make a cone.
+float radius_on_picture(const Frame& frame, float distance) {
+  const View view = make_view(frame.camera, frame.width, frame.height);
+  const float r = frame.points.radius;
+  return view.pixels_per_slope * r / std::sqrt(distance * distance - r * r);
+}
+
+TEST(ParticlePass, SphereIsADiscOfItsRadiusInItsPlace) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  for (const float radius : {0.05f, 0.3f}) {  // drawn as a point and as a quad
+    Frame frame = small_frame();
+    frame.points.radius = radius;
+    add_point(frame, {0.1f, 0.05f, 0});
+    const Silhouette s = silhouette(renderer, frame);
+    const float r = radius_on_picture(frame, 2);
+    const Vec3f center = make_view(frame.camera, 120, 90).project({0.1f, 0.05f, 0});
+    EXPECT_NEAR(0.5f * static_cast<float>(s.left + s.right + 1), center.x, 1) << radius;
+    EXPECT_NEAR(0.5f * static_cast<float>(s.top + s.bottom + 1), 90 - center.y, 1) << radius;
+    EXPECT_NEAR(0.5f * static_cast<float>(s.right + 1 - s.left), r, 1) << radius;
+    EXPECT_NEAR(0.5f * static_cast<float>(s.bottom + 1 - s.top), r, 1) << radius;
+    EXPECT_NEAR(s.area, 3.1416f * r * r, 0.04f * 3.1416f * r * r + 8) << radius;
+  }
+}
+
+TEST(ParticlePass, SphereWhoseCentreIsOutsideThePictureStillReachesIn) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame();
+  frame.points.radius = 0.04f;
+  add_point(frame, {0.69f, 0, 0});  // the right edge is at 0.667
+  const Silhouette s = silhouette(renderer, frame);
+  EXPECT_EQ(s.right, 119);
+  EXPECT_GE(s.area, 2);
+}
+
+TEST(ParticlePass, NearerSphereHidesTheFartherWhateverTheOrder) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  for (const bool near_first : {true, false}) {
+    Frame frame = small_frame();
+    frame.points.radius = 0.2f;
+    const Vec3f near_point{0, 0, 0.3f}, far_point{0, 0, -0.3f};
+    add_point(frame, near_first ? near_point : far_point);
+    add_point(frame, near_first ? far_point : near_point);
+    frame.points.value = near_first ? std::vector<float>{1, 0} : std::vector<float>{0, 1};
+    frame.points.colormap = ColorMap::coolwarm;
+    const Pixel p = pixel(renderer.draw(frame), 60, 45);
+    EXPECT_GT(p.r, p.b + 40) << near_first;  // 1 is red
+  }
+}
+
+TEST(ParticlePass, SpheresIntersectWhereTheirSurfacesDo) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame();
+  frame.points.radius = 0.2f;
+  // Side by side and overlapping: flat discs would let the nearer one win across the overlap.
+  add_point(frame, {-0.1f, 0, 0.02f});
+  add_point(frame, {0.1f, 0, 0});
+  frame.points.value = {0, 1};
+  frame.points.colormap = ColorMap::coolwarm;
+  const Image image = renderer.draw(frame);
+  const Pixel left = pixel(image, 55, 45), right = pixel(image, 66, 45);
+  EXPECT_GT(left.b, left.r + 40);
+  EXPECT_GT(right.r, right.b + 40);
+}
+
+TEST(ParticlePass, PictureDoesNotDependOnTheOrderOfPoints) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame();
+  add_ball(frame, {0, 0, 0}, 0.3f, 0.05f);
+  // Two in the same place, told apart only by their id and colour.
+  add_point(frame, frame.points.position.front());
+  for (const std::uint32_t id : frame.points.id)
+    frame.points.value.push_back(static_cast<float>(id % 7) / 7);
+  Frame reversed = frame;
+  std::reverse(reversed.points.position.begin(), reversed.points.position.end());
+  std::reverse(reversed.points.id.begin(), reversed.points.id.end());
+  std::reverse(reversed.points.value.begin(), reversed.points.value.end());
+  EXPECT_EQ(renderer.draw(frame).pixels, renderer.draw(reversed).pixels);
+  // The test can see a change of colour.
+  Frame other = frame;
+  other.points.value.front() += 0.5f;
+  EXPECT_NE(renderer.draw(frame).pixels, renderer.draw(other).pixels);
+}
+
+TEST(ParticlePass, ValuesAreShownInTheColoursOfTheMap) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  for (const ColorMap map :
+       {ColorMap::viridis, ColorMap::magma, ColorMap::turbo, ColorMap::coolwarm}) {
+    for (const float value : {0.35f, 0.6f, 0.9f}) {
+      Frame frame = small_frame();
+      frame.points.radius = 0.2f;
+      add_point(frame, {0, 0, 0});
+      frame.points.value = {10 + value * 5};
+      frame.points.range_min = 10;
+      frame.points.range_max = 15;
+      frame.points.colormap = map;
+      const Pixel p = pixel(renderer.draw(frame), 60, 45);
+      const Rgb8 c = map_color(map, value);
+      // Light changes brightness, not hue: compare directions, and brightness loosely.
+      const float dot = static_cast<float>(p.r * c.r + p.g * c.g + p.b * c.b);
+      const float size = std::sqrt(static_cast<float>(p.r * p.r + p.g * p.g + p.b * p.b)) *
+                         std::sqrt(static_cast<float>(c.r * c.r + c.g * c.g + c.b * c.b));
+      EXPECT_GT(dot / size, 0.985f) << colormap_name(map) << " at " << value;
+      EXPECT_NEAR(p.brightness(), (c.r + c.g + c.b) / 3, 45) << colormap_name(map) << " " << value;
+    }
+  }
+}
+
+TEST(ParticlePass, StraysAreLitByTheirOwnSurface) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame();
+  add_ball(frame, {-0.3f, 0, 0}, 0.2f, 0.04f);
+  add_point(frame, {0.4f, 0, 0});
+  const View view = make_view(frame.camera, 120, 90);
+  const int x = static_cast<int>(view.project({0.4f, 0, 0}).x);
+  EXPECT_GT(pixel(renderer.draw(frame), x, 45).brightness(), 180);
+}
+
+TEST(ParticlePass, SnowIsBrightWithoutBeingClipped) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame();
+  frame.light.direction = {-0.6f, 0.6f, 0.5f};
+  add_ball(frame, {0, 0, 0}, 0.35f, 0.03f);
+  const Image image = renderer.draw(frame);
+  const int peak = *std::max_element(image.pixels.begin(), image.pixels.end());
+  EXPECT_GE(peak, 230);
+  EXPECT_LE(peak, 252);
+}
+
+TEST(ParticlePass, UnusablePositionsAreLeftOut) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame();
+  const Image nothing = renderer.draw(frame);
+  for (const Vec3f p : {Vec3f{NAN, 0, 0}, Vec3f{0, INFINITY, 0}, Vec3f{0, 0, 5}, Vec3f{0, 0, 2}})
+    add_point(frame, p);
+  EXPECT_EQ(renderer.draw(frame).pixels, nothing.pixels);
+}
+
+}  // namespace
+}  // namespace neve::render
