@@ -2,8 +2,8 @@
 /// Fill shapes with particles. Placement is keyed by seed, body and index, never by cell, so moving
 /// a body by any amount moves its particles with it.
 
+#include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -25,22 +25,15 @@ struct Body {
   Volumes volumes = Volumes::estimated;
 };
 
-/// Axis-aligned bounds in metres.
-struct Bounds {
-  Vec3d min, max;
-};
-
-/// Thrown when a shape cannot be filled; what() says which file and why.
-struct ShapeError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 /// What is known of a body's particles before any is placed.
 struct SeedingPlan {
   double volume = 0;               ///< m3, exact for analytic shapes, of the polyhedron for meshes
-  std::size_t particle_count = 0;  ///< estimate from volume, particles per cell and cell size
+  std::size_t particle_count = 0;  ///< estimate from volume, particles per cell and cell size;
+                                   ///< the largest size_t where it would overflow
   Bounds bounds{Vec3d::Zero(), Vec3d::Zero()};
 };
+/// Reads the mesh of a mesh shape, allocates nothing for particles.
+/// @throws ShapeError as seed_body
 SeedingPlan plan_seeding(const Body& body, double cell_size);
 
 /// The particles of one body in metres, in a frame that depends on nothing but the body.
@@ -50,14 +43,17 @@ struct SeededBody {
   double volume = 0;  ///< m3, of the whole body
 };
 
+/// Smallest distance in metres between two particles of poisson sampling.
+double poisson_distance(double particles_per_cell, double cell_size);
+
+/// Jittered: one random point in every sub-cell of edge cell_size / cbrt(particles_per_cell).
+/// Poisson: random points no closer than poisson_distance. Lattice: a regular grid with the shape's
+/// bounds in its middle. Neighbours in the list are near each other in space.
 /// @param body_index key of the random numbers, with seed
-/// @throws ShapeError when a mesh cannot be read, is open, or no particle fits into the shape
+/// @throws ShapeError when a mesh cannot be read or is open, the shape has no volume, or it would
+/// hold
+///         more than 2^32 particles
 SeededBody seed_body(const Body& body, std::uint64_t body_index, std::uint64_t seed,
                      double cell_size);
-
-/// Volume in m3, bounds, and whether x is inside; for solid shapes only (not planes).
-double volume(const Shape& shape);
-Bounds bounds(const Shape& shape);
-Vec3d center(const Shape& shape);
 
 }  // namespace neve::sim

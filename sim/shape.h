@@ -1,6 +1,7 @@
 #pragma once
 /// Shapes that bodies fill and colliders keep clear.
 
+#include <stdexcept>
 #include <string>
 #include <variant>
 
@@ -38,7 +39,7 @@ struct Plane {
   Vec3d point{0, 0, 0};
   Vec3d normal{0, 1, 0};
 };
-/// A closed triangle mesh in an OBJ file, scaled about the file's origin, which goes to center.
+/// A closed mesh in an OBJ file, scaled about the file's origin, which goes to center.
 struct Mesh {
   std::string file;  ///< resolved path
   double scale = 1.0;
@@ -49,5 +50,27 @@ struct Shape {
   std::variant<Sphere, Box, Capsule, Cylinder, Cone, Torus, Plane, Mesh> form;
   Vec3d rotation{0, 0, 0};  ///< degrees, R = Rz Ry Rx, about the shape's centre
 };
+
+/// Axis-aligned bounds in metres.
+struct Bounds {
+  Vec3d min, max;
+};
+
+/// Thrown when a shape cannot be filled; what() says which file and why.
+struct ShapeError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What rotation and angular velocity turn about: the middle of a capsule, the point of a plane,
+/// where the file's origin of a mesh goes.
+Vec3d center(const Shape& shape);
+
+/// Of solid shapes only. Each call prepares the shape, which reads the file of a mesh; class Solid
+/// (sim/solid.h) prepares it once for many questions.
+/// @throws ShapeError when a mesh cannot be read or is open, or the shape has no finite volume > 0;
+///         std::invalid_argument for a plane
+double volume(const Shape& shape);  ///< m3, exact for analytic shapes, of the polyhedron for meshes
+Bounds bounds(const Shape& shape);  ///< tight
+bool contains(const Shape& shape, const Vec3d& x);
 
 }  // namespace neve::sim

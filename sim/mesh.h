@@ -1,0 +1,38 @@
+#pragma once
+/// Closed polyhedra: what makes a mesh a solid, and its volume.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/obj_reader.h"
+#include "sim/solid.h"
+
+namespace neve::sim {
+
+/// Triangles that enclose a volume, oriented outward.
+struct ClosedMesh {
+  std::vector<Vec3d> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  double volume = 0;  ///< m3, divergence theorem; where parts of the mesh overlap they count twice
+};
+
+/// Tight bounds of the rotated mesh.
+Bounds bounds_of(const ClosedMesh& mesh, const Mat3d& rotation = Mat3d::Identity());
+
+/// Welds vertices at the very same position, checks that every edge lies between exactly two faces
+/// that agree about the outside, splits the polygons into fans, and turns the mesh inside out if
+/// its volume is negative. The mesh may intersect itself.
+/// @param name what messages call the mesh
+/// @throws ShapeError naming what is wrong, how often, where first (coordinates, face, line) and
+///         what to do; also for a volume that is not finite, or 0 within rounding
+ClosedMesh close_mesh(const PolygonMesh& mesh, const std::string& name);
+
+/// A mesh from an OBJ file as a solid: inside is where the winding number is above 0.
+/// @throws ShapeError
+std::unique_ptr<const Form> read_mesh_solid(const std::string& path, double scale);
+std::unique_ptr<const Form> make_mesh_solid(ClosedMesh mesh);
+
+}  // namespace neve::sim

@@ -1,0 +1,63 @@
+#include "sim/seeding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/base/hash.h"
+#include "sim/sampling.h"
+#include "sim/solid.h"
+
+namespace neve::sim {
+namespace {
+
+constexpr double max_particles = 4294967296.0;  // ids have 32 bits
+
+double expected_count(double volume, double spacing) {
+  return volume / (spacing * spacing * spacing);
+}
+
+std::size_t saturated(double count) {
+  constexpr auto max = std::numeric_limits<std::size_t>::max();
+  return count < static_cast<double>(max) ? static_cast<std::size_t>(count) : max;
+}
+
+}  // namespace
+
+SeedingPlan plan_seeding(const Body& body, double cell_size) {
+  const Solid solid(body.shape);
+  const double count =
+      expected_count(solid.volume(), particle_spacing(body.particles_per_cell, cell_size));
+  return {solid.volume(), saturated(std::max(1.0, std::ceil(count))), solid.bounds()};
+}
+
+double poisson_distance(double particles_per_cell, double cell_size) {
+  return poisson_distance_in_spacings * particle_spacing(particles_per_cell, cell_size);
+}
+
+SeededBody seed_body(const Body& body, std::uint64_t body_index, std::uint64_t seed,
+                     double cell_size) {
+  const Solid solid(body.shape);
+  const double spacing = particle_spacing(body.particles_per_cell, cell_size);
+  if (!(expected_count(solid.volume(), spacing) < max_particles))
+    throw ShapeError("body " + body.name + ": more than 2^32 particles fit into it");
+
+  const std::uint64_t key = mix64(mix64(seed), body_index);
+  SeededBody seeded{{}, solid.center(), solid.volume()};
+  switch (body.sampling) {
+    case Sampling::jittered:
+      seeded.x = sample_jittered(solid, spacing, key);
+      break;
+    case Sampling::poisson:
+      seeded.x = sample_poisson(solid, spacing, key);
+      break;
+    case Sampling::lattice:
+      seeded.x = sample_lattice(solid, spacing);
+      break;
+  }
+  if (seeded.x.empty()) seeded.x.push_back(solid.inner_point());
+  for (Vec3d& x : seeded.x) x = seeded.center + solid.rotation() * x;
+  return seeded;
+}
+
+}  // namespace neve::sim
