@@ -87,40 +87,57 @@ struct SignedSvd {
   Real s[3];        ///< unsorted
 };
 
+/// Sum of the first three lanes of a product.
+template <class Real>
+NEVE_INLINE Real dot3(Quad<Real> a, Quad<Real> b) {
+  const Quad<Real> product = a * b;
+  return product[0] + product[1] + product[2];
+}
+
+/// Turns two rows of G, and the columns of U with them, until the rows are orthogonal.
+/// @return whether they were not
+template <class Real>
+NEVE_INLINE bool make_orthogonal(Quad<Real>& g_p, Quad<Real>& g_q, Quad<Real>& u_p,
+                                 Quad<Real>& u_q, Real tolerance) {
+  const Real pp = dot3<Real>(g_p, g_p), qq = dot3<Real>(g_q, g_q), pq = dot3<Real>(g_p, g_q);
+  if (!(pq * pq > tolerance * tolerance * pp * qq)) return false;
+  const Real d = qq - pp, e = pq + pq;
+  const Real t_abs = absolute(e) / (absolute(d) + square_root(d * d + e * e));
+  const Real t = (d < Real(0)) != (e < Real(0)) ? -t_abs : t_abs;
+  const Real c = Real(1) / square_root(Real(1) + t * t), s = c * t;
+  const Quad<Real> g = g_p, u = u_p;
+  g_p = g * c - g_q * s;
+  g_q = g * s + g_q * c;
+  u_p = u * c - u_q * s;
+  u_q = u * s + u_q * c;
+  return true;
+}
+
 /// One-sided Jacobi: turns pairs of rows of F until all are orthogonal, so small singular values keep
 /// their relative accuracy, which F F^T would lose. Total for any finite F, also singular ones.
 /// Source: Hestenes 1958; Golub and Van Loan, Matrix Computations, section 8.6.
 template <class Real>
 NEVE_INLINE SignedSvd<Real> signed_svd(const Real* F) {
-  constexpr Real tolerance = sizeof(Real) == 4 ? Real(1e-7) : Real(1e-16);
+  constexpr Real tolerance = sizeof(Real) == 4 ? Real(2e-7) : Real(2e-16);
   constexpr int most_sweeps = 12;
-  Real g[3][3] = {{F[0], F[1], F[2]}, {F[3], F[4], F[5]}, {F[6], F[7], F[8]}};
-  Real u[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // u[i] is column i of U
+  // F is scaled to a largest entry of 1, so that no square underflows or overflows.
+  Real scale = 0;
+  for (int q = 0; q < 9; ++q) scale = larger(scale, absolute(F[q]));
+  const Real inv_scale = scale > Real(0) ? Real(1) / scale : Real(0);
+  Quad<Real> g0 = Quad<Real>{F[0], F[1], F[2], 0} * inv_scale;
+  Quad<Real> g1 = Quad<Real>{F[3], F[4], F[5], 0} * inv_scale;
+  Quad<Real> g2 = Quad<Real>{F[6], F[7], F[8], 0} * inv_scale;
+  Quad<Real> u0{1, 0, 0, 0}, u1{0, 1, 0, 0}, u2{0, 0, 1, 0};  // columns of U
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    bool is_done = true;
-    for (int pair = 0; pair < 3; ++pair) {
-      const int p = pair == 2 ? 1 : 0, q = pair == 0 ? 1 : 2;
-      Real pp = 0, qq = 0, pq = 0;
-      for (int a = 0; a < 3; ++a) {
-        pp += g[p][a] * g[p][a];
-        qq += g[q][a] * g[q][a];
-        pq += g[p][a] * g[q][a];
-      }
-      if (!(absolute(pq) > tolerance * square_root(pp) * square_root(qq))) continue;
-      is_done = false;
-      const Real d = qq - pp, e = pq + pq;
-      const Real t_abs = absolute(e) / (absolute(d) + square_root(d * d + e * e));
-      const Real t = (d < Real(0)) != (e < Real(0)) ? -t_abs : t_abs;
-      const Real c = Real(1) / square_root(Real(1) + t * t), s = c * t;
-      for (int a = 0; a < 3; ++a) {
-        const Real gp = g[p][a], gq = g[q][a], up = u[p][a], uq = u[q][a];
-        g[p][a] = c * gp - s * gq;
-        g[q][a] = s * gp + c * gq;
-        u[p][a] = c * up - s * uq;
-        u[q][a] = s * up + c * uq;
-      }
-    }
-    if (is_done) break;
+    bool has_turned = make_orthogonal<Real>(g0, g1, u0, u1, tolerance);
+    has_turned |= make_orthogonal<Real>(g0, g2, u0, u2, tolerance);
+    has_turned |= make_orthogonal<Real>(g1, g2, u1, u2, tolerance);
+    if (!has_turned) break;
+  }
+  Real g[3][3], u[3][3];
+  for (int a = 0; a < 3; ++a) {
+    g[0][a] = g0[a], g[1][a] = g1[a], g[2][a] = g2[a];
+    u[0][a] = u0[a], u[1][a] = u1[a], u[2][a] = u2[a];
   }
 
   // The two larger rows fix two axes of V; the third is their cross product, so V is proper and the
@@ -150,8 +167,8 @@ NEVE_INLINE SignedSvd<Real> signed_svd(const Real* F) {
       v[second][a] = (a == least ? Real(1) : Real(0)) - v[first][least] * v[first][a];
       square += v[second][a] * v[second][a];
     }
-    const Real scale = Real(1) / square_root(square);
-    for (int a = 0; a < 3; ++a) v[second][a] *= scale;
+    const Real inv_length = Real(1) / square_root(square);
+    for (int a = 0; a < 3; ++a) v[second][a] *= inv_length;
   }
   SignedSvd<Real> out;
   for (int a = 0; a < 3; ++a) {
@@ -159,8 +176,7 @@ NEVE_INLINE SignedSvd<Real> signed_svd(const Real* F) {
     v[n][a] = v[p][b] * v[q][c] - v[p][c] * v[q][b];
   }
   for (int i = 0; i < 3; ++i) {
-    out.s[i] = i == n ? g[n][0] * v[n][0] + g[n][1] * v[n][1] + g[n][2] * v[n][2]
-                      : g[i][0] * v[i][0] + g[i][1] * v[i][1] + g[i][2] * v[i][2];
+    out.s[i] = scale * (g[i][0] * v[i][0] + g[i][1] * v[i][1] + g[i][2] * v[i][2]);
     for (int a = 0; a < 3; ++a) {
       out.U[3 * a + i] = u[i][a];
       out.V[3 * a + i] = v[i][a];
