@@ -5,28 +5,85 @@
 #include "app/errors.h"
 #include "app/json.h"
 #include "render/context.h"
+#include "render/self_test.h"
 
 namespace neve::app {
 
+namespace {
+
+/// One backend: whether it opens, and whether what it draws is right.
+struct Examination {
+  render::Attempt attempt;
+  std::string picture_fault;  ///< empty: the test picture is right, or none could be drawn
+};
+
+Examination examine(const render::Attempt& attempt) {
+  Examination result{attempt, {}};
+  if (!attempt.available) return result;
+  try {
+    const auto context = render::open_context(attempt.backend);
+    result.picture_fault = render::self_test(*context);
+  } catch (const std::exception& error) {
+    result.picture_fault = error.what();
+  }
+  return result;
+}
+
+Json to_json(const Examination& examination) {
+  const render::Attempt& attempt = examination.attempt;
+  const bool is_right = attempt.available && examination.picture_fault.empty();
+  Json json;
+  json["name"] = attempt.backend;
+  json["available"] = attempt.available;
+  json["version"] = attempt.version;
+  json["renderer"] = attempt.renderer;
+  json["software"] = attempt.is_software;
+  json["reason"] = attempt.available ? examination.picture_fault : attempt.reason;
+  json["install"] = attempt.install;
+  json["picture"] = attempt.available ? Json(is_right) : Json();
+  return json;
+}
+
+void print(const Examination& examination) {
+  const render::Attempt& attempt = examination.attempt;
+  std::cout << attempt.backend
+            << std::string(18 - std::min<std::size_t>(17, attempt.backend.size()), ' ');
+  if (attempt.available) {
+    std::cout << "works     OpenGL " << attempt.version << "; " << attempt.renderer
+              << (attempt.is_software ? " (software)" : "") << "; test picture "
+              << (examination.picture_fault.empty() ? "right"
+                                                    : "WRONG: " + examination.picture_fault)
+              << "\n";
+    return;
+  }
+  std::cout << "fails     " << attempt.reason << "\n";
+  if (!attempt.install.empty()) std::cout << std::string(28, ' ') << attempt.install << "\n";
+}
+
+}  // namespace
+
 int run_doctor(bool is_json) {
-  const std::vector<render::Attempt> attempts = render::try_all_backends();
+  std::vector<Examination> examinations;
+  for (const render::Attempt& attempt : render::try_all_backends())
+    examinations.push_back(examine(attempt));
+
   if (is_json) {
     Json json;
     json["backends"] = Json::array();
-    for (const render::Attempt& attempt : attempts)
-      json["backends"].push_back({{"name", attempt.backend},
-                                  {"available", attempt.available},
-                                  {"version", attempt.version},
-                                  {"renderer", attempt.renderer},
-                                  {"software", attempt.is_software},
-                                  {"reason", attempt.reason},
-                                  {"install", attempt.install}});
+    for (const Examination& examination : examinations)
+      json["backends"].push_back(to_json(examination));
     json["physics"] = Json::array();
     std::cout << to_text(json) << "\n";
+  } else {
+    for (const Examination& examination : examinations) print(examination);
   }
-  const bool any = std::any_of(attempts.begin(), attempts.end(),
-                               [](const render::Attempt& attempt) { return attempt.available; });
-  return any ? exit_ok : exit_no_backend;
+  const auto count = [&](auto is_true) {
+    return std::count_if(examinations.begin(), examinations.end(), is_true);
+  };
+  if (count([](const Examination& e) { return !e.picture_fault.empty(); }) > 0)
+    return exit_check_failed;
+  return count([](const Examination& e) { return e.attempt.available; }) > 0 ? exit_ok
+                                                                             : exit_no_backend;
 }
 
 }  // namespace neve::app

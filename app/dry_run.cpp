@@ -11,7 +11,7 @@ namespace neve::app {
 namespace {
 
 constexpr double particles_wanted = 1000;
-constexpr double work_budget = 1.5e6;  // steps x particles, a fraction of a second
+constexpr double work_budget = 1.2e6;  // steps x particles, a fraction of a second
 constexpr int moments = 24;
 
 /// The poll of a simulation has no argument; each thread runs at most one dry run.
@@ -42,8 +42,10 @@ Scene coarsened(const Scene& scene) {
   coarse.solver.max_dt = std::max(scene.solver.max_dt, 2 * dt);
   const double hardened = 3;  // of the sound speed, where snow is packed
   const double c = coarse.solver.acoustic_cfl * coarse.solver.cell_size / (hardened * dt);
-  for (sim::Material& material : coarse.materials)
+  for (sim::Material& material : coarse.materials) {
+    material.hardening = std::min(material.hardening, 4.0);
     material.youngs_modulus = std::min(material.youngs_modulus, 0.9 * material.density * c * c);
+  }
   return coarse;
 }
 

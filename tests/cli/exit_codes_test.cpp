@@ -1,0 +1,148 @@
+/// Every exit code that can be reached, with a message that helps.
+
+#include <algorithm>
+
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+TEST_F(Cli, WithoutArgumentsPrintsHelpAndFails) {
+  const auto result = neve({});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.errors, "render"));
+  EXPECT_EQ(neve({"--help"}).exit_code, 0);
+  EXPECT_EQ(neve({"help"}).exit_code, 0);
+  EXPECT_EQ(neve({"render", "--help"}).exit_code, 0);
+  EXPECT_TRUE(contains(neve({"--version"}).output, "neve "));
+  EXPECT_TRUE(contains(neve({"version"}).output, "neve "));
+}
+
+TEST_F(Cli, UsageErrorsSuggestTheNearestName) {
+  const auto subcommand = neve({"rendr"});
+  EXPECT_EQ(subcommand.exit_code, 2);
+  EXPECT_TRUE(contains(subcommand.errors, "did you mean render?")) << subcommand.errors;
+  const auto flag = neve({"render", "scene.toml", "--frame", "3"});
+  EXPECT_EQ(flag.exit_code, 2);
+  EXPECT_TRUE(contains(flag.errors, "did you mean --frames?")) << flag.errors;
+}
+
+TEST_F(Cli, UsageErrorsExitWithTwo) {
+  for (const Arguments& arguments :
+       std::vector<Arguments>{{"render", "scene.toml", "extra"},
+                              {"render", "scene.toml", "--frames", "5-2"},
+                              {"render", "scene.toml", "--size", "12"},
+                              {"render", "scene.toml", "--threads", "many"},
+                              {"render", "scene.toml", "--threads", "-1"},
+                              {"render", "scene.toml", "--backend", "vulkan"},
+                              {"render", "scene.toml", "--quality", "best"},
+                              {"render", "scene.toml", "--view", "nothing"},
+                              {"render", "scene.toml", "--set", "material.snow.hardening"},
+                              {"render", "scene.toml", "--set", "material.snow.hardness=3"},
+                              {"render", "scene.toml", "--quiet", "--verbose"},
+                              {"compare", "scene.toml"},
+                              {"info"}}) {
+    const auto result = neve(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments.back() << ": " << result.errors;
+    EXPECT_TRUE(result.errors.starts_with("neve: error: ")) << result.errors;
+  }
+}
+
+TEST_F(Cli, BrokenScenesExitWithThreeAndAPlace) {
+  folder.write("bad.toml", "frames = 4\n[[body]]\nshap = 1\n");
+  const auto result = neve({"render", "bad.toml"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_TRUE(contains(result.errors, "bad.toml:3:1: error: ")) << result.errors;
+}
+
+TEST_F(Cli, FilesThatAreNoPicturesOfOursExitWithThree) {
+  folder.write("garbage.png", "\x89PNG\r\n\x1a\n" + std::string(100, 'x'));
+  folder.write("text.png", "hello");
+  folder.write("empty.png", "");
+  for (const char* file : {"garbage.png", "text.png", "empty.png"}) {
+    EXPECT_EQ(neve({"info", file}).exit_code, 3) << file;
+    EXPECT_EQ(neve({"render", file}).exit_code, 3) << file;
+    EXPECT_EQ(neve({"compare", file, file}).exit_code, 3) << file;
+  }
+}
+
+TEST_F(Cli, ErrorsAreJsonToo) {
+  folder.write("bad.toml", "frames = 4\n[[body]]\nshap = 1\n");
+  const auto result = neve({"render", "bad.toml", "--json"});
+  EXPECT_EQ(result.exit_code, 3);
+  const app::Json json = app::parse_json(std::string_view(result.output));
+  EXPECT_TRUE(contains(json["where"].get<std::string>(), "bad.toml:3:1"));
+  EXPECT_TRUE(json.contains("error") && json.contains("hint"));
+}
+
+TEST_F(Cli, NoBackendExitsWithFour) {
+  ::unsetenv("DISPLAY");
+  ::unsetenv("WAYLAND_DISPLAY");
+  const auto result = neve({"render", "scene.toml", "--backend", "window"});
+  EXPECT_EQ(result.exit_code, 4) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "window")) << result.errors;
+  EXPECT_FALSE(exists("out")) << "an earlier run must survive this";
+}
+
+TEST_F(Cli, DivergenceExitsWithFiveAndAReport) {
+  folder.write("explode.toml", exploding_scene);
+  const auto result = neve({"render", "explode.toml"});
+  ASSERT_EQ(result.exit_code, 5) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "diverged at step")) << result.errors;
+  EXPECT_TRUE(exists("out/explode/diverged_particles.png"));
+  const app::Json incident = json_of("out/explode/incident.json");
+  EXPECT_TRUE(incident.contains("rule") && incident.contains("dt_that_holds"));
+  const app::Json run = json_of("out/explode/run.json");
+  EXPECT_EQ(run["status"], "diverged");
+  for (const app::Json& frame : run["frames"])
+    EXPECT_LT(frame["time"].get<double>(), incident["time"].get<double>());
+}
+
+TEST_F(Cli, OutputThatCannotBeWrittenExitsWithSix) {
+  folder.write("file", "x");
+  const auto result = neve({"render", "scene.toml", "--out", "file/under"});
+  EXPECT_EQ(result.exit_code, 6);
+  EXPECT_TRUE(contains(result.errors, "file/under")) << result.errors;
+  EXPECT_EQ(neve({"info", "missing.png"}).exit_code, 6);
+  EXPECT_EQ(neve({"render", "scene.toml", "--reference", "missing.png"}).exit_code, 6);
+}
+
+TEST_F(Cli, AFullDiskExitsWithSixAndLeavesNoHalfPicture) {
+  const std::string limited = "ulimit -f 2; exec \"$0\" render scene.toml --quiet";
+  const auto shell = app::find_program("bash");
+  ASSERT_TRUE(shell);
+  const auto result = app::run_process(*shell, {"-c", limited, NEVE_BINARY}, folder.path());
+  EXPECT_EQ(result.exit_code, 6) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "bytes")) << result.errors;
+  EXPECT_FALSE(exists("out/scene/particles/0000.png"));
+}
+
+TEST_F(Cli, LimitsAreRefusedWithEightBeforeAnythingIsMade) {
+  for (const char* change : {"limits.particles=10", "limits.memory=\"1MiB\"", "limits.pixels=100",
+                             "solver.cell_size=1e-7", "output.size=[16384,16384]"}) {
+    const auto result = neve({"render", "scene.toml", "--set", change});
+    EXPECT_EQ(result.exit_code, 8) << change << ": " << result.errors;
+    EXPECT_TRUE(contains(result.errors, "raise it with --set limits.")) << result.errors;
+    EXPECT_FALSE(exists("out"));
+  }
+}
+
+TEST_F(Cli, ChecksThatFailExitWithNine) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "a"}).exit_code, 0);
+  ASSERT_EQ(
+      neve({"render", "scene.toml", "--out", "b", "--set", "body.ball.velocity=[1,0,0]"}).exit_code,
+      0);
+  EXPECT_EQ(neve({"compare", "a/particles/0000.png", "a/particles/0004.png"}).exit_code, 9);
+  EXPECT_EQ(neve({"compare", "a/particles/0000.png", "a/particles/0000.png"}).exit_code, 0);
+  EXPECT_EQ(neve({"compare", "a", "b"}).exit_code, 9);
+  EXPECT_EQ(neve({"compare", "a", "a/particles/0000.png"}).exit_code, 2);
+  const auto result = neve({"render", "scene.toml", "--reference", "a/particles/0000.png"});
+  EXPECT_EQ(result.exit_code, 9);
+  EXPECT_TRUE(exists("out/scene/difference.png")) << result.errors;
+  EXPECT_TRUE(exists("out/scene/particles/0004.png"));
+}
+
+}  // namespace
+}  // namespace neve::test

@@ -1,0 +1,126 @@
+/// `neve render` from the outside: what it makes, and what it leaves alone.
+
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+TEST_F(Cli, RenderMakesPicturesMovieAndRunJson) {
+  const auto result = neve({"render", "scene.toml"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output, "") << "stdout is for data";
+  for (const char* file : {"0000.png", "0004.png"})
+    EXPECT_TRUE(exists(std::string("out/scene/particles/") + file));
+  EXPECT_FALSE(exists("out/scene/particles/0005.png"));
+  EXPECT_EQ(exists("out/scene/particles.mp4"), app::find_program("ffmpeg").has_value());
+  const app::Json run = json_of("out/scene/run.json");
+  EXPECT_EQ(run["status"], "ok");
+  ASSERT_EQ(run["frames"].size(), 5u);
+  EXPECT_GT(run["frames"][4]["steps"], 0);
+  EXPECT_NEAR(run["frames"][4]["time"].get<double>(), 4 / 24.0, 1e-12);
+  EXPECT_EQ(run["frames"][4]["state_hash"].get<std::string>().size(), 16u);
+}
+
+TEST_F(Cli, RenderDrawsOnlyTheFramesAskedForFromTheSameSimulation) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "all"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "one", "--frames", "3-3"}).exit_code, 0);
+  EXPECT_FALSE(exists("one/particles/0002.png"));
+  EXPECT_EQ(read_text(folder / "one/particles/0003.png"),
+            read_text(folder / "all/particles/0003.png"));
+}
+
+TEST_F(Cli, ANewRunRemovesTheFramesOfTheOldOne) {
+  ASSERT_EQ(neve({"render", "scene.toml"}).exit_code, 0);
+  folder.write("out/scene/particles/mine.txt", "keep");
+  ASSERT_EQ(neve({"render", "scene.toml", "--frames", "1"}).exit_code, 0);
+  EXPECT_TRUE(exists("out/scene/particles/0001.png"));
+  EXPECT_FALSE(exists("out/scene/particles/0002.png"));
+  EXPECT_TRUE(exists("out/scene/particles/mine.txt"));
+}
+
+TEST_F(Cli, StatesDoNotDependOnViewsSizeQualityOrThreads) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "a", "--threads", "1"}).exit_code, 0);
+  const auto other =
+      neve({"render", "scene.toml", "--out", "b", "--threads", "2", "--size", "64x48", "--quality",
+            "final", "--set", "view=[{name=\"x\"},{name=\"y\",particles={color_by=\"speed\"}}]"});
+  ASSERT_EQ(other.exit_code, 0) << other.errors;
+  EXPECT_TRUE(exists("b/x/0004.png"));
+  EXPECT_TRUE(exists("b/y/0004.png"));
+  const auto same = neve({"compare", "a", "b"});
+  EXPECT_EQ(same.exit_code, 0) << same.output;
+}
+
+TEST_F(Cli, APictureMakesItselfAgain) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--set", "material.snow.hardening=5"}).exit_code, 0);
+  const std::string picture = "out/scene/particles/0002.png";
+  const auto again = neve({"render", picture});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(read_text(folder / picture), read_text(folder / "out/0002-again/particles/0002.png"));
+  EXPECT_FALSE(exists("out/0002-again/particles/0001.png"));
+}
+
+TEST_F(Cli, InfoSaysWhatMadeAPicture) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--frames", "0", "--set", "material.snow.hardening=5"})
+                .exit_code,
+            0);
+  const auto info = neve({"info", "out/scene/particles/0000.png", "--json"});
+  ASSERT_EQ(info.exit_code, 0) << info.errors;
+  const app::Json json = app::parse_json(std::string_view(info.output));
+  for (const char* key :
+       {"scene", "overrides", "changes", "seed", "version", "state_hash", "frame", "view", "files"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_EQ(json["overrides"][0], "material.snow.hardening=5");
+  EXPECT_TRUE(contains(json["scene"].get<std::string>(), "hardening = 5"));
+  EXPECT_TRUE(contains(json["scene"].get<std::string>(), "eye = ")) << "the camera is resolved";
+  EXPECT_EQ(neve({"info", "out/scene"}).exit_code, 0);
+}
+
+TEST_F(Cli, DraftsAreHalfAsLargeAndSizesApplyToAllViews) {
+  ASSERT_EQ(
+      neve({"render", "scene.toml", "--frames", "0", "--size", "320x180", "--quality", "draft"})
+          .exit_code,
+      0);
+  const auto same = neve({"render", "scene.toml", "--frames", "0", "--size", "160x90", "--out",
+                          "small", "--reference", "out/scene/particles/0000.png"});
+  EXPECT_EQ(same.exit_code, 0) << same.errors;
+}
+
+TEST_F(Cli, DryRunPrintsThePlanAndMakesNothing) {
+  const auto result = neve({"render", "scene.toml", "--dry-run", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const app::Json plan = app::parse_json(std::string_view(result.output));
+  EXPECT_GT(plan["particles"], 100);
+  EXPECT_GT(plan["memory_bytes"], 0);
+  EXPECT_FALSE(exists("out"));
+}
+
+TEST_F(Cli, QuietRunsPrintNothing) {
+  const auto result = neve({"render", "scene.toml", "--quiet", "--frames", "0"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.errors + result.output, "");
+}
+
+TEST_F(Cli, ADecimalCommaInTheLocaleChangesNothing) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--frames", "0", "--out", "a"}).exit_code, 0);
+  ::setenv("LC_ALL", "de_DE.UTF-8", 1);
+  const auto result = neve({"render", "scene.toml", "--frames", "0", "--out", "b"});
+  ::unsetenv("LC_ALL");
+  ASSERT_EQ(result.exit_code, 0);
+  EXPECT_EQ(read_text(folder / "a/particles/0000.png"), read_text(folder / "b/particles/0000.png"));
+}
+
+TEST_F(Cli, DoctorAndParamsAreJson) {
+  const auto doctor = neve({"doctor", "--json"});
+  EXPECT_EQ(doctor.exit_code, 0) << doctor.output;
+  const app::Json report = app::parse_json(std::string_view(doctor.output));
+  ASSERT_GE(report["backends"].size(), 3u);
+  for (const char* key : {"name", "available", "version", "renderer", "software", "reason"})
+    EXPECT_TRUE(report["backends"][0].contains(key)) << key;
+  EXPECT_TRUE(report["physics"].is_array());
+  const auto params = neve({"params", "--json"});
+  EXPECT_EQ(params.exit_code, 0);
+  EXPECT_GT(app::parse_json(std::string_view(params.output)).size(), 20u);
+}
+
+}  // namespace
+}  // namespace neve::test
