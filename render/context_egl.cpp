@@ -20,12 +20,13 @@ namespace {
 /// The functions of libEGL, loaded at run time so that neve starts where it is missing.
 struct Egl {
   SharedLibrary library{"libEGL.so.1", "libEGL.so"};
-#define NEVE_EGL_FUNCTIONS(X)                                                         \
-  X(BindAPI)                                                                          \
-  X(ChooseConfig)                                                                     \
-  X(CreateContext) X(CreatePbufferSurface) X(DestroyContext) X(DestroySurface)        \
-      X(GetCurrentContext) X(GetError) X(GetProcAddress) X(Initialize) X(MakeCurrent) \
-          X(QueryString) X(Terminate)
+#define NEVE_EGL_FUNCTIONS(X)                                                            \
+  X(BindAPI)                                                                             \
+  X(ChooseConfig)                                                                        \
+  X(CreateContext)                                                                       \
+  X(CreatePbufferSurface)                                                                \
+  X(DestroyContext) X(DestroySurface) X(GetCurrentContext) X(GetError) X(GetProcAddress) \
+      X(Initialize) X(MakeCurrent) X(QueryString) X(Terminate)
 #define NEVE_EGL_MEMBER(name) decltype(&egl##name) name = nullptr;
   NEVE_EGL_FUNCTIONS(NEVE_EGL_MEMBER)
 #undef NEVE_EGL_MEMBER
@@ -232,7 +233,8 @@ Opened open_egl_device() {
   if (!lists(client, "EGL_EXT_platform_device") && !lists(client, "EGL_EXT_platform_base"))
     return {nullptr, "EGL has no device platform", driver_packages};
   const std::vector<EGLDeviceEXT> devices = list_devices();
-  std::string reasons = std::to_string(devices.size()) + " devices";
+  std::string reasons =
+      std::to_string(devices.size()) + (devices.size() == 1 ? " device" : " devices");
   for (std::size_t i = 0; i < devices.size(); ++i) {
     auto context = std::make_unique<EglContext>("egl_device");
     const EGLDisplay display =

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "render/passes.h"
@@ -38,7 +39,9 @@ void GroundPass::draw(const Frame& frame, const View& view) {
   set_view(program_, view);
   const float target_distance = length(frame.camera.target - view.eye);
   program_.set("fade_distance", 0.62f * std::max(target_distance, 1e-6f));
-  program_.set("samples_per_pixel", static_cast<float>(frame.supersampling));
+  // 1.3 pixels at 720p, in proportion above.
+  const float scale = std::max(1.0f, static_cast<float>(frame.height) / 720);
+  program_.set("line_width", 1.3f * scale * static_cast<float>(frame.supersampling));
   for (const GroundPlane& ground : frame.grounds) {
     const Vec3f normal = normalized(ground.normal);
     const Vec3f point = ground.point - view.eye;

@@ -106,16 +106,16 @@ void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
   const float height = static_cast<float>(frame.height);
   const float margin = std::round(20 * unit);
   const float width = std::min(right_limit, 0.66f * static_cast<float>(frame.width)) - margin;
-  // The snow is in the middle: text keeps to the upper half.
-  const float bottom = 0.5f * height;
+  // The snow is in the middle: text keeps to the upper third.
+  const float bottom = 0.36f * height;
   float y = std::round(16 * unit);
   for (std::size_t i = 0; i < frame.caption.size(); ++i) {
     const ImFont& font = i == 0 ? *imgui_.title_font() : *imgui_.text_font();
     const float line_height = std::round(1.25f * font.FontSize);
     const int room = static_cast<int>((bottom - y) / line_height);
-    const auto max_lines = static_cast<std::size_t>(std::max(room, i == 0 ? 1 : 0));
-    for (const std::string& line : wrap(font, frame.caption[i], width,
-                                        i == 0 ? std::min<std::size_t>(max_lines, 2) : max_lines)) {
+    const int max_lines = i == 0 ? (room >= 6 ? 2 : 1) : std::max(room, 0);
+    for (const std::string& line :
+         wrap(font, frame.caption[i], width, static_cast<std::size_t>(max_lines))) {
       draw_text(font, ImVec2(margin, y), i == 0 ? bright : soft, line);
       y += line_height;
     }

@@ -12,15 +12,14 @@ uniform float line_spacing;
 uniform vec3 fade_center;
 uniform float fade_distance;
 uniform vec3 color;  // linear
-uniform float samples_per_pixel;
+uniform float line_width;  // samples
 
-const float line_width = 1.3;      // pixels
 const float line_brightness = 0.34;
 
 // How much of a sample the lines of one direction cover, given how many lines one sample spans.
 float line_cover(float at, float span) {
   float pixels = abs(fract(at - 0.5) - 0.5) / span;
-  float cover = clamp(0.5 * line_width * samples_per_pixel + 0.5 - pixels, 0.0, 1.0);
+  float cover = clamp(0.5 * line_width + 0.5 - pixels, 0.0, 1.0);
   return cover * (1.0 - smoothstep(0.08, 0.3, span));  // lines closer than that are a grey veil
 }
 

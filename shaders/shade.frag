@@ -99,7 +99,7 @@ vec3 surface(vec3 p, vec4 normal_kind, vec3 albedo) {
   n = normalize(mix(n, body / max(certainty, 1e-3), 0.72 * certainty));
   vec3 above = p + body * (1.2 * cell);
   float key = key_light(above + toward_light * cell);
-  return lit(albedo, n, key, sky_light(above), kind == kind_snow ? 1.0 : 0.5);
+  return lit(albedo, n, key, sky_light(above), kind == kind_snow ? 1.0 : 0.6);
 }
 
 void main() {
