@@ -53,7 +53,8 @@ std::map<int, std::string> read_hashes(const fs::path& folder) {
   const fs::path file = run_json_path(folder);
   std::map<int, std::string> hashes;
   try {
-    for (const Json& frame : parse_json(read_file(file)).at("frames"))
+    const Json run = parse_json(read_file(file));
+    for (const Json& frame : run.at("frames"))
       hashes[frame.at("frame").get<int>()] = frame.at("state_hash").get<std::string>();
   } catch (const nlohmann::json::exception&) {
     throw Error(exit_invalid_scene, file.string() + ": error: is no run.json of neve",

@@ -38,8 +38,9 @@ Scene coarsened(const Scene& scene) {
   const double growth = std::max(1.0, planned_particles(scene) / particles_wanted);
   coarse.solver.cell_size *= std::cbrt(growth);
   const double duration = scene.frames / scene.fps;
-  const double dt = std::max(duration * particles_wanted / work_budget, 1e-4);
-  coarse.solver.max_dt = std::max(scene.solver.max_dt, 2 * dt);
+  // Twice what the budget would pay for: no estimate of the hardened stiffness is exact.
+  const double dt = std::max(2 * duration * particles_wanted / work_budget, 1e-4);
+  coarse.solver.max_dt = std::max(scene.solver.max_dt, dt);
   const double hardened = 3;  // of the sound speed, where snow is packed
   const double c = coarse.solver.acoustic_cfl * coarse.solver.cell_size / (hardened * dt);
   for (sim::Material& material : coarse.materials) {

@@ -28,7 +28,8 @@ double round_to(double x, double scale, int digits) {
   // Dividing by a power of ten gives the double nearest to the decimal number; multiplying by its
   // inverse does not.
   const double power = std::pow(10.0, std::abs(places));
-  return places >= 0 ? std::round(x * power) / power : std::round(x / power) * power;
+  // Adding 0 turns -0 into 0.
+  return 0.0 + (places >= 0 ? std::round(x * power) / power : std::round(x / power) * power);
 }
 
 }  // namespace neve::app

@@ -40,9 +40,11 @@ TEST_F(Cli, ANewRunRemovesTheFramesOfTheOldOne) {
 
 TEST_F(Cli, StatesDoNotDependOnViewsSizeQualityOrThreads) {
   ASSERT_EQ(neve({"render", "scene.toml", "--out", "a", "--threads", "1"}).exit_code, 0);
-  const auto other =
-      neve({"render", "scene.toml", "--out", "b", "--threads", "2", "--size", "64x48", "--quality",
-            "final", "--set", "view=[{name=\"x\"},{name=\"y\",particles={color_by=\"speed\"}}]"});
+  folder.write("views.toml", std::string(tiny_scene) +
+                                 "[[view]]\nname = \"x\"\n[[view]]\nname = \"y\"\n"
+                                 "particles = { color_by = \"von_mises\" }\n");
+  const auto other = neve({"render", "views.toml", "--out", "b", "--threads", "2", "--size",
+                           "64x48", "--quality", "final"});
   ASSERT_EQ(other.exit_code, 0) << other.errors;
   EXPECT_TRUE(exists("b/x/0004.png"));
   EXPECT_TRUE(exists("b/y/0004.png"));
