@@ -6,6 +6,7 @@
 #include <numeric>
 #include <sstream>
 #include <tuple>
+#include <utility>
 
 namespace neve::sim {
 namespace {
@@ -155,9 +156,10 @@ ClosedMesh close_mesh(const PolygonMesh& mesh, const std::string& name) {
 std::unique_ptr<const Form> read_mesh_solid(const std::string& path, double scale) {
   if (!(scale > 0) || !std::isfinite(scale))
     throw ShapeError(path + ": the scale of a mesh must be a finite number above 0");
-  PolygonMesh mesh = read_obj(path);
+  ClosedMesh mesh = close_mesh(read_obj(path), path);
   for (Vec3d& x : mesh.vertices) x *= scale;
-  return make_mesh_solid(close_mesh(mesh, path));
+  mesh.volume *= scale * scale * scale;
+  return make_mesh_solid(std::move(mesh));
 }
 
 }  // namespace neve::sim

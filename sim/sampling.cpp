@@ -40,7 +40,7 @@ std::vector<Vec3d> sample_jittered(const Solid& solid, double spacing, std::uint
 
 std::vector<Vec3d> sample_lattice(const Solid& solid, double spacing) {
   const Bounds bounds = solid.local_bounds();
-  const Vec3d count = ((bounds.max - bounds.min) / spacing).array().round().max(1.0);
+  const Vec3d count = lattice_size(bounds.max - bounds.min, spacing);
   // The points are the middles of cells; an odd number of them has one in the middle of the bounds.
   const Vec3d origin = 0.5 * (bounds.min + bounds.max) - 0.5 * spacing * count;
   std::vector<Vec3d> points;

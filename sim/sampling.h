@@ -17,6 +17,11 @@ inline double particle_spacing(double particles_per_cell, double cell_size) {
 /// A random point in every cube of a lattice through the solid's centre, kept if it is inside.
 std::vector<Vec3d> sample_jittered(const Solid& solid, double spacing, std::uint64_t key);
 
+/// Points per axis of a regular grid in a box of that size.
+inline Vec3d lattice_size(const Vec3d& size, double spacing) {
+  return (size / spacing).array().round().max(1.0);
+}
+
 /// The points of a regular grid, as many per axis as fit best into the solid's bounds and in their
 /// middle, kept if they are inside.
 std::vector<Vec3d> sample_lattice(const Solid& solid, double spacing);

@@ -13,8 +13,13 @@ namespace {
 
 constexpr double max_particles = 4294967296.0;  // ids have 32 bits
 
-double expected_count(double volume, double spacing) {
-  return volume / (spacing * spacing * spacing);
+double expected_count(const Body& body, const Solid& solid, double spacing) {
+  const double by_volume = solid.volume() / (spacing * spacing * spacing);
+  if (body.sampling != Sampling::lattice) return by_volume;
+  // Of a sheet thinner than the spacing the grid has a whole layer.
+  const Bounds b = solid.local_bounds();
+  const Vec3d size = b.max - b.min;
+  return lattice_size(size, spacing).prod() * (solid.volume() / size.prod());
 }
 
 std::size_t saturated(double count) {
@@ -27,7 +32,7 @@ std::size_t saturated(double count) {
 SeedingPlan plan_seeding(const Body& body, double cell_size) {
   const Solid solid(body.shape);
   const double count =
-      expected_count(solid.volume(), particle_spacing(body.particles_per_cell, cell_size));
+      expected_count(body, solid, particle_spacing(body.particles_per_cell, cell_size));
   return {solid.volume(), saturated(std::max(1.0, std::ceil(count))), solid.bounds()};
 }
 
@@ -39,7 +44,7 @@ SeededBody seed_body(const Body& body, std::uint64_t body_index, std::uint64_t s
                      double cell_size) {
   const Solid solid(body.shape);
   const double spacing = particle_spacing(body.particles_per_cell, cell_size);
-  if (!(expected_count(solid.volume(), spacing) < max_particles))
+  if (!(expected_count(body, solid, spacing) < max_particles))
     throw ShapeError("body " + body.name + ": more than 2^32 particles fit into it");
 
   const std::uint64_t key = mix64(mix64(seed), body_index);
