@@ -20,13 +20,14 @@ namespace {
 /// The functions of libEGL, loaded at run time so that neve starts where it is missing.
 struct Egl {
   SharedLibrary library{"libEGL.so.1", "libEGL.so"};
-#define NEVE_EGL_FUNCTIONS(X)                                                            \
-  X(BindAPI)                                                                             \
-  X(ChooseConfig)                                                                        \
-  X(CreateContext)                                                                       \
-  X(CreatePbufferSurface)                                                                \
-  X(DestroyContext) X(DestroySurface) X(GetCurrentContext) X(GetError) X(GetProcAddress) \
-      X(Initialize) X(MakeCurrent) X(QueryString) X(Terminate)
+#define NEVE_EGL_FUNCTIONS(X)                                                        \
+  X(BindAPI)                                                                         \
+  X(ChooseConfig)                                                                    \
+  X(CreateContext)                                                                   \
+  X(CreatePbufferSurface)                                                            \
+  X(DestroyContext)                                                                  \
+  X(DestroySurface) X(GetCurrentContext) X(GetError) X(GetProcAddress) X(Initialize) \
+      X(MakeCurrent) X(QueryString) X(Terminate)
 #define NEVE_EGL_MEMBER(name) decltype(&egl##name) name = nullptr;
   NEVE_EGL_FUNCTIONS(NEVE_EGL_MEMBER)
 #undef NEVE_EGL_MEMBER

@@ -6,12 +6,13 @@
 
 namespace neve::render {
 
-ParticlePass::ParticlePass(const Gl& gl, const ShaderLibrary& library)
+ParticlePass::ParticlePass(const Gl& gl, const ShaderLibrary& library, bool is_software)
     : gl_(gl),
       point_program_(gl, library, "particles.vert", "particles.frag"),
       quad_program_(gl, library, "particles.vert", "particles.frag", "#define QUADS\n"),
       vertex_array_(gl),
-      buffer_(gl) {
+      buffer_(gl),
+      is_software_(is_software) {
   GLfloat range[2] = {1, 1};
   gl.GetFloatv(GL_POINT_SIZE_RANGE, range);
   // Beyond this size a quad is as fast, and drivers have been caught cutting large points short.
@@ -28,7 +29,7 @@ ParticlePass::ParticlePass(const Gl& gl, const ShaderLibrary& library)
 
 void ParticlePass::draw(const Points& points, const View& view) {
   if (points.position.empty()) return;
-  const PointList list = list_points(points, view, max_point_size_);
+  const PointList list = list_points(points, view, max_point_size_, is_software_);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LESS);
   gl_.DepthMask(GL_TRUE);

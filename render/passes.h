@@ -13,7 +13,8 @@ namespace neve::render {
 /// Spheres; see shaders/particles.vert.
 class ParticlePass {
  public:
-  ParticlePass(const Gl& gl, const ShaderLibrary& library);
+  /// @param is_software see list_points
+  ParticlePass(const Gl& gl, const ShaderLibrary& library, bool is_software);
   void draw(const Points& points, const View& view);
 
  private:
@@ -24,6 +25,7 @@ class ParticlePass {
   VertexArray vertex_array_;
   Buffer buffer_;
   float max_point_size_ = 1;
+  bool is_software_;
 };
 
 /// Infinite planes with grid lines; see shaders/ground.frag.

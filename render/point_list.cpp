@@ -6,30 +6,60 @@
 #include <numeric>
 
 #include "render/colormap.h"
+#include "render/occlusion.h"
 
 namespace neve::render {
 namespace {
 
 enum class Drawn : std::uint8_t { no, as_point, as_quad };
 
-/// How a sphere at p (relative to the eye, z along the view) has to be drawn.
-Drawn classify(const View& view, Vec3f p, float z, float radius, float max_point_size) {
-  if (!(z > view.near_distance) || !std::isfinite(z)) return Drawn::no;
-  if (dot(p, p) < 1.1f * radius * radius) return Drawn::no;  // the eye is inside
-  const float scale = view.pixels_per_slope / z;
-  const float x = std::abs(dot(p, view.right)) * scale, y = std::abs(dot(p, view.up)) * scale;
+/// A sphere on the picture.
+struct Disc {
+  float x = 0, y = 0;    ///< centre, samples, y up
+  float z = 0;           ///< distance of the centre along the view, m
+  float radius = 0;      ///< m, as drawn
+  float on_picture = 0;  ///< radius across the direction to the middle of the picture, samples
+  float slope = 0;       ///< tangent of the angle off the axis
+  float reach = 0;       ///< no sample further than this from the centre is touched
+  Drawn drawn = Drawn::no;
+};
+
+/// @param p centre relative to the eye
+Disc project(const View& view, Vec3f p, float radius, float max_point_size) {
+  Disc d;
+  d.z = dot(p, view.forward);
+  if (!(d.z > view.near_distance) || !std::isfinite(d.z)) return d;
+  if (dot(p, p) < 1.1f * radius * radius) return d;  // the eye is inside
+  const float scale = view.pixels_per_slope / d.z;
+  const float x = dot(p, view.right) * scale, y = dot(p, view.up) * scale;
   const float half_width = 0.5f * static_cast<float>(view.width);
   const float half_height = 0.5f * static_cast<float>(view.height);
+  d.x = half_width + x;
+  d.y = half_height + y;
+  d.radius = std::max(radius, min_radius_pixels / scale);
+  d.on_picture = d.radius * scale;
+  d.slope = std::sqrt(x * x + y * y) / view.pixels_per_slope;
   // Generous: spheres look longer away from the axis.
-  const float slope = std::max(x, y) / view.pixels_per_slope;
-  const float reach =
-      std::max(radius * scale, min_radius_pixels) * (1 + slope + 4 * radius / z) + 1;
-  const bool is_close = radius > 0.2f * z;
-  if (!is_close && (x - reach > half_width || y - reach > half_height)) return Drawn::no;
+  d.reach = d.on_picture * (1 + d.slope + 4 * d.radius / d.z) + 1;
+  const bool is_close = d.radius > 0.2f * d.z;
+  if (!is_close && (std::abs(x) - d.reach > half_width || std::abs(y) - d.reach > half_height))
+    return d;
   // OpenGL drops a point whose centre is outside, however large it is.
-  if (is_close || 2 * reach > max_point_size || x > half_width || y > half_height)
-    return Drawn::as_quad;
-  return Drawn::as_point;
+  const bool is_outside = std::abs(x) > half_width || std::abs(y) > half_height;
+  d.drawn =
+      is_close || is_outside || 2 * d.reach > max_point_size ? Drawn::as_quad : Drawn::as_point;
+  return d;
+}
+
+/// Whether nearer spheres cover this one; if not, it covers others from now on.
+bool is_hidden(const Disc& d, float pixels_per_slope, OcclusionGrid& grid) {
+  const float ratio = d.radius / d.z;
+  if (ratio > 0.1f) return false;  // so close that the bounds below are too rough
+  if (grid.hides(d.x, d.y, d.reach, d.z - d.radius)) return true;
+  // Perspective moves the outline of a sphere away from the image of its centre.
+  const float moved = 1.5f * d.slope * (1 + d.slope * d.slope) * ratio * ratio * pixels_per_slope;
+  grid.cover(d.x, d.y, d.on_picture - moved - 0.5f, d.z + d.radius * d.slope);
+  return false;
 }
 
 /// Indices in the order of ids, which is nearly always the order they come in.
@@ -71,26 +101,24 @@ Rgb8 color_of(const Points& points, std::uint32_t p) {
   return shades[scramble(points.id.empty() ? p : points.id[p]) & 63u];
 }
 
-/// Sorts roughly front to back, which spares hidden fragments, without breaking the order of ids
-/// among equals: one counting sort over slabs of distance.
+/// Sorts roughly front to back without breaking the order of ids among equals: one counting sort
+/// over slabs of distance.
 std::vector<std::uint32_t> order_by_distance(const std::vector<std::uint32_t>& drawn,
-                                             const std::vector<float>& distance) {
+                                             const std::vector<Disc>& discs) {
   constexpr std::size_t slabs = 2048;
   float nearest = INFINITY, farthest = 0;
   for (const std::uint32_t p : drawn) {
-    nearest = std::min(nearest, distance[p]);
-    farthest = std::max(farthest, distance[p]);
+    nearest = std::min(nearest, discs[p].z);
+    farthest = std::max(farthest, discs[p].z);
   }
   // Slabs of equal ratio rather than width: one far stray must not squeeze the rest into one slab.
   const float scale =
       static_cast<float>(slabs - 1) / std::log(std::max(farthest / nearest, 1.0001f));
-  const auto slab = [&](std::uint32_t p) {
-    return std::min(slabs - 1, static_cast<std::size_t>(scale * std::log(distance[p] / nearest)));
-  };
   std::vector<std::uint16_t> slab_of(drawn.size());
   std::vector<std::uint32_t> start(slabs + 1);
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    slab_of[i] = static_cast<std::uint16_t>(slab(drawn[i]));
+    const float slab = scale * std::log(discs[drawn[i]].z / nearest);
+    slab_of[i] = static_cast<std::uint16_t>(std::min(slab, static_cast<float>(slabs - 1)));
     ++start[slab_of[i] + 1u];
   }
   for (std::size_t s = 0; s < slabs; ++s) start[s + 1] += start[s];
@@ -101,25 +129,27 @@ std::vector<std::uint32_t> order_by_distance(const std::vector<std::uint32_t>& d
 
 }  // namespace
 
-PointList list_points(const Points& points, const View& view, float max_point_size) {
-  const std::size_t count = points.position.size();
-  std::vector<Drawn> kind(count);
-  std::vector<float> distance(count);
+PointList list_points(const Points& points, const View& view, float max_point_size,
+                      bool leave_out_hidden) {
+  std::vector<Disc> discs(points.position.size());
   std::vector<std::uint32_t> drawn;
-  drawn.reserve(count);
+  drawn.reserve(discs.size());
+  double sum_of_radii = 0;
   for (const std::uint32_t p : order_by_id(points)) {
-    const Vec3f center = points.position[p] - view.eye;
-    distance[p] = dot(center, view.forward);
-    kind[p] = classify(view, center, distance[p], points.radius, max_point_size);
-    if (kind[p] != Drawn::no) drawn.push_back(p);
+    discs[p] = project(view, points.position[p] - view.eye, points.radius, max_point_size);
+    if (discs[p].drawn == Drawn::no) continue;
+    drawn.push_back(p);
+    sum_of_radii += static_cast<double>(discs[p].on_picture);
   }
-
   PointList list;
-  list.small.reserve(drawn.size());
-  for (const std::uint32_t p : order_by_distance(drawn, distance)) {
+  if (drawn.empty()) return list;
+
+  OcclusionGrid grid(view, static_cast<float>(sum_of_radii / static_cast<double>(drawn.size())));
+  for (const std::uint32_t p : order_by_distance(drawn, discs)) {
+    if (leave_out_hidden && is_hidden(discs[p], view.pixels_per_slope, grid)) continue;
     const Rgb8 c = color_of(points, p);
     const PointVertex vertex = {points.position[p] - view.eye, {c.r, c.g, c.b, 255}};
-    (kind[p] == Drawn::as_point ? list.small : list.large).push_back(vertex);
+    (discs[p].drawn == Drawn::as_point ? list.small : list.large).push_back(vertex);
   }
   return list;
 }

@@ -25,6 +25,9 @@ inline constexpr float min_radius_pixels = 0.75f;
 
 /// Leaves out what lies outside the picture, behind the eye, or is not a finite position.
 /// @param max_point_size largest point of the driver, pixels
-PointList list_points(const Points& points, const View& view, float max_point_size);
+/// @param leave_out_hidden also leaves out what nearer spheres cover: the picture stays the same;
+/// pays where fragments are drawn on the CPU
+PointList list_points(const Points& points, const View& view, float max_point_size,
+                      bool leave_out_hidden);
 
 }  // namespace neve::render

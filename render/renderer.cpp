@@ -61,7 +61,7 @@ struct Renderer::Impl {
         library(shader_dir),
         ground(gl, library),
         meshes(gl, library),
-        particles(gl, library),
+        particles(gl, library, c.is_software),
         shade(gl, library),
         resolve(gl, library),
         overlay(gl, library) {}

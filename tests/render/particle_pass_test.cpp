@@ -3,6 +3,7 @@
 
 #include "gl_test.h"
 #include "render/colormap.h"
+#include "render/point_list.h"
 #include "render/view.h"
 
 namespace neve::render {
@@ -118,6 +119,32 @@ TEST(ParticlePass, PictureDoesNotDependOnTheOrderOfPoints) {
   Frame other = frame;
   other.points.value.front() += 0.5f;
   EXPECT_NE(renderer.draw(frame).pixels, renderer.draw(other).pixels);
+}
+
+TEST(ParticlePass, LeavingOutHiddenSpheresDoesNotChangeThePicture) {
+  OPEN_OR_SKIP(context, "auto");
+  context->is_software = true;  // leaves them out
+  Renderer some(*context);
+  context->is_software = false;
+  Renderer all(*context);
+  Frame frame = small_frame(320, 240);
+  add_ball(frame, {0.2f, 0.1f, 0}, 0.4f, 0.04f);
+  for (std::size_t i = 0; i < frame.points.position.size(); ++i) {
+    const float x = static_cast<float>(i);  // off the lattice
+    frame.points.position[i] =
+        frame.points.position[i] + 0.015f * Vec3f{std::sin(x), std::sin(2.3f * x), std::sin(5 * x)};
+    frame.points.value.push_back(static_cast<float>(i % 11) / 10);
+  }
+  for (const float fov : {10.0f, 30.0f, 100.0f}) {
+    for (const float radius : {0.004f, 0.03f, 0.05f}) {
+      frame.camera.fov = fov;
+      frame.points.radius = radius;
+      EXPECT_EQ(some.draw(frame).pixels, all.draw(frame).pixels) << fov << " " << radius;
+    }
+  }
+  const View view = make_view(frame.camera, 320, 240);
+  EXPECT_LT(list_points(frame.points, view, 64, true).small.size(),
+            list_points(frame.points, view, 64, false).small.size() / 2);
 }
 
 TEST(ParticlePass, ValuesAreShownInTheColoursOfTheMap) {
