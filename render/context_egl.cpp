@@ -1,80 +1,16 @@
 /// EGL without display: on a device (GPU or software) and on Mesa's surfaceless platform.
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 #include <mutex>
-#include <string_view>
 
 #include "render/context_backends.h"
+#include "render/egl.h"
 #include "render/gl.h"
-#include "render/shared_library.h"
 
 namespace neve::render {
 namespace {
-
-/// The functions of libEGL, loaded at run time so that neve starts where it is missing.
-struct Egl {
-  SharedLibrary library{"libEGL.so.1", "libEGL.so"};
-#define NEVE_EGL_FUNCTIONS(X)                                                        \
-  X(BindAPI)                                                                         \
-  X(ChooseConfig)                                                                    \
-  X(CreateContext)                                                                   \
-  X(CreatePbufferSurface)                                                            \
-  X(DestroyContext)                                                                  \
-  X(DestroySurface) X(GetCurrentContext) X(GetError) X(GetProcAddress) X(Initialize) \
-      X(MakeCurrent) X(QueryString) X(Terminate)
-#define NEVE_EGL_MEMBER(name) decltype(&egl##name) name = nullptr;
-  NEVE_EGL_FUNCTIONS(NEVE_EGL_MEMBER)
-#undef NEVE_EGL_MEMBER
-  PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplay = nullptr;
-  PFNEGLQUERYDEVICESEXTPROC QueryDevices = nullptr;
-  PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceString = nullptr;
-  bool is_complete = false;
-
-  Egl() {
-    if (!library) return;
-    is_complete = true;
-#define NEVE_EGL_LOAD(name)                         \
-  name = library.find<decltype(name)>("egl" #name); \
-  is_complete = is_complete && name != nullptr;
-    NEVE_EGL_FUNCTIONS(NEVE_EGL_LOAD)
-#undef NEVE_EGL_LOAD
-    if (!is_complete) return;
-    GetPlatformDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
-        GetProcAddress("eglGetPlatformDisplayEXT"));
-    QueryDevices =
-        reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(GetProcAddress("eglQueryDevicesEXT"));
-    QueryDeviceString =
-        reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(GetProcAddress("eglQueryDeviceStringEXT"));
-  }
-
-  std::string error() const {
-    char text[32];
-    std::snprintf(text, sizeof text, "error 0x%x", static_cast<unsigned>(GetError()));
-    return text;
-  }
-};
-
-const Egl& egl() {
-  static const Egl instance;
-  return instance;
-}
-
-/// Whole-word search: extension names are prefixes of one another.
-bool lists(const char* extensions, std::string_view name) {
-  std::string_view rest = extensions ? extensions : "";
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find(' '), rest.size());
-    if (rest.substr(0, end) == name) return true;
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return false;
-}
 
 /// An initialised display. EGL hands out the same handle every time a display is asked for and
 /// eglTerminate ends it for everyone, so users are counted.

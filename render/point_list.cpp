@@ -87,7 +87,7 @@ std::array<Rgb8, 64> snow_shades() {
     const float brightness = 0.95f + 0.07f * static_cast<float>(i) / 63;
     const auto channel = [&](float linear) {
       const float srgb = std::pow(linear * brightness, 1 / 2.2f);
-      return static_cast<std::uint8_t>(255 * std::min(1.0f, srgb) + 0.5f);
+      return static_cast<std::uint8_t>(std::lround(255 * std::min(1.0f, srgb)));
     };
     shades[i] = {channel(0.90f), channel(0.925f), channel(0.95f)};
   }
