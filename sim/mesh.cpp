@@ -144,7 +144,7 @@ ClosedMesh close_mesh(const PolygonMesh& mesh, const std::string& name) {
   const double box = std::pow((b.max - b.min).maxCoeff(), 3);
   if (!std::isfinite(closed.volume) || !std::isfinite(box))
     throw ShapeError(name + ": the mesh is too large: its volume overflows. Scale it down");
-  if (std::abs(closed.volume) <= 1e-12 * box)
+  if (std::abs(closed.volume) <= 1e-14 * box)
     throw ShapeError(name + ": the mesh is flat: it encloses no volume. Give it thickness");
   if (closed.volume < 0) {
     for (auto& t : closed.triangles) std::swap(t[1], t[2]);

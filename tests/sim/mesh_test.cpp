@@ -1,0 +1,241 @@
+#include "sim/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "sim/base/hash.h"
+
+namespace neve::sim {
+namespace {
+
+const std::string cube_vertices =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+const std::string cube_faces = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+const std::string cube = cube_vertices + cube_faces;
+
+ClosedMesh closed(const std::string& text) {
+  return close_mesh(parse_obj(text, "m.obj"), "m.obj");
+}
+
+std::unique_ptr<const Form> solid(const std::string& text) {
+  return make_mesh_solid(closed(text));
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    closed(text);
+  } catch (const ShapeError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_message(const std::string& text, const std::string& part) {
+  const std::string message = message_of(text);
+  EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+/// A torus about y of n by m quads.
+std::string torus(int n, int m, double R, double r) {
+  std::ostringstream text;
+  const double turn = 2 * std::numbers::pi;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j) {
+      const double a = turn * i / n, b = turn * j / m, rho = R + r * std::cos(b);
+      text << "v " << rho * std::cos(a) << ' ' << r * std::sin(b) << ' ' << rho * std::sin(a)
+           << '\n';
+    }
+  const auto id = [&](int i, int j) { return (i % n) * m + j % m + 1; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j)
+      text << "f " << id(i, j) << ' ' << id(i, j + 1) << ' ' << id(i + 1, j + 1) << ' '
+           << id(i + 1, j) << '\n';
+  return text.str();
+}
+
+Vec3d random_point(std::uint64_t k) {
+  return {unit_double(mix64(k, 0)), unit_double(mix64(k, 1)), unit_double(mix64(k, 2))};
+}
+
+TEST(Mesh, CubeHasItsVolumeAndBounds) {
+  const auto mesh = solid(cube);
+  EXPECT_NEAR(mesh->volume(), 1, 1e-15);
+  const Bounds b = mesh->bounds_after(rotation_from_degrees({0, 0, 45}));
+  EXPECT_NEAR(b.min.x(), -std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(b.max.y(), std::sqrt(2.0), 1e-15);
+}
+
+TEST(Mesh, RaysThroughVerticesEdgesAndFacesDoNotLeak) {
+  const auto mesh = solid(cube);
+  // Coordinates on the lattice of the cube's own corners, edges and face diagonals.
+  const double places[] = {-0.5, 0, 0.25, 0.5, 0.75, 1, 1.5};
+  for (const double x : places)
+    for (const double y : places)
+      for (const double z : places) {
+        const Vec3d p(x, y, z);
+        const bool is_inside = p.minCoeff() > 0 && p.maxCoeff() < 1;
+        const bool is_outside = p.minCoeff() < 0 || p.maxCoeff() > 1;
+        if (is_inside || is_outside) {
+          EXPECT_EQ(mesh->contains(p), is_inside) << p.transpose();
+        }
+      }
+}
+
+TEST(Mesh, RaysAlongRotatedVerticesDoNotLeak) {
+  // A cube turned so that its coordinates are irrational and rays run through them all the same.
+  PolygonMesh polygons = parse_obj(cube, "m");
+  const Mat3d rotation = rotation_from_degrees({30, 50, 70});
+  for (Vec3d& v : polygons.vertices) v = rotation * (v - Vec3d::Constant(0.5));
+  const auto mesh = make_mesh_solid(close_mesh(polygons, "m"));
+  for (const Vec3d& a : polygons.vertices)
+    for (const Vec3d& b : polygons.vertices)
+      for (const double s : {0.0, 0.25, 0.5, 1.0})
+        for (int step = -40; step <= 40; ++step) {
+          Vec3d p = a + s * (b - a);
+          p.x() = 0.05 * step;
+          const double depth = (rotation.transpose() * p).cwiseAbs().maxCoeff() - 0.5;
+          EXPECT_TRUE(std::abs(depth) <= 1e-12 || mesh->contains(p) == (depth < 0))
+              << p.transpose();
+        }
+}
+
+TEST(Mesh, TorusAgreesWithItsFormula) {
+  const auto mesh = solid(torus(160, 80, 1.0, 0.3));
+  const double exact = 2 * std::numbers::pi * std::numbers::pi * 0.09;
+  EXPECT_NEAR(mesh->volume() / exact, 1, 2e-3);  // a polygon of 80 sides lacks 0.1 % of its circle
+  for (std::uint64_t k = 0; k < 20000; ++k) {
+    const Vec3d p = 2.8 * (random_point(k) - Vec3d::Constant(0.5)).cwiseProduct(Vec3d(1, 0.3, 1));
+    const double distance = std::hypot(std::hypot(p.x(), p.z()) - 1.0, p.y()) - 0.3;
+    EXPECT_TRUE(std::abs(distance) <= 2e-3 || mesh->contains(p) == (distance < 0)) << p.transpose();
+  }
+}
+
+TEST(Mesh, InsideFillsTheVolume) {
+  const auto mesh = solid(torus(7, 5, 1.0, 0.4));
+  std::size_t inside = 0;
+  constexpr std::uint64_t count = 200000;
+  for (std::uint64_t k = 0; k < count; ++k)
+    inside += mesh->contains(3 * (random_point(k) - Vec3d::Constant(0.5))) ? 1 : 0;
+  // Standard deviation of the count: about 1 % / 2.
+  EXPECT_NEAR(27.0 * static_cast<double>(inside) / count / mesh->volume(), 1, 0.03);
+}
+
+TEST(Mesh, InwardMeshIsTurnedOutward) {
+  const std::string inward =
+      cube_vertices + "f 2 3 4 1\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n";
+  const auto mesh = solid(inward);
+  EXPECT_NEAR(mesh->volume(), 1, 1e-15);
+  EXPECT_TRUE(mesh->contains({0.5, 0.5, 0.5}));
+}
+
+TEST(Mesh, VerticesInOnePlaceAreWelded) {
+  std::string text;  // every face with its own corners, as exporters with normals write them
+  const PolygonMesh shared = parse_obj(cube, "m");
+  for (std::size_t p = 0; p < shared.polygons.size(); ++p) {
+    for (std::size_t c = shared.polygons[p].first; c < shared.corner_end(p); ++c) {
+      text += "v";
+      for (const double x : shared.vertices[shared.corners[c]])
+        text += x != 0 ? " 1" : p % 2 == 0 ? " 0" : " -0";  // minus zero is the same place
+      text += "\n";
+    }
+    text += "f -4 -3 -2 -1\n";
+  }
+  EXPECT_NEAR(closed(text).volume, 1, 1e-15);
+}
+
+TEST(Mesh, ConcavePolygonsAreRight) {
+  // An L, one apart from the corner that fans badly.
+  const auto mesh = solid(
+      "v 0 0 0\nv 0 2 0\nv 1 2 0\nv 1 1 0\nv 2 1 0\nv 2 0 0\n"
+      "v 0 0 1\nv 0 2 1\nv 1 2 1\nv 1 1 1\nv 2 1 1\nv 2 0 1\n"
+      "f 2 3 4 5 6 1\nf 7 12 11 10 9 8\nf 1 7 8 2\nf 2 8 9 3\nf 3 9 10 4\nf 4 10 11 5\nf 5 11 12 "
+      "6\n"
+      "f 6 12 7 1\n");
+  EXPECT_NEAR(mesh->volume(), 3, 1e-14);
+  EXPECT_TRUE(mesh->contains({0.5, 1.5, 0.5}));
+  EXPECT_TRUE(mesh->contains({1.5, 0.5, 0.5}));
+  EXPECT_FALSE(mesh->contains({1.2, 1.3, 0.5}));
+  EXPECT_FALSE(mesh->contains({1.7, 1.7, 0.5}));
+}
+
+TEST(Mesh, CavitiesAndOverlapsGoByWindingNumber) {
+  const std::string inward_faces =
+      "f -8 -7 -6 -5\nf -1 -2 -3 -4\nf -4 -3 -7 -8\nf -3 -2 -6 -7\nf -2 -1 -5 -6\nf -1 -4 -8 -5\n";
+  const std::string outward_faces =
+      "f -8 -5 -6 -7\nf -4 -3 -2 -1\nf -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\nf -5 -8 -4 -1\n";
+  // A cube of edge 1/2 in the middle, wound inward: a hole. Far out, wound outward: a second part.
+  const auto small = [&](double at, bool is_inward) {
+    std::ostringstream text;
+    for (const double z : {at, at + 0.5})
+      for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}})
+        text << "v " << at + x << ' ' << at + y << ' ' << z << '\n';
+    text << (is_inward ? inward_faces : outward_faces);
+    return text.str();
+  };
+  const auto hollow = solid(cube + small(0.25, true));
+  EXPECT_NEAR(hollow->volume(), 0.875, 1e-14);
+  EXPECT_FALSE(hollow->contains({0.5, 0.5, 0.5}));
+  EXPECT_TRUE(hollow->contains({0.1, 0.5, 0.5}));
+  const auto overlapping = solid(cube + small(0.75, false));
+  EXPECT_TRUE(overlapping->contains({0.9, 0.9, 0.9}));
+  EXPECT_TRUE(overlapping->contains({1.1, 1.1, 1.1}));
+  EXPECT_FALSE(overlapping->contains({1.3, 1.3, 1.2}));
+  EXPECT_FALSE(overlapping->contains({1.1, 0.5, 0.5}));
+}
+
+TEST(Mesh, OpenMeshNamesItsFirstOpenEdge) {
+  const std::string open = cube.substr(0, cube.rfind("f "));
+  expect_message(open, "m.obj:9: the mesh is open");
+  expect_message(open, "4 edges, the first of face 1 between (0, 0, 0) and (0, 1, 0)");
+  expect_message(open, "Close the holes");
+}
+
+TEST(Mesh, FacesWoundAgainstEachOtherAreAnError) {
+  std::string turned = cube;
+  turned.replace(turned.find("f 1 4 3 2"), 9, "f 1 2 3 4");
+  expect_message(turned, "disagree");
+  expect_message(turned, "4 edges, the first of face 1");
+}
+
+TEST(Mesh, NonManifoldEdgesAreAnError) {
+  expect_message(cube + "f 1 3 7\nf 1 7 3\n", "not manifold");
+  expect_message(cube + cube_faces, "12 edges");
+}
+
+TEST(Mesh, MeshesWithoutVolumeAreErrors) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  expect_message(corners + "f 1 2 3\nf 3 2 1\n", "encloses no volume");
+  expect_message(corners + "f 1 1 1\n", "no face has an area");
+  expect_message(
+      "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nv 0 0 1e200\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n",
+      "too large");
+}
+
+TEST(Mesh, InnerPointOfAThinNeedleIsInside) {
+  const auto needle =
+      solid("v 0 0 0\nv 1e-6 0 0\nv 0 1e-6 0\nv 1 1 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  EXPECT_TRUE(needle->contains(needle->inner_point()));
+}
+
+TEST(Mesh, ScaleAndPlaceComeFromTheShape) {
+  const std::string path = testing::TempDir() + "cube.obj";
+  std::ofstream(path) << cube;
+  const Shape shape{Mesh{path, 0.5, {3, 0, 0}}, {0, 0, 90}};
+  EXPECT_NEAR(volume(shape), 0.125, 1e-15);
+  const Bounds b = bounds(shape);  // x of the file points along y now
+  EXPECT_NEAR((b.min - Vec3d(2.5, 0, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((b.max - Vec3d(3, 0.5, 0.5)).norm(), 0, 1e-12);
+  EXPECT_THROW(volume({Mesh{path, -1, {0, 0, 0}}, {0, 0, 0}}), ShapeError);
+}
+
+TEST(Mesh, MeshesOfTheScenesAreClosed) {
+  const Shape rabbit{Mesh{NEVE_SOURCE_DIR "/scenes/meshes/rabbit.obj"}, {0, 0, 0}};
+  EXPECT_NEAR(volume(rabbit), 0.12, 0.02);
+}
+
+}  // namespace
+}  // namespace neve::sim
