@@ -17,6 +17,8 @@ namespace {
 /// snow has a surface.
 constexpr double radius_share = 0.6;
 constexpr std::size_t max_override_lines = 6;
+/// Rings around more particles than these hide what they point out.
+constexpr std::size_t max_marks = 60;
 
 Vec3f to_float(const sim::Vec3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -114,9 +116,11 @@ render::Frame FrameBuilder::build(const View& view, const Snapshot& snapshot) co
 render::Frame FrameBuilder::build_incident(const View& view, const Snapshot& snapshot,
                                            const sim::Divergence& divergence) const {
   render::Frame frame = build(view, snapshot);
-  for (const std::uint32_t p : divergence.culprits)
+  for (const std::uint32_t p : divergence.culprits) {
+    if (frame.marks.size() == max_marks) break;
     if (p < snapshot.particles.x.size() && snapshot.particles.x[p].allFinite())
       frame.marks.push_back(to_float(snapshot.particles.x[p]));
+  }
   if (!frame.caption.empty())
     frame.caption.push_back("diverged at step " + std::to_string(divergence.step) + ": " +
                             divergence.rule);
