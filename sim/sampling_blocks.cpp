@@ -9,6 +9,9 @@ namespace {
 // million particles comes here; such needles and sheets are better built of several bodies.
 constexpr double max_blocks = 1e9;
 
+// Far beyond it a double no longer tells the points of a cell apart.
+constexpr double max_block_index = 1e12;
+
 }  // namespace
 
 std::vector<LatticeBlock> blocks_in(const Solid& solid, const Vec3d& origin, double spacing) {
@@ -18,6 +21,9 @@ std::vector<LatticeBlock> blocks_in(const Solid& solid, const Vec3d& origin, dou
   const Vec3d count = ((bounds.max - origin) / edge).array().floor() - low.array() + 1;
   if (!(count.prod() < max_blocks))
     throw ShapeError("the shape is too thin for its length to be filled with particles");
+
+  if (!(low.cwiseAbs().maxCoeff() < max_block_index))
+    throw ShapeError("the mesh is too far from its file's origin to be filled with particles");
 
   const double reach = 0.5 * std::sqrt(3.0) * edge * (1 + 1e-9);  // of a block from its middle
   std::vector<LatticeBlock> blocks;

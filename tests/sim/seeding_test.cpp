@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -198,6 +199,14 @@ TEST(Seeding, AbsurdSizesSaturateThePlanAndAreRefused) {
   // Few particles, but bounds too large to look through.
   body.shape = {Torus{{0, 0, 0}, 1e6, 1e-3}, {0, 0, 0}};
   EXPECT_THROW(seed_body(body, 0, 1, 0.05), ShapeError);
+}
+
+TEST(Seeding, MeshesFarFromTheirOriginAreRefused) {
+  const std::string path = testing::TempDir() + "far.obj";
+  std::ofstream(path) << "v 1e15 0 0\nv 1000000000000001 0 0\nv 1e15 1 0\nv 1e15 0 1\n"
+                         "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  const Body body = body_of({Mesh{path, 1, {0, 0, 0}}, {0, 0, 0}}, Sampling::jittered);
+  EXPECT_THROW(seed_body(body, 0, 1, 0.02), ShapeError);
 }
 
 TEST(Seeding, CentreIsWhatTheShapeTurnsAbout) {
