@@ -175,12 +175,15 @@ TEST(ParticlePass, ValuesAreShownInTheColoursOfTheMap) {
 TEST(ParticlePass, StraysAreLitByTheirOwnSurface) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
-  Frame frame = small_frame();
-  add_ball(frame, {-0.3f, 0, 0}, 0.2f, 0.04f);
+  Frame frame = small_frame(240, 180);
+  frame.light.direction = {0, 1, 0.3f};
+  add_ball(frame, {-0.3f, 0, 0}, 0.2f, 0.05f);
   add_point(frame, {0.4f, 0, 0});
-  const View view = make_view(frame.camera, 120, 90);
-  const int x = static_cast<int>(view.project({0.4f, 0, 0}).x);
-  EXPECT_GT(pixel(renderer.draw(frame), x, 45).brightness(), 180);
+  const Vec3f p = make_view(frame.camera, 240, 180).project({0.4f, 0, 0});
+  const Image image = renderer.draw(frame);
+  const int x = static_cast<int>(p.x), r = static_cast<int>(radius_on_picture(frame, 2)) - 2;
+  EXPECT_GT(pixel(image, x, 90 - r).brightness(), 200);
+  EXPECT_LT(pixel(image, x, 90 + r).brightness(), pixel(image, x, 90 - r).brightness() - 60);
 }
 
 TEST(ParticlePass, SnowIsBrightWithoutBeingClipped) {

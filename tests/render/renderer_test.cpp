@@ -176,7 +176,9 @@ TEST(Renderer, AnyCameraGivesAPicture) {
   Renderer renderer(*context);
   Frame frame = ball_over_ground();
   frame.camera = {.eye = {0, 2, 0}, .target = {0, 0, 0}, .up = {0, 1, 0}, .fov = 30};
-  EXPECT_GT(pixel(renderer.draw(frame), 80, 60).brightness(), 120);  // straight down
+  const Image from_above = renderer.draw(frame);  // up is along the view: another one is taken
+  EXPECT_GT(pixel(from_above, 90, 60).brightness(), 150);
+  EXPECT_LT(pixel(from_above, 20, 60).brightness(), 130);
   frame.camera.target = frame.camera.eye;
   EXPECT_NO_THROW(renderer.draw(frame));
 }
