@@ -81,9 +81,9 @@ std::vector<Vec3d> ordered_by_block(const std::vector<Vec3d>& points, double spa
   return sorted;
 }
 
-// Of darts inside the solid per point wanted. Well above what a solid larger than a few spacings
-// takes, see sampling.h.
-constexpr std::uint64_t darts_per_point = 400;
+// Darts per lattice cell of the blocks before a solid counts as full. Well above what solids larger
+// than a few spacings take, see sampling.h.
+constexpr std::uint64_t darts_per_cell = 400;
 
 }  // namespace
 
@@ -91,14 +91,11 @@ std::vector<Vec3d> sample_poisson(const Solid& solid, double spacing, std::uint6
   const std::vector<LatticeBlock> blocks = blocks_in(solid, Vec3d::Zero(), spacing);
   const auto wanted = static_cast<std::size_t>(
       std::max(1.0, std::round(solid.volume() / (spacing * spacing * spacing))));
-  const std::uint64_t max_darts = darts_per_point * wanted;
-  // Ends the search in a solid that the lattice knows but no dart finds.
-  const std::uint64_t max_throws = 1000 * max_darts;
+  const std::uint64_t max_darts =
+      darts_per_cell * block_cells * block_cells * block_cells * blocks.size();
 
   Neighbours taken(poisson_distance_in_spacings * spacing, wanted);
-  std::uint64_t darts = 0;
-  for (std::uint64_t t = 0; t < max_throws && darts < max_darts; ++t) {
-    if (taken.points().size() == wanted || blocks.empty()) break;
+  for (std::uint64_t t = 0; t < max_darts && taken.points().size() < wanted; ++t) {
     const std::uint64_t dart = mix64(key, t);
     const auto& [first, is_full] =
         blocks[static_cast<std::size_t>(unit_double(dart) * static_cast<double>(blocks.size()))];
@@ -107,9 +104,7 @@ std::vector<Vec3d> sample_poisson(const Solid& solid, double spacing, std::uint6
     const Vec3d place(unit_double(mix64(dart + 1)), unit_double(mix64(dart + 2)),
                       unit_double(mix64(dart + 3)));
     const Vec3d y = spacing * (corner + block_cells * place);
-    if (!is_full && !solid.contains_local(y)) continue;
-    ++darts;
-    if (taken.is_free(y)) taken.add(y);
+    if ((is_full || solid.contains_local(y)) && taken.is_free(y)) taken.add(y);
   }
   return ordered_by_block(taken.points(), spacing);
 }
