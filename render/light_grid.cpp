@@ -8,7 +8,7 @@ namespace neve::render {
 namespace {
 
 constexpr int max_cells = 96;  // per axis
-constexpr float spacings_per_cell = 2.0f;
+constexpr float spacings_per_cell = 1.6f;
 constexpr int margin_cells = 4;  // room for shadows and for blurring
 
 struct Box {

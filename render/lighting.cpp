@@ -10,7 +10,7 @@ namespace neve::render {
 namespace {
 
 // Extinction per cell of packed snow. Less for the sky, whose light also comes around corners.
-constexpr float key_extinction = 0.55f, sky_extinction = 0.34f, solid_extinction = 8.0f;
+constexpr float key_extinction = 0.55f, sky_extinction = 0.36f, solid_extinction = 8.0f;
 
 /// The sky is sampled straight above and on three sides 37 degrees up; the mean stands for all of
 /// it.
