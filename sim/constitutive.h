@@ -15,7 +15,7 @@ inline constexpr int model_count = 3;
 /// A row of the material table as kernels see it.
 template <class Real>
 struct MaterialConstants {
-  Real mu0, lambda0;      ///< Pa
+  Real mu0, lambda0;  ///< Pa
   Real xi;
   Real theta_c, theta_s;
 };
@@ -121,8 +121,7 @@ NEVE_INLINE MaterialResponse<Real> update_neo_hookean(Particle<Real>& p,
   const Sym3<Real> b = left_cauchy_green(p.F_E);
   const Real log_J = logarithm(larger(J, Real(1e-6)));
   store(add_identity(mu * add_identity(b, Real(-1)), lambda * log_J), p.tau);
-  return {mu * (row_sum_norm(b) + Real(1)) + lambda * (Real(1) + absolute(log_J)),
-          !(J > Real(0))};
+  return {mu * (row_sum_norm(b) + Real(1)) + lambda * (Real(1) + absolute(log_J)), !(J > Real(0))};
 }
 
 /// Projects F_E (snow) and recomputes tau from it.

@@ -99,7 +99,8 @@ NEVE_INLINE bool touch(const LocalCollider<Real>& c, const Vec3<Real>& r, Vec3<R
 
 /// Velocity after contact.
 /// sticky: v_co. slip: no motion along the normal, free sliding. separate: leaves freely, otherwise
-/// slides with Coulomb friction, v_t (1 + mu v_n / |v_t|), or sticks where friction would reverse it.
+/// slides with Coulomb friction, v_t (1 + mu v_n / |v_t|), or sticks where friction would reverse
+/// it.
 template <class Real>
 NEVE_INLINE Vec3<Real> respond(const LocalCollider<Real>& c, const Vec3<Real>& r,
                                const Vec3<Real>& v) {

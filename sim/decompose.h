@@ -42,8 +42,8 @@ NEVE_INLINE Sym3<Real> inverse(const Sym3<Real>& a) {
 template <class Real>
 NEVE_INLINE bool is_positive_definite(const Sym3<Real>& a) {
   const Real minor = a.xx * a.yy - a.xy * a.xy;
-  const Real det = a.zz * minor - a.yz * (a.xx * a.yz - a.xy * a.xz) +
-                   a.xz * (a.xy * a.yz - a.yy * a.xz);
+  const Real det =
+      a.zz * minor - a.yz * (a.xx * a.yz - a.xy * a.xz) + a.xz * (a.xy * a.yz - a.yy * a.xz);
   return a.xx > Real(0) && minor > Real(0) && det > Real(0);
 }
 /// Largest absolute row sum: no eigenvalue is larger.
@@ -97,8 +97,8 @@ NEVE_INLINE Real dot3(Quad<Real> a, Quad<Real> b) {
 /// Turns two rows of G, and the columns of U with them, until the rows are orthogonal.
 /// @return whether they were not
 template <class Real>
-NEVE_INLINE bool make_orthogonal(Quad<Real>& g_p, Quad<Real>& g_q, Quad<Real>& u_p,
-                                 Quad<Real>& u_q, Real tolerance) {
+NEVE_INLINE bool make_orthogonal(Quad<Real>& g_p, Quad<Real>& g_q, Quad<Real>& u_p, Quad<Real>& u_q,
+                                 Real tolerance) {
   const Real pp = dot3<Real>(g_p, g_p), qq = dot3<Real>(g_q, g_q), pq = dot3<Real>(g_p, g_q);
   if (!(pq * pq > tolerance * tolerance * pp * qq)) return false;
   const Real d = qq - pp, e = pq + pq;
@@ -113,9 +113,9 @@ NEVE_INLINE bool make_orthogonal(Quad<Real>& g_p, Quad<Real>& g_q, Quad<Real>& u
   return true;
 }
 
-/// One-sided Jacobi: turns pairs of rows of F until all are orthogonal, so small singular values keep
-/// their relative accuracy, which F F^T would lose. Total for any finite F, also singular ones.
-/// Source: Hestenes 1958; Golub and Van Loan, Matrix Computations, section 8.6.
+/// One-sided Jacobi: turns pairs of rows of F until all are orthogonal, so small singular values
+/// keep their relative accuracy, which F F^T would lose. Total for any finite F, also singular
+/// ones. Source: Hestenes 1958; Golub and Van Loan, Matrix Computations, section 8.6.
 template <class Real>
 NEVE_INLINE SignedSvd<Real> signed_svd(const Real* F) {
   constexpr Real tolerance = sizeof(Real) == 4 ? Real(2e-7) : Real(2e-16);

@@ -61,22 +61,25 @@ double badness(const std::string& rule, const ParticleArrays& p, std::size_t id,
   if (rule == "J_P") return -p.J_P[id];
   if (rule == "inverted") return -p.F_E[id].determinant();
   if (rule == "acoustic_cfl" || rule == "time_step")
-    return p.V0[id] > 0 ? wave_speed(materials[static_cast<std::size_t>(p.material[id])],
-                                     p.F_E[id], p.J_P[id], p.m[id] / p.V0[id])
+    return p.V0[id] > 0 ? wave_speed(materials[static_cast<std::size_t>(p.material[id])], p.F_E[id],
+                                     p.J_P[id], p.m[id] / p.V0[id])
                         : 0;
   return p.v[id].norm();
 }
 
 std::string sentence(const Divergence& d, double acoustic_cfl) {
-  std::string text = "diverged at step " + std::to_string(d.step) + " (t = " + number(d.time) +
-                     " s): ";
+  std::string text =
+      "diverged at step " + std::to_string(d.step) + " (t = " + number(d.time) + " s): ";
   const std::string who = d.particle < 0 ? "a particle" : "particle " + std::to_string(d.particle);
-  if (d.rule == "not_finite") text += "the state of " + who + " is not finite";
-  else if (d.rule == "overflow") text += who + " left the lattice at " + number(d.v.norm()) + " m/s";
+  if (d.rule == "not_finite")
+    text += "the state of " + who + " is not finite";
+  else if (d.rule == "overflow")
+    text += who + " left the lattice at " + number(d.v.norm()) + " m/s";
   else if (d.rule == "speed_cfl")
     text += who + " crossed " + number(d.value) + " cells in one step at " + number(d.v.norm()) +
             " m/s";
-  else if (d.rule == "inverted") text += "the elastic deformation of " + who + " turned inside out";
+  else if (d.rule == "inverted")
+    text += "the elastic deformation of " + who + " turned inside out";
   else if (d.rule == "J_P")
     text += "J_P of " + who + " fell to " + number(d.value) + ", below " + number(d.limit);
   else if (d.rule == "acoustic_cfl")
@@ -137,10 +140,9 @@ void find_culprits(const ParticleArrays& particles, const SolverSettings& settin
   std::vector<std::uint32_t> ids(count);
   std::iota(ids.begin(), ids.end(), 0u);
   const std::size_t kept = std::min(count, most);
-  std::partial_sort(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(kept), ids.end(),
-                    [&](std::uint32_t a, std::uint32_t b) {
-                      return bad[a] != bad[b] ? bad[a] > bad[b] : a < b;
-                    });
+  std::partial_sort(
+      ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(kept), ids.end(),
+      [&](std::uint32_t a, std::uint32_t b) { return bad[a] != bad[b] ? bad[a] > bad[b] : a < b; });
   // The ones that stand out with the worst; a threshold of half its badness keeps marks few.
   double acoustic_cfl = 0;
   if (kept > 0) {

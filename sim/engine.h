@@ -42,9 +42,9 @@ class LaneBuffer {
 
 /// What energy the run may have: start, and what gravity and colliders put in.
 struct EnergyBudget {
-  double start = 0;          ///< J, kinetic and elastic
-  double contact_work = 0;   ///< J, only what contacts added
-  double largest = 0;        ///< J, the largest budget so far: the scale of the rule
+  double start = 0;         ///< J, kinetic and elastic
+  double contact_work = 0;  ///< J, only what contacts added
+  double largest = 0;       ///< J, the largest budget so far: the scale of the rule
   Vec3d centre_of_mass{0, 0, 0};
 };
 
@@ -117,8 +117,5 @@ class Engine {
   std::optional<Divergence> divergence_;
   Warnings warnings_;
 };
-
-extern template class Engine<float>;
-extern template class Engine<double>;
 
 }  // namespace neve::sim

@@ -23,10 +23,10 @@ enum class TransferKind : int { flip, apic, mls };
 /// Everything a step needs besides particles and nodes.
 template <class Real>
 struct StepConstants {
-  Real h, inv_h;         ///< m, 1/m
-  Real dt;               ///< s
+  Real h, inv_h;  ///< m, 1/m
+  Real dt;        ///< s
   Real dt_over_h;
-  Real alpha;            ///< FLIP share of this step
+  Real alpha;  ///< FLIP share of this step
   Real gravity[3];
   bool moves_with_grid;  ///< advect = pic
   double h_double;       ///< for placing colliders exactly
@@ -39,15 +39,15 @@ struct StepConstants {
 /// integers, or are added in block order, so threads cannot change them.
 template <class Real>
 struct BlockReport {
-  Real max_speed_squared = 0;        ///< m2/s2
-  Real max_sound_squared = 0;        ///< m2/s2, hardened
-  Real max_strain_rate = 0;          ///< 1/s, largest |entry| of grad v
+  Real max_speed_squared = 0;  ///< m2/s2
+  Real max_sound_squared = 0;  ///< m2/s2, hardened
+  Real max_strain_rate = 0;    ///< 1/s, largest |entry| of grad v
   Real min_J_P = 1, max_J_P = 1;
-  double contact_work = 0;           ///< J, energy that contacts added
-  std::uint32_t inverted = 0;        ///< trial det F_E <= 0
+  double contact_work = 0;                 ///< J, energy that contacts added
+  std::uint32_t inverted = 0;              ///< trial det F_E <= 0
   std::uint32_t inverted_unprojected = 0;  ///< of those, in models that cannot repair it
   std::uint32_t not_finite = 0;
-  std::uint32_t overflowed = 0;      ///< cells outside the lattice
+  std::uint32_t overflowed = 0;  ///< cells outside the lattice
 };
 
 /// What the fused driver keeps of a node: what particles gather.
@@ -64,10 +64,10 @@ struct StagedNodes {
 /// What a particle gathers from the grid.
 template <class Real>
 struct Gathered {
-  Quad<Real> v;        ///< sum w v_new (PIC)
-  Quad<Real> change;   ///< sum w (v_new - v_old)
-  Real grad_v[9];      ///< 1/s, row by row
-  Real C[9];           ///< 1/s, affine velocity (APIC, MLS)
+  Quad<Real> v;       ///< sum w v_new (PIC)
+  Quad<Real> change;  ///< sum w (v_new - v_old)
+  Real grad_v[9];     ///< 1/s, row by row
+  Real C[9];          ///< 1/s, affine velocity (APIC, MLS)
 };
 
 /// One state of the world, seen by a sweep.
@@ -75,15 +75,15 @@ template <class Real>
 struct SweepArgs {
   StepConstants<Real> constants;
   Particle<Real>* particles;
-  const std::uint32_t* order;      ///< sorted position -> storage index
-  std::uint64_t* keys;             ///< storage index -> block key
-  std::uint16_t* locals;           ///< storage index -> model and cell in the block
+  const std::uint32_t* order;  ///< sorted position -> storage index
+  std::uint64_t* keys;         ///< storage index -> block key
+  std::uint16_t* locals;       ///< storage index -> model and cell in the block
   const ParticleBlock* blocks;
   const NodeBlock* node_blocks;
-  Quad<Real>* tiles;               ///< per particle block: tile_channels tiles
-  Quad<Real>* nodes;               ///< per node block: node_channels x 64
-  BlockReport<Real>* reports;      ///< per particle block
-  double* node_contact_work;       ///< per node block, J
+  Quad<Real>* tiles;           ///< per particle block: tile_channels tiles
+  Quad<Real>* nodes;           ///< per node block: node_channels x 64
+  BlockReport<Real>* reports;  ///< per particle block
+  double* node_contact_work;   ///< per node block, J
   // Staged driver only.
   StagedNodes<Real>* staged;       ///< per node block
   Gathered<Real>* gathered;        ///< per storage index

@@ -11,15 +11,21 @@ template <class Real>
 const Sweeps<Real>& choose(int nodes, TransferKind transfer) {
   if (nodes == cubic_nodes) {
     switch (transfer) {
-      case TransferKind::flip: return SweepsFor<Real, cubic_nodes, TransferKind::flip>::table;
-      case TransferKind::apic: return SweepsFor<Real, cubic_nodes, TransferKind::apic>::table;
-      default: return SweepsFor<Real, cubic_nodes, TransferKind::mls>::table;
+      case TransferKind::flip:
+        return SweepsFor<Real, cubic_nodes, TransferKind::flip>::table;
+      case TransferKind::apic:
+        return SweepsFor<Real, cubic_nodes, TransferKind::apic>::table;
+      default:
+        return SweepsFor<Real, cubic_nodes, TransferKind::mls>::table;
     }
   }
   switch (transfer) {
-    case TransferKind::flip: return SweepsFor<Real, quadratic_nodes, TransferKind::flip>::table;
-    case TransferKind::apic: return SweepsFor<Real, quadratic_nodes, TransferKind::apic>::table;
-    default: return SweepsFor<Real, quadratic_nodes, TransferKind::mls>::table;
+    case TransferKind::flip:
+      return SweepsFor<Real, quadratic_nodes, TransferKind::flip>::table;
+    case TransferKind::apic:
+      return SweepsFor<Real, quadratic_nodes, TransferKind::apic>::table;
+    default:
+      return SweepsFor<Real, quadratic_nodes, TransferKind::mls>::table;
   }
 }
 

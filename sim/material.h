@@ -10,12 +10,12 @@ enum class Model { snow, corotated, neo_hookean };
 struct Material {
   std::string name = "snow";
   Model model = Model::snow;
-  double density = 400.0;                ///< rho, kg/m3
-  double youngs_modulus = 1.4e5;         ///< E0, Pa
-  double poisson_ratio = 0.2;            ///< nu
-  double hardening = 10.0;               ///< xi
-  double critical_compression = 0.025;   ///< theta_c
-  double critical_stretch = 0.0075;      ///< theta_s
+  double density = 400.0;               ///< rho, kg/m3
+  double youngs_modulus = 1.4e5;        ///< E0, Pa
+  double poisson_ratio = 0.2;           ///< nu
+  double hardening = 10.0;              ///< xi
+  double critical_compression = 0.025;  ///< theta_c
+  double critical_stretch = 0.0075;     ///< theta_s
 };
 
 /// Lame parameters at rest: mu = E/(2(1+nu)), lambda = E nu/((1+nu)(1-2nu)), Pa.

@@ -39,20 +39,21 @@ void Partition::build(const std::vector<std::uint64_t>& keys,
     std::copy_n(links_.begin() + static_cast<std::ptrdiff_t>(8 * b), 8, blocks_[b].node_block);
 }
 
-void Partition::storage_was_sorted() { std::iota(order_.begin(), order_.end(), 0u); }
+void Partition::storage_was_sorted() {
+  std::iota(order_.begin(), order_.end(), 0u);
+}
 
 std::uint32_t Partition::first_block(int thread, int threads) const {
-  const std::uint64_t particle = order_.size() * static_cast<std::uint64_t>(thread) /
-                                 static_cast<std::uint64_t>(threads);
+  const std::uint64_t particle =
+      order_.size() * static_cast<std::uint64_t>(thread) / static_cast<std::uint64_t>(threads);
   if (thread >= threads) return static_cast<std::uint32_t>(blocks_.size());
-  const auto at = std::partition_point(
-      blocks_.begin(), blocks_.end(),
-      [&](const ParticleBlock& block) { return block.begin < particle; });
+  const auto at =
+      std::partition_point(blocks_.begin(), blocks_.end(),
+                           [&](const ParticleBlock& block) { return block.begin < particle; });
   return static_cast<std::uint32_t>(at - blocks_.begin());
 }
 
-void Partition::find_blocks(const std::vector<std::uint64_t>& keys, ThreadPool& pool,
-                            int threads) {
+void Partition::find_blocks(const std::vector<std::uint64_t>& keys, ThreadPool& pool, int threads) {
   found_.resize(static_cast<std::size_t>(threads));
   const std::size_t count = keys.size(), parts = static_cast<std::size_t>(threads);
   pool.run(threads, [&](int t) {
@@ -65,7 +66,8 @@ void Partition::find_blocks(const std::vector<std::uint64_t>& keys, ThreadPool& 
     sort_unique(found);
   });
   block_keys_.clear();
-  for (const auto& found : found_) block_keys_.insert(block_keys_.end(), found.begin(), found.end());
+  for (const auto& found : found_)
+    block_keys_.insert(block_keys_.end(), found.begin(), found.end());
   sort_unique(block_keys_);
 }
 

@@ -12,19 +12,19 @@ enum class TimeStep { adaptive, fixed };
 enum class Precision { single, real64 };  ///< written "float" and "double" in scenes
 
 struct SolverSettings {
-  double cell_size = 0.02;               ///< h, m
-  Kernel kernel = Kernel::cubic;         ///< B-spline of the transfers
+  double cell_size = 0.02;        ///< h, m
+  Kernel kernel = Kernel::cubic;  ///< B-spline of the transfers
   Transfer transfer = Transfer::flip;
-  double flip_ratio = 0.95;              ///< the paper's alpha
-  double flip_reference_dt = 5e-4;       ///< s; 0: alpha acts per step, as in the paper
-  Advect advect = Advect::particle;      ///< move particles with v_p (paper) or the grid's velocity
+  double flip_ratio = 0.95;          ///< the paper's alpha
+  double flip_reference_dt = 5e-4;   ///< s; 0: alpha acts per step, as in the paper
+  Advect advect = Advect::particle;  ///< move particles with v_p (paper) or the grid's velocity
   TimeStep time_step = TimeStep::adaptive;
-  double dt = 2e-4;                      ///< s; used by fixed steps
-  double max_dt = 1e-3;                  ///< s; adaptive
-  double cfl = 0.4;                      ///< |v| dt / h
-  double acoustic_cfl = 0.5;             ///< c dt / h with the hardened c
-  double strain_limit = 0.3;             ///< |dt grad v|
-  Vec3d gravity{0.0, -9.81, 0.0};        ///< m/s2
+  double dt = 2e-4;                ///< s; used by fixed steps
+  double max_dt = 1e-3;            ///< s; adaptive
+  double cfl = 0.4;                ///< |v| dt / h
+  double acoustic_cfl = 0.5;       ///< c dt / h with the hardened c
+  double strain_limit = 0.3;       ///< |dt grad v|
+  Vec3d gravity{0.0, -9.81, 0.0};  ///< m/s2
   Precision precision = Precision::single;
 };
 

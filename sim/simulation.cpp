@@ -26,8 +26,7 @@ std::variant<Engine<float>, Engine<double>> make_engine(const SolverSettings& se
                                                         const std::vector<Material>& materials,
                                                         const std::vector<Collider>& colliders,
                                                         const ParticleArrays& particles,
-                                                        int threads,
-                                                        const Vec3i& lattice_origin) {
+                                                        int threads, const Vec3i& lattice_origin) {
   if (settings.precision == Precision::real64)
     return Engine<double>(settings, materials, colliders, particles, threads, lattice_origin);
   return Engine<float>(settings, materials, colliders, particles, threads, lattice_origin);
@@ -57,7 +56,9 @@ std::size_t Simulation::particle_count() const {
 int Simulation::threads() const {
   return impl_->visit([](const auto& e) { return e.threads(); });
 }
-const char* Simulation::simd() const { return "baseline"; }
+const char* Simulation::simd() const {
+  return "baseline";
+}
 
 void Simulation::step(double dt) {
   impl_->visit([&](auto& e) { e.step(dt); });
@@ -69,9 +70,8 @@ Simulation::Choice Simulation::choose_dt(double remaining) const {
   return impl_->visit([&](const auto& e) { return e.choose_dt(remaining); });
 }
 const std::optional<Divergence>& Simulation::divergence() const {
-  return impl_->visit([](const auto& e) -> const std::optional<Divergence>& {
-    return e.divergence();
-  });
+  return impl_->visit(
+      [](const auto& e) -> const std::optional<Divergence>& { return e.divergence(); });
 }
 const Warnings& Simulation::warnings() const {
   return impl_->visit([](const auto& e) -> const Warnings& { return e.warnings(); });
@@ -106,13 +106,15 @@ std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,
                               const SolverSettings& settings, int threads) {
   const bool is_double = settings.precision == Precision::real64;
   const double real = is_double ? 8 : 4;
-  const double record = static_cast<double>(is_double ? sizeof(Particle<double>)
-                                                      : sizeof(Particle<float>));
-  // Two copies of the records (sorting), key, local, order, block index, and what prepare() gathers.
-  const double gathered = static_cast<double>(is_double ? sizeof(Gathered<double>)
-                                                        : sizeof(Gathered<float>));
+  const double record =
+      static_cast<double>(is_double ? sizeof(Particle<double>) : sizeof(Particle<float>));
+  // Two copies of the records (sorting), key, local, order, block index, and what prepare()
+  // gathers.
+  const double gathered =
+      static_cast<double>(is_double ? sizeof(Gathered<double>) : sizeof(Gathered<float>));
   const double per_particle = 2 * record + 8 + 2 + 4 + 4 + gathered;
-  // Snow fills about half of the blocks that it touches; each has a tile, and about two node blocks.
+  // Snow fills about half of the blocks that it touches; each has a tile, and about two node
+  // blocks.
   const double cells = static_cast<double>(particles) / particles_per_cell;
   const double blocks = std::min(2.0 * cells / block_nodes + 64, static_cast<double>(particles));
   const double tile = tile_channels * Tile<cubic_nodes>::nodes * 4 * real;

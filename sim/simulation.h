@@ -16,14 +16,14 @@ namespace neve::sim {
 
 /// Particles as plain arrays in id order, SI units. Empty optional arrays take their defaults.
 struct ParticleArrays {
-  std::vector<Vec3d> x;        ///< m, measured from the lattice origin
-  std::vector<Vec3d> v;        ///< m/s
-  std::vector<double> m;       ///< kg
-  std::vector<double> V0;      ///< m3; empty or 0: estimated in the first step (the paper's step 2)
-  std::vector<Mat3d> F_E;      ///< default I
-  std::vector<double> J_P;     ///< det F_P, default 1
-  std::vector<Mat3d> C;        ///< 1/s, APIC and MLS, default 0
-  std::vector<int> material;   ///< index, default 0
+  std::vector<Vec3d> x;       ///< m, measured from the lattice origin
+  std::vector<Vec3d> v;       ///< m/s
+  std::vector<double> m;      ///< kg
+  std::vector<double> V0;     ///< m3; empty or 0: estimated in the first step (the paper's step 2)
+  std::vector<Mat3d> F_E;     ///< default I
+  std::vector<double> J_P;    ///< det F_P, default 1
+  std::vector<Mat3d> C;       ///< 1/s, APIC and MLS, default 0
+  std::vector<int> material;  ///< index, default 0
 };
 
 /// What limited a time step.
@@ -54,8 +54,8 @@ struct AdvanceReport {
 struct Divergence {
   std::size_t step = 0;
   double time = 0;
-  std::string stage;       ///< name of the stage that broke the rule
-  std::string rule;        ///< energy, speed_cfl, acoustic_cfl, J_P, inverted, not_finite, overflow
+  std::string stage;  ///< name of the stage that broke the rule
+  std::string rule;   ///< energy, speed_cfl, acoustic_cfl, J_P, inverted, not_finite, overflow
   std::int64_t particle = -1;  ///< id of a culprit, -1 if none stands out
   Vec3d x{0, 0, 0}, v{0, 0, 0};
   Mat3d F_E = Mat3d::Identity();
@@ -63,13 +63,13 @@ struct Divergence {
   double value = 0, limit = 0;  ///< what was found and what the rule allows
   double dt = 0, dt_that_holds = 0;
   std::vector<std::uint32_t> culprits;  ///< ids, at most 1000
-  std::string sentence;    ///< one line for people
+  std::string sentence;                 ///< one line for people
 };
 
 /// What was noticed but did not stop the run.
 struct Warnings {
-  std::size_t inverted_trials = 0;     ///< trial det F_E <= 0, repaired by the projection
-  double worst_acoustic_cfl = 0;       ///< of fixed steps
+  std::size_t inverted_trials = 0;  ///< trial det F_E <= 0, repaired by the projection
+  double worst_acoustic_cfl = 0;    ///< of fixed steps
   double worst_speed_cfl = 0;
 };
 
@@ -120,7 +120,8 @@ class Simulation {
   /// Cell of each particle (lattice units, absolute) and offset in it, id order.
   std::vector<Vec3i> cells() const;
 
-  /// Commutative sum of per-particle hashes keyed by id; cells enter relative to the lattice origin.
+  /// Commutative sum of per-particle hashes keyed by id; cells enter relative to the lattice
+  /// origin.
   std::uint64_t state_hash() const;
 
   struct Impl;

@@ -161,9 +161,9 @@ NEVE_INLINE Quad<Real> node_v_free(Quad<Real> v_old, Quad<Real> force,
 /// Kinetic energy that a change of velocity added, J; 0 where it took some.
 template <class Real>
 NEVE_INLINE double energy_gained(Real mass, const Vec3<Real>& before, const Vec3<Real>& after) {
-  const double gained = 0.5 * static_cast<double>(mass) *
-                        (static_cast<double>(dot(after, after)) -
-                         static_cast<double>(dot(before, before)));
+  const double gained =
+      0.5 * static_cast<double>(mass) *
+      (static_cast<double>(dot(after, after)) - static_cast<double>(dot(before, before)));
   return gained > 0 ? gained : 0;
 }
 
@@ -212,9 +212,9 @@ NEVE_INLINE void strain(Particle<Real>& p, const Real* grad_v, Real dt) {
   Real F[9];
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
-      F[3 * a + b] = p.F_E[3 * a + b] +
-                     dt * (grad_v[3 * a] * p.F_E[b] + grad_v[3 * a + 1] * p.F_E[3 + b] +
-                           grad_v[3 * a + 2] * p.F_E[6 + b]);
+      F[3 * a + b] =
+          p.F_E[3 * a + b] + dt * (grad_v[3 * a] * p.F_E[b] + grad_v[3 * a + 1] * p.F_E[3 + b] +
+                                   grad_v[3 * a + 2] * p.F_E[6 + b]);
   for (int q = 0; q < 9; ++q) p.F_E[q] = F[q];
 }
 
@@ -227,8 +227,7 @@ NEVE_INLINE void project(Particle<Real>& p, const StepConstants<Real>& c,
     report.inverted += 1;
     if (static_cast<ModelKind>(p.model) != ModelKind::snow) report.inverted_unprojected += 1;
   }
-  report.max_sound_squared =
-      larger(report.max_sound_squared, response.wave_modulus * p.V0 / p.m);
+  report.max_sound_squared = larger(report.max_sound_squared, response.wave_modulus * p.V0 / p.m);
   report.min_J_P = smaller(report.min_J_P, p.J_P);
   report.max_J_P = larger(report.max_J_P, p.J_P);
 }
@@ -280,8 +279,10 @@ NEVE_INLINE void move(Particle<Real>& p, Quad<Real> v, Real dt_over_h, BlockRepo
   for (int a = 0; a < 3; ++a) {
     const Real x = p.offset[a] + dt_over_h * v[a];
     if (!(absolute(x) < farthest)) {
-      if (is_finite(x)) report.overflowed += 1;
-      else report.not_finite += 1;
+      if (is_finite(x))
+        report.overflowed += 1;
+      else
+        report.not_finite += 1;
       return;
     }
     const int whole = floor_to_int(x);

@@ -169,7 +169,8 @@ struct SweepsFor {
   static void volumes(const Args& a, Index begin, Index end) {
     Quad<Real> momentum[Tile<K>::nodes];
     for (Index b = begin; b < end; ++b) {
-      load_tile<Real, K>(a.blocks[b], [&](Index n) { return a.staged[n].momentum; }, momentum);
+      load_tile<Real, K>(
+          a.blocks[b], [&](Index n) { return a.staged[n].momentum; }, momentum);
       each_particle(a, a.blocks[b], [&](Index, Particle<Real>& p) {
         if (!(p.flags & needs_volume)) return;
         const Weights<Real, K> s = weights_of<K>(p);
@@ -191,8 +192,7 @@ struct SweepsFor {
   }
 
   static void collect_force(const Args& a, Index begin, Index end) {
-    for (Index b = begin; b < end; ++b)
-      collect<Real, K>(a, b, channel_force, a.staged[b].force);
+    for (Index b = begin; b < end; ++b) collect<Real, K>(a, b, channel_force, a.staged[b].force);
   }
 
   static void grid_velocities(const Args& a, Index begin, Index end) {
@@ -214,7 +214,8 @@ struct SweepsFor {
     }
   }
 
-  /// Explicit steps take v_new = v_star; what particles gather is laid out as the fused driver does.
+  /// Explicit steps take v_new = v_star; what particles gather is laid out as the fused driver
+  /// does.
   static void keep_velocities(const Args& a, Index begin, Index end) {
     for (Index b = begin; b < end; ++b) {
       StagedNodes<Real>& nodes = a.staged[b];
@@ -266,8 +267,8 @@ struct SweepsFor {
     for (Index b = begin; b < end; ++b) {
       const NearColliders<Real> near(a.constants, a.blocks[b].key);
       each_particle(a, a.blocks[b], [&](Index, Particle<Real>& p) {
-        const Quad<Real> v = collide_particle(p, quad(p.v), a.blocks[b].key, a.constants, near,
-                                              a.reports[b]);
+        const Quad<Real> v =
+            collide_particle(p, quad(p.v), a.blocks[b].key, a.constants, near, a.reports[b]);
         for (int axis = 0; axis < 3; ++axis) p.v[axis] = v[axis];
       });
     }
@@ -292,12 +293,23 @@ struct SweepsFor {
     }
   }
 
-  static constexpr Sweeps<Real> table{particles_to_grid, grid_update,     grid_to_particles,
-                                      rasterize,         collect_momentum, volumes,
-                                      elastic_forces,    collect_force,   grid_velocities,
-                                      grid_collisions,   keep_velocities, gather,
-                                      deformation,       particle_velocities,
-                                      particle_collisions, advection,     refresh};
+  static constexpr Sweeps<Real> table{particles_to_grid,
+                                      grid_update,
+                                      grid_to_particles,
+                                      rasterize,
+                                      collect_momentum,
+                                      volumes,
+                                      elastic_forces,
+                                      collect_force,
+                                      grid_velocities,
+                                      grid_collisions,
+                                      keep_velocities,
+                                      gather,
+                                      deformation,
+                                      particle_velocities,
+                                      particle_collisions,
+                                      advection,
+                                      refresh};
 
  private:
   NEVE_INLINE static auto channel_source(const Args& a, int channel) {

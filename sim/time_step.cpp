@@ -14,9 +14,9 @@ double ratio(double numerator, double denominator) {
   return denominator > 0 ? numerator / denominator : unlimited;
 }
 
-/// dt so that sound crosses acoustic_cfl cells. Snow that hits something at speed v compresses by up
-/// to 0.7 v dt/h within the step (the steepest slope of the cubic weights) and hardens by
-/// e^(xi 0.7 v dt/h): the step is shortened until sound still crosses less than a cell afterwards.
+/// dt so that sound crosses acoustic_cfl cells. Snow that hits something at speed v compresses by
+/// up to 0.7 v dt/h within the step (the steepest slope of the cubic weights) and hardens by e^(xi
+/// 0.7 v dt/h): the step is shortened until sound still crosses less than a cell afterwards.
 double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
   const double h = s.cell_size, c = limits.max_sound_speed;
   double dt = ratio(s.acoustic_cfl * h, c);
@@ -38,8 +38,7 @@ const char* name(DtLimit limit) {
   return names[static_cast<int>(limit)];
 }
 
-Simulation::Choice choose_dt(const SolverSettings& s, const StateLimits& limits,
-                             double remaining) {
+Simulation::Choice choose_dt(const SolverSettings& s, const StateLimits& limits, double remaining) {
   // Rounding of the remaining time must not leave a step of 1e-18 s.
   constexpr double slack = 1 + 1e-9;
   if (s.time_step == TimeStep::fixed) {

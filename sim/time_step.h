@@ -14,8 +14,8 @@ struct StateLimits {
   double max_hardening = 0;    ///< largest xi of the materials in use
 };
 
-/// dt of the next step and the limit that rules it. `remaining` is the time to the end of the frame;
-/// the last two steps before it share what is left, so that none is tiny.
+/// dt of the next step and the limit that rules it. `remaining` is the time to the end of the
+/// frame; the last two steps before it share what is left, so that none is tiny.
 Simulation::Choice choose_dt(const SolverSettings& settings, const StateLimits& limits,
                              double remaining);
 

@@ -15,7 +15,9 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
 }
 
 /// Hash of two numbers, order matters.
-constexpr std::uint64_t mix64(std::uint64_t a, std::uint64_t b) { return mix64(mix64(a) ^ b); }
+constexpr std::uint64_t mix64(std::uint64_t a, std::uint64_t b) {
+  return mix64(mix64(a) ^ b);
+}
 
 /// Uniform in [0, 1) with 53 bits, from a hash.
 constexpr double unit_double(std::uint64_t hash) {

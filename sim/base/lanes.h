@@ -1,6 +1,6 @@
 #pragma once
-/// Lanes of the compiler's vector extension: the same source on every instruction set, IEEE results.
-/// Kernel code: no standard headers beyond what the compiler itself provides.
+/// Lanes of the compiler's vector extension: the same source on every instruction set, IEEE
+/// results. Kernel code: no standard headers beyond what the compiler itself provides.
 
 #define NEVE_INLINE inline __attribute__((always_inline))
 
@@ -20,12 +20,24 @@ struct QuadOf<double> {
 template <class Real>
 using Quad = typename QuadOf<Real>::Type;
 
-NEVE_INLINE float square_root(float x) { return __builtin_sqrtf(x); }
-NEVE_INLINE double square_root(double x) { return __builtin_sqrt(x); }
-NEVE_INLINE float absolute(float x) { return __builtin_fabsf(x); }
-NEVE_INLINE double absolute(double x) { return __builtin_fabs(x); }
-NEVE_INLINE bool is_finite(float x) { return __builtin_isfinite(x); }
-NEVE_INLINE bool is_finite(double x) { return __builtin_isfinite(x); }
+NEVE_INLINE float square_root(float x) {
+  return __builtin_sqrtf(x);
+}
+NEVE_INLINE double square_root(double x) {
+  return __builtin_sqrt(x);
+}
+NEVE_INLINE float absolute(float x) {
+  return __builtin_fabsf(x);
+}
+NEVE_INLINE double absolute(double x) {
+  return __builtin_fabs(x);
+}
+NEVE_INLINE bool is_finite(float x) {
+  return __builtin_isfinite(x);
+}
+NEVE_INLINE bool is_finite(double x) {
+  return __builtin_isfinite(x);
+}
 
 template <class T>
 NEVE_INLINE T smaller(T a, T b) {
@@ -47,8 +59,8 @@ NEVE_INLINE int floor_to_int(Real x) {
   return n - (static_cast<Real>(n) > x ? 1 : 0);
 }
 
-/// e^x by reduction to |r| <= ln2/2 and a Taylor polynomial: own code, so that bits do not depend on
-/// the machine's C library. Relative error below 2 units in the last place; saturates at +-80 in
+/// e^x by reduction to |r| <= ln2/2 and a Taylor polynomial: own code, so that bits do not depend
+/// on the machine's C library. Relative error below 2 units in the last place; saturates at +-80 in
 /// float and +-700 in double.
 NEVE_INLINE float exponential(float x) {
   x = clamp_to(x, -80.0f, 80.0f);

@@ -10,11 +10,19 @@ struct Vec3 {
   T x{}, y{}, z{};
 
   NEVE_INLINE constexpr T& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
-  NEVE_INLINE constexpr const T& operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
-  friend NEVE_INLINE constexpr Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend NEVE_INLINE constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  NEVE_INLINE constexpr const T& operator[](int axis) const {
+    return axis == 0 ? x : axis == 1 ? y : z;
+  }
+  friend NEVE_INLINE constexpr Vec3 operator+(Vec3 a, Vec3 b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend NEVE_INLINE constexpr Vec3 operator-(Vec3 a, Vec3 b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
   friend NEVE_INLINE constexpr Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
-  friend NEVE_INLINE constexpr Vec3 operator*(Vec3 a, Vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+  friend NEVE_INLINE constexpr Vec3 operator*(Vec3 a, Vec3 b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+  }
   friend NEVE_INLINE constexpr Vec3 operator*(Vec3 a, T s) { return {a.x * s, a.y * s, a.z * s}; }
   friend NEVE_INLINE constexpr Vec3 operator*(T s, Vec3 a) { return a * s; }
   friend NEVE_INLINE constexpr Vec3 operator/(Vec3 a, T s) { return {a.x / s, a.y / s, a.z / s}; }

@@ -38,8 +38,8 @@ TEST(FreeFall, FollowsParabola) {
   }
 }
 
-/// Acceleration of an elastic block along a slope, from rest: the slope of a straight line through its
-/// mean velocity between 0.1 and 0.4 s, as the reference measures it.
+/// Acceleration of an elastic block along a slope, from rest: the slope of a straight line through
+/// its mean velocity between 0.1 and 0.4 s, as the reference measures it.
 double acceleration_on_slope(Transfer transfer, double degrees, double friction) {
   const double angle = degrees * std::numbers::pi / 180;
   SolverSettings s;
@@ -74,14 +74,15 @@ double acceleration_on_slope(Transfer transfer, double degrees, double friction)
 }
 
 TEST(SlidingBlock, AcceleratesByGravityLessFriction) {
-  // a = g (sin t - mu cos t), 0 where mu >= tan t. The reference meets it within 2e-4; the bounce of
-  // the block on its own elasticity is what is left.
+  // a = g (sin t - mu cos t), 0 where mu >= tan t. The reference meets it within 2e-4; the bounce
+  // of the block on its own elasticity is what is left.
   const double cases[][2] = {{30, 0}, {30, 0.2}, {30, 0.4}, {30, 0.7}, {20, 0.3}};
   for (const auto& [degrees, mu] : cases) {
     const double t = degrees * std::numbers::pi / 180;
     const double exact = std::max(0.0, 9.81 * (std::sin(t) - mu * std::cos(t)));
     for (const Transfer transfer : {Transfer::flip, Transfer::apic})
-      EXPECT_NEAR(acceleration_on_slope(transfer, degrees, mu), exact, 1e-3) << degrees << " " << mu;
+      EXPECT_NEAR(acceleration_on_slope(transfer, degrees, mu), exact, 1e-3)
+          << degrees << " " << mu;
   }
 }
 
@@ -168,8 +169,8 @@ TEST(MovingCollider, CarriesSnowAtItsOwnVelocity) {
   sled.shape.form = Box{{0, -0.097, 0}, {0.6, 0.2, 0.6}};
   sled.contact = Contact::sticky;
   sled.velocity = {0.5, 0, 0};
-  Simulation simulation(s, {Material{}}, {sled}, box_of_snow({-0.1, 0, -0.1}, {0.1, 0.1, 0.1}, 0.02),
-                        1);
+  Simulation simulation(s, {Material{}}, {sled},
+                        box_of_snow({-0.1, 0, -0.1}, {0.1, 0.1, 0.1}, 0.02), 1);
   simulation.advance_to(1);
   const Summary end = simulation.summary();
   EXPECT_FALSE(simulation.divergence());

@@ -1,8 +1,9 @@
 /// One step and 200 steps against an independent double-precision reference of the method.
 ///
-/// Tolerances are the ones stated with the vectors: double 1e-10 of the largest value of a field for a
-/// step (the reference itself moves by 1e-13 when its particles are permuted), float 2e-4 (24-bit
-/// state, stress by differences of numbers near 1). Trajectories: see the comment at their test.
+/// Tolerances are the ones stated with the vectors: double 1e-10 of the largest value of a field
+/// for a step (the reference itself moves by 1e-13 when its particles are permuted), float 2e-4
+/// (24-bit state, stress by differences of numbers near 1). Trajectories: see the comment at their
+/// test.
 
 #include <gtest/gtest.h>
 
@@ -138,9 +139,10 @@ TEST(OracleStep, AgreesInFloatThroughBothDrivers) {
   compare_steps(Precision::single, float_tolerance);
 }
 
-/// m, m/s and dimensionless: absolute, at any of the first 200 steps. The runs are not chaotic: moving
-/// the start by 1e-12 m moves the end by less than 5e-12 m, a state rounded to float every step moves
-/// it by 2e-7 m; so these are some hundred times above rounding, far below any change of method.
+/// m, m/s and dimensionless: absolute, at any of the first 200 steps. The runs are not chaotic:
+/// moving the start by 1e-12 m moves the end by less than 5e-12 m, a state rounded to float every
+/// step moves it by 2e-7 m; so these are some hundred times above rounding, far below any change of
+/// method.
 struct TrajectoryTolerance {
   double x, v, F;
 };

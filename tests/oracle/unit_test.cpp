@@ -66,9 +66,10 @@ void compare_weights(const Json& entry) {
         for (int a = 0; a < 3; ++a)
           node[static_cast<std::size_t>(a)] -= static_cast<int>(std::lround(origin[a]));
         const double w = s.w[0][i] * s.w[1][j] * s.w[2][k];
-        found[node] = {w, Vec3d(s.dw[0][i] * s.w[1][j] * s.w[2][k],
-                                s.w[0][i] * s.dw[1][j] * s.w[2][k],
-                                s.w[0][i] * s.w[1][j] * s.dw[2][k]) / h};
+        found[node] = {w,
+                       Vec3d(s.dw[0][i] * s.w[1][j] * s.w[2][k], s.w[0][i] * s.dw[1][j] * s.w[2][k],
+                             s.w[0][i] * s.w[1][j] * s.dw[2][k]) /
+                           h};
         sum += w;
       }
   EXPECT_NEAR(sum, 1, 1e-14);
@@ -108,8 +109,10 @@ TEST(OracleUnit, SplinesAndTheirDerivativesAgree) {
         w = s.w[0][k];
         dw = s.dw[0][k];
       };
-      if (is_cubic) look(weights_of<cubic_nodes>(p));
-      else look(weights_of<quadratic_nodes>(p));
+      if (is_cubic)
+        look(weights_of<cubic_nodes>(p));
+      else
+        look(weights_of<quadratic_nodes>(p));
       N.add(entry["N"][q].get<double>(), w);
       dN.add(entry["dN"][q].get<double>(), dw);
     }
@@ -121,8 +124,10 @@ TEST(OracleUnit, SplinesAndTheirDerivativesAgree) {
 TEST(OracleUnit, WeightsAndGradientsAgree) {
   ASSERT_FALSE(unit()["weights"].empty());
   for (const Json& entry : unit()["weights"]) {
-    if (entry["kernel"] == "cubic") compare_weights<cubic_nodes>(entry);
-    else compare_weights<quadratic_nodes>(entry);
+    if (entry["kernel"] == "cubic")
+      compare_weights<cubic_nodes>(entry);
+    else
+      compare_weights<quadratic_nodes>(entry);
   }
 }
 
@@ -178,8 +183,8 @@ TEST(OracleUnit, EnergyAndStressAgree) {
                 1e-10 * std::max(1.0, entry["psi"].get<double>()));
     EXPECT_LE((first_piola(material, F_E, J_P) - mat3(entry["P"])).cwiseAbs().maxCoeff(),
               1e-10 * scale);
-    Particle<double> p = particle(
-        F_E, J_P, is_neo_hookean ? ModelKind::neo_hookean : ModelKind::corotated);
+    Particle<double> p =
+        particle(F_E, J_P, is_neo_hookean ? ModelKind::neo_hookean : ModelKind::corotated);
     update_material(p, constants(m));
     EXPECT_LE((tau_of(p) - mat3(entry["kirchhoff"])).cwiseAbs().maxCoeff(), 1e-10 * scale);
     EXPECT_LE((tau_of(p) / J - mat3(entry["cauchy"])).cwiseAbs().maxCoeff(),
@@ -238,7 +243,8 @@ TEST(OracleUnit, ContactAgrees) {
       if (is_plane) pose.normal[a] = vec3(j["normal"]).normalized()[static_cast<Eigen::Index>(a)];
       if (!is_plane && !is_sphere) {
         pose.half[a] = j["half"][a].get<double>();
-        for (std::size_t b = 0; b < 3; ++b) pose.axes[3 * a + b] = j["rotation"][a][b].get<double>();
+        for (std::size_t b = 0; b < 3; ++b)
+          pose.axes[3 * a + b] = j["rotation"][a][b].get<double>();
       }
     }
     if (is_sphere) pose.radius = j["radius"].get<double>();

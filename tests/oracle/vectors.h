@@ -1,6 +1,6 @@
 #pragma once
-/// Reading of reference vectors: step_*.json, traj_*/ and unit.json of one folder, NEVE_ORACLE_DIR or
-/// the set that comes with the sources.
+/// Reading of reference vectors: step_*.json, traj_*/ and unit.json of one folder, NEVE_ORACLE_DIR
+/// or the set that comes with the sources.
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,9 @@ inline std::vector<fs::path> entries(const std::string& prefix, const std::strin
   return found;
 }
 
-inline Vec3d vec3(const Json& j) { return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()}; }
+inline Vec3d vec3(const Json& j) {
+  return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
+}
 inline Mat3d mat3(const Json& j) {
   Mat3d m;
   for (int a = 0; a < 3; ++a) m.row(a) = vec3(j[static_cast<std::size_t>(a)]).transpose();
@@ -120,8 +122,10 @@ inline Setup setup(const Json& scene, neve::sim::Precision precision) {
   s.material.critical_compression = m["theta_c"].get<double>();
   s.material.critical_stretch = m["theta_s"].get<double>();
   for (const Json& c : scene["colliders"]) s.colliders.push_back(collider(c));
-  if (scene["beta"].get<double>() > 0) s.unsupported = "semi-implicit steps";
-  else if (scene["mass_epsilon"].get<double>() > 0) s.unsupported = "a mass below which nodes rest";
+  if (scene["beta"].get<double>() > 0)
+    s.unsupported = "semi-implicit steps";
+  else if (scene["mass_epsilon"].get<double>() > 0)
+    s.unsupported = "a mass below which nodes rest";
   else if (s.material.model == Model::neo_hookean && is_plastic)
     s.unsupported = "neo-Hookean with plasticity";
   return s;

@@ -58,7 +58,8 @@ TEST(Determinism, SameBitsWithTheLatticeOriginOneKilometreAway) {
     ball.angular_velocity = {0, 3, 1};
     ball.velocity = {0.1, 0, 0};
     const std::vector<Collider> colliders{plane({0, 0.013, 0}, {0.1, 1, 0}, 0.5), ball};
-    Simulation here(s, {Material{}}, colliders, p, 2), there(s, {Material{}}, colliders, p, 2, far_away);
+    Simulation here(s, {Material{}}, colliders, p, 2),
+        there(s, {Material{}}, colliders, p, 2, far_away);
     here.advance_to(0.012);
     there.advance_to(0.012);
     EXPECT_EQ(here.steps(), there.steps());
@@ -78,7 +79,8 @@ TEST(Determinism, DyadicSceneMovedByWholeBlocksGivesTheSameBits) {
       x += shift;
     }
     for (Vec3d& v : p.v) v = {0.5, -3, 0.25};
-    Simulation simulation(s, {Material{}}, {plane(Vec3d(0, 0.03, 0) + shift, {0, 1, 0}, 0.5)}, p, 2);
+    Simulation simulation(s, {Material{}}, {plane(Vec3d(0, 0.03, 0) + shift, {0, 1, 0}, 0.5)}, p,
+                          2);
     simulation.advance_to(0.02);
     ParticleArrays end = simulation.particles();
     for (Vec3d& x : end.x) x -= shift;

@@ -1,4 +1,5 @@
-/// A run that goes wrong stops, says which rule broke and at which particle; a healthy one does not.
+/// A run that goes wrong stops, says which rule broke and at which particle; a healthy one does
+/// not.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,9 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-std::vector<Collider> floor_plane() { return {plane({0, 0.003, 0}, {0, 1, 0}, 0.5)}; }
+std::vector<Collider> floor_plane() {
+  return {plane({0, 0.003, 0}, {0, 1, 0}, 0.5)};
+}
 
 ParticleArrays falling_ball(double speed) {
   return ball_of_snow({0, 0.13, 0}, 0.12, 0.02, {0, -speed, 0});
@@ -117,8 +120,8 @@ TEST(Divergence, ElasticMatterTurnedInsideOutIsFound) {
 }
 
 TEST(Divergence, EnergyFromNowhereIsFound) {
-  // A compressed elastic ball at rest whose step is so long that its release overshoots: fixed steps
-  // report sound, they do not stop for it, so the sum of energies has to notice.
+  // A compressed elastic ball at rest whose step is so long that its release overshoots: fixed
+  // steps report sound, they do not stop for it, so the sum of energies has to notice.
   SolverSettings s;
   s.cell_size = 0.03;
   s.time_step = TimeStep::fixed;
@@ -134,8 +137,10 @@ TEST(Divergence, EnergyFromNowhereIsFound) {
   for (int frame = 1; frame <= 60 && !simulation.divergence(); ++frame)
     simulation.advance_to(frame * 10 * s.dt);
   ASSERT_TRUE(simulation.divergence());
-  EXPECT_TRUE(simulation.divergence()->rule == "energy" || simulation.divergence()->rule == "speed_cfl" ||
-              simulation.divergence()->rule == "inverted") << simulation.divergence()->rule;
+  EXPECT_TRUE(simulation.divergence()->rule == "energy" ||
+              simulation.divergence()->rule == "speed_cfl" ||
+              simulation.divergence()->rule == "inverted")
+      << simulation.divergence()->rule;
 }
 
 TEST(Simulation, RefusesArraysThatDoNotFit) {

@@ -23,7 +23,11 @@ class Random {
   Mat3d matrix() {
     return Mat3d::NullaryExpr([this] { return unit_(engine_); });
   }
-  Mat3d rotation() { return Eigen::Quaterniond(Eigen::Vector4d(matrix()(0), matrix()(1), matrix()(2), matrix()(3)).normalized()).toRotationMatrix(); }
+  Mat3d rotation() {
+    return Eigen::Quaterniond(
+               Eigen::Vector4d(matrix()(0), matrix()(1), matrix()(2), matrix()(3)).normalized())
+        .toRotationMatrix();
+  }
 
  private:
   std::mt19937 engine_;
@@ -79,8 +83,9 @@ TEST(Energy, StressIsItsDerivative) {
       // Central differences: the error is the third derivative (about mu) times epsilon^2 = 1e-10,
       // and rounding of psi (1e-16 mu) over epsilon, 1e-11: 1e-7 of mu leaves room for both.
       const double epsilon = 1e-5;
-      const double slope = (energy_density(m, F + epsilon * dF, J_P) -
-                            energy_density(m, F - epsilon * dF, J_P)) / (2 * epsilon);
+      const double slope =
+          (energy_density(m, F + epsilon * dF, J_P) - energy_density(m, F - epsilon * dF, J_P)) /
+          (2 * epsilon);
       const double scale = m.youngs_modulus * std::exp(m.hardening * (1 - J_P));
       EXPECT_NEAR(P.cwiseProduct(dF).sum(), slope, 1e-7 * scale);
     }
@@ -131,10 +136,12 @@ TEST(Stress, OfTwoPathsMeetsAtTheBorderOfTheSeries) {
   Material m;
   m.model = Model::corotated;
   for (const double border : {series_min_stretch, series_max_stretch}) {
-    auto inside = particle<double>(Vec3d(border * (border < 1 ? 1 + 1e-9 : 1 - 1e-9), 1, 1).asDiagonal(), 1,
-                                   ModelKind::corotated);
-    auto outside = particle<double>(Vec3d(border * (border < 1 ? 1 - 1e-9 : 1 + 1e-9), 1, 1).asDiagonal(), 1,
-                                    ModelKind::corotated);
+    auto inside =
+        particle<double>(Vec3d(border * (border < 1 ? 1 + 1e-9 : 1 - 1e-9), 1, 1).asDiagonal(), 1,
+                         ModelKind::corotated);
+    auto outside =
+        particle<double>(Vec3d(border * (border < 1 ? 1 - 1e-9 : 1 + 1e-9), 1, 1).asDiagonal(), 1,
+                         ModelKind::corotated);
     update_material(inside, constants<double>(m));
     update_material(outside, constants<double>(m));
     // 2e-9 apart in stretch: about 1e-8 of the modulus, were both exact.
@@ -201,10 +208,11 @@ TEST(Decomposition, RebuildsAnyMatrixInFloatAndDouble) {
           V(a, b) = static_cast<double>(svd.V[3 * a + b]);
         }
       const Vec3d s(svd.s[0], svd.s[1], svd.s[2]);
-      const double error = std::max({(U * s.asDiagonal() * V.transpose() - F_of(p)).cwiseAbs().maxCoeff() / scale,
-                                     (U.transpose() * U - Mat3d::Identity()).cwiseAbs().maxCoeff(),
-                                     (V.transpose() * V - Mat3d::Identity()).cwiseAbs().maxCoeff(),
-                                     std::abs(U.determinant() - 1), std::abs(V.determinant() - 1)});
+      const double error =
+          std::max({(U * s.asDiagonal() * V.transpose() - F_of(p)).cwiseAbs().maxCoeff() / scale,
+                    (U.transpose() * U - Mat3d::Identity()).cwiseAbs().maxCoeff(),
+                    (V.transpose() * V - Mat3d::Identity()).cwiseAbs().maxCoeff(),
+                    std::abs(U.determinant() - 1), std::abs(V.determinant() - 1)});
       worst = std::max(worst, error);
     };
     check(0.0f, worst_float);
@@ -220,7 +228,8 @@ TEST(Arithmetic, ExponentialAndLogarithmMatchTheLibrary) {
   for (double x = -30; x < 30; x += 0.0137) {
     EXPECT_NEAR(exponential(x) / std::exp(x), 1, 1e-15 * 4) << x;
     const float y = static_cast<float>(x);
-    EXPECT_NEAR(static_cast<double>(exponential(y)) / std::exp(static_cast<double>(y)), 1, 3e-7) << x;
+    EXPECT_NEAR(static_cast<double>(exponential(y)) / std::exp(static_cast<double>(y)), 1, 3e-7)
+        << x;
     EXPECT_NEAR(logarithm(std::exp(x)), x, 1e-15 * (4 + std::abs(x))) << x;
   }
   EXPECT_EQ(exponential(0.0f), 1.0f);

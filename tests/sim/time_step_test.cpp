@@ -12,7 +12,9 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-StateLimits slow() { return {0.1, 1.0, 0.1, 10}; }
+StateLimits slow() {
+  return {0.1, 1.0, 0.1, 10};
+}
 
 TEST(TimeStep, SmallestLimitRules) {
   SolverSettings s;  // h = 0.02

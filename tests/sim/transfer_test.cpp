@@ -123,8 +123,8 @@ TEST(Transfer, NodeForceIsMinusTheDerivativeOfEnergy) {
     const ParticleArrays p = disturbed_snow();
     const Simulation simulation(settings, {Material{}}, {}, p, 1);
     const StagedStep staged = staged_step(simulation, 1e-4);
-    // Displace every node at random and see how the energy of the particles answers: the strain of a
-    // particle is what the staged driver would gather as grad v from those displacements.
+    // Displace every node at random and see how the energy of the particles answers: the strain of
+    // a particle is what the staged driver would gather as grad v from those displacements.
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(-1, 1);
     std::map<std::array<int, 3>, Vec3d> u;
@@ -147,8 +147,10 @@ TEST(Transfer, NodeForceIsMinusTheDerivativeOfEnergy) {
                 Vec3d g(s.dw[0][i] * s.w[1][j] * s.w[2][k], s.w[0][i] * s.dw[1][j] * s.w[2][k],
                         s.w[0][i] * s.w[1][j] * s.dw[2][k]);
                 if (settings.transfer == Transfer::mls)
-                  g = Vec3d(s.arm[0][i] * s.w[1][j] * s.w[2][k], s.w[0][i] * s.arm[1][j] * s.w[2][k],
-                            s.w[0][i] * s.w[1][j] * s.arm[2][k]) / apic_inertia<K>;
+                  g = Vec3d(s.arm[0][i] * s.w[1][j] * s.w[2][k],
+                            s.w[0][i] * s.arm[1][j] * s.w[2][k],
+                            s.w[0][i] * s.w[1][j] * s.arm[2][k]) /
+                      apic_inertia<K>;
                 grad += u.at({s.base[0] + i, s.base[1] + j, s.base[2] + k}) * (g / h).transpose();
               }
         };
@@ -157,14 +159,17 @@ TEST(Transfer, NodeForceIsMinusTheDerivativeOfEnergy) {
           record.cell[a] = static_cast<int>(std::floor(p.x[q][a] / h));
           record.offset[a] = p.x[q][a] / h - record.cell[a];
         }
-        if (settings.kernel == Kernel::cubic) add(weights_of<cubic_nodes>(record));
-        else add(weights_of<quadratic_nodes>(record));
+        if (settings.kernel == Kernel::cubic)
+          add(weights_of<cubic_nodes>(record));
+        else
+          add(weights_of<quadratic_nodes>(record));
         sum += p.V0[q] * energy_density(Material{}, (Mat3d::Identity() + epsilon * grad) * p.F_E[q],
                                         p.J_P[q]);
       }
       return sum;
     };
-    // Central difference: relative error about (epsilon |grad|)^2 with |grad| of 1/h = 20 per metre.
+    // Central difference: relative error about (epsilon |grad|)^2 with |grad| of 1/h = 20 per
+    // metre.
     const double epsilon = 1e-7;
     const double slope = (energy(epsilon) - energy(-epsilon)) / (2 * epsilon);
     EXPECT_NEAR(work, -slope, 1e-6 * std::abs(slope));
@@ -172,7 +177,8 @@ TEST(Transfer, NodeForceIsMinusTheDerivativeOfEnergy) {
 }
 
 TEST(Transfer, AffineVelocityArrivesAsItsGradient) {
-  // The only test that notices a transposed grad v: the field is linear, its matrix is not symmetric.
+  // The only test that notices a transposed grad v: the field is linear, its matrix is not
+  // symmetric.
   Mat3d A;
   A << 0.3, -1.1, 0.2, 0.7, -0.4, 0.5, -0.6, 0.1, 0.8;
   for (const Case& c : cases) {

@@ -1,0 +1,223 @@
+/// Particles in and out of an engine, sums over them, and their hash.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/base/hash.h"
+#include "sim/diagnostics.h"
+#include "sim/engine.h"
+#include "sim/engine_records.h"
+
+namespace neve::sim {
+
+namespace {
+
+ModelKind model_kind(Model model) {
+  switch (model) {
+    case Model::corotated:
+      return ModelKind::corotated;
+    case Model::neo_hookean:
+      return ModelKind::neo_hookean;
+    default:
+      return ModelKind::snow;
+  }
+}
+
+template <class Real>
+void require_length(const std::vector<Real>& array, std::size_t count, const char* what) {
+  if (!array.empty() && array.size() != count)
+    throw std::invalid_argument(std::string(what) + " has another length than x");
+}
+
+}  // namespace
+
+template <class Real>
+void Engine<Real>::load(const ParticleArrays& in) {
+  const std::size_t count = in.x.size();
+  require_length(in.v, count, "v");
+  require_length(in.m, count, "m");
+  require_length(in.V0, count, "V0");
+  require_length(in.F_E, count, "F_E");
+  require_length(in.J_P, count, "J_P");
+  require_length(in.C, count, "C");
+  require_length(in.material, count, "material");
+  if (in.m.size() != count) throw std::invalid_argument("every particle needs a mass");
+  particles_.resize(count);
+  keys_.resize(count);
+  locals_.resize(count);
+  for (std::size_t q = 0; q < count; ++q) {
+    Particle<Real>& p = particles_[q];
+    p = Particle<Real>{};
+    p.id = static_cast<std::uint32_t>(q);
+    const int material = in.material.empty() ? 0 : in.material[q];
+    if (material < 0 || static_cast<std::size_t>(material) >= material_list_.size())
+      throw std::invalid_argument("a particle names a material that does not exist");
+    p.material = static_cast<std::uint16_t>(material);
+    p.model = static_cast<std::uint8_t>(
+        model_kind(material_list_[static_cast<std::size_t>(material)].model));
+    for (int a = 0; a < 3; ++a) {
+      const double in_cells = in.x[q][a] / settings_.cell_size;
+      if (!(std::abs(in_cells) < 4.0 * block_limit))
+        throw std::invalid_argument("a particle starts outside the lattice");
+      split(in_cells, p.cell[a], p.offset[a]);
+      p.cell[a] += block_side * lattice_origin_[a];
+      p.v[a] = in.v.empty() ? Real(0) : static_cast<Real>(in.v[q][a]);
+    }
+    p.m = static_cast<Real>(in.m[q]);
+    p.V0 = in.V0.empty() ? Real(0) : static_cast<Real>(in.V0[q]);
+    if (!(p.m > Real(0)) || !(p.V0 >= Real(0)))
+      throw std::invalid_argument("a particle's mass or volume is not positive");
+    if (p.V0 == Real(0)) p.flags |= needs_volume;
+    store_matrix(in.F_E.empty() ? Mat3d(Mat3d::Identity()) : in.F_E[q], p.F_E);
+    store_matrix(in.C.empty() ? Mat3d(Mat3d::Zero()) : in.C[q], p.C);
+    p.J_P = in.J_P.empty() ? Real(1) : static_cast<Real>(in.J_P[q]);
+    p.stiffness = 1;
+    p.threshold = 1;
+  }
+}
+
+template <class Real>
+Summary Engine<Real>::summary() const {
+  // Sums over fixed chunks, added in order: the same bits at any number of threads.
+  constexpr std::size_t chunk = 4096;
+  const std::size_t chunks = (particles_.size() + chunk - 1) / chunk;
+  std::vector<Summary> parts(chunks);
+  const bool has_C = settings_.transfer != Transfer::flip;
+  const double inertia =
+      settings_.cell_size * settings_.cell_size *
+      (kernel_nodes_ == cubic_nodes ? apic_inertia<cubic_nodes> : apic_inertia<quadratic_nodes>);
+  pool_->ranges(chunks, active_threads(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      const std::size_t last = std::min(particles_.size(), (c + 1) * chunk);
+      for (std::size_t q = c * chunk; q < last; ++q) {
+        const Particle<Real>& p = particles_[q];
+        Summary& s = parts[c];
+        const double m = static_cast<double>(p.m), J_P = static_cast<double>(p.J_P);
+        Vec3d x, v;
+        for (int a = 0; a < 3; ++a) {
+          x[a] = (static_cast<double>(p.cell[a] - block_side * lattice_origin_[a]) +
+                  static_cast<double>(p.offset[a])) *
+                 settings_.cell_size;
+          v[a] = static_cast<double>(p.v[a]);
+        }
+        const Mat3d C = matrix(p.C);
+        s.mass += m;
+        s.kinetic_energy += 0.5 * m * v.squaredNorm();
+        s.momentum += m * v;
+        s.centre_of_mass += m * x;
+        s.angular_momentum += m * x.cross(v);
+        if (has_C) {
+          s.kinetic_energy += 0.5 * m * inertia * C.squaredNorm();
+          s.angular_momentum +=
+              m * inertia * Vec3d(C(2, 1) - C(1, 2), C(0, 2) - C(2, 0), C(1, 0) - C(0, 1));
+        }
+        s.elastic_energy += static_cast<double>(p.V0) * static_cast<double>(p.stiffness) *
+                            energy_density(material_list_[p.material], matrix(p.F_E), J_P);
+        s.max_speed = std::max(s.max_speed, v.norm());
+        s.min_J_P = q == c * chunk ? J_P : std::min(s.min_J_P, J_P);
+        s.max_J_P = q == c * chunk ? J_P : std::max(s.max_J_P, J_P);
+      }
+    }
+  });
+  Summary all;
+  for (std::size_t c = 0; c < chunks; ++c) {
+    const Summary& s = parts[c];
+    all.mass += s.mass;
+    all.kinetic_energy += s.kinetic_energy;
+    all.elastic_energy += s.elastic_energy;
+    all.momentum += s.momentum;
+    all.centre_of_mass += s.centre_of_mass;
+    all.angular_momentum += s.angular_momentum;
+    all.max_speed = std::max(all.max_speed, s.max_speed);
+    all.min_J_P = c == 0 ? s.min_J_P : std::min(all.min_J_P, s.min_J_P);
+    all.max_J_P = c == 0 ? s.max_J_P : std::max(all.max_J_P, s.max_J_P);
+  }
+  all.time = time_;
+  all.particles = particles_.size();
+  if (all.mass > 0) all.centre_of_mass /= all.mass;
+  return all;
+}
+
+template <class Real>
+ParticleArrays Engine<Real>::particles() const {
+  ParticleArrays out;
+  const std::size_t count = particles_.size();
+  out.x.resize(count);
+  out.v.resize(count);
+  out.m.resize(count);
+  out.V0.resize(count);
+  out.F_E.resize(count);
+  out.J_P.resize(count);
+  out.C.resize(count);
+  out.material.resize(count);
+  for (const Particle<Real>& p : particles_) {
+    const std::size_t id = p.id;
+    for (int a = 0; a < 3; ++a) {
+      out.x[id][a] = (static_cast<double>(p.cell[a] - block_side * lattice_origin_[a]) +
+                      static_cast<double>(p.offset[a])) *
+                     settings_.cell_size;
+      out.v[id][a] = static_cast<double>(p.v[a]);
+    }
+    out.m[id] = static_cast<double>(p.m);
+    out.V0[id] = static_cast<double>(p.V0);
+    out.F_E[id] = matrix(p.F_E);
+    out.J_P[id] = static_cast<double>(p.J_P);
+    out.C[id] = matrix(p.C);
+    out.material[id] = p.material;
+  }
+  return out;
+}
+
+template <class Real>
+std::vector<Mat3d> Engine<Real>::kirchhoff() const {
+  std::vector<Mat3d> out(particles_.size());
+  for (const Particle<Real>& p : particles_) {
+    const Real* t = p.tau;
+    const Real full[9] = {t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2]};
+    out[p.id] = matrix(full);
+  }
+  return out;
+}
+
+template <class Real>
+std::vector<Vec3i> Engine<Real>::cells() const {
+  std::vector<Vec3i> out(particles_.size());
+  for (const Particle<Real>& p : particles_) out[p.id] = Vec3i(p.cell[0], p.cell[1], p.cell[2]);
+  return out;
+}
+
+template <class Real>
+std::uint64_t Engine<Real>::state_hash() const {
+  std::uint64_t sum = 0;
+  for (const Particle<Real>& p : particles_) {
+    std::int32_t cell[3];
+    for (int a = 0; a < 3; ++a) cell[a] = p.cell[a] - block_side * lattice_origin_[a];
+    std::uint64_t hash = hash_bytes(cell, sizeof cell);
+    hash = hash_bytes(p.offset, sizeof p.offset, hash);
+    hash = hash_bytes(p.v, sizeof p.v, hash);
+    hash = hash_bytes(&p.m, sizeof p.m, hash);
+    hash = hash_bytes(&p.V0, sizeof p.V0, hash);
+    hash = hash_bytes(p.F_E, sizeof p.F_E, hash);
+    hash = hash_bytes(&p.J_P, sizeof p.J_P, hash);
+    hash = hash_bytes(p.C, sizeof p.C, hash);
+    sum += mix64(p.id, hash);
+  }
+  return sum;
+}
+
+template void Engine<float>::load(const ParticleArrays&);
+template Summary Engine<float>::summary() const;
+template ParticleArrays Engine<float>::particles() const;
+template std::vector<Mat3d> Engine<float>::kirchhoff() const;
+template std::vector<Vec3i> Engine<float>::cells() const;
+template std::uint64_t Engine<float>::state_hash() const;
+template void Engine<double>::load(const ParticleArrays&);
+template Summary Engine<double>::summary() const;
+template ParticleArrays Engine<double>::particles() const;
+template std::vector<Mat3d> Engine<double>::kirchhoff() const;
+template std::vector<Vec3i> Engine<double>::cells() const;
+template std::uint64_t Engine<double>::state_hash() const;
+
+}  // namespace neve::sim

@@ -1,0 +1,119 @@
+/// The rules of a healthy run: what is looked at after every step, and what stops it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/diagnostics.h"
+#include "sim/engine.h"
+
+namespace neve::sim {
+
+namespace {
+
+/// Energy is added up this often, and whenever a frame ends.
+constexpr std::size_t steps_between_energy_checks = 64;
+
+}  // namespace
+
+/// Extremes of all blocks.
+template <class Real>
+BlockReport<Real> Engine<Real>::combined_report() const {
+  BlockReport<Real> all;
+  for (const BlockReport<Real>& r : reports_) {
+    all.max_speed_squared = std::max(all.max_speed_squared, r.max_speed_squared);
+    all.max_sound_squared = std::max(all.max_sound_squared, r.max_sound_squared);
+    all.max_strain_rate = std::max(all.max_strain_rate, r.max_strain_rate);
+    all.min_J_P = std::min(all.min_J_P, r.min_J_P);
+    all.max_J_P = std::max(all.max_J_P, r.max_J_P);
+    all.contact_work += r.contact_work;
+    all.inverted += r.inverted;
+    all.inverted_unprojected += r.inverted_unprojected;
+    all.not_finite += r.not_finite;
+    all.overflowed += r.overflowed;
+  }
+  for (const double work : node_contact_work_) all.contact_work += work;
+  return all;
+}
+
+template <class Real>
+void Engine<Real>::note(double dt) {
+  const BlockReport<Real> report = combined_report();
+  const StateLimits before = limits_;
+  limits_.max_speed = std::sqrt(static_cast<double>(report.max_speed_squared));
+  limits_.max_sound_speed = std::sqrt(static_cast<double>(report.max_sound_squared));
+  limits_.max_strain_rate = static_cast<double>(report.max_strain_rate);
+  warnings_.inverted_trials += report.inverted;
+  energy_.contact_work += report.contact_work;
+  if (!divergence_) check(dt, before, report);
+  if (!divergence_ && steps_ % steps_between_energy_checks == 0) check_energy();
+}
+
+/// The rules of a healthy step that its own report can answer.
+template <class Real>
+void Engine<Real>::check(double dt, const StateLimits& before, const BlockReport<Real>& report) {
+  const double h = settings_.cell_size;
+  const double speed_cfl = limits_.max_speed * dt / h;
+  const double acoustic_cfl = limits_.max_sound_speed * dt / h;
+  warnings_.worst_speed_cfl = std::max(warnings_.worst_speed_cfl, speed_cfl);
+  warnings_.worst_acoustic_cfl = std::max(warnings_.worst_acoustic_cfl, acoustic_cfl);
+  const double holds = stable_dt(settings_, before);
+  const bool is_adaptive = settings_.time_step == TimeStep::adaptive;
+  if (report.not_finite > 0) {
+    diverge("not_finite", "deformation", dt, report.not_finite, 0);
+  } else if (report.overflowed > 0) {
+    diverge("overflow", "advection", dt, report.overflowed, 0);
+  } else if (speed_cfl > 1) {
+    diverge("speed_cfl", "particle_velocities", dt, speed_cfl, 1);
+  } else if (report.inverted_unprojected > 0) {
+    diverge("inverted", "deformation", dt, report.inverted_unprojected, 0);
+  } else if (report.min_J_P < Real(0.1)) {
+    diverge("J_P", "deformation", dt, static_cast<double>(report.min_J_P), 0.1);
+  } else if (is_adaptive && acoustic_cfl > 1.5) {
+    diverge("acoustic_cfl", "deformation", dt, acoustic_cfl, 1.5);
+  } else if (is_adaptive && choose_dt(1).dt < 1e-4 * rest_dt_) {
+    // Not a rule of stability: without it a run that hardens without end would never end.
+    diverge("time_step", "deformation", dt, choose_dt(1).dt, 1e-4 * rest_dt_);
+  }
+  if (divergence_) divergence_->dt_that_holds = holds;
+}
+
+/// Kinetic plus elastic energy may not exceed by more than 10 % what the run started with plus the
+/// work of gravity and colliders.
+template <class Real>
+void Engine<Real>::check_energy() {
+  if (particles_.empty()) return;
+  const Summary now = summary();
+  const double gravity_work =
+      now.mass * settings_.gravity.dot(now.centre_of_mass - energy_.centre_of_mass);
+  const double budget = energy_.start + gravity_work + energy_.contact_work;
+  energy_.largest = std::max(energy_.largest, budget);
+  // A cell's fall: what rounding and the first contact may do to snow that starts at rest.
+  const double floor = now.mass * settings_.gravity.norm() * settings_.cell_size;
+  const double found = now.kinetic_energy + now.elastic_energy;
+  const double allowed = budget + 0.1 * std::max(energy_.largest, floor) + 1e-12 * now.mass;
+  if (found <= allowed) return;
+  diverge("energy", "particle_velocities", 0, found, allowed);
+  divergence_->dt_that_holds = stable_dt(settings_, limits_);
+}
+
+template <class Real>
+void Engine<Real>::diverge(const char* rule, const char* stage, double dt, double value,
+                           double limit) {
+  Divergence d;
+  d.step = steps_;
+  d.time = time_;
+  d.rule = rule;
+  d.stage = stage;
+  d.dt = dt;
+  d.value = value;
+  d.limit = limit;
+  find_culprits(particles(), settings_, material_list_, d);
+  divergence_ = d;
+}
+
+template void Engine<float>::note(double);
+template void Engine<float>::check_energy();
+template void Engine<double>::note(double);
+template void Engine<double>::check_energy();
+
+}  // namespace neve::sim
