@@ -1,0 +1,74 @@
+/// Values that colours show, against hand-made states.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "app/attributes.h"
+#include "app/scene/read.h"
+
+namespace neve::app {
+namespace {
+
+/// One particle of 400 kg/m3 at rest, squeezed to J_E = 0.5 and J_P = 0.8, under a known stress.
+Snapshot squeezed() {
+  Snapshot s;
+  s.particles.x = {{0, 0.1, 0}};
+  s.particles.v = {{3, 0, 4}};
+  s.particles.m = {0.4};
+  s.particles.V0 = {0.001};
+  s.particles.F_E = {sim::Vec3d(0.5, 1, 1).asDiagonal().toDenseMatrix()};
+  s.particles.J_P = {0.8};
+  s.particles.material = {0};
+  // tau = J sigma with sigma = diag(-300, 0, 0) Pa and J = 0.4.
+  s.kirchhoff = {sim::Vec3d(-120, 0, 0).asDiagonal().toDenseMatrix()};
+  return s;
+}
+
+class Attributes : public testing::Test {
+ protected:
+  double value(ColorBy color_by, const Snapshot& snapshot) {
+    return attribute_values(scene, color_by, snapshot).at(0);
+  }
+  Scene scene = read_scene_text(
+      "[[body]]\nshape = { sphere = { radius = 0.1 } }\n[output]\nsize = [64, 64]\n", "a.toml");
+};
+
+TEST_F(Attributes, AreThoseOfTheCurrentConfiguration) {
+  const Snapshot s = squeezed();
+  EXPECT_DOUBLE_EQ(value(ColorBy::speed, s), 5);
+  EXPECT_DOUBLE_EQ(value(ColorBy::J_E, s), 0.5);
+  EXPECT_DOUBLE_EQ(value(ColorBy::J_P, s), 0.8);
+  EXPECT_DOUBLE_EQ(value(ColorBy::density, s), 1000);
+  EXPECT_DOUBLE_EQ(value(ColorBy::pressure, s), 100);
+  EXPECT_DOUBLE_EQ(value(ColorBy::von_mises, s), 300);
+  EXPECT_DOUBLE_EQ(value(ColorBy::id, s), 0);
+  EXPECT_TRUE(attribute_values(scene, ColorBy::snow, s).empty());
+}
+
+TEST_F(Attributes, TakeTheMaterialsDensityBeforeVolumesAreKnown) {
+  Snapshot s = squeezed();
+  s.particles.V0 = {0};
+  EXPECT_DOUBLE_EQ(value(ColorBy::density, s), 1000);
+}
+
+TEST_F(Attributes, OfABrokenStateStillMakeAPicture) {
+  Snapshot s = squeezed();
+  s.particles.x.push_back(sim::Vec3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  s.particles.x.push_back(sim::Vec3d::Zero());
+  s.particles.v.assign(3, sim::Vec3d::Constant(std::numeric_limits<double>::infinity()));
+  View view;
+  view.particles.color_by = ColorBy::speed;
+  view.particles.range = Range{0, 2};
+  const FrameBuilder builder(scene, 0.01, Quality::preview, {});
+  const render::Frame frame = builder.build(view, s);
+  ASSERT_EQ(frame.points.position.size(), 2u);
+  EXPECT_EQ(frame.points.id[1], 2u);
+  for (const float v : frame.points.value) EXPECT_EQ(v, 2);
+  ASSERT_EQ(frame.legends.size(), 1u);
+  EXPECT_EQ(frame.legends[0].unit, "m/s");
+}
+
+}  // namespace
+}  // namespace neve::app
