@@ -1,5 +1,5 @@
 #pragma once
-/// Stress and plastic projection of one particle, for kernels.
+/// Stress and plastic projection, four particles of one model at a time.
 ///
 /// All models take mu = mu0 e^(xi (1 - J_P)) and lambda likewise (the paper, equation 2). Stress is
 /// the Kirchhoff stress tau = P F_E^T: the force of a particle is -V0 tau grad_w, J cancels.
@@ -10,7 +10,6 @@
 namespace neve::sim {
 
 enum class ModelKind : std::uint8_t { snow = 0, corotated = 1, neo_hookean = 2 };
-inline constexpr int model_count = 3;
 
 /// A row of the material table as kernels see it.
 template <class Real>
@@ -24,127 +23,195 @@ struct MaterialConstants {
 template <class Real>
 struct MaterialResponse {
   Real wave_modulus;  ///< rho0 c^2 of the fastest elastic wave, Pa
-  bool is_inverted;   ///< trial det F_E <= 0
+  bool is_inverted;   ///< det F_E <= 0 before projection
 };
-
-template <class Real>
-NEVE_INLINE void store(const Sym3<Real>& s, Real* tau) {
-  tau[0] = s.xx, tau[1] = s.yy, tau[2] = s.zz, tau[3] = s.xy, tau[4] = s.xz, tau[5] = s.yz;
-}
-
-/// sum_i d[i] u_i u_i^T with u_i the columns of U.
-template <class Real>
-NEVE_INLINE Sym3<Real> from_principal(const Real* U, const Real* d) {
-  Sym3<Real> a{};
-  for (int i = 0; i < 3; ++i) {
-    const Real x = U[i], y = U[3 + i], z = U[6 + i];
-    a.xx += d[i] * x * x, a.yy += d[i] * y * y, a.zz += d[i] * z * z;
-    a.xy += d[i] * x * y, a.xz += d[i] * x * z, a.yz += d[i] * y * z;
-  }
-  return a;
-}
 
 /// Stretches inside which sqrt(b) is taken by Newton's iteration instead of a decomposition.
 inline constexpr double series_min_stretch = 0.7, series_max_stretch = 1.35;
 
-/// All singular values of F strictly inside [lo, hi], from b = F F^T without its eigenvalues.
+inline constexpr int lane_count = 4;
+
+/// Four particles with each quantity in a quad.
 template <class Real>
-NEVE_INLINE bool stretches_within(const Sym3<Real>& b, Real lo, Real hi) {
-  return is_positive_definite(add_identity(b, -lo * lo)) &&
-         is_positive_definite(add_identity(Real(-1) * b, hi * hi));
+struct MaterialLanes {
+  using V = Quad<Real>;
+  V F[9], J_P, stiffness;
+  V mu0, lambda0, xi, lo, hi;  ///< moduli at rest; bounds of the stretches of snow
+  V wave_modulus;
+  Sym3<V> tau;
+
+  /// Empty lanes repeat the first particle.
+  NEVE_INLINE MaterialLanes(Particle<Real>* const* p, int count,
+                            const MaterialConstants<Real>* materials) {
+    for (int l = 0; l < lane_count; ++l) {
+      const Particle<Real>& from = *p[l < count ? l : 0];
+      const MaterialConstants<Real>& k = materials[from.material];
+      for (int q = 0; q < 9; ++q) F[q][l] = from.F_E[q];
+      J_P[l] = from.J_P;
+      stiffness[l] = from.stiffness;
+      mu0[l] = k.mu0;
+      lambda0[l] = k.lambda0;
+      xi[l] = k.xi;
+      lo[l] = Real(1) - k.theta_c * from.threshold;
+      hi[l] = Real(1) + k.theta_s * from.threshold;
+    }
+  }
+
+  NEVE_INLINE V hardening() const { return stiffness * exponential_lanes(xi * (Real(1) - J_P)); }
+
+  NEVE_INLINE void store_stress(int l, Particle<Real>& p) const {
+    p.tau[0] = tau.xx[l], p.tau[1] = tau.yy[l], p.tau[2] = tau.zz[l];
+    p.tau[3] = tau.xy[l], p.tau[4] = tau.xz[l], p.tau[5] = tau.yz[l];
+  }
+};
+
+/// Fixed-corotated stress of particles whose stretches are small (and, for snow, inside the
+/// thresholds), by the square root of b = F_E F_E^T:
+///   psi = mu |F_E - R|^2 + lambda/2 (J_E - 1)^2                          (the paper, equation 1)
+///   tau = 2 mu (F_E - R) F_E^T + lambda (J_E - 1) J_E I = 2 mu (b - sqrt(b)) + ...
+/// F_E and J_P keep their bits. @return the lanes where this holds
+template <class Real>
+NEVE_INLINE MaskOf<Quad<Real>> corotated_near_identity(MaterialLanes<Real>& m, bool is_plastic) {
+  using V = Quad<Real>;
+  const V J = determinant(m.F), one = all<V>(1);
+  const Sym3<V> b = left_cauchy_green(m.F);
+  V lo = all<V>(series_min_stretch), hi = all<V>(series_max_stretch);
+  if (is_plastic) {
+    lo = larger_lanes(lo, m.lo);
+    hi = smaller_lanes(hi, m.hi);
+  }
+  // All stretches inside (lo, hi) without an eigenvalue: b - lo^2 and hi^2 - b positive definite.
+  const MaskOf<V> holds = (J > V{}) & is_positive_definite(add_identity(b, -lo * lo)) &
+                          is_positive_definite(add_identity(-one * b, hi * hi));
+  if (!any_lane(holds)) return holds;
+  const V hard = m.hardening(), mu = hard * m.mu0, lambda = hard * m.lambda0;
+  const Sym3<V> deviation = add_identity(b, -one) - root_minus_identity(b);
+  m.tau = add_identity(Real(2) * mu * deviation, lambda * (J - one) * J);
+  m.wave_modulus = Real(2) * mu * row_sum_norm(b) + lambda * J * J;
+  return holds;
 }
 
-/// Fixed-corotated stress, with the projection of snow where `is_plastic`:
-///   psi = mu |F_E - R|^2 + lambda/2 (J_E - 1)^2                          (the paper, equation 1)
-///   tau = 2 mu (F_E - R) F_E^T + lambda (J_E - 1) J_E I
-/// Singular values of the trial F_E are clamped to [1 - theta_c, 1 + theta_s]; what is cut off goes
-/// into J_P (the paper, section 7, equations 11 and 12). F_E on entry is the trial value.
+/// The same stress for any F_E, with the projection of snow where `is_plastic`: singular values are
+/// clamped to [1 - theta_c, 1 + theta_s], what is cut off goes into J_P (the paper, section 7,
+/// equations 11 and 12).
 template <class Real>
-NEVE_INLINE MaterialResponse<Real> update_corotated(Particle<Real>& p,
-                                                    const MaterialConstants<Real>& k,
-                                                    bool is_plastic) {
-  const Real lo = Real(1) - k.theta_c * p.threshold, hi = Real(1) + k.theta_s * p.threshold;
-  const Real J = determinant(p.F_E);
-  const Sym3<Real> b = left_cauchy_green(p.F_E);
-  Real min_stretch = Real(series_min_stretch), max_stretch = Real(series_max_stretch);
+NEVE_INLINE void corotated_by_decomposition(MaterialLanes<Real>& m, bool is_plastic) {
+  using V = Quad<Real>;
+  const SignedSvd<V> svd = signed_svd_lanes(m.F);
+  const V one = all<V>(1);
+  V s[3] = {svd.s[0], svd.s[1], svd.s[2]};
   if (is_plastic) {
-    min_stretch = larger(min_stretch, lo);
-    max_stretch = smaller(max_stretch, hi);
-  }
-  // Elastic: nothing is projected, F_E and J_P keep their bits.
-  if (J > Real(0) && stretches_within(b, min_stretch, max_stretch)) {
-    const Real hard = p.stiffness * exponential(k.xi * (Real(1) - p.J_P));
-    const Real mu = hard * k.mu0, lambda = hard * k.lambda0;
-    const Sym3<Real> e = add_identity(b, Real(-1));
-    const Sym3<Real> deviation = e + Real(-1) * root_minus_identity(b);
-    store(add_identity(Real(2) * mu * deviation, lambda * (J - Real(1)) * J), p.tau);
-    return {Real(2) * mu * row_sum_norm(b) + lambda * J * J, false};
-  }
-  const SignedSvd<Real> svd = signed_svd(p.F_E);
-  Real s[3] = {svd.s[0], svd.s[1], svd.s[2]};
-  if (is_plastic) {
-    Real cut = 1;
+    V cut = one;
+    MaskOf<V> is_cut{};
     for (int i = 0; i < 3; ++i) {
-      s[i] = clamp_to(svd.s[i], lo, hi);
+      s[i] = smaller_lanes(larger_lanes(svd.s[i], m.lo), m.hi);
       cut *= svd.s[i] / s[i];
+      is_cut |= s[i] != svd.s[i];
     }
-    if (s[0] != svd.s[0] || s[1] != svd.s[1] || s[2] != svd.s[2]) {
-      p.J_P *= cut;
-      for (int a = 0; a < 3; ++a)
-        for (int c = 0; c < 3; ++c)
-          p.F_E[3 * a + c] = svd.U[3 * a] * s[0] * svd.V[3 * c] +
-                             svd.U[3 * a + 1] * s[1] * svd.V[3 * c + 1] +
-                             svd.U[3 * a + 2] * s[2] * svd.V[3 * c + 2];
-    }
+    m.J_P = is_cut ? m.J_P * cut : m.J_P;
+    for (int a = 0; a < 3; ++a)
+      for (int c = 0; c < 3; ++c) {
+        const V F = svd.U[3 * a] * s[0] * svd.V[3 * c] +
+                    svd.U[3 * a + 1] * s[1] * svd.V[3 * c + 1] +
+                    svd.U[3 * a + 2] * s[2] * svd.V[3 * c + 2];
+        m.F[3 * a + c] = is_cut ? F : m.F[3 * a + c];
+      }
   }
-  const Real hard = p.stiffness * exponential(k.xi * (Real(1) - p.J_P));
-  const Real mu = hard * k.mu0, lambda = hard * k.lambda0;
-  const Real J_E = s[0] * s[1] * s[2];
-  Real d[3], largest = 0;
+  const V hard = m.hardening(), mu = hard * m.mu0, lambda = hard * m.lambda0;
+  const V J_E = s[0] * s[1] * s[2], pressure = lambda * (J_E - one) * J_E;
+  Sym3<V> tau{};
   for (int i = 0; i < 3; ++i) {
-    d[i] = Real(2) * mu * (s[i] - Real(1)) * s[i] + lambda * (J_E - Real(1)) * J_E;
-    largest = larger(largest, s[i] * s[i]);
+    const V x = svd.U[i], y = svd.U[3 + i], z = svd.U[6 + i];
+    const V d = Real(2) * mu * (s[i] - one) * s[i] + pressure;
+    tau = tau + d * Sym3<V>{x * x, y * y, z * z, x * y, x * z, y * z};
   }
-  store(from_principal(svd.U, d), p.tau);
-  return {Real(2) * mu * largest + lambda * J_E * J_E, !(J > Real(0))};
+  m.tau = tau;
+  const V largest = larger_lanes(s[0] * s[0], s[2] * s[2]);
+  m.wave_modulus = Real(2) * mu * largest + lambda * J_E * J_E;
 }
 
 /// Compressible neo-Hookean stress:
 ///   psi = mu/2 (tr F^T F - 3) - mu ln J + lambda/2 (ln J)^2,  tau = mu (b - I) + lambda ln J I.
 /// The energy is infinite at J = 0; below that the logarithm is held, and the run is told.
 template <class Real>
-NEVE_INLINE MaterialResponse<Real> update_neo_hookean(Particle<Real>& p,
-                                                      const MaterialConstants<Real>& k) {
-  const Real J = determinant(p.F_E);
-  const Real hard = p.stiffness * exponential(k.xi * (Real(1) - p.J_P));
-  const Real mu = hard * k.mu0, lambda = hard * k.lambda0;
-  const Sym3<Real> b = left_cauchy_green(p.F_E);
-  const Real log_J = logarithm(larger(J, Real(1e-6)));
-  store(add_identity(mu * add_identity(b, Real(-1)), lambda * log_J), p.tau);
-  return {mu * (row_sum_norm(b) + Real(1)) + lambda * (Real(1) + absolute(log_J)), !(J > Real(0))};
+NEVE_INLINE void neo_hookean(MaterialLanes<Real>& m) {
+  using V = Quad<Real>;
+  const V J = determinant(m.F), one = all<V>(1);
+  const V hard = m.hardening(), mu = hard * m.mu0, lambda = hard * m.lambda0;
+  const Sym3<V> b = left_cauchy_green(m.F);
+  V log_J;
+  for (int l = 0; l < lane_count; ++l) log_J[l] = logarithm(larger(J[l], Real(1e-6)));
+  m.tau = add_identity(mu * add_identity(b, -one), lambda * log_J);
+  m.wave_modulus = mu * (row_sum_norm(b) + one) + lambda * (one + absolute_lanes(log_J));
 }
 
-/// Projects F_E (snow) and recomputes tau from it.
+/// Projects F_E (snow) and recomputes tau from it, for any number of particles.
+/// @param is_projected false leaves F_E and J_P as they are: stress of a state, at the start of a
+/// run
 template <class Real>
-NEVE_INLINE MaterialResponse<Real> update_material(Particle<Real>& p,
-                                                   const MaterialConstants<Real>& k) {
-  switch (static_cast<ModelKind>(p.model)) {
-    case ModelKind::snow:
-      return update_corotated(p, k, true);
-    case ModelKind::corotated:
-      return update_corotated(p, k, false);
-    default:
-      return update_neo_hookean(p, k);
+NEVE_INLINE void update_materials(Particle<Real>* const* particles, int count,
+                                  const MaterialConstants<Real>* materials, bool is_projected,
+                                  MaterialResponse<Real>* responses) {
+  constexpr int most = 64;
+  for (int begin = 0; begin < count;) {
+    // A batch has one model; particles of a block are sorted by it.
+    const auto model = static_cast<ModelKind>(particles[begin]->model);
+    int end = begin;
+    while (end < count && end - begin < most &&
+           static_cast<ModelKind>(particles[end]->model) == model)
+      ++end;
+    const bool is_plastic = is_projected && model == ModelKind::snow;
+    Particle<Real>* rest[most];
+    MaterialResponse<Real>* rest_response[most];
+    int rest_count = 0;
+    for (int q = begin; q < end; q += lane_count) {
+      const int lanes = smaller(lane_count, end - q);
+      MaterialLanes<Real> m(particles + q, lanes, materials);
+      const Quad<Real> J = determinant(m.F);
+      MaskOf<Quad<Real>> is_done = Quad<Real>{} == Quad<Real>{};
+      if (model == ModelKind::neo_hookean)
+        neo_hookean(m);
+      else
+        is_done = corotated_near_identity(m, is_plastic);
+      for (int l = 0; l < lanes; ++l) {
+        responses[q + l].is_inverted = !(J[l] > Real(0));
+        if (is_done[l]) {
+          responses[q + l].wave_modulus = m.wave_modulus[l];
+          m.store_stress(l, *particles[q + l]);
+        } else {
+          rest[rest_count] = particles[q + l];
+          rest_response[rest_count++] = &responses[q + l];
+        }
+      }
+    }
+    // Those that yield or are far from the identity, packed into full batches.
+    for (int q = 0; q < rest_count; q += lane_count) {
+      const int lanes = smaller(lane_count, rest_count - q);
+      MaterialLanes<Real> m(rest + q, lanes, materials);
+      corotated_by_decomposition(m, is_plastic);
+      for (int l = 0; l < lanes; ++l) {
+        Particle<Real>& p = *rest[q + l];
+        for (int k = 0; k < 9; ++k) p.F_E[k] = m.F[k][l];
+        p.J_P = m.J_P[l];
+        m.store_stress(l, p);
+        rest_response[q + l]->wave_modulus = m.wave_modulus[l];
+      }
+    }
+    begin = end;
   }
 }
 
-/// tau of the state as it is: at the start of a run and when a material changes. Nothing is
-/// projected, so an elastic strain beyond the thresholds waits for the next step.
+/// The same for one particle.
 template <class Real>
-NEVE_INLINE MaterialResponse<Real> refresh_stress(Particle<Real>& p,
-                                                  const MaterialConstants<Real>& k) {
-  if (static_cast<ModelKind>(p.model) == ModelKind::neo_hookean) return update_neo_hookean(p, k);
-  return update_corotated(p, k, false);
+inline MaterialResponse<Real> update_material(Particle<Real>& p, const MaterialConstants<Real>& k) {
+  Particle<Real>* const one[] = {&p};
+  MaterialResponse<Real> response;
+  // The record says which row of a table is its own; here the table has one row.
+  const std::uint16_t material = p.material;
+  p.material = 0;
+  update_materials(one, 1, &k, true, &response);
+  p.material = material;
+  return response;
 }
 
 }  // namespace neve::sim

@@ -11,7 +11,7 @@ namespace neve::sim {
 namespace {
 
 /// Energy is added up this often, and whenever a frame ends.
-constexpr std::size_t steps_between_energy_checks = 64;
+constexpr std::size_t steps_between_energy_checks = 256;
 
 }  // namespace
 

@@ -18,6 +18,9 @@ enum TileChannel { channel_momentum = 0, channel_force = 1, tile_channels = 2 };
 /// A simulation with more colliders is refused when it is built.
 inline constexpr int max_colliders = 64;
 
+/// Particles that are taken through steps 7 to 10 together, so that materials work on full lanes.
+inline constexpr int group_size = 64;
+
 enum class TransferKind : int { flip, apic, mls };
 
 /// Everything a step needs besides particles and nodes.

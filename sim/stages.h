@@ -218,18 +218,24 @@ NEVE_INLINE void strain(Particle<Real>& p, const Real* grad_v, Real dt) {
   for (int q = 0; q < 9; ++q) p.F_E[q] = F[q];
 }
 
-/// Step 7, second half: projection and stress, and what the report wants to know of them.
+/// Step 7, second half: projection and stress of a group, and what the report wants to know of
+/// them.
 template <class Real>
-NEVE_INLINE void project(Particle<Real>& p, const StepConstants<Real>& c,
+NEVE_INLINE void project(Particle<Real>* const* group, int count, const StepConstants<Real>& c,
                          BlockReport<Real>& report) {
-  const MaterialResponse<Real> response = update_material(p, c.materials[p.material]);
-  if (response.is_inverted) {
-    report.inverted += 1;
-    if (static_cast<ModelKind>(p.model) != ModelKind::snow) report.inverted_unprojected += 1;
+  MaterialResponse<Real> responses[group_size];
+  update_materials(group, count, c.materials, true, responses);
+  for (int q = 0; q < count; ++q) {
+    const Particle<Real>& p = *group[q];
+    if (responses[q].is_inverted) {
+      report.inverted += 1;
+      if (static_cast<ModelKind>(p.model) != ModelKind::snow) report.inverted_unprojected += 1;
+    }
+    report.max_sound_squared =
+        larger(report.max_sound_squared, responses[q].wave_modulus * p.V0 / p.m);
+    report.min_J_P = smaller(report.min_J_P, p.J_P);
+    report.max_J_P = larger(report.max_J_P, p.J_P);
   }
-  report.max_sound_squared = larger(report.max_sound_squared, response.wave_modulus * p.V0 / p.m);
-  report.min_J_P = smaller(report.min_J_P, p.J_P);
-  report.max_J_P = larger(report.max_J_P, p.J_P);
 }
 
 /// Step 8: FLIP v_p = (1 - alpha) PIC + alpha (v_p + change); APIC and MLS take v and C.

@@ -79,6 +79,17 @@ struct SweepsFor {
     for (Index q = block.begin; q < block.end; ++q) body(a.order[q], a.particles[a.order[q]]);
   }
 
+  template <class Body>
+  NEVE_INLINE static void each_group(const Args& a, const ParticleBlock& block, const Body& body) {
+    for (Index begin = block.begin; begin < block.end; begin += group_size) {
+      const int count = static_cast<int>(smaller<Index>(group_size, block.end - begin));
+      Particle<Real>* group[group_size];
+      for (int q = 0; q < count; ++q)
+        group[q] = a.particles + a.order[begin + static_cast<Index>(q)];
+      body(a.order + begin, group, count);
+    }
+  }
+
   NEVE_INLINE static void clear(Quad<Real>* tile) {
     for (int n = 0; n < Tile<K>::nodes; ++n) tile[n] = Quad<Real>{};
   }
@@ -130,16 +141,21 @@ struct SweepsFor {
         load_tile<Real, K>(block, channel_source(a, channel_change), change);
       const NearColliders<Real> near(c, block.key);
       BlockReport<Real> report;
-      each_particle(a, block, [&](Index q, Particle<Real>& p) {
-        const Weights<Real, K> s = weights_of<K>(p);
-        const Gathered<Real> g =
-            sim::gather<Real, K, transfer>(s, first_node(s), c.inv_h, v_new, change);
-        note_strain_rate(g, report);
-        strain(p, g.grad_v, c.dt);
-        project(p, c, report);
-        Quad<Real> v = particle_velocity<Real, transfer>(p, g, c.alpha);
-        v = collide_particle(p, v, block.key, c, near, report);
-        finish(a, q, p, v, g, report);
+      each_group(a, block, [&](const Index* storage, Particle<Real>* const* group, int count) {
+        Gathered<Real> g[group_size];
+        for (int q = 0; q < count; ++q) {
+          const Weights<Real, K> s = weights_of<K>(*group[q]);
+          g[q] = sim::gather<Real, K, transfer>(s, first_node(s), c.inv_h, v_new, change);
+          note_strain_rate(g[q], report);
+          strain(*group[q], g[q].grad_v, c.dt);
+        }
+        project(group, count, c, report);
+        for (int q = 0; q < count; ++q) {
+          Particle<Real>& p = *group[q];
+          Quad<Real> v = particle_velocity<Real, transfer>(p, g[q], c.alpha);
+          v = collide_particle(p, v, block.key, c, near, report);
+          finish(a, storage[q], p, v, g[q], report);
+        }
       });
       a.reports[b] = report;
     }
@@ -244,12 +260,17 @@ struct SweepsFor {
   static void deformation(const Args& a, Index begin, Index end) {
     for (Index b = begin; b < end; ++b) {
       BlockReport<Real> report;
-      each_particle(a, a.blocks[b], [&](Index q, Particle<Real>& p) {
-        note_strain_rate(a.gathered[q], report);
-        strain(p, a.gathered[q].grad_v, a.constants.dt);
-        for (int k = 0; k < 9; ++k) a.F_trial[9 * static_cast<std::size_t>(q) + k] = p.F_E[k];
-        project(p, a.constants, report);
-      });
+      each_group(a, a.blocks[b],
+                 [&](const Index* storage, Particle<Real>* const* group, int count) {
+                   for (int q = 0; q < count; ++q) {
+                     Particle<Real>& p = *group[q];
+                     note_strain_rate(a.gathered[storage[q]], report);
+                     strain(p, a.gathered[storage[q]].grad_v, a.constants.dt);
+                     Real* trial = a.F_trial + 9 * static_cast<std::size_t>(storage[q]);
+                     for (int k = 0; k < 9; ++k) trial[k] = p.F_E[k];
+                   }
+                   project(group, count, a.constants, report);
+                 });
       a.reports[b] = report;
     }
   }
@@ -282,14 +303,21 @@ struct SweepsFor {
   }
 
   static void refresh(const Args& a, Index begin, Index end, BlockReport<Real>& report) {
-    for (Index q = begin; q < end; ++q) {
-      Particle<Real>& p = a.particles[q];
-      const MaterialResponse<Real> response = refresh_stress(p, a.constants.materials[p.material]);
-      report.max_sound_squared =
-          larger(report.max_sound_squared, response.wave_modulus * p.V0 / p.m);
-      report.max_speed_squared =
-          larger(report.max_speed_squared, p.v[0] * p.v[0] + p.v[1] * p.v[1] + p.v[2] * p.v[2]);
-      if (!locate<Real, K>(p, a.keys[q], a.locals[q])) report.overflowed += 1;
+    for (Index first = begin; first < end; first += group_size) {
+      const int count = static_cast<int>(smaller<Index>(group_size, end - first));
+      Particle<Real>* group[group_size];
+      MaterialResponse<Real> responses[group_size];
+      for (int q = 0; q < count; ++q) group[q] = a.particles + first + q;
+      update_materials(group, count, a.constants.materials, false, responses);
+      for (int q = 0; q < count; ++q) {
+        const Particle<Real>& p = *group[q];
+        const Index storage = first + static_cast<Index>(q);
+        report.max_sound_squared =
+            larger(report.max_sound_squared, responses[q].wave_modulus * p.V0 / p.m);
+        report.max_speed_squared =
+            larger(report.max_speed_squared, p.v[0] * p.v[0] + p.v[1] * p.v[1] + p.v[2] * p.v[2]);
+        if (!locate<Real, K>(p, a.keys[storage], a.locals[storage])) report.overflowed += 1;
+      }
     }
   }
 

@@ -59,29 +59,70 @@ NEVE_INLINE int floor_to_int(Real x) {
   return n - (static_cast<Real>(n) > x ? 1 : 0);
 }
 
-/// e^x by reduction to |r| <= ln2/2 and a Taylor polynomial: own code, so that bits do not depend
-/// on the machine's C library. Relative error below 2 units in the last place; saturates at +-80 in
+/// Result of comparing quads: all bits set where true.
+template <class V>
+using MaskOf = decltype(V{} < V{});
+
+/// The same number in every lane.
+template <class V>
+NEVE_INLINE V all(double x) {
+  return V{} + static_cast<decltype(V{}[0] + 0)>(x);
+}
+
+template <class M>
+NEVE_INLINE bool any_lane(M mask) {
+  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+}
+template <class V>
+NEVE_INLINE V absolute_lanes(V x) {
+  return x < V{} ? -x : x;
+}
+template <class V>
+NEVE_INLINE V larger_lanes(V a, V b) {
+  return a < b ? b : a;
+}
+template <class V>
+NEVE_INLINE V smaller_lanes(V a, V b) {
+  return b < a ? b : a;
+}
+NEVE_INLINE Quad<float> square_root_lanes(Quad<float> x) {
+#ifdef __SSE2__
+  return __builtin_ia32_sqrtps(x);
+#else
+  return Quad<float>{square_root(x[0]), square_root(x[1]), square_root(x[2]), square_root(x[3])};
+#endif
+}
+NEVE_INLINE Quad<double> square_root_lanes(Quad<double> x) {
+  return Quad<double>{square_root(x[0]), square_root(x[1]), square_root(x[2]), square_root(x[3])};
+}
+
+/// e^x by reduction to |r| <= ln2/2 and a Taylor polynomial: own code, so that bits do not depend on
+/// the machine's C library. Relative error below 2 units in the last place; saturates at +-80 in
 /// float and +-700 in double.
-NEVE_INLINE float exponential(float x) {
-  x = clamp_to(x, -80.0f, 80.0f);
-  const int n = floor_to_int(x * 1.44269504f + 0.5f);
-  const float k = static_cast<float>(n);
-  const float r = (x - k * 0.693359375f) + k * 2.12194440e-4f;
-  float p = 1.0f / 5040;
+NEVE_INLINE Quad<float> exponential_lanes(Quad<float> x) {
+  typedef int Int4 __attribute__((vector_size(16)));
+  x = smaller_lanes(larger_lanes(x, all<Quad<float>>(-80)), all<Quad<float>>(80));
+  // Rounding to the nearest whole number by adding what pushes the fraction out of the mantissa.
+  const Quad<float> shift = all<Quad<float>>(12582912.0);
+  const Quad<float> k = (x * 1.44269504f + shift) - shift;
+  const Quad<float> r = (x - k * 0.693359375f) + k * 2.12194440e-4f;
+  Quad<float> p = all<Quad<float>>(1.0 / 5040);
   p = p * r + 1.0f / 720;
   p = p * r + 1.0f / 120;
   p = p * r + 1.0f / 24;
   p = p * r + 1.0f / 6;
   p = p * r + 0.5f;
   p = p * (r * r) + r + 1.0f;
-  return p * __builtin_bit_cast(float, (n + 127) << 23);
+  const Int4 n = __builtin_convertvector(k, Int4);
+  return p * reinterpret_cast<Quad<float>>((n + 127) << 23);
 }
-NEVE_INLINE double exponential(double x) {
-  x = clamp_to(x, -700.0, 700.0);
-  const int n = floor_to_int(x * 1.4426950408889634 + 0.5);
-  const double k = static_cast<double>(n);
-  const double r = (x - k * 6.93145751953125e-1) - k * 1.42860682030941723212e-6;
-  double p = 1.0 / 6227020800.0;
+NEVE_INLINE Quad<double> exponential_lanes(Quad<double> x) {
+  typedef long long Long4 __attribute__((vector_size(32)));
+  x = smaller_lanes(larger_lanes(x, all<Quad<double>>(-700)), all<Quad<double>>(700));
+  const Quad<double> shift = all<Quad<double>>(6755399441055744.0);
+  const Quad<double> k = (x * 1.4426950408889634 + shift) - shift;
+  const Quad<double> r = (x - k * 6.93145751953125e-1) - k * 1.42860682030941723212e-6;
+  Quad<double> p = all<Quad<double>>(1.0 / 6227020800.0);
   p = p * r + 1.0 / 479001600.0;
   p = p * r + 1.0 / 39916800.0;
   p = p * r + 1.0 / 3628800.0;
@@ -94,7 +135,8 @@ NEVE_INLINE double exponential(double x) {
   p = p * r + 1.0 / 6.0;
   p = p * r + 0.5;
   p = p * (r * r) + r + 1.0;
-  return p * __builtin_bit_cast(double, static_cast<long long>(n + 1023) << 52);
+  const Long4 n = __builtin_convertvector(k, Long4);
+  return p * reinterpret_cast<Quad<double>>((n + 1023) << 52);
 }
 
 /// ln x for x > 0 (0 and below give a large negative number): x = 2^n m with m around 1, then

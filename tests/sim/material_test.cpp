@@ -224,16 +224,21 @@ TEST(Decomposition, RebuildsAnyMatrixInFloatAndDouble) {
   EXPECT_LE(worst_double, 1e-14);
 }
 
+template <class Real>
+Real exponential_of(Real x) {
+  return exponential_lanes(all<Quad<Real>>(static_cast<double>(x)))[2];
+}
+
 TEST(Arithmetic, ExponentialAndLogarithmMatchTheLibrary) {
   for (double x = -30; x < 30; x += 0.0137) {
-    EXPECT_NEAR(exponential(x) / std::exp(x), 1, 1e-15 * 4) << x;
+    EXPECT_NEAR(exponential_of(x) / std::exp(x), 1, 1e-15 * 4) << x;
     const float y = static_cast<float>(x);
-    EXPECT_NEAR(static_cast<double>(exponential(y)) / std::exp(static_cast<double>(y)), 1, 3e-7)
+    EXPECT_NEAR(static_cast<double>(exponential_of(y)) / std::exp(static_cast<double>(y)), 1, 3e-7)
         << x;
     EXPECT_NEAR(logarithm(std::exp(x)), x, 1e-15 * (4 + std::abs(x))) << x;
   }
-  EXPECT_EQ(exponential(0.0f), 1.0f);
-  EXPECT_EQ(exponential(0.0), 1.0);
+  EXPECT_EQ(exponential_of(0.0f), 1.0f);
+  EXPECT_EQ(exponential_of(0.0), 1.0);
 }
 
 TEST(WaveSpeed, OfPaperSnowAtRest) {
