@@ -10,9 +10,11 @@ namespace neve::app {
 
 namespace {
 
-constexpr double particles_wanted = 1000;
-constexpr double work_budget = 1.2e6;  // steps x particles, a fraction of a second
+constexpr double particles_wanted = 250;
+constexpr double work_budget = 1.6e6;  // steps x particles, a fraction of a second
 constexpr int moments = 24;
+constexpr double most_sound_speed =
+    45;  // m/s at rest: what is stiffer moves the same, in more steps
 
 /// The poll of a simulation has no argument; each thread runs at most one dry run.
 thread_local long steps_left = 0;
@@ -29,24 +31,32 @@ double planned_particles(const Scene& scene) {
   return count;
 }
 
-/// The scene with cells so large, and snow so soft, that the budget lasts. Soft snow spreads a
-/// little more, which only widens the frame.
-Scene coarsened(const Scene& scene) {
+/// What a dry run makes of the scene's snow.
+enum class Substitute {
+  same,      ///< the scene's own, but for a bound on its stiffness
+  uncrushed  ///< no compaction: for scenes whose coarse snow is crushed out of bounds
+};
+
+/// The scene with few and large cells, and steps as long as are stable.
+Scene coarsened(const Scene& scene, Substitute substitute) {
   Scene coarse = scene;
   coarse.solver.precision = sim::Precision::single;
   coarse.solver.time_step = sim::TimeStep::adaptive;
+  coarse.solver.max_dt = std::max(scene.solver.max_dt, 2e-3);
+  coarse.solver.acoustic_cfl = 0.9;
   const double growth = std::max(1.0, planned_particles(scene) / particles_wanted);
   coarse.solver.cell_size *= std::cbrt(growth);
-  const double duration = scene.frames / scene.fps;
-  // Twice what the budget would pay for: no estimate of the hardened stiffness is exact.
-  const double dt = std::max(2 * duration * particles_wanted / work_budget, 1e-4);
-  coarse.solver.max_dt = std::max(scene.solver.max_dt, dt);
-  const double hardened = 3;  // of the sound speed, where snow is packed
-  const double c = coarse.solver.acoustic_cfl * coarse.solver.cell_size / (hardened * dt);
   for (sim::Material& material : coarse.materials) {
-    material.hardening = std::min(material.hardening, 4.0);
-    material.youngs_modulus = std::min(material.youngs_modulus, 0.9 * material.density * c * c);
+    const double c = sim::sound_speed(material);
+    if (c > most_sound_speed)
+      material.youngs_modulus *= most_sound_speed * most_sound_speed / (c * c);
+    if (substitute == Substitute::uncrushed) {
+      material.hardening = 0;
+      material.critical_compression = 0.9;
+    }
   }
+  // Snow that is not crushed would bounce like rubber: pure PIC takes that energy out.
+  if (substitute == Substitute::uncrushed) coarse.solver.flip_ratio = 0;
   return coarse;
 }
 
@@ -62,25 +72,40 @@ sim::ParticleArrays seed_what_fits(const Scene& coarse) {
   return particles;
 }
 
-}  // namespace
-
-std::vector<Moment> dry_run(const Scene& scene) {
-  const Scene coarse = coarsened(scene);
-  const sim::ParticleArrays particles = seed_what_fits(coarse);
+/// A run as far as the budget lasts, or the coarse snow holds together.
+struct Run {
   std::vector<Moment> seen;
-  if (particles.x.empty()) return seen;
-  seen.push_back({0, particles.x});
+  bool is_whole = false;  ///< not cut short by a divergence
+};
+
+Run run(const Scene& coarse) {
+  const sim::ParticleArrays particles = seed_what_fits(coarse);
+  Run result;
+  result.is_whole = true;
+  if (particles.x.empty()) return result;
+  result.seen.push_back({0, particles.x});
 
   sim::Simulation simulation(coarse.solver, coarse.materials, coarse.colliders, particles, 1);
   steps_left = std::lround(work_budget / static_cast<double>(particles.x.size()));
-  const double duration = scene.frames / scene.fps;
+  const double duration = coarse.frames / coarse.fps;
   for (int k = 1; k <= moments && duration > 0; ++k) {
     simulation.advance_to(duration * k / moments, is_out_of_steps);
-    if (simulation.divergence()) break;
-    seen.push_back({simulation.time(), simulation.particles().x});
+    result.is_whole = !simulation.divergence();
+    if (!result.is_whole) break;
+    result.seen.push_back({simulation.time(), simulation.particles().x});
     if (steps_left <= 0) break;
   }
-  return seen;
+  return result;
+}
+
+}  // namespace
+
+std::vector<Moment> dry_run(const Scene& scene) {
+  Run first = run(coarsened(scene, Substitute::same));
+  if (first.is_whole || is_interrupted()) return first.seen;
+  Run second = run(coarsened(scene, Substitute::uncrushed));
+  const bool is_longer = second.seen.size() > first.seen.size();
+  return is_longer ? second.seen : first.seen;
 }
 
 }  // namespace neve::app

@@ -13,7 +13,7 @@ struct Moment {
   std::vector<sim::Vec3d> x;
 };
 
-/// About a thousand particles over the whole scene, or as long as a fixed budget of steps times
+/// Some hundred particles over the whole scene, or as long as a fixed budget of steps times
 /// particles lasts: what comes out depends on the scene alone, never on the machine.
 std::vector<Moment> dry_run(const Scene& scene);
 
