@@ -14,8 +14,9 @@ namespace {
 
 using sim::Vec3d;
 
-constexpr double filled = 0.66;       // share of the picture that the subject takes
-constexpr double outliers = 0.02;     // share of particles that may leave the picture
+constexpr double filled = 0.62;    // share of the picture that the subject takes
+constexpr double spread = 1.7;     // snow of many small cells scatters wider than its coarse copy
+constexpr double outliers = 0.02;  // share of particles that may leave the picture
 constexpr double largest_growth = 8;  // of the subject's size: what falls for ever is let go
 
 double radians(double degrees) {
@@ -66,6 +67,15 @@ std::vector<Vec3d> without_outliers(std::vector<Vec3d> points) {
   return points;
 }
 
+/// The points farther from their middle, sideways.
+std::vector<Vec3d> scattered(std::vector<Vec3d> points) {
+  if (points.empty()) return points;
+  const Vec3d middle = median(points);
+  for (Vec3d& x : points)
+    for (const int axis : {0, 2}) x[axis] = middle[axis] + spread * (x[axis] - middle[axis]);
+  return points;
+}
+
 /// Everything that should be seen at some time.
 std::vector<Vec3d> subject(const Scene& scene, const std::vector<Moment>& moments) {
   std::vector<Vec3d> points;
@@ -78,7 +88,8 @@ std::vector<Vec3d> subject(const Scene& scene, const std::vector<Moment>& moment
   if (!moments.empty()) points.clear();
   Box seen;
   for (const Moment& moment : moments) {
-    const std::vector<Vec3d> kept = moment.time > 0 ? without_outliers(moment.x) : moment.x;
+    const std::vector<Vec3d> kept =
+        moment.time > 0 ? scattered(without_outliers(moment.x)) : moment.x;
     Box grown = seen;
     for (const Vec3d& x : kept) grown.add(x);
     if (moment.time > 0 && grown.diagonal() > largest_growth * first_size) break;

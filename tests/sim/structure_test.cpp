@@ -1,0 +1,93 @@
+/// The directions that the folders depend on each other in, read from the sources.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Include {
+  std::string file, name;
+};
+
+/// Every include of the sources below a folder.
+std::vector<Include> includes_below(const std::string& folder) {
+  std::vector<Include> found;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(NEVE_SOURCE_DIR) / folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".h" && extension != ".cpp") continue;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      if (!line.starts_with("#include")) continue;
+      const std::size_t begin = line.find_first_of("<\"") + 1;
+      const std::size_t end = line.find_first_of(">\"", begin);
+      found.push_back({entry.path().string(), line.substr(begin, end - begin)});
+    }
+  }
+  return found;
+}
+
+TEST(Structure, SimulationKnowsNoGraphicsAndNoApplication) {
+  const auto includes = includes_below("sim");
+  ASSERT_GT(includes.size(), 50u);
+  for (const Include& i : includes) {
+    for (const char* forbidden : {"render/", "app/", "GL/", "EGL/", "GLFW/", "imgui", "stb"})
+      EXPECT_FALSE(i.name.starts_with(forbidden)) << i.file << " includes " << i.name;
+  }
+}
+
+TEST(Structure, RendererKnowsOnlyTheBaseOfTheSimulation) {
+  const auto includes = includes_below("render");
+  ASSERT_GT(includes.size(), 50u);
+  for (const Include& i : includes) {
+    EXPECT_FALSE(i.name.starts_with("app/")) << i.file << " includes " << i.name;
+    EXPECT_FALSE(i.name.starts_with("sim/") && !i.name.starts_with("sim/base/"))
+        << i.file << " includes " << i.name;
+  }
+}
+
+TEST(Structure, BaseStandsAlone) {
+  for (const Include& i : includes_below("sim/base"))
+    EXPECT_FALSE(i.name.starts_with("sim/") && !i.name.starts_with("sim/base/"))
+        << i.file << " includes " << i.name;
+}
+
+TEST(Structure, ApplicationDrawsThroughTheRendererOnly) {
+  for (const Include& i : includes_below("app")) {
+    for (const char* forbidden : {"GL/", "EGL/", "GLFW/", "render/gl"})
+      EXPECT_FALSE(i.name.starts_with(forbidden)) << i.file << " includes " << i.name;
+  }
+}
+
+/// What kernels are made of includes neither Eigen nor the standard library, so that no copy of a
+/// shared inline function compiled for one instruction set can serve another.
+TEST(Structure, KernelsIncludeOnlyEachOther) {
+  const std::set<std::string> allowed{"cstdint", "cstddef"};
+  std::set<std::string> seen;
+  std::vector<std::string> open{"sim/kernels_baseline.cpp"};
+  while (!open.empty()) {
+    const std::string file = open.back();
+    open.pop_back();
+    if (!seen.insert(file).second) continue;
+    std::ifstream text(fs::path(NEVE_SOURCE_DIR) / file);
+    ASSERT_TRUE(text) << file;
+    for (std::string line; std::getline(text, line);) {
+      if (!line.starts_with("#include")) continue;
+      const std::size_t begin = line.find_first_of("<\"") + 1;
+      const std::string name = line.substr(begin, line.find_first_of(">\"", begin) - begin);
+      if (name.starts_with("sim/"))
+        open.push_back(name);
+      else
+        EXPECT_TRUE(allowed.contains(name)) << file << " includes " << name;
+    }
+  }
+  EXPECT_GT(seen.size(), 8u);
+}
+
+}  // namespace
