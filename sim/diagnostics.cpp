@@ -90,6 +90,7 @@ std::string sentence(const Divergence& d, double acoustic_cfl) {
     text += "energy rose to " + number(d.value) + " J, " + number(d.limit) + " J can be explained";
   if (d.rule != "acoustic_cfl" && acoustic_cfl > 0.7)
     text += "; acoustic CFL was " + number(acoustic_cfl);
+  if (d.dt > d.dt_that_holds) text += ". dt = " + number(d.dt_that_holds) + " would have held";
   return text;
 }
 

@@ -88,7 +88,12 @@ class Engine {
   BlockReport<Real> combined_report() const;
   void check(double dt, const StateLimits& before, const BlockReport<Real>& report);
   void check_energy();
-  void diverge(const char* rule, const char* stage, double dt, double value, double limit);
+  /// dt of the step that broke a rule, and the largest that speed and sound allowed before it.
+  struct StepSizes {
+    double taken, stable;
+  };
+  void diverge(const char* rule, const char* stage, const StepSizes& step, double value,
+               double limit);
   void read_back(const SweepArgs<Real>& a, StagedStep& out) const;
 
   SolverSettings settings_;
@@ -112,7 +117,7 @@ class Engine {
   double time_ = 0;
   std::size_t steps_ = 0;
   StateLimits limits_;
-  double rest_dt_ = 0;
+  double rest_dt_ = 0, last_dt_ = 0;
   EnergyBudget energy_;
   std::optional<Divergence> divergence_;
   Warnings warnings_;

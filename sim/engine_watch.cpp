@@ -44,6 +44,7 @@ void Engine<Real>::note(double dt) {
   limits_.max_strain_rate = static_cast<double>(report.max_strain_rate);
   warnings_.inverted_trials += report.inverted;
   energy_.contact_work += report.contact_work;
+  last_dt_ = dt;
   if (!divergence_) check(dt, before, report);
   if (!divergence_ && steps_ % steps_between_energy_checks == 0) check_energy();
 }
@@ -59,22 +60,21 @@ void Engine<Real>::check(double dt, const StateLimits& before, const BlockReport
   const double holds = stable_dt(settings_, before);
   const bool is_adaptive = settings_.time_step == TimeStep::adaptive;
   if (report.not_finite > 0) {
-    diverge("not_finite", "deformation", dt, report.not_finite, 0);
+    diverge("not_finite", "deformation", {dt, holds}, report.not_finite, 0);
   } else if (report.overflowed > 0) {
-    diverge("overflow", "advection", dt, report.overflowed, 0);
+    diverge("overflow", "advection", {dt, holds}, report.overflowed, 0);
   } else if (speed_cfl > 1) {
-    diverge("speed_cfl", "particle_velocities", dt, speed_cfl, 1);
+    diverge("speed_cfl", "particle_velocities", {dt, holds}, speed_cfl, 1);
   } else if (report.inverted_unprojected > 0) {
-    diverge("inverted", "deformation", dt, report.inverted_unprojected, 0);
+    diverge("inverted", "deformation", {dt, holds}, report.inverted_unprojected, 0);
   } else if (report.min_J_P < Real(0.1)) {
-    diverge("J_P", "deformation", dt, static_cast<double>(report.min_J_P), 0.1);
+    diverge("J_P", "deformation", {dt, holds}, static_cast<double>(report.min_J_P), 0.1);
   } else if (is_adaptive && acoustic_cfl > 1.5) {
-    diverge("acoustic_cfl", "deformation", dt, acoustic_cfl, 1.5);
+    diverge("acoustic_cfl", "deformation", {dt, holds}, acoustic_cfl, 1.5);
   } else if (is_adaptive && choose_dt(1).dt < 1e-4 * rest_dt_) {
     // Not a rule of stability: without it a run that hardens without end would never end.
-    diverge("time_step", "deformation", dt, choose_dt(1).dt, 1e-4 * rest_dt_);
+    diverge("time_step", "deformation", {dt, holds}, choose_dt(1).dt, 1e-4 * rest_dt_);
   }
-  if (divergence_) divergence_->dt_that_holds = holds;
 }
 
 /// Kinetic plus elastic energy may not exceed by more than 10 % what the run started with plus the
@@ -92,19 +92,20 @@ void Engine<Real>::check_energy() {
   const double found = now.kinetic_energy + now.elastic_energy;
   const double allowed = budget + 0.1 * std::max(energy_.largest, floor) + 1e-12 * now.mass;
   if (found <= allowed) return;
-  diverge("energy", "particle_velocities", 0, found, allowed);
-  divergence_->dt_that_holds = stable_dt(settings_, limits_);
+  diverge("energy", "particle_velocities", {last_dt_, stable_dt(settings_, limits_)}, found,
+          allowed);
 }
 
 template <class Real>
-void Engine<Real>::diverge(const char* rule, const char* stage, double dt, double value,
+void Engine<Real>::diverge(const char* rule, const char* stage, const StepSizes& step, double value,
                            double limit) {
   Divergence d;
   d.step = steps_;
   d.time = time_;
   d.rule = rule;
   d.stage = stage;
-  d.dt = dt;
+  d.dt = step.taken;
+  d.dt_that_holds = step.stable;
   d.value = value;
   d.limit = limit;
   find_culprits(particles(), settings_, material_list_, d);

@@ -61,6 +61,7 @@ TEST(Divergence, StepOfAWholeFrameIsNamed) {
   EXPECT_GT(d.dt_that_holds, 1e-5);
   EXPECT_LT(d.dt_that_holds, 3e-3);
   EXPECT_NE(d.sentence.find("diverged at step"), std::string::npos) << d.sentence;
+  EXPECT_NE(d.sentence.find("would have held"), std::string::npos) << d.sentence;
 }
 
 TEST(Divergence, TooStiffForAFixedStepIsFound) {
