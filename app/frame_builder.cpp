@@ -18,7 +18,7 @@ namespace {
 constexpr double radius_share = 0.6;
 constexpr std::size_t max_override_lines = 6;
 /// Rings around more particles than these hide what they point out.
-constexpr std::size_t max_marks = 60;
+constexpr std::size_t max_marks = 16;
 
 Vec3f to_float(const sim::Vec3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
