@@ -108,7 +108,7 @@ Range automatic_range(const Scene& scene, ColorBy color_by, std::size_t particle
       return {1 - reach, 1 + reach};
     }
     case ColorBy::J_P:
-      return {0.8, 1.1};
+      return {0.8, 1.2};  // about 1, so that diverging maps have their middle there
     case ColorBy::pressure: {
       const double pressure = round_up(hardened * largest(scene.materials, yield_pressure));
       return {-pressure, pressure};
