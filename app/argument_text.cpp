@@ -31,7 +31,7 @@ FrameRange parse_frames(const std::string& text) {
 }
 
 PictureSize parse_size(const std::string& text) {
-  constexpr int smallest = 16, largest = 16384;
+  constexpr int smallest = 16, largest = 1000000;
   const std::size_t cross = text.find('x');
   const auto width =
       cross == std::string::npos ? std::nullopt : whole_number(text.substr(0, cross));
@@ -40,7 +40,7 @@ PictureSize parse_size(const std::string& text) {
   if (!width || !height || *width < smallest || *height < smallest || *width > largest ||
       *height > largest)
     throw UsageError("--size", "cannot use \"" + text + "\"",
-                     "expected WIDTHxHEIGHT, each 16 to 16384, as in 1280x720");
+                     "expected WIDTHxHEIGHT, each 16 to 1000000, as in 1280x720");
   return {*width, *height};
 }
 

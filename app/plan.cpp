@@ -91,8 +91,10 @@ void check_limits(const Scene& scene, const Plan& plan) {
     refuse("about " + count_text(plan.particles) + " particles are more than limits.particles = " +
                std::to_string(scene.limits.particles),
            "limits.particles",
-           "raise it with --set limits.particles=" + count_text(std::ceil(plan.particles * 1.1)) +
-               ", or make solver.cell_size larger");
+           (plan.particles < 1e12 ? "raise it with --set limits.particles=" +
+                                        count_text(std::ceil(plan.particles * 1.1)) + ", or "
+                                  : std::string()) +
+               "make solver.cell_size larger");
   if (plan.largest_picture > static_cast<double>(scene.limits.pixels))
     refuse("a picture of " + count_text(plan.largest_picture) +
                " pixels (supersamples included) is more than limits.pixels = " +

@@ -254,7 +254,7 @@ void describe(V& visit, ParticleStyle& p) {
 
 template <class V>
 void describe_size(V& visit, const char* key, auto& size, const char* help) {
-  visit(key, size, unit::pixels, between(16, 16384), Change::live, help);
+  visit(key, size, unit::pixels, between(16, 1000000), Change::live, help);
 }
 
 template <class V>

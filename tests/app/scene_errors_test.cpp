@@ -86,7 +86,7 @@ TEST(SceneErrors, RangesAreNamed) {
   EXPECT_EQ(error_of(in_body("shape = { sphere = { radius = 0 } }")),
             "s.toml:2:31: error: body.1.shape.sphere.radius = 0; expected 0 < value <= 1000000");
   EXPECT_EQ(error_of("[output]\nsize = [640, 15]"),
-            "s.toml:2:14: error: output.size[1] = 15; expected 16 <= value <= 16384");
+            "s.toml:2:14: error: output.size[1] = 15; expected 16 <= value <= 1000000");
   EXPECT_EQ(error_of("seed = 9223372036854775807"),
             "s.toml:1:8: error: seed = 9223372036854775807; expected 0 <= value <= "
             "9007199254740992");
