@@ -216,5 +216,14 @@ TEST(Seeding, CentreIsWhatTheShapeTurnsAbout) {
             Vec3d(1, 1, 1));
 }
 
+TEST(Seeding, NeedlesAreGivenUpInsteadOfSearchedForADay) {
+  Body body;
+  body.shape.form = Box{{0, 0, 0}, {1e4, 1e-5, 1e-5}};
+  body.sampling = Sampling::poisson;
+  // One particle's worth of snow in 10 km: whatever is placed, it is placed soon.
+  EXPECT_GE(seed_body(body, 0, 1, 0.02).x.size(), 1u);
+}
+
 }  // namespace
+
 }  // namespace neve::sim
