@@ -85,7 +85,6 @@ std::vector<Vec3d> subject(const Scene& scene, const std::vector<Moment>& moment
     points.push_back(bounds.max);
   }
   const double first_size = std::max(box_of(points).diagonal(), 1e-6);
-  if (!moments.empty()) points.clear();
   Box seen;
   for (const Moment& moment : moments) {
     const std::vector<Vec3d> kept =

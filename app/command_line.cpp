@@ -2,8 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <iostream>
+#include <optional>
 
 #include "app/argument_text.h"
 #include "app/commands.h"
@@ -27,14 +29,17 @@ constexpr const char* footer =
 
 /// Values that CLI11 hands over as text; turned into options when parsing is done.
 struct RenderTexts {
-  std::string frames, size, quality;
+  std::optional<std::string> frames, size, quality;
   bool is_quiet = false, is_verbose = false;
 };
 
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
-  if (!texts.frames.empty()) options.frames = parse_frames(texts.frames);
-  if (!texts.size.empty()) options.size = parse_size(texts.size);
-  if (!texts.quality.empty()) options.quality = quality_named(texts.quality);
+  if (texts.frames) options.frames = parse_frames(*texts.frames);
+  if (texts.size) options.size = parse_size(*texts.size);
+  if (texts.quality) options.quality = quality_named(*texts.quality);
+  if (!options.shader_dir.empty() && !std::filesystem::is_directory(options.shader_dir))
+    throw UsageError("--shader-dir", "cannot use \"" + options.shader_dir + "\"",
+                     "expected a folder with the files of shaders/");
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
   if (options.threads < 0 || options.threads > 1024)
@@ -105,6 +110,8 @@ void add_render(CLI::App& app, Action& action) {
   CLI::Option* quiet = command->add_flag("--quiet,-q", texts->is_quiet, "Only errors and warnings");
   command->add_flag("--verbose,-v", texts->is_verbose, "More about each frame")->excludes(quiet);
   command->final_callback([=, &action] {
+    if (command->count("--out") > 0 && options->out.empty())
+      throw UsageError("--out", "names no folder", "expected the path of one");
     action = [options, texts] { return run_render(finished(*options, *texts)); };
   });
 }

@@ -160,7 +160,8 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
   if (!scene_.title.empty()) lines.push_back(scene_.title);
   lines.push_back("frame " + std::to_string(snapshot.frame) +
                   "   t = " + fixed_text(snapshot.time, 3) + " s");
-  lines.push_back(grouped(snapshot.particles.x.size()) + " particles");
+  const std::size_t count = snapshot.particles.x.size();
+  lines.push_back(grouped(count) + (count == 1 ? " particle" : " particles"));
   const std::size_t shown = std::min(override_lines_.size(), max_override_lines);
   lines.insert(lines.end(), override_lines_.begin(),
                override_lines_.begin() + static_cast<std::ptrdiff_t>(shown));

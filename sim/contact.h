@@ -7,6 +7,9 @@
 
 namespace neve::sim {
 
+/// A simulation with more colliders is refused when it is built.
+inline constexpr int max_colliders = 64;
+
 enum class ColliderShape : int { plane, sphere, box };
 enum class ContactLaw : int { separate, slip, sticky };
 

@@ -15,9 +15,6 @@ namespace neve::sim {
 /// Bits of the node channels: one Quad per node and channel.
 enum TileChannel { channel_momentum = 0, channel_force = 1, tile_channels = 2 };
 
-/// A simulation with more colliders is refused when it is built.
-inline constexpr int max_colliders = 64;
-
 /// Particles that are taken through steps 7 to 10 together, so that materials work on full lanes.
 inline constexpr int group_size = 64;
 

@@ -5,6 +5,7 @@
 
 #include "app/scene/leaf.h"
 #include "app/text.h"
+#include "sim/contact.h"
 
 namespace neve::app {
 namespace {
@@ -124,6 +125,10 @@ std::optional<Problem> find_problem(const Scene& scene) {
   for (const sim::Body& body : scene.bodies) {
     if ((found = body_problem(scene, body))) return found;
   }
+  if (scene.colliders.size() > sim::max_colliders)
+    return Problem{"collider." + scene.colliders[sim::max_colliders].name,
+                   "there are " + std::to_string(scene.colliders.size()) + " colliders",
+                   "at most " + std::to_string(sim::max_colliders) + " can be there"};
   for (const sim::Collider& collider : scene.colliders) {
     const std::string at = "collider." + collider.name + ".shape";
     found = std::visit([&](const auto& form) { return problem(form, at); }, collider.shape.form);

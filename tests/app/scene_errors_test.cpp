@@ -261,6 +261,12 @@ TEST(SceneErrors, SyntaxErrorsAreLocated) {
             "'frames'");
 }
 
+TEST(SceneErrors, MoreCollidersThanASimulationTakesAreLocated) {
+  std::string text = "[[body]]\nshape = { sphere = { radius = 0.1 } }\n";
+  for (int k = 0; k < 65; ++k) text += "[[collider]]\nshape = { plane = {} }\n";
+  EXPECT_EQ(error_of(text), "s.toml:131:1: error: there are 65 colliders; at most 64 can be there");
+}
+
 TEST(SceneErrors, ControlBytesOfNamesAreNotEchoed) {
   EXPECT_EQ(error_of("[[body]]\nname = \"\\u001b[31m\""),
             "s.toml:2:8: error: body.1.name = \"\\u001b[31m\"; expected a name of 1 to 64 letters, "

@@ -33,6 +33,9 @@ TEST_F(Cli, UsageErrorsExitWithTwo) {
   for (const Arguments& arguments :
        std::vector<Arguments>{{"render", "scene.toml", "extra"},
                               {"render", "scene.toml", "--frames", "5-2"},
+                              {"render", "scene.toml", "--frames", ""},
+                              {"render", "scene.toml", "--out", ""},
+                              {"render", "scene.toml", "--shader-dir", "nowhere"},
                               {"render", "scene.toml", "--size", "12"},
                               {"render", "scene.toml", "--threads", "many"},
                               {"render", "scene.toml", "--threads", "-1"},
