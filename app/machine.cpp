@@ -1,5 +1,6 @@
 #include "app/machine.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -81,6 +82,13 @@ std::uint64_t left_in_control_groups() {
 }
 
 }  // namespace
+
+std::uint64_t address_space_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return std::numeric_limits<std::uint64_t>::max();
+  return limit.rlim_cur;
+}
 
 std::uint64_t available_memory() {
   const auto kilobytes = read_field("/proc/meminfo", "MemAvailable:");

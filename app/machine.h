@@ -10,6 +10,9 @@ namespace neve::app {
 /// group still allows.
 std::uint64_t available_memory();
 
+/// Bytes of address space that this process may use (ulimit -v); the largest number when unlimited.
+std::uint64_t address_space_limit();
+
 /// The scene that is drawn when none is named. @throws IoError when it is not there
 std::filesystem::path default_scene();
 

@@ -15,6 +15,9 @@ namespace neve::app {
 
 namespace {
 
+/// What a software rasteriser maps; with less some drivers crash instead of saying so.
+constexpr std::uint64_t driver_address_space = 1'000'000'000;
+
 /// Of a sample while it is drawn: colour, normal, depth and their copies on both sides.
 constexpr double bytes_per_sample = 64;
 constexpr double bytes_per_pixel = 3;
@@ -109,6 +112,11 @@ void check_limits(const Scene& scene, const Plan& plan) {
            "limits.memory",
            "raise it with --set limits.memory=" + std::to_string(plan.memory) +
                ", or make solver.cell_size larger");
+  if (address_space_limit() < plan.memory + driver_address_space)
+    refuse("about " + bytes_text(plan.memory + driver_address_space) +
+               " of address space are needed, drivers included; ulimit -v allows " +
+               bytes_text(address_space_limit()),
+           "", "raise it with ulimit -v unlimited");
 }
 
 Json to_json(const Plan& plan) {

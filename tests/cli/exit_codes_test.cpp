@@ -138,6 +138,14 @@ TEST_F(Cli, LimitsAreRefusedWithEightBeforeAnythingIsMade) {
   EXPECT_EQ(neve({"render", "scene.toml", "--size", "100000x100000"}).exit_code, 8);
 }
 
+TEST_F(Cli, TooLittleAddressSpaceIsRefusedBeforeADriverCrashes) {
+  const auto result = app::run_process(
+      "/bin/sh", {"-c", "ulimit -v 400000; exec '" NEVE_BINARY "' render scene.toml"},
+      folder.path());
+  EXPECT_EQ(result.exit_code, 8) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "ulimit -v")) << result.errors;
+}
+
 TEST_F(Cli, ChecksThatFailExitWithNine) {
   ASSERT_EQ(neve({"render", "scene.toml", "--out", "a"}).exit_code, 0);
   ASSERT_EQ(
