@@ -17,7 +17,7 @@ using sim::Vec3d;
 constexpr double filled = 0.62;    // share of the picture that the subject takes
 constexpr double spread = 1.7;     // snow of many small cells scatters wider than its coarse copy
 constexpr double outliers = 0.02;  // share of particles that may leave the picture
-constexpr double largest_growth = 8;  // of the subject's size: what falls for ever is let go
+constexpr double largest_growth = 16;  // of the subject's size: what falls for ever is let go
 
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
