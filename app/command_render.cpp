@@ -128,6 +128,7 @@ int run_render(const RenderOptions& options) {
   const Plan plan = make_plan(job.scene, job.frames, job.quality, options.threads);
   if (options.is_dry_run) {
     print_plan(job, plan, options.is_json);
+    check_limits(job.scene, plan);
     return exit_ok;
   }
   check_limits(job.scene, plan);

@@ -136,6 +136,7 @@ TEST_F(Cli, LimitsAreRefusedWithEightBeforeAnythingIsMade) {
   EXPECT_TRUE(contains(absurd.errors, "make solver.cell_size larger")) << absurd.errors;
   EXPECT_FALSE(contains(absurd.errors, "raise it")) << absurd.errors;
   EXPECT_EQ(neve({"render", "scene.toml", "--size", "100000x100000"}).exit_code, 8);
+  EXPECT_EQ(neve({"render", "scene.toml", "--size", "100000x100000", "--dry-run"}).exit_code, 8);
 }
 
 TEST_F(Cli, TooLittleAddressSpaceIsRefusedBeforeADriverCrashes) {
