@@ -19,7 +19,7 @@ struct ParticleArrays {
   std::vector<Vec3d> x;       ///< m, measured from the lattice origin
   std::vector<Vec3d> v;       ///< m/s
   std::vector<double> m;      ///< kg
-  std::vector<double> V0;     ///< m3; empty or 0: estimated in the first step (the paper's step 2)
+  std::vector<double> V0;     ///< m3; empty or 0: estimated (the paper's step 2)
   std::vector<Mat3d> F_E;     ///< default I
   std::vector<double> J_P;    ///< det F_P, default 1
   std::vector<Mat3d> C;       ///< 1/s, APIC and MLS, default 0
@@ -111,7 +111,8 @@ class Simulation {
 
   Summary summary() const;
 
-  /// All particles in id order; V0 is 0 before the first step of an estimated body.
+  /// All particles in id order. Volumes that are to be estimated are known from the start: the
+  /// mass on the grid before the first step is all that they need.
   ParticleArrays particles() const;
 
   /// Kirchhoff stress tau = P F_E^T in Pa, id order.
