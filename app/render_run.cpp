@@ -120,7 +120,8 @@ bool RenderRun::advance_to_frame(int frame) {
 void RenderRun::draw_frame(int frame) {
   const auto start = Clock::now();
   const Snapshot snapshot = take_snapshot(simulation_, frame, needs_stress(job_.scene));
-  picture_record_.state_hash = hash_text(simulation_.state_hash());
+  const std::uint64_t state_hash = simulation_.state_hash();
+  picture_record_.state_hash = hash_text(state_hash);
   std::vector<Picture> pictures;
   for (const View& view : job_.scene.views) {
     render::Image image = renderer_.draw(builder_.build(view, snapshot));
@@ -129,7 +130,7 @@ void RenderRun::draw_frame(int frame) {
         {frame_path(job_.folder, view.name, frame), std::move(image), png_text(view, frame)});
   }
   record_.frames.push_back({frame, frame / job_.scene.fps, advance_, seconds_sim_,
-                            seconds_since(start), simulation_.summary(), simulation_.state_hash()});
+                            seconds_since(start), simulation_.summary(), state_hash});
   // Listed first and written then: whenever the process is killed, the next run knows every picture
   // that it has to remove.
   write_run_json(job_.folder, record_);

@@ -75,6 +75,8 @@ class Engine {
 
  private:
   void load(const ParticleArrays& in);
+  /// Where a particle is, m from the lattice origin.
+  Vec3d place(const Particle<Real>& p) const;
   void prepare();
   SweepArgs<Real> args(double dt);
   void place_colliders();

@@ -25,6 +25,11 @@ void split(double in_cells, int& cell, Real& offset) {
 }
 
 template <class Real>
+Vec3d vector(const Real* xyz) {
+  return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2])};
+}
+
+template <class Real>
 Mat3d matrix(const Real* row_by_row) {
   Mat3d m;
   for (int a = 0; a < 3; ++a)

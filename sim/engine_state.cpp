@@ -79,6 +79,16 @@ void Engine<Real>::load(const ParticleArrays& in) {
 }
 
 template <class Real>
+Vec3d Engine<Real>::place(const Particle<Real>& p) const {
+  Vec3d x;
+  for (int a = 0; a < 3; ++a)
+    x[a] = (static_cast<double>(p.cell[a] - block_side * lattice_origin_[a]) +
+            static_cast<double>(p.offset[a])) *
+           settings_.cell_size;
+  return x;
+}
+
+template <class Real>
 Summary Engine<Real>::summary() const {
   // Sums over fixed chunks, added in order: the same bits at any number of threads.
   constexpr std::size_t chunk = 4096;
@@ -95,13 +105,7 @@ Summary Engine<Real>::summary() const {
         const Particle<Real>& p = particles_[q];
         Summary& s = parts[c];
         const double m = static_cast<double>(p.m), J_P = static_cast<double>(p.J_P);
-        Vec3d x, v;
-        for (int a = 0; a < 3; ++a) {
-          x[a] = (static_cast<double>(p.cell[a] - block_side * lattice_origin_[a]) +
-                  static_cast<double>(p.offset[a])) *
-                 settings_.cell_size;
-          v[a] = static_cast<double>(p.v[a]);
-        }
+        const Vec3d x = place(p), v = vector(p.v);
         const Mat3d C = matrix(p.C);
         s.mass += m;
         s.kinetic_energy += 0.5 * m * v.squaredNorm();
@@ -154,12 +158,8 @@ ParticleArrays Engine<Real>::particles() const {
   out.material.resize(count);
   for (const Particle<Real>& p : particles_) {
     const std::size_t id = p.id;
-    for (int a = 0; a < 3; ++a) {
-      out.x[id][a] = (static_cast<double>(p.cell[a] - block_side * lattice_origin_[a]) +
-                      static_cast<double>(p.offset[a])) *
-                     settings_.cell_size;
-      out.v[id][a] = static_cast<double>(p.v[a]);
-    }
+    out.x[id] = place(p);
+    out.v[id] = vector(p.v);
     out.m[id] = static_cast<double>(p.m);
     out.V0[id] = static_cast<double>(p.V0);
     out.F_E[id] = matrix(p.F_E);

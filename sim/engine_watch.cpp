@@ -55,7 +55,6 @@ void Engine<Real>::check(double dt, const StateLimits& before, const BlockReport
   const double h = settings_.cell_size;
   const double speed_cfl = limits_.max_speed * dt / h;
   const double acoustic_cfl = limits_.max_sound_speed * dt / h;
-  warnings_.worst_speed_cfl = std::max(warnings_.worst_speed_cfl, speed_cfl);
   warnings_.worst_acoustic_cfl = std::max(warnings_.worst_acoustic_cfl, acoustic_cfl);
   const double holds = stable_dt(settings_, before);
   const bool is_adaptive = settings_.time_step == TimeStep::adaptive;

@@ -70,7 +70,6 @@ struct Divergence {
 struct Warnings {
   std::size_t inverted_trials = 0;  ///< trial det F_E <= 0, repaired by the projection
   double worst_acoustic_cfl = 0;    ///< of fixed steps
-  double worst_speed_cfl = 0;
 };
 
 class Simulation {

@@ -47,10 +47,6 @@ template <class T>
 NEVE_INLINE T larger(T a, T b) {
   return a < b ? b : a;
 }
-template <class T>
-NEVE_INLINE T clamp_to(T x, T lo, T hi) {
-  return smaller(larger(x, lo), hi);
-}
 
 /// Largest integer <= x, for |x| < 2^31. The baseline instruction set has no rounding instruction.
 template <class Real>
