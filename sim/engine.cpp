@@ -1,6 +1,7 @@
 #include "sim/engine.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -31,7 +32,28 @@ ColliderShape collider_shape(const Collider& c) {
   throw std::invalid_argument("collider \"" + c.name + "\" must be a plane, a sphere or a box");
 }
 
+/// Time since the last call.
+class PhaseTimer {
+ public:
+  void add_to(double& seconds) {
+    const auto now = std::chrono::steady_clock::now();
+    seconds += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace
+
+template <class Real>
+std::uint64_t Engine<Real>::memory_bytes() const {
+  const std::size_t record = sizeof(Particle<Real>);
+  return record * (particles_.capacity() + sorted_.capacity()) + 8 * keys_.capacity() +
+         2 * locals_.capacity() + partition_.memory_bytes() + tiles_.bytes() + nodes_.bytes() +
+         sizeof(BlockReport<Real>) * reports_.capacity() + 8 * node_contact_work_.capacity();
+}
 
 template <class Real>
 Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>& materials,
@@ -216,16 +238,23 @@ void Engine<Real>::step(double dt) {
     ++steps_;
     return;
   }
+  PhaseSeconds& seconds = phase_seconds_;
+  PhaseTimer timer;
   partition();
   if (steps_ % steps_between_sorts == 0) sort_storage();
   const SweepArgs<Real> a = args(dt);
+  timer.add_to(seconds.partition);
   over_particle_blocks(sweeps_->particles_to_grid, a);
+  timer.add_to(seconds.particles_to_grid);
   over_node_blocks(sweeps_->grid_update, a);
+  timer.add_to(seconds.grid_update);
   over_particle_blocks(sweeps_->grid_to_particles, a);
+  timer.add_to(seconds.grid_to_particles);
   time_ += dt;
   ++steps_;
   place_colliders();
   note(dt);
+  timer.add_to(seconds.checks);
 }
 
 template <class Real>

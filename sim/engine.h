@@ -30,6 +30,7 @@ class LaneBuffer {
     }
     return static_cast<Quad<Real>*>(data_.get());
   }
+  std::size_t bytes() const { return capacity_ * 4 * sizeof(Real); }
 
  private:
   static constexpr std::align_val_t alignment{64};
@@ -66,6 +67,8 @@ class Engine {
   int threads() const { return pool_->thread_count(); }
   const std::optional<Divergence>& divergence() const { return divergence_; }
   const Warnings& warnings() const { return warnings_; }
+  const PhaseSeconds& phase_seconds() const { return phase_seconds_; }
+  std::uint64_t memory_bytes() const;
 
   Summary summary() const;
   ParticleArrays particles() const;
@@ -123,6 +126,7 @@ class Engine {
   EnergyBudget energy_;
   std::optional<Divergence> divergence_;
   Warnings warnings_;
+  PhaseSeconds phase_seconds_;
 };
 
 }  // namespace neve::sim

@@ -43,6 +43,17 @@ void Partition::storage_was_sorted() {
   std::iota(order_.begin(), order_.end(), 0u);
 }
 
+std::size_t Partition::memory_bytes() const {
+  std::size_t bytes = 4 * (order_.capacity() + block_of_.capacity() + links_.capacity()) +
+                      8 * (block_keys_.capacity() + previous_keys_.capacity()) +
+                      sizeof(ParticleBlock) * blocks_.capacity() +
+                      sizeof(NodeBlock) * node_blocks_.capacity();
+  for (const auto& found : found_) bytes += 8 * found.capacity();
+  for (const auto& counts : counts_) bytes += 4 * counts.capacity();
+  for (const auto& scratch : scratch_) bytes += 4 * scratch.capacity();
+  return bytes;
+}
+
 std::uint32_t Partition::first_block(int thread, int threads) const {
   const std::uint64_t particle =
       order_.size() * static_cast<std::uint64_t>(thread) / static_cast<std::uint64_t>(threads);

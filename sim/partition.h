@@ -24,6 +24,8 @@ class Partition {
   const std::vector<ParticleBlock>& blocks() const { return blocks_; }
   const std::vector<NodeBlock>& node_blocks() const { return node_blocks_; }
 
+  std::size_t memory_bytes() const;
+
   /// First block of the range of a thread, cut by particle count; thread = threads gives the end.
   std::uint32_t first_block(int thread, int threads) const;
 

@@ -59,6 +59,12 @@ int Simulation::threads() const {
 const char* Simulation::simd() const {
   return "baseline";
 }
+PhaseSeconds Simulation::phase_seconds() const {
+  return impl_->visit([](const auto& e) { return e.phase_seconds(); });
+}
+std::uint64_t Simulation::memory_bytes() const {
+  return impl_->visit([](const auto& e) { return e.memory_bytes(); });
+}
 
 void Simulation::step(double dt) {
   impl_->visit([&](auto& e) { e.step(dt); });

@@ -72,6 +72,15 @@ struct Warnings {
   double worst_acoustic_cfl = 0;    ///< of fixed steps
 };
 
+/// Seconds spent in each phase of the steps so far.
+struct PhaseSeconds {
+  double partition = 0;          ///< particles to blocks
+  double particles_to_grid = 0;  ///< rasterize, elastic_forces
+  double grid_update = 0;        ///< grid_velocities, grid_collisions
+  double grid_to_particles = 0;  ///< deformation to advection
+  double checks = 0;             ///< limits of the next dt, rules of a healthy run
+};
+
 class Simulation {
  public:
   /// @param lattice_origin in blocks of 4 cells; x is measured from it. Moving it changes no bit of
@@ -89,6 +98,10 @@ class Simulation {
   std::size_t particle_count() const;
   int threads() const;
   const char* simd() const;
+  PhaseSeconds phase_seconds() const;
+
+  /// Bytes held by particles, grid and buffers.
+  std::uint64_t memory_bytes() const;
 
   /// One step of exactly dt seconds through the fused driver.
   void step(double dt);
