@@ -75,6 +75,9 @@ Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>
   }
   kernel_nodes_ = settings.kernel == Kernel::cubic ? cubic_nodes : quadratic_nodes;
   sweeps_ = &baseline_sweeps(kernel_nodes_, transfer_kind(settings.transfer), Real());
+  if (settings.period.minCoeff() < 0 || settings.period.maxCoeff() > block_limit)
+    throw std::invalid_argument("a period of the lattice is negative or too long");
+  partition_.set_period(settings.period);
   poses_.resize(colliders_.size());
   place_colliders();
   load(particles);
@@ -201,6 +204,7 @@ int Engine<Real>::active_threads() const {
 
 template <class Real>
 void Engine<Real>::partition() {
+  partition_.wrap(keys_, *pool_, active_threads());
   partition_.build(keys_, locals_, *pool_, active_threads());
 }
 

@@ -39,6 +39,22 @@ void Partition::build(const std::vector<std::uint64_t>& keys,
     std::copy_n(links_.begin() + static_cast<std::ptrdiff_t>(8 * b), 8, blocks_[b].node_block);
 }
 
+std::uint64_t Partition::wrapped(std::uint64_t key) const {
+  int block[3];
+  for (int a = 0; a < 3; ++a) {
+    block[a] = block_coordinate(key, a);
+    if (period_[a] > 0) block[a] = (block[a] % period_[a] + period_[a]) % period_[a];
+  }
+  return block_key(block[0], block[1], block[2]);
+}
+
+void Partition::wrap(std::vector<std::uint64_t>& keys, ThreadPool& pool, int threads) const {
+  if (period_.isZero()) return;
+  pool.ranges(keys.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) keys[q] = wrapped(keys[q]);
+  });
+}
+
 void Partition::storage_was_sorted() {
   std::iota(order_.begin(), order_.end(), 0u);
 }
@@ -147,7 +163,7 @@ void Partition::link_node_blocks() {
   std::vector<std::uint64_t> node_keys;
   node_keys.reserve(8 * block_keys_.size());
   for (const std::uint64_t key : block_keys_)
-    for (int o = 0; o < 8; ++o) node_keys.push_back(key + key_offset(o));
+    for (int o = 0; o < 8; ++o) node_keys.push_back(wrapped(key + key_offset(o)));
   sort_unique(node_keys);
   node_blocks_.resize(node_keys.size());
   for (std::size_t n = 0; n < node_keys.size(); ++n) {
@@ -157,7 +173,7 @@ void Partition::link_node_blocks() {
   links_.clear();
   for (std::size_t b = 0; b < block_keys_.size(); ++b) {
     for (int o = 0; o < 8; ++o) {
-      const std::uint32_t n = index_of(node_keys, block_keys_[b] + key_offset(o));
+      const std::uint32_t n = index_of(node_keys, wrapped(block_keys_[b] + key_offset(o)));
       node_blocks_[n].tile[o] = static_cast<std::int32_t>(b);
       links_.push_back(n);
     }

@@ -6,6 +6,7 @@
 
 #include "sim/base/thread_pool.h"
 #include "sim/blocks.h"
+#include "sim/math.h"
 
 namespace neve::sim {
 
@@ -13,6 +14,12 @@ namespace neve::sim {
 /// then model and cell, then storage; it does not depend on the number of threads.
 class Partition {
  public:
+  /// In blocks per axis, 0: open. One block is enough: a stencil is no wider.
+  void set_period(const Vec3i& period) { period_ = period; }
+
+  /// Brings keys of particles into the first period.
+  void wrap(std::vector<std::uint64_t>& keys, ThreadPool& pool, int threads) const;
+
   /// @param keys, locals  per storage index, see SweepArgs
   void build(const std::vector<std::uint64_t>& keys, const std::vector<std::uint16_t>& locals,
              ThreadPool& pool, int threads);
@@ -34,6 +41,9 @@ class Partition {
   void count_and_place(const std::vector<std::uint64_t>& keys, ThreadPool& pool, int threads);
   void sort_inside_blocks(const std::vector<std::uint16_t>& locals, ThreadPool& pool, int threads);
   void link_node_blocks();
+  std::uint64_t wrapped(std::uint64_t key) const;
+
+  Vec3i period_{0, 0, 0};
 
   std::vector<std::uint32_t> order_, block_of_, links_;
   std::vector<std::uint64_t> block_keys_, previous_keys_;

@@ -26,6 +26,10 @@ struct SolverSettings {
   double strain_limit = 0.3;       ///< |dt grad v|
   Vec3d gravity{0.0, -9.81, 0.0};  ///< m/s2
   Precision precision = Precision::single;
+  /// Of the lattice, in blocks of 4 cells per axis, 0: open. For verification by waves and
+  /// manufactured solutions; no scene key. Places stay unwrapped, and contact knows nothing of the
+  /// seam: only planes along the periodic axes make sense.
+  Vec3i period{0, 0, 0};
 };
 
 }  // namespace neve::sim
