@@ -1,0 +1,20 @@
+/// Two elastic balls collide; every transfer in analytic_long.
+
+#include "tests/support/balls_checks.h"
+
+namespace {
+
+using namespace neve::sim;
+using namespace neve::test;
+
+TEST(ElasticBalls, ReboundAsInTheReferenceWithFlip) {
+  check_balls({}, {.kinetic_at_rest = 0.001, .elastic = 0.924, .total = 0.827, .rebound = 0.908});
+}
+
+TEST(ElasticBalls, ReboundAsInTheReferenceWithMlsInFloat) {
+  check_balls(
+      {.transfer = Transfer::mls, .kernel = Kernel::quadratic, .precision = Precision::single},
+      {.kinetic_at_rest = 0.001, .elastic = 0.864, .total = 0.725, .rebound = 0.850});
+}
+
+}  // namespace

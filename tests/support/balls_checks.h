@@ -1,0 +1,52 @@
+#pragma once
+/// What a collision of balls has to show, and its curves.
+
+#include <cctype>
+
+#include "tests/support/balls.h"
+#include "tests/support/verification.h"
+
+namespace neve::test {
+
+/// Shares of the kinetic energy at the start, and of the speed of approach.
+struct BallsExpectation {
+  double kinetic_at_rest, elastic, total, rebound;
+};
+
+/// "FLIP 0.95, cubic" -> "flip_0.95_cubic".
+inline std::string file_name(const std::string& label) {
+  std::string out;
+  for (const char c : label) {
+    if (c == ',') continue;
+    out += c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return out;
+}
+
+inline BallsHistory recorded_balls(const BallsCase& c) {
+  const BallsHistory h = collide_balls(c);
+  Curve curve("balls_" + file_name(c.label()), "time (s), kinetic / start, elastic / start, total");
+  for (const auto& s : h.samples) curve.add({s.time, s.kinetic, s.elastic, s.kinetic + s.elastic});
+  return h;
+}
+
+inline void check_balls(const BallsCase& c, const BallsExpectation& e) {
+  const BallsHistory h = recorded_balls(c);
+  const std::string line = c.label();
+  const bool is_float = c.precision == sim::Precision::single;
+  // Sums of 4000 terms over 600 steps: 1e-13 in double, rounding of 1e-7 a particle in float.
+  verify_at_most({"balls", line, "momentum of the pair / of one ball"}, is_float ? 1e-5 : 1e-12,
+                 h.largest_momentum);
+  // Energy may only be lost; 1e-3 for the splitting of the explicit step.
+  verify_at_most({"balls", line, "largest total energy / start"}, 1.001, h.largest_total);
+  verify_at_most({"balls", line, "least kinetic energy / start"}, 5 * e.kinetic_at_rest,
+                 h.least_kinetic);
+  // The run is not chaotic, so the reference's numbers, known to three digits, must come out; 0.01
+  // leaves room for float.
+  verify_near({"balls", line, "largest elastic energy / start"}, e.elastic, h.largest_elastic,
+              0.01);
+  verify_near({"balls", line, "total energy / start after 0.6 s"}, e.total, h.final_total, 0.01);
+  verify_near({"balls", line, "speed of rebound / of approach"}, e.rebound, h.rebound, 0.01);
+}
+
+}  // namespace neve::test
