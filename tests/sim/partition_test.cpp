@@ -1,0 +1,181 @@
+/// Particles in block order and the blocks of nodes around them, against what the definition says.
+
+#include "sim/partition.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <random>
+#include <tuple>
+
+namespace {
+
+using namespace neve;
+using namespace neve::sim;
+
+/// Points that wander over the lattice, and what kernels would say about them.
+struct Cloud {
+  std::vector<Vec3d> x;  ///< cells
+  std::vector<int> model;
+  std::vector<std::uint64_t> keys;
+  std::vector<std::uint16_t> locals;
+  std::mt19937 random{5};
+
+  void add(std::size_t count, double size) {
+    std::uniform_real_distribution<double> place(-size / 2, size / 2);
+    for (std::size_t q = 0; q < count; ++q) {
+      x.emplace_back(place(random), place(random), place(random));
+      model.push_back(static_cast<int>(random() % 3));
+    }
+  }
+  void move(double distance) {
+    std::uniform_real_distribution<double> step(-distance, distance);
+    for (Vec3d& p : x) p += Vec3d(step(random), step(random), step(random));
+  }
+  void locate() {
+    keys.resize(x.size());
+    locals.resize(x.size());
+    for (std::size_t q = 0; q < x.size(); ++q) {
+      int cell[3];
+      for (int a = 0; a < 3; ++a) cell[a] = static_cast<int>(std::floor(x[q][a]));
+      keys[q] = block_key(cell[0] >> 2, cell[1] >> 2, cell[2] >> 2);
+      locals[q] = static_cast<std::uint16_t>(model[q] << 6 | (cell[0] & 3) << 4 |
+                                             (cell[1] & 3) << 2 | (cell[2] & 3));
+    }
+  }
+  /// Storage in the order of a partition.
+  void reorder(const std::vector<std::uint32_t>& order) {
+    const Cloud old = *this;
+    for (std::size_t q = 0; q < order.size(); ++q) {
+      x[q] = old.x[order[q]];
+      model[q] = old.model[order[q]];
+    }
+  }
+};
+
+std::uint64_t key_at(std::uint64_t key, int o, const Vec3i& period) {
+  int at[3];
+  for (int a = 0; a < 3; ++a) {
+    at[a] = block_coordinate(key, a) + (o >> (2 - a) & 1);
+    if (period[a] > 0) at[a] = (at[a] % period[a] + period[a]) % period[a];
+  }
+  return block_key(at[0], at[1], at[2]);
+}
+
+void expect_order(const Partition& p, const Cloud& c) {
+  std::vector<std::uint32_t> expected(c.x.size());
+  std::iota(expected.begin(), expected.end(), 0u);
+  std::sort(expected.begin(), expected.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::tuple(c.keys[a], c.locals[a], a) < std::tuple(c.keys[b], c.locals[b], b);
+  });
+  ASSERT_EQ(p.order(), expected);
+  std::uint32_t at = 0;
+  for (const ParticleBlock& block : p.blocks()) {
+    ASSERT_EQ(block.begin, at);
+    ASSERT_LT(block.begin, block.end);
+    for (; at < block.end; ++at) {
+      ASSERT_EQ(c.keys[p.order()[at]], block.key);
+      ASSERT_EQ(c.locals[p.order()[at]], p.sorted_locals()[at]);
+    }
+  }
+  ASSERT_EQ(at, c.x.size());
+}
+
+void expect_links(const Partition& p, const Vec3i& period) {
+  std::map<std::uint64_t, NodeBlock> expected;
+  for (std::size_t b = 0; b < p.blocks().size(); ++b) {
+    for (int o = 0; o < 8; ++o) {
+      const std::uint64_t key = key_at(p.blocks()[b].key, o, period);
+      const auto [at, is_new] = expected.try_emplace(key, NodeBlock{key, {}});
+      if (is_new) std::fill(std::begin(at->second.tile), std::end(at->second.tile), -1);
+      at->second.tile[o] = static_cast<std::int32_t>(b);
+      ASSERT_EQ(p.node_blocks()[p.blocks()[b].node_block[o]].key, key);
+    }
+  }
+  ASSERT_EQ(p.node_blocks().size(), expected.size());
+  std::size_t n = 0;
+  for (const auto& [key, block] : expected) {
+    ASSERT_EQ(p.node_blocks()[n].key, key);
+    for (int o = 0; o < 8; ++o) ASSERT_EQ(p.node_blocks()[n].tile[o], block.tile[o]);
+    ++n;
+  }
+}
+
+TEST(Partition, KeepsTheOrderOfADefinitionThatKnowsNoHistory) {
+  for (const int threads : {1, 2, 3, 7}) {
+    ThreadPool pool(threads);
+    // Packed, spray and single particles; slow, and as fast as no stable step allows.
+    for (const double size : {10.0, 30.0, 150.0}) {
+      for (const double distance : {0.02, 3.0}) {
+        Cloud cloud;
+        cloud.add(5000, size);
+        Partition partition;
+        for (int step = 0; step < 12; ++step) {
+          cloud.locate();
+          partition.build(cloud.keys, cloud.locals, pool, threads);
+          expect_order(partition, cloud);
+          expect_links(partition, Vec3i::Zero());
+          if (step % 5 == 4) {
+            cloud.reorder(partition.order());
+            partition.storage_was_sorted();
+          }
+          cloud.move(distance);
+        }
+      }
+    }
+  }
+}
+
+TEST(Partition, TakesParticlesThatComeAndGo) {
+  ThreadPool pool(2);
+  Cloud cloud;
+  Partition partition;
+  for (const int count : {0, 1, 2000, 2000, 2500, 1800, 0, 700}) {
+    cloud.x.resize(std::min<std::size_t>(cloud.x.size(), static_cast<std::size_t>(count)));
+    cloud.add(static_cast<std::size_t>(count) - cloud.x.size(), 20);
+    cloud.model.resize(cloud.x.size());
+    cloud.move(0.3);
+    cloud.locate();
+    partition.build(cloud.keys, cloud.locals, pool, 2);
+    expect_order(partition, cloud);
+    expect_links(partition, Vec3i::Zero());
+  }
+}
+
+TEST(Partition, LinksBlocksAroundAPeriod) {
+  ThreadPool pool(2);
+  for (const Vec3i& period : {Vec3i(1, 0, 2), Vec3i(3, 2, 5), Vec3i(0, 0, 4)}) {
+    Cloud cloud;
+    cloud.add(3000, 30);
+    Partition partition;
+    partition.set_period(period);
+    for (int step = 0; step < 5; ++step) {
+      cloud.locate();
+      partition.wrap(cloud.keys, pool, 2);
+      partition.build(cloud.keys, cloud.locals, pool, 2);
+      expect_order(partition, cloud);
+      expect_links(partition, period);
+      cloud.move(0.5);
+    }
+  }
+}
+
+TEST(Partition, OneParticleFarAwayCostsOneBlock) {
+  ThreadPool pool(1);
+  Cloud cloud;
+  cloud.add(5000, 20);
+  cloud.locate();
+  Partition near, both;
+  near.build(cloud.keys, cloud.locals, pool, 1);
+  cloud.x.emplace_back(1e6, -1e6, 1e6);
+  cloud.model.push_back(0);
+  cloud.locate();
+  both.build(cloud.keys, cloud.locals, pool, 1);
+  EXPECT_EQ(both.blocks().size(), near.blocks().size() + 1);
+  EXPECT_EQ(both.node_blocks().size(), near.node_blocks().size() + 8);
+  expect_links(both, Vec3i::Zero());
+}
+
+}  // namespace
