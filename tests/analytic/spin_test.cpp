@@ -16,9 +16,10 @@ TEST(SpinningCube, KeepsItsAngularMomentumWithApicAndMls) {
         c.transfer = transfer;
         c.kernel = kernel;
         c.precision = precision;
-        // Rounding of 405 steps: 512 particles average it out.
+        c.cfl = 0.4;
+        // Rounding of 205 steps; of 1e-7 of C and v in each, should it always go one way.
         verify_at_most({"spin", c.label(), "largest change of L / L"},
-                       precision == Precision::real64 ? 1e-11 : 1e-4, spin_cube(c).momentum_error);
+                       precision == Precision::real64 ? 1e-11 : 2e-4, spin_cube(c).momentum_error);
       }
 }
 
