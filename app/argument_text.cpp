@@ -30,6 +30,16 @@ FrameRange parse_frames(const std::string& text) {
   return {*first, *last};
 }
 
+double parse_coarsening(const std::string& text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (text.empty() || result.ec != std::errc() || result.ptr != end)
+    throw UsageError("--coarsen", "cannot use \"" + text + "\"",
+                     "expected a number of at least 1, as in --coarsen 2");
+  return value;
+}
+
 PictureSize parse_size(const std::string& text) {
   constexpr int smallest = 16, largest = 1000000;
   const std::size_t cross = text.find('x');

@@ -5,6 +5,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
 #include "app/picture_record.h"
+#include "app/scene/coarsen.h"
 
 namespace neve::app {
 
@@ -20,6 +21,8 @@ void print_picture(const PictureRecord& record) {
             << "seed        " << record.seed << "\n"
             << "state hash  " << record.state_hash << "\n";
   for (const std::string& change : record.overrides) std::cout << "override    " << change << "\n";
+  if (record.coarsening > 1)
+    std::cout << "coarsened   " << coarsening_text(record.coarsening) << "\n";
   for (const auto& [path, hash] : record.files)
     std::cout << "file        " << path << " (" << hash << ")\n";
   std::cout << "\n" << record.scene;

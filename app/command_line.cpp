@@ -29,12 +29,13 @@ constexpr const char* footer =
 
 /// Values that CLI11 hands over as text; turned into options when parsing is done.
 struct RenderTexts {
-  std::optional<std::string> frames, size, quality;
+  std::optional<std::string> frames, size, quality, coarsening;
   bool is_quiet = false, is_verbose = false;
 };
 
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.frames) options.frames = parse_frames(*texts.frames);
+  if (texts.coarsening) options.coarsening = parse_coarsening(*texts.coarsening);
   if (texts.size) options.size = parse_size(*texts.size);
   if (texts.quality) options.quality = quality_named(*texts.quality);
   if (!options.shader_dir.empty() && !std::filesystem::is_directory(options.shader_dir))
@@ -78,6 +79,11 @@ void add_render(CLI::App& app, Action& action) {
   add_repeatable(*command, "--set", options->overrides, "ADDRESS=VALUE",
                  "Change a parameter, as in material.snow.hardening=5 (repeatable; neve params "
                  "lists addresses)");
+  command
+      ->add_option("--coarsen", texts->coarsening,
+                   "Cells N times as large, for looking and tuning: 1/N^3 of the particles and "
+                   "longer steps, about N^4 times cheaper")
+      ->type_name("N");
   command->add_option("--frames", texts->frames, "Frames to draw: A-B, or N for 0-N")
       ->type_name("A-B");
   add_repeatable(*command, "--view", options->views, "NAME", "Draw only this view (repeatable)");

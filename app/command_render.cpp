@@ -9,6 +9,8 @@
 #include "app/render_job.h"
 #include "app/render_run.h"
 #include "app/resolve.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/value.h"
 #include "app/seed_scene.h"
 #include "app/text.h"
 #include "render/context.h"
@@ -28,6 +30,8 @@ render::Image read_reference(const std::string& file) {
 void print_plan(const RenderJob& job, const Plan& plan, bool is_json) {
   if (is_json) {
     Json json = to_json(plan);
+    json["cell_size"] = job.scene.solver.cell_size;
+    json["coarsen"] = job.coarsening;
     json["out"] = job.folder.string();
     json["views"] = Json::array();
     for (const View& view : job.scene.views) json["views"].push_back(view.name);
@@ -35,6 +39,8 @@ void print_plan(const RenderJob& job, const Plan& plan, bool is_json) {
     return;
   }
   std::cout << "particles  about " << fixed_text(plan.particles, 0) << "\n"
+            << "cells      " << number_text(job.scene.solver.cell_size) << " m"
+            << (job.coarsening > 1 ? ", coarsened " + coarsening_text(job.coarsening) : "") << "\n"
             << "memory     about " << bytes_text(plan.memory) << " of "
             << bytes_text(plan.memory_limit) << " allowed\n"
             << "frames     " << plan.frames.first << " to " << plan.frames.last << "\n";
@@ -149,7 +155,8 @@ int run_render(const RenderOptions& options) {
                              options.threads);
   const auto count = static_cast<double>(particles.x.size());
   progress.note(job.scene_file + ": " + std::to_string(particles.x.size()) + " particles, about " +
-                bytes_text(plan.memory) + " of memory");
+                bytes_text(plan.memory) + " of memory" +
+                (job.coarsening > 1 ? ", coarsened " + coarsening_text(job.coarsening) : ""));
 
   RenderRun run(job, simulation, *context, renderer, std::cbrt(plan.volume / count), progress);
   const RenderResult result = run.run();

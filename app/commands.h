@@ -13,6 +13,7 @@ namespace neve::app {
 struct RenderOptions {
   std::string scene;  ///< a scene file or a picture; empty: the default scene
   std::vector<std::string> overrides;
+  std::optional<double> coarsening;
   std::optional<FrameRange> frames;
   std::vector<std::string> views;
   std::optional<PictureSize> size;

@@ -6,6 +6,7 @@
 
 #include "app/attributes.h"
 #include "app/round_number.h"
+#include "app/scene/coarsen.h"
 #include "app/text.h"
 #include "render/mesh_shapes.h"
 
@@ -92,11 +93,12 @@ bool needs_stress(const Scene& scene) {
 }
 
 FrameBuilder::FrameBuilder(const Scene& scene, double spacing, Quality quality,
-                           const std::vector<std::string>& overrides)
+                           const std::vector<std::string>& overrides, double coarsening)
     : scene_(scene),
       spacing_(spacing),
       quality_(quality),
-      override_lines_(app::override_lines(overrides)) {}
+      override_lines_(app::override_lines(overrides)),
+      coarsening_(coarsening) {}
 
 render::Frame FrameBuilder::build(const View& view, const Snapshot& snapshot) const {
   render::Frame frame;
@@ -161,7 +163,8 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
   lines.push_back("frame " + std::to_string(snapshot.frame) +
                   "   t = " + fixed_text(snapshot.time, 3) + " s");
   const std::size_t count = snapshot.particles.x.size();
-  lines.push_back(grouped(count) + (count == 1 ? " particle" : " particles"));
+  lines.push_back(grouped(count) + (count == 1 ? " particle" : " particles") +
+                  (coarsening_ > 1 ? ", coarsened " + coarsening_text(coarsening_) : ""));
   const std::size_t shown = std::min(override_lines_.size(), max_override_lines);
   lines.insert(lines.end(), override_lines_.begin(),
                override_lines_.begin() + static_cast<std::ptrdiff_t>(shown));

@@ -29,8 +29,9 @@ class FrameBuilder {
   /// @param scene resolved: cameras and ranges are there; must outlive the builder
   /// @param spacing mean distance of particles in packed snow, m
   /// @param overrides "material.snow.hardening=5", for the caption
+  /// @param coarsening what --coarsen did to the scene, for the caption; 1: nothing
   FrameBuilder(const Scene& scene, double spacing, Quality quality,
-               const std::vector<std::string>& overrides);
+               const std::vector<std::string>& overrides, double coarsening);
 
   render::Frame build(const View& view, const Snapshot& snapshot) const;
 
@@ -46,6 +47,7 @@ class FrameBuilder {
   double spacing_;
   Quality quality_;
   std::vector<std::string> override_lines_;
+  double coarsening_;
 };
 
 /// "hardening = 5" for "material.snow.hardening=5"; the whole address where two end alike.

@@ -10,6 +10,7 @@
 #include "app/output/run_json.h"
 #include "app/output/sequence.h"
 #include "app/scene/error.h"
+#include "app/scene/value.h"
 #include "sim/base/hash.h"
 
 namespace neve::app {
@@ -74,6 +75,7 @@ Quality quality_named(const std::string& name) {
 render::PngText to_png_text(const PictureRecord& record) {
   return {{"neve:scene", record.scene},
           {"neve:overrides", to_text(Json(record.overrides), -1)},
+          {"neve:coarsen", number_text(record.coarsening)},
           {"neve:changes", "[]"},
           {"neve:seed", std::to_string(record.seed)},
           {"neve:version", record.version},
@@ -88,6 +90,7 @@ Json to_json(const PictureRecord& record) {
   Json json;
   json["scene"] = record.scene;
   json["overrides"] = record.overrides;
+  json["coarsen"] = record.coarsening;
   json["changes"] = Json::array();
   json["seed"] = record.seed;
   json["version"] = record.version;
@@ -112,6 +115,9 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
   record.scene = reader.text("neve:scene");
   for (const Json& item : reader.json("neve:overrides"))
     if (item.is_string()) record.overrides.push_back(item.get<std::string>());
+  // Pictures of earlier versions do not say.
+  if (text.contains("neve:coarsen")) record.coarsening = reader.number<double>("neve:coarsen");
+  if (!(record.coarsening >= 1)) reader.fail("its coarsening is less than 1");
   record.seed = reader.number<std::uint64_t>("neve:seed");
   record.version = reader.text("neve:version");
   record.state_hash = reader.text("neve:state_hash");

@@ -17,6 +17,7 @@ namespace neve::app {
 struct PictureRecord {
   std::string scene;  ///< resolved, TOML
   std::vector<std::string> overrides;
+  double coarsening = 1;  ///< what --coarsen did to the scene
   std::uint64_t seed = 0;
   std::string version;
   std::string state_hash;  ///< 16 hexadecimal digits

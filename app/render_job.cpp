@@ -5,6 +5,7 @@
 
 #include "app/machine.h"
 #include "app/picture_record.h"
+#include "app/scene/coarsen.h"
 #include "app/scene/read.h"
 
 namespace neve::app {
@@ -42,6 +43,7 @@ RenderJob job_from_picture(const RenderOptions& options) {
   job.frames = {record.frame, record.frame};
   job.quality = quality_named(record.quality);
   job.overrides = record.overrides;
+  job.coarsening = record.coarsening;
   job.scene.views = {find_view(job.scene, record.view)};
   return job;
 }
@@ -78,6 +80,10 @@ RenderJob make_job(const RenderOptions& options) {
   const bool is_picture = !options.scene.empty() && is_png(options.scene);
   RenderJob job = is_picture ? job_from_picture(options) : job_from_scene(options);
   job.overrides.insert(job.overrides.end(), options.overrides.begin(), options.overrides.end());
+  if (options.coarsening) {
+    coarsen(job.scene, *options.coarsening);
+    job.coarsening *= *options.coarsening;
+  }
   choose_views(options, job.scene);
   set_sizes(options, job.scene);
   if (options.frames) job.frames = *options.frames;

@@ -17,6 +17,7 @@ struct RenderJob {
   FrameRange frames;
   Quality quality = Quality::preview;
   std::vector<std::string> overrides;  ///< for the caption; those of a picture come first
+  double coarsening = 1;               ///< done to the scene, a picture's included
 };
 
 /// @throws SceneError, UsageError, IoError, Error

@@ -39,10 +39,11 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
       simulation_(simulation),
       renderer_(renderer),
       progress_(progress),
-      builder_(job.scene, spacing, job.quality, job.overrides) {
+      builder_(job.scene, spacing, job.quality, job.overrides, job.coarsening) {
   record_.scene = write_scene(job.scene);
   record_.scene_file = job.scene_file;
   record_.overrides = job.overrides;
+  record_.coarsening = job.coarsening;
   for (const View& view : job.scene.views) record_.views.push_back(view.name);
   record_.backend = context.backend;
   record_.gl_renderer = context.renderer;
@@ -51,6 +52,7 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
 
   picture_record_.scene = record_.scene;
   picture_record_.overrides = job.overrides;
+  picture_record_.coarsening = job.coarsening;
   picture_record_.seed = job.scene.seed;
   picture_record_.version = version;
   picture_record_.quality = name(job.quality);

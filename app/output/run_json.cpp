@@ -96,6 +96,7 @@ Json to_json(const RunRecord& run) {
   json["scene"] = run.scene;
   json["scene_file"] = run.scene_file;
   json["overrides"] = run.overrides;
+  json["coarsen"] = run.coarsening;
   json["views"] = run.views;
   json["backend"] = run.backend;
   json["gl_renderer"] = run.gl_renderer;

@@ -28,6 +28,7 @@ struct RunRecord {
   std::string scene;  ///< resolved, TOML
   std::string scene_file;
   std::vector<std::string> overrides;
+  double coarsening = 1;  ///< what --coarsen did to the scene
   std::vector<std::string> views;
   std::string backend, gl_renderer;
   int threads = 0;

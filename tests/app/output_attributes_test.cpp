@@ -61,13 +61,22 @@ TEST_F(Attributes, OfABrokenStateStillMakeAPicture) {
   View view;
   view.particles.color_by = ColorBy::speed;
   view.particles.range = Range{0, 2};
-  const FrameBuilder builder(scene, 0.01, Quality::preview, {});
+  const FrameBuilder builder(scene, 0.01, Quality::preview, {}, 1);
   const render::Frame frame = builder.build(view, s);
   ASSERT_EQ(frame.points.position.size(), 2u);
   EXPECT_EQ(frame.points.id[1], 2u);
   for (const float v : frame.points.value) EXPECT_EQ(v, 2);
   ASSERT_EQ(frame.legends.size(), 1u);
   EXPECT_EQ(frame.legends[0].unit, "m/s");
+}
+
+TEST_F(Attributes, CaptionsSayWhatWasCoarsened) {
+  const auto last_line = [&](double coarsening) {
+    const FrameBuilder builder(scene, 0.01, Quality::preview, {}, coarsening);
+    return builder.build(View{}, squeezed()).caption.back();
+  };
+  EXPECT_EQ(last_line(1), "1 particle");
+  EXPECT_EQ(last_line(1.5), "1 particle, coarsened 1.5x");
 }
 
 }  // namespace

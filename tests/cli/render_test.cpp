@@ -96,6 +96,42 @@ TEST_F(Cli, DryRunPrintsThePlanAndMakesNothing) {
   EXPECT_FALSE(exists("out"));
 }
 
+TEST_F(Cli, CoarsenedRunsAreSmallerAndTheirPicturesMakeThemselvesAgain) {
+  const auto coarse =
+      neve({"render", "scene.toml", "--coarsen", "1.5", "--set", "solver.cell_size=0.03"});
+  ASSERT_EQ(coarse.exit_code, 0) << coarse.errors;
+  EXPECT_TRUE(contains(coarse.errors, "coarsened 1.5x")) << coarse.errors;
+  ASSERT_EQ(
+      neve({"render", "scene.toml", "--out", "full", "--set", "solver.cell_size=0.03"}).exit_code,
+      0);
+  const app::Json run = json_of("out/scene/run.json"), full = json_of("full/run.json");
+  EXPECT_EQ(run["coarsen"], 1.5);
+  EXPECT_EQ(full["coarsen"], 1);
+  EXPECT_TRUE(contains(run["scene"].get<std::string>(), "cell_size = 0.045"));
+  EXPECT_LT(run["frames"][0]["particles"].get<int>(),
+            full["frames"][0]["particles"].get<int>() / 2);
+  const std::string picture = "out/scene/particles/0002.png";
+  ASSERT_EQ(neve({"render", picture}).exit_code, 0);
+  EXPECT_EQ(read_text(folder / picture), read_text(folder / "out/0002-again/particles/0002.png"));
+  const auto info = neve({"info", picture, "--json"});
+  EXPECT_EQ(app::parse_json(std::string_view(info.output))["coarsen"], 1.5);
+  // A picture can be coarsened further.
+  ASSERT_EQ(neve({"render", picture, "--coarsen", "2"}).exit_code, 0);
+  EXPECT_EQ(json_of("out/0002-again/run.json")["coarsen"], 3);
+}
+
+TEST_F(Cli, DryRunSaysWhatCoarseningDoes) {
+  const auto plan = [&](const char* factor) {
+    const auto result = neve({"render", "scene.toml", "--dry-run", "--json", "--coarsen", factor});
+    return app::parse_json(std::string_view(result.output));
+  };
+  EXPECT_EQ(plan("2")["cell_size"], 0.08);
+  EXPECT_EQ(plan("2")["coarsen"], 2);
+  EXPECT_NEAR(plan("1")["particles"].get<double>() / plan("2")["particles"].get<double>(), 8, 0.3);
+  EXPECT_TRUE(contains(neve({"render", "scene.toml", "--dry-run", "--coarsen", "2"}).output,
+                       "0.08 m, coarsened 2x"));
+}
+
 TEST_F(Cli, QuietRunsPrintNothing) {
   const auto result = neve({"render", "scene.toml", "--quiet", "--frames", "0"});
   EXPECT_EQ(result.exit_code, 0);

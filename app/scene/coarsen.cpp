@@ -1,0 +1,80 @@
+#include "app/scene/coarsen.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "app/scene/describe.h"
+#include "app/scene/error.h"
+#include "app/scene/value.h"
+#include "app/text.h"
+
+namespace neve::app {
+namespace {
+
+std::string argument(double factor) {
+  return "--coarsen " + number_text(factor);
+}
+
+/// Looks for a number of the solver outside the range that its description gives.
+struct RangeCheck {
+  double factor;
+
+  void operator()(const char* key, double member, const char*, const Valid& valid, Change,
+                  const char*) const {
+    if (valid.contains(member)) return;
+    throw UsageError(argument(factor),
+                     std::string("solver.") + key + " would become " + number_text(member),
+                     "expected " + valid.text_of_bounds());
+  }
+  template <class T>
+  void operator()(const char*, const T&, const char*, const Valid&, Change, const char*) const {}
+};
+
+/// Twelve digits: 0.018 times 1.5 is 0.027, not 0.026999999999999996.
+double tidy(double x) {
+  char text[40];
+  const auto end = std::to_chars(text, text + sizeof text, x, std::chars_format::general, 12);
+  std::from_chars(text, end.ptr, x);
+  return x;
+}
+
+/// How many particles the volume of a body asks for.
+double particles_of(const sim::Body& body, double h) {
+  return sim::plan_seeding(body, h).volume / (h * h * h) * body.particles_per_cell;
+}
+
+/// Rounded down to two digits after the point.
+std::string text_below(double x) {
+  return fixed_text(std::floor(100 * x) / 100, 2);
+}
+
+void refuse_empty_bodies(const Scene& scene, double factor) {
+  for (const sim::Body& body : scene.bodies) {
+    const double full = particles_of(body, scene.solver.cell_size);
+    // A body too small for one particle at full resolution has one all the same.
+    if (full < 1 || full / (factor * factor * factor) >= 1) continue;
+    throw UsageError(argument(factor), "no particle of body " + body.name + " would be left",
+                     "at most " + text_below(std::cbrt(full)) + " leaves one");
+  }
+}
+
+}  // namespace
+
+void coarsen(Scene& scene, double factor) {
+  if (!(factor >= 1) || !std::isfinite(factor))
+    throw UsageError("--coarsen", "cannot use " + number_text(factor),
+                     "expected a number of at least 1, as in --coarsen 2");
+  if (factor == 1) return;
+  refuse_empty_bodies(scene, factor);
+  sim::SolverSettings& s = scene.solver;
+  for (double* grows : {&s.cell_size, &s.dt, &s.max_dt}) *grows = tidy(*grows * factor);
+  if (s.flip_reference_dt == 0) s.flip_ratio = tidy(std::pow(s.flip_ratio, factor));
+  RangeCheck check{factor};
+  describe(check, s);
+}
+
+std::string coarsening_text(double factor) {
+  return number_text(factor) + "x";
+}
+
+}  // namespace neve::app

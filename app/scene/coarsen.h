@@ -1,0 +1,20 @@
+#pragma once
+/// `--coarsen N`: the same scene with larger cells, for looking and tuning.
+
+#include "app/scene/scene.h"
+
+namespace neve::app {
+
+/// Makes cells `factor` times as large: 1/factor^3 of the particles, because particles_per_cell
+/// stays; a fixed dt and max_dt grow with the cells, like the limits that follow from them. Snow is
+/// damped as much per second as before: flip_reference_dt sees to that, and where flip_ratio acts
+/// per step (flip_reference_dt = 0) it becomes flip_ratio^factor, for steps factor times as long.
+/// @param factor 1 changes nothing
+/// @throws UsageError when it is not a finite number of at least 1, takes a parameter out of its
+///         range, or leaves a body without a particle
+void coarsen(Scene& scene, double factor);
+
+/// "2x", "1.5x"
+std::string coarsening_text(double factor);
+
+}  // namespace neve::app

@@ -1,0 +1,120 @@
+// The same scene with larger cells.
+#include "app/scene/coarsen.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "app/picture_record.h"
+#include "app/plan.h"
+#include "app/scene/error.h"
+#include "app/scene/read.h"
+#include "app/seed_scene.h"
+#include "sim/time_step.h"
+
+namespace neve::app {
+namespace {
+
+Scene ball(const std::string& solver = "") {
+  return read_scene_text("[solver]\ncell_size = 0.02\n" + solver +
+                             "[[body]]\nname = \"ball\"\n"
+                             "shape = { sphere = { center = [0, 0.3, 0], radius = 0.15 } }\n",
+                         "ball.toml");
+}
+
+std::string message_of(Scene scene, double factor) {
+  try {
+    coarsen(scene, factor);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Coarsen, CellsAndLongestStepsGrowParticlesPerCellStay) {
+  Scene scene = ball("dt = 1e-4\n");
+  coarsen(scene, 2);
+  EXPECT_EQ(scene.solver.cell_size, 0.04);
+  EXPECT_EQ(scene.solver.dt, 2e-4);
+  EXPECT_EQ(scene.solver.max_dt, 2e-3);
+  EXPECT_EQ(scene.bodies[0].particles_per_cell, 8);
+  EXPECT_EQ(scene.solver.flip_ratio, 0.95);
+}
+
+TEST(Coarsen, LeavesAnEighthOfTheParticlesAndAllOfTheMass) {
+  Scene coarse = ball();
+  coarsen(coarse, 2);
+  const sim::ParticleArrays all = seed_scene(ball()), few = seed_scene(coarse);
+  // Cells on the surface are in or out by chance, about 6 h^2 of them per 10 h^2 of surface.
+  EXPECT_NEAR(static_cast<double>(few.x.size()), static_cast<double>(all.x.size()) / 8,
+              0.03 * static_cast<double>(all.x.size()) / 8);
+  const auto mass = [](const sim::ParticleArrays& p) {
+    double sum = 0;
+    for (const double m : p.m) sum += m;
+    return sum;
+  };
+  EXPECT_NEAR(mass(few), mass(all), 1e-9 * mass(all));
+}
+
+/// What FLIP keeps of a difference to the grid's velocity over the same time.
+double kept(const sim::SolverSettings& s, double dt, int steps) {
+  return std::pow(sim::flip_share(s, dt), steps);
+}
+
+TEST(Coarsen, DampsAsMuchPerSecondWhateverTheRatioRefersTo) {
+  for (const char* reference : {"flip_reference_dt = 5e-4\n", "flip_reference_dt = 0\n"}) {
+    const Scene full = ball(reference);
+    Scene coarse = full;
+    coarsen(coarse, 3);
+    EXPECT_NEAR(kept(coarse.solver, 3e-4, 10), kept(full.solver, 1e-4, 30), 1e-11) << reference;
+  }
+}
+
+TEST(Coarsen, OneChangesNothing) {
+  Scene scene = ball();
+  coarsen(scene, 1);
+  EXPECT_EQ(write_scene(scene), write_scene(ball()));
+}
+
+TEST(Coarsen, FractionsAreTidy) {
+  Scene scene = ball();
+  scene.solver.cell_size = 0.018;
+  coarsen(scene, 1.5);
+  EXPECT_EQ(scene.solver.cell_size, 0.027);
+}
+
+TEST(Coarsen, TheResultIsASceneThatReadsBack) {
+  Scene scene = ball("flip_reference_dt = 0\n");
+  coarsen(scene, 2.5);
+  EXPECT_EQ(write_scene(read_scene_text(write_scene(scene), "coarse.toml")), write_scene(scene));
+}
+
+TEST(Coarsen, RefusesWhatIsNoFactor) {
+  for (const double factor : {0.0, -2.0, 0.5, std::numeric_limits<double>::quiet_NaN(),
+                              std::numeric_limits<double>::infinity()})
+    EXPECT_NE(message_of(ball(), factor).find("at least 1"), std::string::npos) << factor;
+}
+
+TEST(Coarsen, RefusesToLeaveABodyWithoutAParticleAndSaysWhatFits) {
+  // 4/3 pi 0.15^3 m3 of 8 per 0.02^3 m3 are 14137 particles, 24.18 cubed.
+  const std::string message = message_of(ball(), 25);
+  EXPECT_NE(message.find("no particle of body ball"), std::string::npos) << message;
+  EXPECT_NE(message.find("at most 24.17 leaves one"), std::string::npos) << message;
+  EXPECT_EQ(message_of(ball(), 24.17), "");
+}
+
+TEST(Coarsen, RefusesStepsOutOfRange) {
+  const std::string message = message_of(ball("max_dt = 0.5\n"), 4);
+  EXPECT_NE(message.find("solver.max_dt would become 2"), std::string::npos) << message;
+}
+
+TEST(Coarsen, PicturesRememberItAndOldOnesNeedNot) {
+  PictureRecord record;
+  record.coarsening = 1.5;
+  EXPECT_EQ(to_png_text(record).at("neve:coarsen"), "1.5");
+  EXPECT_EQ(to_json(record)["coarsen"], 1.5);
+}
+
+}  // namespace
+}  // namespace neve::app
