@@ -50,7 +50,7 @@ class PhaseTimer {
 template <class Real>
 std::uint64_t Engine<Real>::memory_bytes() const {
   const std::size_t record = sizeof(Particle<Real>);
-  return record * (particles_.capacity() + sorted_.capacity()) + 8 * keys_.capacity() +
+  return record * particles_.capacity() + reordering_.memory_bytes() + 8 * keys_.capacity() +
          2 * locals_.capacity() + partition_.memory_bytes() + tiles_.bytes() + nodes_.bytes() +
          sizeof(BlockReport<Real>) * reports_.capacity() + 8 * node_contact_work_.capacity();
 }
@@ -210,20 +210,14 @@ void Engine<Real>::partition() {
 
 template <class Real>
 void Engine<Real>::sort_storage() {
-  const std::vector<std::uint32_t>& order = partition_.order();
-  sorted_.resize(particles_.size());
-  pool_->ranges(order.size(), active_threads(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t q = begin; q < end; ++q) sorted_[q] = particles_[order[q]];
-  });
-  particles_.swap(sorted_);
-  partition_.storage_was_sorted();
+  partition_.sort_storage(particles_, reordering_, keys_, locals_, *pool_, active_threads());
 }
 
 template <class Real>
 void Engine<Real>::over_particle_blocks(Sweep<Real> sweep, const SweepArgs<Real>& a) {
-  const int threads = active_threads();
-  pool_->run(threads, [&](int t) {
-    sweep(a, partition_.first_block(t, threads), partition_.first_block(t + 1, threads));
+  const int threads = active_threads(), parts = ThreadPool::parts_for(threads);
+  pool_->run(threads, parts, [&](int part) {
+    sweep(a, partition_.first_block(part, parts), partition_.first_block(part + 1, parts));
   });
 }
 

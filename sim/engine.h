@@ -111,7 +111,8 @@ class Engine {
   const Sweeps<Real>* sweeps_ = nullptr;
   int kernel_nodes_ = cubic_nodes;
 
-  std::vector<Particle<Real>> particles_, sorted_;
+  std::vector<Particle<Real>> particles_;
+  Reordering<Particle<Real>> reordering_;
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint16_t> locals_;
   Partition partition_;

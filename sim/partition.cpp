@@ -314,8 +314,17 @@ void Partition::unite(const std::vector<std::uint64_t>& keys, int axis, Union& o
   out.below.resize(size);
 }
 
-void Partition::storage_was_sorted() {
-  std::iota(order_.begin(), order_.end(), 0u);
+void Partition::storage_was_sorted(std::vector<std::uint64_t>& keys,
+                                   std::vector<std::uint16_t>& locals, ThreadPool& pool,
+                                   int threads) const {
+  pool.ranges(blocks_.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const ParticleBlock& block = blocks_[b];
+      std::fill(keys.begin() + block.begin, keys.begin() + block.end, block.key);
+      std::copy(locals_.begin() + block.begin, locals_.begin() + block.end,
+                locals.begin() + block.begin);
+    }
+  });
 }
 
 std::size_t Partition::memory_bytes() const {

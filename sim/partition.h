@@ -7,6 +7,7 @@
 #include "sim/base/thread_pool.h"
 #include "sim/blocks.h"
 #include "sim/math.h"
+#include "sim/reorder.h"
 
 namespace neve::sim {
 
@@ -28,8 +29,14 @@ class Partition {
   void build(const std::vector<std::uint64_t>& keys, const std::vector<std::uint16_t>& locals,
              ThreadPool& pool, int threads);
 
-  /// Storage now is in the order found: sorted position q holds particle q.
-  void storage_was_sorted();
+  /// Brings storage into the order found; keys and locals follow.
+  template <class Record>
+  void sort_storage(std::vector<Record>& records, Reordering<Record>& reordering,
+                    std::vector<std::uint64_t>& keys, std::vector<std::uint16_t>& locals,
+                    ThreadPool& pool, int threads) {
+    reordering.run(records, order_, pool, threads);
+    storage_was_sorted(keys, locals, pool, threads);
+  }
 
   const std::vector<std::uint32_t>& order() const { return order_; }
   const std::vector<std::uint16_t>& sorted_locals() const { return locals_; }
@@ -69,6 +76,8 @@ class Partition {
     std::vector<std::int32_t> here, below;
   };
 
+  void storage_was_sorted(std::vector<std::uint64_t>& keys, std::vector<std::uint16_t>& locals,
+                          ThreadPool& pool, int threads) const;
   void find_changes(const std::vector<std::uint64_t>& keys,
                     const std::vector<std::uint16_t>& locals, std::size_t known, ThreadPool& pool);
   void keep(std::size_t block, const std::vector<std::uint64_t>& keys,

@@ -15,10 +15,14 @@ namespace {
 using namespace neve;
 using namespace neve::sim;
 
+struct Point {
+  Vec3d x;  ///< cells
+  int model;
+};
+
 /// Points that wander over the lattice, and what kernels would say about them.
 struct Cloud {
-  std::vector<Vec3d> x;  ///< cells
-  std::vector<int> model;
+  std::vector<Point> points;
   std::vector<std::uint64_t> keys;
   std::vector<std::uint16_t> locals;
   std::mt19937 random{5};
@@ -26,31 +30,24 @@ struct Cloud {
   void add(std::size_t count, double size) {
     std::uniform_real_distribution<double> place(-size / 2, size / 2);
     for (std::size_t q = 0; q < count; ++q) {
-      x.emplace_back(place(random), place(random), place(random));
-      model.push_back(static_cast<int>(random() % 3));
+      const double x = place(random), y = place(random), z = place(random);
+      points.push_back({Vec3d(x, y, z), static_cast<int>(random() % 3)});
     }
   }
   void move(double distance) {
     std::uniform_real_distribution<double> step(-distance, distance);
-    for (Vec3d& p : x) p += Vec3d(step(random), step(random), step(random));
+    for (Point& p : points)
+      for (int a = 0; a < 3; ++a) p.x[a] += step(random);
   }
   void locate() {
-    keys.resize(x.size());
-    locals.resize(x.size());
-    for (std::size_t q = 0; q < x.size(); ++q) {
+    keys.resize(points.size());
+    locals.resize(points.size());
+    for (std::size_t q = 0; q < points.size(); ++q) {
       int cell[3];
-      for (int a = 0; a < 3; ++a) cell[a] = static_cast<int>(std::floor(x[q][a]));
+      for (int a = 0; a < 3; ++a) cell[a] = static_cast<int>(std::floor(points[q].x[a]));
       keys[q] = block_key(cell[0] >> 2, cell[1] >> 2, cell[2] >> 2);
-      locals[q] = static_cast<std::uint16_t>(model[q] << 6 | (cell[0] & 3) << 4 |
+      locals[q] = static_cast<std::uint16_t>(points[q].model << 6 | (cell[0] & 3) << 4 |
                                              (cell[1] & 3) << 2 | (cell[2] & 3));
-    }
-  }
-  /// Storage in the order of a partition.
-  void reorder(const std::vector<std::uint32_t>& order) {
-    const Cloud old = *this;
-    for (std::size_t q = 0; q < order.size(); ++q) {
-      x[q] = old.x[order[q]];
-      model[q] = old.model[order[q]];
     }
   }
 };
@@ -65,7 +62,7 @@ std::uint64_t key_at(std::uint64_t key, int o, const Vec3i& period) {
 }
 
 void expect_order(const Partition& p, const Cloud& c) {
-  std::vector<std::uint32_t> expected(c.x.size());
+  std::vector<std::uint32_t> expected(c.points.size());
   std::iota(expected.begin(), expected.end(), 0u);
   std::sort(expected.begin(), expected.end(), [&](std::uint32_t a, std::uint32_t b) {
     return std::tuple(c.keys[a], c.locals[a], a) < std::tuple(c.keys[b], c.locals[b], b);
@@ -80,7 +77,7 @@ void expect_order(const Partition& p, const Cloud& c) {
       ASSERT_EQ(c.locals[p.order()[at]], p.sorted_locals()[at]);
     }
   }
-  ASSERT_EQ(at, c.x.size());
+  ASSERT_EQ(at, c.points.size());
 }
 
 void expect_links(const Partition& p, const Vec3i& period) {
@@ -118,8 +115,14 @@ TEST(Partition, KeepsTheOrderOfADefinitionThatKnowsNoHistory) {
           expect_order(partition, cloud);
           expect_links(partition, Vec3i::Zero());
           if (step % 5 == 4) {
-            cloud.reorder(partition.order());
-            partition.storage_was_sorted();
+            Reordering<Point> reordering;
+            partition.sort_storage(cloud.points, reordering, cloud.keys, cloud.locals, pool,
+                                   threads);
+            const Cloud before = cloud;
+            cloud.locate();
+            ASSERT_EQ(cloud.keys, before.keys);
+            ASSERT_EQ(cloud.locals, before.locals);
+            expect_order(partition, cloud);
           }
           cloud.move(distance);
         }
@@ -133,9 +136,9 @@ TEST(Partition, TakesParticlesThatComeAndGo) {
   Cloud cloud;
   Partition partition;
   for (const int count : {0, 1, 2000, 2000, 2500, 1800, 0, 700}) {
-    cloud.x.resize(std::min<std::size_t>(cloud.x.size(), static_cast<std::size_t>(count)));
-    cloud.add(static_cast<std::size_t>(count) - cloud.x.size(), 20);
-    cloud.model.resize(cloud.x.size());
+    cloud.points.resize(
+        std::min<std::size_t>(cloud.points.size(), static_cast<std::size_t>(count)));
+    cloud.add(static_cast<std::size_t>(count) - cloud.points.size(), 20);
     cloud.move(0.3);
     cloud.locate();
     partition.build(cloud.keys, cloud.locals, pool, 2);
@@ -169,8 +172,7 @@ TEST(Partition, OneParticleFarAwayCostsOneBlock) {
   cloud.locate();
   Partition near, both;
   near.build(cloud.keys, cloud.locals, pool, 1);
-  cloud.x.emplace_back(1e6, -1e6, 1e6);
-  cloud.model.push_back(0);
+  cloud.points.push_back({Vec3d(1e6, -1e6, 1e6), 0});
   cloud.locate();
   both.build(cloud.keys, cloud.locals, pool, 1);
   EXPECT_EQ(both.blocks().size(), near.blocks().size() + 1);
