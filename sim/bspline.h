@@ -3,7 +3,6 @@
 /// Source: the paper, section 4 (cubic N); Steffen, Kirby, Berzins 2008 (quadratic).
 
 #include "sim/base/lanes.h"
-#include "sim/particles.h"
 
 namespace neve::sim {
 
@@ -14,21 +13,13 @@ inline constexpr int quadratic_nodes = 3;
 template <int K>
 inline constexpr double apic_inertia = K == cubic_nodes ? 1.0 / 3.0 : 1.0 / 4.0;
 
-/// Weights of one particle, per axis; w_ip is the product over the axes.
-template <class Real, int K>
-struct Weights {
-  int base[3];     ///< first node of the stencil, lattice units
-  Real w[3][K];    ///< N
-  Real dw[3][K];   ///< N' in grid units: times 1/h is the derivative with respect to x_p
-  Real arm[3][K];  ///< N (x_i - x_p)/h
-};
-
-/// N and N' of the stencil's nodes at distance from `first`, the particle's place in [1, 2) (cubic)
-/// or [0.5, 1.5) (quadratic) counted from the first node. The outer cubic pieces are written as
-/// cubes of the distance to the end of the support, which cannot go negative.
-template <class Real>
-NEVE_INLINE void spline(Real first, Real (&w)[cubic_nodes], Real (&dw)[cubic_nodes]) {
-  const Real o = first - Real(1), a = Real(1) - o;
+/// N and N' of the stencil's nodes; `first` is the particle's place in [1, 2) (cubic) or [0.5, 1.5)
+/// (quadratic) counted from the first node, a number or lanes. N' is in grid units: times 1/h is
+/// the derivative with respect to x_p. The outer cubic pieces are written as cubes of the distance
+/// to the end of the support, which cannot go negative.
+template <class Real, class V>
+NEVE_INLINE void spline(V first, V (&w)[cubic_nodes], V (&dw)[cubic_nodes]) {
+  const V o = first - Real(1), a = Real(1) - o;
   w[0] = a * a * a * Real(1.0 / 6.0);
   w[1] = (Real(0.5) * o - Real(1)) * o * o + Real(2.0 / 3.0);
   w[2] = (Real(0.5) * a - Real(1)) * a * a + Real(2.0 / 3.0);
@@ -38,9 +29,9 @@ NEVE_INLINE void spline(Real first, Real (&w)[cubic_nodes], Real (&dw)[cubic_nod
   dw[2] = (Real(2) - Real(1.5) * a) * a;
   dw[3] = Real(0.5) * o * o;
 }
-template <class Real>
-NEVE_INLINE void spline(Real first, Real (&w)[quadratic_nodes], Real (&dw)[quadratic_nodes]) {
-  const Real a = Real(1.5) - first, b = first - Real(1), c = first - Real(0.5);
+template <class Real, class V>
+NEVE_INLINE void spline(V first, V (&w)[quadratic_nodes], V (&dw)[quadratic_nodes]) {
+  const V a = Real(1.5) - first, b = first - Real(1), c = first - Real(0.5);
   w[0] = Real(0.5) * a * a;
   w[1] = Real(0.75) - b * b;
   w[2] = Real(0.5) * c * c;
@@ -49,23 +40,11 @@ NEVE_INLINE void spline(Real first, Real (&w)[quadratic_nodes], Real (&dw)[quadr
   dw[2] = c;
 }
 
-/// First node of a particle's stencil on one axis.
-template <int K, class Real>
-NEVE_INLINE int stencil_base(int cell, Real offset) {
+/// First node of a particle's stencil on one axis; numbers or lanes.
+template <int K, class Real, class V, class I>
+NEVE_INLINE I stencil_base(I cell, V offset) {
   if constexpr (K == cubic_nodes) return cell - 1;
   return offset < Real(0.5) ? cell - 1 : cell;
-}
-
-template <int K, class Real>
-NEVE_INLINE Weights<Real, K> weights_of(const Particle<Real>& p) {
-  Weights<Real, K> s;
-  for (int axis = 0; axis < 3; ++axis) {
-    s.base[axis] = stencil_base<K>(p.cell[axis], p.offset[axis]);
-    const Real first = p.offset[axis] + static_cast<Real>(p.cell[axis] - s.base[axis]);
-    spline(first, s.w[axis], s.dw[axis]);
-    for (int k = 0; k < K; ++k) s.arm[axis][k] = s.w[axis][k] * (static_cast<Real>(k) - first);
-  }
-  return s;
 }
 
 }  // namespace neve::sim

@@ -61,64 +61,73 @@ NEVE_INLINE LocalCollider<Real> localize(const ColliderPose& c, const int* block
   return out;
 }
 
-/// Nothing within `reach` metres of the block's first node can touch the collider.
+/// Nothing within `reach` metres of the place `centre` in the block can touch the collider.
 template <class Real>
-NEVE_INLINE bool is_out_of_reach(const LocalCollider<Real>& c, Real reach) {
-  if (c.shape == ColliderShape::plane) return c.plane_distance > reach;
+NEVE_INLINE bool is_out_of_reach(const LocalCollider<Real>& c, const Vec3<Real>& centre,
+                                 Real reach) {
+  if (c.shape == ColliderShape::plane) return c.plane_distance + dot(centre, c.normal) > reach;
   const Real extent = c.shape == ColliderShape::sphere ? c.radius : length(c.half);
-  return length(c.to_block) > extent + reach;
+  return length(c.to_block + centre) > extent + reach;
 }
 
-/// Is the place inside (phi <= 0, the surface counts as inside), and the outward normal there.
+template <class V, class Real>
+NEVE_INLINE Vec3<V> widened(const Vec3<Real>& a) {
+  return {all<V>(a.x), all<V>(a.y), all<V>(a.z)};
+}
+template <class V>
+NEVE_INLINE Vec3<V> select(MaskOf<V> mask, const Vec3<V>& a, const Vec3<V>& b) {
+  return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
+}
+
+/// The lanes inside (phi <= 0, the surface counts as inside), and the outward normal there.
 /// @param r from the block's first node, m
-template <class Real>
-NEVE_INLINE bool touch(const LocalCollider<Real>& c, const Vec3<Real>& r, Vec3<Real>& normal) {
+template <class V, class Real>
+NEVE_INLINE MaskOf<V> touch(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal) {
+  const V zero{};
   if (c.shape == ColliderShape::plane) {
-    normal = c.normal;
-    return c.plane_distance + dot(r, c.normal) <= Real(0);
+    normal = widened<V>(c.normal);
+    return c.plane_distance + dot(r, normal) <= zero;
   }
-  const Vec3<Real> d = c.to_block + r;
+  const Vec3<V> d = widened<V>(c.to_block) + r;
   if (c.shape == ColliderShape::sphere) {
-    const Real distance = square_root(dot(d, d));
-    normal = distance > Real(0) ? d / distance : Vec3<Real>{0, 1, 0};
-    return distance <= c.radius;
+    const V distance = square_root_lanes(dot(d, d));
+    const Vec3<V> up{zero, all<V>(1), zero};
+    normal = select(distance > zero, d / distance, up);
+    return distance <= all<V>(c.radius);
   }
   // Box: the nearest face is the one of largest signed distance, the lowest axis on a tie.
-  int face = 0;
-  Real deepest = 0;
-  bool is_positive = true;
+  V deepest{};
   for (int a = 0; a < 3; ++a) {
-    const Real along = dot(d, c.axis[a]);
-    const Real q = absolute(along) - c.half[a];
-    if (a == 0 || q > deepest) {
-      face = a;
-      deepest = q;
-      is_positive = along >= Real(0);
-    }
+    const Vec3<V> axis = widened<V>(c.axis[a]);
+    const V along = dot(d, axis);
+    const V q = absolute_lanes(along) - c.half[a];
+    const MaskOf<V> is_nearest = a == 0 ? zero <= zero : q > deepest;
+    normal = select(is_nearest, select(along >= zero, axis, -axis), normal);
+    deepest = is_nearest ? q : deepest;
   }
-  normal = is_positive ? c.axis[face] : -c.axis[face];
-  return deepest <= Real(0);
+  return deepest <= zero;
 }
 
 /// Velocity after contact.
 /// sticky: v_co. slip: no motion along the normal, free sliding. separate: leaves freely, otherwise
 /// slides with Coulomb friction, v_t (1 + mu v_n / |v_t|), or sticks where friction would reverse
 /// it.
-template <class Real>
-NEVE_INLINE Vec3<Real> respond(const LocalCollider<Real>& c, const Vec3<Real>& r,
-                               const Vec3<Real>& v) {
-  Vec3<Real> n;
-  if (!touch(c, r, n)) return v;
-  const Vec3<Real> v_co = c.velocity + cross(c.omega, c.to_block + r);
-  if (c.contact == ContactLaw::sticky) return v_co;
-  const Vec3<Real> v_rel = v - v_co;
-  const Real v_n = dot(v_rel, n);
-  if (c.contact == ContactLaw::slip) return v - n * v_n;
-  if (v_n >= Real(0)) return v;
-  const Vec3<Real> v_t = v_rel - n * v_n;
-  const Real speed_t = square_root(dot(v_t, v_t));
-  if (speed_t <= -c.friction * v_n) return v_co;
-  return v_t * (Real(1) + c.friction * v_n / speed_t) + v_co;
+template <class V, class Real>
+NEVE_INLINE Vec3<V> respond(const LocalCollider<Real>& c, const Vec3<V>& r, const Vec3<V>& v) {
+  Vec3<V> n;
+  const MaskOf<V> is_inside = touch(c, r, n);
+  if (!any_lane(is_inside)) return v;
+  const Vec3<V> v_co =
+      widened<V>(c.velocity) + cross(widened<V>(c.omega), widened<V>(c.to_block) + r);
+  if (c.contact == ContactLaw::sticky) return select(is_inside, v_co, v);
+  const Vec3<V> v_rel = v - v_co;
+  const V v_n = dot(v_rel, n);
+  if (c.contact == ContactLaw::slip) return select(is_inside, v - n * v_n, v);
+  const Vec3<V> v_t = v_rel - n * v_n;
+  const V speed_t = square_root_lanes(dot(v_t, v_t));
+  const MaskOf<V> sticks = speed_t <= -c.friction * v_n;
+  const Vec3<V> slides = v_t * (Real(1) + c.friction * v_n / speed_t) + v_co;
+  return select(is_inside & (v_n < V{}), select(sticks, v_co, slides), v);
 }
 
 }  // namespace neve::sim

@@ -74,7 +74,8 @@ Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>
                           static_cast<Real>(m.critical_stretch)});
   }
   kernel_nodes_ = settings.kernel == Kernel::cubic ? cubic_nodes : quadratic_nodes;
-  sweeps_ = &baseline_sweeps(kernel_nodes_, transfer_kind(settings.transfer), Real());
+  simd_ = chosen_simd_level();
+  sweeps_ = &sweeps_for(simd_, kernel_nodes_, transfer_kind(settings.transfer), Real());
   if (settings.period.minCoeff() < 0 || settings.period.maxCoeff() > block_limit)
     throw std::invalid_argument("a period of the lattice is negative or too long");
   partition_.set_period(settings.period);
@@ -87,16 +88,16 @@ Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>
 /// Everything the first step relies on: stress, keys, volumes of new bodies, and the limits on dt.
 template <class Real>
 void Engine<Real>::prepare() {
-  SweepArgs<Real> a = args(0);
+  SweepArgs<Real> a = args(0, all_channels);
   BlockReport<Real> report;
   const auto count = static_cast<std::uint32_t>(particles_.size());
-  sweeps_->refresh(a, 0, count, report);
+  sweeps_->refresh(a, 0, count, false, report);
   if (report.overflowed > 0) throw std::invalid_argument("a particle starts outside the lattice");
   if (count == 0) return;
 
   // Volumes and the velocity gradient want the rasterised mass and velocity.
   partition();
-  a = args(0);
+  a = args(0, all_channels);
   std::vector<StagedNodes<Real>> staged(partition_.node_blocks().size());
   std::vector<Gathered<Real>> gathered(particles_.size());
   a.staged = staged.data();
@@ -110,7 +111,7 @@ void Engine<Real>::prepare() {
   over_particle_blocks(sweeps_->gather, a);
 
   report = {};
-  sweeps_->refresh(a, 0, count, report);
+  sweeps_->refresh(a, 0, count, false, report);
   for (const Gathered<Real>& g : gathered)
     for (const Real entry : g.grad_v)
       report.max_strain_rate = std::max(report.max_strain_rate, std::abs(entry));
@@ -161,7 +162,7 @@ void Engine<Real>::place_colliders() {
 }
 
 template <class Real>
-SweepArgs<Real> Engine<Real>::args(double dt) {
+SweepArgs<Real> Engine<Real>::args(double dt, int channels) {
   const double h = settings_.cell_size;
   SweepArgs<Real> a{};
   StepConstants<Real>& c = a.constants;
@@ -186,8 +187,10 @@ SweepArgs<Real> Engine<Real>::args(double dt) {
   const std::size_t node_block_count = partition_.node_blocks().size();
   const std::size_t tile = static_cast<std::size_t>(
       kernel_nodes_ == cubic_nodes ? Tile<cubic_nodes>::nodes : Tile<quadratic_nodes>::nodes);
-  a.tiles = tiles_.at_least(block_count * tile_channels * tile);
-  a.nodes = nodes_.at_least(node_block_count * node_channels * block_nodes);
+  a.channels = channels;
+  const auto planes = static_cast<std::size_t>(channels);
+  a.tiles = tiles_.at_least(block_count * planes * tile);
+  a.nodes = nodes_.at_least(node_block_count * planes * block_nodes);
   reports_.resize(block_count);
   node_contact_work_.resize(node_block_count);
   a.reports = reports_.data();
@@ -240,7 +243,7 @@ void Engine<Real>::step(double dt) {
   PhaseTimer timer;
   partition();
   if (steps_ % steps_between_sorts == 0) sort_storage();
-  const SweepArgs<Real> a = args(dt);
+  const SweepArgs<Real> a = args(dt, sweeps_->fused_channels);
   timer.add_to(seconds.partition);
   over_particle_blocks(sweeps_->particles_to_grid, a);
   timer.add_to(seconds.particles_to_grid);

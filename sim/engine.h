@@ -8,6 +8,7 @@
 #include "sim/base/thread_pool.h"
 #include "sim/kernels.h"
 #include "sim/partition.h"
+#include "sim/simd.h"
 #include "sim/simulation.h"
 #include "sim/staged.h"
 #include "sim/time_step.h"
@@ -64,6 +65,7 @@ class Engine {
   double time() const { return time_; }
   std::size_t steps() const { return steps_; }
   std::size_t particle_count() const { return particles_.size(); }
+  SimdLevel simd() const { return simd_; }
   int threads() const { return pool_->thread_count(); }
   const std::optional<Divergence>& divergence() const { return divergence_; }
   const Warnings& warnings() const { return warnings_; }
@@ -81,7 +83,8 @@ class Engine {
   /// Where a particle is, m from the lattice origin.
   Vec3d place(const Particle<Real>& p) const;
   void prepare();
-  SweepArgs<Real> args(double dt);
+  /// @param channels of tiles and nodes
+  SweepArgs<Real> args(double dt, int channels);
   void place_colliders();
   void partition();
   void sort_storage();
@@ -108,6 +111,7 @@ class Engine {
   std::vector<ColliderPose> poses_;
   Vec3i lattice_origin_;
   std::shared_ptr<ThreadPool> pool_;
+  SimdLevel simd_ = SimdLevel::baseline;
   const Sweeps<Real>* sweeps_ = nullptr;
   int kernel_nodes_ = cubic_nodes;
 

@@ -14,15 +14,15 @@ StagedStep Engine<Real>::staged_step(double dt) const {
   if (particles_.empty()) return out;
   copy.partition();
   if (copy.steps_ % steps_between_sorts == 0) copy.sort_storage();
-  SweepArgs<Real> a = copy.args(dt);
+  SweepArgs<Real> a = copy.args(dt, all_channels);
   std::vector<StagedNodes<Real>> staged(copy.partition_.node_blocks().size());
   std::vector<Gathered<Real>> gathered(particles_.size());
   std::vector<Real> F_trial(9 * particles_.size());
-  LaneBuffer<Real> v_before;
+  std::vector<Real> v_before(3 * particles_.size());
   a.staged = staged.data();
   a.gathered = gathered.data();
   a.F_trial = F_trial.data();
-  a.v_before_collision = v_before.at_least(particles_.size());
+  a.v_before_collision = v_before.data();
   const Sweeps<Real>& s = *sweeps_;
   copy.over_particle_blocks(s.rasterize, a);  // 1  mass, momentum, v_old
   copy.over_node_blocks(s.collect_momentum, a);
@@ -72,10 +72,10 @@ void Engine<Real>::read_back(const SweepArgs<Real>& a, StagedStep& out) const {
   out.F_E_trial.resize(count);
   out.v_before_collision.resize(count);
   for (std::size_t q = 0; q < count; ++q) {
-    const std::size_t id = particles_[q].id;
+    const auto id = static_cast<std::size_t>(particles_[q].id);
     out.grad_v[id] = matrix(a.gathered[q].grad_v);
     out.F_E_trial[id] = matrix(a.F_trial + 9 * q);
-    out.v_before_collision[id] = vector(a.v_before_collision[q]);
+    out.v_before_collision[id] = sim::vector(a.v_before_collision + 3 * q);
   }
   out.after = particles();
   out.state_hash = state_hash();

@@ -50,26 +50,26 @@ void Engine<Real>::load(const ParticleArrays& in) {
   for (std::size_t q = 0; q < count; ++q) {
     Particle<Real>& p = particles_[q];
     p = Particle<Real>{};
-    p.id = static_cast<std::uint32_t>(q);
+    p.id = static_cast<Integer<Real>>(q);
     const int material = in.material.empty() ? 0 : in.material[q];
     if (material < 0 || static_cast<std::size_t>(material) >= material_list_.size())
       throw std::invalid_argument("a particle names a material that does not exist");
-    p.material = static_cast<std::uint16_t>(material);
-    p.model = static_cast<std::uint8_t>(
-        model_kind(material_list_[static_cast<std::size_t>(material)].model));
+    const Model model = material_list_[static_cast<std::size_t>(material)].model;
     for (int a = 0; a < 3; ++a) {
       const double in_cells = in.x[q][a] / settings_.cell_size;
       if (!(std::abs(in_cells) < 4.0 * block_limit))
         throw std::invalid_argument("a particle starts outside the lattice");
-      split(in_cells, p.cell[a], p.offset[a]);
-      p.cell[a] += block_side * lattice_origin_[a];
+      int cell = 0;
+      split(in_cells, cell, p.offset[a]);
+      p.cell[a] = cell + block_side * lattice_origin_[a];
       p.v[a] = in.v.empty() ? Real(0) : static_cast<Real>(in.v[q][a]);
     }
     p.m = static_cast<Real>(in.m[q]);
     p.V0 = in.V0.empty() ? Real(0) : static_cast<Real>(in.V0[q]);
     if (!(p.m > Real(0)) || !(p.V0 >= Real(0)))
       throw std::invalid_argument("a particle's mass or volume is not positive");
-    if (p.V0 == Real(0)) p.flags |= needs_volume;
+    p.kind = kind_of<Real>(static_cast<std::uint16_t>(material), model_kind(model),
+                           p.V0 == Real(0) ? unsigned(needs_volume) : 0u);
     store_matrix(in.F_E.empty() ? Mat3d(Mat3d::Identity()) : in.F_E[q], p.F_E);
     store_matrix(in.C.empty() ? Mat3d(Mat3d::Zero()) : in.C[q], p.C);
     p.J_P = in.J_P.empty() ? Real(1) : static_cast<Real>(in.J_P[q]);
@@ -118,7 +118,7 @@ Summary Engine<Real>::summary() const {
               m * inertia * Vec3d(C(2, 1) - C(1, 2), C(0, 2) - C(2, 0), C(1, 0) - C(0, 1));
         }
         s.elastic_energy += static_cast<double>(p.V0) * static_cast<double>(p.stiffness) *
-                            energy_density(material_list_[p.material], matrix(p.F_E), J_P);
+                            energy_density(material_list_[static_cast<std::size_t>(p.material())], matrix(p.F_E), J_P);
         s.max_speed = std::max(s.max_speed, v.norm());
         s.min_J_P = q == c * chunk ? J_P : std::min(s.min_J_P, J_P);
         s.max_J_P = q == c * chunk ? J_P : std::max(s.max_J_P, J_P);
@@ -157,7 +157,7 @@ ParticleArrays Engine<Real>::particles() const {
   out.C.resize(count);
   out.material.resize(count);
   for (const Particle<Real>& p : particles_) {
-    const std::size_t id = p.id;
+    const auto id = static_cast<std::size_t>(p.id);
     out.x[id] = place(p);
     out.v[id] = vector(p.v);
     out.m[id] = static_cast<double>(p.m);
@@ -165,7 +165,7 @@ ParticleArrays Engine<Real>::particles() const {
     out.F_E[id] = matrix(p.F_E);
     out.J_P[id] = static_cast<double>(p.J_P);
     out.C[id] = matrix(p.C);
-    out.material[id] = p.material;
+    out.material[id] = static_cast<int>(p.material());
   }
   return out;
 }
@@ -176,7 +176,7 @@ std::vector<Mat3d> Engine<Real>::kirchhoff() const {
   for (const Particle<Real>& p : particles_) {
     const Real* t = p.tau;
     const Real full[9] = {t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2]};
-    out[p.id] = matrix(full);
+    out[static_cast<std::size_t>(p.id)] = matrix(full);
   }
   return out;
 }
@@ -184,7 +184,7 @@ std::vector<Mat3d> Engine<Real>::kirchhoff() const {
 template <class Real>
 std::vector<Vec3i> Engine<Real>::cells() const {
   std::vector<Vec3i> out(particles_.size());
-  for (const Particle<Real>& p : particles_) out[p.id] = Vec3i(p.cell[0], p.cell[1], p.cell[2]);
+  for (const Particle<Real>& p : particles_) out[static_cast<std::size_t>(p.id)] = Eigen::Matrix<Integer<Real>, 3, 1>(p.cell).template cast<int>();
   return out;
 }
 
@@ -193,7 +193,7 @@ std::uint64_t Engine<Real>::state_hash() const {
   std::uint64_t sum = 0;
   for (const Particle<Real>& p : particles_) {
     std::int32_t cell[3];
-    for (int a = 0; a < 3; ++a) cell[a] = p.cell[a] - block_side * lattice_origin_[a];
+    for (int a = 0; a < 3; ++a) cell[a] = static_cast<int>(p.cell[a]) - block_side * lattice_origin_[a];
     std::uint64_t hash = hash_bytes(cell, sizeof cell);
     hash = hash_bytes(p.offset, sizeof p.offset, hash);
     hash = hash_bytes(p.v, sizeof p.v, hash);
@@ -202,7 +202,7 @@ std::uint64_t Engine<Real>::state_hash() const {
     hash = hash_bytes(p.F_E, sizeof p.F_E, hash);
     hash = hash_bytes(&p.J_P, sizeof p.J_P, hash);
     hash = hash_bytes(p.C, sizeof p.C, hash);
-    sum += mix64(p.id, hash);
+    sum += mix64(static_cast<std::uint64_t>(p.id), hash);
   }
   return sum;
 }

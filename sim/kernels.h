@@ -12,11 +12,13 @@
 
 namespace neve::sim {
 
-/// Bits of the node channels: one Quad per node and channel.
-enum TileChannel { channel_momentum = 0, channel_force = 1, tile_channels = 2 };
+/// Channels of a tile: one Quad per node and channel.
+enum TileChannel { channel_momentum = 0, channel_force = 1 };
+inline constexpr int all_channels = 2;
 
-/// Particles that are taken through steps 7 to 10 together, so that materials work on full lanes.
-inline constexpr int group_size = 64;
+/// Particles that are taken through steps 7 to 10 together, so that materials work on full lanes,
+/// and through steps 1 to 3, so that those of a cell reach its nodes together.
+inline constexpr int gather_group = 64, scatter_group = 32;
 
 enum class TransferKind : int { flip, apic, mls };
 
@@ -51,23 +53,24 @@ struct BlockReport {
 };
 
 /// What the fused driver keeps of a node: what particles gather.
-enum NodeChannel { channel_v_new = 0, channel_change = 1, node_channels = 2 };
+enum NodeChannel { channel_v_new = 0, channel_change = 1 };
 
-/// What the staged driver keeps of a node block, 64 nodes each.
+/// What the staged driver keeps of a node block, 64 nodes each. The alignment is said, since that of
+/// a Quad depends on the instruction set that a file is compiled for.
 template <class Real>
-struct StagedNodes {
+struct alignas(64) StagedNodes {
   Quad<Real> momentum[block_nodes];  ///< x y z and mass
   Quad<Real> force[block_nodes];
   Quad<Real> v_old[block_nodes], v_free[block_nodes], v_star[block_nodes], v_new[block_nodes];
 };
 
-/// What a particle gathers from the grid.
-template <class Real>
+/// What a particle gathers from the grid; a number or lanes.
+template <class R>
 struct Gathered {
-  Quad<Real> v;       ///< sum w v_new (PIC)
-  Quad<Real> change;  ///< sum w (v_new - v_old)
-  Real grad_v[9];     ///< 1/s, row by row
-  Real C[9];          ///< 1/s, affine velocity (APIC, MLS)
+  R v[3];       ///< sum w v_new (PIC)
+  R change[3];  ///< sum w (v_new - v_old); FLIP
+  R grad_v[9];  ///< 1/s, row by row
+  R C[9];       ///< 1/s, affine velocity (APIC, MLS), row by row
 };
 
 /// One state of the world, seen by a sweep.
@@ -80,15 +83,16 @@ struct SweepArgs {
   std::uint16_t* locals;       ///< storage index -> model and cell in the block
   const ParticleBlock* blocks;
   const NodeBlock* node_blocks;
-  Quad<Real>* tiles;           ///< per particle block: tile_channels tiles
-  Quad<Real>* nodes;           ///< per node block: node_channels x 64
+  int channels;                ///< of tiles and nodes: 2, or what the fused driver needs
+  Quad<Real>* tiles;           ///< per particle block: `channels` tiles
+  Quad<Real>* nodes;           ///< per node block: `channels` x 64
   BlockReport<Real>* reports;  ///< per particle block
   double* node_contact_work;   ///< per node block, J
   // Staged driver only.
-  StagedNodes<Real>* staged;       ///< per node block
-  Gathered<Real>* gathered;        ///< per storage index
-  Real* F_trial;                   ///< 9 per storage index, before projection
-  Quad<Real>* v_before_collision;  ///< per storage index
+  StagedNodes<Real>* staged;  ///< per node block
+  Gathered<Real>* gathered;   ///< per storage index
+  Real* F_trial;              ///< 9 per storage index, before projection
+  Real* v_before_collision;   ///< 3 per storage index
 };
 
 /// A sweep over blocks [begin, end).
@@ -98,20 +102,35 @@ using Sweep = void (*)(const SweepArgs<Real>&, std::uint32_t begin, std::uint32_
 /// The sweeps for one kernel and transfer.
 template <class Real>
 struct Sweeps {
-  // Fused: two particle sweeps and a grid sweep.
+  // Fused: two particle sweeps and a grid sweep. FLIP keeps momentum and force apart, since
+  // particles want to know how much the velocity changed; the others add dt f to the momentum.
+  int fused_channels;
   Sweep<Real> particles_to_grid, grid_update, grid_to_particles;
   // First step of a body: masses to the nodes (channel_momentum), then back to volumes.
   Sweep<Real> rasterize, collect_momentum, volumes;
   // Staged, one stage each.
   Sweep<Real> elastic_forces, collect_force, grid_velocities, grid_collisions, keep_velocities;
   Sweep<Real> gather, deformation, particle_velocities, particle_collisions, advection;
-  // Without a grid: stress, keys and limits of the state as it is. Blocks are ranges of storage.
-  void (*refresh)(const SweepArgs<Real>&, std::uint32_t begin, std::uint32_t end,
+  // Without a grid: stress, keys and limits of the state as it is; `is_projected` projects as
+  // step 7 does. Blocks are ranges of storage.
+  void (*refresh)(const SweepArgs<Real>&, std::uint32_t begin, std::uint32_t end, bool is_projected,
                   BlockReport<Real>& report);
 };
 
+/// Instruction sets that kernels are built for, from the one that every machine of the architecture
+/// has.
+enum class SimdLevel { baseline, avx2, avx512 };
+
+/// The sweeps of an instruction set that this build and this machine have.
 /// @param nodes cubic_nodes or quadratic_nodes
-const Sweeps<float>& baseline_sweeps(int nodes, TransferKind transfer, float);
-const Sweeps<double>& baseline_sweeps(int nodes, TransferKind transfer, double);
+const Sweeps<float>& sweeps_for(SimdLevel level, int nodes, TransferKind transfer, float);
+const Sweeps<double>& sweeps_for(SimdLevel level, int nodes, TransferKind transfer, double);
+
+/// One file per instruction set defines its own.
+template <class Set>
+struct KernelSet {
+  static const Sweeps<float>& sweeps(int nodes, TransferKind transfer, float);
+  static const Sweeps<double>& sweeps(int nodes, TransferKind transfer, double);
+};
 
 }  // namespace neve::sim

@@ -57,7 +57,7 @@ int Simulation::threads() const {
   return impl_->visit([](const auto& e) { return e.threads(); });
 }
 const char* Simulation::simd() const {
-  return "baseline";
+  return name(impl_->visit([](const auto& e) { return e.simd(); }));
 }
 PhaseSeconds Simulation::phase_seconds() const {
   return impl_->visit([](const auto& e) { return e.phase_seconds(); });
@@ -123,8 +123,8 @@ std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,
   // blocks.
   const double cells = static_cast<double>(particles) / particles_per_cell;
   const double blocks = std::min(2.0 * cells / block_nodes + 64, static_cast<double>(particles));
-  const double tile = tile_channels * Tile<cubic_nodes>::nodes * 4 * real;
-  const double nodes = 2 * (node_channels + 6) * block_nodes * 4 * real;
+  const double tile = all_channels * Tile<cubic_nodes>::nodes * 4 * real;
+  const double nodes = 2 * (all_channels + 6) * block_nodes * 4 * real;
   const double total = static_cast<double>(particles) * per_particle + blocks * (tile + nodes) +
                        static_cast<double>(threads) * 1e6 + 8e6;
   return total < 1e18 ? static_cast<std::uint64_t>(total) : std::uint64_t(1e18);

@@ -1,138 +1,226 @@
 #pragma once
-/// Each stage of the step once, as an inline kernel on one particle or one node. Both drivers call
-/// these, so a stage cannot differ between them. Numbers are the paper's steps (section 4).
+/// Each stage of the step once, as an inline kernel over lanes or rows. Both drivers call these, so
+/// a stage cannot differ between them. Numbers are the paper's steps (section 4).
 
 #include "sim/kernels.h"
+#include "sim/particle_lanes.h"
+#include "sim/row.h"
 
 namespace neve::sim {
 
-template <class Real>
-NEVE_INLINE Quad<Real> quad(const Real* xyz, Real w = Real(0)) {
-  return Quad<Real>{xyz[0], xyz[1], xyz[2], w};
+// ---- stencils -----------------------------------------------------------------------------------
+
+/// Weights of up to G particles of one block, laid out for row kernels: numbers to multiply a row
+/// with along x and y, quads along z. w_ip is the product over the axes.
+template <class Real, int K, int G>
+struct Stencils {
+  Real w[3][K][G];    ///< N
+  Real dw[3][K][G];   ///< N' in grid units: times 1/h is the derivative by x_p
+  Real arm[3][K][G];  ///< N (x_i - x_p)/h
+  Quad<Real> z[G], dz[G], arm_z[G];
+  Integer<Real> first[G];  ///< node of the tile that the stencil starts at
+
+  /// Particles [q, q + W). @param offset, cell  x, y, z of the records
+  template <bool needs_dw, bool needs_arm, class V, class I>
+  NEVE_INLINE void set(int q, const V* offset, const I* cell) {
+    I base[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      base[axis] = stencil_base<K, Real>(cell[axis], offset[axis]);
+      const V place = offset[axis] + __builtin_convertvector(cell[axis] - base[axis], V);
+      V N[K], dN[K], N_arm[K];
+      spline<Real>(place, N, dN);
+      for (int k = 0; k < K; ++k) {
+        N_arm[k] = N[k] * (static_cast<Real>(k) - place);
+        store_lanes(N[k], w[axis][k] + q);
+        if constexpr (needs_dw) store_lanes(dN[k], dw[axis][k] + q);
+        if constexpr (needs_arm) store_lanes(N_arm[k], arm[axis][k] + q);
+      }
+      if (axis < 2) continue;
+      store_quads(along_z(N), z + q);
+      if constexpr (needs_dw) store_quads(along_z(dN), dz + q);
+      if constexpr (needs_arm) store_quads(along_z(N_arm), arm_z + q);
+    }
+    const I node =
+        ((base[0] & 3) * Tile<K>::side + (base[1] & 3)) * Tile<K>::side_z + (base[2] & 3);
+    __builtin_memcpy(first + q, &node, sizeof node);
+  }
+
+ private:
+  template <class V>
+  NEVE_INLINE static FourWords<V> along_z(const V (&weights)[K]) {
+    FourWords<V> out{};
+    for (int k = 0; k < K; ++k) out.w[k] = weights[k];
+    return out;
+  }
+};
+
+/// body(begin, end) for every run of particles that share a cell.
+template <class Real, int K, int G, class Body>
+NEVE_INLINE void each_cell(const Stencils<Real, K, G>& s, int count, const Body& body) {
+  for (int begin = 0; begin < count;) {
+    int end = begin + 1;
+    while (end < count && s.first[end] == s.first[begin]) ++end;
+    body(begin, end);
+    begin = end;
+  }
 }
 
 // ---- transfers: reusable scatter and gather -----------------------------------------------------
 
-/// tile += sum over the stencil of w_ip value, value in four channels.
-template <class Real, int K>
-NEVE_INLINE void scatter_value(const Weights<Real, K>& s, int first, Quad<Real> value,
-                               Quad<Real>* tile) {
-  for (int i = 0; i < K; ++i) {
-    for (int j = 0; j < K; ++j) {
-      const Quad<Real> row = value * (s.w[0][i] * s.w[1][j]);
-      Quad<Real>* node = tile + first + Tile<K>::node(i, j, 0);
-      for (int k = 0; k < K; ++k) node[k] += row * s.w[2][k];
+/// How many slabs of a stencil (nodes of the same x) are accumulated at once: as many as there are
+/// registers for.
+template <class Real, int K, class Set>
+inline constexpr int slabs_at_once = Set::template lanes<Real> == 16 ? K : 1;
+
+/// tile += sum over the particles [begin, end) of one cell of w_ip value_p.
+/// @param along  per particle: its value times the weights along z
+template <class Real, int K, int G, class Set>
+NEVE_INLINE void scatter_value(const Stencils<Real, K, G>& s, const Row<Real, Set>* along,
+                               int begin, int end, Quad<Real>* tile) {
+  using R = Row<Real, Set>;
+  constexpr int slabs = slabs_at_once<Real, K, Set>;
+  for (int i0 = 0; i0 < K; i0 += slabs) {
+    R sum[slabs][K];
+    unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
+      unrolled<K>([&](auto j) NEVE_INLINE_BODY { sum[i][j] = R::zero(); });
+    });
+    for (int q = begin; q < end; ++q) {
+      unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
+        const R across = along[q] * s.w[0][i0 + i][q];
+        unrolled<K>([&](auto j)
+                        NEVE_INLINE_BODY { sum[i][j] = fused(across, s.w[1][j][q], sum[i][j]); });
+      });
     }
+    unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
+      unrolled<K>([&](auto j) NEVE_INLINE_BODY {
+        sum[i][j].add_to(tile + s.first[begin] + Tile<K>::node(i0 + i, j, 0));
+      });
+    });
   }
 }
 
-/// tile += sum of A g_ip, with A given by columns and g_ip the product weights in which one axis
-/// takes g instead of w: the gradient of w_ip (g = N'/h) or w_ip (x_i - x_p) (g = arm).
-template <class Real, int K>
-NEVE_INLINE void scatter_tensor(const Weights<Real, K>& s, const Real (&g)[3][K], int first,
-                                Quad<Real> A0, Quad<Real> A1, Quad<Real> A2, Quad<Real>* tile) {
-  for (int i = 0; i < K; ++i) {
-    for (int j = 0; j < K; ++j) {
-      const Quad<Real> across = A0 * (g[0][i] * s.w[1][j]) + A1 * (s.w[0][i] * g[1][j]);
-      const Quad<Real> along = A2 * (s.w[0][i] * s.w[1][j]);
-      Quad<Real>* node = tile + first + Tile<K>::node(i, j, 0);
-      for (int k = 0; k < K; ++k) node[k] += across * s.w[2][k] + along * g[2][k];
-    }
-  }
-}
-
-/// Columns of sum v_i g_ip^T, and sum w_ip v_i, over the stencil.
-template <class Real>
-struct ValueAndTensor {
-  Quad<Real> value{}, column[3]{};
+/// A tensor A of one particle, by columns, as rows: A_x and A_y times the weights along z, and A_z
+/// times g along z. A value times the weights along z may be added to `z`.
+template <class Real, class Set>
+struct TensorRows {
+  Row<Real, Set> x, y, z;
 };
-template <class Real, int K>
-NEVE_INLINE ValueAndTensor<Real> gather_tensor(const Weights<Real, K>& s, const Real (&g)[3][K],
-                                               int first, const Quad<Real>* tile) {
-  ValueAndTensor<Real> out;
-  for (int i = 0; i < K; ++i) {
-    Quad<Real> plane{}, plane_y{}, plane_z{};
-    for (int j = 0; j < K; ++j) {
-      const Quad<Real>* node = tile + first + Tile<K>::node(i, j, 0);
-      Quad<Real> row{}, row_z{};
-      for (int k = 0; k < K; ++k) {
-        row += node[k] * s.w[2][k];
-        row_z += node[k] * g[2][k];
-      }
-      plane += row * s.w[1][j];
-      plane_y += row * g[1][j];
-      plane_z += row_z * s.w[1][j];
+
+/// tile += sum over the particles [begin, end) of one cell of A_p g_ip, with g_ip the product
+/// weights in which one axis takes g instead of w: the gradient of w_ip (g = dw) or w_ip (x_i -
+/// x_p) (arm).
+template <class Real, int K, int G, class Set>
+NEVE_INLINE void scatter_tensor(const Stencils<Real, K, G>& s, const Real (&g)[3][K][G],
+                                const TensorRows<Real, Set>* A, int begin, int end,
+                                Quad<Real>* tile) {
+  using R = Row<Real, Set>;
+  constexpr int slabs = slabs_at_once<Real, K, Set>;
+  for (int i0 = 0; i0 < K; i0 += slabs) {
+    R sum[slabs][K];
+    unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
+      unrolled<K>([&](auto j) NEVE_INLINE_BODY { sum[i][j] = R::zero(); });
+    });
+    for (int q = begin; q < end; ++q) {
+      unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
+        const R with_w = fused(A[q].x, g[0][i0 + i][q], A[q].z * s.w[0][i0 + i][q]);
+        const R with_g = A[q].y * s.w[0][i0 + i][q];
+        unrolled<K>([&](auto j) NEVE_INLINE_BODY {
+          sum[i][j] = fused(with_w, s.w[1][j][q], fused(with_g, g[1][j][q], sum[i][j]));
+        });
+      });
     }
-    out.value += plane * s.w[0][i];
-    out.column[0] += plane * g[0][i];
-    out.column[1] += plane_y * s.w[0][i];
-    out.column[2] += plane_z * s.w[0][i];
+    unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
+      unrolled<K>([&](auto j) NEVE_INLINE_BODY {
+        sum[i][j].add_to(tile + s.first[begin] + Tile<K>::node(i0 + i, j, 0));
+      });
+    });
   }
-  return out;
 }
 
-/// sum w_ip value_i over the stencil.
-template <class Real, int K>
-NEVE_INLINE Quad<Real> gather_value(const Weights<Real, K>& s, int first, const Quad<Real>* tile) {
-  Quad<Real> out{};
-  for (int i = 0; i < K; ++i) {
-    Quad<Real> plane{};
-    for (int j = 0; j < K; ++j) {
-      const Quad<Real>* node = tile + first + Tile<K>::node(i, j, 0);
-      Quad<Real> row{};
-      for (int k = 0; k < K; ++k) row += node[k] * s.w[2][k];
-      plane += row * s.w[1][j];
-    }
-    out += plane * s.w[0][i];
-  }
-  return out;
+/// sum w_ip value_i, and the columns of sum value_i g_ip^T, over the stencil of particle q.
+template <class Set, class Real, int K, int G>
+NEVE_INLINE void gather_tensor(const Stencils<Real, K, G>& s, const Real (&g)[3][K][G],
+                               const Quad<Real>* g_z, int q, const Quad<Real>* tile,
+                               Quad<Real>& value, Quad<Real>* column) {
+  using R = Row<Real, Set>;
+  R sum = R::zero(), sum_x = R::zero(), sum_y = R::zero();
+  unrolled<K>([&](auto i) NEVE_INLINE_BODY {
+    R plane = R::zero(), plane_y = R::zero();
+    unrolled<K>([&](auto j) NEVE_INLINE_BODY {
+      const R row = R::load(tile + s.first[q] + Tile<K>::node(i, j, 0));
+      plane = fused(row, s.w[1][j][q], plane);
+      plane_y = fused(row, g[1][j][q], plane_y);
+    });
+    sum = fused(plane, s.w[0][i][q], sum);
+    sum_x = fused(plane, g[0][i][q], sum_x);
+    sum_y = fused(plane_y, s.w[0][i][q], sum_y);
+  });
+  const R z = R::spread(s.z[q]), with_g = R::spread(g_z[q]);
+  value = (sum * z).sum();
+  column[0] = (sum_x * z).sum();
+  column[1] = (sum_y * z).sum();
+  column[2] = (sum * with_g).sum();
 }
 
-template <class Real>
-NEVE_INLINE void store_columns(const Quad<Real>* column, Real scale, Real* matrix) {
-  for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b) matrix[3 * a + b] = column[b][a] * scale;
+/// sum w_ip value_i over the stencil of particle q.
+template <class Set, class Real, int K, int G>
+NEVE_INLINE Quad<Real> gather_value(const Stencils<Real, K, G>& s, int q, const Quad<Real>* tile) {
+  using R = Row<Real, Set>;
+  R sum = R::zero();
+  unrolled<K>([&](auto i) NEVE_INLINE_BODY {
+    R plane = R::zero();
+    unrolled<K>([&](auto j) NEVE_INLINE_BODY {
+      plane = fused(R::load(tile + s.first[q] + Tile<K>::node(i, j, 0)), s.w[1][j][q], plane);
+    });
+    sum = fused(plane, s.w[0][i][q], sum);
+  });
+  return (sum * R::spread(s.z[q])).sum();
 }
 
 // ---- particle to node ---------------------------------------------------------------------------
 
-/// Step 1: mass and momentum; APIC and MLS carry v_p + C (x_i - x_p).
-template <class Real, int K, TransferKind transfer>
-NEVE_INLINE void rasterize(const Particle<Real>& p, const Weights<Real, K>& s, int first, Real h,
-                           Quad<Real>* tile) {
-  scatter_value(s, first, quad(p.v, Real(1)) * p.m, tile);
-  if constexpr (transfer != TransferKind::flip) {
-    const Real scale = p.m * h;
-    const Quad<Real> A0{p.C[0] * scale, p.C[3] * scale, p.C[6] * scale, 0};
-    const Quad<Real> A1{p.C[1] * scale, p.C[4] * scale, p.C[7] * scale, 0};
-    const Quad<Real> A2{p.C[2] * scale, p.C[5] * scale, p.C[8] * scale, 0};
-    scatter_tensor(s, s.arm, first, A0, A1, A2, tile);
-  }
-}
+/// Columns of a tensor, four channels each; the fourth is 0.
+template <class V>
+struct Columns {
+  FourWords<V> column[3];
+};
 
 /// Step 3: f_i = -sum V0 tau grad_w_ip (the paper, equation 6, with J cancelled). MLS replaces
 /// grad_w_ip by w_ip (x_i - x_p) / D (Hu et al. 2018).
-template <class Real, int K, TransferKind transfer>
-NEVE_INLINE void elastic_forces(const Particle<Real>& p, const Weights<Real, K>& s, int first,
-                                Real inv_h, Quad<Real>* tile) {
-  constexpr bool is_mls = transfer == TransferKind::mls;
-  const Real scale = -p.V0 * inv_h * (is_mls ? Real(1 / apic_inertia<K>) : Real(1));
-  const Real xx = p.tau[0] * scale, yy = p.tau[1] * scale, zz = p.tau[2] * scale;
-  const Real xy = p.tau[3] * scale, xz = p.tau[4] * scale, yz = p.tau[5] * scale;
-  const Quad<Real> A0{xx, xy, xz, 0}, A1{xy, yy, yz, 0}, A2{xz, yz, zz, 0};
-  if constexpr (is_mls) {
-    scatter_tensor(s, s.arm, first, A0, A1, A2, tile);
-  } else {
-    scatter_tensor(s, s.dw, first, A0, A1, A2, tile);
-  }
+/// @param scale  1, or dt for the change of momentum
+template <int K, TransferKind transfer, class V>
+NEVE_INLINE Columns<V> elastic_force(V V0, const V* tau, ElementOf<V> inv_h, ElementOf<V> scale) {
+  using Real = ElementOf<V>;
+  constexpr Real inertia = transfer == TransferKind::mls ? Real(1 / apic_inertia<K>) : Real(1);
+  const V factor = V0 * (-inv_h * inertia * scale);
+  const V xx = tau[0], yy = tau[1], zz = tau[2], xy = tau[3], xz = tau[4], yz = tau[5];
+  return {{{{factor * xx, factor * xy, factor * xz, V{}}},
+           {{factor * xy, factor * yy, factor * yz, V{}}},
+           {{factor * xz, factor * yz, factor * zz, V{}}}}};
+}
+
+/// Step 1, APIC and MLS: the momentum of v_p + C (x_i - x_p) besides that of v_p.
+template <class V>
+NEVE_INLINE Columns<V> affine_momentum(V m, const V* C, ElementOf<V> h) {
+  const V factor = m * h;
+  return {{{{factor * C[0], factor * C[3], factor * C[6], V{}}},
+           {{factor * C[1], factor * C[4], factor * C[7], V{}}},
+           {{factor * C[2], factor * C[5], factor * C[8], V{}}}}};
+}
+
+template <class V>
+NEVE_INLINE Columns<V> operator+(const Columns<V>& a, const Columns<V>& b) {
+  Columns<V> sum;
+  for (int c = 0; c < 3; ++c)
+    for (int w = 0; w < 4; ++w) sum.column[c].w[w] = a.column[c].w[w] + b.column[c].w[w];
+  return sum;
 }
 
 /// Step 2, once per body: rho_p = sum m_i w_ip / h^3, V0 = m_p / rho_p.
-template <class Real, int K>
-NEVE_INLINE Real estimated_volume(const Particle<Real>& p, const Weights<Real, K>& s, int first,
-                                  Real h, const Quad<Real>* momentum) {
-  const Real mass = gather_value(s, first, momentum)[3];
-  return p.m * (h * h * h) / mass;
+template <class Set, class Real, int K, int G>
+NEVE_INLINE Real estimated_volume(Real m, const Stencils<Real, K, G>& s, int q, Real h,
+                                  const Quad<Real>* momentum) {
+  return m * (h * h * h) / gather_value<Set>(s, q, momentum)[3];
 }
 
 // ---- nodes --------------------------------------------------------------------------------------
@@ -153,162 +241,221 @@ NEVE_INLINE Quad<Real> node_v_free(Quad<Real> v_old, Quad<Real> force,
                                    const StepConstants<Real>& c) {
   const Real mass = v_old[3];
   if (!(mass > Real(0))) return Quad<Real>{};
-  Quad<Real> v = v_old + (force / mass + quad(c.gravity)) * c.dt;
+  const Quad<Real> gravity{c.gravity[0], c.gravity[1], c.gravity[2], Real(0)};
+  Quad<Real> v = v_old + (force / mass + gravity) * c.dt;
   v[3] = mass;
   return v;
 }
 
-/// Kinetic energy that a change of velocity added, J; 0 where it took some.
-template <class Real>
-NEVE_INLINE double energy_gained(Real mass, const Vec3<Real>& before, const Vec3<Real>& after) {
-  const double gained =
-      0.5 * static_cast<double>(mass) *
-      (static_cast<double>(dot(after, after)) - static_cast<double>(dot(before, before)));
-  return gained > 0 ? gained : 0;
+// ---- contact ------------------------------------------------------------------------------------
+
+/// Steps 5 and 9: contact at places r in the block, collider after collider.
+/// @param is_used  lanes that count
+/// @param work     kinetic energy that contacts added, J; where they took some, 0
+template <class Set, class V, class Real>
+NEVE_APART void collide(Vec3<V>& v, const V& mass, const Vec3<V>& r, const MaskOf<V>& is_used,
+                        const LocalCollider<Real>* colliders, int count, double& work) {
+  const Vec3<V> before = v;
+  for (int k = 0; k < count; ++k) v = respond(colliders[k], r, v);
+  const V gained = Real(0.5) * mass * (dot(v, v) - dot(before, before));
+  const MaskOf<V> counts = is_used & (gained > V{});
+  if (!any_lane(counts)) return;
+  for (int l = 0; l < lane_count<V>; ++l)
+    if (counts[l]) work += static_cast<double>(gained[l]);
 }
 
-/// Steps 5 and 9: contact at a place r in the block, collider after collider.
+/// Colliders that a block can touch, placed relative to it.
 template <class Real>
-NEVE_INLINE Quad<Real> collide(Quad<Real> v_in, Real mass, const Vec3<Real>& r,
-                               const LocalCollider<Real>* colliders, int count, double& work) {
-  if (count == 0) return v_in;
-  const Vec3<Real> before{v_in[0], v_in[1], v_in[2]};
-  Vec3<Real> v = before;
-  for (int k = 0; k < count; ++k) v = respond(colliders[k], r, v);
-  work += energy_gained(mass, before, v);
-  return Quad<Real>{v.x, v.y, v.z, v_in[3]};
+struct NearColliders {
+  LocalCollider<Real> local[max_colliders];
+  int count = 0;
+
+  /// @param centre, reach  places in the block lie within `reach` cells of (centre, centre, centre)
+  NEVE_INLINE NearColliders(const StepConstants<Real>& c, std::uint64_t key, Real centre,
+                            Real reach) {
+    int cell[3];
+    for (int a = 0; a < 3; ++a) cell[a] = block_coordinate(key, a) * block_side;
+    const Vec3<Real> middle{centre * c.h, centre * c.h, centre * c.h};
+    for (int k = 0; k < c.collider_count; ++k) {
+      const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
+      if (!is_out_of_reach(candidate, middle, reach * c.h)) local[count++] = candidate;
+    }
+  }
+};
+
+/// Nodes lie in [0, 3] cells from the block's first node, particles of the block in [0.5, 5).
+template <class Real>
+NEVE_INLINE NearColliders<Real> near_nodes(const StepConstants<Real>& c, std::uint64_t key) {
+  return {c, key, Real(1.5), Real(2.7)};
+}
+template <class Real>
+NEVE_INLINE NearColliders<Real> near_particles(const StepConstants<Real>& c, std::uint64_t key) {
+  return {c, key, Real(2.75), Real(4)};
+}
+
+/// Step 5 on the nodes of a block: v_star from v_free.
+template <class Set, class Real>
+NEVE_INLINE void collide_nodes(Quad<Real>* v, const StepConstants<Real>& c,
+                               const NearColliders<Real>& near, double& work) {
+  constexpr int W = Set::template lanes<Real>;
+  using V = Lanes<Real, W>;
+  if (near.count == 0) return;
+  for (int n = 0; n < block_nodes; n += W) {
+    FourWords<V> words = load_quads<V>(v + n);
+    Vec3<V> velocity{words.w[0], words.w[1], words.w[2]};
+    Real place[3][W];
+    for (int l = 0; l < W; ++l) {
+      place[0][l] = static_cast<Real>((n + l) >> 4);
+      place[1][l] = static_cast<Real>((n + l) >> 2 & 3);
+      place[2][l] = static_cast<Real>((n + l) & 3);
+    }
+    const Vec3<V> r{load_lanes<V>(place[0]), load_lanes<V>(place[1]), load_lanes<V>(place[2])};
+    const MaskOf<V> has_mass = words.w[3] > V{};
+    collide<Set>(velocity, words.w[3], r * all<V>(c.h), has_mass, near.local, near.count, work);
+    for (int a = 0; a < 3; ++a) words.w[a] = has_mass ? velocity[a] : V{};
+    store_quads(words, v + n);
+  }
 }
 
 // ---- node to particle ---------------------------------------------------------------------------
 
-/// What steps 7 and 8 need from the grid.
-template <class Real, int K, TransferKind transfer>
-NEVE_INLINE Gathered<Real> gather(const Weights<Real, K>& s, int first, Real inv_h,
-                                  const Quad<Real>* v_new, const Quad<Real>* change) {
+/// What steps 7 and 8 need from the grid, for particles [q, q + W) of the stencils.
+/// @param change  v_new - v_old on the tile; FLIP only
+template <class Set, TransferKind transfer, class V, class Real, int K, int G>
+NEVE_INLINE void gather(const Stencils<Real, K, G>& s, int q, int count, Real inv_h,
+                        const Quad<Real>* v_new, const Quad<Real>* change, Gathered<V>& out) {
+  constexpr int W = lane_count<V>;
+  constexpr bool is_mls = transfer == TransferKind::mls, is_flip = transfer == TransferKind::flip;
   constexpr Real arm_scale = Real(1 / apic_inertia<K>);
-  Gathered<Real> out{};
-  if constexpr (transfer == TransferKind::mls) {
-    const ValueAndTensor<Real> t = gather_tensor(s, s.arm, first, v_new);
-    out.v = t.value;
-    store_columns(t.column, inv_h * arm_scale, out.C);
-    for (int q = 0; q < 9; ++q) out.grad_v[q] = out.C[q];
-  } else {
-    const ValueAndTensor<Real> t = gather_tensor(s, s.dw, first, v_new);
-    out.v = t.value;
-    store_columns(t.column, inv_h, out.grad_v);
+  Quad<Real> value[W], moved[W], gradient[3][W], affine[3][W];
+  for (int l = 0; l < W; ++l) {
+    const int p = q + smaller(l, count - 1);
+    Quad<Real> columns[3];
+    if constexpr (is_mls)
+      gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, value[l], columns);
+    else
+      gather_tensor<Set>(s, s.dw, s.dz, p, v_new, value[l], columns);
+    for (int c = 0; c < 3; ++c) gradient[c][l] = columns[c];
+    if constexpr (is_flip) moved[l] = gather_value<Set>(s, p, change);
     if constexpr (transfer == TransferKind::apic) {
-      const ValueAndTensor<Real> affine = gather_tensor(s, s.arm, first, v_new);
-      store_columns(affine.column, inv_h * arm_scale, out.C);
-    } else {
-      out.change = gather_value(s, first, change);
+      Quad<Real> same;
+      gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, same, columns);
+      for (int c = 0; c < 3; ++c) affine[c][l] = columns[c];
     }
   }
-  return out;
+  const auto take = [](const Quad<Real>* from, Real scale, V* to, int stride) {
+    const FourWords<V> words = load_quads<V>(from);
+    for (int a = 0; a < 3; ++a) to[stride * a] = words.w[a] * scale;
+  };
+  take(value, Real(1), out.v, 1);
+  if constexpr (is_flip) take(moved, Real(1), out.change, 1);
+  for (int c = 0; c < 3; ++c) {
+    take(gradient[c], is_mls ? inv_h * arm_scale : inv_h, out.grad_v + c, 3);
+    if constexpr (transfer == TransferKind::apic) take(affine[c], inv_h * arm_scale, out.C + c, 3);
+    if constexpr (is_mls)
+      for (int a = 0; a < 3; ++a) out.C[3 * a + c] = out.grad_v[3 * a + c];
+  }
 }
 
 /// Step 7, first half: trial F_E = (I + dt grad_v) F_E.
-template <class Real>
-NEVE_INLINE void strain(Particle<Real>& p, const Real* grad_v, Real dt) {
-  Real F[9];
+template <class V>
+NEVE_INLINE void strain(V* F_E, const V* grad_v, ElementOf<V> dt) {
+  V F[9];
+  const V step = all<V>(dt);
   for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b)
-      F[3 * a + b] =
-          p.F_E[3 * a + b] + dt * (grad_v[3 * a] * p.F_E[b] + grad_v[3 * a + 1] * p.F_E[3 + b] +
-                                   grad_v[3 * a + 2] * p.F_E[6 + b]);
-  for (int q = 0; q < 9; ++q) p.F_E[q] = F[q];
-}
-
-/// Step 7, second half: projection and stress of a group, and what the report wants to know of
-/// them.
-template <class Real>
-NEVE_INLINE void project(Particle<Real>* const* group, int count, const StepConstants<Real>& c,
-                         BlockReport<Real>& report) {
-  MaterialResponse<Real> responses[group_size];
-  update_materials(group, count, c.materials, true, responses);
-  for (int q = 0; q < count; ++q) {
-    const Particle<Real>& p = *group[q];
-    if (responses[q].is_inverted) {
-      report.inverted += 1;
-      if (static_cast<ModelKind>(p.model) != ModelKind::snow) report.inverted_unprojected += 1;
+    for (int b = 0; b < 3; ++b) {
+      const V* g = grad_v + 3 * a;
+      const V rate = fused(g[0], F_E[b], fused(g[1], F_E[3 + b], g[2] * F_E[6 + b]));
+      F[3 * a + b] = fused(step, rate, F_E[3 * a + b]);
     }
-    report.max_sound_squared =
-        larger(report.max_sound_squared, responses[q].wave_modulus * p.V0 / p.m);
-    report.min_J_P = smaller(report.min_J_P, p.J_P);
-    report.max_J_P = larger(report.max_J_P, p.J_P);
-  }
+  for (int q = 0; q < 9; ++q) F_E[q] = F[q];
 }
 
 /// Step 8: FLIP v_p = (1 - alpha) PIC + alpha (v_p + change); APIC and MLS take v and C.
-template <class Real, TransferKind transfer>
-NEVE_INLINE Quad<Real> particle_velocity(Particle<Real>& p, const Gathered<Real>& g, Real alpha) {
-  if constexpr (transfer == TransferKind::flip) {
-    return g.v * (Real(1) - alpha) + (quad(p.v) + g.change) * alpha;
-  } else {
-    for (int q = 0; q < 9; ++q) p.C[q] = g.C[q];
-    return g.v;
-  }
-}
-
-/// Where a particle is, from the first node of its block, m.
-template <class Real>
-NEVE_INLINE Vec3<Real> place_in_block(const Particle<Real>& p, const int* block_cell, Real h) {
-  Vec3<Real> r;
-  for (int a = 0; a < 3; ++a)
-    r[a] = (static_cast<Real>(p.cell[a] - block_cell[a]) + p.offset[a]) * h;
-  return r;
-}
-
-/// Key of the block that the particle's stencil starts in, and the code of its cell and model.
-template <class Real, int K>
-NEVE_INLINE bool locate(const Particle<Real>& p, std::uint64_t& key, std::uint16_t& local) {
-  int base[3];
-  bool is_inside = true;
+template <TransferKind transfer, class V, class I>
+NEVE_INLINE Vec3<V> particle_velocity(Record<V, I>& p, const Gathered<V>& g, ElementOf<V> alpha) {
+  using Real = ElementOf<V>;
+  Vec3<V> v;
   for (int a = 0; a < 3; ++a) {
-    base[a] = stencil_base<K>(p.cell[a], p.offset[a]);
-    const int block = base[a] >> 2;
-    is_inside = is_inside && block > -block_limit && block < block_limit;
+    v[a] = g.v[a];
+    if constexpr (transfer == TransferKind::flip)
+      v[a] = g.v[a] * (Real(1) - alpha) + (p.v[a] + g.change[a]) * alpha;
   }
-  if (!is_inside) return false;
-  key = block_key(base[0] >> 2, base[1] >> 2, base[2] >> 2);
-  local = static_cast<std::uint16_t>(p.model << 6 | (base[0] & 3) << 4 | (base[1] & 3) << 2 |
-                                     (base[2] & 3));
-  return true;
+  if constexpr (transfer != TransferKind::flip)
+    for (int q = 0; q < 9; ++q) p.C[q] = g.C[q];
+  return v;
+}
+
+/// Step 9 on particles of a block, where they are before they move.
+template <class Set, class V, class I, class Real>
+NEVE_INLINE void collide_particles(const Record<V, I>& p, Vec3<V>& v, MaskOf<V> is_used,
+                                   std::uint64_t key, const StepConstants<Real>& c,
+                                   const NearColliders<Real>& near, double& work) {
+  if (near.count == 0) return;
+  Vec3<V> r;
+  for (int a = 0; a < 3; ++a) {
+    const auto cell = p.cell[a] - block_coordinate(key, a) * block_side;
+    r[a] = (__builtin_convertvector(cell, V) + p.offset[a]) * c.h;
+  }
+  collide<Set>(v, p.m, r, is_used, near.local, near.count, work);
+}
+
+/// The block that a stencil starts in and the code of its cell and the particle's model.
+template <class I>
+struct Location {
+  I block[3], local;
+};
+/// @return the lanes inside the lattice
+template <int K, class V, class I>
+NEVE_INLINE I locate(const Record<V, I>& p, Location<I>& at) {
+  using Real = ElementOf<V>;
+  I is_inside = I{} == I{}, cell{};
+  for (int a = 0; a < 3; ++a) {
+    const I base = stencil_base<K, Real>(p.cell[a], p.offset[a]);
+    at.block[a] = base >> 2;
+    is_inside = is_inside & (at.block[a] > -block_limit) & (at.block[a] < block_limit);
+    cell = cell << 2 | (base & 3);
+  }
+  at.local = p.model() << 6 | cell;
+  return is_inside;
 }
 
 /// Step 10: x_p += dt v, in cells and offsets. A particle that would leave the lattice or whose
 /// velocity is no number stays where it is and is reported.
-template <class Real, int K>
-NEVE_INLINE void move(Particle<Real>& p, Quad<Real> v, Real dt_over_h, BlockReport<Real>& report,
-                      std::uint64_t& key, std::uint16_t& local) {
-  constexpr Real farthest = Real(1 << 20);
-  Particle<Real> moved = p;
+template <int K, class V, class I, class Real>
+NEVE_INLINE void move(Record<V, I>& p, const Vec3<V>& v, Real dt_over_h, unsigned used,
+                      BlockReport<Real>& report, Location<I>& at) {
+  const V farthest = all<V>(Real(1 << 20));
+  V x[3];
+  I is_near = I{} == I{};
   for (int a = 0; a < 3; ++a) {
-    const Real x = p.offset[a] + dt_over_h * v[a];
-    if (!(absolute(x) < farthest)) {
-      if (is_finite(x))
-        report.overflowed += 1;
-      else
-        report.not_finite += 1;
-      return;
-    }
-    const int whole = floor_to_int(x);
-    Real rest = x - static_cast<Real>(whole);
-    int carry = 0;
-    if (rest >= Real(1)) {  // a tiny negative x rounds up to the next cell
-      rest = 0;
-      carry = 1;
-    }
-    moved.cell[a] = p.cell[a] + whole + carry;
+    x[a] = p.offset[a] + v[a] * dt_over_h;
+    is_near = is_near & (absolute_lanes(x[a]) < farthest);
+  }
+  Record<V, I> moved;
+  moved.kind = p.kind;
+  for (int a = 0; a < 3; ++a) {
+    const V safe = is_near ? x[a] : V{};
+    I whole = __builtin_convertvector(safe, I);
+    whole += __builtin_convertvector(whole, V) > safe;  // a mask is -1 where true
+    V rest = safe - __builtin_convertvector(whole, V);
+    const I is_carried = rest >= all<V>(1);  // a tiny negative x rounds up to the next cell
+    whole -= is_carried;
+    rest = is_carried ? V{} : rest;
+    moved.cell[a] = p.cell[a] + whole;
     moved.offset[a] = rest;
   }
-  if (!locate<Real, K>(moved, key, local)) {
-    report.overflowed += 1;
-    return;
-  }
+  const I is_inside = is_near & locate<K>(moved, at);
   for (int a = 0; a < 3; ++a) {
-    p.cell[a] = moved.cell[a];
-    p.offset[a] = moved.offset[a];
+    p.cell[a] = is_inside ? moved.cell[a] : p.cell[a];
+    p.offset[a] = is_inside ? moved.offset[a] : p.offset[a];
   }
+  if ((used & ~lane_bits(is_inside)) == 0) return;
+  const V sum = x[0] + x[1] + x[2];
+  const unsigned numbers = lane_bits(sum - sum == V{});
+  report.overflowed +=
+      static_cast<std::uint32_t>(__builtin_popcount(used & ~lane_bits(is_inside) & numbers));
+  locate<K>(p, at);
 }
 
 }  // namespace neve::sim

@@ -1,7 +1,7 @@
 #pragma once
 /// Small vectors and matrices without dependencies: for kernels and for drawing.
 
-#include "sim/base/lanes.h"
+#include "sim/base/scalar.h"
 
 namespace neve {
 

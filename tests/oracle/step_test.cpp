@@ -11,11 +11,13 @@
 
 #include "sim/staged.h"
 #include "tests/oracle/vectors.h"
+#include "tests/support/simd_levels.h"
 
 namespace {
 
 using namespace oracle;
 using namespace neve::sim;
+using namespace neve::test;
 
 struct Tolerance {
   double field, mass_cut;
@@ -126,17 +128,20 @@ void compare_steps(Precision precision, const Tolerance& tolerance) {
 
     simulation.step(s.dt);
     compare_state(after, simulation.particles(), has_C, tolerance);
-    EXPECT_EQ(simulation.state_hash(), staged.state_hash) << "the two drivers differ";
+    // APIC and MLS: the fused driver adds dt f to the momentum, the staged one keeps them apart.
+    if (!has_C) {
+      EXPECT_EQ(simulation.state_hash(), staged.state_hash) << "the two drivers differ";
+    }
   }
   EXPECT_GT(counter.compared, 0) << "no vector in " << folder();
 }
 
 TEST(OracleStep, AgreesInDoubleThroughBothDrivers) {
-  compare_steps(Precision::real64, double_tolerance);
+  at_every_simd_level([] { compare_steps(Precision::real64, double_tolerance); });
 }
 
 TEST(OracleStep, AgreesInFloatThroughBothDrivers) {
-  compare_steps(Precision::single, float_tolerance);
+  at_every_simd_level([] { compare_steps(Precision::single, float_tolerance); });
 }
 
 /// m, m/s and dimensionless: absolute, at any of the first 200 steps. The runs are not chaotic:
@@ -209,11 +214,11 @@ void compare_trajectories(Precision precision, const TrajectoryTolerance& tolera
 }
 
 TEST(OracleTrajectory, AgreesInDouble) {
-  compare_trajectories(Precision::real64, {1e-10, 1e-8, 1e-9});
+  at_every_simd_level([] { compare_trajectories(Precision::real64, {1e-10, 1e-8, 1e-9}); });
 }
 
 TEST(OracleTrajectory, AgreesInFloat) {
-  compare_trajectories(Precision::single, {1e-5, 5e-4, 1e-4});
+  at_every_simd_level([] { compare_trajectories(Precision::single, {1e-5, 5e-4, 1e-4}); });
 }
 
 }  // namespace

@@ -3,16 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/bspline.h"
-#include "sim/constitutive.h"
-#include "sim/contact.h"
 #include "sim/diagnostics.h"
 #include "tests/oracle/vectors.h"
+#include "tests/support/one_particle.h"
 
 namespace {
 
 using namespace oracle;
 using namespace neve::sim;
+using namespace neve::test;
 
 const Json& unit() {
   static const Json vectors = read_json(folder() / "unit.json");
@@ -26,7 +25,7 @@ Particle<double> particle(const Mat3d& F_E, double J_P, ModelKind model) {
   p.J_P = J_P;
   p.m = p.V0 = 1;
   p.stiffness = p.threshold = 1;
-  p.model = static_cast<std::uint8_t>(model);
+  p.kind = kind_of<double>(0, model, 0);
   return p;
 }
 
@@ -54,7 +53,7 @@ void compare_weights(const Json& entry) {
   Particle<double> p{};
   for (int a = 0; a < 3; ++a) {
     p.cell[a] = static_cast<int>(std::floor(in_cells[a]));
-    p.offset[a] = in_cells[a] - p.cell[a];
+    p.offset[a] = in_cells[a] - static_cast<double>(p.cell[a]);
   }
   const Weights<double, K> s = weights_of<K>(p);
   std::map<std::array<int, 3>, std::pair<double, Vec3d>> found;
@@ -102,7 +101,7 @@ TEST(OracleUnit, SplinesAndTheirDerivativesAgree) {
       double w = 0, dw = 0;
       Particle<double> p{};
       p.cell[0] = static_cast<int>(std::floor(x));
-      p.offset[0] = x - p.cell[0];
+      p.offset[0] = x - static_cast<double>(p.cell[0]);
       const auto look = [&](const auto& s) {
         const int k = -s.base[0];
         if (k < 0 || k >= static_cast<int>(std::size(s.w[0]))) return;
@@ -253,14 +252,17 @@ TEST(OracleUnit, ContactAgrees) {
     RelativeError v_out;
     for (std::size_t q = 0; q < entry["x"].size(); ++q) {
       const Vec3d x = vec3(entry["x"][q]), v = vec3(entry["v"][q]);
-      const neve::Vec3<double> r{x[0], x[1], x[2]};
-      neve::Vec3<double> n;
-      EXPECT_EQ(touch(local, r, n), entry["inside"][q].get<bool>());
+      using V = neve::Quad<double>;
+      const auto lanes = [](const Vec3d& a) {
+        return neve::Vec3<V>{neve::all<V>(a[0]), neve::all<V>(a[1]), neve::all<V>(a[2])};
+      };
+      neve::Vec3<V> n;
+      EXPECT_EQ(touch(local, lanes(x), n)[0] != 0, entry["inside"][q].get<bool>());
       if (entry["inside"][q].get<bool>()) {
-        EXPECT_LE((Vec3d(n.x, n.y, n.z) - vec3(entry["normal"][q])).norm(), 1e-11);
+        EXPECT_LE((Vec3d(n.x[0], n.y[0], n.z[0]) - vec3(entry["normal"][q])).norm(), 1e-11);
       }
-      const neve::Vec3<double> out = respond(local, r, neve::Vec3<double>{v[0], v[1], v[2]});
-      v_out.add_all(vec3(entry["v_out"][q]), Vec3d(out.x, out.y, out.z));
+      const neve::Vec3<V> out = respond(local, lanes(x), lanes(v));
+      v_out.add_all(vec3(entry["v_out"][q]), Vec3d(out.x[0], out.y[0], out.z[0]));
     }
     EXPECT_LE(v_out.value(), 1e-11);
   }

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -68,7 +70,7 @@ TEST(Structure, ApplicationDrawsThroughTheRendererOnly) {
 /// What kernels are made of includes neither Eigen nor the standard library, so that no copy of a
 /// shared inline function compiled for one instruction set can serve another.
 TEST(Structure, KernelsIncludeOnlyEachOther) {
-  const std::set<std::string> allowed{"cstdint", "cstddef"};
+  const std::set<std::string> allowed{"cstdint", "cstddef", "immintrin.h"};
   std::set<std::string> seen;
   std::vector<std::string> open{"sim/kernels_baseline.cpp"};
   while (!open.empty()) {
@@ -88,6 +90,32 @@ TEST(Structure, KernelsIncludeOnlyEachOther) {
     }
   }
   EXPECT_GT(seen.size(), 8u);
+}
+
+/// Functions that a linker would merge with those of another file must name their instruction set.
+TEST(Structure, KernelFilesShareNoFunction) {
+  std::stringstream objects(NEVE_KERNEL_OBJECTS);
+  int files = 0;
+  for (std::string object; std::getline(objects, object, ':'); ++files) {
+    const std::string set = object.find("avx512") != std::string::npos ? "Avx512Set" : "Avx2Set";
+    FILE* symbols = popen(("nm -C --defined-only '" + object + "'").c_str(), "r");
+    ASSERT_TRUE(symbols);
+    int shared = 0;
+    char line[4096];
+    while (std::fgets(line, sizeof line, symbols)) {
+      const std::string symbol = line;
+      // After the address: the kind. W, V and u are what linkers merge.
+      const std::size_t kind = symbol.find_first_of("WVu", 16);
+      if (kind != 17) continue;
+      ++shared;
+      EXPECT_NE(symbol.find(set), std::string::npos) << object << ": " << symbol;
+    }
+    EXPECT_EQ(pclose(symbols), 0) << "nm failed";
+    EXPECT_GT(shared, 20) << object;
+  }
+#ifdef __x86_64__
+  EXPECT_EQ(files, 2);
+#endif
 }
 
 }  // namespace

@@ -8,14 +8,13 @@
 #include <map>
 #include <random>
 
-#include "sim/bspline.h"
 #include "sim/diagnostics.h"
 #include "sim/staged.h"
+#include "tests/support/one_particle.h"
 #include "tests/support/snow.h"
 
 namespace {
 
-using namespace neve;
 using namespace neve::sim;
 using namespace neve::test;
 
@@ -33,7 +32,8 @@ void check_weights(double tolerance) {
     for (int a = 0; a < 3; ++a) {
       double sum = 0, slope = 0, arm = 0, inertia = 0, moment = 0;
       for (int k = 0; k < K; ++k) {
-        const double x = p.cell[a] + static_cast<double>(p.offset[a]) - (s.base[a] + k);
+        const double x =
+            static_cast<double>(p.cell[a]) + static_cast<double>(p.offset[a]) - (s.base[a] + k);
         EXPECT_GE(s.w[a][k], 0);
         sum += static_cast<double>(s.w[a][k]);
         slope += static_cast<double>(s.dw[a][k]);
@@ -157,7 +157,7 @@ TEST(Transfer, NodeForceIsMinusTheDerivativeOfEnergy) {
         Particle<double> record{};
         for (int a = 0; a < 3; ++a) {
           record.cell[a] = static_cast<int>(std::floor(p.x[q][a] / h));
-          record.offset[a] = p.x[q][a] / h - record.cell[a];
+          record.offset[a] = p.x[q][a] / h - static_cast<double>(record.cell[a]);
         }
         if (settings.kernel == Kernel::cubic)
           add(weights_of<cubic_nodes>(record));
