@@ -33,6 +33,20 @@ struct RenderTexts {
   bool is_quiet = false, is_verbose = false;
 };
 
+void check_threads(int threads) {
+  if (threads < 0 || threads > 1024)
+    throw UsageError("--threads", "cannot use " + std::to_string(threads),
+                     "expected 0 (one per core) to 1024");
+}
+
+void check_backend(const std::string& name) {
+  const auto& backends = render::backend_names();
+  if (std::find(backends.begin(), backends.end(), name) != backends.end()) return;
+  std::string known;
+  for (const std::string& backend : backends) known += (known.empty() ? "" : ", ") + backend;
+  throw UsageError("--backend", "unknown backend \"" + name + "\"", "expected one of " + known);
+}
+
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.frames) options.frames = parse_frames(*texts.frames);
   if (texts.coarsening) options.coarsening = parse_coarsening(*texts.coarsening);
@@ -43,18 +57,25 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
                      "expected a folder with the files of shaders/");
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
-  if (options.threads < 0 || options.threads > 1024)
-    throw UsageError("--threads", "cannot use " + std::to_string(options.threads),
-                     "expected 0 (one per core) to 1024");
+  check_threads(options.threads);
   if (!(options.reference_threshold >= 0))
     throw UsageError("--reference-threshold", "is negative", "expected 0 to 255");
-  const auto& backends = render::backend_names();
-  if (std::find(backends.begin(), backends.end(), options.backend) == backends.end()) {
-    std::string known;
-    for (const std::string& backend : backends) known += (known.empty() ? "" : ", ") + backend;
-    throw UsageError("--backend", "unknown backend \"" + options.backend + "\"",
-                     "expected one of " + known);
-  }
+  check_backend(options.backend);
+  return options;
+}
+
+BenchOptions finished(const CLI::App& command, BenchOptions options) {
+  check_threads(options.threads);
+  check_backend(options.backend);
+  if (command.count("--rounds") > 0 && (options.rounds < 1 || options.rounds > 1000))
+    throw UsageError("--rounds", "cannot use " + std::to_string(options.rounds),
+                     "expected 1 to 1000");
+  if (options.is_json && options.is_markdown)
+    throw UsageError("--markdown", "cannot go with --json", "give one of them");
+  const bool has_particles = command.get_option_no_throw("--particles") != nullptr;
+  if (has_particles && command.count("--particles") > 0 &&
+      !(options.particles >= 1 && options.particles <= 1e9))
+    throw UsageError("--particles", "cannot use this number", "expected 1 to 1e9");
   return options;
 }
 
@@ -137,6 +158,49 @@ void add_compare(CLI::App& app, Action& action) {
   command->final_callback([=, &action] { action = [options] { return run_compare(*options); }; });
 }
 
+/// What all parts of bench take.
+CLI::App* add_bench_part(CLI::App& bench, Action& action, const char* name, const char* help,
+                         const std::shared_ptr<BenchOptions>& options,
+                         int (*run)(const BenchOptions&)) {
+  CLI::App* command = bench.add_subcommand(name, help);
+  command
+      ->add_option("--rounds", options->rounds,
+                   "How often each thing is measured; the table shows median, min and max")
+      ->type_name("N");
+  command->add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
+  command->add_flag("--quick", options->is_quick,
+                    "Few particles, few rounds: whether it works, not how fast it is");
+  command->add_flag("--markdown", options->is_markdown,
+                    "Print Markdown tables, as in docs/performance.md");
+  command->add_flag("--json", options->is_json, "Print a JSON list, one object per row");
+  command->final_callback(
+      [=, &action] { action = [=] { return run(finished(*command, *options)); }; });
+  return command;
+}
+
+void add_bench(CLI::App& app, Action& action) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure how fast this machine simulates");
+  const auto sim = std::make_shared<BenchOptions>(), frame = std::make_shared<BenchOptions>();
+  CLI::App* sim_command = add_bench_part(
+      *bench, action, "sim",
+      "Particle-steps per second of each method against naive code in the same minutes, time per "
+      "phase, memory, spray, scaling from 1 to 2 threads",
+      sim, run_bench_sim);
+  sim_command
+      ->add_option("--particles", sim->particles,
+                   "Size of the common case instead of 97336; with --curve where it ends")
+      ->type_name("N");
+  sim_command->add_flag("--curve", sim->is_curve,
+                        "Instead: throughput from 1000 to 5 million particles, as memory allows");
+  CLI::App* frame_command = add_bench_part(
+      *bench, action, "frame",
+      "Seconds per frame of 300000 particles, of 4000 with drawing, to the first picture; what "
+      "--coarsen 2 saves",
+      frame, run_bench_frame);
+  frame_command->add_option("--backend", frame->backend, "OpenGL backend; neve doctor lists them")
+      ->type_name("NAME");
+}
+
 /// A subcommand that takes nothing but --json.
 void add_report(CLI::App& app, Action& action, const char* name, const char* help,
                 int (*run)(bool)) {
@@ -184,22 +248,35 @@ void check_subcommand(const CLI::App& app, int argc, char** argv) {
   if (std::find(names.begin(), names.end(), word) == names.end())
     throw UsageError("", "unknown subcommand \"" + word + "\"",
                      suggestion(word, names, "neve --help lists them"));
+  const std::vector<std::string> parts = subcommand_names(*app.get_subcommand(word));
+  if (parts.empty()) return;
+  std::string known;
+  for (const std::string& part : parts) known += (known.empty() ? "" : ", ") + part;
+  const std::string part = argc < 3 ? "" : argv[2];
+  if (part == "-h" || part == "--help" ||
+      std::find(parts.begin(), parts.end(), part) != parts.end())
+    return;
+  if (part.empty() || part.starts_with("-"))
+    throw UsageError(word, "which part?", "expected one of " + known);
+  throw UsageError(word + " " + part, "there is no such part", "expected one of " + known);
 }
 
-void check_leftovers(const CLI::App& command) {
+/// @param name of the command with those above it
+void check_leftovers(const CLI::App& command, const std::string& name) {
+  for (const CLI::App* inner : command.get_subcommands())
+    check_leftovers(*inner, name + " " + inner->get_name());
   const std::vector<std::string> leftovers = command.remaining();
   if (leftovers.empty()) return;
   std::string word = leftovers.front();
   if (!word.starts_with("-"))
     throw UsageError("", "unexpected argument \"" + word + "\"",
-                     "neve " + command.get_name() + " --help lists what it takes");
+                     name + " --help lists what it takes");
   word = word.substr(0, word.find('='));
   std::vector<std::string> flags;
   for (const CLI::Option* option : command.get_options())
-    for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
-  throw UsageError(
-      "", "unknown option " + word,
-      suggestion(word, flags, "neve " + command.get_name() + " --help lists what it takes"));
+    for (const std::string& flag : option->get_lnames()) flags.push_back("--" + flag);
+  throw UsageError("", "unknown option " + word,
+                   suggestion(word, flags, name + " --help lists what it takes"));
 }
 
 }  // namespace
@@ -213,13 +290,17 @@ int run_command_line(int argc, char** argv) {
   add_info(app, action);
   add_report(app, action, "params", "Every parameter: address, unit, range, default", run_params);
   add_compare(app, action);
+  add_bench(app, action);
   CLI::App* version_command = app.add_subcommand("version", "Print the version");
   version_command->final_callback([&] { action = print_version; });
   CLI::App* help_command = app.add_subcommand("help", "Print this help");
   app.set_version_flag("--version", std::string("neve ") + version);
   app.footer(footer);
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+  const auto is_any = [](CLI::App*) { return true; };
+  for (CLI::App* command : app.get_subcommands(is_any)) {
     command->allow_extras();
+    for (CLI::App* part : command->get_subcommands(is_any)) part->allow_extras();
+  }
 
   if (argc < 2) {
     std::cerr << app.help();
@@ -233,7 +314,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw UsageError("", error.what(), "see neve --help");
   }
-  for (const CLI::App* command : app.get_subcommands()) check_leftovers(*command);
+  check_leftovers(app, "neve");
   if (help_command->parsed()) {
     std::cout << app.help();
     return exit_ok;

@@ -35,8 +35,21 @@ struct CompareOptions {
   bool is_json = false;
 };
 
+struct BenchOptions {
+  int rounds = 0;        ///< 0: as many as are usual
+  double particles = 0;  ///< 0: the common case, or the end of the curve
+  bool is_curve = false;
+  int threads = 0;  ///< 0: one per core
+  std::string backend = "auto";
+  bool is_quick = false;
+  bool is_json = false;
+  bool is_markdown = false;
+};
+
 int run_render(const RenderOptions& options);
 int run_compare(const CompareOptions& options);
+int run_bench_sim(const BenchOptions& options);
+int run_bench_frame(const BenchOptions& options);
 int run_info(const std::string& path, bool is_json);
 int run_doctor(bool is_json);
 int run_params(bool is_json);

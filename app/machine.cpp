@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <sstream>
+#include <thread>
 
 #include "app/errors.h"
 
@@ -94,6 +95,25 @@ std::uint64_t available_memory() {
   const auto kilobytes = read_field("/proc/meminfo", "MemAvailable:");
   const std::uint64_t system = kilobytes ? *kilobytes * 1024 : std::uint64_t{1} << 30;
   return std::min(system, left_in_control_groups());
+}
+
+std::string machine_text() {
+  std::string processor = "unknown processor";
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t colon = line.find(": ");
+    if (!line.starts_with("model name") || colon == std::string::npos) continue;
+    processor = line.substr(colon + 2);
+    break;
+  }
+  const unsigned cores = std::thread::hardware_concurrency();
+#if defined(__clang__)
+  const std::string compiler = "Clang " + std::string(__clang_version__);
+#else
+  const std::string compiler = "GCC " + std::string(__VERSION__);
+#endif
+  return processor + ", " + std::to_string(cores) + (cores == 1 ? " core; " : " cores; ") +
+         compiler;
 }
 
 fs::path default_scene() {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace neve::app {
 
@@ -12,6 +13,9 @@ std::uint64_t available_memory();
 
 /// Bytes of address space that this process may use (ulimit -v); the largest number when unlimited.
 std::uint64_t address_space_limit();
+
+/// "AMD EPYC, 2 cores; GCC 12.2.0": what a measurement depends on.
+std::string machine_text();
 
 /// The scene that is drawn when none is named. @throws IoError when it is not there
 std::filesystem::path default_scene();

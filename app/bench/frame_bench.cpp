@@ -1,0 +1,208 @@
+#include "app/bench/frame_bench.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+#include "app/bench/measure.h"
+#include "app/bench/window.h"
+#include "app/errors.h"
+#include "app/frame_builder.h"
+#include "app/interrupt.h"
+#include "app/machine.h"
+#include "app/output/process.h"
+#include "app/resolve.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/read.h"
+#include "app/seed_scene.h"
+#include "app/text.h"
+#include "render/context.h"
+#include "render/renderer.h"
+
+namespace neve::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A box of the paper's snow that hits the floor within the first frame, 8 particles to a cell.
+/// @param size of the box, TOML
+Scene falling_box(const std::string& size, const std::string& solver) {
+  return read_scene_text(
+      "frames = 1\nfps = 24\n[solver]\ncell_size = 0.02\n"
+      "time_step = \"fixed\"\ndt = 2e-4\n" +
+          solver + "[[body]]\nshape = { box = { center = [0, 0.33, 0], size = " + size +
+          " } }\nvelocity = [0, -3, 0]\nsampling = \"lattice\"\n"
+          "[[collider]]\nshape = { plane = { point = [0, 0, 0], "
+          "normal = [0, 1, 0] } }\n[output]\nsize = [640, 360]\n",
+      "bench frame");
+}
+
+constexpr const char* flip = "";
+constexpr const char* mls = "transfer = \"mls\"\nkernel = \"quadratic\"\n";
+constexpr const char* large_box = "[1.0, 0.6, 0.5]";  // 300 000 particles
+constexpr const char* small_box = "[0.2, 0.2, 0.1]";  // 4000
+constexpr const char* quick_box = "[0.16, 0.16, 0.16]";
+
+/// A folder of its own that goes when this goes.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string path = (fs::temp_directory_path() / "neve-bench-XXXXXX").string();
+    if (!::mkdtemp(path.data())) throw IoError("cannot make the folder " + path, path);
+    path_ = path;
+  }
+  ~ScratchFolder() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// What a scene needs to be drawn.
+class Drawing {
+ public:
+  Drawing(const std::string& backend, int threads)
+      : context_(render::open_context(backend)), pool_(threads), renderer_(*context_, {}, &pool_) {}
+
+  /// Seconds until the picture of the simulation's state is in memory.
+  double draw(const Scene& scene, const sim::Simulation& simulation) {
+    const Stopwatch watch;
+    const FrameBuilder builder(scene, 0.5 * scene.solver.cell_size, Quality::preview, {}, 1);
+    const Snapshot snapshot = take_snapshot(simulation, 1, needs_stress(scene));
+    renderer_.draw(builder.build(scene.views.front(), snapshot));
+    return watch.wall();
+  }
+
+ private:
+  std::unique_ptr<render::Context> context_;
+  ThreadPool pool_;
+  render::Renderer renderer_;
+};
+
+class FrameBench {
+ public:
+  explicit FrameBench(const BenchOptions& options)
+      : options_(options),
+        rounds_(options.rounds > 0 ? options.rounds
+                : options.is_quick ? 1
+                                   : 3),
+        drawing_(options.backend, options.threads) {}
+  std::vector<BenchRow> run();
+
+ private:
+  double simulate(const std::string& name, const Scene& scene, int frames, bool is_drawn = false);
+  double first_picture();
+  void coarsen_2();
+  template <class Measure>
+  void measure(const std::string& name, const std::string& unit, const Measure& once);
+
+  BenchOptions options_;
+  int rounds_;
+  Drawing drawing_;
+  /// Of the last simulation, for its row.
+  int threads_ = 0;
+  std::size_t particles_ = 0;
+  std::string simd_;
+  std::vector<BenchRow> rows_;
+};
+
+/// One row: the same thing in every round.
+template <class Measure>
+void FrameBench::measure(const std::string& name, const std::string& unit, const Measure& once) {
+  std::vector<double> samples;
+  for (int round = 0; round < rounds_; ++round) {
+    stop_if_interrupted();
+    samples.push_back(once());
+  }
+  BenchRow row;
+  row.name = name;
+  row.threads = threads_;
+  row.particles = particles_;
+  row.simd = simd_;
+  row.value = statistics_of(samples);
+  row.unit = unit;
+  rows_.push_back(row);
+  say(name + ": " + fixed_text(row.value.median, 3) + " " + unit);
+}
+
+/// Seconds that the frames take, from a fresh start; making the particles is not counted.
+double FrameBench::simulate(const std::string& name, const Scene& scene, int frames,
+                            bool is_drawn) {
+  sim::Simulation simulation(scene.solver, scene.materials, scene.colliders, seed_scene(scene),
+                             options_.threads);
+  threads_ = simulation.threads();
+  particles_ = simulation.particle_count();
+  simd_ = simulation.simd();
+  double seconds = 0;
+  for (int frame = 1; frame <= frames; ++frame) {
+    const Stopwatch watch;
+    simulation.advance_to(frame / scene.fps, is_interrupted);
+    seconds += watch.wall();
+    stop_if_interrupted();
+    check_health(simulation, name);
+  }
+  return is_drawn ? seconds + drawing_.draw(scene, simulation) : seconds;
+}
+
+/// Seconds from the start of the program to the end of one that makes a single picture.
+double FrameBench::first_picture() {
+  const ScratchFolder folder;
+  const Stopwatch watch;
+  const ProcessResult result =
+      run_process("/proc/self/exe",
+                  {"render", "--frames", "0", "--quiet", "--out", "out", "--threads",
+                   std::to_string(options_.threads), "--backend", options_.backend},
+                  folder.path());
+  const double seconds = watch.wall();
+  if (result.exit_code != 0)
+    throw Error(exit_internal, "first_picture: neve render failed: " + result.errors);
+  return seconds;
+}
+
+/// Simulation time of the default scene in cells twice as large, over that of the scene itself.
+void FrameBench::coarsen_2() {
+  const Scene full = read_scene_file(default_scene().string());
+  Scene coarse = full;
+  coarsen(coarse, 2);
+  const int frames = options_.is_quick ? std::min(full.frames, 2) : full.frames;
+  measure("coarsen_2", "of the full time", [&] {
+    const double few = simulate("coarsen_2", coarse, frames);
+    return few / simulate("coarsen_2", full, frames);
+  });
+}
+
+std::vector<BenchRow> FrameBench::run() {
+  const char* const large = options_.is_quick ? quick_box : large_box;
+  const Scene flip_scene = falling_box(large, flip), mls_scene = falling_box(large, mls);
+  Scene small = falling_box(small_box, flip);
+  resolve(small, 4000);
+  measure("flip_cubic_300k", "s", [&] { return simulate("flip_cubic_300k", flip_scene, 1); });
+  measure("mls_quadratic_300k", "s", [&] { return simulate("mls_quadratic_300k", mls_scene, 1); });
+  drawing_.draw(small, sim::Simulation(small.solver, small.materials, small.colliders,
+                                       seed_scene(small), 1));  // the first one compiles shaders
+  measure("flip_cubic_4000_drawn", "s",
+          [&] { return simulate("flip_cubic_4000_drawn", small, 1, true); });
+  coarsen_2();
+  // Last: its particles are those of the default scene, which the row before it simulated.
+  measure("first_picture", "s", [&] { return first_picture(); });
+  return rows_;
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_frame(const BenchOptions& options) {
+  FrameBench bench(options);
+  say("neve bench frame");
+  return bench.run();
+}
+
+}  // namespace neve::app

@@ -1,0 +1,47 @@
+#pragma once
+/// Clocks, and what a measurement has to be told about the machine it ran on.
+
+#include <chrono>
+#include <string>
+
+namespace neve::app {
+
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  double wall() const;
+  /// CPU time of all threads of this process. What one thread needs does not depend on how often
+  /// others took its core away.
+  double cpu() const;
+
+ private:
+  static double cpu_now();
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double cpu_start_ = cpu_now();
+};
+
+/// How much of the machine other processes used meanwhile.
+class OtherLoad {
+ public:
+  OtherLoad();
+  /// 0 to 1 of all cores; 0 where the system does not tell.
+  double share() const;
+
+ private:
+  struct Counters {
+    double own = 0, busy = 0, all = 0;  ///< s
+  };
+  static Counters now();
+  Counters start_;
+};
+
+/// Why the figures of this build mean nothing; empty when they do.
+std::string build_fault();
+
+/// @throws Error with exit_interrupted after Ctrl-C
+void stop_if_interrupted();
+
+/// One line on stderr.
+void say(const std::string& line);
+
+}  // namespace neve::app

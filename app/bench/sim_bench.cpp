@@ -1,0 +1,259 @@
+#include "app/bench/sim_bench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/bench/bench_case.h"
+#include "app/bench/measure.h"
+#include "app/bench/race.h"
+#include "app/bench/window.h"
+#include "app/errors.h"
+#include "app/machine.h"
+#include "app/text.h"
+
+namespace neve::app {
+
+namespace {
+
+constexpr double common_particles = 97336, quick_particles = 4096;
+constexpr double longest_curve = 4'913'000;
+
+struct Variant {
+  Method method;
+  sim::Precision precision;
+};
+
+/// Those that tables are about, and those that have a naive counterpart.
+constexpr Method main_methods[] = {Method::mls_quadratic, Method::flip_cubic};
+constexpr Variant variants[] = {{Method::mls_quadratic, sim::Precision::single},
+                                {Method::flip_cubic, sim::Precision::single},
+                                {Method::apic_cubic, sim::Precision::single},
+                                {Method::mls_quadratic, sim::Precision::real64},
+                                {Method::flip_cubic, sim::Precision::real64}};
+
+std::string name_of(const Variant& v) {
+  return std::string(name(v.method)) +
+         (v.precision == sim::Precision::single ? "_float" : "_double");
+}
+
+/// "spray_time" is about the paper's method; the other one says which it is.
+std::string name_for(const std::string& what, Method method) {
+  return method == Method::flip_cubic ? what : what + "_" + name(method);
+}
+
+/// @throws LimitError when `bytes` are more than 80 % of what is available
+void check_memory(double bytes) {
+  const auto allowed = static_cast<double>(available_memory() / 10 * 8);
+  if (bytes <= allowed) return;
+  throw LimitError("refused: about " + bytes_text(static_cast<std::uint64_t>(bytes)) +
+                       " of memory are more than 80 % of what is available; measure fewer "
+                       "particles with --particles",
+                   "--particles", "measure fewer particles with --particles");
+}
+
+/// A simulation and the arrays it is made from.
+double memory_of(double particles, sim::Precision precision, int threads) {
+  return static_cast<double>(sim::estimate_memory(static_cast<std::size_t>(particles), 8,
+                                                  bench_settings(Method::flip_cubic, precision),
+                                                  threads)) +
+         particles * 600;
+}
+
+class SimBench {
+ public:
+  explicit SimBench(const BenchOptions& options);
+  std::vector<BenchRow> run();
+
+ private:
+  void measure_variants();
+  void measure_spray();
+  void measure_scaling();
+  void measure_naive(int round);
+  void gather_rows();
+  BenchRow row(const std::string& name, int threads, const std::string& unit) const;
+  void add_throughput(const Variant& variant);
+  void add_one_thread(Method method);
+  void add_naive(Method method);
+  void add_scaling(Method method);
+  void add_memory_and_spray(Method method);
+
+  int rounds_, threads_, cells_;
+  std::size_t particles_ = 0;
+  std::string simd_;
+  std::map<std::string, Samples> windows_;  ///< by name: what each round found
+  std::map<Method, Race> races_;
+  std::vector<BenchRow> rows_;
+};
+
+SimBench::SimBench(const BenchOptions& options)
+    : rounds_(options.rounds > 0 ? options.rounds
+              : options.is_quick ? 2
+                                 : 5),
+      threads_(options.threads),
+      cells_(packed_cells_a_side(options.particles > 0 ? options.particles
+                                 : options.is_quick    ? quick_particles
+                                                       : common_particles)) {
+  rounds_ = std::min(rounds_, bench_steps);
+  const double particles = 8.0 * cells_ * cells_ * cells_;
+  // Two races of three codes each wait while a simulation is timed.
+  check_memory(5 * memory_of(particles, sim::Precision::real64, threads_));
+  const BenchCase c = packed_case(cells_, Method::flip_cubic, sim::Precision::single);
+  const sim::Simulation probe(c.settings, {c.material}, {}, c.particles, threads_);
+  threads_ = probe.threads();
+  simd_ = probe.simd();
+  particles_ = probe.particle_count();
+  for (const Method method : main_methods) races_.try_emplace(method, cells_, method);
+}
+
+std::vector<BenchRow> SimBench::run() {
+  say("neve bench sim: " + std::to_string(particles_) + " particles, " +
+      std::to_string(bench_steps) + " steps, " + std::to_string(rounds_) + " rounds, " +
+      std::to_string(threads_) + (threads_ == 1 ? " thread, " : " threads, ") + simd_);
+  for (int round = 0; round < rounds_; ++round) {
+    measure_variants();
+    measure_spray();
+    measure_scaling();
+    measure_naive(round);
+    say("round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
+  }
+  for (const auto& [method, race] : races_) race.check_agreement();
+  gather_rows();
+  return rows_;
+}
+
+void SimBench::measure_variants() {
+  for (const Variant& variant : variants) {
+    const BenchCase c = packed_case(cells_, variant.method, variant.precision);
+    windows_[name_of(variant)].add(time_window(c, threads_, name_of(variant)));
+  }
+}
+
+void SimBench::measure_spray() {
+  for (const Method method : main_methods) {
+    // Twice as many cells a side: eight times the cells for the same particles.
+    const BenchCase c = spray_case(2 * cells_, method, sim::Precision::single);
+    windows_[name_for("spray", method)].add(time_window(c, threads_, "spray"));
+  }
+}
+
+void SimBench::measure_scaling() {
+  for (const Method method : main_methods) {
+    const BenchCase c = packed_case(cells_, method, sim::Precision::single);
+    const std::string name = name_of({method, sim::Precision::single});
+    // What measure_variants() did with as many threads need not be done again.
+    const Window& measured = windows_.at(name).windows().back();
+    const auto with = [&](int threads) {
+      return threads == threads_ ? measured : time_window(c, threads, name);
+    };
+    windows_[name + "_1_thread"].add(with(1));
+    if (threads_ > 1) windows_[name + "_2_threads"].add(with(2));
+  }
+}
+
+void SimBench::measure_naive(int round) {
+  for (auto& [method, race] : races_)
+    race.run(bench_steps * round / rounds_, bench_steps * (round + 1) / rounds_);
+}
+
+BenchRow SimBench::row(const std::string& name, int threads, const std::string& unit) const {
+  BenchRow row;
+  row.name = name;
+  row.threads = threads;
+  row.particles = particles_;
+  row.simd = simd_;
+  row.unit = unit;
+  return row;
+}
+
+void SimBench::add_throughput(const Variant& variant) {
+  const std::string name = name_of(variant);
+  BenchRow r = row(name, threads_, throughput_unit);
+  r.value = windows_.at(name).throughput();
+  r.phases = windows_.at(name).phases();
+  const auto race = races_.find(variant.method);
+  if (race != races_.end()) r.ratio_to_naive = race->second.ratio(variant.precision);
+  rows_.push_back(r);
+}
+
+void SimBench::add_naive(Method method) {
+  BenchRow r = row(std::string("naive_") + name(method), 1, throughput_unit);
+  r.simd = "none";
+  r.value = races_.at(method).naive_throughput();
+  rows_.push_back(r);
+}
+
+void SimBench::add_one_thread(Method method) {
+  const std::string name = name_of({method, sim::Precision::single}) + "_1_thread";
+  BenchRow r = row(name, 1, throughput_unit);
+  r.value = windows_.at(name).throughput();
+  r.phases = windows_.at(name).phases();
+  r.ratio_to_naive = races_.at(method).ratio(sim::Precision::single);
+  rows_.push_back(r);
+}
+
+void SimBench::add_scaling(Method method) {
+  const std::string name = name_of({method, sim::Precision::single});
+  BenchRow r = row(name_for("scaling_2_threads", method), 2, "x one thread");
+  r.value = time_ratio(windows_.at(name + "_1_thread"), windows_.at(name + "_2_threads"));
+  rows_.push_back(r);
+}
+
+void SimBench::add_memory_and_spray(Method method) {
+  const Samples& packed = windows_.at(name_of({method, sim::Precision::single}));
+  const Samples& spray = windows_.at(name_for("spray", method));
+  BenchRow memory = row(name_for("memory_per_particle", method), threads_, "B");
+  memory.value = packed.bytes_per_particle();
+  BenchRow time = row(name_for("spray_time", method), threads_, "x packed");
+  time.value = time_ratio(spray, packed);
+  BenchRow bytes = row(name_for("spray_memory", method), threads_, "x packed");
+  bytes.value = memory_ratio(spray, packed);
+  rows_.insert(rows_.end(), {memory, time, bytes});
+}
+
+void SimBench::gather_rows() {
+  for (const Variant& variant : variants) add_throughput(variant);
+  for (const Method method : main_methods) add_one_thread(method);
+  for (const Method method : main_methods) add_naive(method);
+  // One core cannot tell.
+  if (threads_ > 1)
+    for (const Method method : main_methods) add_scaling(method);
+  for (const Method method : main_methods) add_memory_and_spray(method);
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_sim(const BenchOptions& options) {
+  return SimBench(options).run();
+}
+
+std::vector<BenchRow> bench_curve(const BenchOptions& options) {
+  const int rounds = options.rounds > 0 ? options.rounds : options.is_quick ? 1 : 3;
+  const double most = options.particles > 0 ? options.particles
+                      : options.is_quick    ? quick_particles
+                                            : longest_curve;
+  std::vector<BenchRow> rows;
+  for (const int cells : {5, 7, 11, 16, 23, 34, 50, 63, 85}) {
+    const double particles = 8.0 * cells * cells * cells;
+    if (particles > most && !rows.empty()) break;
+    const double bytes = memory_of(particles, sim::Precision::single, options.threads);
+    if (bytes > static_cast<double>(available_memory() / 10 * 8)) {
+      say("the curve ends before " + fixed_text(particles, 0) + " particles: they need about " +
+          bytes_text(static_cast<std::uint64_t>(bytes)) + " of memory");
+      break;
+    }
+    for (const Method method : main_methods) {
+      const std::string name = "curve_" + name_of({method, sim::Precision::single});
+      const BenchCase c = packed_case(cells, method, sim::Precision::single);
+      Samples samples;
+      for (int round = 0; round < rounds; ++round)
+        samples.add(time_window(c, options.threads, name));
+      rows.push_back(samples.throughput_row(name));
+      say(name + ": " + fixed_text(particles, 0) + " particles, " +
+          fixed_text(rows.back().value.median, 2) + " " + throughput_unit);
+    }
+  }
+  return rows;
+}
+
+}  // namespace neve::app

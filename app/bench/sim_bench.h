@@ -1,0 +1,18 @@
+#pragma once
+/// `neve bench sim`: how fast snow is pushed, and against what.
+
+#include <vector>
+
+#include "app/bench/bench_report.h"
+#include "app/commands.h"
+
+namespace neve::app {
+
+/// The common case in all variants against the naive code, spray, scaling.
+/// @throws Error when the case diverges, the codes disagree or memory does not suffice
+std::vector<BenchRow> bench_sim(const BenchOptions& options);
+
+/// Throughput from a thousand particles to the most that fit.
+std::vector<BenchRow> bench_curve(const BenchOptions& options);
+
+}  // namespace neve::app
