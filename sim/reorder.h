@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "sim/base/thread_pool.h"
@@ -81,35 +82,45 @@ class Reordering {
 
   void move(std::vector<Record>& records, std::vector<std::uint32_t>& order, int p) {
     Part& part = parts_[static_cast<std::size_t>(p)];
-    const auto source_of = [&](std::size_t place) {
-      const std::uint32_t source = order[place];
-      order[place] = static_cast<std::uint32_t>(place);
-      return source;
-    };
-    // A place whose record nobody here needs is free: a chain that ends with one set aside.
-    for (std::size_t q = part.begin; q < part.end; ++q) {
-      if (part.is_needed[q - part.begin]) continue;
-      std::size_t place = q;
-      std::uint32_t source = source_of(place);
-      while (!(source & foreign_flag)) {
+    // Fills a place from its source, the source's from its own, and so on, until the source is one
+    // that was set aside or the first place. A scout goes ahead and fetches.
+    const auto fill = [&](std::uint32_t first) {
+      std::uint32_t place = first, scout = first;
+      for (int k = 0; k < steps_ahead; ++k) advance(scout, order, records);
+      for (;;) {
+        const std::uint32_t source = order[place];
+        advance(scout, order, records);
+        order[place] = place;
+        if (source == first || source & foreign_flag)
+          return std::pair<std::uint32_t, std::uint32_t>(place, source);
         records[place] = records[source];
         place = source;
-        source = source_of(place);
       }
+    };
+    // A place whose record nobody here needs is free: a chain begins that ends with one set aside.
+    for (std::size_t q = part.begin; q < part.end; ++q) {
+      if (part.is_needed[q - part.begin]) continue;
+      const auto [place, source] = fill(static_cast<std::uint32_t>(q));
       records[place] = part.foreign[source & ~foreign_flag];
     }
     // What is left goes round in circles.
     for (std::size_t q = part.begin; q < part.end; ++q) {
       if (order[q] == q) continue;
-      const Record first = records[q];
-      std::size_t place = q;
-      for (std::uint32_t source = source_of(place); source != q; source = source_of(place)) {
-        records[place] = records[source];
-        place = source;
-      }
-      records[place] = first;
+      const Record record = records[q];
+      records[fill(static_cast<std::uint32_t>(q)).first] = record;
     }
   }
+
+  static void advance(std::uint32_t& scout, const std::vector<std::uint32_t>& order,
+                      const std::vector<Record>& records) {
+    const std::uint32_t next = order[scout];
+    if (next & foreign_flag) return;
+    scout = next;
+    const char* at = reinterpret_cast<const char*>(&records[scout]);
+    for (std::size_t byte = 0; byte < sizeof(Record); byte += 64) __builtin_prefetch(at + byte);
+  }
+
+  static constexpr int steps_ahead = 8;
 
   std::vector<Part> parts_;
 };

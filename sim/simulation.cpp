@@ -114,11 +114,10 @@ std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,
   const double real = is_double ? 8 : 4;
   const double record =
       static_cast<double>(is_double ? sizeof(Particle<double>) : sizeof(Particle<float>));
-  // Two copies of the records (sorting), key, local, order, block index, and what prepare()
-  // gathers.
+  // Record, key, local, order and its neighbours in Partition, and what prepare() gathers.
   const double gathered =
       static_cast<double>(is_double ? sizeof(Gathered<double>) : sizeof(Gathered<float>));
-  const double per_particle = 2 * record + 8 + 2 + 4 + 4 + gathered;
+  const double per_particle = record + 8 + 2 + 2 * (4 + 2) + 1 + gathered;
   // Snow fills about half of the blocks that it touches; each has a tile, and about two node
   // blocks.
   const double cells = static_cast<double>(particles) / particles_per_cell;
