@@ -22,6 +22,9 @@ struct MaterialConstants {
 /// last place; outside, F_E itself is decomposed.
 inline constexpr double eigen_lo = 0.1, eigen_hi = 4;
 
+template <class Real>
+inline constexpr int eigen_sweeps = sizeof(Real) == 4 ? 3 : 5;
+
 /// What a material needs of a particle and what it finds, word by word in lanes: plain words, so
 /// that particles can be moved together into full lanes.
 template <class V>
@@ -300,7 +303,7 @@ class MaterialUpdate {
       const unsigned used = lane_bits(first_lanes<MaskOf<V>>(packed - q - n * W));
       rest[n] = used & ~lane_bits(is_well_conditioned(m[n], b[n]));
     });
-    symmetric_eigen<N>(b, eigen);
+    symmetric_eigen<N, eigen_sweeps<Real>>(b, eigen);
     unrolled<N>([&](auto n) NEVE_INLINE_BODY {
       corotated_by_eigenvalues(m[n], eigen[n], is_plastic);
       if (rest[n] != 0) decompose_rest(m[n], q + n * W, rest[n], is_plastic);

@@ -139,9 +139,8 @@ NEVE_INLINE void jacobi_rotation(V& pp, V& qq, V& pq, V& rp, V& rq, V* U, int p,
 /// hundredfold apart. A fixed number of sweeps: convergence is quadratic, and no lane waits for
 /// another. The matrices take turns, since one rotation waits for the one before it. Source: Golub
 /// and Van Loan, Matrix Computations, section 8.5.
-template <int N, class V>
+template <int N, int sweeps, class V>
 NEVE_INLINE void symmetric_eigen(Sym3<V>* b, SymmetricEigen<V>* out) {
-  constexpr int sweeps = sizeof(ElementOf<V>) == 4 ? 4 : 6;
   unrolled<N>([&](auto n) NEVE_INLINE_BODY {
     for (int q = 0; q < 9; ++q) out[n].U[q] = all<V>(q % 4 == 0 ? 1 : 0);
   });

@@ -178,6 +178,7 @@ SweepArgs<Real> Engine<Real>::args(double dt, int channels) {
   c.colliders = poses_.data();
   c.collider_count = static_cast<int>(poses_.size());
   a.particles = particles_.data();
+  a.particle_count = static_cast<std::uint32_t>(particles_.size());
   a.keys = keys_.data();
   a.locals = locals_.data();
   a.order = partition_.order().data();

@@ -55,8 +55,8 @@ struct BlockReport {
 /// What the fused driver keeps of a node: what particles gather.
 enum NodeChannel { channel_v_new = 0, channel_change = 1 };
 
-/// What the staged driver keeps of a node block, 64 nodes each. The alignment is said, since that of
-/// a Quad depends on the instruction set that a file is compiled for.
+/// What the staged driver keeps of a node block, 64 nodes each. The alignment is said, since that
+/// of a Quad depends on the instruction set that a file is compiled for.
 template <class Real>
 struct alignas(64) StagedNodes {
   Quad<Real> momentum[block_nodes];  ///< x y z and mass
@@ -78,6 +78,7 @@ template <class Real>
 struct SweepArgs {
   StepConstants<Real> constants;
   Particle<Real>* particles;
+  std::uint32_t particle_count;
   const std::uint32_t* order;  ///< sorted position -> storage index
   std::uint64_t* keys;         ///< storage index -> block key
   std::uint16_t* locals;       ///< storage index -> model and cell in the block

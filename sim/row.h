@@ -32,20 +32,22 @@ struct Row {
 
   NEVE_INLINE static Row load(const Quad<Real>* nodes) {
     Row r;
-    for (int p = 0; p < parts; ++p)
+    unrolled<parts>([&](auto p) NEVE_INLINE_BODY {
       __builtin_memcpy(&r.part[p], reinterpret_cast<const Real*>(nodes) + p * width, sizeof(V));
+    });
     return r;
   }
   NEVE_INLINE void store(Quad<Real>* nodes) const {
-    for (int p = 0; p < parts; ++p)
+    unrolled<parts>([&](auto p) NEVE_INLINE_BODY {
       __builtin_memcpy(reinterpret_cast<Real*>(nodes) + p * width, &part[p], sizeof(V));
+    });
   }
   NEVE_INLINE void add_to(Quad<Real>* nodes) const { (load(nodes) + *this).store(nodes); }
 
   /// The same quad at every node.
   NEVE_INLINE static Row repeat(Quad<Real> q) {
     Row r;
-    for (int p = 0; p < parts; ++p) r.part[p] = repeat_quad<width>(q);
+    unrolled<parts>([&](auto p) NEVE_INLINE_BODY { r.part[p] = repeat_quad<width>(q); });
     return r;
   }
 
@@ -59,29 +61,31 @@ struct Row {
 
   friend NEVE_INLINE Row operator+(const Row& a, const Row& b) {
     Row r;
-    for (int p = 0; p < parts; ++p) r.part[p] = a.part[p] + b.part[p];
+    unrolled<parts>([&](auto p) NEVE_INLINE_BODY { r.part[p] = a.part[p] + b.part[p]; });
     return r;
   }
   friend NEVE_INLINE Row operator*(const Row& a, const Row& b) {
     Row r;
-    for (int p = 0; p < parts; ++p) r.part[p] = a.part[p] * b.part[p];
+    unrolled<parts>([&](auto p) NEVE_INLINE_BODY { r.part[p] = a.part[p] * b.part[p]; });
     return r;
   }
   friend NEVE_INLINE Row operator*(const Row& a, Real s) {
     Row r;
-    for (int p = 0; p < parts; ++p) r.part[p] = a.part[p] * s;
+    unrolled<parts>([&](auto p) NEVE_INLINE_BODY { r.part[p] = a.part[p] * s; });
     return r;
   }
   /// a b + c
   friend NEVE_INLINE Row fused(const Row& a, const Row& b, const Row& c) {
     Row r;
-    for (int p = 0; p < parts; ++p) r.part[p] = fused(a.part[p], b.part[p], c.part[p]);
+    unrolled<parts>([&](auto p)
+                        NEVE_INLINE_BODY { r.part[p] = fused(a.part[p], b.part[p], c.part[p]); });
     return r;
   }
   friend NEVE_INLINE Row fused(const Row& a, Real s, const Row& c) {
     Row r;
     const V factor = all<V>(s);
-    for (int p = 0; p < parts; ++p) r.part[p] = fused(a.part[p], factor, c.part[p]);
+    unrolled<parts>([&](auto p)
+                        NEVE_INLINE_BODY { r.part[p] = fused(a.part[p], factor, c.part[p]); });
     return r;
   }
 
@@ -98,5 +102,30 @@ struct Row {
     }
   }
 };
+
+/// The sums over the nodes of four rows, side by side.
+template <class Real, class Set>
+NEVE_INLINE void sums_of(const Row<Real, Set>& a, const Row<Real, Set>& b, const Row<Real, Set>& c,
+                         const Row<Real, Set>& d, Quad<Real>* out) {
+#if defined(__AVX512DQ__)
+  if constexpr (Row<Real, Set>::width == 16) {
+    // Halves added pair by pair, then their quarters: the four sums come out in their places.
+    const auto fold = [](__m512 x, __m512 y) NEVE_INLINE_BODY {
+      return _mm512_shuffle_f32x4(x, y, 0x44) + _mm512_shuffle_f32x4(x, y, 0xee);
+    };
+    const __m512 ab =
+        fold(reinterpret_cast<__m512>(a.part[0]), reinterpret_cast<__m512>(b.part[0]));
+    const __m512 cd =
+        fold(reinterpret_cast<__m512>(c.part[0]), reinterpret_cast<__m512>(d.part[0]));
+    const __m512 sums = _mm512_shuffle_f32x4(ab, cd, 0x88) + _mm512_shuffle_f32x4(ab, cd, 0xdd);
+    __builtin_memcpy(out, &sums, sizeof sums);
+    return;
+  }
+#endif
+  out[0] = a.sum();
+  out[1] = b.sum();
+  out[2] = c.sum();
+  out[3] = d.sum();
+}
 
 }  // namespace neve::sim

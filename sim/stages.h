@@ -137,11 +137,11 @@ NEVE_INLINE void scatter_tensor(const Stencils<Real, K, G>& s, const Real (&g)[3
   }
 }
 
-/// sum w_ip value_i, and the columns of sum value_i g_ip^T, over the stencil of particle q.
+/// sum w_ip value_i, then the columns of sum value_i g_ip^T, over the stencil of particle q.
 template <class Set, class Real, int K, int G>
 NEVE_INLINE void gather_tensor(const Stencils<Real, K, G>& s, const Real (&g)[3][K][G],
                                const Quad<Real>* g_z, int q, const Quad<Real>* tile,
-                               Quad<Real>& value, Quad<Real>* column) {
+                               Quad<Real>* value_and_columns) {
   using R = Row<Real, Set>;
   R sum = R::zero(), sum_x = R::zero(), sum_y = R::zero();
   unrolled<K>([&](auto i) NEVE_INLINE_BODY {
@@ -156,10 +156,7 @@ NEVE_INLINE void gather_tensor(const Stencils<Real, K, G>& s, const Real (&g)[3]
     sum_y = fused(plane_y, s.w[0][i][q], sum_y);
   });
   const R z = R::spread(s.z[q]), with_g = R::spread(g_z[q]);
-  value = (sum * z).sum();
-  column[0] = (sum_x * z).sum();
-  column[1] = (sum_y * z).sum();
-  column[2] = (sum * with_g).sum();
+  sums_of(sum * z, sum_x * z, sum_y * z, sum * with_g, value_and_columns);
 }
 
 /// sum w_ip value_i over the stencil of particle q.
@@ -327,31 +324,30 @@ NEVE_INLINE void gather(const Stencils<Real, K, G>& s, int q, int count, Real in
   constexpr int W = lane_count<V>;
   constexpr bool is_mls = transfer == TransferKind::mls, is_flip = transfer == TransferKind::flip;
   constexpr Real arm_scale = Real(1 / apic_inertia<K>);
-  Quad<Real> value[W], moved[W], gradient[3][W], affine[3][W];
+  Quad<Real> gradient[4 * W], affine[4 * W], moved[W];
   for (int l = 0; l < W; ++l) {
     const int p = q + smaller(l, count - 1);
-    Quad<Real> columns[3];
     if constexpr (is_mls)
-      gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, value[l], columns);
+      gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, gradient + 4 * l);
     else
-      gather_tensor<Set>(s, s.dw, s.dz, p, v_new, value[l], columns);
-    for (int c = 0; c < 3; ++c) gradient[c][l] = columns[c];
+      gather_tensor<Set>(s, s.dw, s.dz, p, v_new, gradient + 4 * l);
     if constexpr (is_flip) moved[l] = gather_value<Set>(s, p, change);
-    if constexpr (transfer == TransferKind::apic) {
-      Quad<Real> same;
-      gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, same, columns);
-      for (int c = 0; c < 3; ++c) affine[c][l] = columns[c];
-    }
+    if constexpr (transfer == TransferKind::apic)
+      gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, affine + 4 * l);
   }
-  const auto take = [](const Quad<Real>* from, Real scale, V* to, int stride) {
-    const FourWords<V> words = load_quads<V>(from);
+  const auto take = [](const Quad<Real>* from, Real scale, V* to, int stride) NEVE_INLINE_BODY {
+    const FourWords<V> words = gather_words<V>([&](int l) NEVE_INLINE_BODY { return from[4 * l]; });
     for (int a = 0; a < 3; ++a) to[stride * a] = words.w[a] * scale;
   };
-  take(value, Real(1), out.v, 1);
-  if constexpr (is_flip) take(moved, Real(1), out.change, 1);
+  take(gradient, Real(1), out.v, 1);
+  if constexpr (is_flip) {
+    const FourWords<V> words = load_quads<V>(moved);
+    for (int a = 0; a < 3; ++a) out.change[a] = words.w[a];
+  }
   for (int c = 0; c < 3; ++c) {
-    take(gradient[c], is_mls ? inv_h * arm_scale : inv_h, out.grad_v + c, 3);
-    if constexpr (transfer == TransferKind::apic) take(affine[c], inv_h * arm_scale, out.C + c, 3);
+    take(gradient + 1 + c, is_mls ? inv_h * arm_scale : inv_h, out.grad_v + c, 3);
+    if constexpr (transfer == TransferKind::apic)
+      take(affine + 1 + c, inv_h * arm_scale, out.C + c, 3);
     if constexpr (is_mls)
       for (int a = 0; a < 3; ++a) out.C[3 * a + c] = out.grad_v[3 * a + c];
   }

@@ -82,6 +82,18 @@ struct SweepsFor {
     NEVE_INLINE I used_lanes(int q) const { return first_lanes<I>(count - q); }
   };
 
+  /// Asks for the records that come a group after particles [q, q + W) of this one. Blocks stand
+  /// one after the other in the order, so this also looks into the next one.
+  template <int G>
+  NEVE_INLINE static void fetch_ahead(const Args& a, const Group<G>& group, int q) {
+    const Index at = static_cast<Index>(group.storage - a.order) + static_cast<Index>(q + G);
+    for (Index l = 0; l < W && at + l < a.particle_count; ++l) {
+      const char* record = reinterpret_cast<const char*>(a.particles + a.order[at + l]);
+      for (std::size_t byte = 0; byte < sizeof(Particle<Real>); byte += 64)
+        __builtin_prefetch(record + byte);
+    }
+  }
+
   /// body(group) for groups of at most G particles, all of one model.
   template <int G, class Body>
   NEVE_INLINE static void each_group(const Args& a, const ParticleBlock& block, const Body& body) {
@@ -138,7 +150,7 @@ struct SweepsFor {
     ScatterRows rows;
     auto& s = rows.s;
     each_group<scatter_group>(a, block, [&](const Group<scatter_group>& group) {
-      for (int q = 0; q < group.count; q += W) prepare<jobs>(a.constants, group, q, rows);
+      for (int q = 0; q < group.count; q += W) prepare<jobs>(a, group, q, rows);
       each_cell(s, group.count, [&](int begin, int end) {
         if constexpr (has_affine)
           scatter_tensor<Real, K, scatter_group, Set>(s, s.arm, rows.affine, begin, end, momentum);
@@ -152,14 +164,16 @@ struct SweepsFor {
   }
 
   template <int jobs>
-  NEVE_INLINE static void prepare(const StepConstants<Real>& c, const Group<scatter_group>& group,
-                                  int q, ScatterRows& rows) {
+  NEVE_INLINE static void prepare(const Args& a, const Group<scatter_group>& group, int q,
+                                  ScatterRows& rows) {
+    const StepConstants<Real>& c = a.constants;
     constexpr bool both = jobs == (momentum_job | force_job);
     constexpr bool has_affine = !is_flip && (jobs & momentum_job) != 0;
     constexpr bool has_force = (jobs & force_job) != 0;
     constexpr bool is_joined = is_mls && both;
     auto& s = rows.s;
     Batch p;
+    fetch_ahead(a, group, q);
     load_for_scatter<has_affine, has_force>(p, group.record + q);
     s.template set<!is_mls, !is_flip>(q, p.offset, p.cell);
     Quad<Real> value[W], affine[3][W], force[3][W];
@@ -250,6 +264,7 @@ struct SweepsFor {
         for (int q = 0; q < group.count; q += W) {
           Batch& p = batch[q / W];
           Gathered<V>& g = gathered[q / W];
+          fetch_ahead(a, group, q);
           load(p, group.record + q);
           s.template set<!is_mls, !is_flip>(0, p.offset, p.cell);
           sim::gather<Set, transfer>(s, 0, smaller(W, group.count - q), c.inv_h, v_new, change, g);
