@@ -65,11 +65,10 @@ struct MaterialLanes {
 };
 
 template <class V, class I>
-NEVE_INLINE MaterialLanes<V> material_lanes(const Record<V, I>& p,
-                                            const MaterialConstants<ElementOf<V>>* table) {
+NEVE_INLINE void take_lanes(const Record<V, I>& p, const MaterialConstants<ElementOf<V>>* table,
+                            MaterialLanes<V>& m) {
   using Real = ElementOf<V>;
   using M = MaterialLanes<V>;
-  M m;
   for (int q = 0; q < 9; ++q) m.F()[q] = p.F_E[q];
   m.J_P() = p.J_P;
   V k[5];
@@ -90,7 +89,6 @@ NEVE_INLINE MaterialLanes<V> material_lanes(const Record<V, I>& p,
   m.word[M::word_xi] = k[2];
   m.word[M::word_lo] = Real(1) - k[3] * p.threshold;
   m.word[M::word_hi] = Real(1) + k[4] * p.threshold;
-  return m;
 }
 
 /// Fixed-corotated stress of particles whose strain is small (and, for snow, inside the
@@ -246,7 +244,8 @@ class MaterialUpdate {
     unsigned rest[most_batches];
     int packed = 0;
     for (int k = 0; k * W < count; ++k) {
-      M m = material_lanes(batch[k], table);
+      M m;
+      take_lanes(batch[k], table, m);
       const unsigned used = lane_bits(first_lanes<MaskOf<V>>(count - k * W));
       is_inverted[k] = used & ~lane_bits(determinant(m.F()) > V{});
       rest[k] = 0;
@@ -256,8 +255,9 @@ class MaterialUpdate {
         rest[k] = used & ~lane_bits(corotated_near_identity(m, is_plastic));
       keep_stress(m, batch[k], wave_modulus[k]);
       if (rest[k] == 0) continue;
+      const LanePacking<V> packing(rest[k]);
       for (int w = 0; w < M::words; ++w)
-        if (!is_result(w)) compress(m.word[w], rest[k], packed_[w] + packed);
+        if (!is_result(w)) packing.compress(m.word[w], packed_[w] + packed);
       packed += __builtin_popcount(rest[k]);
     }
     if (packed == 0) return;
@@ -267,17 +267,14 @@ class MaterialUpdate {
     packed = 0;
     for (int k = 0; k * W < count; ++k) {
       if (rest[k] == 0) continue;
-      M m;
-      for (int q = 0; q < 9; ++q) m.F()[q] = batch[k].F_E[q];
-      m.J_P() = batch[k].J_P;
-      m.wave_modulus() = wave_modulus[k];
-      for (int q = 0; q < 6; ++q) m.word[M::word_tau + q] = batch[k].tau[q];
-      for (int w = 0; w < M::word_mu; ++w)
-        m.word[w] = expand(m.word[w], rest[k], packed_[w] + packed);
+      const LanePacking<V> packing(rest[k]);
+      const auto take = [&](V& v, int word)
+                            NEVE_INLINE_BODY { v = packing.expand(v, packed_[word] + packed); };
+      for (int q = 0; q < 9; ++q) take(batch[k].F_E[q], M::word_F + q);
+      for (int q = 0; q < 6; ++q) take(batch[k].tau[q], M::word_tau + q);
+      take(batch[k].J_P, M::word_J_P);
+      take(wave_modulus[k], M::word_wave_modulus);
       packed += __builtin_popcount(rest[k]);
-      for (int q = 0; q < 9; ++q) batch[k].F_E[q] = m.F()[q];
-      batch[k].J_P = m.J_P();
-      keep_stress(m, batch[k], wave_modulus[k]);
     }
   }
 

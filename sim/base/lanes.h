@@ -362,9 +362,9 @@ NEVE_INLINE Lanes<ElementOf<Q>, N> spread_quad(Q q) {
 #if defined(__AVX512DQ__)
   // In every 128 bits, the number of those 128 bits.
   if constexpr (N == 16 && sizeof(V) == 64)
-    return reinterpret_cast<V>(_mm512_permutevar_ps(
-        _mm512_broadcast_f32x4(reinterpret_cast<__m128>(q)),
-        _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3)));
+    return reinterpret_cast<V>(
+        _mm512_permutevar_ps(_mm512_broadcast_f32x4(reinterpret_cast<__m128>(q)),
+                             _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3)));
   if constexpr (N == 8 && sizeof(V) == 64)
     return reinterpret_cast<V>(_mm512_permutexvar_pd(
         _mm512_setr_epi64(first, first, first, first, first + 1, first + 1, first + 1, first + 1),
@@ -389,8 +389,8 @@ NEVE_INLINE FourWords<V> gather_words(const Read& quad) {
     else if constexpr (lane_count<V> == 8)
       out.w[t] = join_halves(quad(t), quad(4 + t));
     else
-      out.w[t] = join_halves(join_halves(quad(t), quad(4 + t)),
-                             join_halves(quad(8 + t), quad(12 + t)));
+      out.w[t] =
+          join_halves(join_halves(quad(t), quad(4 + t)), join_halves(quad(8 + t), quad(12 + t)));
   });
   transpose_quads(out, Indices<__integer_pack(lane_count<V>)...>{});
   return out;
@@ -400,9 +400,8 @@ template <class V, class Write>
 NEVE_INLINE void scatter_words(FourWords<V> words, const Write& write) {
   transpose_quads(words, Indices<__integer_pack(lane_count<V>)...>{});
   unrolled<4>([&](auto t) NEVE_INLINE_BODY {
-    unrolled<lane_count<V> / 4>([&](auto g) NEVE_INLINE_BODY {
-      write(4 * g + t, quad_of<g>(words.w[t]));
-    });
+    unrolled<lane_count<V> / 4>([&](auto g)
+                                    NEVE_INLINE_BODY { write(4 * g + t, quad_of<g>(words.w[t])); });
   });
 }
 
@@ -434,44 +433,92 @@ NEVE_INLINE void store_quads(const FourWords<V>& words, Quad<ElementOf<V>>* to) 
   scatter_words(words, [&](int l, Quad<ElementOf<V>> q) NEVE_INLINE_BODY { to[l] = q; });
 }
 
-/// The lanes named by `bits`, moved together and written; up to a whole vector is overwritten.
+/// Moves the lanes named by some bits together, and back to their places.
 template <class V>
-NEVE_INLINE void compress(V v, unsigned bits, ElementOf<V>* out) {
-#if defined(__AVX512F__)
-  if constexpr (sizeof(V) == 64 && sizeof(ElementOf<V>) == 4) {
-    const __m512 packed =
-        _mm512_maskz_compress_ps(static_cast<__mmask16>(bits), reinterpret_cast<__m512>(v));
-    _mm512_storeu_ps(reinterpret_cast<float*>(out), packed);
-  } else if constexpr (sizeof(V) == 64) {
-    const __m512d packed =
-        _mm512_maskz_compress_pd(static_cast<__mmask8>(bits), reinterpret_cast<__m512d>(v));
-    _mm512_storeu_pd(reinterpret_cast<double*>(out), packed);
-  } else
-#endif
-  {
-    for (; bits != 0; bits &= bits - 1) *out++ = v[__builtin_ctz(bits)];
-  }
-}
+class LanePacking {
+ public:
+  using Real = ElementOf<V>;
 
-/// The inverse: lanes named by `bits` take the next numbers of `in`, the others stay.
-template <class V>
-NEVE_INLINE V expand(V v, unsigned bits, const ElementOf<V>* in) {
-#if defined(__AVX512F__)
-  if constexpr (sizeof(V) == 64 && sizeof(ElementOf<V>) == 4) {
-    return reinterpret_cast<V>(
-        _mm512_mask_expand_ps(reinterpret_cast<__m512>(v), static_cast<__mmask16>(bits),
-                              _mm512_loadu_ps(reinterpret_cast<const float*>(in))));
-  } else if constexpr (sizeof(V) == 64) {
-    return reinterpret_cast<V>(
-        _mm512_mask_expand_pd(reinterpret_cast<__m512d>(v), static_cast<__mmask8>(bits),
-                              _mm512_loadu_pd(reinterpret_cast<const double*>(in))));
-  } else
+  NEVE_INLINE explicit LanePacking(unsigned bits) : bits_(bits) {
+#if defined(__AVX2__) && defined(__BMI2__)
+    if constexpr (sizeof(V) == 32 && lane_count<V> == 8) {
+      // A byte per lane, all set where the lane is named; then the numbers of the named lanes moved
+      // together, and for every named lane how many come before it.
+      const unsigned long long named = _pdep_u64(bits, 0x0101010101010101) * 0xff;
+      constexpr unsigned long long numbers = 0x0706050403020100;
+      together_ = widened(_pext_u64(numbers, named));
+      apart_ = widened(_pdep_u64(numbers, named));
+      is_named_ = reinterpret_cast<MaskOf<V>>(
+          _mm256_cvtepi8_epi32(_mm_cvtsi64_si128(static_cast<long long>(named))));
+    }
 #endif
-  {
-    for (; bits != 0; bits &= bits - 1) v[__builtin_ctz(bits)] = *in++;
-    return v;
   }
-}
+
+  /// The lanes moved together; up to a whole vector is overwritten.
+  NEVE_INLINE void compress(V v, Real* out) const {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(V) == 64 && sizeof(Real) == 4) {
+      const __m512 packed =
+          _mm512_maskz_compress_ps(static_cast<__mmask16>(bits_), reinterpret_cast<__m512>(v));
+      return _mm512_storeu_ps(reinterpret_cast<float*>(out), packed);
+    } else if constexpr (sizeof(V) == 64) {
+      const __m512d packed =
+          _mm512_maskz_compress_pd(static_cast<__mmask8>(bits_), reinterpret_cast<__m512d>(v));
+      return _mm512_storeu_pd(reinterpret_cast<double*>(out), packed);
+    } else
+#endif
+#if defined(__AVX2__) && defined(__BMI2__)
+        if constexpr (sizeof(V) == 32 && lane_count<V> == 8) {
+      return _mm256_storeu_ps(reinterpret_cast<float*>(out),
+                              _mm256_permutevar8x32_ps(reinterpret_cast<__m256>(v), together_));
+    } else
+#endif
+    {
+      Real lane[lane_count<V>];
+      __builtin_memcpy(lane, &v, sizeof v);
+      for (unsigned bits = bits_; bits != 0; bits &= bits - 1) *out++ = lane[__builtin_ctz(bits)];
+    }
+  }
+
+  /// The named lanes take the next numbers of `in`, the others stay. A whole vector is read.
+  NEVE_INLINE V expand(V v, const Real* in) const {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(V) == 64 && sizeof(Real) == 4) {
+      return reinterpret_cast<V>(
+          _mm512_mask_expand_ps(reinterpret_cast<__m512>(v), static_cast<__mmask16>(bits_),
+                                _mm512_loadu_ps(reinterpret_cast<const float*>(in))));
+    } else if constexpr (sizeof(V) == 64) {
+      return reinterpret_cast<V>(
+          _mm512_mask_expand_pd(reinterpret_cast<__m512d>(v), static_cast<__mmask8>(bits_),
+                                _mm512_loadu_pd(reinterpret_cast<const double*>(in))));
+    } else
+#endif
+#if defined(__AVX2__) && defined(__BMI2__)
+        if constexpr (sizeof(V) == 32 && lane_count<V> == 8) {
+      const V moved = reinterpret_cast<V>(
+          _mm256_permutevar8x32_ps(_mm256_loadu_ps(reinterpret_cast<const float*>(in)), apart_));
+      return is_named_ ? moved : v;
+    } else
+#endif
+    {
+      Real lane[lane_count<V>];
+      __builtin_memcpy(lane, &v, sizeof v);
+      for (unsigned bits = bits_; bits != 0; bits &= bits - 1) lane[__builtin_ctz(bits)] = *in++;
+      __builtin_memcpy(&v, lane, sizeof v);
+      return v;
+    }
+  }
+
+ private:
+  unsigned bits_;
+#if defined(__AVX2__) && defined(__BMI2__)
+  NEVE_INLINE static __m256i widened(unsigned long long bytes) {
+    return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(bytes)));
+  }
+  __m256i together_, apart_;
+  MaskOf<V> is_named_;
+#endif
+};
 
 template <class V>
 NEVE_INLINE V load_lanes(const ElementOf<V>* from) {
