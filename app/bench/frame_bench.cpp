@@ -17,6 +17,7 @@
 #include "app/resolve.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/read.h"
+#include "app/scene/value.h"
 #include "app/seed_scene.h"
 #include "app/text.h"
 #include "render/context.h"
@@ -28,24 +29,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* flip = "";
+constexpr const char* mls = "transfer = \"mls\"\nkernel = \"quadratic\"\n";
+
+struct BoxSize {
+  double x, y, z;  ///< m
+};
+constexpr BoxSize large_box{1.0, 0.6, 0.5};  // 300 000 particles
+constexpr BoxSize small_box{0.2, 0.2, 0.1};  // 4000
+constexpr BoxSize quick_box{0.16, 0.16, 0.16};
+
 /// A box of the paper's snow that hits the floor within the first frame, 8 particles to a cell.
-/// @param size of the box, TOML
-Scene falling_box(const std::string& size, const std::string& solver) {
+/// @param solver more keys of [solver]
+Scene falling_box(const BoxSize& size, const std::string& solver) {
+  const std::string middle = number_text(0.03 + 0.5 * size.y);
   return read_scene_text(
       "frames = 1\nfps = 24\n[solver]\ncell_size = 0.02\n"
       "time_step = \"fixed\"\ndt = 2e-4\n" +
-          solver + "[[body]]\nshape = { box = { center = [0, 0.33, 0], size = " + size +
-          " } }\nvelocity = [0, -3, 0]\nsampling = \"lattice\"\n"
+          solver + "[[body]]\nshape = { box = { center = [0, " + middle + ", 0], size = [" +
+          number_text(size.x) + ", " + number_text(size.y) + ", " + number_text(size.z) +
+          "] } }\nvelocity = [0, -3, 0]\nsampling = \"lattice\"\n"
           "[[collider]]\nshape = { plane = { point = [0, 0, 0], "
           "normal = [0, 1, 0] } }\n[output]\nsize = [640, 360]\n",
       "bench frame");
 }
-
-constexpr const char* flip = "";
-constexpr const char* mls = "transfer = \"mls\"\nkernel = \"quadratic\"\n";
-constexpr const char* large_box = "[1.0, 0.6, 0.5]";  // 300 000 particles
-constexpr const char* small_box = "[0.2, 0.2, 0.1]";  // 4000
-constexpr const char* quick_box = "[0.16, 0.16, 0.16]";
 
 /// A folder of its own that goes when this goes.
 class ScratchFolder {
@@ -181,7 +188,7 @@ void FrameBench::coarsen_2() {
 }
 
 std::vector<BenchRow> FrameBench::run() {
-  const char* const large = options_.is_quick ? quick_box : large_box;
+  const BoxSize& large = options_.is_quick ? quick_box : large_box;
   const Scene flip_scene = falling_box(large, flip), mls_scene = falling_box(large, mls);
   Scene small = falling_box(small_box, flip);
   resolve(small, 4000);

@@ -6,6 +6,8 @@
 
 #include "app/bench/bench_case.h"
 #include "app/bench/naive.h"
+#include "app/bench/window.h"
+#include "app/errors.h"
 
 namespace neve::app {
 namespace {
@@ -63,6 +65,26 @@ TEST(NaiveSnow, RefusesWhatItDoesNotImplement) {
   estimated.particles.V0.clear();
   EXPECT_THROW(NaiveSnow(estimated.settings, estimated.material, estimated.particles),
                std::invalid_argument);
+}
+
+TEST(Window, OfACaseThatDivergesIsAnError) {
+  BenchCase c = packed_case(4, Method::flip_cubic, sim::Precision::single);
+  c.settings.dt = 5e-3;  // sound crosses ten cells
+  try {
+    time_window(c, 1, "too_long_steps");
+    FAIL() << "its time was taken for a figure";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, exit_diverged);
+    EXPECT_NE(std::string(error.what()).find("too_long_steps diverged at step"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Statistics, MedianIsTheMiddleOrBetweenTheTwo) {
+  EXPECT_EQ(statistics_of({3, 1, 2}).median, 2);
+  EXPECT_EQ(statistics_of({4, 1, 2, 3}).median, 2.5);
+  EXPECT_EQ(statistics_of({4, 1, 2, 3}).min, 1);
+  EXPECT_EQ(statistics_of({4, 1, 2, 3}).max, 4);
 }
 
 TEST(BenchCase, IsTheCommonCase) {
