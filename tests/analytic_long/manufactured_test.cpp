@@ -1,7 +1,6 @@
 /// Convergence to the manufactured solution of every scheme, down to 64 cells.
 
 #include "tests/support/manufactured.h"
-#include "tests/support/balls_checks.h"
 #include "tests/support/verification.h"
 
 namespace {

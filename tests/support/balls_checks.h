@@ -1,8 +1,6 @@
 #pragma once
 /// What a collision of balls has to show, and its curves.
 
-#include <cctype>
-
 #include "tests/support/balls.h"
 #include "tests/support/verification.h"
 
@@ -12,16 +10,6 @@ namespace neve::test {
 struct BallsExpectation {
   double kinetic_at_rest, elastic, total, rebound;
 };
-
-/// "FLIP 0.95, cubic" -> "flip_0.95_cubic".
-inline std::string file_name(const std::string& label) {
-  std::string out;
-  for (const char c : label) {
-    if (c == ',') continue;
-    out += c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return out;
-}
 
 inline BallsHistory recorded_balls(const BallsCase& c) {
   const BallsHistory h = collide_balls(c);

@@ -12,7 +12,7 @@ struct WaveCase {
   Kernel kernel = Kernel::cubic;
   bool is_shear = false;
   int cells = 16;                ///< length of the box, a multiple of 4
-  int waves = 1;                 ///< wavelengths in it
+  double waves = 1;              ///< wavelengths in it
   int per_cell = 4;              ///< particles per cell along the wave
   double cfl = 0.05;             ///< c dt / h of the longitudinal wave
   double flip_ratio = 1;         ///< alpha

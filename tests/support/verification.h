@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -53,10 +54,15 @@ inline void keep_row(const std::vector<std::string>& fields) {
   out << '\n';
 }
 
+/// For people: six digits, two of what is nearly nothing.
+inline std::string in_short(double x) {
+  return in_digits(x, std::abs(x) < 1e-6 ? 2 : 6);
+}
+
 inline void keep_check(const Quantity& q, const std::string& expected, double measured,
                        const std::string& tolerance, bool holds) {
-  keep_row({q.table, q.line, q.name, expected, in_digits(measured), tolerance,
-            holds ? "yes" : "**no**"});
+  keep_row(
+      {q.table, q.line, q.name, expected, in_short(measured), tolerance, holds ? "yes" : "**no**"});
 }
 
 /// |measured - expected| <= tolerance, all in the quantity's unit.
@@ -64,7 +70,7 @@ inline void verify_near(const Quantity& q, double expected, double measured, dou
   const bool holds = std::abs(measured - expected) <= tolerance;
   EXPECT_TRUE(holds) << q.table << ", " << q.line << ": " << q.name << " = " << measured
                      << ", expected " << expected << " within " << tolerance;
-  keep_check(q, in_digits(expected), measured, "± " + in_digits(tolerance, 2), holds);
+  keep_check(q, in_short(expected), measured, "± " + in_digits(tolerance, 2), holds);
 }
 
 /// measured / expected within 1 +- tolerance.
@@ -72,7 +78,7 @@ inline void verify_ratio(const Quantity& q, double expected, double measured, do
   const bool holds = std::abs(measured / expected - 1) <= tolerance;
   EXPECT_TRUE(holds) << q.table << ", " << q.line << ": " << q.name << " = " << measured
                      << ", expected " << expected << " within " << 100 * tolerance << " %";
-  keep_check(q, in_digits(expected), measured, "± " + in_digits(100 * tolerance, 2) + " %", holds);
+  keep_check(q, in_short(expected), measured, "± " + in_digits(100 * tolerance, 2) + " %", holds);
 }
 
 inline void verify_at_least(const Quantity& q, double bound, double measured) {
@@ -87,7 +93,17 @@ inline void verify_at_most(const Quantity& q, double bound, double measured) {
 
 /// A number for the page that nothing is demanded of.
 inline void keep_number(const Quantity& q, double measured) {
-  keep_row({q.table, q.line, q.name, "", in_digits(measured), "", ""});
+  keep_row({q.table, q.line, q.name, "", in_short(measured), "", ""});
+}
+
+/// "FLIP 0.95, cubic" -> "flip_0.95_cubic".
+inline std::string file_name(const std::string& label) {
+  std::string out;
+  for (const char c : label) {
+    if (c == ',') continue;
+    out += c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return out;
 }
 
 /// Columns of numbers for a plot.
