@@ -13,7 +13,7 @@ set style line 2 lc rgb "#d55e00" lw 1.6 pt 5 ps 0.8
 set style line 3 lc rgb "#009e73" lw 1.6 pt 9 ps 1.0
 set style line 4 lc rgb "#777777" lw 1.2 dt 2
 set style line 5 lc rgb "#cc79a7" lw 1.6 pt 13 ps 1.0
-set grid lc rgb "#dddddd" lw 0.6
+set grid lt 1 lc rgb "#d8d8d8" lw 0.8
 set tics nomirror
 set border 3
 set key Left reverse samplen 2
@@ -48,15 +48,15 @@ set logscale y
 set yrange [1e-5:1]
 set format y "10^{%T}"
 set key bottom right
-steps(s) = s == 1 ? "0.05" : "0.2"
+labels = "'FLIP 1.0, c dt/h = 0.1' 'APIC, c dt/h = 0.2' 'MLS, c dt/h = 0.2'"
 do for [kernel in "cubic quadratic"] {
   set title kernel . " B-spline; filled: longitudinal, open: shear"
   plot for [s=1:3] for [c=4:5] curve("dispersion_theory_".word(transfers, s)."_".kernel) \
-         using 1:c with lines ls s dt (c == 4 ? 1 : 3) notitle, \
+         using 1:c with lines ls s dt 2*c-7 notitle, \
        for [s=1:3] curve("dispersion_".word(transfers, s)."_".kernel) \
-         using 1:5 with points ls s pt (s == 1 ? 6 : s == 2 ? 4 : 8) notitle, \
+         using 1:5 with points ls s pt 2*s+(s==1 ? 4 : s==2 ? 0 : 2) notitle, \
        for [s=1:3] curve("dispersion_".word(transfers, s)."_".kernel) \
-         using 1:4 with points ls s title word("FLIP APIC MLS", s).", c dt/h = ".steps(s)
+         using 1:4 with points ls s title word(labels, s)
 }
 unset multiplot
 
@@ -75,16 +75,16 @@ set title "cubic, moved by the grid, strains to 31 %"
 plot curve("manufactured_flip") with linespoints ls 1 title "FLIP 1.0", \
      curve("manufactured_apic") with linespoints ls 2 title "APIC", \
      curve("manufactured_mls") with linespoints ls 3 title "MLS", \
-     20 * x**2 with lines ls 4 title "order 2"
+     12 * x**2 with lines ls 4 title "order 2"
 set title "where schemes end"
-plot curve("manufactured_paper") with linespoints ls 1 title "FLIP 0.95 moved by v_p, 31 %" noenhanced, \
-     curve("manufactured_paper_small") with linespoints ls 1 dt 3 pt 6 \
-       title "the same, 6 %", \
-     curve("manufactured_flip_particle_small") with linespoints ls 5 \
-       title "FLIP 1.0 moved by v_p, 6 %" noenhanced, \
+plot curve("manufactured_flip_particle") with linespoints ls 1 \
+       title "FLIP 1.0 moved by v_p, 31 %" noenhanced, \
+     curve("manufactured_flip_particle_small") with linespoints ls 1 dt 3 pt 6 title "the same, 6 %", \
+     curve("manufactured_paper_small") with linespoints ls 5 \
+       title "FLIP 0.95 moved by v_p, 6 %" noenhanced, \
      curve("manufactured_apic_quadratic") with linespoints ls 2 title "APIC quadratic, 31 %", \
      curve("manufactured_mls_quadratic") with linespoints ls 3 title "MLS quadratic, 31 %", \
-     20 * x**2 with lines ls 4 title "order 2"
+     12 * x**2 with lines ls 4 title "order 2"
 unset multiplot
 
 # Bars.
@@ -120,7 +120,7 @@ set title "paper snow, uniaxial strain"
 plot curve("uniaxial_double") using 1:(-$4) with lines ls 4 dt 1 title "formula", \
      curve("uniaxial_double") every 8 using 1:(-$3) with points ls 1 title "material, double", \
      curve("uniaxial_float") every 8::4 using 1:(-$3) with points ls 3 title "material, float", \
-     curve("uniaxial_column") using 2:(-$3) with points ls 2 title "column between plates, 16 cells"
+     curve("uniaxial_column") using 2:(-$3) with points ls 2 title "middle of a column"
 unset logscale y
 set format y "%h"
 set xrange [1:0.68]
@@ -140,12 +140,13 @@ set multiplot layout 2,2
 set xrange [0:0.6]
 set yrange [0:1.05]
 set xlabel "time (s)"
-set ylabel "energy / kinetic energy at the start"
+set ylabel "energy / start"
 set key center right
 balls = "flip_0.95_cubic flip_1.0_cubic apic_cubic mls_quadratic"
 titles = "'FLIP 0.95, cubic' 'FLIP 1.0, cubic' 'APIC, cubic' 'MLS, quadratic'"
 do for [s=1:4] {
   set title word(titles, s)
+  if (s == 2) unset key
   plot curve("balls_".word(balls, s)) using 1:4 with lines ls 4 dt 1 title "total", \
        '' using 1:2 with lines ls 1 title "kinetic", '' using 1:3 with lines ls 2 title "elastic"
 }
