@@ -12,7 +12,7 @@ namespace neve::sim {
 namespace {
 
 /// Below this many particles per thread, waking a thread costs more than it saves.
-constexpr std::size_t particles_per_thread = 2000;
+constexpr std::size_t particles_per_thread = 1000;
 
 TransferKind transfer_kind(Transfer transfer) {
   switch (transfer) {
