@@ -72,11 +72,11 @@ NEVE_INLINE void each_cell(const Stencils<Real, K, G>& s, int count, const Body&
 template <class Real, int K, class Set>
 inline constexpr int slabs_at_once = Set::template lanes<Real> == 16 ? K : 1;
 
-/// tile += sum over the particles [begin, end) of one cell of w_ip value_p.
-/// @param along  per particle: its value times the weights along z
-template <class Real, int K, int G, class Set>
-NEVE_INLINE void scatter_value(const Stencils<Real, K, G>& s, const Row<Real, Set>* along,
-                               int begin, int end, Quad<Real>* tile) {
+/// tile += what add(i, q, rows) adds to the K rows of slab i, over the particles [begin, end) of
+/// one cell: kept in registers until the cell is done.
+template <class Set, class Real, int K, int G, class Add>
+NEVE_INLINE void scatter_slabs(const Stencils<Real, K, G>& s, int begin, int end, Quad<Real>* tile,
+                               const Add& add) {
   using R = Row<Real, Set>;
   constexpr int slabs = slabs_at_once<Real, K, Set>;
   for (int i0 = 0; i0 < K; i0 += slabs) {
@@ -84,19 +84,26 @@ NEVE_INLINE void scatter_value(const Stencils<Real, K, G>& s, const Row<Real, Se
     unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
       unrolled<K>([&](auto j) NEVE_INLINE_BODY { sum[i][j] = R::zero(); });
     });
-    for (int q = begin; q < end; ++q) {
-      unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
-        const R across = along[q] * s.w[0][i0 + i][q];
-        unrolled<K>([&](auto j)
-                        NEVE_INLINE_BODY { sum[i][j] = fused(across, s.w[1][j][q], sum[i][j]); });
-      });
-    }
+    for (int q = begin; q < end; ++q)
+      unrolled<slabs>([&](auto i) NEVE_INLINE_BODY { add(i0 + i, q, sum[i]); });
     unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
       unrolled<K>([&](auto j) NEVE_INLINE_BODY {
         sum[i][j].add_to(tile + s.first[begin] + Tile<K>::node(i0 + i, j, 0));
       });
     });
   }
+}
+
+/// tile += sum over the particles [begin, end) of one cell of w_ip value_p.
+/// @param along  per particle: its value times the weights along z
+template <class Real, int K, int G, class Set>
+NEVE_INLINE void scatter_value(const Stencils<Real, K, G>& s, const Row<Real, Set>* along,
+                               int begin, int end, Quad<Real>* tile) {
+  using R = Row<Real, Set>;
+  scatter_slabs<Set>(s, begin, end, tile, [&](int i, int q, R(&sum)[K]) NEVE_INLINE_BODY {
+    const R across = along[q] * s.w[0][i][q];
+    unrolled<K>([&](auto j) NEVE_INLINE_BODY { sum[j] = fused(across, s.w[1][j][q], sum[j]); });
+  });
 }
 
 /// A tensor A of one particle, by columns, as rows: A_x and A_y times the weights along z, and A_z
@@ -114,27 +121,13 @@ NEVE_INLINE void scatter_tensor(const Stencils<Real, K, G>& s, const Real (&g)[3
                                 const TensorRows<Real, Set>* A, int begin, int end,
                                 Quad<Real>* tile) {
   using R = Row<Real, Set>;
-  constexpr int slabs = slabs_at_once<Real, K, Set>;
-  for (int i0 = 0; i0 < K; i0 += slabs) {
-    R sum[slabs][K];
-    unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
-      unrolled<K>([&](auto j) NEVE_INLINE_BODY { sum[i][j] = R::zero(); });
+  scatter_slabs<Set>(s, begin, end, tile, [&](int i, int q, R(&sum)[K]) NEVE_INLINE_BODY {
+    const R with_w = fused(A[q].x, g[0][i][q], A[q].z * s.w[0][i][q]);
+    const R with_g = A[q].y * s.w[0][i][q];
+    unrolled<K>([&](auto j) NEVE_INLINE_BODY {
+      sum[j] = fused(with_w, s.w[1][j][q], fused(with_g, g[1][j][q], sum[j]));
     });
-    for (int q = begin; q < end; ++q) {
-      unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
-        const R with_w = fused(A[q].x, g[0][i0 + i][q], A[q].z * s.w[0][i0 + i][q]);
-        const R with_g = A[q].y * s.w[0][i0 + i][q];
-        unrolled<K>([&](auto j) NEVE_INLINE_BODY {
-          sum[i][j] = fused(with_w, s.w[1][j][q], fused(with_g, g[1][j][q], sum[i][j]));
-        });
-      });
-    }
-    unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
-      unrolled<K>([&](auto j) NEVE_INLINE_BODY {
-        sum[i][j].add_to(tile + s.first[begin] + Tile<K>::node(i0 + i, j, 0));
-      });
-    });
-  }
+  });
 }
 
 /// sum w_ip value_i, then the columns of sum value_i g_ip^T, over the stencil of particle q.
