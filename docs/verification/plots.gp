@@ -146,7 +146,7 @@ balls = "flip_0.95_cubic flip_1.0_cubic apic_cubic mls_quadratic"
 titles = "'FLIP 0.95, cubic' 'FLIP 1.0, cubic' 'APIC, cubic' 'MLS, quadratic'"
 do for [s=1:4] {
   set title word(titles, s)
-  if (s == 2) unset key
+  if (s == 2) { unset key }
   plot curve("balls_".word(balls, s)) using 1:4 with lines ls 4 dt 1 title "total", \
        '' using 1:2 with lines ls 1 title "kinetic", '' using 1:3 with lines ls 2 title "elastic"
 }
