@@ -1,0 +1,13 @@
+/// lanes.h as AVX-512 runs it, for lanes_test.cpp.
+
+#ifdef __x86_64__
+
+#include "tests/support/lanes_probe.h"
+
+namespace neve::test {
+
+NEVE_DEFINE_LANES_PROBES(sim::Avx512Set)
+
+}  // namespace neve::test
+
+#endif
