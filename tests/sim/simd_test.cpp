@@ -1,0 +1,54 @@
+/// The choice of an instruction set.
+
+#include <gtest/gtest.h>
+
+#include "tests/support/simd_levels.h"
+
+namespace {
+
+using namespace neve;
+using namespace neve::sim;
+
+/// What the choice complains about when NEVE_SIMD is `value`; empty: nothing.
+std::string complaint_about(const char* value) {
+  std::string complaint;
+  const char* before = std::getenv("NEVE_SIMD");
+  const std::string saved = before ? before : "";
+  setenv("NEVE_SIMD", value, 1);
+  try {
+    chosen_simd_level();
+  } catch (const SimdError& error) {
+    complaint = error.what();
+  }
+  if (before)
+    setenv("NEVE_SIMD", saved.c_str(), 1);
+  else
+    unsetenv("NEVE_SIMD");
+  return complaint;
+}
+
+TEST(Simd, UnknownLevelsAreRefusedWithWhatThereIs) {
+  for (const char* wrong : {"foo", "AVX2", " avx2", "avx", "avx2 ", "baseline,avx2"}) {
+    const std::string complaint = complaint_about(wrong);
+    EXPECT_TRUE(complaint.starts_with("NEVE_SIMD=" + std::string(wrong))) << complaint;
+    EXPECT_NE(complaint.find("this machine has baseline"), std::string::npos) << complaint;
+  }
+}
+
+TEST(Simd, LevelsThatTheMachineLacksAreRefused) {
+  for (const SimdLevel level : {SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512}) {
+    const std::string complaint = complaint_about(name(level));
+    EXPECT_EQ(complaint.empty(), is_available(level)) << complaint;
+    // Another level's complaint lists exactly the levels that are here.
+    const std::string list = complaint_about("foo").substr(std::string("NEVE_SIMD=foo").size());
+    EXPECT_EQ(list.find(name(level)) != std::string::npos, is_available(level)) << list;
+  }
+}
+
+TEST(Simd, ChoiceIsTheWidestUnlessToldOtherwise) {
+  test::at_every_simd_level(
+      [] { EXPECT_STREQ(name(chosen_simd_level()), std::getenv("NEVE_SIMD")); });
+  EXPECT_EQ(complaint_about(""), "");
+}
+
+}  // namespace
