@@ -22,8 +22,10 @@ NEVE_INLINE void spline(V first, V (&w)[cubic_nodes], V (&dw)[cubic_nodes]) {
   const V o = first - Real(1), a = Real(1) - o;
   w[0] = a * a * a * Real(1.0 / 6.0);
   w[1] = (Real(0.5) * o - Real(1)) * o * o + Real(2.0 / 3.0);
-  w[2] = (Real(0.5) * a - Real(1)) * a * a + Real(2.0 / 3.0);
   w[3] = o * o * o * Real(1.0 / 6.0);
+  // 1/6 and 2/3 are rounded: evaluated by itself, this one would make the sum 1 + 1e-7 in float,
+  // and APIC would gain that share of its velocity every step.
+  w[2] = Real(1) - (w[0] + w[1] + w[3]);
   dw[0] = Real(-0.5) * a * a;
   dw[1] = (Real(1.5) * o - Real(2)) * o;
   dw[2] = (Real(2) - Real(1.5) * a) * a;

@@ -108,6 +108,12 @@ NEVE_INLINE MaskOf<V> touch(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3
   return deepest <= zero;
 }
 
+/// Velocity of the collider's surface at a place.
+template <class V, class Real>
+NEVE_INLINE Vec3<V> surface_velocity(const LocalCollider<Real>& c, const Vec3<V>& r) {
+  return widened<V>(c.velocity) + cross(widened<V>(c.omega), widened<V>(c.to_block) + r);
+}
+
 /// Velocity after contact.
 /// sticky: v_co. slip: no motion along the normal, free sliding. separate: leaves freely, otherwise
 /// slides with Coulomb friction, v_t (1 + mu v_n / |v_t|), or sticks where friction would reverse
@@ -117,8 +123,7 @@ NEVE_INLINE Vec3<V> respond(const LocalCollider<Real>& c, const Vec3<V>& r, cons
   Vec3<V> n;
   const MaskOf<V> is_inside = touch(c, r, n);
   if (!any_lane(is_inside)) return v;
-  const Vec3<V> v_co =
-      widened<V>(c.velocity) + cross(widened<V>(c.omega), widened<V>(c.to_block) + r);
+  const Vec3<V> v_co = surface_velocity(c, r);
   if (c.contact == ContactLaw::sticky) return select(is_inside, v_co, v);
   const Vec3<V> v_rel = v - v_co;
   const V v_n = dot(v_rel, n);

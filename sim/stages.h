@@ -241,17 +241,21 @@ NEVE_INLINE Quad<Real> node_v_free(Quad<Real> v_old, Quad<Real> force,
 
 /// Steps 5 and 9: contact at places r in the block, collider after collider.
 /// @param is_used  lanes that count
-/// @param work     kinetic energy that contacts added, J; where they took some, 0
+/// @param work     what colliders do, impulse times the speed of their surface, J; only what is
+/// added
 template <class Set, class V, class Real>
 NEVE_APART void collide(Vec3<V>& v, const V& mass, const Vec3<V>& r, const MaskOf<V>& is_used,
                         const LocalCollider<Real>* colliders, int count, double& work) {
-  const Vec3<V> before = v;
-  for (int k = 0; k < count; ++k) v = respond(colliders[k], r, v);
-  const V gained = Real(0.5) * mass * (dot(v, v) - dot(before, before));
-  const MaskOf<V> counts = is_used & (gained > V{});
+  V done{};
+  for (int k = 0; k < count; ++k) {
+    const Vec3<V> before = v;
+    v = respond(colliders[k], r, v);
+    done += mass * dot(v - before, surface_velocity(colliders[k], r));
+  }
+  const MaskOf<V> counts = is_used & (done > V{});
   if (!any_lane(counts)) return;
   for (int l = 0; l < lane_count<V>; ++l)
-    if (counts[l]) work += static_cast<double>(gained[l]);
+    if (counts[l]) work += static_cast<double>(done[l]);
 }
 
 /// Colliders that a block can touch, placed relative to it.
