@@ -46,6 +46,28 @@ TEST(Divergence, HealthyImpactsOfElasticModelsPass) {
   }
 }
 
+/// A plate that moves slowly does work on every step, mostly against stress that slows the nodes
+/// down by more than the plate's speed.
+TEST(Divergence, SlowPressesAreHealthy) {
+  SolverSettings s;
+  s.cell_size = 0.03;
+  s.gravity.setZero();
+  const Contact slip = Contact::slip;
+  for (const Model model : {Model::snow, Model::corotated}) {
+    Material m;
+    m.model = model;
+    std::vector<Collider> box = {
+        plane({0, 0, 0}, {0, 1, 0}, 0, slip),     plane({0, 0, 0}, {1, 0, 0}, 0, slip),
+        plane({0.18, 0, 0}, {-1, 0, 0}, 0, slip), plane({0, 0, 0}, {0, 0, 1}, 0, slip),
+        plane({0, 0, 0.18}, {0, 0, -1}, 0, slip), plane({0, 0.36, 0}, {0, -1, 0}, 0, slip)};
+    box.back().velocity = Vec3d(0, -0.1, 0);
+    Simulation simulation(s, {m}, box, box_of_snow({0, 0, 0}, {0.18, 0.36, 0.18}, 0.015), 1);
+    simulation.advance_to(0.15);
+    EXPECT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
+    EXPECT_GT(simulation.summary().elastic_energy, 0);
+  }
+}
+
 TEST(Divergence, StepOfAWholeFrameIsNamed) {
   SolverSettings s;
   s.cell_size = 0.03;
