@@ -8,6 +8,7 @@
 #include "app/scene/error.h"
 #include "render/context.h"
 #include "sim/seeding.h"
+#include "sim/simd.h"
 
 namespace neve::app {
 
@@ -49,6 +50,8 @@ Report describe_current_error() {
     return of_error(error);
   } catch (const sim::ShapeError& error) {
     return plain(exit_invalid_scene, error.what());
+  } catch (const sim::SimdError& error) {
+    return plain(exit_usage, error.what(), "NEVE_SIMD", "unset NEVE_SIMD to use the widest");
   } catch (const render::ContextError& error) {
     return plain(exit_no_backend, error.what(), {}, "neve doctor explains each backend");
   } catch (const std::bad_alloc&) {

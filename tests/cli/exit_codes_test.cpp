@@ -1,6 +1,7 @@
 /// Every exit code that can be reached, with a message that helps.
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "tests/cli/run_neve.h"
 
@@ -58,6 +59,26 @@ TEST_F(Cli, UsageErrorsExitWithTwo) {
     EXPECT_EQ(result.exit_code, 2) << arguments.back() << ": " << result.errors;
     EXPECT_TRUE(result.errors.starts_with("neve: error: ")) << result.errors;
   }
+}
+
+TEST_F(Cli, UnknownInstructionSetsExitWithTwo) {
+  const char* before = std::getenv("NEVE_SIMD");
+  const std::string saved = before ? before : "";
+  ::setenv("NEVE_SIMD", "foo", 1);
+  const auto result = neve({"render", "scene.toml"});
+  const auto as_json = neve({"render", "scene.toml", "--json"});
+  ::setenv("NEVE_SIMD", "baseline", 1);
+  const auto known = neve({"render", "scene.toml", "--frames", "0", "--quiet"});
+  if (before)
+    ::setenv("NEVE_SIMD", saved.c_str(), 1);
+  else
+    ::unsetenv("NEVE_SIMD");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.errors, "neve: error: NEVE_SIMD=foo ")) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "baseline")) << result.errors;
+  EXPECT_EQ(as_json.exit_code, 2);
+  EXPECT_EQ(app::parse_json(std::string_view(as_json.output))["where"], "NEVE_SIMD");
+  EXPECT_EQ(known.exit_code, 0) << known.errors;
 }
 
 TEST_F(Cli, BrokenScenesExitWithThreeAndAPlace) {
