@@ -97,10 +97,12 @@ void print_result(const RenderJob& job, const RenderRun& run, const RenderResult
   std::cout << to_text(json) << "\n";
 }
 
-/// Fixed steps are used as they are; what that risks is said once.
-void warn_about_steps(const sim::Simulation& simulation, Progress& progress) {
+/// Fixed steps are used as they are; what that risks is said once. Adaptive ones stop the run
+/// instead.
+void warn_about_steps(const sim::SolverSettings& settings, const sim::Simulation& simulation,
+                      Progress& progress) {
   const sim::Warnings& warnings = simulation.warnings();
-  if (warnings.worst_acoustic_cfl > 1.5)
+  if (settings.time_step == sim::TimeStep::fixed && warnings.worst_acoustic_cfl > 1.5)
     progress.warning("fixed steps: the acoustic CFL reached " +
                      fixed_text(warnings.worst_acoustic_cfl, 1) +
                      "; above 1.5 steps are unstable, make solver.dt smaller");
@@ -160,7 +162,7 @@ int run_render(const RenderOptions& options) {
 
   RenderRun run(job, simulation, *context, renderer, std::cbrt(plan.volume / count), progress);
   const RenderResult result = run.run();
-  warn_about_steps(simulation, progress);
+  warn_about_steps(job.scene.solver, simulation, progress);
   const int code = finish(options, job, run, result, progress);
   if (code == exit_ok && reference && result.last_picture)
     return compare_with_reference(options, job, *result.last_picture, *reference);

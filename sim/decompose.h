@@ -39,13 +39,18 @@ NEVE_INLINE Sym3<V> commuting_product(const Sym3<V>& a, const Sym3<V>& b) {
           fused(a.xx, b.xz, fused(a.xy, b.yz, a.xz * b.zz)),
           fused(a.xy, b.xz, fused(a.yy, b.yz, a.yz * b.zz))};
 }
-/// All eigenvalues > 0, by the leading minors.
+/// All eigenvalues > 0 beyond rounding, by the leading minors. Entries are differences of numbers
+/// of order 1, each off by some units in the last place: what that may do to a minor is asked for.
 template <class V>
 NEVE_INLINE MaskOf<V> is_positive_definite(const Sym3<V>& a) {
+  using Real = ElementOf<V>;
+  constexpr Real unit = sizeof(Real) == 4 ? Real(1e-6) : Real(2e-15);
   const V minor = fused_negative(a.xy, a.xy, a.xx * a.yy);
   const V p = fused_negative(a.xy, a.xz, a.xx * a.yz), q = fused_negative(a.yy, a.xz, a.xy * a.yz);
   const V det = fused(a.zz, minor, fused(a.xz, q, -a.yz * p));
-  return smaller_lanes(a.xx, smaller_lanes(minor, det)) > V{};
+  const V xx = absolute_lanes(a.xx), yy = absolute_lanes(a.yy), zz = absolute_lanes(a.zz);
+  const V minor_noise = unit * (xx + yy), det_noise = unit * fused(xx, yy, zz * (xx + yy));
+  return smaller_lanes(a.xx, smaller_lanes(minor - minor_noise, det - det_noise)) > V{};
 }
 /// All eigenvalues of b in (lo, hi).
 template <class V>
