@@ -9,9 +9,11 @@
 namespace neve::test {
 namespace {
 
-/// How many times faster than the naive code one thread has to be. A ratio of two codes measured in
-/// turns: what it loses on another machine or in noise is a small part of it.
-constexpr double must_beat_naive = 5;
+/// How many times faster than the naive code one thread has to be: half of what is measured. A
+/// ratio of two codes in turns loses only a small part on another machine or in noise.
+double must_beat_naive(const std::string& simd) {
+  return simd == "baseline" ? 4 : 9;
+}
 
 std::map<std::string, app::Json> by_name(const std::string& output) {
   std::map<std::string, app::Json> rows;
@@ -119,7 +121,8 @@ TEST_F(Cli, OneThreadBeatsTheNaiveCode) {
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   auto rows = by_name(result.output);
   for (const char* name : {"mls_quadratic_float", "flip_cubic_float"})
-    EXPECT_GT(rows[name]["ratio_to_naive"].get<double>(), must_beat_naive) << name;
+    EXPECT_GT(rows[name]["ratio_to_naive"].get<double>(), must_beat_naive(rows[name]["simd"]))
+        << name;
 }
 
 }  // namespace
