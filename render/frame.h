@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,62 @@ struct Points {
   float spacing = 0.01f;  ///< m, mean distance of packed points: scale of the light volume
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;
+};
+
+/// A cubic lattice of nodes, of which only blocks of 4x4x4 are there. Node (i, j, k) of block b
+/// lies at origin + spacing (4 block[b] + (i, j, k)); its values are at index 64 b + 16 i + 4 j + k
+/// of whatever belongs to the lattice.
+struct NodeLattice {
+  Vec3f origin;              ///< m, where node (0, 0, 0) of block (0, 0, 0) lies
+  float spacing = 1;         ///< m
+  std::vector<Vec3i> block;  ///< sorted by x, then y, then z; each once
+};
+
+/// A field on nodes as light that is scattered and swallowed on its way to the eye. What it shows
+/// is the mass density, or with `value` the density coloured by another field.
+struct Smoke {
+  std::shared_ptr<const NodeLattice> nodes;  ///< null: no smoke
+  std::vector<float> density;                ///< kg/m3, 0 and more
+  std::vector<float> value;                  ///< empty: white
+  float full_density = 400;                  ///< kg/m3, density of packed snow
+  float density_scale = 1;                   ///< opacity, as a factor of what packed snow has
+  ColorMap colormap = ColorMap::viridis;
+  float range_min = 0, range_max = 1;
+};
+
+/// Arrows that start at `position`. Their length is that of `vector` times `length_per_value`.
+struct Arrows {
+  std::vector<Vec3f> position;
+  std::vector<Vec3f> vector;   ///< in the unit of the field
+  float length_per_value = 1;  ///< m per unit of the field
+  float max_length = 1;        ///< m, longer ones are cut to it
+  ColorMap colormap = ColorMap::viridis;
+  float range_min = 0, range_max = 1;  ///< of the magnitude
+};
+
+/// Values on a rectangle in space, sampled row by row; not-a-number where there is nothing to show.
+struct HeatMap {
+  Vec3f corner, across, up;  ///< m: the first sample's corner, and the edges of the rectangle
+  int columns = 0, rows = 0;
+  std::vector<float> value;  ///< rows x columns
+  float isoline_step = 0;    ///< in the unit of the field; 0: none
+  float opacity = 1;
+  ColorMap colormap = ColorMap::viridis;
+  float range_min = 0, range_max = 1;
+};
+
+/// Straight lines of one colour and width, hidden by what is before them.
+struct Lines {
+  std::vector<Vec3f> ends;  ///< two per line, m
+  Vec3f color{0.75f, 0.8f, 0.85f};
+  float opacity = 1;
+  float width = 1.25f;  ///< pixels of the finished picture
+};
+
+/// Words beside a place in space.
+struct Label {
+  Vec3f position;  ///< m
+  std::string text;
 };
 
 /// A solid triangle mesh, flat or smooth by its normals.
@@ -63,6 +120,11 @@ struct Frame {
   Camera camera;
   Light light;
   Points points;
+  Smoke smoke;
+  std::vector<Arrows> arrows;
+  std::vector<HeatMap> heat_maps;
+  std::vector<Lines> lines;
+  std::vector<Label> labels;
   std::vector<TriangleMesh> meshes;
   std::vector<GroundPlane> grounds;
   std::vector<Legend> legends;
