@@ -15,4 +15,11 @@ Texture make_texture_2d(const Gl& gl, int width, int height, GLint internal_form
   return texture;
 }
 
+void set_flat_state(const Gl& gl) {
+  gl.Disable(GL_DEPTH_TEST);
+  gl.Disable(GL_BLEND);
+  gl.Disable(GL_CULL_FACE);
+  gl.Disable(GL_SCISSOR_TEST);
+}
+
 }  // namespace neve::render

@@ -56,4 +56,7 @@ using Framebuffer = GlObject<FramebufferTraits>;
 Texture make_texture_2d(const Gl& gl, int width, int height, GLint internal_format, GLenum format,
                         GLenum type, const void* pixels, GLint filter);
 
+/// What every full-screen pass draws with: nothing tested, nothing blended.
+void set_flat_state(const Gl& gl);
+
 }  // namespace neve::render

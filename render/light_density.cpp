@@ -96,6 +96,59 @@ std::vector<float> bin_points(const Points& points, const LightGrid& grid, Threa
   return density;
 }
 
+namespace {
+
+/// Where the cells of a row lie between texels: the lower one and how far towards the next.
+struct Between {
+  int low = -1;  ///< -1: outside
+  float part = 0;
+};
+
+std::vector<Between> between_texels(const SmokeGrid& smoke, const LightGrid& grid, int axis) {
+  std::vector<Between> all(static_cast<std::size_t>(grid.size[axis]));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const float place = grid.origin[axis] + grid.cell * (static_cast<float>(i) + 0.5f);
+    const float x = (place - smoke.origin[axis]) / smoke.spacing;
+    if (!(x >= 0 && x < static_cast<float>(smoke.size[axis] - 1))) continue;
+    all[i].low = static_cast<int>(x);
+    all[i].part = x - static_cast<float>(all[i].low);
+  }
+  return all;
+}
+
+}  // namespace
+
+void add_smoke(const SmokeGrid& smoke, const LightGrid& grid, ThreadPool* pool,
+               std::vector<float>& density) {
+  const std::vector<Between> xs = between_texels(smoke, grid, 0),
+                             ys = between_texels(smoke, grid, 1),
+                             zs = between_texels(smoke, grid, 2);
+  // Cells of 0.8 node spacings are what the extinction of a full cell is meant for.
+  const float thickness = grid.cell / (smoke_spacings_per_cell * smoke.node_spacing);
+  const std::size_t row = static_cast<std::size_t>(smoke.size.x),
+                    slice = row * static_cast<std::size_t>(smoke.size.y);
+  for_each_task(grid.size.z, pool, [&](int k) {
+    const Between z = zs[static_cast<std::size_t>(k)];
+    if (z.low < 0) return;
+    for (int j = 0; j < grid.size.y; ++j) {
+      const Between y = ys[static_cast<std::size_t>(j)];
+      if (y.low < 0) continue;
+      float* out =
+          density.data() + (static_cast<std::ptrdiff_t>(k) * grid.size.y + j) * grid.size.x;
+      const float* low = smoke.opacity.data() + smoke.index(0, y.low, z.low);
+      for (std::size_t i = 0; i < xs.size(); ++i) {
+        if (xs[i].low < 0) continue;
+        const auto along_x = [&](const float* at) {
+          return at[xs[i].low] * (1 - xs[i].part) + at[xs[i].low + 1] * xs[i].part;
+        };
+        const float near = along_x(low) * (1 - y.part) + along_x(low + row) * y.part;
+        const float far = along_x(low + slice) * (1 - y.part) + along_x(low + slice + row) * y.part;
+        out[i] = std::max(out[i], thickness * (near * (1 - z.part) + far * z.part));
+      }
+    }
+  });
+}
+
 std::vector<float> voxelize(const std::vector<TriangleMesh>& meshes, const LightGrid& grid) {
   std::vector<float> solid(grid.count());
   const auto mark = [&](Vec3f p) {

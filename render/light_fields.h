@@ -8,11 +8,19 @@
 
 namespace neve::render {
 
+/// Finest cells of light in smoke: as fine as for points of which there are two per node and axis.
+inline constexpr float smoke_spacings_per_cell = 0.8f;
+
 /// Runs task(0) ... task(count - 1), on the pool where there is one.
 void for_each_task(int count, ThreadPool* pool, const std::function<void(int)>& task);
 
 /// How full each cell is: 1 for packed points and above, trilinear, a stray point far below 1.
 std::vector<float> bin_points(const Points& points, const LightGrid& grid, ThreadPool* pool);
+
+/// Takes in the smoke: a cell is as full as the fuller of points and smoke, since both show the
+/// same snow.
+void add_smoke(const SmokeGrid& smoke, const LightGrid& grid, ThreadPool* pool,
+               std::vector<float>& density);
 
 /// Marks the cells that the surfaces of the meshes pass through with 1.
 std::vector<float> voxelize(const std::vector<TriangleMesh>& meshes, const LightGrid& grid);

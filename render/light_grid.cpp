@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/lighting.h"
+#include "render/light_fields.h"
 
 namespace neve::render {
 namespace {
@@ -56,18 +56,26 @@ Box box_of_points(const std::vector<Vec3f>& position) {
   return box;
 }
 
-/// Takes in a mesh, but no further from the points than their own extent: it throws its shadow on
+void include_smoke(const SmokeGrid& smoke, Box& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.include(axis, smoke.origin[axis] + smoke.spacing);
+    box.include(axis,
+                smoke.origin[axis] + smoke.spacing * static_cast<float>(smoke.size[axis] - 2));
+  }
+}
+
+/// Takes in a mesh, but no further from the snow than their own extent: it throws its shadow on
 /// snow beside it, and a large or distant one must not coarsen the light on the snow.
-void include_mesh(const TriangleMesh& mesh, const Box& points, Box& box) {
-  const float reach = points.is_empty() ? Box::inf : points.extent();
+void include_mesh(const TriangleMesh& mesh, const Box& snow, Box& box) {
+  const float reach = snow.is_empty() ? Box::inf : snow.extent();
   Box clipped;
   for (const Vec3f& p : mesh.position) {
     for (int axis = 0; axis < 3; ++axis) clipped.include(axis, p[axis]);
   }
-  if (!points.is_empty()) {
+  if (!snow.is_empty()) {
     for (int axis = 0; axis < 3; ++axis) {
-      clipped.low[axis] = std::max(clipped.low[axis], points.low[axis] - reach);
-      clipped.high[axis] = std::min(clipped.high[axis], points.high[axis] + reach);
+      clipped.low[axis] = std::max(clipped.low[axis], snow.low[axis] - reach);
+      clipped.high[axis] = std::min(clipped.high[axis], snow.high[axis] + reach);
     }
   }
   if (clipped.is_empty()) return;
@@ -79,15 +87,20 @@ void include_mesh(const TriangleMesh& mesh, const Box& points, Box& box) {
 
 }  // namespace
 
-LightGrid fit_light_grid(const Points& points, const std::vector<TriangleMesh>& meshes) {
-  const Box of_points = box_of_points(points.position);
-  Box box = of_points;
-  for (const TriangleMesh& mesh : meshes) include_mesh(mesh, of_points, box);
+LightGrid fit_light_grid(const Points& points, const std::vector<TriangleMesh>& meshes,
+                         const SmokeGrid& smoke) {
+  Box snow = box_of_points(points.position);
+  float finest = snow.is_empty() ? 0 : spacings_per_cell * points.spacing;
+  if (!smoke.is_empty()) {
+    include_smoke(smoke, snow);
+    if (!(finest > 0)) finest = smoke_spacings_per_cell * smoke.node_spacing;
+  }
+  Box box = snow;
+  for (const TriangleMesh& mesh : meshes) include_mesh(mesh, snow, box);
   LightGrid grid;
   if (box.is_empty()) return grid;
 
-  const float finest =
-      of_points.is_empty() ? box.extent() / 40 : spacings_per_cell * points.spacing;
+  if (!(finest > 0)) finest = box.extent() / 40;
   grid.cell = std::max({finest, box.extent() / (max_cells - 2 * margin_cells - 1), 1e-6f});
   for (int axis = 0; axis < 3; ++axis) {
     const float width = box.high[axis] - box.low[axis];

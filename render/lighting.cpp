@@ -64,10 +64,11 @@ Vec3f toward_light(const Light& light) {
   return length(direction) > 0.5f ? direction : Vec3f{0, 1, 0};
 }
 
-LightVolume make_light_volume(const Frame& frame, ThreadPool* pool) {
+LightVolume make_light_volume(const Frame& frame, const SmokeGrid& smoke, ThreadPool* pool) {
   LightVolume volume;
-  const LightGrid& grid = volume.grid = fit_light_grid(frame.points, frame.meshes);
-  const std::vector<float> density = bin_points(frame.points, grid, pool);
+  const LightGrid& grid = volume.grid = fit_light_grid(frame.points, frame.meshes, smoke);
+  std::vector<float> density = bin_points(frame.points, grid, pool);
+  if (!smoke.is_empty()) add_smoke(smoke, grid, pool, density);
   const std::vector<float> solid =
       frame.meshes.empty() ? std::vector<float>{} : voxelize(frame.meshes, grid);
 

@@ -1,12 +1,13 @@
 #pragma once
-/// Light on a body of snow, computed on the CPU on a coarse grid around the points: how much of the
-/// key light and of the sky reaches each place, and which way the surface of the body faces.
+/// Light on a body of snow, computed on the CPU on a coarse grid around points and smoke: how much
+/// of the key light and of the sky reaches each place, and which way the surface of the body faces.
 /// Depends on the frame alone: not on the order of the points, not on the number of threads.
 
 #include <cstdint>
 #include <vector>
 
 #include "render/frame.h"
+#include "render/smoke_grid.h"
 #include "sim/base/thread_pool.h"
 
 namespace neve::render {
@@ -34,10 +35,11 @@ struct LightVolume {
 /// Unit vector towards the key light; straight up where the frame names no direction.
 Vec3f toward_light(const Light& light);
 
-/// Fits a grid to the points (leaving out far strays) and to meshes near them.
-LightGrid fit_light_grid(const Points& points, const std::vector<TriangleMesh>& meshes);
+/// Fits a grid to the points (leaving out far strays), the smoke and meshes near them.
+LightGrid fit_light_grid(const Points& points, const std::vector<TriangleMesh>& meshes,
+                         const SmokeGrid& smoke = {});
 
-/// @param pool may be null
-LightVolume make_light_volume(const Frame& frame, ThreadPool* pool);
+/// @param smoke that of the frame, may be empty @param pool may be null
+LightVolume make_light_volume(const Frame& frame, const SmokeGrid& smoke, ThreadPool* pool);
 
 }  // namespace neve::render

@@ -10,18 +10,11 @@ void set_volume_parameters(const Gl& gl) {
     gl.TexParameteri(GL_TEXTURE_3D, wrap, GL_CLAMP_TO_EDGE);
 }
 
-void bind(const Gl& gl, const Program& program, int unit, GLenum target, const Texture& texture,
+void bind(const Gl& gl, const Program& program, int unit, GLenum target, GLuint texture,
           const char* sampler) {
   gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-  gl.BindTexture(target, texture.id());
+  gl.BindTexture(target, texture);
   program.set(sampler, unit);
-}
-
-void set_flat_state(const Gl& gl) {
-  gl.Disable(GL_DEPTH_TEST);
-  gl.Disable(GL_BLEND);
-  gl.Disable(GL_CULL_FACE);
-  gl.Disable(GL_SCISSOR_TEST);
 }
 
 }  // namespace
@@ -29,6 +22,7 @@ void set_flat_state(const Gl& gl) {
 ShadePass::ShadePass(const Gl& gl, const ShaderLibrary& library)
     : gl_(gl),
       program_(gl, library, "fullscreen.vert", "shade.frag"),
+      smoke_program_(gl, library, "fullscreen.vert", "shade.frag", "#define SMOKE\n"),
       vertex_array_(gl),
       body_(gl),
       light_(gl) {}
@@ -48,25 +42,33 @@ void ShadePass::upload(const LightVolume& volume) {
 }
 
 void ShadePass::draw(const Targets& targets, const LightVolume& volume, const Light& light,
-                     const View& view) {
+                     const View& view, const SmokePicture* smoke) {
+  const Program& program = smoke ? smoke_program_ : program_;
   upload(volume);
   set_flat_state(gl_);
-  program_.use();
-  set_view(program_, view);
+  program.use();
+  set_view(program, view);
   const LightGrid& grid = volume.grid;
   const Vec3f size = {static_cast<float>(grid.size.x), static_cast<float>(grid.size.y),
                       static_cast<float>(grid.size.z)};
-  program_.set("box_origin", grid.origin - view.eye);
-  program_.set("box_size", size * grid.cell);
-  program_.set("cell", grid.cell);
-  program_.set("toward_light", toward_light(light));
-  program_.set("key_intensity", light.intensity);
-  program_.set("ambient_intensity", light.ambient);
-  bind(gl_, program_, 0, GL_TEXTURE_2D, targets.depth, "depth_map");
-  bind(gl_, program_, 1, GL_TEXTURE_2D, targets.normal_kind, "normal_kind_map");
-  bind(gl_, program_, 2, GL_TEXTURE_2D, targets.albedo, "albedo_map");
-  bind(gl_, program_, 3, GL_TEXTURE_3D, body_, "body_volume");
-  bind(gl_, program_, 4, GL_TEXTURE_3D, light_, "light_volume");
+  program.set("box_origin", grid.origin - view.eye);
+  program.set("box_size", size * grid.cell);
+  program.set("cell", grid.cell);
+  program.set("toward_light", toward_light(light));
+  program.set("key_intensity", light.intensity);
+  program.set("ambient_intensity", light.ambient);
+  bind(gl_, program, 0, GL_TEXTURE_2D, targets.depth.id(), "depth_map");
+  bind(gl_, program, 1, GL_TEXTURE_2D, targets.normal_kind.id(), "normal_kind_map");
+  bind(gl_, program, 2, GL_TEXTURE_2D, targets.albedo.id(), "albedo_map");
+  bind(gl_, program, 3, GL_TEXTURE_3D, body_.id(), "body_volume");
+  bind(gl_, program, 4, GL_TEXTURE_3D, light_.id(), "light_volume");
+  if (smoke) {
+    program.set("samples_per_ray", static_cast<float>(smoke->samples_per_ray));
+    program.set("smoke_range", smoke->nearest, smoke->farthest);
+    program.set("smoke_spacing", smoke->spacing);
+    bind(gl_, program, 5, GL_TEXTURE_2D, smoke->radiance, "smoke_map");
+    bind(gl_, program, 6, GL_TEXTURE_2D, smoke->depth, "smoke_depth_map");
+  }
   gl_.BindVertexArray(vertex_array_.id());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -77,7 +79,7 @@ ResolvePass::ResolvePass(const Gl& gl, const ShaderLibrary& library)
 void ResolvePass::draw(const Targets& targets) {
   set_flat_state(gl_);
   program_.use();
-  bind(gl_, program_, 0, GL_TEXTURE_2D, targets.samples, "samples");
+  bind(gl_, program_, 0, GL_TEXTURE_2D, targets.samples.id(), "samples");
   gl_.BindVertexArray(vertex_array_.id());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -2,9 +2,12 @@
 /// The passes that fill the G-buffer and the one that shades it. Each owns its program and buffers
 /// and sets the state it relies on; the caller binds the framebuffer and sets the viewport.
 
+#include <optional>
+
 #include "render/gl_objects.h"
 #include "render/gl_program.h"
 #include "render/lighting.h"
+#include "render/smoke_volume.h"
 #include "render/targets.h"
 #include "render/view.h"
 
@@ -54,17 +57,51 @@ class MeshPass {
   Buffer vertex_buffer_, index_buffer_;
 };
 
+/// Smoke as the shading pass lays it over the surfaces.
+struct SmokePicture {
+  GLuint radiance = 0;              ///< linear light, premultiplied by the opacity in alpha
+  GLuint depth = 0;                 ///< m along the view, where each ray ended
+  int samples_per_ray = 1;          ///< along each axis
+  float nearest = 0, farthest = 0;  ///< m along the view: depths are clamped to these
+  float spacing = 1;                ///< m, over which smoke hardly changes
+};
+
+/// Marches through smoke up to the surfaces; see shaders/smoke.frag.
+class SmokePass {
+ public:
+  SmokePass(const Gl& gl, const ShaderLibrary& library);
+  /// Binds a framebuffer of its own.
+  /// @param grid of `smoke`, not empty
+  /// @return nothing where no smoke is in view
+  std::optional<SmokePicture> draw(const Smoke& smoke, const SmokeGrid& grid,
+                                   const SmokeVolume& volume, const Light& light,
+                                   const Targets& targets, const View& view);
+
+ private:
+  void prepare_target(int width, int height);
+  void upload(const SmokeGrid& grid, const SmokeVolume& volume, const SmokeSpans& spans);
+  void upload_colormap(const Smoke& smoke);
+  const Gl& gl_;
+  Program white_program_, value_program_;
+  VertexArray vertex_array_;
+  Texture volume_, bricks_, spans_, colormap_;
+  int width_ = 0, height_ = 0;
+  Texture radiance_, depth_;
+  Framebuffer framebuffer_;
+};
+
 /// Lights the G-buffer; see shaders/shade.frag.
 class ShadePass {
  public:
   ShadePass(const Gl& gl, const ShaderLibrary& library);
-  void draw(const Targets& targets, const LightVolume& volume, const Light& light,
-            const View& view);
+  /// @param smoke null where there is none
+  void draw(const Targets& targets, const LightVolume& volume, const Light& light, const View& view,
+            const SmokePicture* smoke);
 
  private:
   void upload(const LightVolume& volume);
   const Gl& gl_;
-  Program program_;
+  Program program_, smoke_program_;
   VertexArray vertex_array_;
   Texture body_, light_;
 };

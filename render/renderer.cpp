@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -21,6 +22,20 @@ void check_mesh(const TriangleMesh& mesh) {
   }
 }
 
+void check_smoke(const Smoke& smoke) {
+  if (!smoke.nodes) return;
+  const std::size_t count = 64 * smoke.nodes->block.size();
+  if (smoke.density.size() != count || (!smoke.value.empty() && smoke.value.size() != count))
+    throw std::invalid_argument("Frame: smoke on " + std::to_string(count) + " nodes has " +
+                                std::to_string(smoke.density.size()) + " densities and " +
+                                std::to_string(smoke.value.size()) + " values");
+  const auto is_positive = [](float x) { return x > 0 && std::isfinite(x); };
+  if (!is_positive(smoke.nodes->spacing) || !is_positive(smoke.full_density) ||
+      !(smoke.samples_per_ray >= 1 && smoke.samples_per_ray <= 4))
+    throw std::invalid_argument(
+        "Frame: smoke needs a positive spacing and full_density, and 1 to 4 samples per ray");
+}
+
 void check_frame(const Frame& frame, int max_size) {
   const int largest = std::max(frame.width, frame.height);
   if (frame.width < 1 || frame.height < 1 ||
@@ -37,6 +52,7 @@ void check_frame(const Frame& frame, int max_size) {
                                   std::to_string(other) + " ids or values");
   }
   for (const TriangleMesh& mesh : frame.meshes) check_mesh(mesh);
+  check_smoke(frame.smoke);
 }
 
 }  // namespace
@@ -49,6 +65,7 @@ struct Renderer::Impl {
   GroundPass ground;
   MeshPass meshes;
   ParticlePass particles;
+  SmokePass smoke;
   ShadePass shade;
   ResolvePass resolve;
   OverlayPass overlay;
@@ -62,6 +79,7 @@ struct Renderer::Impl {
         ground(gl, library),
         meshes(gl, library),
         particles(gl, library, c.is_software),
+        smoke(gl, library),
         shade(gl, library),
         resolve(gl, library),
         overlay(gl, library) {}
@@ -122,7 +140,8 @@ struct Renderer::Impl {
     context.make_current();
     check_frame(frame, max_size());
     prepare_targets(frame);
-    const LightVolume light = make_light_volume(frame, pool);
+    const SmokeGrid smoke_grid = make_smoke_grid(frame.smoke, pool);
+    const LightVolume light = make_light_volume(frame, smoke_grid, pool);
     const View view = make_view(frame.camera, targets->sample_width(), targets->sample_height());
 
     bind(targets->gbuffer, view.width, view.height);
@@ -131,8 +150,15 @@ struct Renderer::Impl {
     meshes.draw(frame.meshes, view);
     particles.draw(frame.points, view);
 
+    std::optional<SmokePicture> smoke_picture;
+    if (!smoke_grid.is_empty()) {
+      const SmokeVolume volume =
+          make_smoke_volume(smoke_grid, light, toward_light(frame.light), pool);
+      smoke_picture = smoke.draw(frame.smoke, smoke_grid, volume, frame.light, *targets, view);
+    }
+
     bind(targets->shaded, view.width, view.height);
-    shade.draw(*targets, light, frame.light, view);
+    shade.draw(*targets, light, frame.light, view, smoke_picture ? &*smoke_picture : nullptr);
 
     bind(targets->finished, frame.width, frame.height);
     if (frame.supersampling > 1) resolve.draw(*targets);

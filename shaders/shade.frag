@@ -1,7 +1,9 @@
 // Lights everything. In: the G-buffer (gbuffer.glsl) and its depth, the light volumes as 3D textures
-// over a box relative to the eye (m). Out: sRGB, tone mapped and dithered. Writes no depth.
+// over a box relative to the eye (m); with SMOKE also smoke, laid over the rest in linear light. Out: sRGB, tone mapped and dithered. Writes no depth.
 
 #include "view.glsl"
+#include "light.glsl"
+#include "noise.glsl"
 
 uniform sampler2D depth_map;
 uniform sampler2D normal_kind_map;
@@ -20,10 +22,6 @@ const float kind_ground = 1.0;
 const float kind_solid = 2.0;
 const float kind_snow = 3.0;
 
-const vec3 sun = vec3(1.30, 1.22, 1.08);
-const vec3 sky = vec3(0.42, 0.56, 0.80);
-const vec3 bounce = vec3(0.23, 0.29, 0.38);
-const vec3 scatter = vec3(0.10, 0.16, 0.24);
 const vec3 background_top = vec3(0.060, 0.072, 0.098);
 const vec3 background_bottom = vec3(0.190, 0.215, 0.260);
 
@@ -73,14 +71,6 @@ vec3 tone_map(vec3 c) {
   return pow(min(c, vec3(1.0)), vec3(1.0 / 2.2));
 }
 
-// Same for the same sample of every picture: breaks up the bands of dark gradients.
-float noise(uvec2 at) {
-  uint h = at.x * 0x9E3779B1u ^ at.y * 0x85EBCA77u;
-  h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
-  h = (h ^ (h >> 12)) * 0x297A2D39u;
-  return float((h ^ (h >> 15)) >> 8) / 16777216.0;
-}
-
 vec3 surface(vec3 p, vec4 normal_kind, vec3 albedo) {
   vec3 n = normal_kind.xyz;
   float kind = normal_kind.w;
@@ -102,16 +92,50 @@ vec3 surface(vec3 p, vec4 normal_kind, vec3 albedo) {
   return lit(albedo, n, key, sky_light(above), kind == kind_snow ? 1.0 : 0.6);
 }
 
+#ifdef SMOKE
+uniform sampler2D smoke_map;        // linear light, premultiplied
+uniform sampler2D smoke_depth_map;  // m along the view, within smoke_range
+uniform float samples_per_ray;
+uniform vec2 smoke_range;
+uniform float smoke_spacing;
+
+// Smoke before a surface: of the four rays around the sample, those that ended at its depth, so that
+// nothing leaks over the edge of what stands in it.
+vec4 smoke_before(float depth) {
+  float z = clamp(near_distance / max(1.0 - depth, 1e-9), smoke_range.x, smoke_range.y);
+  vec2 at = gl_FragCoord.xy / samples_per_ray - 0.5;
+  ivec2 corner = ivec2(floor(at)), last = textureSize(smoke_map, 0) - 1;
+  vec2 part = at - vec2(corner);
+  vec4 sum = vec4(0.0);
+  float total = 0.0;
+  for (int n = 0; n < 4; ++n) {
+    ivec2 q = ivec2(n & 1, n >> 1);
+    vec2 near = mix(1.0 - part, part, vec2(q));
+    q = clamp(corner + q, ivec2(0), last);
+    float apart = (texelFetch(smoke_depth_map, q, 0).r - z) / smoke_spacing;
+    float weight = near.x * near.y / (1e-3 + apart * apart);
+    sum += weight * texelFetch(smoke_map, q, 0);
+    total += weight;
+  }
+  return sum / total;
+}
+#endif
+
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec2 across = gl_FragCoord.xy / view_size;
   vec3 color = mix(background_bottom, background_top, across.y);
   vec4 normal_kind = texelFetch(normal_kind_map, at, 0);
+  float depth = texelFetch(depth_map, at, 0).r;
   if (normal_kind.w > 0.0) {
     vec4 albedo = texelFetch(albedo_map, at, 0);
-    vec3 p = position_at(gl_FragCoord.xy, texelFetch(depth_map, at, 0).r);
+    vec3 p = position_at(gl_FragCoord.xy, depth);
     color = mix(color, surface(p, normal_kind, albedo.rgb * albedo.rgb), albedo.a);
   }
+#ifdef SMOKE
+  vec4 smoke = smoke_before(depth);
+  color = color * (1.0 - smoke.a) + smoke.rgb;
+#endif
   color *= 1.0 - 0.35 * dot(across - 0.5, across - 0.5);
   out_color = vec4(tone_map(color) + (noise(uvec2(at)) - 0.5) / 255.0, 1.0);
 }

@@ -43,7 +43,7 @@ TEST(LightVolume, LightComesFromTheLightAndNotThroughTheBody) {
                                 Vec3f{-0.6f, 0.6f, 0.5f}, Vec3f{0.3f, -1, 0.2f}}) {
     Frame frame = ball();
     frame.light.direction = direction;
-    const LightVolume volume = make_light_volume(frame, nullptr);
+    const LightVolume volume = make_light_volume(frame, {}, nullptr);
     const Vec3f l = normalized(direction);
     EXPECT_GT(sample(volume, 0.34f * l).key, 0.9f);
     EXPECT_LT(sample(volume, -0.34f * l).key, 0.1f);
@@ -52,13 +52,13 @@ TEST(LightVolume, LightComesFromTheLightAndNotThroughTheBody) {
 }
 
 TEST(LightVolume, SkyIsOpenAboveAndClosedBelow) {
-  const LightVolume volume = make_light_volume(ball(), nullptr);
+  const LightVolume volume = make_light_volume(ball(), {}, nullptr);
   EXPECT_GT(sample(volume, {0, 0.34f, 0}).sky, 0.9f);
   EXPECT_LT(sample(volume, {0, -0.33f, 0}).sky, 0.4f);
 }
 
 TEST(LightVolume, BodyNormalPointsOutward) {
-  const LightVolume volume = make_light_volume(ball(), nullptr);
+  const LightVolume volume = make_light_volume(ball(), {}, nullptr);
   for (const Vec3f n : {Vec3f{1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, 0, -1}, Vec3f{0.6f, -0.8f, 0}}) {
     const Vec3f body = sample(volume, 0.3f * n).body;
     EXPECT_GT(length(body), 0.5f);
@@ -69,7 +69,7 @@ TEST(LightVolume, BodyNormalPointsOutward) {
 TEST(LightVolume, StrayHasHardlyABody) {
   Frame frame = ball();
   add_point(frame, {0.5f, 0.2f, 0});
-  const LightVolume volume = make_light_volume(frame, nullptr);
+  const LightVolume volume = make_light_volume(frame, {}, nullptr);
   EXPECT_LT(length(sample(volume, {0.5f, 0.2f, 0}).body), 0.3f);
   EXPECT_GT(sample(volume, {0.5f, 0.25f, 0}).key, 0.9f);
 }
@@ -80,11 +80,11 @@ TEST(LightVolume, DependsNeitherOnOrderNorOnThreads) {
     frame.points.position.insert(frame.points.position.end(), frame.points.position.begin(),
                                  frame.points.position.begin() + 10000);
   ASSERT_GT(frame.points.position.size(), 40000u);
-  const LightVolume one = make_light_volume(frame, nullptr);
+  const LightVolume one = make_light_volume(frame, {}, nullptr);
   for (const int threads : {2, 3, 5}) {
     ThreadPool pool(threads);
     std::reverse(frame.points.position.begin(), frame.points.position.end());
-    const LightVolume many = make_light_volume(frame, &pool);
+    const LightVolume many = make_light_volume(frame, {}, &pool);
     EXPECT_EQ(one.body, many.body);
     EXPECT_EQ(one.light, many.light);
   }
@@ -97,7 +97,7 @@ TEST(LightGrid, FarStrayDoesNotCoarsenIt) {
     add_point(frame, stray);
   const LightGrid with = fit_light_grid(frame.points, {});
   EXPECT_LE(with.cell, 1.3f * without.cell);
-  const LightVolume volume = make_light_volume(frame, nullptr);
+  const LightVolume volume = make_light_volume(frame, {}, nullptr);
   EXPECT_LT(sample(volume, {0, 0, 0}).key, 0.2f);
 }
 
@@ -120,7 +120,7 @@ TEST(LightGrid, StaysWithin96CellsAndAroundThePoints) {
 TEST(LightVolume, MeshNearTheSnowThrowsAShadow) {
   Frame frame = ball();
   frame.meshes.push_back(box_mesh({0, 0.5f, 0}, {0.4f, 0.05f, 0.4f}));
-  EXPECT_LT(sample(make_light_volume(frame, nullptr), {0, 0.35f, 0}).key, 0.1f);
+  EXPECT_LT(sample(make_light_volume(frame, {}, nullptr), {0, 0.35f, 0}).key, 0.1f);
 }
 
 TEST(LightGrid, FarOrHugeMeshDoesNotCoarsenIt) {

@@ -1,0 +1,39 @@
+#pragma once
+/// Smoke with the light that reaches it, as the march of shaders/smoke.frag reads it, and where on
+/// the picture it lies.
+
+#include <cstdint>
+
+#include "render/lighting.h"
+#include "render/smoke_grid.h"
+#include "render/view.h"
+
+namespace neve::render {
+
+struct SmokeVolume {
+  /// Four 16-bit fractions per texel of the grid: opacity over `full_opacity`, and times that the
+  /// key light, the sky, and the light that was scattered many times, or the place of the value in
+  /// its range. Products interpolate as they should where one side is empty.
+  std::vector<std::uint16_t> texels;
+  float full_opacity = 1;
+  /// Cubes of 4x4x4 texels, from texel 4 b to 4 b + 4: 255 where there is smoke between these.
+  Vec3i brick_count{0, 0, 0};
+  std::vector<std::uint8_t> bricks;  ///< index as in SmokeGrid
+};
+
+/// @param grid not empty @param pool may be null
+SmokeVolume make_smoke_volume(const SmokeGrid& grid, const LightVolume& light, Vec3f toward_light,
+                              ThreadPool* pool);
+
+/// Between which distances along the view each tile of the picture shows smoke.
+struct SmokeSpans {
+  int tile = 1, columns = 0, rows = 0;
+  std::vector<float> near_far;      ///< m, two per tile; near > far: none
+  float nearest = 0, farthest = 0;  ///< of all tiles; nearest > farthest: no smoke in view
+};
+
+/// @param tile side of a tile, samples of the view
+SmokeSpans make_smoke_spans(const SmokeGrid& grid, const SmokeVolume& volume, const View& view,
+                            int tile);
+
+}  // namespace neve::render
