@@ -7,6 +7,7 @@
 #include "app/json.h"
 #include "app/scene/error.h"
 #include "render/context.h"
+#include "render/renderer.h"
 #include "sim/seeding.h"
 #include "sim/simd.h"
 
@@ -52,6 +53,8 @@ Report describe_current_error() {
     return plain(exit_invalid_scene, error.what());
   } catch (const sim::SimdError& error) {
     return plain(exit_usage, error.what(), "NEVE_SIMD", "unset NEVE_SIMD to use the widest");
+  } catch (const render::ParticlePathError& error) {
+    return plain(exit_usage, error.what(), "NEVE_PARTICLES", "unset NEVE_PARTICLES to choose");
   } catch (const render::ContextError& error) {
     return plain(exit_no_backend, error.what(), {}, "neve doctor explains each backend");
   } catch (const std::bad_alloc&) {

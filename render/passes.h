@@ -8,6 +8,7 @@
 #include "render/gl_program.h"
 #include "render/lighting.h"
 #include "render/smoke_volume.h"
+#include "render/splat.h"
 #include "render/targets.h"
 #include "render/view.h"
 
@@ -29,6 +30,20 @@ class ParticlePass {
   Buffer buffer_;
   float max_point_size_ = 1;
   bool is_software_;
+};
+
+/// Spheres, drawn on the CPU into the textures of the G-buffer; see splat.h. They have to be the
+/// first thing in it: what they leave out is as it was cleared, what is behind them is overwritten.
+class SplatPass {
+ public:
+  /// @param pool may be null
+  SplatPass(const Gl& gl, ThreadPool* pool) : gl_(gl), pool_(pool) {}
+  void draw(const Points& points, const View& view, const Targets& targets);
+
+ private:
+  const Gl& gl_;
+  ThreadPool* pool_;
+  Splatter splatter_;
 };
 
 /// Infinite planes with grid lines; see shaders/ground.frag.

@@ -62,18 +62,6 @@ bool is_hidden(const Disc& d, float pixels_per_slope, OcclusionGrid& grid) {
   return false;
 }
 
-/// Indices in the order of ids, which is nearly always the order they come in.
-std::vector<std::uint32_t> order_by_id(const Points& points) {
-  std::vector<std::uint32_t> order(points.position.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const std::vector<std::uint32_t>& id = points.id;
-  if (!std::is_sorted(id.begin(), id.end())) {
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
-  }
-  return order;
-}
-
 std::uint32_t scramble(std::uint32_t x) {
   x = (x ^ x >> 16) * 0x7feb352du;
   x = (x ^ x >> 15) * 0x846ca68bu;
@@ -94,11 +82,13 @@ std::array<Rgb8, 64> snow_shades() {
   return shades;
 }
 
-Rgb8 color_of(const Points& points, std::uint32_t p) {
-  static const std::array<Rgb8, 64> shades = snow_shades();
-  if (!points.value.empty())
-    return map_value(points.colormap, points.value[p], points.range_min, points.range_max);
-  return shades[scramble(points.id.empty() ? p : points.id[p]) & 63u];
+/// The square root of linear light for each sRGB byte, as shaders/particles.vert makes it.
+std::array<std::uint8_t, 256> root_table() {
+  std::array<std::uint8_t, 256> table;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    table[i] =
+        static_cast<std::uint8_t>(std::lround(255 * std::pow(static_cast<float>(i) / 255, 1.1f)));
+  return table;
 }
 
 /// Sorts roughly front to back without breaking the order of ids among equals: one counting sort
@@ -129,13 +119,39 @@ std::vector<std::uint32_t> order_by_distance(const std::vector<std::uint32_t>& d
 
 }  // namespace
 
+std::vector<std::uint32_t> order_by_id(const Points& points) {
+  const std::vector<std::uint32_t>& id = points.id;
+  if (std::is_sorted(id.begin(), id.end())) return {};
+  std::vector<std::uint32_t> order(points.position.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
+  return order;
+}
+
+Rgb8 PointColors::of(std::uint32_t point) const {
+  static const std::array<Rgb8, 64> shades = snow_shades();
+  if (!points_.value.empty())
+    return map_value(points_.colormap, points_.value[point], points_.range_min, points_.range_max);
+  return shades[scramble(points_.id.empty() ? point : points_.id[point]) & 63u];
+}
+
+std::uint32_t PointColors::root_albedo(std::uint32_t point) const {
+  static const std::array<std::uint8_t, 256> root = root_table();
+  const Rgb8 c = of(point);
+  return root[c.r] | static_cast<std::uint32_t>(root[c.g]) << 8 |
+         static_cast<std::uint32_t>(root[c.b]) << 16 | 0xff000000u;
+}
+
 PointList list_points(const Points& points, const View& view, float max_point_size,
                       bool leave_out_hidden) {
   std::vector<Disc> discs(points.position.size());
   std::vector<std::uint32_t> drawn;
   drawn.reserve(discs.size());
   double sum_of_radii = 0;
-  for (const std::uint32_t p : order_by_id(points)) {
+  const std::vector<std::uint32_t> order = order_by_id(points);
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const std::uint32_t p = order.empty() ? static_cast<std::uint32_t>(i) : order[i];
     discs[p] = project(view, points.position[p] - view.eye, points.radius, max_point_size);
     if (discs[p].drawn == Drawn::no) continue;
     drawn.push_back(p);
@@ -145,9 +161,10 @@ PointList list_points(const Points& points, const View& view, float max_point_si
   if (drawn.empty()) return list;
 
   OcclusionGrid grid(view, static_cast<float>(sum_of_radii / static_cast<double>(drawn.size())));
+  const PointColors color(points);
   for (const std::uint32_t p : order_by_distance(drawn, discs)) {
     if (leave_out_hidden && is_hidden(discs[p], view.pixels_per_slope, grid)) continue;
-    const Rgb8 c = color_of(points, p);
+    const Rgb8 c = color.of(p);
     const PointVertex vertex = {points.position[p] - view.eye, {c.r, c.g, c.b, 255}};
     (discs[p].drawn == Drawn::as_point ? list.small : list.large).push_back(vertex);
   }

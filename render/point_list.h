@@ -1,9 +1,11 @@
 #pragma once
 /// Turns the points of a frame into what the particle pass uploads.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "render/colormap.h"
 #include "render/frame.h"
 #include "render/view.h"
 
@@ -22,6 +24,23 @@ struct PointList {
 
 /// Smallest radius on the picture, in samples, at which a sphere cannot fall between samples.
 inline constexpr float min_radius_pixels = 0.75f;
+
+/// Indices of points in the order of ids; empty where they come in that order, as they nearly
+/// always do.
+std::vector<std::uint32_t> order_by_id(const Points& points);
+
+/// What colour each point has: its value on the colour map, or one of many shades of snow.
+class PointColors {
+ public:
+  explicit PointColors(const Points& points) : points_(points) {}
+  /// sRGB
+  Rgb8 of(std::uint32_t point) const;
+  /// As the G-buffer has it: the square root of linear light in bytes, opaque, red lowest.
+  std::uint32_t root_albedo(std::uint32_t point) const;
+
+ private:
+  const Points& points_;
+};
 
 /// Leaves out what lies outside the picture, behind the eye, or is not a finite position.
 /// @param max_point_size largest point of the driver, pixels

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <stdexcept>
 
 #include "render/pass_overlay.h"
 #include "render/passes.h"
+#include "render/phase_clock.h"
 
 namespace neve::render {
 namespace {
@@ -55,30 +57,44 @@ void check_frame(const Frame& frame, int max_size) {
   check_smoke(frame.smoke);
 }
 
+ParticlePath resolve_path(ParticlePath path, const Context& context) {
+  if (path != ParticlePath::automatic) return path;
+  const char* wanted = std::getenv("NEVE_PARTICLES");
+  const std::string name = wanted ? wanted : "";
+  if (name == "gl") return ParticlePath::gl;
+  if (name == "cpu") return ParticlePath::cpu;
+  if (!name.empty()) throw ParticlePathError("NEVE_PARTICLES=" + name + "; expected gl or cpu");
+  return context.is_software ? ParticlePath::cpu : ParticlePath::gl;
+}
+
 }  // namespace
 
 struct Renderer::Impl {
   Context& context;
   ThreadPool* pool;
+  ParticlePath path;
   Gl gl;
   ShaderLibrary library;
   GroundPass ground;
   MeshPass meshes;
   ParticlePass particles;
+  SplatPass splats;
   SmokePass smoke;
   ShadePass shade;
   ResolvePass resolve;
   OverlayPass overlay;
   std::optional<Targets> targets;
 
-  Impl(Context& c, const std::string& shader_dir, ThreadPool* p)
+  Impl(Context& c, const std::string& shader_dir, ThreadPool* p, ParticlePath wanted)
       : context(c),
         pool(p),
+        path(resolve_path(wanted, c)),
         gl(load_gl(c)),
         library(shader_dir),
         ground(gl, library),
         meshes(gl, library),
         particles(gl, library, c.is_software),
+        splats(gl, p),
         smoke(gl, library),
         shade(gl, library),
         resolve(gl, library),
@@ -136,19 +152,26 @@ struct Renderer::Impl {
     return image;
   }
 
-  Image draw(const Frame& frame) {
+  Image draw(const Frame& frame, std::vector<PhaseTime>* times) {
     context.make_current();
     check_frame(frame, max_size());
     prepare_targets(frame);
+    PhaseClock clock(gl, times);
     const SmokeGrid smoke_grid = make_smoke_grid(frame.smoke, pool);
     const LightVolume light = make_light_volume(frame, smoke_grid, pool);
-    const View view = make_view(frame.camera, targets->sample_width(), targets->sample_height());
+    clock.end("light");
 
+    const View view = make_view(frame.camera, targets->sample_width(), targets->sample_height());
     bind(targets->gbuffer, view.width, view.height);
     clear_gbuffer();
+    if (path == ParticlePath::cpu)
+      splats.draw(frame.points, view, *targets);
+    else
+      particles.draw(frame.points, view);
+    clock.end("particles");
     ground.draw(frame, view);
     meshes.draw(frame.meshes, view);
-    particles.draw(frame.points, view);
+    clock.end("solids");
 
     std::optional<SmokePicture> smoke_picture;
     if (!smoke_grid.is_empty()) {
@@ -156,26 +179,36 @@ struct Renderer::Impl {
           make_smoke_volume(smoke_grid, light, toward_light(frame.light), pool);
       smoke_picture = smoke.draw(frame.smoke, smoke_grid, volume, frame.light, *targets, view);
     }
+    clock.end("smoke");
 
     bind(targets->shaded, view.width, view.height);
     shade.draw(*targets, light, frame.light, view, smoke_picture ? &*smoke_picture : nullptr);
 
     bind(targets->finished, frame.width, frame.height);
     if (frame.supersampling > 1) resolve.draw(*targets);
+    clock.end("shade");
     overlay.draw(frame, make_view(frame.camera, frame.width, frame.height));
-    return read_back(frame);
+    clock.end("overlay");
+    Image image = read_back(frame);
+    clock.end("read_back");
+    return image;
   }
 };
 
-Renderer::Renderer(Context& context, const std::string& shader_dir, ThreadPool* pool) {
+Renderer::Renderer(Context& context, const std::string& shader_dir, ThreadPool* pool,
+                   ParticlePath path) {
   context.make_current();
-  impl_ = std::make_unique<Impl>(context, shader_dir, pool);
+  impl_ = std::make_unique<Impl>(context, shader_dir, pool, path);
 }
 
 Renderer::~Renderer() = default;
 
-Image Renderer::draw(const Frame& frame) {
-  return impl_->draw(frame);
+Image Renderer::draw(const Frame& frame, std::vector<PhaseTime>* times) {
+  return impl_->draw(frame, times);
+}
+
+ParticlePath Renderer::particle_path() const {
+  return impl_->path;
 }
 
 int Renderer::max_size() const {

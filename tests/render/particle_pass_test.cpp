@@ -9,6 +9,13 @@
 namespace neve::render {
 namespace {
 
+/// Everything here holds whatever draws the particles.
+class ParticlePass : public testing::TestWithParam<ParticlePath> {};
+INSTANTIATE_TEST_SUITE_P(Paths, ParticlePass, testing::Values(ParticlePath::gl, ParticlePath::cpu),
+                         [](const auto& path) {
+                           return path.param == ParticlePath::gl ? "Gl" : "Cpu";
+                         });
+
 /// Bounding box and area of what differs from a picture without points.
 struct Silhouette {
   int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1, area = 0;
@@ -40,9 +47,9 @@ float radius_on_picture(const Frame& frame, float distance) {
   return view.pixels_per_slope * r / std::sqrt(distance * distance - r * r);
 }
 
-TEST(ParticlePass, SphereIsADiscOfItsRadiusInItsPlace) {
+TEST_P(ParticlePass, SphereIsADiscOfItsRadiusInItsPlace) {
   OPEN_OR_SKIP(context, "auto");
-  Renderer renderer(*context);
+  Renderer renderer(*context, {}, nullptr, GetParam());
   for (const float radius : {0.05f, 0.3f}) {  // drawn as a point and as a quad
     Frame frame = small_frame();
     frame.points.radius = radius;
@@ -58,9 +65,9 @@ TEST(ParticlePass, SphereIsADiscOfItsRadiusInItsPlace) {
   }
 }
 
-TEST(ParticlePass, SphereWhoseCentreIsOutsideThePictureStillReachesIn) {
+TEST_P(ParticlePass, SphereWhoseCentreIsOutsideThePictureStillReachesIn) {
   OPEN_OR_SKIP(context, "auto");
-  Renderer renderer(*context);
+  Renderer renderer(*context, {}, nullptr, GetParam());
   Frame frame = small_frame();
   frame.points.radius = 0.04f;
   add_point(frame, {0.69f, 0, 0});  // the right edge is at 0.667
@@ -69,9 +76,9 @@ TEST(ParticlePass, SphereWhoseCentreIsOutsideThePictureStillReachesIn) {
   EXPECT_GE(s.area, 2);
 }
 
-TEST(ParticlePass, NearerSphereHidesTheFartherWhateverTheOrder) {
+TEST_P(ParticlePass, NearerSphereHidesTheFartherWhateverTheOrder) {
   OPEN_OR_SKIP(context, "auto");
-  Renderer renderer(*context);
+  Renderer renderer(*context, {}, nullptr, GetParam());
   for (const bool near_first : {true, false}) {
     Frame frame = small_frame();
     frame.points.radius = 0.2f;
@@ -85,9 +92,9 @@ TEST(ParticlePass, NearerSphereHidesTheFartherWhateverTheOrder) {
   }
 }
 
-TEST(ParticlePass, SpheresIntersectWhereTheirSurfacesDo) {
+TEST_P(ParticlePass, SpheresIntersectWhereTheirSurfacesDo) {
   OPEN_OR_SKIP(context, "auto");
-  Renderer renderer(*context);
+  Renderer renderer(*context, {}, nullptr, GetParam());
   Frame frame = small_frame();
   frame.points.radius = 0.2f;
   // Side by side and overlapping: flat discs would let the nearer one win across the overlap.
@@ -101,9 +108,9 @@ TEST(ParticlePass, SpheresIntersectWhereTheirSurfacesDo) {
   EXPECT_GT(right.r, right.b + 40);
 }
 
-TEST(ParticlePass, PictureDoesNotDependOnTheOrderOfPoints) {
+TEST_P(ParticlePass, PictureDoesNotDependOnTheOrderOfPoints) {
   OPEN_OR_SKIP(context, "auto");
-  Renderer renderer(*context);
+  Renderer renderer(*context, {}, nullptr, GetParam());
   Frame frame = small_frame();
   add_ball(frame, {0, 0, 0}, 0.3f, 0.05f);
   // Two in the same place, told apart only by their id and colour.
@@ -121,12 +128,12 @@ TEST(ParticlePass, PictureDoesNotDependOnTheOrderOfPoints) {
   EXPECT_NE(renderer.draw(frame).pixels, renderer.draw(other).pixels);
 }
 
-TEST(ParticlePass, LeavingOutHiddenSpheresDoesNotChangeThePicture) {
+TEST(PointList, LeavingOutHiddenSpheresDoesNotChangeThePicture) {
   OPEN_OR_SKIP(context, "auto");
   context->is_software = true;  // leaves them out
-  Renderer some(*context);
+  Renderer some(*context, {}, nullptr, ParticlePath::gl);
   context->is_software = false;
-  Renderer all(*context);
+  Renderer all(*context, {}, nullptr, ParticlePath::gl);
   Frame frame = small_frame(320, 240);
   add_ball(frame, {0.2f, 0.1f, 0}, 0.4f, 0.04f);
   for (std::size_t i = 0; i < frame.points.position.size(); ++i) {
@@ -147,9 +154,9 @@ TEST(ParticlePass, LeavingOutHiddenSpheresDoesNotChangeThePicture) {
             list_points(frame.points, view, 64, false).small.size() / 2);
 }
 
-TEST(ParticlePass, ValuesAreShownInTheColoursOfTheMap) {
+TEST_P(ParticlePass, ValuesAreShownInTheColoursOfTheMap) {
   OPEN_OR_SKIP(context, "auto");
-  Renderer renderer(*context);
+  Renderer renderer(*context, {}, nullptr, GetParam());
   for (const ColorMap map :
        {ColorMap::viridis, ColorMap::magma, ColorMap::turbo, ColorMap::coolwarm}) {
     for (const float value : {0.35f, 0.6f, 0.9f}) {
@@ -172,9 +179,9 @@ TEST(ParticlePass, ValuesAreShownInTheColoursOfTheMap) {
   }
 }
 
-TEST(ParticlePass, StraysAreLitByTheirOwnSurface) {
+TEST_P(ParticlePass, StraysAreLitByTheirOwnSurface) {
   OPEN_OR_SKIP(context, "auto");
-  Renderer renderer(*context);
+  Renderer renderer(*context, {}, nullptr, GetParam());
   Frame frame = small_frame(240, 180);
   frame.light.direction = {0, 1, 0.3f};
   add_ball(frame, {-0.3f, 0, 0}, 0.2f, 0.05f);
@@ -186,9 +193,9 @@ TEST(ParticlePass, StraysAreLitByTheirOwnSurface) {
   EXPECT_LT(pixel(image, x, 90 + r).brightness(), pixel(image, x, 90 - r).brightness() - 60);
 }
 
-TEST(ParticlePass, SnowIsBrightWithoutBeingClipped) {
+TEST_P(ParticlePass, SnowIsBrightWithoutBeingClipped) {
   OPEN_OR_SKIP(context, "auto");
-  Renderer renderer(*context);
+  Renderer renderer(*context, {}, nullptr, GetParam());
   Frame frame = small_frame();
   frame.light.direction = {-0.6f, 0.6f, 0.5f};
   add_ball(frame, {0, 0, 0}, 0.35f, 0.03f);
@@ -198,9 +205,9 @@ TEST(ParticlePass, SnowIsBrightWithoutBeingClipped) {
   EXPECT_LE(peak, 252);
 }
 
-TEST(ParticlePass, UnusablePositionsAreLeftOut) {
+TEST_P(ParticlePass, UnusablePositionsAreLeftOut) {
   OPEN_OR_SKIP(context, "auto");
-  Renderer renderer(*context);
+  Renderer renderer(*context, {}, nullptr, GetParam());
   Frame frame = small_frame();
   const Image nothing = renderer.draw(frame);
   for (const Vec3f p : {Vec3f{NAN, 0, 0}, Vec3f{0, INFINITY, 0}, Vec3f{0, 0, 5}, Vec3f{0, 0, 2}})
