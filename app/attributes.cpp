@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "app/snapshot.h"
+
 namespace neve::app {
 
 namespace {
@@ -76,6 +78,48 @@ AttributeName attribute_name(ColorBy color_by) {
       return {"von Mises stress", "Pa"};
     case ColorBy::id:
       return {"particle", ""};
+  }
+  return {"", ""};
+}
+
+ColorBy attribute_of(ScalarField field) {
+  switch (field) {
+    case ScalarField::mass:
+    case ScalarField::density:
+      return ColorBy::density;
+    case ScalarField::speed:
+      return ColorBy::speed;
+    case ScalarField::J_E:
+      return ColorBy::J_E;
+    case ScalarField::J_P:
+      return ColorBy::J_P;
+    case ScalarField::pressure:
+      return ColorBy::pressure;
+    case ScalarField::von_mises:
+      return ColorBy::von_mises;
+  }
+  return ColorBy::density;
+}
+
+AttributeName attribute_name(ScalarField field) {
+  if (field == ScalarField::mass) return {"mass density of the grid", "kg/m3"};
+  return attribute_name(attribute_of(field));
+}
+
+AttributeName attribute_name(VectorField field) {
+  switch (field) {
+    case VectorField::velocity:
+      return {"velocity", "m/s"};
+    case VectorField::momentum:
+      return {"momentum", "kg m/s"};
+    case VectorField::force:
+      return {"force", "N"};
+    case VectorField::v_free:
+      return {"v_free, after forces", "m/s"};
+    case VectorField::v_star:
+      return {"v_star, after collisions", "m/s"};
+    case VectorField::v_new:
+      return {"v_new, after the solve", "m/s"};
   }
   return {"", ""};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/attributes.h"
 #include "app/round_number.h"
 
 namespace neve::app {
@@ -119,6 +120,26 @@ Range automatic_range(const Scene& scene, ColorBy color_by, std::size_t particle
       return {0, static_cast<double>(std::max<std::size_t>(particle_count, 2) - 1)};
   }
   return {0, 1};
+}
+
+Range automatic_range(const Scene& scene, ScalarField field) {
+  if (field == ScalarField::mass) return {0, density_range(scene).max};
+  return automatic_range(scene, attribute_of(field), 0);
+}
+
+Range automatic_range(const Scene& scene, VectorField field) {
+  const double h = scene.solver.cell_size;
+  const Range speeds = automatic_range(scene, ColorBy::speed, 0);
+  switch (field) {
+    case VectorField::momentum:
+      // A node of packed snow has the mass of a cell.
+      return {0, round_up(density_range(scene).max * h * h * h * speeds.max)};
+    case VectorField::force:
+      // Stress at the elastic limit on the face of a cell.
+      return {0, round_up(automatic_range(scene, ColorBy::pressure, 0).max * h * h)};
+    default:
+      return speeds;
+  }
 }
 
 }  // namespace neve::app

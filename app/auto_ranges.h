@@ -9,4 +9,8 @@ namespace neve::app {
 /// @param particle_count of the whole scene
 Range automatic_range(const Scene& scene, ColorBy color_by, std::size_t particle_count);
 
+/// Of a field on nodes.
+Range automatic_range(const Scene& scene, ScalarField field);
+Range automatic_range(const Scene& scene, VectorField field);  ///< of its magnitude
+
 }  // namespace neve::app

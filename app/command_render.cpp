@@ -151,7 +151,8 @@ int run_render(const RenderOptions& options) {
   render::Renderer renderer(*context, options.shader_dir, &pool);
   check_picture_sizes(job.scene, job.quality, renderer.max_size());
 
-  const sim::ParticleArrays particles = seed_scene(job.scene);
+  std::vector<std::size_t> body_end;
+  const sim::ParticleArrays particles = seed_scene(job.scene, &body_end);
   resolve(job.scene, particles.x.size());
   sim::Simulation simulation(job.scene.solver, job.scene.materials, job.scene.colliders, particles,
                              options.threads);
@@ -160,7 +161,8 @@ int run_render(const RenderOptions& options) {
                 bytes_text(plan.memory) + " of memory" +
                 (job.coarsening > 1 ? ", coarsened " + coarsening_text(job.coarsening) : ""));
 
-  RenderRun run(job, simulation, *context, renderer, std::cbrt(plan.volume / count), progress);
+  RenderRun run(job, simulation, *context, renderer, std::cbrt(plan.volume / count), body_end,
+                progress);
   const RenderResult result = run.run();
   warn_about_steps(job.scene.solver, simulation, progress);
   const int code = finish(options, job, run, result, progress);

@@ -7,7 +7,9 @@
 #include "app/attributes.h"
 #include "app/round_number.h"
 #include "app/scene/coarsen.h"
+#include "app/slice.h"
 #include "app/text.h"
+#include "app/wires.h"
 #include "render/mesh_shapes.h"
 
 namespace neve::app {
@@ -23,10 +25,6 @@ constexpr std::size_t max_marks = 16;
 
 Vec3f to_float(const sim::Vec3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
-bool has_layer(const View& view, Layer layer) {
-  return std::find(view.layers.begin(), view.layers.end(), layer) != view.layers.end();
 }
 
 render::Rotation to_rotation(const sim::Mat3d& matrix) {
@@ -67,6 +65,13 @@ void add_colliders(const Scene& scene, const View& view, double time, render::Fr
   }
 }
 
+/// Pixels of a picture 720 high that a metre has around a point.
+double pixels_per_metre(const render::Camera& camera, Vec3f point) {
+  const double distance = std::max(1e-6, static_cast<double>(length(point - camera.eye)));
+  constexpr double radians = 3.14159265358979323846 / 180;
+  return 360 / std::tan(0.5 * static_cast<double>(camera.fov) * radians) / distance;
+}
+
 std::string grouped(std::size_t count) {
   std::string digits = std::to_string(count);
   for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
@@ -76,29 +81,15 @@ std::string grouped(std::size_t count) {
 
 }  // namespace
 
-Snapshot take_snapshot(const sim::Simulation& simulation, int frame, bool with_stress) {
-  Snapshot snapshot;
-  snapshot.frame = frame;
-  snapshot.time = simulation.time();
-  snapshot.particles = simulation.particles();
-  if (with_stress) snapshot.kirchhoff = simulation.kirchhoff();
-  return snapshot;
-}
-
-bool needs_stress(const Scene& scene) {
-  return std::any_of(scene.views.begin(), scene.views.end(), [](const View& view) {
-    return view.particles.color_by == ColorBy::pressure ||
-           view.particles.color_by == ColorBy::von_mises;
-  });
-}
-
 FrameBuilder::FrameBuilder(const Scene& scene, double spacing, Quality quality,
-                           const std::vector<std::string>& overrides, double coarsening)
+                           const std::vector<std::string>& overrides, double coarsening,
+                           const std::vector<std::size_t>& body_end)
     : scene_(scene),
       spacing_(spacing),
       quality_(quality),
       override_lines_(app::override_lines(overrides)),
-      coarsening_(coarsening) {}
+      coarsening_(coarsening),
+      body_end_(body_end) {}
 
 render::Frame FrameBuilder::build(const View& view, const Snapshot& snapshot) const {
   render::Frame frame;
@@ -111,6 +102,8 @@ render::Frame FrameBuilder::build(const View& view, const Snapshot& snapshot) co
                  static_cast<float>(scene_.light.ambient)};
   add_colliders(scene_, view, snapshot.time, frame);
   if (has_layer(view, Layer::particles)) add_points(view, snapshot, frame);
+  add_grid(view, snapshot, frame);
+  if (has_layer(view, Layer::bounds)) add_bounds(snapshot, frame);
   if (has_layer(view, Layer::caption)) frame.caption = caption(snapshot);
   return frame;
 }
@@ -155,6 +148,58 @@ void FrameBuilder::add_points(const View& view, const Snapshot& snapshot,
   const AttributeName name = attribute_name(style.color_by);
   frame.legends.push_back(
       {name.title, name.unit, style.colormap, points.range_min, points.range_max});
+}
+
+void FrameBuilder::add_grid(const View& view, const Snapshot& snapshot,
+                            render::Frame& frame) const {
+  const NodeFields& fields = snapshot.fields;
+  if (fields.lattice && has_layer(view, Layer::blocks))
+    frame.lines.push_back(block_lines(*fields.lattice, fields.density));
+  const SlicePlane plane =
+      slice_plane(view.slice, snapshot.time, centre_of_mass(view.slice.follow, snapshot));
+  add_slice(view, fields, plane, pixels_per_metre(frame.camera, to_float(plane.point)), frame);
+}
+
+/// A box around each body, with its name where there are several.
+void FrameBuilder::add_bounds(const Snapshot& snapshot, render::Frame& frame) const {
+  render::Lines lines;
+  lines.opacity = 0.6f;
+  for (std::size_t body = 0; body < body_end_.size(); ++body) {
+    const auto [first, end] = particles_of(body);
+    sim::Bounds box{sim::Vec3d::Constant(1e300), sim::Vec3d::Constant(-1e300)};
+    for (std::size_t p = first; p < end; ++p) {
+      if (!snapshot.particles.x[p].allFinite()) continue;
+      box.min = box.min.cwiseMin(snapshot.particles.x[p]);
+      box.max = box.max.cwiseMax(snapshot.particles.x[p]);
+    }
+    if (!(box.min.x() <= box.max.x())) continue;
+    append_box(box.min, box.max, lines);
+    if (body_end_.size() > 1)
+      frame.labels.push_back(
+          {to_float(sim::Vec3d(box.min.x(), box.max.y(), box.max.z())), scene_.bodies[body].name});
+  }
+  frame.lines.push_back(std::move(lines));
+}
+
+std::pair<std::size_t, std::size_t> FrameBuilder::particles_of(std::size_t body) const {
+  return {body == 0 ? 0 : body_end_[body - 1], body_end_[body]};
+}
+
+std::optional<sim::Vec3d> FrameBuilder::centre_of_mass(const std::string& name,
+                                                       const Snapshot& snapshot) const {
+  for (std::size_t body = 0; body < body_end_.size(); ++body) {
+    if (scene_.bodies[body].name != name) continue;
+    const auto [first, end] = particles_of(body);
+    sim::Vec3d moment = sim::Vec3d::Zero();
+    double mass = 0;
+    for (std::size_t p = first; p < end; ++p) {
+      if (!snapshot.particles.x[p].allFinite()) continue;
+      moment += snapshot.particles.m[p] * snapshot.particles.x[p];
+      mass += snapshot.particles.m[p];
+    }
+    if (mass > 0) return sim::Vec3d(moment / mass);
+  }
+  return std::nullopt;
 }
 
 std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {

@@ -1,28 +1,17 @@
 #pragma once
 /// The only place where simulation data becomes what the renderer draws, and double becomes float.
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/plan.h"
-#include "app/scene/scene.h"
+#include "app/snapshot.h"
 #include "render/frame.h"
 #include "sim/simulation.h"
 
 namespace neve::app {
-
-/// State of a simulation at one frame, shared by all views of it.
-struct Snapshot {
-  int frame = 0;
-  double time = 0;                    ///< s
-  sim::ParticleArrays particles;      ///< id order
-  std::vector<sim::Mat3d> kirchhoff;  ///< Pa; empty unless a view shows stress
-};
-
-/// @param with_stress computes the Kirchhoff stress too
-Snapshot take_snapshot(const sim::Simulation& simulation, int frame, bool with_stress);
-
-bool needs_stress(const Scene& scene);
 
 class FrameBuilder {
  public:
@@ -30,8 +19,10 @@ class FrameBuilder {
   /// @param spacing mean distance of particles in packed snow, m
   /// @param overrides "material.snow.hardening=5", for the caption
   /// @param coarsening what --coarsen did to the scene, for the caption; 1: nothing
+  /// @param body_end for each body the index after its last particle, see seed_scene
   FrameBuilder(const Scene& scene, double spacing, Quality quality,
-               const std::vector<std::string>& overrides, double coarsening);
+               const std::vector<std::string>& overrides, double coarsening,
+               const std::vector<std::size_t>& body_end);
 
   render::Frame build(const View& view, const Snapshot& snapshot) const;
 
@@ -41,6 +32,11 @@ class FrameBuilder {
 
  private:
   void add_points(const View& view, const Snapshot& snapshot, render::Frame& frame) const;
+  void add_grid(const View& view, const Snapshot& snapshot, render::Frame& frame) const;
+  void add_bounds(const Snapshot& snapshot, render::Frame& frame) const;
+  /// Particles of a body: the first and the one after the last.
+  std::pair<std::size_t, std::size_t> particles_of(std::size_t body) const;
+  std::optional<sim::Vec3d> centre_of_mass(const std::string& body, const Snapshot& snapshot) const;
   std::vector<std::string> caption(const Snapshot& snapshot) const;
 
   const Scene& scene_;
@@ -48,6 +44,7 @@ class FrameBuilder {
   Quality quality_;
   std::vector<std::string> override_lines_;
   double coarsening_;
+  std::vector<std::size_t> body_end_;
 };
 
 /// "hardening = 5" for "material.snow.hardening=5"; the whole address where two end alike.

@@ -34,12 +34,12 @@ bool after_step() {
 
 RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
                      const render::Context& context, render::Renderer& renderer, double spacing,
-                     Progress& progress)
+                     const std::vector<std::size_t>& body_end, Progress& progress)
     : job_(job),
       simulation_(simulation),
       renderer_(renderer),
       progress_(progress),
-      builder_(job.scene, spacing, job.quality, job.overrides, job.coarsening) {
+      builder_(job.scene, spacing, job.quality, job.overrides, job.coarsening, body_end) {
   record_.scene = write_scene(job.scene);
   record_.scene_file = job.scene_file;
   record_.overrides = job.overrides;
@@ -121,7 +121,7 @@ bool RenderRun::advance_to_frame(int frame) {
 
 void RenderRun::draw_frame(int frame) {
   const auto start = Clock::now();
-  const Snapshot snapshot = take_snapshot(simulation_, frame, needs_stress(job_.scene));
+  const Snapshot snapshot = take_snapshot(job_.scene, simulation_, frame);
   const std::uint64_t state_hash = simulation_.state_hash();
   picture_record_.state_hash = hash_text(state_hash);
   std::vector<Picture> pictures;
@@ -146,7 +146,7 @@ void RenderRun::draw_frame(int frame) {
 void RenderRun::draw_incident() {
   const sim::Divergence& divergence = *record_.divergence;
   const int frame = static_cast<int>(divergence.time * job_.scene.fps);
-  Snapshot snapshot = take_snapshot(simulation_, frame, needs_stress(job_.scene));
+  Snapshot snapshot = take_snapshot(job_.scene, simulation_, frame);
   snapshot.time = divergence.time;
   picture_record_.state_hash = hash_text(simulation_.state_hash());
   for (const View& view : job_.scene.views)

@@ -26,8 +26,10 @@ struct RenderResult {
 class RenderRun {
  public:
   /// @param job with a resolved scene; must outlive the run, like the others
+  /// @param spacing, body_end see FrameBuilder
   RenderRun(const RenderJob& job, sim::Simulation& simulation, const render::Context& context,
-            render::Renderer& renderer, double spacing, Progress& progress);
+            render::Renderer& renderer, double spacing, const std::vector<std::size_t>& body_end,
+            Progress& progress);
 
   /// Removes what an earlier run left, then makes all frames and movies. run.json says at every
   /// moment how far it got, also when this throws.

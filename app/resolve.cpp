@@ -48,13 +48,33 @@ void resolve_cameras(Scene& scene) {
       view.camera = automatic_camera(scene, moments, *view.camera, aspect_of(size_of(scene, view)));
 }
 
+/// The plane goes through the middle of what the scene starts with.
+sim::Vec3d middle_of_bodies(const Scene& scene) {
+  sim::Bounds all = sim::bounds(scene.bodies.front().shape);
+  for (const sim::Body& body : scene.bodies) {
+    const sim::Bounds box = sim::bounds(body.shape);
+    all.min = all.min.cwiseMin(box.min);
+    all.max = all.max.cwiseMax(box.max);
+  }
+  return 0.5 * (all.min + all.max);
+}
+
+void resolve_slice(const Scene& scene, SliceStyle& slice) {
+  if (!slice.point && slice.follow.empty()) slice.point = middle_of_bodies(scene);
+  if (!slice.range) slice.range = automatic_range(scene, slice.field);
+  if (!slice.scalar_range) slice.scalar_range = automatic_range(scene, slice.scalar);
+}
+
 }  // namespace
 
 void resolve(Scene& scene, std::size_t particle_count) {
   resolve_cameras(scene);
-  for (View& view : scene.views)
+  for (View& view : scene.views) {
     if (!view.particles.range && view.particles.color_by != ColorBy::snow)
       view.particles.range = automatic_range(scene, view.particles.color_by, particle_count);
+    if (has_layer(view, Layer::arrows) || has_layer(view, Layer::heatmap))
+      resolve_slice(scene, view.slice);
+  }
 }
 
 }  // namespace neve::app

@@ -28,10 +28,12 @@ void append_body(const Scene& scene, std::size_t index, sim::ParticleArrays& par
   }
 }
 
-sim::ParticleArrays seed_scene(const Scene& scene) {
+sim::ParticleArrays seed_scene(const Scene& scene, std::vector<std::size_t>* body_end) {
   sim::ParticleArrays particles;
-  for (std::size_t index = 0; index < scene.bodies.size(); ++index)
+  for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
     append_body(scene, index, particles);
+    if (body_end) body_end->push_back(particles.x.size());
+  }
   return particles;
 }
 

@@ -7,8 +7,9 @@
 namespace neve::app {
 
 /// All bodies in the order of the scene; particles of a body follow each other.
+/// @param body_end gets for each body the index after its last particle, may be null
 /// @throws sim::ShapeError
-sim::ParticleArrays seed_scene(const Scene& scene);
+sim::ParticleArrays seed_scene(const Scene& scene, std::vector<std::size_t>* body_end = nullptr);
 
 /// Appends one body. @param index in the scene: the key of its random numbers
 void append_body(const Scene& scene, std::size_t index, sim::ParticleArrays& particles);

@@ -68,15 +68,14 @@ struct HeatMap {
   int columns = 0, rows = 0;
   std::vector<float> value;  ///< rows x columns
   float isoline_step = 0;    ///< in the unit of the field; 0: none
-  float opacity = 1;
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;
 };
 
 /// Straight lines of one colour and width, hidden by what is before them.
 struct Lines {
-  std::vector<Vec3f> ends;  ///< two per line, m
-  Vec3f color{0.75f, 0.8f, 0.85f};
+  std::vector<Vec3f> ends;          ///< two per line, m
+  Vec3f color{0.75f, 0.8f, 0.85f};  ///< sRGB
   float opacity = 1;
   float width = 1.25f;  ///< pixels of the finished picture
 };

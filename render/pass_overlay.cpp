@@ -44,6 +44,7 @@ std::string title_of(const Legend& legend) {
 std::vector<std::string> all_texts(const Frame& frame) {
   std::vector<std::string> texts = frame.caption;
   for (const Legend& legend : frame.legends) texts.push_back(title_of(legend));
+  for (const Label& label : frame.labels) texts.push_back(label.text);
   return texts;
 }
 
@@ -123,6 +124,22 @@ void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
   }
 }
 
+void OverlayPass::draw_labels(const Frame& frame, const View& view) const {
+  const ImFont& font = *imgui_.text_font();
+  const float unit = unit_of(font), margin = 6 * unit;
+  for (const Label& label : frame.labels) {
+    const Vec3f p = view.project(label.position);
+    if (!(p.z > 0)) continue;
+    const float height = static_cast<float>(view.height), width = static_cast<float>(view.width);
+    const float text = text_width(font, label.text);
+    // Above its place, and kept on the picture as long as the place itself is.
+    if (p.x < 0 || p.x > width || p.y < 0 || p.y > height) continue;
+    const float left = std::clamp(p.x, margin, std::max(margin, width - text - margin));
+    const float top = std::max(margin, height - p.y - 1.35f * font.FontSize);
+    draw_text(font, ImVec2(left, top), soft, label.text);
+  }
+}
+
 void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const float unit = unit_of(*imgui_.text_font());
@@ -143,9 +160,11 @@ void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
 }
 
 void OverlayPass::draw(const Frame& frame, const View& view) {
-  if (frame.caption.empty() && frame.legends.empty() && frame.marks.empty()) return;
+  if (frame.caption.empty() && frame.legends.empty() && frame.marks.empty() && frame.labels.empty())
+    return;
   imgui_.begin(frame.width, frame.height, font_size_for(frame.width, frame.height),
                all_texts(frame));
+  draw_labels(frame, view);
   draw_marks(frame, view);
   draw_caption(frame, draw_legends(frame));
   imgui_.end();

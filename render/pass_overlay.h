@@ -1,6 +1,6 @@
 #pragma once
 /// Text and signs over the finished picture: caption in the upper left corner, legends in the lower
-/// right one, rings around marked places.
+/// right one, labels beside their places, rings around marked ones.
 
 #include "render/frame.h"
 #include "render/imgui_draw.h"
@@ -18,6 +18,7 @@ class OverlayPass {
   /// @return left edge of what was drawn, pixels
   float draw_legends(const Frame& frame) const;
   void draw_caption(const Frame& frame, float right_limit) const;
+  void draw_labels(const Frame& frame, const View& view) const;
   void draw_marks(const Frame& frame, const View& view) const;
 
   ImGuiDraw imgui_;

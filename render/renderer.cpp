@@ -9,6 +9,7 @@
 #include "render/pass_overlay.h"
 #include "render/passes.h"
 #include "render/phase_clock.h"
+#include "render/slice_passes.h"
 
 namespace neve::render {
 namespace {
@@ -55,6 +56,19 @@ void check_frame(const Frame& frame, int max_size) {
   }
   for (const TriangleMesh& mesh : frame.meshes) check_mesh(mesh);
   check_smoke(frame.smoke);
+  for (const Arrows& arrows : frame.arrows) {
+    if (arrows.vector.size() != arrows.position.size())
+      throw std::invalid_argument("Frame: " + std::to_string(arrows.position.size()) +
+                                  " places for " + std::to_string(arrows.vector.size()) +
+                                  " arrows");
+  }
+  for (const HeatMap& map : frame.heat_maps) {
+    if (static_cast<long long>(map.value.size()) !=
+        static_cast<long long>(map.columns) * static_cast<long long>(map.rows))
+      throw std::invalid_argument("Frame: a heat map has " + std::to_string(map.value.size()) +
+                                  " values for " + std::to_string(map.columns) + " columns and " +
+                                  std::to_string(map.rows) + " rows");
+  }
 }
 
 ParticlePath resolve_path(ParticlePath path, const Context& context) {
@@ -80,6 +94,9 @@ struct Renderer::Impl {
   ParticlePass particles;
   SplatPass splats;
   SmokePass smoke;
+  ArrowPass arrows;
+  HeatMapPass heat_maps;
+  LinePass lines;
   ShadePass shade;
   ResolvePass resolve;
   OverlayPass overlay;
@@ -96,6 +113,9 @@ struct Renderer::Impl {
         particles(gl, library, c.is_software),
         splats(gl, p),
         smoke(gl, library),
+        arrows(gl, library),
+        heat_maps(gl, library),
+        lines(gl, library),
         shade(gl, library),
         resolve(gl, library),
         overlay(gl, library) {}
@@ -172,6 +192,10 @@ struct Renderer::Impl {
     ground.draw(frame, view);
     meshes.draw(frame.meshes, view);
     clock.end("solids");
+    const auto samples = static_cast<float>(frame.supersampling);
+    heat_maps.draw(frame.heat_maps, view, samples);
+    arrows.draw(frame.arrows, view);
+    clock.end("slices");
 
     std::optional<SmokePicture> smoke_picture;
     if (!smoke_grid.is_empty()) {
@@ -183,6 +207,7 @@ struct Renderer::Impl {
 
     bind(targets->shaded, view.width, view.height);
     shade.draw(*targets, light, frame.light, view, smoke_picture ? &*smoke_picture : nullptr);
+    lines.draw(frame.lines, *targets, view, samples);
 
     bind(targets->finished, frame.width, frame.height);
     if (frame.supersampling > 1) resolve.draw(*targets);

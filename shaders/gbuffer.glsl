@@ -9,3 +9,4 @@ const float kind_ground = 1.0;
 const float kind_solid = 2.0;
 const float kind_snow = 3.0;
 const float kind_attribute = 4.0;
+const float kind_flat = 5.0;  // shown in its own colour, without light

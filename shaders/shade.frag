@@ -21,6 +21,7 @@ out vec4 out_color;
 const float kind_ground = 1.0;
 const float kind_solid = 2.0;
 const float kind_snow = 3.0;
+const float kind_flat = 5.0;
 
 const vec3 background_top = vec3(0.060, 0.072, 0.098);
 const vec3 background_bottom = vec3(0.190, 0.215, 0.260);
@@ -71,9 +72,16 @@ vec3 tone_map(vec3 c) {
   return pow(min(c, vec3(1.0)), vec3(1.0 / 2.2));
 }
 
+// What tone_map turns into the linear light y.
+vec3 before_tone_map(vec3 y) {
+  vec3 b = 1.0 - 0.55 * y;
+  return 2.42 * (sqrt(b * b + y * (4.0 / 4.84)) - b) / 0.8;
+}
+
 vec3 surface(vec3 p, vec4 normal_kind, vec3 albedo) {
   vec3 n = normal_kind.xyz;
   float kind = normal_kind.w;
+  if (kind == kind_flat) return before_tone_map(albedo);
   if (kind == kind_ground || kind == kind_solid) {
     vec3 above = p + n * cell * (kind == kind_solid ? 2.5 : 0.5);
     vec3 color = lit(albedo, n, key_light(above), sky_light(above), 1.0);
@@ -132,10 +140,12 @@ void main() {
     vec3 p = position_at(gl_FragCoord.xy, depth);
     color = mix(color, surface(p, normal_kind, albedo.rgb * albedo.rgb), albedo.a);
   }
+  // Darker corners; but a colour that stands for a value is the one of the legend.
+  float vignette = 1.0 - 0.35 * dot(across - 0.5, across - 0.5);
+  if (normal_kind.w != kind_flat) color *= vignette;
 #ifdef SMOKE
   vec4 smoke = smoke_before(depth);
-  color = color * (1.0 - smoke.a) + smoke.rgb;
+  color = color * (1.0 - smoke.a) + smoke.rgb * vignette;
 #endif
-  color *= 1.0 - 0.35 * dot(across - 0.5, across - 0.5);
   out_color = vec4(tone_map(color) + (noise(uvec2(at)) - 0.5) / 255.0, 1.0);
 }

@@ -8,6 +8,7 @@
 #include "sim/base/thread_pool.h"
 #include "sim/kernels.h"
 #include "sim/partition.h"
+#include "sim/rasterize.h"
 #include "sim/simd.h"
 #include "sim/simulation.h"
 #include "sim/staged.h"
@@ -60,6 +61,7 @@ class Engine {
   void step(double dt);
   AdvanceReport advance_to(double time, bool (*interrupted)());
   StagedStep staged_step(double dt) const;
+  RasterizedNodes rasterize(const std::vector<std::vector<double>>& values) const;
   Simulation::Choice choose_dt(double remaining) const;
 
   double time() const { return time_; }

@@ -98,14 +98,21 @@ std::uint64_t Simulation::state_hash() const {
   return impl_->visit([](const auto& e) { return e.state_hash(); });
 }
 
-struct StagedAccess {
-  static StagedStep run(const Simulation& simulation, double dt) {
-    return simulation.impl_->visit([&](const auto& e) { return e.staged_step(dt); });
+/// For looking inside: what works on copies and is no part of a run.
+struct InsideAccess {
+  template <class Call>
+  static decltype(auto) visit(const Simulation& simulation, Call&& call) {
+    return simulation.impl_->visit(call);
   }
 };
 
 StagedStep staged_step(const Simulation& simulation, double dt) {
-  return StagedAccess::run(simulation, dt);
+  return InsideAccess::visit(simulation, [&](const auto& e) { return e.staged_step(dt); });
+}
+
+RasterizedNodes rasterize(const Simulation& simulation,
+                          const std::vector<std::vector<double>>& values) {
+  return InsideAccess::visit(simulation, [&](const auto& e) { return e.rasterize(values); });
 }
 
 std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,

@@ -140,7 +140,7 @@ class Simulation {
   struct Impl;
 
  private:
-  friend struct StagedAccess;
+  friend struct InsideAccess;
   std::unique_ptr<Impl> impl_;
 };
 

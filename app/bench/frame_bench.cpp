@@ -83,8 +83,8 @@ class Drawing {
   /// Seconds until the picture of the simulation's state is in memory.
   double draw(const Scene& scene, const sim::Simulation& simulation) {
     const Stopwatch watch;
-    const FrameBuilder builder(scene, 0.5 * scene.solver.cell_size, Quality::preview, {}, 1);
-    const Snapshot snapshot = take_snapshot(simulation, 1, needs_stress(scene));
+    const FrameBuilder builder(scene, 0.5 * scene.solver.cell_size, Quality::preview, {}, 1, {});
+    const Snapshot snapshot = take_snapshot(scene, simulation, 1);
     renderer_.draw(builder.build(scene.views.front(), snapshot));
     return watch.wall();
   }

@@ -114,6 +114,21 @@ Found light_problem(const LightSettings& light) {
   return Problem{"light.direction", "direction is zero", "it points towards the light"};
 }
 
+Found slice_problem(const Scene& scene, const SliceStyle& slice, const std::string& at) {
+  if (slice.normal.norm() <= negligible)
+    return Problem{at + ".normal", "normal is zero", "it points across the plane"};
+  if (slice.follow.empty()) return {};
+  std::vector<std::string> names;
+  for (const sim::Body& body : scene.bodies) {
+    if (body.name == slice.follow) return {};
+    names.push_back(body.name);
+  }
+  const std::string nearest = nearest_name(slice.follow, names);
+  return Problem{at + ".follow", "there is no body " + toml_string(slice.follow),
+                 nearest.empty() ? "expected " + list_of(names)
+                                 : "did you mean " + toml_string(nearest) + "?"};
+}
+
 }  // namespace
 
 std::optional<Problem> find_problem(const Scene& scene) {
@@ -137,8 +152,9 @@ std::optional<Problem> find_problem(const Scene& scene) {
   if (scene.camera && (found = camera_problem(*scene.camera, "camera"))) return found;
   if ((found = light_problem(scene.light))) return found;
   for (const View& view : scene.views) {
-    if (!view.camera) continue;
-    if ((found = camera_problem(*view.camera, "view." + view.name + ".camera"))) return found;
+    const std::string at = "view." + view.name;
+    if ((found = slice_problem(scene, view.slice, at + ".slice"))) return found;
+    if (view.camera && (found = camera_problem(*view.camera, at + ".camera"))) return found;
   }
   return {};
 }

@@ -253,6 +253,34 @@ void describe(V& visit, ParticleStyle& p) {
 }
 
 template <class V>
+void describe(V& visit, SliceStyle& s) {
+  using enum Change;
+  visit("field", s.field, unit::none, anything, live, "Field of the arrows.");
+  visit("scalar", s.scalar, unit::none, anything, live, "Field of the heat map.");
+  visit("normal", s.normal, unit::none, within(1e6), live, "Direction across the plane.");
+  visit("point", s.point, unit::metre, position, live,
+        "A point of the plane, without it the middle of the bodies; with follow from the body's "
+        "centre.");
+  visit("follow", s.follow, unit::none, anything, live,
+        "Name of a body that the plane moves with.");
+  visit("motion", s.motion, unit::velocity, speed, live, "How fast the plane moves.");
+  visit("every", s.every, unit::none, between(0, 1000), live,
+        "Nodes from one arrow to the next; 0: as close as stays readable.");
+  visit("arrow_scale", s.arrow_scale, unit::none, above(0).at_most(1000), live,
+        "Factor of the arrows' lengths; at 1 the longest is 1.6 of their distances.");
+  visit("isolines", s.isolines, unit::none, between(0, 100), live,
+        "Steps that lines cut the heat map's range into; 0: no lines.");
+  visit("colormap", s.colormap, unit::none, anything, live, "Colours of the arrows.");
+  visit(
+      "range", s.range, unit::none, within(1e30), live,
+      "Magnitudes at the ends of the colour map, or \"auto\"; the longest arrow is the upper one.");
+  visit("scalar_colormap", s.scalar_colormap, unit::none, anything, live,
+        "Colours of the heat map.");
+  visit("scalar_range", s.scalar_range, unit::none, within(1e30), live,
+        "Values at the ends of the heat map's colours, or \"auto\".");
+}
+
+template <class V>
 void describe_size(V& visit, const char* key, auto& size, const char* help) {
   visit(key, size, unit::pixels, between(16, 1000000), Change::live, help);
 }
@@ -267,6 +295,8 @@ void describe(V& visit, View& view) {
                 "Width and height of this view; without it the output's.");
   visit.section("particles", "How particles are drawn.",
                 [&](auto& v) { describe(v, view.particles); });
+  visit.section("slice", "A plane through the grid, for arrows and heatmap.",
+                [&](auto& v) { describe(v, view.slice); });
   visit.optional("camera", view.camera, "The camera of this view; without it the scene's.");
 }
 

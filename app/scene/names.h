@@ -66,6 +66,17 @@ constexpr auto names(ColorBy) {
                     Name{von_mises, "von_mises"},
                     Name{id, "id"}};
 }
+constexpr auto names(ScalarField) {
+  using enum ScalarField;
+  return std::array{
+      Name{mass, "mass"}, Name{speed, "speed"},       Name{density, "density"},    Name{J_E, "J_E"},
+      Name{J_P, "J_P"},   Name{pressure, "pressure"}, Name{von_mises, "von_mises"}};
+}
+constexpr auto names(VectorField) {
+  using enum VectorField;
+  return std::array{Name{velocity, "velocity"}, Name{momentum, "momentum"}, Name{force, "force"},
+                    Name{v_free, "v_free"},     Name{v_star, "v_star"},     Name{v_new, "v_new"}};
+}
 constexpr auto names(render::ColorMap) {
   using enum render::ColorMap;
   return std::array{Name{viridis, "viridis"}, Name{magma, "magma"}, Name{turbo, "turbo"},
@@ -73,8 +84,10 @@ constexpr auto names(render::ColorMap) {
 }
 constexpr auto names(Layer) {
   using enum Layer;
-  return std::array{Name{ground, "ground"}, Name{colliders, "colliders"},
-                    Name{particles, "particles"}, Name{legend, "legend"}, Name{caption, "caption"}};
+  return std::array{
+      Name{ground, "ground"}, Name{colliders, "colliders"}, Name{particles, "particles"},
+      Name{arrows, "arrows"}, Name{heatmap, "heatmap"},     Name{blocks, "blocks"},
+      Name{bounds, "bounds"}, Name{legend, "legend"},       Name{caption, "caption"}};
 }
 
 template <class E>

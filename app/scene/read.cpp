@@ -1,5 +1,6 @@
 #include "app/scene/read.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -12,22 +13,69 @@
 #include "app/text.h"
 
 namespace neve::app {
+
+std::vector<View> built_in_views() {
+  using enum Layer;
+  View slice;
+  slice.name = "slice";
+  slice.layers = {ground, colliders, arrows, legend, caption};
+  return {View{}, slice};
+}
+
 namespace {
 
-/// What is there although no scene says so: a material and a view with the names of their
-/// defaults. In the document, so that --set finds them too.
-void add_built_ins(Table& root) {
+Table table_of(const View& built_in) {
+  Table view;
+  view.entries.push_back({"name", {}, {built_in.name}});
+  return view;
+}
+
+/// Built-in views keep their layers where the scene names none.
+void add_layers(Table& view) {
+  const Entry* name = view.find("name");
+  const auto* text = name ? std::get_if<std::string>(&name->value.data) : nullptr;
+  if (!text || view.find("layers")) return;
+  for (const View& built_in : built_in_views()) {
+    if (built_in.name == *text) view.entries.push_back({"layers", {}, to_value(built_in.layers)});
+  }
+}
+
+bool is_named(const Value& view, const std::string& name) {
+  const Table* table = std::get_if<Table>(&view.data);
+  const Entry* entry = table ? table->find("name") : nullptr;
+  const auto* text = entry ? std::get_if<std::string>(&entry->value.data) : nullptr;
+  return text && *text == name;
+}
+
+/// The views that the scene has, or the one that is drawn when it has none; and built-in ones that
+/// a --set speaks of.
+void add_views(Table& root, const std::vector<Override>& overrides) {
+  if (!root.find("view")) root.entries.push_back({"view", {}, {Array{Value{table_of(View{})}}}});
+  Array* views = std::get_if<Array>(&root.find("view")->value.data);
+  if (!views) return;
+  for (const View& built_in : built_in_views()) {
+    const bool is_set = std::any_of(overrides.begin(), overrides.end(), [&](const Override& o) {
+      return o.address.starts_with("view." + built_in.name + ".");
+    });
+    const bool is_there = std::any_of(views->begin(), views->end(), [&](const Value& view) {
+      return is_named(view, built_in.name);
+    });
+    if (is_set && !is_there) views->push_back({table_of(built_in)});
+  }
+  for (Value& view : *views)
+    if (Table* table = std::get_if<Table>(&view.data)) add_layers(*table);
+}
+
+/// What is there although no scene says so: a material and views with the names of their defaults.
+/// In the document, so that --set finds them too.
+void add_built_ins(Table& root, const std::vector<Override>& overrides) {
   if (!root.find("material")) root.entries.push_back({"material", {}, {Table{}}});
   Table* materials = std::get_if<Table>(&root.find("material")->value.data);
   const std::string snow = sim::Material{}.name;
   if (materials && !materials->find(snow)) {
     materials->entries.insert(materials->entries.begin(), Entry{snow, {}, {Table{}}});
   }
-  if (!root.find("view")) {
-    Table view;
-    view.entries.push_back({"name", {}, {View{}.name}});
-    root.entries.push_back({"view", {}, {Array{Value{std::move(view)}}}});
-  }
+  add_views(root, overrides);
 }
 
 std::string read_text(const std::string& file) {
@@ -52,7 +100,7 @@ std::string read_text(const std::string& file) {
 Scene read_scene_text(std::string_view text, const std::string& name, const std::string& base_dir,
                       const std::vector<Override>& overrides) {
   Table root = parse_toml(text, name);
-  add_built_ins(root);
+  add_built_ins(root, overrides);
   for (std::size_t k = 0; k < overrides.size(); ++k) {
     apply_override(root, overrides[k], static_cast<int>(k));
   }
@@ -76,7 +124,10 @@ View find_view(const Scene& scene, const std::string& name) {
     if (view.name == name) return view;
     names.push_back(view.name);
   }
-  if (name == View{}.name) return View{};
+  for (const View& view : built_in_views()) {
+    if (view.name == name) return view;
+    if (std::find(names.begin(), names.end(), view.name) == names.end()) names.push_back(view.name);
+  }
   const std::string nearest = nearest_name(name, names);
   throw UsageError("--view " + name, "the scene has no such view",
                    "expected " + list_of(names) +

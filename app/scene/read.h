@@ -24,6 +24,9 @@ Scene read_scene_text(std::string_view text, const std::string& name,
 /// bit. Mesh files are written as absolute paths, so it reads the same from anywhere.
 std::string write_scene(const Scene& scene);
 
+/// Views that every scene has: particles, smoke and slice.
+std::vector<View> built_in_views();
+
 /// The view of this name, or the built-in one.
 /// @throws UsageError with the nearest name
 View find_view(const Scene& scene, const std::string& name);

@@ -1,6 +1,7 @@
 #pragma once
 /// A scene as the user wrote it, defaults filled in. Data only; see describe.h for every parameter.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,7 +16,11 @@
 namespace neve::app {
 
 enum class ColorBy { snow, speed, density, J_E, J_P, pressure, von_mises, id };
-enum class Layer { ground, colliders, particles, legend, caption };
+/// Fields on the nodes of the grid. All but mass and speed are means of the particles around.
+enum class ScalarField { mass, speed, density, J_E, J_P, pressure, von_mises };
+/// The names of design and paper: velocity is what is rasterised (v_old).
+enum class VectorField { velocity, momentum, force, v_free, v_star, v_new };
+enum class Layer { ground, colliders, particles, arrows, heatmap, blocks, bounds, legend, caption };
 
 /// Absent range: "auto". Resolving a scene fills it in.
 struct Range {
@@ -26,6 +31,23 @@ struct ParticleStyle {
   ColorBy color_by = ColorBy::snow;
   render::ColorMap colormap = render::ColorMap::viridis;
   std::optional<Range> range;
+};
+
+/// A plane through the grid: arrows of a vector field and a heat map of a scalar field on it.
+struct SliceStyle {
+  VectorField field = VectorField::velocity;  ///< of the arrows
+  ScalarField scalar = ScalarField::speed;    ///< of the heat map
+  sim::Vec3d normal{0, 0, 1};
+  std::optional<sim::Vec3d> point;  ///< m; automatic when absent; from the followed body if any
+  std::string follow;               ///< body whose centre of mass the plane moves with
+  sim::Vec3d motion{0, 0, 0};       ///< m/s, of the plane
+  int every = 0;                    ///< nodes from arrow to arrow; 0: automatic
+  double arrow_scale = 1;           ///< factor of all lengths
+  int isolines = 0;                 ///< steps of the heat map's range with lines between them
+  render::ColorMap colormap = render::ColorMap::magma;           ///< of the arrows
+  std::optional<Range> range;                                    ///< of their magnitude
+  render::ColorMap scalar_colormap = render::ColorMap::viridis;  ///< of the heat map
+  std::optional<Range> scalar_range;
 };
 
 struct CameraSettings {
@@ -49,9 +71,14 @@ struct View {
   std::vector<Layer> layers{Layer::ground, Layer::colliders, Layer::particles, Layer::legend,
                             Layer::caption};
   ParticleStyle particles;
+  SliceStyle slice;
   std::optional<CameraSettings> camera;  ///< the scene's when absent
   std::optional<PictureSize> size;       ///< the output's when absent
 };
+
+inline bool has_layer(const View& view, Layer layer) {
+  return std::find(view.layers.begin(), view.layers.end(), layer) != view.layers.end();
+}
 
 struct Limits {
   std::uint64_t memory = 0;  ///< bytes; 0: 80 % of what is available

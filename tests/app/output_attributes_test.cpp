@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "app/attributes.h"
+#include "app/frame_builder.h"
 #include "app/scene/read.h"
 
 namespace neve::app {
@@ -61,7 +62,7 @@ TEST_F(Attributes, OfABrokenStateStillMakeAPicture) {
   View view;
   view.particles.color_by = ColorBy::speed;
   view.particles.range = Range{0, 2};
-  const FrameBuilder builder(scene, 0.01, Quality::preview, {}, 1);
+  const FrameBuilder builder(scene, 0.01, Quality::preview, {}, 1, {});
   const render::Frame frame = builder.build(view, s);
   ASSERT_EQ(frame.points.position.size(), 2u);
   EXPECT_EQ(frame.points.id[1], 2u);
@@ -72,7 +73,7 @@ TEST_F(Attributes, OfABrokenStateStillMakeAPicture) {
 
 TEST_F(Attributes, CaptionsSayWhatWasCoarsened) {
   const auto last_line = [&](double coarsening) {
-    const FrameBuilder builder(scene, 0.01, Quality::preview, {}, coarsening);
+    const FrameBuilder builder(scene, 0.01, Quality::preview, {}, coarsening, {});
     return builder.build(View{}, squeezed()).caption.back();
   };
   EXPECT_EQ(last_line(1), "1 particle");

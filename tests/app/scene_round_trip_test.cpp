@@ -213,6 +213,7 @@ TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {
   auto& torus = std::get<sim::Torus>(scene.bodies[5].shape.form);
   torus.minor_radius = torus.major_radius / 3;
   scene.solver.cell_size = 0.1;
+  for (View& view : scene.views) view.slice.follow = "mesh";
 
   const std::string text = write_scene(scene);
   const Scene again = read_scene_text(text, "written");

@@ -1,0 +1,173 @@
+#include "app/node_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/attributes.h"
+#include "app/snapshot.h"
+#include "sim/rasterize.h"
+#include "sim/staged.h"
+
+namespace neve::app {
+
+namespace {
+
+using sim::Vec3d;
+
+/// Nodes lighter than this share of rho h^3 are not shown.
+constexpr double feather_share = 1e-4;
+
+double lightest_density(const Scene& scene) {
+  double density = std::numeric_limits<double>::infinity();
+  for (const sim::Material& material : scene.materials)
+    density = std::min(density, material.density);
+  return density;
+}
+
+/// Fields that a mean over the particles around a node gives.
+bool is_mean(ScalarField field) {
+  return field != ScalarField::mass && field != ScalarField::speed;
+}
+
+bool is_of_step(VectorField field) {
+  return field != VectorField::velocity && field != VectorField::momentum;
+}
+
+Vec3f to_float(const Vec3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+std::vector<std::vector<double>> particle_values(const Scene& scene, const Snapshot& snapshot,
+                                                 const FieldNeeds& needs) {
+  std::vector<std::vector<double>> values;
+  for (const ScalarField field : needs.scalars) {
+    if (!is_mean(field)) continue;
+    values.push_back(attribute_values(scene, attribute_of(field), snapshot));
+    // One broken particle of a diverged run must not hide the field around it.
+    for (double& value : values.back())
+      if (!std::isfinite(value)) value = 0;
+  }
+  return values;
+}
+
+std::shared_ptr<const render::NodeLattice> lattice_of(const sim::RasterizedNodes& nodes) {
+  auto lattice = std::make_shared<render::NodeLattice>();
+  lattice->spacing = static_cast<float>(nodes.spacing);
+  for (const sim::Vec3i& block : nodes.block)
+    lattice->block.push_back({block.x(), block.y(), block.z()});
+  return lattice;
+}
+
+/// Index of a lattice node in the arrays of a field.
+class NodeIndex {
+ public:
+  explicit NodeIndex(const std::vector<sim::Vec3i>& blocks) : blocks_(blocks) {}
+  /// @return the size of the arrays when the node's block is not there
+  std::size_t operator()(const sim::Vec3i& node) const {
+    const sim::Vec3i block = node.unaryExpr([](int i) { return i >> 2; });
+    const auto found = std::lower_bound(blocks_.begin(), blocks_.end(), block, comes_before);
+    if (found == blocks_.end() || *found != block) return 64 * blocks_.size();
+    const sim::Vec3i in_block = node - 4 * block;
+    return 64 * static_cast<std::size_t>(found - blocks_.begin()) +
+           static_cast<std::size_t>(16 * in_block.x() + 4 * in_block.y() + in_block.z());
+  }
+
+ private:
+  static bool comes_before(const sim::Vec3i& a, const sim::Vec3i& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  }
+  const std::vector<sim::Vec3i>& blocks_;
+};
+
+const std::vector<Vec3d>& field_of_step(const sim::NodeFields& nodes, VectorField field) {
+  switch (field) {
+    case VectorField::force:
+      return nodes.force;
+    case VectorField::v_free:
+      return nodes.v_free;
+    case VectorField::v_star:
+      return nodes.v_star;
+    default:
+      return nodes.v_new;
+  }
+}
+
+void add_fields_of_step(const Scene& scene, const sim::Simulation& simulation,
+                        const sim::RasterizedNodes& nodes, const FieldNeeds& needs,
+                        NodeFields& out) {
+  const double frame = 1 / scene.fps;
+  const sim::StagedStep step = sim::staged_step(simulation, simulation.choose_dt(frame).dt);
+  const NodeIndex index_of(nodes.block);
+  for (const VectorField field : needs.vectors) {
+    if (!is_of_step(field)) continue;
+    const std::vector<Vec3d>& values = field_of_step(step.nodes, field);
+    std::vector<Vec3f>& list = out.vectors[field];
+    list.resize(out.density.size());
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      const std::size_t at = index_of(step.nodes.node[n]);
+      if (at < list.size() && out.density[at] > 0) list[at] = to_float(values[n]);
+    }
+  }
+}
+
+void add_needs(const View& view, FieldNeeds& needs) {
+  if (has_layer(view, Layer::arrows)) needs.vectors.insert(view.slice.field);
+  if (has_layer(view, Layer::heatmap)) needs.scalars.insert(view.slice.scalar);
+  if (has_layer(view, Layer::blocks)) needs.is_needed = true;
+  needs.is_needed = needs.is_needed || !needs.vectors.empty() || !needs.scalars.empty();
+}
+
+template <class Value>
+std::vector<Value> where_dense(const std::vector<float>& density, auto&& value_at) {
+  std::vector<Value> list(density.size());
+  for (std::size_t n = 0; n < list.size(); ++n)
+    if (density[n] > 0) list[n] = value_at(n);
+  return list;
+}
+
+}  // namespace
+
+FieldNeeds field_needs(const Scene& scene) {
+  FieldNeeds needs;
+  for (const View& view : scene.views) add_needs(view, needs);
+  return needs;
+}
+
+NodeFields sample_fields(const Scene& scene, const sim::Simulation& simulation,
+                         const Snapshot& snapshot, const FieldNeeds& needs) {
+  NodeFields out;
+  if (!needs.is_needed) return out;
+  const sim::RasterizedNodes nodes =
+      sim::rasterize(simulation, particle_values(scene, snapshot, needs));
+  out.lattice = lattice_of(nodes);
+  const double volume = std::pow(nodes.spacing, 3);
+  const double feather = feather_share * lightest_density(scene);
+  out.density.resize(nodes.mass.size());
+  for (std::size_t n = 0; n < nodes.mass.size(); ++n)
+    if (const double density = nodes.mass[n] / volume; density > feather)
+      out.density[n] = static_cast<float>(density);
+
+  std::size_t mean = 0;
+  for (const ScalarField field : needs.scalars) {
+    if (field == ScalarField::mass) continue;
+    out.scalars[field] = where_dense<float>(out.density, [&](std::size_t n) {
+      return static_cast<float>(is_mean(field) ? nodes.mean[mean][n] : nodes.velocity[n].norm());
+    });
+    if (is_mean(field)) ++mean;
+  }
+  if (needs.scalars.contains(ScalarField::mass)) out.scalars[ScalarField::mass] = out.density;
+  bool has_step = false;
+  for (const VectorField field : needs.vectors) {
+    has_step = has_step || is_of_step(field);
+    if (is_of_step(field)) continue;
+    out.vectors[field] = where_dense<Vec3f>(out.density, [&](std::size_t n) {
+      const bool is_momentum = field == VectorField::momentum;
+      return to_float((is_momentum ? nodes.mass[n] : 1.0) * nodes.velocity[n]);
+    });
+  }
+  if (has_step) add_fields_of_step(scene, simulation, nodes, needs, out);
+  return out;
+}
+
+}  // namespace neve::app

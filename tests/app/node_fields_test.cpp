@@ -1,0 +1,247 @@
+/// What pictures show of the grid: fields of nodes, planes through them, wires around them.
+
+#include "app/node_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/auto_ranges.h"
+#include "app/field_sampler.h"
+#include "app/resolve.h"
+#include "app/scene/error.h"
+#include "app/scene/read.h"
+#include "app/seed_scene.h"
+#include "app/slice.h"
+#include "app/wires.h"
+
+namespace neve::app {
+namespace {
+
+using sim::Vec3d;
+
+constexpr const char* ball_text = R"(
+[camera]
+eye = [0, 0.5, 2]
+target = [0, 0.5, 0]
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.5, 0], radius = 0.15 } }
+velocity = [1, -2, 0.5]
+)";
+
+Scene read(const std::string& more, const std::vector<Override>& overrides = {}) {
+  return read_scene_text(ball_text + more, "ball.toml", {}, overrides);
+}
+
+struct Moment {
+  Scene scene;
+  Snapshot snapshot;
+};
+
+Moment moment_of(const std::string& views) {
+  Moment moment{read(views), {}};
+  const sim::ParticleArrays particles = seed_scene(moment.scene);
+  resolve(moment.scene, particles.x.size());
+  const sim::Simulation simulation(moment.scene.solver, moment.scene.materials,
+                                   moment.scene.colliders, particles, 1);
+  moment.snapshot = take_snapshot(moment.scene, simulation, 0);
+  return moment;
+}
+
+constexpr const char* all_fields = R"(
+[[view]]
+name = "a"
+layers = ["arrows", "heatmap", "legend"]
+slice = { field = "force", scalar = "J_P", every = 1 }
+[[view]]
+name = "b"
+layers = ["arrows", "heatmap"]
+slice = { field = "v_star", scalar = "pressure" }
+[[view]]
+name = "c"
+layers = ["arrows", "heatmap"]
+slice = { field = "velocity", scalar = "speed" }
+)";
+
+TEST(NodeFields, AreSampledOnlyWhenAViewShowsThem) {
+  EXPECT_FALSE(field_needs(read("")).is_needed);
+  EXPECT_EQ(moment_of("").snapshot.fields.lattice, nullptr);
+  const FieldNeeds needs = field_needs(read(all_fields));
+  EXPECT_EQ(needs.vectors,
+            (std::set{VectorField::force, VectorField::v_star, VectorField::velocity}));
+  EXPECT_EQ(needs.scalars, (std::set{ScalarField::J_P, ScalarField::pressure, ScalarField::speed}));
+}
+
+TEST(NodeFields, OfABallThatFliesAreThoseOfItsParticles) {
+  const Moment moment = moment_of(all_fields);
+  const NodeFields& fields = moment.snapshot.fields;
+  ASSERT_NE(fields.lattice, nullptr);
+  ASSERT_EQ(fields.density.size(), 64 * fields.lattice->block.size());
+  double mass = 0, largest = 0;
+  const double h = moment.scene.solver.cell_size;
+  const double dt = 1e-3;  // no step is longer: gravity changes v_star by at most this much
+  for (std::size_t n = 0; n < fields.density.size(); ++n) {
+    mass += static_cast<double>(fields.density[n]) * h * h * h;
+    largest = std::max(largest, static_cast<double>(fields.density[n]));
+    if (!(fields.density[n] > 0)) continue;
+    // All particles have one velocity, J_P 1 and no stress: so has every node.
+    EXPECT_NEAR(fields.scalars.at(ScalarField::speed)[n], std::sqrt(5.25), 1e-4);
+    EXPECT_NEAR(fields.scalars.at(ScalarField::J_P)[n], 1, 1e-5);
+    EXPECT_NEAR(fields.scalars.at(ScalarField::pressure)[n], 0, 1);
+    EXPECT_NEAR(fields.vectors.at(VectorField::velocity)[n].y, -2, 1e-4);
+    EXPECT_NEAR(fields.vectors.at(VectorField::v_star)[n].y, -2, 9.81 * dt + 1e-4);
+  }
+  // Feather-light nodes hold less than 1e-4 of a cell's mass each: nothing to speak of.
+  const double whole = 400 * 4.0 / 3 * 3.14159265 * 0.15 * 0.15 * 0.15;
+  EXPECT_NEAR(mass, whole, 0.01 * whole);
+  EXPECT_GT(largest, 380);
+}
+
+TEST(FieldSampler, ReproducesLinearFieldsInside) {
+  Moment moment = moment_of(all_fields);
+  NodeFields& fields = moment.snapshot.fields;
+  const float h = fields.lattice->spacing;
+  std::vector<float>& values = fields.scalars.at(ScalarField::J_P);
+  const auto linear = [](const Vec3d& x) { return 3 + 2 * x.x() - x.y() + 5 * x.z(); };
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const Vec3i b = fields.lattice->block[n / 64];
+    const int k = static_cast<int>(n % 64);
+    values[n] = static_cast<float>(linear(
+        static_cast<double>(h) * Vec3d(4 * b.x + k / 16, 4 * b.y + k / 4 % 4, 4 * b.z + k % 4)));
+  }
+  const FieldSampler sampler(fields);
+  for (const Vec3d& x : {Vec3d(0.013, 0.51, -0.07), Vec3d(-0.061, 0.44, 0.033), Vec3d(0, 0.5, 0)}) {
+    const auto stencil = sampler.at(x);
+    ASSERT_TRUE(stencil);
+    EXPECT_NEAR(stencil->cover, 1, 1e-5);
+    EXPECT_NEAR(FieldSampler::mean(*stencil, values), linear(x), 1e-4);
+  }
+  EXPECT_FALSE(sampler.at({5, 5, 5}));
+  EXPECT_FALSE(sampler.at({std::nan(""), 0, 0}));
+}
+
+render::Frame frame_of_slice(const Moment& moment, std::size_t view, const SlicePlane& plane) {
+  render::Frame frame;
+  add_slice(moment.scene.views[view], moment.snapshot.fields, plane, 1000, frame);
+  return frame;
+}
+
+TEST(Slice, ArrowsStandOnNodesAndHaveTheirVelocity) {
+  const Moment moment = moment_of(all_fields);
+  const SliceStyle& slice = moment.scene.views[2].slice;
+  const SlicePlane plane = slice_plane(slice, 0, std::nullopt);
+  EXPECT_TRUE(plane.across.isApprox(Vec3d(1, 0, 0)));
+  EXPECT_TRUE(plane.up.isApprox(Vec3d(0, 1, 0)));
+  const render::Frame frame = frame_of_slice(moment, 2, plane);
+  ASSERT_EQ(frame.arrows.size(), 1u);
+  const render::Arrows& arrows = frame.arrows[0];
+  ASSERT_GT(arrows.position.size(), 30u);
+  const float h = moment.snapshot.fields.lattice->spacing;
+  for (std::size_t k = 0; k < arrows.position.size(); ++k) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const float cells = arrows.position[k][axis] / h;
+      EXPECT_NEAR(cells, std::round(cells), 1e-3);
+    }
+    EXPECT_NEAR(arrows.vector[k].x, 1, 1e-4);
+  }
+  ASSERT_EQ(frame.heat_maps.size(), 1u);
+  ASSERT_EQ(frame.labels.size(), 1u);
+  EXPECT_NE(frame.labels[0].text.find("z = 0 m"), std::string::npos) << frame.labels[0].text;
+}
+
+TEST(Slice, ArrowsStayApartOnThePicture) {
+  const Moment moment = moment_of(all_fields);
+  const SlicePlane plane = slice_plane(moment.scene.views[2].slice, 0, std::nullopt);
+  const auto distance = [&](double pixels_per_metre) {
+    render::Frame frame;
+    add_slice(moment.scene.views[2], moment.snapshot.fields, plane, pixels_per_metre, frame);
+    const auto& p = frame.arrows.at(0).position;
+    return static_cast<double>(length(p.at(1) - p.at(0))) * pixels_per_metre;
+  };
+  for (const double pixels_per_metre : {300.0, 700.0, 5000.0})
+    EXPECT_GE(distance(pixels_per_metre), 23.9) << pixels_per_metre;
+  // In metres no closer than nodes.
+  EXPECT_GT(distance(5000), 90);
+}
+
+TEST(Slice, AnyPlaneAndOneThatMissesTheSnow) {
+  const Moment moment = moment_of(all_fields);
+  SliceStyle slice = moment.scene.views[2].slice;
+  slice.normal = {1, 2, 3};
+  const SlicePlane tilted = slice_plane(slice, 0, std::nullopt);
+  EXPECT_NEAR(tilted.across.dot(tilted.normal), 0, 1e-12);
+  EXPECT_NEAR(tilted.up.dot(tilted.normal), 0, 1e-12);
+  EXPECT_GT(tilted.up.y(), 0);
+  const render::Frame frame = frame_of_slice(moment, 2, tilted);
+  ASSERT_FALSE(frame.arrows.empty());
+  for (const Vec3f& p : frame.arrows[0].position)
+    EXPECT_NEAR((Vec3d(p.x, p.y, p.z) - tilted.point).dot(tilted.normal), 0, 1e-5);
+  slice.point = Vec3d(0, 50, 0);
+  const render::Frame missed = frame_of_slice(moment, 2, slice_plane(slice, 0, std::nullopt));
+  EXPECT_TRUE(missed.arrows.empty());
+  EXPECT_TRUE(missed.lines.empty());
+}
+
+TEST(Slice, MovesAndFollows) {
+  SliceStyle slice;
+  slice.point = Vec3d(1, 2, 3);
+  slice.motion = {0, 0, 2};
+  EXPECT_TRUE(slice_plane(slice, 0.5, std::nullopt).point.isApprox(Vec3d(1, 2, 4)));
+  EXPECT_TRUE(slice_plane(slice, 0, Vec3d(7, 8, 9)).point.isApprox(Vec3d(8, 10, 12)));
+  slice.point.reset();
+  EXPECT_TRUE(slice_plane(slice, 0, Vec3d(7, 8, 9)).point.isApprox(Vec3d(7, 8, 9)));
+  slice.normal = {0, -1, 0};
+  const SlicePlane level = slice_plane(slice, 0, std::nullopt);
+  EXPECT_NEAR(level.across.norm(), 1, 1e-12);
+}
+
+TEST(Slice, IsBuiltInAndSetByItsName) {
+  const Scene none = read("");
+  EXPECT_EQ(none.views.size(), 1u);
+  const View slice = find_view(none, "slice");
+  EXPECT_TRUE(has_layer(slice, Layer::arrows));
+  EXPECT_FALSE(has_layer(slice, Layer::particles));
+  const Scene set = read("", {{"view.slice.slice.every", "3"}});
+  ASSERT_EQ(set.views.size(), 2u);
+  EXPECT_EQ(set.views[1].slice.every, 3);
+  EXPECT_TRUE(has_layer(set.views[1], Layer::arrows));
+  const Scene named = read("[[view]]\nname = \"slice\"\n");
+  EXPECT_EQ(named.views.at(0).layers, slice.layers);
+}
+
+TEST(Slice, MistakesAreLocated) {
+  const auto message = [](const std::string& slice) {
+    try {
+      read("[[view]]\nname = \"v\"\nlayers = [\"arrows\"]\nslice = { " + slice + " }\n");
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_NE(message("normal = [0, 0, 0]").find("normal is zero"), std::string::npos);
+  const std::string follow = message("follow = \"bal\"");
+  EXPECT_NE(follow.find("ball.toml:12:"), std::string::npos) << follow;
+  EXPECT_NE(follow.find("ball"), std::string::npos) << follow;
+  EXPECT_NE(message("field = \"speed\"").find("velocity"), std::string::npos);
+}
+
+TEST(Wires, SharedEdgesAreDrawnOnceAndJoined) {
+  render::NodeLattice lattice;
+  lattice.spacing = 0.25f;
+  lattice.block = {{0, 0, 0}};
+  EXPECT_EQ(block_lines(lattice, std::vector<float>(64, 1)).ends.size(), 2u * 12);
+  // Two blocks side by side: 4 long edges, and 8 across at three places minus the shared 4: 12.
+  lattice.block = {{0, 0, 0}, {0, 0, 1}};
+  EXPECT_EQ(block_lines(lattice, std::vector<float>(128, 1)).ends.size(), 2u * 16);
+  // A block without mass does not count.
+  std::vector<float> density(128, 1);
+  std::fill(density.begin() + 64, density.end(), 0.0f);
+  EXPECT_EQ(block_lines(lattice, density).ends.size(), 2u * 12);
+  render::Lines box;
+  append_box({0, 0, 0}, {1, 2, 3}, box);
+  EXPECT_EQ(box.ends.size(), 24u);
+}
+
+}  // namespace
+}  // namespace neve::app

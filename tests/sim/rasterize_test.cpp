@@ -1,0 +1,127 @@
+/// What pictures show of the grid is what the steps rasterise, and looking changes nothing.
+
+#include "sim/rasterize.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <map>
+
+#include "sim/staged.h"
+#include "tests/support/snow.h"
+
+namespace {
+
+using namespace neve;
+using namespace neve::sim;
+using namespace neve::test;
+
+constexpr double h = 0.02;
+
+ParticleArrays moving_cube() {
+  ParticleArrays in = box_of_snow(Vec3d(0, 0, 0), Vec3d(0.1, 0.1, 0.1), h / 2);
+  for (std::size_t p = 0; p < in.x.size(); ++p)
+    in.v[p] = Vec3d(1, -2, 0.5) + in.x[p].cross(Vec3d(3, 1, -2));
+  return in;
+}
+
+Simulation simulate(Transfer transfer, Precision precision, const ParticleArrays& in) {
+  SolverSettings settings;
+  settings.cell_size = h;
+  settings.transfer = transfer;
+  settings.precision = precision;
+  return Simulation(settings, {Material{}}, {}, in, 2);
+}
+
+using Node = std::array<int, 3>;
+
+std::map<Node, std::size_t> index_of(const RasterizedNodes& nodes) {
+  std::map<Node, std::size_t> index;
+  for (std::size_t b = 0; b < nodes.block.size(); ++b)
+    for (int n = 0; n < 64; ++n)
+      index[{4 * nodes.block[b].x() + n / 16, 4 * nodes.block[b].y() + n / 4 % 4,
+             4 * nodes.block[b].z() + n % 4}] = 64 * b + static_cast<std::size_t>(n);
+  return index;
+}
+
+class RasterizeTest : public testing::TestWithParam<std::tuple<Transfer, Precision>> {};
+
+TEST_P(RasterizeTest, IsWhatTheStagedStepRasterizes) {
+  const auto [transfer, precision] = GetParam();
+  Simulation simulation = simulate(transfer, precision, moving_cube());
+  for (int k = 0; k < 3; ++k) simulation.step(1e-4);
+  const std::uint64_t before = simulation.state_hash();
+  const RasterizedNodes nodes = rasterize(simulation);
+  EXPECT_EQ(simulation.state_hash(), before);
+  EXPECT_EQ(nodes.spacing, h);
+
+  // The staged step starts from the same particles with the same transfer, in the same order of
+  // storage (a sort comes with step 32 only): the same bits.
+  const StagedStep step = staged_step(simulation, 1e-4);
+  const auto index = index_of(nodes);
+  std::size_t with_mass = 0;
+  for (const double m : nodes.mass) with_mass += m > 0;
+  ASSERT_EQ(with_mass, step.nodes.node.size());
+  for (std::size_t n = 0; n < step.nodes.node.size(); ++n) {
+    const Vec3i at = step.nodes.node[n];
+    const auto found = index.find({at.x(), at.y(), at.z()});
+    ASSERT_NE(found, index.end());
+    EXPECT_EQ(nodes.mass[found->second], step.nodes.mass[n]);
+    // v_old is divided in the precision of the run, the velocity here in double.
+    const double rounding = precision == Precision::single ? 1e-6 : 1e-14;
+    EXPECT_LT((nodes.velocity[found->second] - step.nodes.v_old[n]).norm(), 10 * rounding);
+  }
+}
+
+TEST_P(RasterizeTest, MeansArePartitionsOfTheParticles) {
+  const auto [transfer, precision] = GetParam();
+  const ParticleArrays in = moving_cube();
+  const Simulation simulation = simulate(transfer, precision, in);
+  const std::size_t count = in.x.size();
+  std::vector<std::vector<double>> values(4, std::vector<double>(count, 2.5));
+  double moment = 0, mass = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    values[3][p] = 1 + 0.001 * static_cast<double>(p % 97);
+    moment += in.m[p] * values[3][p];
+    mass += in.m[p];
+  }
+  const RasterizedNodes nodes = rasterize(simulation, values);
+  ASSERT_EQ(nodes.mean.size(), 4u);
+  // Single precision adds 8^3 numbers per node: some tens of roundings of 6e-8.
+  const double rounding = precision == Precision::single ? 3e-6 : 1e-13;
+  double rasterized_moment = 0, rasterized_mass = 0;
+  for (std::size_t n = 0; n < nodes.mass.size(); ++n) {
+    if (nodes.mass[n] == 0) continue;
+    EXPECT_NEAR(nodes.mean[0][n], 2.5, 2.5 * rounding);
+    EXPECT_NEAR(nodes.mean[2][n], 2.5, 2.5 * rounding);
+    rasterized_moment += nodes.mass[n] * nodes.mean[3][n];
+    rasterized_mass += nodes.mass[n];
+  }
+  EXPECT_NEAR(rasterized_mass, mass, mass * rounding);
+  EXPECT_NEAR(rasterized_moment, moment, moment * rounding);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RasterizeTest,
+                         testing::Combine(testing::Values(Transfer::flip, Transfer::apic,
+                                                          Transfer::mls),
+                                          testing::Values(Precision::single, Precision::real64)));
+
+TEST(Rasterize, BlocksAreSortedAndAroundTheParticles) {
+  const Simulation simulation = simulate(Transfer::flip, Precision::single, moving_cube());
+  const RasterizedNodes nodes = rasterize(simulation);
+  ASSERT_FALSE(nodes.block.empty());
+  ASSERT_EQ(nodes.mass.size(), 64 * nodes.block.size());
+  const auto key = [](const Vec3i& b) { return Node{b.x(), b.y(), b.z()}; };
+  for (std::size_t b = 1; b < nodes.block.size(); ++b)
+    EXPECT_LT(key(nodes.block[b - 1]), key(nodes.block[b]));
+}
+
+TEST(Rasterize, NothingComesFromNothingAndLengthsAreChecked) {
+  const Simulation empty = simulate(Transfer::flip, Precision::single, {});
+  EXPECT_TRUE(rasterize(empty).block.empty());
+  const Simulation snow = simulate(Transfer::flip, Precision::single, moving_cube());
+  EXPECT_THROW(rasterize(snow, {{1.0, 2.0}}), std::invalid_argument);
+}
+
+}  // namespace
