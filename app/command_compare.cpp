@@ -34,16 +34,20 @@ int compare_pictures(const CompareOptions& options) {
                     std::to_string(b.height),
                 options.b);
   const render::Difference difference = render::compare(a, b);
-  const bool is_same = difference.mean <= options.threshold;
+  const bool is_same =
+      difference.mean <= options.threshold && difference.local <= options.local_threshold;
   if (options.is_json) {
     std::cout << to_text({{"same", is_same},
                           {"max", difference.max},
                           {"mean", difference.mean},
-                          {"threshold", options.threshold}})
+                          {"local", difference.local},
+                          {"threshold", options.threshold},
+                          {"local_threshold", options.local_threshold}})
               << "\n";
   } else {
     std::cout << "max " << fixed_text(difference.max, 0) << "  mean "
-              << fixed_text(difference.mean, 4) << "  of 255\n";
+              << fixed_text(difference.mean, 4) << "  local "
+              << fixed_text(difference.local, 2) << "  of 255\n";
   }
   return is_same ? exit_ok : exit_check_failed;
 }

@@ -154,6 +154,11 @@ void add_compare(CLI::App& app, Action& action) {
                    "Mean difference of pictures that is allowed, 0 to 255")
       ->type_name("MEAN")
       ->capture_default_str();
+  command
+      ->add_option("--local-threshold", options->local_threshold,
+                   "The same of every square of 8x8 pixels: finds the part that is another one")
+      ->type_name("MEAN")
+      ->capture_default_str();
   command->add_flag("--json", options->is_json, "Print the result as JSON");
   command->final_callback([=, &action] { action = [options] { return run_compare(*options); }; });
 }

@@ -31,7 +31,8 @@ struct RenderOptions {
 
 struct CompareOptions {
   std::string a, b;
-  double threshold = 0;  ///< of the mean difference, 0 to 255
+  double threshold = 0;          ///< of the mean difference, 0 to 255
+  double local_threshold = 255;  ///< of the mean over any 8x8 pixels
   bool is_json = false;
 };
 

@@ -141,9 +141,9 @@ void add_heat_map(const SliceStyle& slice, const NodeFields& fields, const Slice
   frame.heat_maps.push_back(std::move(map));
 }
 
-/// Three digits, and no minus before a zero.
-std::string short_number(double x) {
-  const double rounded = std::round(x * 1000) / 1000;
+/// So many digits after the point, and no minus before a zero.
+std::string short_number(double x, double parts = 1000) {
+  const double rounded = std::round(x * parts) / parts;
   return number_text(rounded == 0 ? 0 : rounded);
 }
 
@@ -152,8 +152,8 @@ std::string describe_place(const SlicePlane& plane) {
   if (axis >= 0)
     return std::string(1, "xyz"[axis]) + " = " + short_number(plane.point[axis]) + " m";
   const auto triple = [](const Vec3d& v) {
-    return "(" + short_number(v.x()) + ", " + short_number(v.y()) + ", " + short_number(v.z()) +
-           ")";
+    return "(" + short_number(v.x(), 100) + ", " + short_number(v.y(), 100) + ", " +
+           short_number(v.z(), 100) + ")";
   };
   return "plane through " + triple(plane.point) + " m, normal " + triple(plane.normal);
 }
@@ -170,7 +170,8 @@ void add_frame(const SlicePlane& plane, const Rectangle& r, const std::string& w
     lines.ends.push_back(corner[(k + 1) % 4]);
   }
   frame.lines.push_back(std::move(lines));
-  frame.labels.push_back({corner[3], words});
+  // On the right: the caption is in the upper left corner of the picture.
+  frame.labels.push_back({corner[2], words, true});
 }
 
 void add_legend(const AttributeName& name, render::ColorMap colormap, const Range& range,

@@ -80,10 +80,11 @@ struct Lines {
   float width = 1.25f;  ///< pixels of the finished picture
 };
 
-/// Words beside a place in space.
+/// Words above a place in space.
 struct Label {
   Vec3f position;  ///< m
   std::string text;
+  bool ends_here = false;  ///< the text ends at the place instead of starting there
 };
 
 /// A solid triangle mesh, flat or smooth by its normals.

@@ -155,15 +155,36 @@ PngText read_png_text(std::span<const std::uint8_t> bytes) {
 
 Difference compare(const Image& a, const Image& b) {
   check_comparable(a, b);
+  constexpr int square = 8;
+  const int across = (a.width + square - 1) / square, down = (a.height + square - 1) / square;
+  std::vector<std::uint64_t> sums(static_cast<std::size_t>(across) *
+                                  static_cast<std::size_t>(down));
   std::uint64_t sum = 0;
   int largest = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    const int difference = std::abs(int{a.pixels[i]} - int{b.pixels[i]});
-    largest = std::max(largest, difference);
-    sum += static_cast<std::uint64_t>(difference);
-  }
-  return {static_cast<double>(largest),
-          static_cast<double>(sum) / static_cast<double>(a.pixels.size())};
+  std::size_t i = 0;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x) {
+      std::uint64_t of_pixel = 0;
+      for (int c = 0; c < a.channels; ++c, ++i) {
+        const int difference = std::abs(int{a.pixels[i]} - int{b.pixels[i]});
+        largest = std::max(largest, difference);
+        of_pixel += static_cast<std::uint64_t>(difference);
+      }
+      sums[static_cast<std::size_t>(y / square * across + x / square)] += of_pixel;
+      sum += of_pixel;
+    }
+  Difference out;
+  out.max = static_cast<double>(largest);
+  out.mean = static_cast<double>(sum) / static_cast<double>(a.pixels.size());
+  for (int row = 0; row < down; ++row)
+    for (int column = 0; column < across; ++column) {
+      const int width = std::min(square, a.width - column * square);
+      const int height = std::min(square, a.height - row * square);
+      out.local = std::max(
+          out.local, static_cast<double>(sums[static_cast<std::size_t>(row * across + column)]) /
+                         (width * height * a.channels));
+    }
+  return out;
 }
 
 Image difference_image(const Image& a, const Image& b) {

@@ -29,9 +29,12 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text = {
 Image decode_png(std::span<const std::uint8_t> bytes);
 PngText read_png_text(std::span<const std::uint8_t> bytes);
 
-/// Largest and mean absolute difference over all channels, 0 to 255.
+/// Absolute difference over all channels, 0 to 255.
 struct Difference {
   double max = 0, mean = 0;
+  /// The largest mean over a square of 8x8 pixels: high where a part of the picture is another one,
+  /// though the mean of all is not; low where single pixels at edges differ.
+  double local = 0;
 };
 /// @throws ImageError when the sizes differ
 Difference compare(const Image& a, const Image& b);

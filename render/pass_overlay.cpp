@@ -131,12 +131,14 @@ void OverlayPass::draw_labels(const Frame& frame, const View& view) const {
     const Vec3f p = view.project(label.position);
     if (!(p.z > 0)) continue;
     const float height = static_cast<float>(view.height), width = static_cast<float>(view.width);
-    const float text = text_width(font, label.text);
+    const std::string text = elide(font, label.text, width - 2 * margin);
+    const float text_size = text_width(font, text);
     // Above its place, and kept on the picture as long as the place itself is.
     if (p.x < 0 || p.x > width || p.y < 0 || p.y > height) continue;
-    const float left = std::clamp(p.x, margin, std::max(margin, width - text - margin));
+    const float wanted = label.ends_here ? p.x - text_size : p.x;
+    const float left = std::clamp(wanted, margin, std::max(margin, width - text_size - margin));
     const float top = std::max(margin, height - p.y - 1.35f * font.FontSize);
-    draw_text(font, ImVec2(left, top), soft, label.text);
+    draw_text(font, ImVec2(left, top), soft, text);
   }
 }
 

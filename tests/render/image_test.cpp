@@ -128,5 +128,18 @@ TEST(Compare, MeasuresLargestAndMeanDifference) {
   EXPECT_THROW(compare(a, noise(1, 2, 3)), ImageError);
 }
 
+TEST(Compare, FindsTheSquareThatDiffersMost) {
+  Image a{40, 20, 3, std::vector<std::uint8_t>(40 * 20 * 3, 100)};
+  Image b = a;
+  EXPECT_EQ(compare(a, b).local, 0);
+  // All of the narrow square in the lower right corner, which is 8 wide and 4 high.
+  for (int y = 16; y < 20; ++y)
+    for (int x = 32; x < 40; ++x)
+      for (int c = 0; c < 3; ++c) b.pixels[static_cast<std::size_t>(3 * (y * 40 + x) + c)] = 130;
+  EXPECT_DOUBLE_EQ(compare(a, b).local, 30);
+  EXPECT_DOUBLE_EQ(compare(a, b).mean, 30.0 * 32 / 800);
+  EXPECT_EQ(compare(a, b).max, 30);
+}
+
 }  // namespace
 }  // namespace neve::render
