@@ -85,6 +85,12 @@ Range density_range(const Scene& scene) {
 
 }  // namespace
 
+double impact_speed(const Scene& scene) {
+  double speed = 0;
+  for (const sim::Body& body : scene.bodies) speed = std::max(speed, impact_speed(scene, body));
+  return speed;
+}
+
 Range automatic_range(const Scene& scene, ColorBy color_by, std::size_t particle_count) {
   // Packed snow is stiffer than the rest by about this factor.
   constexpr double hardened = 2;
@@ -92,8 +98,7 @@ Range automatic_range(const Scene& scene, ColorBy color_by, std::size_t particle
     case ColorBy::snow:
       break;
     case ColorBy::speed: {
-      double speed = 0;
-      for (const sim::Body& body : scene.bodies) speed = std::max(speed, impact_speed(scene, body));
+      const double speed = impact_speed(scene);
       return {0, speed > 0 ? round_up(speed) : 1};
     }
     case ColorBy::density:

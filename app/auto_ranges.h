@@ -9,6 +9,9 @@ namespace neve::app {
 /// @param particle_count of the whole scene
 Range automatic_range(const Scene& scene, ColorBy color_by, std::size_t particle_count);
 
+/// m/s: speed of the quickest body when it meets what is below it, or at the end of the scene.
+double impact_speed(const Scene& scene);
+
 /// Of a field on nodes.
 Range automatic_range(const Scene& scene, ScalarField field);
 Range automatic_range(const Scene& scene, VectorField field);  ///< of its magnitude

@@ -88,30 +88,50 @@ void add_repeatable(CLI::App& command, const char* flag, std::vector<std::string
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+/// Which scene, and how it is changed: what all commands take that read one.
+void add_scene(CLI::App& command, const std::shared_ptr<RenderOptions>& options,
+               const std::shared_ptr<RenderTexts>& texts) {
+  command
+      .add_option("SCENE", options->scene,
+                  "Scene file (TOML), or a picture made by neve: that frame and view again; "
+                  "without it the default scene, a falling snowball")
+      ->type_name("");
+  add_repeatable(command, "--set", options->overrides, "ADDRESS=VALUE",
+                 "Change a parameter, as in material.snow.hardening=5 (repeatable; neve params "
+                 "lists addresses)");
+  command
+      .add_option("--coarsen", texts->coarsening,
+                  "Cells N times as large, for looking and tuning: 1/N^3 of the particles and "
+                  "longer steps, about N^4 times cheaper")
+      ->type_name("N");
+  command.add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
+}
+
+void add_check(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "check",
+      "What a scene will cost, which limits rule its steps, what looks wrong; runs nothing "
+      "but a few steps and a coarse copy");
+  const auto options = std::make_shared<RenderOptions>();
+  const auto texts = std::make_shared<RenderTexts>();
+  add_scene(*command, options, texts);
+  command->add_flag("--json", options->is_json, "Print JSON");
+  command->final_callback([=, &action] {
+    action = [options, texts] { return run_check(finished(*options, *texts)); };
+  });
+}
+
 void add_render(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("render", "Simulate a scene and draw its frames");
   const auto options = std::make_shared<RenderOptions>();
   const auto texts = std::make_shared<RenderTexts>();
-  command
-      ->add_option("SCENE", options->scene,
-                   "Scene file (TOML), or a picture made by neve: that frame and view again; "
-                   "without it the default scene, a falling snowball")
-      ->type_name("");
-  add_repeatable(*command, "--set", options->overrides, "ADDRESS=VALUE",
-                 "Change a parameter, as in material.snow.hardening=5 (repeatable; neve params "
-                 "lists addresses)");
-  command
-      ->add_option("--coarsen", texts->coarsening,
-                   "Cells N times as large, for looking and tuning: 1/N^3 of the particles and "
-                   "longer steps, about N^4 times cheaper")
-      ->type_name("N");
+  add_scene(*command, options, texts);
   command->add_option("--frames", texts->frames, "Frames to draw: A-B, or N for 0-N")
       ->type_name("A-B");
   add_repeatable(*command, "--view", options->views, "NAME", "Draw only this view (repeatable)");
   command->add_option("--size", texts->size, "Picture size of all views")->type_name("WxH");
   command->add_option("--out", options->out, "Output folder instead of out/<scene name>")
       ->type_name("DIR");
-  command->add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
   command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
       ->type_name("NAME");
   command
@@ -290,6 +310,7 @@ int run_command_line(int argc, char** argv) {
   CLI::App app("neve simulates snow and draws it, without a window.", "neve");
   Action action;
   add_render(app, action);
+  add_check(app, action);
   add_report(app, action, "doctor", "Which OpenGL backends work here, and why others do not",
              run_doctor);
   add_info(app, action);

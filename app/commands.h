@@ -48,6 +48,8 @@ struct BenchOptions {
 };
 
 int run_render(const RenderOptions& options);
+/// Reads only what says which scene: scene, overrides, coarsening, threads.
+int run_check(const RenderOptions& options);
 int run_compare(const CompareOptions& options);
 int run_bench_sim(const BenchOptions& options);
 int run_bench_frame(const BenchOptions& options);

@@ -260,6 +260,12 @@ void Engine<Real>::step(double dt) {
 }
 
 template <class Real>
+Simulation::StepLimits Engine<Real>::step_limits() const {
+  return {limits_on_dt(settings_, limits_), limits_.max_speed, limits_.max_sound_speed,
+          limits_.max_strain_rate};
+}
+
+template <class Real>
 Simulation::Choice Engine<Real>::choose_dt(double remaining) const {
   return sim::choose_dt(settings_, limits_, remaining);
 }

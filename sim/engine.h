@@ -63,6 +63,7 @@ class Engine {
   StagedStep staged_step(double dt) const;
   RasterizedNodes rasterize(const std::vector<std::vector<double>>& values) const;
   Simulation::Choice choose_dt(double remaining) const;
+  Simulation::StepLimits step_limits() const;
 
   double time() const { return time_; }
   std::size_t steps() const { return steps_; }

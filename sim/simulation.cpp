@@ -75,6 +75,9 @@ AdvanceReport Simulation::advance_to(double time, bool (*interrupted)()) {
 Simulation::Choice Simulation::choose_dt(double remaining) const {
   return impl_->visit([&](const auto& e) { return e.choose_dt(remaining); });
 }
+Simulation::StepLimits Simulation::step_limits() const {
+  return impl_->visit([](const auto& e) { return e.step_limits(); });
+}
 const std::optional<Divergence>& Simulation::divergence() const {
   return impl_->visit(
       [](const auto& e) -> const std::optional<Divergence>& { return e.divergence(); });

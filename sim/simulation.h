@@ -117,6 +117,15 @@ class Simulation {
   };
   Choice choose_dt(double remaining) const;
 
+  /// What each limit would allow now, whatever the settings say about fixed steps, and why.
+  struct StepLimits {
+    std::array<double, dt_limit_count> dt{};  ///< s; infinite where a limit says nothing
+    double max_speed = 0;                     ///< m/s
+    double max_sound_speed = 0;               ///< m/s, of the stiffest particle, hardened
+    double max_strain_rate = 0;               ///< 1/s
+  };
+  StepLimits step_limits() const;
+
   /// Set once a rule of a healthy run was broken.
   const std::optional<Divergence>& divergence() const;
   const Warnings& warnings() const;

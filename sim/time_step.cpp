@@ -45,16 +45,24 @@ Simulation::Choice choose_dt(const SolverSettings& s, const StateLimits& limits,
     if (remaining <= s.dt * slack) return {remaining, DtLimit::frame_end};
     return {s.dt, DtLimit::fixed};
   }
-  Simulation::Choice best{s.max_dt, DtLimit::max_dt};
-  const auto consider = [&](double dt, DtLimit limit) {
-    if (dt < best.dt) best = {dt, limit};
-  };
-  consider(ratio(s.cfl * s.cell_size, limits.max_speed), DtLimit::cfl);
-  consider(acoustic_dt(s, limits), DtLimit::acoustic);
-  consider(ratio(s.strain_limit, limits.max_strain_rate), DtLimit::strain);
+  const std::array<double, dt_limit_count> allowed = limits_on_dt(s, limits);
+  const auto least = std::min_element(allowed.begin(), allowed.end());
+  const Simulation::Choice best{*least, static_cast<DtLimit>(least - allowed.begin())};
   if (remaining <= best.dt * slack) return {remaining, DtLimit::frame_end};
   if (remaining < 2 * best.dt) return {0.5 * remaining, DtLimit::frame_end};
   return best;
+}
+
+std::array<double, dt_limit_count> limits_on_dt(const SolverSettings& s,
+                                                const StateLimits& limits) {
+  std::array<double, dt_limit_count> dt;
+  dt.fill(unlimited);
+  const auto of = [&](DtLimit limit) -> double& { return dt[static_cast<std::size_t>(limit)]; };
+  of(DtLimit::max_dt) = s.max_dt;
+  of(DtLimit::cfl) = ratio(s.cfl * s.cell_size, limits.max_speed);
+  of(DtLimit::acoustic) = acoustic_dt(s, limits);
+  of(DtLimit::strain) = ratio(s.strain_limit, limits.max_strain_rate);
+  return dt;
 }
 
 double stable_dt(const SolverSettings& s, const StateLimits& limits) {

@@ -1,6 +1,8 @@
 #pragma once
 /// The limits on dt, and which one rules.
 
+#include <array>
+
 #include "sim/settings.h"
 #include "sim/simulation.h"
 
@@ -18,6 +20,10 @@ struct StateLimits {
 /// frame; the last two steps before it share what is left, so that none is tiny.
 Simulation::Choice choose_dt(const SolverSettings& settings, const StateLimits& limits,
                              double remaining);
+
+/// dt that each limit allows, infinite for those that say nothing of a state (fixed, frame_end).
+std::array<double, dt_limit_count> limits_on_dt(const SolverSettings& settings,
+                                                const StateLimits& limits);
 
 /// The largest dt that speed and sound allow now, whatever the settings say about fixed steps.
 double stable_dt(const SolverSettings& settings, const StateLimits& limits);

@@ -1,0 +1,157 @@
+#include "app/check/checkup.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "app/auto_ranges.h"
+#include "app/check/findings.h"
+#include "app/interrupt.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/error.h"
+#include "app/seed_scene.h"
+#include "app/text.h"
+
+namespace neve::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A coarse copy large enough to yield as the scene does.
+constexpr double coarse_particles_wanted = 1500;
+constexpr double coarse_seconds = 2;
+constexpr double calibration_seconds = 1;
+constexpr int calibration_steps = 40;
+/// Above this many particles seeding alone takes too long for a look.
+constexpr double most_seeded = 3e6;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+sim::Simulation simulate(const Scene& scene, const sim::ParticleArrays& particles, int threads) {
+  return sim::Simulation(scene.solver, scene.materials, scene.colliders, particles, threads);
+}
+
+/// The median of some steps, after two that warm caches up.
+double measure_step(sim::Simulation& simulation, double frame) {
+  std::vector<double> seconds;
+  const auto start = Clock::now();
+  for (int k = 0; k < calibration_steps && seconds_since(start) < calibration_seconds; ++k) {
+    const auto before = Clock::now();
+    simulation.step(simulation.choose_dt(frame).dt);
+    if (k >= 2) seconds.push_back(seconds_since(before));
+    if (simulation.divergence() || is_interrupted()) break;
+  }
+  if (seconds.empty()) return 0;
+  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
+  std::nth_element(seconds.begin(), middle, seconds.end());
+  return *middle;
+}
+
+/// The steps of a frame at the scene's resolution, from the extremes that a coarse run had.
+FrameForecast foresee(const Scene& scene, int frame, const sim::Simulation::StepLimits& coarse,
+                      double coarse_cell) {
+  sim::StateLimits limits;
+  limits.max_speed = coarse.max_speed;
+  limits.max_sound_speed = coarse.max_sound_speed;
+  // The same difference of velocity over smaller cells.
+  limits.max_strain_rate = coarse.max_strain_rate * coarse_cell / scene.solver.cell_size;
+  for (const sim::Material& m : scene.materials)
+    limits.max_hardening = std::max(limits.max_hardening, m.hardening);
+  const sim::Simulation::Choice choice = sim::choose_dt(scene.solver, limits, 1e9);
+  const double duration = 1 / scene.fps;
+  FrameForecast forecast{frame, choice.dt, std::ceil(duration / choice.dt), choice.limit};
+  if (choice.dt >= duration) forecast.limit = sim::DtLimit::frame_end;
+  return forecast;
+}
+
+/// A copy of the scene that runs in a moment; the largest factor that leaves every body something.
+std::optional<Scene> coarse_copy(const Scene& scene, double particles) {
+  double factor = std::max(1.0, std::cbrt(particles / coarse_particles_wanted));
+  while (true) {
+    Scene copy = scene;
+    try {
+      coarsen(copy, factor);
+      return copy;
+    } catch (const UsageError&) {
+      if (factor == 1) return std::nullopt;
+      factor = std::max(1.0, 0.7 * factor);
+    }
+  }
+}
+
+void foresee_frames(const Scene& scene, Checkup& checkup) {
+  const std::optional<Scene> coarse = coarse_copy(scene, checkup.plan.particles);
+  if (!coarse) return;
+  const sim::ParticleArrays particles = seed_scene(*coarse);
+  checkup.coarse_particles = static_cast<double>(particles.x.size());
+  sim::Simulation simulation = simulate(*coarse, particles, 1);
+  const auto start = Clock::now();
+  sim::Simulation::StepLimits worst = simulation.step_limits();
+  for (int frame = 1; frame <= scene.frames; ++frame) {
+    // The frame's start and end both count; where time runs out the last frames are as the one
+    // before.
+    if (!simulation.divergence() && seconds_since(start) < coarse_seconds && !is_interrupted()) {
+      const sim::Simulation::StepLimits before = simulation.step_limits();
+      simulation.advance_to(frame / scene.fps, is_interrupted);
+      worst = simulation.step_limits();
+      worst.max_speed = std::max(worst.max_speed, before.max_speed);
+      worst.max_sound_speed = std::max(worst.max_sound_speed, before.max_sound_speed);
+      worst.max_strain_rate = std::max(worst.max_strain_rate, before.max_strain_rate);
+    }
+    checkup.forecast.push_back(foresee(scene, frame, worst, coarse->solver.cell_size));
+  }
+  if (simulation.divergence())
+    checkup.findings.push_back({Severity::warning, "",
+                                "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) +
+                                    " m diverges: " + simulation.divergence()->sentence,
+                                "run the scene itself to see whether it does too"});
+}
+
+}  // namespace
+
+double Checkup::steps() const {
+  double sum = 0;
+  for (const FrameForecast& frame : forecast) sum += frame.steps;
+  return sum;
+}
+
+double Checkup::seconds() const {
+  return steps() * seconds_per_step;
+}
+
+Checkup examine(const Scene& scene, const Plan& plan, int threads) {
+  Checkup checkup;
+  checkup.plan = plan;
+  checkup.cells = plan.volume / std::pow(scene.solver.cell_size, 3);
+  checkup.impact_speed = impact_speed(scene);
+  check_units(scene, checkup.findings);
+  check_resolution(scene, checkup.findings);
+  if (plan.particles <= most_seeded && plan.memory <= plan.memory_limit) {
+    std::vector<std::size_t> body_end;
+    const sim::ParticleArrays particles = seed_scene(scene, &body_end);
+    checkup.plan.particles = static_cast<double>(particles.x.size());
+    check_overlaps(scene, particles, body_end, checkup.findings);
+    sim::Simulation simulation = simulate(scene, particles, threads);
+    checkup.start = simulation.step_limits();
+    const sim::Simulation::Choice choice = simulation.choose_dt(1 / scene.fps);
+    checkup.dt_start = choice.dt;
+    checkup.limit_start = choice.limit;
+    checkup.seconds_per_step = measure_step(simulation, 1 / scene.fps);
+    check_steps(scene, checkup, checkup.findings);
+  } else {
+    checkup.findings.push_back({Severity::note, "",
+                                "too large to be seeded for a look: overlaps, dt and time per step "
+                                "are not known",
+                                "neve check with --coarsen 2 tells more"});
+  }
+  foresee_frames(scene, checkup);
+  check_cameras(scene, dry_run(scene), checkup.findings);
+  std::stable_sort(checkup.findings.begin(), checkup.findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+  return checkup;
+}
+
+}  // namespace neve::app

@@ -1,0 +1,299 @@
+#include "app/check/findings.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/scene/value.h"
+#include "app/text.h"
+#include "sim/solid.h"
+#include "sim/time_step.h"
+
+namespace neve::app {
+
+namespace {
+
+using sim::Vec3d;
+
+constexpr double ice = 917;  // kg/m3
+
+std::string percent(double share) {
+  return fixed_text(100 * share, share < 0.1 ? 1 : 0) + " %";
+}
+
+/// Three significant digits.
+std::string rough(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
+}
+
+Vec3d extent(const sim::Shape& shape) {
+  const sim::Bounds box = sim::bounds(shape);
+  return box.max - box.min;
+}
+
+bool is_plane(const sim::Shape& shape) {
+  return std::holds_alternative<sim::Plane>(shape.form);
+}
+
+/// The thinnest part of a shape, m.
+double thickness(const sim::Shape& shape) {
+  if (const auto* box = std::get_if<sim::Box>(&shape.form)) return box->size.minCoeff();
+  if (const auto* torus = std::get_if<sim::Torus>(&shape.form)) return 2 * torus->minor_radius;
+  return extent(shape).minCoeff();
+}
+
+void check_material_units(const sim::Material& m, std::vector<Finding>& findings) {
+  const std::string at = "material." + m.name + ".";
+  if (m.density > 0.03 && m.density < 2)
+    findings.push_back({Severity::warning, at + "density",
+                        "density " + rough(m.density) + " kg/m3 is lighter than foam",
+                        "in g/cm3 it would be " + rough(1000 * m.density) + " kg/m3"});
+  else if (m.density < 20 || m.density > 1.3 * ice)
+    findings.push_back({Severity::warning, at + "density",
+                        "density " + rough(m.density) + " kg/m3 is no snow: 50 to 917",
+                        "powder has 50 to 200, packed snow 300 to 550"});
+  if (m.youngs_modulus < 2000)
+    findings.push_back({Severity::warning, at + "youngs_modulus",
+                        "youngs_modulus " + rough(m.youngs_modulus) + " Pa is softer than jelly",
+                        "in kPa it would be " + rough(1000 * m.youngs_modulus) +
+                            " Pa; the paper's snow has 1.4e5"});
+  else if (m.youngs_modulus > 1e8)
+    findings.push_back({Severity::warning, at + "youngs_modulus",
+                        "youngs_modulus " + rough(m.youngs_modulus) + " Pa makes sound run at " +
+                            rough(sim::sound_speed(m)) + " m/s",
+                        "steps shorten with its root; the paper's snow has 1.4e5"});
+}
+
+/// Nothing to find where the speed of every cell is its own: bodies share cells when they overlap.
+using Cell = std::array<long, 3>;
+
+std::map<Cell, std::map<std::size_t, int>> bodies_in_cells(
+    const Scene& scene, const sim::ParticleArrays& particles,
+    const std::vector<std::size_t>& body_end) {
+  const double h = scene.solver.cell_size;
+  std::map<Cell, std::map<std::size_t, int>> cells;
+  std::size_t first = 0;
+  for (std::size_t body = 0; body < body_end.size(); ++body) {
+    for (std::size_t p = first; p < body_end[body]; ++p) {
+      const Vec3d& x = particles.x[p];
+      ++cells[{std::lround(std::floor(x.x() / h)), std::lround(std::floor(x.y() / h)),
+               std::lround(std::floor(x.z() / h))}][body];
+    }
+    first = body_end[body];
+  }
+  return cells;
+}
+
+bool boxes_touch(const sim::Shape& a, const sim::Shape& b) {
+  const sim::Bounds p = sim::bounds(a), q = sim::bounds(b);
+  return (p.min.array() < q.max.array()).all() && (q.min.array() < p.max.array()).all();
+}
+
+void check_body_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
+                         const std::vector<std::size_t>& body_end, std::vector<Finding>& findings) {
+  bool may_overlap = false;
+  for (std::size_t a = 0; a < scene.bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < scene.bodies.size(); ++b)
+      may_overlap = may_overlap || boxes_touch(scene.bodies[a].shape, scene.bodies[b].shape);
+  if (!may_overlap) return;
+  // In a cell that both fill, each has most of the particles that it has where it is alone.
+  std::map<std::pair<std::size_t, std::size_t>, double> shared;
+  for (const auto& [cell, counts] : bodies_in_cells(scene, particles, body_end))
+    for (auto a = counts.begin(); a != counts.end(); ++a)
+      for (auto b = std::next(a); b != counts.end(); ++b) {
+        const double in_a = a->second / scene.bodies[a->first].particles_per_cell;
+        const double in_b = b->second / scene.bodies[b->first].particles_per_cell;
+        if (in_a + in_b > 1.5) shared[{a->first, b->first}] += std::min(in_a, in_b);
+      }
+  for (const auto& [pair, cells] : shared) {
+    if (cells < 1) continue;
+    findings.push_back({Severity::warning, "body." + scene.bodies[pair.second].name + ".shape",
+                        scene.bodies[pair.first].name + " and " + scene.bodies[pair.second].name +
+                            " overlap in about " + rough(cells) +
+                            " cells: twice the mass there, which will burst",
+                        "move them apart"});
+  }
+}
+
+bool is_inside(const sim::Shape& shape, const sim::Solid* solid, const Vec3d& x) {
+  if (const auto* plane = std::get_if<sim::Plane>(&shape.form)) {
+    const sim::Vec3d normal = sim::rotation_from_degrees(shape.rotation) * plane->normal;
+    return (x - plane->point).dot(normal) < 0;
+  }
+  return solid && solid->contains(x);
+}
+
+void check_collider_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
+                             const std::vector<std::size_t>& body_end,
+                             std::vector<Finding>& findings) {
+  for (const sim::Collider& collider : scene.colliders) {
+    const auto solid =
+        is_plane(collider.shape) ? nullptr : std::make_unique<sim::Solid>(collider.shape);
+    std::size_t first = 0;
+    for (std::size_t body = 0; body < body_end.size(); ++body) {
+      std::size_t inside = 0;
+      for (std::size_t p = first; p < body_end[body]; ++p)
+        inside += is_inside(collider.shape, solid.get(), particles.x[p]);
+      const double count = static_cast<double>(body_end[body] - first);
+      first = body_end[body];
+      if (inside == 0) continue;
+      findings.push_back({Severity::warning, "body." + scene.bodies[body].name + ".shape",
+                          percent(static_cast<double>(inside) / count) + " of " +
+                              scene.bodies[body].name + " starts inside collider " + collider.name,
+                          "move it out: contact stops snow at surfaces, it does not push it out"});
+    }
+  }
+}
+
+void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
+                       std::vector<Finding>& findings) {
+  const double h = s.cell_size;
+  const auto report = [&](Severity severity, double cfl, const char* what, double holds) {
+    findings.push_back({severity, "solver.dt",
+                        "fixed steps of " + rough(s.dt) + " s: " + what + " crosses " + rough(cfl) +
+                            " cells in a step" +
+                            (severity == Severity::error ? ", the run will explode" : ""),
+                        "solver.dt = " + rough(holds) + " holds, or time_step = \"adaptive\""});
+  };
+  const double sound = checkup.start.max_sound_speed * s.dt / h;
+  const double speed = checkup.impact_speed * s.dt / h;
+  if (sound > 0.5)
+    report(sound > 1.5 ? Severity::error : Severity::warning, sound, "sound",
+           0.5 * h / checkup.start.max_sound_speed);
+  if (speed > 0.5)
+    report(speed > 1 ? Severity::error : Severity::warning, speed, "snow at impact",
+           s.cfl * h / checkup.impact_speed);
+}
+
+void check_damping(const Scene& scene, const Checkup& checkup, std::vector<Finding>& findings) {
+  const sim::SolverSettings& s = scene.solver;
+  if (s.transfer != sim::Transfer::flip) return;
+  const double frame = 1 / scene.fps;
+  const double steps = std::max(1.0, frame / std::max(checkup.dt_start, 1e-12));
+  const double kept = std::pow(sim::flip_share(s, frame / steps), steps);
+  if (s.flip_reference_dt == 0)
+    findings.push_back({Severity::warning, "solver.flip_reference_dt",
+                        "flip_ratio acts per step: with about " + rough(steps) + " steps a frame " +
+                            percent(kept) +
+                            " of the finest motion is left, and less with smaller steps",
+                        "flip_reference_dt = 5e-4 makes damping independent of dt"});
+  else
+    findings.push_back({Severity::note, "solver.flip_ratio",
+                        percent(kept) + " of the finest motion (a cell or less) is left after a "
+                                        "frame; motion of the whole body is not damped",
+                        ""});
+}
+
+/// Share of a moment's particles that a camera does not see.
+double share_outside(const CameraSettings& camera, double aspect, const Moment& moment) {
+  const Vec3d forward = (*camera.target - *camera.eye).normalized();
+  const Vec3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);
+  const double half = std::tan(0.5 * camera.fov * 3.14159265358979323846 / 180);
+  std::size_t outside = 0;
+  for (const Vec3d& x : moment.x) {
+    const Vec3d d = x - *camera.eye;
+    const double z = d.dot(forward);
+    const bool is_seen =
+        z > 0 && std::abs(d.dot(up)) < half * z && std::abs(d.dot(right)) < half * aspect * z;
+    outside += !is_seen;
+  }
+  return moment.x.empty() ? 0 : static_cast<double>(outside) / static_cast<double>(moment.x.size());
+}
+
+}  // namespace
+
+void check_units(const Scene& scene, std::vector<Finding>& findings) {
+  for (const sim::Material& material : scene.materials) {
+    const bool is_used =
+        std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                    [&](const sim::Body& body) { return body.material == material.name; });
+    if (is_used) check_material_units(material, findings);
+  }
+  const double g = scene.solver.gravity.norm();
+  if (g > 60)
+    findings.push_back(
+        {Severity::warning, "solver.gravity",
+         "gravity of " + rough(g) + " m/s2 is " + rough(g / 9.81) + " times that of the earth",
+         "981 would be cm/s2; lengths are in metres"});
+  double largest = 0;
+  for (const sim::Body& body : scene.bodies)
+    largest = std::max(largest, extent(body.shape).maxCoeff());
+  if (largest > 20)
+    findings.push_back(
+        {Severity::warning, "body." + scene.bodies.front().name + ".shape",
+         "the largest body is " + rough(largest) + " m across",
+         "lengths are in metres: in centimetres it would be " + rough(0.01 * largest) +
+             " m, with solver.cell_size = " + number_text(0.01 * scene.solver.cell_size)});
+}
+
+void check_resolution(const Scene& scene, std::vector<Finding>& findings) {
+  const double h = scene.solver.cell_size;
+  for (const sim::Body& body : scene.bodies) {
+    const std::string at = "body." + body.name;
+    const double across = thickness(body.shape) / h;
+    if (across < 4)
+      findings.push_back({Severity::warning, at + ".shape",
+                          body.name + " is " + rough(across) + " cells thick",
+                          "weights reach 2 cells: 6 and more show its shape; solver.cell_size = " +
+                              rough(thickness(body.shape) / 6)});
+    if (body.particles_per_cell < 4)
+      findings.push_back({Severity::warning, at + ".particles_per_cell",
+                          rough(body.particles_per_cell) +
+                              " particles per cell leave gaps: snow breaks where none should",
+                          "8 is usual"});
+  }
+  for (const sim::Collider& collider : scene.colliders) {
+    if (is_plane(collider.shape)) continue;
+    const double across = thickness(collider.shape) / h;
+    if (across < 2)
+      findings.push_back(
+          {Severity::warning, "collider." + collider.name + ".shape",
+           collider.name + " is " + rough(across) + " cells thick: snow leaks through less than 2",
+           "make it thicker, or solver.cell_size = " + rough(0.5 * thickness(collider.shape))});
+  }
+}
+
+void check_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
+                    const std::vector<std::size_t>& body_end, std::vector<Finding>& findings) {
+  check_body_overlaps(scene, particles, body_end, findings);
+  check_collider_overlaps(scene, particles, body_end, findings);
+}
+
+void check_steps(const Scene& scene, const Checkup& checkup, std::vector<Finding>& findings) {
+  if (scene.solver.time_step == sim::TimeStep::fixed)
+    check_fixed_steps(scene.solver, checkup, findings);
+  check_damping(scene, checkup, findings);
+  const double c = checkup.start.max_sound_speed;
+  if (c > 0 && checkup.impact_speed > c)
+    findings.push_back({Severity::warning, "",
+                        "snow meets something at " + rough(checkup.impact_speed) +
+                            " m/s, faster than its sound of " + rough(c) +
+                            " m/s: it will be crushed in a shock",
+                        "slower, or a larger youngs_modulus"});
+}
+
+void check_cameras(const Scene& scene, const std::vector<Moment>& moments,
+                   std::vector<Finding>& findings) {
+  for (const View& view : scene.views) {
+    const CameraSettings camera =
+        view.camera ? *view.camera : scene.camera.value_or(CameraSettings{});
+    if (!camera.eye || !camera.target) continue;
+    const PictureSize size = size_of(scene, view);
+    const double aspect = static_cast<double>(size.width) / size.height;
+    double worst = 0, when = 0;
+    for (const Moment& moment : moments) {
+      const double share = share_outside(camera, aspect, moment);
+      if (share > worst) worst = share, when = moment.time;
+    }
+    if (worst < 0.05) continue;
+    findings.push_back({Severity::warning, view.camera ? "view." + view.name + ".camera" : "camera",
+                        "view " + view.name + ": " + percent(worst) +
+                            " of the snow is outside of the picture at " + rough(when) + " s",
+                        "leave out eye and target to frame all of it"});
+  }
+}
+
+}  // namespace neve::app

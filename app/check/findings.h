@@ -1,0 +1,26 @@
+#pragma once
+/// The questions that an examination asks; each adds what it finds.
+
+#include "app/check/checkup.h"
+#include "app/dry_run.h"
+
+namespace neve::app {
+
+/// Numbers that look like centimetres, grams or kilopascals.
+void check_units(const Scene& scene, std::vector<Finding>& findings);
+
+/// Bodies and colliders a few cells thick, too few particles in a cell.
+void check_resolution(const Scene& scene, std::vector<Finding>& findings);
+
+/// Bodies in one another and in colliders. @param body_end see seed_scene
+void check_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
+                    const std::vector<std::size_t>& body_end, std::vector<Finding>& findings);
+
+/// Fixed steps against the limits, what the transfer damps per frame, speed against sound.
+void check_steps(const Scene& scene, const Checkup& checkup, std::vector<Finding>& findings);
+
+/// Snow that cameras named by the scene do not see. @param scene resolved
+void check_cameras(const Scene& scene, const std::vector<Moment>& moments,
+                   std::vector<Finding>& findings);
+
+}  // namespace neve::app

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "app/check/checkup.h"
+#include "app/commands.h"
+#include "app/errors.h"
+#include "app/interrupt.h"
+#include "app/json.h"
+#include "app/render_job.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/value.h"
+#include "app/text.h"
+
+namespace neve::app {
+
+namespace {
+
+const char* name(Severity severity) {
+  switch (severity) {
+    case Severity::note:
+      return "note";
+    case Severity::warning:
+      return "warning";
+    case Severity::error:
+      return "error";
+  }
+  return "";
+}
+
+std::string rough(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
+}
+
+/// A count with three digits that count, written out.
+std::string count_text(double x) {
+  const double unit = x < 1000 ? 1 : std::pow(10, std::floor(std::log10(x)) - 2);
+  return fixed_text(unit * std::round(x / unit), 0);
+}
+
+/// "45 s", "12 min", "3.5 h"
+std::string duration_text(double seconds) {
+  if (seconds < 0.95) return fixed_text(seconds, 2) + " s";
+  if (seconds < 90) return fixed_text(seconds, 0) + " s";
+  if (seconds < 90 * 60) return fixed_text(seconds / 60, 0) + " min";
+  return fixed_text(seconds / 3600, 1) + " h";
+}
+
+const FrameForecast& busiest(const Checkup& checkup) {
+  return *std::max_element(
+      checkup.forecast.begin(), checkup.forecast.end(),
+      [](const FrameForecast& a, const FrameForecast& b) { return a.steps < b.steps; });
+}
+
+Json to_json(const Checkup& checkup, const RenderJob& job) {
+  Json json = to_json(checkup.plan);
+  json["cells"] = checkup.cells;
+  json["cell_size"] = job.scene.solver.cell_size;
+  json["coarsen"] = job.coarsening;
+  json["impact_speed"] = checkup.impact_speed;
+  json["sound_speed"] = checkup.start.max_sound_speed;
+  json["dt"] = checkup.dt_start;
+  json["dt_limit"] = sim::name(checkup.limit_start);
+  json["limits"] = Json::object();
+  for (int k = 0; k < sim::dt_limit_count; ++k)
+    if (const double dt = checkup.start.dt[static_cast<std::size_t>(k)];
+        std::isfinite(dt) && dt > 0)
+      json["limits"][sim::name(static_cast<sim::DtLimit>(k))] = dt;
+  json["frames"] = Json::array();
+  for (const FrameForecast& frame : checkup.forecast)
+    json["frames"].push_back({{"frame", frame.frame},
+                              {"dt", frame.dt},
+                              {"steps", frame.steps},
+                              {"limit", sim::name(frame.limit)}});
+  json["steps"] = checkup.steps();
+  json["seconds_per_step"] = checkup.seconds_per_step;
+  json["seconds"] = checkup.seconds();
+  json["findings"] = Json::array();
+  for (const Finding& finding : checkup.findings)
+    json["findings"].push_back({{"severity", name(finding.severity)},
+                                {"address", finding.address},
+                                {"what", finding.what},
+                                {"hint", finding.hint}});
+  return json;
+}
+
+void print_limits(const Checkup& checkup) {
+  if (checkup.dt_start <= 0) return;
+  std::cout << "sound      " << rough(checkup.start.max_sound_speed)
+            << " m/s in the stiffest particle; impact at about " << rough(checkup.impact_speed)
+            << " m/s\n"
+            << "first step " << rough(checkup.dt_start) << " s, ruled by "
+            << sim::name(checkup.limit_start) << "; allowed:";
+  for (int k = 0; k < sim::dt_limit_count; ++k)
+    if (const double dt = checkup.start.dt[static_cast<std::size_t>(k)];
+        std::isfinite(dt) && dt > 0)
+      std::cout << " " << sim::name(static_cast<sim::DtLimit>(k)) << " " << rough(dt);
+  std::cout << "\n";
+}
+
+void print_forecast(const Checkup& checkup) {
+  if (checkup.forecast.empty()) return;
+  const FrameForecast& worst = busiest(checkup);
+  std::cout << "steps      about " << count_text(checkup.steps()) << " in "
+            << checkup.forecast.size() << " frames: " << count_text(checkup.forecast.front().steps)
+            << " in frame 1, " << count_text(worst.steps) << " in frame " << worst.frame << " ("
+            << sim::name(worst.limit) << "), from a copy of "
+            << count_text(checkup.coarse_particles) << " particles\n";
+  if (checkup.seconds_per_step <= 0) return;
+  std::cout << "time       about " << duration_text(checkup.seconds()) << " of simulation, "
+            << duration_text(worst.steps * checkup.seconds_per_step) << " for the busiest frame; "
+            << rough(1000 * checkup.seconds_per_step)
+            << " ms a step, measured now on this machine\n";
+}
+
+void print(const Checkup& checkup, const RenderJob& job) {
+  const double h = job.scene.solver.cell_size;
+  std::cout << "scene      " << job.scene_file
+            << (job.coarsening > 1 ? ", coarsened " + coarsening_text(job.coarsening) : "") << "\n"
+            << "particles  " << fixed_text(checkup.plan.particles, 0) << " in "
+            << fixed_text(checkup.cells, 0) << " cells of " << number_text(h) << " m, "
+            << fixed_text(checkup.plan.particles / std::max(checkup.cells, 1e-9), 1)
+            << " per cell\n"
+            << "memory     about " << bytes_text(checkup.plan.memory) << " of "
+            << bytes_text(checkup.plan.memory_limit) << " allowed\n";
+  print_limits(checkup);
+  print_forecast(checkup);
+  if (!checkup.findings.empty()) std::cout << "\n";
+  for (const Finding& finding : checkup.findings)
+    std::cout << name(finding.severity) << ": "
+              << (finding.address.empty() ? "" : finding.address + ": ") << finding.what
+              << (finding.hint.empty() ? "" : "; " + finding.hint) << "\n";
+}
+
+}  // namespace
+
+int run_check(const RenderOptions& options) {
+  const RenderJob job = make_job(options);
+  const Plan plan = make_plan(job.scene, job.frames, job.quality, options.threads);
+  catch_interrupts();
+  const Checkup checkup = examine(job.scene, plan, options.threads);
+  if (options.is_json)
+    std::cout << to_text(to_json(checkup, job)) << "\n";
+  else
+    print(checkup, job);
+  std::cout.flush();
+  if (is_interrupted()) return exit_interrupted;
+  check_limits(job.scene, checkup.plan);
+  const bool has_error =
+      std::any_of(checkup.findings.begin(), checkup.findings.end(),
+                  [](const Finding& f) { return f.severity == Severity::error; });
+  return has_error ? exit_check_failed : exit_ok;
+}
+
+}  // namespace neve::app

@@ -1,0 +1,107 @@
+/// `neve check`: what a scene will cost, and what looks wrong in it.
+
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+/// A ball of about 2000 particles and whatever a test adds or changes.
+std::string scene(const std::string& solver, const std::string& more = {}) {
+  return "frames = 6\n[solver]\ncell_size = 0.02\n" + solver +
+         "\n[[body]]\nname = \"ball\"\n"
+         "shape = { sphere = { center = [0, 0.2, 0], radius = 0.08 } }\n"
+         "velocity = [0, -3, 0]\n" +
+         more;
+}
+
+constexpr const char* floor_plane =
+    "[[collider]]\nname = \"floor\"\n"
+    "shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }\n";
+
+class Check : public Cli {
+ protected:
+  /// Severity and address of all findings but notes.
+  std::vector<std::string> findings(const std::string& text, int exit_code = 0) {
+    folder.write("scene.toml", text);
+    const auto result = neve({"check", "scene.toml", "--json"});
+    EXPECT_EQ(result.exit_code, exit_code) << result.errors;
+    std::vector<std::string> found;
+    const app::Json json = app::parse_json(std::string_view(result.output));
+    EXPECT_FALSE(json["findings"].empty()) << "the note on damping is always there";
+    for (const app::Json& finding : json["findings"])
+      if (finding["severity"] != "note")
+        found.push_back(finding["severity"].get<std::string>() + " " +
+                        finding["address"].get<std::string>());
+    return found;
+  }
+  using Findings = std::vector<std::string>;
+};
+
+TEST_F(Check, AHealthySceneHasNoWarning) {
+  EXPECT_EQ(findings(scene("", floor_plane)), Findings{});
+}
+
+TEST_F(Check, SaysWhatEachMistakeIs) {
+  EXPECT_EQ(findings(scene("time_step = \"fixed\"\ndt = 2e-3", floor_plane), 9).at(0),
+            "error solver.dt");
+  EXPECT_EQ(findings(scene("time_step = \"fixed\"\ndt = 5e-4", floor_plane)),
+            Findings{"warning solver.dt"});
+  EXPECT_EQ(findings(scene("flip_reference_dt = 0")), Findings{"warning solver.flip_reference_dt"});
+  EXPECT_EQ(findings(scene("", "[material.snow]\ndensity = 0.4\n")),
+            Findings{"warning material.snow.density"});
+  EXPECT_EQ(findings(scene("", "[material.snow]\nyoungs_modulus = 140\n")).at(0),
+            "warning material.snow.youngs_modulus");
+  EXPECT_EQ(findings(scene("gravity = [0, -981, 0]")).at(0), "warning solver.gravity");
+  EXPECT_EQ(findings(scene("", std::string(floor_plane) +
+                                   "[[collider]]\nname = \"sheet\"\nshape = { box = { center = "
+                                   "[0, 0, 0.5], size = [1, 1, 0.02] } }\n")),
+            Findings{"warning collider.sheet.shape"});
+  EXPECT_EQ(findings(scene("",
+                           "[[body]]\nname = \"other\"\nshape = { sphere = { center = [0.05, "
+                           "0.2, 0], radius = 0.08 } }\nvelocity = [0, -3, 0]\n"))
+                .at(0),
+            "warning body.other.shape");
+  EXPECT_EQ(findings(scene("",
+                           "[[collider]]\nname = \"floor\"\nshape = { plane = { point = [0, "
+                           "0.15, 0], normal = [0, 1, 0] } }\n"))
+                .at(0),
+            "warning body.ball.shape");
+  EXPECT_EQ(findings(scene("", std::string(floor_plane) +
+                                   "[camera]\neye = [0, 0.2, 1]\ntarget = [1, 0.2, 1]\n")),
+            Findings{"warning camera"});
+}
+
+/// The forecast comes from a coarse copy: the factor of two is what it claims, no more.
+TEST_F(Check, ForeseesTheStepsOfTheRun) {
+  folder.write("scene.toml", scene("", floor_plane));
+  const auto check = neve({"check", "scene.toml", "--json"});
+  ASSERT_EQ(check.exit_code, 0) << check.errors;
+  const app::Json json = app::parse_json(std::string_view(check.output));
+  ASSERT_EQ(json["frames"].size(), 6u);
+  const auto run = neve({"render", "scene.toml", "--size", "64x36", "--out", "out"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  double steps = 0;
+  const app::Json record = json_of("out/run.json");
+  for (const app::Json& frame : record["frames"]) steps += frame["steps"].get<double>();
+  EXPECT_GT(json["steps"].get<double>(), 0.5 * steps);
+  EXPECT_LT(json["steps"].get<double>(), 2 * steps);
+  EXPECT_GT(json["seconds_per_step"].get<double>(), 0);
+  EXPECT_EQ(json["dt_limit"], "acoustic");
+}
+
+TEST_F(Check, RefusesWhatRenderWouldAndExplainsItself) {
+  folder.write("scene.toml", scene("", "[limits]\nparticles = 10\n"));
+  const auto refused = neve({"check", "scene.toml"});
+  EXPECT_EQ(refused.exit_code, 8);
+  EXPECT_TRUE(contains(refused.output, "particles"));
+  folder.write("scene.toml", scene("", floor_plane));
+  const auto text =
+      neve({"check", "scene.toml", "--set", "solver.dt=2e-3", "--set", "solver.time_step=fixed"});
+  EXPECT_EQ(text.exit_code, 9);
+  EXPECT_TRUE(contains(text.output, "error: solver.dt: ")) << text.output;
+  EXPECT_TRUE(contains(text.output, "adaptive")) << text.output;
+  EXPECT_EQ(neve({"check", "nothing.toml"}).exit_code, 3);
+}
+
+}  // namespace
+}  // namespace neve::test
