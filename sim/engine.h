@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/base/thread_pool.h"
@@ -61,6 +62,9 @@ class Engine {
   void step(double dt);
   AdvanceReport advance_to(double time, bool (*interrupted)());
   StagedStep staged_step(double dt) const;
+  std::vector<std::uint8_t> save() const;
+  /// @throws SavedStateError, and then is as it was
+  void restore(std::span<const std::uint8_t> bytes);
   RasterizedNodes rasterize(const std::vector<std::vector<double>>& values) const;
   Simulation::Choice choose_dt(double remaining) const;
   Simulation::StepLimits step_limits() const;

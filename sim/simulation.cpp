@@ -101,6 +101,13 @@ std::uint64_t Simulation::state_hash() const {
   return impl_->visit([](const auto& e) { return e.state_hash(); });
 }
 
+std::vector<std::uint8_t> Simulation::save() const {
+  return impl_->visit([](const auto& e) { return e.save(); });
+}
+void Simulation::restore(std::span<const std::uint8_t> bytes) {
+  impl_->visit([&](auto& e) { e.restore(bytes); });
+}
+
 /// For looking inside: what works on copies and is no part of a run.
 struct InsideAccess {
   template <class Call>

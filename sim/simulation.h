@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -81,6 +83,11 @@ struct PhaseSeconds {
   double checks = 0;             ///< limits of the next dt, rules of a healthy run
 };
 
+/// Bytes that are no saved state; what() says why.
+struct SavedStateError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class Simulation {
  public:
   /// @param lattice_origin in blocks of 4 cells; x is measured from it. Moving it changes no bit of
@@ -145,6 +152,13 @@ class Simulation {
   /// Commutative sum of per-particle hashes keyed by id; cells enter relative to the lattice
   /// origin.
   std::uint64_t state_hash() const;
+
+  /// The state as bytes, for the same program and machine: a simulation with the same settings,
+  /// materials and colliders that restores them takes the same steps to the bit.
+  std::vector<std::uint8_t> save() const;
+
+  /// @throws SavedStateError when the bytes are no state of such a simulation; it is then as before
+  void restore(std::span<const std::uint8_t> bytes);
 
   struct Impl;
 

@@ -1,0 +1,124 @@
+/// The state of an engine as bytes, and back: exact, in the order of storage, with the counters
+/// that later steps depend on.
+
+#include <cstring>
+#include <type_traits>
+
+#include "sim/engine.h"
+
+namespace neve::sim {
+
+namespace {
+
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '1'};
+
+/// What there is once; followed by the records.
+struct SavedHead {
+  char magic[8];
+  std::uint32_t bytes_per_number, bytes_per_record;
+  std::uint64_t count, steps;
+  double time, rest_dt, last_dt;
+  double max_speed, max_sound_speed, max_strain_rate, max_hardening;
+  double energy_start, contact_work, energy_largest;
+  double centre_of_mass[3];
+  double worst_acoustic_cfl;
+  std::uint64_t inverted_trials;
+  std::int32_t lattice_origin[3], unused;
+};
+static_assert(std::is_trivially_copyable_v<SavedHead> && sizeof(SavedHead) % 8 == 0);
+
+}  // namespace
+
+template <class Real>
+std::vector<std::uint8_t> Engine<Real>::save() const {
+  static_assert(std::is_trivially_copyable_v<Particle<Real>>);
+  SavedHead head{};
+  std::memcpy(head.magic, magic, sizeof magic);
+  head.bytes_per_number = sizeof(Real);
+  head.bytes_per_record = sizeof(Particle<Real>);
+  head.count = particles_.size();
+  head.steps = steps_;
+  head.time = time_;
+  head.rest_dt = rest_dt_;
+  head.last_dt = last_dt_;
+  head.max_speed = limits_.max_speed;
+  head.max_sound_speed = limits_.max_sound_speed;
+  head.max_strain_rate = limits_.max_strain_rate;
+  head.max_hardening = limits_.max_hardening;
+  head.energy_start = energy_.start;
+  head.contact_work = energy_.contact_work;
+  head.energy_largest = energy_.largest;
+  head.worst_acoustic_cfl = warnings_.worst_acoustic_cfl;
+  head.inverted_trials = warnings_.inverted_trials;
+  for (int a = 0; a < 3; ++a) {
+    head.centre_of_mass[a] = energy_.centre_of_mass[a];
+    head.lattice_origin[a] = lattice_origin_[a];
+  }
+  const std::size_t record_bytes = particles_.size() * sizeof(Particle<Real>);
+  std::vector<std::uint8_t> bytes(sizeof head + record_bytes);
+  std::memcpy(bytes.data(), &head, sizeof head);
+  if (record_bytes > 0) std::memcpy(bytes.data() + sizeof head, particles_.data(), record_bytes);
+  return bytes;
+}
+
+template <class Real>
+void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
+  SavedHead head{};
+  const auto refuse = [](const std::string& why) {
+    throw SavedStateError("the saved state " + why);
+  };
+  if (bytes.size() < sizeof head) refuse("is cut short");
+  std::memcpy(&head, bytes.data(), sizeof head);
+  if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse("is none of this version");
+  if (head.bytes_per_number != sizeof(Real)) refuse("has another precision");
+  if (head.bytes_per_record != sizeof(Particle<Real>)) refuse("has other particles");
+  if (head.count > bytes.size() / sizeof(Particle<Real>) ||
+      bytes.size() != sizeof head + head.count * sizeof(Particle<Real>))
+    refuse("has another length than it says");
+  for (int a = 0; a < 3; ++a)
+    if (head.lattice_origin[a] != lattice_origin_[a]) refuse("has another lattice");
+
+  std::vector<Particle<Real>> records(head.count);
+  if (head.count > 0)
+    std::memcpy(records.data(), bytes.data() + sizeof head, bytes.size() - sizeof head);
+  for (const Particle<Real>& p : records) {
+    for (const Integer<Real> cell : p.cell)
+      if (cell <= -4 * block_limit || cell >= 4 * block_limit)
+        refuse("has particles outside of the lattice");
+    if (static_cast<std::size_t>(p.material()) >= material_list_.size() ||
+        static_cast<std::uint64_t>(p.id) >= head.count)
+      refuse("names a material or a particle that is not there");
+  }
+
+  particles_ = records;
+  keys_.assign(head.count, 0);
+  locals_.assign(head.count, 0);
+  time_ = head.time;
+  steps_ = head.steps;
+  rest_dt_ = head.rest_dt;
+  last_dt_ = head.last_dt;
+  limits_ = {head.max_speed, head.max_sound_speed, head.max_strain_rate, head.max_hardening};
+  energy_.start = head.energy_start;
+  energy_.contact_work = head.contact_work;
+  energy_.largest = head.energy_largest;
+  for (int a = 0; a < 3; ++a) energy_.centre_of_mass[a] = head.centre_of_mass[a];
+  warnings_ = {head.inverted_trials, head.worst_acoustic_cfl};
+  divergence_.reset();
+  partition_ = Partition();
+  partition_.set_period(settings_.period);
+  place_colliders();
+  if (records.empty()) return;
+  // Keys come from a sweep that also works out the stress anew, perhaps with another last bit: the
+  // records go back as they were.
+  SweepArgs<Real> a = args(0, all_channels);
+  BlockReport<Real> report;
+  sweeps_->refresh(a, 0, static_cast<std::uint32_t>(head.count), false, report);
+  particles_ = std::move(records);
+}
+
+template std::vector<std::uint8_t> Engine<float>::save() const;
+template std::vector<std::uint8_t> Engine<double>::save() const;
+template void Engine<float>::restore(std::span<const std::uint8_t>);
+template void Engine<double>::restore(std::span<const std::uint8_t>);
+
+}  // namespace neve::sim
