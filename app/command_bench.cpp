@@ -1,12 +1,16 @@
+#include <unistd.h>
+
 #include <iostream>
 
 #include "app/bench/frame_bench.h"
 #include "app/bench/measure.h"
+#include "app/bench/render_bench.h"
 #include "app/bench/sim_bench.h"
 #include "app/commands.h"
 #include "app/errors.h"
 #include "app/interrupt.h"
 #include "app/machine.h"
+#include "app/progress.h"
 #include "app/text.h"
 
 namespace neve::app {
@@ -26,17 +30,19 @@ void print(const std::vector<BenchRow>& rows, const BenchOptions& options) {
 template <class Bench>
 int run_bench(const BenchOptions& options, const Bench& bench) {
   catch_interrupts();
-  say(machine_text());
+  Progress progress(std::cerr, Verbosity::normal, can_update_lines(STDERR_FILENO));
+  progress.note(machine_text());
   if (!build_fault().empty())
-    say("neve: warning: " + build_fault() +
-        "; its figures mean nothing. Build with -DCMAKE_BUILD_TYPE=Release");
+    progress.warning(build_fault() +
+                     "; its figures mean nothing. Build with -DCMAKE_BUILD_TYPE=Release");
   const OtherLoad others;
-  const std::vector<BenchRow> rows = bench(options);
+  const std::vector<BenchRow> rows = bench(options, progress);
   const double share = others.share();
   if (share > 0.05)
-    say("neve: warning: other processes used " + fixed_text(100 * share, 0) +
-        " % of the machine meanwhile; trust ratios and the best of the rounds");
-  if (options.is_quick) say("neve: --quick looks whether it works; its figures mean little");
+    progress.warning("other processes used " + fixed_text(100 * share, 0) +
+                     " % of the machine meanwhile; trust ratios and the best of the rounds");
+  if (options.is_quick)
+    progress.note("neve: --quick looks whether it works; its figures mean little");
   print(rows, options);
   return exit_ok;
 }
@@ -49,6 +55,10 @@ int run_bench_sim(const BenchOptions& options) {
 
 int run_bench_frame(const BenchOptions& options) {
   return run_bench(options, bench_frame);
+}
+
+int run_bench_render(const BenchOptions& options) {
+  return run_bench(options, bench_render);
 }
 
 }  // namespace neve::app

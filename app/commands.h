@@ -53,6 +53,7 @@ int run_check(const RenderOptions& options);
 int run_compare(const CompareOptions& options);
 int run_bench_sim(const BenchOptions& options);
 int run_bench_frame(const BenchOptions& options);
+int run_bench_render(const BenchOptions& options);
 int run_info(const std::string& path, bool is_json);
 int run_doctor(bool is_json);
 int run_params(bool is_json);

@@ -70,30 +70,34 @@ void for_each_task(int count, ThreadPool* pool, const std::function<void(int)>& 
   });
 }
 
-std::vector<float> bin_points(const Points& points, const LightGrid& grid, ThreadPool* pool) {
+void bin_points(const Points& points, const LightGrid& grid, ThreadPool* pool,
+                LightBuffers& buffers) {
   // Every part has sums of its own; more than a few cost more to add up than they save.
   const std::size_t parts = pool && points.position.size() > 20000
                                 ? static_cast<std::size_t>(std::min(pool->thread_count(), 4))
                                 : 1;
-  std::vector<std::vector<std::uint32_t>> sums(parts);
+  std::vector<std::vector<std::uint32_t>>& sums = buffers.sums;
+  sums.resize(std::max(sums.size(), parts));
   for_each_task(static_cast<int>(parts), pool, [&](int task) {
     const auto part = static_cast<std::size_t>(task);
-    sums[part].resize(grid.count());
+    sums[part].assign(grid.count(), 0);
     const std::size_t count = points.position.size();
     for (std::size_t p = count * part / parts; p < count * (part + 1) / parts; ++p)
       add_point(grid, points.position[p], sums[part]);
   });
-  for (std::size_t part = 1; part < parts; ++part) {
-    for (std::size_t i = 0; i < grid.count(); ++i) sums[0][i] += sums[part][i];
-  }
 
   // Packed points fill a cell to spread around 1; 0.8 makes most of them full.
   const float per_cell = std::pow(grid.cell / std::max(points.spacing, 1e-9f), 3.0f);
   const float scale = 1 / (0.8f * std::max(per_cell, 1.0f) * weight_one);
-  std::vector<float> density(grid.count());
-  for (std::size_t i = 0; i < density.size(); ++i)
-    density[i] = std::min(1.0f, static_cast<float>(sums[0][i]) * scale);
-  return density;
+  buffers.density.resize(grid.count());
+  const auto slice = static_cast<std::size_t>(grid.size.x) * static_cast<std::size_t>(grid.size.y);
+  for_each_task(grid.size.z, pool, [&](int k) {
+    const std::size_t begin = slice * static_cast<std::size_t>(k), end = begin + slice;
+    for (std::size_t part = 1; part < parts; ++part)
+      for (std::size_t i = begin; i < end; ++i) sums[0][i] += sums[part][i];
+    for (std::size_t i = begin; i < end; ++i)
+      buffers.density[i] = std::min(1.0f, static_cast<float>(sums[0][i]) * scale);
+  });
 }
 
 namespace {
@@ -181,16 +185,18 @@ std::vector<float> voxelize(const std::vector<TriangleMesh>& meshes, const Light
   return solid;
 }
 
-std::vector<float> blur(const std::vector<float>& field, const LightGrid& grid, ThreadPool* pool) {
-  std::vector<float> from = field, to(field.size());
+void blur(const LightGrid& grid, ThreadPool* pool, LightBuffers& buffers) {
+  buffers.smooth.resize(buffers.density.size());
+  buffers.blurred.resize(buffers.density.size());
+  const std::vector<float>* from = &buffers.density;
   for (int pass = 0; pass < 6; ++pass) {
+    std::vector<float>& to = pass % 2 == 0 ? buffers.blurred : buffers.smooth;
     const int tasks = std::min(8, grid.size.z);
     for_each_task(tasks, pool, [&](int t) {
-      blur_axis(grid, pass % 3, from, to, grid.size.z * t / tasks, grid.size.z * (t + 1) / tasks);
+      blur_axis(grid, pass % 3, *from, to, grid.size.z * t / tasks, grid.size.z * (t + 1) / tasks);
     });
-    from.swap(to);
+    from = &to;
   }
-  return from;
 }
 
 }  // namespace neve::render

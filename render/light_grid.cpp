@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -26,33 +27,71 @@ struct Box {
   }
 };
 
-/// Extends the box along one axis over nearly all values: the middle 99 % widened by half of its
-/// width, but no wider than the data. A few strays do not blow the box up.
-void include_most(std::vector<float>& values, int axis, Box& box) {
-  if (values.empty()) return;
-  const std::size_t cut = values.size() < 8 ? 0 : std::max<std::size_t>(1, values.size() / 200);
-  const auto at = [&](std::size_t k) {
-    const auto it = values.begin() + static_cast<std::ptrdiff_t>(k);
+/// Values of some ranks among the finite coordinates along one axis, and how many there are.
+class Ranks {
+ public:
+  Ranks(const std::vector<Vec3f>& position, float Vec3f::*axis) : position_(position), axis_(axis) {
+    for (const Vec3f& p : position) {
+      const float x = p.*axis;
+      if (!std::isfinite(x)) continue;
+      ++count_;
+      low_ = std::min(low_, x);
+      high_ = std::max(high_, x);
+    }
+    // Halves, as the difference of the ends may not be finite.
+    scale_ = 0.5f * static_cast<float>(bins - 1) / std::max(0.5f * high_ - 0.5f * low_, 1e-37f);
+    for (const Vec3f& p : position)
+      if (std::isfinite(p.*axis)) ++sizes_[bin_of(p.*axis)];
+  }
+  std::size_t count() const { return count_; }
+  float low() const { return low_; }
+  float high() const { return high_; }
+
+  /// The value with `rank` smaller ones: only those in its bin have to be sorted.
+  float at(std::size_t rank) const {
+    std::size_t bin = 0;
+    while (rank >= sizes_[bin]) rank -= sizes_[bin++];
+    std::vector<float> values;
+    values.reserve(sizes_[bin]);
+    for (const Vec3f& p : position_)
+      if (std::isfinite(p.*axis_) && bin_of(p.*axis_) == bin) values.push_back(p.*axis_);
+    const auto it = values.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(values.begin(), it, values.end());
     return *it;
-  };
-  const float middle_low = at(cut), middle_high = at(values.size() - 1 - cut);
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  }
+
+ private:
+  static constexpr std::size_t bins = 1024;
+  /// Never smaller for a larger value.
+  std::size_t bin_of(float x) const {
+    return static_cast<std::size_t>(
+        std::clamp(scale_ * (0.5f * x - 0.5f * low_) * 2, 0.0f, static_cast<float>(bins - 1)));
+  }
+
+  const std::vector<Vec3f>& position_;
+  float Vec3f::*axis_;
+  std::size_t count_ = 0;
+  float low_ = std::numeric_limits<float>::infinity(), high_ = -low_, scale_ = 0;
+  std::array<std::uint32_t, bins> sizes_{};
+};
+
+/// Extends the box along one axis over nearly all values: the middle 99 % widened by half of its
+/// width, but no wider than the data. A few strays do not blow the box up.
+void include_most(const Ranks& values, int axis, Box& box) {
+  if (values.count() == 0) return;
+  const std::size_t cut = values.count() < 8 ? 0 : std::max<std::size_t>(1, values.count() / 200);
+  const float middle_low = values.at(cut), middle_high = values.at(values.count() - 1 - cut);
   const float extra = 0.5f * (middle_high - middle_low);
-  box.include(axis, std::max(*low, middle_low - extra));
-  box.include(axis, std::min(*high, middle_high + extra));
+  box.include(axis, std::max(values.low(), middle_low - extra));
+  box.include(axis, std::min(values.high(), middle_high + extra));
 }
 
-Box box_of_points(const std::vector<Vec3f>& position) {
+Box box_of_points(const std::vector<Vec3f>& position, ThreadPool* pool) {
+  constexpr std::array<float Vec3f::*, 3> members = {&Vec3f::x, &Vec3f::y, &Vec3f::z};
   Box box;
-  std::vector<float> values;
-  for (int axis = 0; axis < 3; ++axis) {
-    values.clear();
-    for (const Vec3f& p : position) {
-      if (std::isfinite(p[axis])) values.push_back(p[axis]);
-    }
-    include_most(values, axis, box);
-  }
+  for_each_task(3, pool, [&](int axis) {
+    include_most(Ranks(position, members[static_cast<std::size_t>(axis)]), axis, box);
+  });
   return box;
 }
 
@@ -88,8 +127,8 @@ void include_mesh(const TriangleMesh& mesh, const Box& snow, Box& box) {
 }  // namespace
 
 LightGrid fit_light_grid(const Points& points, const std::vector<TriangleMesh>& meshes,
-                         const SmokeGrid& smoke) {
-  Box snow = box_of_points(points.position);
+                         const SmokeGrid& smoke, ThreadPool* pool) {
+  Box snow = box_of_points(points.position, pool);
   float finest = snow.is_empty() ? 0 : spacings_per_cell * points.spacing;
   if (!smoke.is_empty()) {
     include_smoke(smoke, snow);

@@ -54,8 +54,8 @@ class Border {
 
 }  // namespace
 
-std::vector<float> sweep_light(const std::vector<float>& extinction, const LightGrid& grid,
-                               Vec3f toward_light) {
+void sweep_light(const std::vector<float>& extinction, const LightGrid& grid, Vec3f toward_light,
+                 std::vector<float>& light) {
   const Slicing s = slice_along(grid, toward_light);
   const float row_floor = std::floor(s.row_shift), column_floor = std::floor(s.column_shift);
   const float row_part = s.row_shift - row_floor, column_part = s.column_shift - column_floor;
@@ -65,7 +65,7 @@ std::vector<float> sweep_light(const std::vector<float>& extinction, const Light
   const float w00 = (1 - row_part) * (1 - column_part), w01 = (1 - row_part) * column_part;
   const float w10 = row_part * (1 - column_part), w11 = row_part * column_part;
 
-  std::vector<float> light(extinction.size());
+  light.resize(extinction.size());
   Border above(s.rows, s.columns), here(s.rows, s.columns);
   for (int k = 0; k < s.slices; ++k) {
     for (int r = 0; r < s.rows; ++r) {
@@ -89,7 +89,6 @@ std::vector<float> sweep_light(const std::vector<float>& extinction, const Light
     }
     std::swap(above, here);
   }
-  return light;
 }
 
 }  // namespace neve::render

@@ -4,6 +4,7 @@
 /// Depends on the frame alone: not on the order of the points, not on the number of threads.
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "render/frame.h"
@@ -26,6 +27,9 @@ struct LightGrid {
 
 struct LightVolume {
   LightGrid grid;
+  /// Another number for every volume that Lighting makes, so that users of one know whether they
+  /// have it already; 0 in those that others make.
+  std::uint64_t serial = 0;
   /// Four signed bytes per cell: the outward normal of the body times how sure it is, and density.
   std::vector<std::int8_t> body;
   /// Two 16-bit fractions per cell: key light and sky that arrive there.
@@ -36,10 +40,30 @@ struct LightVolume {
 Vec3f toward_light(const Light& light);
 
 /// Fits a grid to the points (leaving out far strays), the smoke and meshes near them.
+/// @param pool may be null
 LightGrid fit_light_grid(const Points& points, const std::vector<TriangleMesh>& meshes,
-                         const SmokeGrid& smoke = {});
+                         const SmokeGrid& smoke = {}, ThreadPool* pool = nullptr);
 
 /// @param smoke that of the frame, may be empty @param pool may be null
 LightVolume make_light_volume(const Frame& frame, const SmokeGrid& smoke, ThreadPool* pool);
+
+struct LightBuffers;
+
+/// Makes light volumes, and only when something that light falls on or its direction has changed:
+/// several views of one state share theirs.
+class Lighting {
+ public:
+  Lighting();
+  ~Lighting();
+  /// Valid until the next call.
+  const LightVolume& volume(const Frame& frame, const SmokeGrid& smoke, ThreadPool* pool);
+
+ private:
+  /// All that a volume depends on, to be compared byte by byte: a hash could be wrong.
+  struct Key;
+  std::unique_ptr<Key> key_;
+  std::unique_ptr<LightBuffers> buffers_;
+  LightVolume volume_;
+};
 
 }  // namespace neve::render

@@ -28,6 +28,8 @@ ShadePass::ShadePass(const Gl& gl, const ShaderLibrary& library)
       light_(gl) {}
 
 void ShadePass::upload(const LightVolume& volume) {
+  if (volume.serial != 0 && volume.serial == uploaded_) return;
+  uploaded_ = volume.serial;
   const Vec3i size = volume.grid.size;
   gl_.ActiveTexture(GL_TEXTURE0);
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);

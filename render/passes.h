@@ -119,6 +119,7 @@ class ShadePass {
   Program program_, smoke_program_;
   VertexArray vertex_array_;
   Texture body_, light_;
+  std::uint64_t uploaded_ = 0;  ///< serial of the volume in the textures
 };
 
 /// Averages the samples of each pixel; see shaders/resolve.frag.

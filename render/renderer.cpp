@@ -89,6 +89,7 @@ struct Renderer::Impl {
   ParticlePath path;
   Gl gl;
   ShaderLibrary library;
+  Lighting lighting;
   GroundPass ground;
   MeshPass meshes;
   ParticlePass particles;
@@ -178,7 +179,7 @@ struct Renderer::Impl {
     prepare_targets(frame);
     PhaseClock clock(gl, times);
     const SmokeGrid smoke_grid = make_smoke_grid(frame.smoke, pool);
-    const LightVolume light = make_light_volume(frame, smoke_grid, pool);
+    const LightVolume& light = lighting.volume(frame, smoke_grid, pool);
     clock.end("light");
 
     const View view = make_view(frame.camera, targets->sample_width(), targets->sample_height());

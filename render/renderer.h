@@ -25,7 +25,7 @@ struct ParticlePathError : std::runtime_error {
 
 /// How long a phase of a picture took.
 struct PhaseTime {
-  const char* phase;  ///< light, particles, solids, smoke, shade, overlay, read_back
+  const char* phase;  ///< light, particles, solids, slices, smoke, shade, overlay, read_back
   double seconds;
 };
 

@@ -97,8 +97,9 @@ class Drawing {
 
 class FrameBench {
  public:
-  explicit FrameBench(const BenchOptions& options)
+  FrameBench(const BenchOptions& options, Progress& progress)
       : options_(options),
+        progress_(progress),
         rounds_(options.rounds > 0 ? options.rounds
                 : options.is_quick ? 1
                                    : 3),
@@ -113,6 +114,7 @@ class FrameBench {
   void measure(const std::string& name, const std::string& unit, const Measure& once);
 
   BenchOptions options_;
+  Progress& progress_;
   int rounds_;
   Drawing drawing_;
   /// Of the last simulation, for its row.
@@ -138,7 +140,7 @@ void FrameBench::measure(const std::string& name, const std::string& unit, const
   row.value = statistics_of(samples);
   row.unit = unit;
   rows_.push_back(row);
-  say(name + ": " + fixed_text(row.value.median, 3) + " " + unit);
+  progress_.note(name + ": " + fixed_text(row.value.median, 3) + " " + unit);
 }
 
 /// Seconds that the frames take, from a fresh start; making the particles is not counted.
@@ -206,9 +208,9 @@ std::vector<BenchRow> FrameBench::run() {
 
 }  // namespace
 
-std::vector<BenchRow> bench_frame(const BenchOptions& options) {
-  FrameBench bench(options);
-  say("neve bench frame");
+std::vector<BenchRow> bench_frame(const BenchOptions& options, Progress& progress) {
+  FrameBench bench(options, progress);
+  progress.note("neve bench frame");
   return bench.run();
 }
 

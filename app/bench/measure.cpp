@@ -7,7 +7,6 @@
 #include <array>
 #include <ctime>
 #include <fstream>
-#include <iostream>
 
 #include "app/errors.h"
 #include "app/interrupt.h"
@@ -79,10 +78,6 @@ std::string build_fault() {
 
 void stop_if_interrupted() {
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted");
-}
-
-void say(const std::string& line) {
-  std::cerr << line << std::endl;
 }
 
 }  // namespace neve::app

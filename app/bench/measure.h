@@ -41,7 +41,4 @@ std::string build_fault();
 /// @throws Error with exit_interrupted after Ctrl-C
 void stop_if_interrupted();
 
-/// One line on stderr.
-void say(const std::string& line);
-
 }  // namespace neve::app

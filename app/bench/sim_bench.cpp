@@ -62,7 +62,7 @@ double memory_of(double particles, sim::Precision precision, int threads) {
 
 class SimBench {
  public:
-  explicit SimBench(const BenchOptions& options);
+  SimBench(const BenchOptions& options, Progress& progress);
   std::vector<BenchRow> run();
 
  private:
@@ -78,6 +78,7 @@ class SimBench {
   void add_scaling(Method method);
   void add_memory_and_spray(Method method);
 
+  Progress& progress_;
   int rounds_, threads_, cells_;
   std::size_t particles_ = 0;
   std::string simd_;
@@ -86,8 +87,9 @@ class SimBench {
   std::vector<BenchRow> rows_;
 };
 
-SimBench::SimBench(const BenchOptions& options)
-    : rounds_(options.rounds > 0 ? options.rounds
+SimBench::SimBench(const BenchOptions& options, Progress& progress)
+    : progress_(progress),
+      rounds_(options.rounds > 0 ? options.rounds
               : options.is_quick ? 2
                                  : 5),
       threads_(options.threads),
@@ -107,15 +109,15 @@ SimBench::SimBench(const BenchOptions& options)
 }
 
 std::vector<BenchRow> SimBench::run() {
-  say("neve bench sim: " + std::to_string(particles_) + " particles, " +
-      std::to_string(bench_steps) + " steps, " + std::to_string(rounds_) + " rounds, " +
-      std::to_string(threads_) + (threads_ == 1 ? " thread, " : " threads, ") + simd_);
+  progress_.note("neve bench sim: " + std::to_string(particles_) + " particles, " +
+                 std::to_string(bench_steps) + " steps, " + std::to_string(rounds_) + " rounds, " +
+                 std::to_string(threads_) + (threads_ == 1 ? " thread, " : " threads, ") + simd_);
   for (int round = 0; round < rounds_; ++round) {
     measure_variants();
     measure_spray();
     measure_scaling();
     measure_naive(round);
-    say("round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
+    progress_.note("round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
   }
   for (const auto& [method, race] : races_) race.check_agreement();
   gather_rows();
@@ -223,11 +225,11 @@ void SimBench::gather_rows() {
 
 }  // namespace
 
-std::vector<BenchRow> bench_sim(const BenchOptions& options) {
-  return SimBench(options).run();
+std::vector<BenchRow> bench_sim(const BenchOptions& options, Progress& progress) {
+  return SimBench(options, progress).run();
 }
 
-std::vector<BenchRow> bench_curve(const BenchOptions& options) {
+std::vector<BenchRow> bench_curve(const BenchOptions& options, Progress& progress) {
   const int rounds = options.rounds > 0 ? options.rounds : options.is_quick ? 1 : 3;
   const double most = options.particles > 0 ? options.particles
                       : options.is_quick    ? quick_particles
@@ -238,8 +240,9 @@ std::vector<BenchRow> bench_curve(const BenchOptions& options) {
     if (particles > most && !rows.empty()) break;
     const double bytes = memory_of(particles, sim::Precision::single, options.threads);
     if (bytes > static_cast<double>(available_memory() / 10 * 8)) {
-      say("the curve ends before " + fixed_text(particles, 0) + " particles: they need about " +
-          bytes_text(static_cast<std::uint64_t>(bytes)) + " of memory");
+      progress.note("the curve ends before " + fixed_text(particles, 0) +
+                    " particles: they need about " + bytes_text(static_cast<std::uint64_t>(bytes)) +
+                    " of memory");
       break;
     }
     for (const Method method : main_methods) {
@@ -249,8 +252,8 @@ std::vector<BenchRow> bench_curve(const BenchOptions& options) {
       for (int round = 0; round < rounds; ++round)
         samples.add(time_window(c, options.threads, name));
       rows.push_back(samples.throughput_row(name));
-      say(name + ": " + fixed_text(particles, 0) + " particles, " +
-          fixed_text(rows.back().value.median, 2) + " " + throughput_unit);
+      progress.note(name + ": " + fixed_text(particles, 0) + " particles, " +
+                    fixed_text(rows.back().value.median, 2) + " " + throughput_unit);
     }
   }
   return rows;

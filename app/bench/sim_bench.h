@@ -5,14 +5,15 @@
 
 #include "app/bench/bench_report.h"
 #include "app/commands.h"
+#include "app/progress.h"
 
 namespace neve::app {
 
 /// The common case in all variants against the naive code, spray, scaling.
 /// @throws Error when the case diverges, the codes disagree or memory does not suffice
-std::vector<BenchRow> bench_sim(const BenchOptions& options);
+std::vector<BenchRow> bench_sim(const BenchOptions& options, Progress& progress);
 
 /// Throughput from a thousand particles to the most that fit.
-std::vector<BenchRow> bench_curve(const BenchOptions& options);
+std::vector<BenchRow> bench_curve(const BenchOptions& options, Progress& progress);
 
 }  // namespace neve::app

@@ -70,6 +70,24 @@ TEST_F(Cli, BenchFrameNamesWhatScriptsDependOn) {
   EXPECT_FALSE(exists("out")) << "the first picture is made elsewhere";
 }
 
+TEST_F(Cli, BenchRenderNamesWhatScriptsDependOn) {
+  const auto result = neve({"bench", "render", "--quick", "--json", "--threads", "2"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  auto rows = by_name(result.output);
+  for (const char* name :
+       {"particles_4k", "particles_100k", "particles_300k", "particles_300k_same_state",
+        "particles_1m", "spheres_300k_by_gl", "spheres_300k_by_cpu", "all_layers_300k", "smoke",
+        "arrows", "phase_light", "phase_particles", "phase_solids", "phase_slices", "phase_smoke",
+        "phase_shade", "phase_overlay", "phase_read_back", "png"}) {
+    ASSERT_TRUE(rows.contains(name)) << name;
+    EXPECT_EQ(rows[name]["unit"], "ms");
+  }
+  // So few are not many layers of the slab: one more or less is a sixth of them.
+  EXPECT_NEAR(rows["particles_4k"]["particles"].get<double>(), 4000, 700);
+  EXPECT_EQ(rows["particles_4k"]["threads"], 2);
+  EXPECT_GT(rows["particles_300k"]["median"], rows["spheres_300k_by_cpu"]["median"]);
+}
+
 TEST_F(Cli, BenchTablesAreTextOrMarkdown) {
   const std::vector<std::string> curve{"bench", "sim",         "--curve", "--rounds",
                                        "1",     "--particles", "1000"};
@@ -86,7 +104,7 @@ TEST_F(Cli, BenchTablesAreTextOrMarkdown) {
 TEST_F(Cli, BenchUsageErrorsSayWhatThereIs) {
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"bench"},
-                                             {"bench", "render"},
+                                             {"bench", "paint"},
                                              {"bench", "--json"},
                                              {"bench", "sim", "extra"},
                                              {"bench", "sim", "--round", "3"},
@@ -96,12 +114,14 @@ TEST_F(Cli, BenchUsageErrorsSayWhatThereIs) {
                                              {"bench", "sim", "--threads", "-1"},
                                              {"bench", "sim", "--json", "--markdown"},
                                              {"bench", "frame", "--curve"},
-                                             {"bench", "frame", "--backend", "vulkan"}}) {
+                                             {"bench", "frame", "--backend", "vulkan"},
+                                             {"bench", "render", "--particles", "3"},
+                                             {"bench", "render", "--backend", "vulkan"}}) {
     const auto result = neve(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments.back() << ": " << result.errors;
     EXPECT_TRUE(result.errors.starts_with("neve: error: ")) << result.errors;
   }
-  EXPECT_TRUE(contains(neve({"bench", "render"}).errors, "sim, frame"));
+  EXPECT_TRUE(contains(neve({"bench", "paint"}).errors, "sim, frame, render"));
   EXPECT_TRUE(contains(neve({"bench", "sim", "--round", "3"}).errors, "did you mean --rounds?"));
   EXPECT_EQ(neve({"bench", "--help"}).exit_code, 0);
   EXPECT_TRUE(contains(neve({"bench", "sim", "--help"}).output, "--curve"));

@@ -90,6 +90,44 @@ TEST(LightVolume, DependsNeitherOnOrderNorOnThreads) {
   }
 }
 
+TEST(Lighting, MakesAVolumeAnewOnlyWhenWhatItDependsOnHasChanged) {
+  Lighting lighting;
+  Frame frame = ball();
+  frame.meshes.push_back(box_mesh({0, 0.5f, 0}, {0.4f, 0.05f, 0.4f}));
+  const std::uint64_t first = lighting.volume(frame, {}, nullptr).serial;
+  EXPECT_NE(first, 0u);
+  // Another view of the same state.
+  frame.camera.eye = {3, 2, 1};
+  frame.points.value.assign(frame.points.position.size(), 0.5f);
+  frame.width = 33;
+  EXPECT_EQ(lighting.volume(frame, {}, nullptr).serial, first);
+
+  std::uint64_t last = first;
+  const auto expect_new = [&](const char* what) {
+    const LightVolume& volume = lighting.volume(frame, {}, nullptr);
+    EXPECT_NE(volume.serial, last) << what;
+    last = volume.serial;
+    const LightVolume fresh = make_light_volume(frame, {}, nullptr);
+    EXPECT_EQ(volume.body, fresh.body) << what;
+    EXPECT_EQ(volume.light, fresh.light) << what;
+    EXPECT_EQ(volume.grid.origin, fresh.grid.origin) << what;
+  };
+  frame.points.position.back().x += 1e-3f;
+  expect_new("a point");
+  frame.points.position.pop_back();
+  expect_new("fewer points");
+  frame.points.spacing *= 1.5f;
+  expect_new("the spacing, and with it a smaller grid in the same memory");
+  frame.light.direction.x += 0.5f;
+  expect_new("the light");
+  frame.meshes[0].position[0].y += 0.1f;
+  expect_new("a vertex");
+  std::swap(frame.meshes[0].index[0], frame.meshes[0].index[4]);
+  expect_new("a face");
+  frame.meshes.clear();
+  expect_new("no mesh");
+}
+
 TEST(LightGrid, FarStrayDoesNotCoarsenIt) {
   Frame frame = ball();
   const LightGrid without = fit_light_grid(frame.points, {});

@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -34,6 +35,35 @@ TEST(Renderer, SameFrameGivesTheSameBytes) {
   ThreadPool pool(3);
   Renderer with_threads(*context, {}, &pool);
   EXPECT_EQ(with_threads.draw(frame).pixels, first.pixels);
+}
+
+TEST(Renderer, WhatIsKeptFromOnePictureToTheNextDoesNotShow) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = ball_over_ground();
+  renderer.draw(frame);
+  Frame view = frame;
+  view.camera.eye = {1, 0.5f, 1.5f};
+  EXPECT_EQ(renderer.draw(view).pixels, Renderer(*context).draw(view).pixels);
+  view.light.direction = {0.7f, 0.7f, 0};
+  EXPECT_EQ(renderer.draw(view).pixels, Renderer(*context).draw(view).pixels);
+}
+
+TEST(Renderer, PhasesAreReportedInOrderWhenAskedFor) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  const Frame frame = ball_over_ground();
+  std::vector<PhaseTime> times = {{"left from before", 1}};
+  EXPECT_EQ(renderer.draw(frame, &times).pixels, renderer.draw(frame).pixels);
+  std::vector<std::string> phases;
+  for (const PhaseTime& time : times) {
+    phases.push_back(time.phase);
+    EXPECT_GE(time.seconds, 0);
+  }
+  EXPECT_EQ(phases.front(), "light");
+  EXPECT_EQ(phases.back(), "read_back");
+  for (const char* phase : {"particles", "solids", "smoke", "shade", "overlay"})
+    EXPECT_EQ(std::count(phases.begin(), phases.end(), phase), 1) << phase;
 }
 
 TEST(Renderer, EmptyFrameIsADarkGradient) {

@@ -1,0 +1,195 @@
+#include "app/bench/render_bench.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+
+#include "app/bench/measure.h"
+#include "app/bench/render_frames.h"
+#include "app/text.h"
+#include "render/context.h"
+#include "render/renderer.h"
+#include "render/splat.h"
+
+namespace neve::app {
+
+namespace {
+
+struct Size {
+  const char* name;
+  double particles, quick;
+};
+constexpr std::array<Size, 4> sizes{
+    {{"4k", 4000, 4000}, {"100k", 1e5, 5000}, {"300k", 3e5, 6000}, {"1m", 1e6, 8000}}};
+constexpr const char* main_size = "300k";
+
+/// design.md: what a picture on a machine without a GPU may take, ms.
+struct Target {
+  const char* row;
+  int must, aim;
+};
+constexpr std::array<Target, 3> targets{
+    {{"particles_300k", 55, 30}, {"all_layers_300k", 110, 60}, {"png", 20, 20}}};
+
+class RenderBench {
+ public:
+  RenderBench(const BenchOptions& options, Progress& progress);
+  std::vector<BenchRow> run();
+
+ private:
+  void measure_particles(const std::string& size, render::Frame& frame);
+  void measure_all_layers(const render::Frame& frame);
+  void measure_png();
+  void add(const std::string& name, double seconds, const render::Frame& frame);
+  std::vector<BenchRow> rows() const;
+  void compare_with_targets(const std::vector<BenchRow>& rows);
+
+  BenchOptions options_;
+  Progress& progress_;
+  int rounds_;
+  std::unique_ptr<render::Context> context_;
+  ThreadPool pool_;
+  render::Renderer renderer_, by_gl_, by_cpu_;
+  render::Image picture_;  ///< the last one of the main size
+  struct Samples {
+    std::vector<double> milliseconds;
+    std::size_t particles = 0;
+  };
+  std::vector<std::string> order_;  ///< in which rows came up
+  std::map<std::string, Samples> samples_;
+};
+
+RenderBench::RenderBench(const BenchOptions& options, Progress& progress)
+    : options_(options),
+      progress_(progress),
+      rounds_(options.rounds > 0 ? options.rounds
+              : options.is_quick ? 1
+                                 : 7),
+      context_(render::open_context(options.backend)),
+      pool_(options.threads),
+      renderer_(*context_, {}, &pool_),
+      by_gl_(*context_, {}, &pool_, render::ParticlePath::gl),
+      by_cpu_(*context_, {}, &pool_, render::ParticlePath::cpu) {}
+
+void RenderBench::add(const std::string& name, double seconds, const render::Frame& frame) {
+  const auto [found, is_new] = samples_.try_emplace(name);
+  if (is_new) order_.push_back(name);
+  found->second.milliseconds.push_back(1e3 * seconds);
+  found->second.particles = frame.points.position.size();
+}
+
+/// What a picture of this frame spends on its phases. Asking for them makes the driver wait, so
+/// their sum is a little more than the picture takes.
+std::vector<render::PhaseTime> phases_of(render::Renderer& renderer, const render::Frame& frame) {
+  std::vector<render::PhaseTime> times;
+  renderer.draw(frame, &times);
+  return times;
+}
+
+double seconds_of(const std::vector<render::PhaseTime>& times, const std::string& phase) {
+  const auto found = std::find_if(times.begin(), times.end(), [&](const render::PhaseTime& time) {
+    return time.phase == phase;
+  });
+  return found == times.end() ? 0 : found->seconds;
+}
+
+/// The picture as users get it, and only its spheres, once by OpenGL and once by the CPU.
+void RenderBench::measure_particles(const std::string& size, render::Frame& frame) {
+  // Another state than before, so that nothing of the last picture can be used again.
+  frame.points.position.front().x = -frame.points.position.front().x;
+  const Stopwatch watch;
+  render::Image image = renderer_.draw(frame);
+  add("particles_" + size, watch.wall(), frame);
+  const Stopwatch again;
+  renderer_.draw(frame);
+  add("particles_" + size + "_same_state", again.wall(), frame);
+  add("spheres_" + size + "_by_gl", seconds_of(phases_of(by_gl_, frame), "particles"), frame);
+  add("spheres_" + size + "_by_cpu", seconds_of(phases_of(by_cpu_, frame), "particles"), frame);
+  if (size == main_size) picture_ = std::move(image);
+}
+
+void RenderBench::measure_all_layers(const render::Frame& frame) {
+  render::Frame moved = frame;
+  moved.points.position.front().x = -moved.points.position.front().x;
+  const Stopwatch watch;
+  renderer_.draw(moved);
+  add(std::string("all_layers_") + main_size, watch.wall(), frame);
+  for (const render::PhaseTime& time : phases_of(renderer_, frame))
+    add(std::string("phase_") + time.phase, time.seconds, frame);
+  // The layers that scripts ask for one by one.
+  moved.heat_maps.clear();
+  const std::vector<render::PhaseTime> times = phases_of(renderer_, moved);
+  add("smoke", seconds_of(times, "smoke"), frame);
+  add("arrows", seconds_of(times, "slices"), frame);
+}
+
+void RenderBench::measure_png() {
+  const render::PngText text = {{"neve:scene", std::string(4000, '#')}};
+  const Stopwatch watch;
+  encode_png(picture_, text);
+  render::Frame none;
+  add("png", watch.wall(), none);
+}
+
+std::vector<BenchRow> RenderBench::run() {
+  progress_.note("neve bench render: " + context_->backend + ", " + context_->renderer +
+                 ", 1280x720, " + std::to_string(rounds_) + " rounds; spheres by " +
+                 (renderer_.particle_path() == render::ParticlePath::cpu ? "the CPU" : "OpenGL"));
+  std::map<std::string, render::Frame> frames;
+  for (const Size& size : sizes)
+    frames[size.name] = particles_frame(options_.is_quick ? size.quick : size.particles);
+  const double main_particles = options_.is_quick ? sizes[2].quick : sizes[2].particles;
+  const render::Frame all_layers = all_layers_frame(main_particles);
+  // The first picture of each kind compiles shaders and fills caches.
+  for (render::Renderer* renderer : {&renderer_, &by_gl_, &by_cpu_}) renderer->draw(frames["4k"]);
+  renderer_.draw(all_layers);
+  for (int round = 0; round < rounds_; ++round) {
+    for (const Size& size : sizes) {
+      stop_if_interrupted();
+      measure_particles(size.name, frames[size.name]);
+    }
+    measure_all_layers(all_layers);
+    measure_png();
+    progress_.note("round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
+  }
+  const std::vector<BenchRow> found = rows();
+  if (context_->is_software && !options_.is_quick) compare_with_targets(found);
+  return found;
+}
+
+std::vector<BenchRow> RenderBench::rows() const {
+  std::vector<BenchRow> rows;
+  for (const std::string& name : order_) {
+    const Samples& samples = samples_.at(name);
+    BenchRow row;
+    row.name = name;
+    row.threads = pool_.thread_count();
+    row.particles = samples.particles;
+    row.simd = render::chosen_splat_kernels().simd;
+    row.value = statistics_of(samples.milliseconds);
+    row.unit = "ms";
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+void RenderBench::compare_with_targets(const std::vector<BenchRow>& rows) {
+  for (const Target& target : targets) {
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const BenchRow& r) { return r.name == target.row; });
+    if (row == rows.end()) continue;
+    progress_.note(std::string(target.row) + ": " + fixed_text(row->value.median, 1) +
+                   " ms; at most " + std::to_string(target.must) +
+                   " are wanted on two quiet cores" +
+                   (target.aim < target.must ? ", better " + std::to_string(target.aim) : ""));
+  }
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_render(const BenchOptions& options, Progress& progress) {
+  return RenderBench(options, progress).run();
+}
+
+}  // namespace neve::app

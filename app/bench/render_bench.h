@@ -1,0 +1,16 @@
+#pragma once
+/// `neve bench render`: milliseconds per picture, what its phases take, and OpenGL's spheres
+/// against those of the CPU.
+
+#include <vector>
+
+#include "app/bench/bench_report.h"
+#include "app/commands.h"
+#include "app/progress.h"
+
+namespace neve::app {
+
+/// @throws render::ContextError where nothing can be drawn
+std::vector<BenchRow> bench_render(const BenchOptions& options, Progress& progress);
+
+}  // namespace neve::app
