@@ -68,7 +68,8 @@ void ShadePass::draw(const Targets& targets, const LightVolume& volume, const Li
     program.set("samples_per_ray", static_cast<float>(smoke->samples_per_ray));
     program.set("smoke_range", smoke->nearest, smoke->farthest);
     program.set("smoke_spacing", smoke->spacing);
-    bind(gl_, program, 5, GL_TEXTURE_2D, smoke->radiance, "smoke_map");
+    program.set("is_smoke_colored", smoke->is_colored ? 1 : 0);
+    bind(gl_, program, 5, GL_TEXTURE_2D, smoke->sums, "smoke_map");
     bind(gl_, program, 6, GL_TEXTURE_2D, smoke->depth, "smoke_depth_map");
   }
   gl_.BindVertexArray(vertex_array_.id());

@@ -11,11 +11,36 @@ namespace {
 constexpr int rays_per_tile = 8;  // along each axis
 constexpr int colormap_width = 64;
 
-void set_filter(const Gl& gl, GLenum target, GLint filter) {
+void upload_2d(const Gl& gl, const Texture& texture, GLint internal, GLenum format, int width,
+               int height, const float* texels, GLint filter) {
+  gl.BindTexture(GL_TEXTURE_2D, texture.id());
+  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, internal, width, height, 0, format, GL_FLOAT, texels);
   for (const GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-    gl.TexParameteri(target, name, filter);
+    gl.TexParameteri(GL_TEXTURE_2D, name, filter);
+  for (const GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    gl.TexParameteri(GL_TEXTURE_2D, name, GL_CLAMP_TO_EDGE);
+}
+
+void upload_3d(const Gl& gl, const Texture& texture, GLint internal, GLenum format, GLenum type,
+               Vec3i size, const void* texels, GLint filter) {
+  gl.BindTexture(GL_TEXTURE_3D, texture.id());
+  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl.TexImage3D(GL_TEXTURE_3D, 0, internal, size.x, size.y, size.z, 0, format, type, texels);
+  for (const GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    gl.TexParameteri(GL_TEXTURE_3D, name, filter);
   for (const GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    gl.TexParameteri(target, name, GL_CLAMP_TO_EDGE);
+    gl.TexParameteri(GL_TEXTURE_3D, name, GL_CLAMP_TO_EDGE);
+}
+
+std::vector<std::array<float, 3>> linear_colors(ColorMap map) {
+  std::vector<std::array<float, 3>> colors;
+  for (int i = 0; i < colormap_width; ++i) {
+    const Rgb8 color = map_color(map, static_cast<float>(i) / (colormap_width - 1));
+    const auto linear = [](std::uint8_t c) { return std::pow(static_cast<float>(c) / 255, 2.2f); };
+    colors.push_back({linear(color.r), linear(color.g), linear(color.b)});
+  }
+  return colors;
 }
 
 }  // namespace
@@ -28,16 +53,17 @@ SmokePass::SmokePass(const Gl& gl, const ShaderLibrary& library)
       volume_(gl),
       bricks_(gl),
       spans_(gl),
-      colormap_(gl) {}
+      colormap_(gl),
+      sums_(gl),
+      depth_(gl) {}
 
 void SmokePass::prepare_target(int width, int height) {
   if (width_ == width && height_ == height) return;
-  radiance_ =
-      make_texture_2d(gl_, width, height, GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, nullptr, GL_NEAREST);
-  depth_ = make_texture_2d(gl_, width, height, GL_R32F, GL_RED, GL_FLOAT, nullptr, GL_NEAREST);
+  upload_2d(gl_, sums_, GL_RGBA16F, GL_RGBA, width, height, nullptr, GL_NEAREST);
+  upload_2d(gl_, depth_, GL_R32F, GL_RED, width, height, nullptr, GL_NEAREST);
   framebuffer_ = Framebuffer(gl_);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, radiance_.id(), 0);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, sums_.id(), 0);
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, depth_.id(), 0);
   constexpr GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   gl_.DrawBuffers(2, both);
@@ -48,48 +74,28 @@ void SmokePass::prepare_target(int width, int height) {
 }
 
 void SmokePass::upload(const SmokeGrid& grid, const SmokeVolume& volume, const SmokeSpans& spans) {
-  gl_.ActiveTexture(GL_TEXTURE0);
-  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl_.BindTexture(GL_TEXTURE_3D, volume_.id());
-  gl_.TexImage3D(GL_TEXTURE_3D, 0, GL_RGBA16, grid.size.x, grid.size.y, grid.size.z, 0, GL_RGBA,
-                 GL_UNSIGNED_SHORT, volume.texels.data());
-  set_filter(gl_, GL_TEXTURE_3D, GL_LINEAR);
-  gl_.BindTexture(GL_TEXTURE_3D, bricks_.id());
-  gl_.TexImage3D(GL_TEXTURE_3D, 0, GL_R8, volume.brick_count.x, volume.brick_count.y,
-                 volume.brick_count.z, 0, GL_RED, GL_UNSIGNED_BYTE, volume.bricks.data());
-  set_filter(gl_, GL_TEXTURE_3D, GL_NEAREST);
-  gl_.BindTexture(GL_TEXTURE_2D, spans_.id());
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, spans.columns, spans.rows, 0, GL_RG, GL_FLOAT,
-                 spans.near_far.data());
-  set_filter(gl_, GL_TEXTURE_2D, GL_NEAREST);
+  upload_3d(gl_, volume_, GL_RGBA16F, GL_RGBA, GL_FLOAT, grid.size, volume.texels.data(),
+            GL_LINEAR);
+  upload_3d(gl_, bricks_, GL_R8, GL_RED, GL_UNSIGNED_BYTE, volume.brick_count, volume.bricks.data(),
+            GL_NEAREST);
+  upload_2d(gl_, spans_, GL_RG32F, GL_RG, spans.columns, spans.rows, spans.near_far.data(),
+            GL_NEAREST);
 }
 
 void SmokePass::upload_colormap(const Smoke& smoke) {
-  std::array<float, 3 * colormap_width> colors{};
-  for (std::size_t i = 0; i < colormap_width; ++i) {
-    const Rgb8 color =
-        map_color(smoke.colormap, static_cast<float>(i) / static_cast<float>(colormap_width - 1));
-    const std::array<std::uint8_t, 3> channels = {color.r, color.g, color.b};
-    for (std::size_t c = 0; c < 3; ++c)
-      colors[3 * i + c] = std::pow(static_cast<float>(channels[c]) / 255, 2.2f);
-  }
-  gl_.BindTexture(GL_TEXTURE_2D, colormap_.id());
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, colormap_width, 1, 0, GL_RGB, GL_FLOAT,
-                 colors.data());
-  set_filter(gl_, GL_TEXTURE_2D, GL_LINEAR);
+  const std::vector<std::array<float, 3>> colors = linear_colors(smoke.colormap);
+  upload_2d(gl_, colormap_, GL_RGB32F, GL_RGB, colormap_width, 1, colors.front().data(), GL_LINEAR);
 }
 
-std::optional<SmokePicture> SmokePass::draw(const Smoke& smoke, const SmokeGrid& grid,
-                                            const SmokeVolume& volume, const Light& light,
-                                            const Targets& targets, const View& view) {
+void SmokePass::march(const Smoke& smoke, const SmokeGrid& grid, const SmokeVolume& volume,
+                      const SmokeSpans& spans, const Light& light, const Targets& targets,
+                      const View& view) {
   const int n = smoke.samples_per_ray;
-  const SmokeSpans spans = make_smoke_spans(grid, volume, view, rays_per_tile * n);
-  if (spans.nearest > spans.farthest) return std::nullopt;
-  prepare_target((view.width + n - 1) / n, (view.height + n - 1) / n);
-  upload(grid, volume, spans);
   const bool has_values = !smoke.value.empty();
+  prepare_target((view.width + n - 1) / n, (view.height + n - 1) / n);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  upload(grid, volume, spans);
   if (has_values) upload_colormap(smoke);
-
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   gl_.Viewport(0, 0, width_, height_);
   set_flat_state(gl_);
@@ -103,11 +109,11 @@ std::optional<SmokePicture> SmokePass::draw(const Smoke& smoke, const SmokeGrid&
                                  static_cast<float>(grid.size.z)});
   program.set("texel", grid.spacing);
   program.set("step_length", 0.5f * grid.spacing);
-  program.set("full_extinction", volume.full_opacity * grid.extinction());
+  program.set("extinction", grid.extinction());
   program.set("smoke_range", spans.nearest, spans.farthest);
-  program.set("toward_light", toward_light(light));
-  program.set("key_intensity", light.intensity);
-  program.set("ambient_intensity", light.ambient);
+  // Without a tint of their own, so that colours are those of the legend.
+  program.set("key_light", 1.15f * light.intensity);
+  program.set("sky_light", 0.55f * light.ambient);
   const auto bind = [&](int unit, GLenum target, const Texture& texture, const char* sampler) {
     gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     gl_.BindTexture(target, texture.id());
@@ -120,8 +126,24 @@ std::optional<SmokePicture> SmokePass::draw(const Smoke& smoke, const SmokeGrid&
   bind(4, GL_TEXTURE_2D, colormap_, "colormap");
   gl_.BindVertexArray(vertex_array_.id());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  return SmokePicture{radiance_.id(), depth_.id(),    n,
-                      spans.nearest,  spans.farthest, grid.node_spacing};
+}
+
+std::optional<SmokePicture> SmokePass::draw(const Smoke& smoke, const SmokeGrid& grid,
+                                            const SmokeVolume& volume, const Light& light,
+                                            const Targets& targets, const View& view) {
+  const int n = smoke.samples_per_ray;
+  const SmokeSpans spans = make_smoke_spans(grid, volume, view, rays_per_tile * n);
+  if (spans.nearest > spans.farthest) return std::nullopt;
+  march(smoke, grid, volume, spans, light, targets, view);
+  SmokePicture picture;
+  picture.sums = sums_.id();
+  picture.depth = depth_.id();
+  picture.samples_per_ray = n;
+  picture.nearest = spans.nearest;
+  picture.farthest = spans.farthest;
+  picture.spacing = grid.spacing;
+  picture.is_colored = !smoke.value.empty();
+  return picture;
 }
 
 }  // namespace neve::render

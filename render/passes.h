@@ -74,11 +74,12 @@ class MeshPass {
 
 /// Smoke as the shading pass lays it over the surfaces.
 struct SmokePicture {
-  GLuint radiance = 0;              ///< linear light, premultiplied by the opacity in alpha
+  GLuint sums = 0;                  ///< out_sums of shaders/smoke.frag
   GLuint depth = 0;                 ///< m along the view, where each ray ended
   int samples_per_ray = 1;          ///< along each axis
   float nearest = 0, farthest = 0;  ///< m along the view: depths are clamped to these
   float spacing = 1;                ///< m, over which smoke hardly changes
+  bool is_colored = false;
 };
 
 /// Marches through smoke up to the surfaces; see shaders/smoke.frag.
@@ -93,6 +94,8 @@ class SmokePass {
                                    const Targets& targets, const View& view);
 
  private:
+  void march(const Smoke& smoke, const SmokeGrid& grid, const SmokeVolume& volume,
+             const SmokeSpans& spans, const Light& light, const Targets& targets, const View& view);
   void prepare_target(int width, int height);
   void upload(const SmokeGrid& grid, const SmokeVolume& volume, const SmokeSpans& spans);
   void upload_colormap(const Smoke& smoke);
@@ -101,7 +104,7 @@ class SmokePass {
   VertexArray vertex_array_;
   Texture volume_, bricks_, spans_, colormap_;
   int width_ = 0, height_ = 0;
-  Texture radiance_, depth_;
+  Texture sums_, depth_;
   Framebuffer framebuffer_;
 };
 

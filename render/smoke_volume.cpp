@@ -77,10 +77,6 @@ Glow glow(const Lit& lit, Vec3f toward_light, float contrast) {
   return {slope * key, sky, std::pow(lit.key, 0.15f)};
 }
 
-std::uint16_t to_unorm(float x) {
-  return static_cast<std::uint16_t>(65535 * std::clamp(x, 0.0f, 1.0f) + 0.5f);
-}
-
 void mark_bricks(const SmokeGrid& grid, SmokeVolume& volume) {
   for (int axis = 0; axis < 3; ++axis) volume.brick_count[axis] = (grid.size[axis] - 1) / 4 + 1;
   const Vec3i count = volume.brick_count;
@@ -110,12 +106,11 @@ void mark_bricks(const SmokeGrid& grid, SmokeVolume& volume) {
 SmokeVolume make_smoke_volume(const SmokeGrid& grid, const LightVolume& light, Vec3f toward_light,
                               ThreadPool* pool) {
   SmokeVolume volume;
-  volume.full_opacity = *std::max_element(grid.opacity.begin(), grid.opacity.end());
   volume.texels.resize(4 * grid.opacity.size());
   mark_bricks(grid, volume);
   const LightReader reader(light);
   const bool has_values = !grid.value.empty();
-  const float contrast = has_values ? 0.6f : 1.0f, scale = 1 / volume.full_opacity;
+  const float contrast = has_values ? 0.6f : 1.0f;
   for_each_task(grid.size.z, pool, [&](int z) {
     for (int y = 0; y < grid.size.y; ++y) {
       for (int x = 0; x < grid.size.x; ++x) {
@@ -123,12 +118,12 @@ SmokeVolume make_smoke_volume(const SmokeGrid& grid, const LightVolume& light, V
         if (!(grid.opacity[i] > 0)) continue;
         const Vec3f at = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
         const Glow g = glow(reader.at(grid.origin + grid.spacing * at), toward_light, contrast);
-        const float opacity = scale * grid.opacity[i];
-        std::uint16_t* out = volume.texels.data() + 4 * i;
-        out[0] = to_unorm(opacity);
-        out[1] = to_unorm(opacity * g.key);
-        out[2] = to_unorm(opacity * g.sky);
-        out[3] = to_unorm(has_values ? scale * grid.value[i] : opacity * g.inside);
+        const float opacity = grid.opacity[i];
+        float* out = volume.texels.data() + 4 * i;
+        out[0] = opacity;
+        out[1] = opacity * g.key;
+        out[2] = opacity * g.sky;
+        out[3] = has_values ? grid.value[i] : opacity * g.inside;
       }
     }
   });

@@ -11,11 +11,10 @@
 namespace neve::render {
 
 struct SmokeVolume {
-  /// Four 16-bit fractions per texel of the grid: opacity over `full_opacity`, and times that the
-  /// key light, the sky, and the light that was scattered many times, or the place of the value in
-  /// its range. Products interpolate as they should where one side is empty.
-  std::vector<std::uint16_t> texels;
-  float full_opacity = 1;
+  /// Four per texel of the grid: opacity, and times that the key light, the sky, and the light that
+  /// was scattered many times, or the place of the value in its range. Products interpolate as they
+  /// should where one side is empty.
+  std::vector<float> texels;
   /// Cubes of 4x4x4 texels, from texel 4 b to 4 b + 4: 255 where there is smoke between these.
   Vec3i brick_count{0, 0, 0};
   std::vector<std::uint8_t> bricks;  ///< index as in SmokeGrid

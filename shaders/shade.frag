@@ -101,11 +101,12 @@ vec3 surface(vec3 p, vec4 normal_kind, vec3 albedo) {
 }
 
 #ifdef SMOKE
-uniform sampler2D smoke_map;        // linear light, premultiplied
+uniform sampler2D smoke_map;        // key light, sky, inside, opacity; or colour and opacity
 uniform sampler2D smoke_depth_map;  // m along the view, within smoke_range
 uniform float samples_per_ray;
 uniform vec2 smoke_range;
 uniform float smoke_spacing;
+uniform bool is_smoke_colored;
 
 // Smoke before a surface: of the four rays around the sample, those that ended at its depth, so that
 // nothing leaks over the edge of what stands in it.
@@ -127,6 +128,22 @@ vec4 smoke_before(float depth) {
   }
   return sum / total;
 }
+
+// Henyey and Greenstein, 1 on average: dust is brighter towards the light.
+float phase(float cosine) {
+  const float g = 0.5;
+  return (1.0 - g * g) / pow(1.0 + g * g - 2.0 * g * cosine, 1.5);
+}
+
+// Linear light of smoke, given what it scatters of each kind.
+vec3 smoke_light(vec4 sums) {
+  if (is_smoke_colored) return sums.rgb;
+  float ahead = phase(dot(normalize(view_ray(gl_FragCoord.xy)), toward_light)) - 1.0;
+  vec3 direct = sun * (1.9 * (1.0 + 0.35 * ahead) * sums.r);
+  vec3 inside = mix(sun, sky, 0.75) * (0.34 * (1.0 + 0.2 * ahead) * sums.b);
+  vec3 ambient = sky * (0.52 * sums.g) + scatter * (0.15 * sums.a);
+  return (direct + inside) * key_intensity + ambient * ambient_intensity;
+}
 #endif
 
 void main() {
@@ -145,7 +162,7 @@ void main() {
   if (normal_kind.w != kind_flat) color *= vignette;
 #ifdef SMOKE
   vec4 smoke = smoke_before(depth);
-  color = color * (1.0 - smoke.a) + smoke.rgb * vignette;
+  color = color * (1.0 - smoke.a) + smoke_light(smoke) * vignette;
 #endif
   out_color = vec4(tone_map(color) + (noise(uvec2(at)) - 0.5) / 255.0, 1.0);
 }

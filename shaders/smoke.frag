@@ -1,10 +1,9 @@
-// Marches from the eye through smoke up to what the depth map shows. In: per texel of a box of
-// nodes opacity, and times that the key light, the sky, and light that was scattered many times, or
-// with VALUE the place in the colour map (render/smoke_volume.h). Out: linear light premultiplied by
-// opacity, and the depth (m along the view) where the ray ended. Writes no depth.
+// Marches from the eye through smoke up to what the depth map shows. In: per texel of a box of nodes opacity, and times that the key light, the sky,
+// and light that was scattered many times, or with VALUE the place in the colour map
+// (render/smoke_volume.h). Out: sums along the ray, premultiplied, and the depth (m along the view)
+// where it ended. Writes no depth.
 
 #include "view.glsl"
-#include "light.glsl"
 #include "noise.glsl"
 
 uniform sampler2D depth_map;
@@ -18,16 +17,16 @@ uniform vec3 grid_origin;      // of texel (0, 0, 0), relative to the eye, m
 uniform vec3 grid_size;        // texels
 uniform float texel;           // m
 uniform float step_length;     // m
-uniform float full_extinction; // 1/m, where the volume holds 1
+uniform float extinction;      // 1/m, of opacity 1
 uniform vec2 smoke_range;      // m along the view
-uniform vec3 toward_light;     // unit
-uniform float key_intensity, ambient_intensity;
+uniform float key_light, sky_light;  // on colours
 
-layout(location = 0) out vec4 out_radiance;
+// Key light, sky, light from inside, opacity; with VALUE linear light and opacity.
+layout(location = 0) out vec4 out_sums;
 layout(location = 1) out float out_depth;
 
 const int max_steps = 1024;
-const float opaque = 0.004;  // what is left of the light where a march ends
+const float opaque = 0.015;  // what is left of the light where a march ends
 
 float distance_of(float depth) { return near_distance / max(1.0 - depth, 1e-9); }
 
@@ -55,18 +54,12 @@ vec2 box_span(vec3 ray) {
   return vec2(max(max(low.x, low.y), low.z), min(min(high.x, high.y), high.z));
 }
 
-// Henyey and Greenstein, 1 on average: dust is brighter towards the light.
-float phase(float cosine) {
-  const float g = 0.5;
-  return (1.0 - g * g) / pow(1.0 + g * g - 2.0 * g * cosine, 1.5);
-}
-
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec2 pixel = gl_FragCoord.xy * float(samples_per_ray);
   float z_surface = surface_distance(at);
   out_depth = clamp(z_surface, smoke_range.x, smoke_range.y);
-  out_radiance = vec4(0.0);
+  out_sums = vec4(0.0);
 
   vec3 ray = view_ray(pixel);
   vec2 span = texelFetch(span_map, ivec2(pixel / tile), 0).rg;
@@ -79,10 +72,8 @@ void main() {
   float dz = max(step_length / per_z, (z_end - z) / float(max_steps));
   float jitter = even_noise(gl_FragCoord.xy);
   vec3 per_texel = 1.0 / (ray / texel + vec3(equal(ray, vec3(0.0))) * 1e-7);
-  float toward = phase(dot(ray, toward_light) / per_z);
   float left = 1.0;
   vec4 sums = vec4(0.0);
-  vec3 color = vec3(0.0);
   for (int i = 0; i < max_steps && z < z_end && left > opaque; ++i) {
     float part = min(dz, z_end - z);
     vec3 u = (ray * (z + jitter * part) - grid_origin) / texel;
@@ -97,24 +88,18 @@ void main() {
     z += part;
     vec4 s = texture(smoke_volume, (u + 0.5) / grid_size);
     if (s.r <= 0.0) continue;
-    float taken = left * (1.0 - exp(-full_extinction * per_z * part * s.r));
+    float taken = left * (1.0 - exp(-extinction * per_z * part * s.r));
     left -= taken;
     s *= taken / s.r;
-    sums += s;
 #ifdef VALUE
-    vec3 own = texture(colormap, vec2(taken > 0.0 ? s.a / taken : 0.5, 0.5)).rgb;
-    color += own * (s.g * sun * key_intensity + s.b * sky * ambient_intensity);
+    // s.r is what was taken: the opacity that the place was multiplied by.
+    vec3 own = taken > 0.0 ? texture(colormap, vec2(s.a / taken, 0.5)).rgb : vec3(0.0);
+    sums.rgb += own * (key_light * s.g + sky_light * s.b);
+#else
+    sums.rgb += s.gba;
 #endif
   }
-  float opacity = 1.0 - left;
-  if (opacity <= 0.0) return;
-#ifndef VALUE
-  // Light that has gone through snow is bluer: red is absorbed first.
-  vec3 direct = sun * (1.9 * mix(1.0, toward, 0.35) * sums.g);
-  vec3 inside = mix(sun, sky, 0.75) * (0.34 * mix(1.0, toward, 0.2) * sums.a);
-  vec3 ambient = sky * (0.52 * sums.b) + scatter * (0.15 * sums.r);
-  color = (direct + inside) * key_intensity + ambient * ambient_intensity;
-#endif
-  float rest = left > opaque ? 1.0 : 1.0 / opacity;  // what a march cut short left out
-  out_radiance = vec4(color * rest, opacity * rest);
+  sums.a = 1.0 - left;
+  if (left <= opaque) sums /= sums.a;  // what a march cut short left out
+  out_sums = sums;
 }
