@@ -8,6 +8,7 @@
 #include "app/round_number.h"
 #include "app/scene/coarsen.h"
 #include "app/slice.h"
+#include "app/smoke_layer.h"
 #include "app/text.h"
 #include "app/wires.h"
 #include "render/mesh_shapes.h"
@@ -155,6 +156,7 @@ void FrameBuilder::add_grid(const View& view, const Snapshot& snapshot,
   const NodeFields& fields = snapshot.fields;
   if (fields.lattice && has_layer(view, Layer::blocks))
     frame.lines.push_back(block_lines(*fields.lattice, fields.density));
+  if (has_layer(view, Layer::smoke)) add_smoke(scene_, view, fields, frame);
   const SlicePlane plane =
       slice_plane(view.slice, snapshot.time, centre_of_mass(view.slice.follow, snapshot));
   add_slice(view, fields, plane, pixels_per_metre(frame.camera, to_float(plane.point)), frame);

@@ -114,7 +114,9 @@ void add_fields_of_step(const Scene& scene, const sim::Simulation& simulation,
 void add_needs(const View& view, FieldNeeds& needs) {
   if (has_layer(view, Layer::arrows)) needs.vectors.insert(view.slice.field);
   if (has_layer(view, Layer::heatmap)) needs.scalars.insert(view.slice.scalar);
-  if (has_layer(view, Layer::blocks)) needs.is_needed = true;
+  if (has_layer(view, Layer::blocks) || has_layer(view, Layer::smoke)) needs.is_needed = true;
+  if (has_layer(view, Layer::smoke) && view.smoke.field != ScalarField::mass)
+    needs.scalars.insert(view.smoke.field);
   needs.is_needed = needs.is_needed || !needs.vectors.empty() || !needs.scalars.empty();
 }
 

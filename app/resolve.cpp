@@ -72,6 +72,8 @@ void resolve(Scene& scene, std::size_t particle_count) {
   for (View& view : scene.views) {
     if (!view.particles.range && view.particles.color_by != ColorBy::snow)
       view.particles.range = automatic_range(scene, view.particles.color_by, particle_count);
+    if (has_layer(view, Layer::smoke) && view.smoke.field != ScalarField::mass && !view.smoke.range)
+      view.smoke.range = automatic_range(scene, view.smoke.field);
     if (has_layer(view, Layer::arrows) || has_layer(view, Layer::heatmap))
       resolve_slice(scene, view.slice);
   }

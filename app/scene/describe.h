@@ -253,6 +253,18 @@ void describe(V& visit, ParticleStyle& p) {
 }
 
 template <class V>
+void describe(V& visit, SmokeStyle& s) {
+  using enum Change;
+  visit("field", s.field, unit::none, anything, live,
+        "mass: white smoke; any other field colours it.");
+  visit("density_scale", s.density_scale, unit::none, between(0, 1000), live,
+        "How opaque it is; at 1 three cells of packed snow take 60 % of the light.");
+  visit("colormap", s.colormap, unit::none, anything, live, "Colours of the values.");
+  visit("range", s.range, unit::none, within(1e30), live,
+        "Values at the ends of the colour map, or \"auto\".");
+}
+
+template <class V>
 void describe(V& visit, SliceStyle& s) {
   using enum Change;
   visit("field", s.field, unit::none, anything, live, "Field of the arrows.");
@@ -295,6 +307,8 @@ void describe(V& visit, View& view) {
                 "Width and height of this view; without it the output's.");
   visit.section("particles", "How particles are drawn.",
                 [&](auto& v) { describe(v, view.particles); });
+  visit.section("smoke", "The mass on the grid, for the layer smoke.",
+                [&](auto& v) { describe(v, view.smoke); });
   visit.section("slice", "A plane through the grid, for arrows and heatmap.",
                 [&](auto& v) { describe(v, view.slice); });
   visit.optional("camera", view.camera, "The camera of this view; without it the scene's.");

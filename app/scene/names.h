@@ -84,10 +84,11 @@ constexpr auto names(render::ColorMap) {
 }
 constexpr auto names(Layer) {
   using enum Layer;
-  return std::array{
-      Name{ground, "ground"}, Name{colliders, "colliders"}, Name{particles, "particles"},
-      Name{arrows, "arrows"}, Name{heatmap, "heatmap"},     Name{blocks, "blocks"},
-      Name{bounds, "bounds"}, Name{legend, "legend"},       Name{caption, "caption"}};
+  return std::array{Name{ground, "ground"},       Name{colliders, "colliders"},
+                    Name{particles, "particles"}, Name{arrows, "arrows"},
+                    Name{heatmap, "heatmap"},     Name{smoke, "smoke"},
+                    Name{blocks, "blocks"},       Name{bounds, "bounds"},
+                    Name{legend, "legend"},       Name{caption, "caption"}};
 }
 
 template <class E>

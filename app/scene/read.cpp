@@ -16,10 +16,13 @@ namespace neve::app {
 
 std::vector<View> built_in_views() {
   using enum Layer;
+  View smoke;
+  smoke.name = "smoke";
+  smoke.layers = {ground, colliders, Layer::smoke, legend, caption};
   View slice;
   slice.name = "slice";
   slice.layers = {ground, colliders, arrows, legend, caption};
-  return {View{}, slice};
+  return {View{}, smoke, slice};
 }
 
 namespace {

@@ -20,7 +20,18 @@ enum class ColorBy { snow, speed, density, J_E, J_P, pressure, von_mises, id };
 enum class ScalarField { mass, speed, density, J_E, J_P, pressure, von_mises };
 /// The names of design and paper: velocity is what is rasterised (v_old).
 enum class VectorField { velocity, momentum, force, v_free, v_star, v_new };
-enum class Layer { ground, colliders, particles, arrows, heatmap, blocks, bounds, legend, caption };
+enum class Layer {
+  ground,
+  colliders,
+  particles,
+  arrows,
+  heatmap,
+  smoke,
+  blocks,
+  bounds,
+  legend,
+  caption
+};
 
 /// Absent range: "auto". Resolving a scene fills it in.
 struct Range {
@@ -29,6 +40,14 @@ struct Range {
 
 struct ParticleStyle {
   ColorBy color_by = ColorBy::snow;
+  render::ColorMap colormap = render::ColorMap::viridis;
+  std::optional<Range> range;
+};
+
+/// The mass on the grid as smoke, white or coloured by a field.
+struct SmokeStyle {
+  ScalarField field = ScalarField::mass;  ///< mass: white
+  double density_scale = 1;
   render::ColorMap colormap = render::ColorMap::viridis;
   std::optional<Range> range;
 };
@@ -71,6 +90,7 @@ struct View {
   std::vector<Layer> layers{Layer::ground, Layer::colliders, Layer::particles, Layer::legend,
                             Layer::caption};
   ParticleStyle particles;
+  SmokeStyle smoke;
   SliceStyle slice;
   std::optional<CameraSettings> camera;  ///< the scene's when absent
   std::optional<PictureSize> size;       ///< the output's when absent

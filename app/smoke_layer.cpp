@@ -1,0 +1,44 @@
+#include "app/smoke_layer.h"
+
+#include <algorithm>
+
+#include "app/attributes.h"
+
+namespace neve::app {
+
+namespace {
+
+/// What counts as packed: the densest snow there is at the start.
+double full_density(const Scene& scene) {
+  double density = 0;
+  for (const sim::Body& body : scene.bodies) {
+    for (const sim::Material& material : scene.materials)
+      if (material.name == body.material) density = std::max(density, material.density);
+  }
+  return density;
+}
+
+}  // namespace
+
+void add_smoke(const Scene& scene, const View& view, const NodeFields& fields,
+               render::Frame& frame) {
+  const SmokeStyle& style = view.smoke;
+  render::Smoke& smoke = frame.smoke;
+  smoke.nodes = fields.lattice;
+  smoke.density = fields.density;
+  smoke.full_density = static_cast<float>(full_density(scene));
+  smoke.density_scale = static_cast<float>(style.density_scale);
+  if (style.field == ScalarField::mass) return;
+  const auto values = fields.scalars.find(style.field);
+  if (values != fields.scalars.end()) smoke.value = values->second;
+  const Range range = style.range.value_or(Range{});
+  smoke.colormap = style.colormap;
+  smoke.range_min = static_cast<float>(range.min);
+  smoke.range_max = static_cast<float>(range.max);
+  if (!has_layer(view, Layer::legend)) return;
+  const AttributeName name = attribute_name(style.field);
+  frame.legends.push_back(
+      {name.title, name.unit, style.colormap, smoke.range_min, smoke.range_max});
+}
+
+}  // namespace neve::app

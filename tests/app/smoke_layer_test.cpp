@@ -1,0 +1,132 @@
+/// The layer "smoke": its keys, its built-in view, what it asks of the grid and hands to render.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/auto_ranges.h"
+#include "app/frame_builder.h"
+#include "app/resolve.h"
+#include "app/scene/error.h"
+#include "app/scene/read.h"
+#include "app/seed_scene.h"
+
+namespace neve::app {
+namespace {
+
+constexpr const char* ball_text = R"([camera]
+eye = [0, 0.5, 2]
+target = [0, 0.5, 0]
+[material.powder]
+density = 100
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
+velocity = [0, -2, 0]
+)";
+
+Scene read(const std::string& more, const std::vector<Override>& overrides = {}) {
+  return read_scene_text(ball_text + more, "ball.toml", {}, overrides);
+}
+
+/// The first view of frame 0.
+render::Frame first_frame(Scene scene) {
+  std::vector<std::size_t> body_end;
+  const sim::ParticleArrays particles = seed_scene(scene, &body_end);
+  resolve(scene, particles.x.size());
+  const sim::Simulation simulation(scene.solver, scene.materials, scene.colliders, particles, 1);
+  const FrameBuilder builder(scene, 0.01, Quality::preview, {}, 1, body_end);
+  return builder.build(scene.views.front(), take_snapshot(scene, simulation, 0));
+}
+
+double mass_of(const render::Smoke& smoke) {
+  double sum = 0;
+  for (const float density : smoke.density) sum += density;
+  return sum * std::pow(smoke.nodes->spacing, 3);
+}
+
+TEST(SmokeLayer, BuiltInViewTakesItsOwnLayers) {
+  const View view = find_view(read(""), "smoke");
+  EXPECT_TRUE(has_layer(view, Layer::smoke));
+  EXPECT_TRUE(has_layer(view, Layer::ground));
+  EXPECT_FALSE(has_layer(view, Layer::particles));
+  EXPECT_EQ(view.smoke.field, ScalarField::mass);
+  const Scene named = read("[[view]]\nname = \"smoke\"\nsmoke = { density_scale = 2 }");
+  EXPECT_TRUE(has_layer(named.views.front(), Layer::smoke));
+  EXPECT_EQ(named.views.front().smoke.density_scale, 2);
+  EXPECT_EQ(read("", {{"view.smoke.smoke.field", "J_P"}}).views.back().smoke.field,
+            ScalarField::J_P);
+}
+
+TEST(SmokeLayer, HoldsTheMassOfTheSnow) {
+  Scene scene = read("");
+  scene.views = {find_view(scene, "smoke")};
+  const render::Frame frame = first_frame(scene);
+  ASSERT_NE(frame.smoke.nodes, nullptr);
+  ASSERT_EQ(frame.smoke.density.size(), 64 * frame.smoke.nodes->block.size());
+  EXPECT_TRUE(frame.smoke.value.empty());
+  EXPECT_TRUE(frame.legends.empty());
+  EXPECT_TRUE(frame.points.position.empty());
+  // Particles have the mass of the body between them; feather-light nodes are left out.
+  const double mass = 400 * 4.0 / 3 * 3.14159265 * std::pow(0.1, 3);
+  EXPECT_NEAR(mass_of(frame.smoke), mass, 1e-3 * mass);
+}
+
+TEST(SmokeLayer, PackedIsTheDensestSnowOfABodyNotOfAnUnusedMaterial) {
+  Scene scene = read("", {{"body.ball.material", "powder"}});
+  scene.views = {find_view(scene, "smoke")};
+  EXPECT_EQ(first_frame(scene).smoke.full_density, 100);
+}
+
+TEST(SmokeLayer, AFieldColoursItWithALegendAndAnAutomaticRange) {
+  for (const ScalarField field :
+       {ScalarField::speed, ScalarField::J_P, ScalarField::pressure, ScalarField::density}) {
+    Scene scene = read("");
+    scene.views = {find_view(scene, "smoke")};
+    scene.views.front().smoke.field = field;
+    const render::Frame frame = first_frame(scene);
+    ASSERT_EQ(frame.smoke.value.size(), frame.smoke.density.size());
+    const Range range = automatic_range(scene, field);
+    EXPECT_EQ(frame.smoke.range_min, static_cast<float>(range.min));
+    EXPECT_EQ(frame.smoke.range_max, static_cast<float>(range.max));
+    ASSERT_EQ(frame.legends.size(), 1u);
+    EXPECT_EQ(frame.legends[0].max, frame.smoke.range_max);
+  }
+}
+
+TEST(SmokeLayer, ShowsTheSpeedOfTheBall) {
+  Scene scene = read("");
+  scene.views = {find_view(scene, "smoke")};
+  scene.views.front().smoke.field = ScalarField::speed;
+  const render::Smoke smoke = first_frame(scene).smoke;
+  for (std::size_t n = 0; n < smoke.density.size(); ++n) {
+    if (!(smoke.density[n] > 0)) continue;
+    ASSERT_NEAR(smoke.value[n], 2, 1e-4);
+  }
+}
+
+std::string error_of(const std::string& more) {
+  try {
+    read(more);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(SmokeLayer, MistakesAreLocated) {
+  const auto with = [](const std::string& keys) {
+    return "[[view]]\nname = \"smoke\"\nsmoke = { " + keys + " }";
+  };
+  EXPECT_TRUE(error_of(with("field = \"fog\"")).starts_with("ball.toml:12:19: error: "))
+      << error_of(with("field = \"fog\""));
+  EXPECT_NE(error_of(with("density_scale = -1")).find("expected 0 <= value <= 1000"),
+            std::string::npos)
+      << error_of(with("density_scale = -1"));
+  EXPECT_NE(error_of(with("densty_scale = 1")).find("did you mean \"density_scale\"?"),
+            std::string::npos);
+  EXPECT_NE(error_of(with("range = [1, 0]")).find("expected min < max"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace neve::app
