@@ -70,10 +70,10 @@ Glow glow(const Lit& lit, Vec3f toward_light, float contrast) {
   const Vec3f n = normalized(lit.body);
   constexpr float wrap = 0.4f;
   const float facing = std::max(0.0f, (dot(n, toward_light) + wrap) / (1 + wrap));
-  const float slope = 1 + 0.8f * contrast * certainty * (facing - 1);
-  const float key = std::pow(lit.key, 0.45f * contrast);
+  const float slope = 1 + contrast * certainty * (facing - 1);
+  const float key = std::pow(lit.key, 0.5f * contrast);
   const float sky =
-      std::pow(lit.sky, 0.6f * contrast) * (1 + 0.3f * contrast * certainty * (n.y - 1));
+      std::pow(lit.sky, 0.9f * contrast) * (1 + 0.3f * contrast * certainty * (n.y - 1));
   return {slope * key, sky, std::pow(lit.key, 0.15f)};
 }
 

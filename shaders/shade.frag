@@ -139,9 +139,9 @@ float phase(float cosine) {
 vec3 smoke_light(vec4 sums) {
   if (is_smoke_colored) return sums.rgb;
   float ahead = phase(dot(normalize(view_ray(gl_FragCoord.xy)), toward_light)) - 1.0;
-  vec3 direct = sun * (1.9 * (1.0 + 0.35 * ahead) * sums.r);
-  vec3 inside = mix(sun, sky, 0.75) * (0.34 * (1.0 + 0.2 * ahead) * sums.b);
-  vec3 ambient = sky * (0.52 * sums.g) + scatter * (0.15 * sums.a);
+  vec3 direct = sun * (1.95 * (1.0 + 0.35 * ahead) * sums.r);
+  vec3 inside = mix(sun, sky, 0.75) * (0.30 * (1.0 + 0.2 * ahead) * sums.b);
+  vec3 ambient = sky * (0.72 * sums.g) + bounce * (0.42 * sums.a);
   return (direct + inside) * key_intensity + ambient * ambient_intensity;
 }
 #endif

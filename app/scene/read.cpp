@@ -16,13 +16,14 @@ namespace neve::app {
 
 std::vector<View> built_in_views() {
   using enum Layer;
-  View smoke;
-  smoke.name = "smoke";
-  smoke.layers = {ground, colliders, Layer::smoke, legend, caption};
-  View slice;
-  slice.name = "slice";
-  slice.layers = {ground, colliders, arrows, legend, caption};
-  return {View{}, smoke, slice};
+  const auto view = [](const char* name, const std::vector<Layer>& layers) {
+    View built_in;
+    built_in.name = name;
+    built_in.layers = layers;
+    return built_in;
+  };
+  return {View{}, view("smoke", {ground, colliders, smoke, legend, caption}),
+          view("slice", {ground, colliders, arrows, legend, caption})};
 }
 
 namespace {

@@ -111,8 +111,8 @@ TEST(Set, UnknownAddressesNameTheNearest) {
   EXPECT_EQ(error_of("body.bull.velocity=[0,0,0]"),
             "--set body.bull.velocity=[0,0,0]: error: there is no body \"bull\"; expected "
             "\"ball\" or \"2\"");
-  EXPECT_EQ(error_of("view.smoke.size=[1,1]"),
-            "--set view.smoke.size=[1,1]: error: there is no view \"smoke\"; expected \"close\"");
+  EXPECT_EQ(error_of("view.fog.size=[1,1]"),
+            "--set view.fog.size=[1,1]: error: there is no view \"fog\"; expected \"close\"");
   EXPECT_EQ(error_of("body=3"),
             "--set body=3: error: unknown parameter \"body\"; neve params lists all of them");
 }
