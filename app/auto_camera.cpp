@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/camera_path.h"
 #include "app/round_number.h"
 
 namespace neve::app {
@@ -154,19 +155,42 @@ struct Framing {
 /// What the picture's sides and the angle of view make of directions.
 struct Lens {
   Vec3d up;
-  double slope;   ///< tan(fov / 2)
-  double aspect;  ///< width / height
+  double slope;               ///< tan(fov / 2)
+  double aspect;              ///< width / height
+  std::vector<double> turns;  ///< degrees about up that the camera passes; only 0 when it is still
+  bool is_turning() const { return turns.size() > 1; }
 };
 
-/// Moves the target to the middle of what is seen and the eye back until it fits.
-Framing fit(const std::vector<Vec3d>& points, const Vec3d& towards_eye, const Lens& lens) {
+/// What the camera turns by, in steps so small that nothing leaves the picture between them.
+std::vector<double> turns_of(const CameraSettings& settings, double duration) {
+  constexpr double step = 20;
+  const double all = std::clamp(turned(settings, duration, duration), -360.0, 360.0);
+  const int count = static_cast<int>(std::ceil(std::abs(all) / step));
+  std::vector<double> turns{0};
+  for (int k = 1; k <= count; ++k) turns.push_back(all * k / count);
+  return turns;
+}
+
+/// What a camera that turns about the middle of the points sees, as if they turned instead.
+std::vector<Vec3d> turned_backwards(const std::vector<Vec3d>& points, const Lens& lens) {
+  const Vec3d middle = box_of(points).center();
+  std::vector<Vec3d> seen;
+  seen.reserve(points.size() * lens.turns.size());
+  for (const double turn : lens.turns)
+    for (const Vec3d& x : points) seen.push_back(middle + turn_about(lens.up, -turn, x - middle));
+  return seen;
+}
+
+/// Moves the target to the middle of what is seen and the eye back until it fits. While the camera
+/// turns, the target stays above or below the middle of the points.
+Framing fit(const std::vector<Vec3d>& points, const Vec3d& middle, const Vec3d& towards_eye,
+            const Lens& lens) {
   Vec3d right = lens.up.cross(towards_eye);
   if (right.norm() < 1e-6) right = towards_eye.unitOrthogonal();
   right.normalize();
   const Vec3d up = towards_eye.cross(right);
   const double t = lens.slope, aspect = lens.aspect;
-  const Box box = box_of(points);
-  Framing framing{box.center(), std::max(2 * box.diagonal() / t, 1e-3)};
+  Framing framing{middle, std::max(2 * box_of(points).diagonal() / t, 1e-3)};
   for (int round = 0; round < 30; ++round) {
     double left = 1e300, bottom = 1e300, rightmost = -1e300, top = -1e300;
     for (const Vec3d& point : points) {
@@ -177,8 +201,13 @@ Framing fit(const std::vector<Vec3d>& points, const Vec3d& towards_eye, const Le
       bottom = std::min(bottom, y), top = std::max(top, y);
     }
     const double reach = t * framing.distance;
-    framing.target +=
-        0.5 * ((left + rightmost) * aspect * reach * right + (bottom + top) * reach * up);
+    if (lens.is_turning()) {
+      framing.target += 0.5 * (bottom + top) * reach * lens.up;
+      rightmost = std::max(rightmost, -left), left = -rightmost;
+    } else {
+      framing.target +=
+          0.5 * ((left + rightmost) * aspect * reach * right + (bottom + top) * reach * up);
+    }
     const double share = 0.5 * std::max(rightmost - left, top - bottom);
     framing.distance *= std::clamp(share / filled, 0.5, 2.0);
   }
@@ -186,7 +215,7 @@ Framing fit(const std::vector<Vec3d>& points, const Vec3d& towards_eye, const Le
 }
 
 /// No plane between the eye and what it looks at.
-bool is_clear(const Scene& scene, const Framing& framing, const Vec3d& towards_eye) {
+bool is_clear_at(const Scene& scene, const Framing& framing, const Vec3d& towards_eye) {
   const Vec3d eye = framing.target + framing.distance * towards_eye;
   return std::all_of(scene.colliders.begin(), scene.colliders.end(), [&](const auto& collider) {
     const auto* plane = std::get_if<sim::Plane>(&collider.shape.form);
@@ -197,24 +226,34 @@ bool is_clear(const Scene& scene, const Framing& framing, const Vec3d& towards_e
   });
 }
 
+bool is_clear(const Scene& scene, const Framing& framing, const Vec3d& towards_eye,
+              const Lens& lens) {
+  return std::all_of(lens.turns.begin(), lens.turns.end(), [&](double turn) {
+    return is_clear_at(scene, framing, turn_about(lens.up, turn, towards_eye));
+  });
+}
+
 }  // namespace
 
 CameraSettings automatic_camera(const Scene& scene, const std::vector<Moment>& moments,
                                 const CameraSettings& settings, double aspect) {
   std::vector<Vec3d> points = subject(scene, moments);
   add_small_colliders(scene, points);
-  const Lens lens{settings.up.normalized(), std::tan(radians(settings.fov / 2)), aspect};
+  const Lens lens{settings.up.normalized(), std::tan(radians(settings.fov / 2)), aspect,
+                  turns_of(settings, scene.frames / scene.fps)};
 
   const double preferred = best_azimuth(points);
+  const Vec3d middle = box_of(points).center();
+  if (lens.is_turning()) points = turned_backwards(points, lens);
   Vec3d towards_eye = direction(preferred, 14);
-  Framing framing = fit(points, towards_eye, lens);
-  bool is_found = is_clear(scene, framing, towards_eye);
+  Framing framing = fit(points, middle, towards_eye, lens);
+  bool is_found = is_clear(scene, framing, towards_eye, lens);
   for (const double elevation : {14.0, 30.0, 50.0, -14.0})
     for (const double turn : {0.0, -40.0, 150.0, 180.0, 70.0, -110.0}) {
       if (is_found) break;
       const Vec3d candidate = direction(preferred + turn, elevation);
-      const Framing fitted = fit(points, candidate, lens);
-      if (!is_clear(scene, fitted, candidate)) continue;
+      const Framing fitted = fit(points, middle, candidate, lens);
+      if (!is_clear(scene, fitted, candidate, lens)) continue;
       towards_eye = candidate, framing = fitted, is_found = true;
     }
 

@@ -91,6 +91,20 @@ double impact_speed(const Scene& scene) {
   return speed;
 }
 
+double energy_of_impact(const Scene& scene) {
+  double energy = 0;
+  for (const sim::Body& body : scene.bodies) {
+    const auto material =
+        std::find_if(scene.materials.begin(), scene.materials.end(),
+                     [&](const sim::Material& m) { return m.name == body.material; });
+    if (material == scene.materials.end()) continue;
+    const double mass = material->density * sim::plan_seeding(body, scene.solver.cell_size).volume;
+    const double speed = impact_speed(scene, body);
+    energy += 0.5 * mass * speed * speed;
+  }
+  return energy;
+}
+
 Range automatic_range(const Scene& scene, ColorBy color_by, std::size_t particle_count) {
   // Packed snow is stiffer than the rest by about this factor.
   constexpr double hardened = 2;

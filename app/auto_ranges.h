@@ -16,4 +16,7 @@ double impact_speed(const Scene& scene);
 Range automatic_range(const Scene& scene, ScalarField field);
 Range automatic_range(const Scene& scene, VectorField field);  ///< of its magnitude
 
+/// Kinetic energy of all bodies when they meet what is below them, J.
+double energy_of_impact(const Scene& scene);
+
 }  // namespace neve::app

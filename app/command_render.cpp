@@ -5,6 +5,7 @@
 #include "app/commands.h"
 #include "app/errors.h"
 #include "app/interrupt.h"
+#include "app/mosaic.h"
 #include "app/output/atomic_file.h"
 #include "app/render_job.h"
 #include "app/render_run.h"
@@ -35,6 +36,8 @@ void print_plan(const RenderJob& job, const Plan& plan, bool is_json) {
     json["out"] = job.folder.string();
     json["views"] = Json::array();
     for (const View& view : job.scene.views) json["views"].push_back(view.name);
+    json["mosaics"] = Json::array();
+    for (const Mosaic& mosaic : job.scene.mosaics) json["mosaics"].push_back(mosaic.name);
     std::cout << to_text(json) << "\n";
     return;
   }
@@ -48,6 +51,10 @@ void print_plan(const RenderJob& job, const Plan& plan, bool is_json) {
     const PictureSize size = size_of(job.scene, view);
     std::cout << "view       " << view.name << ", " << size.width << "x" << size.height << "\n";
   }
+  for (const Mosaic& mosaic : job.scene.mosaics) {
+    const PictureSize size = size_of(job.scene, mosaic);
+    std::cout << "mosaic     " << mosaic.name << ", " << size.width << "x" << size.height << "\n";
+  }
   std::cout << "out        " << job.folder.string() << "\n";
 }
 
@@ -58,6 +65,13 @@ void check_picture_sizes(const Scene& scene, Quality quality, int largest) {
       throw LimitError("refused: the view " + view.name + " is larger than the " +
                            std::to_string(largest) + " samples a side that this backend draws",
                        "view." + view.name + ".size", "draw smaller pictures with --size");
+  }
+  for (const Mosaic& mosaic : scene.mosaics) {
+    const PictureSize size = size_of(scene, mosaic);
+    if (std::max(size.width, size.height) > largest)
+      throw LimitError("refused: the mosaic " + mosaic.name + " is larger than the " +
+                           std::to_string(largest) + " pixels a side that this backend draws",
+                       "mosaic." + mosaic.name + ".width", "make it narrower");
   }
 }
 
@@ -70,6 +84,11 @@ int compare_with_reference(const RenderOptions& options, const RenderJob& job,
                     std::to_string(picture.height) + " and " + options.reference + " is " +
                     std::to_string(reference.width) + "x" + std::to_string(reference.height),
                 options.reference, "give the size of the reference with --size");
+  if (picture.channels != reference.channels)
+    throw Error(exit_check_failed,
+                "the picture has " + std::to_string(picture.channels) + " channels and " +
+                    options.reference + " has " + std::to_string(reference.channels),
+                options.reference, "set output.background to what the reference has");
   const render::Difference difference = render::compare(picture, reference);
   const std::string found = "mean difference " + fixed_text(difference.mean, 3) + ", largest " +
                             fixed_text(difference.max, 0) + " of 255";
@@ -154,8 +173,8 @@ int run_render(const RenderOptions& options) {
   std::vector<std::size_t> body_end;
   const sim::ParticleArrays particles = seed_scene(job.scene, &body_end);
   resolve(job.scene, particles.x.size());
-  sim::Simulation simulation(job.scene.solver, job.scene.materials, job.scene.colliders, particles,
-                             options.threads);
+  sim::Simulation simulation(job.scene.solver, job.scene.materials, sim_colliders(job.scene),
+                             particles, options.threads);
   const auto count = static_cast<double>(particles.x.size());
   progress.note(job.scene_file + ": " + std::to_string(particles.x.size()) + " particles, about " +
                 bytes_text(plan.memory) + " of memory" +

@@ -85,7 +85,7 @@ Run run(const Scene& coarse) {
   if (particles.x.empty()) return result;
   result.seen.push_back({0, particles.x});
 
-  sim::Simulation simulation(coarse.solver, coarse.materials, coarse.colliders, particles, 1);
+  sim::Simulation simulation(coarse.solver, coarse.materials, sim_colliders(coarse), particles, 1);
   steps_left = std::lround(work_budget / static_cast<double>(particles.x.size()));
   const double duration = coarse.frames / coarse.fps;
   for (int k = 1; k <= moments && duration > 0; ++k) {

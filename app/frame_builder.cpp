@@ -5,13 +5,14 @@
 #include <map>
 
 #include "app/attributes.h"
+#include "app/camera_path.h"
+#include "app/collider_looks.h"
 #include "app/round_number.h"
 #include "app/scene/coarsen.h"
 #include "app/slice.h"
 #include "app/smoke_layer.h"
 #include "app/text.h"
 #include "app/wires.h"
-#include "render/mesh_shapes.h"
 
 namespace neve::app {
 
@@ -24,46 +25,13 @@ constexpr std::size_t max_override_lines = 6;
 /// Rings around more particles than these hide what they point out.
 constexpr std::size_t max_marks = 16;
 
-Vec3f to_float(const sim::Vec3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
-render::Rotation to_rotation(const sim::Mat3d& matrix) {
-  render::Rotation rotation;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      rotation[static_cast<std::size_t>(3 * row + column)] =
-          static_cast<float>(matrix(row, column));
-  return rotation;
-}
-
-/// The view's camera or the scene's; resolved, so that eye and target are there.
-render::Camera to_camera(const CameraSettings& settings) {
-  return {to_float(settings.eye.value_or(sim::Vec3d(2, 1, 2))),
-          to_float(settings.target.value_or(sim::Vec3d::Zero())), to_float(settings.up),
-          static_cast<float>(settings.fov)};
-}
-
-void add_colliders(const Scene& scene, const View& view, double time, render::Frame& frame) {
-  const float distance = length(frame.camera.eye - frame.camera.target);
-  for (const sim::Collider& collider : scene.colliders) {
-    const sim::Pose pose = sim::pose_at(collider, time);
-    if (const auto* plane = std::get_if<sim::Plane>(&collider.shape.form)) {
-      if (!has_layer(view, Layer::ground)) continue;
-      render::GroundPlane ground;
-      ground.point = to_float(pose.point);
-      ground.normal = to_float((pose.rotation * plane->normal).normalized());
-      ground.line_spacing = static_cast<float>(round_down(0.1 * distance));
-      frame.grounds.push_back(ground);
-    } else if (has_layer(view, Layer::colliders)) {
-      if (const auto* sphere = std::get_if<sim::Sphere>(&collider.shape.form))
-        frame.meshes.push_back(
-            render::sphere_mesh(to_float(pose.point), static_cast<float>(sphere->radius)));
-      else if (const auto* box = std::get_if<sim::Box>(&collider.shape.form))
-        frame.meshes.push_back(render::box_mesh(to_float(pose.point), to_float(box->size),
-                                                to_rotation(pose.rotation)));
-    }
-  }
+/// The view's camera or the scene's at a time.
+render::Camera camera_of(const Scene& scene, const View& view, double time) {
+  const CameraSettings& settings =
+      view.camera ? *view.camera : scene.camera.value_or(CameraSettings{});
+  const CameraPlace place = camera_at(settings, time, scene.frames / scene.fps);
+  return {to_float(place.eye), to_float(place.target), to_float(settings.up),
+          static_cast<float>(place.fov)};
 }
 
 /// Pixels of a picture 720 high that a metre has around a point.
@@ -72,6 +40,32 @@ double pixels_per_metre(const render::Camera& camera, Vec3f point) {
   constexpr double radians = 3.14159265358979323846 / 180;
   return 360 / std::tan(0.5 * static_cast<double>(camera.fov) * radians) / distance;
 }
+
+/// The mean of all positions that are numbers.
+sim::Vec3d middle_of(const std::vector<sim::Vec3d>& positions) {
+  sim::Vec3d sum = sim::Vec3d::Zero();
+  std::size_t count = 0;
+  for (const sim::Vec3d& x : positions) {
+    if (!x.allFinite()) continue;
+    sum += x;
+    ++count;
+  }
+  return count > 0 ? sim::Vec3d(sum / static_cast<double>(count)) : sum;
+}
+
+/// Which particles a view leaves out.
+class Cut {
+ public:
+  Cut(const std::optional<ClipPlane>& clip, const std::vector<sim::Vec3d>& positions) {
+    if (!clip) return;
+    normal_ = clip->normal;
+    point_ = clip->point.value_or(middle_of(positions));
+  }
+  bool removes(const sim::Vec3d& x) const { return normal_.dot(x - point_) > 0; }
+
+ private:
+  sim::Vec3d normal_{0, 0, 0}, point_{0, 0, 0};
+};
 
 std::string grouped(std::size_t count) {
   std::string digits = std::to_string(count);
@@ -98,13 +92,20 @@ render::Frame FrameBuilder::build(const View& view, const Snapshot& snapshot) co
   frame.width = size.width;
   frame.height = size.height;
   frame.supersampling = supersampling(quality_);
-  frame.camera = to_camera(view.camera ? *view.camera : scene_.camera.value_or(CameraSettings{}));
+  frame.is_transparent = background_of(scene_, view) == Background::transparent;
+  frame.camera = camera_of(scene_, view, snapshot.time);
   frame.light = {to_float(scene_.light.direction), static_cast<float>(scene_.light.intensity),
                  static_cast<float>(scene_.light.ambient)};
-  add_colliders(scene_, view, snapshot.time, frame);
+  // Of the start: grid lines do not change while the camera moves.
+  const render::Camera first = camera_of(scene_, view, 0);
+  const double spacing = round_down(0.1 * static_cast<double>(length(first.eye - first.target)));
+  add_colliders(scene_, view, snapshot.time, static_cast<float>(spacing), frame);
   if (has_layer(view, Layer::particles)) add_points(view, snapshot, frame);
   add_grid(view, snapshot, frame);
   if (has_layer(view, Layer::bounds)) add_bounds(snapshot, frame);
+  if (has_layer(view, Layer::plots))
+    frame.plots = make_plots(view.plots, snapshot.history, snapshot.time, 1 / scene_.fps,
+                             scene_.frames / scene_.fps);
   if (has_layer(view, Layer::caption)) frame.caption = caption(snapshot);
   return frame;
 }
@@ -137,9 +138,11 @@ void FrameBuilder::add_points(const View& view, const Snapshot& snapshot,
   points.position.reserve(snapshot.particles.x.size());
   points.id.reserve(snapshot.particles.x.size());
   points.value.reserve(values.size());
+  // What is cut away casts no shadow either: the cut is lit like a surface, and its colours read.
+  const Cut cut(view.clip, snapshot.particles.x);
   for (std::size_t p = 0; p < snapshot.particles.x.size(); ++p) {
     // A diverged state is drawn too, as far as it can be.
-    if (!snapshot.particles.x[p].allFinite()) continue;
+    if (!snapshot.particles.x[p].allFinite() || cut.removes(snapshot.particles.x[p])) continue;
     points.position.push_back(to_float(snapshot.particles.x[p]));
     points.id.push_back(static_cast<std::uint32_t>(p));
     if (!values.empty())

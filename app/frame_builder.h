@@ -30,6 +30,9 @@ class FrameBuilder {
   render::Frame build_incident(const View& view, const Snapshot& snapshot,
                                const sim::Divergence& divergence) const;
 
+  /// Title, frame and time, particles, and what was overridden; one line each.
+  std::vector<std::string> caption(const Snapshot& snapshot) const;
+
  private:
   void add_points(const View& view, const Snapshot& snapshot, render::Frame& frame) const;
   void add_grid(const View& view, const Snapshot& snapshot, render::Frame& frame) const;
@@ -37,7 +40,6 @@ class FrameBuilder {
   /// Particles of a body: the first and the one after the last.
   std::pair<std::size_t, std::size_t> particles_of(std::size_t body) const;
   std::optional<sim::Vec3d> centre_of_mass(const std::string& body, const Snapshot& snapshot) const;
-  std::vector<std::string> caption(const Snapshot& snapshot) const;
 
   const Scene& scene_;
   double spacing_;

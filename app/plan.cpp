@@ -6,6 +6,7 @@
 
 #include "app/errors.h"
 #include "app/machine.h"
+#include "app/mosaic.h"
 #include "app/output/picture_writer.h"
 #include "app/scene/value.h"
 #include "app/text.h"
@@ -20,14 +21,20 @@ constexpr std::uint64_t driver_address_space = 1'000'000'000;
 
 /// Of a sample while it is drawn: colour, normal, depth and their copies on both sides.
 constexpr double bytes_per_sample = 64;
-constexpr double bytes_per_pixel = 3;
+constexpr double bytes_per_pixel = 4;
+
+std::vector<PictureSize> picture_sizes(const Scene& scene) {
+  std::vector<PictureSize> sizes;
+  for (const View& view : scene.views) sizes.push_back(size_of(scene, view));
+  for (const Mosaic& mosaic : scene.mosaics) sizes.push_back(size_of(scene, mosaic));
+  return sizes;
+}
 
 /// Pictures while they are drawn and while they wait for the encoder.
 double picture_memory(const Scene& scene, Quality quality) {
   double drawn = 0, waiting = 0;
   const double samples = supersampling(quality) * supersampling(quality);
-  for (const View& view : scene.views) {
-    const PictureSize size = size_of(scene, view);
+  for (const PictureSize& size : picture_sizes(scene)) {
     const double pixels = static_cast<double>(size.width) * size.height;
     drawn = std::max(drawn, pixels * samples * bytes_per_sample);
     waiting = std::max(waiting, pixels * bytes_per_pixel * (picture_queue_capacity + 2));
@@ -77,8 +84,7 @@ Plan make_plan(const Scene& scene, const FrameRange& frames, Quality quality, in
       counted * static_cast<double>(sizeof(sim::Mat3d) * 3 + sizeof(sim::Vec3d) * 3);
   plan.memory = whole_bytes(simulated + arrays + picture_memory(scene, quality));
   plan.memory_limit = scene.limits.memory > 0 ? scene.limits.memory : available_memory() / 10 * 8;
-  for (const View& view : scene.views) {
-    const PictureSize size = size_of(scene, view);
+  for (const PictureSize& size : picture_sizes(scene)) {
     const double samples = supersampling(quality) * supersampling(quality);
     plan.largest_picture =
         std::max(plan.largest_picture, static_cast<double>(size.width) * size.height * samples);

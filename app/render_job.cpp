@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 
 #include "app/machine.h"
 #include "app/picture_record.h"
@@ -29,6 +30,35 @@ RenderJob job_from_scene(const RenderOptions& options) {
   return job;
 }
 
+const Mosaic* find_mosaic(const Scene& scene, const std::string& name) {
+  for (const Mosaic& mosaic : scene.mosaics)
+    if (mosaic.name == name) return &mosaic;
+  return nullptr;
+}
+
+/// Keeps the views and mosaics of these names, and the views that the mosaics need.
+void choose_views(const std::vector<std::string>& names, RenderJob& job) {
+  std::vector<View> views;
+  std::vector<Mosaic> mosaics;
+  const auto add_view = [&](const std::string& name) {
+    const auto has_name = [&](const View& view) { return view.name == name; };
+    if (std::any_of(views.begin(), views.end(), has_name)) return false;
+    views.push_back(find_view(job.scene, name));
+    return true;
+  };
+  const std::set<std::string> chosen(names.begin(), names.end());
+  for (const std::string& name : names)
+    if (!find_mosaic(job.scene, name)) add_view(name);
+  for (const std::string& name : chosen)
+    if (const Mosaic* mosaic = find_mosaic(job.scene, name)) {
+      mosaics.push_back(*mosaic);
+      for (const std::string& tile : mosaic->views)
+        if (add_view(tile)) job.only_tiles.push_back(tile);
+    }
+  job.scene.views = views;
+  job.scene.mosaics = mosaics;
+}
+
 /// The frame and view of a picture, from the scene inside it.
 RenderJob job_from_picture(const RenderOptions& options) {
   const PictureRecord record = read_picture_record(options.scene);
@@ -44,25 +74,15 @@ RenderJob job_from_picture(const RenderOptions& options) {
   job.quality = quality_named(record.quality);
   job.overrides = record.overrides;
   job.coarsening = record.coarsening;
-  job.scene.views = {find_view(job.scene, record.view)};
+  choose_views({record.view}, job);
   return job;
-}
-
-void choose_views(const RenderOptions& options, Scene& scene) {
-  if (options.views.empty()) return;
-  std::vector<View> chosen;
-  for (const std::string& name : options.views) {
-    const bool is_chosen = std::any_of(chosen.begin(), chosen.end(),
-                                       [&](const View& view) { return view.name == name; });
-    if (!is_chosen) chosen.push_back(find_view(scene, name));
-  }
-  scene.views = chosen;
 }
 
 void set_sizes(const RenderOptions& options, Scene& scene) {
   if (options.size) {
     scene.size = *options.size;
     for (View& view : scene.views) view.size.reset();
+    for (Mosaic& mosaic : scene.mosaics) mosaic.width.reset();
   }
   if (options.quality != Quality::draft) return;
   // The size of a draft is part of its scene, so that the picture can be made again.
@@ -72,6 +92,8 @@ void set_sizes(const RenderOptions& options, Scene& scene) {
   halve(scene.size);
   for (View& view : scene.views)
     if (view.size) halve(*view.size);
+  for (Mosaic& mosaic : scene.mosaics)
+    if (mosaic.width) mosaic.width = std::max(64, *mosaic.width / 2);
 }
 
 }  // namespace
@@ -84,7 +106,7 @@ RenderJob make_job(const RenderOptions& options) {
     coarsen(job.scene, *options.coarsening);
     job.coarsening *= *options.coarsening;
   }
-  choose_views(options, job.scene);
+  if (!options.views.empty()) choose_views(options.views, job);
   set_sizes(options, job.scene);
   if (options.frames) job.frames = *options.frames;
   if (options.quality) job.quality = *options.quality;

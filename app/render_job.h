@@ -16,8 +16,9 @@ struct RenderJob {
   std::filesystem::path folder;
   FrameRange frames;
   Quality quality = Quality::preview;
-  std::vector<std::string> overrides;  ///< for the caption; those of a picture come first
-  double coarsening = 1;               ///< done to the scene, a picture's included
+  std::vector<std::string> overrides;   ///< for the caption; those of a picture come first
+  std::vector<std::string> only_tiles;  ///< views that are drawn in a mosaic and not by themselves
+  double coarsening = 1;                ///< done to the scene, a picture's included
 };
 
 /// @throws SceneError, UsageError, IoError, Error

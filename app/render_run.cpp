@@ -1,9 +1,11 @@
 #include "app/render_run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <system_error>
 
 #include "app/interrupt.h"
+#include "app/mosaic.h"
 #include "app/output/atomic_file.h"
 #include "app/output/movie.h"
 #include "app/output/sequence.h"
@@ -25,6 +27,12 @@ double seconds_since(Clock::time_point start) {
 /// The poll of a simulation has no argument; a process renders one scene at a time.
 Progress* stepping = nullptr;
 
+bool has_alpha(const Scene& scene, const std::string& name) {
+  return std::any_of(scene.views.begin(), scene.views.end(), [&](const View& view) {
+    return view.name == name && background_of(scene, view) == Background::transparent;
+  });
+}
+
 bool after_step() {
   if (stepping) stepping->step();
   return is_interrupted();
@@ -44,7 +52,9 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
   record_.scene_file = job.scene_file;
   record_.overrides = job.overrides;
   record_.coarsening = job.coarsening;
-  for (const View& view : job.scene.views) record_.views.push_back(view.name);
+  for (const View& view : job.scene.views)
+    if (is_drawn(view)) record_.views.push_back(view.name);
+  for (const Mosaic& mosaic : job.scene.mosaics) record_.views.push_back(mosaic.name);
   record_.backend = context.backend;
   record_.gl_renderer = context.renderer;
   record_.threads = simulation.threads();
@@ -90,6 +100,8 @@ void RenderRun::make_frames() {
     advance_ = {};
     seconds_sim_ = 0;
     if (frame > 0 && !advance_to_frame(frame)) return;
+    summary_ = simulation_.summary();
+    history_.push_back(plot_sample(frame / job_.scene.fps, summary_, advance_));
     if (frame >= job_.frames.first) draw_frame(frame);
     progress_.frame(frame, frame / job_.scene.fps);
     if (is_interrupted() && frame < job_.frames.last) {
@@ -121,18 +133,22 @@ bool RenderRun::advance_to_frame(int frame) {
 
 void RenderRun::draw_frame(int frame) {
   const auto start = Clock::now();
-  const Snapshot snapshot = take_snapshot(job_.scene, simulation_, frame);
+  Snapshot snapshot = take_snapshot(job_.scene, simulation_, frame);
+  snapshot.history = history_;
   const std::uint64_t state_hash = simulation_.state_hash();
   picture_record_.state_hash = hash_text(state_hash);
   std::vector<Picture> pictures;
-  for (const View& view : job_.scene.views) {
-    render::Image image = renderer_.draw(builder_.build(view, snapshot));
+  const auto add = [&](const std::string& name, render::Image image) {
     if (pictures.empty()) result_.last_picture = image;
     pictures.push_back(
-        {frame_path(job_.folder, view.name, frame), std::move(image), png_text(view, frame)});
-  }
+        {frame_path(job_.folder, name, frame), std::move(image), png_text(name, frame)});
+  };
+  for (const View& view : job_.scene.views)
+    if (is_drawn(view)) add(view.name, renderer_.draw(builder_.build(view, snapshot)));
+  for (const Mosaic& mosaic : job_.scene.mosaics)
+    add(mosaic.name, draw_mosaic(job_.scene, mosaic, builder_, snapshot, renderer_));
   record_.frames.push_back({frame, frame / job_.scene.fps, advance_, seconds_sim_,
-                            seconds_since(start), simulation_.summary(), state_hash});
+                            seconds_since(start), summary_, state_hash});
   // Listed first and written then: whenever the process is killed, the next run knows every picture
   // that it has to remove.
   write_run_json(job_.folder, record_);
@@ -148,11 +164,12 @@ void RenderRun::draw_incident() {
   const int frame = static_cast<int>(divergence.time * job_.scene.fps);
   Snapshot snapshot = take_snapshot(job_.scene, simulation_, frame);
   snapshot.time = divergence.time;
+  snapshot.history = history_;
   picture_record_.state_hash = hash_text(simulation_.state_hash());
   for (const View& view : job_.scene.views)
     writer_.write({diverged_path(job_.folder, view.name),
                    renderer_.draw(builder_.build_incident(view, snapshot, divergence)),
-                   png_text(view, frame)});
+                   png_text(view.name, frame)});
   Json incident = to_json(divergence);
   incident["scene"] = record_.scene;
   write_file(incident_path(job_.folder), to_text(incident) + "\n");
@@ -162,9 +179,12 @@ void RenderRun::write_movies() {
   // One picture is no movie.
   if (record_.frames.size() < 2) return;
   for (const std::string& view : record_.views) {
-    const MovieRequest request{job_.folder / view, movie_path(job_.folder, view),
-                               record_.frames.front().frame, record_.frames.back().frame,
-                               job_.scene.fps};
+    const MovieRequest request{job_.folder / view,
+                               movie_path(job_.folder, view),
+                               record_.frames.front().frame,
+                               record_.frames.back().frame,
+                               job_.scene.fps,
+                               has_alpha(job_.scene, view)};
     const MovieResult movie = write_movie(request);
     if (movie.outcome == MovieOutcome::no_ffmpeg) {
       progress_.note("no movie: ffmpeg is not installed; the pictures are in " +
@@ -187,9 +207,14 @@ void RenderRun::forget_unwritten_frames() {
   });
 }
 
-render::PngText RenderRun::png_text(const View& view, int frame) const {
+bool RenderRun::is_drawn(const View& view) const {
+  const std::vector<std::string>& tiles = job_.only_tiles;
+  return std::find(tiles.begin(), tiles.end(), view.name) == tiles.end();
+}
+
+render::PngText RenderRun::png_text(const std::string& view, int frame) const {
   PictureRecord record = picture_record_;
-  record.view = view.name;
+  record.view = view;
   record.frame = frame;
   return to_png_text(record);
 }

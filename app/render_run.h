@@ -44,7 +44,9 @@ class RenderRun {
   void draw_incident();
   void write_movies();
   void forget_unwritten_frames();
-  render::PngText png_text(const View& view, int frame) const;
+  /// By itself, not only in a mosaic.
+  bool is_drawn(const View& view) const;
+  render::PngText png_text(const std::string& view, int frame) const;
 
   const RenderJob& job_;
   sim::Simulation& simulation_;
@@ -54,7 +56,9 @@ class RenderRun {
   RunRecord record_;
   PictureRecord picture_record_;
   RenderResult result_;
-  sim::AdvanceReport advance_;  ///< of the frame being made
+  sim::AdvanceReport advance_;       ///< of the frame being made
+  sim::Summary summary_;             ///< of the frame being made
+  std::vector<PlotSample> history_;  ///< of all frames simulated
   double seconds_sim_ = 0;
   PictureWriter writer_;  ///< last: stops before what it was given goes away
 };

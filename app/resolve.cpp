@@ -5,13 +5,18 @@
 #include "app/auto_camera.h"
 #include "app/auto_ranges.h"
 #include "app/dry_run.h"
+#include "app/plots.h"
 
 namespace neve::app {
 
 namespace {
 
+/// Nothing about it is left to be framed.
 bool has_place(const CameraSettings& camera) {
-  return camera.eye && camera.target;
+  if (camera.eye && camera.target) return true;
+  const auto is_placed = [](const CameraKeyframe& key) { return key.eye && key.target; };
+  return !camera.keyframes.empty() &&
+         std::all_of(camera.keyframes.begin(), camera.keyframes.end(), is_placed);
 }
 
 double aspect_of(const PictureSize& size) {
@@ -76,6 +81,7 @@ void resolve(Scene& scene, std::size_t particle_count) {
       view.smoke.range = automatic_range(scene, view.smoke.field);
     if (has_layer(view, Layer::arrows) || has_layer(view, Layer::heatmap))
       resolve_slice(scene, view.slice);
+    if (has_layer(view, Layer::plots)) resolve_plot_ranges(scene, view.plots);
   }
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 /// State of a simulation at one frame, as far as its views want to see it.
 
+#include <span>
 #include <vector>
 
 #include "app/node_fields.h"
+#include "app/plots.h"
 #include "app/scene/scene.h"
 #include "sim/simulation.h"
 
@@ -12,10 +14,11 @@ namespace neve::app {
 /// Shared by all views of a frame.
 struct Snapshot {
   int frame = 0;
-  double time = 0;                    ///< s
-  sim::ParticleArrays particles;      ///< id order
-  std::vector<sim::Mat3d> kirchhoff;  ///< Pa; empty unless a view shows stress
-  NodeFields fields;                  ///< empty unless a view shows the grid
+  double time = 0;                      ///< s
+  sim::ParticleArrays particles;        ///< id order
+  std::vector<sim::Mat3d> kirchhoff;    ///< Pa; empty unless a view shows stress
+  NodeFields fields;                    ///< empty unless a view shows the grid
+  std::span<const PlotSample> history;  ///< of the frames up to this one; the caller keeps it
 };
 
 Snapshot take_snapshot(const Scene& scene, const sim::Simulation& simulation, int frame);

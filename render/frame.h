@@ -94,11 +94,13 @@ struct TriangleMesh {
   Vec3f color{0.35f, 0.35f, 0.36f};
 };
 
-/// An infinite plane with grid lines that fades into the background.
+/// An infinite plane with grid lines that fades into the background. A solid one is seen from above
+/// only, a ghost from both sides.
 struct GroundPlane {
   Vec3f point{0, 0, 0}, normal{0, 1, 0};
   float line_spacing = 0.125f;  ///< m
   Vec3f color{0.20f, 0.215f, 0.24f};
+  float fill = 0.16f;  ///< of a ghost: opacity between its lines
 };
 
 struct Light {
@@ -115,9 +117,28 @@ struct Legend {
   float min = 0, max = 1;
 };
 
+/// One curve of a plot, or with `bar_width` bars that end at each time.
+struct PlotSeries {
+  std::string name;
+  std::array<std::uint8_t, 3> color{255, 255, 255};  ///< sRGB
+  std::vector<float> time;                           ///< s, increasing
+  std::vector<float> value;                          ///< one per time; not-a-number: a gap
+  float bar_width = 0;                               ///< s
+};
+
+/// A panel of curves over the time of the whole scene; what is later than `now` is not there yet.
+struct Plot {
+  std::string title;            ///< "energy"
+  std::string unit;             ///< "J", may be empty
+  float time_end = 1, now = 0;  ///< s
+  float min = 0, max = 1;       ///< of the values, the same in every frame
+  std::vector<PlotSeries> series;
+};
+
 struct Frame {
   int width = 1280, height = 720;  ///< pixels of the finished picture
   int supersampling = 1;           ///< 1 or 2: samples per pixel and axis
+  bool is_transparent = false;     ///< nothing behind: the picture has an alpha channel
   Camera camera;
   Light light;
   Points points;
@@ -128,8 +149,13 @@ struct Frame {
   std::vector<Label> labels;
   std::vector<TriangleMesh> meshes;
   std::vector<GroundPlane> grounds;
+  std::vector<TriangleMesh> ghosts;        ///< see-through, without shadow
+  std::vector<GroundPlane> ghost_grounds;  ///< likewise
   std::vector<Legend> legends;
+  std::vector<Plot> plots;
   std::vector<std::string> caption;  ///< lines, UTF-8; the first one is the title
+  int caption_height = 0;            ///< px; above 0: the caption has a strip this high to itself
+  int font_size = 0;                 ///< px; 0: in proportion to the picture
   std::vector<Vec3f> marks;          ///< centres of rings that point out particles, for incidents
 };
 

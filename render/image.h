@@ -14,7 +14,7 @@ struct ImageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// 8-bit sRGB, top row first.
+/// 8-bit sRGB, top row first; a fourth channel is straight alpha.
 struct Image {
   int width = 0, height = 0, channels = 3;
   std::vector<std::uint8_t> pixels;

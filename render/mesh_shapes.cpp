@@ -56,4 +56,43 @@ TriangleMesh box_mesh(Vec3f center, Vec3f size, const Rotation& rotation) {
   return mesh;
 }
 
+Lines sphere_lines(Vec3f center, float radius, const Rotation& rotation) {
+  constexpr int segments = 72, meridians = 6, parallels = 5;
+  constexpr float pi = std::numbers::pi_v<float>;
+  Lines lines;
+  const auto circle = [&](Vec3f middle, Vec3f a, Vec3f b) {
+    for (int k = 0; k < segments; ++k)
+      for (const int end : {k, k + 1}) {
+        const float angle = 2 * pi * static_cast<float>(end % segments) / segments;
+        const Vec3f unit = middle + std::cos(angle) * a + std::sin(angle) * b;
+        lines.ends.push_back(center + radius * rotate(rotation, unit));
+      }
+  };
+  for (int k = 0; k < meridians; ++k) {
+    const float around = pi * static_cast<float>(k) / meridians;
+    circle({}, {std::cos(around), 0, std::sin(around)}, {0, 1, 0});
+  }
+  for (int k = 1; k <= parallels; ++k) {
+    const float polar = pi * static_cast<float>(k) / (parallels + 1);
+    const float r = std::sin(polar);
+    circle({0, std::cos(polar), 0}, {r, 0, 0}, {0, 0, r});
+  }
+  return lines;
+}
+
+Lines box_lines(Vec3f center, Vec3f size, const Rotation& rotation) {
+  Lines lines;
+  const auto corner = [&](int k) {
+    const Vec3f unit = {k & 1 ? 0.5f : -0.5f, k & 2 ? 0.5f : -0.5f, k & 4 ? 0.5f : -0.5f};
+    return center + rotate(rotation, size * unit);
+  };
+  for (int k = 0; k < 8; ++k)
+    for (const int bit : {1, 2, 4}) {
+      if (k & bit) continue;
+      lines.ends.push_back(corner(k));
+      lines.ends.push_back(corner(k | bit));
+    }
+  return lines;
+}
+
 }  // namespace neve::render

@@ -1,5 +1,5 @@
 #pragma once
-/// Triangle meshes of simple shapes, for drawing colliders.
+/// Simple shapes as triangle meshes and as lines, for drawing colliders.
 
 #include <array>
 
@@ -18,5 +18,12 @@ TriangleMesh sphere_mesh(Vec3f center, float radius);
 /// @param size full edge lengths along the axes of the box
 /// @param rotation turns the axes of the box into those of the world
 TriangleMesh box_mesh(Vec3f center, Vec3f size, const Rotation& rotation = no_rotation);
+
+/// Circles of latitude and of longitude.
+/// @param rotation so that turning can be seen
+Lines sphere_lines(Vec3f center, float radius, const Rotation& rotation = no_rotation);
+
+/// The twelve edges.
+Lines box_lines(Vec3f center, Vec3f size, const Rotation& rotation = no_rotation);
 
 }  // namespace neve::render

@@ -24,7 +24,10 @@ float between_lines(Vec3f eye, Vec3f direction, float spacing) {
 }  // namespace
 
 GroundPass::GroundPass(const Gl& gl, const ShaderLibrary& library)
-    : gl_(gl), program_(gl, library, "fullscreen.vert", "ground.frag"), vertex_array_(gl) {}
+    : gl_(gl),
+      program_(gl, library, "fullscreen.vert", "ground.frag"),
+      ghost_program_(gl, library, "fullscreen.vert", "ground.frag", "#define GHOST\n"),
+      vertex_array_(gl) {}
 
 void GroundPass::draw(const Frame& frame, const View& view) {
   if (frame.grounds.empty()) return;
@@ -34,32 +37,50 @@ void GroundPass::draw(const Frame& frame, const View& view) {
   gl_.Disable(GL_BLEND);
   gl_.Disable(GL_CULL_FACE);
   gl_.Disable(GL_SCISSOR_TEST);
-  gl_.BindVertexArray(vertex_array_.id());
-  program_.use();
-  set_view(program_, view);
+  set_scale(program_, frame, view);
+  for (const GroundPlane& ground : frame.grounds) {
+    if (dot(ground.point - view.eye, ground.normal) < 0) draw_plane(program_, ground, frame, view);
+  }
+}
+
+void GroundPass::draw_ghosts(const Frame& frame, const View& view) {
+  if (frame.ghost_grounds.empty()) return;
+  set_blended_state(gl_);
+  set_scale(ghost_program_, frame, view);
+  for (const GroundPlane& ground : frame.ghost_grounds) {
+    ghost_program_.set("fill", ground.fill);
+    draw_plane(ghost_program_, ground, frame, view);
+  }
+}
+
+void GroundPass::set_scale(const Program& program, const Frame& frame, const View& view) const {
+  program.use();
+  set_view(program, view);
   const float target_distance = length(frame.camera.target - view.eye);
-  program_.set("fade_distance", 0.62f * std::max(target_distance, 1e-6f));
+  program.set("fade_distance", 0.62f * std::max(target_distance, 1e-6f));
   // 1.3 pixels at 720p, in proportion above.
   const float scale = std::max(1.0f, static_cast<float>(frame.height) / 720);
-  program_.set("line_width", 1.3f * scale * static_cast<float>(frame.supersampling));
-  for (const GroundPlane& ground : frame.grounds) {
-    const Vec3f normal = normalized(ground.normal);
-    const Vec3f point = ground.point - view.eye;
-    if (!(dot(point, normal) < 0)) continue;
-    const Vec3f target = frame.camera.target - view.eye;
-    const Vec3f tangent = tangent_of(normal), bitangent = cross(tangent, normal);
-    const float spacing = ground.line_spacing > 0 ? ground.line_spacing : 1e9f;
-    program_.set("plane_point", point);
-    program_.set("plane_normal", normal);
-    program_.set("tangent", tangent);
-    program_.set("bitangent", bitangent);
-    program_.set("eye_on_grid", between_lines(view.eye, tangent, spacing),
-                 between_lines(view.eye, bitangent, spacing));
-    program_.set("line_spacing", spacing);
-    program_.set("fade_center", target - dot(target - point, normal) * normal);
-    program_.set("color", ground.color);
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  }
+  program.set("line_width", 1.3f * scale * static_cast<float>(frame.supersampling));
+}
+
+void GroundPass::draw_plane(const Program& program, const GroundPlane& ground, const Frame& frame,
+                            const View& view) const {
+  const Vec3f normal = normalized(ground.normal);
+  const Vec3f point = ground.point - view.eye;
+  const Vec3f target = frame.camera.target - view.eye;
+  const Vec3f tangent = tangent_of(normal), bitangent = cross(tangent, normal);
+  const float spacing = ground.line_spacing > 0 ? ground.line_spacing : 1e9f;
+  program.set("plane_point", point);
+  program.set("plane_normal", normal);
+  program.set("tangent", tangent);
+  program.set("bitangent", bitangent);
+  program.set("eye_on_grid", between_lines(view.eye, tangent, spacing),
+              between_lines(view.eye, bitangent, spacing));
+  program.set("line_spacing", spacing);
+  program.set("fade_center", target - dot(target - point, normal) * normal);
+  program.set("color", ground.color);
+  gl_.BindVertexArray(vertex_array_.id());
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 }  // namespace neve::render

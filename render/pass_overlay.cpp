@@ -4,37 +4,20 @@
 #include <cmath>
 
 #include "render/colormap.h"
+#include "render/overlay_text.h"
+#include "render/plots.h"
 #include "render/text_layout.h"
 #include "render/ticks.h"
 
 namespace neve::render {
 namespace {
 
-constexpr ImU32 bright = IM_COL32(240, 244, 250, 255);
-constexpr ImU32 soft = IM_COL32(205, 213, 224, 255);
-constexpr ImU32 shadow = IM_COL32(8, 10, 16, 150);
 constexpr ImU32 mark_color = IM_COL32(255, 122, 40, 255);
 
 /// Height of text: 16 pixels at 1280x720, in proportion elsewhere, but never too small to read.
 int font_size_for(int width, int height) {
   const float scale = std::min(static_cast<float>(height) / 720, static_cast<float>(width) / 1120);
   return std::clamp(static_cast<int>(std::lround(16 * scale)), 10, 160);
-}
-
-/// One unit of layout: a pixel at 720p.
-float unit_of(const ImFont& font) {
-  return font.FontSize / 16;
-}
-
-/// With a shadow, so that it reads on snow as well as on the background.
-void draw_text(const ImFont& font, ImVec2 at, ImU32 color, const std::string& text) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const float offset = std::max(1.0f, std::round(unit_of(font)));
-  at = ImVec2(std::round(at.x), std::round(at.y));
-  const char* end = text.c_str() + text.size();
-  list.AddText(&font, font.FontSize, ImVec2(at.x + offset, at.y + offset), shadow, text.c_str(),
-               end);
-  list.AddText(&font, font.FontSize, at, color, text.c_str(), end);
 }
 
 std::string title_of(const Legend& legend) {
@@ -45,6 +28,10 @@ std::vector<std::string> all_texts(const Frame& frame) {
   std::vector<std::string> texts = frame.caption;
   for (const Legend& legend : frame.legends) texts.push_back(title_of(legend));
   for (const Label& label : frame.labels) texts.push_back(label.text);
+  for (const Plot& plot : frame.plots) {
+    texts.push_back(plot.title + plot.unit);
+    for (const PlotSeries& series : plot.series) texts.push_back(series.name);
+  }
   return texts;
 }
 
@@ -63,7 +50,7 @@ float draw_legend(const Legend& legend, const ImFont& font, float right, float b
   const std::string title = elide(font, title_of(legend), max_width);
   const float width = std::max(text_width(font, title), bar_width + gap + label_width);
   const float left = std::round(right - width), top = std::round(bottom - height);
-  draw_text(font, ImVec2(left, top - 1.7f * font.FontSize), bright, title);
+  draw_text(font, ImVec2(left, top - 1.7f * font.FontSize), bright_text, title);
 
   for (float y = top; y < bottom; y += 1) {
     const Rgb8 c = map_color(legend.colormap, (bottom - y - 0.5f) / (bottom - top));
@@ -76,9 +63,10 @@ float draw_legend(const Legend& legend, const ImFont& font, float right, float b
     const double part =
         ticks.size() == 1 ? 0.5 : (tick.value - static_cast<double>(legend.min)) / range;
     const float y = bottom - static_cast<float>(part) * (bottom - top);
-    list.AddLine(ImVec2(left + bar_width, y), ImVec2(left + bar_width + 0.6f * gap, y), soft,
+    list.AddLine(ImVec2(left + bar_width, y), ImVec2(left + bar_width + 0.6f * gap, y), soft_text,
                  std::max(1.0f, unit));
-    draw_text(font, ImVec2(left + bar_width + gap, y - 0.5f * font.FontSize), soft, tick.label);
+    draw_text(font, ImVec2(left + bar_width + gap, y - 0.5f * font.FontSize), soft_text,
+              tick.label);
   }
   return left;
 }
@@ -106,10 +94,13 @@ void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
   const float unit = unit_of(*imgui_.text_font());
   const float height = static_cast<float>(frame.height);
   const float margin = std::round(20 * unit);
-  const float width = std::min(right_limit, 0.66f * static_cast<float>(frame.width)) - margin;
+  const bool has_strip = frame.caption_height > 0;
+  const float width = has_strip
+                          ? static_cast<float>(frame.width) - 2 * margin
+                          : std::min(right_limit, 0.66f * static_cast<float>(frame.width)) - margin;
   // The snow is in the middle: text keeps to the upper third.
-  const float bottom = 0.36f * height;
-  float y = std::round(16 * unit);
+  const float bottom = has_strip ? static_cast<float>(frame.caption_height) : 0.36f * height;
+  float y = std::round((has_strip ? 10 : 16) * unit);
   for (std::size_t i = 0; i < frame.caption.size(); ++i) {
     const ImFont& font = i == 0 ? *imgui_.title_font() : *imgui_.text_font();
     const float line_height = std::round(1.25f * font.FontSize);
@@ -117,7 +108,7 @@ void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
     const int max_lines = i == 0 ? (room >= 6 ? 2 : 1) : std::max(room, 0);
     for (const std::string& line :
          wrap(font, frame.caption[i], width, static_cast<std::size_t>(max_lines))) {
-      draw_text(font, ImVec2(margin, y), i == 0 ? bright : soft, line);
+      draw_text(font, ImVec2(margin, y), i == 0 ? bright_text : soft_text, line);
       y += line_height;
     }
     if (i == 0) y += std::round(3 * unit);
@@ -138,7 +129,7 @@ void OverlayPass::draw_labels(const Frame& frame, const View& view) const {
     const float wanted = label.ends_here ? p.x - text_size : p.x;
     const float left = std::clamp(wanted, margin, std::max(margin, width - text_size - margin));
     const float top = std::max(margin, height - p.y - 1.35f * font.FontSize);
-    draw_text(font, ImVec2(left, top), soft, text);
+    draw_text(font, ImVec2(left, top), soft_text, text);
   }
 }
 
@@ -154,7 +145,7 @@ void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
     const float d = 0.7071f;
     const ImVec2 start(center.x + d * radius, center.y - d * radius);
     const ImVec2 end(center.x + d * (radius + 22 * unit), center.y - d * (radius + 22 * unit));
-    for (const auto& [color, width] : {std::pair{shadow, 4.0f}, std::pair{mark_color, 2.0f}}) {
+    for (const auto& [color, width] : {std::pair{text_shadow, 4.0f}, std::pair{mark_color, 2.0f}}) {
       list.AddCircle(center, radius, color, 32, width * unit);
       list.AddLine(start, end, color, width * unit);
     }
@@ -162,13 +153,16 @@ void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
 }
 
 void OverlayPass::draw(const Frame& frame, const View& view) {
-  if (frame.caption.empty() && frame.legends.empty() && frame.marks.empty() && frame.labels.empty())
+  if (frame.caption.empty() && frame.legends.empty() && frame.marks.empty() &&
+      frame.labels.empty() && frame.plots.empty())
     return;
-  imgui_.begin(frame.width, frame.height, font_size_for(frame.width, frame.height),
-               all_texts(frame));
+  const int font_size =
+      frame.font_size > 0 ? frame.font_size : font_size_for(frame.width, frame.height);
+  imgui_.begin(frame.width, frame.height, font_size, all_texts(frame));
   draw_labels(frame, view);
   draw_marks(frame, view);
   draw_caption(frame, draw_legends(frame));
+  draw_plots(frame, *imgui_.text_font());
   imgui_.end();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Text and signs over the finished picture: caption in the upper left corner, legends in the lower
-/// right one, labels beside their places, rings around marked ones.
+/// right one, labels beside their places, rings around marked ones, plots in the
+/// lower left one.
 
 #include "render/frame.h"
 #include "render/imgui_draw.h"

@@ -43,7 +43,7 @@ void ShadePass::upload(const LightVolume& volume) {
   set_volume_parameters(gl_);
 }
 
-void ShadePass::draw(const Targets& targets, const LightVolume& volume, const Light& light,
+void ShadePass::draw(const Targets& targets, const LightVolume& volume, const Frame& frame,
                      const View& view, const SmokePicture* smoke) {
   const Program& program = smoke ? smoke_program_ : program_;
   upload(volume);
@@ -56,9 +56,10 @@ void ShadePass::draw(const Targets& targets, const LightVolume& volume, const Li
   program.set("box_origin", grid.origin - view.eye);
   program.set("box_size", size * grid.cell);
   program.set("cell", grid.cell);
-  program.set("toward_light", toward_light(light));
-  program.set("key_intensity", light.intensity);
-  program.set("ambient_intensity", light.ambient);
+  program.set("toward_light", toward_light(frame.light));
+  program.set("key_intensity", frame.light.intensity);
+  program.set("ambient_intensity", frame.light.ambient);
+  program.set("is_transparent", frame.is_transparent ? 1 : 0);
   bind(gl_, program, 0, GL_TEXTURE_2D, targets.depth.id(), "depth_map");
   bind(gl_, program, 1, GL_TEXTURE_2D, targets.normal_kind.id(), "normal_kind_map");
   bind(gl_, program, 2, GL_TEXTURE_2D, targets.albedo.id(), "albedo_map");

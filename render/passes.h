@@ -14,6 +14,9 @@
 
 namespace neve::render {
 
+/// For what is laid over the shaded picture: hidden by what is before it, blended by its alpha.
+void set_blended_state(const Gl& gl);
+
 /// Spheres; see shaders/particles.vert.
 class ParticlePass {
  public:
@@ -52,10 +55,15 @@ class GroundPass {
   GroundPass(const Gl& gl, const ShaderLibrary& library);
   /// A plane seen from behind is not drawn.
   void draw(const Frame& frame, const View& view);
+  /// Over the shaded picture.
+  void draw_ghosts(const Frame& frame, const View& view);
 
  private:
+  void set_scale(const Program& program, const Frame& frame, const View& view) const;
+  void draw_plane(const Program& program, const GroundPlane& ground, const Frame& frame,
+                  const View& view) const;
   const Gl& gl_;
-  Program program_;
+  Program program_, ghost_program_;
   VertexArray vertex_array_;
 };
 
@@ -64,10 +72,13 @@ class MeshPass {
  public:
   MeshPass(const Gl& gl, const ShaderLibrary& library);
   void draw(const std::vector<TriangleMesh>& meshes, const View& view);
+  /// Over the shaded picture, the farthest first; see shaders/ghost.frag.
+  void draw_ghosts(const std::vector<TriangleMesh>& meshes, Vec3f toward_light, const View& view);
 
  private:
+  void draw_mesh(const Program& program, const TriangleMesh& mesh, const View& view);
   const Gl& gl_;
-  Program program_;
+  Program program_, ghost_program_;
   VertexArray vertex_array_;
   Buffer vertex_buffer_, index_buffer_;
 };
@@ -113,7 +124,7 @@ class ShadePass {
  public:
   ShadePass(const Gl& gl, const ShaderLibrary& library);
   /// @param smoke null where there is none
-  void draw(const Targets& targets, const LightVolume& volume, const Light& light, const View& view,
+  void draw(const Targets& targets, const LightVolume& volume, const Frame& frame, const View& view,
             const SmokePicture* smoke);
 
  private:

@@ -39,6 +39,25 @@ void check_smoke(const Smoke& smoke) {
         "Frame: smoke needs a positive spacing and full_density, and 1 to 4 samples per ray");
 }
 
+void check_plot(const Plot& plot) {
+  for (const PlotSeries& series : plot.series) {
+    if (series.time.size() != series.value.size())
+      throw std::invalid_argument("Frame: a plot has " + std::to_string(series.time.size()) +
+                                  " times and " + std::to_string(series.value.size()) + " values");
+  }
+}
+
+/// RGBA whose colour is premultiplied to RGBA whose colour is not.
+void straighten(const std::uint8_t* from, std::uint8_t* to) {
+  const int alpha = from[3];
+  for (int c = 0; c < 3; ++c)
+    to[c] =
+        alpha == 0
+            ? std::uint8_t{0}
+            : static_cast<std::uint8_t>(std::min(255, (255 * int{from[c]} + alpha / 2) / alpha));
+  to[3] = from[3];
+}
+
 void check_frame(const Frame& frame, int max_size) {
   const int largest = std::max(frame.width, frame.height);
   if (frame.width < 1 || frame.height < 1 ||
@@ -55,6 +74,7 @@ void check_frame(const Frame& frame, int max_size) {
                                   std::to_string(other) + " ids or values");
   }
   for (const TriangleMesh& mesh : frame.meshes) check_mesh(mesh);
+  for (const TriangleMesh& mesh : frame.ghosts) check_mesh(mesh);
   check_smoke(frame.smoke);
   for (const Arrows& arrows : frame.arrows) {
     if (arrows.vector.size() != arrows.position.size())
@@ -69,6 +89,7 @@ void check_frame(const Frame& frame, int max_size) {
                                   " values for " + std::to_string(map.columns) + " columns and " +
                                   std::to_string(map.rows) + " rows");
   }
+  for (const Plot& plot : frame.plots) check_plot(plot);
 }
 
 ParticlePath resolve_path(ParticlePath path, const Context& context) {
@@ -79,6 +100,14 @@ ParticlePath resolve_path(ParticlePath path, const Context& context) {
   if (name == "cpu") return ParticlePath::cpu;
   if (!name.empty()) throw ParticlePathError("NEVE_PARTICLES=" + name + "; expected gl or cpu");
   return context.is_software ? ParticlePath::cpu : ParticlePath::gl;
+}
+
+void check_picture(const Image& picture, const Frame& frame) {
+  const std::size_t bytes =
+      3 * static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
+  if (picture.width != frame.width || picture.height != frame.height || picture.channels != 3 ||
+      picture.pixels.size() != bytes)
+    throw std::invalid_argument("Renderer: overlays need an RGB picture of the size of the frame");
 }
 
 }  // namespace
@@ -155,22 +184,49 @@ struct Renderer::Impl {
   }
 
   Image read_back(const Frame& frame) const {
-    Image image{frame.width, frame.height, 3, {}};
+    Image image{frame.width, frame.height, frame.is_transparent ? 4 : 3, {}};
     const auto width = static_cast<std::size_t>(frame.width);
     const auto height = static_cast<std::size_t>(frame.height);
+    const auto channels = static_cast<std::size_t>(image.channels);
     std::vector<std::uint8_t> rgba(4 * width * height);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
     gl.ReadPixels(0, 0, frame.width, frame.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-    image.pixels.resize(3 * width * height);
+    image.pixels.resize(channels * width * height);
     for (std::size_t y = 0; y < height; ++y) {
       const std::uint8_t* from = rgba.data() + 4 * width * (height - 1 - y);
-      std::uint8_t* to = image.pixels.data() + 3 * width * y;
-      for (std::size_t x = 0; x < width; ++x) {
-        for (std::size_t c = 0; c < 3; ++c) to[3 * x + c] = from[4 * x + c];
+      std::uint8_t* to = image.pixels.data() + channels * width * y;
+      for (std::size_t x = 0; x < width; ++x, from += 4, to += channels) {
+        if (frame.is_transparent)
+          straighten(from, to);
+        else
+          std::copy_n(from, 3, to);
       }
     }
     return image;
+  }
+
+  Image draw_over(const Image& picture, const Frame& frame) {
+    context.make_current();
+    check_frame(frame, max_size());
+    check_picture(picture, frame);
+    prepare_targets(frame);
+    upload_picture(picture);
+    bind(targets->finished, frame.width, frame.height);
+    overlay.draw(frame, make_view(frame.camera, frame.width, frame.height));
+    return read_back(frame);
+  }
+
+  void upload_picture(const Image& picture) {
+    const auto row = 3 * static_cast<std::size_t>(picture.width);
+    std::vector<std::uint8_t> upside_down(picture.pixels.size());
+    for (std::size_t y = 0; y < static_cast<std::size_t>(picture.height); ++y)
+      std::copy_n(picture.pixels.data() + row * y, row,
+                  upside_down.data() + row * (static_cast<std::size_t>(picture.height) - 1 - y));
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.BindTexture(GL_TEXTURE_2D, targets->picture.id());
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture.width, picture.height, 0, GL_RGB,
+                  GL_UNSIGNED_BYTE, upside_down.data());
   }
 
   Image draw(const Frame& frame, std::vector<PhaseTime>* times) {
@@ -207,7 +263,12 @@ struct Renderer::Impl {
     clock.end("smoke");
 
     bind(targets->shaded, view.width, view.height);
-    shade.draw(*targets, light, frame.light, view, smoke_picture ? &*smoke_picture : nullptr);
+    shade.draw(*targets, light, frame, view, smoke_picture ? &*smoke_picture : nullptr);
+
+    bind(targets->shaded_with_depth, view.width, view.height);
+    ground.draw_ghosts(frame, view);
+    meshes.draw_ghosts(frame.ghosts, toward_light(frame.light), view);
+    bind(targets->shaded, view.width, view.height);
     lines.draw(frame.lines, *targets, view, samples);
 
     bind(targets->finished, frame.width, frame.height);
@@ -235,6 +296,10 @@ Image Renderer::draw(const Frame& frame, std::vector<PhaseTime>* times) {
 
 ParticlePath Renderer::particle_path() const {
   return impl_->path;
+}
+
+Image Renderer::draw_over(const Image& picture, const Frame& frame) {
+  return impl_->draw_over(picture, frame);
 }
 
 int Renderer::max_size() const {

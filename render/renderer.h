@@ -46,6 +46,9 @@ class Renderer {
   /// Never automatic.
   ParticlePath particle_path() const;
 
+  /// Lays only caption, legends, plots and marks of the frame over an RGB picture of its size.
+  Image draw_over(const Image& picture, const Frame& frame);
+
   /// Largest picture side that the context can draw.
   int max_size() const;
 

@@ -46,6 +46,11 @@ Targets::Targets(const Gl& gl, int width_, int height_, int supersampling_)
   attach(gl, shaded, GL_COLOR_ATTACHMENT0, supersampling > 1 ? samples : picture);
   check_complete(gl, shaded, w, h);
 
+  shaded_with_depth = Framebuffer(gl);
+  attach(gl, shaded_with_depth, GL_COLOR_ATTACHMENT0, supersampling > 1 ? samples : picture);
+  attach(gl, shaded_with_depth, GL_DEPTH_ATTACHMENT, depth);
+  check_complete(gl, shaded_with_depth, w, h);
+
   finished = Framebuffer(gl);
   attach(gl, finished, GL_COLOR_ATTACHMENT0, picture);
   check_complete(gl, finished, width, height);

@@ -18,6 +18,8 @@ struct Targets {
   Texture samples;  ///< shaded samples, only with supersampling
   Texture picture;  ///< sRGB
   Framebuffer gbuffer, shaded, finished;
+  Framebuffer
+      shaded_with_depth;  ///< to lay things over the shaded picture where nothing hides them
 };
 
 }  // namespace neve::render

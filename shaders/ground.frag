@@ -1,9 +1,14 @@
 // An infinite plane with grid lines, by intersecting the ray of the sample. In: the plane relative to
 // the eye (m). Writes the G-buffer with the share that is left over the background; depth is that of
-// the plane.
+// the plane. With GHOST: sRGB, to be blended over the shaded picture by alpha.
 
 #include "view.glsl"
+#ifdef GHOST
+uniform float fill;  // opacity between the lines
+out vec4 out_color;
+#else
 #include "gbuffer.glsl"
+#endif
 
 uniform vec3 plane_point, plane_normal;
 uniform vec3 tangent, bitangent;  // along the grid lines
@@ -36,7 +41,12 @@ void main() {
   if (left < 0.004) discard;
 
   float line = max(line_cover(on_grid.x, span.x), line_cover(on_grid.y, span.y));
+#ifdef GHOST
+  const float line_opacity = 0.55;
+  out_color = vec4(vec3(0.62, 0.68, 0.76), left * mix(fill, line_opacity, line));
+#else
   out_normal_kind = vec4(plane_normal, kind_ground);
   out_albedo = vec4(sqrt(color * (1.0 + line_brightness * line)), left);
+#endif
   gl_FragDepth = depth_of(z);
 }

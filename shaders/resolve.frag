@@ -1,5 +1,6 @@
 // Mean of the 2x2 samples of a pixel, after tone mapping: bright snow then does not eat the edge
-// against a dark background. In: the shaded samples. Out: sRGB. Writes no depth.
+// against a dark background. In: the shaded samples. Out: sRGB, premultiplied by alpha.
+// Writes no depth.
 
 uniform sampler2D samples;
 

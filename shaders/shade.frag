@@ -1,5 +1,6 @@
 // Lights everything. In: the G-buffer (gbuffer.glsl) and its depth, the light volumes as 3D textures
-// over a box relative to the eye (m); with SMOKE also smoke, laid over the rest in linear light. Out: sRGB, tone mapped and dithered. Writes no depth.
+// over a box relative to the eye (m); with SMOKE also smoke, laid over the rest in linear light. Out: sRGB, tone mapped and
+// dithered, premultiplied by alpha. Writes no depth.
 
 #include "view.glsl"
 #include "light.glsl"
@@ -15,6 +16,7 @@ uniform vec3 box_origin, box_size;
 uniform float cell;
 uniform vec3 toward_light;  // unit
 uniform float key_intensity, ambient_intensity;
+uniform int is_transparent;
 
 out vec4 out_color;
 
@@ -149,20 +151,31 @@ vec3 smoke_light(vec4 sums) {
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec2 across = gl_FragCoord.xy / view_size;
-  vec3 color = mix(background_bottom, background_top, across.y);
+  // Premultiplied by how much of the sample is covered: all of it where there is a background.
+  float cover = is_transparent == 1 ? 0.0 : 1.0;
+  vec3 color = cover * mix(background_bottom, background_top, across.y);
   vec4 normal_kind = texelFetch(normal_kind_map, at, 0);
   float depth = texelFetch(depth_map, at, 0).r;
   if (normal_kind.w > 0.0) {
     vec4 albedo = texelFetch(albedo_map, at, 0);
     vec3 p = position_at(gl_FragCoord.xy, depth);
     color = mix(color, surface(p, normal_kind, albedo.rgb * albedo.rgb), albedo.a);
+    cover = mix(cover, 1.0, albedo.a);
   }
-  // Darker corners; but a colour that stands for a value is the one of the legend.
-  float vignette = 1.0 - 0.35 * dot(across - 0.5, across - 0.5);
+  // Darker corners; but a colour that stands for a value is the one of the legend, and what a
+  // transparent picture is laid over would not have them.
+  float vignette = is_transparent == 1 ? 1.0 : 1.0 - 0.35 * dot(across - 0.5, across - 0.5);
   if (normal_kind.w != kind_flat) color *= vignette;
 #ifdef SMOKE
   vec4 smoke = smoke_before(depth);
   color = color * (1.0 - smoke.a) + smoke_light(smoke) * vignette;
+  cover = cover * (1.0 - smoke.a) + smoke.a;
 #endif
-  out_color = vec4(tone_map(color) + (noise(uvec2(at)) - 0.5) / 255.0, 1.0);
+  float grain = (noise(uvec2(at)) - 0.5) / 255.0;
+  if (is_transparent == 0) {
+    out_color = vec4(tone_map(color) + grain, 1.0);
+  } else {
+    vec3 straight = clamp(tone_map(color / max(cover, 1e-4)) + grain, 0.0, 1.0);
+    out_color = vec4(straight * cover, cover);
+  }
 }

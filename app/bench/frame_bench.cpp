@@ -146,7 +146,7 @@ void FrameBench::measure(const std::string& name, const std::string& unit, const
 /// Seconds that the frames take, from a fresh start; making the particles is not counted.
 double FrameBench::simulate(const std::string& name, const Scene& scene, int frames,
                             bool is_drawn) {
-  sim::Simulation simulation(scene.solver, scene.materials, scene.colliders, seed_scene(scene),
+  sim::Simulation simulation(scene.solver, scene.materials, sim_colliders(scene), seed_scene(scene),
                              options_.threads);
   threads_ = simulation.threads();
   particles_ = simulation.particle_count();
@@ -196,7 +196,7 @@ std::vector<BenchRow> FrameBench::run() {
   resolve(small, 4000);
   measure("flip_cubic_300k", "s", [&] { return simulate("flip_cubic_300k", flip_scene, 1); });
   measure("mls_quadratic_300k", "s", [&] { return simulate("mls_quadratic_300k", mls_scene, 1); });
-  drawing_.draw(small, sim::Simulation(small.solver, small.materials, small.colliders,
+  drawing_.draw(small, sim::Simulation(small.solver, small.materials, sim_colliders(small),
                                        seed_scene(small), 1));  // the first one compiles shaders
   measure("flip_cubic_4000_drawn", "s",
           [&] { return simulate("flip_cubic_4000_drawn", small, 1, true); });

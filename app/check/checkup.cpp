@@ -31,7 +31,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 sim::Simulation simulate(const Scene& scene, const sim::ParticleArrays& particles, int threads) {
-  return sim::Simulation(scene.solver, scene.materials, scene.colliders, particles, threads);
+  return sim::Simulation(scene.solver, scene.materials, sim_colliders(scene), particles, threads);
 }
 
 /// The median of some steps, after two that warm caches up.

@@ -43,8 +43,14 @@ ProcessResult encode(const fs::path& ffmpeg, const MovieRequest& request, const 
   arguments.insert(arguments.end(), {"-start_number", std::to_string(request.first_frame)});
   append_words(arguments, "-i %04d.png -frames:v");
   arguments.push_back(std::to_string(request.last_frame - request.first_frame + 1));
+  // Movies have no alpha: transparent pictures are laid over a plain colour. (ffmpeg 5.1 crashes
+  // when drawbox is to replace alpha, so the plain one has none.)
+  const std::string over_plain =
+      "split[a][b];[a]format=rgb24,drawbox=c=0x454b55:t=fill[plain];[plain][b]overlay=format=gbrp,";
+  arguments.insert(arguments.end(), {"-vf", (request.has_alpha ? over_plain : "") +
+                                                "pad=ceil(iw/2)*2:ceil(ih/2)*2,"
+                                                "scale=out_color_matrix=bt709:out_range=tv"});
   append_words(arguments,
-               "-vf pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv "
                "-c:v libx264 -crf 18 -pix_fmt yuv420p "
                "-colorspace bt709 -color_primaries bt709 -color_trc bt709 "
                "-movflags +faststart -f mp4");

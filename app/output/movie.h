@@ -11,6 +11,7 @@ struct MovieRequest {
   std::filesystem::path file;            ///< the movie
   int first_frame = 0, last_frame = 0;
   double fps = 24;
+  bool has_alpha = false;  ///< of the pictures, which are then laid over a plain colour
 };
 
 enum class MovieOutcome { written, no_ffmpeg, failed };

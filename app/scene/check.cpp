@@ -1,6 +1,7 @@
 #include "app/scene/check.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <vector>
 
 #include "app/scene/leaf.h"
@@ -92,21 +93,58 @@ Found body_problem(const Scene& scene, const sim::Body& body) {
                     body.shape.form);
 }
 
+/// Of one place to look from.
+Found place_problem(const sim::Vec3d& eye, const sim::Vec3d& target, const sim::Vec3d& up,
+                    const std::string& target_at, const std::string& up_at) {
+  const sim::Vec3d forward = target - eye;
+  if (forward.norm() <= negligible) {
+    return Problem{target_at, "eye and target are the same point", "move one of them"};
+  }
+  if (forward.normalized().cross(up.normalized()).norm() <= negligible) {
+    return Problem{up_at, "up is parallel to the direction of view", "try up = [0, 0, -1]"};
+  }
+  return {};
+}
+
+Found keyframe_problem(const CameraSettings& camera, const std::string& at) {
+  const CameraKeyframe* before = nullptr;
+  std::size_t index = 0;
+  for (const CameraKeyframe& key : camera.keyframes) {
+    const std::string key_at = at + ".keyframes[" + std::to_string(index++) + "]";
+    if (before && !(key.time > before->time)) {
+      return Problem{key_at + ".time",
+                     "keyframe " + std::to_string(index) + " is at " + number_text(key.time) +
+                         " s, the one before at " + number_text(before->time) + " s",
+                     "times increase from one keyframe to the next"};
+    }
+    before = &key;
+    const auto eye = key.eye ? key.eye : camera.eye;
+    const auto target = key.target ? key.target : camera.target;
+    if (!eye || !target) continue;
+    if (Found found = place_problem(*eye, *target, camera.up, key_at + ".target", key_at + ".eye"))
+      return found;
+  }
+  return {};
+}
+
 Found camera_problem(const CameraSettings& camera, const std::string& at) {
-  if (camera.up.norm() <= negligible) return Problem{at + ".up", "up is zero", ""};
+  if (camera.up.norm() <= negligible) {
+    return Problem{at + ".up", "up is zero", "it points upwards in the picture"};
+  }
   if (camera.eye.has_value() != camera.target.has_value()) {
     return Problem{at + (camera.eye ? ".eye" : ".target"), "eye and target go together",
                    "give both, or neither to frame the whole scene"};
   }
-  if (!camera.eye) return {};
-  const sim::Vec3d forward = *camera.target - *camera.eye;
-  if (forward.norm() <= negligible) {
-    return Problem{at + ".target", "eye and target are the same point", ""};
+  if (camera.orbit && camera.turntable) {
+    return Problem{at + ".turntable", "orbit and turntable both turn the eye",
+                   "give one: orbit = degrees over the whole scene, turntable = seconds per turn"};
   }
-  if (forward.normalized().cross(camera.up.normalized()).norm() <= negligible) {
-    return Problem{at + ".up", "up is parallel to the direction of view", "try up = [0, 0, -1]"};
+  if (camera.eye) {
+    if (Found found =
+            place_problem(*camera.eye, *camera.target, camera.up, at + ".target", at + ".up"))
+      return found;
   }
-  return {};
+  return keyframe_problem(camera, at);
 }
 
 Found light_problem(const LightSettings& light) {
@@ -127,6 +165,32 @@ Found slice_problem(const Scene& scene, const SliceStyle& slice, const std::stri
   return Problem{at + ".follow", "there is no body " + toml_string(slice.follow),
                  nearest.empty() ? "expected " + list_of(names)
                                  : "did you mean " + toml_string(nearest) + "?"};
+}
+
+Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
+  constexpr std::size_t most = 64;
+  const std::string at = "mosaic." + mosaic.name;
+  std::vector<std::string> names;
+  for (const View& view : scene.views) names.push_back(view.name);
+  if (mosaic.views.empty() || mosaic.views.size() > most) {
+    return Problem{at + ".views", "a mosaic of " + std::to_string(mosaic.views.size()) + " views",
+                   "name 1 to " + std::to_string(most) + " of " + list_of(names)};
+  }
+  const auto is_view = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (is_view(mosaic.name)) {
+    return Problem{at + ".name", "a view is called " + toml_string(mosaic.name) + " too",
+                   "both would write into the folder of that name"};
+  }
+  for (const std::string& name : mosaic.views) {
+    if (is_view(name)) continue;
+    const std::string nearest = nearest_name(name, names);
+    return Problem{at + ".views", "there is no view " + toml_string(name),
+                   nearest.empty() ? "expected " + list_of(names)
+                                   : "did you mean " + toml_string(nearest) + "?"};
+  }
+  return {};
 }
 
 }  // namespace
@@ -155,6 +219,12 @@ std::optional<Problem> find_problem(const Scene& scene) {
     const std::string at = "view." + view.name;
     if ((found = slice_problem(scene, view.slice, at + ".slice"))) return found;
     if (view.camera && (found = camera_problem(*view.camera, at + ".camera"))) return found;
+    if (view.clip && view.clip->normal.norm() <= negligible)
+      return Problem{at + ".clip.normal", "normal is zero",
+                     "it points towards the side that is cut away"};
+  }
+  for (const Mosaic& mosaic : scene.mosaics) {
+    if ((found = mosaic_problem(scene, mosaic))) return found;
   }
   return {};
 }

@@ -8,6 +8,7 @@
 ///   visit.optional(key, member, help)              a table that may be absent
 ///   visit.named(key, items, help)                  tables by name: [material.snow]
 ///   visit.list(key, items, help)                   [[body]], each with a name or its number
+///   visit.sequence(key, items, help)               tables in a row that have no names: keyframes
 ///   visit.shape(key, shape, help, describe_forms)  a table with exactly one form
 ///   visit.form<Form>(key, shape, change, help)     one of these forms
 /// Nested tables are described by calling back with a visitor for them.
@@ -21,7 +22,7 @@ namespace unit {
 inline constexpr const char *none = "", *metre = "m", *second = "s", *per_second = "1/s",
                             *velocity = "m/s", *acceleration = "m/s2", *spin = "rad/s",
                             *density = "kg/m3", *pascal = "Pa", *degrees = "degrees",
-                            *pixels = "px", *bytes = "B";
+                            *pixels = "px", *bytes = "B", *joule = "J";
 }
 
 /// Beyond these, single precision and 64-bit counts stop making sense.
@@ -209,7 +210,7 @@ void describe(V& visit, sim::Body& b) {
 }
 
 template <class V>
-void describe(V& visit, sim::Collider& c) {
+void describe(V& visit, Collider& c) {
   using enum Change;
   visit("name", c.name, unit::none, identifier, restart,
         "What addresses call it; otherwise its number from 1.");
@@ -223,6 +224,8 @@ void describe(V& visit, sim::Collider& c) {
   visit("velocity", c.velocity, unit::velocity, speed, live, "Constant velocity.");
   visit("angular_velocity", c.angular_velocity, unit::spin, speed, live,
         "Constant spin about the shape's centre; of a plane only its surface moves.");
+  visit("style", c.style, unit::none, anything, live,
+        "solid; wire: lines only; ghost: see-through. Snow behind the last two can be seen.");
 }
 
 template <class V>
@@ -233,6 +236,23 @@ void describe(V& visit, CameraSettings& c) {
   visit("target", c.target, unit::metre, position, live, "What it looks at.");
   visit("up", c.up, unit::none, within(1e6), live, "Upward direction of the picture.");
   visit("fov", c.fov, unit::degrees, between(1, 170), live, "Vertical angle of view.");
+  visit("orbit", c.orbit, unit::degrees, within(1e5), live,
+        "The eye turns around the target about up by this much over the scene, from rest to rest.");
+  visit("turntable", c.turntable, unit::second, between(1e-3, 1e6), live,
+        "The eye turns around the target about up evenly, once in this time.");
+  visit.sequence("keyframes", c.keyframes, "The eye, target and fov pass through these.");
+}
+
+template <class V>
+void describe(V& visit, CameraKeyframe& k) {
+  using enum Change;
+  visit("time", k.time, unit::second, between(0, 1e6), live, "When; later than the one before.");
+  visit("eye", k.eye, unit::metre, position, live,
+        "Where the camera is then; without it the camera's eye.");
+  visit("target", k.target, unit::metre, position, live,
+        "What it looks at then; without it the camera's target.");
+  visit("fov", k.fov, unit::degrees, between(1, 170), live,
+        "Vertical angle of view then; without it the camera's fov.");
 }
 
 template <class V>
@@ -293,6 +313,26 @@ void describe(V& visit, SliceStyle& s) {
 }
 
 template <class V>
+void describe(V& visit, PlotRanges& p) {
+  using enum Change;
+  visit("energy_range", p.energy, unit::joule, within(1e30), live,
+        "Ends of the axis of the energies, or \"auto\".");
+  visit("speed_range", p.speed, unit::velocity, within(1e30), live,
+        "Ends of the axis of the largest speed, or \"auto\".");
+  visit("dt_range", p.dt, unit::second, within(1e30), live,
+        "Ends of the axis of the time step, or \"auto\".");
+}
+
+template <class V>
+void describe(V& visit, ClipPlane& c) {
+  using enum Change;
+  visit("normal", c.normal, unit::none, within(1e6), live,
+        "Towards the side that is cut away, of any length.");
+  visit("point", c.point, unit::metre, position, live,
+        "A point of the plane, or \"auto\": the middle of the snow in each frame.");
+}
+
+template <class V>
 void describe_size(V& visit, const char* key, auto& size, const char* help) {
   visit(key, size, unit::pixels, between(16, 1000000), Change::live, help);
 }
@@ -305,13 +345,37 @@ void describe(V& visit, View& view) {
   visit("layers", view.layers, unit::none, anything, live, "What is drawn.");
   describe_size(visit, "size", view.size,
                 "Width and height of this view; without it the output's.");
+  visit("background", view.background, unit::none, anything, live,
+        "Behind everything; without it the output's.");
   visit.section("particles", "How particles are drawn.",
                 [&](auto& v) { describe(v, view.particles); });
   visit.section("smoke", "The mass on the grid, for the layer smoke.",
                 [&](auto& v) { describe(v, view.smoke); });
   visit.section("slice", "A plane through the grid, for arrows and heatmap.",
                 [&](auto& v) { describe(v, view.slice); });
+  visit.section("plots", "The axes of the layer \"plots\".",
+                [&](auto& v) { describe(v, view.plots); });
+  visit.optional("clip", view.clip, "Cuts particles away, to look inside.");
   visit.optional("camera", view.camera, "The camera of this view; without it the scene's.");
+}
+
+template <class V>
+void describe(V& visit, Mosaic& m) {
+  using enum Change;
+  visit("name", m.name, unit::none, identifier, restart,
+        "Its folder, and what addresses call it; otherwise its number from 1.");
+  visit("views", m.views, unit::none, identifier, live, "Names of the views in it, row by row.");
+  visit("columns", m.columns, unit::none, between(0, 64), live,
+        "Views side by side; 0: all of them up to three.");
+  visit("width", m.width, unit::pixels, between(64, 1000000), live,
+        "Width of the whole picture; without it the output's. The height follows.");
+}
+
+template <class V>
+void describe_output(V& visit, Scene& s) {
+  describe_size(visit, "size", s.size, "Width and height.");
+  visit("background", s.background, unit::none, anything, Change::live,
+        "Behind everything: a gradient, or nothing (PNG with straight alpha).");
 }
 
 template <class V>
@@ -332,8 +396,8 @@ void describe(V& visit, Scene& s) {
   visit.optional("camera", s.camera, "Without it the whole scene is framed.");
   visit.section("light", "The sun and the sky.", [&](auto& v) { describe(v, s.light); });
   visit.list("view", s.views, "One picture per frame.");
-  visit.section("output", "The pictures.",
-                [&](auto& v) { describe_size(v, "size", s.size, "Width and height."); });
+  visit.list("mosaic", s.mosaics, "Several views in one picture.");
+  visit.section("output", "The pictures.", [&](auto& v) { describe_output(v, s); });
 }
 
 }  // namespace neve::app

@@ -137,6 +137,19 @@ void read_leaf(const Leaf& leaf, sim::Vec3d& member) {
   }
 }
 
+void read_leaf(const Leaf& leaf, std::vector<std::string>& member) {
+  member.clear();
+  const std::size_t count = leaf.array(0, "a list of names").size();
+  for (std::size_t k = 0; k < count; ++k) read_leaf(leaf.element(k), member.emplace_back());
+}
+
+void read_leaf(const Leaf& leaf, std::optional<sim::Vec3d>& member) {
+  member.reset();
+  const auto* text = std::get_if<std::string>(&leaf.value.data);
+  if (text && *text == "auto") return;
+  read_leaf(leaf, member.emplace());
+}
+
 void read_leaf(const Leaf& leaf, PictureSize& member) {
   leaf.array(2, "two whole numbers [width, height]");
   read_leaf(leaf.element(0), member.width);
@@ -172,6 +185,11 @@ Value to_value(const std::string& member) {
 Value to_value(const sim::Vec3d& member) {
   return {Array{to_value(member.x()), to_value(member.y()), to_value(member.z())}};
 }
+Value to_value(const std::vector<std::string>& member) {
+  Array array;
+  for (const std::string& item : member) array.push_back(to_value(item));
+  return {std::move(array)};
+}
 Value to_value(const PictureSize& member) {
   return {Array{to_value(member.width), to_value(member.height)}};
 }
@@ -194,6 +212,9 @@ std::string type_of(const std::string&) {
 }
 std::string type_of(const sim::Vec3d&) {
   return "vector";
+}
+std::string type_of(const std::vector<std::string>&) {
+  return "list of names";
 }
 std::string type_of(const PictureSize&) {
   return "size";

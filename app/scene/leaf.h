@@ -46,6 +46,9 @@ void read_leaf(const Leaf& leaf, int& member);
 void read_leaf(const Leaf& leaf, std::uint64_t& member);
 void read_leaf(const Leaf& leaf, std::string& member);
 void read_leaf(const Leaf& leaf, sim::Vec3d& member);
+void read_leaf(const Leaf& leaf, std::vector<std::string>& member);
+/// "auto" is the same as nothing.
+void read_leaf(const Leaf& leaf, std::optional<sim::Vec3d>& member);
 void read_leaf(const Leaf& leaf, PictureSize& member);
 void read_leaf(const Leaf& leaf, std::optional<Range>& member);
 
@@ -54,6 +57,7 @@ Value to_value(int member);
 Value to_value(std::uint64_t member);
 Value to_value(const std::string& member);
 Value to_value(const sim::Vec3d& member);
+Value to_value(const std::vector<std::string>& member);
 Value to_value(const PictureSize& member);
 Value to_value(const std::optional<Range>& member);
 
@@ -62,6 +66,7 @@ std::string type_of(const int&);
 std::string type_of(const std::uint64_t&);
 std::string type_of(const std::string&);
 std::string type_of(const sim::Vec3d&);
+std::string type_of(const std::vector<std::string>&);
 std::string type_of(const PictureSize&);
 std::string type_of(const std::optional<Range>&);
 

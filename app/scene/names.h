@@ -55,6 +55,14 @@ constexpr auto names(sim::Contact) {
   using enum sim::Contact;
   return std::array{Name{separate, "separate"}, Name{slip, "slip"}, Name{sticky, "sticky"}};
 }
+constexpr auto names(Background) {
+  using enum Background;
+  return std::array{Name{gradient, "gradient"}, Name{transparent, "transparent"}};
+}
+constexpr auto names(ColliderStyle) {
+  using enum ColliderStyle;
+  return std::array{Name{solid, "solid"}, Name{wire, "wire"}, Name{ghost, "ghost"}};
+}
 constexpr auto names(ColorBy) {
   using enum ColorBy;
   return std::array{Name{snow, "snow"},
@@ -88,7 +96,8 @@ constexpr auto names(Layer) {
                     Name{particles, "particles"}, Name{arrows, "arrows"},
                     Name{heatmap, "heatmap"},     Name{smoke, "smoke"},
                     Name{blocks, "blocks"},       Name{bounds, "bounds"},
-                    Name{legend, "legend"},       Name{caption, "caption"}};
+                    Name{legend, "legend"},       Name{caption, "caption"},
+                    Name{plots, "plots"}};
 }
 
 template <class E>

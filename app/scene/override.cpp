@@ -80,7 +80,13 @@ void refuse_unknown_name(const Override& change, const Table& root) {
 /// "body.ball.shape", but not "body" or "body.ball", whose names must stay.
 bool is_table_address(const std::string& address, const std::string& known, bool is_in_item) {
   const auto dots = std::count(address.begin(), address.end(), '.');
-  return known.starts_with(address + ".") && (!is_in_item || dots >= 2);
+  const bool is_around = known.starts_with(address + ".") || known.starts_with(address + "[");
+  return is_around && (!is_in_item || dots >= 2);
+}
+
+/// Entries without names are set together: "camera.keyframes" for "camera.keyframes[N].time".
+std::string settable_part(const std::string& address) {
+  return address.substr(0, address.find('['));
 }
 
 struct Target {
@@ -94,9 +100,10 @@ Target resolve(const Override& change, const Table& root) {
   for (const ParamInfo& info : params()) {
     const bool is_in_item = info.address.find(".NAME.") != std::string::npos;
     for (std::string& address : addresses_of(info, root)) {
-      if (address == change.address) return {info.type, is_in_item};
+      const std::string settable = settable_part(address);
+      if (address == change.address && settable == address) return {info.type, is_in_item};
       if (is_table_address(change.address, address, is_in_item)) table = {"table", is_in_item};
-      known.push_back(std::move(address));
+      known.push_back(settable);
     }
   }
   if (!table) {

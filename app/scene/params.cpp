@@ -54,6 +54,13 @@ class Lister {
     list_item<T>(prefix_ + key + ".NAME.");
   }
 
+  template <class T>
+  void sequence(const char* key, std::vector<T>&, const char*) {
+    Lister inner(list_, prefix_ + key + "[N].");
+    T item{};
+    describe(inner, item);
+  }
+
   template <class Describe>
   void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
     Lister inner(list_, prefix_ + key + ".");

@@ -51,8 +51,26 @@ bool is_named(const Value& view, const std::string& name) {
   return text && *text == name;
 }
 
+/// Whether a [[mosaic]] lists the view.
+bool is_in_mosaic(const Table& root, const std::string& name) {
+  const Entry* entry = root.find("mosaic");
+  const Array* mosaics = entry ? std::get_if<Array>(&entry->value.data) : nullptr;
+  if (!mosaics) return false;
+  for (const Value& mosaic : *mosaics) {
+    const Table* table = std::get_if<Table>(&mosaic.data);
+    const Entry* views = table ? table->find("views") : nullptr;
+    const Array* names = views ? std::get_if<Array>(&views->value.data) : nullptr;
+    if (!names) continue;
+    for (const Value& item : *names) {
+      const auto* text = std::get_if<std::string>(&item.data);
+      if (text && *text == name) return true;
+    }
+  }
+  return false;
+}
+
 /// The views that the scene has, or the one that is drawn when it has none; and built-in ones that
-/// a --set speaks of.
+/// a --set or a mosaic speaks of.
 void add_views(Table& root, const std::vector<Override>& overrides) {
   if (!root.find("view")) root.entries.push_back({"view", {}, {Array{Value{table_of(View{})}}}});
   Array* views = std::get_if<Array>(&root.find("view")->value.data);
@@ -64,7 +82,8 @@ void add_views(Table& root, const std::vector<Override>& overrides) {
     const bool is_there = std::any_of(views->begin(), views->end(), [&](const Value& view) {
       return is_named(view, built_in.name);
     });
-    if (is_set && !is_there) views->push_back({table_of(built_in)});
+    const bool is_wanted = is_set || is_in_mosaic(root, built_in.name);
+    if (is_wanted && !is_there) views->push_back({table_of(built_in)});
   }
   for (Value& view : *views)
     if (Table* table = std::get_if<Table>(&view.data)) add_layers(*table);

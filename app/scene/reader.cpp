@@ -56,6 +56,16 @@ const Array& Reader::list_of_tables(const Entry& entry) const {
   return *array;
 }
 
+const Array& Reader::array_of_tables(const Entry& entry) const {
+  const Array* array = std::get_if<Array>(&entry.value.data);
+  if (!array) {
+    const Valid any;
+    Leaf{reading_.source, entry.value, address_of(entry.key), "", any}.fail(
+        "a list of tables", "write " + entry.key + " = [{ ... }, { ... }]");
+  }
+  return *array;
+}
+
 std::vector<std::string> Reader::unique_names(const Entry& list) const {
   const Array& items = std::get<Array>(list.value.data);
   const std::vector<std::string> names = item_names(list.value);

@@ -45,6 +45,10 @@ class Keys {
     keys.emplace_back(key);
   }
   template <class... Rest>
+  void sequence(const char* key, Rest&&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
   void shape(const char* key, Rest&&...) {
     keys.emplace_back(key);
   }
@@ -107,6 +111,19 @@ class Reader {
     }
   }
 
+  template <class T>
+  void sequence(const char* key, std::vector<T>& items, const char*) {
+    const Entry* entry = given(key);
+    if (!entry) return;
+    items.clear();
+    const Array& array = array_of_tables(*entry);
+    for (std::size_t k = 0; k < array.size(); ++k) {
+      T& member = items.emplace_back();
+      enter(array[k], address_of(key) + "[" + std::to_string(k) + "]",
+            [&](auto& v) { describe(v, member); });
+    }
+  }
+
   template <class Describe>
   void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
     const Entry* entry = given(key);
@@ -153,6 +170,7 @@ class Reader {
   const Entry* given(const char* key);
   const Table& table_of(const Value& value, const std::string& address) const;
   const Array& list_of_tables(const Entry& entry) const;
+  const Array& array_of_tables(const Entry& entry) const;
   std::vector<std::string> unique_names(const Entry& list) const;
   void require_name(const Entry& item, const std::string& list) const;
   void require_one_form(const Entry& shape, const std::vector<std::string>& forms) const;

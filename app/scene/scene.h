@@ -30,12 +30,21 @@ enum class Layer {
   blocks,
   bounds,
   legend,
-  caption
+  caption,
+  plots
 };
 
 /// Absent range: "auto". Resolving a scene fills it in.
 struct Range {
   double min = 0, max = 1;
+};
+
+enum class Background { gradient, transparent };
+enum class ColliderStyle { solid, wire, ghost };
+
+/// What the simulation knows of an obstacle, and how it is drawn.
+struct Collider : sim::Collider {
+  ColliderStyle style = ColliderStyle::solid;
 };
 
 struct ParticleStyle {
@@ -69,10 +78,20 @@ struct SliceStyle {
   std::optional<Range> scalar_range;
 };
 
+/// What it leaves out is the camera's own.
+struct CameraKeyframe {
+  double time = 0;  ///< s
+  std::optional<sim::Vec3d> eye, target;
+  std::optional<double> fov;  ///< vertical, degrees
+};
+
 struct CameraSettings {
   std::optional<sim::Vec3d> eye, target;  ///< both or neither; automatic when absent
   sim::Vec3d up{0, 1, 0};
-  double fov = 30;  ///< vertical, degrees
+  double fov = 30;                        ///< vertical, degrees
+  std::optional<double> orbit;            ///< degrees over the whole scene; not with turntable
+  std::optional<double> turntable;        ///< s of a full turn
+  std::vector<CameraKeyframe> keyframes;  ///< times increase
 };
 
 struct LightSettings {
@@ -85,6 +104,19 @@ struct PictureSize {
   int width = 1280, height = 720;
 };
 
+/// Axes of the plots; resolving a scene fills in what is absent.
+struct PlotRanges {
+  std::optional<Range> energy;  ///< J
+  std::optional<Range> speed;   ///< m/s
+  std::optional<Range> dt;      ///< s
+};
+
+/// Particles on the side that the normal points to are not drawn.
+struct ClipPlane {
+  sim::Vec3d normal{0, 0, 1};
+  std::optional<sim::Vec3d> point;  ///< m; absent: the middle of the snow in each frame
+};
+
 struct View {
   std::string name = "particles";
   std::vector<Layer> layers{Layer::ground, Layer::colliders, Layer::particles, Layer::legend,
@@ -92,13 +124,24 @@ struct View {
   ParticleStyle particles;
   SmokeStyle smoke;
   SliceStyle slice;
+  PlotRanges plots;
+  std::optional<ClipPlane> clip;
   std::optional<CameraSettings> camera;  ///< the scene's when absent
   std::optional<PictureSize> size;       ///< the output's when absent
+  std::optional<Background> background;  ///< the output's when absent
 };
 
 inline bool has_layer(const View& view, Layer layer) {
   return std::find(view.layers.begin(), view.layers.end(), layer) != view.layers.end();
 }
+
+/// Several views in one picture, under one caption.
+struct Mosaic {
+  std::string name;
+  std::vector<std::string> views;  ///< names, row by row
+  int columns = 0;                 ///< 0: all in a row, up to three
+  std::optional<int> width;        ///< px; the output's when absent
+};
 
 struct Limits {
   std::uint64_t memory = 0;  ///< bytes; 0: 80 % of what is available
@@ -115,11 +158,22 @@ struct Scene {
   Limits limits;
   std::vector<sim::Material> materials;  ///< "snow" is always there
   std::vector<sim::Body> bodies;
-  std::vector<sim::Collider> colliders;
+  std::vector<Collider> colliders;
   std::optional<CameraSettings> camera;  ///< automatic when absent
   LightSettings light;
   std::vector<View> views;
+  std::vector<Mosaic> mosaics;
   PictureSize size;
+  Background background = Background::gradient;
 };
+
+inline Background background_of(const Scene& scene, const View& view) {
+  return view.background.value_or(scene.background);
+}
+
+/// The scene's colliders without their looks.
+inline std::vector<sim::Collider> sim_colliders(const Scene& scene) {
+  return {scene.colliders.begin(), scene.colliders.end()};
+}
 
 }  // namespace neve::app

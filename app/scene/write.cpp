@@ -41,6 +41,11 @@ class Writer {
     add(key, {std::move(all)});
   }
 
+  template <class T>
+  void sequence(const char* key, std::vector<T>& items, const char*) {
+    if (!items.empty()) list(key, items, "");
+  }
+
   template <class Describe>
   void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
     Writer inner;

@@ -44,7 +44,7 @@ Moment moment_of(const std::string& views) {
   const sim::ParticleArrays particles = seed_scene(moment.scene);
   resolve(moment.scene, particles.x.size());
   const sim::Simulation simulation(moment.scene.solver, moment.scene.materials,
-                                   moment.scene.colliders, particles, 1);
+                                   sim_colliders(moment.scene), particles, 1);
   moment.snapshot = take_snapshot(moment.scene, simulation, 0);
   return moment;
 }

@@ -51,6 +51,37 @@ class Movie : public testing::Test {
   }
 };
 
+TEST_F(Movie, OfTransparentPicturesHasAPlainBackground) {
+  const Fixture f;
+  for (int frame = 0; frame < 2; ++frame) {
+    render::Image image{32, 16, 4, std::vector<std::uint8_t>(32 * 16 * 4)};
+    // White on the left, nothing on the right.
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+      if (i / 4 % 32 < 16) image.pixels[i] = 255;
+    write_file(frame_path(f.folder, "v", frame), render::encode_png(image));
+  }
+  MovieRequest wanted = request(f.folder, 0, 1);
+  wanted.has_alpha = true;
+  const MovieResult result = write_movie(wanted);
+  ASSERT_EQ(result.outcome, MovieOutcome::written) << result.reason;
+  const fs::path still = f.folder / "still.png";
+  const ProcessResult decoded =
+      run_process(*find_program("ffmpeg"),
+                  {"-v", "error", "-i", wanted.file.string(), "-frames:v", "1", "-update", "1",
+                   "-pix_fmt", "rgb24", "-y", still.string()},
+                  f.folder);
+  ASSERT_EQ(decoded.exit_code, 0) << decoded.errors;
+  const std::string bytes = test::read_text(still);
+  const render::Image image =
+      render::decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  const auto green = [&](int x) {
+    return int{image.pixels.at(static_cast<std::size_t>(3 * (8 * 32 + x) + 1))};
+  };
+  // Lossy, and limited range.
+  EXPECT_NEAR(green(4), 255, 6);
+  EXPECT_NEAR(green(27), 0x4b, 6);
+}
+
 TEST_F(Movie, HoldsEveryFrameOfOddSizeFromAStrangeFolder) {
   const Fixture f;
   write_pictures(f.folder, 3, 8);

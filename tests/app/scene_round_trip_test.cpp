@@ -43,6 +43,13 @@ class Walker {
       describe(inner, item);
     }
   }
+  template <class T>
+  void sequence(const char* key, std::vector<T>& items, const char*) {
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      Self inner = self().inside(key + ("." + std::to_string(k)));
+      describe(inner, items[k]);
+    }
+  }
   template <class Describe>
   void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
     Self inner = self().inside(key);
@@ -106,6 +113,7 @@ class Perturb : public Walker<Perturb> {
     ++count_;
     change(size.height, valid, at);
   }
+  void change(std::vector<std::string>&, const Valid&, const std::string&) {}  // names of views
   void change(std::optional<Range>& range, const Valid&, const std::string&) {
     range = Range{-1.0 / 3, 1e30};
   }
@@ -150,6 +158,9 @@ class Flatten : public Walker<Flatten> {
   static void add(Bits& bits, const sim::Vec3d& v) {
     for (const double x : {v.x(), v.y(), v.z()}) add(bits, x);
   }
+  static void add(Bits& bits, const std::vector<std::string>& list) {
+    for (const std::string& item : list) add(bits, item);
+  }
   static void add(Bits& bits, const PictureSize& size) {
     add(bits, size.width);
     add(bits, size.height);
@@ -183,7 +194,9 @@ Flatten::Values values_of(Scene scene) {
 
 /// A scene with every optional part and every form, named and unnamed things.
 Scene full_scene(const std::string& mesh_file) {
-  std::string text = "[camera]\neye = [0, 1, 2]\ntarget = [0, 0, 0]\n[material.ice]\n";
+  std::string text =
+      "[camera]\neye = [0, 1, 2]\ntarget = [0, 0, 0]\nkeyframes = [{ time = 1 }, { time = 2 }]\n"
+      "[material.ice]\n";
   for (const char* form : {"sphere", "box", "capsule", "cylinder", "cone", "torus"}) {
     text += "[[body]]\nmaterial = \"ice\"\nshape = { " + std::string(form) + " = {} }\n";
   }
@@ -191,7 +204,9 @@ Scene full_scene(const std::string& mesh_file) {
   for (const char* form : {"plane", "sphere", "box"}) {
     text += "[[collider]]\nshape = { " + std::string(form) + " = {} }\n";
   }
-  text += "[[view]]\n[[view]]\nname = \"close\"\ncamera = { eye = [1,1,1], target = [0,0,0] }\n";
+  text +=
+      "[[view]]\n[[view]]\nname = \"close\"\ncamera = { eye = [1,1,1], target = [0,0,0] }\n"
+      "clip = { point = [1, 2, 3] }\n[[mosaic]]\nviews = [\"close\"]\n";
   return read_scene_text(text, "full", std::filesystem::path(mesh_file).parent_path().string());
 }
 
@@ -214,6 +229,9 @@ TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {
   torus.minor_radius = torus.major_radius / 3;
   scene.solver.cell_size = 0.1;
   for (View& view : scene.views) view.slice.follow = "mesh";
+  scene.camera->turntable.reset();  // there is an orbit
+  scene.views[1].camera->orbit.reset();
+  scene.camera->keyframes[1].time = scene.camera->keyframes[0].time + 1.0 / 3;
 
   const std::string text = write_scene(scene);
   const Scene again = read_scene_text(text, "written");
@@ -226,7 +244,8 @@ TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {
   int same = 0;
   for (const auto& [address, bits] : before)
     same += unchanged.contains(address) && unchanged.at(address) == bits;
-  EXPECT_EQ(same, 12 + 7 + 1) << "only names, materials and files stay";
+  EXPECT_EQ(same, 12 + 7 + 1 + 2 + 2)
+      << "only names, materials, files and the turns not taken stay";
 }
 
 TEST_F(RoundTrip, KeepsAnAutomaticScene) {

@@ -38,6 +38,40 @@ TEST_F(Cli, ANewRunRemovesTheFramesOfTheOldOne) {
   EXPECT_TRUE(exists("out/scene/particles/mine.txt"));
 }
 
+TEST_F(Cli, AMosaicIsAFolderOfPicturesAndAMovieLikeAView) {
+  folder.write("mosaic.toml", std::string(tiny_scene) +
+                                  "[[view]]\nname = \"snow\"\n[[view]]\nname = \"speed\"\n"
+                                  "particles = { color_by = \"speed\" }\n"
+                                  "[[mosaic]]\nname = \"both\"\nviews = [\"snow\", \"speed\"]\n");
+  const auto result = neve({"render", "mosaic.toml", "--frames", "2", "--out", "a"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  for (const char* file : {"a/snow/0002.png", "a/speed/0002.png", "a/both/0002.png"})
+    EXPECT_TRUE(exists(file)) << file;
+  EXPECT_EQ(exists("a/both.mp4"), app::find_program("ffmpeg").has_value());
+  EXPECT_EQ(json_of("a/run.json")["views"], (app::Json{"snow", "speed", "both"}));
+
+  // Alone, and again from its picture: the same bytes.
+  ASSERT_EQ(
+      neve({"render", "mosaic.toml", "--view", "both", "--frames", "2-2", "--out", "b"}).exit_code,
+      0);
+  EXPECT_FALSE(exists("b/snow/0002.png"));
+  const auto again = neve({"render", "b/both/0002.png"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(read_text(folder / "b/both/0002.png"),
+            read_text(folder / "out/0002-again/both/0002.png"));
+}
+
+TEST_F(Cli, TransparentPicturesHaveAlphaAndTheirMovieHasNot) {
+  const auto result =
+      neve({"render", "scene.toml", "--frames", "2", "--set", "output.background=transparent"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const std::string png = read_text(folder / "out/scene/particles/0002.png");
+  ASSERT_GT(png.size(), 26u);
+  EXPECT_EQ(png[25], 6) << "the colour type of RGBA";
+  EXPECT_EQ(exists("out/scene/particles.mp4"), app::find_program("ffmpeg").has_value())
+      << result.errors;
+}
+
 TEST_F(Cli, StatesDoNotDependOnViewsSizeQualityOrThreads) {
   ASSERT_EQ(neve({"render", "scene.toml", "--out", "a", "--threads", "1"}).exit_code, 0);
   folder.write("views.toml", std::string(tiny_scene) +

@@ -1,0 +1,14 @@
+#pragma once
+/// The plots of a frame as panels in the lower left corner, drawn with ImGui.
+
+#include <imgui.h>
+
+#include "render/frame.h"
+
+namespace neve::render {
+
+/// One below the other over a common time axis. A picture too small for all of them shows the
+/// first ones. To be called between ImGuiDraw::begin and end.
+void draw_plots(const Frame& frame, const ImFont& font);
+
+}  // namespace neve::render

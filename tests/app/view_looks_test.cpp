@@ -1,0 +1,182 @@
+/// What a view asks for beyond attributes: styles of colliders, a cut, no background, mosaics.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "app/collider_looks.h"
+#include "app/frame_builder.h"
+#include "app/mosaic.h"
+#include "app/scene/error.h"
+#include "app/scene/read.h"
+
+namespace neve::app {
+namespace {
+
+using sim::Vec3d;
+
+const char* const ball = "[[body]]\nshape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }\n";
+
+Scene scene_with(const std::string& more) {
+  return read_scene_text(ball + more, "s.toml");
+}
+
+std::string error_of(const std::string& more) {
+  try {
+    scene_with(more);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+render::Frame build(const Scene& scene, const std::vector<Vec3d>& positions) {
+  Snapshot snapshot;
+  snapshot.particles.x = positions;
+  snapshot.particles.v.assign(positions.size(), Vec3d(0, 0, 0));
+  return FrameBuilder(scene, 0.01, Quality::preview, {}, 1, {positions.size()})
+      .build(scene.views.front(), snapshot);
+}
+
+TEST(ColliderStyle, DecidesWhatIsDrawn) {
+  const Scene scene = scene_with(R"([[collider]]
+shape = { sphere = {} }
+[[collider]]
+shape = { sphere = {} }
+style = "ghost"
+[[collider]]
+shape = { box = {} }
+style = "wire"
+[[collider]]
+shape = { plane = {} }
+style = "wire"
+[[collider]]
+shape = { plane = {} }
+style = "ghost"
+)");
+  render::Frame frame;
+  add_colliders(scene, scene.views.front(), 0, 0.1f, frame);
+  EXPECT_EQ(frame.meshes.size(), 1u);
+  EXPECT_EQ(frame.ghosts.size(), 1u);
+  ASSERT_EQ(frame.lines.size(), 1u);
+  EXPECT_EQ(frame.lines[0].ends.size(), 24u);
+  EXPECT_TRUE(frame.grounds.empty());
+  ASSERT_EQ(frame.ghost_grounds.size(), 2u);
+  EXPECT_EQ(frame.ghost_grounds[0].fill, 0) << "wire: lines only";
+  EXPECT_GT(frame.ghost_grounds[1].fill, 0);
+}
+
+TEST(ColliderStyle, KeepsToTheLayersOfTheView) {
+  const Scene scene = scene_with(
+      "[[collider]]\nshape = { sphere = {} }\nstyle = \"wire\"\n[[collider]]\nshape = { plane = {} "
+      "}\n"
+      "[[view]]\nlayers = [\"ground\"]\n");
+  render::Frame frame;
+  add_colliders(scene, scene.views.front(), 0, 0.1f, frame);
+  EXPECT_TRUE(frame.lines.empty());
+  EXPECT_EQ(frame.grounds.size(), 1u);
+}
+
+TEST(ColliderStyle, IsNothingToTheSimulation) {
+  const Scene scene =
+      scene_with("[[collider]]\nfriction = 0.3\nshape = { box = {} }\nstyle = \"ghost\"");
+  const std::vector<sim::Collider> colliders = sim_colliders(scene);
+  ASSERT_EQ(colliders.size(), 1u);
+  EXPECT_EQ(colliders[0].friction, 0.3);
+  EXPECT_EQ(error_of("[[collider]]\nshape = { box = {} }\nstyle = \"glass\""),
+            "s.toml:5:9: error: collider.1.style = \"glass\"; expected \"solid\", \"wire\" or "
+            "\"ghost\"");
+}
+
+TEST(Clip, RemovesTheParticlesOnItsSide) {
+  const Scene scene = scene_with("[[view]]\nclip = { normal = [0, 0, 5], point = [0, 0, 0.1] }\n");
+  const render::Frame frame = build(scene, {{0, 0, 0}, {0, 0, 0.09}, {0, 0, 0.11}, {5, 0, 9}});
+  ASSERT_EQ(frame.points.position.size(), 2u);
+  EXPECT_EQ(frame.points.id, (std::vector<std::uint32_t>{0, 1})) << "the others keep their looks";
+}
+
+TEST(Clip, AutomaticallyCutsTheMiddleOfTheSnow) {
+  for (const char* point : {"", ", point = \"auto\""}) {
+    const Scene scene =
+        scene_with(std::string("[[view]]\nclip = { normal = [1, 0, 0]") + point + " }\n");
+    EXPECT_FALSE(scene.views[0].clip->point.has_value());
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const render::Frame frame =
+        build(scene, {{7, 0, 0}, {8, 0, 0}, {11, 0, 0}, {nan, 0, 0}});  // the middle is 8.67
+    EXPECT_EQ(frame.points.position.size(), 2u);
+  }
+}
+
+TEST(Clip, NeedsADirection) {
+  EXPECT_EQ(error_of("[[view]]\nclip = { normal = [0, 0, 0] }"),
+            "s.toml:4:19: error: normal is zero; it points towards the side that is cut away");
+  EXPECT_EQ(error_of("[[view]]\nclip = { point = \"middle\" }"),
+            "s.toml:4:18: error: view.1.clip.point = \"middle\"; expected three numbers [x, y, z]");
+}
+
+TEST(Background, OfTheViewGoesBeforeThatOfTheOutput) {
+  const Scene scene = scene_with(
+      "[[view]]\n[[view]]\nbackground = \"gradient\"\n[output]\nbackground = \"transparent\"\n");
+  EXPECT_EQ(background_of(scene, scene.views[0]), Background::transparent);
+  EXPECT_EQ(background_of(scene, scene.views[1]), Background::gradient);
+  EXPECT_TRUE(build(scene, {{0, 0, 0}}).is_transparent);
+}
+
+const char* const three_views = R"([[view]]
+name = "a"
+[[view]]
+name = "b"
+size = [400, 400]
+[[view]]
+name = "c"
+)";
+
+TEST(Mosaic, TilesKeepTheShapeOfTheirViewsAndStandInRows) {
+  const Scene scene = scene_with(std::string(three_views) +
+                                 "[[mosaic]]\nname = \"all\"\nviews = [\"a\", \"b\", \"c\"]\n"
+                                 "columns = 2\nwidth = 802\n");
+  const MosaicLayout layout = layout_of(scene, scene.mosaics[0], 2);
+  ASSERT_EQ(layout.tiles.size(), 3u);
+  EXPECT_EQ(layout.width, 802);
+  EXPECT_EQ(layout.tiles[0].view.size->width, 400);
+  EXPECT_EQ(layout.tiles[0].view.size->height, 225);  // 16:9
+  EXPECT_EQ(layout.tiles[1].view.size->height, 400);
+  EXPECT_EQ(layout.tiles[1].x, 402);
+  EXPECT_EQ(layout.tiles[0].y, layout.caption_height);
+  EXPECT_EQ(layout.tiles[2].x, 0);
+  EXPECT_EQ(layout.tiles[2].y, layout.caption_height + 400 + 2) << "below the highest of its row";
+  EXPECT_EQ(layout.height, layout.tiles[2].y + 225);
+  for (const MosaicTile& tile : layout.tiles)
+    EXPECT_FALSE(has_layer(tile.view, Layer::caption)) << "there is one caption";
+}
+
+TEST(Mosaic, IsAsWideAsTheOutputAndHasUpToThreeColumns) {
+  const Scene scene = scene_with(std::string(three_views) + "[[mosaic]]\nviews = [\"c\", \"a\"]\n");
+  const MosaicLayout layout = layout_of(scene, scene.mosaics[0], 2);
+  EXPECT_EQ(layout.width, 1280);
+  EXPECT_EQ(layout.tiles[0].view.name, "c");
+  EXPECT_EQ(layout.tiles[1].y, layout.tiles[0].y);
+}
+
+TEST(Mosaic, MayNameBuiltInViews) {
+  const Scene scene = scene_with("[[mosaic]]\nviews = [\"particles\", \"slice\"]\n");
+  ASSERT_EQ(scene.views.size(), 2u);
+  EXPECT_EQ(layout_of(scene, scene.mosaics[0], 2).tiles[1].view.name, "slice");
+}
+
+TEST(Mosaic, ErrorsAreLocated) {
+  const std::string views = three_views;  // from line 3 to line 9
+  EXPECT_EQ(error_of(views + "[[mosaic]]\nviews = [\"a\", \"bb\"]"),
+            "s.toml:11:9: error: there is no view \"bb\"; did you mean \"b\"?");
+  EXPECT_EQ(error_of(views + "[[mosaic]]\nname = \"a\"\nviews = [\"b\"]"),
+            "s.toml:11:8: error: a view is called \"a\" too; both would write into the folder of "
+            "that name");
+  EXPECT_EQ(error_of(views + "[[mosaic]]\nname = \"m\""),
+            "s.toml:10:1: error: a mosaic of 0 views; name 1 to 64 of \"a\", \"b\" or \"c\"");
+  EXPECT_EQ(error_of(views + "[[mosaic]]\nviews = [1]"),
+            "s.toml:11:10: error: mosaic.1.views[0] = 1; expected a string");
+}
+
+}  // namespace
+}  // namespace neve::app
