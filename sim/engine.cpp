@@ -273,10 +273,14 @@ Simulation::Choice Engine<Real>::choose_dt(double remaining) const {
 template <class Real>
 AdvanceReport Engine<Real>::advance_to(double time, bool (*interrupted)()) {
   AdvanceReport report;
-  const double start = time_;
+  if (!(frame_end_ == time && time_ == frame_start_ + frame_done_)) {
+    frame_start_ = time_;
+    frame_done_ = 0;
+    frame_end_ = time;
+  }
   // Counting from the start of the frame keeps the end of the frame exact.
-  double done = 0;
-  const double whole = time - start;
+  const double start = frame_start_, whole = time - start;
+  double& done = frame_done_;
   while (done < whole && !divergence_) {
     const Simulation::Choice choice = choose_dt(whole - done);
     step(choice.dt);

@@ -135,6 +135,8 @@ class Engine {
   std::size_t steps_ = 0;
   StateLimits limits_;
   double rest_dt_ = 0, last_dt_ = 0;
+  /// The frame that advance_to is in: an interrupted one goes on as if nothing had happened.
+  double frame_start_ = 0, frame_done_ = 0, frame_end_ = 0;
   EnergyBudget energy_;
   std::optional<Divergence> divergence_;
   Warnings warnings_;

@@ -18,6 +18,7 @@ struct SavedHead {
   std::uint32_t bytes_per_number, bytes_per_record;
   std::uint64_t count, steps;
   double time, rest_dt, last_dt;
+  double frame_start, frame_done, frame_end;
   double max_speed, max_sound_speed, max_strain_rate, max_hardening;
   double energy_start, contact_work, energy_largest;
   double centre_of_mass[3];
@@ -41,6 +42,9 @@ std::vector<std::uint8_t> Engine<Real>::save() const {
   head.time = time_;
   head.rest_dt = rest_dt_;
   head.last_dt = last_dt_;
+  head.frame_start = frame_start_;
+  head.frame_done = frame_done_;
+  head.frame_end = frame_end_;
   head.max_speed = limits_.max_speed;
   head.max_sound_speed = limits_.max_sound_speed;
   head.max_strain_rate = limits_.max_strain_rate;
@@ -97,6 +101,9 @@ void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
   steps_ = head.steps;
   rest_dt_ = head.rest_dt;
   last_dt_ = head.last_dt;
+  frame_start_ = head.frame_start;
+  frame_done_ = head.frame_done;
+  frame_end_ = head.frame_end;
   limits_ = {head.max_speed, head.max_sound_speed, head.max_strain_rate, head.max_hardening};
   energy_.start = head.energy_start;
   energy_.contact_work = head.contact_work;

@@ -99,6 +99,31 @@ TEST(SavedState, DamagedBytesAreRefusedAndNothingChanges) {
   EXPECT_THROW(in_double.restore(good), SavedStateError);
 }
 
+/// Interrupted within a frame, saved, restored: the steps of the rest of the frame, the last one
+/// too, which ends on it exactly, are those of the run that was not interrupted.
+TEST(SavedState, AnInterruptedFrameGoesOnToTheBit) {
+  static int left = 0;
+  const auto stop = [] { return --left == 0; };
+  Simulation whole = simulate({}, two_materials(), 1);
+  Simulation first = simulate({}, two_materials(), 1);
+  whole.advance_to(1.0 / 24);
+  whole.advance_to(2.0 / 24);
+  first.advance_to(1.0 / 24);
+  std::size_t steps = first.steps();
+  for (const int count : {1, 40, 13}) {
+    left = count;
+    first.advance_to(2.0 / 24, stop);
+    EXPECT_EQ(first.steps(), steps + static_cast<std::size_t>(count));
+    steps = first.steps();
+    Simulation next = simulate({}, {}, 1);
+    next.restore(first.save());
+    first = std::move(next);
+  }
+  first.advance_to(2.0 / 24);
+  EXPECT_EQ(first.steps(), whole.steps());
+  EXPECT_EQ(first.save(), whole.save());
+}
+
 TEST(SavedState, OfNothingIsNothing) {
   Simulation empty = simulate({}, {}, 1);
   Simulation again = simulate({}, two_materials(), 1);

@@ -1,0 +1,124 @@
+#include "app/output/checkpoint.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include "app/output/atomic_file.h"
+
+namespace neve::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Layout: magic, length of the JSON (8 bytes), JSON, state, CRC-32 of all before (8 bytes).
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'C', 'K', 'P', '1'};
+constexpr std::size_t number_bytes = 8;
+constexpr std::size_t kept = 2;
+constexpr std::uint64_t largest_file = std::uint64_t{1} << 40;
+
+fs::path folder_of(const fs::path& folder) {
+  return folder / "checkpoint";
+}
+
+void append(std::vector<std::uint8_t>& bytes, const void* data, std::size_t size) {
+  const auto* first = static_cast<const std::uint8_t*>(data);
+  bytes.insert(bytes.end(), first, first + size);
+}
+
+std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
+  return crc32_z(crc32_z(0, nullptr, 0), bytes.data(), bytes.size());
+}
+
+/// Names sort by frame, then by steps.
+std::string file_name(const Checkpoint& c) {
+  char name[64];
+  std::snprintf(name, sizeof name, "%06d-%012zu.ckpt", c.frame, c.steps);
+  return name;
+}
+
+/// Newest first.
+std::vector<fs::path> list(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator it(folder_of(folder), error), end; !error && it != end;
+       it.increment(error))
+    if (it->path().extension() == ".ckpt" && it->is_regular_file(error))
+      files.push_back(it->path());
+  std::sort(files.rbegin(), files.rend());
+  return files;
+}
+
+Checkpoint read(const fs::path& file) {
+  const std::vector<std::uint8_t> bytes = read_file(file, largest_file);
+  const auto refuse = [](const char* why) { throw std::runtime_error(why); };
+  if (bytes.size() < sizeof magic + 2 * number_bytes) refuse("is cut short");
+  if (std::memcmp(bytes.data(), magic, sizeof magic) != 0)
+    refuse("is no checkpoint of this version");
+  const std::size_t body = bytes.size() - number_bytes;
+  std::uint64_t length = 0, sum = 0;
+  std::memcpy(&length, bytes.data() + sizeof magic, number_bytes);
+  std::memcpy(&sum, bytes.data() + body, number_bytes);
+  if (sum != checksum({bytes.data(), body})) refuse("is damaged: its checksum is wrong");
+  const std::size_t json_start = sizeof magic + number_bytes;
+  if (length > body - json_start) refuse("is damaged");
+  const Json json = parse_json(std::span(bytes.data() + json_start, length));
+  Checkpoint c;
+  c.identity = json.at("identity").get<std::string>();
+  c.simd = json.at("simd").get<std::string>();
+  c.frame = json.at("frame").get<int>();
+  c.steps = json.at("steps").get<std::size_t>();
+  c.advance = json.at("advance");
+  c.state.assign(bytes.begin() + static_cast<std::ptrdiff_t>(json_start + length),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(body));
+  return c;
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
+  const std::string text = to_text({{"identity", checkpoint.identity},
+                                    {"simd", checkpoint.simd},
+                                    {"frame", checkpoint.frame},
+                                    {"steps", checkpoint.steps},
+                                    {"advance", checkpoint.advance}});
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(checkpoint.state.size() + text.size() + 64);
+  append(bytes, magic, sizeof magic);
+  const std::uint64_t length = text.size();
+  append(bytes, &length, number_bytes);
+  append(bytes, text.data(), text.size());
+  append(bytes, checkpoint.state.data(), checkpoint.state.size());
+  const std::uint64_t sum = checksum(bytes);
+  append(bytes, &sum, number_bytes);
+  make_folder(folder_of(folder));
+  write_file(folder_of(folder) / file_name(checkpoint), bytes, Durability::synced);
+  const std::vector<fs::path> files = list(folder);
+  std::error_code error;
+  for (std::size_t k = kept; k < files.size(); ++k) fs::remove(files[k], error);
+}
+
+FoundCheckpoint find_checkpoint(const fs::path& folder) {
+  FoundCheckpoint found;
+  for (const fs::path& file : list(folder)) {
+    try {
+      found.checkpoint = read(file);
+      return found;
+    } catch (const std::exception& error) {
+      found.damaged.push_back(file.string() + ": " + error.what());
+    }
+  }
+  return found;
+}
+
+void remove_checkpoints(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::path& file : list(folder)) fs::remove(file, error);
+  fs::remove(folder_of(folder), error);  // only when nothing else is in it
+}
+
+}  // namespace neve::app

@@ -1,0 +1,39 @@
+#pragma once
+/// Checkpoints of a run: DIR/checkpoint/NNNN-steps.ckpt, the newest two, whole or not at all.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/json.h"
+
+namespace neve::app {
+
+struct Checkpoint {
+  /// What has to be the same for a run to go on: version, resolved scene, quality, contents of
+  /// files. A hash.
+  std::string identity;
+  std::string simd;                 ///< instruction set that the bits belong to
+  int frame = 0;                    ///< the last one that is drawn
+  std::size_t steps = 0;            ///< since the start of the run
+  Json advance;                     ///< steps of the frame in progress, see to_json(AdvanceReport)
+  std::vector<std::uint8_t> state;  ///< sim::Simulation::save
+};
+
+/// Writes one and removes all but the newest two, in this order. @throws IoError
+void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
+
+struct FoundCheckpoint {
+  std::optional<Checkpoint> checkpoint;  ///< the newest whole one
+  std::vector<std::string> damaged;      ///< newer ones: "FILE: why"
+};
+
+/// Nothing where the folder has none. Damaged ones are passed over and named.
+FoundCheckpoint find_checkpoint(const std::filesystem::path& folder);
+
+/// Of a run that starts anew. Other files stay.
+void remove_checkpoints(const std::filesystem::path& folder);
+
+}  // namespace neve::app
