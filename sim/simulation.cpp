@@ -11,6 +11,14 @@ DtLimit AdvanceReport::limit() const {
   return static_cast<DtLimit>(std::max_element(ruled.begin(), ruled.end()) - ruled.begin());
 }
 
+void AdvanceReport::append(const AdvanceReport& later) {
+  if (later.steps == 0) return;
+  dt_min = steps == 0 ? later.dt_min : std::min(dt_min, later.dt_min);
+  dt_max = std::max(dt_max, later.dt_max);
+  steps += later.steps;
+  for (std::size_t k = 0; k < ruled.size(); ++k) ruled[k] += later.ruled[k];
+}
+
 struct Simulation::Impl {
   std::variant<Engine<float>, Engine<double>> engine;
 

@@ -50,6 +50,8 @@ struct AdvanceReport {
   double dt_min = 0, dt_max = 0;
   std::array<std::size_t, dt_limit_count> ruled{};  ///< steps that each limit ruled
   DtLimit limit() const;                            ///< the one that ruled most
+  /// Adds the steps that followed in the same frame.
+  void append(const AdvanceReport& later);
 };
 
 /// Why a run had to stop. Numerical trouble is data, not an exception.

@@ -1,6 +1,8 @@
 #include "app/output/run_json.h"
 
 #include <cstdio>
+#include <limits>
+#include <stdexcept>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
@@ -19,6 +21,21 @@ Json matrix_json(const sim::Mat3d& matrix) {
   Json rows = Json::array();
   for (int row = 0; row < 3; ++row) rows.push_back(vector_json(matrix.row(row).transpose()));
   return rows;
+}
+
+/// The inverse of number_or_null.
+double number(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+sim::Vec3d vector(const Json& json) {
+  return {number(json.at(0)), number(json.at(1)), number(json.at(2))};
+}
+
+sim::DtLimit limit_named(const std::string& text) {
+  for (int k = 0; k < sim::dt_limit_count; ++k)
+    if (const auto limit = static_cast<sim::DtLimit>(k); text == sim::name(limit)) return limit;
+  return sim::DtLimit::max_dt;
 }
 
 }  // namespace
@@ -67,6 +84,60 @@ Json to_json(const FrameRecord& frame) {
   json["max_J_P"] = number_or_null(s.max_J_P);
   json["state_hash"] = hash_text(frame.state_hash);
   return json;
+}
+
+FrameRecord frame_record(const Json& json) {
+  FrameRecord frame;
+  frame.frame = json.at("frame").get<int>();
+  frame.time = number(json.at("time"));
+  frame.advance.steps = json.at("steps").get<std::size_t>();
+  if (frame.advance.steps > 0) {
+    frame.advance.dt_min = number(json.at("dt_min"));
+    frame.advance.dt_max = number(json.at("dt_max"));
+    const sim::DtLimit limit = limit_named(json.at("dt_limit").get<std::string>());
+    frame.advance.ruled[static_cast<std::size_t>(limit)] = frame.advance.steps;
+  }
+  frame.seconds_sim = number(json.at("seconds_sim"));
+  frame.seconds_render = number(json.at("seconds_render"));
+  sim::Summary& s = frame.summary;
+  s.time = frame.time;
+  s.particles = json.at("particles").get<std::size_t>();
+  s.kinetic_energy = number(json.at("kinetic_energy"));
+  s.elastic_energy = number(json.at("elastic_energy"));
+  s.momentum = vector(json.at("momentum"));
+  s.centre_of_mass = vector(json.at("centre_of_mass"));
+  s.max_speed = number(json.at("max_speed"));
+  s.min_J_P = number(json.at("min_J_P"));
+  s.max_J_P = number(json.at("max_J_P"));
+  frame.state_hash = std::stoull(json.at("state_hash").get<std::string>(), nullptr, 16);
+  return frame;
+}
+
+std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder) {
+  std::vector<FrameRecord> frames;
+  try {
+    const Json run = parse_json(read_file(run_json_path(folder)));
+    for (const Json& frame : run.at("frames")) frames.push_back(frame_record(frame));
+  } catch (const std::exception&) {
+    frames.clear();
+  }
+  return frames;
+}
+
+Json to_json(const sim::AdvanceReport& advance) {
+  return {{"steps", advance.steps},
+          {"dt_min", advance.dt_min},
+          {"dt_max", advance.dt_max},
+          {"ruled", advance.ruled}};
+}
+
+sim::AdvanceReport advance_report(const Json& json) {
+  sim::AdvanceReport advance;
+  advance.steps = json.at("steps").get<std::size_t>();
+  advance.dt_min = json.at("dt_min").get<double>();
+  advance.dt_max = json.at("dt_max").get<double>();
+  advance.ruled = json.at("ruled").get<decltype(advance.ruled)>();
+  return advance;
 }
 
 Json to_json(const sim::Divergence& d) {

@@ -43,6 +43,18 @@ struct RunRecord {
 std::string hash_text(std::uint64_t hash);
 
 Json to_json(const FrameRecord& frame);
+/// Of what to_json writes; the rest of advance and summary has its defaults.
+/// @throws nlohmann::json::exception
+FrameRecord frame_record(const Json& json);
+
+/// The frames that DIR/run.json lists; none where there is no such file or it cannot be read.
+std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder);
+
+/// Every field, exactly.
+Json to_json(const sim::AdvanceReport& advance);
+/// @throws nlohmann::json::exception
+sim::AdvanceReport advance_report(const Json& json);
+
 Json to_json(const sim::Divergence& divergence);
 Json to_json(const RunRecord& run);
 

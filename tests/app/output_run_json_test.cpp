@@ -63,5 +63,27 @@ TEST(RunJson, SurvivesTextThatIsNoUtf8) {
   EXPECT_NO_THROW(to_text(to_json(run)));
 }
 
+/// A resumed run goes on with what the run before it wrote.
+TEST(RunJson, FramesComeBackAsTheyWereWritten) {
+  FrameRecord frame;
+  frame.frame = 7;
+  frame.time = 7.0 / 24;
+  frame.advance.steps = 12;
+  frame.advance.dt_min = 1.0 / 3e4;
+  frame.advance.dt_max = 2.0 / 3e4;
+  frame.advance.ruled[static_cast<std::size_t>(sim::DtLimit::strain)] = 12;
+  frame.seconds_sim = 0.123456789;
+  frame.summary.particles = 99;
+  frame.summary.kinetic_energy = std::numeric_limits<double>::quiet_NaN();
+  frame.summary.momentum = {0.1, 0.2, 0.3};
+  frame.state_hash = 0xfedcba9876543210ull;
+  const Json json = to_json(frame);
+  EXPECT_EQ(to_json(frame_record(parse_json(to_text(json)))), json);
+  EXPECT_EQ(to_json(frame_record(to_json(FrameRecord{}))), to_json(FrameRecord{}));
+  const Json advance = to_json(frame.advance);
+  EXPECT_EQ(to_json(advance_report(parse_json(to_text(advance)))), advance);
+  EXPECT_TRUE(read_frame_records("/nowhere").empty());
+}
+
 }  // namespace
 }  // namespace neve::app
