@@ -58,6 +58,9 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
   check_threads(options.threads);
+  if (options.checkpoint_every < 0 || options.checkpoint_every > 1000000)
+    throw UsageError("--checkpoint-every", "cannot use " + std::to_string(options.checkpoint_every),
+                     "expected frames, or 0 for none");
   if (!(options.reference_threshold >= 0))
     throw UsageError("--reference-threshold", "is negative", "expected 0 to 255");
   check_backend(options.backend);
@@ -148,6 +151,14 @@ void add_render(CLI::App& app, Action& action) {
       ->add_option("--reference-threshold", options->reference_threshold,
                    "Mean difference allowed, 0 to 255")
       ->type_name("MEAN")
+      ->capture_default_str();
+  command->add_flag("--resume", options->is_resumed,
+                    "Go on where the run in the output folder stopped, with the same bits; a "
+                    "finished one goes on with more --frames");
+  command
+      ->add_option("--checkpoint-every", options->checkpoint_every,
+                   "Frames between checkpoints in DIR/checkpoint; 0: none")
+      ->type_name("FRAMES")
       ->capture_default_str();
   command->add_option("--shader-dir", options->shader_dir, "Read shaders from a folder")
       ->type_name("DIR");

@@ -7,6 +7,7 @@
 #include "app/interrupt.h"
 #include "app/mosaic.h"
 #include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
 #include "app/render_job.h"
 #include "app/render_run.h"
 #include "app/resolve.h"
@@ -140,7 +141,9 @@ int finish(const RenderOptions& options, const RenderJob& job, const RenderRun& 
   if (result.status == RunStatus::interrupted) {
     std::cerr << "neve: interrupted; " << run.record().frames.size() << " frames are in "
               << job.folder.string() << std::endl;
-    return exit_interrupted;
+    if (!result.has_checkpoint) return exit_interrupted;
+    std::cerr << "neve: --resume goes on from here" << std::endl;
+    return exit_resumable;
   }
   progress.note(std::to_string(run.record().frames.size()) +
                 (run.record().frames.size() == 1 ? " frame" : " frames") + " in " +
@@ -185,8 +188,14 @@ int run_render(const RenderOptions& options) {
   const RenderResult result = run.run();
   warn_about_steps(job.scene.solver, simulation, progress);
   const int code = finish(options, job, run, result, progress);
-  if (code == exit_ok && reference && result.last_picture)
-    return compare_with_reference(options, job, *result.last_picture, *reference);
+  if (code == exit_ok && reference && !run.record().frames.empty()) {
+    // A resumed run that was complete has drawn nothing.
+    const auto file =
+        frame_path(job.folder, run.record().views.front(), run.record().frames.back().frame);
+    const render::Image picture =
+        result.last_picture ? *result.last_picture : render::decode_png(read_file(file));
+    return compare_with_reference(options, job, picture, *reference);
+  }
   return code;
 }
 

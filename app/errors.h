@@ -17,7 +17,8 @@ enum ExitCode {
   exit_io = 6,
   exit_refused = 8,
   exit_check_failed = 9,
-  exit_interrupted = 130,
+  exit_resumable = 75,     ///< interrupted, with a checkpoint
+  exit_interrupted = 130,  ///< interrupted without
 };
 
 /// A mistake at the border: what() is the whole sentence, where and hint serve `--json`.

@@ -7,6 +7,7 @@
 #include "app/interrupt.h"
 #include "app/mosaic.h"
 #include "app/output/atomic_file.h"
+#include "app/output/checkpoint.h"
 #include "app/output/movie.h"
 #include "app/output/sequence.h"
 #include "app/scene/read.h"
@@ -40,6 +41,36 @@ bool after_step() {
 
 }  // namespace
 
+namespace {
+
+RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation,
+                     const render::Context& context) {
+  RunRecord record;
+  record.scene = write_scene(job.scene);
+  record.scene_file = job.scene_file;
+  record.overrides = job.overrides;
+  record.coarsening = job.coarsening;
+  record.backend = context.backend;
+  record.gl_renderer = context.renderer;
+  record.threads = simulation.threads();
+  record.simd = simulation.simd();
+  return record;
+}
+
+PictureRecord picture_record(const RenderJob& job) {
+  PictureRecord record;
+  record.scene = write_scene(job.scene);
+  record.overrides = job.overrides;
+  record.coarsening = job.coarsening;
+  record.seed = job.scene.seed;
+  record.version = version;
+  record.quality = name(job.quality);
+  record.files = hash_files(job.scene);
+  return record;
+}
+
+}  // namespace
+
 RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
                      const render::Context& context, render::Renderer& renderer, double spacing,
                      const std::vector<std::size_t>& body_end, Progress& progress)
@@ -47,35 +78,39 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
       simulation_(simulation),
       renderer_(renderer),
       progress_(progress),
-      builder_(job.scene, spacing, job.quality, job.overrides, job.coarsening, body_end) {
-  record_.scene = write_scene(job.scene);
-  record_.scene_file = job.scene_file;
-  record_.overrides = job.overrides;
-  record_.coarsening = job.coarsening;
+      builder_(job.scene, spacing, job.quality, job.overrides, job.coarsening, body_end),
+      record_(run_record(job, simulation, context)),
+      picture_record_(picture_record(job)),
+      checkpoints_(job.folder, picture_record_, simulation, progress) {
   for (const View& view : job.scene.views)
     if (is_drawn(view)) record_.views.push_back(view.name);
   for (const Mosaic& mosaic : job.scene.mosaics) record_.views.push_back(mosaic.name);
-  record_.backend = context.backend;
-  record_.gl_renderer = context.renderer;
-  record_.threads = simulation.threads();
-  record_.simd = simulation.simd();
+}
 
-  picture_record_.scene = record_.scene;
-  picture_record_.overrides = job.overrides;
-  picture_record_.coarsening = job.coarsening;
-  picture_record_.seed = job.scene.seed;
-  picture_record_.version = version;
-  picture_record_.quality = name(job.quality);
-  picture_record_.files = hash_files(job.scene);
+/// Frames of the run before stay listed until they are made again: whenever the process is killed,
+/// run.json knows every picture that is there.
+int RenderRun::begin() {
+  make_folder(job_.folder);
+  std::optional<ResumedRun> resumed;
+  if (job_.is_resumed) resumed = checkpoints_.resume();
+  if (resumed) {
+    record_.frames = std::move(resumed->frames);
+    history_ = std::move(resumed->history);
+    advance_ = resumed->advance;
+    result_.has_checkpoint = true;
+  } else {
+    remove_earlier_run(job_.folder);
+    remove_checkpoints(job_.folder);
+  }
+  for (const std::string& view : record_.views) make_folder(job_.folder / view);
+  write_run_json(job_.folder, record_);
+  return resumed ? resumed->frame + 1 : 0;
 }
 
 RenderResult RenderRun::run() {
-  make_folder(job_.folder);
-  remove_earlier_run(job_.folder);
-  for (const std::string& view : record_.views) make_folder(job_.folder / view);
-  write_run_json(job_.folder, record_);
+  const int first = begin();
   try {
-    make_frames();
+    make_frames(first);
     writer_.finish();
     write_movies();
     record_.status = result_.status;
@@ -94,28 +129,46 @@ RenderResult RenderRun::run() {
   return result_;
 }
 
-void RenderRun::make_frames() {
+void RenderRun::make_frames(int first) {
   progress_.start(job_.frames.last);
-  for (int frame = 0; frame <= job_.frames.last; ++frame) {
-    advance_ = {};
+  for (int frame = first; frame <= job_.frames.last; ++frame) {
     seconds_sim_ = 0;
-    if (frame > 0 && !advance_to_frame(frame)) return;
+    if (frame > 0 && !advance_to_frame(frame)) {
+      if (result_.status == RunStatus::interrupted) write_checkpoint(frame - 1);
+      return;
+    }
     summary_ = simulation_.summary();
     history_.push_back(plot_sample(frame / job_.scene.fps, summary_, advance_));
     if (frame >= job_.frames.first) draw_frame(frame);
+    advance_ = {};
     progress_.frame(frame, frame / job_.scene.fps);
     if (is_interrupted() && frame < job_.frames.last) {
       result_.status = RunStatus::interrupted;
+      write_checkpoint(frame);
       return;
     }
+    if (checkpoint_is_due(frame)) write_checkpoint(frame);
   }
+}
+
+bool RenderRun::checkpoint_is_due(int frame) const {
+  const int every = job_.checkpoint_every;
+  return every > 0 && (frame == job_.frames.last || (frame > 0 && frame % every == 0));
+}
+
+/// Pictures first: what a checkpoint says was reached is on disk.
+void RenderRun::write_checkpoint(int frame) {
+  if (job_.checkpoint_every == 0) return;
+  writer_.finish();
+  checkpoints_.write(frame, advance_, history_);
+  result_.has_checkpoint = true;
 }
 
 /// @return whether the frame was reached in good health
 bool RenderRun::advance_to_frame(int frame) {
   const auto start = Clock::now();
   stepping = &progress_;
-  advance_ = simulation_.advance_to(frame / job_.scene.fps, after_step);
+  advance_.append(simulation_.advance_to(frame / job_.scene.fps, after_step));
   stepping = nullptr;
   seconds_sim_ = seconds_since(start);
   if (simulation_.divergence()) {
@@ -147,15 +200,26 @@ void RenderRun::draw_frame(int frame) {
     if (is_drawn(view)) add(view.name, renderer_.draw(builder_.build(view, snapshot)));
   for (const Mosaic& mosaic : job_.scene.mosaics)
     add(mosaic.name, draw_mosaic(job_.scene, mosaic, builder_, snapshot, renderer_));
-  record_.frames.push_back({frame, frame / job_.scene.fps, advance_, seconds_sim_,
-                            seconds_since(start), summary_, state_hash});
+  add_frame_record({frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start),
+                    summary_, state_hash});
   // Listed first and written then: whenever the process is killed, the next run knows every picture
   // that it has to remove.
   write_run_json(job_.folder, record_);
   for (Picture& picture : pictures) writer_.write(std::move(picture));
   progress_.detail("frame " + std::to_string(frame) + ": " + std::to_string(advance_.steps) +
                    " steps, simulated in " + fixed_text(seconds_sim_, 2) + " s, drawn in " +
-                   fixed_text(record_.frames.back().seconds_render, 2) + " s");
+                   fixed_text(seconds_since(start), 2) + " s");
+}
+
+/// In the place of the one that a run before this one made.
+void RenderRun::add_frame_record(const FrameRecord& frame) {
+  const auto place =
+      std::lower_bound(record_.frames.begin(), record_.frames.end(), frame.frame,
+                       [](const FrameRecord& other, int number) { return other.frame < number; });
+  if (place != record_.frames.end() && place->frame == frame.frame)
+    *place = frame;
+  else
+    record_.frames.insert(place, frame);
 }
 
 /// The state that broke a rule, with the culprits marked; a picture, but not a frame.

@@ -12,12 +12,14 @@
 #include "app/picture_record.h"
 #include "app/progress.h"
 #include "app/render_job.h"
+#include "app/resume.h"
 #include "render/renderer.h"
 #include "sim/simulation.h"
 
 namespace neve::app {
 
 struct RenderResult {
+  bool has_checkpoint = false;  ///< the run can go on from where it stopped
   RunStatus status = RunStatus::ok;
   std::vector<std::filesystem::path> movies;
   std::optional<render::Image> last_picture;  ///< of the first view
@@ -31,16 +33,21 @@ class RenderRun {
             render::Renderer& renderer, double spacing, const std::vector<std::size_t>& body_end,
             Progress& progress);
 
-  /// Removes what an earlier run left, then makes all frames and movies. run.json says at every
-  /// moment how far it got, also when this throws.
+  /// Removes what an earlier run left, or goes on with it, then makes all frames and movies.
+  /// run.json says at every moment how far it got, also when this throws.
   RenderResult run();
 
   const RunRecord& record() const { return record_; }
 
  private:
-  void make_frames();
+  /// @return the first frame to make
+  int begin();
+  void make_frames(int first);
+  bool checkpoint_is_due(int frame) const;
+  void write_checkpoint(int frame);
   bool advance_to_frame(int frame);
   void draw_frame(int frame);
+  void add_frame_record(const FrameRecord& frame);
   void draw_incident();
   void write_movies();
   void forget_unwritten_frames();
@@ -55,6 +62,7 @@ class RenderRun {
   FrameBuilder builder_;
   RunRecord record_;
   PictureRecord picture_record_;
+  Checkpoints checkpoints_;
   RenderResult result_;
   sim::AdvanceReport advance_;       ///< of the frame being made
   sim::Summary summary_;             ///< of the frame being made

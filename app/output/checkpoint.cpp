@@ -72,7 +72,7 @@ Checkpoint read(const fs::path& file) {
   c.simd = json.at("simd").get<std::string>();
   c.frame = json.at("frame").get<int>();
   c.steps = json.at("steps").get<std::size_t>();
-  c.advance = json.at("advance");
+  c.progress = json.at("progress");
   c.state.assign(bytes.begin() + static_cast<std::ptrdiff_t>(json_start + length),
                  bytes.begin() + static_cast<std::ptrdiff_t>(body));
   return c;
@@ -85,7 +85,7 @@ void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
                                     {"simd", checkpoint.simd},
                                     {"frame", checkpoint.frame},
                                     {"steps", checkpoint.steps},
-                                    {"advance", checkpoint.advance}});
+                                    {"progress", checkpoint.progress}});
   std::vector<std::uint8_t> bytes;
   bytes.reserve(checkpoint.state.size() + text.size() + 64);
   append(bytes, magic, sizeof magic);

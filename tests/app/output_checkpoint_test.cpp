@@ -16,7 +16,7 @@ Checkpoint checkpoint(int frame, std::size_t steps) {
   c.simd = "avx2";
   c.frame = frame;
   c.steps = steps;
-  c.advance = {{"steps", 7}};
+  c.progress = {{"steps", 7}};
   for (std::size_t k = 0; k < 1000; ++k) c.state.push_back(static_cast<std::uint8_t>(k * steps));
   return c;
 }
@@ -41,7 +41,7 @@ TEST(CheckpointFile, ComesBackWholeAndOnlyTwoAreKept) {
   EXPECT_EQ(found.checkpoint->steps, 99u);
   EXPECT_EQ(found.checkpoint->identity, "abc");
   EXPECT_EQ(found.checkpoint->simd, "avx2");
-  EXPECT_EQ(found.checkpoint->advance["steps"], 7);
+  EXPECT_EQ(found.checkpoint->progress["steps"], 7);
   EXPECT_EQ(found.checkpoint->state, checkpoint(10, 99).state);
 }
 

@@ -1,0 +1,101 @@
+#include "app/resume.h"
+
+#include "app/output/checkpoint.h"
+#include "app/scene/error.h"
+#include "sim/base/hash.h"
+
+namespace neve::app {
+
+namespace {
+
+/// Everything that bits of states and pictures depend on, but the machine.
+std::string identity_of(PictureRecord picture) {
+  picture.frame = 0;
+  picture.view.clear();
+  picture.state_hash.clear();
+  const std::string text = to_text(to_json(picture));
+  return hash_text(hash_bytes(text.data(), text.size()));
+}
+
+Json history_json(std::span<const PlotSample> history) {
+  Json rows = Json::array();
+  for (const PlotSample& s : history)
+    rows.push_back({number_or_null(s.time), number_or_null(s.kinetic_energy),
+                    number_or_null(s.elastic_energy), number_or_null(s.max_speed), s.steps,
+                    static_cast<int>(s.limit)});
+  return rows;
+}
+
+std::vector<PlotSample> history_of(const Json& rows) {
+  std::vector<PlotSample> history;
+  for (const Json& row : rows) {
+    PlotSample s;
+    s.time = row.at(0).get<double>();
+    s.kinetic_energy = row.at(1).get<double>();
+    s.elastic_energy = row.at(2).get<double>();
+    s.max_speed = row.at(3).get<double>();
+    s.steps = row.at(4).get<std::size_t>();
+    s.limit = static_cast<sim::DtLimit>(row.at(5).get<int>());
+    history.push_back(s);
+  }
+  return history;
+}
+
+}  // namespace
+
+Checkpoints::Checkpoints(std::filesystem::path folder, const PictureRecord& picture,
+                         sim::Simulation& simulation, Progress& progress)
+    : folder_(std::move(folder)),
+      identity_(identity_of(picture)),
+      simulation_(simulation),
+      progress_(progress) {}
+
+void Checkpoints::write(int frame, const sim::AdvanceReport& advance,
+                        std::span<const PlotSample> history) {
+  Checkpoint checkpoint;
+  checkpoint.identity = identity_;
+  checkpoint.simd = simulation_.simd();
+  checkpoint.frame = frame;
+  checkpoint.steps = simulation_.steps();
+  checkpoint.progress = {{"advance", to_json(advance)}, {"history", history_json(history)}};
+  checkpoint.state = simulation_.save();
+  write_checkpoint(folder_, checkpoint);
+}
+
+std::optional<ResumedRun> Checkpoints::resume() {
+  const FoundCheckpoint found = find_checkpoint(folder_);
+  for (const std::string& damaged : found.damaged)
+    progress_.warning(damaged + "; an older checkpoint is taken");
+  if (!found.checkpoint) {
+    progress_.note("no checkpoint in " + folder_.string() + ": the run starts at frame 0");
+    return std::nullopt;
+  }
+  const Checkpoint& checkpoint = *found.checkpoint;
+  if (checkpoint.identity != identity_)
+    throw UsageError("--resume",
+                     "the run in " + folder_.string() +
+                         " is another one: its scene, changes, views, quality or version differ",
+                     "without --resume it is replaced; with --out it stays");
+  if (checkpoint.simd != simulation_.simd())
+    progress_.warning("the run so far was made with " + checkpoint.simd +
+                      " instructions, now with " + simulation_.simd() +
+                      ": last bits will differ; NEVE_SIMD=" + checkpoint.simd +
+                      " where the machine has it");
+  ResumedRun run;
+  try {
+    simulation_.restore(checkpoint.state);
+    run.frame = checkpoint.frame;
+    run.advance = advance_report(checkpoint.progress.at("advance"));
+    run.history = history_of(checkpoint.progress.at("history"));
+  } catch (const std::exception& error) {
+    // Its checksum is right, so it was written so.
+    throw UsageError("--resume", std::string("cannot go on: ") + error.what(),
+                     "without --resume the run starts anew");
+  }
+  run.frames = read_frame_records(folder_);
+  progress_.note("resumed after frame " + std::to_string(run.frame) + ", step " +
+                 std::to_string(checkpoint.steps));
+  return run;
+}
+
+}  // namespace neve::app

@@ -1,0 +1,48 @@
+#pragma once
+/// Checkpoints of a run and what is needed to go on from one.
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/output/run_json.h"
+#include "app/picture_record.h"
+#include "app/plots.h"
+#include "app/progress.h"
+#include "sim/simulation.h"
+
+namespace neve::app {
+
+/// A run as it was when the checkpoint was written.
+struct ResumedRun {
+  int frame = 0;                    ///< the last one that was reached
+  sim::AdvanceReport advance;       ///< steps taken since then
+  std::vector<PlotSample> history;  ///< of all frames reached
+  std::vector<FrameRecord> frames;  ///< that run.json lists
+};
+
+class Checkpoints {
+ public:
+  /// @param picture of any view and frame: what made it makes the run
+  Checkpoints(std::filesystem::path folder, const PictureRecord& picture,
+              sim::Simulation& simulation, Progress& progress);
+
+  /// @param advance steps since the frame
+  /// @throws IoError
+  void write(int frame, const sim::AdvanceReport& advance, std::span<const PlotSample> history);
+
+  /// Brings the simulation to the newest checkpoint that is whole; damaged ones are named and
+  /// passed over. Nothing where there is none: the run starts at its beginning.
+  /// @throws UsageError when the run in the folder is another one
+  std::optional<ResumedRun> resume();
+
+ private:
+  std::filesystem::path folder_;
+  std::string identity_;
+  sim::Simulation& simulation_;
+  Progress& progress_;
+};
+
+}  // namespace neve::app

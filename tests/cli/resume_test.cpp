@@ -1,0 +1,87 @@
+/// Checkpoints: nothing is lost, and what follows is the same to the bit.
+
+#include "tests/support/resume.h"
+
+namespace neve::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Resume : public Cli {
+ protected:
+  app::ProcessResult render(const std::string& out, std::vector<std::string> more = {}) {
+    std::vector<std::string> words{"render", "scene.toml", "--out", out};
+    words.insert(words.end(), more.begin(), more.end());
+    return neve(words);
+  }
+  void expect_same(const std::string& a, const std::string& b) {
+    const RunFiles x = files_of(folder / a), y = files_of(folder / b);
+    EXPECT_EQ(x.hashes, y.hashes);
+    ASSERT_EQ(x.pictures.size(), y.pictures.size());
+    for (const auto& [name, bytes] : x.pictures) EXPECT_TRUE(y.pictures.at(name) == bytes) << name;
+  }
+  std::vector<fs::path> checkpoints(const std::string& out) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder / out / "checkpoint"))
+      files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+};
+
+TEST_F(Resume, AFinishedRunIsExtended) {
+  ASSERT_EQ(render("whole").exit_code, 0);
+  ASSERT_EQ(render("parts", {"--frames", "0-2"}).exit_code, 0);
+  const auto more = render("parts", {"--frames", "0-4", "--resume"});
+  ASSERT_EQ(more.exit_code, 0) << more.errors;
+  EXPECT_TRUE(contains(more.errors, "resumed after frame 2")) << more.errors;
+  expect_same("whole", "parts");
+  // Once more: there is nothing left to do.
+  EXPECT_EQ(render("parts", {"--frames", "0-4", "--resume"}).exit_code, 0);
+  expect_same("whole", "parts");
+}
+
+TEST_F(Resume, KilledAtAnyInstantItEndsWithTheSameBits) {
+  ASSERT_EQ(render("whole").exit_code, 0);
+  EXPECT_GE(kill_and_resume(folder / "scene.toml", folder / "parts", 8, 0.5, 1), 4);
+  const auto last = render("parts", {"--resume", "--checkpoint-every", "1"});
+  ASSERT_EQ(last.exit_code, 0) << last.errors;
+  expect_same("whole", "parts");
+}
+
+TEST_F(Resume, ADamagedCheckpointIsNamedAndTheOlderOneTaken) {
+  ASSERT_EQ(render("whole").exit_code, 0);
+  ASSERT_EQ(render("parts", {"--frames", "0-3", "--checkpoint-every", "1"}).exit_code, 0);
+  const auto files = checkpoints("parts");
+  ASSERT_EQ(files.size(), 2u);
+  std::vector<std::uint8_t> bytes = app::read_file(files.back());
+  bytes[bytes.size() / 2] ^= 1;
+  app::write_file(files.back(), bytes);
+  const auto more = render("parts", {"--resume"});
+  ASSERT_EQ(more.exit_code, 0) << more.errors;
+  EXPECT_TRUE(contains(more.errors, "checksum")) << more.errors;
+  EXPECT_TRUE(contains(more.errors, "resumed after frame 2")) << more.errors;
+  expect_same("whole", "parts");
+}
+
+TEST_F(Resume, AnotherSceneIsRefusedAndNothingIsTouched) {
+  ASSERT_EQ(render("out", {"--frames", "0-2"}).exit_code, 0);
+  const RunFiles before = files_of(folder / "out");
+  const auto other = render("out", {"--resume", "--set", "material.snow.hardening=5"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_TRUE(contains(other.errors, "--resume")) << other.errors;
+  EXPECT_EQ(files_of(folder / "out").pictures, before.pictures);
+  // Without --resume it is replaced, checkpoints too.
+  ASSERT_EQ(render("out", {"--frames", "0-1", "--checkpoint-every", "0"}).exit_code, 0);
+  EXPECT_FALSE(exists("out/checkpoint"));
+}
+
+TEST_F(Resume, WithoutACheckpointItStartsAtTheBeginning) {
+  const auto result = render("out", {"--resume", "--frames", "0-1"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(contains(result.errors, "starts at frame 0")) << result.errors;
+  EXPECT_EQ(render("out", {"--checkpoint-every", "-1"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace neve::test

@@ -1,0 +1,51 @@
+#pragma once
+/// Runs that are killed and resumed, against one that was left alone.
+
+#include <map>
+#include <random>
+
+#include "app/output/atomic_file.h"
+#include "tests/cli/run_neve.h"
+#include "tests/support/child.h"
+
+namespace neve::test {
+
+/// Every picture by its name, and the state hashes of run.json.
+struct RunFiles {
+  std::map<std::string, std::vector<std::uint8_t>> pictures;
+  std::vector<std::string> hashes;
+};
+
+inline RunFiles files_of(const std::filesystem::path& out) {
+  RunFiles files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
+    if (entry.path().extension() == ".png")
+      files.pictures[std::filesystem::relative(entry.path(), out).string()] =
+          app::read_file(entry.path());
+  const app::Json run = app::parse_json(std::string_view(read_text(out / "run.json")));
+  for (const app::Json& frame : run["frames"])
+    files.hashes.push_back(frame["state_hash"].get<std::string>());
+  return files;
+}
+
+/// @return how many of the kills met a running program
+inline int kill_and_resume(const std::filesystem::path& scene, const std::filesystem::path& out,
+                           int kills, double longest, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> delay(0.02, longest);
+  int met = 0;
+  for (int k = 0; k < kills; ++k) {
+    const pid_t child = start_program({NEVE_BINARY, "render", scene, "--out", out, "--resume",
+                                       "--checkpoint-every", "1", "--quiet"});
+    std::this_thread::sleep_for(std::chrono::duration<double>(delay(random)));
+    ::kill(child, k % 4 == 3 ? SIGTERM : SIGKILL);
+    const int code = wait_for(child);
+    EXPECT_TRUE(code == 128 + SIGKILL || code == 75 || code == 130 || code == 0 ||
+                code == 128 + SIGTERM)
+        << code;
+    met += code != 0;
+  }
+  return met;
+}
+
+}  // namespace neve::test
