@@ -181,7 +181,7 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
   };
   if (is_view(mosaic.name)) {
     return Problem{at + ".name", "a view is called " + toml_string(mosaic.name) + " too",
-                   "both would write into the folder of that name"};
+                   "both would write into the folder of that name: name the mosaic"};
   }
   for (const std::string& name : mosaic.views) {
     if (is_view(name)) continue;

@@ -145,7 +145,7 @@ TEST(SceneErrors, ChoicesAreListed) {
       layer.starts_with("s.toml:2:21: error: view.1.layers[1] = \"fog\"; expected \"ground\", "
                         "\"colliders\", \"particles\", "))
       << layer;
-  EXPECT_TRUE(layer.ends_with(" or \"caption\"")) << layer;
+  EXPECT_TRUE(layer.ends_with(", \"caption\" or \"plots\"")) << layer;
   EXPECT_EQ(error_of("[[view]]\nlayers = [\"ground\", \"ground\"]"),
             "s.toml:2:21: error: view.1.layers[1] = \"ground\"; expected each at most once");
 }
@@ -231,13 +231,14 @@ TEST(SceneErrors, MeshFilesExist) {
 
 TEST(SceneErrors, CamerasCanSee) {
   EXPECT_EQ(error_of(with_ball("[camera]\neye = [1, 1, 1]\ntarget = [1, 1, 1]")),
-            "s.toml:6:10: error: eye and target are the same point");
+            "s.toml:6:10: error: eye and target are the same point; move one of them");
   EXPECT_EQ(error_of(with_ball("[camera]\neye = [1, 1, 1]")),
             "s.toml:5:7: error: eye and target go together; give both, or neither to frame the "
             "whole scene");
   EXPECT_EQ(error_of(with_ball("[[view]]\ncamera = { eye = [0, 1, 0], target = [0, 0, 0] }")),
             "s.toml:5:10: error: up is parallel to the direction of view; try up = [0, 0, -1]");
-  EXPECT_EQ(error_of(with_ball("[camera]\nup = [0, 0, 0]")), "s.toml:5:6: error: up is zero");
+  EXPECT_EQ(error_of(with_ball("[camera]\nup = [0, 0, 0]")),
+            "s.toml:5:6: error: up is zero; it points upwards in the picture");
   EXPECT_EQ(error_of(with_ball("[light]\ndirection = [0, 0, 0]")),
             "s.toml:5:13: error: direction is zero; it points towards the light");
 }

@@ -206,7 +206,7 @@ Scene full_scene(const std::string& mesh_file) {
   }
   text +=
       "[[view]]\n[[view]]\nname = \"close\"\ncamera = { eye = [1,1,1], target = [0,0,0] }\n"
-      "clip = { point = [1, 2, 3] }\n[[mosaic]]\nviews = [\"close\"]\n";
+      "clip = { point = [1, 2, 3] }\n[[mosaic]]\nname = \"wall\"\nviews = [\"close\"]\n";
   return read_scene_text(text, "full", std::filesystem::path(mesh_file).parent_path().string());
 }
 

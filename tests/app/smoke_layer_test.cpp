@@ -34,7 +34,8 @@ render::Frame first_frame(Scene scene) {
   std::vector<std::size_t> body_end;
   const sim::ParticleArrays particles = seed_scene(scene, &body_end);
   resolve(scene, particles.x.size());
-  const sim::Simulation simulation(scene.solver, scene.materials, scene.colliders, particles, 1);
+  const sim::Simulation simulation(scene.solver, scene.materials, sim_colliders(scene), particles,
+                                   1);
   const FrameBuilder builder(scene, 0.01, Quality::preview, {}, 1, body_end);
   return builder.build(scene.views.front(), take_snapshot(scene, simulation, 0));
 }

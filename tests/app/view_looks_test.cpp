@@ -171,7 +171,7 @@ TEST(Mosaic, ErrorsAreLocated) {
             "s.toml:11:9: error: there is no view \"bb\"; did you mean \"b\"?");
   EXPECT_EQ(error_of(views + "[[mosaic]]\nname = \"a\"\nviews = [\"b\"]"),
             "s.toml:11:8: error: a view is called \"a\" too; both would write into the folder of "
-            "that name");
+            "that name: name the mosaic");
   EXPECT_EQ(error_of(views + "[[mosaic]]\nname = \"m\""),
             "s.toml:10:1: error: a mosaic of 0 views; name 1 to 64 of \"a\", \"b\" or \"c\"");
   EXPECT_EQ(error_of(views + "[[mosaic]]\nviews = [1]"),

@@ -64,7 +64,7 @@ TEST_P(GoldenTest, EveryViewLooksAsItDid) {
   ::setenv("NEVE_SIMD", "baseline", 1);  // the same snow on every machine
   ::setenv("NEVE_PARTICLES", way.particles, 1);
   const auto result = neve({"render", (goldens / "layers.toml").string(), "--frames", "3-3",
-                            "--out", "out", "--backend", way.backend});
+                            "--out", "out", "--backend", way.backend, "--checkpoint-every", "0"});
   ::unsetenv("NEVE_SIMD");
   ::unsetenv("NEVE_PARTICLES");
   ASSERT_EQ(result.exit_code, 0) << result.errors;
