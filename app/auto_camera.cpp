@@ -152,6 +152,13 @@ struct Framing {
   double distance;
 };
 
+/// Degrees; arrows seen exactly from the front have no depth.
+constexpr double askew = 14;
+
+double azimuth_of(const Vec3d& normal) {
+  return std::atan2(normal.x(), normal.z()) * 180 / std::numbers::pi;
+}
+
 /// What the picture's sides and the angle of view make of directions.
 struct Lens {
   Vec3d up;
@@ -236,16 +243,19 @@ bool is_clear(const Scene& scene, const Framing& framing, const Vec3d& towards_e
 }  // namespace
 
 CameraSettings automatic_camera(const Scene& scene, const std::vector<Moment>& moments,
-                                const CameraSettings& settings, double aspect) {
+                                const CameraSettings& settings, double aspect,
+                                const std::optional<Vec3d>& normal) {
   std::vector<Vec3d> points = subject(scene, moments);
   add_small_colliders(scene, points);
   const Lens lens{settings.up.normalized(), std::tan(radians(settings.fov / 2)), aspect,
                   turns_of(settings, scene.frames / scene.fps)};
 
-  const double preferred = best_azimuth(points);
+  const double preferred = normal ? azimuth_of(*normal) + askew : best_azimuth(points);
   const Vec3d middle = box_of(points).center();
   if (lens.is_turning()) points = turned_backwards(points, lens);
-  Vec3d towards_eye = direction(preferred, 14);
+  // A level plane is looked at from well above it.
+  const bool is_level = normal && std::abs(normal->normalized().y()) > 0.7;
+  Vec3d towards_eye = direction(preferred, is_level ? 60 : 14);
   Framing framing = fit(points, middle, towards_eye, lens);
   bool is_found = is_clear(scene, framing, towards_eye, lens);
   for (const double elevation : {14.0, 30.0, 50.0, -14.0})

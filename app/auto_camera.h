@@ -1,6 +1,7 @@
 #pragma once
 /// A place for cameras that name none.
 
+#include <optional>
 #include <vector>
 
 #include "app/dry_run.h"
@@ -12,7 +13,9 @@ namespace neve::app {
 /// numbers, the same for every frame. A camera that turns has it in the picture all the way round.
 /// @param settings all but eye and target is kept
 /// @param aspect width / height of the picture
+/// @param normal of a plane that should be seen from its front, a little askew
 CameraSettings automatic_camera(const Scene& scene, const std::vector<Moment>& moments,
-                                const CameraSettings& settings, double aspect);
+                                const CameraSettings& settings, double aspect,
+                                const std::optional<sim::Vec3d>& normal = {});
 
 }  // namespace neve::app

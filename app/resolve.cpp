@@ -23,6 +23,10 @@ double aspect_of(const PictureSize& size) {
   return static_cast<double>(size.width) / static_cast<double>(size.height);
 }
 
+bool shows_slice(const View& view) {
+  return has_layer(view, Layer::arrows) || has_layer(view, Layer::heatmap);
+}
+
 /// The narrowest of the views that share the scene's camera.
 double shared_aspect(const Scene& scene) {
   double aspect = aspect_of(scene.size);
@@ -48,9 +52,13 @@ void resolve_cameras(Scene& scene) {
 
   const std::vector<Moment> moments = dry_run(scene);
   if (is_shared) scene.camera = automatic_camera(scene, moments, lens, shared_aspect(scene));
-  for (View& view : scene.views)
+  for (View& view : scene.views) {
+    const double aspect = aspect_of(size_of(scene, view));
     if (view.camera && !has_place(*view.camera))
-      view.camera = automatic_camera(scene, moments, *view.camera, aspect_of(size_of(scene, view)));
+      view.camera = automatic_camera(scene, moments, *view.camera, aspect);
+    else if (!view.camera && is_shared && shows_slice(view))
+      view.camera = automatic_camera(scene, moments, lens, aspect, view.slice.normal);
+  }
 }
 
 /// The plane goes through the middle of what the scene starts with.
@@ -79,8 +87,7 @@ void resolve(Scene& scene, std::size_t particle_count) {
       view.particles.range = automatic_range(scene, view.particles.color_by, particle_count);
     if (has_layer(view, Layer::smoke) && view.smoke.field != ScalarField::mass && !view.smoke.range)
       view.smoke.range = automatic_range(scene, view.smoke.field);
-    if (has_layer(view, Layer::arrows) || has_layer(view, Layer::heatmap))
-      resolve_slice(scene, view.slice);
+    if (shows_slice(view)) resolve_slice(scene, view.slice);
     if (has_layer(view, Layer::plots)) resolve_plot_ranges(scene, view.plots);
   }
 }

@@ -17,11 +17,11 @@ struct ArrowVertex {
 };
 
 /// Proportions of the longest arrow, in units of its length.
-constexpr float shaft_radius = 0.032f, head_radius = 0.105f, head_length = 0.36f;
+constexpr float shaft_radius = 0.04f, head_radius = 0.12f, head_length = 0.36f;
 
 /// Short arrows are slimmer, but never hairs.
 float slimness(float part) {
-  return std::clamp(1.6f * part, 0.4f, 1.0f);
+  return std::clamp(1.6f * part, 0.6f, 1.0f);
 }
 
 class ArrowBuilder {

@@ -72,9 +72,9 @@ struct SliceStyle {
   int every = 0;                    ///< nodes from arrow to arrow; 0: automatic
   double arrow_scale = 1;           ///< factor of all lengths
   int isolines = 0;                 ///< steps of the heat map's range with lines between them
-  render::ColorMap colormap = render::ColorMap::magma;           ///< of the arrows
-  std::optional<Range> range;                                    ///< of their magnitude
-  render::ColorMap scalar_colormap = render::ColorMap::viridis;  ///< of the heat map
+  render::ColorMap colormap = render::ColorMap::viridis;       ///< of the arrows
+  std::optional<Range> range;                                  ///< of their magnitude
+  render::ColorMap scalar_colormap = render::ColorMap::magma;  ///< of the heat map
   std::optional<Range> scalar_range;
 };
 
