@@ -40,12 +40,8 @@ std::string count_text(double x) {
   return fixed_text(unit * std::round(x / unit), 0);
 }
 
-/// "45 s", "12 min", "3.5 h"
-std::string duration_text(double seconds) {
-  if (seconds < 0.95) return fixed_text(seconds, 2) + " s";
-  if (seconds < 90) return fixed_text(seconds, 0) + " s";
-  if (seconds < 90 * 60) return fixed_text(seconds / 60, 0) + " min";
-  return fixed_text(seconds / 3600, 1) + " h";
+std::string time_text(double seconds) {
+  return seconds < 0.95 ? fixed_text(seconds, 2) + " s" : duration_text(seconds);
 }
 
 const FrameForecast& busiest(const Checkup& checkup) {
@@ -109,8 +105,8 @@ void print_forecast(const Checkup& checkup) {
             << sim::name(worst.limit) << "), from a copy of "
             << count_text(checkup.coarse_particles) << " particles\n";
   if (checkup.seconds_per_step <= 0) return;
-  std::cout << "time       about " << duration_text(checkup.seconds()) << " of simulation, "
-            << duration_text(worst.steps * checkup.seconds_per_step) << " for the busiest frame; "
+  std::cout << "time       about " << time_text(checkup.seconds()) << " of simulation, "
+            << time_text(worst.steps * checkup.seconds_per_step) << " for the busiest frame; "
             << rough(1000 * checkup.seconds_per_step)
             << " ms a step, measured now on this machine\n";
 }

@@ -58,18 +58,21 @@ Progress::~Progress() {
 }
 
 void Progress::start(int last_frame) {
+  const std::lock_guard lock(mutex_);
   state_ = {};
   state_.last_frame = last_frame;
   finished_at_.assign(1, Clock::now());
 }
 
 void Progress::step() {
+  const std::lock_guard lock(mutex_);
   ++state_.steps;
   const auto now = Clock::now();
   if (now - shown_at_ >= (updates_ ? Clock::duration(update_interval) : line_interval)) show(now);
 }
 
 void Progress::frame(int frame, double time) {
+  const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
   state_.frame = frame;
   state_.time = time;
@@ -91,15 +94,24 @@ void Progress::show(Clock::time_point now) {
   }
 }
 
-void Progress::clear() {
+void Progress::clear_line() {
   if (has_line_) out_ << "\r\033[K" << std::flush;
   has_line_ = false;
 }
 
-void Progress::note(const std::string& message) {
-  if (verbosity_ == Verbosity::quiet) return;
-  clear();
+void Progress::print(const std::string& message) {
+  clear_line();
   out_ << message << std::endl;
+}
+
+void Progress::clear() {
+  const std::lock_guard lock(mutex_);
+  clear_line();
+}
+
+void Progress::note(const std::string& message) {
+  const std::lock_guard lock(mutex_);
+  if (verbosity_ != Verbosity::quiet) print(message);
 }
 
 void Progress::detail(const std::string& message) {
@@ -107,8 +119,8 @@ void Progress::detail(const std::string& message) {
 }
 
 void Progress::warning(const std::string& message) {
-  clear();
-  out_ << "neve: warning: " << message << std::endl;
+  const std::lock_guard lock(mutex_);
+  print("neve: warning: " + message);
 }
 
 }  // namespace neve::app

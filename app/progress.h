@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <deque>
+#include <mutex>
 #include <ostream>
 #include <string>
 
@@ -28,6 +29,7 @@ std::string duration_text(double seconds);
 /// Whether a stream can take an updating line: a terminal that is not dumb, without NO_COLOR.
 bool can_update_lines(int fd);
 
+/// Any thread may call it.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;
@@ -52,8 +54,12 @@ class Progress {
   void clear();
 
  private:
+  // Callers hold the mutex.
   void show(Clock::time_point now);
+  void clear_line();
+  void print(const std::string& message);
 
+  std::mutex mutex_;
   std::ostream& out_;
   Verbosity verbosity_;
   bool updates_;

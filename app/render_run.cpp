@@ -1,6 +1,7 @@
 #include "app/render_run.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <system_error>
 
@@ -34,10 +35,16 @@ bool has_alpha(const Scene& scene, const std::string& name) {
   });
 }
 
+/// Nobody waits for the frame being simulated any more.
+std::atomic<bool> is_abandoned = false;
+
 bool after_step() {
   if (stepping) stepping->step();
-  return is_interrupted();
+  return is_interrupted() || is_abandoned;
 }
+
+/// Two pools of threads on fewer cores would only take turns.
+constexpr int threads_for_overlap = 4;
 
 }  // namespace
 
@@ -110,12 +117,15 @@ int RenderRun::begin() {
 RenderResult RenderRun::run() {
   const int first = begin();
   try {
+    is_abandoned = false;
     make_frames(first);
     writer_.finish();
     write_movies();
     record_.status = result_.status;
     write_run_json(job_.folder, record_);
   } catch (const std::exception& error) {
+    is_abandoned = true;
+    if (next_.valid()) next_.wait();
     record_.status = RunStatus::failed;
     record_.error = error.what();
     forget_unwritten_frames();
@@ -142,7 +152,8 @@ void RenderRun::make_frames(int first) {
     if (frame >= job_.frames.first) draw_frame(frame);
     advance_ = {};
     progress_.frame(frame, frame / job_.scene.fps);
-    if (is_interrupted() && frame < job_.frames.last) {
+    // A frame that was begun is picked up first: its steps belong to the checkpoint.
+    if (is_interrupted() && frame < job_.frames.last && !next_.valid()) {
       result_.status = RunStatus::interrupted;
       write_checkpoint(frame);
       return;
@@ -164,13 +175,29 @@ void RenderRun::write_checkpoint(int frame) {
   result_.has_checkpoint = true;
 }
 
+RenderRun::Advanced RenderRun::simulate_to(int frame) {
+  const auto start = Clock::now();
+  Advanced advanced;
+  stepping = &progress_;
+  advanced.report = simulation_.advance_to(frame / job_.scene.fps, after_step);
+  stepping = nullptr;
+  advanced.seconds = seconds_since(start);
+  return advanced;
+}
+
+void RenderRun::begin_next(int frame) {
+  // A checkpoint of this frame needs the simulation as it is.
+  if (simulation_.threads() < threads_for_overlap || frame >= job_.frames.last ||
+      checkpoint_is_due(frame) || is_interrupted())
+    return;
+  next_ = std::async(std::launch::async, [this, frame] { return simulate_to(frame + 1); });
+}
+
 /// @return whether the frame was reached in good health
 bool RenderRun::advance_to_frame(int frame) {
-  const auto start = Clock::now();
-  stepping = &progress_;
-  advance_.append(simulation_.advance_to(frame / job_.scene.fps, after_step));
-  stepping = nullptr;
-  seconds_sim_ = seconds_since(start);
+  const Advanced advanced = next_.valid() ? next_.get() : simulate_to(frame);
+  advance_.append(advanced.report);
+  seconds_sim_ = advanced.seconds;
   if (simulation_.divergence()) {
     record_.divergence = simulation_.divergence();
     result_.status = RunStatus::diverged;
@@ -190,6 +217,7 @@ void RenderRun::draw_frame(int frame) {
   snapshot.history = history_;
   const std::uint64_t state_hash = simulation_.state_hash();
   picture_record_.state_hash = hash_text(state_hash);
+  begin_next(frame);
   std::vector<Picture> pictures;
   const auto add = [&](const std::string& name, render::Image image) {
     if (pictures.empty()) result_.last_picture = image;

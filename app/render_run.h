@@ -2,6 +2,7 @@
 /// The frame loop of `neve render`: simulate, draw, write, record.
 
 #include <filesystem>
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,7 +46,15 @@ class RenderRun {
   void make_frames(int first);
   bool checkpoint_is_due(int frame) const;
   void write_checkpoint(int frame);
+  /// Steps towards a frame, and the seconds that they took.
+  struct Advanced {
+    sim::AdvanceReport report;
+    double seconds = 0;
+  };
+  Advanced simulate_to(int frame);
   bool advance_to_frame(int frame);
+  /// Lets the next frame be simulated while this one is drawn, where there are cores for both.
+  void begin_next(int frame);
   void draw_frame(int frame);
   void add_frame_record(const FrameRecord& frame);
   void draw_incident();
@@ -68,7 +77,8 @@ class RenderRun {
   sim::Summary summary_;             ///< of the frame being made
   std::vector<PlotSample> history_;  ///< of all frames simulated
   double seconds_sim_ = 0;
-  PictureWriter writer_;  ///< last: stops before what it was given goes away
+  std::future<Advanced> next_;  ///< the frame after the one being drawn, if it was begun
+  PictureWriter writer_;        ///< last: stops before what it was given goes away
 };
 
 }  // namespace neve::app

@@ -1,5 +1,6 @@
 /// `neve render` from the outside: what it makes, and what it leaves alone.
 
+#include "app/output/atomic_file.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
@@ -192,6 +193,27 @@ TEST_F(Cli, DoctorAndParamsAreJson) {
   const auto params = neve({"params", "--json"});
   EXPECT_EQ(params.exit_code, 0);
   EXPECT_GT(app::parse_json(std::string_view(params.output)).size(), 20u);
+}
+
+/// From four threads on the next frame is simulated while one is drawn.
+TEST_F(Cli, DrawingBesideTheSimulationChangesNoBit) {
+  for (const char* threads : {"1", "4"})
+    ASSERT_EQ(neve({"render", "scene.toml", "--threads", threads, "--out", threads,
+                    "--checkpoint-every", "3"})
+                  .exit_code,
+              0);
+  const auto read = [&](const char* threads, int frame) {
+    return app::read_file(
+        folder / (std::string(threads) + "/particles/000" + std::to_string(frame) + ".png"));
+  };
+  const app::Json one = json_of("1/run.json"), four = json_of("4/run.json");
+  ASSERT_EQ(one["frames"].size(), 5u);
+  for (int frame = 0; frame <= 4; ++frame) {
+    EXPECT_EQ(read("1", frame), read("4", frame)) << frame;
+    const auto k = static_cast<std::size_t>(frame);
+    for (const char* key : {"state_hash", "steps", "dt_min", "kinetic_energy"})
+      EXPECT_EQ(one["frames"][k][key], four["frames"][k][key]) << key << " of frame " << frame;
+  }
 }
 
 }  // namespace
