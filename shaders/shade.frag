@@ -110,8 +110,8 @@ uniform vec2 smoke_range;
 uniform float smoke_spacing;
 uniform bool is_smoke_colored;
 
-// Smoke before a surface: of the four rays around the sample, those that ended at its depth, so that
-// nothing leaks over the edge of what stands in it.
+// Smoke before a surface: of the four rays around the sample, those that ended at its depth or in
+// smoke before it, so that nothing leaks over the edge of what stands in it.
 vec4 smoke_before(float depth) {
   float z = clamp(near_distance / max(1.0 - depth, 1e-9), smoke_range.x, smoke_range.y);
   vec2 at = gl_FragCoord.xy / samples_per_ray - 0.5;
@@ -123,9 +123,13 @@ vec4 smoke_before(float depth) {
     ivec2 q = ivec2(n & 1, n >> 1);
     vec2 near = mix(1.0 - part, part, vec2(q));
     q = clamp(corner + q, ivec2(0), last);
+    vec4 smoke = texelFetch(smoke_map, q, 0);
     float apart = (texelFetch(smoke_depth_map, q, 0).r - z) / smoke_spacing;
-    float weight = near.x * near.y / (1e-3 + apart * apart);
-    sum += weight * texelFetch(smoke_map, q, 0);
+    // What smoke already hides may be anywhere behind it.
+    if (smoke.a > 0.999) apart = max(apart, 0.0);
+    apart = 9.0 * apart * apart;  // up to a third of the spacing it hardly counts
+    float weight = near.x * near.y / (1.0 + apart * apart);
+    sum += weight * smoke;
     total += weight;
   }
   return sum / total;
@@ -141,7 +145,7 @@ float phase(float cosine) {
 vec3 smoke_light(vec4 sums) {
   if (is_smoke_colored) return sums.rgb;
   float ahead = phase(dot(normalize(view_ray(gl_FragCoord.xy)), toward_light)) - 1.0;
-  vec3 direct = sun * (1.95 * (1.0 + 0.35 * ahead) * sums.r);
+  vec3 direct = sun * (1.75 * (1.0 + 0.35 * ahead) * sums.r);
   vec3 inside = mix(sun, sky, 0.75) * (0.30 * (1.0 + 0.2 * ahead) * sums.b);
   vec3 ambient = sky * (0.72 * sums.g) + bounce * (0.42 * sums.a);
   return (direct + inside) * key_intensity + ambient * ambient_intensity;

@@ -100,6 +100,9 @@ void main() {
 #endif
   }
   sums.a = 1.0 - left;
-  if (left <= opaque) sums /= sums.a;  // what a march cut short left out
+  if (left <= opaque) {
+    sums /= sums.a;  // what a march cut short left out
+    out_depth = min(out_depth, z);
+  }
   out_sums = sums;
 }
