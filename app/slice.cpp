@@ -219,6 +219,8 @@ void add_slice(const View& view, const NodeFields& fields, const SlicePlane& wan
     const int every = nodes_between_arrows(slice, h, pixels_per_metre);
     add_arrows(slice, fields, plane, r, every, frame);
     if (every > 1) words += ", one arrow per " + std::to_string(every) + " nodes";
+    const Range range = slice.range.value_or(Range{});
+    words += ", longest arrow " + number_text(range.max) + " " + attribute_name(slice.field).unit;
   }
   add_frame(plane, r, words, frame);
 }

@@ -34,21 +34,25 @@ Table table_of(const View& built_in) {
   return view;
 }
 
-/// Built-in views keep their layers where the scene names none.
-void add_layers(Table& view) {
-  const Entry* name = view.find("name");
-  const auto* text = name ? std::get_if<std::string>(&name->value.data) : nullptr;
-  if (!text || view.find("layers")) return;
-  for (const View& built_in : built_in_views()) {
-    if (built_in.name == *text) view.entries.push_back({"layers", {}, to_value(built_in.layers)});
-  }
+bool is_named(const Table& view, const std::string& name) {
+  const Entry* entry = view.find("name");
+  const auto* text = entry ? std::get_if<std::string>(&entry->value.data) : nullptr;
+  return text && *text == name;
 }
 
 bool is_named(const Value& view, const std::string& name) {
   const Table* table = std::get_if<Table>(&view.data);
-  const Entry* entry = table ? table->find("name") : nullptr;
-  const auto* text = entry ? std::get_if<std::string>(&entry->value.data) : nullptr;
-  return text && *text == name;
+  return table && is_named(*table, name);
+}
+
+/// Built-in views keep their layers where the scene names none.
+void add_layers(Table& view) {
+  if (view.find("layers")) return;
+  for (const View& built_in : built_in_views()) {
+    if (!is_named(view, built_in.name)) continue;
+    view.entries.push_back({"layers", {}, to_value(built_in.layers)});
+    return;
+  }
 }
 
 /// Whether a [[mosaic]] lists the view.

@@ -28,6 +28,10 @@ void* operator new(std::size_t bytes) {
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return counted(bytes, static_cast<std::size_t>(alignment));
 }
+// std::stable_sort asks for its buffer so; what deletes it is ours too.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return counted(bytes, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
 // Inlined, GCC would see free() beside the new that it knows, and call them mismatched.
 [[gnu::noinline]] void operator delete(void* p) noexcept {
   std::free(p);
