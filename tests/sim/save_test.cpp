@@ -30,7 +30,7 @@ Simulation simulate(const SolverSettings& settings, const ParticleArrays& partic
 }
 
 ParticleArrays two_materials() {
-  ParticleArrays p = ball_of_snow({0.01, 0.14, -0.02}, 0.1, 0.01, {0.3, -4, 0.1});
+  ParticleArrays p = ball_of_snow({0.01, 0.11, -0.02}, 0.07, 0.01, {0.3, -4, 0.1});
   p.V0.assign(p.x.size(), 0.0);
   p.material.resize(p.x.size());
   for (std::size_t q = 0; q < p.x.size(); ++q) p.material[q] = p.x[q].x() > 0.05;
