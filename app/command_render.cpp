@@ -176,6 +176,8 @@ int run_render(const RenderOptions& options) {
   std::vector<std::size_t> body_end;
   const sim::ParticleArrays particles = seed_scene(job.scene, &body_end);
   resolve(job.scene, particles.x.size());
+  // A framing that was cut short is another one: nothing may be written with it.
+  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first frame");
   sim::Simulation simulation(job.scene.solver, job.scene.materials, sim_colliders(job.scene),
                              particles, options.threads);
   const auto count = static_cast<double>(particles.x.size());
