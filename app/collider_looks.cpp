@@ -1,4 +1,5 @@
 #include "app/collider_looks.h"
+#include "app/to_float.h"
 
 #include "render/mesh_shapes.h"
 

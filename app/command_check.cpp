@@ -28,12 +28,6 @@ const char* name(Severity severity) {
   return "";
 }
 
-std::string rough(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
-}
-
 /// A count with three digits that count, written out.
 std::string count_text(double x) {
   const double unit = x < 1000 ? 1 : std::pow(10, std::floor(std::log10(x)) - 2);
@@ -84,15 +78,15 @@ Json to_json(const Checkup& checkup, const RenderJob& job) {
 
 void print_limits(const Checkup& checkup) {
   if (checkup.dt_start <= 0) return;
-  std::cout << "sound      " << rough(checkup.start.max_sound_speed)
-            << " m/s in the stiffest particle; impact at about " << rough(checkup.impact_speed)
+  std::cout << "sound      " << rough_text(checkup.start.max_sound_speed)
+            << " m/s in the stiffest particle; impact at about " << rough_text(checkup.impact_speed)
             << " m/s\n"
-            << "first step " << rough(checkup.dt_start) << " s, ruled by "
+            << "first step " << rough_text(checkup.dt_start) << " s, ruled by "
             << sim::name(checkup.limit_start) << "; allowed:";
   for (int k = 0; k < sim::dt_limit_count; ++k)
     if (const double dt = checkup.start.dt[static_cast<std::size_t>(k)];
         std::isfinite(dt) && dt > 0)
-      std::cout << " " << sim::name(static_cast<sim::DtLimit>(k)) << " " << rough(dt);
+      std::cout << " " << sim::name(static_cast<sim::DtLimit>(k)) << " " << rough_text(dt);
   std::cout << "\n";
 }
 
@@ -107,7 +101,7 @@ void print_forecast(const Checkup& checkup) {
   if (checkup.seconds_per_step <= 0) return;
   std::cout << "time       about " << time_text(checkup.seconds()) << " of simulation, "
             << time_text(worst.steps * checkup.seconds_per_step) << " for the busiest frame; "
-            << rough(1000 * checkup.seconds_per_step)
+            << rough_text(1000 * checkup.seconds_per_step)
             << " ms a step, measured now on this machine\n";
 }
 

@@ -11,8 +11,9 @@ bool comes_before(const Vec3i& a, const Vec3i& b) {
   return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
 }
 
-/// Index of a node's value, nothing where its block is not there.
-std::optional<std::size_t> index_of(const render::NodeLattice& lattice, const Vec3i& node) {
+}  // namespace
+
+std::optional<std::size_t> node_index(const render::NodeLattice& lattice, const Vec3i& node) {
   const Vec3i block{node.x >> 2, node.y >> 2, node.z >> 2};
   const auto found =
       std::lower_bound(lattice.block.begin(), lattice.block.end(), block, comes_before);
@@ -20,8 +21,6 @@ std::optional<std::size_t> index_of(const render::NodeLattice& lattice, const Ve
   return 64 * static_cast<std::size_t>(found - lattice.block.begin()) +
          static_cast<std::size_t>(16 * (node.x & 3) + 4 * (node.y & 3) + (node.z & 3));
 }
-
-}  // namespace
 
 std::optional<FieldSampler::Stencil> FieldSampler::at(const sim::Vec3d& point) const {
   const render::NodeLattice& lattice = *fields_.lattice;
@@ -44,7 +43,7 @@ std::optional<FieldSampler::Stencil> FieldSampler::at(const sim::Vec3d& point) c
     const float weight = (offset.x ? part[0] : 1 - part[0]) * (offset.y ? part[1] : 1 - part[1]) *
                          (offset.z ? part[2] : 1 - part[2]);
     if (weight <= 0) continue;
-    const auto index = index_of(lattice, Vec3i{low[0], low[1], low[2]} + offset);
+    const auto index = node_index(lattice, Vec3i{low[0], low[1], low[2]} + offset);
     if (!index || !(fields_.density[*index] > 0)) continue;
     const auto k = static_cast<std::size_t>(stencil.count++);
     stencil.node[k] = *index;

@@ -9,6 +9,9 @@
 
 namespace neve::app {
 
+/// Where the arrays of a field have a node's value; nothing where its block is not there.
+std::optional<std::size_t> node_index(const render::NodeLattice& lattice, const Vec3i& node);
+
 /// Trilinear weights of the nodes around a point; those that carry no mass do not count.
 class FieldSampler {
  public:

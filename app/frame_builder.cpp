@@ -12,6 +12,7 @@
 #include "app/slice.h"
 #include "app/smoke_layer.h"
 #include "app/text.h"
+#include "app/to_float.h"
 #include "app/wires.h"
 
 namespace neve::app {

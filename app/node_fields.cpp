@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "app/attributes.h"
+#include "app/field_sampler.h"
 #include "app/snapshot.h"
+#include "app/to_float.h"
 #include "sim/rasterize.h"
 #include "sim/staged.h"
 
@@ -34,10 +36,6 @@ bool is_of_step(VectorField field) {
   return field != VectorField::velocity && field != VectorField::momentum;
 }
 
-Vec3f to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
 std::vector<std::vector<double>> particle_values(const Scene& scene, const Snapshot& snapshot,
                                                  const FieldNeeds& needs) {
   std::vector<std::vector<double>> values;
@@ -59,27 +57,6 @@ std::shared_ptr<const render::NodeLattice> lattice_of(const sim::RasterizedNodes
   return lattice;
 }
 
-/// Index of a lattice node in the arrays of a field.
-class NodeIndex {
- public:
-  explicit NodeIndex(const std::vector<sim::Vec3i>& blocks) : blocks_(blocks) {}
-  /// @return the size of the arrays when the node's block is not there
-  std::size_t operator()(const sim::Vec3i& node) const {
-    const sim::Vec3i block = node.unaryExpr([](int i) { return i >> 2; });
-    const auto found = std::lower_bound(blocks_.begin(), blocks_.end(), block, comes_before);
-    if (found == blocks_.end() || *found != block) return 64 * blocks_.size();
-    const sim::Vec3i in_block = node - 4 * block;
-    return 64 * static_cast<std::size_t>(found - blocks_.begin()) +
-           static_cast<std::size_t>(16 * in_block.x() + 4 * in_block.y() + in_block.z());
-  }
-
- private:
-  static bool comes_before(const sim::Vec3i& a, const sim::Vec3i& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-  }
-  const std::vector<sim::Vec3i>& blocks_;
-};
-
 const std::vector<Vec3d>& field_of_step(const sim::NodeFields& nodes, VectorField field) {
   switch (field) {
     case VectorField::force:
@@ -94,19 +71,20 @@ const std::vector<Vec3d>& field_of_step(const sim::NodeFields& nodes, VectorFiel
 }
 
 void add_fields_of_step(const Scene& scene, const sim::Simulation& simulation,
-                        const sim::RasterizedNodes& nodes, const FieldNeeds& needs,
-                        NodeFields& out) {
+                        const FieldNeeds& needs, NodeFields& out) {
   const double frame = 1 / scene.fps;
   const sim::StagedStep step = sim::staged_step(simulation, simulation.choose_dt(frame).dt);
-  const NodeIndex index_of(nodes.block);
+  std::vector<std::optional<std::size_t>> places;
+  for (const sim::Vec3i& node : step.nodes.node)
+    places.push_back(node_index(*out.lattice, {node.x(), node.y(), node.z()}));
   for (const VectorField field : needs.vectors) {
     if (!is_of_step(field)) continue;
     const std::vector<Vec3d>& values = field_of_step(step.nodes, field);
     std::vector<Vec3f>& list = out.vectors[field];
     list.resize(out.density.size());
     for (std::size_t n = 0; n < values.size(); ++n) {
-      const std::size_t at = index_of(step.nodes.node[n]);
-      if (at < list.size() && out.density[at] > 0) list[at] = to_float(values[n]);
+      const std::optional<std::size_t> at = places[n];
+      if (at && out.density[*at] > 0) list[*at] = to_float(values[n]);
     }
   }
 }
@@ -168,7 +146,7 @@ NodeFields sample_fields(const Scene& scene, const sim::Simulation& simulation,
       return to_float((is_momentum ? nodes.mass[n] : 1.0) * nodes.velocity[n]);
     });
   }
-  if (has_step) add_fields_of_step(scene, simulation, nodes, needs, out);
+  if (has_step) add_fields_of_step(scene, simulation, needs, out);
   return out;
 }
 

@@ -64,9 +64,9 @@ RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation,
   return record;
 }
 
-PictureRecord picture_record(const RenderJob& job) {
+PictureRecord picture_record(const RenderJob& job, const std::string& scene) {
   PictureRecord record;
-  record.scene = write_scene(job.scene);
+  record.scene = scene;
   record.overrides = job.overrides;
   record.coarsening = job.coarsening;
   record.seed = job.scene.seed;
@@ -87,7 +87,7 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
       progress_(progress),
       builder_(job.scene, spacing, job.quality, job.overrides, job.coarsening, body_end),
       record_(run_record(job, simulation, context)),
-      picture_record_(picture_record(job)),
+      picture_record_(picture_record(job, record_.scene)),
       checkpoints_(job.folder, picture_record_, simulation, progress) {
   for (const View& view : job.scene.views)
     if (is_drawn(view)) record_.views.push_back(view.name);

@@ -8,6 +8,7 @@
 #include "app/attributes.h"
 #include "app/field_sampler.h"
 #include "app/scene/value.h"
+#include "app/to_float.h"
 
 namespace neve::app {
 
@@ -24,10 +25,6 @@ constexpr float least_shown = 0.02f;
 /// Samples of the heat map from node to node: smooth isolines, and no more than the field has.
 constexpr double samples_per_node = 3;
 constexpr int max_samples = 768;
-
-Vec3f to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
 
 /// The world axis along the normal, or -1.
 int axis_of(const Vec3d& normal) {

@@ -34,6 +34,12 @@ std::string fixed_text(double value, int digits) {
   return {buffer, end.ptr};
 }
 
+std::string rough_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
 std::string bytes_text(std::uint64_t bytes) {
   static const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
   auto value = static_cast<double>(bytes);

@@ -9,6 +9,8 @@ namespace neve::app {
 
 /// With so many digits after the point.
 std::string fixed_text(double value, int digits);
+/// With three significant digits.
+std::string rough_text(double value);
 /// "1.2 GiB"
 std::string bytes_text(std::uint64_t bytes);
 /// The name closest to a misspelt one, or empty when none is close.

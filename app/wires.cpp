@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+
+#include "app/to_float.h"
 
 namespace neve::app {
 
@@ -70,7 +71,7 @@ void append_box(const Vec3d& low, const Vec3d& high, render::Lines& lines) {
   const auto corner = [&](int k) {
     const Vec3d p(k & 1 ? high.x() : low.x(), k & 2 ? high.y() : low.y(),
                   k & 4 ? high.z() : low.z());
-    return Vec3f{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+    return to_float(p);
   };
   for (int k = 0; k < 8; ++k)
     for (const int bit : {1, 2, 4})

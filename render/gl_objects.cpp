@@ -22,4 +22,13 @@ void set_flat_state(const Gl& gl) {
   gl.Disable(GL_SCISSOR_TEST);
 }
 
+void set_solid_state(const Gl& gl) {
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_LESS);
+  gl.DepthMask(GL_TRUE);
+  gl.Disable(GL_BLEND);
+  gl.Disable(GL_CULL_FACE);
+  gl.Disable(GL_SCISSOR_TEST);
+}
+
 }  // namespace neve::render

@@ -59,4 +59,7 @@ Texture make_texture_2d(const Gl& gl, int width, int height, GLint internal_form
 /// What every full-screen pass draws with: nothing tested, nothing blended.
 void set_flat_state(const Gl& gl);
 
+/// What every pass draws with that fills the G-buffer: the nearest surface counts, from both sides.
+void set_solid_state(const Gl& gl);
+
 }  // namespace neve::render

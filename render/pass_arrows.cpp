@@ -102,12 +102,7 @@ void ArrowPass::draw(const std::vector<Arrows>& all, const View& view) {
       builder.add(arrows.position[k], arrows.vector[k]);
   }
   if (vertices.empty()) return;
-  gl_.Enable(GL_DEPTH_TEST);
-  gl_.DepthFunc(GL_LESS);
-  gl_.DepthMask(GL_TRUE);
-  gl_.Disable(GL_BLEND);
-  gl_.Disable(GL_CULL_FACE);
-  gl_.Disable(GL_SCISSOR_TEST);
+  set_solid_state(gl_);
   program_.use();
   set_view(program_, view);
   gl_.BindVertexArray(vertex_array_.id());

@@ -31,12 +31,7 @@ GroundPass::GroundPass(const Gl& gl, const ShaderLibrary& library)
 
 void GroundPass::draw(const Frame& frame, const View& view) {
   if (frame.grounds.empty()) return;
-  gl_.Enable(GL_DEPTH_TEST);
-  gl_.DepthFunc(GL_LESS);
-  gl_.DepthMask(GL_TRUE);
-  gl_.Disable(GL_BLEND);
-  gl_.Disable(GL_CULL_FACE);
-  gl_.Disable(GL_SCISSOR_TEST);
+  set_solid_state(gl_);
   set_scale(program_, frame, view);
   for (const GroundPlane& ground : frame.grounds) {
     if (dot(ground.point - view.eye, ground.normal) < 0) draw_plane(program_, ground, frame, view);

@@ -35,12 +35,7 @@ void HeatMapPass::upload(const HeatMap& map) {
 }
 
 void HeatMapPass::draw(const std::vector<HeatMap>& maps, const View& view, float samples) {
-  gl_.Enable(GL_DEPTH_TEST);
-  gl_.DepthFunc(GL_LESS);
-  gl_.DepthMask(GL_TRUE);
-  gl_.Disable(GL_BLEND);
-  gl_.Disable(GL_CULL_FACE);
-  gl_.Disable(GL_SCISSOR_TEST);
+  set_solid_state(gl_);
   for (const HeatMap& map : maps) {
     if (map.columns < 1 || map.rows < 1) continue;
     upload(map);

@@ -66,12 +66,7 @@ MeshPass::MeshPass(const Gl& gl, const ShaderLibrary& library)
 
 void MeshPass::draw(const std::vector<TriangleMesh>& meshes, const View& view) {
   if (meshes.empty()) return;
-  gl_.Enable(GL_DEPTH_TEST);
-  gl_.DepthFunc(GL_LESS);
-  gl_.DepthMask(GL_TRUE);
-  gl_.Disable(GL_BLEND);
-  gl_.Disable(GL_CULL_FACE);
-  gl_.Disable(GL_SCISSOR_TEST);
+  set_solid_state(gl_);
   program_.use();
   set_view(program_, view);
   for (const TriangleMesh& mesh : meshes) draw_mesh(program_, mesh, view);

@@ -30,12 +30,7 @@ ParticlePass::ParticlePass(const Gl& gl, const ShaderLibrary& library, bool is_s
 void ParticlePass::draw(const Points& points, const View& view) {
   if (points.position.empty()) return;
   const PointList list = list_points(points, view, max_point_size_, is_software_);
-  gl_.Enable(GL_DEPTH_TEST);
-  gl_.DepthFunc(GL_LESS);
-  gl_.DepthMask(GL_TRUE);
-  gl_.Disable(GL_BLEND);
-  gl_.Disable(GL_CULL_FACE);
-  gl_.Disable(GL_SCISSOR_TEST);
+  set_solid_state(gl_);
   gl_.Enable(GL_PROGRAM_POINT_SIZE);
   draw_list(point_program_, false, points, view, list.small.data(), list.small.size());
   draw_list(quad_program_, true, points, view, list.large.data(), list.large.size());

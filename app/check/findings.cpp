@@ -22,13 +22,6 @@ std::string percent(double share) {
   return fixed_text(100 * share, share < 0.1 ? 1 : 0) + " %";
 }
 
-/// Three significant digits.
-std::string rough(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
-}
-
 Vec3d extent(const sim::Shape& shape) {
   const sim::Bounds box = sim::bounds(shape);
   return box.max - box.min;
@@ -49,21 +42,22 @@ void check_material_units(const sim::Material& m, std::vector<Finding>& findings
   const std::string at = "material." + m.name + ".";
   if (m.density > 0.03 && m.density < 2)
     findings.push_back({Severity::warning, at + "density",
-                        "density " + rough(m.density) + " kg/m3 is lighter than foam",
-                        "in g/cm3 it would be " + rough(1000 * m.density) + " kg/m3"});
+                        "density " + rough_text(m.density) + " kg/m3 is lighter than foam",
+                        "in g/cm3 it would be " + rough_text(1000 * m.density) + " kg/m3"});
   else if (m.density < 20 || m.density > 1.3 * ice)
     findings.push_back({Severity::warning, at + "density",
-                        "density " + rough(m.density) + " kg/m3 is no snow: 50 to 917",
+                        "density " + rough_text(m.density) + " kg/m3 is no snow: 50 to 917",
                         "powder has 50 to 200, packed snow 300 to 550"});
   if (m.youngs_modulus < 2000)
-    findings.push_back({Severity::warning, at + "youngs_modulus",
-                        "youngs_modulus " + rough(m.youngs_modulus) + " Pa is softer than jelly",
-                        "in kPa it would be " + rough(1000 * m.youngs_modulus) +
-                            " Pa; the paper's snow has 1.4e5"});
+    findings.push_back(
+        {Severity::warning, at + "youngs_modulus",
+         "youngs_modulus " + rough_text(m.youngs_modulus) + " Pa is softer than jelly",
+         "in kPa it would be " + rough_text(1000 * m.youngs_modulus) +
+             " Pa; the paper's snow has 1.4e5"});
   else if (m.youngs_modulus > 1e8)
     findings.push_back({Severity::warning, at + "youngs_modulus",
-                        "youngs_modulus " + rough(m.youngs_modulus) + " Pa makes sound run at " +
-                            rough(sim::sound_speed(m)) + " m/s",
+                        "youngs_modulus " + rough_text(m.youngs_modulus) +
+                            " Pa makes sound run at " + rough_text(sim::sound_speed(m)) + " m/s",
                         "steps shorten with its root; the paper's snow has 1.4e5"});
 }
 
@@ -112,7 +106,7 @@ void check_body_overlaps(const Scene& scene, const sim::ParticleArrays& particle
     if (cells < 1) continue;
     findings.push_back({Severity::warning, "body." + scene.bodies[pair.second].name + ".shape",
                         scene.bodies[pair.first].name + " and " + scene.bodies[pair.second].name +
-                            " overlap in about " + rough(cells) +
+                            " overlap in about " + rough_text(cells) +
                             " cells: twice the mass there, which will burst",
                         "move them apart"});
   }
@@ -152,11 +146,11 @@ void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
                        std::vector<Finding>& findings) {
   const double h = s.cell_size;
   const auto report = [&](Severity severity, double cfl, const char* what, double holds) {
-    findings.push_back({severity, "solver.dt",
-                        "fixed steps of " + rough(s.dt) + " s: " + what + " crosses " + rough(cfl) +
-                            " cells in a step" +
-                            (severity == Severity::error ? ", the run will explode" : ""),
-                        "solver.dt = " + rough(holds) + " holds, or time_step = \"adaptive\""});
+    findings.push_back(
+        {severity, "solver.dt",
+         "fixed steps of " + rough_text(s.dt) + " s: " + what + " crosses " + rough_text(cfl) +
+             " cells in a step" + (severity == Severity::error ? ", the run will explode" : ""),
+         "solver.dt = " + rough_text(holds) + " holds, or time_step = \"adaptive\""});
   };
   const double sound = checkup.start.max_sound_speed * s.dt / h;
   const double speed = checkup.impact_speed * s.dt / h;
@@ -176,8 +170,8 @@ void check_damping(const Scene& scene, const Checkup& checkup, std::vector<Findi
   const double kept = std::pow(sim::flip_share(s, frame / steps), steps);
   if (s.flip_reference_dt == 0)
     findings.push_back({Severity::warning, "solver.flip_reference_dt",
-                        "flip_ratio acts per step: with about " + rough(steps) + " steps a frame " +
-                            percent(kept) +
+                        "flip_ratio acts per step: with about " + rough_text(steps) +
+                            " steps a frame " + percent(kept) +
                             " of the finest motion is left, and less with smaller steps",
                         "flip_reference_dt = 5e-4 makes damping independent of dt"});
   else
@@ -214,18 +208,18 @@ void check_units(const Scene& scene, std::vector<Finding>& findings) {
   }
   const double g = scene.solver.gravity.norm();
   if (g > 60)
-    findings.push_back(
-        {Severity::warning, "solver.gravity",
-         "gravity of " + rough(g) + " m/s2 is " + rough(g / 9.81) + " times that of the earth",
-         "981 would be cm/s2; lengths are in metres"});
+    findings.push_back({Severity::warning, "solver.gravity",
+                        "gravity of " + rough_text(g) + " m/s2 is " + rough_text(g / 9.81) +
+                            " times that of the earth",
+                        "981 would be cm/s2; lengths are in metres"});
   double largest = 0;
   for (const sim::Body& body : scene.bodies)
     largest = std::max(largest, extent(body.shape).maxCoeff());
   if (largest > 20)
     findings.push_back(
         {Severity::warning, "body." + scene.bodies.front().name + ".shape",
-         "the largest body is " + rough(largest) + " m across",
-         "lengths are in metres: in centimetres it would be " + rough(0.01 * largest) +
+         "the largest body is " + rough_text(largest) + " m across",
+         "lengths are in metres: in centimetres it would be " + rough_text(0.01 * largest) +
              " m, with solver.cell_size = " + number_text(0.01 * scene.solver.cell_size)});
 }
 
@@ -236,12 +230,12 @@ void check_resolution(const Scene& scene, std::vector<Finding>& findings) {
     const double across = thickness(body.shape) / h;
     if (across < 4)
       findings.push_back({Severity::warning, at + ".shape",
-                          body.name + " is " + rough(across) + " cells thick",
+                          body.name + " is " + rough_text(across) + " cells thick",
                           "weights reach 2 cells: 6 and more show its shape; solver.cell_size = " +
-                              rough(thickness(body.shape) / 6)});
+                              rough_text(thickness(body.shape) / 6)});
     if (body.particles_per_cell < 4)
       findings.push_back({Severity::warning, at + ".particles_per_cell",
-                          rough(body.particles_per_cell) +
+                          rough_text(body.particles_per_cell) +
                               " particles per cell leave gaps: snow breaks where none should",
                           "8 is usual"});
   }
@@ -249,10 +243,11 @@ void check_resolution(const Scene& scene, std::vector<Finding>& findings) {
     if (is_plane(collider.shape)) continue;
     const double across = thickness(collider.shape) / h;
     if (across < 2)
-      findings.push_back(
-          {Severity::warning, "collider." + collider.name + ".shape",
-           collider.name + " is " + rough(across) + " cells thick: snow leaks through less than 2",
-           "make it thicker, or solver.cell_size = " + rough(0.5 * thickness(collider.shape))});
+      findings.push_back({Severity::warning, "collider." + collider.name + ".shape",
+                          collider.name + " is " + rough_text(across) +
+                              " cells thick: snow leaks through less than 2",
+                          "make it thicker, or solver.cell_size = " +
+                              rough_text(0.5 * thickness(collider.shape))});
   }
 }
 
@@ -269,8 +264,8 @@ void check_steps(const Scene& scene, const Checkup& checkup, std::vector<Finding
   const double c = checkup.start.max_sound_speed;
   if (c > 0 && checkup.impact_speed > c)
     findings.push_back({Severity::warning, "",
-                        "snow meets something at " + rough(checkup.impact_speed) +
-                            " m/s, faster than its sound of " + rough(c) +
+                        "snow meets something at " + rough_text(checkup.impact_speed) +
+                            " m/s, faster than its sound of " + rough_text(c) +
                             " m/s: it will be crushed in a shock",
                         "slower, or a larger youngs_modulus"});
 }
@@ -291,7 +286,7 @@ void check_cameras(const Scene& scene, const std::vector<Moment>& moments,
     if (worst < 0.05) continue;
     findings.push_back({Severity::warning, view.camera ? "view." + view.name + ".camera" : "camera",
                         "view " + view.name + ": " + percent(worst) +
-                            " of the snow is outside of the picture at " + rough(when) + " s",
+                            " of the snow is outside of the picture at " + rough_text(when) + " s",
                         "leave out eye and target to frame all of it"});
   }
 }
