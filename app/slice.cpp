@@ -167,8 +167,10 @@ void add_frame(const SlicePlane& plane, const Rectangle& r, const std::string& w
     lines.ends.push_back(corner[(k + 1) % 4]);
   }
   frame.lines.push_back(std::move(lines));
-  // On the right: the caption is in the upper left corner of the picture.
-  frame.labels.push_back({corner[2], words, true});
+  // On the right: the caption is in the upper left corner of the picture. And raised, as the upper
+  // edge of a plane seen askew rises towards the left.
+  const Vec3f raised = to_float(0.06 * (r.right - r.left) * plane.up);
+  frame.labels.push_back({corner[2] + raised, words, true});
 }
 
 void add_legend(const AttributeName& name, render::ColorMap colormap, const Range& range,
