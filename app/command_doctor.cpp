@@ -6,6 +6,7 @@
 #include "app/json.h"
 #include "render/context.h"
 #include "render/self_test.h"
+#include "sim/self_test.h"
 
 namespace neve::app {
 
@@ -60,12 +61,23 @@ void print(const Examination& examination) {
   if (!attempt.install.empty()) std::cout << std::string(28, ' ') << attempt.install << "\n";
 }
 
+Json to_json(const sim::SelfTestResult& result) {
+  return {{"check", result.name}, {"passed", result.passed}, {"detail", result.detail}};
+}
+
+void print(const sim::SelfTestResult& result) {
+  const std::string label = "physics: " + result.name;
+  std::cout << label << std::string(28 - std::min<std::size_t>(27, label.size()), ' ')
+            << (result.passed ? "right     " : "WRONG     ") << result.detail << "\n";
+}
+
 }  // namespace
 
 int run_doctor(bool is_json) {
   std::vector<Examination> examinations;
   for (const render::Attempt& attempt : render::try_all_backends())
     examinations.push_back(examine(attempt));
+  const std::vector<sim::SelfTestResult> physics = sim::self_tests(sim::all_self_test_cases());
 
   if (is_json) {
     Json json;
@@ -73,14 +85,18 @@ int run_doctor(bool is_json) {
     for (const Examination& examination : examinations)
       json["backends"].push_back(to_json(examination));
     json["physics"] = Json::array();
+    for (const sim::SelfTestResult& result : physics) json["physics"].push_back(to_json(result));
     std::cout << to_text(json) << "\n";
   } else {
     for (const Examination& examination : examinations) print(examination);
+    for (const sim::SelfTestResult& result : physics) print(result);
   }
   const auto count = [&](auto is_true) {
     return std::count_if(examinations.begin(), examinations.end(), is_true);
   };
-  if (count([](const Examination& e) { return !e.picture_fault.empty(); }) > 0)
+  const bool is_physics_right = std::all_of(physics.begin(), physics.end(),
+                                            [](const sim::SelfTestResult& r) { return r.passed; });
+  if (!is_physics_right || count([](const Examination& e) { return !e.picture_fault.empty(); }) > 0)
     return exit_check_failed;
   return count([](const Examination& e) { return e.attempt.available; }) > 0 ? exit_ok
                                                                              : exit_no_backend;
