@@ -152,6 +152,10 @@ void add_render(CLI::App& app, Action& action) {
                    "Mean difference allowed, 0 to 255")
       ->type_name("MEAN")
       ->capture_default_str();
+  command->add_flag(
+      "--validate", options->is_validated,
+      "Watch the laws that every right step keeps, at the first steps and every 256th; "
+      "warn of what breaks, exit 9 when it is wrong");
   command->add_flag("--resume", options->is_resumed,
                     "Go on where the run in the output folder stopped, with the same bits; a "
                     "finished one goes on with more --frames");
@@ -330,7 +334,8 @@ int run_command_line(int argc, char** argv) {
   Action action;
   add_render(app, action);
   add_check(app, action);
-  add_report(app, action, "doctor", "Which OpenGL backends work here, and why others do not",
+  add_report(app, action, "doctor",
+             "Which OpenGL backends work here, and why others do not; self-tests of the physics",
              run_doctor);
   add_info(app, action);
   add_report(app, action, "params", "Every parameter: address, unit, range, default", run_params);

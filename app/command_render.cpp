@@ -131,6 +131,13 @@ void warn_about_steps(const sim::SolverSettings& settings, const sim::Simulation
                     " trial deformations were inverted and repaired");
 }
 
+void report_validation(const Validation& validation, Progress& progress) {
+  if (validation.has_held())
+    progress.note(validation.summary());
+  else if (!validation.has_errors())  // those become the error that the run ends with
+    progress.warning(validation.summary());
+}
+
 int finish(const RenderOptions& options, const RenderJob& job, const RenderRun& run,
            const RenderResult& result, Progress& progress) {
   progress.clear();
@@ -189,7 +196,11 @@ int run_render(const RenderOptions& options) {
                 progress);
   const RenderResult result = run.run();
   warn_about_steps(job.scene.solver, simulation, progress);
+  if (run.validation()) report_validation(*run.validation(), progress);
   const int code = finish(options, job, run, result, progress);
+  if (code == exit_ok && run.validation() && run.validation()->has_errors())
+    throw Error(exit_check_failed, run.validation()->summary(), job.scene_file,
+                "the pictures are in " + job.folder.string());
   if (code == exit_ok && reference && !run.record().frames.empty()) {
     // A resumed run that was complete has drawn nothing.
     const auto file =

@@ -24,6 +24,7 @@ struct RenderOptions {
   std::string reference;
   double reference_threshold = 0.5;
   std::string shader_dir;
+  bool is_validated = false;
   bool is_resumed = false;
   int checkpoint_every = 10;  ///< frames; 0: none
   Verbosity verbosity = Verbosity::normal;

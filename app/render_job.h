@@ -18,6 +18,7 @@ struct RenderJob {
   Quality quality = Quality::preview;
   std::vector<std::string> overrides;   ///< for the caption; those of a picture come first
   std::vector<std::string> only_tiles;  ///< views that are drawn in a mosaic and not by themselves
+  bool is_validated = false;            ///< with the watch of sim/watch.h beside it
   bool is_resumed = false;              ///< goes on from the checkpoint in the folder
   int checkpoint_every = 10;            ///< frames; 0: none
   double coarsening = 1;                ///< done to the scene, a picture's included

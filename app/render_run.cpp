@@ -28,6 +28,7 @@ double seconds_since(Clock::time_point start) {
 
 /// The poll of a simulation has no argument; a process renders one scene at a time.
 Progress* stepping = nullptr;
+Validation* validating = nullptr;
 
 bool has_alpha(const Scene& scene, const std::string& name) {
   return std::any_of(scene.views.begin(), scene.views.end(), [&](const View& view) {
@@ -40,6 +41,7 @@ std::atomic<bool> is_abandoned = false;
 
 bool after_step() {
   if (stepping) stepping->step();
+  if (validating) validating->after_step();
   return is_interrupted() || is_abandoned;
 }
 
@@ -89,6 +91,8 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
       record_(run_record(job, simulation, context)),
       picture_record_(picture_record(job, record_.scene)),
       checkpoints_(job.folder, picture_record_, simulation, progress) {
+  if (job.is_validated)
+    validation_.emplace(job.scene.solver, job.scene.materials, simulation, progress);
   for (const View& view : job.scene.views)
     if (is_drawn(view)) record_.views.push_back(view.name);
   for (const Mosaic& mosaic : job.scene.mosaics) record_.views.push_back(mosaic.name);
@@ -141,6 +145,10 @@ RenderResult RenderRun::run() {
 
 void RenderRun::make_frames(int first) {
   progress_.start(job_.frames.last);
+  if (validation_ && simulation_.steps() == 0) {
+    validation_->after_step();
+    record_.validation = validation_->records();
+  }
   for (int frame = first; frame <= job_.frames.last; ++frame) {
     seconds_sim_ = 0;
     if (frame > 0 && !advance_to_frame(frame)) {
@@ -179,8 +187,10 @@ RenderRun::Advanced RenderRun::simulate_to(int frame) {
   const auto start = Clock::now();
   Advanced advanced;
   stepping = &progress_;
+  validating = validation_ ? &*validation_ : nullptr;
   advanced.report = simulation_.advance_to(frame / job_.scene.fps, after_step);
   stepping = nullptr;
+  validating = nullptr;
   advanced.seconds = seconds_since(start);
   return advanced;
 }
@@ -198,6 +208,7 @@ bool RenderRun::advance_to_frame(int frame) {
   const Advanced advanced = next_.valid() ? next_.get() : simulate_to(frame);
   advance_.append(advanced.report);
   seconds_sim_ = advanced.seconds;
+  if (validation_) record_.validation = validation_->records();
   if (simulation_.divergence()) {
     record_.divergence = simulation_.divergence();
     result_.status = RunStatus::diverged;

@@ -14,6 +14,7 @@
 #include "app/progress.h"
 #include "app/render_job.h"
 #include "app/resume.h"
+#include "app/validation.h"
 #include "render/renderer.h"
 #include "sim/simulation.h"
 
@@ -39,6 +40,8 @@ class RenderRun {
   RenderResult run();
 
   const RunRecord& record() const { return record_; }
+  /// What --validate found; null without it.
+  const Validation* validation() const { return validation_ ? &*validation_ : nullptr; }
 
  private:
   /// @return the first frame to make
@@ -72,6 +75,7 @@ class RenderRun {
   RunRecord record_;
   PictureRecord picture_record_;
   Checkpoints checkpoints_;
+  std::optional<Validation> validation_;
   RenderResult result_;
   sim::AdvanceReport advance_;       ///< of the frame being made
   sim::Summary summary_;             ///< of the frame being made

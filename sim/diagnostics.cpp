@@ -43,6 +43,21 @@ Lame hardened(const Material& m, double J_P) {
   return {l.mu * factor, l.lambda * factor};
 }
 
+double corotated_energy(const Lame& l, const Principal& F_E) {
+  const double J = F_E.s.prod();
+  return l.mu * (F_E.s.array() - 1).square().sum() + 0.5 * l.lambda * (J - 1) * (J - 1);
+}
+
+Mat3d corotated_piola(const Lame& l, const Mat3d& F_E, const Principal& p) {
+  const double J = p.s.prod();
+  // J F^-T by cross products of columns: also right where F is singular.
+  Mat3d cofactor;
+  cofactor.col(0) = F_E.col(1).cross(F_E.col(2));
+  cofactor.col(1) = F_E.col(2).cross(F_E.col(0));
+  cofactor.col(2) = F_E.col(0).cross(F_E.col(1));
+  return 2 * l.mu * (F_E - p.U * p.V.transpose()) + l.lambda * (J - 1) * cofactor;
+}
+
 std::string number(double x) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
@@ -104,9 +119,7 @@ double energy_density(const Material& material, const Mat3d& F_E, double J_P) {
     const double log_J = std::log(J);
     return 0.5 * l.mu * (F_E.squaredNorm() - 3) - l.mu * log_J + 0.5 * l.lambda * log_J * log_J;
   }
-  const Vec3d s = decompose(F_E).s;
-  const double J = s.prod();
-  return l.mu * (s.array() - 1).square().sum() + 0.5 * l.lambda * (J - 1) * (J - 1);
+  return corotated_energy(l, decompose(F_E));
 }
 
 Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P) {
@@ -116,14 +129,15 @@ Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P) {
     return l.mu * (F_E - inverse_transposed) +
            l.lambda * std::log(F_E.determinant()) * inverse_transposed;
   }
+  return corotated_piola(l, F_E, decompose(F_E));
+}
+
+ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P) {
+  if (material.model == Model::neo_hookean)
+    return {energy_density(material, F_E, J_P), first_piola(material, F_E, J_P)};
+  const Lame l = hardened(material, J_P);
   const Principal p = decompose(F_E);
-  const double J = p.s.prod();
-  // J F^-T by cross products of columns: also right where F is singular.
-  Mat3d cofactor;
-  cofactor.col(0) = F_E.col(1).cross(F_E.col(2));
-  cofactor.col(1) = F_E.col(2).cross(F_E.col(0));
-  cofactor.col(2) = F_E.col(0).cross(F_E.col(1));
-  return 2 * l.mu * (F_E - p.U * p.V.transpose()) + l.lambda * (J - 1) * cofactor;
+  return {corotated_energy(l, p), corotated_piola(l, F_E, p)};
 }
 
 double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0) {

@@ -16,6 +16,13 @@ double energy_density(const Material& material, const Mat3d& F_E, double J_P);
 /// Source: technical report of the paper; P = 2 mu (F_E - R_E) + lambda (J_E - 1) J_E F_E^-T.
 Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P);
 
+/// Both at once, for the price of one decomposition.
+struct ElasticResponse {
+  double energy_density;  ///< J/m3
+  Mat3d first_piola;      ///< Pa
+};
+ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P);
+
 /// sqrt((2 mu s_max^2 + lambda J_E^2) e^(xi(1 - J_P)) / rho0): speed of the fastest elastic wave,
 /// as the acoustic limit sees it, m/s. @param rho0 mass / initial volume, kg/m3
 double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/base/thread_pool.h"
+#include "sim/energy_account.h"
 #include "sim/kernels.h"
 #include "sim/partition.h"
 #include "sim/rasterize.h"
@@ -80,6 +81,7 @@ class Engine {
   std::uint64_t memory_bytes() const;
 
   Summary summary() const;
+  EnergyAccount energy_account() const;
   ParticleArrays particles() const;
   std::vector<Mat3d> kirchhoff() const;
   std::vector<Vec3i> cells() const;

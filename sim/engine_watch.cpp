@@ -76,22 +76,30 @@ void Engine<Real>::check(double dt, const StateLimits& before, const BlockReport
   }
 }
 
+template <class Real>
+EnergyAccount Engine<Real>::energy_account() const {
+  const Summary now = summary();
+  const double gravity_work =
+      now.mass * settings_.gravity.dot(now.centre_of_mass - energy_.centre_of_mass);
+  EnergyAccount account;
+  account.found = now.kinetic_energy + now.elastic_energy;
+  account.explained = energy_.start + gravity_work + energy_.contact_work;
+  // A cell's fall: what rounding and the first contact may do to snow that starts at rest.
+  const double floor = now.mass * settings_.gravity.norm() * settings_.cell_size;
+  account.scale = std::max({energy_.largest, account.explained, floor}) + 1e-11 * now.mass;
+  return account;
+}
+
 /// Kinetic plus elastic energy may not exceed by more than 10 % what the run started with plus the
 /// work of gravity and colliders.
 template <class Real>
 void Engine<Real>::check_energy() {
   if (particles_.empty()) return;
-  const Summary now = summary();
-  const double gravity_work =
-      now.mass * settings_.gravity.dot(now.centre_of_mass - energy_.centre_of_mass);
-  const double budget = energy_.start + gravity_work + energy_.contact_work;
-  energy_.largest = std::max(energy_.largest, budget);
-  // A cell's fall: what rounding and the first contact may do to snow that starts at rest.
-  const double floor = now.mass * settings_.gravity.norm() * settings_.cell_size;
-  const double found = now.kinetic_energy + now.elastic_energy;
-  const double allowed = budget + 0.1 * std::max(energy_.largest, floor) + 1e-12 * now.mass;
-  if (found <= allowed) return;
-  diverge("energy", "particle_velocities", {last_dt_, stable_dt(settings_, limits_)}, found,
+  const EnergyAccount account = energy_account();
+  energy_.largest = std::max(energy_.largest, account.explained);
+  const double allowed = account.explained + (energy_ratio_allowed - 1) * account.scale;
+  if (account.found <= allowed) return;
+  diverge("energy", "particle_velocities", {last_dt_, stable_dt(settings_, limits_)}, account.found,
           allowed);
 }
 
@@ -113,7 +121,9 @@ void Engine<Real>::diverge(const char* rule, const char* stage, const StepSizes&
 
 template void Engine<float>::note(double);
 template void Engine<float>::check_energy();
+template EnergyAccount Engine<float>::energy_account() const;
 template void Engine<double>::note(double);
 template void Engine<double>::check_energy();
+template EnergyAccount Engine<double>::energy_account() const;
 
 }  // namespace neve::sim

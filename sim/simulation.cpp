@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "sim/engine.h"
+#include "sim/watch.h"
 
 namespace neve::sim {
 
@@ -126,6 +127,10 @@ struct InsideAccess {
 
 StagedStep staged_step(const Simulation& simulation, double dt) {
   return InsideAccess::visit(simulation, [&](const auto& e) { return e.staged_step(dt); });
+}
+
+EnergyAccount energy_account(const Simulation& simulation) {
+  return InsideAccess::visit(simulation, [](const auto& e) { return e.energy_account(); });
 }
 
 RasterizedNodes rasterize(const Simulation& simulation,

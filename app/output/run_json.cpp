@@ -161,6 +161,19 @@ Json to_json(const sim::Divergence& d) {
   return json;
 }
 
+Json to_json(const std::vector<sim::WatchRecord>& records) {
+  Json list = Json::array();
+  for (const sim::WatchRecord& record : records) {
+    const bool has_held = record.times == 0;
+    list.push_back({{"check", sim::name(record.check)},
+                    {"worst", number_or_null(record.worst)},
+                    {"threshold", number_or_null(record.threshold)},
+                    {"first_step", has_held ? Json() : Json(record.first_step)},
+                    {"times", record.times}});
+  }
+  return list;
+}
+
 Json to_json(const RunRecord& run) {
   Json json;
   json["version"] = version;
@@ -177,6 +190,7 @@ Json to_json(const RunRecord& run) {
   if (!run.error.empty()) json["error"] = run.error;
   json["frames"] = Json::array();
   for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
+  if (!run.validation.empty()) json["validation"] = to_json(run.validation);
   if (run.divergence) json["divergence"] = to_json(*run.divergence);
   return json;
 }

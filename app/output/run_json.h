@@ -9,6 +9,7 @@
 
 #include "app/json.h"
 #include "sim/simulation.h"
+#include "sim/watch.h"
 
 namespace neve::app {
 
@@ -36,6 +37,7 @@ struct RunRecord {
   RunStatus status = RunStatus::running;
   std::string error;  ///< of a run that failed
   std::vector<FrameRecord> frames;
+  std::vector<sim::WatchRecord> validation;  ///< of --validate; empty without it
   std::optional<sim::Divergence> divergence;
 };
 
@@ -56,6 +58,8 @@ Json to_json(const sim::AdvanceReport& advance);
 sim::AdvanceReport advance_report(const Json& json);
 
 Json to_json(const sim::Divergence& divergence);
+/// Every check: check, worst, threshold, first_step (null where it held), times.
+Json to_json(const std::vector<sim::WatchRecord>& records);
 Json to_json(const RunRecord& run);
 
 /// @throws IoError

@@ -1,0 +1,156 @@
+/// The run-time watch: silent in right runs, changes nothing, names what is wrong.
+
+#include "sim/watch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/snow.h"
+
+namespace {
+
+using namespace neve::sim;
+using namespace neve::test;
+
+/// A snowball that hits a sticky floor at 5 m/s.
+struct Drop {
+  SolverSettings settings;
+  std::vector<Material> materials{Material{}};
+  ParticleArrays particles = ball_of_snow({0, 0.16, 0}, 0.14, 0.03, {0.5, -5, 0});
+  std::vector<Collider> floor{plane({0, 0, 0}, {0, 1, 0}, 0.5, Contact::sticky)};
+
+  explicit Drop(Precision precision = Precision::single) {
+    settings.cell_size = 0.05;
+    settings.precision = precision;
+  }
+  Simulation simulation() const { return {settings, materials, floor, particles, 1}; }
+  Watch watch() const { return {settings, materials}; }
+};
+
+const WatchRecord& record_of(const Watch& watch, WatchCheck check) {
+  return watch.records()[static_cast<std::size_t>(check)];
+}
+
+bool has(const std::vector<std::string>& sentences, const std::string& part) {
+  for (const std::string& sentence : sentences)
+    if (sentence.find(part) != std::string::npos) return true;
+  return false;
+}
+
+TEST(Watch, IsSilentInARightRun) {
+  for (const Precision precision : {Precision::single, Precision::real64})
+    for (const Kernel kernel : {Kernel::cubic, Kernel::quadratic})
+      for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls}) {
+        Drop drop(precision);
+        drop.settings.kernel = kernel;
+        drop.settings.transfer = transfer;
+        Simulation simulation = drop.simulation();
+        Watch watch = drop.watch();
+        for (int frame = 0; frame <= 20; ++frame) {
+          if (frame > 0) simulation.advance_to(0.005 * frame);
+          for (const std::string& sentence : watch.look(simulation)) ADD_FAILURE() << sentence;
+        }
+        EXPECT_EQ(watch.looks(), 21u);
+        EXPECT_FALSE(watch.has_errors());
+      }
+}
+
+TEST(Watch, ChangesNoBitOfTheRun) {
+  const Drop drop;
+  Simulation watched = drop.simulation(), alone = drop.simulation();
+  Watch watch = drop.watch();
+  for (int step = 0; step < 60; ++step) {
+    const std::uint64_t before = watched.state_hash();
+    watch.look(watched);
+    ASSERT_EQ(watched.state_hash(), before);
+    watched.step(2e-4);
+    alone.step(2e-4);
+    ASSERT_EQ(watched.state_hash(), alone.state_hash()) << step;
+  }
+  EXPECT_EQ(watched.save(), alone.save());
+}
+
+TEST(Watch, SeesAStepThatIsTooLongBeforeItIsTaken) {
+  Drop drop;
+  drop.settings.time_step = TimeStep::fixed;
+  drop.settings.dt = 1.0 / 240;
+  Watch watch = drop.watch();
+  const auto sentences = watch.look(drop.simulation());
+  EXPECT_TRUE(watch.has_errors());
+  EXPECT_TRUE(has(sentences, "step 0: the acoustic CFL c dt/h is 1.")) << sentences.size();
+  EXPECT_TRUE(has(sentences, "at most 0.5 is expected"));
+  // 0.5 h / c with c = 19.7 m/s, the sound speed of the paper's snow.
+  EXPECT_TRUE(has(sentences, "dt = 0.00127 s would do"));
+  EXPECT_EQ(record_of(watch, WatchCheck::acoustic_cfl).times, 1u);
+  EXPECT_EQ(record_of(watch, WatchCheck::acoustic_cfl).first_step, 0u);
+}
+
+TEST(Watch, SaysAThingOnceAndCountsIt) {
+  Drop drop;
+  drop.settings.time_step = TimeStep::fixed;
+  drop.settings.dt = 1.0 / 1200;
+  Simulation simulation = drop.simulation();
+  Watch watch = drop.watch();
+  std::size_t said = 0;
+  double worst = 0;
+  for (int step = 0; step < 40; ++step) {
+    if (has(watch.look(simulation), "acoustic CFL")) ++said;
+    worst = std::max(worst, watch.measure(simulation)[WatchCheck::acoustic_cfl]);
+    simulation.step(drop.settings.dt);
+  }
+  const WatchRecord& record = record_of(watch, WatchCheck::acoustic_cfl);
+  EXPECT_EQ(said, 1u);
+  EXPECT_GT(record.times, 1u);
+  EXPECT_GT(record.first_step, 0u);
+  EXPECT_EQ(record.worst, worst);
+}
+
+/// A state with one particle spoilt.
+std::vector<std::string> look_at(const Drop& drop) {
+  Watch watch = drop.watch();
+  return watch.look(drop.simulation());
+}
+
+TEST(Watch, NamesWhatIsWrongWithAState) {
+  Drop lost;
+  lost.particles.v[7][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(has(look_at(lost), "particles that are no numbers is 1"));
+
+  Drop inverted;
+  inverted.materials[0].model = Model::corotated;
+  inverted.particles.F_E.assign(inverted.particles.x.size(), Mat3d::Identity());
+  inverted.particles.F_E[7](0, 0) = -0.5;
+  EXPECT_TRUE(has(look_at(inverted), "det F_E is -0.5"));
+
+  Drop packed;
+  packed.particles.J_P.assign(packed.particles.x.size(), 1);
+  packed.particles.J_P[7] = 0.15;
+  EXPECT_TRUE(has(look_at(packed), "smallest J_P is 0.15"));
+  EXPECT_TRUE(has(look_at(packed), "hardening"));
+
+  Drop torn;
+  torn.particles.J_P.assign(torn.particles.x.size(), 1);
+  torn.particles.J_P[7] = 60;
+  EXPECT_TRUE(has(look_at(torn), "largest J_P is 60"));
+
+  Drop fast;
+  fast.particles.v[7] = {25, 0, 0};
+  EXPECT_TRUE(has(look_at(fast), "speed over that of sound is 1.2"));
+}
+
+TEST(Watch, LooksAtTheFirstStepsAndThenRarely) {
+  std::vector<std::size_t> due;
+  for (std::size_t step = 0; step < 1000; ++step)
+    if (is_watch_due(step)) due.push_back(step);
+  EXPECT_EQ(due, (std::vector<std::size_t>{0, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 768}));
+}
+
+TEST(Watch, HasNothingToSayAboutAnEmptyScene) {
+  Drop drop;
+  drop.particles = {};
+  EXPECT_TRUE(look_at(drop).empty());
+}
+
+}  // namespace
