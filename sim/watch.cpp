@@ -45,8 +45,8 @@ constexpr Rule rules[watch_check_count] = {
     {"compaction", "the smallest J_P", true, 0.2, never, 0,
      "snow is packed to a fifth of its volume, hardening runs away",
      "less hardening, a smaller critical_compression, or a smaller dt"},
-    {"dilation", "the largest J_P", false, 50, never, 0,
-     "snow is drawn out to fifty times its volume: it has no strength left",
+    {"dilation", "the largest J_P", false, 1000, never, 0,
+     "snow is drawn out to a thousand times its volume: particles fly apart",
      "a larger critical_stretch, or a smaller dt"},
     {"hardening", "the hardening e^(xi (1 - J_P))", false, 1000, never, 0,
      "snow has become a thousand times as stiff, steps become short",
@@ -205,6 +205,12 @@ void measure_work(const std::vector<Material>& materials, bool is_float, const P
 
 const char* name(WatchCheck check) {
   return rule(check).name;
+}
+const char* quantity(WatchCheck check) {
+  return rule(check).quantity;
+}
+const char* meaning(WatchCheck check) {
+  return rule(check).meaning;
 }
 
 bool WatchRecord::breaks(double value, double limit) const {

@@ -36,6 +36,9 @@ enum class WatchCheck {
 };
 inline constexpr int watch_check_count = 18;
 const char* name(WatchCheck check);
+/// What is looked at, and what it means when it is out of bounds; for people.
+const char* quantity(WatchCheck check);
+const char* meaning(WatchCheck check);
 
 /// What one look found, by check; 0 where a check had nothing to look at.
 struct WatchValues {

@@ -132,8 +132,8 @@ TEST(Watch, NamesWhatIsWrongWithAState) {
 
   Drop torn;
   torn.particles.J_P.assign(torn.particles.x.size(), 1);
-  torn.particles.J_P[7] = 60;
-  EXPECT_TRUE(has(look_at(torn), "largest J_P is 60"));
+  torn.particles.J_P[7] = 6000;
+  EXPECT_TRUE(has(look_at(torn), "largest J_P is 6e+03"));
 
   Drop fast;
   fast.particles.v[7] = {25, 0, 0};

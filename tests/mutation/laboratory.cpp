@@ -1,0 +1,134 @@
+#include "tests/mutation/laboratory.h"
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <thread>
+
+#include "app/json.h"
+#include "app/output/process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace neve::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kernels = "tests/mutation/probe/reduced_kernels.cpp";
+
+struct Trouble : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// @throws Trouble unless it succeeds
+std::string run(const fs::path& program, const std::vector<std::string>& arguments,
+                const fs::path& folder) {
+  const app::ProcessResult result = app::run_process(program, arguments, folder);
+  if (result.exit_code != 0)
+    throw Trouble(program.filename().string() + " ended with " + std::to_string(result.exit_code) +
+                  ": " + result.errors.substr(0, 2000));
+  return result.output;
+}
+
+void compile(const std::string& source, const fs::path& object, const fs::path& copies) {
+  const fs::path copy = copies / source;
+  const fs::path from = fs::exists(copy) ? copy : fs::path(NEVE_SOURCE_DIR) / source;
+  run(NEVE_COMPILER,
+      {"-std=c++20", "-O1", "-w", "-ffp-contract=off", "-fno-math-errno", "-fno-var-tracking",
+       "-I" + copies.string(), "-I" NEVE_SOURCE_DIR, "-isystem", NEVE_EIGEN, "-c", from.string(),
+       "-o", object.string()},
+      copies);
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++found;
+  return found;
+}
+
+/// Copies the files that a mistake changes, changed.
+void make_copies(const Mistake& mistake, const fs::path& copies) {
+  std::map<std::string, std::string> texts;
+  for (const Edit& edit : mistake.edits) {
+    if (!texts.contains(edit.file))
+      texts[edit.file] = read_text(fs::path(NEVE_SOURCE_DIR) / edit.file);
+    std::string& text = texts[edit.file];
+    if (count(text, edit.old_text) != 1)
+      throw Trouble(mistake.name + " has lost its place in " + edit.file + ":\n" + edit.old_text);
+    text.replace(text.find(edit.old_text), edit.old_text.size(), edit.new_text);
+  }
+  for (const auto& [file, text] : texts) {
+    fs::create_directories((copies / file).parent_path());
+    std::ofstream(copies / file, std::ios::binary) << text;
+  }
+}
+
+bool is_source(const Edit& edit) {
+  return edit.file.ends_with(".cpp");
+}
+
+std::vector<std::string> strings(const app::Json& json) {
+  return json.get<std::vector<std::string>>();
+}
+
+}  // namespace
+
+std::size_t occurrences(const Edit& edit) {
+  return count(read_text(fs::path(NEVE_SOURCE_DIR) / edit.file), edit.old_text);
+}
+
+Laboratory::Laboratory(const fs::path& folder) : folder_(folder), kernels_(folder / "kernels.o") {
+  compile(kernels, kernels_, folder_);
+}
+
+Finding Laboratory::examine(const Mistake& mistake) const {
+  Finding finding;
+  try {
+    const fs::path copies = folder_ / mistake.name;
+    fs::create_directories(copies);
+    make_copies(mistake, copies);
+    std::vector<std::string> objects;
+    const auto add = [&](const std::string& source) {
+      objects.push_back((copies / (fs::path(source).stem().string() + ".o")).string());
+      compile(source, objects.back(), copies);
+    };
+    // Headers with mistakes are those of the kernels; other files see the right ones.
+    if (std::all_of(mistake.edits.begin(), mistake.edits.end(), is_source))
+      objects.push_back(kernels_.string());
+    else
+      add(kernels);
+    for (const Edit& edit : mistake.edits)
+      if (is_source(edit) && !fs::exists(copies / (fs::path(edit.file).stem().string() + ".o")))
+        add(edit.file);
+    std::vector<std::string> link = objects;
+    link.insert(link.end(), {NEVE_PROBE, NEVE_SIM, "-pthread", "-o", (copies / "probe").string()});
+    run(NEVE_COMPILER, link, copies);
+    std::vector<std::string> arguments{"60", (copies / "probe").string()};
+    arguments.insert(arguments.end(), mistake.arguments.begin(), mistake.arguments.end());
+    const app::Json json =
+        app::parse_json(std::string_view(run("/usr/bin/timeout", arguments, copies)));
+    finding = {{}, strings(json["self_tests"]), strings(json["drop"]), strings(json["spin"])};
+  } catch (const std::exception& error) {
+    finding.trouble = error.what();
+  }
+  return finding;
+}
+
+std::vector<Finding> Laboratory::examine(const std::vector<Mistake>& mistakes) const {
+  std::vector<Finding> findings(mistakes.size());
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::jthread> workers;
+  for (unsigned w = 0; w < std::max(1u, std::thread::hardware_concurrency()); ++w)
+    workers.emplace_back([&] {
+      for (std::size_t k = next++; k < mistakes.size(); k = next++)
+        findings[k] = examine(mistakes[k]);
+    });
+  workers.clear();
+  return findings;
+}
+
+}  // namespace neve::test

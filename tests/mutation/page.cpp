@@ -1,0 +1,148 @@
+#include "tests/mutation/page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "sim/self_test.h"
+#include "sim/watch.h"
+
+namespace neve::test {
+
+namespace {
+
+constexpr const char* introduction = R"(# Mistakes, and what notices them
+
+The classic mistakes of a snow solver, each built into a copy of this one's sources and run: first the
+self-tests of `neve doctor`, then two scenes under the watch of `neve render --validate`, a snowball
+thrown on a sticky floor and an elastic box that spins in free flight. The table says which checks
+notice each mistake; "stopped" is a rule that ends any run, watched or not. Without a mistake none of
+them fires. Some mistakes no run betrays: they make snow too soft, or turn what hardly turns, and all
+energies and momenta add up; only a state whose answer is known shows them. Others look right in a
+straight drop and explode when something turns. A test builds all mistakes again and compares this
+page with what it finds (`./neve test --all`, label `mutation`); it also fails when a mistake goes
+unnoticed, or when a check notices nothing.
+
+)";
+
+constexpr const char* about_self_tests = R"(
+## The self-tests
+
+`neve doctor` runs them with every kernel, transfer and precision through the kernels of the
+instruction set in use, and says the worst value found and what is allowed. They take a tenth of a
+second. A failure is exit code 9.
+
+| self-test | notices |
+| --- | --- |
+)";
+
+constexpr const char* about_watch = R"(
+## The watch
+
+`neve render --validate` looks at the first steps, then ever more rarely down to every 256th. A look
+takes a step of a copy, so the run stays as it is to the bit; on one thread it costs what 25 steps
+cost. What is out of bounds is a warning once, with step, value, meaning and remedy, and is counted in
+run.json (`validation`). Where it is wrong and not only remarkable, the run ends with exit code 9; its
+pictures are kept. Of adaptive steps, the first two checks warn above the limits that the scene gives.
+
+| watched | what | warns | wrong | notices |
+| --- | --- | --- | --- | --- |
+)";
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "–" : text;
+}
+
+std::string number(double x) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << x;
+  return out.str();
+}
+
+/// As the cell of a table.
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? "\\|" : std::string(1, c);
+  return escaped;
+}
+
+/// How many mistakes a check notices.
+std::size_t count(const std::vector<Finding>& findings, const std::string& check,
+                  bool is_self_test) {
+  const auto has = [&](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), check) != names.end();
+  };
+  return static_cast<std::size_t>(
+      std::count_if(findings.begin(), findings.end(), [&](const Finding& finding) {
+        return is_self_test ? has(finding.self_tests) : has(finding.drop) || has(finding.spin);
+      }));
+}
+
+std::vector<std::string> self_test_names() {
+  std::vector<std::string> names;
+  for (const auto& result : sim::self_tests({})) names.push_back(result.name);
+  return names;
+}
+
+std::string limits(double in_double, double in_float) {
+  if (std::isinf(in_double)) return "–";
+  return number(in_double) + (in_float == in_double ? "" : " (float " + number(in_float) + ")");
+}
+
+std::vector<sim::WatchRecord> records(sim::Precision precision) {
+  sim::SolverSettings settings;
+  settings.precision = precision;
+  settings.time_step = sim::TimeStep::fixed;
+  return sim::Watch(settings, {sim::Material{}}).records();
+}
+
+std::string watch_table(const std::vector<Finding>& findings) {
+  const auto in_double = records(sim::Precision::real64),
+             in_float = records(sim::Precision::single);
+  std::string text = about_watch;
+  for (std::size_t k = 0; k < in_double.size(); ++k) {
+    const sim::WatchRecord& d = in_double[k];
+    const std::string name = sim::name(d.check), side = d.is_below ? "< " : "> ";
+    text += "| " + name + " | " + cell(quantity(d.check)) + ": " + meaning(d.check) + " | " + side +
+            limits(d.threshold, in_float[k].threshold) + " | " + (std::isinf(d.error) ? "" : side) +
+            limits(d.error, in_float[k].error) + " | " +
+            std::to_string(count(findings, name, false)) + " |\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string row(const Mistake& mistake, const Finding& finding) {
+  return "| " + cell(mistake.title) + " | " + joined(finding.self_tests) + " | " +
+         joined(finding.drop) + " | " + joined(finding.spin) + " |";
+}
+
+std::string page(const std::vector<Mistake>& mistakes, const std::vector<Finding>& findings) {
+  std::string text = introduction;
+  text +=
+      "| mistake | self-tests that fail | snowball | spinning box |\n| --- | --- | --- | --- |\n";
+  for (std::size_t k = 0; k < mistakes.size(); ++k) text += row(mistakes[k], findings[k]) + "\n";
+  text += "\nNot to the letter:\n\n";
+  for (const Mistake& mistake : mistakes)
+    if (!mistake.note.empty()) text += "- " + mistake.title + ": " + mistake.note + ".\n";
+  text += about_self_tests;
+  for (const std::string& name : self_test_names())
+    text += "| " + name + " | " + std::to_string(count(findings, name, true)) + " |\n";
+  return text + watch_table(findings);
+}
+
+std::vector<std::string> idle_checks(const std::vector<Finding>& findings) {
+  std::vector<std::string> idle;
+  for (const std::string& name : self_test_names())
+    if (count(findings, name, true) == 0) idle.push_back(name);
+  for (const sim::WatchRecord& record : records(sim::Precision::real64))
+    if (const std::string name = sim::name(record.check); count(findings, name, false) == 0)
+      idle.push_back(name);
+  return idle;
+}
+
+}  // namespace neve::test

@@ -1,0 +1,22 @@
+/// The kernels that the probe needs, and no more: double, cubic spline, FLIP, the baseline
+/// instruction set. Compiled in seconds, where all of them take minutes. Takes the place of
+/// sim/simd.cpp and sim/kernels_*.cpp when it is linked before the library.
+
+#include "sim/kernels.h"
+#include "sim/sweeps.h"
+
+namespace neve::sim {
+
+template <>
+const Sweeps<double>& KernelSet<BaselineSet>::sweeps(int nodes, TransferKind transfer, double) {
+  if (nodes != cubic_nodes || transfer != TransferKind::flip) __builtin_trap();
+  return SweepsFor<double, cubic_nodes, TransferKind::flip, BaselineSet>::table;
+}
+template <>
+const Sweeps<float>& KernelSet<BaselineSet>::sweeps(int, TransferKind, float) {
+  __builtin_trap();
+}
+
+}  // namespace neve::sim
+
+#include "sim/simd.cpp"
