@@ -3,11 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <iostream>
 #include <optional>
 
 #include "app/argument_text.h"
+#include "app/command_line_parts.h"
 #include "app/commands.h"
 #include "app/errors.h"
 #include "app/picture_record.h"
@@ -17,21 +17,6 @@
 #include "render/context.h"
 
 namespace neve::app {
-
-namespace {
-
-/// What parsing leaves to run.
-using Action = std::function<int()>;
-
-constexpr const char* footer =
-    "Exit codes: 0 ok, 1 internal, 2 usage, 3 scene invalid, 4 no GL backend, 5 diverged,\n"
-    "6 input or output failed, 8 refused by a limit, 9 a check failed, 130 interrupted.";
-
-/// Values that CLI11 hands over as text; turned into options when parsing is done.
-struct RenderTexts {
-  std::optional<std::string> frames, size, quality, coarsening;
-  bool is_quiet = false, is_verbose = false;
-};
 
 void check_threads(int threads) {
   if (threads < 0 || threads > 1024)
@@ -46,6 +31,27 @@ void check_backend(const std::string& name) {
   for (const std::string& backend : backends) known += (known.empty() ? "" : ", ") + backend;
   throw UsageError("--backend", "unknown backend \"" + name + "\"", "expected one of " + known);
 }
+
+CLI::Option* add_repeatable(CLI::App& command, const char* flag, std::vector<std::string>& values,
+                            const char* type, const char* help) {
+  return command.add_option(flag, values, help)
+      ->type_name(type)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+namespace {
+
+constexpr const char* footer =
+    "Exit codes: 0 ok, 1 internal, 2 usage, 3 scene invalid, 4 no GL backend, 5 diverged,\n"
+    "6 input or output failed, 7 runs of a sweep failed, 8 refused by a limit, 9 a check failed,\n"
+    "75 interrupted and can go on, 130 interrupted.";
+
+/// Values that CLI11 hands over as text; turned into options when parsing is done.
+struct RenderTexts {
+  std::optional<std::string> frames, size, quality, coarsening;
+  bool is_quiet = false, is_verbose = false;
+};
 
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.frames) options.frames = parse_frames(*texts.frames);
@@ -80,15 +86,6 @@ BenchOptions finished(const CLI::App& command, BenchOptions options) {
       !(options.particles >= 1 && options.particles <= 1e9))
     throw UsageError("--particles", "cannot use this number", "expected 1 to 1e9");
   return options;
-}
-
-/// A repeatable option that takes one value each time, so that it does not swallow the scene.
-void add_repeatable(CLI::App& command, const char* flag, std::vector<std::string>& values,
-                    const char* type, const char* help) {
-  command.add_option(flag, values, help)
-      ->type_name(type)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 /// Which scene, and how it is changed: what all commands take that read one.
@@ -164,6 +161,7 @@ void add_render(CLI::App& app, Action& action) {
                    "Frames between checkpoints in DIR/checkpoint; 0: none")
       ->type_name("FRAMES")
       ->capture_default_str();
+  command->add_flag("!--no-movie", options->has_movies, "Only pictures, no movie of them");
   command->add_option("--shader-dir", options->shader_dir, "Read shaders from a folder")
       ->type_name("DIR");
   command->add_flag("--dry-run", options->is_dry_run,
@@ -221,6 +219,7 @@ CLI::App* add_bench_part(CLI::App& bench, Action& action, const char* name, cons
 void add_bench(CLI::App& app, Action& action) {
   CLI::App* bench =
       app.add_subcommand("bench", "Measure how fast this machine simulates and draws");
+  bench->require_subcommand(1);
   const auto sim = std::make_shared<BenchOptions>(), frame = std::make_shared<BenchOptions>(),
              render = std::make_shared<BenchOptions>();
   CLI::App* sim_command = add_bench_part(
@@ -256,6 +255,16 @@ void add_report(CLI::App& app, Action& action, const char* name, const char* hel
   const auto is_json = std::make_shared<bool>(false);
   command->add_flag("--json", *is_json, "Print JSON");
   command->final_callback([=, &action] { action = [=] { return run(*is_json); }; });
+}
+
+void add_params(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("params", "Every parameter: address, unit, range, default");
+  const auto is_json = std::make_shared<bool>(false), is_sweep = std::make_shared<bool>(false);
+  command->add_flag("--sweep", *is_sweep, "Those of sweep files instead of scenes");
+  command->add_flag("--json", *is_json, "Print JSON");
+  command->final_callback(
+      [=, &action] { action = [=] { return run_params(*is_sweep, *is_json); }; });
 }
 
 void add_info(CLI::App& app, Action& action) {
@@ -296,8 +305,9 @@ void check_subcommand(const CLI::App& app, int argc, char** argv) {
   if (std::find(names.begin(), names.end(), word) == names.end())
     throw UsageError("", "unknown subcommand \"" + word + "\"",
                      suggestion(word, names, "neve --help lists them"));
-  const std::vector<std::string> parts = subcommand_names(*app.get_subcommand(word));
-  if (parts.empty()) return;
+  const CLI::App& command = *app.get_subcommand(word);
+  const std::vector<std::string> parts = subcommand_names(command);
+  if (command.get_require_subcommand_min() == 0) return;
   std::string known;
   for (const std::string& part : parts) known += (known.empty() ? "" : ", ") + part;
   const std::string part = argc < 3 ? "" : argv[2];
@@ -338,8 +348,9 @@ int run_command_line(int argc, char** argv) {
              "Which OpenGL backends work here, and why others do not; self-tests of the physics",
              run_doctor);
   add_info(app, action);
-  add_report(app, action, "params", "Every parameter: address, unit, range, default", run_params);
+  add_params(app, action);
   add_compare(app, action);
+  add_sweep(app, action);
   add_bench(app, action);
   CLI::App* version_command = app.add_subcommand("version", "Print the version");
   version_command->final_callback([&] { action = print_version; });

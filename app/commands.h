@@ -27,9 +27,34 @@ struct RenderOptions {
   bool is_validated = false;
   bool is_resumed = false;
   int checkpoint_every = 10;  ///< frames; 0: none
+  bool has_movies = true;
   Verbosity verbosity = Verbosity::normal;
   bool is_dry_run = false;
   bool is_json = false;
+};
+
+struct SweepOptions {
+  std::string file;                    ///< a sweep file or a scene
+  std::vector<std::string> axes;       ///< -p
+  std::vector<std::string> overrides;  ///< --set
+  std::optional<FrameRange> frames;
+  std::optional<PictureSize> size;  ///< of a tile
+  std::optional<double> coarsening;
+  std::string out;
+  int threads = 0;  ///< cores in all; 0: as many as there are
+  int jobs = 0;     ///< runs side by side; 0: as many as keep the cores busy
+  std::string backend = "auto";
+  bool is_failed_again = false;
+  Verbosity verbosity = Verbosity::normal;
+  bool is_dry_run = false;
+  bool is_json = false;
+};
+
+struct CollectOptions {
+  std::string folder;  ///< of a sweep
+  std::string backend = "auto";
+  int threads = 0;
+  Verbosity verbosity = Verbosity::normal;
 };
 
 struct CompareOptions {
@@ -59,6 +84,8 @@ int run_bench_frame(const BenchOptions& options);
 int run_bench_render(const BenchOptions& options);
 int run_info(const std::string& path, bool is_json);
 int run_doctor(bool is_json);
-int run_params(bool is_json);
+int run_params(bool is_sweep, bool is_json);
+int run_sweep(const SweepOptions& options);
+int run_sweep_collect(const CollectOptions& options);
 
 }  // namespace neve::app

@@ -15,6 +15,7 @@ enum ExitCode {
   exit_no_backend = 4,
   exit_diverged = 5,
   exit_io = 6,
+  exit_runs_failed = 7,  ///< of a sweep
   exit_refused = 8,
   exit_check_failed = 9,
   exit_resumable = 75,     ///< interrupted, with a checkpoint

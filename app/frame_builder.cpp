@@ -7,6 +7,7 @@
 #include "app/attributes.h"
 #include "app/camera_path.h"
 #include "app/collider_looks.h"
+#include "app/legends.h"
 #include "app/round_number.h"
 #include "app/scene/coarsen.h"
 #include "app/slice.h"
@@ -103,6 +104,7 @@ render::Frame FrameBuilder::build(const View& view, const Snapshot& snapshot) co
   add_colliders(scene_, view, snapshot.time, static_cast<float>(spacing), frame);
   if (has_layer(view, Layer::particles)) add_points(view, snapshot, frame);
   add_grid(view, snapshot, frame);
+  if (has_layer(view, Layer::legend)) frame.legends = legends_of(view);
   if (has_layer(view, Layer::bounds)) add_bounds(snapshot, frame);
   if (has_layer(view, Layer::plots))
     frame.plots = make_plots(view.plots, snapshot.history, snapshot.time, 1 / scene_.fps,
@@ -149,10 +151,6 @@ void FrameBuilder::add_points(const View& view, const Snapshot& snapshot,
     if (!values.empty())
       points.value.push_back(static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
   }
-  if (style.color_by == ColorBy::snow || !has_layer(view, Layer::legend)) return;
-  const AttributeName name = attribute_name(style.color_by);
-  frame.legends.push_back(
-      {name.title, name.unit, style.colormap, points.range_min, points.range_max});
 }
 
 void FrameBuilder::add_grid(const View& view, const Snapshot& snapshot,

@@ -116,6 +116,13 @@ std::string machine_text() {
          compiler;
 }
 
+fs::path this_program() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) throw IoError("cannot tell which file runs: " + error.message(), "/proc/self/exe");
+  return program;
+}
+
 fs::path default_scene() {
   const char* const name = "snowball_drop.toml";
   std::error_code error;

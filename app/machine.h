@@ -17,6 +17,9 @@ std::uint64_t address_space_limit();
 /// "AMD EPYC, 2 cores; GCC 12.2.0": what a measurement depends on.
 std::string machine_text();
 
+/// The file of the running program. @throws IoError
+std::filesystem::path this_program();
+
 /// The scene that is drawn when none is named. @throws IoError when it is not there
 std::filesystem::path default_scene();
 

@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t window = 8;  // frames; an average since the start would mislead
 constexpr auto update_interval = std::chrono::milliseconds(200);
 constexpr auto line_interval = std::chrono::seconds(10);
+constexpr auto work_window = std::chrono::seconds(120);
 
 }  // namespace
 
@@ -43,6 +44,26 @@ std::string progress_text(const ProgressState& state) {
   return text;
 }
 
+std::string runs_text(const RunsState& state) {
+  std::string text = std::to_string(state.finished) + "/" + std::to_string(state.all) + " runs";
+  if (state.failed > 0) text += "  " + std::to_string(state.failed) + " failed";
+  if (state.running > 0) text += "  " + std::to_string(state.running) + " running";
+  if (state.seconds_left >= 0) text += "  " + duration_text(state.seconds_left) + " left";
+  return text;
+}
+
+void WorkClock::note(double done, Clock::time_point now) {
+  seen_.emplace_back(now, done);
+  while (seen_.size() > 2 && now - seen_[1].first > work_window) seen_.pop_front();
+}
+
+double WorkClock::seconds_for(double left) const {
+  if (seen_.size() < 2) return -1;
+  const std::chrono::duration<double> span = seen_.back().first - seen_.front().first;
+  const double done = seen_.back().second - seen_.front().second;
+  return done > 0 && span.count() > 1 ? left * span.count() / done : -1;
+}
+
 bool can_update_lines(int fd) {
   const char* terminal = std::getenv("TERM");
   const char* no_color = std::getenv("NO_COLOR");
@@ -68,7 +89,15 @@ void Progress::step() {
   const std::lock_guard lock(mutex_);
   ++state_.steps;
   const auto now = Clock::now();
-  if (now - shown_at_ >= (updates_ ? Clock::duration(update_interval) : line_interval)) show(now);
+  if (now - shown_at_ >= (updates_ ? Clock::duration(update_interval) : line_interval))
+    show(now, progress_text(state_));
+}
+
+void Progress::line(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  if (now - shown_at_ >= (updates_ ? Clock::duration(update_interval) : line_interval))
+    show(now, text);
 }
 
 void Progress::frame(int frame, double time) {
@@ -80,17 +109,17 @@ void Progress::frame(int frame, double time) {
   if (finished_at_.size() > window + 1) finished_at_.pop_front();
   const std::chrono::duration<double> span = finished_at_.back() - finished_at_.front();
   state_.seconds_per_frame = span.count() / static_cast<double>(finished_at_.size() - 1);
-  if (updates_ || now - shown_at_ >= line_interval) show(now);
+  if (updates_ || now - shown_at_ >= line_interval) show(now, progress_text(state_));
 }
 
-void Progress::show(Clock::time_point now) {
+void Progress::show(Clock::time_point now, const std::string& text) {
   shown_at_ = now;
   if (verbosity_ == Verbosity::quiet) return;
   if (updates_) {
-    out_ << "\r\033[K" << progress_text(state_) << std::flush;
+    out_ << "\r\033[K" << text << std::flush;
     has_line_ = true;
   } else {
-    out_ << progress_text(state_) << std::endl;
+    out_ << text << std::endl;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <ostream>
 #include <string>
+#include <utility>
 
 namespace neve::app {
 
@@ -26,6 +27,29 @@ std::string progress_text(const ProgressState& state);
 /// "8 s", "3 min 20 s", "2 h 05 min"
 std::string duration_text(double seconds);
 
+/// How many units of work are done, and when the rest will be.
+class WorkClock {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// @param done so far, of the same unit as what is left
+  void note(double done, Clock::time_point now = Clock::now());
+  /// Over a trailing window; negative: not known yet. @param left units
+  double seconds_for(double left) const;
+
+ private:
+  std::deque<std::pair<Clock::time_point, double>> seen_;
+};
+
+/// What the line of a sweep says.
+struct RunsState {
+  int finished = 0, failed = 0, running = 0, all = 0;
+  double seconds_left = -1;  ///< negative: not known yet
+};
+
+/// "12/64 runs  2 failed  2 running  3 min 20 s left"
+std::string runs_text(const RunsState& state);
+
 /// Whether a stream can take an updating line: a terminal that is not dumb, without NO_COLOR.
 bool can_update_lines(int fd);
 
@@ -44,6 +68,9 @@ class Progress {
   /// A frame was finished.
   void frame(int frame, double time);
 
+  /// The line of something that counts otherwise than in frames; cheap.
+  void line(const std::string& text);
+
   /// A message between the lines; not in quiet runs.
   void note(const std::string& message);
   /// A message for --verbose.
@@ -55,7 +82,7 @@ class Progress {
 
  private:
   // Callers hold the mutex.
-  void show(Clock::time_point now);
+  void show(Clock::time_point now, const std::string& text);
   void clear_line();
   void print(const std::string& message);
 

@@ -114,6 +114,7 @@ RenderJob make_job(const RenderOptions& options) {
   job.is_validated = options.is_validated;
   job.is_resumed = options.is_resumed;
   job.checkpoint_every = options.checkpoint_every;
+  job.has_movies = options.has_movies;
   return job;
 }
 

@@ -21,7 +21,8 @@ struct RenderJob {
   bool is_validated = false;            ///< with the watch of sim/watch.h beside it
   bool is_resumed = false;              ///< goes on from the checkpoint in the folder
   int checkpoint_every = 10;            ///< frames; 0: none
-  double coarsening = 1;                ///< done to the scene, a picture's included
+  bool has_movies = true;
+  double coarsening = 1;  ///< done to the scene, a picture's included
 };
 
 /// @throws SceneError, UsageError, IoError, Error

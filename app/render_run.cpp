@@ -240,7 +240,8 @@ void RenderRun::draw_frame(int frame) {
   for (const Mosaic& mosaic : job_.scene.mosaics)
     add(mosaic.name, draw_mosaic(job_.scene, mosaic, builder_, snapshot, renderer_));
   add_frame_record({frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start),
-                    summary_, state_hash});
+                    summary_, state_hash,
+                    measure(snapshot.particles, job_.scene.solver.cell_size)});
   // Listed first and written then: whenever the process is killed, the next run knows every picture
   // that it has to remove.
   write_run_json(job_.folder, record_);
@@ -280,7 +281,7 @@ void RenderRun::draw_incident() {
 
 void RenderRun::write_movies() {
   // One picture is no movie.
-  if (record_.frames.size() < 2) return;
+  if (!job_.has_movies || record_.frames.size() < 2) return;
   for (const std::string& view : record_.views) {
     const MovieRequest request{job_.folder / view,
                                movie_path(job_.folder, view),

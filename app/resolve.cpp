@@ -40,25 +40,11 @@ double shared_aspect(const Scene& scene) {
   return aspect;
 }
 
-void resolve_cameras(Scene& scene) {
-  bool is_shared = false, is_needed = false;
-  for (const View& view : scene.views) {
-    if (!view.camera) is_shared = true;
-    if (view.camera && !has_place(*view.camera)) is_needed = true;
-  }
-  const CameraSettings lens = scene.camera.value_or(CameraSettings{});
-  is_shared = is_shared && !has_place(lens);
-  if (!is_shared && !is_needed) return;
-
-  const std::vector<Moment> moments = dry_run(scene);
-  if (is_shared) scene.camera = automatic_camera(scene, moments, lens, shared_aspect(scene));
-  for (View& view : scene.views) {
-    const double aspect = aspect_of(size_of(scene, view));
-    if (view.camera && !has_place(*view.camera))
-      view.camera = automatic_camera(scene, moments, *view.camera, aspect);
-    else if (!view.camera && is_shared && shows_slice(view))
-      view.camera = automatic_camera(scene, moments, lens, aspect, view.slice.normal);
-  }
+/// Whether the scene's own camera is used and has no place.
+bool needs_shared_camera(const Scene& scene) {
+  const bool is_used = std::any_of(scene.views.begin(), scene.views.end(),
+                                   [](const View& view) { return !view.camera; });
+  return is_used && !has_place(scene.camera.value_or(CameraSettings{}));
 }
 
 /// The plane goes through the middle of what the scene starts with.
@@ -80,8 +66,26 @@ void resolve_slice(const Scene& scene, SliceStyle& slice) {
 
 }  // namespace
 
-void resolve(Scene& scene, std::size_t particle_count) {
-  resolve_cameras(scene);
+bool needs_framing(const Scene& scene) {
+  return needs_shared_camera(scene) ||
+         std::any_of(scene.views.begin(), scene.views.end(),
+                     [](const View& view) { return view.camera && !has_place(*view.camera); });
+}
+
+void resolve_cameras(Scene& scene, const std::vector<Moment>& moments) {
+  const bool is_shared = needs_shared_camera(scene);
+  const CameraSettings lens = scene.camera.value_or(CameraSettings{});
+  if (is_shared) scene.camera = automatic_camera(scene, moments, lens, shared_aspect(scene));
+  for (View& view : scene.views) {
+    const double aspect = aspect_of(size_of(scene, view));
+    if (view.camera && !has_place(*view.camera))
+      view.camera = automatic_camera(scene, moments, *view.camera, aspect);
+    else if (!view.camera && is_shared && shows_slice(view))
+      view.camera = automatic_camera(scene, moments, lens, aspect, view.slice.normal);
+  }
+}
+
+void resolve_ranges(Scene& scene, std::size_t particle_count) {
   for (View& view : scene.views) {
     if (!view.particles.range && view.particles.color_by != ColorBy::snow)
       view.particles.range = automatic_range(scene, view.particles.color_by, particle_count);
@@ -90,6 +94,11 @@ void resolve(Scene& scene, std::size_t particle_count) {
     if (shows_slice(view)) resolve_slice(scene, view.slice);
     if (has_layer(view, Layer::plots)) resolve_plot_ranges(scene, view.plots);
   }
+}
+
+void resolve(Scene& scene, std::size_t particle_count) {
+  if (needs_framing(scene)) resolve_cameras(scene, dry_run(scene));
+  resolve_ranges(scene, particle_count);
 }
 
 }  // namespace neve::app

@@ -173,12 +173,6 @@ void add_frame(const SlicePlane& plane, const Rectangle& r, const std::string& w
   frame.labels.push_back({corner[2] + raised, words, true});
 }
 
-void add_legend(const AttributeName& name, render::ColorMap colormap, const Range& range,
-                render::Frame& frame) {
-  frame.legends.push_back({name.title, name.unit, colormap, static_cast<float>(range.min),
-                           static_cast<float>(range.max)});
-}
-
 }  // namespace
 
 SlicePlane slice_plane(const SliceStyle& slice, double time, const std::optional<Vec3d>& followed) {
@@ -200,13 +194,6 @@ void add_slice(const View& view, const NodeFields& fields, const SlicePlane& wan
   const bool has_map = has_layer(view, Layer::heatmap);
   if (!has_arrows && !has_map) return;
   const SliceStyle& slice = view.slice;
-  if (has_layer(view, Layer::legend)) {
-    if (has_map)
-      add_legend(attribute_name(slice.scalar), slice.scalar_colormap,
-                 slice.scalar_range.value_or(Range{}), frame);
-    if (has_arrows)
-      add_legend(attribute_name(slice.field), slice.colormap, slice.range.value_or(Range{}), frame);
-  }
   if (!fields.lattice) return;
   const double h = static_cast<double>(fields.lattice->spacing);
   const SlicePlane plane = snapped_to_nodes(wanted, h);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "app/attributes.h"
-
 namespace neve::app {
 
 namespace {
@@ -35,10 +33,6 @@ void add_smoke(const Scene& scene, const View& view, const NodeFields& fields,
   smoke.colormap = style.colormap;
   smoke.range_min = static_cast<float>(range.min);
   smoke.range_max = static_cast<float>(range.max);
-  if (!has_layer(view, Layer::legend)) return;
-  const AttributeName name = attribute_name(style.field);
-  frame.legends.push_back(
-      {name.title, name.unit, style.colormap, smoke.range_min, smoke.range_max});
 }
 
 }  // namespace neve::app

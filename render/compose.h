@@ -19,4 +19,8 @@ struct Tile {
 Image compose(int width, int height, std::array<std::uint8_t, 3> color,
               const std::vector<Tile>& tiles);
 
+/// The picture made smaller; each pixel is the mean of the area that it covers.
+/// @param width, height at most those of the picture, at least 1
+Image shrink(const Image& picture, int width, int height);
+
 }  // namespace neve::render

@@ -135,6 +135,24 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
+/// A filled rectangle on the finished picture, below all text; pixels from the upper left corner.
+struct Patch {
+  float x = 0, y = 0, width = 0, height = 0;
+  std::array<std::uint8_t, 4> color{8, 10, 16, 150};  ///< sRGB and opacity
+};
+
+/// A line of text at a place on the finished picture.
+struct Note {
+  enum class Anchor { left, middle, right };
+
+  float x = 0, y = 0;  ///< px: upper edge of the text, and its left end, middle or right end
+  std::string text;    ///< UTF-8
+  Anchor anchor = Anchor::left;
+  float room = 0;         ///< px; longer text ends in an ellipsis; 0: any length
+  bool is_title = false;  ///< in the larger font
+  std::array<std::uint8_t, 3> color{205, 213, 224};  ///< sRGB
+};
+
 struct Frame {
   int width = 1280, height = 720;  ///< pixels of the finished picture
   int supersampling = 1;           ///< 1 or 2: samples per pixel and axis
@@ -153,6 +171,8 @@ struct Frame {
   std::vector<GroundPlane> ghost_grounds;  ///< likewise
   std::vector<Legend> legends;
   std::vector<Plot> plots;
+  std::vector<Patch> patches;
+  std::vector<Note> notes;
   std::vector<std::string> caption;  ///< lines, UTF-8; the first one is the title
   int caption_height = 0;            ///< px; above 0: the caption has a strip this high to itself
   int font_size = 0;                 ///< px; 0: in proportion to the picture

@@ -28,6 +28,7 @@ std::vector<std::string> all_texts(const Frame& frame) {
   std::vector<std::string> texts = frame.caption;
   for (const Legend& legend : frame.legends) texts.push_back(title_of(legend));
   for (const Label& label : frame.labels) texts.push_back(label.text);
+  for (const Note& note : frame.notes) texts.push_back(note.text);
   for (const Plot& plot : frame.plots) {
     texts.push_back(plot.title + plot.unit);
     for (const PlotSeries& series : plot.series) texts.push_back(series.name);
@@ -133,6 +134,24 @@ void OverlayPass::draw_labels(const Frame& frame, const View& view) const {
   }
 }
 
+void OverlayPass::draw_notes(const Frame& frame) const {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (const Patch& patch : frame.patches)
+    list.AddRectFilled(ImVec2(patch.x, patch.y),
+                       ImVec2(patch.x + patch.width, patch.y + patch.height),
+                       IM_COL32(patch.color[0], patch.color[1], patch.color[2], patch.color[3]));
+  for (const Note& note : frame.notes) {
+    const ImFont& font = note.is_title ? *imgui_.title_font() : *imgui_.text_font();
+    const std::string text = note.room > 0 ? elide(font, note.text, note.room) : note.text;
+    const float width = text_width(font, text);
+    const float shift = note.anchor == Note::Anchor::left     ? 0
+                        : note.anchor == Note::Anchor::middle ? 0.5f * width
+                                                              : width;
+    draw_text(font, ImVec2(note.x - shift, note.y),
+              IM_COL32(note.color[0], note.color[1], note.color[2], 255), text);
+  }
+}
+
 void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const float unit = unit_of(*imgui_.text_font());
@@ -154,7 +173,7 @@ void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
 
 void OverlayPass::draw(const Frame& frame, const View& view) {
   if (frame.caption.empty() && frame.legends.empty() && frame.marks.empty() &&
-      frame.labels.empty() && frame.plots.empty())
+      frame.labels.empty() && frame.plots.empty() && frame.patches.empty() && frame.notes.empty())
     return;
   const int font_size =
       frame.font_size > 0 ? frame.font_size : font_size_for(frame.width, frame.height);
@@ -163,6 +182,7 @@ void OverlayPass::draw(const Frame& frame, const View& view) {
   draw_marks(frame, view);
   draw_caption(frame, draw_legends(frame));
   draw_plots(frame, *imgui_.text_font());
+  draw_notes(frame);
   imgui_.end();
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Text and signs over the finished picture: caption in the upper left corner, legends in the lower
 /// right one, labels beside their places, rings around marked ones, plots in the
-/// lower left one.
+/// lower left one; patches and notes wherever they say.
 
 #include "render/frame.h"
 #include "render/imgui_draw.h"
@@ -20,6 +20,7 @@ class OverlayPass {
   float draw_legends(const Frame& frame) const;
   void draw_caption(const Frame& frame, float right_limit) const;
   void draw_labels(const Frame& frame, const View& view) const;
+  void draw_notes(const Frame& frame) const;
   void draw_marks(const Frame& frame, const View& view) const;
 
   ImGuiDraw imgui_;

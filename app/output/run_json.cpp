@@ -82,6 +82,11 @@ Json to_json(const FrameRecord& frame) {
   json["max_speed"] = number_or_null(s.max_speed);
   json["min_J_P"] = number_or_null(s.min_J_P);
   json["max_J_P"] = number_or_null(s.max_J_P);
+  json["spread"] = number_or_null(frame.metrics.spread);
+  json["height"] = number_or_null(frame.metrics.height);
+  json["mean_J_P"] = number_or_null(frame.metrics.mean_J_P);
+  json["fragments"] = frame.metrics.fragments;
+  json["largest_fragment"] = number_or_null(frame.metrics.largest_fragment);
   json["state_hash"] = hash_text(frame.state_hash);
   return json;
 }
@@ -110,6 +115,11 @@ FrameRecord frame_record(const Json& json) {
   s.min_J_P = number(json.at("min_J_P"));
   s.max_J_P = number(json.at("max_J_P"));
   frame.state_hash = std::stoull(json.at("state_hash").get<std::string>(), nullptr, 16);
+  // Runs of earlier versions have none.
+  if (!json.contains("spread")) return frame;
+  frame.metrics = {number(json.at("spread")), number(json.at("height")),
+                   number(json.at("mean_J_P")), json.at("fragments").get<std::size_t>(),
+                   number(json.at("largest_fragment"))};
   return frame;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/json.h"
+#include "app/metrics.h"
 #include "sim/simulation.h"
 #include "sim/watch.h"
 
@@ -23,6 +24,7 @@ struct FrameRecord {
   double seconds_sim = 0, seconds_render = 0;
   sim::Summary summary;
   std::uint64_t state_hash = 0;
+  Metrics metrics;
 };
 
 struct RunRecord {

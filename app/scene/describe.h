@@ -9,6 +9,8 @@
 ///   visit.named(key, items, help)                  tables by name: [material.snow]
 ///   visit.list(key, items, help)                   [[body]], each with a name or its number
 ///   visit.sequence(key, items, help)               tables in a row that have no names: keyframes
+///   visit.addresses(key, table, help)              a table whose keys are addresses (sweeps)
+///   visit.address_lists(key, tables, help)         [[run]], each with addresses as keys (sweeps)
 ///   visit.shape(key, shape, help, describe_forms)  a table with exactly one form
 ///   visit.form<Form>(key, shape, change, help)     one of these forms
 /// Nested tables are described by calling back with a visitor for them.

@@ -71,7 +71,7 @@ std::string existing_file(const Leaf& leaf, const std::string& name) {
 void Source::fail(Location where, const std::string& message, const std::string& hint) const {
   if (where.override_index >= 0) {
     const Override& given = overrides[static_cast<std::size_t>(where.override_index)];
-    throw UsageError("--set " + given.address + "=" + given.value, message, hint);
+    given.fail(given.place, message, hint);
   }
   throw SceneError(file, where.line, where.column, message, hint);
 }
@@ -79,7 +79,9 @@ void Source::fail(Location where, const std::string& message, const std::string&
 void Leaf::fail(const std::string& expected, const std::string& hint) const {
   const std::string wanted = "expected " + expected;
   // A --set is shown as it was typed; repeating it would say nothing new.
-  if (value.where.override_index >= 0) source.fail(value.where, wanted, hint);
+  const int index = value.where.override_index;
+  if (index >= 0 && source.overrides[static_cast<std::size_t>(index)].file.empty())
+    source.fail(value.where, wanted, hint);
   source.fail(value.where, address + " = " + toml_literal(value, max_shown),
               hint.empty() ? wanted : wanted + "; " + hint);
 }

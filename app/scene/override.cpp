@@ -15,10 +15,6 @@ namespace {
 
 using Path = std::vector<std::string>;
 
-std::string argument(const Override& change) {
-  return "--set " + change.address + "=" + change.value;
-}
-
 std::string trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
@@ -59,8 +55,8 @@ void refuse_unknown_name(const Override& change, const Table& root) {
     const Entry* items = root.find(path[0]);
     const Path known = items ? item_names(items->value) : Path{};
     if (std::find(known.begin(), known.end(), path[1]) != known.end()) return;
-    throw UsageError(argument(change), "there is no " + path[0] + " " + toml_string(path[1]),
-                     known.empty() ? "the scene has none" : "expected " + list_of(known));
+    change.fail(change.key, "there is no " + path[0] + " " + toml_string(path[1]),
+                known.empty() ? "the scene has none" : "expected " + list_of(known));
   }
 }
 
@@ -71,9 +67,9 @@ void refuse_unknown_name(const Override& change, const Table& root) {
     if (nearest.empty() && address.ends_with("." + change.address)) nearest = address;
   }
   if (nearest.empty()) nearest = nearest_name(change.address, known);
-  throw UsageError(argument(change), "unknown parameter " + toml_string(change.address),
-                   nearest.empty() ? "neve params lists all of them"
-                                   : "did you mean " + toml_string(nearest) + "?");
+  change.fail(change.key, "unknown parameter " + toml_string(change.address),
+              nearest.empty() ? "neve params lists all of them"
+                              : "did you mean " + toml_string(nearest) + "?");
 }
 
 /// Whether the address is that of a table inside an item or at the top: "camera",
@@ -128,7 +124,7 @@ void set_place(Value& value, int index) {
 Value value_of(const Override& change, const std::string& type) {
   const std::string text = trimmed(change.value);
   if (!is_clean_text(text) || text.find_first_of("\r\n") != std::string::npos) {
-    throw UsageError(argument(change), "a value is one line of UTF-8 without control bytes");
+    change.fail(change.place, "a value is one line of UTF-8 without control bytes");
   }
   Value value{text};
   try {
@@ -136,7 +132,7 @@ Value value_of(const Override& change, const std::string& type) {
   } catch (const SceneError& error) {
     // Words need no quotes; what starts like other TOML was meant to be that.
     if (!text.empty() && std::string_view("[{\"'").find(text[0]) != std::string_view::npos) {
-      throw UsageError(argument(change), error.message, error.hint);
+      change.fail(change.place, error.message, error.hint);
     }
   }
   // A title may be a number, and so may a name.
@@ -163,6 +159,11 @@ Entry& entry_called(Table& table, const std::string& key, int index) {
 }
 
 }  // namespace
+
+void Override::fail(Location where, const std::string& message, const std::string& hint) const {
+  if (!file.empty()) throw SceneError(file, where.line, where.column, message, hint);
+  throw UsageError(flag + " " + address + "=" + value, message, hint);
+}
 
 Override parse_override(std::string_view text) {
   const auto equals = text.find('=');

@@ -10,8 +10,16 @@
 namespace neve::app {
 
 struct Override {
-  std::string address;  ///< "material.snow.hardening", "body.1.velocity"
-  std::string value;    ///< in TOML; a bare word is a string
+  std::string address;         ///< "material.snow.hardening", "body.1.velocity"
+  std::string value;           ///< in TOML; a bare word is a string
+  std::string flag = "--set";  ///< that gave it on the command line
+  std::string file = {};       ///< or the sweep file that did
+  Location key = {};           ///< of the address in that file
+  Location place = {};         ///< of the value in that file
+
+  /// Throws a SceneError located in the file, or a UsageError that shows the flag.
+  [[noreturn]] void fail(Location where, const std::string& message,
+                         const std::string& hint = {}) const;
 };
 
 /// Splits at the first '='.

@@ -1,91 +1,27 @@
 #include "app/scene/params.h"
 
-#include <type_traits>
+#include <algorithm>
 
-#include "app/scene/describe.h"
-#include "app/scene/leaf.h"
+#include "app/scene/lister.h"
 
 namespace neve::app {
 namespace {
 
-template <class T>
-std::vector<std::string> choices_of(const T&) {
-  return {};
-}
-template <Choice E>
-std::vector<std::string> choices_of(const E&) {
-  return choices<E>();
-}
-template <Choice E>
-std::vector<std::string> choices_of(const std::vector<E>&) {
-  return choices<E>();
+/// Up to the next dot, which is taken away with it.
+std::string_view next_word(std::string_view& address) {
+  const auto dot = std::min(address.find('.'), address.size());
+  const std::string_view word = address.substr(0, dot);
+  address.remove_prefix(std::min(dot + 1, address.size()));
+  return word;
 }
 
-class Lister {
- public:
-  Lister(std::vector<ParamInfo>& list, std::string prefix)
-      : list_(list), prefix_(std::move(prefix)) {}
-
-  template <class T>
-  void operator()(const char* key, T& member, const char* unit, const Valid& valid, Change change,
-                  const char* help) {
-    list_.push_back({prefix_ + key, type_of(member), unit, valid, choices_of(member),
-                     value_if_any(member), change == Change::live, help});
+bool matches(std::string_view pattern, std::string_view address) {
+  while (!pattern.empty() && !address.empty()) {
+    const std::string_view wanted = next_word(pattern), found = next_word(address);
+    if (wanted != "NAME" && wanted != found) return false;
   }
-
-  template <class Describe>
-  void section(const char* key, const char*, Describe describe_members) {
-    Lister inner(list_, prefix_ + key + ".");
-    describe_members(inner);
-  }
-
-  template <class T>
-  void optional(const char* key, std::optional<T>&, const char*) {
-    list_item<T>(prefix_ + key + ".");
-  }
-
-  template <class T>
-  void named(const char* key, std::vector<T>&, const char*) {
-    list_item<T>(prefix_ + key + ".NAME.");
-  }
-
-  template <class T>
-  void list(const char* key, std::vector<T>&, const char*) {
-    list_item<T>(prefix_ + key + ".NAME.");
-  }
-
-  template <class T>
-  void sequence(const char* key, std::vector<T>&, const char*) {
-    Lister inner(list_, prefix_ + key + "[N].");
-    T item{};
-    describe(inner, item);
-  }
-
-  template <class Describe>
-  void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
-    Lister inner(list_, prefix_ + key + ".");
-    describe_forms(inner, shape);
-  }
-
-  template <class Form>
-  void form(const char* key, sim::Shape& shape, Change change, const char*) {
-    Lister inner(list_, prefix_ + key + ".");
-    Form item;
-    describe(inner, item, change);
-    describe_rotation(inner, shape, change);
-  }
-
- private:
-  template <class T>
-  void list_item(const std::string& prefix) {
-    Lister inner(list_, prefix);
-    T item = fresh<T>();
-    describe(inner, item);
-  }
-
-  std::vector<ParamInfo>& list_;
-  std::string prefix_;
-};
+  return pattern.empty() && address.empty();
+}
 
 }  // namespace
 
@@ -95,6 +31,12 @@ std::vector<ParamInfo> params() {
   Scene scene;
   describe(lister, scene);
   return list;
+}
+
+std::optional<ParamInfo> param_at(const std::string& address) {
+  for (const ParamInfo& info : params())
+    if (matches(info.address, address)) return info;
+  return std::nullopt;
 }
 
 }  // namespace neve::app

@@ -24,10 +24,13 @@ struct ParamInfo {
 /// In the order of describe.h.
 std::vector<ParamInfo> params();
 
+/// The parameter that an address such as "material.snow.hardening" means, whatever the names in it.
+std::optional<ParamInfo> param_at(const std::string& address);
+
 /// Aligned columns for people.
-std::string params_table();
+std::string params_table(const std::vector<ParamInfo>& list = params());
 /// A list of objects: address, type, unit, min, max, default, live, help; and choices where there
 /// are some, min_open or max_open where the bound itself is not allowed.
-std::string params_json();
+std::string params_json(const std::vector<ParamInfo>& list = params());
 
 }  // namespace neve::app

@@ -51,12 +51,12 @@ std::string range_text(const ParamInfo& info) {
 
 }  // namespace
 
-std::string params_table() {
+std::string params_table(const std::vector<ParamInfo>& list) {
   struct Row {
     std::string address, type, value, unit, range, change, help;
   };
   std::vector<Row> rows{{"ADDRESS", "TYPE", "DEFAULT", "UNIT", "RANGE", "CHANGE", "MEANING"}};
-  for (const ParamInfo& info : params()) {
+  for (const ParamInfo& info : list) {
     rows.push_back({info.address, info.type,
                     info.default_value ? toml_literal(*info.default_value) : "-",
                     info.unit.empty() ? "-" : info.unit, range_text(info),
@@ -86,9 +86,9 @@ std::string params_table() {
   return text;
 }
 
-std::string params_json() {
+std::string params_json(const std::vector<ParamInfo>& params) {
   Json list = Json::array();
-  for (const ParamInfo& info : params()) {
+  for (const ParamInfo& info : params) {
     Json item;
     item["address"] = info.address;
     item["type"] = info.type;

@@ -105,7 +105,9 @@ void add_built_ins(Table& root, const std::vector<Override>& overrides) {
   add_views(root, overrides);
 }
 
-std::string read_text(const std::string& file) {
+}  // namespace
+
+std::string read_toml_file(const std::string& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) {
     throw SceneError(file, 0, 0, "is a directory", "name a scene file");
@@ -121,8 +123,6 @@ std::string read_text(const std::string& file) {
   if (text.empty()) throw SceneError(file, 0, 0, "is empty", "a scene needs at least one [[body]]");
   return text;
 }
-
-}  // namespace
 
 Scene read_scene_text(std::string_view text, const std::string& name, const std::string& base_dir,
                       const std::vector<Override>& overrides) {
@@ -141,8 +141,8 @@ Scene read_scene_text(std::string_view text, const std::string& name, const std:
 }
 
 Scene read_scene_file(const std::string& file, const std::vector<Override>& overrides) {
-  return read_scene_text(read_text(file), file, std::filesystem::path(file).parent_path().string(),
-                         overrides);
+  return read_scene_text(read_toml_file(file), file,
+                         std::filesystem::path(file).parent_path().string(), overrides);
 }
 
 View find_view(const Scene& scene, const std::string& name) {

@@ -11,6 +11,9 @@
 
 namespace neve::app {
 
+/// The text of a scene or sweep file. @throws SceneError when it is none, or too large
+std::string read_toml_file(const std::string& file);
+
 /// @throws SceneError for the file, UsageError for an override
 Scene read_scene_file(const std::string& file, const std::vector<Override>& overrides = {});
 

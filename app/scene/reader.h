@@ -49,6 +49,14 @@ class Keys {
     keys.emplace_back(key);
   }
   template <class... Rest>
+  void addresses(const char* key, Rest&&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void address_lists(const char* key, Rest&&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
   void shape(const char* key, Rest&&...) {
     keys.emplace_back(key);
   }
@@ -122,6 +130,17 @@ class Reader {
       enter(array[k], address_of(key) + "[" + std::to_string(k) + "]",
             [&](auto& v) { describe(v, member); });
     }
+  }
+
+  void addresses(const char* key, Table& member, const char*) {
+    if (const Entry* entry = given(key)) member = table_of(entry->value, address_of(key));
+  }
+
+  void address_lists(const char* key, std::vector<Table>& members, const char*) {
+    const Entry* entry = given(key);
+    if (!entry) return;
+    for (const Value& item : list_of_tables(*entry))
+      members.push_back(table_of(item, address_of(key)));
   }
 
   template <class Describe>

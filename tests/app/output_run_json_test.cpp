@@ -22,11 +22,14 @@ TEST(RunJson, HasTheFieldsOfTheContract) {
   for (const char* key : {"version", "scene", "overrides", "backend", "gl_renderer", "threads",
                           "simd", "status", "frames"})
     EXPECT_TRUE(json.contains(key)) << key;
-  const std::vector<std::string> expected{
-      "frame",          "time",        "steps",          "dt_min",    "dt_max",
-      "dt_limit",       "seconds_sim", "seconds_render", "particles", "kinetic_energy",
-      "elastic_energy", "momentum",    "centre_of_mass", "max_speed", "min_J_P",
-      "max_J_P",        "state_hash"};
+  const std::vector<std::string> expected{"frame",          "time",           "steps",
+                                          "dt_min",         "dt_max",         "dt_limit",
+                                          "seconds_sim",    "seconds_render", "particles",
+                                          "kinetic_energy", "elastic_energy", "momentum",
+                                          "centre_of_mass", "max_speed",      "min_J_P",
+                                          "max_J_P",        "spread",         "height",
+                                          "mean_J_P",       "fragments",      "largest_fragment",
+                                          "state_hash"};
   EXPECT_EQ(keys(json["frames"][0]), expected);
 }
 

@@ -1,0 +1,112 @@
+/// The command line of `neve sweep`.
+
+#include <memory>
+#include <optional>
+
+#include "app/argument_text.h"
+#include "app/command_line_parts.h"
+#include "app/commands.h"
+#include "app/scene/error.h"
+
+namespace neve::app {
+
+namespace {
+
+/// Values that CLI11 hands over as text.
+struct SweepTexts {
+  std::optional<std::string> frames, size, coarsening;
+  bool is_quiet = false, is_verbose = false;
+};
+
+SweepOptions finished(SweepOptions options, const SweepTexts& texts) {
+  if (options.file.empty())
+    throw UsageError("sweep", "which sweep?", "give a sweep file, or a scene and -p ADDRESS=LIST");
+  if (texts.frames) options.frames = parse_frames(*texts.frames);
+  if (texts.coarsening) options.coarsening = parse_coarsening(*texts.coarsening);
+  if (texts.size) options.size = parse_size(*texts.size);
+  if (texts.is_quiet) options.verbosity = Verbosity::quiet;
+  if (texts.is_verbose) options.verbosity = Verbosity::verbose;
+  check_threads(options.threads);
+  check_backend(options.backend);
+  if (options.jobs < 0 || options.jobs > 1024)
+    throw UsageError("--jobs", "cannot use " + std::to_string(options.jobs),
+                     "expected 0 (as many as keep the cores busy) to 1024");
+  return options;
+}
+
+void add_what(CLI::App& command, SweepOptions& options, SweepTexts& texts) {
+  command
+      .add_option("FILE", options.file,
+                  "A sweep file (TOML with a table [sweep]), or a scene and -p")
+      ->type_name("");
+  add_repeatable(command, "-p,--parameter", options.axes, "ADDRESS=LIST",
+                 "Vary a parameter, as in material.snow.hardening=5,10,20 or solver.cell_size={ "
+                 "logspace = [0.01, 0.04], num = 3 } (repeatable: all combinations)");
+  add_repeatable(command, "--set", options.overrides, "ADDRESS=VALUE",
+                 "Change a parameter of all runs (repeatable)");
+  command
+      .add_option("--frames", texts.frames,
+                  "Frames of each run: A-B, or N for 0-N; instead of the file's")
+      ->type_name("A-B");
+  command.add_option("--size", texts.size, "Size of a tile, 480 wide without it")->type_name("WxH");
+  command.add_option("--coarsen", texts.coarsening, "Cells N times as large in all runs")
+      ->type_name("N");
+  command.add_option("--out", options.out, "Output folder instead of out/<name of the file>.cdb")
+      ->type_name("DIR");
+}
+
+void add_collect(CLI::App& sweep, Action& action) {
+  CLI::App* command = sweep.add_subcommand(
+      "collect", "Put together table, sheets and report of what a sweep has made so far");
+  const auto options = std::make_shared<CollectOptions>();
+  const auto is_quiet = std::make_shared<bool>(false);
+  command->add_option("DIR", options->folder, "Output folder of a sweep")
+      ->required()
+      ->type_name("");
+  command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
+      ->type_name("NAME");
+  command->add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
+  command->add_flag("--quiet,-q", *is_quiet, "Only errors and warnings");
+  command->final_callback([=, &action] {
+    check_threads(options->threads);
+    check_backend(options->backend);
+    action = [=] {
+      if (*is_quiet) options->verbosity = Verbosity::quiet;
+      return run_sweep_collect(*options);
+    };
+  });
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "sweep", "Run a scene with many parameters; a labelled contact sheet of the results");
+  const auto options = std::make_shared<SweepOptions>();
+  const auto texts = std::make_shared<SweepTexts>();
+  add_what(*command, *options, *texts);
+  command->add_option("--threads", options->threads, "Cores that are used; 0: all")->type_name("N");
+  command
+      ->add_option("--jobs", options->jobs,
+                   "Runs side by side; without it as many as keep the cores busy and fit into "
+                   "memory")
+      ->type_name("N");
+  command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
+      ->type_name("NAME");
+  command->add_flag("--retry-failed", options->is_failed_again,
+                    "Run those once more that failed, timed out, crashed or took too much memory");
+  command->add_flag("--dry-run", options->is_dry_run,
+                    "Print the runs, their cost and memory; start nothing");
+  command->add_flag("--json", options->is_json, "Print the result, or the error, as JSON");
+  CLI::Option* quiet = command->add_flag("--quiet,-q", texts->is_quiet, "Only errors and warnings");
+  command->add_flag("--verbose,-v", texts->is_verbose, "A line for each run")->excludes(quiet);
+  add_collect(*command, action);
+  command->final_callback([=, &action] {
+    if (!command->get_subcommands().empty()) return;
+    if (command->count("--out") > 0 && options->out.empty())
+      throw UsageError("--out", "names no folder", "expected the path of one");
+    action = [=] { return run_sweep(finished(*options, *texts)); };
+  });
+}
+
+}  // namespace neve::app

@@ -1,0 +1,102 @@
+#pragma once
+/// The visitor of describe.h that lists parameters.
+
+#include <string>
+#include <vector>
+
+#include "app/scene/describe.h"
+#include "app/scene/leaf.h"
+#include "app/scene/params.h"
+
+namespace neve::app {
+
+template <class T>
+std::vector<std::string> choices_of(const T&) {
+  return {};
+}
+template <Choice E>
+std::vector<std::string> choices_of(const E&) {
+  return choices<E>();
+}
+template <Choice E>
+std::vector<std::string> choices_of(const std::vector<E>&) {
+  return choices<E>();
+}
+
+class Lister {
+ public:
+  Lister(std::vector<ParamInfo>& list, std::string prefix)
+      : list_(list), prefix_(std::move(prefix)) {}
+
+  template <class T>
+  void operator()(const char* key, T& member, const char* unit, const Valid& valid, Change change,
+                  const char* help) {
+    list_.push_back({prefix_ + key, type_of(member), unit, valid, choices_of(member),
+                     value_if_any(member), change == Change::live, help});
+  }
+
+  template <class Describe>
+  void section(const char* key, const char*, Describe describe_members) {
+    Lister inner(list_, prefix_ + key + ".");
+    describe_members(inner);
+  }
+
+  template <class T>
+  void optional(const char* key, std::optional<T>&, const char*) {
+    list_item<T>(prefix_ + key + ".");
+  }
+
+  template <class T>
+  void named(const char* key, std::vector<T>&, const char*) {
+    list_item<T>(prefix_ + key + ".NAME.");
+  }
+
+  template <class T>
+  void list(const char* key, std::vector<T>&, const char*) {
+    list_item<T>(prefix_ + key + ".NAME.");
+  }
+
+  template <class T>
+  void sequence(const char* key, std::vector<T>&, const char*) {
+    Lister inner(list_, prefix_ + key + "[N].");
+    T item{};
+    describe(inner, item);
+  }
+
+  void addresses(const char* key, Table&, const char* help) {
+    list_.push_back(
+        {prefix_ + key + ".ADDRESS", "value", "", anything, {}, std::nullopt, false, help});
+  }
+
+  void address_lists(const char* key, std::vector<Table>& items, const char* help) {
+    if (items.empty()) items.emplace_back();
+    addresses(key, items.front(), help);
+  }
+
+  template <class Describe>
+  void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
+    Lister inner(list_, prefix_ + key + ".");
+    describe_forms(inner, shape);
+  }
+
+  template <class Form>
+  void form(const char* key, sim::Shape& shape, Change change, const char*) {
+    Lister inner(list_, prefix_ + key + ".");
+    Form item;
+    describe(inner, item, change);
+    describe_rotation(inner, shape, change);
+  }
+
+ private:
+  template <class T>
+  void list_item(const std::string& prefix) {
+    Lister inner(list_, prefix);
+    T item = fresh<T>();
+    describe(inner, item);
+  }
+
+  std::vector<ParamInfo>& list_;
+  std::string prefix_;
+};
+
+}  // namespace neve::app

@@ -1,0 +1,116 @@
+#include "app/sweep/dry_run_report.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include "app/check/checkup.h"
+#include "app/json.h"
+#include "app/progress.h"
+#include "app/sweep/labels.h"
+#include "app/text.h"
+
+namespace neve::app {
+
+namespace {
+
+/// Seconds of one thread per unit of work, from a few steps of the costliest run; 0: not known.
+double seconds_per_work(const SweepPlan& plan) {
+  const RunPlan* costliest = nullptr;
+  for (const RunPlan& run : plan.runs) {
+    const bool is_possible = run.plan.memory <= run.plan.memory_limit &&
+                             run.plan.particles <= static_cast<double>(run.scene.limits.particles);
+    if (is_possible && (!costliest || run.work > costliest->work)) costliest = &run;
+  }
+  if (!costliest) return 0;
+  const Checkup checkup = examine(costliest->scene, costliest->plan, 1);
+  // Drawing a tile takes about as long as it takes for one: 20 ms.
+  constexpr double drawn = 0.02;
+  return (checkup.seconds() + drawn * costliest->frames.count()) / costliest->work;
+}
+
+struct Totals {
+  double seconds = 0;  ///< of one core
+  double longest = 0;
+  std::uint64_t largest = 0;  ///< bytes
+};
+
+Totals totals_of(const SweepPlan& plan, double seconds_per_unit) {
+  Totals totals;
+  for (const RunPlan& run : plan.runs) {
+    totals.seconds += run.work * seconds_per_unit;
+    totals.longest = std::max(totals.longest, run.work * seconds_per_unit);
+    totals.largest = std::max(totals.largest, run.plan.memory);
+  }
+  return totals;
+}
+
+void print_json(const SweepPlan& plan, double seconds_per_unit, double seconds) {
+  const Totals totals = totals_of(plan, seconds_per_unit);
+  Json json;
+  json["title"] = plan.title;
+  json["scene"] = plan.sweep.scene_file;
+  json["out"] = plan.folder.string();
+  json["view"] = plan.view;
+  json["runs"] = Json::array();
+  for (const RunPlan& item : plan.runs) {
+    Json settings = Json::object();
+    for (const Override& setting : item.run.settings) settings[setting.address] = setting.value;
+    json["runs"].push_back({{"run", item.run.index},
+                            {"label", item.run.label},
+                            {"settings", settings},
+                            {"first_frame", item.frames.first},
+                            {"last_frame", item.frames.last},
+                            {"particles", item.plan.particles},
+                            {"memory_bytes", item.plan.memory},
+                            {"seconds", item.work * seconds_per_unit}});
+  }
+  json["memory_bytes"] = totals.largest;
+  json["seconds"] = seconds;
+  std::cout << to_text(json) << "\n";
+}
+
+std::string padded(const std::string& text, std::size_t width, bool to_the_right = false) {
+  const std::string space(width > text.size() ? width - text.size() : 0, ' ');
+  return to_the_right ? space + text : text + space;
+}
+
+void print_table(const SweepPlan& plan, double seconds_per_unit) {
+  std::size_t width = 4;
+  std::vector<std::string> what;
+  for (const RunPlan& item : plan.runs) {
+    const std::string settings = settings_text(plan, item.run);
+    const bool has_both = !item.run.label.empty() && !settings.empty();
+    what.push_back(item.run.label + (has_both ? ": " : "") + settings);
+    width = std::max(width, std::min<std::size_t>(what.back().size(), 100));
+  }
+  std::cout << padded("run", 6) << padded("what", width) << "   particles     memory       time\n";
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const RunPlan& item = plan.runs[k];
+    std::cout << padded(std::to_string(item.run.index), 6) << padded(what[k], width)
+              << padded(fixed_text(item.plan.particles, 0), 12, true)
+              << padded(bytes_text(item.plan.memory), 11, true)
+              << padded(duration_text(item.work * seconds_per_unit), 11, true) << "\n";
+  }
+}
+
+}  // namespace
+
+void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
+  const double unit = seconds_per_work(plan);
+  const Totals totals = totals_of(plan, unit);
+  const double seconds = std::max(totals.longest, totals.seconds / cores);
+  if (is_json) return print_json(plan, unit, seconds);
+  print_table(plan, unit);
+  const FrameRange frames = plan.runs.front().frames;
+  std::cout << "\n"
+            << plan.runs.size() << (plan.runs.size() == 1 ? " run of " : " runs of ")
+            << plan.sweep.scene_file << ", frames " << frames.first << " to " << frames.last
+            << ", view " << plan.view << " in tiles of " << plan.base.size.width << "x"
+            << plan.base.size.height << "\n"
+            << "about " << duration_text(seconds) << " on " << cores
+            << (cores == 1 ? " core" : " cores") << ", measured now on this machine; at most "
+            << bytes_text(totals.largest) << " of memory a run\n"
+            << "out: " << plan.folder.string() << "\n";
+}
+
+}  // namespace neve::app

@@ -1,0 +1,216 @@
+#include "app/sweep/manifest.h"
+
+#include <algorithm>
+
+#include "app/errors.h"
+#include "app/output/atomic_file.h"
+#include "app/sweep/sweep_leaf.h"
+#include "app/version.h"
+
+namespace neve::app {
+
+namespace {
+
+std::filesystem::path manifest_path(const std::filesystem::path& folder) {
+  return folder / "manifest.json";
+}
+
+/// Which axis an address or label means; -1: none is named.
+int axis_called(const SweepPlan& plan, const char* key, const std::string& wanted) {
+  if (wanted.empty()) return -1;
+  std::vector<std::string> known;
+  for (std::size_t a = 0; a < plan.sweep.axes.size(); ++a)
+    for (const Axis::Parameter& parameter : plan.sweep.axes[a].parameters) {
+      if (parameter.address == wanted || parameter.label == wanted) return static_cast<int>(a);
+      known.push_back(parameter.address);
+    }
+  plan.sweep.fail(key, std::string(key) + " = \"" + wanted + "\": there is no such axis",
+                  known.empty() ? "the sweep has no axes" : "expected " + list_of(known));
+}
+
+std::string with_unit(const std::string& value, const std::string& unit) {
+  return value_text(value) + (unit.empty() ? "" : " " + unit);
+}
+
+ManifestAxis axis_of(const Axis& axis, const std::vector<Varied>& parameters) {
+  ManifestAxis result;
+  const auto varied = [&](const std::string& address) {
+    return *std::find_if(parameters.begin(), parameters.end(),
+                         [&](const Varied& v) { return v.address == address; });
+  };
+  for (const Axis::Parameter& parameter : axis.parameters)
+    result.name += (result.name.empty() ? "" : ", ") +
+                   (parameter.label.empty() ? varied(parameter.address).name : parameter.label);
+  for (std::size_t k = 0; k < axis.size(); ++k) {
+    std::string text = axis.value_labels.empty() ? "" : axis.value_labels[k];
+    for (const Axis::Parameter& parameter : axis.parameters) {
+      if (!axis.value_labels.empty()) break;
+      text += (text.empty() ? "" : ", ") +
+              with_unit(parameter.values[k].value, varied(parameter.address).unit);
+    }
+    result.values.push_back(text);
+  }
+  return result;
+}
+
+Json to_json(const ManifestRun& run) {
+  Json settings = Json::array();
+  for (const auto& [address, value] : run.settings) settings.push_back({address, value});
+  return {{"run", run.index},
+          {"folder", run.folder},
+          {"key", run.key},
+          {"label", run.label},
+          {"settings", settings},
+          {"coordinates", run.coordinates},
+          {"first_frame", run.first_frame},
+          {"last_frame", run.last_frame},
+          {"particles", run.particles},
+          {"memory_bytes", run.memory},
+          {"work", run.work}};
+}
+
+ManifestRun run_of(const Json& json) {
+  ManifestRun run;
+  run.index = json.at("run").get<int>();
+  run.folder = json.at("folder").get<std::string>();
+  run.key = json.at("key").get<std::string>();
+  run.label = json.at("label").get<std::string>();
+  for (const Json& pair : json.at("settings"))
+    run.settings.emplace_back(pair.at(0).get<std::string>(), pair.at(1).get<std::string>());
+  run.coordinates = json.at("coordinates").get<std::vector<int>>();
+  run.first_frame = json.at("first_frame").get<int>();
+  run.last_frame = json.at("last_frame").get<int>();
+  run.particles = json.at("particles").get<double>();
+  run.memory = json.at("memory_bytes").get<double>();
+  run.work = json.at("work").get<double>();
+  const bool is_plain =
+      !run.folder.empty() && std::all_of(run.folder.begin(), run.folder.end(),
+                                         [](char c) { return c >= '0' && c <= '9'; });
+  if (!is_plain) throw std::runtime_error("the folder of a run is no number");
+  return run;
+}
+
+}  // namespace
+
+std::string ManifestRun::value(const std::string& address) const {
+  for (auto setting = settings.rbegin(); setting != settings.rend(); ++setting)
+    if (setting->first == address) return setting->second;
+  return {};
+}
+
+int Manifest::first_frame() const {
+  int first = runs.empty() ? 0 : runs.front().first_frame;
+  for (const ManifestRun& run : runs) first = std::min(first, run.first_frame);
+  return first;
+}
+
+int Manifest::last_frame() const {
+  int last = 0;
+  for (const ManifestRun& run : runs) last = std::max(last, run.last_frame);
+  return last;
+}
+
+Manifest make_manifest(const SweepPlan& plan, const std::vector<std::string>& keys,
+                       const std::vector<std::string>& folders) {
+  Manifest m;
+  m.version = version;
+  m.name = plan.sweep.name;
+  m.title = plan.title;
+  m.sweep_file = plan.sweep.file;
+  m.scene_file = plan.sweep.scene_file;
+  m.view = plan.view;
+  m.tile_width = plan.base.size.width;
+  m.tile_height = plan.base.size.height;
+  m.fps = plan.base.fps;
+  m.columns = axis_called(plan, "sheet.columns", plan.sweep.sheet.columns);
+  m.rows = axis_called(plan, "sheet.rows", plan.sweep.sheet.rows);
+  m.wrap = plan.sweep.sheet.wrap;
+  m.tile_label = name_of(plan.sweep.sheet.label);
+  m.timeout = plan.sweep.limits.timeout.seconds;
+  m.memory = static_cast<double>(plan.sweep.limits.memory);
+  m.parameters = varied_parameters(plan);
+  if (plan.sweep.settings.method == Method::grid)
+    for (const Axis& axis : plan.sweep.axes) m.axes.push_back(axis_of(axis, m.parameters));
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const RunPlan& item = plan.runs[k];
+    ManifestRun& run = m.runs.emplace_back();
+    run.index = item.run.index;
+    run.folder = folders[k];
+    run.key = keys[k];
+    run.label = item.run.label;
+    for (const Override& setting : item.run.settings)
+      run.settings.emplace_back(setting.address, setting.value);
+    run.coordinates = item.run.coordinates;
+    run.first_frame = item.frames.first;
+    run.last_frame = item.frames.last;
+    run.particles = item.plan.particles;
+    run.memory = static_cast<double>(item.plan.memory);
+    run.work = item.work;
+  }
+  return m;
+}
+
+void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
+  Json json;
+  json["version"] = m.version;
+  json["name"] = m.name;
+  json["title"] = m.title;
+  json["sweep_file"] = m.sweep_file;
+  json["scene_file"] = m.scene_file;
+  json["view"] = m.view;
+  json["tile"] = {m.tile_width, m.tile_height};
+  json["fps"] = m.fps;
+  json["columns"] = m.columns;
+  json["rows"] = m.rows;
+  json["wrap"] = m.wrap;
+  json["tile_label"] = m.tile_label;
+  json["timeout"] = m.timeout;
+  json["memory"] = m.memory;
+  json["parameters"] = Json::array();
+  for (const Varied& p : m.parameters)
+    json["parameters"].push_back(
+        {{"address", p.address}, {"name", p.name}, {"unit", p.unit}, {"type", p.type}});
+  json["axes"] = Json::array();
+  for (const ManifestAxis& axis : m.axes)
+    json["axes"].push_back({{"name", axis.name}, {"values", axis.values}});
+  json["runs"] = Json::array();
+  for (const ManifestRun& run : m.runs) json["runs"].push_back(to_json(run));
+  write_file(manifest_path(folder), to_text(json) + "\n");
+}
+
+Manifest read_manifest(const std::filesystem::path& folder) {
+  const std::string file = manifest_path(folder).string();
+  const std::vector<std::uint8_t> bytes = read_file(file);
+  try {
+    const Json json = parse_json(bytes);
+    Manifest m;
+    m.version = json.at("version").get<std::string>();
+    m.name = json.at("name").get<std::string>();
+    m.title = json.at("title").get<std::string>();
+    m.sweep_file = json.at("sweep_file").get<std::string>();
+    m.scene_file = json.at("scene_file").get<std::string>();
+    m.view = json.at("view").get<std::string>();
+    m.tile_width = json.at("tile").at(0).get<int>();
+    m.tile_height = json.at("tile").at(1).get<int>();
+    m.fps = json.at("fps").get<double>();
+    m.columns = json.at("columns").get<int>();
+    m.rows = json.at("rows").get<int>();
+    m.wrap = json.at("wrap").get<int>();
+    m.tile_label = json.at("tile_label").get<std::string>();
+    m.timeout = json.at("timeout").get<double>();
+    m.memory = json.at("memory").get<double>();
+    for (const Json& p : json.at("parameters"))
+      m.parameters.push_back({p.at("address").get<std::string>(), p.at("name").get<std::string>(),
+                              p.at("unit").get<std::string>(), p.at("type").get<std::string>()});
+    for (const Json& axis : json.at("axes"))
+      m.axes.push_back(
+          {axis.at("name").get<std::string>(), axis.at("values").get<std::vector<std::string>>()});
+    for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
+    return m;
+  } catch (const std::exception& error) {
+    throw Error(exit_invalid_scene, file + ": error: is no list of runs: " + error.what(), file,
+                "run the sweep again to write it anew; finished runs are kept");
+  }
+}
+
+}  // namespace neve::app

@@ -1,0 +1,57 @@
+#pragma once
+/// DIR/manifest.json: the sweep as it was expanded. All that results are put together from, besides
+/// the folders of the runs.
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/json.h"
+#include "app/sweep/labels.h"
+
+namespace neve::app {
+
+struct ManifestRun {
+  int index = 0;
+  std::string folder;  ///< "0007", under DIR/runs
+  std::string key, label;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< address and value, TOML
+  std::vector<int> coordinates;
+  int first_frame = 0, last_frame = 0;
+  double particles = 0, memory = 0, work = 0;  ///< foreseen; memory in bytes
+
+  /// "" where the run leaves it to the scene.
+  std::string value(const std::string& address) const;
+};
+
+struct ManifestAxis {
+  std::string name;                 ///< for the edge of the sheet; may be empty
+  std::vector<std::string> values;  ///< texts for the edge, with units
+};
+
+struct Manifest {
+  std::string version, name, title, sweep_file, scene_file, view;
+  int tile_width = 480, tile_height = 270;
+  double fps = 24;
+  int columns = -1, rows = -1;  ///< axes asked for; -1: automatic
+  int wrap = 0;
+  std::string tile_label;  ///< differences, name, none
+  double timeout = 0, memory = 0;
+  std::vector<Varied> parameters;
+  std::vector<ManifestAxis> axes;
+  std::vector<ManifestRun> runs;
+
+  int first_frame() const;
+  int last_frame() const;
+};
+
+/// @param keys of the runs @param folders theirs
+Manifest make_manifest(const SweepPlan& plan, const std::vector<std::string>& keys,
+                       const std::vector<std::string>& folders);
+
+void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
+/// @throws Error when there is none, or a broken one
+Manifest read_manifest(const std::filesystem::path& folder);
+
+}  // namespace neve::app

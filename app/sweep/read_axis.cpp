@@ -1,0 +1,215 @@
+#include "app/sweep/read_axis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "app/errors.h"
+#include "app/scene/error.h"
+#include "app/scene/reader.h"
+#include "app/scene/toml_source.h"
+#include "app/sweep/describe_sweep.h"
+#include "app/sweep/sweep_leaf.h"
+#include "app/text.h"
+
+namespace neve::app {
+
+namespace {
+
+constexpr std::size_t most_values = 100'000;
+
+std::vector<std::string> rule_names() {
+  Keys keys;
+  AxisSpec spec;
+  describe(keys, spec);
+  return keys.keys;
+}
+
+bool is_rule(const Table& table) {
+  const std::vector<std::string> names = rule_names();
+  return std::any_of(table.entries.begin(), table.entries.end(), [&](const Entry& entry) {
+    return std::find(names.begin(), names.end(), entry.key) != names.end();
+  });
+}
+
+void collect_addresses(const Table& table, const std::string& prefix, std::vector<Entry>& found) {
+  for (const Entry& entry : table.entries) {
+    const std::string address = prefix.empty() ? entry.key : prefix + "." + entry.key;
+    const Table* inner = std::get_if<Table>(&entry.value.data);
+    const bool is_quoted = entry.key.find('.') != std::string::npos;
+    if (inner && !is_quoted && !is_rule(*inner))
+      collect_addresses(*inner, address, found);
+    else
+      found.push_back({address, entry.where, entry.value});
+  }
+}
+
+/// Twelve digits: 0.3, not 0.30000000000000004.
+double rounded(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.12g", x);
+  return std::strtod(text, nullptr);
+}
+
+std::vector<Value> spaced(const Ends& ends, int num, bool is_logarithmic) {
+  std::vector<Value> values;
+  for (int k = 0; k < num; ++k) {
+    const double part = num > 1 ? static_cast<double>(k) / (num - 1) : 0;
+    const double x = is_logarithmic ? ends.first * std::pow(ends.last / ends.first, part)
+                                    : ends.first + part * (ends.last - ends.first);
+    values.push_back({rounded(x)});
+  }
+  return values;
+}
+
+std::vector<Value> counted(const WholeRange& range) {
+  std::vector<Value> values;
+  const std::int64_t count = (range.last - range.first) / range.step + 1;
+  for (std::int64_t k = 0; k < std::min<std::int64_t>(count, most_values); ++k)
+    values.push_back({range.first + k * range.step});
+  return values;
+}
+
+int kinds_given(const AxisSpec& s) {
+  return s.values.has_value() + s.linspace.has_value() + s.logspace.has_value() +
+         s.range.has_value() + s.uniform.has_value() + s.log_uniform.has_value() +
+         s.normal.has_value();
+}
+
+/// @param where for complaints
+std::vector<Value> values_of(const AxisSpec& spec, const Source& source, Location where) {
+  if (spec.values) return spec.values->items;
+  if (spec.range) return counted(*spec.range);
+  const bool is_spaced = spec.linspace || spec.logspace;
+  if (is_spaced && spec.num == 0)
+    source.fail(where, "num is missing", "linspace and logspace need how many values, as num = 4");
+  if (spec.linspace) return spaced(*spec.linspace, spec.num, false);
+  return spec.logspace ? spaced(*spec.logspace, spec.num, true) : std::vector<Value>{};
+}
+
+Override override_of(const Source& source, const Entry& entry, const Value& value) {
+  Override setting;
+  setting.address = entry.key;
+  setting.value = toml_literal(value);
+  setting.file = source.file;
+  setting.key = entry.where;
+  setting.place = value.where.line > 0 ? value.where : entry.value.where;
+  return setting;
+}
+
+AxisSpec read_rule(const Source& source, const Entry& entry) {
+  AxisSpec spec;
+  Reading reading{source, {}};
+  Reader(reading, std::get<Table>(entry.value.data), entry.key).read([&](auto& v) {
+    describe(v, spec);
+  });
+  if (kinds_given(spec) != 1)
+    source.fail(entry.value.where, entry.key + " needs exactly one rule",
+                "expected values, linspace, logspace, range, uniform, log_uniform or normal");
+  for (const auto& ends : {spec.uniform, spec.log_uniform})
+    if (ends && !(ends->first < ends->last))
+      source.fail(entry.value.where, entry.key + " is drawn between two equal numbers or backwards",
+                  "expected [smallest, largest]");
+  if (spec.normal && !(spec.normal->last >= 0))
+    source.fail(entry.value.where, "the standard deviation of " + entry.key + " is negative",
+                "expected [mean, standard deviation]");
+  return spec;
+}
+
+/// At commas that are in no brackets and no string.
+std::vector<std::string> split_list(const std::string& text) {
+  std::vector<std::string> pieces(1);
+  int depth = 0;
+  char quote = 0;
+  for (const char c : text) {
+    if (quote) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+    if (c == ',' && depth <= 0 && !quote)
+      pieces.emplace_back();
+    else
+      pieces.back() += c;
+  }
+  return pieces;
+}
+
+Axis::Parameter parse_rule(const Override& change) {
+  try {
+    const Source source{"", "", {}};
+    Entry entry = parse_toml("value = " + change.value, "").entries.at(0);
+    entry.key = change.address;
+    Axis::Parameter parameter = read_axis(source, entry);
+    for (Override& setting : parameter.values) setting.flag = "-p";
+    return parameter;
+  } catch (const SceneError& error) {
+    throw UsageError("-p " + change.address + "=" + change.value, error.message, error.hint);
+  }
+}
+
+}  // namespace
+
+std::vector<Entry> addresses_in(const Table& table) {
+  std::vector<Entry> found;
+  collect_addresses(table, "", found);
+  return found;
+}
+
+Override setting_of(const Source& source, const Entry& entry) {
+  return override_of(source, entry, entry.value);
+}
+
+Axis::Parameter read_axis(const Source& source, const Entry& entry) {
+  Axis::Parameter parameter;
+  parameter.address = entry.key;
+  std::vector<Value> values;
+  if (const Array* list = std::get_if<Array>(&entry.value.data)) {
+    values = *list;
+  } else if (std::holds_alternative<Table>(entry.value.data)) {
+    const AxisSpec spec = read_rule(source, entry);
+    parameter.label = spec.label;
+    if (spec.uniform || spec.log_uniform || spec.normal) {
+      parameter.drawn = spec;
+      values.push_back(entry.value);
+    } else {
+      values = values_of(spec, source, entry.value.where);
+    }
+  } else {
+    source.fail(entry.value.where, entry.key + " = " + toml_literal(entry.value, 60),
+                "expected a list of values, as in [5, 10], or a table such as { linspace = [1, 2], "
+                "num = 3 }; what does not vary belongs into [set]");
+  }
+  if (values.empty()) source.fail(entry.value.where, entry.key + " has no values");
+  if (values.size() >= most_values)
+    source.fail(entry.value.where, entry.key + " has too many values", "at most 100000");
+  for (const Value& value : values) parameter.values.push_back(override_of(source, entry, value));
+  return parameter;
+}
+
+Axis::Parameter parse_axis(const std::string& argument) {
+  const auto equals = argument.find('=');
+  const std::string what = "-p " + argument;
+  if (equals == std::string::npos || equals == 0)
+    throw UsageError(what, "expected ADDRESS=LIST", "for example -p material.snow.hardening=5,10");
+  Override change = parse_override(argument);
+  change.flag = "-p";
+  if (change.value.starts_with("{")) return parse_rule(change);
+  Axis::Parameter parameter;
+  parameter.address = change.address;
+  for (const std::string& piece : split_list(change.value)) {
+    if (piece.find_first_not_of(" \t") == std::string::npos)
+      throw UsageError(what, "a value is missing", "expected values with commas, as in 5,10,20");
+    Override setting = change;
+    setting.value = piece;
+    parameter.values.push_back(setting);
+  }
+  return parameter;
+}
+
+}  // namespace neve::app

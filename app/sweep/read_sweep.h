@@ -1,0 +1,25 @@
+#pragma once
+/// Sweep files and the command line to a Sweep, every complaint located.
+
+#include <string>
+#include <vector>
+
+#include "app/scene/params.h"
+#include "app/sweep/sweep.h"
+
+namespace neve::app {
+
+/// What the command line adds to a sweep or scene file.
+struct SweepChanges {
+  std::vector<std::string> axes;  ///< -p ADDRESS=LIST; in place of an axis of the same address
+  std::vector<std::string> sets;  ///< --set ADDRESS=VALUE
+};
+
+/// @param file  with a table [sweep] it is a sweep file, otherwise a scene
+/// @throws SceneError for the file, UsageError for the changes
+Sweep read_sweep(const std::string& file, const SweepChanges& changes);
+
+/// Parameters of sweep files, for `neve params --sweep`.
+std::vector<ParamInfo> sweep_params();
+
+}  // namespace neve::app

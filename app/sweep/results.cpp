@@ -1,0 +1,79 @@
+#include "app/sweep/results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/output/run_json.h"
+
+namespace neve::app {
+
+namespace {
+
+std::optional<double> finite(double x) {
+  return std::isfinite(x) ? std::optional(x) : std::nullopt;
+}
+
+/// In the order of metric_infos().
+std::vector<std::optional<double>> metrics_of(const std::vector<FrameRecord>& frames,
+                                              const RunReport& report) {
+  if (frames.empty()) return std::vector<std::optional<double>>(metric_infos().size());
+  const FrameRecord& last = frames.back();
+  double steps = 0, max_speed = 0;
+  for (const FrameRecord& frame : frames) {
+    steps += static_cast<double>(frame.advance.steps);
+    max_speed = std::max(max_speed, frame.summary.max_speed);
+  }
+  return {finite(last.metrics.spread),
+          finite(last.metrics.height),
+          static_cast<double>(last.metrics.fragments),
+          finite(last.metrics.largest_fragment),
+          finite(last.summary.kinetic_energy),
+          finite(last.summary.elastic_energy),
+          finite(last.metrics.mean_J_P),
+          finite(last.summary.min_J_P),
+          finite(last.summary.max_J_P),
+          finite(max_speed),
+          steps,
+          finite(report.seconds)};
+}
+
+}  // namespace
+
+const std::vector<MetricInfo>& metric_infos() {
+  static const std::vector<MetricInfo> infos{
+      {"spread", "m", "spread", false, false},
+      {"height", "m", "height", false, false},
+      {"fragments", "", "fragments", true, false},
+      {"largest_fragment", "", "share of the largest fragment", false, false},
+      {"kinetic_energy", "J", "kinetic energy", false, false},
+      {"elastic_energy", "J", "elastic energy", false, false},
+      {"mean_J_P", "", "mean J_P", false, false},
+      {"min_J_P", "", "smallest J_P", false, false},
+      {"max_J_P", "", "largest J_P", false, false},
+      {"max_speed", "m/s", "largest speed of all frames", false, false},
+      {"steps", "", "steps", true, false},
+      {"seconds", "s", "time of the run", false, true}};
+  return infos;
+}
+
+RunResult read_result(const std::filesystem::path& folder, const ManifestRun& run) {
+  RunResult result;
+  const std::filesystem::path run_folder = runs_folder(folder) / run.folder;
+  result.report = read_report(run_folder);
+  // A folder that was given to another run in the meantime tells nothing about this one.
+  if (result.report.key != run.key) result.report = RunReport{};
+  std::vector<FrameRecord> frames;
+  if (result.report.key == run.key) frames = read_frame_records(run_folder);
+  for (const FrameRecord& frame : frames) result.frames.push_back(frame.frame);
+  result.metrics = metrics_of(frames, result.report);
+  return result;
+}
+
+std::vector<RunResult> read_results(const std::filesystem::path& folder, const Manifest& manifest) {
+  std::vector<RunResult> results;
+  for (const ManifestRun& run : manifest.runs) results.push_back(read_result(folder, run));
+  return results;
+}
+
+}  // namespace neve::app

@@ -1,0 +1,37 @@
+#pragma once
+/// What the runs of a sweep came to, read from their folders.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/sweep/manifest.h"
+#include "app/sweep/store.h"
+
+namespace neve::app {
+
+/// A number that tells runs apart.
+struct MetricInfo {
+  const char *name, *unit, *title;
+  bool is_whole;
+  bool is_time;  ///< differs from machine to machine
+};
+/// In the order in which they are listed everywhere.
+const std::vector<MetricInfo>& metric_infos();
+
+struct RunResult {
+  RunReport report;
+  std::vector<int> frames;  ///< that have a picture, in order
+  /// One per metric_infos(), of the last frame; nothing where there is no frame.
+  std::vector<std::optional<double>> metrics;
+
+  std::optional<int> last_frame() const {
+    return frames.empty() ? std::nullopt : std::optional(frames.back());
+  }
+};
+
+/// @param folder of the sweep
+RunResult read_result(const std::filesystem::path& folder, const ManifestRun& run);
+std::vector<RunResult> read_results(const std::filesystem::path& folder, const Manifest& manifest);
+
+}  // namespace neve::app

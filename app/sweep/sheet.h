@@ -1,0 +1,54 @@
+#pragma once
+/// Contact sheets: all runs in one picture, with the words that tell them apart.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/sweep/results.h"
+#include "app/sweep/sheet_layout.h"
+#include "render/renderer.h"
+
+namespace neve::app {
+
+class SheetMaker {
+ public:
+  /// @param legends shared by all tiles
+  /// All but the path must outlive it.
+  SheetMaker(std::filesystem::path folder, const Manifest& manifest,
+             const std::vector<RunResult>& results, const std::vector<render::Legend>& legends,
+             render::Renderer& renderer);
+
+  /// Every run at a frame. A run that got less far shows where it stopped, dark, and says why.
+  render::Image sheet(int frame);
+
+  const SheetLayout& layout() const { return layout_; }
+
+  /// Some moments of every run side by side, one run below the other.
+  render::Image strips();
+
+ private:
+  struct Tile {
+    const ManifestRun* run;
+    const RunResult* result;
+    int frame;
+    int x, y;  ///< px
+  };
+
+  render::Image compose(const SheetLayout& layout, const std::vector<Tile>& tiles,
+                        render::Frame& words) const;
+  render::Image tile_picture(const Tile& tile, int width, int height, bool is_late) const;
+  void add_tile_words(const SheetLayout& layout, const Tile& tile, bool is_late,
+                      render::Frame& words) const;
+  render::Frame frame_of(const SheetLayout& layout, const std::string& line) const;
+
+  std::filesystem::path folder_;
+  const Manifest& manifest_;
+  const std::vector<RunResult>& results_;
+  const std::vector<render::Legend>& legends_;
+  render::Renderer& renderer_;
+  SheetLayout layout_;
+};
+
+}  // namespace neve::app

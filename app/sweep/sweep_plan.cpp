@@ -1,0 +1,125 @@
+#include "app/sweep/sweep_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/argument_text.h"
+#include "app/auto_ranges.h"
+#include "app/commands.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/error.h"
+#include "app/scene/read.h"
+#include "app/sweep/expand.h"
+#include "app/sweep/read_sweep.h"
+#include "sim/material.h"
+
+namespace neve::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int tile_width = 480;
+
+/// A tile in the shape of the scene's pictures.
+PictureSize tile_size(const SweepOptions& options, const Sweep& sweep, const Scene& scene,
+                      const View& view) {
+  if (options.size) return *options.size;
+  if (sweep.sheet.tile) return *sweep.sheet.tile;
+  const PictureSize own = size_of(scene, view);
+  const auto height = std::lround(static_cast<double>(tile_width) * own.height / own.width / 2) * 2;
+  return {tile_width, std::clamp(static_cast<int>(height), 64, 4096)};
+}
+
+View chosen_view(const Sweep& sweep, const Scene& scene) {
+  if (sweep.sheet.view.empty()) return scene.views.front();
+  try {
+    return find_view(scene, sweep.sheet.view);
+  } catch (const UsageError& error) {
+    sweep.fail("sheet.view", "sheet.view = \"" + sweep.sheet.view + "\": " + error.message,
+               error.hint);
+  }
+}
+
+/// One view, as large as a tile, without the words that the sheet has once.
+void prepare_view(const SweepOptions& options, const Sweep& sweep, Scene& scene) {
+  View view = chosen_view(sweep, scene);
+  scene.size = tile_size(options, sweep, scene, view);
+  view.size.reset();
+  std::erase(view.layers, Layer::legend);
+  std::erase(view.layers, Layer::caption);
+  scene.views = {view};
+  scene.mosaics.clear();
+}
+
+class SceneMaker {
+ public:
+  SceneMaker(const SweepOptions& options, const Sweep& sweep)
+      : options_(options),
+        sweep_(sweep),
+        text_(read_toml_file(sweep.scene_file)),
+        base_dir_(fs::path(sweep.scene_file).parent_path().string()) {}
+
+  Scene make(const std::vector<Override>& settings) const {
+    std::vector<Override> all = sweep_.fixed;
+    all.insert(all.end(), settings.begin(), settings.end());
+    Scene scene = read_scene_text(text_, sweep_.scene_file, base_dir_, all);
+    if (options_.coarsening) coarsen(scene, *options_.coarsening);
+    prepare_view(options_, sweep_, scene);
+    return scene;
+  }
+
+ private:
+  const SweepOptions& options_;
+  const Sweep& sweep_;
+  std::string text_, base_dir_;
+};
+
+FrameRange frames_of(const SweepOptions& options, const Sweep& sweep, const Scene& scene) {
+  if (options.frames) return *options.frames;
+  if (!sweep.settings.frames.empty()) return parse_frames(sweep.settings.frames);
+  return {0, scene.frames};
+}
+
+}  // namespace
+
+SweepPlan plan_sweep(const SweepOptions& options) {
+  SweepPlan plan;
+  plan.sweep = read_sweep(options.file, {options.axes, options.overrides});
+  plan.folder =
+      options.out.empty() ? fs::path("out") / (plan.sweep.name + ".cdb") : fs::path(options.out);
+  const SceneMaker maker(options, plan.sweep);
+  plan.base = maker.make({});
+  plan.view = plan.base.views.front().name;
+  plan.title = plan.sweep.settings.title;
+  if (plan.title.empty()) plan.title = plan.base.title;
+  if (plan.title.empty()) plan.title = plan.sweep.name;
+  for (const PlannedRun& run : expand(plan.sweep)) {
+    RunPlan& item = plan.runs.emplace_back();
+    item.run = run;
+    item.scene = maker.make(run.settings);
+    item.frames = frames_of(options, plan.sweep, item.scene);
+    item.plan = make_plan(item.scene, item.frames, Quality::preview, 1);
+    item.work = foreseen_work(item.scene, item.plan);
+  }
+  return plan;
+}
+
+double foreseen_work(const Scene& scene, const Plan& plan) {
+  const sim::SolverSettings& s = scene.solver;
+  const double duration = plan.frames.last / scene.fps;
+  double dt = s.time_step == sim::TimeStep::fixed ? s.dt : s.max_dt;
+  if (s.time_step == sim::TimeStep::adaptive) {
+    // Snow that is packed conducts sound about three times as fast as at rest.
+    constexpr double packed = 3;
+    for (const sim::Material& material : scene.materials)
+      dt = std::min(dt, s.acoustic_cfl * s.cell_size / (packed * sim::sound_speed(material)));
+    const double speed = impact_speed(scene);
+    if (speed > 0) dt = std::min(dt, s.cfl * s.cell_size / speed);
+  }
+  // What a run costs before its first step counts as some steps of few particles.
+  constexpr double start = 1e5;
+  return start + plan.particles * std::ceil(duration / dt);
+}
+
+}  // namespace neve::app

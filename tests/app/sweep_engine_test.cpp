@@ -1,0 +1,160 @@
+/// Children that are watched, what is remembered of them, and which of them start first.
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "app/progress.h"
+#include "app/sweep/child.h"
+#include "app/sweep/engine.h"
+#include "app/sweep/order.h"
+#include "app/sweep/outcome.h"
+#include "app/sweep/store.h"
+#include "tests/support/temporary_folder.h"
+
+namespace neve::app {
+namespace {
+
+class ChildTest : public testing::Test {
+ protected:
+  ChildResult run(const std::string& script, const ChildLimits& limits) {
+    Child child({"/bin/bash", {"-c", script}, folder_.path(), folder_ / "log"}, limits);
+    while (true) {
+      if (const auto result = child.poll()) return *result;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(ChildTest, TellsHowItEnded) {
+  const ChildResult good = run("echo hello; echo bad >&2; exit 5", {});
+  EXPECT_EQ(good.ending, Ending::exited);
+  EXPECT_EQ(good.code, 5);
+  EXPECT_EQ(test::read_text(folder_ / "log"), "hello\nbad\n");
+  const ChildResult crashed = run("kill -SEGV $$", {});
+  EXPECT_EQ(crashed.ending, Ending::signaled);
+  EXPECT_EQ(crashed.signal, SIGSEGV);
+}
+
+TEST_F(ChildTest, IsAskedToEndAfterItsTimeAndThenEnded) {
+  EXPECT_EQ(run("sleep 60", {.timeout = 0.1}).ending, Ending::timeout);
+  // One that does not listen.
+  const ChildResult deaf = run("trap '' TERM; while true; do sleep 0.1; done",
+                               {.timeout = 0.1, .memory = 0, .grace = 0.2});
+  EXPECT_EQ(deaf.ending, Ending::timeout);
+  EXPECT_EQ(deaf.signal, SIGKILL);
+  EXPECT_LT(deaf.seconds, 20);
+}
+
+TEST_F(ChildTest, IsEndedWhenItTakesTooMuchMemory) {
+  // Keeps the last 400 MB of an endless stream.
+  const ChildResult result =
+      run("exec tail -c 400000000 < <(cat /dev/zero)", {.timeout = 60, .memory = 100'000'000});
+  EXPECT_EQ(result.ending, Ending::out_of_memory);
+  EXPECT_GE(result.peak_memory, 100'000'000u);
+}
+
+TEST_F(ChildTest, DiesWithItsParent) {
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    Child child(
+        {"/bin/bash", {"-c", "echo $$ > pid; exec sleep 600"}, folder_.path(), folder_ / "log"},
+        {});
+    while (!std::filesystem::exists(folder_ / "pid") || test::read_text(folder_ / "pid").empty())
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ::raise(SIGKILL);
+  }
+  int status = 0;
+  ::waitpid(parent, &status, 0);
+  const int child = std::stoi(test::read_text(folder_ / "pid"));
+  bool is_alive = true;
+  for (int k = 0; k < 1000 && is_alive; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    // One that waits for a reaper counts as dead.
+    const std::string stat = "/proc/" + std::to_string(child) + "/stat";
+    std::ifstream in(stat);
+    std::string id, name, state;
+    in >> id >> name >> state;
+    is_alive = in && state != "Z";
+  }
+  EXPECT_FALSE(is_alive);
+}
+
+TEST(SweepStore, RemembersReportsAndSurvivesBrokenOnes) {
+  test::TemporaryFolder folder;
+  RunReport report;
+  report.state = RunState::out_of_memory;
+  report.key = "0123";
+  report.reason = "too \"much\"";
+  report.attempts = 2;
+  report.seconds = 1.5;
+  write_report(folder.path(), report);
+  const RunReport same = read_report(folder.path());
+  EXPECT_EQ(same.state, report.state);
+  EXPECT_EQ(same.key, report.key);
+  EXPECT_EQ(same.reason, report.reason);
+  EXPECT_EQ(same.attempts, 2);
+  for (const char* broken : {"", "{", "[]", "{\"state\": 3}", "{\"state\": \"ok\"}"}) {
+    folder.write("status.json", broken);
+    EXPECT_EQ(read_report(folder.path()).state, RunState::pending) << broken;
+  }
+}
+
+TEST(SweepStore, LocksAreHeldOnce) {
+  test::TemporaryFolder folder;
+  {
+    const RunLock first(folder.path());
+    EXPECT_TRUE(first.is_held());
+    EXPECT_FALSE(RunLock(folder.path()).is_held());
+  }
+  EXPECT_TRUE(RunLock(folder.path()).is_held());
+}
+
+TEST(SweepOrder, CornersComeFirstThenMiddles) {
+  std::vector<std::vector<int>> grid;
+  for (int a = 0; a < 5; ++a)
+    for (int b = 0; b < 5; ++b) grid.push_back({a, b});
+  const std::vector<std::size_t> order = coarse_first(grid, {5, 5});
+  EXPECT_EQ(std::vector(order.begin(), order.begin() + 4),
+            (std::vector<std::size_t>{0, 4, 20, 24}));
+  const std::vector<std::size_t> middles(order.begin() + 4, order.begin() + 9);
+  EXPECT_EQ(middles, (std::vector<std::size_t>{2, 10, 12, 14, 22}));
+  const std::vector<std::vector<int>> row(5);
+  EXPECT_EQ(coarse_first(row, {}), (std::vector<std::size_t>{0, 4, 2, 1, 3}));
+}
+
+TEST(SweepThreads, FillTheCoresAndFitIntoMemory) {
+  ManifestRun small, large;
+  small.particles = 5000;
+  small.memory = 5e7;
+  large.particles = 1e6;
+  large.memory = 4e9;
+  EXPECT_EQ(threads_for(small, 64, 8, 16e9), 1);  // many small ones side by side
+  EXPECT_EQ(threads_for(large, 64, 8, 16e9), 2);  // four fit into memory
+  EXPECT_EQ(threads_for(large, 64, 8, 1e9), 8);   // none does: one at a time
+  EXPECT_EQ(threads_for(large, 2, 8, 64e9), 4);   // only two are left
+  EXPECT_EQ(threads_for(small, 1, 8, 64e9), 1);   // too small to share
+}
+
+TEST(SweepProgress, EstimatesOverATrailingWindow) {
+  using namespace std::chrono_literals;
+  WorkClock clock;
+  const WorkClock::Clock::time_point start{};
+  EXPECT_LT(clock.seconds_for(1), 0);
+  // Ten minutes at a hundredth of the speed are forgotten.
+  for (int k = 0; k <= 600; k += 10) clock.note(0.01 * k, start + k * 1s);
+  for (int k = 0; k <= 300; k += 10) clock.note(6 + k, start + (600 + k) * 1s);
+  EXPECT_NEAR(clock.seconds_for(50), 50, 0.5);
+  EXPECT_EQ(runs_text(RunsState{12, 2, 2, 64, 200}),
+            "12/64 runs  2 failed  2 running  3 min 20 s left");
+}
+
+}  // namespace
+}  // namespace neve::app

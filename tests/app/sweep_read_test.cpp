@@ -1,0 +1,276 @@
+/// Sweep files: what they mean, and where their mistakes are.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "app/commands.h"
+#include "app/errors.h"
+#include "app/scene/error.h"
+#include "app/sweep/expand.h"
+#include "app/sweep/labels.h"
+#include "app/sweep/read_sweep.h"
+#include "app/sweep/sweep_leaf.h"
+#include "tests/support/temporary_folder.h"
+
+namespace neve::app {
+namespace {
+
+const char* const scene = R"(
+[solver]
+cell_size = 0.04
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.12, 0], radius = 0.08 } }
+)";
+
+class SweepFileTest : public testing::Test {
+ protected:
+  SweepFileTest() { folder_.write("scene.toml", scene); }
+
+  Sweep read(const std::string& text, const SweepChanges& changes = {}) {
+    folder_.write("sweep.toml", text);
+    return read_sweep((folder_ / "sweep.toml").string(), changes);
+  }
+
+  std::vector<PlannedRun> runs(const std::string& text) { return expand(read(text)); }
+
+  /// "LINE:COLUMN MESSAGE; HINT" of the complaint about a sweep file and its scenes.
+  std::string complaint(const std::string& text) {
+    folder_.write("sweep.toml", text);
+    SweepOptions options;
+    options.file = (folder_ / "sweep.toml").string();
+    try {
+      plan_sweep(options);
+    } catch (const SceneError& error) {
+      EXPECT_EQ(error.file, options.file);
+      return std::to_string(error.line) + ":" + std::to_string(error.column) + " " + error.message +
+             (error.hint.empty() ? "" : "; " + error.hint);
+    }
+    return "";
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+const std::string head = "[sweep]\nscene = \"scene.toml\"\n";
+
+std::vector<std::string> values(const PlannedRun& run) {
+  std::vector<std::string> list;
+  for (const Override& setting : run.settings) list.push_back(setting.value);
+  return list;
+}
+
+using Strings = std::vector<std::string>;
+
+TEST_F(SweepFileTest, GridsCombineAllAxesAndTheLastVariesFastest) {
+  const auto list = runs(head + "[axis]\n\"seed\" = [1, 2]\n\"fps\" = [24, 30, 60]\n");
+  ASSERT_EQ(list.size(), 6u);
+  EXPECT_EQ(values(list[0]), (Strings{"1", "24"}));
+  EXPECT_EQ(values(list[1]), (Strings{"1", "30"}));
+  EXPECT_EQ(values(list[5]), (Strings{"2", "60"}));
+  EXPECT_EQ(list[4].coordinates, (std::vector<int>{1, 1}));
+}
+
+TEST_F(SweepFileTest, ZipGoesAlongAllAxesAtOnce) {
+  const auto list =
+      runs(head + "method = \"zip\"\n[axis]\n\"seed\" = [1, 2]\n\"fps\" = [24, 30]\n");
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(values(list[1]), (Strings{"2", "30"}));
+}
+
+TEST_F(SweepFileTest, LinkedAxesCountAsOne) {
+  const auto list = runs(head +
+                         "[axis]\n\"seed\" = [1, 2]\n[[link]]\nlabels = [\"soft\", \"hard\"]\n"
+                         "\"material.snow.critical_compression\" = [0.019, 0.025]\n"
+                         "\"material.snow.critical_stretch\" = [0.005, 0.0075]\n");
+  ASSERT_EQ(list.size(), 4u);
+  EXPECT_EQ(values(list[1]), (Strings{"1", "0.025", "0.0075"}));
+  EXPECT_EQ(list[1].label, "hard");
+}
+
+TEST_F(SweepFileTest, ExplicitRunsFollowTheAxes) {
+  const auto list =
+      runs(head + "[axis]\n\"seed\" = [1, 2]\n[[run]]\nlabel = \"other\"\nfps = 12\n");
+  ASSERT_EQ(list.size(), 3u);
+  EXPECT_EQ(list[2].label, "other");
+  EXPECT_EQ(values(list[2]), (Strings{"12"}));
+  EXPECT_TRUE(list[2].coordinates.empty());
+}
+
+TEST_F(SweepFileTest, RulesMakeRoundValuesWithBothEnds) {
+  const auto list = runs(head +
+                         "method = \"zip\"\n[axis]\n"
+                         "\"solver.cfl\" = { linspace = [0.1, 0.4], num = 4 }\n"
+                         "\"material.snow.youngs_modulus\" = { logspace = [1e3, 1e6], num = 4 }\n"
+                         "\"seed\" = { range = [1, 10, 3] }\n");
+  ASSERT_EQ(list.size(), 4u);
+  EXPECT_EQ(values(list[2]), (Strings{"0.3", "100000", "7"}));
+  EXPECT_EQ(values(list[3]), (Strings{"0.4", "1000000", "10"}));
+}
+
+TEST_F(SweepFileTest, KeysNeedNoQuotes) {
+  const auto list = runs(head +
+                         "[axis]\nmaterial.snow.hardening = [5, 10]\n"
+                         "body.ball.velocity = [[0, -1, 0], [0, -2, 0], [0, -3, 0]]\n");
+  ASSERT_EQ(list.size(), 6u);
+  EXPECT_EQ(list[0].settings[1].address, "body.ball.velocity");
+  EXPECT_EQ(list[5].settings[1].value, "[0, -3, 0]");
+}
+
+TEST_F(SweepFileTest, LatinHypercubesMeetEveryPartOfEveryAxisOnce) {
+  const auto list = runs(head +
+                         "method = \"lhs\"\nsamples = 20\nseed = 3\n[axis]\n"
+                         "\"solver.cfl\" = { uniform = [0, 2] }\n"
+                         "\"solver.flip_ratio\" = { uniform = [0, 1] }\n"
+                         "\"solver.transfer\" = [\"flip\", \"apic\"]\n");
+  ASSERT_EQ(list.size(), 20u);
+  std::set<int> first, second;
+  int flips = 0;
+  for (const PlannedRun& run : list) {
+    first.insert(static_cast<int>(std::stod(run.settings[0].value) * 10));
+    second.insert(static_cast<int>(std::stod(run.settings[1].value) * 20));
+    flips += run.settings[2].value == "\"flip\"";
+  }
+  EXPECT_EQ(first.size(), 20u);
+  EXPECT_EQ(second.size(), 20u);
+  EXPECT_EQ(flips, 10);
+}
+
+TEST_F(SweepFileTest, WhatIsDrawnDependsOnTheSeedAlone) {
+  const std::string text =
+      "method = \"random\"\nsamples = 4\n[axis]\n\"solver.cfl\" = { normal = [0.4, 0.01] }\n";
+  const auto a = runs(head + "seed = 1\n" + text), b = runs(head + "seed = 1\n" + text),
+             c = runs(head + "seed = 2\n" + text);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(values(a[k]), values(b[k]));
+    EXPECT_NE(values(a[k]), values(c[k]));
+    // Seven standard deviations: never.
+    EXPECT_NEAR(std::stod(values(a[k])[0]), 0.4, 0.07);
+  }
+}
+
+TEST(SweepQuantile, IsTheInverseOfTheNormalDistribution) {
+  // Tables of the normal distribution, five digits.
+  EXPECT_NEAR(normal_quantile(0.5), 0, 1e-12);
+  EXPECT_NEAR(normal_quantile(0.975), 1.95996, 1e-5);
+  EXPECT_NEAR(normal_quantile(0.00135), -2.99998, 1e-4);
+}
+
+TEST_F(SweepFileTest, WholeNumbersAreDrawnWhole) {
+  for (const PlannedRun& run :
+       runs(head + "method = \"lhs\"\nsamples = 5\n[axis]\n\"seed\" = { uniform = [1, 99] }\n"))
+    EXPECT_EQ(run.settings[0].value.find('.'), std::string::npos) << run.settings[0].value;
+}
+
+TEST_F(SweepFileTest, CommandLineAxesReplaceThoseOfTheFile) {
+  const SweepChanges changes{{"seed=5,6,7", "fps={ linspace = [10, 20], num = 2 }"}, {}};
+  const auto list = expand(read(head + "[axis]\n\"seed\" = [1, 2]\n", changes));
+  ASSERT_EQ(list.size(), 6u);
+  EXPECT_EQ(values(list[5]), (Strings{"7", "20"}));
+}
+
+TEST_F(SweepFileTest, ScenesAreVariedFromTheCommandLine) {
+  const auto file = (folder_ / "scene.toml").string();
+  const auto list = expand(read_sweep(
+      file, {{"body.ball.velocity=[0,-1,0],[0,-2,0]", "solver.transfer=flip,apic"}, {}}));
+  ASSERT_EQ(list.size(), 4u);
+  EXPECT_EQ(values(list[3]), (Strings{"[0,-2,0]", "apic"}));
+  EXPECT_THROW(read_sweep(file, {}), UsageError);
+  EXPECT_THROW(read_sweep(file, {{"seed"}, {}}), UsageError);
+  EXPECT_THROW(read_sweep(file, {{"seed=1,,2"}, {}}), UsageError);
+  EXPECT_THROW(read_sweep(file, {{"seed={ linspce = [1, 2] }"}, {}}), UsageError);
+  EXPECT_THROW(read_sweep(file, {{"seed=1,2"}, {"seed=3"}}), UsageError);
+}
+
+TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
+  const struct {
+    const char *text, *complaint;
+  } cases[] = {
+      {"[axis]\n\"material.snow.poisson_ratio\" = [0.2, 0.62]\n",
+       "4:39 material.snow.poisson_ratio = 0.62; expected 0 <= value < 0.5"},
+      {"[axis]\n\"material.snow.hardning\" = [1]\n",
+       "4:1 unknown parameter \"material.snow.hardning\"; did you mean "
+       "\"material.snow.hardening\"?"},
+      {"[axis]\n\"body.bull.velocity\" = [[0, 0, 0]]\n",
+       "4:1 there is no body \"bull\"; expected \"ball\""},
+      {"[axis]\n\"solver.transfer\" = [\"flip\", \"apix\"]\n",
+       "4:30 solver.transfer = \"apix\"; expected \"flip\", \"apic\" or \"mls\"; did you mean "
+       "\"apic\"?"},
+      {"[axis]\n\"seed\" = { linspce = [1, 2], num = 2 }\n",
+       "4:12 unknown key \"linspce\" in [seed]; did you mean \"linspace\"?"},
+      {"[axis]\n\"fps\" = { linspace = [1, 2] }\n",
+       "4:9 num is missing; linspace and logspace need how many values, as num = 4"},
+      {"[axis]\n\"seed\" = 3\n",
+       "4:10 seed = 3; expected a list of values, as in [5, 10], or a table such as { linspace = "
+       "[1, 2], num = 3 }; what does not vary belongs into [set]"},
+      {"[axis]\n\"fps\" = []\n", "4:9 fps has no values"},
+      {"method = \"gird\"\n",
+       "3:10 sweep.method = \"gird\"; expected \"grid\", \"zip\", \"random\", \"lhs\" or \"list\"; "
+       "did you mean \"grid\"?"},
+      {"sample = 3\n", "3:1 unknown key \"sample\" in [sweep]; did you mean \"samples\"?"},
+      {"frames = \"9-1\"\n",
+       "3:10 sweep.frames: cannot use \"9-1\"; expected A-B with 0 <= A <= B <= 100000, or N for "
+       "0-N"},
+      {"method = \"lhs\"\n[axis]\n\"fps\" = [1]\n",
+       "3:10 method \"lhs\" needs samples; how many runs are drawn?"},
+      {"[axis]\n\"fps\" = { uniform = [1, 2] }\n",
+       "4:9 fps is drawn; that needs method \"random\" or \"lhs\""},
+      {"method = \"zip\"\n[axis]\n\"fps\" = [1, 2]\n\"seed\" = [1]\n",
+       "6:11 seed has 1 values, and fps has 2; method \"zip\" needs equally many, \"grid\" makes "
+       "all "
+       "combinations"},
+      {"[[link]]\n\"fps\" = [1, 2]\n\"seed\" = [1]\n",
+       "5:10 seed has 1 values, and fps of the same [[link]] has 2; linked axes have equally many"},
+      {"[set]\n\"fps\" = 12\n[axis]\n\"fps\" = [1, 2]\n",
+       "4:1 fps is varied by the sweep; take it out of the axes, or change them with -p"},
+      {"[limits]\ntimeout = \"20 fortnights\"\n",
+       "4:11 limits.timeout = \"20 fortnights\"; expected seconds, or a time such as \"90s\", "
+       "\"20m\" or \"1h30m\""},
+      {"[sheet]\nview = \"smok\"\n[axis]\n\"fps\" = [1]\n",
+       "4:8 sheet.view = \"smok\": the scene has no such view; expected \"particles\", \"smoke\" "
+       "or "
+       "\"slice\"; did you mean \"smoke\"?"},
+      {"[set]\n\"solver.cell_size\" = -1\n[axis]\n\"fps\" = [1]\n",
+       "4:22 solver.cell_size = -1; expected 1e-9 <= value <= 1000000"}};
+  for (const auto& c : cases) EXPECT_EQ(complaint(head + c.text), c.complaint) << c.text;
+}
+
+TEST_F(SweepFileTest, MissingScenesAreNamedWithThePlaceLookedAt) {
+  const std::string text = complaint("[sweep]\nscene = \"no.toml\"\n");
+  EXPECT_TRUE(
+      text.starts_with("2:9 sweep.scene = \"no.toml\"; there is no such file; looked for /"))
+      << text;
+}
+
+TEST_F(SweepFileTest, TooManyRunsAreRefusedBeforeTheyAreMade) {
+  std::string text = head + "[axis]\n";
+  for (const char* address : {"seed", "fps", "solver.cfl", "solver.max_dt", "solver.dt"})
+    text += "\"" + std::string(address) + "\" = { linspace = [0.1, 0.2], num = 9999 }\n";
+  EXPECT_THROW(runs(text), LimitError);
+}
+
+TEST(SweepDuration, ReadsUnits) {
+  EXPECT_EQ(seconds_of("90"), 90);
+  EXPECT_EQ(seconds_of("20m"), 1200);
+  EXPECT_EQ(seconds_of("1h30m"), 5400);
+  EXPECT_EQ(seconds_of("1.5s"), 1.5);
+  for (const char* wrong : {"", "m", "20 m", "-3s", "1x", "nan", "inf"})
+    EXPECT_FALSE(seconds_of(wrong)) << wrong;
+}
+
+TEST(SweepLabels, AreAsShortAsTellsThemApart) {
+  EXPECT_EQ(short_names({"material.snow.hardening", "seed"}), (Strings{"hardening", "seed"}));
+  EXPECT_EQ(short_names({"material.snow.hardening", "material.ice.hardening"}),
+            (Strings{"snow.hardening", "ice.hardening"}));
+  EXPECT_EQ(value_text("0.10000000000000001"), "0.1");
+  EXPECT_EQ(value_text("48000"), "48000");
+  EXPECT_EQ(value_text("140000"), "1.4e5");
+  EXPECT_EQ(value_text("-1000000"), "-1e6");
+  EXPECT_EQ(value_text("\"flip\""), "flip");
+  EXPECT_EQ(value_text("[0, -5, 0]"), "[0, -5, 0]");
+}
+
+}  // namespace
+}  // namespace neve::app

@@ -1,0 +1,259 @@
+/// What a sweep's runs came to: metrics, table, sheet and report.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/metrics.h"
+#include "app/sweep/data_csv.h"
+#include "app/sweep/metric_plots.h"
+#include "app/sweep/outcome.h"
+#include "app/sweep/report.h"
+#include "app/sweep/sheet_layout.h"
+#include "tests/support/cinema.h"
+#include "tests/support/temporary_folder.h"
+
+namespace neve::app {
+namespace {
+
+/// A cube of particles, two per cell and direction.
+void add_cube(const sim::Vec3d& corner, int cells, sim::ParticleArrays& particles) {
+  for (int i = 0; i < 2 * cells; ++i)
+    for (int j = 0; j < 2 * cells; ++j)
+      for (int k = 0; k < 2 * cells; ++k) {
+        particles.x.push_back(corner + 0.5 * sim::Vec3d(i + 0.5, j + 0.5, k + 0.5));
+        particles.m.push_back(1);
+        particles.J_P.push_back(0.9);
+      }
+}
+
+TEST(Metrics, CountFragmentsThatDoNotTouch) {
+  sim::ParticleArrays particles;
+  add_cube({0, 0, 0}, 4, particles);
+  EXPECT_EQ(measure(particles, 1).fragments, 1u);
+  add_cube({4, 4, 4}, 2, particles);  // touches with a corner
+  EXPECT_EQ(measure(particles, 1).fragments, 1u);
+  add_cube({-5, 0, 0}, 4, particles);  // a cell between them
+  EXPECT_EQ(measure(particles, 1).fragments, 2u);
+  add_cube({0, 9, 0}, 1, particles);
+  const Metrics metrics = measure(particles, 1);
+  EXPECT_EQ(metrics.fragments, 3u);
+  EXPECT_NEAR(metrics.largest_fragment, 72.0 / 137, 1e-12);  // cells of 8 particles each
+  EXPECT_NEAR(metrics.mean_J_P, 0.9, 1e-12);
+  EXPECT_EQ(measure(particles, 2).fragments, 2u);  // larger cells bridge the gap of one
+}
+
+TEST(Metrics, SpreadAndHeightAreThoseOfABox) {
+  sim::ParticleArrays particles;
+  for (int k = 0; k < 1000; ++k) {
+    particles.x.push_back({std::cos(0.1 * k), 0.01 * k, std::sin(0.1 * k)});
+    particles.m.push_back(1);
+    particles.J_P.push_back(1);
+  }
+  const Metrics metrics = measure(particles, 0.1);
+  // A spiral of radius 1 about a centre that is the axis but for its last turn.
+  EXPECT_NEAR(metrics.spread, 1, 0.02);
+  EXPECT_NEAR(metrics.height, 9.6, 0.02);  // 96 % of 10
+}
+
+TEST(Metrics, StatesThatExplodedCountWhatIsFinite) {
+  sim::ParticleArrays particles;
+  EXPECT_EQ(measure(particles, 1).fragments, 0u);
+  add_cube({0, 0, 0}, 1, particles);
+  particles.x[0].setConstant(NAN);
+  particles.x[1].setConstant(1e300);
+  EXPECT_EQ(measure(particles, 1).fragments, 1u);
+}
+
+Manifest manifest_of(const std::vector<int>& sizes) {
+  Manifest m;
+  m.version = "1";
+  m.title = "Test </script> & \"quotes\"";
+  m.view = "particles";
+  m.tile_label = "differences";
+  std::vector<std::vector<int>> places{{}};
+  for (std::size_t a = 0; a < sizes.size(); ++a) {
+    const std::string address = "a.b" + std::to_string(a);
+    m.parameters.push_back({address, "b" + std::to_string(a), "Pa", "number"});
+    ManifestAxis axis{"b" + std::to_string(a), {}};
+    std::vector<std::vector<int>> longer;
+    for (int k = 0; k < sizes[a]; ++k) axis.values.push_back(std::to_string(k));
+    for (const auto& place : places)
+      for (int k = 0; k < sizes[a]; ++k) {
+        longer.push_back(place);
+        longer.back().push_back(k);
+      }
+    places = longer;
+    m.axes.push_back(axis);
+  }
+  for (const auto& place : places) {
+    ManifestRun run;
+    run.index = static_cast<int>(m.runs.size());
+    run.folder = run_folder_name(run.index);
+    run.coordinates = place;
+    for (std::size_t a = 0; a < place.size(); ++a)
+      run.settings.emplace_back("a.b" + std::to_string(a), std::to_string(place[a]));
+    m.runs.push_back(run);
+  }
+  return m;
+}
+
+TEST(SheetLayout, HasEveryRunOnceAndNoTileOverAnother) {
+  for (const auto& sizes : std::vector<std::vector<int>>{
+           {}, {1}, {3}, {20}, {2, 3}, {3, 2, 2}, {2, 2, 2, 2}, {2, 3, 2, 2, 2}, {12, 40}}) {
+    const Manifest m = manifest_of(sizes);
+    const SheetLayout layout = layout_sheet(m, true, 8192);
+    ASSERT_EQ(layout.tiles.size(), m.runs.size());
+    EXPECT_LE(layout.width, 8192);
+    EXPECT_LE(layout.height, 8192);
+    for (std::size_t a = 0; a < layout.tiles.size(); ++a) {
+      const SheetTile& tile = layout.tiles[a];
+      EXPECT_GE(tile.x, 0);
+      EXPECT_GE(tile.y, layout.header);
+      EXPECT_LE(tile.x + layout.tile_width, layout.width);
+      EXPECT_LE(tile.y + layout.tile_height, layout.height);
+      for (std::size_t b = 0; b < a; ++b)
+        ASSERT_TRUE(std::abs(tile.x - layout.tiles[b].x) >= layout.tile_width ||
+                    std::abs(tile.y - layout.tiles[b].y) >= layout.tile_height)
+            << sizes.size() << " axes: " << a << " over " << b;
+    }
+  }
+}
+
+TEST(SheetLayout, LastAxisGoesAcrossUnlessAskedOtherwise) {
+  Manifest m = manifest_of({2, 3});
+  const auto is_across = [&](std::size_t a, std::size_t b) {
+    const SheetLayout layout = layout_sheet(m, false, 8192);
+    return layout.tiles[a].y == layout.tiles[b].y && layout.tiles[a].x < layout.tiles[b].x;
+  };
+  EXPECT_TRUE(is_across(0, 1));
+  EXPECT_FALSE(is_across(0, 3));
+  m.columns = 0;
+  EXPECT_FALSE(is_across(0, 1));
+  EXPECT_TRUE(is_across(0, 3));
+  m.columns = -1;
+  m.rows = 1;
+  EXPECT_TRUE(is_across(0, 3));
+}
+
+TEST(SheetLayout, FurtherAxesAreSetApart) {
+  const Manifest m = manifest_of({2, 3, 3});
+  const SheetLayout layout = layout_sheet(m, false, 8192);
+  const auto at = [&](std::size_t k) { return std::pair(layout.tiles[k].x, layout.tiles[k].y); };
+  const int inside = at(1).first - at(0).first;
+  // Blocks of nine beside or below each other, with more than the usual gap.
+  const int across = at(9).first - at(2).first, down = at(9).second - at(6).second;
+  EXPECT_TRUE(across > inside || down > at(3).second - at(0).second);
+}
+
+std::vector<RunResult> results_of(const Manifest& m) {
+  std::vector<RunResult> results(m.runs.size());
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    RunResult& r = results[k];
+    r.report.state = k % 3 == 1 ? RunState::diverged : RunState::ok;
+    r.report.reason = k % 3 == 1 ? "diverged, \"badly\"" : "";
+    r.report.short_reason = "frame 17: acoustic CFL 3.1";
+    for (std::size_t i = 0; i < metric_infos().size(); ++i)
+      r.metrics.push_back(k % 4 == 2 ? std::nullopt
+                                     : std::optional(static_cast<double>(k) * (k % 2 ? 0.5 : 1)));
+  }
+  return results;
+}
+
+TEST(DataCsv, KeepsTheRulesOfCinema) {
+  test::TemporaryFolder folder;
+  Manifest m = manifest_of({2, 3});
+  m.parameters.push_back({"body.ball.velocity", "velocity", "m/s", "vector"});
+  m.parameters.push_back({"solver.transfer", "transfer", "", "choice"});
+  m.parameters.push_back({"seed", "seed", "", "integer"});
+  m.parameters.push_back({"title", "title", "", "string"});
+  m.parameters.push_back({"FILE.name", "name", "", "string"});
+  const char* const titles[] = {"12", "nan", "a, \"b\"", "1e5", "", "x"};
+  for (std::size_t k = 0; k < m.runs.size(); ++k) {
+    ManifestRun& run = m.runs[k];
+    run.settings.emplace_back("body.ball.velocity", "[0, -5, " + std::to_string(k) + "]");
+    run.settings.emplace_back("solver.transfer", k % 2 ? "\"flip\"" : "apic");
+    run.settings.emplace_back("seed", std::to_string(k));
+    run.settings.emplace_back("title", "\"" + std::string(titles[k]) + "\"");
+    run.settings.emplace_back("FILE.name", "\"f\"");
+    run.label = k % 2 ? "7" : "";
+    folder.write("runs/" + run.folder + "/scene.toml", "x");
+  }
+  std::vector<RunResult> results = results_of(m);
+  results[0].frames = {0, 3};
+  folder.write("runs/0000/particles/0003.png", "x");
+  const std::string csv = data_csv(m, results);
+  EXPECT_EQ(test::cinema_problem(csv, folder.path()), "") << csv;
+  EXPECT_NE(csv.find("runs/0000/particles/0003.png,runs/0000/scene.toml\n"), std::string::npos);
+  // The check itself finds what it is for.
+  const auto breaks = [&](const std::string& from, const std::string& to) {
+    std::string bad = csv;
+    bad.replace(bad.find(from), from.size(), to);
+    return !test::cinema_problem(bad, folder.path()).empty();
+  };
+  EXPECT_TRUE(breaks("-5.0", "-5"));
+  EXPECT_TRUE(breaks("0003.png", "0004.png"));
+  EXPECT_TRUE(breaks("state", "run"));
+  EXPECT_TRUE(breaks("state", "FILE_x"));
+}
+
+TEST(DataCsv, LeavesOutTimesWhereTablesAreCompared) {
+  const Manifest m = manifest_of({2});
+  std::vector<RunResult> results = results_of(m);
+  const std::string without = data_csv(m, results, false);
+  results[0].metrics.back() = 1e6;
+  EXPECT_EQ(data_csv(m, results, false), without);
+  EXPECT_NE(data_csv(m, results), without);
+}
+
+TEST(SweepReport, IsOneFileThatNamesNothingOutside) {
+  const Manifest m = manifest_of({2, 3});
+  const std::vector<RunResult> results = results_of(m);
+  const std::string html =
+      report_html("out/a b.cdb", m, results, layout_sheet(m, false, 8192), {1, 2, 3});
+  std::string rest = html;
+  // The name of a namespace is an address that nobody opens.
+  for (const std::string name : {"http://www.w3.org/2000/svg"})
+    for (std::size_t at; (at = rest.find(name)) != std::string::npos;) rest.erase(at, name.size());
+  EXPECT_EQ(rest.find("http"), std::string::npos);
+  EXPECT_EQ(rest.find("src=\"/"), std::string::npos);
+  EXPECT_NE(html.find("data:image/png;base64,AQID"), std::string::npos);
+  EXPECT_NE(html.find("neve render 'out/a b.cdb/runs/0003/scene.toml' --frames 0-0"),
+            std::string::npos);
+  // Words of the user end nothing early.
+  EXPECT_NE(html.find("Test &lt;/script&gt; &amp; &quot;quotes&quot;"), std::string::npos);
+  std::size_t scripts = 0;
+  for (std::size_t at = 0; (at = html.find("</script>", at)) != std::string::npos; ++at) ++scripts;
+  EXPECT_EQ(scripts, 2u);
+}
+
+TEST(MetricPlots, HaveAPointForEachRunThatHasTheMetric) {
+  const Manifest m = manifest_of({4});
+  const std::string svg = metric_plots_svg(m, results_of(m), true);
+  const auto count = [&](const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = svg.find(what, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("<circle"), 3 * metric_infos().size());
+  EXPECT_EQ(count("class=\"run failed\""), metric_infos().size());
+  EXPECT_EQ(
+      metric_plots_svg(m,
+                       std::vector<RunResult>(
+                           4, {{}, {}, std::vector<std::optional<double>>(metric_infos().size())}),
+                       true),
+      "");
+}
+
+TEST(TileText, SaysWhatHappenedInPlace) {
+  RunReport report;
+  report.state = RunState::diverged;
+  report.short_reason = "frame 17: acoustic CFL 3.1";
+  EXPECT_EQ(tile_text(report), "DIVERGED frame 17: acoustic CFL 3.1");
+  report.state = RunState::out_of_memory;
+  report.short_reason.clear();
+  EXPECT_EQ(tile_text(report), "OUT OF MEMORY");
+}
+
+}  // namespace
+}  // namespace neve::app

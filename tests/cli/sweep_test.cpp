@@ -1,0 +1,197 @@
+/// `neve sweep`: plans, runs, what is left of those that go wrong, and going on.
+
+#include <signal.h>
+
+#include "tests/cli/run_neve.h"
+#include "tests/support/saboteur.h"
+
+namespace neve::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const small_sweep = R"(
+[sweep]
+scene = "scene.toml"
+frames = "0-2"
+[axis]
+"material.snow.hardening" = [5, 10]
+"body.ball.velocity" = [[0, -1, 0], [0, -3, 0]]
+)";
+
+/// Six runs: two that are well, one that explodes, one that wants too much memory, and two long
+/// ones for whoever wants to harm them.
+const char* const troubled_sweep = R"(
+[sweep]
+scene = "scene.toml"
+method = "list"
+[limits]
+timeout = "15s"
+memory = "600MB"
+[[run]]
+label = "good"
+seed = 1
+[[run]]
+label = "also good"
+seed = 2
+[[run]]
+label = "explodes"
+"solver.time_step" = "fixed"
+"solver.dt" = 2e-3
+"material.snow.youngs_modulus" = 5e7
+"material.snow.model" = "corotated"
+"body.ball.velocity" = [0, -8, 0]
+[[run]]
+label = "too large"
+"solver.cell_size" = 0.002
+[[run]]
+label = "crashes"
+"solver.max_dt" = 1e-6
+[[run]]
+label = "hangs"
+"solver.max_dt" = 1.1e-6
+)";
+
+class SweepCli : public Cli {
+ protected:
+  SweepCli() { folder.write("sweep.toml", small_sweep); }
+
+  app::Json status(const std::string& run, const std::string& out = "out/sweep.cdb") {
+    return json_of(out + "/runs/" + run + "/status.json");
+  }
+};
+
+TEST_F(SweepCli, DryRunsListRunsCostAndMemoryAndStartNothing) {
+  const auto result = neve({"sweep", "sweep.toml", "--dry-run"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(contains(result.output, "hardening = 10, velocity = [0, -3, 0] m/s"))
+      << result.output;
+  EXPECT_TRUE(contains(result.output, "4 runs of scene.toml, frames 0 to 2")) << result.output;
+  EXPECT_TRUE(contains(result.output, "of memory a run")) << result.output;
+  EXPECT_FALSE(exists("out"));
+  const auto as_json = neve({"sweep", "sweep.toml", "--dry-run", "--json"});
+  const app::Json plan = app::parse_json(std::string_view(as_json.output));
+  ASSERT_EQ(plan["runs"].size(), 4u);
+  EXPECT_EQ(plan["runs"][3]["settings"]["material.snow.hardening"], "10");
+  EXPECT_GT(plan["runs"][3]["seconds"].get<double>(), 0);
+  EXPECT_GT(plan["memory_bytes"].get<double>(), 1e6);
+}
+
+TEST_F(SweepCli, MistakesExitWithTheirCodesAndSuggestions) {
+  EXPECT_EQ(neve({"sweep"}).exit_code, 2);
+  EXPECT_EQ(neve({"sweep", "scene.toml"}).exit_code, 2);
+  EXPECT_EQ(neve({"sweep", "scene.toml", "-p", "seed=1,2", "--jobs", "-1"}).exit_code, 2);
+  const auto wrong = neve({"sweep", "scene.toml", "-p", "material.snow.hardning=1,2"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_TRUE(contains(wrong.errors, "did you mean \"material.snow.hardening\"?")) << wrong.errors;
+  folder.write("bad.toml", "[sweep]\nscene = \"scene.toml\"\n[axis]\nseed = [1, -1]\n");
+  const auto bad = neve({"sweep", "bad.toml"});
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_TRUE(contains(bad.errors, "bad.toml:4:12: error: seed = -1; expected")) << bad.errors;
+  folder.write(
+      "many.toml",
+      "[sweep]\nscene = \"scene.toml\"\n[limits]\nruns = 3\n[axis]\nseed = [1, 2, 3, 4]\n");
+  EXPECT_EQ(neve({"sweep", "many.toml"}).exit_code, 8);
+}
+
+TEST_F(SweepCli, RunsOnceAndGoesOnWithWhatIsNew) {
+  const auto first = neve({"sweep", "sweep.toml"});
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  for (const char* run : {"0000", "0001", "0002", "0003"}) {
+    EXPECT_EQ(status(run)["state"], "ok");
+    EXPECT_TRUE(exists("out/sweep.cdb/runs/" + std::string(run) + "/particles/0002.png"));
+  }
+  const auto made = fs::last_write_time(folder / "out/sweep.cdb/runs/0000/run.json");
+  // The new values come in between; what was done keeps its folder.
+  std::string longer = small_sweep;
+  longer.replace(longer.find("[5, 10]"), 7, "[5, 7, 10]");
+  folder.write("sweep.toml", longer);
+  const auto second = neve({"sweep", "sweep.toml", "--json"});
+  ASSERT_EQ(second.exit_code, 0) << second.errors;
+  const app::Json result = app::parse_json(std::string_view(second.output));
+  EXPECT_EQ(result["started"], 2);
+  EXPECT_EQ(result["ok"], 6);
+  EXPECT_EQ(fs::last_write_time(folder / "out/sweep.cdb/runs/0000/run.json"), made);
+  for (const char* run : {"0000", "0001", "0002", "0003", "0004", "0005"})
+    EXPECT_EQ(status(run)["attempts"], 1) << run;
+  const auto third = neve({"sweep", "sweep.toml", "--json"});
+  EXPECT_EQ(app::parse_json(std::string_view(third.output))["started"], 0);
+}
+
+TEST_F(SweepCli, RunsAreRepeatedByTheirSceneFileBitForBit) {
+  ASSERT_EQ(neve({"sweep", "sweep.toml"}).exit_code, 0);
+  const std::string run = "out/sweep.cdb/runs/0003";
+  ASSERT_EQ(neve({"render", run + "/scene.toml", "--frames", "0-2", "--out", "again"}).exit_code,
+            0);
+  EXPECT_EQ(read_text(folder / (run + "/particles/0002.png")),
+            read_text(folder / "again/particles/0002.png"));
+  const app::Json a = json_of(run + "/run.json"), b = json_of("again/run.json");
+  EXPECT_EQ(a["frames"][2]["state_hash"], b["frames"][2]["state_hash"]);
+}
+
+TEST_F(SweepCli, AllRunsAreSeenAlike) {
+  folder.write("look.toml", std::string(small_sweep) +
+                                "[set]\n\"view.particles.particles.color_by\" = \"speed\"\n");
+  ASSERT_EQ(neve({"sweep", "look.toml", "--frames", "0"}).exit_code, 0);
+  const auto line = [&](const std::string& run, const std::string& start) {
+    const std::string text = read_text(folder / ("out/look.cdb/runs/" + run + "/scene.toml"));
+    const auto from = text.find(start);
+    return text.substr(from, text.find('\n', from) - from);
+  };
+  EXPECT_TRUE(contains(line("0000", "eye = "), "[")) << "no camera";
+  for (const char* run : {"0001", "0002", "0003"})
+    for (const char* start : {"eye = ", "target = ", "particles = "})
+      EXPECT_EQ(line("0000", start), line(run, start)) << run;
+  EXPECT_FALSE(contains(line("0000", "particles = "), "auto"));
+}
+
+TEST_F(SweepCli, WhatGoesWrongBecomesAStateAndAReason) {
+  folder.write("troubled.toml", troubled_sweep);
+  app::ProcessResult result;
+  {
+    const Saboteur saboteur(folder / "out/troubled.cdb/runs",
+                            {{"0004", SIGSEGV}, {"0005", SIGSTOP}});
+    result = neve({"sweep", "troubled.toml", "--jobs", "3"});
+  }
+  EXPECT_EQ(result.exit_code, 7) << result.errors;
+  const char* const expected[] = {"ok", "ok", "diverged", "out_of_memory", "crashed", "timeout"};
+  for (int k = 0; k < 6; ++k)
+    EXPECT_EQ(status("000" + std::to_string(k), "out/troubled.cdb")["state"], expected[k]) << k;
+  EXPECT_EQ(status("0004", "out/troubled.cdb")["signal"], SIGSEGV);
+  EXPECT_TRUE(contains(result.errors, "DIVERGED frame 0: ")) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "CRASHED signal 11")) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "TIMEOUT after 15 s")) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "OUT OF MEMORY needs")) << result.errors;
+  // The same again: they stay as they are.
+  const auto again = neve({"sweep", "troubled.toml", "--json"});
+  EXPECT_EQ(again.exit_code, 7);
+  const app::Json counts = app::parse_json(std::string_view(again.output));
+  EXPECT_EQ(counts["started"], 0);
+  EXPECT_EQ(counts["failed"], 4);
+}
+
+TEST_F(SweepCli, InterruptedSweepsGoOnWhereTheyWere) {
+  // A million steps: nobody waits for them.
+  const char* const endless = R"(
+[sweep]
+scene = "scene.toml"
+[axis]
+"solver.max_dt" = [1e-6, 1.1e-6, 1.2e-6]
+)";
+  folder.write("endless.toml", endless);
+  const std::string script =
+      "\"$0\" sweep endless.toml & pid=$!\n"
+      "for run in 0000 0002; do until [ -e out/endless.cdb/runs/$run/particles/0000.png ]; do "
+      "sleep 0.05; done; done\n"
+      "kill -INT $pid; wait $pid; echo code $?\n";
+  const auto result = app::run_process("/bin/bash", {"-c", script, NEVE_BINARY}, folder.path());
+  EXPECT_TRUE(contains(result.output, "code 75")) << result.output << result.errors;
+  EXPECT_TRUE(contains(result.errors, "the same command goes on")) << result.errors;
+  for (const char* run : {"0000", "0002"}) {
+    EXPECT_EQ(status(run, "out/endless.cdb")["state"], "interrupted");
+    EXPECT_TRUE(exists("out/endless.cdb/runs/" + std::string(run) + "/checkpoint")) << run;
+  }
+}
+
+}  // namespace
+}  // namespace neve::test
