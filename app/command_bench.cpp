@@ -6,6 +6,7 @@
 #include "app/bench/measure.h"
 #include "app/bench/render_bench.h"
 #include "app/bench/sim_bench.h"
+#include "app/bench/sweep_bench.h"
 #include "app/commands.h"
 #include "app/errors.h"
 #include "app/interrupt.h"
@@ -59,6 +60,10 @@ int run_bench_frame(const BenchOptions& options) {
 
 int run_bench_render(const BenchOptions& options) {
   return run_bench(options, bench_render);
+}
+
+int run_bench_sweep(const BenchOptions& options) {
+  return run_bench(options, bench_sweep);
 }
 
 }  // namespace neve::app

@@ -221,7 +221,7 @@ void add_bench(CLI::App& app, Action& action) {
       app.add_subcommand("bench", "Measure how fast this machine simulates and draws");
   bench->require_subcommand(1);
   const auto sim = std::make_shared<BenchOptions>(), frame = std::make_shared<BenchOptions>(),
-             render = std::make_shared<BenchOptions>();
+             render = std::make_shared<BenchOptions>(), sweep = std::make_shared<BenchOptions>();
   CLI::App* sim_command = add_bench_part(
       *bench, action, "sim",
       "Particle-steps per second of each method against naive code in the same minutes, time per "
@@ -243,7 +243,12 @@ void add_bench(CLI::App& app, Action& action) {
       "Milliseconds per picture at 1280x720 of 4000 to a million particles and of all layers, per "
       "phase, spheres by OpenGL against spheres by the CPU, PNG encoding",
       render, run_bench_render);
-  for (const auto& [command, options] : {std::pair{frame_command, frame}, {render_command, render}})
+  CLI::App* sweep_command = add_bench_part(
+      *bench, action, "sweep",
+      "How busy many small runs keep the cores, and what each costs besides its work", sweep,
+      run_bench_sweep);
+  for (const auto& [command, options] :
+       {std::pair{frame_command, frame}, {render_command, render}, {sweep_command, sweep}})
     command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
         ->type_name("NAME");
 }

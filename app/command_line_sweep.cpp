@@ -14,7 +14,7 @@ namespace {
 
 /// Values that CLI11 hands over as text.
 struct SweepTexts {
-  std::optional<std::string> frames, size, coarsening;
+  std::optional<std::string> frames, size, coarsening, shard;
   bool is_quiet = false, is_verbose = false;
 };
 
@@ -26,6 +26,12 @@ SweepOptions finished(SweepOptions options, const SweepTexts& texts) {
   if (texts.size) options.size = parse_size(*texts.size);
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
+  if (texts.shard) options.shard = parse_shard(*texts.shard);
+  if (options.engine != "local" && options.engine != "slurm")
+    throw UsageError("--engine", "unknown engine \"" + options.engine + "\"",
+                     "expected local or slurm; --shard and --emit work with any scheduler");
+  if (!options.sbatch.empty() && options.engine != "slurm")
+    throw UsageError("--sbatch", "is for --engine slurm", "add it, or leave --sbatch out");
   check_threads(options.threads);
   check_backend(options.backend);
   if (options.jobs < 0 || options.jobs > 1024)
@@ -53,6 +59,52 @@ void add_what(CLI::App& command, SweepOptions& options, SweepTexts& texts) {
       ->type_name("N");
   command.add_option("--out", options.out, "Output folder instead of out/<name of the file>.cdb")
       ->type_name("DIR");
+}
+
+/// Where runs are made, and which.
+void add_where(CLI::App& command, SweepOptions& options, SweepTexts& texts) {
+  command.add_option("--only", options.only, "Only these runs, as in 3,7-12")->type_name("LIST");
+  command
+      .add_option("--shard", texts.shard,
+                  "Only the I-th of N shares; each on another machine that sees the same folder")
+      ->type_name("I/N");
+  command
+      .add_option("--engine", options.engine,
+                  "local: on this machine; slurm: as a job array, waited for; Ctrl-C cancels it")
+      ->type_name("NAME")
+      ->capture_default_str();
+  add_repeatable(command, "--sbatch", options.sbatch, "OPTION",
+                 "With slurm: a further option of sbatch, as in --sbatch=--partition=long "
+                 "(repeatable)");
+  command
+      .add_option("--emit", options.emit,
+                  "Start nothing; write the command of each run to a file, one a line, for GNU "
+                  "parallel and render farms")
+      ->type_name("FILE");
+}
+
+void add_run(CLI::App& sweep, Action& action) {
+  CLI::App* command = sweep.add_subcommand(
+      "run", "Make one run of a sweep that is on disk: what --emit and --engine slurm call");
+  const auto options = std::make_shared<SweepRunOptions>();
+  const auto is_quiet = std::make_shared<bool>(false);
+  command->add_option("DIR", options->folder, "Output folder of a sweep")
+      ->required()
+      ->type_name("");
+  command->add_option("--index", options->index, "Number of the run")->required()->type_name("N");
+  command->add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
+  command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
+      ->type_name("NAME");
+  command->add_flag("--retry-failed", options->is_failed_again, "Also when it failed before");
+  command->add_flag("--quiet,-q", *is_quiet, "Only errors and warnings");
+  command->final_callback([=, &action] {
+    check_threads(options->threads);
+    check_backend(options->backend);
+    action = [=] {
+      if (*is_quiet) options->verbosity = Verbosity::quiet;
+      return run_sweep_run(*options);
+    };
+  });
 }
 
 void add_collect(CLI::App& sweep, Action& action) {
@@ -100,6 +152,8 @@ void add_sweep(CLI::App& app, Action& action) {
   command->add_flag("--json", options->is_json, "Print the result, or the error, as JSON");
   CLI::Option* quiet = command->add_flag("--quiet,-q", texts->is_quiet, "Only errors and warnings");
   command->add_flag("--verbose,-v", texts->is_verbose, "A line for each run")->excludes(quiet);
+  add_where(*command, *options, *texts);
+  add_run(*command, action);
   add_collect(*command, action);
   command->final_callback([=, &action] {
     if (!command->get_subcommands().empty()) return;

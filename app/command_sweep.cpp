@@ -7,11 +7,15 @@
 #include "app/errors.h"
 #include "app/interrupt.h"
 #include "app/machine.h"
+#include "app/output/atomic_file.h"
+#include "app/scene/error.h"
 #include "app/sweep/collect.h"
 #include "app/sweep/dry_run_report.h"
 #include "app/sweep/engine.h"
 #include "app/sweep/look.h"
 #include "app/sweep/prepare.h"
+#include "app/sweep/report.h"
+#include "app/sweep/slurm.h"
 #include "app/sweep/store.h"
 #include "app/sweep/sweep_plan.h"
 #include "app/text.h"
@@ -24,10 +28,55 @@ int core_count(int threads) {
   return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-std::vector<int> all_indices(const Manifest& manifest) {
+/// Those of --only and --shard, otherwise all.
+std::vector<int> chosen_runs(const SweepOptions& options, const Manifest& manifest) {
   std::vector<int> indices;
-  for (const ManifestRun& run : manifest.runs) indices.push_back(run.index);
+  if (options.only.empty())
+    for (const ManifestRun& run : manifest.runs) indices.push_back(run.index);
+  else
+    indices = parse_selection(options.only, manifest.runs.back().index);
+  if (options.shard)
+    std::erase_if(indices, [&](int index) {
+      return index % options.shard->count != options.shard->index - 1;
+    });
   return indices;
+}
+
+/// One command a line, each makes one run that is not finished.
+void emit_commands(const SweepOptions& options, const std::filesystem::path& folder,
+                   const Manifest& manifest, Progress& progress) {
+  const std::string program = shell_word(this_program().string()),
+                    where = shell_word(std::filesystem::absolute(folder).string());
+  std::string text;
+  int count = 0;
+  for (const int index : chosen_runs(options, manifest)) {
+    const ManifestRun& run = manifest.runs[static_cast<std::size_t>(index)];
+    const RunState state = read_report(runs_folder(folder) / run.folder).state;
+    if (is_finished(state) && !(options.is_failed_again && has_failed(state))) continue;
+    text += program + " sweep run " + where + " --index " + std::to_string(index) +
+            " --threads 1 --quiet" + (options.is_failed_again ? " --retry-failed" : "") + "\n";
+    ++count;
+  }
+  write_file(options.emit, text);
+  progress.note(std::to_string(count) + " commands in " + options.emit +
+                "; then: neve sweep collect " + folder.string());
+}
+
+EngineResult run_engine(const SweepOptions& options, const std::filesystem::path& folder,
+                        const Manifest& manifest, Progress& progress) {
+  const std::vector<int> indices = chosen_runs(options, manifest);
+  if (options.engine == "slurm") {
+    const SlurmOptions slurm{this_program(), options.backend, options.jobs,
+                             std::max(1, options.threads), options.sbatch};
+    return run_slurm(folder, manifest, indices, slurm, options.is_failed_again, progress);
+  }
+  EngineOptions engine;
+  engine.cores = core_count(options.threads);
+  engine.jobs = options.jobs;
+  engine.backend = options.backend;
+  engine.is_failed_again = options.is_failed_again;
+  engine.program = this_program();
+  return run_local(folder, manifest, indices, engine, progress);
 }
 
 void print_result(const SweepOptions& options, const std::filesystem::path& folder,
@@ -61,20 +110,36 @@ int run_sweep(const SweepOptions& options) {
   share_look(plan, cores);
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first run");
   const Manifest manifest = prepare_sweep(plan);
-  EngineOptions engine;
-  engine.cores = cores;
-  engine.jobs = options.jobs;
-  engine.backend = options.backend;
-  engine.is_failed_again = options.is_failed_again;
-  engine.program = this_program();
-  const EngineResult result =
-      run_local(plan.folder, manifest, all_indices(manifest), engine, progress);
+  if (!options.emit.empty()) {
+    emit_commands(options, plan.folder, manifest, progress);
+    return exit_ok;
+  }
+  const EngineResult result = run_engine(options, plan.folder, manifest, progress);
   collect_sweep(plan.folder, options.backend, cores, progress);
   print_result(options, plan.folder, result, progress);
   if (result.is_interrupted || is_interrupted()) {
     std::cerr << "neve: interrupted; the same command goes on from here" << std::endl;
     return exit_resumable;
   }
+  return result.failed > 0 ? exit_runs_failed : exit_ok;
+}
+
+int run_sweep_run(const SweepRunOptions& options) {
+  catch_interrupts();
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  const Manifest manifest = read_manifest(options.folder);
+  if (options.index < 0 || options.index >= static_cast<int>(manifest.runs.size()))
+    throw UsageError("--index", "there is no run " + std::to_string(options.index),
+                     "the last one is " + std::to_string(manifest.runs.size() - 1));
+  EngineOptions engine;
+  engine.cores = core_count(options.threads);
+  engine.jobs = 1;
+  engine.backend = options.backend;
+  engine.is_failed_again = options.is_failed_again;
+  engine.program = this_program();
+  const EngineResult result =
+      run_local(options.folder, manifest, {options.index}, engine, progress);
+  if (result.is_interrupted) return exit_resumable;
   return result.failed > 0 ? exit_runs_failed : exit_ok;
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/plan.h"
 #include "app/progress.h"
+#include "app/sweep/selection.h"
 
 namespace neve::app {
 
@@ -45,9 +46,24 @@ struct SweepOptions {
   int jobs = 0;     ///< runs side by side; 0: as many as keep the cores busy
   std::string backend = "auto";
   bool is_failed_again = false;
+  std::optional<Shard> shard;
+  std::string only;                 ///< "3,7-12"; "": all
+  std::string engine = "local";     ///< local | slurm
+  std::vector<std::string> sbatch;  ///< further options of sbatch
+  std::string emit;                 ///< file for the commands of the runs; nothing is started
   Verbosity verbosity = Verbosity::normal;
   bool is_dry_run = false;
   bool is_json = false;
+};
+
+/// Of one run of a sweep that is on disk already.
+struct SweepRunOptions {
+  std::string folder;  ///< of the sweep
+  int index = 0;
+  int threads = 0;  ///< 0: as many as there are
+  std::string backend = "auto";
+  bool is_failed_again = false;
+  Verbosity verbosity = Verbosity::normal;
 };
 
 struct CollectOptions {
@@ -82,10 +98,12 @@ int run_compare(const CompareOptions& options);
 int run_bench_sim(const BenchOptions& options);
 int run_bench_frame(const BenchOptions& options);
 int run_bench_render(const BenchOptions& options);
+int run_bench_sweep(const BenchOptions& options);
 int run_info(const std::string& path, bool is_json);
 int run_doctor(bool is_json);
 int run_params(bool is_sweep, bool is_json);
 int run_sweep(const SweepOptions& options);
+int run_sweep_run(const SweepRunOptions& options);
 int run_sweep_collect(const CollectOptions& options);
 
 }  // namespace neve::app

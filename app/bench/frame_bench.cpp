@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/bench/measure.h"
+#include "app/bench/scratch_folder.h"
 #include "app/bench/window.h"
 #include "app/errors.h"
 #include "app/frame_builder.h"
@@ -53,26 +54,6 @@ Scene falling_box(const BoxSize& size, const std::string& solver) {
           "normal = [0, 1, 0] } }\n[output]\nsize = [640, 360]\n",
       "bench frame");
 }
-
-/// A folder of its own that goes when this goes.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string path = (fs::temp_directory_path() / "neve-bench-XXXXXX").string();
-    if (!::mkdtemp(path.data())) throw IoError("cannot make the folder " + path, path);
-    path_ = path;
-  }
-  ~ScratchFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// What a scene needs to be drawn.
 class Drawing {

@@ -74,7 +74,7 @@ class LocalEngine {
       if (!active_.empty()) std::this_thread::sleep_for(poll_interval);
     }
     progress_.clear();
-    result_.is_interrupted = is_interrupted();
+    result_.is_interrupted |= is_interrupted();
     result_.seconds = std::chrono::duration<double>(Child::Clock::now() - start).count();
     return result_;
   }
@@ -218,7 +218,7 @@ class LocalEngine {
         continue;
       }
       result_.cpu_seconds += ended->cpu_seconds;
-      result_.run_seconds += ended->seconds;
+      result_.core_seconds += ended->seconds * active->threads;
       judge(*ended, manifest_, *active->run, active->folder, active->report);
       finish(*active->run, active->folder, active->report);
       if (active->report.state == RunState::ok) remove_checkpoints(active->folder);
@@ -229,6 +229,8 @@ class LocalEngine {
   void finish(const ManifestRun& run, const fs::path& folder, const RunReport& report) {
     write_report(folder, report);
     if (is_finished(report.state)) count(report);
+    // Also by somebody else: then the sweep is not done either.
+    if (report.state == RunState::interrupted) result_.is_interrupted = true;
     work_done_ += run.work;
     work_left_ -= run.work;
     clock_.note(work_done_);

@@ -20,11 +20,11 @@ struct EngineOptions {
 };
 
 struct EngineResult {
-  int ok = 0, failed = 0;  ///< of all that were asked for, earlier ones included
-  int started = 0;         ///< now
-  bool is_interrupted = false;
+  int ok = 0, failed = 0;               ///< of all that were asked for, earlier ones included
+  int started = 0;                      ///< now
+  bool is_interrupted = false;          ///< some run waits for the next time
   double seconds = 0, cpu_seconds = 0;  ///< of the whole; of all children
-  double run_seconds = 0;               ///< sum over the children
+  double core_seconds = 0;              ///< time of the children times their threads
 };
 
 /// Runs what is not finished yet of the runs of these indices; each ends as a state and a reason in

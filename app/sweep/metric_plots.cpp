@@ -12,7 +12,7 @@ namespace neve::app {
 namespace {
 
 constexpr double panel_width = 210, panel_height = 120, left_room = 62, top_room = 30,
-                 bottom_room = 34, gap = 16;
+                 bottom_room = 34, gap = 16, page_width = 1420;
 
 std::optional<double> number(const std::string& text) {
   double x = 0;
@@ -81,11 +81,20 @@ Across by_number(const Varied& parameter, const std::vector<std::optional<double
   };
   for (const std::optional<double>& x : values)
     across.place.push_back(x ? std::optional(place(*x)) : std::nullopt);
-  if (is_logarithmic) {
-    for (double power = std::ceil(a - 1e-9); power <= scaled(high) + 1e-9; power += 1)
-      across.ticks.emplace_back(place(std::pow(10, power)), rough_text(std::pow(10, power)));
-    if (across.ticks.size() < 2)
-      across.ticks = {{place(low), rough_text(low)}, {place(high), rough_text(high)}};
+  std::vector<double> kinds;
+  for (const std::optional<double>& x : values)
+    if (x && std::find(kinds.begin(), kinds.end(), *x) == kinds.end()) kinds.push_back(*x);
+  std::sort(kinds.begin(), kinds.end());
+  double nearest = 1;
+  for (std::size_t k = 1; k < kinds.size(); ++k)
+    nearest = std::min(nearest, place(kinds[k]) - place(kinds[k - 1]));
+  // The values themselves where there is room for them.
+  constexpr double room = 0.16;
+  if (nearest >= room || kinds.size() == 1) {
+    for (const double x : kinds) across.ticks.emplace_back(place(x), value_text(number_text(x)));
+  } else if (is_logarithmic) {
+    across.ticks = {{place(low), value_text(number_text(low))},
+                    {place(high), value_text(number_text(high))}};
   } else {
     for (const render::Tick& tick : render::nice_ticks(low, high, 4))
       across.ticks.emplace_back(place(tick.value), tick.label);
@@ -201,27 +210,32 @@ std::string metric_plots_svg(const Manifest& manifest, const std::vector<RunResu
                              bool is_document) {
   const std::vector<Across> columns = columns_of(manifest);
   const double row_height = top_room + panel_height + bottom_room;
+  const double block_width = left_room + static_cast<double>(columns.size()) * (panel_width + gap);
+  const int side_by_side = std::max(1, static_cast<int>(page_width / block_width));
   std::string body;
-  double y = 0;
+  int count = 0;
   for (std::size_t metric = 0; metric < metric_infos().size(); ++metric) {
     const std::optional<Extent> extent = extent_of(results, metric);
     if (!extent) continue;
     const MetricInfo& info = metric_infos()[metric];
     const std::string unit = info.unit[0] ? std::string(" (") + info.unit + ")" : "";
-    body += text_at(left_room, y + top_room - 10, "start", "name", info.title + unit);
+    const double left = block_width * (count % side_by_side) + left_room;
+    const double y = row_height * (count / side_by_side);
+    ++count;
+    body += text_at(left, y + top_room - 10, "start", "name", info.title + unit);
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      const double x = left_room + static_cast<double>(c) * (panel_width + gap);
+      const double x = left + static_cast<double>(c) * (panel_width + gap);
       body += panel(columns[c], results, manifest, metric, *extent, x, y + top_room, c == 0);
       body += text_at(x + panel_width / 2, y + top_room + panel_height + 28, "middle", "tick",
                       columns[c].title);
     }
-    y += row_height;
   }
   if (body.empty()) return {};
-  const double width = left_room + static_cast<double>(columns.size()) * (panel_width + gap);
+  const double width = block_width * std::min(count, side_by_side);
+  const double height = row_height * ((count + side_by_side - 1) / side_by_side);
   const std::string head = is_document ? "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" : "";
   return head + "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + n(width) + "\" height=\"" +
-         n(y) + "\" viewBox=\"0 0 " + n(width) + " " + n(y) + "\">\n" + style +
+         n(height) + "\" viewBox=\"0 0 " + n(width) + " " + n(height) + "\">\n" + style +
          (is_document ? "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" : "") + body +
          "</svg>\n";
 }

@@ -1,5 +1,6 @@
 #include "app/sweep/report.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 
@@ -43,10 +44,15 @@ Json column(const std::string& title, bool is_text, bool is_parallel,
   return {{"title", title}, {"text", is_text}, {"parallel", is_parallel}, {"help", help}};
 }
 
+bool has_labels(const Manifest& manifest) {
+  return std::any_of(manifest.runs.begin(), manifest.runs.end(),
+                     [](const ManifestRun& run) { return !run.label.empty(); });
+}
+
 Json columns_of(const Manifest& manifest) {
   Json columns = Json::array();
   columns.push_back(column("run", false, false));
-  columns.push_back(column("name", true, false));
+  if (has_labels(manifest)) columns.push_back(column("name", true, false));
   for (const Varied& p : manifest.parameters)
     columns.push_back(column(p.name + (p.unit.empty() ? "" : " (" + p.unit + ")"),
                              p.type != "number" && p.type != "integer", true, p.address));
@@ -62,7 +68,7 @@ Json columns_of(const Manifest& manifest) {
 Json row_of(const Manifest& manifest, const ManifestRun& run, const RunResult& result) {
   Json cells = Json::array();
   cells.push_back(run.index);
-  cells.push_back(run.label);
+  if (has_labels(manifest)) cells.push_back(run.label);
   for (const Varied& p : manifest.parameters) cells.push_back(cell_of(run.value(p.address)));
   cells.push_back(name(result.report.state));
   for (const std::optional<double>& value : result.metrics)

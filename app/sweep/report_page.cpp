@@ -14,18 +14,19 @@ p.sub { color: #5b6673; margin: 0 0 16px; } p.hint { color: #5b6673; margin: 0 0
 .sheet a:hover, .sheet a.on { border-color: #ff8a4c; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 12.5px; font-variant-numeric: tabular-nums; }
-th { text-align: right; cursor: pointer; padding: 4px 9px; border-bottom: 2px solid #aeb8c4;
+th { text-align: right; cursor: pointer; padding: 4px 7px; border-bottom: 2px solid #aeb8c4;
   white-space: nowrap; user-select: none; background: #fff; position: sticky; top: 0; }
 th.text, td.text { text-align: left; }
 th[data-way="1"]::after { content: " \25B2"; font-size: 9px; }
 th[data-way="-1"]::after { content: " \25BC"; font-size: 9px; }
-td { text-align: right; padding: 3px 9px; border-bottom: 1px solid #e6eaef; white-space: nowrap; }
+#plots svg { display: block; max-width: 100%; }
+td { text-align: right; padding: 3px 7px; border-bottom: 1px solid #e6eaef; white-space: nowrap; }
 tr.failed td { background: #fff3ec; } tr.on td { background: #e4eefb; }
 td.reason { white-space: normal; min-width: 220px; }
 code { font: 12px "DejaVu Sans Mono", monospace; background: #f1f4f7; padding: 2px 5px; border-radius: 3px; }
 button { font: inherit; font-size: 11px; border: 1px solid #c3ccd6; background: #fff; border-radius: 3px;
   cursor: pointer; padding: 1px 7px; margin-left: 6px; }
-#parallel text { font-size: 11px; fill: #55606e; } #parallel text.name { fill: #20262e; }
+#parallel text { font-size: 11px; fill: #55606e; paint-order: stroke; stroke: #fff; stroke-width: 3px; } #parallel text.name { fill: #20262e; }
 #parallel path { fill: none; stroke: #2b6cb0; stroke-width: 1.3; stroke-opacity: .45; }
 #parallel path.failed { stroke: #d9561e; } #parallel path.on { stroke: #111; stroke-width: 2.6; stroke-opacity: 1; }
 #parallel line { stroke: #aeb8c4; }
@@ -96,9 +97,9 @@ const axes = data.columns.map((column, c) => {
   return {title: column.title, c, kinds, numeric, low, high,
           at: v => numeric ? (v - low) / (high - low) : kinds.indexOf(v) / (kinds.length - 1)};
 }).filter(a => a);
-const step = 128, top0 = 34, height = 260;
+const step = 122, top0 = 34, height = 260;
 const svg = document.getElementById("parallel");
-svg.setAttribute("width", Math.max(1, axes.length) * step + 60);
+svg.setAttribute("width", Math.max(1, axes.length) * step + 20);
 svg.setAttribute("height", top0 + height + 26);
 const x = k => 64 + k * step, y = part => top0 + height * (1 - part);
 data.rows.forEach(r => {
@@ -116,7 +117,7 @@ data.rows.forEach(r => {
 axes.forEach((a, k) => {
   make(svg, "svg:line", {x1: x(k), x2: x(k), y1: top0, y2: top0 + height});
   make(svg, "svg:text", {x: x(k), y: 16, "text-anchor": "middle", class: "name"},
-       a.title.length > 20 ? a.title.slice(0, 19) + "\u2026" : a.title);
+       a.title.length > 22 ? a.title.slice(0, 21) + "\u2026" : a.title);
   if (a.numeric) {
     make(svg, "svg:text", {x: x(k) + 5, y: top0 + 4}, short(a.high));
     make(svg, "svg:text", {x: x(k) + 5, y: top0 + height + 4}, short(a.low));

@@ -45,15 +45,15 @@ const std::vector<MetricInfo>& metric_infos() {
       {"spread", "m", "spread", false, false},
       {"height", "m", "height", false, false},
       {"fragments", "", "fragments", true, false},
-      {"largest_fragment", "", "share of the largest fragment", false, false},
+      {"largest_fragment", "", "largest fragment", false, false},
       {"kinetic_energy", "J", "kinetic energy", false, false},
       {"elastic_energy", "J", "elastic energy", false, false},
       {"mean_J_P", "", "mean J_P", false, false},
-      {"min_J_P", "", "smallest J_P", false, false},
-      {"max_J_P", "", "largest J_P", false, false},
-      {"max_speed", "m/s", "largest speed of all frames", false, false},
+      {"min_J_P", "", "least J_P", false, false},
+      {"max_J_P", "", "greatest J_P", false, false},
+      {"max_speed", "m/s", "top speed", false, false},
       {"steps", "", "steps", true, false},
-      {"seconds", "s", "time of the run", false, true}};
+      {"seconds", "s", "time", false, true}};
   return infos;
 }
 

@@ -145,5 +145,16 @@ TEST_F(Cli, OneThreadBeatsTheNaiveCode) {
         << name;
 }
 
+TEST_F(Cli, BenchSweepNamesWhatScriptsDependOn) {
+  const auto result = neve({"bench", "sweep", "--quick", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  auto rows = by_name(result.output);
+  ASSERT_TRUE(rows.contains("cores_busy") && rows.contains("overhead_per_run"));
+  EXPECT_LE(rows["cores_busy"]["max"].get<double>(), 100.5) << "no core is given out twice";
+  // Four runs on two cores: even here no core waits for a third of the time.
+  EXPECT_GT(rows["cores_busy"]["median"].get<double>(), 66);
+  EXPECT_EQ(rows["overhead_per_run"]["unit"], "s");
+}
+
 }  // namespace
 }  // namespace neve::test

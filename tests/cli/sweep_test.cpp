@@ -170,6 +170,42 @@ TEST_F(SweepCli, WhatGoesWrongBecomesAStateAndAReason) {
   EXPECT_EQ(counts["failed"], 4);
 }
 
+TEST_F(SweepCli, ShardsAndSelectionsShareTheWork) {
+  const auto started = [&](const std::vector<std::string>& which) {
+    std::vector<std::string> words{"sweep", "sweep.toml", "--json"};
+    words.insert(words.end(), which.begin(), which.end());
+    const auto result = neve(words);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return app::parse_json(std::string_view(result.output))["started"].get<int>();
+  };
+  EXPECT_EQ(started({"--only", "0,2-3", "--shard", "1/2"}), 2);
+  EXPECT_EQ(status("0000")["state"], "ok");
+  EXPECT_EQ(status("0001")["state"], "pending");
+  EXPECT_EQ(status("0002")["state"], "ok");
+  EXPECT_TRUE(contains(read_text(folder / "out/sweep.cdb/report.html"), "2 not finished"));
+  EXPECT_EQ(started({"--shard", "2/2"}), 2);
+  EXPECT_EQ(started({}), 0);
+  EXPECT_EQ(neve({"sweep", "sweep.toml", "--shard", "3/2"}).exit_code, 2);
+  EXPECT_EQ(neve({"sweep", "sweep.toml", "--only", "4"}).exit_code, 2);
+  EXPECT_EQ(neve({"sweep", "sweep.toml", "--engine", "pbs"}).exit_code, 2);
+}
+
+TEST_F(SweepCli, EmittedCommandsMakeTheSweepAnywhere) {
+  const auto emitted = neve({"sweep", "sweep.toml", "--emit", "commands.txt"});
+  ASSERT_EQ(emitted.exit_code, 0) << emitted.errors;
+  EXPECT_TRUE(contains(emitted.errors, "4 commands in commands.txt")) << emitted.errors;
+  EXPECT_EQ(status("0003")["state"], "pending");
+  // From another folder: nothing in them is relative.
+  const auto made = app::run_process(
+      "/bin/sh", {"-c", "cd / && sh -e \"$0\"", (folder / "commands.txt").string()}, folder.path());
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  for (const char* run : {"0000", "0001", "0002", "0003"}) EXPECT_EQ(status(run)["state"], "ok");
+  ASSERT_EQ(neve({"sweep", "collect", "out/sweep.cdb"}).exit_code, 0);
+  EXPECT_TRUE(exists("out/sweep.cdb/report.html"));
+  ASSERT_EQ(neve({"sweep", "sweep.toml", "--emit", "commands.txt"}).exit_code, 0);
+  EXPECT_EQ(read_text(folder / "commands.txt"), "") << "nothing is left to do";
+}
+
 TEST_F(SweepCli, InterruptedSweepsGoOnWhereTheyWere) {
   // A million steps: nobody waits for them.
   const char* const endless = R"(

@@ -1,0 +1,103 @@
+#include "app/bench/sweep_bench.h"
+
+#include <thread>
+
+#include "app/bench/measure.h"
+#include "app/bench/scratch_folder.h"
+#include "app/errors.h"
+#include "app/machine.h"
+#include "app/output/atomic_file.h"
+#include "app/output/run_json.h"
+#include "app/sweep/engine.h"
+#include "app/sweep/look.h"
+#include "app/sweep/prepare.h"
+#include "app/sweep/store.h"
+#include "app/sweep/sweep_plan.h"
+#include "sim/simd.h"
+
+namespace neve::app {
+
+namespace {
+
+/// A few thousand particles: a second of work each, as small as runs of studies are.
+constexpr const char* scene_text = R"(
+title = "bench"
+frames = 6
+[solver]
+cell_size = 0.03
+[[body]]
+shape = { sphere = { center = [0, 0.2, 0], radius = 0.16 } }
+velocity = [0, -3, 0]
+[[collider]]
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[output]
+size = [480, 270]
+)";
+
+struct Round {
+  double cores_busy = 0, overhead = 0;
+};
+
+/// Seconds that a run spent on what it is for.
+double seconds_of_work(const std::filesystem::path& folder, const ManifestRun& run) {
+  double seconds = 0;
+  for (const FrameRecord& frame : read_frame_records(runs_folder(folder) / run.folder))
+    seconds += frame.seconds_sim + frame.seconds_render;
+  return seconds;
+}
+
+Round measure_round(const BenchOptions& options, int cores, int run_count, Progress& progress) {
+  const ScratchFolder scratch;
+  write_file(scratch.path() / "scene.toml", scene_text);
+  SweepOptions sweep;
+  sweep.file = (scratch.path() / "scene.toml").string();
+  sweep.axes = {"seed={ range = [1, " + std::to_string(run_count) + "] }"};
+  sweep.out = (scratch.path() / "out").string();
+  SweepPlan plan = plan_sweep(sweep);
+  share_look(plan, cores);
+  const Manifest manifest = prepare_sweep(plan);
+  EngineOptions engine;
+  engine.cores = cores;
+  engine.backend = options.backend;
+  engine.program = this_program();
+  std::vector<int> all;
+  for (const ManifestRun& run : manifest.runs) all.push_back(run.index);
+  const EngineResult result = run_local(plan.folder, manifest, all, engine, progress);
+  stop_if_interrupted();
+  if (result.failed > 0) throw Error(exit_internal, "a run of the bench failed");
+  double overhead = 0;
+  for (const ManifestRun& run : manifest.runs)
+    overhead += read_report(runs_folder(plan.folder) / run.folder).seconds -
+                seconds_of_work(plan.folder, run);
+  return {result.core_seconds / (cores * result.seconds), overhead / run_count};
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_sweep(const BenchOptions& options, Progress& progress) {
+  progress.note("neve bench sweep");
+  const int cores = options.threads > 0
+                        ? options.threads
+                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int rounds = options.rounds > 0 ? options.rounds : options.is_quick ? 1 : 3;
+  const int runs = options.is_quick ? 2 * cores : 12 * cores;
+  std::vector<double> busy, overhead;
+  for (int k = 0; k < rounds; ++k) {
+    const Round round = measure_round(options, cores, runs, progress);
+    busy.push_back(100 * round.cores_busy);
+    overhead.push_back(round.overhead);
+  }
+  const auto row = [&](const char* name, const std::vector<double>& samples, const char* unit) {
+    BenchRow result;
+    result.name = name;
+    result.threads = cores;
+    result.particles = 4500;
+    result.simd = sim::name(sim::chosen_simd_level());
+    result.value = statistics_of(samples);
+    result.unit = unit;
+    return result;
+  };
+  return {row("cores_busy", busy, "%"), row("overhead_per_run", overhead, "s")};
+}
+
+}  // namespace neve::app

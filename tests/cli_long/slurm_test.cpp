@@ -1,0 +1,93 @@
+/// The same sweep through a real Slurm and on this machine alone.
+
+#include <algorithm>
+
+#include "tests/cli/run_neve.h"
+#include "tests/support/cinema.h"
+#include "tests/support/slurm.h"
+
+namespace neve::test {
+namespace {
+
+/// Seven runs, more than the site's arrays take; one explodes, one cannot start.
+const char* const study = R"(
+[sweep]
+scene = "scene.toml"
+frames = "0-2"
+method = "list"
+[sheet]
+tile = [160, 90]
+[[run]]
+seed = 1
+[[run]]
+seed = 2
+[[run]]
+seed = 3
+[[run]]
+label = "explodes"
+"solver.time_step" = "fixed"
+"solver.dt" = 2e-3
+"material.snow.youngs_modulus" = 5e7
+"material.snow.model" = "corotated"
+"body.ball.velocity" = [0, -8, 0]
+[[run]]
+label = "refused"
+"limits.particles" = 10
+[[run]]
+seed = 4
+[[run]]
+seed = 5
+)";
+
+/// The table without the columns that differ from one time to the next.
+std::string without_times(const std::string& csv) {
+  const std::vector<CsvRow> rows = parse_csv(csv);
+  std::string text;
+  for (const CsvRow& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c)
+      if (rows[0][c] != "seconds") text += row[c] + (c + 1 < row.size() ? "," : "\n");
+  return text;
+}
+
+TEST_F(Cli, SlurmMakesTheSameTableAsThisMachine) {
+  if (const std::string obstacle = Slurm::obstacle(); !obstacle.empty())
+    GTEST_SKIP() << "no Slurm: " << obstacle;
+  const Slurm slurm;
+  if (!slurm.is_up()) GTEST_SKIP() << "Slurm does not start here";
+  folder.write("study.toml", study);
+  const auto local = neve({"sweep", "study.toml", "--out", "local"});
+  EXPECT_EQ(local.exit_code, 7) << local.errors;
+  const auto array = neve({"sweep", "study.toml", "--out", "array", "--engine", "slurm"});
+  EXPECT_EQ(array.exit_code, 7) << array.errors;
+  EXPECT_TRUE(contains(array.errors, "and others")) << "one array would be over the limit";
+  EXPECT_EQ(without_times(read_text(folder / "array/data.csv")),
+            without_times(read_text(folder / "local/data.csv")));
+  EXPECT_EQ(read_text(folder / "array/sheet.png"), read_text(folder / "local/sheet.png"));
+  // The collector was a job of its own.
+  EXPECT_TRUE(exists("array/slurm/collect.log"));
+  // Nothing is missing: nothing is submitted.
+  const auto again = neve({"sweep", "study.toml", "--out", "array", "--engine", "slurm", "--json"});
+  EXPECT_EQ(app::parse_json(std::string_view(again.output))["started"], 0);
+}
+
+TEST_F(Cli, CancelledSlurmSweepsGoOn) {
+  if (const std::string obstacle = Slurm::obstacle(); !obstacle.empty())
+    GTEST_SKIP() << "no Slurm: " << obstacle;
+  const Slurm slurm;
+  if (!slurm.is_up()) GTEST_SKIP() << "Slurm does not start here";
+  folder.write("long.toml",
+               "[sweep]\nscene = \"scene.toml\"\n[axis]\n\"solver.max_dt\" = [1e-6, 1.1e-6]\n");
+  const std::string script =
+      "\"$0\" sweep long.toml --engine slurm --out array & pid=$!\n"
+      "for i in $(seq 600); do [ -e array/runs/0000/particles/0000.png ] && break; sleep 0.1; "
+      "done\n"
+      "kill -INT $pid; wait $pid; echo code $?\n"
+      "for i in $(seq 100); do [ -z \"$(squeue -h)\" ] && break; sleep 0.2; done; squeue -h\n";
+  const auto result = app::run_process("/bin/bash", {"-c", script, NEVE_BINARY}, folder.path());
+  EXPECT_EQ(result.output, "code 75\n") << result.errors;
+  EXPECT_EQ(json_of("array/runs/0000/status.json")["state"], "interrupted");
+  EXPECT_TRUE(exists("array/runs/0000/checkpoint"));
+}
+
+}  // namespace
+}  // namespace neve::test
