@@ -13,6 +13,7 @@ namespace neve::sim {
 
 struct SelfTestResult {
   std::string name;  ///< one word or a few, for scripts: weights, affine_field, ...
+  std::string what;  ///< what is tested, for people
   bool passed = true;
   std::string detail;  ///< what was asked, the worst value found, what is allowed, and where
 };

@@ -170,6 +170,13 @@ std::vector<Mistake> transfer_mistakes() {
        {},
        {},
        true},
+      {"fast_force_forgotten",
+       "force forgotten in the fast driver only",
+       {{sweeps, "v_new[n] = node_v_free(momentum[n], force[n], c);",
+         "v_new[n] = node_v_free(momentum[n], Quad<Real>{}, c);"}},
+       {},
+       "not a classic: a mistake of the driver that runs, where self-tests and watch look into the "
+       "other one"},
       {"half_a_cell_between_transfers",
        "half a cell between P2G and G2P",
        {{sweeps,

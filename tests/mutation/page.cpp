@@ -32,8 +32,8 @@ constexpr const char* about_self_tests = R"(
 instruction set in use, and says the worst value found and what is allowed. They take a tenth of a
 second. A failure is exit code 9.
 
-| self-test | notices |
-| --- | --- |
+| self-test | what | notices |
+| --- | --- | --- |
 )";
 
 constexpr const char* about_watch = R"(
@@ -42,8 +42,9 @@ constexpr const char* about_watch = R"(
 `neve render --validate` looks at the first steps, then ever more rarely down to every 256th. A look
 takes a step of a copy, so the run stays as it is to the bit; on one thread it costs what 25 steps
 cost. What is out of bounds is a warning once, with step, value, meaning and remedy, and is counted in
-run.json (`validation`). Where it is wrong and not only remarkable, the run ends with exit code 9; its
-pictures are kept. Of adaptive steps, the first two checks warn above the limits that the scene gives.
+run.json (`validation`; of a resumed run, what came after). Where it is wrong and not only remarkable,
+the run ends with exit code 9; its pictures are kept. Of adaptive steps, the first two checks warn
+above the limits that the scene gives.
 
 | watched | what | warns | wrong | notices |
 | --- | --- | --- | --- | --- |
@@ -81,10 +82,9 @@ std::size_t count(const std::vector<Finding>& findings, const std::string& check
       }));
 }
 
-std::vector<std::string> self_test_names() {
-  std::vector<std::string> names;
-  for (const auto& result : sim::self_tests({})) names.push_back(result.name);
-  return names;
+/// Run on nothing: names and what they test.
+std::vector<sim::SelfTestResult> list_of_self_tests() {
+  return sim::self_tests({});
 }
 
 std::string limits(double in_double, double in_float) {
@@ -130,15 +130,16 @@ std::string page(const std::vector<Mistake>& mistakes, const std::vector<Finding
   for (const Mistake& mistake : mistakes)
     if (!mistake.note.empty()) text += "- " + mistake.title + ": " + mistake.note + ".\n";
   text += about_self_tests;
-  for (const std::string& name : self_test_names())
-    text += "| " + name + " | " + std::to_string(count(findings, name, true)) + " |\n";
+  for (const auto& test : list_of_self_tests())
+    text += "| " + test.name + " | " + test.what + " | " +
+            std::to_string(count(findings, test.name, true)) + " |\n";
   return text + watch_table(findings);
 }
 
 std::vector<std::string> idle_checks(const std::vector<Finding>& findings) {
   std::vector<std::string> idle;
-  for (const std::string& name : self_test_names())
-    if (count(findings, name, true) == 0) idle.push_back(name);
+  for (const auto& test : list_of_self_tests())
+    if (count(findings, test.name, true) == 0) idle.push_back(test.name);
   for (const sim::WatchRecord& record : records(sim::Precision::real64))
     if (const std::string name = sim::name(record.check); count(findings, name, false) == 0)
       idle.push_back(name);
