@@ -142,8 +142,10 @@ int finish(const RenderOptions& options, const RenderJob& job, const RenderRun& 
            const RenderResult& result, Progress& progress) {
   progress.clear();
   if (result.status == RunStatus::diverged)
-    throw Error(exit_diverged, run.record().divergence->sentence, job.scene_file,
-                "see incident.json in " + job.folder.string());
+    throw Error(exit_diverged, sentence(*run.record().divergence, *result.diagnosis),
+                job.scene_file,
+                result.diagnosis->remedy + "; incident.json and diverged_*.png are in " +
+                    job.folder.string());
   if (options.is_json) print_result(job, run, result);
   if (result.status == RunStatus::interrupted) {
     std::cerr << "neve: interrupted; " << run.record().frames.size() << " frames are in "

@@ -76,6 +76,17 @@ std::string grouped(std::size_t count) {
   return digits;
 }
 
+/// "347 steps, dt 0.00012 s by sound (acoustic)"
+std::string steps_text(const sim::AdvanceReport& advance) {
+  const char* reasons[sim::dt_limit_count] = {"by max_dt", "by speed (cfl)", "by sound (acoustic)",
+                                              "by strain", "fixed",          "by the frame"};
+  const std::string count = grouped(advance.steps) + (advance.steps == 1 ? " step" : " steps");
+  const std::string dt = rough_text(advance.dt_min) == rough_text(advance.dt_max)
+                             ? rough_text(advance.dt_max)
+                             : rough_text(advance.dt_min) + " to " + rough_text(advance.dt_max);
+  return count + ", dt " + dt + " s " + reasons[static_cast<int>(advance.limit())];
+}
+
 }  // namespace
 
 FrameBuilder::FrameBuilder(const Scene& scene, double spacing, Quality quality,
@@ -114,16 +125,21 @@ render::Frame FrameBuilder::build(const View& view, const Snapshot& snapshot) co
 }
 
 render::Frame FrameBuilder::build_incident(const View& view, const Snapshot& snapshot,
-                                           const sim::Divergence& divergence) const {
+                                           const sim::Divergence& divergence,
+                                           const Diagnosis& diagnosis) const {
   render::Frame frame = build(view, snapshot);
   for (const std::uint32_t p : divergence.culprits) {
     if (frame.marks.size() == max_marks) break;
     if (p < snapshot.particles.x.size() && snapshot.particles.x[p].allFinite())
       frame.marks.push_back(to_float(snapshot.particles.x[p]));
   }
-  if (!frame.caption.empty())
-    frame.caption.push_back("diverged at step " + std::to_string(divergence.step) + ": " +
+  if (!frame.caption.empty()) {
+    frame.caption.push_back("diverged at step " + std::to_string(divergence.step) + ", rule " +
                             divergence.rule);
+    frame.caption.push_back("cause: " + std::string(name_of(diagnosis.cause)));
+    frame.caption.push_back(diagnosis.evidence);
+    frame.caption.push_back("try: " + diagnosis.remedy);
+  }
   return frame;
 }
 
@@ -214,6 +230,7 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
   const std::size_t count = snapshot.particles.x.size();
   lines.push_back(grouped(count) + (count == 1 ? " particle" : " particles") +
                   (coarsening_ > 1 ? ", coarsened " + coarsening_text(coarsening_) : ""));
+  if (snapshot.advance.steps > 0) lines.push_back(steps_text(snapshot.advance));
   const std::size_t shown = std::min(override_lines_.size(), max_override_lines);
   lines.insert(lines.end(), override_lines_.begin(),
                override_lines_.begin() + static_cast<std::ptrdiff_t>(shown));

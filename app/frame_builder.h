@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/diagnosis.h"
 #include "app/plan.h"
 #include "app/snapshot.h"
 #include "render/frame.h"
@@ -28,7 +29,7 @@ class FrameBuilder {
 
   /// The same picture with rings around the particles that broke a rule.
   render::Frame build_incident(const View& view, const Snapshot& snapshot,
-                               const sim::Divergence& divergence) const;
+                               const sim::Divergence& divergence, const Diagnosis& diagnosis) const;
 
   /// Title, frame and time, particles, and what was overridden; one line each.
   std::vector<std::string> caption(const Snapshot& snapshot) const;

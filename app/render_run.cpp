@@ -5,6 +5,7 @@
 #include <chrono>
 #include <system_error>
 
+#include "app/incident.h"
 #include "app/interrupt.h"
 #include "app/mosaic.h"
 #include "app/output/atomic_file.h"
@@ -108,6 +109,7 @@ int RenderRun::begin() {
     record_.frames = std::move(resumed->frames);
     history_ = std::move(resumed->history);
     advance_ = resumed->advance;
+    record_.retries = std::move(resumed->retries);
     result_.has_checkpoint = true;
   } else {
     remove_earlier_run(job_.folder);
@@ -179,7 +181,7 @@ bool RenderRun::checkpoint_is_due(int frame) const {
 void RenderRun::write_checkpoint(int frame) {
   if (job_.checkpoint_every == 0) return;
   writer_.finish();
-  checkpoints_.write(frame, advance_, history_);
+  checkpoints_.write(frame, advance_, history_, record_.retries);
   result_.has_checkpoint = true;
 }
 
@@ -188,7 +190,10 @@ RenderRun::Advanced RenderRun::simulate_to(int frame) {
   Advanced advanced;
   stepping = &progress_;
   validating = validation_ ? &*validation_ : nullptr;
-  advanced.report = simulation_.advance_to(frame / job_.scene.fps, after_step);
+  const double time = frame / job_.scene.fps;
+  advanced.report = job_.scene.solver.on_divergence == sim::OnDivergence::retry
+                        ? sim::advance_retrying(simulation_, time, after_step, advanced.retries)
+                        : simulation_.advance_to(time, after_step);
   stepping = nullptr;
   validating = nullptr;
   advanced.seconds = seconds_since(start);
@@ -207,12 +212,13 @@ void RenderRun::begin_next(int frame) {
 bool RenderRun::advance_to_frame(int frame) {
   const Advanced advanced = next_.valid() ? next_.get() : simulate_to(frame);
   advance_.append(advanced.report);
+  note_retries(advanced.retries);
   seconds_sim_ = advanced.seconds;
   if (validation_) record_.validation = validation_->records();
   if (simulation_.divergence()) {
     record_.divergence = simulation_.divergence();
     result_.status = RunStatus::diverged;
-    draw_incident();
+    report_incident();
     return false;
   }
   if (is_interrupted()) {
@@ -226,6 +232,7 @@ void RenderRun::draw_frame(int frame) {
   const auto start = Clock::now();
   Snapshot snapshot = take_snapshot(job_.scene, simulation_, frame);
   snapshot.history = history_;
+  snapshot.advance = advance_;
   const std::uint64_t state_hash = simulation_.state_hash();
   picture_record_.state_hash = hash_text(state_hash);
   begin_next(frame);
@@ -262,21 +269,36 @@ void RenderRun::add_frame_record(const FrameRecord& frame) {
     record_.frames.insert(place, frame);
 }
 
-/// The state that broke a rule, with the culprits marked; a picture, but not a frame.
-void RenderRun::draw_incident() {
+void RenderRun::note_retries(const std::vector<sim::Retry>& retries) {
+  for (const sim::Retry& retry : retries)
+    progress_.warning(retry.sentence + ". Back to " + fixed_text(retry.back_to, 3) +
+                      " s with dt times " + rough_text(retry.dt_scale));
+  record_.retries.insert(record_.retries.end(), retries.begin(), retries.end());
+}
+
+/// The state that broke a rule, with the culprits marked, and the slice through them; pictures, but
+/// no frames. The report first: pictures of a broken state are the more delicate part.
+void RenderRun::report_incident() {
   const sim::Divergence& divergence = *record_.divergence;
+  const Diagnosis diagnosis = diagnose(job_.scene, divergence);
+  result_.diagnosis = diagnosis;
+  record_.cause = name_of(diagnosis.cause);
+  const Json incident =
+      incident_json(divergence, diagnosis, record_.scene, job_.scene.solver.cell_size);
+  write_file(incident_path(job_.folder), to_text(incident) + "\n");
   const int frame = static_cast<int>(divergence.time * job_.scene.fps);
-  Snapshot snapshot = take_snapshot(job_.scene, simulation_, frame);
+  Scene scene = job_.scene;
+  if (const auto slice = culprit_slice(scene, divergence, simulation_.particles()))
+    scene.views.push_back(*slice);
+  Snapshot snapshot = take_snapshot(scene, simulation_, frame);
   snapshot.time = divergence.time;
+  snapshot.advance = advance_;
   snapshot.history = history_;
   picture_record_.state_hash = hash_text(simulation_.state_hash());
-  for (const View& view : job_.scene.views)
+  for (const View& view : scene.views)
     writer_.write({diverged_path(job_.folder, view.name),
-                   renderer_.draw(builder_.build_incident(view, snapshot, divergence)),
+                   renderer_.draw(builder_.build_incident(view, snapshot, divergence, diagnosis)),
                    png_text(view.name, frame)});
-  Json incident = to_json(divergence);
-  incident["scene"] = record_.scene;
-  write_file(incident_path(job_.folder), to_text(incident) + "\n");
 }
 
 void RenderRun::write_movies() {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/diagnosis.h"
 #include "app/frame_builder.h"
 #include "app/output/picture_writer.h"
 #include "app/output/run_json.h"
@@ -25,6 +26,7 @@ struct RenderResult {
   RunStatus status = RunStatus::ok;
   std::vector<std::filesystem::path> movies;
   std::optional<render::Image> last_picture;  ///< of the first view
+  std::optional<Diagnosis> diagnosis;         ///< of a run that diverged
 };
 
 class RenderRun {
@@ -52,6 +54,7 @@ class RenderRun {
   /// Steps towards a frame, and the seconds that they took.
   struct Advanced {
     sim::AdvanceReport report;
+    std::vector<sim::Retry> retries;
     double seconds = 0;
   };
   Advanced simulate_to(int frame);
@@ -60,7 +63,8 @@ class RenderRun {
   void begin_next(int frame);
   void draw_frame(int frame);
   void add_frame_record(const FrameRecord& frame);
-  void draw_incident();
+  void note_retries(const std::vector<sim::Retry>& retries);
+  void report_incident();
   void write_movies();
   void forget_unwritten_frames();
   /// By itself, not only in a mosaic.

@@ -51,13 +51,16 @@ Checkpoints::Checkpoints(std::filesystem::path folder, const PictureRecord& pict
       progress_(progress) {}
 
 void Checkpoints::write(int frame, const sim::AdvanceReport& advance,
-                        std::span<const PlotSample> history) {
+                        std::span<const PlotSample> history, std::span<const sim::Retry> retries) {
   Checkpoint checkpoint;
   checkpoint.identity = identity_;
   checkpoint.simd = simulation_.simd();
   checkpoint.frame = frame;
   checkpoint.steps = simulation_.steps();
-  checkpoint.progress = {{"advance", to_json(advance)}, {"history", history_json(history)}};
+  checkpoint.progress = {{"advance", to_json(advance)},
+                         {"history", history_json(history)},
+                         {"retries", Json::array()}};
+  for (const sim::Retry& retry : retries) checkpoint.progress["retries"].push_back(to_json(retry));
   checkpoint.state = simulation_.save();
   write_checkpoint(folder_, checkpoint);
 }
@@ -87,6 +90,8 @@ std::optional<ResumedRun> Checkpoints::resume() {
     run.frame = checkpoint.frame;
     run.advance = advance_report(checkpoint.progress.at("advance"));
     run.history = history_of(checkpoint.progress.at("history"));
+    for (const Json& retry : checkpoint.progress.at("retries"))
+      run.retries.push_back(retry_record(retry));
   } catch (const std::exception& error) {
     // Its checksum is right, so it was written so.
     throw UsageError("--resume", std::string("cannot go on: ") + error.what(),

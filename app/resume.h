@@ -20,6 +20,7 @@ struct ResumedRun {
   int frame = 0;                    ///< the last one that was reached
   sim::AdvanceReport advance;       ///< steps taken since then
   std::vector<PlotSample> history;  ///< of all frames reached
+  std::vector<sim::Retry> retries;  ///< so far
   std::vector<FrameRecord> frames;  ///< that run.json lists
 };
 
@@ -31,7 +32,8 @@ class Checkpoints {
 
   /// @param advance steps since the frame
   /// @throws IoError
-  void write(int frame, const sim::AdvanceReport& advance, std::span<const PlotSample> history);
+  void write(int frame, const sim::AdvanceReport& advance, std::span<const PlotSample> history,
+             std::span<const sim::Retry> retries);
 
   /// Brings the simulation to the newest checkpoint that is whole; damaged ones are named and
   /// passed over. Nothing where there is none: the run starts at its beginning.

@@ -18,6 +18,7 @@ struct Snapshot {
   sim::ParticleArrays particles;        ///< id order
   std::vector<sim::Mat3d> kirchhoff;    ///< Pa; empty unless a view shows stress
   NodeFields fields;                    ///< empty unless a view shows the grid
+  sim::AdvanceReport advance;           ///< steps since the frame before; the caller fills it in
   std::span<const PlotSample> history;  ///< of the frames up to this one; the caller keeps it
 };
 

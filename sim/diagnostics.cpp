@@ -159,23 +159,27 @@ void find_culprits(const ParticleArrays& particles, const SolverSettings& settin
       ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(kept), ids.end(),
       [&](std::uint32_t a, std::uint32_t b) { return bad[a] != bad[b] ? bad[a] > bad[b] : a < b; });
   // The ones that stand out with the worst; a threshold of half its badness keeps marks few.
-  double acoustic_cfl = 0;
   if (kept > 0) {
     const std::size_t worst = ids[0];
     d.particle = static_cast<std::int64_t>(worst);
     d.x = particles.x[worst];
     d.v = particles.v[worst];
+    d.material = particles.material[worst];
     d.F_E = particles.F_E[worst];
     d.J_E = d.F_E.determinant();
     d.J_P = particles.J_P[worst];
     const double bar = bad[worst] > 0 ? 0.5 * bad[worst] : bad[worst];
     for (std::size_t k = 0; k < kept && bad[ids[k]] >= bar; ++k) d.culprits.push_back(ids[k]);
-    if (particles.V0[worst] > 0 && d.F_E.allFinite())
-      acoustic_cfl = d.dt / settings.cell_size *
-                     wave_speed(materials[static_cast<std::size_t>(particles.material[worst])],
-                                d.F_E, d.J_P, particles.m[worst] / particles.V0[worst]);
+    const Material& material = materials[static_cast<std::size_t>(d.material)];
+    if (d.F_E.allFinite()) {
+      d.stretches = decompose(d.F_E).s;
+      d.kirchhoff = first_piola(material, d.F_E, d.J_P) * d.F_E.transpose();
+      if (particles.V0[worst] > 0)
+        d.sound_speed =
+            wave_speed(material, d.F_E, d.J_P, particles.m[worst] / particles.V0[worst]);
+    }
   }
-  d.sentence = sentence(d, acoustic_cfl);
+  d.sentence = sentence(d, d.dt * d.sound_speed / settings.cell_size);
 }
 
 }  // namespace neve::sim

@@ -104,7 +104,7 @@ void Engine<Real>::prepare() {
   a.gathered = gathered.data();
   over_particle_blocks(sweeps_->rasterize, a);
   over_node_blocks(sweeps_->collect_momentum, a);
-  over_particle_blocks(sweeps_->volumes, a);
+  if (!settings_.skips(Stage::volumes)) over_particle_blocks(sweeps_->volumes, a);
   for (StagedNodes<Real>& nodes : staged)
     std::copy(std::begin(nodes.v_old), std::end(nodes.v_old), std::begin(nodes.v_star));
   over_node_blocks(sweeps_->keep_velocities, a);
@@ -122,6 +122,8 @@ void Engine<Real>::prepare() {
     limits_.max_hardening = std::max(limits_.max_hardening, m.hardening);
   StateLimits at_rest = limits_;
   at_rest.max_strain_rate = 0;
+  start_.max_speed = limits_.max_speed;
+  start_.max_sound_speed = limits_.max_sound_speed;
   rest_dt_ = std::min(settings_.max_dt, stable_dt(settings_, at_rest));
   const Summary start = summary();
   energy_.start = start.kinetic_energy + start.elastic_energy;
@@ -240,6 +242,10 @@ void Engine<Real>::step(double dt) {
     ++steps_;
     return;
   }
+  if (!settings_.bypass.empty()) {
+    step_by_stages(dt);
+    return;
+  }
   PhaseSeconds& seconds = phase_seconds_;
   PhaseTimer timer;
   partition();
@@ -267,7 +273,7 @@ Simulation::StepLimits Engine<Real>::step_limits() const {
 
 template <class Real>
 Simulation::Choice Engine<Real>::choose_dt(double remaining) const {
-  return sim::choose_dt(settings_, limits_, remaining);
+  return sim::choose_dt(settings_, limits_, remaining, dt_scale_);
 }
 
 template <class Real>
@@ -283,6 +289,7 @@ AdvanceReport Engine<Real>::advance_to(double time, bool (*interrupted)()) {
   double& done = frame_done_;
   while (done < whole && !divergence_) {
     const Simulation::Choice choice = choose_dt(whole - done);
+    last_limit_ = choice.limit;
     step(choice.dt);
     done += choice.dt;
     const bool is_last = choice.limit == DtLimit::frame_end && !(done < whole * (1 - 1e-12));

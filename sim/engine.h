@@ -70,6 +70,8 @@ class Engine {
   Simulation::Choice choose_dt(double remaining) const;
   Simulation::StepLimits step_limits() const;
 
+  void set_dt_scale(double scale) { dt_scale_ = scale; }
+  double dt_scale() const { return dt_scale_; }
   double time() const { return time_; }
   std::size_t steps() const { return steps_; }
   std::size_t particle_count() const { return particles_.size(); }
@@ -102,6 +104,7 @@ class Engine {
   void over_node_blocks(Sweep<Real> sweep, const SweepArgs<Real>& a);
   int active_threads() const;
   void note(double dt);
+  void remember(double dt, const BlockReport<Real>& report);
   BlockReport<Real> combined_report() const;
   void check(double dt, const StateLimits& before, const BlockReport<Real>& report);
   void check_energy();
@@ -111,7 +114,15 @@ class Engine {
   };
   void diverge(const char* rule, const char* stage, const StepSizes& step, double value,
                double limit);
-  void read_back(const SweepArgs<Real>& a, StagedStep& out) const;
+  /// What the stages leave behind.
+  struct Traces {
+    std::vector<StagedNodes<Real>> nodes;
+    std::vector<Gathered<Real>> gathered;
+    std::vector<Real> F_trial, v_before_collision;
+  };
+  void step_by_stages(double dt);
+  void take_stages(double dt, Traces& traces);
+  void read_back(const Traces& traces, StagedStep& out) const;
 
   SolverSettings settings_;
   std::vector<Material> material_list_;
@@ -137,6 +148,11 @@ class Engine {
   std::size_t steps_ = 0;
   StateLimits limits_;
   double rest_dt_ = 0, last_dt_ = 0;
+  double dt_scale_ = 1;
+  DtLimit last_limit_ = DtLimit::fixed;  ///< of the step that is being taken
+  StartState start_;
+  /// The last steps, as a ring: the step with number n stands at n modulo its size.
+  std::vector<StepRecord> last_steps_;
   /// The frame that advance_to is in: an interrupted one goes on as if nothing had happened.
   double frame_start_ = 0, frame_done_ = 0, frame_end_ = 0;
   EnergyBudget energy_;

@@ -10,7 +10,7 @@ namespace neve::sim {
 
 namespace {
 
-constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '1'};
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '2'};
 
 /// What there is once; followed by the records.
 struct SavedHead {
@@ -22,7 +22,7 @@ struct SavedHead {
   double max_speed, max_sound_speed, max_strain_rate, max_hardening;
   double energy_start, contact_work, energy_largest;
   double centre_of_mass[3];
-  double worst_acoustic_cfl;
+  double worst_acoustic_cfl, dt_scale;
   std::uint64_t inverted_trials;
   std::int32_t lattice_origin[3], unused;
 };
@@ -53,6 +53,7 @@ std::vector<std::uint8_t> Engine<Real>::save() const {
   head.contact_work = energy_.contact_work;
   head.energy_largest = energy_.largest;
   head.worst_acoustic_cfl = warnings_.worst_acoustic_cfl;
+  head.dt_scale = dt_scale_;
   head.inverted_trials = warnings_.inverted_trials;
   for (int a = 0; a < 3; ++a) {
     head.centre_of_mass[a] = energy_.centre_of_mass[a];
@@ -110,7 +111,9 @@ void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
   energy_.largest = head.energy_largest;
   for (int a = 0; a < 3; ++a) energy_.centre_of_mass[a] = head.centre_of_mass[a];
   warnings_ = {head.inverted_trials, head.worst_acoustic_cfl};
+  dt_scale_ = head.dt_scale;
   divergence_.reset();
+  last_steps_.clear();
   partition_ = Partition();
   partition_.set_period(settings_.period);
   place_colliders();

@@ -1,53 +1,97 @@
 /// The staged driver: the list of stages as the paper has it, on a copy that is thrown away.
 
 #include <algorithm>
+#include <vector>
 
 #include "sim/engine.h"
 #include "sim/engine_records.h"
 
 namespace neve::sim {
 
+/// The list of stages but those that the settings skip: what they would have changed stays.
+template <class Real>
+void Engine<Real>::take_stages(double dt, Traces& traces) {
+  partition();
+  if (steps_ % steps_between_sorts == 0) sort_storage();
+  SweepArgs<Real> a = args(dt, all_channels);
+  traces.nodes.resize(partition_.node_blocks().size());
+  traces.gathered.resize(particles_.size());
+  traces.F_trial.resize(9 * particles_.size());
+  traces.v_before_collision.resize(3 * particles_.size());
+  a.staged = traces.nodes.data();
+  a.gathered = traces.gathered.data();
+  a.F_trial = traces.F_trial.data();
+  a.v_before_collision = traces.v_before_collision.data();
+  const auto takes = [this](Stage stage) { return !settings_.skips(stage); };
+  const auto each_node = [&](auto&& change) {
+    for (StagedNodes<Real>& nodes : traces.nodes)
+      for (int n = 0; n < block_nodes; ++n) change(nodes, n);
+  };
+  const Sweeps<Real>& s = *sweeps_;
+  over_particle_blocks(s.rasterize, a);
+  over_node_blocks(s.collect_momentum, a);
+  if (takes(Stage::volumes)) over_particle_blocks(s.volumes, a);
+  if (takes(Stage::elastic_forces)) {
+    over_particle_blocks(s.elastic_forces, a);
+    over_node_blocks(s.collect_force, a);
+  } else {
+    each_node([](auto& nodes, int n) { nodes.force[n] = Quad<Real>{}; });
+  }
+  if (takes(Stage::grid_velocities))
+    over_node_blocks(s.grid_velocities, a);
+  else
+    each_node([](auto& nodes, int n) { nodes.v_free[n] = nodes.v_old[n]; });
+  if (takes(Stage::grid_collisions)) {
+    over_node_blocks(s.grid_collisions, a);
+  } else {
+    each_node([](auto& nodes, int n) { nodes.v_star[n] = nodes.v_free[n]; });
+    std::fill(node_contact_work_.begin(), node_contact_work_.end(), 0.0);
+  }
+  over_node_blocks(s.keep_velocities, a);  // explicit: v_new = v_star
+  over_particle_blocks(s.gather, a);
+  if (takes(Stage::deformation))
+    over_particle_blocks(s.deformation, a);
+  else
+    std::fill(reports_.begin(), reports_.end(), BlockReport<Real>{});
+  if (takes(Stage::particle_velocities)) over_particle_blocks(s.particle_velocities, a);
+  if (takes(Stage::particle_collisions)) over_particle_blocks(s.particle_collisions, a);
+  // It also finds speeds and lost particles: skipped, particles move by nothing.
+  if (!takes(Stage::advection)) a.constants.dt_over_h = 0;
+  over_particle_blocks(s.advection, a);
+}
+
+/// A step of the run itself, for settings that skip stages.
+template <class Real>
+void Engine<Real>::step_by_stages(double dt) {
+  Traces traces;
+  take_stages(dt, traces);
+  time_ += dt;
+  ++steps_;
+  if (!settings_.skips(Stage::colliders)) place_colliders();
+  const double sound_speed = limits_.max_sound_speed;
+  note(dt);
+  // Nothing has looked at the stress; it is what it was.
+  if (settings_.skips(Stage::deformation)) limits_.max_sound_speed = sound_speed;
+}
+
 template <class Real>
 StagedStep Engine<Real>::staged_step(double dt) const {
-  Engine copy(*this);
   StagedStep out;
   if (particles_.empty()) return out;
-  copy.partition();
-  if (copy.steps_ % steps_between_sorts == 0) copy.sort_storage();
-  SweepArgs<Real> a = copy.args(dt, all_channels);
-  std::vector<StagedNodes<Real>> staged(copy.partition_.node_blocks().size());
-  std::vector<Gathered<Real>> gathered(particles_.size());
-  std::vector<Real> F_trial(9 * particles_.size());
-  std::vector<Real> v_before(3 * particles_.size());
-  a.staged = staged.data();
-  a.gathered = gathered.data();
-  a.F_trial = F_trial.data();
-  a.v_before_collision = v_before.data();
-  const Sweeps<Real>& s = *sweeps_;
-  copy.over_particle_blocks(s.rasterize, a);  // 1  mass, momentum, v_old
-  copy.over_node_blocks(s.collect_momentum, a);
-  copy.over_particle_blocks(s.volumes, a);         // 2  of bodies in their first step
-  copy.over_particle_blocks(s.elastic_forces, a);  // 3
-  copy.over_node_blocks(s.collect_force, a);
-  copy.over_node_blocks(s.grid_velocities, a);  // 4  v_free
-  copy.over_node_blocks(s.grid_collisions, a);  // 5  v_star
-  copy.over_node_blocks(s.keep_velocities, a);  // 6  v_new = v_star: explicit
-  copy.over_particle_blocks(s.gather, a);
-  copy.over_particle_blocks(s.deformation, a);          // 7  F_E, J_P
-  copy.over_particle_blocks(s.particle_velocities, a);  // 8
-  copy.over_particle_blocks(s.particle_collisions, a);  // 9
-  copy.over_particle_blocks(s.advection, a);            // 10
-  copy.read_back(a, out);
+  Engine copy(*this);
+  Traces traces;
+  copy.take_stages(dt, traces);
+  copy.read_back(traces, out);
   return out;
 }
 
 template <class Real>
-void Engine<Real>::read_back(const SweepArgs<Real>& a, StagedStep& out) const {
+void Engine<Real>::read_back(const Traces& traces, StagedStep& out) const {
   const auto vector = [](Quad<Real> q) {
     return Vec3d(static_cast<double>(q[0]), static_cast<double>(q[1]), static_cast<double>(q[2]));
   };
   for (std::size_t b = 0; b < partition_.node_blocks().size(); ++b) {
-    const StagedNodes<Real>& nodes = a.staged[b];
+    const StagedNodes<Real>& nodes = traces.nodes[b];
     const std::uint64_t key = partition_.node_blocks()[b].key;
     for (int n = 0; n < block_nodes; ++n) {
       const double mass = static_cast<double>(nodes.momentum[n][3]);
@@ -73,15 +117,17 @@ void Engine<Real>::read_back(const SweepArgs<Real>& a, StagedStep& out) const {
   out.v_before_collision.resize(count);
   for (std::size_t q = 0; q < count; ++q) {
     const auto id = static_cast<std::size_t>(particles_[q].id);
-    out.grad_v[id] = matrix(a.gathered[q].grad_v);
-    out.F_E_trial[id] = matrix(a.F_trial + 9 * q);
-    out.v_before_collision[id] = sim::vector(a.v_before_collision + 3 * q);
+    out.grad_v[id] = matrix(traces.gathered[q].grad_v);
+    out.F_E_trial[id] = matrix(traces.F_trial.data() + 9 * q);
+    out.v_before_collision[id] = sim::vector(traces.v_before_collision.data() + 3 * q);
   }
   out.after = particles();
   out.state_hash = state_hash();
 }
 
 template StagedStep Engine<float>::staged_step(double) const;
+template void Engine<float>::step_by_stages(double);
+template void Engine<double>::step_by_stages(double);
 template StagedStep Engine<double>::staged_step(double) const;
 
 }  // namespace neve::sim

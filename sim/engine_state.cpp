@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sim/base/hash.h"
@@ -23,6 +24,33 @@ ModelKind model_kind(Model model) {
     default:
       return ModelKind::snow;
   }
+}
+
+/// How far from rest, in logarithms of volume; infinite where something is no number.
+double strangeness(const ParticleArrays& in, std::size_t q, StartState& start) {
+  const double J_E = in.F_E.empty() ? 1 : in.F_E[q].determinant();
+  const double J_P = in.J_P.empty() ? 1 : in.J_P[q];
+  const bool is_finite = in.x[q].allFinite() && (in.v.empty() || in.v[q].allFinite()) &&
+                         std::isfinite(J_E) && std::isfinite(J_P);
+  if (!is_finite) return std::numeric_limits<double>::infinity();
+  start.min_J_E = std::min(start.min_J_E, J_E);
+  start.max_J_E = std::max(start.max_J_E, J_E);
+  start.min_J_P = std::min(start.min_J_P, J_P);
+  start.max_J_P = std::max(start.max_J_P, J_P);
+  if (!(J_E > 0 && J_P > 0)) return std::numeric_limits<double>::infinity();
+  return std::max(std::abs(std::log(J_E)), std::abs(std::log(J_P)));
+}
+
+StartState start_state(const ParticleArrays& in) {
+  StartState start;
+  double most = 1e-6;  // rounding of states that were saved in float
+  for (std::size_t q = 0; q < in.x.size(); ++q) {
+    const double found = strangeness(in, q, start);
+    if (found <= most) continue;
+    most = found;
+    start.strangest = static_cast<std::int64_t>(q);
+  }
+  return start;
 }
 
 template <class Real>
@@ -76,6 +104,7 @@ void Engine<Real>::load(const ParticleArrays& in) {
     p.stiffness = 1;
     p.threshold = 1;
   }
+  start_ = start_state(in);
 }
 
 template <class Real>
@@ -118,7 +147,8 @@ Summary Engine<Real>::summary() const {
               m * inertia * Vec3d(C(2, 1) - C(1, 2), C(0, 2) - C(2, 0), C(1, 0) - C(0, 1));
         }
         s.elastic_energy += static_cast<double>(p.V0) * static_cast<double>(p.stiffness) *
-                            energy_density(material_list_[static_cast<std::size_t>(p.material())], matrix(p.F_E), J_P);
+                            energy_density(material_list_[static_cast<std::size_t>(p.material())],
+                                           matrix(p.F_E), J_P);
         s.max_speed = std::max(s.max_speed, v.norm());
         s.min_J_P = q == c * chunk ? J_P : std::min(s.min_J_P, J_P);
         s.max_J_P = q == c * chunk ? J_P : std::max(s.max_J_P, J_P);
@@ -184,7 +214,9 @@ std::vector<Mat3d> Engine<Real>::kirchhoff() const {
 template <class Real>
 std::vector<Vec3i> Engine<Real>::cells() const {
   std::vector<Vec3i> out(particles_.size());
-  for (const Particle<Real>& p : particles_) out[static_cast<std::size_t>(p.id)] = Eigen::Matrix<Integer<Real>, 3, 1>(p.cell).template cast<int>();
+  for (const Particle<Real>& p : particles_)
+    out[static_cast<std::size_t>(p.id)] =
+        Eigen::Matrix<Integer<Real>, 3, 1>(p.cell).template cast<int>();
   return out;
 }
 
@@ -193,7 +225,8 @@ std::uint64_t Engine<Real>::state_hash() const {
   std::uint64_t sum = 0;
   for (const Particle<Real>& p : particles_) {
     std::int32_t cell[3];
-    for (int a = 0; a < 3; ++a) cell[a] = static_cast<int>(p.cell[a]) - block_side * lattice_origin_[a];
+    for (int a = 0; a < 3; ++a)
+      cell[a] = static_cast<int>(p.cell[a]) - block_side * lattice_origin_[a];
     std::uint64_t hash = hash_bytes(cell, sizeof cell);
     hash = hash_bytes(p.offset, sizeof p.offset, hash);
     hash = hash_bytes(p.v, sizeof p.v, hash);

@@ -12,6 +12,8 @@ namespace {
 
 /// Energy is added up this often, and whenever a frame ends.
 constexpr std::size_t steps_between_energy_checks = 256;
+/// What a report of trouble looks back at.
+constexpr std::size_t steps_remembered = 64;
 
 }  // namespace
 
@@ -45,8 +47,24 @@ void Engine<Real>::note(double dt) {
   warnings_.inverted_trials += report.inverted;
   energy_.contact_work += report.contact_work;
   last_dt_ = dt;
+  remember(dt, report);
   if (!divergence_) check(dt, before, report);
   if (!divergence_ && steps_ % steps_between_energy_checks == 0) check_energy();
+}
+
+template <class Real>
+void Engine<Real>::remember(double dt, const BlockReport<Real>& report) {
+  last_steps_.resize(steps_remembered);
+  last_steps_[steps_ % steps_remembered] = {steps_,
+                                            time_,
+                                            dt,
+                                            last_limit_,
+                                            limits_.max_speed,
+                                            limits_.max_sound_speed,
+                                            limits_.max_strain_rate,
+                                            static_cast<double>(report.min_J_P),
+                                            static_cast<double>(report.max_J_P),
+                                            report.inverted};
 }
 
 /// The rules of a healthy step that its own report can answer.
@@ -94,7 +112,7 @@ EnergyAccount Engine<Real>::energy_account() const {
 /// work of gravity and colliders.
 template <class Real>
 void Engine<Real>::check_energy() {
-  if (particles_.empty()) return;
+  if (particles_.empty() || !settings_.bypass.empty()) return;
   const EnergyAccount account = energy_account();
   energy_.largest = std::max(energy_.largest, account.explained);
   const double allowed = account.explained + (energy_ratio_allowed - 1) * account.scale;
@@ -115,6 +133,13 @@ void Engine<Real>::diverge(const char* rule, const char* stage, const StepSizes&
   d.dt_that_holds = step.stable;
   d.value = value;
   d.limit = limit;
+  d.start = start_;
+  for (std::size_t k = 1; k <= last_steps_.size(); ++k) {
+    const StepRecord& record = last_steps_[(steps_ + k) % last_steps_.size()];
+    // An interrupted or repeated run has taken fewer than the ring holds.
+    if (record.step > 0 && record.step <= steps_ && record.step + last_steps_.size() > steps_)
+      d.last_steps.push_back(record);
+  }
   find_culprits(particles(), settings_, material_list_, d);
   divergence_ = d;
 }

@@ -1,7 +1,11 @@
 #pragma once
 /// Parameters of the time integration. Defaults are the paper's method.
 
+#include <algorithm>
+#include <vector>
+
 #include "sim/math.h"
+#include "sim/stage.h"
 
 namespace neve::sim {
 
@@ -9,6 +13,8 @@ enum class Kernel { cubic, quadratic };
 enum class Transfer { flip, apic, mls };
 enum class Advect { particle, pic };
 enum class TimeStep { adaptive, fixed };
+/// What a run does when a rule of health breaks: end, or go back and try with half the dt.
+enum class OnDivergence { stop, retry };
 enum class Precision { single, real64 };  ///< written "float" and "double" in scenes
 
 struct SolverSettings {
@@ -26,10 +32,18 @@ struct SolverSettings {
   double strain_limit = 0.3;       ///< |dt grad v|
   Vec3d gravity{0.0, -9.81, 0.0};  ///< m/s2
   Precision precision = Precision::single;
+  OnDivergence on_divergence = OnDivergence::stop;
+  /// Stages to skip while debugging; the run then takes the staged driver, and its energy is not
+  /// watched. Not rasterize, without which there is no grid.
+  std::vector<Stage> bypass;
   /// Of the lattice, in blocks of 4 cells per axis, 0: open. For verification by waves and
   /// manufactured solutions; no scene key. Places stay unwrapped, and contact knows nothing of the
   /// seam: only planes along the periodic axes make sense.
   Vec3i period{0, 0, 0};
+
+  bool skips(Stage stage) const {
+    return std::find(bypass.begin(), bypass.end(), stage) != bypass.end();
+  }
 };
 
 }  // namespace neve::sim

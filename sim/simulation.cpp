@@ -117,6 +117,13 @@ void Simulation::restore(std::span<const std::uint8_t> bytes) {
   impl_->visit([&](auto& e) { e.restore(bytes); });
 }
 
+void Simulation::set_dt_scale(double scale) {
+  impl_->visit([&](auto& e) { e.set_dt_scale(scale); });
+}
+double Simulation::dt_scale() const {
+  return impl_->visit([](const auto& e) { return e.dt_scale(); });
+}
+
 /// For looking inside: what works on copies and is no part of a run.
 struct InsideAccess {
   template <class Call>

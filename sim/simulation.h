@@ -54,6 +54,25 @@ struct AdvanceReport {
   void append(const AdvanceReport& later);
 };
 
+/// One of the last steps before something went wrong; extremes are those at its end.
+struct StepRecord {
+  std::size_t step = 0;
+  double time = 0, dt = 0;  ///< s; time is that of the end
+  DtLimit limit = DtLimit::fixed;
+  double max_speed = 0, max_sound_speed = 0;  ///< m/s
+  double max_strain_rate = 0;                 ///< 1/s
+  double min_J_P = 1, max_J_P = 1;
+  std::size_t inverted = 0;  ///< trial det F_E <= 0
+};
+
+/// Extremes of the particles that a simulation was given.
+struct StartState {
+  double max_speed = 0, max_sound_speed = 0;  ///< m/s
+  double min_J_E = 1, max_J_E = 1, min_J_P = 1, max_J_P = 1;
+  std::int64_t strangest = -1;  ///< id of the particle whose F_E or J_P is furthest from rest, or
+                                ///< is no number; -1: all are at rest
+};
+
 /// Why a run had to stop. Numerical trouble is data, not an exception.
 struct Divergence {
   std::size_t step = 0;
@@ -61,13 +80,19 @@ struct Divergence {
   std::string stage;  ///< name of the stage that broke the rule
   std::string rule;   ///< energy, speed_cfl, acoustic_cfl, J_P, inverted, not_finite, overflow
   std::int64_t particle = -1;  ///< id of a culprit, -1 if none stands out
+  int material = 0;            ///< of the culprit, like what follows
   Vec3d x{0, 0, 0}, v{0, 0, 0};
   Mat3d F_E = Mat3d::Identity();
+  Mat3d kirchhoff = Mat3d::Zero();  ///< tau = P F_E^T, Pa
+  Vec3d stretches{1, 1, 1};         ///< singular values of F_E
   double J_E = 1, J_P = 1;
+  double sound_speed = 0;       ///< m/s, hardened
   double value = 0, limit = 0;  ///< what was found and what the rule allows
   double dt = 0, dt_that_holds = 0;
   std::vector<std::uint32_t> culprits;  ///< ids, at most 1000
-  std::string sentence;                 ///< one line for people
+  std::vector<StepRecord> last_steps;   ///< oldest first, the broken one last
+  StartState start;
+  std::string sentence;  ///< one line for people
 };
 
 /// What was noticed but did not stop the run.
@@ -161,6 +186,11 @@ class Simulation {
 
   /// @throws SavedStateError when the bytes are no state of such a simulation; it is then as before
   void restore(std::span<const std::uint8_t> bytes);
+
+  /// Factor of every dt that the settings choose from now on, (0, 1]: a run that broke a rule goes
+  /// on more carefully.
+  void set_dt_scale(double scale);
+  double dt_scale() const;
 
   struct Impl;
 

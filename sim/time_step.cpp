@@ -38,16 +38,18 @@ const char* name(DtLimit limit) {
   return names[static_cast<int>(limit)];
 }
 
-Simulation::Choice choose_dt(const SolverSettings& s, const StateLimits& limits, double remaining) {
+Simulation::Choice choose_dt(const SolverSettings& s, const StateLimits& limits, double remaining,
+                             double scale) {
   // Rounding of the remaining time must not leave a step of 1e-18 s.
   constexpr double slack = 1 + 1e-9;
   if (s.time_step == TimeStep::fixed) {
-    if (remaining <= s.dt * slack) return {remaining, DtLimit::frame_end};
-    return {s.dt, DtLimit::fixed};
+    const double dt = s.dt * scale;
+    if (remaining <= dt * slack) return {remaining, DtLimit::frame_end};
+    return {dt, DtLimit::fixed};
   }
   const std::array<double, dt_limit_count> allowed = limits_on_dt(s, limits);
   const auto least = std::min_element(allowed.begin(), allowed.end());
-  const Simulation::Choice best{*least, static_cast<DtLimit>(least - allowed.begin())};
+  const Simulation::Choice best{*least * scale, static_cast<DtLimit>(least - allowed.begin())};
   if (remaining <= best.dt * slack) return {remaining, DtLimit::frame_end};
   if (remaining < 2 * best.dt) return {0.5 * remaining, DtLimit::frame_end};
   return best;

@@ -17,9 +17,10 @@ struct StateLimits {
 };
 
 /// dt of the next step and the limit that rules it. `remaining` is the time to the end of the
-/// frame; the last two steps before it share what is left, so that none is tiny.
+/// frame; the last two steps before it share what is left, so that none is tiny. `scale` is a
+/// factor of the step, not of the limits.
 Simulation::Choice choose_dt(const SolverSettings& settings, const StateLimits& limits,
-                             double remaining);
+                             double remaining, double scale = 1);
 
 /// dt that each limit allows, infinite for those that say nothing of a state (fixed, frame_end).
 std::array<double, dt_limit_count> limits_on_dt(const SolverSettings& settings,

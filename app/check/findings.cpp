@@ -107,7 +107,7 @@ void check_body_overlaps(const Scene& scene, const sim::ParticleArrays& particle
     findings.push_back({Severity::warning, "body." + scene.bodies[pair.second].name + ".shape",
                         scene.bodies[pair.first].name + " and " + scene.bodies[pair.second].name +
                             " overlap in about " + rough_text(cells) +
-                            " cells: twice the mass there, which will burst",
+                            " cells: twice the mass there, and one velocity for both",
                         "move them apart"});
   }
 }

@@ -157,11 +157,15 @@ Json to_json(const sim::Divergence& d) {
   json["stage"] = d.stage;
   json["rule"] = d.rule;
   json["particle"] = d.particle >= 0 ? Json(d.particle) : Json();
+  json["material"] = d.material;
   json["x"] = vector_json(d.x);
   json["v"] = vector_json(d.v);
   json["F_E"] = matrix_json(d.F_E);
+  json["singular_values"] = vector_json(d.stretches);
   json["J_E"] = number_or_null(d.J_E);
   json["J_P"] = number_or_null(d.J_P);
+  json["kirchhoff_stress"] = matrix_json(d.kirchhoff);
+  json["sound_speed"] = number_or_null(d.sound_speed);
   json["value"] = number_or_null(d.value);
   json["limit"] = number_or_null(d.limit);
   json["dt"] = number_or_null(d.dt);
@@ -184,6 +188,17 @@ Json to_json(const std::vector<sim::WatchRecord>& records) {
   return list;
 }
 
+Json to_json(const sim::Retry& retry) {
+  return {{"step", retry.step},         {"time", retry.time}, {"back_to", retry.back_to},
+          {"dt_scale", retry.dt_scale}, {"rule", retry.rule}, {"sentence", retry.sentence}};
+}
+
+sim::Retry retry_record(const Json& json) {
+  return {json.at("step").get<std::size_t>(), json.at("time").get<double>(),
+          json.at("back_to").get<double>(),   json.at("dt_scale").get<double>(),
+          json.at("rule").get<std::string>(), json.at("sentence").get<std::string>()};
+}
+
 Json to_json(const RunRecord& run) {
   Json json;
   json["version"] = version;
@@ -201,7 +216,12 @@ Json to_json(const RunRecord& run) {
   json["frames"] = Json::array();
   for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
   if (!run.validation.empty()) json["validation"] = to_json(run.validation);
-  if (run.divergence) json["divergence"] = to_json(*run.divergence);
+  if (!run.retries.empty()) json["retries"] = Json::array();
+  for (const sim::Retry& retry : run.retries) json["retries"].push_back(to_json(retry));
+  if (run.divergence) {
+    json["divergence"] = to_json(*run.divergence);
+    json["divergence"]["cause"] = run.cause;
+  }
   return json;
 }
 

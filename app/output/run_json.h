@@ -9,6 +9,7 @@
 
 #include "app/json.h"
 #include "app/metrics.h"
+#include "sim/retry.h"
 #include "sim/simulation.h"
 #include "sim/watch.h"
 
@@ -40,7 +41,9 @@ struct RunRecord {
   std::string error;  ///< of a run that failed
   std::vector<FrameRecord> frames;
   std::vector<sim::WatchRecord> validation;  ///< of --validate; empty without it
+  std::vector<sim::Retry> retries;  ///< times that it went back
   std::optional<sim::Divergence> divergence;
+  std::string cause;  ///< of the divergence, see diagnosis.h
 };
 
 /// 16 hexadecimal digits.
@@ -62,6 +65,9 @@ sim::AdvanceReport advance_report(const Json& json);
 Json to_json(const sim::Divergence& divergence);
 /// Every check: check, worst, threshold, first_step (null where it held), times.
 Json to_json(const std::vector<sim::WatchRecord>& records);
+Json to_json(const sim::Retry& retry);
+/// @throws nlohmann::json::exception
+sim::Retry retry_record(const Json& json);
 Json to_json(const RunRecord& run);
 
 /// @throws IoError

@@ -1,4 +1,5 @@
 #include "app/output/sequence.h"
+#include "app/incident.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -98,7 +99,10 @@ std::size_t remove_earlier_run(const fs::path& folder) {
     // Succeeds only when nothing else is left in it.
     fs::remove(view_folder, error);
   }
-  if (!run.views.empty()) removed += remove_regular(incident_path(folder));
+  if (!run.views.empty()) {
+    removed += remove_regular(incident_path(folder));
+    removed += remove_regular(diverged_path(folder, culprit_view));
+  }
   return removed;
 }
 

@@ -78,6 +78,11 @@ void describe(V& visit, sim::SolverSettings& s) {
         "Largest |dt grad v| of an adaptive step.");
   visit("gravity", s.gravity, unit::acceleration, within(1e6), live, "Acceleration of all snow.");
   visit("precision", s.precision, unit::none, anything, restart, "Arithmetic of the solver.");
+  visit("on_divergence", s.on_divergence, unit::none, anything, live,
+        "stop: end the run and say why; retry: go back to the frame before with half the dt, at "
+        "most four times.");
+  visit("bypass", s.bypass, unit::none, anything, live,
+        "Stages of the step to skip, for debugging a solver; energy is not watched then.");
 }
 
 template <class V>

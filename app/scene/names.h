@@ -34,6 +34,23 @@ constexpr auto names(sim::TimeStep) {
   using enum sim::TimeStep;
   return std::array{Name{adaptive, "adaptive"}, Name{fixed, "fixed"}};
 }
+/// Stages that can be skipped.
+constexpr auto names(sim::Stage) {
+  using enum sim::Stage;
+  return std::array{Name{volumes, name(volumes)},
+                    Name{elastic_forces, name(elastic_forces)},
+                    Name{grid_velocities, name(grid_velocities)},
+                    Name{grid_collisions, name(grid_collisions)},
+                    Name{deformation, name(deformation)},
+                    Name{particle_velocities, name(particle_velocities)},
+                    Name{particle_collisions, name(particle_collisions)},
+                    Name{advection, name(advection)},
+                    Name{colliders, name(colliders)}};
+}
+constexpr auto names(sim::OnDivergence) {
+  using enum sim::OnDivergence;
+  return std::array{Name{stop, "stop"}, Name{retry, "retry"}};
+}
 constexpr auto names(sim::Precision) {
   using enum sim::Precision;
   return std::array{Name{single, "float"}, Name{real64, "double"}};
@@ -92,12 +109,11 @@ constexpr auto names(render::ColorMap) {
 }
 constexpr auto names(Layer) {
   using enum Layer;
-  return std::array{Name{ground, "ground"},       Name{colliders, "colliders"},
-                    Name{particles, "particles"}, Name{arrows, "arrows"},
-                    Name{heatmap, "heatmap"},     Name{smoke, "smoke"},
-                    Name{blocks, "blocks"},       Name{bounds, "bounds"},
-                    Name{legend, "legend"},       Name{caption, "caption"},
-                    Name{plots, "plots"}};
+  return std::array{
+      Name{ground, "ground"},   Name{colliders, "colliders"}, Name{particles, "particles"},
+      Name{arrows, "arrows"},   Name{heatmap, "heatmap"},     Name{smoke, "smoke"},
+      Name{blocks, "blocks"},   Name{bounds, "bounds"},       Name{legend, "legend"},
+      Name{caption, "caption"}, Name{plots, "plots"}};
 }
 
 template <class E>

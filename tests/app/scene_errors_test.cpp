@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "app/scene/read.h"
+#include "tests/support/temporary_folder.h"
 
 namespace neve::app {
 namespace {
@@ -286,14 +287,14 @@ TEST(SceneErrors, LongValuesAreCutBetweenCharacters) {
 }
 
 TEST(SceneErrors, FilesThatAreNoScenesAreExplained) {
-  const std::string directory = testing::TempDir();
+  const test::TemporaryFolder folder;
+  const std::string directory = folder.path().string();
   EXPECT_EQ(file_error_of("/nowhere/s.toml"), "/nowhere/s.toml: error: No such file or directory");
   EXPECT_EQ(file_error_of(directory), directory + ": error: is a directory; name a scene file");
-  const std::string empty = directory + "scene_errors_empty.toml";
+  const std::string empty = directory + "/empty.toml";
   std::ofstream(empty).close();
   EXPECT_EQ(file_error_of(empty), empty + ": error: is empty; a scene needs at least one [[body]]");
   EXPECT_EQ(file_error_of("/dev/zero"), "/dev/zero: error: larger than 1 MiB");
-  std::filesystem::remove(empty);
 }
 
 }  // namespace

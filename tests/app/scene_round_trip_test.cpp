@@ -11,6 +11,7 @@
 #include "app/scene/describe.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
+#include "tests/support/temporary_folder.h"
 
 namespace neve::app {
 namespace {
@@ -213,8 +214,8 @@ Scene full_scene(const std::string& mesh_file) {
 class RoundTrip : public testing::Test {
  protected:
   RoundTrip() { std::ofstream(mesh_) << "v 0 0 0\n"; }
-  ~RoundTrip() override { std::filesystem::remove(mesh_); }
-  std::string mesh_ = testing::TempDir() + "round_trip_é.obj";
+  test::TemporaryFolder folder_;
+  std::string mesh_ = (folder_ / "round_trip_é.obj").string();
 };
 
 TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {

@@ -125,10 +125,36 @@ TEST_F(Cli, DivergenceExitsWithFiveAndAReport) {
   EXPECT_TRUE(exists("out/explode/diverged_particles.png"));
   const app::Json incident = json_of("out/explode/incident.json");
   EXPECT_TRUE(incident.contains("rule") && incident.contains("dt_that_holds"));
+  EXPECT_EQ(incident["cause"], "time_step") << incident["sentence"];
+  EXPECT_TRUE(contains(result.errors, "Cause: ")) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "solver.dt = ")) << result.errors;
+  EXPECT_FALSE(incident["last_steps"].empty());
+  EXPECT_TRUE(exists("out/explode/diverged_culprit_slice.png"));
   const app::Json run = json_of("out/explode/run.json");
   EXPECT_EQ(run["status"], "diverged");
+  EXPECT_EQ(run["divergence"]["cause"], incident["cause"]);
   for (const app::Json& frame : run["frames"])
     EXPECT_LT(frame["time"].get<double>(), incident["time"].get<double>());
+}
+
+TEST_F(Cli, ARunMayGoBackAndTryHalfTheStep) {
+  const std::vector<std::string> changes = {
+      "--set", "solver.time_step=fixed",     "--set", "solver.dt=1.6e-3",
+      "--set", "material.snow.hardening=30", "--set", "body.ball.velocity=[0,-4,0]"};
+  std::vector<std::string> arguments = {"render", "scene.toml"};
+  arguments.insert(arguments.end(), changes.begin(), changes.end());
+  ASSERT_EQ(neve(arguments).exit_code, 5);
+  arguments.insert(arguments.end(), {"--set", "solver.on_divergence=retry"});
+  const auto result = neve(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "with dt times 0.5")) << result.errors;
+  const app::Json run = json_of("out/scene/run.json");
+  EXPECT_EQ(run["status"], "ok");
+  ASSERT_FALSE(run["retries"].empty());
+  EXPECT_EQ(run["retries"][0]["dt_scale"], 0.5);
+  // What was left of the run that diverged is gone.
+  EXPECT_FALSE(exists("out/scene/incident.json"));
+  EXPECT_FALSE(exists("out/scene/diverged_culprit_slice.png"));
 }
 
 TEST_F(Cli, OutputThatCannotBeWrittenExitsWithSix) {

@@ -7,6 +7,7 @@
 #include "gl_test.h"
 #include "render/mesh_shapes.h"
 #include "render/view.h"
+#include "tests/support/temporary_folder.h"
 
 namespace neve::render {
 namespace {
@@ -231,8 +232,8 @@ TEST(Renderer, SceneFarFromTheOriginLooksTheSame) {
 TEST(Shaders, AreReadFromAFolderAndErrorsNameTheFile) {
   OPEN_OR_SKIP(context, "auto");
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(testing::TempDir()) / "neve_shaders";
-  fs::remove_all(folder);
+  const test::TemporaryFolder temporary;
+  const fs::path folder = temporary / "shaders";
   fs::copy(fs::path(NEVE_SOURCE_DIR) / "shaders", folder);
   EXPECT_NO_THROW(Renderer(*context, folder.string()).draw(small_frame()));
   std::ofstream(folder / "shade.frag", std::ios::app) << "nonsense here;\n";
@@ -242,7 +243,6 @@ TEST(Shaders, AreReadFromAFolderAndErrorsNameTheFile) {
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("shade.frag"), std::string::npos) << error.what();
   }
-  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "sim/base/hash.h"
+#include "tests/support/temporary_folder.h"
 
 namespace neve::sim {
 namespace {
@@ -222,7 +223,8 @@ TEST(Mesh, InnerPointOfAThinNeedleIsInside) {
 }
 
 TEST(Mesh, ScaleAndPlaceComeFromTheShape) {
-  const std::string path = testing::TempDir() + "cube.obj";
+  const neve::test::TemporaryFolder folder;
+  const std::string path = (folder / "cube.obj").string();
   std::ofstream(path) << cube;
   const Shape shape{Mesh{path, 0.5, {3, 0, 0}}, {0, 0, 90}};
   EXPECT_NEAR(volume(shape), 0.125, 1e-15);

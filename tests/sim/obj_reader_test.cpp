@@ -8,6 +8,7 @@
 
 #include "sim/base/hash.h"
 #include "sim/mesh.h"
+#include "tests/support/temporary_folder.h"
 
 namespace neve::sim {
 namespace {
@@ -88,16 +89,15 @@ TEST(ObjReader, FilesWithoutFacesAreErrors) {
 }
 
 TEST(ObjReader, FilesThatCannotBeReadAreErrors) {
-  const auto folder = std::filesystem::temp_directory_path();
-  EXPECT_THROW(read_obj(folder.string()), ShapeError);
+  const neve::test::TemporaryFolder folder;
+  EXPECT_THROW(read_obj(folder.path().string()), ShapeError);
   EXPECT_THROW(read_obj((folder / "neve no such file.obj").string()), ShapeError);
   EXPECT_THROW(read_obj("/dev/zero"), ShapeError);
   EXPECT_THROW(read_obj(""), ShapeError);
-  const std::string large = testing::TempDir() + "large.obj";
+  const std::string large = (folder / "large.obj").string();
   std::ofstream(large).flush();
   std::filesystem::resize_file(large, (256u << 20) + 1);
   EXPECT_THROW(read_obj(large), ShapeError);
-  std::filesystem::remove(large);
 }
 
 /// Breaks a text in a few places.

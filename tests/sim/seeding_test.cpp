@@ -11,6 +11,7 @@
 #include <set>
 
 #include "sim/solid.h"
+#include "tests/support/temporary_folder.h"
 
 namespace neve::sim {
 namespace {
@@ -202,7 +203,8 @@ TEST(Seeding, AbsurdSizesSaturateThePlanAndAreRefused) {
 }
 
 TEST(Seeding, MeshesFarFromTheirOriginAreRefused) {
-  const std::string path = testing::TempDir() + "far.obj";
+  const neve::test::TemporaryFolder folder;
+  const std::string path = (folder / "far.obj").string();
   std::ofstream(path) << "v 1e15 0 0\nv 1000000000000001 0 0\nv 1e15 1 0\nv 1e15 0 1\n"
                          "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
   const Body body = body_of({Mesh{path, 1, {0, 0, 0}}, {0, 0, 0}}, Sampling::jittered);
