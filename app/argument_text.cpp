@@ -1,9 +1,13 @@
 #include "app/argument_text.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
+#include <vector>
 
 #include "app/scene/error.h"
+#include "app/text.h"
 
 namespace neve::app {
 
@@ -14,6 +18,16 @@ std::optional<int> whole_number(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
   if (text.empty() || result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return value;
+}
+
+/// Finite, and nothing after it.
+std::optional<double> finite_number(const std::string& text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (text.empty() || result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
+    return std::nullopt;
   return value;
 }
 
@@ -31,13 +45,11 @@ FrameRange parse_frames(const std::string& text) {
 }
 
 double parse_coarsening(const std::string& text) {
-  double value = 0;
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (text.empty() || result.ec != std::errc() || result.ptr != end)
+  const auto value = finite_number(text);
+  if (!value)
     throw UsageError("--coarsen", "cannot use \"" + text + "\"",
                      "expected a number of at least 1, as in --coarsen 2");
-  return value;
+  return *value;
 }
 
 PictureSize parse_size(const std::string& text) {
@@ -52,6 +64,52 @@ PictureSize parse_size(const std::string& text) {
     throw UsageError("--size", "cannot use \"" + text + "\"",
                      "expected WIDTHxHEIGHT, each 16 to 1000000, as in 1280x720");
   return {*width, *height};
+}
+
+double parse_time(const std::string& text) {
+  constexpr double longest = 1e6;
+  const bool has_unit = text.size() > 1 && text.back() == 's';
+  const auto value = finite_number(has_unit ? text.substr(0, text.size() - 1) : text);
+  if (!value || *value < 0 || *value > longest)
+    throw UsageError("--at", "cannot use \"" + text + "\"",
+                     "expected seconds from 0 to 1000000, as in --at 0.25s");
+  return *value;
+}
+
+sim::Stage parse_stage(const std::string& text) {
+  std::vector<std::string> known;
+  for (std::size_t k = 0; k < sim::stage_names.size(); ++k) {
+    if (text == sim::stage_names[k]) return static_cast<sim::Stage>(k);
+    known.push_back(sim::stage_names[k]);
+  }
+  const std::string nearest = nearest_name(text, known);
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  throw UsageError("--stage", "there is no stage \"" + text + "\"",
+                   (nearest.empty() ? "" : "did you mean " + nearest + "? ") + "expected " + list);
+}
+
+Probe parse_probe(const std::string& text) {
+  if (const auto id = whole_number(text); id && *id >= 0) return static_cast<std::size_t>(*id);
+  std::vector<double> numbers;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const auto value = finite_number(text.substr(begin, comma - begin));
+    if (!value) break;
+    numbers.push_back(*value);
+    begin = comma + 1;
+  }
+  if (begin <= text.size() || numbers.size() != 3)
+    throw UsageError("--probe", "cannot use \"" + text + "\"",
+                     "expected the id of a particle, or a place as in --probe 0,0.5,0");
+  return sim::Vec3d(numbers[0], numbers[1], numbers[2]);
+}
+
+DumpFormat parse_format(const std::string& text) {
+  if (text == "table") return DumpFormat::table;
+  if (text == "vtk") return DumpFormat::vtk;
+  throw UsageError("--format", "cannot use \"" + text + "\"", "expected table or vtk");
 }
 
 }  // namespace neve::app

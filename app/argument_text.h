@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/commands.h"
 #include "app/plan.h"
 
 namespace neve::app {
@@ -15,5 +16,17 @@ double parse_coarsening(const std::string& text);
 
 /// "1280x720". @throws UsageError
 PictureSize parse_size(const std::string& text);
+
+/// "0.25s", "0.25": seconds, at least 0. @throws UsageError
+double parse_time(const std::string& text);
+
+/// A stage of the step by its name. @throws UsageError with the nearest
+sim::Stage parse_stage(const std::string& text);
+
+/// "17": a particle; "0.1,0.5,0": a place in metres. @throws UsageError
+Probe parse_probe(const std::string& text);
+
+/// "table" or "vtk". @throws UsageError
+DumpFormat parse_format(const std::string& text);
 
 }  // namespace neve::app

@@ -53,11 +53,11 @@ Json to_json(const Checkup& checkup, const RenderJob& job) {
   json["sound_speed"] = checkup.start.max_sound_speed;
   json["dt"] = checkup.dt_start;
   json["dt_limit"] = sim::name(checkup.limit_start);
-  json["limits"] = Json::object();
+  json["dt_limits"] = Json::object();
   for (int k = 0; k < sim::dt_limit_count; ++k)
     if (const double dt = checkup.start.dt[static_cast<std::size_t>(k)];
         std::isfinite(dt) && dt > 0)
-      json["limits"][sim::name(static_cast<sim::DtLimit>(k))] = dt;
+      json["dt_limits"][sim::name(static_cast<sim::DtLimit>(k))] = dt;
   json["frames"] = Json::array();
   for (const FrameForecast& frame : checkup.forecast)
     json["frames"].push_back({{"frame", frame.frame},
@@ -65,8 +65,14 @@ Json to_json(const Checkup& checkup, const RenderJob& job) {
                               {"steps", frame.steps},
                               {"limit", sim::name(frame.limit)}});
   json["steps"] = checkup.steps();
+  const double frames = std::max<double>(1, static_cast<double>(checkup.forecast.size()));
+  json["steps_per_frame"] = checkup.steps() / frames;
+  json["seconds_per_frame"] = checkup.seconds() / frames;
   json["seconds_per_step"] = checkup.seconds_per_step;
   json["seconds"] = checkup.seconds();
+  json["warnings"] = Json::array();
+  for (const Finding& finding : checkup.findings)
+    if (finding.severity != Severity::note) json["warnings"].push_back(finding.what);
   json["findings"] = Json::array();
   for (const Finding& finding : checkup.findings)
     json["findings"].push_back({{"severity", name(finding.severity)},

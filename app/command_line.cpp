@@ -176,6 +176,56 @@ void add_render(CLI::App& app, Action& action) {
   });
 }
 
+/// What CLI11 hands over as text.
+struct DumpTexts {
+  std::string at = "0s", format = "table";
+  std::optional<std::string> stage;
+  std::vector<std::string> probes;
+};
+
+DumpOptions finished(DumpOptions options, const RenderOptions& run, const RenderTexts& run_texts,
+                     const DumpTexts& texts) {
+  options.run = finished(run, run_texts);
+  options.at = parse_time(texts.at);
+  options.format = parse_format(texts.format);
+  if (texts.stage) options.stage = parse_stage(*texts.stage);
+  for (const std::string& probe : texts.probes) options.probes.push_back(parse_probe(probe));
+  return options;
+}
+
+void add_dump(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "dump",
+      "Numbers inside a step: fields of nodes and particles at a time, after a stage, with what is "
+      "expected of them");
+  const auto options = std::make_shared<DumpOptions>();
+  const auto run = std::make_shared<RenderOptions>();
+  const auto run_texts = std::make_shared<RenderTexts>();
+  const auto texts = std::make_shared<DumpTexts>();
+  add_scene(*command, run, run_texts);
+  command->add_option("--at", texts->at, "Time in seconds; the step that contains it is shown")
+      ->type_name("TIME")
+      ->capture_default_str();
+  command
+      ->add_option("--stage", texts->stage,
+                   "What this stage has worked out, as in elastic_forces; without it the particles "
+                   "before the step")
+      ->type_name("NAME");
+  add_repeatable(*command, "--field", options->fields, "NAME", "Only this quantity (repeatable)");
+  add_repeatable(*command, "--probe", texts->probes, "ID|X,Y,Z",
+                 "Only one particle, or what is nearest to a place in metres (repeatable)");
+  command->add_option("--format", texts->format, "table (tabs), or vtk for ParaView")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command->add_option("--out", options->file, "A file instead of standard output")
+      ->type_name("FILE");
+  command->add_flag("--json", run->is_json, "Print summary and probes as JSON");
+  command->add_flag("--quiet,-q", run_texts->is_quiet, "Only errors and warnings");
+  command->final_callback([=, &action] {
+    action = [=] { return run_dump(finished(*options, *run, *run_texts, *texts)); };
+  });
+}
+
 void add_compare(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "compare", "Compare two pictures, or the states of two runs frame by frame");
@@ -349,6 +399,7 @@ int run_command_line(int argc, char** argv) {
   Action action;
   add_render(app, action);
   add_check(app, action);
+  add_dump(app, action);
   add_report(app, action, "doctor",
              "Which OpenGL backends work here, and why others do not; self-tests of the physics",
              run_doctor);

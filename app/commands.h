@@ -3,11 +3,14 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "app/plan.h"
 #include "app/progress.h"
 #include "app/sweep/selection.h"
+#include "sim/math.h"
+#include "sim/stage.h"
 
 namespace neve::app {
 
@@ -73,6 +76,21 @@ struct CollectOptions {
   Verbosity verbosity = Verbosity::normal;
 };
 
+enum class DumpFormat { table, vtk };
+
+/// A particle by its id, or what is nearest to a place.
+using Probe = std::variant<std::size_t, sim::Vec3d>;
+
+struct DumpOptions {
+  RenderOptions run;                ///< scene, overrides, coarsening, threads, verbosity, is_json
+  double at = 0;                    ///< s
+  std::optional<sim::Stage> stage;  ///< without: the state before the step
+  std::vector<std::string> fields;  ///< empty: all
+  std::vector<Probe> probes;
+  DumpFormat format = DumpFormat::table;
+  std::string file;  ///< empty: standard output
+};
+
 struct CompareOptions {
   std::string a, b;
   double threshold = 0;          ///< of the mean difference, 0 to 255
@@ -94,6 +112,7 @@ struct BenchOptions {
 int run_render(const RenderOptions& options);
 /// Reads only what says which scene: scene, overrides, coarsening, threads.
 int run_check(const RenderOptions& options);
+int run_dump(const DumpOptions& options);
 int run_compare(const CompareOptions& options);
 int run_bench_sim(const BenchOptions& options);
 int run_bench_frame(const BenchOptions& options);

@@ -83,6 +83,11 @@ TEST_F(Check, ForeseesTheStepsOfTheRun) {
   double steps = 0;
   const app::Json record = json_of("out/run.json");
   for (const app::Json& frame : record["frames"]) steps += frame["steps"].get<double>();
+  EXPECT_GT(json["dt_limits"]["acoustic"].get<double>(), 0);
+  EXPECT_GT(json["seconds_per_frame"].get<double>(), 0);
+  EXPECT_NEAR(json["steps_per_frame"].get<double>() * static_cast<double>(json["frames"].size()),
+              json["steps"].get<double>(), 1e-6 * json["steps"].get<double>());
+  EXPECT_TRUE(json["warnings"].is_array());
   EXPECT_GT(json["steps"].get<double>(), 0.5 * steps);
   EXPECT_LT(json["steps"].get<double>(), 2 * steps);
   EXPECT_GT(json["seconds_per_step"].get<double>(), 0);

@@ -1,0 +1,165 @@
+#include <unistd.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "app/commands.h"
+#include "app/dump/quantities.h"
+#include "app/dump/write.h"
+#include "app/errors.h"
+#include "app/interrupt.h"
+#include "app/output/atomic_file.h"
+#include "app/output/run_json.h"
+#include "app/render_job.h"
+#include "app/scene/error.h"
+#include "app/scene/names.h"
+#include "app/seed_scene.h"
+#include "app/text.h"
+
+namespace neve::app {
+
+namespace {
+
+/// The poll of a simulation has no argument.
+struct Stop {
+  const sim::Simulation* simulation = nullptr;
+  Progress* progress = nullptr;
+  double at = 0, frame_end = 0;
+};
+Stop stop;
+
+/// Stops before the step that contains the time.
+bool next_step_is_asked_for() {
+  stop.progress->step();
+  const double now = stop.simulation->time();
+  return is_interrupted() ||
+         now + stop.simulation->choose_dt(stop.frame_end - now).dt > stop.at * (1 + 1e-12);
+}
+
+bool is_broken(const sim::Simulation& simulation) {
+  return simulation.divergence() || is_interrupted();
+}
+
+/// Takes the run's own steps: the state is one that the run passes through.
+void run_to(double at, double fps, sim::Simulation& simulation, Progress& progress) {
+  const int last = static_cast<int>(std::floor(at * fps * (1 + 1e-12)));
+  progress.start(last);
+  stop = {&simulation, &progress, at, 0};
+  for (int frame = 1; frame <= last && !is_broken(simulation); ++frame) {
+    simulation.advance_to(frame / fps, [] {
+      stop.progress->step();
+      return is_interrupted();
+    });
+    progress.frame(frame, frame / fps);
+  }
+  stop.frame_end = (last + 1) / fps;
+  const bool is_between = at > simulation.time() * (1 + 1e-12);
+  if (is_between && !is_broken(simulation) &&
+      simulation.time() + simulation.choose_dt(stop.frame_end - simulation.time()).dt <= at)
+    simulation.advance_to(stop.frame_end, next_step_is_asked_for);
+  progress.clear();
+}
+
+std::vector<std::string> heading(const RenderJob& job, const DumpOptions& options,
+                                 const Inside& inside, const Listing& listing) {
+  return {job.scene_file + (job.scene.title.empty() ? "" : ": " + job.scene.title),
+          "t = " + rough_text(inside.simulation.time()) + " s after " +
+              std::to_string(inside.simulation.steps()) + " steps; the next has dt = " +
+              rough_text(inside.dt) + " s, ruled by " + sim::name(inside.limit),
+          (options.stage ? std::string("after the stage ") + sim::name(*options.stage)
+                         : std::string("before the step")) +
+              ": " + std::to_string(listing.place.size()) +
+              (listing.is_of_nodes ? " nodes with mass" : " particles"),
+          "state " + hash_text(inside.simulation.state_hash())};
+}
+
+std::size_t nearest_row(const Listing& listing, const sim::Vec3d& place) {
+  std::size_t nearest = 0;
+  for (std::size_t row = 1; row < listing.place.size(); ++row)
+    if ((listing.place[row] - place).squaredNorm() < (listing.place[nearest] - place).squaredNorm())
+      nearest = row;
+  return nearest;
+}
+
+/// @throws UsageError when no such particle or node is there
+std::size_t probed_row(const Listing& listing, const Probe& probe) {
+  if (listing.place.empty()) throw UsageError("--probe", "there is nothing", "an empty scene");
+  if (const auto* place = std::get_if<sim::Vec3d>(&probe)) return nearest_row(listing, *place);
+  const std::size_t id = std::get<std::size_t>(probe);
+  if (listing.is_of_nodes)
+    throw UsageError("--probe", "nodes have no number " + std::to_string(id),
+                     "expected a place, as in --probe 0,0.5,0");
+  if (id >= listing.place.size())
+    throw UsageError("--probe", "there is no particle " + std::to_string(id),
+                     "expected 0 to " + std::to_string(listing.place.size() - 1));
+  return id;
+}
+
+Json to_json(const RenderJob& job, const DumpOptions& options, const Inside& inside,
+             const Listing& listing, const std::vector<std::size_t>& probed) {
+  Json json;
+  json["scene"] = job.scene_file;
+  json["time"] = inside.simulation.time();
+  json["steps"] = inside.simulation.steps();
+  json["dt"] = inside.dt;
+  json["dt_limit"] = sim::name(inside.limit);
+  json["stage"] = options.stage ? Json(sim::name(*options.stage)) : Json();
+  json["state_hash"] = hash_text(inside.simulation.state_hash());
+  json[listing.is_of_nodes ? "nodes" : "particles"] = listing.place.size();
+  json["quantities"] = summary_json(listing);
+  json["probes"] = Json::array();
+  for (const std::size_t row : probed) json["probes"].push_back(probe_json(listing, row));
+  return json;
+}
+
+void print(const RenderJob& job, const DumpOptions& options, const Inside& inside,
+           const Listing& listing) {
+  std::vector<std::size_t> probed;
+  for (const Probe& probe : options.probes) probed.push_back(probed_row(listing, probe));
+  const std::vector<std::string> head = heading(job, options, inside, listing);
+  std::string text;
+  if (options.run.is_json) {
+    text = to_text(to_json(job, options, inside, listing, probed)) + "\n";
+  } else if (!probed.empty()) {
+    for (const std::string& line : head) text += line + "\n";
+    for (const std::size_t row : probed) {
+      text += "\n";
+      for (const std::string& line : probe_lines(listing, row)) text += line + "\n";
+    }
+  } else {
+    text = options.format == DumpFormat::vtk ? to_vtk(listing) : to_table(listing, head);
+  }
+  if (options.file.empty()) {
+    std::cout << text << std::flush;
+    if (!std::cout) throw IoError("cannot write to standard output", "stdout");
+    return;
+  }
+  write_file(options.file, text);
+}
+
+}  // namespace
+
+int run_dump(const DumpOptions& options) {
+  const RenderJob job = make_job(options.run);
+  const Plan plan = make_plan(job.scene, job.frames, job.quality, options.run.threads);
+  check_limits(job.scene, plan);
+  if (options.format == DumpFormat::vtk && options.file.empty() && ::isatty(STDOUT_FILENO))
+    throw UsageError("--format", "vtk is binary and standard output is a terminal",
+                     "give a file with --out, as in --out fields.vtp");
+  catch_interrupts();
+  Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO));
+  sim::Simulation simulation(job.scene.solver, job.scene.materials, sim_colliders(job.scene),
+                             seed_scene(job.scene), options.run.threads);
+  run_to(options.at, job.scene.fps, simulation, progress);
+  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the time asked for");
+  if (simulation.divergence())
+    progress.warning(simulation.divergence()->sentence + "; this is the state it left");
+  const double left = stop.frame_end - simulation.time();
+  const Inside inside = look_inside(job.scene, simulation, left > 0 ? left : 1 / job.scene.fps);
+  Listing listing = options.stage ? list_stage(inside, *options.stage) : list_state(inside);
+  keep_only(listing, options.fields);
+  print(job, options, inside, listing);
+  return simulation.divergence() ? exit_diverged : exit_ok;
+}
+
+}  // namespace neve::app

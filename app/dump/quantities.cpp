@@ -1,0 +1,258 @@
+#include "app/dump/quantities.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "app/dump/expected.h"
+#include "app/scene/error.h"
+#include "app/text.h"
+#include "sim/diagnostics.h"
+
+namespace neve::app {
+
+namespace {
+
+using sim::Mat3d;
+using sim::Vec3d;
+
+Quantity quantity(const char* name, const char* unit, int components,
+                  const std::optional<Expectation>& expected = std::nullopt) {
+  Quantity q;
+  q.name = name;
+  q.unit = unit;
+  q.components = components;
+  if (expected) {
+    q.expected = expected->range;
+    q.why = expected->why;
+  }
+  return q;
+}
+
+Quantity scalars(const char* name, const char* unit, const std::vector<double>& values,
+                 const std::optional<Expectation>& expected = std::nullopt) {
+  Quantity q = quantity(name, unit, 1, expected);
+  q.values = values;
+  return q;
+}
+
+Quantity vectors(const char* name, const char* unit, const std::vector<Vec3d>& values,
+                 const std::optional<Expectation>& expected = std::nullopt) {
+  Quantity q = quantity(name, unit, 3, expected);
+  for (const Vec3d& v : values)
+    for (int a = 0; a < 3; ++a) q.values.push_back(v[a]);
+  return q;
+}
+
+Quantity tensors(const char* name, const char* unit, const std::vector<Mat3d>& values,
+                 const std::optional<Expectation>& expected = std::nullopt) {
+  Quantity q = quantity(name, unit, 9, expected);
+  for (const Mat3d& F : values)
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) q.values.push_back(F(a, b));
+  return q;
+}
+
+std::vector<double> determinants(const std::vector<Mat3d>& F) {
+  std::vector<double> J;
+  for (const Mat3d& f : F) J.push_back(f.determinant());
+  return J;
+}
+
+/// The three singular values, as one vector; the expectation is that of each.
+std::vector<Vec3d> singular_values(const std::vector<Mat3d>& F) {
+  std::vector<Vec3d> s;
+  for (const Mat3d& f : F)
+    s.push_back(f.allFinite() ? Vec3d(f.jacobiSvd().singularValues())
+                              : Vec3d::Constant(std::nan("")));
+  return s;
+}
+
+/// Smallest and largest stretch apart, so that each can be compared with its limit.
+void add_stretches(const std::vector<Mat3d>& F, const Expected& expected, Listing& listing) {
+  std::vector<double> least, greatest;
+  for (const Vec3d& s : singular_values(F)) {
+    least.push_back(s[2]);
+    greatest.push_back(s[0]);
+  }
+  listing.quantities.push_back(scalars("stretch_min", "", least, expected.stretch()));
+  listing.quantities.push_back(scalars("stretch_max", "", greatest, expected.stretch()));
+}
+
+void add_deformation(const sim::ParticleArrays& p, const Expected& expected, Listing& listing) {
+  listing.quantities.push_back(tensors("F_E", "", p.F_E));
+  listing.quantities.push_back(scalars("J_E", "", determinants(p.F_E), expected.J_E()));
+  add_stretches(p.F_E, expected, listing);
+  listing.quantities.push_back(scalars("J_P", "", p.J_P, expected.J_P()));
+}
+
+std::vector<double> elastic_energies(const Scene& scene, const sim::ParticleArrays& p) {
+  std::vector<double> energies;
+  for (std::size_t q = 0; q < p.x.size(); ++q)
+    energies.push_back(p.V0[q] *
+                       sim::energy_density(scene.materials[static_cast<std::size_t>(p.material[q])],
+                                           p.F_E[q], p.J_P[q]));
+  return energies;
+}
+
+std::vector<double> current_volumes(const sim::ParticleArrays& p) {
+  std::vector<double> volumes;
+  for (std::size_t q = 0; q < p.x.size(); ++q)
+    volumes.push_back(p.V0[q] * p.F_E[q].determinant() * p.J_P[q]);
+  return volumes;
+}
+
+std::vector<double> ids(std::size_t count) {
+  std::vector<double> out(count);
+  for (std::size_t q = 0; q < count; ++q) out[q] = static_cast<double>(q);
+  return out;
+}
+
+Listing particles_at(const sim::ParticleArrays& p) {
+  Listing listing;
+  listing.place = p.x;
+  listing.quantities.push_back(scalars("id", "", ids(p.x.size())));
+  listing.quantities.push_back(vectors("x", "m", p.x));
+  return listing;
+}
+
+std::vector<Vec3d> difference(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+  std::vector<Vec3d> out;
+  for (std::size_t k = 0; k < a.size(); ++k) out.push_back(a[k] - b[k]);
+  return out;
+}
+
+Listing nodes_after(const Inside& inside, const Expected& expected, sim::Stage stage) {
+  const sim::NodeFields& n = inside.step.nodes;
+  Listing listing;
+  listing.is_of_nodes = true;
+  std::vector<Vec3d> index;
+  for (const sim::Vec3i& node : n.node) {
+    index.push_back(node.cast<double>());
+    listing.place.push_back(inside.scene.solver.cell_size * node.cast<double>());
+  }
+  auto& q = listing.quantities;
+  q.push_back(vectors("node", "", index));
+  q.push_back(scalars("mass", "kg", n.mass, expected.node_mass()));
+  q.push_back(vectors("momentum", "kg m/s", n.momentum, expected.momentum()));
+  q.push_back(vectors("v_old", "m/s", n.v_old, expected.speed()));
+  const auto reached = [&](sim::Stage other) { return stage >= other; };
+  if (reached(sim::Stage::elastic_forces))
+    q.push_back(vectors("force", "N", n.force, expected.force()));
+  if (reached(sim::Stage::grid_velocities)) {
+    q.push_back(vectors("v_free", "m/s", n.v_free, expected.speed()));
+    q.push_back(vectors("dv", "m/s", difference(n.v_free, n.v_old), expected.velocity_change()));
+  }
+  if (reached(sim::Stage::grid_collisions))
+    q.push_back(vectors("v_star", "m/s", n.v_star, expected.speed()));
+  if (reached(sim::Stage::implicit_solve))
+    q.push_back(vectors("v_new", "m/s", n.v_new, expected.speed()));
+  return listing;
+}
+
+}  // namespace
+
+double Quantity::magnitude(std::size_t row) const {
+  const auto width = static_cast<std::size_t>(components);
+  if (components == 1) return values[row];
+  double sum = 0;
+  for (std::size_t k = 0; k < width; ++k) sum += values[row * width + k] * values[row * width + k];
+  return std::sqrt(sum);
+}
+
+bool Quantity::is_strange(std::size_t row) const {
+  const double found = magnitude(row);
+  if (!std::isfinite(found)) return true;
+  return expected && !(found >= expected->min && found <= expected->max);
+}
+
+std::string component_name(const Quantity& quantity, int component) {
+  static constexpr const char* axes[] = {"x", "y", "z"};
+  if (quantity.components == 1) return quantity.name;
+  if (quantity.components == 3) return quantity.name + "_" + axes[component];
+  return quantity.name + "_" + axes[component / 3] + axes[component % 3];
+}
+
+Inside look_inside(const Scene& scene, const sim::Simulation& simulation, double remaining) {
+  const sim::Simulation::Choice choice = simulation.choose_dt(remaining);
+  return {scene,
+          simulation,
+          choice.dt,
+          choice.limit,
+          sim::staged_step(simulation, choice.dt),
+          simulation.particles()};
+}
+
+Listing list_state(const Inside& inside) {
+  const sim::ParticleArrays& p = inside.before;
+  const Expected expected(inside.scene, p, inside.dt);
+  Listing listing = particles_at(p);
+  auto& q = listing.quantities;
+  q.push_back(vectors("v", "m/s", p.v, expected.speed()));
+  q.push_back(scalars("m", "kg", p.m));
+  q.push_back(scalars("V0", "m3", p.V0, expected.volume()));
+  q.push_back(scalars("volume", "m3", current_volumes(p)));
+  add_deformation(p, expected, listing);
+  q.push_back(tensors("kirchhoff", "Pa", inside.simulation.kirchhoff(), expected.stress()));
+  q.push_back(scalars("elastic_energy", "J", elastic_energies(inside.scene, p)));
+  q.push_back(tensors("C", "1/s", p.C));
+  return listing;
+}
+
+Listing list_stage(const Inside& inside, sim::Stage stage) {
+  using enum sim::Stage;
+  const Expected expected(inside.scene, inside.before, inside.dt);
+  if (stage == rasterize || (stage >= elastic_forces && stage <= implicit_solve))
+    return nodes_after(inside, expected, stage);
+  const sim::StagedStep& step = inside.step;
+  Listing listing = particles_at(inside.before);
+  auto& q = listing.quantities;
+  switch (stage) {
+    case volumes:
+      q.push_back(scalars("m", "kg", step.after.m));
+      q.push_back(scalars("V0", "m3", step.after.V0, expected.volume()));
+      break;
+    case deformation:
+      q.push_back(tensors("grad_v", "1/s", step.grad_v, expected.strain_rate()));
+      q.push_back(tensors("F_E_trial", "", step.F_E_trial));
+      add_deformation(step.after, expected, listing);
+      break;
+    case particle_velocities:
+      q.push_back(vectors("v_before", "m/s", inside.before.v, expected.speed()));
+      q.push_back(vectors("v", "m/s", step.v_before_collision, expected.speed()));
+      break;
+    case particle_collisions:
+      q.push_back(vectors("v_before", "m/s", step.v_before_collision, expected.speed()));
+      q.push_back(vectors("v", "m/s", step.after.v, expected.speed()));
+      break;
+    default:  // advection, and the colliders that move with it
+      q.push_back(
+          vectors("moved", "m", difference(step.after.x, inside.before.x),
+                  Expectation{{0, expected.speed().range.max * inside.dt}, "speed times dt"}));
+      q.push_back(vectors("v", "m/s", step.after.v, expected.speed()));
+  }
+  return listing;
+}
+
+void keep_only(Listing& listing, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  std::vector<std::string> known;
+  for (const Quantity& q : listing.quantities) known.push_back(q.name);
+  std::vector<Quantity> kept;
+  for (const std::string& name : names) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) {
+      std::string list;
+      for (const std::string& other : known) list += (list.empty() ? "" : ", ") + other;
+      const std::string nearest = nearest_name(name, known);
+      throw UsageError(
+          "--field", "there is no \"" + name + "\" here",
+          (nearest.empty() ? "" : "did you mean " + nearest + "? ") + "expected " + list);
+    }
+    kept.push_back(listing.quantities[static_cast<std::size_t>(found - known.begin())]);
+  }
+  listing.quantities = std::move(kept);
+}
+
+}  // namespace neve::app

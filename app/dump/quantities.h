@@ -1,0 +1,63 @@
+#pragma once
+/// What can be looked at inside a step, with what a healthy run would show.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "sim/simulation.h"
+#include "sim/staged.h"
+
+namespace neve::app {
+
+/// Numbers at nodes or particles: 1, 3 (a vector) or 9 (a tensor, row by row) each.
+struct Quantity {
+  std::string name, unit;  ///< the unit may be empty
+  int components = 1;
+  std::vector<double> values;
+  /// What magnitudes (of vectors the length, of tensors the Frobenius norm) lie in when all is
+  /// well, and why.
+  std::optional<Range> expected;
+  std::string why;
+
+  std::size_t rows() const { return values.size() / static_cast<std::size_t>(components); }
+  double magnitude(std::size_t row) const;
+  /// Outside what is expected, or no number.
+  bool is_strange(std::size_t row) const;
+};
+
+/// "v_x v_y v_z", "F_E_xx F_E_xy ..."
+std::string component_name(const Quantity& quantity, int component);
+
+/// A step that is looked at: the state before it and what its stages leave.
+struct Inside {
+  const Scene& scene;
+  const sim::Simulation& simulation;
+  double dt;  ///< s
+  sim::DtLimit limit;
+  sim::StagedStep step;
+  sim::ParticleArrays before;
+};
+Inside look_inside(const Scene& scene, const sim::Simulation& simulation, double remaining);
+
+/// Either nodes (place and index known) or particles (id order).
+struct Listing {
+  bool is_of_nodes = false;
+  std::vector<sim::Vec3d> place;  ///< m
+  std::vector<Quantity> quantities;
+};
+
+/// The particles before the step: x, v, F_E, J_E, J_P, stretches, stress, energy, volume, C.
+Listing list_state(const Inside& inside);
+
+/// What a stage has worked out, with what those before it did to the same things: nodes up to
+/// implicit_solve, then particles.
+Listing list_stage(const Inside& inside, sim::Stage stage);
+
+/// Keeps the named ones.
+/// @throws UsageError with the nearest name
+void keep_only(Listing& listing, const std::vector<std::string>& names);
+
+}  // namespace neve::app

@@ -1,0 +1,189 @@
+#include "app/dump/write.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+#include "app/text.h"
+
+namespace neve::app {
+
+namespace {
+
+/// As many digits as a float has.
+std::string digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+std::string expected_text(const Quantity& q) {
+  if (!q.expected) return "";
+  const Range r = *q.expected;
+  if (!std::isfinite(r.max)) return "any (" + q.why + ")";
+  return rough_text(r.min) + " to " + rough_text(r.max) + " (" + q.why + ")";
+}
+
+std::string title(const Quantity& q) {
+  return q.name + (q.unit.empty() ? "" : " (" + q.unit + ")");
+}
+
+struct Extremes {
+  double least = 0, greatest = 0;
+  std::size_t strange = 0;
+};
+
+Extremes extremes(const Quantity& q) {
+  Extremes e;
+  bool is_first = true;
+  for (std::size_t row = 0; row < q.rows(); ++row) {
+    e.strange += q.is_strange(row);
+    const double found = q.magnitude(row);
+    if (!std::isfinite(found)) continue;
+    e.least = is_first ? found : std::min(e.least, found);
+    e.greatest = is_first ? found : std::max(e.greatest, found);
+    is_first = false;
+  }
+  return e;
+}
+
+/// Padded on the right to a width, at least one space.
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
+}
+
+template <class T>
+void append_block(const std::vector<T>& values, std::string& bytes) {
+  const std::uint64_t size = values.size() * sizeof(T);
+  bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+  bytes.append(reinterpret_cast<const char*>(values.data()), size);
+}
+
+}  // namespace
+
+std::vector<std::string> summary_lines(const Listing& listing) {
+  std::vector<std::string> lines;
+  lines.push_back(padded("quantity", 22) + padded("least", 12) + padded("greatest", 12) +
+                  padded("outside", 9) + "expected");
+  for (const Quantity& q : listing.quantities) {
+    const Extremes e = extremes(q);
+    lines.push_back(padded(title(q), 22) + padded(rough_text(e.least), 12) +
+                    padded(rough_text(e.greatest), 12) +
+                    padded(q.expected || e.strange > 0 ? std::to_string(e.strange) : "-", 9) +
+                    expected_text(q));
+  }
+  return lines;
+}
+
+std::string to_table(const Listing& listing, const std::vector<std::string>& heading) {
+  std::string text;
+  for (const std::string& line : heading) text += "# " + line + "\n";
+  for (const std::string& line : summary_lines(listing)) text += "# " + line + "\n";
+  std::string header;
+  for (const Quantity& q : listing.quantities)
+    for (int c = 0; c < q.components; ++c)
+      header += (header.empty() ? "" : "\t") + component_name(q, c);
+  text += header + "\n";
+  for (std::size_t row = 0; row < listing.place.size(); ++row) {
+    bool is_first = true;
+    for (const Quantity& q : listing.quantities)
+      for (int c = 0; c < q.components; ++c) {
+        if (!is_first) text += '\t';
+        is_first = false;
+        text += digits(
+            q.values[row * static_cast<std::size_t>(q.components) + static_cast<std::size_t>(c)]);
+      }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string to_vtk(const Listing& listing) {
+  const std::size_t count = listing.place.size();
+  std::vector<double> points;
+  for (const sim::Vec3d& x : listing.place)
+    for (int a = 0; a < 3; ++a) points.push_back(x[a]);
+  std::vector<std::int64_t> vertices(count), ends(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    vertices[k] = static_cast<std::int64_t>(k);
+    ends[k] = static_cast<std::int64_t>(k + 1);
+  }
+  std::size_t offset = 0;
+  const auto array = [&](const char* type, const std::string& name, int components,
+                         std::size_t numbers) {
+    std::string xml = std::string("<DataArray type=\"") + type + "\" Name=\"" + name +
+                      "\" NumberOfComponents=\"" + std::to_string(components) +
+                      "\" format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
+    offset += sizeof(std::uint64_t) + 8 * numbers;
+    return xml;
+  };
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
+      std::to_string(count) + "\" NumberOfVerts=\"" + std::to_string(count) +
+      "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n";
+  text += array("Float64", "Points", 3, points.size()) + "</Points>\n<Verts>\n";
+  text += array("Int64", "connectivity", 1, count) + array("Int64", "offsets", 1, count);
+  text += "</Verts>\n<PointData>\n";
+  for (const Quantity& q : listing.quantities)
+    text += array("Float64", q.name, q.components, q.values.size());
+  text += "</PointData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  append_block(points, text);
+  append_block(vertices, text);
+  append_block(ends, text);
+  for (const Quantity& q : listing.quantities) append_block(q.values, text);
+  return text + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+std::vector<std::string> probe_lines(const Listing& listing, std::size_t row) {
+  std::vector<std::string> lines;
+  for (const Quantity& q : listing.quantities) {
+    std::string value;
+    const auto width = static_cast<std::size_t>(q.components);
+    for (std::size_t c = 0; c < width; ++c)
+      value += (c == 0 ? "" : c % 3 == 0 ? "; " : " ") + rough_text(q.values[row * width + c]);
+    lines.push_back((q.is_strange(row) ? "! " : "  ") + padded(title(q), 22) + padded(value, 30) +
+                    (q.components > 1 && q.expected
+                         ? "magnitude " + rough_text(q.magnitude(row)) + ", expected "
+                     : q.expected ? "expected "
+                                  : "") +
+                    expected_text(q));
+  }
+  return lines;
+}
+
+Json summary_json(const Listing& listing) {
+  Json list = Json::array();
+  for (const Quantity& q : listing.quantities) {
+    const Extremes e = extremes(q);
+    Json json = {{"name", q.name},
+                 {"unit", q.unit},
+                 {"components", q.components},
+                 {"least", number_or_null(e.least)},
+                 {"greatest", number_or_null(e.greatest)},
+                 {"outside", e.strange}};
+    if (q.expected) {
+      json["expected"] = {number_or_null(q.expected->min), number_or_null(q.expected->max)};
+      json["why"] = q.why;
+    }
+    list.push_back(json);
+  }
+  return list;
+}
+
+Json probe_json(const Listing& listing, std::size_t row) {
+  Json json = Json::object();
+  for (const Quantity& q : listing.quantities) {
+    const auto width = static_cast<std::size_t>(q.components);
+    Json value = Json::array();
+    for (std::size_t c = 0; c < width; ++c)
+      value.push_back(number_or_null(q.values[row * width + c]));
+    json[q.name] = {{"value", width == 1 ? value[0] : value}, {"strange", q.is_strange(row)}};
+    if (q.expected)
+      json[q.name]["expected"] = {number_or_null(q.expected->min), number_or_null(q.expected->max)};
+  }
+  return json;
+}
+
+}  // namespace neve::app
