@@ -69,7 +69,10 @@ std::vector<std::string> heading(const RenderJob& job, const DumpOptions& option
           (options.stage ? std::string("after the stage ") + sim::name(*options.stage)
                          : std::string("before the step")) +
               ": " + std::to_string(listing.place.size()) +
-              (listing.is_of_nodes ? " nodes with mass" : " particles"),
+              (listing.is_of_nodes
+                   ? " nodes with mass, of which " + std::to_string(listing.feathers()) +
+                         " are too light (below 1e-4 rho h^3) to be summed up"
+                   : std::string(" particles")),
           "state " + hash_text(inside.simulation.state_hash())};
 }
 

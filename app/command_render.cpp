@@ -144,8 +144,7 @@ int finish(const RenderOptions& options, const RenderJob& job, const RenderRun& 
   if (result.status == RunStatus::diverged)
     throw Error(exit_diverged, sentence(*run.record().divergence, *result.diagnosis),
                 job.scene_file,
-                result.diagnosis->remedy + "; incident.json and diverged_*.png are in " +
-                    job.folder.string());
+                "incident.json and diverged_*.png are in " + job.folder.string());
   if (options.is_json) print_result(job, run, result);
   if (result.status == RunStatus::interrupted) {
     std::cerr << "neve: interrupted; " << run.record().frames.size() << " frames are in "

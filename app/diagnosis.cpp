@@ -306,7 +306,7 @@ Diagnosis diagnose(const Scene& scene, const sim::Divergence& divergence) {
 }
 
 std::string sentence(const sim::Divergence& d, const Diagnosis& diagnosis) {
-  return d.sentence + ". Cause: " + diagnosis.evidence;
+  return d.sentence + ". Cause: " + diagnosis.evidence + ". Try: " + diagnosis.remedy;
 }
 
 }  // namespace neve::app

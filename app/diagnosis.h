@@ -56,7 +56,7 @@ struct Diagnosis {
 /// only happened on the way: later trouble is mostly a symptom of earlier one.
 Diagnosis diagnose(const Scene& scene, const sim::Divergence& divergence);
 
-/// For people: step, cause, evidence, and what the rule saw.
+/// For people: step, what the rule saw, evidence and remedy.
 std::string sentence(const sim::Divergence& divergence, const Diagnosis& diagnosis);
 
 }  // namespace neve::app

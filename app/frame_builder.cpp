@@ -76,15 +76,10 @@ std::string grouped(std::size_t count) {
   return digits;
 }
 
-/// "347 steps, dt 0.00012 s by sound (acoustic)"
+/// "347 steps, dt 0.00012 s (acoustic)": the smallest dt and the limit that ruled most.
 std::string steps_text(const sim::AdvanceReport& advance) {
-  const char* reasons[sim::dt_limit_count] = {"by max_dt", "by speed (cfl)", "by sound (acoustic)",
-                                              "by strain", "fixed",          "by the frame"};
-  const std::string count = grouped(advance.steps) + (advance.steps == 1 ? " step" : " steps");
-  const std::string dt = rough_text(advance.dt_min) == rough_text(advance.dt_max)
-                             ? rough_text(advance.dt_max)
-                             : rough_text(advance.dt_min) + " to " + rough_text(advance.dt_max);
-  return count + ", dt " + dt + " s " + reasons[static_cast<int>(advance.limit())];
+  return grouped(advance.steps) + (advance.steps == 1 ? " step" : " steps") + ", dt " +
+         rough_text(advance.dt_min) + " s (" + sim::name(advance.limit()) + ")";
 }
 
 }  // namespace
@@ -124,6 +119,13 @@ render::Frame FrameBuilder::build(const View& view, const Snapshot& snapshot) co
   return frame;
 }
 
+std::vector<std::string> FrameBuilder::incident_lines(const sim::Divergence& divergence,
+                                                      const Diagnosis& diagnosis) {
+  return {"diverged at step " + std::to_string(divergence.step) + ", rule " + divergence.rule,
+          "cause: " + std::string(name_of(diagnosis.cause)), diagnosis.evidence,
+          "try: " + diagnosis.remedy};
+}
+
 render::Frame FrameBuilder::build_incident(const View& view, const Snapshot& snapshot,
                                            const sim::Divergence& divergence,
                                            const Diagnosis& diagnosis) const {
@@ -133,13 +135,9 @@ render::Frame FrameBuilder::build_incident(const View& view, const Snapshot& sna
     if (p < snapshot.particles.x.size() && snapshot.particles.x[p].allFinite())
       frame.marks.push_back(to_float(snapshot.particles.x[p]));
   }
-  if (!frame.caption.empty()) {
-    frame.caption.push_back("diverged at step " + std::to_string(divergence.step) + ", rule " +
-                            divergence.rule);
-    frame.caption.push_back("cause: " + std::string(name_of(diagnosis.cause)));
-    frame.caption.push_back(diagnosis.evidence);
-    frame.caption.push_back("try: " + diagnosis.remedy);
-  }
+  if (!frame.caption.empty())
+    for (std::string& line : incident_lines(divergence, diagnosis))
+      frame.caption.push_back(std::move(line));
   return frame;
 }
 
@@ -226,11 +224,11 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
   std::vector<std::string> lines;
   if (!scene_.title.empty()) lines.push_back(scene_.title);
   lines.push_back("frame " + std::to_string(snapshot.frame) +
-                  "   t = " + fixed_text(snapshot.time, 3) + " s");
+                  "   t = " + fixed_text(snapshot.time, 3) + " s" +
+                  (snapshot.advance.steps > 0 ? "   " + steps_text(snapshot.advance) : ""));
   const std::size_t count = snapshot.particles.x.size();
   lines.push_back(grouped(count) + (count == 1 ? " particle" : " particles") +
                   (coarsening_ > 1 ? ", coarsened " + coarsening_text(coarsening_) : ""));
-  if (snapshot.advance.steps > 0) lines.push_back(steps_text(snapshot.advance));
   const std::size_t shown = std::min(override_lines_.size(), max_override_lines);
   lines.insert(lines.end(), override_lines_.begin(),
                override_lines_.begin() + static_cast<std::ptrdiff_t>(shown));

@@ -27,11 +27,15 @@ class FrameBuilder {
 
   render::Frame build(const View& view, const Snapshot& snapshot) const;
 
+  /// What the caption of such a picture adds: rule, cause, evidence, remedy.
+  static std::vector<std::string> incident_lines(const sim::Divergence& divergence,
+                                                 const Diagnosis& diagnosis);
+
   /// The same picture with rings around the particles that broke a rule.
   render::Frame build_incident(const View& view, const Snapshot& snapshot,
                                const sim::Divergence& divergence, const Diagnosis& diagnosis) const;
 
-  /// Title, frame and time, particles, and what was overridden; one line each.
+  /// Title, frame, time and steps, particles, and what was overridden; one line each.
   std::vector<std::string> caption(const Snapshot& snapshot) const;
 
  private:

@@ -85,12 +85,18 @@ PictureSize size_of(const Scene& scene, const Mosaic& mosaic) {
 
 render::Image draw_mosaic(const Scene& scene, const Mosaic& mosaic, const FrameBuilder& builder,
                           const Snapshot& snapshot, render::Renderer& renderer) {
-  const std::vector<std::string> caption =
-      strip_caption(builder.caption(snapshot), !scene.title.empty());
+  return draw_mosaic(
+      scene, mosaic, [&](const View& view) { return builder.build(view, snapshot); },
+      builder.caption(snapshot), renderer);
+}
+
+render::Image draw_mosaic(const Scene& scene, const Mosaic& mosaic, const BuildFrame& build,
+                          const std::vector<std::string>& lines, render::Renderer& renderer) {
+  const std::vector<std::string> caption = strip_caption(lines, !scene.title.empty());
   const MosaicLayout layout = layout_of(scene, mosaic, static_cast<int>(caption.size()));
   std::vector<render::Tile> tiles;
   for (const MosaicTile& tile : layout.tiles) {
-    render::Frame frame = builder.build(tile.view, snapshot);
+    render::Frame frame = build(tile.view);
     frame.caption = {tile.view.name};
     tiles.push_back({tile.x, tile.y, renderer.draw(frame)});
   }

@@ -1,6 +1,8 @@
 #pragma once
 /// Several views in one picture, under one caption.
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "app/frame_builder.h"
@@ -30,7 +32,14 @@ MosaicLayout layout_of(const Scene& scene, const Mosaic& mosaic, int caption_lin
 /// Size of the picture with the caption that a run without overrides has.
 PictureSize size_of(const Scene& scene, const Mosaic& mosaic);
 
+/// What a view shows; with rings, cause and remedy where a run diverged.
+using BuildFrame = std::function<render::Frame(const View& view)>;
+
 render::Image draw_mosaic(const Scene& scene, const Mosaic& mosaic, const FrameBuilder& builder,
                           const Snapshot& snapshot, render::Renderer& renderer);
+
+/// The same with other frames and another caption.
+render::Image draw_mosaic(const Scene& scene, const Mosaic& mosaic, const BuildFrame& build,
+                          const std::vector<std::string>& caption, render::Renderer& renderer);
 
 }  // namespace neve::app

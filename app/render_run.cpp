@@ -299,6 +299,16 @@ void RenderRun::report_incident() {
     writer_.write({diverged_path(job_.folder, view.name),
                    renderer_.draw(builder_.build_incident(view, snapshot, divergence, diagnosis)),
                    png_text(view.name, frame)});
+  std::vector<std::string> caption = builder_.caption(snapshot);
+  for (std::string& line : FrameBuilder::incident_lines(divergence, diagnosis))
+    caption.push_back(std::move(line));
+  const auto build = [&](const View& view) {
+    return builder_.build_incident(view, snapshot, divergence, diagnosis);
+  };
+  for (const Mosaic& mosaic : job_.scene.mosaics)
+    writer_.write({diverged_path(job_.folder, mosaic.name),
+                   draw_mosaic(scene, mosaic, build, caption, renderer_),
+                   png_text(mosaic.name, frame)});
 }
 
 void RenderRun::write_movies() {

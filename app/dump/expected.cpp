@@ -44,6 +44,10 @@ Expected::Expected(const Scene& scene, const sim::ParticleArrays& state, double 
   }
 }
 
+double Expected::feather_mass() const {
+  return 1e-4 * lightest_density_ * h_ * h_ * h_;
+}
+
 Expectation Expected::node_mass() const {
   const double full = density_ * h_ * h_ * h_;
   return {{0, scatter * full / min_J_P_},

@@ -132,6 +132,7 @@ Listing nodes_after(const Inside& inside, const Expected& expected, sim::Stage s
     index.push_back(node.cast<double>());
     listing.place.push_back(inside.scene.solver.cell_size * node.cast<double>());
   }
+  for (const double mass : n.mass) listing.is_feather.push_back(mass < expected.feather_mass());
   auto& q = listing.quantities;
   q.push_back(vectors("node", "", index));
   q.push_back(scalars("mass", "kg", n.mass, expected.node_mass()));
@@ -152,6 +153,10 @@ Listing nodes_after(const Inside& inside, const Expected& expected, sim::Stage s
 }
 
 }  // namespace
+
+std::size_t Listing::feathers() const {
+  return static_cast<std::size_t>(std::count(is_feather.begin(), is_feather.end(), true));
+}
 
 double Quantity::magnitude(std::size_t row) const {
   const auto width = static_cast<std::size_t>(components);

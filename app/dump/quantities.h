@@ -46,6 +46,9 @@ Inside look_inside(const Scene& scene, const sim::Simulation& simulation, double
 struct Listing {
   bool is_of_nodes = false;
   std::vector<sim::Vec3d> place;  ///< m
+  /// Nodes so light (below 1e-4 rho h^3) that their velocities mean nothing; empty: none.
+  std::vector<bool> is_feather;
+  std::size_t feathers() const;
   std::vector<Quantity> quantities;
 };
 

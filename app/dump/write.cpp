@@ -34,10 +34,12 @@ struct Extremes {
   std::size_t strange = 0;
 };
 
-Extremes extremes(const Quantity& q) {
+/// Of all but feather-light nodes.
+Extremes extremes(const Listing& listing, const Quantity& q) {
   Extremes e;
   bool is_first = true;
   for (std::size_t row = 0; row < q.rows(); ++row) {
+    if (!listing.is_feather.empty() && listing.is_feather[row]) continue;
     e.strange += q.is_strange(row);
     const double found = q.magnitude(row);
     if (!std::isfinite(found)) continue;
@@ -67,7 +69,7 @@ std::vector<std::string> summary_lines(const Listing& listing) {
   lines.push_back(padded("quantity", 22) + padded("least", 12) + padded("greatest", 12) +
                   padded("outside", 9) + "expected");
   for (const Quantity& q : listing.quantities) {
-    const Extremes e = extremes(q);
+    const Extremes e = extremes(listing, q);
     lines.push_back(padded(title(q), 22) + padded(rough_text(e.least), 12) +
                     padded(rough_text(e.greatest), 12) +
                     padded(q.expected || e.strange > 0 ? std::to_string(e.strange) : "-", 9) +
@@ -123,8 +125,10 @@ std::string to_vtk(const Listing& listing) {
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
       std::to_string(count) + "\" NumberOfVerts=\"" + std::to_string(count) +
       "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n";
-  text += array("Float64", "Points", 3, points.size()) + "</Points>\n<Verts>\n";
-  text += array("Int64", "connectivity", 1, count) + array("Int64", "offsets", 1, count);
+  text += array("Float64", "Points", 3, points.size());
+  text += "</Points>\n<Verts>\n";
+  text += array("Int64", "connectivity", 1, count);
+  text += array("Int64", "offsets", 1, count);
   text += "</Verts>\n<PointData>\n";
   for (const Quantity& q : listing.quantities)
     text += array("Float64", q.name, q.components, q.values.size());
@@ -156,7 +160,7 @@ std::vector<std::string> probe_lines(const Listing& listing, std::size_t row) {
 Json summary_json(const Listing& listing) {
   Json list = Json::array();
   for (const Quantity& q : listing.quantities) {
-    const Extremes e = extremes(q);
+    const Extremes e = extremes(listing, q);
     Json json = {{"name", q.name},
                  {"unit", q.unit},
                  {"components", q.components},
