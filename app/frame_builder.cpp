@@ -224,11 +224,11 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
   std::vector<std::string> lines;
   if (!scene_.title.empty()) lines.push_back(scene_.title);
   lines.push_back("frame " + std::to_string(snapshot.frame) +
-                  "   t = " + fixed_text(snapshot.time, 3) + " s" +
-                  (snapshot.advance.steps > 0 ? "   " + steps_text(snapshot.advance) : ""));
+                  "   t = " + fixed_text(snapshot.time, 3) + " s");
   const std::size_t count = snapshot.particles.x.size();
   lines.push_back(grouped(count) + (count == 1 ? " particle" : " particles") +
-                  (coarsening_ > 1 ? ", coarsened " + coarsening_text(coarsening_) : ""));
+                  (coarsening_ > 1 ? ", coarsened " + coarsening_text(coarsening_) : "") +
+                  (snapshot.advance.steps > 0 ? "   " + steps_text(snapshot.advance) : ""));
   const std::size_t shown = std::min(override_lines_.size(), max_override_lines);
   lines.insert(lines.end(), override_lines_.begin(),
                override_lines_.begin() + static_cast<std::ptrdiff_t>(shown));

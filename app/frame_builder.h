@@ -35,7 +35,7 @@ class FrameBuilder {
   render::Frame build_incident(const View& view, const Snapshot& snapshot,
                                const sim::Divergence& divergence, const Diagnosis& diagnosis) const;
 
-  /// Title, frame, time and steps, particles, and what was overridden; one line each.
+  /// Title, frame and time, particles and steps, and what was overridden; one line each.
   std::vector<std::string> caption(const Snapshot& snapshot) const;
 
  private:
