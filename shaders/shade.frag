@@ -80,26 +80,25 @@ vec3 before_tone_map(vec3 y) {
   return 2.42 * (sqrt(b * b + y * (4.0 / 4.84)) - b) / 0.8;
 }
 
+// Software rasterisers run both sides of a branch: so all kinds share the samples of the volumes.
 vec3 surface(vec3 p, vec4 normal_kind, vec3 albedo) {
   vec3 n = normal_kind.xyz;
   float kind = normal_kind.w;
   if (kind == kind_flat) return before_tone_map(albedo);
-  if (kind == kind_ground || kind == kind_solid) {
-    vec3 above = p + n * cell * (kind == kind_solid ? 2.5 : 0.5);
-    vec3 color = lit(albedo, n, key_light(above), sky_light(above), 1.0);
-    if (kind == kind_solid) {
-      float rim = 1.0 - abs(dot(n, normalize(p)));
-      color += 0.35 * rim * rim * rim * rim * sky;
-    }
-    return color;
-  }
+  bool is_hard = kind == kind_ground || kind == kind_solid;
   // Snow: the body decides the shape, the sphere gives the grain. A stray particle has no body.
   vec3 body = is_in_box(p) ? texture(body_volume, texture_position(p)).xyz : vec3(0.0);
   float certainty = min(length(body), 1.0);
-  n = normalize(mix(n, body / max(certainty, 1e-3), 0.72 * certainty));
-  vec3 above = p + body * (1.2 * cell);
-  float key = key_light(above + toward_light * cell);
-  return lit(albedo, n, key, sky_light(above), kind == kind_snow ? 1.0 : 0.6);
+  if (!is_hard) n = normalize(mix(n, body / max(certainty, 1e-3), 0.72 * certainty));
+  vec3 above =
+      p + (is_hard ? n * cell * (kind == kind_solid ? 2.5 : 0.5) : body * (1.2 * cell));
+  float key = key_light(is_hard ? above : above + toward_light * cell);
+  vec3 color = lit(albedo, n, key, sky_light(above), is_hard || kind == kind_snow ? 1.0 : 0.6);
+  if (kind == kind_solid) {
+    float rim = 1.0 - abs(dot(n, normalize(p)));
+    color += 0.35 * rim * rim * rim * rim * sky;
+  }
+  return color;
 }
 
 #ifdef SMOKE
