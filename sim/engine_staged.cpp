@@ -30,6 +30,8 @@ void Engine<Real>::take_stages(double dt, Traces& traces) {
   const Sweeps<Real>& s = *sweeps_;
   over_particle_blocks(s.rasterize, a);
   over_node_blocks(s.collect_momentum, a);
+  if (!takes(Stage::rasterize))
+    each_node([](auto& nodes, int n) { nodes.momentum[n] = nodes.v_old[n] = Quad<Real>{}; });
   if (takes(Stage::volumes)) over_particle_blocks(s.volumes, a);
   if (takes(Stage::elastic_forces)) {
     over_particle_blocks(s.elastic_forces, a);

@@ -34,7 +34,7 @@ struct SolverSettings {
   Precision precision = Precision::single;
   OnDivergence on_divergence = OnDivergence::stop;
   /// Stages to skip while debugging; the run then takes the staged driver, and its energy is not
-  /// watched. Not rasterize, without which there is no grid.
+  /// watched. Without rasterize the grid stays empty; explicit steps have no solve to skip.
   std::vector<Stage> bypass;
   /// Of the lattice, in blocks of 4 cells per axis, 0: open. For verification by waves and
   /// manufactured solutions; no scene key. Places stay unwrapped, and contact knows nothing of the

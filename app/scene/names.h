@@ -34,13 +34,14 @@ constexpr auto names(sim::TimeStep) {
   using enum sim::TimeStep;
   return std::array{Name{adaptive, "adaptive"}, Name{fixed, "fixed"}};
 }
-/// Stages that can be skipped.
 constexpr auto names(sim::Stage) {
   using enum sim::Stage;
-  return std::array{Name{volumes, name(volumes)},
+  return std::array{Name{rasterize, name(rasterize)},
+                    Name{volumes, name(volumes)},
                     Name{elastic_forces, name(elastic_forces)},
                     Name{grid_velocities, name(grid_velocities)},
                     Name{grid_collisions, name(grid_collisions)},
+                    Name{implicit_solve, name(implicit_solve)},
                     Name{deformation, name(deformation)},
                     Name{particle_velocities, name(particle_velocities)},
                     Name{particle_collisions, name(particle_collisions)},

@@ -84,6 +84,17 @@ TEST(Bypass, WithoutCollisionsSnowFallsThroughTheFloor) {
   EXPECT_GT(c.run(skipping({Stage::particle_collisions}), 0.1).summary().centre_of_mass.y(), 0.03);
 }
 
+TEST(Bypass, WithoutRasterizingTheGridIsEmpty) {
+  Case c;
+  c.colliders.clear();
+  SolverSettings s = skipping({Stage::rasterize});
+  s.flip_ratio = 1;
+  const Simulation simulation = c.run(s);
+  // An empty grid has no velocity to hand on; FLIP adds its change, which is nothing.
+  for (const Vec3d& v : simulation.particles().v) EXPECT_EQ(v, Vec3d(0, -3, 0));
+  EXPECT_EQ(simulation.summary().elastic_energy, 0);
+}
+
 TEST(Bypass, WithoutVolumesThereIsNoStress) {
   Case c;
   c.particles.V0.clear();
