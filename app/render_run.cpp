@@ -242,8 +242,19 @@ void RenderRun::draw_frame(int frame) {
     pictures.push_back(
         {frame_path(job_.folder, name, frame), std::move(image), png_text(name, frame)});
   };
-  for (const View& view : job_.scene.views)
-    if (is_drawn(view)) add(view.name, renderer_.draw(builder_.build(view, snapshot)));
+  // A GPU draws one view while the next is put together.
+  std::vector<std::string> waiting;
+  const auto fetch_down_to = [&](std::size_t left) {
+    for (; waiting.size() > left; waiting.erase(waiting.begin()))
+      add(waiting.front(), renderer_.fetch());
+  };
+  for (const View& view : job_.scene.views) {
+    if (!is_drawn(view)) continue;
+    renderer_.submit(builder_.build(view, snapshot));
+    waiting.push_back(view.name);
+    fetch_down_to(1);
+  }
+  fetch_down_to(0);
   for (const Mosaic& mosaic : job_.scene.mosaics)
     add(mosaic.name, draw_mosaic(job_.scene, mosaic, builder_, snapshot, renderer_));
   add_frame_record({frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start),

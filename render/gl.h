@@ -55,6 +55,7 @@ namespace neve::render {
   X(PFNGLGETSTRINGPROC, GetString)                             \
   X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
   X(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
+  X(PFNGLMAPBUFFERRANGEPROC, MapBufferRange)                   \
   X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \
   X(PFNGLREADBUFFERPROC, ReadBuffer)                           \
   X(PFNGLREADPIXELSPROC, ReadPixels)                           \
@@ -68,6 +69,7 @@ namespace neve::render {
   X(PFNGLUNIFORM1IPROC, Uniform1i)                             \
   X(PFNGLUNIFORM2FPROC, Uniform2f)                             \
   X(PFNGLUNIFORM3FPROC, Uniform3f)                             \
+  X(PFNGLUNMAPBUFFERPROC, UnmapBuffer)                         \
   X(PFNGLUSEPROGRAMPROC, UseProgram)                           \
   X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)         \
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \

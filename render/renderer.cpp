@@ -9,6 +9,7 @@
 #include "render/pass_overlay.h"
 #include "render/passes.h"
 #include "render/phase_clock.h"
+#include "render/read_back.h"
 #include "render/slice_passes.h"
 
 namespace neve::render {
@@ -45,17 +46,6 @@ void check_plot(const Plot& plot) {
       throw std::invalid_argument("Frame: a plot has " + std::to_string(series.time.size()) +
                                   " times and " + std::to_string(series.value.size()) + " values");
   }
-}
-
-/// RGBA whose colour is premultiplied to RGBA whose colour is not.
-void straighten(const std::uint8_t* from, std::uint8_t* to) {
-  const int alpha = from[3];
-  for (int c = 0; c < 3; ++c)
-    to[c] =
-        alpha == 0
-            ? std::uint8_t{0}
-            : static_cast<std::uint8_t>(std::min(255, (255 * int{from[c]} + alpha / 2) / alpha));
-  to[3] = from[3];
 }
 
 void check_frame(const Frame& frame, int max_size) {
@@ -130,9 +120,11 @@ struct Renderer::Impl {
   ShadePass shade;
   ResolvePass resolve;
   OverlayPass overlay;
+  ReadBack read_back;
   std::optional<Targets> targets;
 
-  Impl(Context& c, const std::string& shader_dir, ThreadPool* p, ParticlePath wanted)
+  Impl(Context& c, const std::string& shader_dir, ThreadPool* p, ParticlePath wanted,
+       ReadBackWay way)
       : context(c),
         pool(p),
         path(resolve_path(wanted, c)),
@@ -148,7 +140,9 @@ struct Renderer::Impl {
         lines(gl, library),
         shade(gl, library),
         resolve(gl, library),
-        overlay(gl, library) {}
+        overlay(gl, library),
+        read_back(gl,
+                  way == ReadBackWay::automatic ? !c.is_software : way == ReadBackWay::buffered) {}
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
   /// The members delete OpenGL names, so the context has to be ours again.
@@ -183,27 +177,10 @@ struct Renderer::Impl {
     gl.ClearBufferfv(GL_DEPTH, 0, &far_away);
   }
 
-  Image read_back(const Frame& frame) const {
-    Image image{frame.width, frame.height, frame.is_transparent ? 4 : 3, {}};
-    const auto width = static_cast<std::size_t>(frame.width);
-    const auto height = static_cast<std::size_t>(frame.height);
-    const auto channels = static_cast<std::size_t>(image.channels);
-    std::vector<std::uint8_t> rgba(4 * width * height);
-    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
-    gl.ReadPixels(0, 0, frame.width, frame.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-    image.pixels.resize(channels * width * height);
-    for (std::size_t y = 0; y < height; ++y) {
-      const std::uint8_t* from = rgba.data() + 4 * width * (height - 1 - y);
-      std::uint8_t* to = image.pixels.data() + channels * width * y;
-      for (std::size_t x = 0; x < width; ++x, from += 4, to += channels) {
-        if (frame.is_transparent)
-          straighten(from, to);
-        else
-          std::copy_n(from, 3, to);
-      }
-    }
-    return image;
+  /// The finished picture, at once.
+  Image take(const Frame& frame) {
+    read_back.begin(frame.width, frame.height, frame.is_transparent);
+    return read_back.finish_newest();
   }
 
   Image draw_over(const Image& picture, const Frame& frame) {
@@ -214,7 +191,7 @@ struct Renderer::Impl {
     upload_picture(picture);
     bind(targets->finished, frame.width, frame.height);
     overlay.draw(frame, make_view(frame.camera, frame.width, frame.height));
-    return read_back(frame);
+    return take(frame);
   }
 
   void upload_picture(const Image& picture) {
@@ -230,10 +207,23 @@ struct Renderer::Impl {
   }
 
   Image draw(const Frame& frame, std::vector<PhaseTime>* times) {
+    PhaseClock clock(gl, times);
+    draw_into_targets(frame, clock);
+    Image image = take(frame);
+    clock.end("read_back");
+    return image;
+  }
+
+  void submit(const Frame& frame) {
+    PhaseClock clock(gl, nullptr);
+    draw_into_targets(frame, clock);
+    read_back.begin(frame.width, frame.height, frame.is_transparent);
+  }
+
+  void draw_into_targets(const Frame& frame, PhaseClock& clock) {
     context.make_current();
     check_frame(frame, max_size());
     prepare_targets(frame);
-    PhaseClock clock(gl, times);
     const SmokeGrid smoke_grid = make_smoke_grid(frame.smoke, pool);
     const LightVolume& light = lighting.volume(frame, smoke_grid, pool);
     clock.end("light");
@@ -276,22 +266,32 @@ struct Renderer::Impl {
     clock.end("shade");
     overlay.draw(frame, make_view(frame.camera, frame.width, frame.height));
     clock.end("overlay");
-    Image image = read_back(frame);
-    clock.end("read_back");
-    return image;
   }
 };
 
 Renderer::Renderer(Context& context, const std::string& shader_dir, ThreadPool* pool,
-                   ParticlePath path) {
+                   ParticlePath path, ReadBackWay read_back) {
   context.make_current();
-  impl_ = std::make_unique<Impl>(context, shader_dir, pool, path);
+  impl_ = std::make_unique<Impl>(context, shader_dir, pool, path, read_back);
 }
 
 Renderer::~Renderer() = default;
 
 Image Renderer::draw(const Frame& frame, std::vector<PhaseTime>* times) {
   return impl_->draw(frame, times);
+}
+
+void Renderer::submit(const Frame& frame) {
+  impl_->submit(frame);
+}
+
+std::size_t Renderer::pending() const {
+  return impl_->read_back.pending();
+}
+
+Image Renderer::fetch() {
+  impl_->context.make_current();
+  return impl_->read_back.finish_oldest();
 }
 
 ParticlePath Renderer::particle_path() const {

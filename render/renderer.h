@@ -18,6 +18,10 @@ namespace neve::render {
 /// variable NEVE_PARTICLES names: gl or cpu.
 enum class ParticlePath { automatic, gl, cpu };
 
+/// How pictures come back: through pixel buffers while the CPU goes on, or at once. Automatic:
+/// buffered on a GPU.
+enum class ReadBackWay { automatic, buffered, at_once };
+
 /// NEVE_PARTICLES names no path.
 struct ParticlePathError : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -36,12 +40,20 @@ class Renderer {
   /// @throws std::runtime_error with the compiler's log when a shader does not build;
   /// ParticlePathError
   explicit Renderer(Context& context, const std::string& shader_dir = {},
-                    ThreadPool* pool = nullptr, ParticlePath path = ParticlePath::automatic);
+                    ThreadPool* pool = nullptr, ParticlePath path = ParticlePath::automatic,
+                    ReadBackWay read_back = ReadBackWay::automatic);
   ~Renderer();
 
   /// Same frame, same driver: same bytes.
   /// @param times if not null, takes the phases; then the driver has to finish each before the next
   Image draw(const Frame& frame, std::vector<PhaseTime>* times = nullptr);
+
+  /// Draws without waiting for the picture: a GPU works on it while the next frame is prepared.
+  void submit(const Frame& frame);
+  /// Pictures submitted and not fetched.
+  std::size_t pending() const;
+  /// The oldest of them. @throws std::logic_error when there is none
+  Image fetch();
 
   /// Never automatic.
   ParticlePath particle_path() const;

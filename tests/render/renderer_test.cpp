@@ -38,6 +38,32 @@ TEST(Renderer, SameFrameGivesTheSameBytes) {
   EXPECT_EQ(with_threads.draw(frame).pixels, first.pixels);
 }
 
+/// Through pixel buffers or at once: the same bytes, in the order in which they were asked for.
+TEST(Renderer, PicturesComeBackInOrderEitherWay) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame clear = ball_over_ground();
+  clear.is_transparent = true;
+  const std::vector<Frame> frames = {ball_over_ground(), small_frame(77, 41), clear};
+  Renderer plain(*context);
+  std::vector<Image> expected;
+  for (const Frame& frame : frames) expected.push_back(plain.draw(frame));
+  for (const ReadBackWay way : {ReadBackWay::buffered, ReadBackWay::at_once}) {
+    Renderer renderer(*context, {}, nullptr, ParticlePath::automatic, way);
+    EXPECT_THROW(renderer.fetch(), std::logic_error);
+    for (int round = 0; round < 2; ++round) {  // the second fills the same buffers again
+      for (const Frame& frame : frames) renderer.submit(frame);
+      EXPECT_EQ(renderer.pending(), 3u);
+      EXPECT_EQ(renderer.draw(frames[1]).pixels, expected[1].pixels) << "does not wait in line";
+      for (const Image& image : expected) {
+        const Image found = renderer.fetch();
+        EXPECT_EQ(found.channels, image.channels);
+        EXPECT_EQ(found.pixels, image.pixels);
+      }
+      EXPECT_EQ(renderer.pending(), 0u);
+    }
+  }
+}
+
 TEST(Renderer, WhatIsKeptFromOnePictureToTheNextDoesNotShow) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
