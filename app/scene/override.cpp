@@ -189,6 +189,27 @@ std::vector<std::string> item_names(const Value& items) {
   return names;
 }
 
+const Value* value_at(const Table& root, const std::string& address) {
+  const Table* table = &root;
+  const Value* value = nullptr;
+  for (const std::string& word : split(address)) {
+    // Names of [[body]] and the like are no keys but members of the entries.
+    const Array* list = value ? std::get_if<Array>(&value->data) : nullptr;
+    if (list) {
+      const std::vector<std::string> names = item_names(*value);
+      const auto k = std::find(names.begin(), names.end(), word) - names.begin();
+      value = static_cast<std::size_t>(k) < names.size() ? &(*list)[static_cast<std::size_t>(k)]
+                                                         : nullptr;
+    } else {
+      const Entry* entry = table ? table->find(word) : nullptr;
+      value = entry ? &entry->value : nullptr;
+    }
+    if (!value) return nullptr;
+    table = std::get_if<Table>(&value->data);
+  }
+  return value;
+}
+
 void apply_override(Table& root, const Override& change, int index) {
   const Target target = resolve(change, root);
   Value value = value_of(change, target.type);

@@ -32,6 +32,9 @@ Override parse_override(std::string_view argument);
 ///         no TOML
 void apply_override(Table& root, const Override& change, int index);
 
+/// What a document has at an address; null where it has nothing.
+const Value* value_at(const Table& root, const std::string& address);
+
 /// What the entries of a list or table of tables are called: names, or numbers from 1 where there
 /// is none that could be one.
 std::vector<std::string> item_names(const Value& items);

@@ -4,6 +4,8 @@
 
 #include "app/errors.h"
 #include "app/output/atomic_file.h"
+#include "app/scene/read.h"
+#include "app/scene/toml_source.h"
 #include "app/sweep/sweep_leaf.h"
 #include "app/version.h"
 
@@ -53,14 +55,40 @@ ManifestAxis axis_of(const Axis& axis, const std::vector<Varied>& parameters) {
   return result;
 }
 
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+Json to_json(const Pairs& pairs) {
+  Json list = Json::array();
+  for (const auto& [address, value] : pairs) list.push_back({address, value});
+  return list;
+}
+
+Pairs pairs_of(const Json& list) {
+  Pairs pairs;
+  for (const Json& pair : list)
+    pairs.emplace_back(pair.at(0).get<std::string>(), pair.at(1).get<std::string>());
+  return pairs;
+}
+
+/// What the run's scene has for the parameters that it does not set.
+Pairs unset_values(const RunPlan& item, const std::vector<Varied>& parameters) {
+  Pairs pairs;
+  const Table root = parse_toml(write_scene(item.scene), "scene");
+  for (const Varied& parameter : parameters) {
+    if (!value_of(item.run, parameter.address).empty()) continue;
+    if (const Value* value = value_at(root, parameter.address))
+      pairs.emplace_back(parameter.address, toml_literal(*value));
+  }
+  return pairs;
+}
+
 Json to_json(const ManifestRun& run) {
-  Json settings = Json::array();
-  for (const auto& [address, value] : run.settings) settings.push_back({address, value});
   return {{"run", run.index},
           {"folder", run.folder},
           {"key", run.key},
           {"label", run.label},
-          {"settings", settings},
+          {"settings", to_json(run.settings)},
+          {"unset", to_json(run.unset)},
           {"coordinates", run.coordinates},
           {"first_frame", run.first_frame},
           {"last_frame", run.last_frame},
@@ -75,8 +103,8 @@ ManifestRun run_of(const Json& json) {
   run.folder = json.at("folder").get<std::string>();
   run.key = json.at("key").get<std::string>();
   run.label = json.at("label").get<std::string>();
-  for (const Json& pair : json.at("settings"))
-    run.settings.emplace_back(pair.at(0).get<std::string>(), pair.at(1).get<std::string>());
+  run.settings = pairs_of(json.at("settings"));
+  run.unset = pairs_of(json.at("unset"));
   run.coordinates = json.at("coordinates").get<std::vector<int>>();
   run.first_frame = json.at("first_frame").get<int>();
   run.last_frame = json.at("last_frame").get<int>();
@@ -92,10 +120,17 @@ ManifestRun run_of(const Json& json) {
 
 }  // namespace
 
-std::string ManifestRun::value(const std::string& address) const {
-  for (auto setting = settings.rbegin(); setting != settings.rend(); ++setting)
-    if (setting->first == address) return setting->second;
+std::string ManifestRun::setting(const std::string& address) const {
+  for (auto given = settings.rbegin(); given != settings.rend(); ++given)
+    if (given->first == address) return given->second;
   return {};
+}
+
+std::string ManifestRun::value(const std::string& address) const {
+  const std::string own = setting(address);
+  for (const auto& [name, text] : unset)
+    if (own.empty() && name == address) return text;
+  return own;
 }
 
 int Manifest::first_frame() const {
@@ -140,6 +175,7 @@ Manifest make_manifest(const SweepPlan& plan, const std::vector<std::string>& ke
     run.label = item.run.label;
     for (const Override& setting : item.run.settings)
       run.settings.emplace_back(setting.address, setting.value);
+    run.unset = unset_values(item, m.parameters);
     run.coordinates = item.run.coordinates;
     run.first_frame = item.frames.first;
     run.last_frame = item.frames.last;

@@ -17,11 +17,15 @@ struct ManifestRun {
   std::string folder;  ///< "0007", under DIR/runs
   std::string key, label;
   std::vector<std::pair<std::string, std::string>> settings;  ///< address and value, TOML
+  /// The same of parameters that only other runs set.
+  std::vector<std::pair<std::string, std::string>> unset;
   std::vector<int> coordinates;
   int first_frame = 0, last_frame = 0;
   double particles = 0, memory = 0, work = 0;  ///< foreseen; memory in bytes
 
   /// "" where the run leaves it to the scene.
+  std::string setting(const std::string& address) const;
+  /// The run's own or the scene's; "" where neither has one.
   std::string value(const std::string& address) const;
 };
 

@@ -74,7 +74,7 @@ std::vector<std::string> tile_lines(const Manifest& manifest, const ManifestRun&
   }
   std::string settings;
   for (const Varied& parameter : manifest.parameters) {
-    const std::string value = run.value(parameter.address);
+    const std::string value = run.setting(parameter.address);
     if (value.empty()) continue;
     settings += (settings.empty() ? "" : ", ") + parameter.name + " = " + value_text(value);
     if (!parameter.unit.empty()) settings += " " + parameter.unit;
@@ -90,7 +90,7 @@ std::string strip_name(const Manifest& manifest, const ManifestRun& run) {
   std::string text;
   int lines = 0;
   for (const Varied& parameter : manifest.parameters) {
-    const std::string value = run.value(parameter.address);
+    const std::string value = run.setting(parameter.address);
     if (value.empty() || ++lines > most_lines) continue;
     text += (text.empty() ? "" : "\n") + parameter.name + " = " + value_text(value) +
             (parameter.unit.empty() ? "" : " " + parameter.unit);
@@ -105,6 +105,7 @@ std::pair<std::string, std::string> split_state(const std::string& text) {
                           !(text[k] >= '0' && text[k] <= '9');
        ++k)
     if (text[k] == ' ' || k + 1 == text.size()) end = k + (text[k] == ' ' ? 0 : 1);
+  if (end == 0) return {"", text};
   return {text.substr(0, end), end < text.size() ? text.substr(end + 1) : ""};
 }
 
@@ -218,57 +219,67 @@ render::Image SheetMaker::sheet(int frame) {
 }
 
 render::Image SheetMaker::strips() {
-  // Runs as rows and moments as columns: a grid of two axes.
-  Manifest grid = manifest_;
-  grid.columns = 1;
-  grid.rows = 0;
-  grid.tile_label = "none";
-  grid.tile_width = std::max(160, manifest_.tile_width * 2 / 3);
-  grid.tile_height =
-      std::max(1, static_cast<int>(std::lround(1.0 * grid.tile_width * manifest_.tile_height /
-                                               manifest_.tile_width)));
+  const std::vector<int> frames = moments();
+  const SheetLayout layout =
+      layout_sheet(strip_grid(frames), !legends_.empty(), renderer_.max_size());
+  render::Frame words =
+      frame_of(layout, "moments of every run" + std::string(dot) + count_text(results_));
+  std::vector<render::Tile> pictures;
+  for (const SheetTile& place : layout.tiles) {
+    const std::size_t run = place.run / frames.size();
+    const Tile tile{&manifest_.runs[run], &results_[run], frames[place.run % frames.size()],
+                    place.x, place.y};
+    const bool is_dark = is_late(*tile.run, *tile.result, tile.frame);
+    pictures.push_back(
+        {tile.x, tile.y, tile_picture(tile, layout.tile_width, layout.tile_height, is_dark)});
+    if (is_dark) add_state(layout, tile, words);
+  }
+  return renderer_.draw_over(render::compose(layout.width, layout.height, paper, pictures), words);
+}
+
+std::vector<int> SheetMaker::moments() const {
   const int first = manifest_.first_frame(), last = manifest_.last_frame();
   const std::size_t count = std::min(most_moments, static_cast<std::size_t>(last - first + 1));
-  ManifestAxis names{"", {}}, times{"t", {}};
   std::vector<int> frames;
   for (std::size_t k = 0; k < count; ++k) {
     const double part = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 1;
     frames.push_back(first + static_cast<int>(std::lround(part * (last - first))));
-    times.values.push_back(fixed_text(frames.back() / manifest_.fps, 3) + " s");
   }
+  return frames;
+}
+
+/// Runs as rows and moments as columns: a sheet of two axes.
+Manifest SheetMaker::strip_grid(const std::vector<int>& frames) const {
+  Manifest grid = manifest_;
+  grid.columns = 1;
+  grid.rows = 0;
+  grid.tile_width = std::max(160, manifest_.tile_width * 2 / 3);
+  grid.tile_height =
+      std::max(1, static_cast<int>(std::lround(1.0 * grid.tile_width * manifest_.tile_height /
+                                               manifest_.tile_width)));
+  ManifestAxis names{"", {}}, times{"t", {}};
+  for (const int frame : frames)
+    times.values.push_back(fixed_text(frame / manifest_.fps, 3) + " s");
   grid.runs.clear();
   for (std::size_t r = 0; r < manifest_.runs.size(); ++r) {
     names.values.push_back(strip_name(manifest_, manifest_.runs[r]));
-    for (std::size_t k = 0; k < count; ++k) {
-      ManifestRun cell;
-      cell.coordinates = {static_cast<int>(r), static_cast<int>(k)};
-      grid.runs.push_back(cell);
-    }
+    for (std::size_t k = 0; k < frames.size(); ++k)
+      grid.runs.emplace_back().coordinates = {static_cast<int>(r), static_cast<int>(k)};
   }
   grid.axes = {names, times};
-  const SheetLayout layout = layout_sheet(grid, !legends_.empty(), renderer_.max_size());
-  std::vector<Tile> tiles;
-  for (const SheetTile& place : layout.tiles)
-    tiles.push_back({&manifest_.runs[place.run / count], &results_[place.run / count],
-                     frames[place.run % count], place.x, place.y});
-  render::Frame words =
-      frame_of(layout, "moments of every run" + std::string(dot) + count_text(results_));
-  std::vector<render::Tile> pictures;
-  for (const Tile& tile : tiles) {
-    const bool is_dark = is_late(*tile.run, *tile.result, tile.frame);
-    pictures.push_back(
-        {tile.x, tile.y, tile_picture(tile, layout.tile_width, layout.tile_height, is_dark)});
-    if (!is_dark) continue;
-    const auto [state, reason] = split_state(tile_text(tile.result->report));
-    words.notes.push_back(
-        {static_cast<float>(tile.x) + 0.5f * static_cast<float>(layout.tile_width),
-         static_cast<float>(tile.y) +
-             0.5f * static_cast<float>(layout.tile_height - layout.font_size),
-         state.empty() ? reason : state, render::Note::Anchor::middle,
-         static_cast<float>(layout.tile_width), false,
-         has_failed(tile.result->report.state) ? alarm : soft});
-  }
-  return renderer_.draw_over(render::compose(layout.width, layout.height, paper, pictures), words);
+  return grid;
+}
+
+/// Why a run stands still, in few words.
+void SheetMaker::add_state(const SheetLayout& layout, const Tile& tile,
+                           render::Frame& words) const {
+  const auto [state, reason] = split_state(tile_text(tile.result->report));
+  const auto width = static_cast<float>(layout.tile_width);
+  words.notes.push_back({static_cast<float>(tile.x) + 0.5f * width,
+                         static_cast<float>(tile.y) +
+                             0.5f * static_cast<float>(layout.tile_height - layout.font_size),
+                         state.empty() ? reason : state, render::Note::Anchor::middle, width, false,
+                         has_failed(tile.result->report.state) ? alarm : soft});
 }
 
 }  // namespace neve::app

@@ -41,6 +41,10 @@ class SheetMaker {
   render::Image tile_picture(const Tile& tile, int width, int height, bool is_late) const;
   void add_tile_words(const SheetLayout& layout, const Tile& tile, bool is_late,
                       render::Frame& words) const;
+  void add_state(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
+  /// Frames that strips show.
+  std::vector<int> moments() const;
+  Manifest strip_grid(const std::vector<int>& frames) const;
   render::Frame frame_of(const SheetLayout& layout, const std::string& line) const;
 
   std::filesystem::path folder_;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/scene/read.h"
+#include "app/scene/toml_source.h"
 
 namespace neve::app {
 namespace {
@@ -144,6 +145,25 @@ TEST(FindView, KnowsTheBuiltInOne) {
   EXPECT_EQ(find_view(scene, "close").camera->fov, 20);
   EXPECT_EQ(find_view(scene, "particles").name, "particles");
   EXPECT_THROW(find_view(scene, "clos"), UsageError);
+}
+
+TEST(ValueAt, FindsWhatAnAddressMeans) {
+  const Table root = parse_toml(
+      "fps = 24\n[solver]\ncfl = 0.4\n[material.snow]\nhardening = 5\n[[body]]\nname = \"ball\"\n"
+      "velocity = [0, 1, 2]\n[[body]]\nshape = { sphere = { radius = 0.1 } }\n",
+      "s.toml");
+  const auto text = [&](const char* address) {
+    const Value* value = value_at(root, address);
+    return value ? toml_literal(*value) : "";
+  };
+  EXPECT_EQ(text("fps"), "24");
+  EXPECT_EQ(text("solver.cfl"), "0.4");
+  EXPECT_EQ(text("material.snow.hardening"), "5");
+  EXPECT_EQ(text("body.ball.velocity"), "[0, 1, 2]");
+  EXPECT_EQ(text("body.2.shape.sphere.radius"), "0.1");
+  for (const char* nothing : {"", "frames", "solver.cfl.x", "body.bull.velocity", "body.3.name",
+                              "material.ice.hardening", "fps.fps"})
+    EXPECT_EQ(text(nothing), "") << nothing;
 }
 
 }  // namespace
