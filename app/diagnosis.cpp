@@ -306,7 +306,9 @@ Diagnosis diagnose(const Scene& scene, const sim::Divergence& divergence) {
 }
 
 std::string sentence(const sim::Divergence& d, const Diagnosis& diagnosis) {
-  return d.sentence + ". Cause: " + diagnosis.evidence + ". Try: " + diagnosis.remedy;
+  // One advice on dt is enough; that of the cause looks at where trouble began.
+  return (diagnosis.cause == Cause::unexplained ? d.sentence : d.what) +
+         ". Cause: " + diagnosis.evidence + ". Try: " + diagnosis.remedy;
 }
 
 }  // namespace neve::app

@@ -130,10 +130,18 @@ render::Frame FrameBuilder::build_incident(const View& view, const Snapshot& sna
                                            const sim::Divergence& divergence,
                                            const Diagnosis& diagnosis) const {
   render::Frame frame = build(view, snapshot);
+  // Where only a plane is drawn, rings around what is before or behind it point at nothing.
+  const bool is_plane = !has_layer(view, Layer::particles) && !has_layer(view, Layer::smoke);
+  const auto is_shown = [&](const sim::Vec3d& x) {
+    return !is_plane ||
+           std::abs((x - view.slice.point.value_or(x)).dot(view.slice.normal.normalized())) <=
+               scene_.solver.cell_size;
+  };
   for (const std::uint32_t p : divergence.culprits) {
     if (frame.marks.size() == max_marks) break;
-    if (p < snapshot.particles.x.size() && snapshot.particles.x[p].allFinite())
-      frame.marks.push_back(to_float(snapshot.particles.x[p]));
+    if (p >= snapshot.particles.x.size()) continue;
+    const sim::Vec3d& x = snapshot.particles.x[p];
+    if (x.allFinite() && is_shown(x)) frame.marks.push_back(to_float(x));
   }
   if (!frame.caption.empty())
     for (std::string& line : incident_lines(divergence, diagnosis))

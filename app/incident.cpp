@@ -17,7 +17,7 @@ namespace {
 using sim::Vec3d;
 
 /// Cells that the picture of the slice is high.
-constexpr double cells_shown = 20;
+constexpr double cells_shown = 26;
 
 /// Of most particles near a place, m/s: the culprit's own speed may be any number.
 double speed_around(const sim::ParticleArrays& particles, const Vec3d& place, double reach) {
@@ -77,9 +77,9 @@ std::optional<View> culprit_slice(const Scene& scene, const sim::Divergence& div
   constexpr double half_angle = 0.5 * 3.14159265358979323846 / 180;
   const double distance = 0.5 * cells_shown * h / std::tan(camera.fov * half_angle);
   if (std::abs(view.slice.normal.y()) > 0.5) camera.up = Vec3d(0, 0, -1);
-  // To the right of the caption.
+  // Between the caption and the legends.
   const Vec3d right = camera.up.cross(view.slice.normal);
-  camera.target = divergence.x - 0.2 * cells_shown * h * right;
+  camera.target = divergence.x - 0.12 * cells_shown * h * right;
   camera.eye = *camera.target + distance * view.slice.normal;
   view.camera = camera;
   return view;

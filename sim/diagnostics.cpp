@@ -82,7 +82,8 @@ double badness(const std::string& rule, const ParticleArrays& p, std::size_t id,
   return p.v[id].norm();
 }
 
-std::string sentence(const Divergence& d, double acoustic_cfl) {
+/// What happened, without advice.
+std::string what(const Divergence& d, double acoustic_cfl) {
   std::string text =
       "diverged at step " + std::to_string(d.step) + " (t = " + number(d.time) + " s): ";
   const std::string who = d.particle < 0 ? "a particle" : "particle " + std::to_string(d.particle);
@@ -105,7 +106,6 @@ std::string sentence(const Divergence& d, double acoustic_cfl) {
     text += "energy rose to " + number(d.value) + " J, " + number(d.limit) + " J can be explained";
   if (d.rule != "acoustic_cfl" && acoustic_cfl > 0.7)
     text += "; acoustic CFL was " + number(acoustic_cfl);
-  if (d.dt > d.dt_that_holds) text += ". dt = " + number(d.dt_that_holds) + " would have held";
   return text;
 }
 
@@ -179,7 +179,10 @@ void find_culprits(const ParticleArrays& particles, const SolverSettings& settin
             wave_speed(material, d.F_E, d.J_P, particles.m[worst] / particles.V0[worst]);
     }
   }
-  d.sentence = sentence(d, d.dt * d.sound_speed / settings.cell_size);
+  d.what = what(d, d.dt * d.sound_speed / settings.cell_size);
+  d.sentence = d.what;
+  if (d.dt > d.dt_that_holds)
+    d.sentence += ". dt = " + number(d.dt_that_holds) + " would have held";
 }
 
 }  // namespace neve::sim

@@ -92,7 +92,8 @@ struct Divergence {
   std::vector<std::uint32_t> culprits;  ///< ids, at most 1000
   std::vector<StepRecord> last_steps;   ///< oldest first, the broken one last
   StartState start;
-  std::string sentence;  ///< one line for people
+  std::string what;      ///< one line for people
+  std::string sentence;  ///< with the dt that would have held
 };
 
 /// What was noticed but did not stop the run.
