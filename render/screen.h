@@ -1,0 +1,46 @@
+#pragma once
+/// What a person at a window or a web page sees: the last picture, scaled to its place, and panels
+/// drawn with Dear ImGui over it.
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "render/context.h"
+#include "render/image.h"
+#include "render/renderer.h"
+
+namespace neve::render {
+
+/// Where the picture goes on the screen, px from the upper left corner.
+struct PicturePlace {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+class Screen {
+ public:
+  explicit Screen(Context& context, const std::string& shader_dir = {});
+  ~Screen();
+
+  /// Makes the panels' ImGui context the current one: for input, between pictures.
+  void select_panels();
+
+  /// Draws everything. The picture that the renderer painted last is scaled to its place.
+  /// @param font_size of panels, px
+  /// @param seconds since the last time, for ImGui
+  /// @param panels calls ImGui
+  void draw(int width, int height, int font_size, float seconds, Renderer& renderer,
+            const PicturePlace& place, const std::function<void()>& panels);
+
+  /// What was drawn last, upright RGB.
+  Image pixels();
+
+  /// Copies what was drawn last to the window of the context. The caller swaps its buffers.
+  void present();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace neve::render
