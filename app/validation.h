@@ -16,6 +16,11 @@ class Validation {
   Validation(const sim::SolverSettings& settings, const std::vector<sim::Material>& materials,
              const sim::Simulation& simulation, Progress& progress);
 
+  /// Goes on with what was changed between steps.
+  void use(const sim::SolverSettings& settings, const std::vector<sim::Material>& materials) {
+    watch_.use(settings, materials);
+  }
+
   /// Between steps: looks if it is time to, and warns of what was broken for the first time.
   void after_step();
 

@@ -33,6 +33,11 @@ Touch touch(const Box& box, const Pose& pose, const Vec3d& x) {
   return {is_outside ? beyond.cwiseMax(0.0).norm() : beyond[axis], sign * pose.rotation.col(axis)};
 }
 
+/// Of a plane only the surface moves.
+bool turns(const Collider& collider) {
+  return !std::holds_alternative<Plane>(collider.shape.form);
+}
+
 template <class Other>
 Touch touch(const Other&, const Pose&, const Vec3d&) {
   throw std::invalid_argument("colliders are planes, spheres and boxes");
@@ -41,11 +46,26 @@ Touch touch(const Other&, const Pose&, const Vec3d&) {
 }  // namespace
 
 Pose pose_at(const Collider& collider, double time) {
+  const Travel& travel = collider.travel;
+  const double moving = time - travel.since;
   const Mat3d start = rotation_from_degrees(collider.shape.rotation);
-  const bool turns = !std::holds_alternative<Plane>(collider.shape.form);
-  const Mat3d turned =
-      turns ? rotation_from_vector(time * collider.angular_velocity) * start : start;
-  return {center(collider.shape) + time * collider.velocity, turned};
+  const Mat3d turned = turns(collider) ? rotation_from_vector(moving * collider.angular_velocity) *
+                                             travel.turned * start
+                                       : start;
+  return {center(collider.shape) + travel.moved + moving * collider.velocity, turned};
+}
+
+Travel travel_after(const Collider& before, const Collider& after, double time) {
+  if (before.velocity == after.velocity && before.angular_velocity == after.angular_velocity)
+    return before.travel;
+  const Travel& so_far = before.travel;
+  const double moving = time - so_far.since;
+  Travel travel;
+  travel.since = time;
+  travel.moved = so_far.moved + moving * before.velocity;
+  if (turns(before))
+    travel.turned = rotation_from_vector(moving * before.angular_velocity) * so_far.turned;
+  return travel;
 }
 
 Surface surface_at(const Collider& collider, double time, const Vec3d& x) {

@@ -9,6 +9,14 @@ namespace neve::sim {
 
 enum class Contact { separate, slip, sticky };
 
+/// How a collider came to be elsewhere than its shape and motion say: a run that went on with
+/// another velocity, or with a collider that was not there before.
+struct Travel {
+  double since = 0;                  ///< s; from then on it moves with its present velocity
+  Vec3d moved{0, 0, 0};              ///< m, until then
+  Mat3d turned = Mat3d::Identity();  ///< until then, after the rotation of the shape
+};
+
 struct Collider {
   std::string name;
   Shape shape;  ///< plane, sphere or box
@@ -17,14 +25,20 @@ struct Collider {
   Vec3d velocity{0, 0, 0};  ///< m/s
   Vec3d angular_velocity{
       0, 0, 0};  ///< rad/s about the shape's centre; a plane's only adds surface velocity
+  Travel travel{};
 };
 
-/// Where a collider is at a time, moved from its place in the scene at t = 0.
+/// Where a collider is at a time, moved from its place in the scene at t = 0, or as its travel
+/// says.
 struct Pose {
   Vec3d point;     ///< centre, or the point of a plane
   Mat3d rotation;  ///< columns are the shape's axes
 };
 Pose pose_at(const Collider& collider, double time);
+
+/// The travel of a collider that is changed at a time: with another velocity or spin it goes on
+/// from where it is; one whose place, shape or contact was edited moves by the edit alone.
+Travel travel_after(const Collider& before, const Collider& after, double time);
 
 /// A collider as seen from a point.
 struct Surface {

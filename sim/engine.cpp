@@ -67,22 +67,34 @@ Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>
   if (materials.empty()) throw std::invalid_argument("a simulation needs a material");
   if (colliders.size() > max_colliders)
     throw std::invalid_argument("at most " + std::to_string(max_colliders) + " colliders");
-  for (const Material& m : materials) {
+  use_materials();
+  simd_ = chosen_simd_level();
+  use_sweeps();
+  if (settings.period.minCoeff() < 0 || settings.period.maxCoeff() > block_limit)
+    throw std::invalid_argument("a period of the lattice is negative or too long");
+  partition_.set_period(settings.period);
+  place_colliders();
+  load(particles);
+  prepare();
+}
+
+template <class Real>
+void Engine<Real>::use_materials() {
+  materials_.clear();
+  limits_.max_hardening = 0;
+  for (const Material& m : material_list_) {
     const Lame rest = lame(m.youngs_modulus, m.poisson_ratio);
     materials_.push_back({static_cast<Real>(rest.mu), static_cast<Real>(rest.lambda),
                           static_cast<Real>(m.hardening), static_cast<Real>(m.critical_compression),
                           static_cast<Real>(m.critical_stretch)});
+    limits_.max_hardening = std::max(limits_.max_hardening, m.hardening);
   }
-  kernel_nodes_ = settings.kernel == Kernel::cubic ? cubic_nodes : quadratic_nodes;
-  simd_ = chosen_simd_level();
-  sweeps_ = &sweeps_for(simd_, kernel_nodes_, transfer_kind(settings.transfer), Real());
-  if (settings.period.minCoeff() < 0 || settings.period.maxCoeff() > block_limit)
-    throw std::invalid_argument("a period of the lattice is negative or too long");
-  partition_.set_period(settings.period);
-  poses_.resize(colliders_.size());
-  place_colliders();
-  load(particles);
-  prepare();
+}
+
+template <class Real>
+void Engine<Real>::use_sweeps() {
+  kernel_nodes_ = settings_.kernel == Kernel::cubic ? cubic_nodes : quadratic_nodes;
+  sweeps_ = &sweeps_for(simd_, kernel_nodes_, transfer_kind(settings_.transfer), Real());
 }
 
 /// Everything the first step relies on: stress, keys, volumes of new bodies, and the limits on dt.
@@ -118,8 +130,6 @@ void Engine<Real>::prepare() {
   limits_.max_speed = std::sqrt(static_cast<double>(report.max_speed_squared));
   limits_.max_sound_speed = std::sqrt(static_cast<double>(report.max_sound_squared));
   limits_.max_strain_rate = static_cast<double>(report.max_strain_rate);
-  for (const Material& m : material_list_)
-    limits_.max_hardening = std::max(limits_.max_hardening, m.hardening);
   StateLimits at_rest = limits_;
   at_rest.max_strain_rate = 0;
   start_.max_speed = limits_.max_speed;
@@ -132,35 +142,45 @@ void Engine<Real>::prepare() {
 }
 
 template <class Real>
-void Engine<Real>::place_colliders() {
-  const double h = settings_.cell_size;
-  for (std::size_t k = 0; k < colliders_.size(); ++k) {
-    const Collider& c = colliders_[k];
-    const Pose pose = pose_at(c, time_);
-    ColliderPose& out = poses_[k];
-    out = ColliderPose{};
-    out.shape = collider_shape(c);
-    out.contact = static_cast<ContactLaw>(c.contact);
-    out.friction = c.friction;
-    for (int a = 0; a < 3; ++a) {
-      const double in_cells = pose.point[a] / h;
-      if (!(std::abs(in_cells) < 4.0 * block_limit))
-        throw std::invalid_argument("collider \"" + c.name + "\" is outside the lattice");
-      split(in_cells, out.cell[a], out.offset[a]);
-      out.cell[a] += block_side * lattice_origin_[a];
-      out.velocity[a] = c.velocity[a];
-      out.omega[a] = c.angular_velocity[a];
-      for (int b = 0; b < 3; ++b) out.axes[3 * a + b] = pose.rotation(a, b);
-    }
-    if (const auto* plane = std::get_if<Plane>(&c.shape.form)) {
-      const Vec3d n = pose.rotation * plane->normal.normalized();
-      for (int a = 0; a < 3; ++a) out.normal[a] = n[a];
-    } else if (const auto* sphere = std::get_if<Sphere>(&c.shape.form)) {
-      out.radius = sphere->radius;
-    } else if (const auto* box = std::get_if<Box>(&c.shape.form)) {
-      for (int a = 0; a < 3; ++a) out.half[a] = 0.5 * box->size[a];
-    }
+ColliderPose Engine<Real>::pose_of(const Collider& c) const {
+  const Pose pose = pose_at(c, colliders_time_);
+  ColliderPose out{};
+  out.shape = collider_shape(c);
+  out.contact = static_cast<ContactLaw>(c.contact);
+  out.friction = c.friction;
+  for (int a = 0; a < 3; ++a) {
+    const double in_cells = pose.point[a] / settings_.cell_size;
+    if (!(std::abs(in_cells) < 4.0 * block_limit))
+      throw std::invalid_argument("collider \"" + c.name + "\" is outside the lattice");
+    split(in_cells, out.cell[a], out.offset[a]);
+    out.cell[a] += block_side * lattice_origin_[a];
+    out.velocity[a] = c.velocity[a];
+    out.omega[a] = c.angular_velocity[a];
+    for (int b = 0; b < 3; ++b) out.axes[3 * a + b] = pose.rotation(a, b);
   }
+  if (const auto* plane = std::get_if<Plane>(&c.shape.form)) {
+    const Vec3d n = pose.rotation * plane->normal.normalized();
+    for (int a = 0; a < 3; ++a) out.normal[a] = n[a];
+  } else if (const auto* sphere = std::get_if<Sphere>(&c.shape.form)) {
+    out.radius = sphere->radius;
+  } else if (const auto* box = std::get_if<Box>(&c.shape.form)) {
+    for (int a = 0; a < 3; ++a) out.half[a] = 0.5 * box->size[a];
+  }
+  return out;
+}
+
+template <class Real>
+void Engine<Real>::place_colliders() {
+  poses_.clear();
+  for (const Collider& c : colliders_) poses_.push_back(pose_of(c));
+}
+
+/// Paper step 11.
+template <class Real>
+void Engine<Real>::move_colliders() {
+  if (settings_.skips(Stage::colliders)) return;
+  colliders_time_ = time_;
+  place_colliders();
 }
 
 template <class Real>
@@ -240,6 +260,7 @@ void Engine<Real>::step(double dt) {
   if (particles_.empty()) {
     time_ += dt;
     ++steps_;
+    move_colliders();
     return;
   }
   if (!settings_.bypass.empty()) {
@@ -260,7 +281,7 @@ void Engine<Real>::step(double dt) {
   timer.add_to(seconds.grid_to_particles);
   time_ += dt;
   ++steps_;
-  place_colliders();
+  move_colliders();
   note(dt);
   timer.add_to(seconds.checks);
 }
@@ -277,7 +298,7 @@ Simulation::Choice Engine<Real>::choose_dt(double remaining) const {
 }
 
 template <class Real>
-AdvanceReport Engine<Real>::advance_to(double time, bool (*interrupted)()) {
+AdvanceReport Engine<Real>::advance_to(double time, bool (*interrupted)(), std::size_t last_step) {
   AdvanceReport report;
   if (!(frame_end_ == time && time_ == frame_start_ + frame_done_)) {
     frame_start_ = time_;
@@ -287,7 +308,7 @@ AdvanceReport Engine<Real>::advance_to(double time, bool (*interrupted)()) {
   // Counting from the start of the frame keeps the end of the frame exact.
   const double start = frame_start_, whole = time - start;
   double& done = frame_done_;
-  while (done < whole && !divergence_) {
+  while (done < whole && !divergence_ && steps_ < last_step) {
     const Simulation::Choice choice = choose_dt(whole - done);
     last_limit_ = choice.limit;
     step(choice.dt);

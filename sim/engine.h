@@ -61,7 +61,10 @@ class Engine {
          const Vec3i& lattice_origin);
 
   void step(double dt);
-  AdvanceReport advance_to(double time, bool (*interrupted)());
+  AdvanceReport advance_to(double time, bool (*interrupted)(), std::size_t last_step);
+  void apply(const SolverSettings& settings, const std::vector<Material>& materials,
+             const std::vector<Collider>& colliders);
+  std::vector<Collider> colliders() const;
   StagedStep staged_step(double dt) const;
   std::vector<std::uint8_t> save() const;
   /// @throws SavedStateError, and then is as it was
@@ -96,7 +99,14 @@ class Engine {
   void prepare();
   /// @param channels of tiles and nodes
   SweepArgs<Real> args(double dt, int channels);
+  ColliderPose pose_of(const Collider& collider) const;
   void place_colliders();
+  void move_colliders();
+  void use_materials();
+  void use_sweeps();
+  void stress_anew(const std::vector<bool>& is_changed);
+  void rebase_energy(const SolverSettings& before, const EnergyAccount& account,
+                     const Summary& found);
   void partition();
   void sort_storage();
   /// Calls a sweep over particle blocks (weighted by particles) or node blocks, on all threads.
@@ -145,6 +155,7 @@ class Engine {
   std::vector<double> node_contact_work_;
 
   double time_ = 0;
+  double colliders_time_ = 0;  ///< s, that the poses are of: steps without them leave it behind
   std::size_t steps_ = 0;
   StateLimits limits_;
   double rest_dt_ = 0, last_dt_ = 0;

@@ -4,12 +4,25 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sim/material.h"
 #include "sim/math.h"
+#include "sim/particles.h"
 
 namespace neve::sim {
 
 /// Storage is put into block order this often: sorting costs more than it gains every step.
 inline constexpr std::size_t steps_between_sorts = 32;
+
+inline ModelKind model_kind(Model model) {
+  switch (model) {
+    case Model::corotated:
+      return ModelKind::corotated;
+    case Model::neo_hookean:
+      return ModelKind::neo_hookean;
+    default:
+      return ModelKind::snow;
+  }
+}
 
 /// Splits a coordinate in cells into the cell and the offset in it; the offset is below 1 also
 /// after rounding to Real.

@@ -10,9 +10,9 @@ namespace neve::sim {
 
 namespace {
 
-constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '2'};
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '3'};
 
-/// What there is once; followed by the records.
+/// What there is once; followed by the records and the travels of the colliders.
 struct SavedHead {
   char magic[8];
   std::uint32_t bytes_per_number, bytes_per_record;
@@ -25,8 +25,30 @@ struct SavedHead {
   double worst_acoustic_cfl, dt_scale;
   std::uint64_t inverted_trials;
   std::int32_t lattice_origin[3], unused;
+  std::uint64_t colliders;
+  double colliders_time;
 };
 static_assert(std::is_trivially_copyable_v<SavedHead> && sizeof(SavedHead) % 8 == 0);
+
+struct SavedTravel {
+  double since, moved[3], turned[9];
+};
+
+SavedTravel saved(const Travel& travel) {
+  SavedTravel out{};
+  out.since = travel.since;
+  for (int a = 0; a < 3; ++a) out.moved[a] = travel.moved[a];
+  for (int q = 0; q < 9; ++q) out.turned[q] = travel.turned(q / 3, q % 3);
+  return out;
+}
+
+Travel travel(const SavedTravel& in) {
+  Travel out;
+  out.since = in.since;
+  for (int a = 0; a < 3; ++a) out.moved[a] = in.moved[a];
+  for (int q = 0; q < 9; ++q) out.turned(q / 3, q % 3) = in.turned[q];
+  return out;
+}
 
 }  // namespace
 
@@ -59,10 +81,17 @@ std::vector<std::uint8_t> Engine<Real>::save() const {
     head.centre_of_mass[a] = energy_.centre_of_mass[a];
     head.lattice_origin[a] = lattice_origin_[a];
   }
+  head.colliders = colliders_.size();
+  head.colliders_time = colliders_time_;
+  std::vector<SavedTravel> travels;
+  for (const Collider& collider : colliders_) travels.push_back(saved(collider.travel));
   const std::size_t record_bytes = particles_.size() * sizeof(Particle<Real>);
-  std::vector<std::uint8_t> bytes(sizeof head + record_bytes);
+  const std::size_t travel_bytes = travels.size() * sizeof(SavedTravel);
+  std::vector<std::uint8_t> bytes(sizeof head + record_bytes + travel_bytes);
   std::memcpy(bytes.data(), &head, sizeof head);
-  if (record_bytes > 0) std::memcpy(bytes.data() + sizeof head, particles_.data(), record_bytes);
+  std::uint8_t* end = bytes.data() + sizeof head;
+  if (record_bytes > 0) std::memcpy(end, particles_.data(), record_bytes);
+  if (travel_bytes > 0) std::memcpy(end + record_bytes, travels.data(), travel_bytes);
   return bytes;
 }
 
@@ -77,15 +106,17 @@ void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
   if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse("is none of this version");
   if (head.bytes_per_number != sizeof(Real)) refuse("has another precision");
   if (head.bytes_per_record != sizeof(Particle<Real>)) refuse("has other particles");
+  if (head.colliders != colliders_.size()) refuse("has another number of colliders");
+  const std::size_t travel_bytes = colliders_.size() * sizeof(SavedTravel);
   if (head.count > bytes.size() / sizeof(Particle<Real>) ||
-      bytes.size() != sizeof head + head.count * sizeof(Particle<Real>))
+      bytes.size() != sizeof head + head.count * sizeof(Particle<Real>) + travel_bytes)
     refuse("has another length than it says");
   for (int a = 0; a < 3; ++a)
     if (head.lattice_origin[a] != lattice_origin_[a]) refuse("has another lattice");
 
   std::vector<Particle<Real>> records(head.count);
   if (head.count > 0)
-    std::memcpy(records.data(), bytes.data() + sizeof head, bytes.size() - sizeof head);
+    std::memcpy(records.data(), bytes.data() + sizeof head, head.count * sizeof(Particle<Real>));
   for (const Particle<Real>& p : records) {
     for (const Integer<Real> cell : p.cell)
       if (cell <= -4 * block_limit || cell >= 4 * block_limit)
@@ -95,6 +126,14 @@ void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
       refuse("names a material or a particle that is not there");
   }
 
+  const std::uint8_t* next_travel = bytes.data() + bytes.size() - travel_bytes;
+  for (Collider& collider : colliders_) {
+    SavedTravel in{};
+    std::memcpy(&in, next_travel, sizeof in);
+    collider.travel = travel(in);
+    next_travel += sizeof in;
+  }
+  colliders_time_ = head.colliders_time;
   particles_ = records;
   keys_.assign(head.count, 0);
   locals_.assign(head.count, 0);

@@ -69,7 +69,7 @@ void Engine<Real>::step_by_stages(double dt) {
   take_stages(dt, traces);
   time_ += dt;
   ++steps_;
-  if (!settings_.skips(Stage::colliders)) place_colliders();
+  move_colliders();
   const double sound_speed = limits_.max_sound_speed;
   note(dt);
   // Nothing has looked at the stress; it is what it was.

@@ -15,17 +15,6 @@ namespace neve::sim {
 
 namespace {
 
-ModelKind model_kind(Model model) {
-  switch (model) {
-    case Model::corotated:
-      return ModelKind::corotated;
-    case Model::neo_hookean:
-      return ModelKind::neo_hookean;
-    default:
-      return ModelKind::snow;
-  }
-}
-
 /// How far from rest, in logarithms of volume; infinite where something is no number.
 double strangeness(const ParticleArrays& in, std::size_t q, StartState& start) {
   const double J_E = in.F_E.empty() ? 1 : in.F_E[q].determinant();

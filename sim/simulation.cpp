@@ -78,8 +78,15 @@ std::uint64_t Simulation::memory_bytes() const {
 void Simulation::step(double dt) {
   impl_->visit([&](auto& e) { e.step(dt); });
 }
-AdvanceReport Simulation::advance_to(double time, bool (*interrupted)()) {
-  return impl_->visit([&](auto& e) { return e.advance_to(time, interrupted); });
+AdvanceReport Simulation::advance_to(double time, bool (*interrupted)(), std::size_t last_step) {
+  return impl_->visit([&](auto& e) { return e.advance_to(time, interrupted, last_step); });
+}
+void Simulation::apply(const SolverSettings& settings, const std::vector<Material>& materials,
+                       const std::vector<Collider>& colliders) {
+  impl_->visit([&](auto& e) { e.apply(settings, materials, colliders); });
+}
+std::vector<Collider> Simulation::colliders() const {
+  return impl_->visit([](const auto& e) { return e.colliders(); });
 }
 Simulation::Choice Simulation::choose_dt(double remaining) const {
   return impl_->visit([&](const auto& e) { return e.choose_dt(remaining); });

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -142,8 +143,33 @@ class Simulation {
   void step(double dt);
 
   /// Steps chosen by the settings until `time` is reached, ending on it exactly. Stops early on
-  /// divergence, or after a step when `interrupted` (polled, may be null) returns true.
-  AdvanceReport advance_to(double time, bool (*interrupted)() = nullptr);
+  /// divergence, after a step when `interrupted` (polled, may be null) returns true, or when
+  /// steps() has reached `last_step`; called again with the same time it goes on as if it had not
+  /// stopped.
+  AdvanceReport advance_to(double time, bool (*interrupted)() = nullptr,
+                           std::size_t last_step = std::numeric_limits<std::size_t>::max());
+
+  /// Goes on with other parameters: between steps, whatever needs no restart. Settings but
+  /// cell_size, precision and period; materials but their number and density; colliders, also more
+  /// or fewer of them. Position, velocity, F_E and J_P of the particles stay; what is derived from
+  /// them (stress, limits of the next step) is worked out anew, and the energy that the change put
+  /// in or took out is accounted for, so that no change alone breaks a rule.
+  ///
+  /// C starts from zero when the transfer changes from or to FLIP, which has none, and stays
+  /// between APIC and MLS. A collider keeps its place when its velocity or spin changes, moves by
+  /// the edit when its place in the scene changes, and is the one of the same name (of several the
+  /// one of the same number); a new one stands where it says and moves from now on. The travel of
+  /// the colliders given is not looked at.
+  ///
+  /// Values that are all as before change no bit of the run. save() holds what the change left
+  /// behind: restore() into a simulation built with the present parameters goes on to the bit.
+  /// @throws std::invalid_argument for what needs a restart; nothing has changed then
+  /// @throws std::logic_error after a divergence: first restore() a state from before it
+  void apply(const SolverSettings& settings, const std::vector<Material>& materials,
+             const std::vector<Collider>& colliders);
+
+  /// As they are now: pose_at(collider, time()) is where each stands.
+  std::vector<Collider> colliders() const;
 
   /// The dt that the settings would choose now, and which limit rules it.
   struct Choice {

@@ -257,6 +257,16 @@ Watch::Watch(const SolverSettings& settings, const std::vector<Material>& materi
   expect(WatchCheck::speed_cfl, settings.cfl);
 }
 
+void Watch::use(const SolverSettings& settings, const std::vector<Material>& materials) {
+  const Watch anew(settings, materials);
+  for (std::size_t k = 0; k < records_.size(); ++k) {
+    records_[k].threshold = anew.records_[k].threshold;
+    records_[k].error = anew.records_[k].error;
+  }
+  settings_ = settings;
+  materials_ = materials;
+}
+
 WatchValues Watch::measure(const Simulation& simulation) const {
   WatchValues out;
   if (simulation.particle_count() == 0) {

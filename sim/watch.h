@@ -78,6 +78,9 @@ class Watch {
  public:
   Watch(const SolverSettings& settings, const std::vector<Material>& materials);
 
+  /// Goes on with what Simulation::apply changed. What was found so far stays.
+  void use(const SolverSettings& settings, const std::vector<Material>& materials);
+
   /// Looks at the state as it is and at the step that would come next.
   /// @return one sentence for each check that was broken for the first time
   std::vector<std::string> look(const Simulation& simulation);
