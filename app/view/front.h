@@ -32,7 +32,7 @@ struct InputEvent {
   int key = 0;           ///< see namespace key
   bool is_down = false;  ///< of button and key
   Modifiers held{};
-  std::string text;  ///< UTF-8: what was typed, the clipboard that is pasted, the file dropped
+  std::string text{};  ///< UTF-8: what was typed, the clipboard that is pasted, the file dropped
 };
 
 struct ScreenSize {
@@ -65,6 +65,9 @@ class Front {
 
   /// Shows the present picture of the screen.
   virtual void show(render::Screen& screen) = 0;
+
+  /// Tells what the simulation has reached: scripts wait for it.
+  virtual void set_progress(int /*frame*/, bool /*is_running*/) {}
 
   /// Text to the clipboard of whoever looks.
   virtual void set_clipboard(const std::string& text) = 0;

@@ -1,0 +1,75 @@
+#pragma once
+/// A window on the desktop, with what a person does there.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/context.h"
+
+namespace neve::render {
+
+/// Places are pixels of the picture from its upper left corner, whatever the desktop's units are.
+struct WindowEvent {
+  enum class Kind { move, leave, button, wheel, key, text, resize, drop, close };
+
+  Kind kind = Kind::move;
+  float x = 0, y = 0;  ///< place; of a wheel notches to the right and up; of resize the new size
+  int button = 0;      ///< 0 left, 1 right, 2 middle, then the others
+  /// What the key prints without shift on the user's keyboard, as a capital letter, digit or sign
+  /// in ASCII; or GLFW's code of a key that prints nothing, left and right shift being the same.
+  int key = 0;
+  bool is_down = false;
+  bool ctrl = false, shift = false, alt = false, super = false;  ///< held after it
+  std::string text{};  ///< UTF-8: what was typed; the file that was dropped
+};
+
+enum class CursorShape { arrow, text, cross, hand, resize_x, resize_y, resize_both, hidden };
+
+class Window {
+ public:
+  struct Options {
+    std::string title = "neve";
+    int width = 1280, height = 720;  ///< points; made smaller where the desktop is
+  };
+
+  /// Shows the window. Only the main thread may have one.
+  /// @throws ContextError
+  explicit Window(const Options& options);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// Of the window; its own as long as the window is there. It is current after construction.
+  Context& context();
+
+  /// Of the picture, px; at least 1.
+  int width() const;
+  int height() const;
+  /// px per point
+  float scale() const;
+
+  /// Whether anybody can see it: not when it is an icon.
+  bool is_shown() const;
+  /// Whether the desktop has lost what was shown, since the last swap.
+  bool is_damaged() const;
+
+  /// What happened, in order; waits for something, or wake(), at most so many seconds.
+  std::vector<WindowEvent> wait(double seconds);
+  /// Ends wait(); from any thread.
+  static void wake();
+
+  /// Shows what was drawn into framebuffer 0, in step with the monitor.
+  void swap();
+
+  void set_title(const std::string& title);
+  void set_cursor(CursorShape shape);
+  void set_clipboard(const std::string& text);
+  std::string clipboard() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace neve::render
