@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "render/glfw_context.h"
@@ -110,7 +111,7 @@ struct Window::Impl {
   std::vector<WindowEvent> events;
   int width = 1, height = 1;
   bool is_damaged = true;
-  CursorShape cursor = CursorShape::arrow;
+  std::optional<CursorShape> cursor;  ///< none: the desktop's
   std::array<GLFWcursor*, cursor_count> cursors{};
 
   Impl() = default;
@@ -137,6 +138,9 @@ struct Window::Impl {
     glfwSwapInterval(1);
     measure();
     listen();
+    double x = 0, y = 0;
+    glfwGetCursorPos(window, &x, &y);
+    add_move(x, y);
   }
 
   /// Nobody should have to look for the lower edge first.
@@ -205,11 +209,9 @@ void Window::Impl::listen() {
     if (!has_entered && !self.is_button_down()) self.add({.kind = WindowEvent::Kind::leave});
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
-    Impl& self = of(w);
-    double x = 0, y = 0;
-    glfwGetCursorPos(w, &x, &y);
-    self.add_move(x, y);
-    self.add(
+    // Where it was pressed is where the mouse has been moved to before: asking now would give the
+    // place where it is by now.
+    of(w).add(
         {.kind = WindowEvent::Kind::button, .button = button, .is_down = action == GLFW_PRESS});
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
