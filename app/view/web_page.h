@@ -1,0 +1,22 @@
+#pragma once
+/// The one page that a viewer's browser shows.
+
+#include <string>
+#include <string_view>
+
+namespace neve::app {
+
+/// The answer with the page. Its script and its style carry a number of this answer only, so that
+/// nothing else can run in it, and it may talk to nobody but this host.
+/// @param host as the browser named it, checked
+std::string page_answer(std::string_view host);
+
+/// The answer to whoever has no token. A tab that had one, and was reloaded, finds it again.
+std::string no_token_answer();
+
+}  // namespace neve::app
+
+namespace neve::render {
+/// Files of app/view that are compiled in; see cmake/EmbedFiles.cmake.
+std::string_view find_embedded_page(std::string_view file_name);
+}  // namespace neve::render

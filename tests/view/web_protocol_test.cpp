@@ -1,0 +1,181 @@
+#include "app/view/web_protocol.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "app/view/event_queue.h"
+#include "app/view/frame_pacing.h"
+
+namespace neve::app {
+namespace {
+
+using Kind = PageMessage::Kind;
+
+TEST(PageMessage, TellsWhatAPersonDid) {
+  const InputEvent move = read_page_message("m 12.5 -3 3").event;
+  EXPECT_EQ(move.kind, InputEvent::Kind::move);
+  EXPECT_EQ(move.x, 12.5f);
+  EXPECT_EQ(move.y, -3.0f);
+  EXPECT_TRUE(move.held.ctrl && move.held.shift && !move.held.alt && !move.held.super);
+
+  const InputEvent button = read_page_message("b 2 1 7 8 4").event;
+  EXPECT_EQ(button.kind, InputEvent::Kind::button);
+  EXPECT_EQ(button.button, 2);
+  EXPECT_TRUE(button.is_down && button.held.alt);
+  EXPECT_EQ(button.y, 8.0f);
+
+  const InputEvent wheel = read_page_message("w 0 -500 0").event;
+  EXPECT_EQ(wheel.kind, InputEvent::Kind::wheel);
+  EXPECT_EQ(wheel.y, -20.0f);  // nobody turns it further in one event
+
+  const InputEvent key = read_page_message("k 265 1 8").event;
+  EXPECT_EQ(key.kind, InputEvent::Kind::key);
+  EXPECT_EQ(key.key, key::up);
+  EXPECT_TRUE(key.is_down && key.held.super);
+
+  EXPECT_EQ(read_page_message("t n\xC3\xA9v\xC3\xA9").event.text, "n\xC3\xA9v\xC3\xA9");
+  EXPECT_EQ(read_page_message("p two\nlines").event.kind, InputEvent::Kind::paste);
+  EXPECT_EQ(read_page_message("p two\nlines").event.text, "two\nlines");
+  EXPECT_EQ(read_page_message("a 4294967295").number, 4294967295u);
+  EXPECT_FALSE(read_page_message("v 0").is_visible);
+}
+
+TEST(PageMessage, ThatMakesNoSenseIsNothing) {
+  for (const char* text : {"",          "m",           "m ",           "m 1 2",
+                           "m 1 2 3 4", "m  1 2 3",    "m 1 2 16",     "m 1 2 -1",
+                           "m 1 2 0.5", "m nan 2 0",   "m inf 2 0",    "m 1e999 2 0",
+                           "m 1 2 0 ",  "b 3 1 0 0 0", "b 0 2 0 0 0",  "b 0 1 0 0",
+                           "k 31 1 0",  "k 97 1 0",    "k 127 1 0",    "k 255 1 0",
+                           "k 349 1 0", "k 65 1",      "k 65.5 1 0",   "t",
+                           "t ",        "tx",          "p ",           "s 1 2",
+                           "s nan 1 1", "a -1",        "a 4294967296", "a 1.5",
+                           "v 2",       "v",           "x 1 2 3",      "M 1 2 3",
+                           "\n"})
+    EXPECT_EQ(read_page_message(text).kind, Kind::none) << text;
+}
+
+TEST(PageMessage, SurvivesRandomText) {
+  std::mt19937 random(11);
+  const std::string alphabet = "mbwktpsav 0123456789.-+einfx\n";
+  for (int run = 0; run < 50000; ++run) {
+    std::string text(random() % 24, ' ');
+    for (char& c : text) c = alphabet[random() % alphabet.size()];
+    const PageMessage message = read_page_message(text);
+    EXPECT_TRUE(std::isfinite(message.event.x) && std::isfinite(message.event.y)) << text;
+    EXPECT_LE(double(message.size.width) * message.size.height, max_web_pixels) << text;
+  }
+}
+
+TEST(PageSize, StaysInItsLimits) {
+  const ScreenSize usual = read_page_message("s 1280 800 1.5").size;
+  EXPECT_EQ(usual.width, 1280);
+  EXPECT_EQ(usual.height, 800);
+  EXPECT_EQ(usual.scale, 1.5f);
+  // A screen of 8K keeps its shape with a quarter of its pixels, and its panels keep their size.
+  const ScreenSize huge = read_page_message("s 7680 4320 2").size;
+  EXPECT_LE(double(huge.width) * huge.height, max_web_pixels);
+  EXPECT_GT(double(huge.width) * huge.height, 0.99 * max_web_pixels);
+  EXPECT_NEAR(double(huge.width) / huge.height, 16.0 / 9, 0.01);
+  EXPECT_NEAR(huge.scale, 1.0, 0.01);
+  for (const char* text : {"s -5 0 0", "s 1e30 1e30 1e30", "s 1 1e9 -1", "s 32768 64 1"}) {
+    const ScreenSize size = read_page_message(text).size;
+    EXPECT_GE(size.width, 64) << text;
+    EXPECT_GE(size.height, 64) << text;
+    EXPECT_LE(double(size.width) * size.height, max_web_pixels) << text;
+    EXPECT_GE(size.scale, 0.25f) << text;
+  }
+}
+
+TEST(PageText, IsJsonWhateverTheText) {
+  EXPECT_EQ(page_text("title", "a \"b\"\n"), R"({"title":"a \"b\"\n"})");
+  EXPECT_EQ(page_text("title", "\xFF"), "{\"title\":\"\xEF\xBF\xBD\"}");
+  EXPECT_EQ(page_picture(0x01020304, "jpeg"), "\x04\x03\x02\x01jpeg");
+}
+
+InputEvent event_of(const char* text) {
+  return read_page_message(text).event;
+}
+
+TEST(EventQueue, JoinsMovesAndWheels) {
+  EventQueue queue;
+  for (const char* text : {"m 1 1 0", "m 2 2 0", "m 3 3 1", "w 0 1 0", "w 0 2 0", "b 0 1 3 3 0",
+                           "m 4 4 0", "m 5 5 0", "t a", "t b"})
+    EXPECT_TRUE(queue.push(event_of(text)));
+  const auto events = queue.take();
+  ASSERT_EQ(events.size(), 7u);  // m, m with ctrl, w, b, m, t, t
+  EXPECT_EQ(events[0].x, 2);
+  EXPECT_EQ(events[2].y, 3);
+  EXPECT_EQ(events[4].x, 5);
+  EXPECT_TRUE(queue.empty());
+}
+
+TEST(EventQueue, RefusesMoreThanItHolds) {
+  EventQueue queue;
+  std::size_t taken = 0;
+  while (queue.push(event_of(taken % 2 ? "k 65 0 0" : "k 65 1 0"))) ++taken;
+  EXPECT_EQ(taken, EventQueue::limit);
+  EXPECT_EQ(queue.take().size(), EventQueue::limit);
+
+  const std::string pasted = "p " + std::string(200000, 'x');
+  for (taken = 0; queue.push(event_of(pasted.c_str())); ++taken)
+    ;
+  EXPECT_EQ(taken, EventQueue::text_limit / 200000);
+  queue.take();
+  EXPECT_TRUE(queue.push(event_of(pasted.c_str())));
+}
+
+TEST(EventQueue, ReleasesWhatIsHeld) {
+  EventQueue queue;
+  for (const char* text : {"k 65 1 0", "k 66 1 0", "k 65 0 0", "b 0 1 7 8 0", "k 341 1 1"})
+    queue.push(event_of(text));
+  queue.take();
+  queue.release_all();
+  queue.release_all();
+  const auto events = queue.take();
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[0].kind, InputEvent::Kind::button);
+  EXPECT_EQ(events[0].x, 7);  // where it was, so that a drag ends there
+  EXPECT_EQ(events[1].key, 66);
+  EXPECT_EQ(events[2].key, key::ctrl);
+  for (const InputEvent& event : events) EXPECT_FALSE(event.is_down);
+}
+
+/// Sends and shows pictures one after the other. @return the quality after them
+int quality_after(int pictures, double seconds_each) {
+  FramePacing pacing;
+  double now = 100;
+  for (int k = 0; k < pictures; ++k) {
+    const std::uint32_t number = pacing.sent(now);
+    now += seconds_each;
+    EXPECT_TRUE(pacing.shown(number, now));
+  }
+  return pacing.quality();
+}
+
+TEST(FramePacing, AdaptsQualityToTheNetwork) {
+  EXPECT_EQ(quality_after(100, 0.01), FramePacing::max_quality);
+  EXPECT_EQ(quality_after(100, 0.3), FramePacing::min_quality);
+  // Between the two it stays as it is.
+  EXPECT_EQ(quality_after(100, 0.09), FramePacing().quality());
+}
+
+TEST(FramePacing, LetsTwoPicturesOnTheirWay) {
+  FramePacing pacing;
+  const std::uint32_t first = pacing.sent(1), second = pacing.sent(1);
+  EXPECT_FALSE(pacing.can_send());
+  EXPECT_FALSE(pacing.shown(second + 1, 2));
+  EXPECT_FALSE(pacing.can_send());
+  EXPECT_TRUE(pacing.shown(first, 2));
+  EXPECT_FALSE(pacing.shown(first, 2));
+  EXPECT_EQ(pacing.in_flight(), 1);
+  // What the viewer before had on its way says nothing about the next one's.
+  pacing.reset();
+  EXPECT_EQ(pacing.in_flight(), 0);
+  EXPECT_FALSE(pacing.shown(second, 3));
+  EXPECT_GT(pacing.sent(3), second);
+}
+
+}  // namespace
+}  // namespace neve::app
