@@ -42,7 +42,8 @@ class Browser : public Web {
     start();
   }
   void TearDown() override {
-    if (browser) EXPECT_EQ(browser->exceptions, "") << "the page's script failed";
+    if (!browser) return;
+    EXPECT_EQ(browser->exceptions, "") << "the page's script failed";
   }
 
   /// Opens the page and shows it a picture of its window's size.

@@ -300,7 +300,7 @@ TEST_F(Web, ViewerThatReadsNothingCostsTwoPictures) {
   // It says that it has seen pictures which it has not even read.
   for (int k = 0; k < 40; ++k) {
     for (std::size_t j = 0; j + 4 <= noise.pixels.size(); j += 4) {
-      const std::uint32_t bits = random();
+      const auto bits = std::uint32_t(random());
       std::memcpy(&noise.pixels[j], &bits, 4);
     }
     front->show_image(noise);
