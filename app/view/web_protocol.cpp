@@ -11,7 +11,7 @@
 namespace neve::app {
 namespace {
 
-constexpr double far = 32768;  ///< px: no picture is larger, a drag may leave it
+constexpr double far = 100000;  ///< px: a drag may leave the picture; so far it is nowhere
 constexpr double most_notches = 20;
 
 /// The numbers of "m 12 34.5 0", split by single blanks: exactly so many, all finite.

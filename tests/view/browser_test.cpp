@@ -141,6 +141,7 @@ TEST_F(Browser, PointerComesWithItsPlace) {
   browser->mouse("mouseMoved", -20, 200, "left", 1);
   browser->mouse("mouseReleased", -20, 210, "left");
   EXPECT_TRUE(wait_for_button(0, false, -20, 210));
+  EXPECT_TRUE(wait_for_move(-100000, -100000)) << "it has left";
   events.clear();
   browser->wheel(50, 60, 0, -100);
   EXPECT_TRUE(wait_for([](const InputEvent& event) {
