@@ -13,6 +13,8 @@
 #include <memory>
 #include <sstream>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "app/json.h"
 #include "render/image.h"
@@ -134,9 +136,21 @@ class Chromium {
       mouse("mouseMoved", x0 + (x1 - x0) * k / steps, y0 + (y1 - y0) * k / steps, "left", 1);
     mouse("mouseReleased", x1, y1, "left");
   }
-  void wheel(double x, double y, double right, double down) {
-    call("Input.dispatchMouseEvent",
-         {{"type", "mouseWheel"}, {"x", x}, {"y", y}, {"deltaX", right}, {"deltaY", down}});
+  /// Fingers on a touch screen: where each of them is now.
+  /// @param type touchStart, touchMove, touchEnd
+  void touch(const std::string& type, const std::vector<std::pair<double, double>>& fingers) {
+    Json points = Json::array();
+    for (std::size_t k = 0; k < fingers.size(); ++k)
+      points.push_back({{"x", fingers[k].first}, {"y", fingers[k].second}, {"id", k}});
+    call("Input.dispatchTouchEvent", {{"type", type}, {"touchPoints", points}});
+  }
+  void wheel(double x, double y, double right, double down, int modifiers = 0) {
+    call("Input.dispatchMouseEvent", {{"type", "mouseWheel"},
+                                      {"x", x},
+                                      {"y", y},
+                                      {"deltaX", right},
+                                      {"deltaY", down},
+                                      {"modifiers", modifiers}});
   }
 
   /// Presses a key, or lets it go.

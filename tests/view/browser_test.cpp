@@ -150,6 +150,53 @@ TEST_F(Browser, PointerComesWithItsPlace) {
   EXPECT_TRUE(wait_for_move(50, 60)) << "where it was turned";
 }
 
+TEST_F(Browser, PinchOnATouchPadIsAWheelWithoutCtrl) {
+  open();
+  browser->wheel(50, 60, 0, -10, 2);  // as browsers tell it, though nobody pressed ctrl
+  EXPECT_TRUE(wait_for([](const InputEvent& event) {
+    return event.kind == Kind::wheel && std::abs(event.y - 1) < 0.3 && !event.held.ctrl;
+  }));
+  events.clear();
+  browser->key(true, "Control", "ControlLeft", 17, 2);
+  browser->wheel(50, 60, 0, -100, 2);
+  browser->key(false, "Control", "ControlLeft", 17);
+  EXPECT_TRUE(wait_for([](const InputEvent& event) {
+    return event.kind == Kind::wheel && std::abs(event.y - 1) < 0.3 && event.held.ctrl;
+  }));
+}
+
+TEST_F(Browser, FingersAreButtonsAndWheel) {
+  browser->call("Emulation.setTouchEmulationEnabled", {{"enabled", true}, {"maxTouchPoints", 2}});
+  open();
+  // A tap is a click.
+  browser->touch("touchStart", {{100, 90}});
+  browser->touch("touchEnd", {});
+  EXPECT_TRUE(wait_for_button(0, true, 100, 90));
+  EXPECT_TRUE(wait_for_button(0, false, 100, 90));
+  // One finger drags with the left button.
+  events.clear();
+  browser->touch("touchStart", {{200, 150}});
+  browser->touch("touchMove", {{260, 170}});
+  browser->touch("touchMove", {{300, 180}});
+  browser->touch("touchEnd", {});
+  EXPECT_TRUE(wait_for_button(0, true, 200, 150) || wait_for_button(0, true, 260, 170));
+  EXPECT_TRUE(wait_for_button(0, false, 300, 180));
+  // Two drag with the middle one; away from each other they are a wheel as well.
+  events.clear();
+  browser->touch("touchStart", {{200, 200}, {300, 200}});
+  browser->touch("touchMove", {{150, 220}, {350, 220}});
+  browser->touch("touchEnd", {});
+  EXPECT_TRUE(wait_for_button(2, true, 250, 200));
+  EXPECT_TRUE(wait_for_button(2, false, 250, 220));
+  float notches = 0;
+  for (const InputEvent& event : events) {
+    if (event.kind == Kind::wheel) notches += event.y;
+    EXPECT_FALSE(event.kind == Kind::button && event.button == 0) << "no click on the way";
+  }
+  EXPECT_NEAR(notches, 10, 0.5);  // twice as far apart
+  browser->call("Emulation.setTouchEmulationEnabled", {{"enabled", false}});
+}
+
 TEST_F(Browser, PlacesArePixelsOfThePicture) {
   open({}, 400, 300, 2);
   EXPECT_EQ(front->size().width, 800);
