@@ -22,6 +22,10 @@ template <Choice E>
 std::vector<std::string> choices_of(const std::vector<E>&) {
   return choices<E>();
 }
+template <Choice E>
+std::vector<std::string> choices_of(const std::optional<E>&) {
+  return choices<E>();
+}
 
 class Lister {
  public:

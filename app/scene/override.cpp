@@ -21,16 +21,6 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
-Path split(const std::string& address) {
-  Path path;
-  std::size_t from = 0;
-  for (std::size_t dot; (dot = address.find('.', from)) != std::string::npos; from = dot + 1) {
-    path.push_back(address.substr(from, dot - from));
-  }
-  path.push_back(address.substr(from));
-  return path;
-}
-
 /// The parameter with NAME replaced by each name there is.
 std::vector<std::string> addresses_of(const ParamInfo& info, const Table& root) {
   const std::string placeholder = ".NAME.";
@@ -48,7 +38,7 @@ std::vector<std::string> addresses_of(const ParamInfo& info, const Table& root) 
 
 /// body.bull.velocity: the kind is one, the name is none.
 void refuse_unknown_name(const Override& change, const Table& root) {
-  const Path path = split(change.address);
+  const Path path = words_of(change.address);
   if (path.size() < 2) return;
   for (const ParamInfo& info : params()) {
     if (!info.address.starts_with(path[0] + ".NAME.")) continue;
@@ -121,6 +111,25 @@ void set_place(Value& value, int index) {
   }
 }
 
+/// The table called `name` in a list or a table of tables.
+Table* item_called(Value& items, const std::string& name) {
+  const std::vector<std::string> names = item_names(items);
+  const auto k = std::find(names.begin(), names.end(), name) - names.begin();
+  if (static_cast<std::size_t>(k) == names.size()) return nullptr;
+  if (Array* array = std::get_if<Array>(&items.data)) {
+    return std::get_if<Table>(&(*array)[static_cast<std::size_t>(k)].data);
+  }
+  return std::get_if<Table>(
+      &std::get<Table>(items.data).entries[static_cast<std::size_t>(k)].value.data);
+}
+
+Entry& entry_called(Table& table, const std::string& key, int index) {
+  if (Entry* entry = table.find(key)) return *entry;
+  return table.entries.emplace_back(Entry{key, {0, 0, index}, {Table{}, {0, 0, index}}});
+}
+
+}  // namespace
+
 Value value_of(const Override& change, const std::string& type) {
   const std::string text = trimmed(change.value);
   if (!is_clean_text(text) || text.find_first_of("\r\n") != std::string::npos) {
@@ -141,24 +150,22 @@ Value value_of(const Override& change, const std::string& type) {
   return value;
 }
 
-/// The table called `name` in a list or a table of tables.
-Table* item_called(Value& items, const std::string& name) {
-  const std::vector<std::string> names = item_names(items);
-  const auto k = std::find(names.begin(), names.end(), name) - names.begin();
-  if (static_cast<std::size_t>(k) == names.size()) return nullptr;
-  if (Array* array = std::get_if<Array>(&items.data)) {
-    return std::get_if<Table>(&(*array)[static_cast<std::size_t>(k)].data);
+std::vector<std::string> words_of(const std::string& address) {
+  std::vector<std::string> words;
+  std::size_t from = 0;
+  for (std::size_t dot; (dot = address.find('.', from)) != std::string::npos; from = dot + 1) {
+    words.push_back(address.substr(from, dot - from));
   }
-  return std::get_if<Table>(
-      &std::get<Table>(items.data).entries[static_cast<std::size_t>(k)].value.data);
+  words.push_back(address.substr(from));
+  return words;
 }
 
-Entry& entry_called(Table& table, const std::string& key, int index) {
-  if (Entry* entry = table.find(key)) return *entry;
-  return table.entries.emplace_back(Entry{key, {0, 0, index}, {Table{}, {0, 0, index}}});
+bool takes_away(const Override& change) {
+  const std::string text = trimmed(change.value);
+  if (text != "none" && text != "\"none\"") return false;
+  const std::optional<ParamInfo> info = param_at(change.address);
+  return !info || !info->default_value;
 }
-
-}  // namespace
 
 void Override::fail(Location where, const std::string& message, const std::string& hint) const {
   if (!file.empty()) throw SceneError(file, where.line, where.column, message, hint);
@@ -192,7 +199,7 @@ std::vector<std::string> item_names(const Value& items) {
 const Value* value_at(const Table& root, const std::string& address) {
   const Table* table = &root;
   const Value* value = nullptr;
-  for (const std::string& word : split(address)) {
+  for (const std::string& word : words_of(address)) {
     // Names of [[body]] and the like are no keys but members of the entries.
     const Array* list = value ? std::get_if<Array>(&value->data) : nullptr;
     if (list) {
@@ -210,12 +217,33 @@ const Value* value_at(const Table& root, const std::string& address) {
   return value;
 }
 
+namespace {
+
+/// Takes away what the document has there, if anything.
+void remove(Table& root, const Path& path, bool is_in_item) {
+  Table* table = &root;
+  std::size_t depth = 0;
+  if (is_in_item) {
+    table = item_called(root.find(path[0])->value, path[1]);
+    depth = 2;
+  }
+  for (; table && depth + 1 < path.size(); ++depth) {
+    Entry* entry = table->find(path[depth]);
+    table = entry ? std::get_if<Table>(&entry->value.data) : nullptr;
+  }
+  if (table)
+    std::erase_if(table->entries, [&](const Entry& entry) { return entry.key == path.back(); });
+}
+
+}  // namespace
+
 void apply_override(Table& root, const Override& change, int index) {
   const Target target = resolve(change, root);
+  if (takes_away(change)) return remove(root, words_of(change.address), target.is_in_item);
   Value value = value_of(change, target.type);
   set_place(value, index);
 
-  Path path = split(change.address);
+  Path path = words_of(change.address);
   const std::string last = path.back();
   path.pop_back();
   Table* table = &root;

@@ -11,7 +11,8 @@ namespace neve::app {
 
 struct Override {
   std::string address;         ///< "material.snow.hardening", "body.1.velocity"
-  std::string value;           ///< in TOML; a bare word is a string
+  std::string value;           ///< in TOML; a bare word is a string; "none" takes away what may be
+                               ///< absent: an optional parameter, or a table
   std::string flag = "--set";  ///< that gave it on the command line
   std::string file = {};       ///< or the sweep file that did
   Location key = {};           ///< of the address in that file
@@ -31,6 +32,16 @@ Override parse_override(std::string_view argument);
 /// @throws UsageError when nothing has this address (with the nearest that has) or the value is
 ///         no TOML
 void apply_override(Table& root, const Override& change, int index);
+
+/// The value of a change, for a parameter of this type: see ParamInfo, or "table".
+/// @throws UsageError, SceneError
+Value value_of(const Override& change, const std::string& type);
+
+/// Whether the change takes away what may be absent.
+bool takes_away(const Override& change);
+
+/// "material", "snow", "hardening" for "material.snow.hardening".
+std::vector<std::string> words_of(const std::string& address);
 
 /// What a document has at an address; null where it has nothing.
 const Value* value_at(const Table& root, const std::string& address);

@@ -1,80 +1,8 @@
-#include "app/scene/describe.h"
-#include "app/scene/leaf.h"
+#include "app/scene/writer.h"
+
 #include "app/scene/read.h"
 
 namespace neve::app {
-namespace {
-
-/// The visitor that turns a scene into a TOML document.
-class Writer {
- public:
-  Table table;
-
-  template <class T>
-  void operator()(const char* key, T& member, const char*, const Valid&, Change, const char*) {
-    if (std::optional<Value> value = value_if_any(member)) add(key, std::move(*value));
-  }
-
-  template <class Describe>
-  void section(const char* key, const char*, Describe describe_members) {
-    Writer inner;
-    describe_members(inner);
-    add(key, {std::move(inner.table)});
-  }
-
-  template <class T>
-  void optional(const char* key, std::optional<T>& member, const char*) {
-    if (member) add(key, written(*member));
-  }
-
-  template <class T>
-  void named(const char* key, std::vector<T>& items, const char*) {
-    Table all;
-    for (T& item : items) all.entries.push_back({item.name, {}, written(item)});
-    add(key, {std::move(all)});
-  }
-
-  template <class T>
-  void list(const char* key, std::vector<T>& items, const char*) {
-    Array all;
-    for (T& item : items) all.push_back(written(item));
-    add(key, {std::move(all)});
-  }
-
-  template <class T>
-  void sequence(const char* key, std::vector<T>& items, const char*) {
-    if (!items.empty()) list(key, items, "");
-  }
-
-  template <class Describe>
-  void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
-    Writer inner;
-    describe_forms(inner, shape);
-    add(key, {std::move(inner.table)});
-  }
-
-  template <class Form>
-  void form(const char* key, sim::Shape& shape, Change change, const char*) {
-    Form* form = std::get_if<Form>(&shape.form);
-    if (!form) return;
-    Writer inner;
-    describe(inner, *form, change);
-    describe_rotation(inner, shape, change);
-    add(key, {std::move(inner.table)});
-  }
-
- private:
-  template <class T>
-  static Value written(T& item) {
-    Writer inner;
-    describe(inner, item);
-    return {std::move(inner.table)};
-  }
-
-  void add(const char* key, Value value) { table.entries.push_back({key, {}, std::move(value)}); }
-};
-
-}  // namespace
 
 std::string write_scene(const Scene& scene) {
   Scene copy = scene;  // visitors take members they could change

@@ -1,0 +1,318 @@
+#include "app/scene/edit_text.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include "app/scene/error.h"
+#include "app/scene/params.h"
+#include "app/scene/read.h"
+#include "app/scene/toml_layout.h"
+#include "app/scene/toml_source.h"
+
+namespace neve::app {
+
+namespace {
+
+using Kind = TomlNode::Kind;
+using Words = std::vector<std::string>;
+
+std::string joined(const Words& words, std::size_t first, std::size_t end) {
+  std::string text;
+  for (std::size_t k = first; k < end; ++k) text += (k == first ? "" : ".") + words[k];
+  return text;
+}
+
+std::string trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
+}
+
+/// The value as it will stand in the file: numbers, arrays and tables as they were given.
+std::string literal_of(const Override& change) {
+  const std::optional<ParamInfo> info = param_at(change.address);
+  const Value value = value_of(change, info ? info->type : "table");
+  const std::string text = trimmed(change.value);
+  const auto* word = std::get_if<std::string>(&value.data);
+  const bool is_quoted = text.starts_with('"') || text.starts_with('\'');
+  return word && !is_quoted ? toml_string(*word) : text;
+}
+
+/// "a = { b = VALUE }" for a, b.
+std::string nested(const Words& words, std::size_t first, const std::string& literal) {
+  std::string text = literal;
+  for (std::size_t k = words.size(); k-- > first;)
+    text = words[k] + " = " + (k + 1 == words.size() ? text : "{ " + text + " }");
+  return text;
+}
+
+bool is_blank(std::string_view line) {
+  return line.find_first_not_of(" \t\r\n") == std::string_view::npos;
+}
+
+bool is_comment(std::string_view line) {
+  const auto first = line.find_first_not_of(" \t");
+  return first != std::string_view::npos && line[first] == '#';
+}
+
+/// One change to a text. Everything is looked for anew, so that changes can follow each other.
+class Edit {
+ public:
+  Edit(std::string& text, const Override& change)
+      : text_(text),
+        change_(change),
+        words_(words_of(change.address)),
+        root_(parse_toml(text, "")),
+        layout_(toml_layout(text)),
+        line_end_(text.find("\r\n") == std::string::npos ? "\n" : "\r\n") {}
+
+  void make() {
+    walk();
+    const bool is_there = depth_ == words_.size();
+    if (takes_away(change_)) {
+      if (is_there) remove();
+      return;
+    }
+    const std::string literal = literal_of(change_);
+    if (is_there && node_->is_in_one_place()) return replace(node_->written, literal);
+    if (is_there) {
+      // Sections and dotted keys give way to a table in one place.
+      remove();
+      return Edit(text_, change_).make();
+    }
+    add(literal);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    change_.fail(change_.place, "cannot be put into the file: " + why,
+                 "change the file by hand: " + change_.address + " = " + trimmed(change_.value));
+  }
+
+  void replace(Span span, const std::string& with) { text_.replace(span.begin, span.size(), with); }
+  void insert(std::size_t at, const std::string& what) { text_.insert(at, what); }
+
+  /// As far as the text has what the address says.
+  void walk() {
+    node_ = &layout_.root;
+    const Table* table = &root_;
+    const Value* value = nullptr;
+    for (; depth_ < words_.size(); ++depth_) {
+      const std::string& word = words_[depth_];
+      const TomlNode* next = nullptr;
+      if (const Array* array = value ? std::get_if<Array>(&value->data) : nullptr) {
+        const Words names = item_names(*value);
+        const auto k =
+            static_cast<std::size_t>(std::find(names.begin(), names.end(), word) - names.begin());
+        if (k >= names.size() || k >= node_->items.size()) return;
+        next = node_->items[k].get();
+        value = &(*array)[k];
+      } else {
+        const Entry* entry = table ? table->find(word) : nullptr;
+        next = entry ? node_->find(word) : nullptr;
+        if (!next) return;
+        value = &entry->value;
+        keys_.push_back(word);
+      }
+      table = std::get_if<Table>(&value->data);
+      parent_ = node_;
+      node_ = next;
+    }
+  }
+
+  // What is not there.
+
+  void add(const std::string& literal) {
+    if (node_->kind == Kind::inline_table) return add_inline(literal);
+    const bool is_root = node_ == &layout_.root;
+    if (words_[0] == "view" && (is_root || node_->kind == Kind::list)) return add_view();
+    if (node_->kind != Kind::table) fail("there is something else in its place");
+    if (is_root && depth_ + 1 < words_.size())
+      return add_section(joined(words_, 0, words_.size() - 1), words_.back() + " = " + literal);
+    if (is_root && literal.starts_with('{')) return add_table_section();
+    if (node_->section >= 0) return add_line(literal);
+    Words header = keys_;
+    header.insert(header.end(), words_.begin() + static_cast<std::ptrdiff_t>(depth_),
+                  words_.end() - 1);
+    const std::string line = words_.back() + " = " + literal;
+    add_section_before(first_header(*node_), joined(header, 0, header.size()), line);
+  }
+
+  void add_inline(const std::string& literal) {
+    const std::string what = nested(words_, depth_, literal);
+    const std::size_t end = last_entry(*node_);
+    if (end == 0)
+      replace(node_->written, "{ " + what + " }");
+    else
+      insert(end, ", " + what);
+  }
+
+  /// Where the last "key = value" inside ends; 0: there is none.
+  static std::size_t last_entry(const TomlNode& node) {
+    std::size_t end = 0;
+    for (const auto& member : node.members)
+      end = std::max({end, member->entry.end, member->entry.size() ? 0 : last_entry(*member)});
+    return end;
+  }
+
+  void add_line(const std::string& literal) {
+    const TomlSection& section = layout_.sections[static_cast<std::size_t>(node_->section)];
+    const std::string line = node_->prefix + nested(words_, depth_, literal);
+    if (section.last_line.size() == 0) return add_first_line(section, line);
+    const std::string_view text = text_;
+    const std::size_t indent = section.last_key - section.last_line.begin;
+    const bool is_own_line = is_blank(text.substr(section.last_line.begin, indent));
+    std::string padded = std::string(is_own_line ? text.substr(section.last_line.begin, indent)
+                                                 : std::string_view()) +
+                         line;
+    // Where the signs stand in a column, this one does too.
+    const std::size_t own = line.find(" = ") + 1;
+    if (section.aligned > 1 && own < section.column)
+      padded.insert(padded.size() - line.size() + own, section.column - own, ' ');
+    insert_line(section.last_line.end, padded);
+  }
+
+  void add_first_line(const TomlSection& section, const std::string& line) {
+    if (node_ != &layout_.root) return insert_line(section.begin, line);
+    // Above the first header and the comment that belongs to it.
+    const std::size_t header = first_header(layout_.root);
+    if (header == text_.size()) return insert_line(header, line);
+    insert(above_comment(header), line + line_end_ + line_end_);
+  }
+
+  void insert_line(std::size_t at, const std::string& line) {
+    const bool is_cut = at > 0 && text_[at - 1] != '\n';
+    insert(at, is_cut ? line_end_ + line : line + line_end_);
+  }
+
+  void add_section(const std::string& header, const std::string& lines) {
+    add_block("[" + header + "]" + line_end_ + lines);
+  }
+
+  /// [header] with the members of a table below.
+  void add_table_section() {
+    const Value value = value_of(change_, "table");
+    std::string lines;
+    for (const Entry& entry : std::get<Table>(value.data).entries)
+      lines += (lines.empty() ? "" : line_end_) + entry.key + " = " + toml_literal(entry.value);
+    add_section(words_[0], lines);
+  }
+
+  /// At the end, after a blank line.
+  void add_block(const std::string& block) {
+    const bool ends_line = text_.empty() || text_.ends_with('\n');
+    const bool is_first = is_blank(text_);
+    if (!ends_line) text_ += line_end_;
+    text_ += (is_first ? "" : line_end_) + block + (ends_line ? line_end_ : "");
+  }
+
+  void add_section_before(std::size_t at, const std::string& header, const std::string& line) {
+    insert(above_comment(at), "[" + header + "]" + line_end_ + line + line_end_ + line_end_);
+  }
+
+  /// Views that every scene has are written down when something about them is.
+  void add_view() {
+    const bool has_views = root_.find("view") != nullptr;
+    const std::string first = "particles";  // the only one of a scene without views
+    if (!has_views && words_[1] != first) add_block("[[view]]" + line_end_ + named(first));
+    add_block("[[view]]" + line_end_ + named(words_[1]));
+    if (root_.find("view") && node_->kind == Kind::array) fail("its views are one array");
+    Edit(text_, change_).make();
+  }
+
+  static std::string named(const std::string& name) { return "name = " + toml_string(name); }
+
+  /// The first byte of the first header in or below a table; the end of the text without one.
+  std::size_t first_header(const TomlNode& node) const {
+    std::size_t first = node.header.size() > 0 ? node.header.begin : text_.size();
+    for (const auto* nodes : {&node.members, &node.items})
+      for (const auto& inner : *nodes) first = std::min(first, first_header(*inner));
+    return first;
+  }
+
+  /// The line begin above the comments that stand directly above a line.
+  std::size_t above_comment(std::size_t line) const {
+    const std::size_t top = layout_.sections.front().begin;  // below a byte order mark
+    while (line > top) {
+      Span before = line_around(text_, line - 1);
+      before.begin = std::max(before.begin, top);
+      if (!is_comment(std::string_view(text_).substr(before.begin, before.size()))) break;
+      line = before.begin;
+    }
+    return line;
+  }
+
+  // What goes away.
+
+  void remove() {
+    std::vector<Span> spans;
+    collect(*node_, parent_, spans);
+    std::sort(spans.begin(), spans.end(),
+              [](const Span& a, const Span& b) { return a.begin > b.begin; });
+    for (const Span& span : spans) replace(span, "");
+  }
+
+  void collect(const TomlNode& node, const TomlNode* parent, std::vector<Span>& spans) const {
+    if (node.is_in_one_place()) {
+      const bool is_inline = parent && (parent->kind == Kind::inline_table || parent->section < 0);
+      spans.push_back(is_inline ? with_comma(node.entry) : with_line(node.entry));
+      return;
+    }
+    if (node.header.size() > 0) spans.push_back(with_blank_before(node.header));
+    for (const auto* nodes : {&node.members, &node.items})
+      for (const auto& inner : *nodes) collect(*inner, &node, spans);
+  }
+
+  Span with_line(Span entry) const {
+    return {line_around(text_, entry.begin).begin, line_around(text_, entry.end).end};
+  }
+
+  Span with_comma(Span entry) const {
+    const std::size_t next = text_.find_first_not_of(" \t", entry.end);
+    if (next != std::string::npos && text_[next] == ',')
+      return {entry.begin, std::min(text_.find_first_not_of(" \t", next + 1), text_.size())};
+    const std::size_t before =
+        entry.begin == 0 ? std::string::npos : text_.find_last_not_of(" \t", entry.begin - 1);
+    if (before != std::string::npos && text_[before] == ',') return {before, entry.end};
+    return entry;
+  }
+
+  Span with_blank_before(Span line) const {
+    if (line.begin == 0) return line;
+    const Span before = line_around(text_, line.begin - 1);
+    const bool is_empty = is_blank(std::string_view(text_).substr(before.begin, before.size()));
+    return is_empty ? Span{before.begin, line.end} : line;
+  }
+
+  std::string& text_;
+  const Override& change_;
+  const Words words_;
+  const Table root_;
+  const TomlLayout layout_;
+  const std::string line_end_;
+  const TomlNode* node_ = nullptr;  ///< the deepest that is there
+  const TomlNode* parent_ = nullptr;
+  std::size_t depth_ = 0;  ///< how many words lead to it
+  Words keys_;             ///< of those the ones that are keys, not names in lists
+};
+
+}  // namespace
+
+std::string edit_scene_text(const std::string& text, const std::vector<Override>& changes,
+                            const std::string& name, const std::string& base_dir) {
+  const std::string wanted = write_scene(read_scene_text(text, name, base_dir, changes));
+  std::string edited = text;
+  bool is_right = false;
+  try {
+    for (const Override& change : changes) Edit(edited, change).make();
+    is_right = write_scene(read_scene_text(edited, name, base_dir)) == wanted;
+  } catch (const SceneError&) {
+    // Whatever is wrong with it, it is not returned.
+  }
+  if (is_right) return edited;
+  throw UsageError(name, "the changed values cannot be put into this file as it is written",
+                   "save the scene under another name, or change the file by hand");
+}
+
+}  // namespace neve::app

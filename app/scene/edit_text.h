@@ -1,0 +1,26 @@
+#pragma once
+/// Saves changed values into the user's own scene file.
+
+#include <string>
+#include <vector>
+
+#include "app/scene/override.h"
+
+namespace neve::app {
+
+/// The text of a scene with other values put in. Comments, order, blank lines, line ends and the
+/// way other values are written stay byte for byte: of keys that are there only the value is
+/// replaced, others are added below the last key of their table, inside an inline table, or in a
+/// section of their own at the end. What is set to "none" goes with its line.
+///
+/// Reading the result gives exactly the scene that reading the text with these overrides gives; it
+/// is compared before it is returned.
+/// @param name, base_dir  see read_scene_text
+/// @throws SceneError for the text, UsageError for the changes; UsageError as well, that says what
+/// to
+///         do by hand, where the text is written in a way that this cannot change
+std::string edit_scene_text(const std::string& text, const std::vector<Override>& changes,
+                            const std::string& name = "the scene",
+                            const std::string& base_dir = {});
+
+}  // namespace neve::app

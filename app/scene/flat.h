@@ -1,0 +1,64 @@
+#pragma once
+/// A scene as a list of addresses with values: for panels, and to tell what differs between two.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/scene/params.h"
+#include "app/scene/scene.h"
+
+namespace neve::app {
+
+/// A parameter of one scene. Besides those of params() with names filled in there is an entry of
+/// type "table" for what exists or has a kind as a whole, before its members: shapes, and cameras
+/// and clip planes that a scene may have or not. Keyframes are one entry, of type "tables".
+struct FlatParam {
+  std::string address;  ///< "material.snow.hardening", as --set takes it
+  std::string type;     ///< see ParamInfo, or table, tables
+  const char* unit = "";
+  Valid valid;
+  std::vector<std::string> choices;    ///< of choices, what may be written
+  bool is_live = false;                ///< may change while a simulation runs
+  const char* help = "";               ///< one sentence
+  std::optional<Value> value;          ///< absent: nothing, the help says what then happens
+  std::optional<Value> default_value;  ///< of a new item; absent like value, or if there is none
+
+  /// The value as --set takes it; "none" where it is absent.
+  std::string text() const;
+  bool is_default() const;
+};
+
+/// In the order of describe.h. Materials, bodies, colliders, views and mosaics one after the other.
+std::vector<FlatParam> flatten(const Scene& scene);
+
+/// Whether what has this address may change while a simulation runs; of a table all of it. False
+/// for addresses that no scene has.
+bool is_live(std::string_view address);
+
+/// Whether the simulation itself depends on it; otherwise only pictures do.
+bool concerns_simulation(std::string_view address);
+
+/// What is at an address in two scenes; absent where one has none.
+struct Difference {
+  std::string address;  ///< of a parameter; of a table that only one has or that is of another kind
+  std::optional<Value> before, after;
+  bool is_live = false;
+};
+
+/// Everything in which two scenes differ, in the order of describe.h: setting each address of
+/// `after` (without a value: to "none") makes the first scene the second one, except for items that
+/// only one of them has.
+std::vector<Difference> differences(const Scene& before, const Scene& after);
+
+struct SplitDifferences {
+  std::vector<Difference> live, restart;
+};
+/// The same, by what can go on running and what has to start anew.
+SplitDifferences split_live(const Scene& before, const Scene& after);
+
+/// Same type and content; -0 is not 0.
+bool same_value(const std::optional<Value>& a, const std::optional<Value>& b);
+
+}  // namespace neve::app
