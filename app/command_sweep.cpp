@@ -3,6 +3,7 @@
 #include <iostream>
 #include <thread>
 
+#include "app/command_text.h"
 #include "app/commands.h"
 #include "app/errors.h"
 #include "app/interrupt.h"

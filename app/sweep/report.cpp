@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdio>
 
+#include "app/command_text.h"
 #include "app/sweep/metric_plots.h"
 #include "app/sweep/report_page.h"
 #include "app/text.h"
@@ -122,15 +123,6 @@ std::string commands_section(const std::string& folder, const Manifest& manifest
 }
 
 }  // namespace
-
-std::string shell_word(const std::string& text) {
-  const std::string plain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,=+:@%";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 std::string repeat_command(const std::string& folder, const ManifestRun& run) {
   const std::string scene = folder + "/runs/" + run.folder + "/scene.toml";

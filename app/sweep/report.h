@@ -15,9 +15,6 @@ std::string report_html(const std::string& folder, const Manifest& manifest,
                         const std::vector<RunResult>& results, const SheetLayout& layout,
                         const std::vector<std::uint8_t>& sheet_png);
 
-/// A word for a POSIX shell, quoted where it has to be.
-std::string shell_word(const std::string& text);
-
 /// The command that makes a run's pictures again.
 std::string repeat_command(const std::string& folder, const ManifestRun& run);
 

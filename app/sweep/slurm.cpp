@@ -9,11 +9,11 @@
 #include <system_error>
 #include <thread>
 
+#include "app/command_text.h"
 #include "app/errors.h"
 #include "app/interrupt.h"
 #include "app/output/atomic_file.h"
 #include "app/output/process.h"
-#include "app/sweep/report.h"
 #include "app/sweep/selection.h"
 #include "app/sweep/store.h"
 

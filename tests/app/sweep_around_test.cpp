@@ -1,0 +1,124 @@
+/// Sweep files around the value of a parameter.
+
+#include <gtest/gtest.h>
+
+#include "app/scene/error.h"
+#include "app/scene/read.h"
+#include "app/sweep/around.h"
+#include "app/sweep/expand.h"
+#include "app/sweep/read_sweep.h"
+#include "tests/support/temporary_folder.h"
+
+namespace neve::app {
+namespace {
+
+constexpr const char* scene_text = R"(
+[solver]
+cell_size = 0.05
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.1 } }
+velocity = [0, -4, 0]
+[[collider]]
+shape = { plane = {} }
+)";
+
+FlatParam param(const std::string& address, const std::string& value = {}) {
+  std::vector<Override> overrides;
+  if (!value.empty()) overrides.push_back({address, value});
+  for (FlatParam& found : flatten(read_scene_text(scene_text, "s.toml", "", overrides)))
+    if (found.address == address) return found;
+  throw std::runtime_error("nothing is called " + address);
+}
+
+std::string around(const std::string& address, const std::string& value = {}) {
+  return toml_literal({Array(values_around(param(address, value)))});
+}
+
+TEST(ValuesAround, SpanDecadesWhereRatiosMatter) {
+  EXPECT_EQ(around("material.snow.youngs_modulus"), "[14000, 44300, 140000, 443000, 1400000]");
+  EXPECT_EQ(around("solver.cell_size"), "[0.0125, 0.025, 0.05, 0.1, 0.2]");
+  EXPECT_EQ(around("solver.max_dt"), "[2.5e-4, 5e-4, 1e-3, 2e-3, 4e-3]");
+  EXPECT_EQ(around("solver.cfl", "800"), "[200, 400, 800]");
+}
+
+TEST(ValuesAround, StandAtEqualDistancesElsewhereAndStayInRange) {
+  EXPECT_EQ(around("material.snow.hardening"), "[5, 7.5, 10, 12.5, 15]");
+  EXPECT_EQ(around("material.snow.poisson_ratio"), "[0.1, 0.15, 0.2, 0.25, 0.3]");
+  EXPECT_EQ(around("material.snow.poisson_ratio", "0.4"), "[0.2, 0.3, 0.4, 0.445, 0.49]");
+  EXPECT_EQ(around("solver.flip_ratio"), "[0.475, 0.713, 0.95, 0.975, 1]");
+  EXPECT_EQ(around("solver.flip_ratio", "1"), "[0.5, 0.625, 0.75, 0.875, 1]");
+  EXPECT_EQ(around("collider.1.friction", "0"), "[0, 0.125, 0.25, 0.375, 0.5]");
+  EXPECT_EQ(around("seed"), "[0, 1, 2, 3]");
+  EXPECT_EQ(around("frames", "100000"), "[50000, 62500, 75000, 87500, 100000]");
+}
+
+TEST(ValuesAround, OfChoicesAreAllOfThemAndVectorsAreStretched) {
+  EXPECT_EQ(around("solver.transfer"), "[\"flip\", \"apic\", \"mls\"]");
+  EXPECT_EQ(around("body.ball.velocity"),
+            "[[0, -2, 0], [0, -3, 0], [0, -4, 0], [0, -5, 0], [0, -6, 0]]");
+  EXPECT_THROW(around("body.ball.angular_velocity"), UsageError);
+  EXPECT_THROW(around("title"), UsageError);
+  EXPECT_THROW(around("body.ball.name"), UsageError);
+  EXPECT_THROW(around("camera"), UsageError);
+}
+
+/// All parameters that have values around them: each value is valid, the present one among them.
+TEST(ValuesAround, AreValidAndHaveThePresentOneAmongThem) {
+  int count = 0;
+  for (const FlatParam& param : flatten(read_scene_text(scene_text, "s.toml"))) {
+    std::vector<Value> values;
+    try {
+      values = values_around(param);
+    } catch (const UsageError&) {
+      continue;
+    }
+    ++count;
+    EXPECT_GE(values.size(), 2u) << param.address;
+    bool has_present = false;
+    for (const Value& value : values) {
+      has_present = has_present || same_value(value, param.value);
+      try {
+        read_scene_text(scene_text, "s.toml", "", {{param.address, toml_literal(value)}});
+      } catch (const std::exception& error) {
+        // Only what belongs together may object.
+        EXPECT_EQ(std::string(error.what()).find("expected"), std::string::npos) << error.what();
+      }
+    }
+    EXPECT_TRUE(has_present) << param.address;
+  }
+  EXPECT_GT(count, 50);
+}
+
+TEST(SweepAround, IsAFileThatReadsAsTheSweep) {
+  const test::TemporaryFolder folder;
+  const auto scene = folder.write("scenes/a b.toml", scene_text);
+  const auto file = folder / "sweeps/hardening.toml";
+  const std::vector<Override> set{parse_override("solver.cfl=0.3"),
+                                  parse_override("title=It « is »"),
+                                  parse_override("material.snow.hardening=8"),
+                                  parse_override("solver.cfl=0.2"),
+                                  parse_override("camera={ fov = 20 }"),
+                                  parse_override("camera.orbit=none")};
+  const std::string text =
+      sweep_around(scene.string(), file.string(), param("material.snow.hardening", "8"), set);
+  EXPECT_NE(text.find("scene = \"../scenes/a b.toml\""), std::string::npos) << text;
+  folder.write("sweeps/hardening.toml", text);
+  const Sweep sweep = read_sweep(file.string(), {});
+  ASSERT_EQ(sweep.axes.size(), 1u);
+  ASSERT_EQ(sweep.axes[0].parameters.size(), 1u);
+  EXPECT_EQ(sweep.axes[0].parameters[0].address, "material.snow.hardening");
+  EXPECT_EQ(sweep.axes[0].size(), 5u);
+  EXPECT_EQ(sweep.fixed.size(), 4u);
+  // The scene of each run is the one that --set would make.
+  for (const Override& value : sweep.axes[0].parameters[0].values) {
+    std::vector<Override> in_sweep = sweep.fixed, by_hand = set;
+    in_sweep.push_back(value);
+    by_hand.push_back(value);
+    EXPECT_EQ(write_scene(read_scene_file(sweep.scene_file, in_sweep)),
+              write_scene(read_scene_file(scene.string(), by_hand)));
+  }
+}
+
+}  // namespace
+}  // namespace neve::app
