@@ -21,6 +21,8 @@ void print_picture(const PictureRecord& record) {
             << "seed        " << record.seed << "\n"
             << "state hash  " << record.state_hash << "\n";
   for (const std::string& change : record.overrides) std::cout << "override    " << change << "\n";
+  for (const LiveChange& change : record.changes)
+    std::cout << "changed     " << text_of(change) << "\n";
   if (record.coarsening > 1)
     std::cout << "coarsened   " << coarsening_text(record.coarsening) << "\n";
   for (const auto& [path, hash] : record.files)
@@ -38,6 +40,15 @@ Json read_run(const fs::path& file) {
   throw Error(exit_invalid_scene, file.string() + ": error: is no run.json of neve", file.string());
 }
 
+void print_changes(const Json& run) {
+  try {
+    for (const LiveChange& change : live_changes(run.value("changes", Json::array())))
+      std::cout << "changed     " << text_of(change) << "\n";
+  } catch (const std::runtime_error& error) {
+    std::cout << "changed     " << error.what() << "\n";
+  }
+}
+
 void print_run(const Json& run) {
   const auto text = [&](const char* key) {
     return run.contains(key) && run[key].is_string() ? run[key].get<std::string>() : std::string();
@@ -46,6 +57,7 @@ void print_run(const Json& run) {
             << "scene       " << text("scene_file") << "\n"
             << "status      " << text("status") << "\n"
             << "backend     " << text("backend") << ", " << text("gl_renderer") << "\n";
+  print_changes(run);
   if (!run.contains("frames") || !run["frames"].is_array()) return;
   const Json& frames = run["frames"];
   std::cout << "frames      " << frames.size() << "\n";

@@ -48,6 +48,14 @@ class TextReader {
     }
   }
 
+  std::vector<LiveChange> changes(const char* key) const {
+    try {
+      return live_changes(json(key));
+    } catch (const std::runtime_error& error) {
+      fail(error.what());
+    }
+  }
+
   [[noreturn]] void fail(const std::string& reason) const {
     throw Error(exit_invalid_scene, file_ + ": error: not a picture made by neve: " + reason, file_,
                 "name a picture that neve render wrote");
@@ -76,7 +84,7 @@ render::PngText to_png_text(const PictureRecord& record) {
   return {{"neve:scene", record.scene},
           {"neve:overrides", to_text(Json(record.overrides), -1)},
           {"neve:coarsen", number_text(record.coarsening)},
-          {"neve:changes", "[]"},
+          {"neve:changes", to_text(to_json(record.changes), -1)},
           {"neve:seed", std::to_string(record.seed)},
           {"neve:version", record.version},
           {"neve:state_hash", record.state_hash},
@@ -91,7 +99,7 @@ Json to_json(const PictureRecord& record) {
   json["scene"] = record.scene;
   json["overrides"] = record.overrides;
   json["coarsen"] = record.coarsening;
-  json["changes"] = Json::array();
+  json["changes"] = to_json(record.changes);
   json["seed"] = record.seed;
   json["version"] = record.version;
   json["state_hash"] = record.state_hash;
@@ -115,6 +123,7 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
   record.scene = reader.text("neve:scene");
   for (const Json& item : reader.json("neve:overrides"))
     if (item.is_string()) record.overrides.push_back(item.get<std::string>());
+  if (text.contains("neve:changes")) record.changes = reader.changes("neve:changes");
   // Pictures of earlier versions do not say.
   if (text.contains("neve:coarsen")) record.coarsening = reader.number<double>("neve:coarsen");
   if (!(record.coarsening >= 1)) reader.fail("its coarsening is less than 1");

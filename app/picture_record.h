@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/changes.h"
 #include "app/json.h"
 #include "app/plan.h"
 #include "app/scene/scene.h"
@@ -17,7 +18,8 @@ namespace neve::app {
 struct PictureRecord {
   std::string scene;  ///< resolved, TOML
   std::vector<std::string> overrides;
-  double coarsening = 1;  ///< what --coarsen did to the scene
+  std::vector<LiveChange> changes;  ///< made while the simulation ran, up to this picture
+  double coarsening = 1;            ///< what --coarsen did to the scene
   std::uint64_t seed = 0;
   std::string version;
   std::string state_hash;  ///< 16 hexadecimal digits

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <set>
 
+#include "app/errors.h"
 #include "app/machine.h"
 #include "app/picture_record.h"
 #include "app/scene/coarsen.h"
@@ -59,6 +60,17 @@ void choose_views(const std::vector<std::string>& names, RenderJob& job) {
   job.scene.mosaics = mosaics;
 }
 
+/// What was changed last, at least, has to be something that can be set.
+void check_changes(const RenderJob& job) {
+  try {
+    with_changes({write_scene(job.scene), job.scene_file, {}, {}},
+                 changes_of(job.scene, job.changes));
+  } catch (const UsageError& error) {
+    throw Error(exit_invalid_scene, job.scene_file + ": error: " + error.what(), job.scene_file,
+                "its text neve:changes was not written by this program");
+  }
+}
+
 /// The frame and view of a picture, from the scene inside it.
 RenderJob job_from_picture(const RenderOptions& options) {
   const PictureRecord record = read_picture_record(options.scene);
@@ -73,8 +85,10 @@ RenderJob job_from_picture(const RenderOptions& options) {
   job.frames = {record.frame, record.frame};
   job.quality = quality_named(record.quality);
   job.overrides = record.overrides;
+  job.changes = record.changes;
   job.coarsening = record.coarsening;
   choose_views({record.view}, job);
+  check_changes(job);
   return job;
 }
 

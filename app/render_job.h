@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/changes.h"
 #include "app/commands.h"
 #include "app/scene/scene.h"
 
@@ -17,6 +18,7 @@ struct RenderJob {
   FrameRange frames;
   Quality quality = Quality::preview;
   std::vector<std::string> overrides;   ///< for the caption; those of a picture come first
+  std::vector<LiveChange> changes;      ///< to be made while it runs, as they were in a picture
   std::vector<std::string> only_tiles;  ///< views that are drawn in a mosaic and not by themselves
   bool is_validated = false;            ///< with the watch of sim/watch.h beside it
   bool is_resumed = false;              ///< goes on from the checkpoint in the folder

@@ -59,6 +59,7 @@ RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation,
   record.scene = write_scene(job.scene);
   record.scene_file = job.scene_file;
   record.overrides = job.overrides;
+  record.changes = job.changes;
   record.coarsening = job.coarsening;
   record.backend = context.backend;
   record.gl_renderer = context.renderer;
@@ -71,6 +72,7 @@ PictureRecord picture_record(const RenderJob& job, const std::string& scene) {
   PictureRecord record;
   record.scene = scene;
   record.overrides = job.overrides;
+  record.changes = job.changes;
   record.coarsening = job.coarsening;
   record.seed = job.scene.seed;
   record.version = version;
@@ -88,10 +90,15 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
       simulation_(simulation),
       renderer_(renderer),
       progress_(progress),
-      builder_(job.scene, spacing, job.quality, job.overrides, job.coarsening, body_end),
+      scene_(job.scene),
+      player_(job.scene, job.changes, simulation,
+              [this](const Scene& scene) {
+                if (validation_) validation_->use(scene.solver, scene.materials);
+              }),
+      builder_(scene_, spacing, job.quality, job.overrides, job.coarsening, body_end),
       record_(run_record(job, simulation, context)),
       picture_record_(picture_record(job, record_.scene)),
-      checkpoints_(job.folder, picture_record_, simulation, progress) {
+      checkpoints_(job.folder, picture_record_, simulation, player_, progress) {
   if (job.is_validated)
     validation_.emplace(job.scene.solver, job.scene.materials, simulation, progress);
   for (const View& view : job.scene.views)
@@ -112,9 +119,11 @@ int RenderRun::begin() {
     record_.retries = std::move(resumed->retries);
     result_.has_checkpoint = true;
   } else {
+    player_.begin();
     remove_earlier_run(job_.folder);
     remove_checkpoints(job_.folder);
   }
+  scene_ = player_.scene();
   for (const std::string& view : record_.views) make_folder(job_.folder / view);
   write_run_json(job_.folder, record_);
   return resumed ? resumed->frame + 1 : 0;
@@ -191,9 +200,9 @@ RenderRun::Advanced RenderRun::simulate_to(int frame) {
   stepping = &progress_;
   validating = validation_ ? &*validation_ : nullptr;
   const double time = frame / job_.scene.fps;
-  advanced.report = job_.scene.solver.on_divergence == sim::OnDivergence::retry
-                        ? sim::advance_retrying(simulation_, time, after_step, advanced.retries)
-                        : simulation_.advance_to(time, after_step);
+  advanced.report = player_.advance_to(time, after_step, advanced.retries);
+  advanced.scene = player_.scene();
+  follow_colliders(simulation_, advanced.scene);
   stepping = nullptr;
   validating = nullptr;
   advanced.seconds = seconds_since(start);
@@ -210,7 +219,8 @@ void RenderRun::begin_next(int frame) {
 
 /// @return whether the frame was reached in good health
 bool RenderRun::advance_to_frame(int frame) {
-  const Advanced advanced = next_.valid() ? next_.get() : simulate_to(frame);
+  Advanced advanced = next_.valid() ? next_.get() : simulate_to(frame);
+  scene_ = std::move(advanced.scene);
   advance_.append(advanced.report);
   note_retries(advanced.retries);
   seconds_sim_ = advanced.seconds;
@@ -230,11 +240,11 @@ bool RenderRun::advance_to_frame(int frame) {
 
 void RenderRun::draw_frame(int frame) {
   const auto start = Clock::now();
-  Snapshot snapshot = take_snapshot(job_.scene, simulation_, frame);
+  Snapshot snapshot = take_snapshot(scene_, simulation_, frame);
   snapshot.history = history_;
   snapshot.advance = advance_;
   const std::uint64_t state_hash = simulation_.state_hash();
-  picture_record_.state_hash = hash_text(state_hash);
+  note_state(state_hash);
   begin_next(frame);
   std::vector<Picture> pictures;
   const auto add = [&](const std::string& name, render::Image image) {
@@ -248,15 +258,15 @@ void RenderRun::draw_frame(int frame) {
     for (; waiting.size() > left; waiting.erase(waiting.begin()))
       add(waiting.front(), renderer_.fetch());
   };
-  for (const View& view : job_.scene.views) {
+  for (const View& view : scene_.views) {
     if (!is_drawn(view)) continue;
     renderer_.submit(builder_.build(view, snapshot));
     waiting.push_back(view.name);
     fetch_down_to(1);
   }
   fetch_down_to(0);
-  for (const Mosaic& mosaic : job_.scene.mosaics)
-    add(mosaic.name, draw_mosaic(job_.scene, mosaic, builder_, snapshot, renderer_));
+  for (const Mosaic& mosaic : scene_.mosaics)
+    add(mosaic.name, draw_mosaic(scene_, mosaic, builder_, snapshot, renderer_));
   add_frame_record({frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start),
                     summary_, state_hash,
                     measure(snapshot.particles, job_.scene.solver.cell_size)});
@@ -291,21 +301,21 @@ void RenderRun::note_retries(const std::vector<sim::Retry>& retries) {
 /// no frames. The report first: pictures of a broken state are the more delicate part.
 void RenderRun::report_incident() {
   const sim::Divergence& divergence = *record_.divergence;
-  const Diagnosis diagnosis = diagnose(job_.scene, divergence);
+  const Diagnosis diagnosis = diagnose(scene_, divergence);
   result_.diagnosis = diagnosis;
   record_.cause = name_of(diagnosis.cause);
   const Json incident =
       incident_json(divergence, diagnosis, record_.scene, job_.scene.solver.cell_size);
   write_file(incident_path(job_.folder), to_text(incident) + "\n");
   const int frame = static_cast<int>(divergence.time * job_.scene.fps);
-  Scene scene = job_.scene;
+  Scene scene = scene_;
   if (const auto slice = culprit_slice(scene, divergence, simulation_.particles()))
     scene.views.push_back(*slice);
   Snapshot snapshot = take_snapshot(scene, simulation_, frame);
   snapshot.time = divergence.time;
   snapshot.advance = advance_;
   snapshot.history = history_;
-  picture_record_.state_hash = hash_text(simulation_.state_hash());
+  note_state(simulation_.state_hash());
   for (const View& view : scene.views)
     writer_.write({diverged_path(job_.folder, view.name),
                    renderer_.draw(builder_.build_incident(view, snapshot, divergence, diagnosis)),
@@ -316,7 +326,7 @@ void RenderRun::report_incident() {
   const auto build = [&](const View& view) {
     return builder_.build_incident(view, snapshot, divergence, diagnosis);
   };
-  for (const Mosaic& mosaic : job_.scene.mosaics)
+  for (const Mosaic& mosaic : scene_.mosaics)
     writer_.write({diverged_path(job_.folder, mosaic.name),
                    draw_mosaic(scene, mosaic, build, caption, renderer_),
                    png_text(mosaic.name, frame)});
@@ -357,6 +367,13 @@ void RenderRun::forget_unwritten_frames() {
 bool RenderRun::is_drawn(const View& view) const {
   const std::vector<std::string>& tiles = job_.only_tiles;
   return std::find(tiles.begin(), tiles.end(), view.name) == tiles.end();
+}
+
+void RenderRun::note_state(std::uint64_t state_hash) {
+  picture_record_.state_hash = hash_text(state_hash);
+  picture_record_.changes = job_.changes;
+  std::erase_if(picture_record_.changes,
+                [&](const LiveChange& change) { return change.step > simulation_.steps(); });
 }
 
 render::PngText RenderRun::png_text(const std::string& view, int frame) const {

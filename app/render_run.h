@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/changes.h"
 #include "app/diagnosis.h"
 #include "app/frame_builder.h"
 #include "app/output/picture_writer.h"
@@ -55,6 +56,7 @@ class RenderRun {
   struct Advanced {
     sim::AdvanceReport report;
     std::vector<sim::Retry> retries;
+    Scene scene;  ///< as it is then
     double seconds = 0;
   };
   Advanced simulate_to(int frame);
@@ -69,12 +71,16 @@ class RenderRun {
   void forget_unwritten_frames();
   /// By itself, not only in a mosaic.
   bool is_drawn(const View& view) const;
+  /// What pictures say of the simulation as it is now.
+  void note_state(std::uint64_t state_hash);
   render::PngText png_text(const std::string& view, int frame) const;
 
   const RenderJob& job_;
   sim::Simulation& simulation_;
   render::Renderer& renderer_;
   Progress& progress_;
+  Scene scene_;  ///< the job's with the changes made so far
+  ChangePlayer player_;
   FrameBuilder builder_;
   RunRecord record_;
   PictureRecord picture_record_;

@@ -44,10 +44,11 @@ std::vector<PlotSample> history_of(const Json& rows) {
 }  // namespace
 
 Checkpoints::Checkpoints(std::filesystem::path folder, const PictureRecord& picture,
-                         sim::Simulation& simulation, Progress& progress)
+                         sim::Simulation& simulation, ChangePlayer& player, Progress& progress)
     : folder_(std::move(folder)),
       identity_(identity_of(picture)),
       simulation_(simulation),
+      player_(player),
       progress_(progress) {}
 
 void Checkpoints::write(int frame, const sim::AdvanceReport& advance,
@@ -86,6 +87,7 @@ std::optional<ResumedRun> Checkpoints::resume() {
                       " where the machine has it");
   ResumedRun run;
   try {
+    player_.go_to(checkpoint.steps);
     simulation_.restore(checkpoint.state);
     run.frame = checkpoint.frame;
     run.advance = advance_report(checkpoint.progress.at("advance"));

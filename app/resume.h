@@ -27,8 +27,9 @@ struct ResumedRun {
 class Checkpoints {
  public:
   /// @param picture of any view and frame: what made it makes the run
+  /// @param player  of the changes that the picture lists
   Checkpoints(std::filesystem::path folder, const PictureRecord& picture,
-              sim::Simulation& simulation, Progress& progress);
+              sim::Simulation& simulation, ChangePlayer& player, Progress& progress);
 
   /// @param advance steps since the frame
   /// @throws IoError
@@ -44,6 +45,7 @@ class Checkpoints {
   std::filesystem::path folder_;
   std::string identity_;
   sim::Simulation& simulation_;
+  ChangePlayer& player_;
   Progress& progress_;
 };
 

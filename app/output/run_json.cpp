@@ -205,6 +205,7 @@ Json to_json(const RunRecord& run) {
   json["scene"] = run.scene;
   json["scene_file"] = run.scene_file;
   json["overrides"] = run.overrides;
+  json["changes"] = to_json(run.changes);
   json["coarsen"] = run.coarsening;
   json["views"] = run.views;
   json["backend"] = run.backend;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/changes.h"
 #include "app/json.h"
 #include "app/metrics.h"
 #include "sim/retry.h"
@@ -32,7 +33,8 @@ struct RunRecord {
   std::string scene;  ///< resolved, TOML
   std::string scene_file;
   std::vector<std::string> overrides;
-  double coarsening = 1;  ///< what --coarsen did to the scene
+  std::vector<LiveChange> changes;  ///< made while it ran
+  double coarsening = 1;            ///< what --coarsen did to the scene
   std::vector<std::string> views;
   std::string backend, gl_renderer;
   int threads = 0;
@@ -41,7 +43,7 @@ struct RunRecord {
   std::string error;  ///< of a run that failed
   std::vector<FrameRecord> frames;
   std::vector<sim::WatchRecord> validation;  ///< of --validate; empty without it
-  std::vector<sim::Retry> retries;  ///< times that it went back
+  std::vector<sim::Retry> retries;           ///< times that it went back
   std::optional<sim::Divergence> divergence;
   std::string cause;  ///< of the divergence, see diagnosis.h
 };

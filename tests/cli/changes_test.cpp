@@ -1,0 +1,208 @@
+/// What was changed while a simulation ran is made again from its picture.
+
+#include "app/changes.h"
+#include "app/command_text.h"
+#include "app/output/atomic_file.h"
+#include "app/output/run_json.h"
+#include "app/picture_record.h"
+#include "app/scene/read.h"
+#include "app/seed_scene.h"
+#include "app/sweep/around.h"
+#include "tests/support/resume.h"
+
+namespace neve::test {
+namespace {
+
+class Changes : public Cli {
+ protected:
+  /// A session with changes up to the end of frame 4, and its picture of that frame.
+  void play(const std::string& more = {}) {
+    std::vector<std::string> render{"render", "scene.toml", "--out", "plain", "--frames", "4-4"};
+    if (!more.empty()) render.insert(render.end(), {"--set", more});
+    ASSERT_EQ(neve(render).exit_code, 0);
+    const std::string plain = (folder / "plain/particles/0004.png").string();
+    record = app::read_picture_record(plain);
+    plain_hash = record.state_hash;
+    const app::Scene scene = app::read_scene_text(record.scene, "plain");
+    sim::Simulation simulation(scene.solver, scene.materials, app::sim_colliders(scene),
+                               app::seed_scene(scene), 1);
+    const auto set = [&](const std::string& address, const std::string& value) {
+      app::note_change(record.changes, {simulation.steps(), address, value});
+      app::Scene now = app::with_changes({record.scene, "now", "", {}}, record.changes);
+      app::apply_scene(now, simulation);
+    };
+    simulation.advance_to(1.0 / 24);
+    simulation.advance_to(2.0 / 24, nullptr, simulation.steps() + 3);
+    set("material.snow.youngs_modulus", "4e5");
+    set("solver.gravity", "[2, -9.81, 0]");
+    simulation.advance_to(2.0 / 24);
+    set("collider.floor.shape.plane.point", "[0, 0.01, 0]");
+    simulation.advance_to(3.0 / 24);
+    simulation.advance_to(4.0 / 24, nullptr, simulation.steps() + 2);
+    set("solver.transfer", "mls");
+    simulation.advance_to(4.0 / 24);
+    ASSERT_FALSE(simulation.divergence());
+    record.state_hash = app::hash_text(simulation.state_hash());
+    app::write_file(
+        folder / "session.png",
+        render::encode_png(render::decode_png(app::read_file(plain)), app::to_png_text(record)));
+  }
+
+  std::vector<std::string> hashes(const std::string& out) {
+    std::vector<std::string> all;
+    for (const app::Json& frame : json_of(out + "/run.json")["frames"])
+      all.push_back(frame["state_hash"].get<std::string>());
+    return all;
+  }
+
+  app::PictureRecord record;
+  std::string plain_hash;
+};
+
+TEST_F(Changes, APictureOfASessionIsMadeAgainWithTheSameState) {
+  ASSERT_NO_FATAL_FAILURE(play());
+  ASSERT_NE(record.state_hash, plain_hash);
+  const auto again = neve({"render", "session.png", "--out", "again", "--validate"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(hashes("again"), std::vector<std::string>{record.state_hash});
+  const app::Json run = json_of("again/run.json");
+  EXPECT_EQ(app::live_changes(run["changes"]), record.changes);
+  // The picture made again is one that can be made again.
+  const auto made = app::read_picture_record(folder / "again/particles/0004.png");
+  EXPECT_EQ(made.changes, record.changes);
+  EXPECT_EQ(made.scene, record.scene);
+  ASSERT_EQ(neve({"render", "again/particles/0004.png", "--out", "third"}).exit_code, 0);
+  EXPECT_TRUE(app::read_file(folder / "third/particles/0004.png") ==
+              app::read_file(folder / "again/particles/0004.png"));
+}
+
+TEST_F(Changes, PicturesBeforeAChangeDoNotListIt) {
+  ASSERT_NO_FATAL_FAILURE(play());
+  ASSERT_EQ(neve({"render", "session.png", "--out", "all", "--frames", "0-4"}).exit_code, 0);
+  std::size_t before = 0;
+  for (const char* frame : {"0000", "0001", "0002", "0003", "0004"}) {
+    const auto made =
+        app::read_picture_record(folder / ("all/particles/" + std::string(frame) + ".png"));
+    EXPECT_GE(made.changes.size(), before);
+    before = made.changes.size();
+    if (std::string(frame) == "0001") EXPECT_TRUE(made.changes.empty());
+    // Each of them leads to its own state.
+    ASSERT_EQ(
+        neve({"render", "all/particles/" + std::string(frame) + ".png", "--out", "one"}).exit_code,
+        0);
+    EXPECT_EQ(hashes("one"), std::vector<std::string>{made.state_hash}) << frame;
+  }
+  EXPECT_EQ(before, record.changes.size());
+}
+
+TEST_F(Changes, AResumedRunMakesTheRestOfThem) {
+  ASSERT_NO_FATAL_FAILURE(play());
+  const std::vector<std::string> all{"render", "session.png", "--frames", "0-4"};
+  const auto render = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), all.begin(), all.end());
+    return neve(more);
+  };
+  ASSERT_EQ(render({"--out", "whole"}).exit_code, 0);
+  ASSERT_EQ(render({"--out", "parts", "--frames", "0-2"}).exit_code, 0);
+  const auto more = render({"--out", "parts", "--resume"});
+  ASSERT_EQ(more.exit_code, 0) << more.errors;
+  EXPECT_TRUE(contains(more.errors, "resumed after frame 2")) << more.errors;
+  EXPECT_EQ(hashes("parts"), hashes("whole"));
+  EXPECT_GE(kill_and_resume(folder / "session.png", folder / "killed", 4, 0.4, 7), 1);
+  ASSERT_EQ(
+      neve({"render", "session.png", "--out", "killed", "--resume", "--checkpoint-every", "1"})
+          .exit_code,
+      0);
+  EXPECT_EQ(hashes("killed"), std::vector<std::string>{record.state_hash});
+  // A run with other changes is another run.
+  record.changes.pop_back();
+  app::write_file(
+      folder / "session.png",
+      render::encode_png(render::decode_png(app::read_file(folder / "plain/particles/0004.png")),
+                         app::to_png_text(record)));
+  EXPECT_EQ(render({"--out", "parts", "--resume"}).exit_code, 2);
+}
+
+TEST_F(Changes, AreShownByInfo) {
+  ASSERT_NO_FATAL_FAILURE(play());
+  const auto info = neve({"info", "session.png"});
+  EXPECT_TRUE(contains(info.output, "changed     step ")) << info.output;
+  EXPECT_TRUE(contains(info.output, ": material.snow.youngs_modulus = 4e5")) << info.output;
+  const app::Json json =
+      app::parse_json(std::string_view(neve({"info", "session.png", "--json"}).output));
+  EXPECT_EQ(app::live_changes(json["changes"]), record.changes);
+  EXPECT_EQ(json["changes"].size(), 4u);
+  EXPECT_EQ(json["changes"][0]["address"], "material.snow.youngs_modulus");
+  EXPECT_EQ(json["changes"][0]["value"], "4e5");
+  EXPECT_GT(json["changes"][0]["step"], 3);
+  ASSERT_EQ(neve({"render", "session.png", "--out", "again"}).exit_code, 0);
+  EXPECT_TRUE(contains(neve({"info", "again"}).output, "changed     step "));
+}
+
+TEST_F(Changes, ThatAreNoneAreRefused) {
+  ASSERT_NO_FATAL_FAILURE(play());
+  const auto image = render::decode_png(app::read_file(folder / "plain/particles/0004.png"));
+  const auto render_with = [&](const std::string& changes) {
+    render::PngText text = app::to_png_text(record);
+    text["neve:changes"] = changes;
+    app::write_file(folder / "bad.png", render::encode_png(image, text));
+    return neve({"render", "bad.png", "--out", "bad"});
+  };
+  const auto restart =
+      render_with(R"([{"step": 3, "address": "solver.cell_size", "value": "0.02"}])");
+  EXPECT_EQ(restart.exit_code, 3) << restart.errors;
+  EXPECT_TRUE(contains(restart.errors, "solver.cell_size")) << restart.errors;
+  EXPECT_EQ(render_with("{").exit_code, 3);
+  const auto value = render_with(R"([{"step": 3, "address": "solver.cfl", "value": "-5"}])");
+  EXPECT_NE(value.exit_code, 0);
+  EXPECT_NE(value.exit_code, 1) << value.errors;
+  EXPECT_TRUE(contains(value.errors, "change at step 3: solver.cfl=-5")) << value.errors;
+}
+
+TEST_F(Changes, WithRetriesTheyAreMadeAgainToo) {
+  folder.write("scene.toml", std::string(tiny_scene));
+  ASSERT_NO_FATAL_FAILURE(play("solver.on_divergence=retry"));
+  const auto a = neve({"render", "session.png", "--out", "a", "--frames", "0-4"});
+  ASSERT_EQ(a.exit_code, 0) << a.errors;
+  ASSERT_EQ(neve({"render", "session.png", "--out", "b", "--frames", "0-3"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", "session.png", "--out", "b", "--frames", "0-4", "--resume"}).exit_code,
+            0);
+  EXPECT_EQ(hashes("a"), hashes("b"));
+}
+
+/// What panels offer, through the program.
+TEST_F(Changes, ASweepAroundAValueRuns) {
+  const app::Scene scene = app::read_scene_file((folder / "scene.toml").string());
+  for (const app::FlatParam& param : app::flatten(scene))
+    if (param.address == "material.snow.hardening")
+      folder.write("sweeps/hardening.toml",
+                   app::sweep_around((folder / "scene.toml").string(),
+                                     (folder / "sweeps/hardening.toml").string(), param,
+                                     {app::parse_override("frames=1")}));
+  const auto dry = neve({"sweep", "sweeps/hardening.toml", "--dry-run"});
+  EXPECT_EQ(dry.exit_code, 0) << dry.errors;
+  EXPECT_TRUE(contains(dry.output + dry.errors, "5 runs")) << dry.output << dry.errors;
+}
+
+TEST_F(Changes, ACopiedCommandMakesTheSamePicture) {
+  app::RenderCommand command;
+  command.scene_file = "scene.toml";
+  command.overrides = {app::parse_override("title=It's « mine »"),
+                       app::parse_override("material.snow.hardening=5")};
+  command.frames = app::FrameRange{1, 1};
+  command.out = "by hand";
+  std::string line = app::command_line(command);
+  ASSERT_TRUE(line.starts_with("neve "));
+  line = app::shell_word(NEVE_BINARY) + line.substr(4);
+  const auto shell = app::run_process("/bin/sh", {"-c", line}, folder.path());
+  ASSERT_EQ(shell.exit_code, 0) << shell.errors;
+  ASSERT_EQ(neve({"render", "scene.toml", "--set", "title=It's « mine »", "--set",
+                  "material.snow.hardening=5", "--frames", "1-1", "--out", "plain"})
+                .exit_code,
+            0);
+  EXPECT_TRUE(app::read_file(folder / "by hand/particles/0001.png") ==
+              app::read_file(folder / "plain/particles/0001.png"));
+}
+
+}  // namespace
+}  // namespace neve::test
