@@ -10,6 +10,7 @@
 #include "app/legends.h"
 #include "app/round_number.h"
 #include "app/scene/coarsen.h"
+#include "app/scene/flat.h"
 #include "app/slice.h"
 #include "app/smoke_layer.h"
 #include "app/text.h"
@@ -80,6 +81,16 @@ std::string grouped(std::size_t count) {
 std::string steps_text(const sim::AdvanceReport& advance) {
   return grouped(advance.steps) + (advance.steps == 1 ? " step" : " steps") + ", dt " +
          rough_text(advance.dt_min) + " s (" + sim::name(advance.limit()) + ")";
+}
+
+/// "hardening = 5 since step 120". Other views and colours are seen, not told.
+std::vector<std::string> change_lines(const std::vector<LiveChange>& changes) {
+  std::vector<std::string> texts;
+  for (const LiveChange& change : changes)
+    if (concerns_simulation(change.address))
+      texts.push_back(change.address + "=" + change.value + " since step " +
+                      std::to_string(change.step));
+  return override_lines(texts);
 }
 
 }  // namespace
@@ -237,11 +248,13 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
   lines.push_back(grouped(count) + (count == 1 ? " particle" : " particles") +
                   (coarsening_ > 1 ? ", coarsened " + coarsening_text(coarsening_) : "") +
                   (snapshot.advance.steps > 0 ? "   " + steps_text(snapshot.advance) : ""));
-  const std::size_t shown = std::min(override_lines_.size(), max_override_lines);
-  lines.insert(lines.end(), override_lines_.begin(),
-               override_lines_.begin() + static_cast<std::ptrdiff_t>(shown));
-  if (shown < override_lines_.size())
-    lines.push_back("and " + std::to_string(override_lines_.size() - shown) + " more changes");
+  std::vector<std::string> different = override_lines_;
+  for (std::string& line : change_lines(snapshot.changes)) different.push_back(std::move(line));
+  const std::size_t shown = std::min(different.size(), max_override_lines);
+  lines.insert(lines.end(), different.begin(),
+               different.begin() + static_cast<std::ptrdiff_t>(shown));
+  if (shown < different.size())
+    lines.push_back("and " + std::to_string(different.size() - shown) + " more changes");
   return lines;
 }
 

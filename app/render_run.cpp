@@ -245,6 +245,7 @@ void RenderRun::draw_frame(int frame) {
   snapshot.advance = advance_;
   const std::uint64_t state_hash = simulation_.state_hash();
   note_state(state_hash);
+  snapshot.changes = picture_record_.changes;
   begin_next(frame);
   std::vector<Picture> pictures;
   const auto add = [&](const std::string& name, render::Image image) {
@@ -316,6 +317,7 @@ void RenderRun::report_incident() {
   snapshot.advance = advance_;
   snapshot.history = history_;
   note_state(simulation_.state_hash());
+  snapshot.changes = picture_record_.changes;
   for (const View& view : scene.views)
     writer_.write({diverged_path(job_.folder, view.name),
                    renderer_.draw(builder_.build_incident(view, snapshot, divergence, diagnosis)),

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "app/changes.h"
 #include "app/node_fields.h"
 #include "app/plots.h"
 #include "app/scene/scene.h"
@@ -20,6 +21,7 @@ struct Snapshot {
   NodeFields fields;                    ///< empty unless a view shows the grid
   sim::AdvanceReport advance;           ///< steps since the frame before; the caller fills it in
   std::span<const PlotSample> history;  ///< of the frames up to this one; the caller keeps it
+  std::vector<LiveChange> changes;      ///< made while it ran, for the caption; the caller's too
 };
 
 Snapshot take_snapshot(const Scene& scene, const sim::Simulation& simulation, int frame);
