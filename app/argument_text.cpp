@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/scene/error.h"
+#include "app/scene/names.h"
 #include "app/text.h"
 
 namespace neve::app {
@@ -77,16 +78,9 @@ double parse_time(const std::string& text) {
 }
 
 sim::Stage parse_stage(const std::string& text) {
-  std::vector<std::string> known;
-  for (std::size_t k = 0; k < sim::stage_names.size(); ++k) {
-    if (text == sim::stage_names[k]) return static_cast<sim::Stage>(k);
-    known.push_back(sim::stage_names[k]);
-  }
-  const std::string nearest = nearest_name(text, known);
-  std::string list;
-  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  if (const auto stage = value_named<sim::Stage>(text)) return *stage;
   throw UsageError("--stage", "there is no stage \"" + text + "\"",
-                   (nearest.empty() ? "" : "did you mean " + nearest + "? ") + "expected " + list);
+                   names_advice(text, {sim::stage_names.begin(), sim::stage_names.end()}));
 }
 
 Probe parse_probe(const std::string& text) {

@@ -27,9 +27,8 @@ void check_threads(int threads) {
 void check_backend(const std::string& name) {
   const auto& backends = render::backend_names();
   if (std::find(backends.begin(), backends.end(), name) != backends.end()) return;
-  std::string known;
-  for (const std::string& backend : backends) known += (known.empty() ? "" : ", ") + backend;
-  throw UsageError("--backend", "unknown backend \"" + name + "\"", "expected one of " + known);
+  throw UsageError("--backend", "unknown backend \"" + name + "\"",
+                   "expected one of " + joined(backends, ", "));
 }
 
 CLI::Option* add_repeatable(CLI::App& command, const char* flag, std::vector<std::string>& values,
@@ -39,19 +38,6 @@ CLI::Option* add_repeatable(CLI::App& command, const char* flag, std::vector<std
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
-
-namespace {
-
-constexpr const char* footer =
-    "Exit codes: 0 ok, 1 internal, 2 usage, 3 scene invalid, 4 no GL backend, 5 diverged,\n"
-    "6 input or output failed, 7 runs of a sweep failed, 8 refused by a limit, 9 a check failed,\n"
-    "75 interrupted and can go on, 130 interrupted.";
-
-/// Values that CLI11 hands over as text; turned into options when parsing is done.
-struct RenderTexts {
-  std::optional<std::string> frames, size, quality, coarsening;
-  bool is_quiet = false, is_verbose = false;
-};
 
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.frames) options.frames = parse_frames(*texts.frames);
@@ -73,22 +59,6 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   return options;
 }
 
-BenchOptions finished(const CLI::App& command, BenchOptions options) {
-  check_threads(options.threads);
-  check_backend(options.backend);
-  if (command.count("--rounds") > 0 && (options.rounds < 1 || options.rounds > 1000))
-    throw UsageError("--rounds", "cannot use " + std::to_string(options.rounds),
-                     "expected 1 to 1000");
-  if (options.is_json && options.is_markdown)
-    throw UsageError("--markdown", "cannot go with --json", "give one of them");
-  const bool has_particles = command.get_option_no_throw("--particles") != nullptr;
-  if (has_particles && command.count("--particles") > 0 &&
-      !(options.particles >= 1 && options.particles <= 1e9))
-    throw UsageError("--particles", "cannot use this number", "expected 1 to 1e9");
-  return options;
-}
-
-/// Which scene, and how it is changed: what all commands take that read one.
 void add_scene(CLI::App& command, const std::shared_ptr<RenderOptions>& options,
                const std::shared_ptr<RenderTexts>& texts) {
   command
@@ -105,6 +75,28 @@ void add_scene(CLI::App& command, const std::shared_ptr<RenderOptions>& options,
                   "longer steps, about N^4 times cheaper")
       ->type_name("N");
   command.add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
+}
+
+namespace {
+
+constexpr const char* footer =
+    "Exit codes: 0 ok, 1 internal, 2 usage, 3 scene invalid, 4 no GL backend, 5 diverged,\n"
+    "6 input or output failed, 7 runs of a sweep failed, 8 refused by a limit, 9 a check failed,\n"
+    "75 interrupted and can go on, 130 interrupted.";
+
+BenchOptions finished(const CLI::App& command, BenchOptions options) {
+  check_threads(options.threads);
+  check_backend(options.backend);
+  if (command.count("--rounds") > 0 && (options.rounds < 1 || options.rounds > 1000))
+    throw UsageError("--rounds", "cannot use " + std::to_string(options.rounds),
+                     "expected 1 to 1000");
+  if (options.is_json && options.is_markdown)
+    throw UsageError("--markdown", "cannot go with --json", "give one of them");
+  const bool has_particles = command.get_option_no_throw("--particles") != nullptr;
+  if (has_particles && command.count("--particles") > 0 &&
+      !(options.particles >= 1 && options.particles <= 1e9))
+    throw UsageError("--particles", "cannot use this number", "expected 1 to 1e9");
+  return options;
 }
 
 void add_check(CLI::App& app, Action& action) {
@@ -173,56 +165,6 @@ void add_render(CLI::App& app, Action& action) {
     if (command->count("--out") > 0 && options->out.empty())
       throw UsageError("--out", "names no folder", "expected the path of one");
     action = [options, texts] { return run_render(finished(*options, *texts)); };
-  });
-}
-
-/// What CLI11 hands over as text.
-struct DumpTexts {
-  std::string at = "0s", format = "table";
-  std::optional<std::string> stage;
-  std::vector<std::string> probes;
-};
-
-DumpOptions finished(DumpOptions options, const RenderOptions& run, const RenderTexts& run_texts,
-                     const DumpTexts& texts) {
-  options.run = finished(run, run_texts);
-  options.at = parse_time(texts.at);
-  options.format = parse_format(texts.format);
-  if (texts.stage) options.stage = parse_stage(*texts.stage);
-  for (const std::string& probe : texts.probes) options.probes.push_back(parse_probe(probe));
-  return options;
-}
-
-void add_dump(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
-      "dump",
-      "Numbers inside a step: fields of nodes and particles at a time, after a stage, with what is "
-      "expected of them");
-  const auto options = std::make_shared<DumpOptions>();
-  const auto run = std::make_shared<RenderOptions>();
-  const auto run_texts = std::make_shared<RenderTexts>();
-  const auto texts = std::make_shared<DumpTexts>();
-  add_scene(*command, run, run_texts);
-  command->add_option("--at", texts->at, "Time in seconds; the step that contains it is shown")
-      ->type_name("TIME")
-      ->capture_default_str();
-  command
-      ->add_option("--stage", texts->stage,
-                   "What this stage has worked out, as in elastic_forces; without it the particles "
-                   "before the step")
-      ->type_name("NAME");
-  add_repeatable(*command, "--field", options->fields, "NAME", "Only this quantity (repeatable)");
-  add_repeatable(*command, "--probe", texts->probes, "ID|X,Y,Z",
-                 "Only one particle, or what is nearest to a place in metres (repeatable)");
-  command->add_option("--format", texts->format, "table (tabs), or vtk for ParaView")
-      ->type_name("NAME")
-      ->capture_default_str();
-  command->add_option("--out", options->file, "A file instead of standard output")
-      ->type_name("FILE");
-  command->add_flag("--json", run->is_json, "Print summary and probes as JSON");
-  command->add_flag("--quiet,-q", run_texts->is_quiet, "Only errors and warnings");
-  command->final_callback([=, &action] {
-    action = [=] { return run_dump(finished(*options, *run, *run_texts, *texts)); };
   });
 }
 
@@ -363,8 +305,7 @@ void check_subcommand(const CLI::App& app, int argc, char** argv) {
   const CLI::App& command = *app.get_subcommand(word);
   const std::vector<std::string> parts = subcommand_names(command);
   if (command.get_require_subcommand_min() == 0) return;
-  std::string known;
-  for (const std::string& part : parts) known += (known.empty() ? "" : ", ") + part;
+  const std::string known = joined(parts, ", ");
   const std::string part = argc < 3 ? "" : argv[2];
   if (part == "-h" || part == "--help" ||
       std::find(parts.begin(), parts.end(), part) != parts.end())

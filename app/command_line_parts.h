@@ -3,8 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "app/commands.h"
 
 namespace neve::app {
 
@@ -20,6 +24,20 @@ void check_threads(int threads);
 /// @throws UsageError with the names there are
 void check_backend(const std::string& name);
 
+/// Values that CLI11 hands over as text; turned into options when parsing is done.
+struct RenderTexts {
+  std::optional<std::string> frames, size, quality, coarsening;
+  bool is_quiet = false, is_verbose = false;
+};
+
+/// @throws UsageError
+RenderOptions finished(RenderOptions options, const RenderTexts& texts);
+
+/// Which scene, and how it is changed: what all commands take that read one.
+void add_scene(CLI::App& command, const std::shared_ptr<RenderOptions>& options,
+               const std::shared_ptr<RenderTexts>& texts);
+
 void add_sweep(CLI::App& app, Action& action);
+void add_dump(CLI::App& app, Action& action);
 
 }  // namespace neve::app

@@ -83,50 +83,39 @@ void add_where(CLI::App& command, SweepOptions& options, SweepTexts& texts) {
       ->type_name("FILE");
 }
 
-void add_run(CLI::App& sweep, Action& action) {
-  CLI::App* command = sweep.add_subcommand(
-      "run", "Make one run of a sweep that is on disk: what --emit and --engine slurm call");
-  const auto options = std::make_shared<SweepRunOptions>();
+/// What the parts of sweep take that work on one on disk.
+template <class Options>
+void add_folder(CLI::App& command, Action& action, const std::shared_ptr<Options>& options,
+                int (*run)(const Options&)) {
   const auto is_quiet = std::make_shared<bool>(false);
-  command->add_option("DIR", options->folder, "Output folder of a sweep")
-      ->required()
-      ->type_name("");
-  command->add_option("--index", options->index, "Number of the run")->required()->type_name("N");
-  command->add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
-  command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
+  command.add_option("DIR", options->folder, "Output folder of a sweep")->required()->type_name("");
+  command.add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
+  command.add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
       ->type_name("NAME");
-  command->add_flag("--retry-failed", options->is_failed_again, "Also when it failed before");
-  command->add_flag("--quiet,-q", *is_quiet, "Only errors and warnings");
-  command->final_callback([=, &action] {
+  command.add_flag("--quiet,-q", *is_quiet, "Only errors and warnings");
+  command.final_callback([=, &action] {
     check_threads(options->threads);
     check_backend(options->backend);
     action = [=] {
       if (*is_quiet) options->verbosity = Verbosity::quiet;
-      return run_sweep_run(*options);
+      return run(*options);
     };
   });
+}
+
+void add_run(CLI::App& sweep, Action& action) {
+  CLI::App* command = sweep.add_subcommand(
+      "run", "Make one run of a sweep that is on disk: what --emit and --engine slurm call");
+  const auto options = std::make_shared<SweepRunOptions>();
+  command->add_option("--index", options->index, "Number of the run")->required()->type_name("N");
+  command->add_flag("--retry-failed", options->is_failed_again, "Also when it failed before");
+  add_folder(*command, action, options, run_sweep_run);
 }
 
 void add_collect(CLI::App& sweep, Action& action) {
   CLI::App* command = sweep.add_subcommand(
       "collect", "Put together table, sheets and report of what a sweep has made so far");
-  const auto options = std::make_shared<CollectOptions>();
-  const auto is_quiet = std::make_shared<bool>(false);
-  command->add_option("DIR", options->folder, "Output folder of a sweep")
-      ->required()
-      ->type_name("");
-  command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
-      ->type_name("NAME");
-  command->add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
-  command->add_flag("--quiet,-q", *is_quiet, "Only errors and warnings");
-  command->final_callback([=, &action] {
-    check_threads(options->threads);
-    check_backend(options->backend);
-    action = [=] {
-      if (*is_quiet) options->verbosity = Verbosity::quiet;
-      return run_sweep_collect(*options);
-    };
-  });
+  add_folder(*command, action, std::make_shared<CollectOptions>(), run_sweep_collect);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/auto_ranges.h"
+#include "app/check/findings.h"
 #include "app/scene/value.h"
 #include "app/text.h"
 #include "sim/diagnostics.h"
@@ -56,20 +57,19 @@ struct Case {
   double start_sound() const { return d.start.max_sound_speed; }
 };
 
-using Finding = std::optional<Diagnosis>;
+using Hypothesis = std::optional<Diagnosis>;
 
-Finding bypass(const Case& c) {
+Hypothesis bypass(const Case& c) {
   const std::vector<sim::Stage>& skipped = c.scene.solver.bypass;
   if (skipped.empty()) return std::nullopt;
-  std::string list;
-  for (const sim::Stage stage : skipped)
-    list += (list.empty() ? "" : ", ") + std::string(name(stage));
-  return Diagnosis{Cause::bypass, "solver.bypass skips " + list,
+  std::vector<std::string> stages;
+  for (const sim::Stage stage : skipped) stages.emplace_back(name(stage));
+  return Diagnosis{Cause::bypass, "solver.bypass skips " + joined(stages, ", "),
                    "nothing can be said of a step that is not whole; solver.bypass = []",
                    "solver.bypass"};
 }
 
-Finding initial_state(const Case& c) {
+Hypothesis initial_state(const Case& c) {
   const sim::StartState& s = c.d.start;
   const bool is_strange =
       s.strangest >= 0 && (s.min_J_E < 0.5 || s.max_J_E > 2 || s.min_J_P < 0.5 || s.max_J_P > 2);
@@ -86,14 +86,9 @@ Finding initial_state(const Case& c) {
                    "start with F_E = I and J_P = 1", ""};
 }
 
-Finding units(const Case& c) {
-  const double g = c.scene.solver.gravity.norm();
-  double largest = 0;
-  for (const sim::Body& body : c.scene.bodies) {
-    const sim::Bounds box = sim::bounds(body.shape);
-    largest = std::max(largest, (box.max - box.min).maxCoeff());
-  }
-  if (g < 60 && largest < 20) return std::nullopt;
+Hypothesis units(const Case& c) {
+  const double g = c.scene.solver.gravity.norm(), largest = largest_extent(c.scene);
+  if (g <= most_gravity && largest <= most_extent) return std::nullopt;
   return Diagnosis{Cause::units,
                    "gravity of " + rough_text(g) + " m/s2 and a body " + rough_text(largest) +
                        " m across look like centimetres; snow meets something at " +
@@ -102,7 +97,7 @@ Finding units(const Case& c) {
                    "write lengths in metres, gravity as 9.81 m/s2", "solver.gravity"};
 }
 
-Finding raised_limits(const Case& c) {
+Hypothesis raised_limits(const Case& c) {
   const sim::SolverSettings& s = c.scene.solver;
   if (c.is_fixed) return std::nullopt;
   struct Limit {
@@ -132,7 +127,7 @@ Finding raised_limits(const Case& c) {
 }
 
 /// A fixed dt that does not even hold for snow at rest, and whose fault that is.
-Finding too_long_at_rest(const Case& c) {
+Hypothesis too_long_at_rest(const Case& c) {
   if (!c.is_fixed) return std::nullopt;
   const double sound = c.start_sound() * c.dt / c.h, speed = c.d.start.max_speed * c.dt / c.h;
   if (sound < 0.9 && speed < 0.9) return std::nullopt;
@@ -178,7 +173,7 @@ std::vector<NearSurface> surfaces_near(const Case& c, double cells) {
   return near;
 }
 
-Finding collider_speed(const Case& c) {
+Hypothesis collider_speed(const Case& c) {
   for (const NearSurface& near : surfaces_near(c, 6)) {
     const double speed = near.surface.velocity.norm();
     const double mach = speed / std::max(1e-9, c.start_sound());
@@ -195,7 +190,7 @@ Finding collider_speed(const Case& c) {
   return std::nullopt;
 }
 
-Finding colliders_closing(const Case& c) {
+Hypothesis colliders_closing(const Case& c) {
   const std::vector<NearSurface> near = surfaces_near(c, 4);
   for (const NearSurface& a : near)
     for (const NearSurface& b : near) {
@@ -215,7 +210,7 @@ Finding colliders_closing(const Case& c) {
   return std::nullopt;
 }
 
-Finding hardened_beyond_fixed_step(const Case& c) {
+Hypothesis hardened_beyond_fixed_step(const Case& c) {
   if (!c.is_fixed) return std::nullopt;
   const sim::StepRecord* step = c.sound_beyond(1);
   if (!step) return std::nullopt;
@@ -232,7 +227,7 @@ Finding hardened_beyond_fixed_step(const Case& c) {
       "solver.dt"};
 }
 
-Finding incompressible(const Case& c) {
+Hypothesis incompressible(const Case& c) {
   if (c.material.poisson_ratio < 0.45) return std::nullopt;
   return Diagnosis{
       Cause::incompressible,
@@ -242,7 +237,7 @@ Finding incompressible(const Case& c) {
       "0.2 is snow, 0.3 to 0.4 is rubber enough", c.at("poisson_ratio")};
 }
 
-Finding shock(const Case& c) {
+Hypothesis shock(const Case& c) {
   const double speed = c.honest_speed(), mach = speed / std::max(1e-9, c.start_sound());
   const bool is_crushed = c.d.rule == "J_P" || c.d.rule == "acoustic_cfl" ||
                           c.d.rule == "time_step" || c.d.rule == "not_finite";
@@ -256,7 +251,7 @@ Finding shock(const Case& c) {
       c.at("youngs_modulus")};
 }
 
-Finding hardening(const Case& c) {
+Hypothesis hardening(const Case& c) {
   const double factor = std::exp(c.material.hardening * (1 - c.d.J_P));
   const bool is_sound = c.d.rule == "J_P" || c.d.rule == "acoustic_cfl" ||
                         c.d.rule == "time_step" || c.d.rule == "not_finite";
@@ -271,7 +266,7 @@ Finding hardening(const Case& c) {
                    c.at("hardening")};
 }
 
-Finding far_flight(const Case& c) {
+Hypothesis far_flight(const Case& c) {
   if (c.d.rule != "overflow") return std::nullopt;
   return Diagnosis{Cause::far_flight,
                    "particle " + std::to_string(c.d.particle) + " flew to " +
@@ -301,7 +296,7 @@ Diagnosis diagnose(const Scene& scene, const sim::Divergence& divergence) {
   for (const auto hypothesis : {bypass, initial_state, units, raised_limits, too_long_at_rest,
                                 collider_speed, colliders_closing, incompressible,
                                 hardened_beyond_fixed_step, shock, hardening, far_flight})
-    if (Finding found = hypothesis(c)) return *found;
+    if (Hypothesis found = hypothesis(c)) return *found;
   return unexplained(c);
 }
 

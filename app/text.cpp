@@ -60,4 +60,16 @@ std::string nearest_name(const std::string& wrong, const std::vector<std::string
   return nearest;
 }
 
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+std::string names_advice(const std::string& wrong, const std::vector<std::string>& names) {
+  const std::string nearest = nearest_name(wrong, names);
+  return (nearest.empty() ? "" : "did you mean " + nearest + "? ") + "expected " +
+         joined(names, ", ");
+}
+
 }  // namespace neve::app

@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <locale>
 #include <numeric>
-#include <sstream>
 
 #include "sim/decompose.h"
+#include "sim/number_text.h"
 
 namespace neve::sim {
 
@@ -58,14 +57,6 @@ Mat3d corotated_piola(const Lame& l, const Mat3d& F_E, const Principal& p) {
   return 2 * l.mu * (F_E - p.U * p.V.transpose()) + l.lambda * (J - 1) * cofactor;
 }
 
-std::string number(double x) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(3);
-  text << x;
-  return text.str();
-}
-
 /// How badly a particle breaks the rule: the larger the worse.
 double badness(const std::string& rule, const ParticleArrays& p, std::size_t id,
                const std::vector<Material>& materials) {
@@ -85,27 +76,29 @@ double badness(const std::string& rule, const ParticleArrays& p, std::size_t id,
 /// What happened, without advice.
 std::string what(const Divergence& d, double acoustic_cfl) {
   std::string text =
-      "diverged at step " + std::to_string(d.step) + " (t = " + number(d.time) + " s): ";
+      "diverged at step " + std::to_string(d.step) + " (t = " + number_text(d.time) + " s): ";
   const std::string who = d.particle < 0 ? "a particle" : "particle " + std::to_string(d.particle);
   if (d.rule == "not_finite")
     text += "the state of " + who + " is not finite";
   else if (d.rule == "overflow")
-    text += who + " left the lattice at " + number(d.v.norm()) + " m/s";
+    text += who + " left the lattice at " + number_text(d.v.norm()) + " m/s";
   else if (d.rule == "speed_cfl")
-    text += who + " crossed " + number(d.value) + " cells in one step at " + number(d.v.norm()) +
-            " m/s";
+    text += who + " crossed " + number_text(d.value) + " cells in one step at " +
+            number_text(d.v.norm()) + " m/s";
   else if (d.rule == "inverted")
     text += "the elastic deformation of " + who + " turned inside out";
   else if (d.rule == "J_P")
-    text += "J_P of " + who + " fell to " + number(d.value) + ", below " + number(d.limit);
+    text +=
+        "J_P of " + who + " fell to " + number_text(d.value) + ", below " + number_text(d.limit);
   else if (d.rule == "acoustic_cfl")
-    text += "sound crossed " + number(d.value) + " cells in one step at " + who;
+    text += "sound crossed " + number_text(d.value) + " cells in one step at " + who;
   else if (d.rule == "time_step")
-    text += "the time step collapsed to " + number(d.value) + " s at the hardening of " + who;
+    text += "the time step collapsed to " + number_text(d.value) + " s at the hardening of " + who;
   else
-    text += "energy rose to " + number(d.value) + " J, " + number(d.limit) + " J can be explained";
+    text += "energy rose to " + number_text(d.value) + " J, " + number_text(d.limit) +
+            " J can be explained";
   if (d.rule != "acoustic_cfl" && acoustic_cfl > 0.7)
-    text += "; acoustic CFL was " + number(acoustic_cfl);
+    text += "; acoustic CFL was " + number_text(acoustic_cfl);
   return text;
 }
 
@@ -182,7 +175,7 @@ void find_culprits(const ParticleArrays& particles, const SolverSettings& settin
   d.what = what(d, d.dt * d.sound_speed / settings.cell_size);
   d.sentence = d.what;
   if (d.dt > d.dt_that_holds)
-    d.sentence += ". dt = " + number(d.dt_that_holds) + " would have held";
+    d.sentence += ". dt = " + number_text(d.dt_that_holds) + " would have held";
 }
 
 }  // namespace neve::sim

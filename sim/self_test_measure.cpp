@@ -1,23 +1,14 @@
 #include "sim/self_test_measure.h"
+#include "sim/number_text.h"
 
 #include <cmath>
 #include <limits>
-#include <locale>
-#include <sstream>
 
 namespace neve::sim::self_test {
 
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-std::string text(double x) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(2);
-  out << x;
-  return out.str();
-}
 
 std::string text(const SelfTestCase& test) {
   static constexpr const char* transfers[] = {"flip", "apic", "mls"};
@@ -32,14 +23,14 @@ void Measure::zero(const char* what, double value, const Tolerance& tolerance) {
   const bool is_single = test_.precision == Precision::single;
   const double found = std::abs(value), allowed = is_single ? tolerance.single : tolerance.real64;
   if (is_worse(found / allowed))
-    detail_ = std::string(what) + " is off by " + text(found) + ", allowed " + text(allowed) +
-              " (" + text(test_) + ")";
+    detail_ = std::string(what) + " is off by " + number_text(found, 2) + ", allowed " +
+              number_text(allowed, 2) + " (" + text(test_) + ")";
 }
 
 void Measure::between(const char* what, double value, double least, double most) {
   if (is_worse(std::abs(2 * value - least - most) / (most - least)))
-    detail_ = std::string(what) + " is " + text(value) + ", allowed " + text(least) + " to " +
-              text(most) + " (" + text(test_) + ")";
+    detail_ = std::string(what) + " is " + number_text(value, 2) + ", allowed " +
+              number_text(least, 2) + " to " + number_text(most, 2) + " (" + text(test_) + ")";
 }
 
 void Measure::failure(const std::string& message) {

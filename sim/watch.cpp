@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <locale>
-#include <sstream>
 
 #include "sim/diagnostics.h"
+#include "sim/number_text.h"
 #include "sim/staged.h"
 
 namespace neve::sim {
@@ -82,14 +81,6 @@ constexpr Rule rules[watch_check_count] = {
 
 const Rule& rule(WatchCheck check) {
   return rules[static_cast<std::size_t>(check)];
-}
-
-std::string text(double x) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(3);
-  out << x;
-  return out.str();
 }
 
 double ratio(double a, double b) {
@@ -223,10 +214,10 @@ std::string sentence(const WatchRecord& record, double value, double dt) {
   const Rule& r = rule(record.check);
   std::string remedy = r.remedy;
   if (const std::size_t at = remedy.find("%dt"); at != std::string::npos)
-    remedy.replace(at, 3, text(dt * record.threshold / value) + " s");
-  return "step " + std::to_string(record.first_step) + ": " + r.quantity + " is " + text(value) +
-         (record.is_below ? ", at least " : ", at most ") + text(record.threshold) +
-         " is expected; " + r.meaning + "; " + remedy;
+    remedy.replace(at, 3, number_text(dt * record.threshold / value) + " s");
+  return "step " + std::to_string(record.first_step) + ": " + r.quantity + " is " +
+         number_text(value) + (record.is_below ? ", at least " : ", at most ") +
+         number_text(record.threshold) + " is expected; " + r.meaning + "; " + remedy;
 }
 
 bool is_watch_due(std::size_t steps) {

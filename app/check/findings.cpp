@@ -199,6 +199,13 @@ double share_outside(const CameraSettings& camera, double aspect, const Moment& 
 
 }  // namespace
 
+double largest_extent(const Scene& scene) {
+  double largest = 0;
+  for (const sim::Body& body : scene.bodies)
+    largest = std::max(largest, extent(body.shape).maxCoeff());
+  return largest;
+}
+
 void check_units(const Scene& scene, std::vector<Finding>& findings) {
   for (const sim::Material& material : scene.materials) {
     const bool is_used =
@@ -207,15 +214,13 @@ void check_units(const Scene& scene, std::vector<Finding>& findings) {
     if (is_used) check_material_units(material, findings);
   }
   const double g = scene.solver.gravity.norm();
-  if (g > 60)
+  if (g > most_gravity)
     findings.push_back({Severity::warning, "solver.gravity",
                         "gravity of " + rough_text(g) + " m/s2 is " + rough_text(g / 9.81) +
                             " times that of the earth",
                         "981 would be cm/s2; lengths are in metres"});
-  double largest = 0;
-  for (const sim::Body& body : scene.bodies)
-    largest = std::max(largest, extent(body.shape).maxCoeff());
-  if (largest > 20)
+  const double largest = largest_extent(scene);
+  if (largest > most_extent)
     findings.push_back(
         {Severity::warning, "body." + scene.bodies.front().name + ".shape",
          "the largest body is " + rough_text(largest) + " m across",

@@ -6,6 +6,13 @@
 
 namespace neve::app {
 
+/// Beyond these, numbers look like centimetres.
+inline constexpr double most_gravity = 60;  ///< m/s2
+inline constexpr double most_extent = 20;   ///< m, of a body
+
+/// The longest edge of the boxes around the bodies, m.
+double largest_extent(const Scene& scene);
+
 /// Numbers that look like centimetres, grams or kilopascals.
 void check_units(const Scene& scene, std::vector<Finding>& findings);
 

@@ -247,14 +247,8 @@ void keep_only(Listing& listing, const std::vector<std::string>& names) {
   std::vector<Quantity> kept;
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
-    if (found == known.end()) {
-      std::string list;
-      for (const std::string& other : known) list += (list.empty() ? "" : ", ") + other;
-      const std::string nearest = nearest_name(name, known);
-      throw UsageError(
-          "--field", "there is no \"" + name + "\" here",
-          (nearest.empty() ? "" : "did you mean " + nearest + "? ") + "expected " + list);
-    }
+    if (found == known.end())
+      throw UsageError("--field", "there is no \"" + name + "\" here", names_advice(name, known));
     kept.push_back(listing.quantities[static_cast<std::size_t>(found - known.begin())]);
   }
   listing.quantities = std::move(kept);

@@ -35,18 +35,10 @@ constexpr auto names(sim::TimeStep) {
   return std::array{Name{adaptive, "adaptive"}, Name{fixed, "fixed"}};
 }
 constexpr auto names(sim::Stage) {
-  using enum sim::Stage;
-  return std::array{Name{rasterize, name(rasterize)},
-                    Name{volumes, name(volumes)},
-                    Name{elastic_forces, name(elastic_forces)},
-                    Name{grid_velocities, name(grid_velocities)},
-                    Name{grid_collisions, name(grid_collisions)},
-                    Name{implicit_solve, name(implicit_solve)},
-                    Name{deformation, name(deformation)},
-                    Name{particle_velocities, name(particle_velocities)},
-                    Name{particle_collisions, name(particle_collisions)},
-                    Name{advection, name(advection)},
-                    Name{colliders, name(colliders)}};
+  std::array<Name<sim::Stage>, sim::stage_names.size()> all{};
+  for (std::size_t k = 0; k < all.size(); ++k)
+    all[k] = {static_cast<sim::Stage>(k), sim::stage_names[k]};
+  return all;
 }
 constexpr auto names(sim::OnDivergence) {
   using enum sim::OnDivergence;

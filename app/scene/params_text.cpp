@@ -3,6 +3,7 @@
 
 #include "app/json.h"
 #include "app/scene/params.h"
+#include "app/text.h"
 
 namespace neve::app {
 namespace {
@@ -32,12 +33,6 @@ Json bound(double x) {
     return static_cast<std::int64_t>(x);
   }
   return number_or_null(x);
-}
-
-std::string joined(const std::vector<std::string>& words, const char* between) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
 }
 
 bool is_bounded(const Valid& valid) {

@@ -48,6 +48,16 @@ shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
 size = [160, 90]
 )";
 
+/// The same of the tiny scene, as a run of a sweep file.
+inline const char* const exploding_run = R"([[run]]
+label = "explodes"
+"solver.time_step" = "fixed"
+"solver.dt" = 2e-3
+"material.snow.youngs_modulus" = 5e7
+"material.snow.model" = "corotated"
+"body.ball.velocity" = [0, -8, 0]
+)";
+
 /// A folder to run in, with the tiny scene as scene.toml.
 class Cli : public testing::Test {
  protected:

@@ -9,7 +9,7 @@
 namespace neve::test {
 namespace {
 
-const char* const study = R"(
+const std::string study = std::string(R"(
 [sweep]
 title = "Hardening & <speed>"
 scene = "scene.toml"
@@ -19,14 +19,7 @@ frames = "0-2"
 [axis]
 "body.ball.velocity" = [[0, -1, 0], [0, -3, 0]]
 "material.snow.hardening" = [5, 10, 20]
-[[run]]
-label = "explodes"
-"solver.time_step" = "fixed"
-"solver.dt" = 2e-3
-"material.snow.youngs_modulus" = 5e7
-"material.snow.model" = "corotated"
-"body.ball.velocity" = [0, -8, 0]
-[sheet]
+)") + exploding_run + R"([sheet]
 tile = [160, 90]
 )";
 

@@ -21,7 +21,7 @@ frames = "0-2"
 
 /// Six runs: two that are well, one that explodes, one that wants too much memory, and two long
 /// ones for whoever wants to harm them.
-const char* const troubled_sweep = R"(
+const std::string troubled_sweep = std::string(R"(
 [sweep]
 scene = "scene.toml"
 method = "list"
@@ -34,14 +34,7 @@ seed = 1
 [[run]]
 label = "also good"
 seed = 2
-[[run]]
-label = "explodes"
-"solver.time_step" = "fixed"
-"solver.dt" = 2e-3
-"material.snow.youngs_modulus" = 5e7
-"material.snow.model" = "corotated"
-"body.ball.velocity" = [0, -8, 0]
-[[run]]
+)") + exploding_run + R"([[run]]
 label = "too large"
 "solver.cell_size" = 0.002
 [[run]]

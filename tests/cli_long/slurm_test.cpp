@@ -10,7 +10,7 @@ namespace neve::test {
 namespace {
 
 /// Seven runs, more than the site's arrays take; one explodes, one cannot start.
-const char* const study = R"(
+const std::string study = std::string(R"(
 [sweep]
 scene = "scene.toml"
 frames = "0-2"
@@ -23,14 +23,7 @@ seed = 1
 seed = 2
 [[run]]
 seed = 3
-[[run]]
-label = "explodes"
-"solver.time_step" = "fixed"
-"solver.dt" = 2e-3
-"material.snow.youngs_modulus" = 5e7
-"material.snow.model" = "corotated"
-"body.ball.velocity" = [0, -8, 0]
-[[run]]
+)") + exploding_run + R"([[run]]
 label = "refused"
 "limits.particles" = 10
 [[run]]
