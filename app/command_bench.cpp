@@ -7,6 +7,7 @@
 #include "app/bench/render_bench.h"
 #include "app/bench/sim_bench.h"
 #include "app/bench/sweep_bench.h"
+#include "app/bench/view_bench.h"
 #include "app/commands.h"
 #include "app/errors.h"
 #include "app/interrupt.h"
@@ -64,6 +65,10 @@ int run_bench_render(const BenchOptions& options) {
 
 int run_bench_sweep(const BenchOptions& options) {
   return run_bench(options, bench_sweep);
+}
+
+int run_bench_view(const BenchOptions& options) {
+  return run_bench(options, bench_view);
 }
 
 }  // namespace neve::app

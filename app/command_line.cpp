@@ -213,7 +213,8 @@ void add_bench(CLI::App& app, Action& action) {
       app.add_subcommand("bench", "Measure how fast this machine simulates and draws");
   bench->require_subcommand(1);
   const auto sim = std::make_shared<BenchOptions>(), frame = std::make_shared<BenchOptions>(),
-             render = std::make_shared<BenchOptions>(), sweep = std::make_shared<BenchOptions>();
+             render = std::make_shared<BenchOptions>(), sweep = std::make_shared<BenchOptions>(),
+             view = std::make_shared<BenchOptions>();
   CLI::App* sim_command = add_bench_part(
       *bench, action, "sim",
       "Particle-steps per second of each method against naive code in the same minutes, time per "
@@ -239,8 +240,15 @@ void add_bench(CLI::App& app, Action& action) {
       *bench, action, "sweep",
       "How busy many small runs keep the cores, and what each costs besides its work", sweep,
       run_bench_sweep);
-  for (const auto& [command, options] :
-       {std::pair{frame_command, frame}, {render_command, render}, {sweep_command, sweep}})
+  CLI::App* view_command = add_bench_part(
+      *bench, action, "view",
+      "Pictures per second of the interactive view while it simulates 97000 particles, and "
+      "milliseconds from input to picture",
+      view, run_bench_view);
+  for (const auto& [command, options] : {std::pair{frame_command, frame},
+                                         {render_command, render},
+                                         {sweep_command, sweep},
+                                         {view_command, view}})
     command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
         ->type_name("NAME");
 }
@@ -348,6 +356,7 @@ int run_command_line(int argc, char** argv) {
   add_params(app, action);
   add_compare(app, action);
   add_sweep(app, action);
+  add_view(app, action);
   add_bench(app, action);
   CLI::App* version_command = app.add_subcommand("version", "Print the version");
   version_command->final_callback([&] { action = print_version; });

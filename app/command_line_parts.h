@@ -39,5 +39,6 @@ void add_scene(CLI::App& command, const std::shared_ptr<RenderOptions>& options,
 
 void add_sweep(CLI::App& app, Action& action);
 void add_dump(CLI::App& app, Action& action);
+void add_view(CLI::App& app, Action& action);
 
 }  // namespace neve::app

@@ -91,6 +91,17 @@ struct DumpOptions {
   std::string file;  ///< empty: standard output
 };
 
+struct ViewOptions {
+  RenderOptions run;  ///< scene, overrides, coarsening, threads, views, size, out, backend
+  bool is_web = false, is_window = false;  ///< neither: whichever fits
+  std::string listen;                      ///< address of the page; empty: this machine alone
+  int port = 0;                            ///< of the page; 0: a free one
+  bool is_running = false;                 ///< from the start
+  std::string replay, record;              ///< files of scripts
+  int pictures = 0;                        ///< ends after so many; 0: never
+  std::uint64_t kept_memory = 0;           ///< bytes for kept frames; 0: a quarter of what is free
+};
+
 struct CompareOptions {
   std::string a, b;
   double threshold = 0;          ///< of the mean difference, 0 to 255
@@ -113,11 +124,13 @@ int run_render(const RenderOptions& options);
 /// Reads only what says which scene: scene, overrides, coarsening, threads.
 int run_check(const RenderOptions& options);
 int run_dump(const DumpOptions& options);
+int run_view(const ViewOptions& options);
 int run_compare(const CompareOptions& options);
 int run_bench_sim(const BenchOptions& options);
 int run_bench_frame(const BenchOptions& options);
 int run_bench_render(const BenchOptions& options);
 int run_bench_sweep(const BenchOptions& options);
+int run_bench_view(const BenchOptions& options);
 int run_info(const std::string& path, bool is_json);
 int run_doctor(bool is_json);
 int run_params(bool is_sweep, bool is_json);

@@ -7,6 +7,7 @@
 #include "app/attributes.h"
 #include "app/camera_path.h"
 #include "app/collider_looks.h"
+#include "app/cut.h"
 #include "app/legends.h"
 #include "app/round_number.h"
 #include "app/scene/coarsen.h"
@@ -43,32 +44,6 @@ double pixels_per_metre(const render::Camera& camera, Vec3f point) {
   constexpr double radians = 3.14159265358979323846 / 180;
   return 360 / std::tan(0.5 * static_cast<double>(camera.fov) * radians) / distance;
 }
-
-/// The mean of all positions that are numbers.
-sim::Vec3d middle_of(const std::vector<sim::Vec3d>& positions) {
-  sim::Vec3d sum = sim::Vec3d::Zero();
-  std::size_t count = 0;
-  for (const sim::Vec3d& x : positions) {
-    if (!x.allFinite()) continue;
-    sum += x;
-    ++count;
-  }
-  return count > 0 ? sim::Vec3d(sum / static_cast<double>(count)) : sum;
-}
-
-/// Which particles a view leaves out.
-class Cut {
- public:
-  Cut(const std::optional<ClipPlane>& clip, const std::vector<sim::Vec3d>& positions) {
-    if (!clip) return;
-    normal_ = clip->normal;
-    point_ = clip->point.value_or(middle_of(positions));
-  }
-  bool removes(const sim::Vec3d& x) const { return normal_.dot(x - point_) > 0; }
-
- private:
-  sim::Vec3d normal_{0, 0, 0}, point_{0, 0, 0};
-};
 
 std::string grouped(std::size_t count) {
   std::string digits = std::to_string(count);

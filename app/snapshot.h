@@ -24,6 +24,9 @@ struct Snapshot {
   std::vector<LiveChange> changes;      ///< made while it ran, for the caption; the caller's too
 };
 
+/// Whether a view of the scene shows stress.
+bool needs_stress(const Scene& scene);
+
 Snapshot take_snapshot(const Scene& scene, const sim::Simulation& simulation, int frame);
 
 }  // namespace neve::app

@@ -100,14 +100,15 @@ void ImGuiDraw::make_fonts(int font_size) {
   font_size_ = font_size;
 }
 
-void ImGuiDraw::begin(int width, int height, int font_size, const std::vector<std::string>& texts) {
-  ImGui::SetCurrentContext(context_);
+void ImGuiDraw::begin(int width, int height, int font_size, const std::vector<std::string>& texts,
+                      float seconds) {
+  select();
   bool is_new = font_size != font_size_;
   for (const std::string& text : texts) is_new |= add_characters(text, characters_);
   if (is_new) make_fonts(font_size);
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
-  io.DeltaTime = 1.0f / 60;
+  io.DeltaTime = seconds;
   ImGui::NewFrame();
 }
 

@@ -23,9 +23,14 @@ class ImGuiDraw {
   /// Starts an ImGui frame. Fonts are rasterised at their exact size, with the characters of texts
   /// and those of Western Europe; they are made anew when size or characters change.
   /// @param font_size height of a line of text, pixels
-  void begin(int width, int height, int font_size, const std::vector<std::string>& texts);
+  /// @param seconds since the frame before, for what blinks and repeats
+  void begin(int width, int height, int font_size, const std::vector<std::string>& texts,
+             float seconds = 1.0f / 60);
   /// Ends the frame and draws it over the bound framebuffer.
   void end();
+
+  /// Makes its ImGui context the current one.
+  void select() { ImGui::SetCurrentContext(context_); }
 
   ImFont* text_font() const { return text_font_; }
   ImFont* title_font() const { return title_font_; }

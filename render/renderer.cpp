@@ -214,9 +214,24 @@ struct Renderer::Impl {
     return image;
   }
 
-  void submit(const Frame& frame) {
+  void paint(const Frame& frame) {
     PhaseClock clock(gl, nullptr);
     draw_into_targets(frame, clock);
+  }
+
+  void copy_picture(GLuint framebuffer, int x, int y, int width, int height) const {
+    if (!targets) return;
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, targets->finished.id());
+    gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    gl.Disable(GL_SCISSOR_TEST);
+    const bool is_same = width == targets->width && height == targets->height;
+    gl.BlitFramebuffer(0, 0, targets->width, targets->height, x, y, x + width, y + height,
+                       GL_COLOR_BUFFER_BIT, is_same ? GL_NEAREST : GL_LINEAR);
+  }
+
+  void submit(const Frame& frame) {
+    paint(frame);
     read_back.begin(frame.width, frame.height, frame.is_transparent);
   }
 
@@ -283,6 +298,15 @@ Image Renderer::draw(const Frame& frame, std::vector<PhaseTime>* times) {
 
 void Renderer::submit(const Frame& frame) {
   impl_->submit(frame);
+}
+
+void Renderer::paint(const Frame& frame) {
+  impl_->paint(frame);
+}
+
+void Renderer::copy_picture(unsigned framebuffer, int x, int y, int width, int height) {
+  impl_->context.make_current();
+  impl_->copy_picture(framebuffer, x, y, width, height);
 }
 
 std::size_t Renderer::pending() const {

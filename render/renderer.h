@@ -55,6 +55,13 @@ class Renderer {
   /// The oldest of them. @throws std::logic_error when there is none
   Image fetch();
 
+  /// Draws without reading back: the picture stays where copy_picture finds it.
+  void paint(const Frame& frame);
+  /// Copies the finished picture into a framebuffer of the same context, scaled to its place.
+  /// @param framebuffer its OpenGL name
+  /// @param x, y  px, lower left corner of the place
+  void copy_picture(unsigned framebuffer, int x, int y, int width, int height);
+
   /// Never automatic.
   ParticlePath particle_path() const;
 

@@ -2,7 +2,6 @@
 /// What a person at a window or a web page sees: the last picture, scaled to its place, and panels
 /// drawn with Dear ImGui over it.
 
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -25,12 +24,13 @@ class Screen {
   /// Makes the panels' ImGui context the current one: for input, between pictures.
   void select_panels();
 
-  /// Draws everything. The picture that the renderer painted last is scaled to its place.
+  /// Starts a picture: panels are called between this and end().
   /// @param font_size of panels, px
   /// @param seconds since the last time, for ImGui
-  /// @param panels calls ImGui
-  void draw(int width, int height, int font_size, float seconds, Renderer& renderer,
-            const PicturePlace& place, const std::function<void()>& panels);
+  void begin(int width, int height, int font_size, float seconds);
+
+  /// Draws the panels over what the renderer painted last, scaled to its place.
+  void end(Renderer& renderer, const PicturePlace& place);
 
   /// What was drawn last, upright RGB.
   Image pixels();

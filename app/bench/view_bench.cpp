@@ -1,0 +1,163 @@
+#include "app/bench/view_bench.h"
+
+#include <cmath>
+#include <thread>
+
+#include "app/bench/measure.h"
+#include "app/bench/scratch_folder.h"
+#include "app/output/atomic_file.h"
+#include "app/view/viewer.h"
+#include "render/context.h"
+#include "render/jpeg.h"
+#include "sim/simd.h"
+
+namespace neve::app {
+
+namespace {
+
+/// 97336 particles, as in bench sim: a ball that falls into a box of snow.
+constexpr const char* scene_text = R"(
+title = "bench"
+frames = 1000
+[solver]
+cell_size = 0.02
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.62, 0], radius = 0.2 } }
+velocity = [0, -3, 0]
+[[body]]
+name = "slab"
+shape = { box = { center = [0, 0.132, 0], size = [0.8, 0.1, 0.8] } }
+[[collider]]
+shape = { plane = { point = [0, 0.08, 0], normal = [0, 1, 0] } }
+[camera]
+eye = [1.6, 1.1, 2.2]
+target = [0, 0.25, 0]
+)";
+
+constexpr int picture_width = 960, picture_height = 540;
+
+/// Somebody who drags the camera without pause, at a page that takes every picture at once.
+class BenchFront : public Front {
+ public:
+  explicit BenchFront(int pictures) : pictures_(pictures) {}
+
+  std::string where() const override { return "bench"; }
+  ScreenSize size() const override { return {picture_width, picture_height, 1}; }
+
+  std::vector<InputEvent> wait(double) override {
+    asked_ = Stopwatch();
+    std::vector<InputEvent> events;
+    InputEvent event;
+    event.x = 480 + 200 * std::sin(0.05f * static_cast<float>(shown_));
+    event.y = 270 + 60 * std::cos(0.08f * static_cast<float>(shown_));
+    if (shown_ == 0) {
+      InputEvent hide;  // the panels: all of the window is picture
+      hide.kind = InputEvent::Kind::key;
+      hide.key = key::tab;
+      hide.is_down = true;
+      events.push_back(hide);
+      hide.is_down = false;
+      events.push_back(hide);
+    }
+    if (shown_ == 8) {
+      event.kind = InputEvent::Kind::button;
+      event.is_down = true;
+    }
+    if (shown_ >= pictures_) event.kind = InputEvent::Kind::close;
+    events.push_back(event);
+    return events;
+  }
+  void wake() override {}
+  bool is_ready() const override { return true; }
+  bool is_picture_wanted() const override { return true; }
+  void show(render::Screen& screen) override {
+    const render::Image image = screen.pixels();
+    bytes_ += render::encode_jpeg(image, 80, false).size();
+    if (++shown_ > warm_up) {
+      answers_.push_back(asked_.wall());
+      if (shown_ == warm_up + 1) measured_ = Stopwatch();
+    }
+  }
+  void set_clipboard(const std::string&) override {}
+  std::string clipboard() const override { return {}; }
+
+  double pictures_per_second() const {
+    return static_cast<double>(shown_ - warm_up - 1) / seconds_;
+  }
+  void stop_clock() { seconds_ = measured_.wall(); }
+  const std::vector<double>& answers() const { return answers_; }
+
+ private:
+  static constexpr int warm_up = 12;
+  int pictures_, shown_ = 0;
+  std::size_t bytes_ = 0;
+  double seconds_ = 1;
+  Stopwatch asked_, measured_;
+  std::vector<double> answers_;
+};
+
+struct Round {
+  double pictures_per_second = 0, answer = 0;  ///< 1/s, ms
+  std::size_t particles = 0;
+};
+
+Round measure_round(const std::string& file, const BenchOptions& options, bool is_running) {
+  const auto context = render::open_context(options.backend);
+  ThreadPool pool(options.threads);
+  render::Renderer renderer(*context, {}, &pool);
+  render::Screen screen(*context);
+  BenchFront front(options.is_quick ? 30 : 150);
+  WorkbenchOptions bench_options;
+  bench_options.session.threads = options.threads;
+  Workbench bench(open_document(file, {}, 1), bench_options, {});
+  ViewerOptions viewer_options;
+  viewer_options.is_running = is_running;
+  Viewer viewer(bench, front, screen, renderer, viewer_options);
+  viewer.run();
+  front.stop_clock();
+  stop_if_interrupted();
+  return {front.pictures_per_second(), 1e3 * statistics_of(front.answers()).median,
+          viewer.state().live->snapshot.particles.x.size()};
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_view(const BenchOptions& options, Progress& progress) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch.path() / "scene.toml").string();
+  write_file(file, scene_text);
+  const int rounds = options.rounds > 0 ? options.rounds : options.is_quick ? 1 : 3;
+  std::vector<double> running_rate, running_answer, paused_rate, paused_answer;
+  std::size_t particles = 0;
+  for (int k = 0; k < rounds; ++k) {
+    progress.line("round " + std::to_string(k + 1) + " of " + std::to_string(rounds));
+    const Round running = measure_round(file, options, true);
+    const Round paused = measure_round(file, options, false);
+    running_rate.push_back(running.pictures_per_second);
+    running_answer.push_back(running.answer);
+    paused_rate.push_back(paused.pictures_per_second);
+    paused_answer.push_back(paused.answer);
+    particles = paused.particles;
+  }
+  progress.clear();
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const auto row = [&](const char* name, const std::vector<double>& samples, const char* unit) {
+    BenchRow result;
+    result.name = name;
+    result.threads = threads;
+    result.particles = particles;
+    result.simd = sim::name(sim::chosen_simd_level());
+    result.value = statistics_of(samples);
+    result.unit = unit;
+    return result;
+  };
+  return {row("frames_per_second", running_rate, "1/s"),
+          row("input_to_picture", running_answer, "ms"),
+          row("frames_per_second_paused", paused_rate, "1/s"),
+          row("input_to_picture_paused", paused_answer, "ms")};
+}
+
+}  // namespace neve::app

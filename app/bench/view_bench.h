@@ -1,0 +1,16 @@
+#pragma once
+/// `neve bench view`: how quickly the interactive view answers, pictures compressed as the web page
+/// gets them; without a network.
+
+#include <vector>
+
+#include "app/bench/bench_report.h"
+#include "app/commands.h"
+#include "app/progress.h"
+
+namespace neve::app {
+
+/// @throws render::ContextError, Error
+std::vector<BenchRow> bench_view(const BenchOptions& options, Progress& progress);
+
+}  // namespace neve::app

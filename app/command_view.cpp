@@ -1,0 +1,165 @@
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/errors.h"
+#include "app/interrupt.h"
+#include "app/machine.h"
+#include "app/scene/error.h"
+#include "app/scene/read.h"
+#include "app/view/recording_front.h"
+#include "app/view/replay_front.h"
+#include "app/view/viewer.h"
+#include "app/view/web_front.h"
+#include "app/view/web_guard.h"
+#include "app/view/window_front.h"
+#include "render/context.h"
+
+namespace neve::app {
+
+namespace {
+
+/// Where it is looked at, with what draws it.
+struct Place {
+  std::unique_ptr<Front> front;
+  std::unique_ptr<render::Context> own_context;  ///< none where the window has one
+  render::Context* context = nullptr;
+  WindowFront* window = nullptr;
+  WebFront* web = nullptr;
+};
+
+bool has_display() {
+  return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
+}
+
+Place open_replay(const ViewOptions& options) {
+  Place place;
+  const std::string text = read_toml_file(options.replay);
+  ReplayFront::Options replay;
+  replay.folder = options.run.out.empty() ? "." : options.run.out;
+  replay.frames = options.pictures;
+  if (options.run.size) replay.size = {options.run.size->width, options.run.size->height, 1};
+  place.front =
+      std::make_unique<ReplayFront>(parse_replay(text, options.replay), options.replay, replay);
+  place.own_context = render::open_context(options.run.backend);
+  place.context = place.own_context.get();
+  return place;
+}
+
+Place open_web(const ViewOptions& options) {
+  WebOptions web;
+  if (!options.listen.empty()) {
+    web.address = options.listen;
+    web.is_risk_taken = true;
+    if (const std::string risk = risk_of(web.address); !risk.empty())
+      std::cerr << "neve: warning: " << risk << std::endl;
+  }
+  web.port = options.port;
+  if (options.run.size) web.size = {options.run.size->width, options.run.size->height, 1};
+  Place place;
+  auto front = std::make_unique<WebFront>(web);
+  place.web = front.get();
+  place.front = std::move(front);
+  place.own_context = render::open_context(options.run.backend);
+  place.context = place.own_context.get();
+  return place;
+}
+
+Place open_window(const ViewOptions& options) {
+  ScreenSize size{1440, 860, 1};
+  if (options.run.size) size = {options.run.size->width, options.run.size->height, 1};
+  Place place;
+  auto front = std::make_unique<WindowFront>("neve", size);
+  place.window = front.get();
+  place.context = &front->context();
+  place.front = std::move(front);
+  return place;
+}
+
+/// A window where there is a display and nobody wants a page.
+Place open_place(const ViewOptions& options) {
+  if (!options.replay.empty()) return open_replay(options);
+  if (options.is_window) return open_window(options);
+  if (options.is_web || !has_display()) return open_web(options);
+  try {
+    return open_window(options);
+  } catch (const render::ContextError& error) {
+    std::cerr << "neve: no window: " << error.what() << "; a page instead" << std::endl;
+    return open_web(options);
+  }
+}
+
+void announce(const Place& place, bool is_quiet) {
+  if (!place.web) return;
+  std::cout << place.front->where() << std::endl;
+  if (is_quiet) return;
+  std::cerr << "neve: open the address above in a browser; Ctrl-C ends\n"
+            << "neve: from another machine: ssh -L " << place.web->port()
+            << ":127.0.0.1:" << place.web->port() << " THIS_MACHINE, then the same address there"
+            << std::endl;
+}
+
+/// @return the scene file to go on with, or ""
+std::string look_at(const std::string& file, const ViewOptions& options, Place& place,
+                    bool is_first) {
+  const std::vector<std::string> overrides =
+      is_first ? options.run.overrides : std::vector<std::string>();
+  WorkbenchOptions bench_options;
+  bench_options.session.threads = options.run.threads;
+  bench_options.session.kept_budget = options.kept_memory;
+  bench_options.overrides = overrides;
+  bench_options.folder =
+      options.run.out.empty()
+          ? std::filesystem::path("out") / (std::filesystem::path(file).stem().string() + "-view")
+          : std::filesystem::path(options.run.out);
+  Front* front = place.front.get();
+  std::unique_ptr<RecordingFront> recording;
+  if (!options.record.empty()) {
+    recording = std::make_unique<RecordingFront>(*front, options.record);
+    front = recording.get();
+  }
+  Workbench bench(open_document(file, overrides, is_first ? options.run.coarsening.value_or(1) : 1),
+                  std::move(bench_options), [&place] { place.front->wake(); });
+  ThreadPool pool(options.run.threads);
+  render::Renderer renderer(*place.context, options.run.shader_dir, &pool);
+  render::Screen screen(*place.context, options.run.shader_dir);
+  const std::string title = std::filesystem::path(file).filename().string() + " - neve";
+  if (place.window) place.window->set_title(title);
+  if (place.web) place.web->set_title(title);
+  ViewerOptions viewer_options;
+  viewer_options.most_pictures = options.replay.empty() ? options.pictures : 0;
+  viewer_options.is_running = options.is_running;
+  viewer_options.has_own_clock = !options.replay.empty();
+  if (!options.run.views.empty()) {
+    viewer_options.view = options.run.views.front();
+    find_view(*bench.document().scene(), *viewer_options.view);
+  }
+  Viewer viewer(bench, *front, screen, renderer, viewer_options);
+  viewer.run();
+  if (recording) recording->save();
+  return viewer.state().dropped_file;
+}
+
+}  // namespace
+
+int run_view(const ViewOptions& options) {
+  catch_interrupts();
+  std::string file = options.run.scene.empty() ? default_scene().string() : options.run.scene;
+  // A scene that cannot be read is told before a window opens.
+  open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
+  Place place = open_place(options);
+  announce(place, options.run.verbosity == Verbosity::quiet);
+  for (bool is_first = true; !file.empty(); is_first = false) {
+    try {
+      file = look_at(file, options, place, is_first);
+    } catch (const SceneError& error) {
+      if (is_first) throw;
+      std::cerr << error.what() << std::endl;  // a dropped file that is none: nothing to show
+      return exit_invalid_scene;
+    }
+  }
+  return exit_ok;
+}
+
+}  // namespace neve::app

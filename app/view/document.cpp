@@ -1,0 +1,193 @@
+#include "app/view/document.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/resolve.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/params.h"
+#include "app/scene/read.h"
+#include "app/scene/toml_source.h"
+
+namespace neve::app {
+
+namespace {
+
+constexpr std::size_t most_undos = 500;
+
+std::vector<Override>::iterator find(std::vector<Override>& edits, const std::string& address) {
+  return std::find_if(edits.begin(), edits.end(),
+                      [&](const Override& edit) { return edit.address == address; });
+}
+
+/// What a dry run found, in the settings of the scene as it is now.
+void place(const CameraSettings& found, CameraSettings& camera) {
+  if (camera.eye && camera.target) return;
+  camera.eye = found.eye;
+  camera.target = found.target;
+}
+
+void add_built_in_views(Scene& scene) {
+  for (const View& built_in : built_in_views()) {
+    const bool is_there = std::any_of(scene.views.begin(), scene.views.end(),
+                                      [&](const View& view) { return view.name == built_in.name; });
+    if (!is_there) scene.views.push_back(built_in);
+  }
+}
+
+std::size_t planned_particles(const Scene& scene) {
+  double count = 0;
+  const double h = scene.solver.cell_size;
+  for (const sim::Body& body : scene.bodies)
+    count += sim::plan_seeding(body, h).volume / (h * h * h) * body.particles_per_cell;
+  return static_cast<std::size_t>(std::clamp(count, 1.0, 1e9));
+}
+
+}  // namespace
+
+Effect effect_of(const std::string& address) {
+  for (const char* prefix : {"view.", "mosaic.", "camera.", "light.", "output."})
+    if (address.starts_with(prefix)) return Effect::display;
+  if (address == "title" || address.ends_with(".style")) return Effect::display;
+  const std::optional<ParamInfo> info = param_at(address);
+  return info && info->is_live ? Effect::live : Effect::restart;
+}
+
+Document::Document(std::string file, std::string text, std::vector<Override> overrides,
+                   double coarsening)
+    : file_(std::move(file)),
+      text_(std::move(text)),
+      overrides_(std::move(overrides)),
+      coarsening_(coarsening) {
+  scene_ = read(text_, {});
+  Scene placed = *scene_;
+  resolve(placed, planned_particles(placed));
+  camera_ = placed.camera;
+  for (const View& view : placed.views)
+    if (view.camera) view_cameras_[view.name] = *view.camera;
+  scene_ = std::make_shared<const Scene>(std::move(placed));
+}
+
+std::shared_ptr<const Scene> Document::read(const std::string& text,
+                                            const std::vector<Override>& edits) const {
+  std::vector<Override> all = overrides_;
+  all.insert(all.end(), edits.begin(), edits.end());
+  Scene scene =
+      read_scene_text(text, file_, std::filesystem::path(file_).parent_path().string(), all);
+  if (coarsening_ > 1) coarsen(scene, coarsening_);
+  add_built_in_views(scene);
+  if (camera_) {
+    if (!scene.camera) scene.camera = camera_;
+    place(*camera_, *scene.camera);
+  }
+  for (View& view : scene.views)
+    if (const auto found = view_cameras_.find(view.name); found != view_cameras_.end()) {
+      if (!view.camera) view.camera = found->second;
+      place(found->second, *view.camera);
+    }
+  resolve_ranges(scene, planned_particles(scene));
+  return std::make_shared<const Scene>(std::move(scene));
+}
+
+void Document::become(std::vector<Override> edits) {
+  scene_ = read(text_, edits);  // throws before anything has changed
+  edits_ = std::move(edits);
+}
+
+void Document::set(const std::string& address, const std::string& value, std::uint64_t gesture) {
+  std::vector<Override> edits = edits_;
+  if (const auto old = find(edits, address); old != edits.end())
+    old->value = value;
+  else
+    edits.push_back({address, value});
+  const std::vector<Override> before = edits_;
+  become(std::move(edits));
+  if (gesture == 0 || gesture != gesture_) done_.push_back(before);
+  if (done_.size() > most_undos) done_.erase(done_.begin());
+  gesture_ = gesture;
+  undone_.clear();
+}
+
+void Document::forget(const std::string& address) {
+  std::vector<Override> edits = edits_;
+  std::erase_if(edits, [&](const Override& edit) {
+    return address.empty() || edit.address == address ||
+           (address.ends_with('.') && edit.address.starts_with(address));
+  });
+  if (edits.size() == edits_.size()) return;
+  const std::vector<Override> before = edits_;
+  become(std::move(edits));
+  done_.push_back(before);
+  gesture_ = 0;
+  undone_.clear();
+}
+
+std::string Document::undo() {
+  if (done_.empty()) return {};
+  const std::vector<Override> before = edits_;
+  become(done_.back());
+  done_.pop_back();
+  undone_.push_back(before);
+  gesture_ = 0;
+  const std::vector<std::string> changed = difference(before, edits_);
+  return changed.empty() ? std::string() : changed.front();
+}
+
+std::string Document::redo() {
+  if (undone_.empty()) return {};
+  const std::vector<Override> before = edits_;
+  become(undone_.back());
+  undone_.pop_back();
+  done_.push_back(before);
+  gesture_ = 0;
+  const std::vector<std::string> changed = difference(before, edits_);
+  return changed.empty() ? std::string() : changed.front();
+}
+
+std::vector<ChangedValue> Document::changes() const {
+  std::vector<ChangedValue> changes;
+  for (const Override& edit : edits_)
+    changes.push_back({edit.address, edit.value, in_file(edit.address).value_or("")});
+  return changes;
+}
+
+bool Document::is_changed(const std::string& address) const {
+  return std::any_of(edits_.begin(), edits_.end(),
+                     [&](const Override& edit) { return edit.address == address; });
+}
+
+std::vector<std::string> Document::difference(const std::vector<Override>& before,
+                                              const std::vector<Override>& after) {
+  std::map<std::string, std::string> old_values, new_values;
+  for (const Override& edit : before) old_values[edit.address] = edit.value;
+  for (const Override& edit : after) new_values[edit.address] = edit.value;
+  std::vector<std::string> changed;
+  for (const auto& [address, value] : old_values)
+    if (const auto now = new_values.find(address); now == new_values.end() || now->second != value)
+      changed.push_back(address);
+  for (const auto& [address, value] : new_values)
+    if (!old_values.contains(address)) changed.push_back(address);
+  return changed;
+}
+
+std::optional<std::string> Document::in_file(const std::string& address) const {
+  const auto given = std::find_if(overrides_.rbegin(), overrides_.rend(),
+                                  [&](const Override& o) { return o.address == address; });
+  if (given != overrides_.rend()) return given->value;
+  const Table root = parse_toml(text_, file_);
+  const Value* value = value_at(root, address);
+  return value ? std::optional(toml_literal(*value)) : std::nullopt;
+}
+
+std::optional<std::string> Document::default_of(const std::string& address) const {
+  const std::optional<ParamInfo> info = param_at(address);
+  if (!info || !info->default_value) return std::nullopt;
+  return toml_literal(*info->default_value);
+}
+
+void Document::reload(std::string text) {
+  scene_ = read(text, edits_);
+  text_ = std::move(text);
+}
+
+}  // namespace neve::app

@@ -1,0 +1,99 @@
+#pragma once
+/// The scene that a person works on: the file, what was changed since, and how to take it back.
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/scene/override.h"
+#include "app/scene/scene.h"
+
+namespace neve::app {
+
+/// When a change takes effect.
+enum class Effect {
+  display,  ///< what is drawn; the simulation knows nothing of it
+  live,     ///< from the next step on
+  restart   ///< from frame 0 on
+};
+Effect effect_of(const std::string& address);
+
+/// A value that is not the file's.
+struct ChangedValue {
+  std::string address;
+  std::string value;    ///< TOML
+  std::string in_file;  ///< TOML; empty: the file has none, and a default counts
+};
+
+class Document {
+ public:
+  /// Every view that the scene has or could have has a camera and ranges.
+  /// @param overrides of the command line
+  /// @throws what read_scene_text throws
+  Document(std::string file, std::string text, std::vector<Override> overrides, double coarsening);
+
+  const std::string& file() const { return file_; }
+  const std::string& text() const { return text_; }
+  const std::shared_ptr<const Scene>& scene() const { return scene_; }
+  const std::vector<Override>& command_line() const { return overrides_; }
+  double coarsening() const { return coarsening_; }
+
+  /// @param value TOML
+  /// @param gesture changes with the same number, not 0, are taken back together
+  /// @throws SceneError, UsageError, and then nothing has changed
+  void set(const std::string& address, const std::string& value, std::uint64_t gesture = 0);
+  /// Back to what the file and the command line say: of one address, or with a '.' at its end of
+  /// all below it, or with "" of all.
+  void forget(const std::string& address);
+
+  bool can_undo() const { return !done_.empty(); }
+  bool can_redo() const { return !undone_.empty(); }
+  /// @return the address that changed, or that of one of several
+  std::string undo();
+  std::string redo();
+
+  /// In the order in which they were first changed.
+  std::vector<ChangedValue> changes() const;
+  bool is_changed(const std::string& address) const;
+  const std::vector<Override>& edits() const { return edits_; }
+
+  /// Addresses that differ between two moments of the document.
+  static std::vector<std::string> difference(const std::vector<Override>& before,
+                                             const std::vector<Override>& after);
+
+  /// The value that an address has without edits, TOML; nothing where the file has none.
+  std::optional<std::string> in_file(const std::string& address) const;
+  std::optional<std::string> default_of(const std::string& address) const;
+
+  /// The scene with other edits than the document's. @throws SceneError, UsageError
+  std::shared_ptr<const Scene> scene_with(const std::vector<Override>& edits) const {
+    return read(text_, edits);
+  }
+
+  /// The same edits on another text: the file was changed meanwhile.
+  /// @throws SceneError, UsageError when they do not fit, and then nothing has changed
+  void reload(std::string text);
+
+ private:
+  std::shared_ptr<const Scene> read(const std::string& text,
+                                    const std::vector<Override>& edits) const;
+  void become(std::vector<Override> edits);
+
+  std::string file_, text_;
+  std::vector<Override> overrides_;
+  double coarsening_;
+  std::vector<Override> edits_;
+  std::vector<std::vector<Override>> done_, undone_;
+  std::uint64_t gesture_ = 0;
+  std::shared_ptr<const Scene> scene_;
+  // Found once, by a dry run: pictures must not jump while somebody turns a knob.
+  std::optional<CameraSettings> camera_;
+  std::map<std::string, CameraSettings> view_cameras_;
+};
+
+}  // namespace neve::app

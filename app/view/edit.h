@@ -1,0 +1,19 @@
+#pragma once
+/// What panels hand on.
+
+#include <cstdint>
+#include <string>
+
+namespace neve::app {
+
+/// What a person did to a parameter.
+struct Edit {
+  enum class Kind { set, as_in_file, to_default, sweep, copy_address };
+
+  Kind kind = Kind::set;
+  std::string address;
+  std::string value;          ///< TOML; of set, and the present one of sweep
+  std::uint64_t gesture = 0;  ///< the same while one widget is held
+};
+
+}  // namespace neve::app

@@ -1,0 +1,215 @@
+/// The left column: every parameter, what was changed, bodies and obstacles.
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/attributes.h"
+#include "app/round_number.h"
+#include "app/view/labels.h"
+#include "app/view/viewer_state.h"
+#include "app/view/widgets.h"
+
+namespace neve::app {
+
+namespace {
+
+std::vector<std::string> changed_addresses(const Document& document) {
+  std::vector<std::string> addresses;
+  for (const Override& edit : document.edits()) addresses.push_back(edit.address);
+  return addresses;
+}
+
+void take_edits(ViewerState& state, const KnobPanel& panel) {
+  for (const Edit& edit : panel.edits()) {
+    if (edit.kind == Edit::Kind::copy_address)
+      state.copy(edit.address);
+    else
+      state.bench.edit(edit);
+  }
+  if (!panel.edits().empty()) announce_view(state);
+}
+
+void draw_waiting(ViewerState& state) {
+  const std::vector<std::string> waiting = state.bench.waiting_for_reset();
+  if (waiting.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, ImVec4(0.30f, 0.20f, 0.05f, 0.9f));
+  ImGui::BeginChild("waiting", ImVec2(0, 4.3f * em()), true);
+  ImGui::PushTextWrapPos(0);
+  std::string list;
+  for (const std::string& address : waiting) list += (list.empty() ? "" : ", ") + address;
+  ImGui::TextUnformatted(("waits for Reset: " + list).c_str());
+  ImGui::PopTextWrapPos();
+  if (ImGui::SmallButton("Reset now")) state.bench.reset();
+  note_label("Reset now");
+  ImGui::EndChild();
+  ImGui::PopStyleColor();
+}
+
+/// The range of colours that the selected body, or all snow, fills now.
+void fit_range(ViewerState& state, const View& view) {
+  const LiveFrame& live = *state.live;
+  const std::vector<double> values =
+      attribute_values(*live.scene, view.particles.color_by, live.snapshot);
+  std::size_t first = 0, end = values.size();
+  for (std::size_t b = 0; b < live.body_end.size(); ++b)
+    if (state.selected == "body." + live.scene->bodies[b].name) {
+      first = b == 0 ? 0 : live.body_end[b - 1];
+      end = std::min(end, live.body_end[b]);
+    }
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (std::size_t p = first; p < end; ++p) {
+    if (!std::isfinite(values[p])) continue;
+    low = std::min(low, values[p]);
+    high = std::max(high, values[p]);
+  }
+  if (!(low < high)) {
+    state.bench.say(Message::Kind::note, "there is no range: all values are the same");
+    return;
+  }
+  const double scale = high - low;
+  state.bench.set("view." + view.name + ".particles.range",
+                  "[" + number_text(round_to(low, scale, 2)) + ", " +
+                      number_text(round_to(high, scale, 2)) + "]");
+}
+
+}  // namespace
+
+void draw_parameters(ViewerState& state) {
+  draw_waiting(state);
+  char text[128];
+  std::snprintf(text, sizeof text, "%s", state.filter.c_str());
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::InputTextWithHint("##filter", "find a parameter", text, sizeof text))
+    state.filter = text;
+  note_label("find a parameter");
+  ImGui::BeginChild("list");
+  Scene scene = *state.bench.document().scene();  // visitors take members that they could change
+  KnobPanel panel(state.filter, changed_addresses(state.bench.document()));
+  Knobs knobs(panel, "");
+  describe(knobs, scene);
+  ImGui::EndChild();
+  take_edits(state, panel);
+}
+
+void draw_changes(ViewerState& state) {
+  const std::vector<ChangedValue> changes = state.bench.document().changes();
+  if (changes.empty()) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextDisabled("Nothing differs from %s.", state.bench.document().file().c_str());
+    ImGui::PopTextWrapPos();
+    return;
+  }
+  if (ImGui::Button("Take all back")) state.bench.forget("");
+  note_label("Take all back");
+  ImGui::SameLine();
+  if (ImGui::Button("Copy the command")) state.copy(state.bench.command());
+  note_label("Copy the command");
+  ImGui::BeginChild("changes");
+  for (const ChangedValue& change : changes) {
+    ImGui::PushID(change.address.c_str());
+    if (ImGui::SmallButton("x")) state.bench.forget(change.address);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to what the file says");
+    ImGui::SameLine();
+    ImGui::TextUnformatted(change.address.c_str());
+    ImGui::Indent(1.6f * em());
+    ImGui::TextColored(ImVec4(1.0f, 0.72f, 0.35f, 1), "%s", change.value.c_str());
+    ImGui::SameLine();
+    ImGui::TextDisabled(
+        "%s", change.in_file.empty() ? "(not in the file)" : ("was " + change.in_file).c_str());
+    ImGui::Unindent(1.6f * em());
+    ImGui::PopID();
+  }
+  ImGui::EndChild();
+}
+
+void draw_objects(ViewerState& state) {
+  Scene scene = *state.bench.document().scene();
+  const auto entry = [&](const std::string& address, const sim::Shape& shape) {
+    const bool is_selected = state.selected == address;
+    if (ImGui::Selectable(address.c_str(), is_selected))
+      state.selected = is_selected ? "" : address;
+    note_label(address.c_str());
+    if (ImGui::IsItemHovered()) {
+      const sim::Vec3d place = sim::center(shape);
+      ImGui::SetTooltip("at %.3g, %.3g, %.3g m; drag its arrows in the picture", place.x(),
+                        place.y(), place.z());
+    }
+  };
+  for (const sim::Body& body : scene.bodies) entry("body." + body.name, body.shape);
+  for (const Collider& collider : scene.colliders)
+    entry("collider." + collider.name, collider.shape);
+  ImGui::Separator();
+  ImGui::BeginChild("object");
+  KnobPanel panel("", changed_addresses(state.bench.document()));
+  for (sim::Body& body : scene.bodies)
+    if (state.selected == "body." + body.name) {
+      Knobs knobs(panel, state.selected);
+      describe(knobs, body);
+    }
+  for (Collider& collider : scene.colliders)
+    if (state.selected == "collider." + collider.name) {
+      Knobs knobs(panel, state.selected);
+      describe(knobs, collider);
+    }
+  if (state.selected.empty()) ImGui::TextDisabled("Choose one to move it and to change it.");
+  ImGui::EndChild();
+  take_edits(state, panel);
+}
+
+void draw_view_panel(ViewerState& state) {
+  const Scene& scene = *state.bench.document().scene();
+  int number = 1;
+  for (const View& view : scene.views) {
+    if (number > 1 &&
+        ImGui::GetItemRectMax().x + 7 * em() < ImGui::GetWindowPos().x + ImGui::GetWindowWidth())
+      ImGui::SameLine();
+    const bool is_current = view.name == state.view;
+    if (ImGui::RadioButton(view.name.c_str(), is_current)) choose_view(state, view.name);
+    note_label(("view " + view.name).c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("key %d", number);
+    ++number;
+  }
+  if (ImGui::Button("Frame all")) frame_all(state);
+  note_label("Frame all");
+  ImGui::SameLine();
+  if (ImGui::Button("Scene's camera")) state.is_camera_of_scene = true;
+  note_label("Scene's camera");
+  if (current_view(state).particles.color_by != ColorBy::snow &&
+      has_layer(current_view(state), Layer::particles)) {
+    ImGui::SameLine();
+    if (ImGui::Button("Fit the range")) fit_range(state, current_view(state));
+    note_label("Fit the range");
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip(
+          "colours from the least to the greatest value of the selected body,\nor of "
+          "all snow, at this moment");
+  }
+  ImGui::Separator();
+  ImGui::BeginChild("view");
+  View view = current_view(state);
+  KnobPanel panel("", changed_addresses(state.bench.document()));
+  bool is_cut = view.clip.has_value();
+  if (ImGui::Checkbox("cut by a plane", &is_cut)) {
+    const std::string clip = "view." + view.name + ".clip";
+    if (is_cut)
+      panel.note({Edit::Kind::set, clip + ".normal", "[0, 0, 1]", 0});
+    else
+      panel.note({Edit::Kind::as_in_file, clip + ".", "", 0});
+  }
+  note_label("cut by a plane");
+  ImGui::SetNextItemOpen(true, ImGuiCond_Once);
+  Knobs knobs(panel, "view." + view.name);
+  describe(knobs, view);
+  Scene lit = scene;
+  if (ImGui::TreeNode("light")) {
+    Knobs light(panel, "light");
+    describe(light, lit.light);
+    ImGui::TreePop();
+  }
+  ImGui::EndChild();
+  take_edits(state, panel);
+}
+
+}  // namespace neve::app

@@ -1,0 +1,140 @@
+#pragma once
+/// A simulation on a thread of its own: asked to do things, shows what it does as LiveFrames.
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/view/kept_frames.h"
+#include "app/view/live_frame.h"
+
+namespace neve::app {
+
+struct SessionOptions {
+  int threads = 0;                ///< 0: one per core
+  std::uint64_t kept_budget = 0;  ///< bytes of kept frames; 0: a quarter of the free memory
+};
+
+/// All functions but latest() and taken() only ask: what they do shows in the frames that follow.
+class Session {
+ public:
+  /// @param scene resolved
+  /// @param wake called on the session's thread after each LiveFrame
+  Session(std::shared_ptr<const Scene> scene, const SessionOptions& options,
+          std::function<void()> wake);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  void run();
+  void pause();
+  void next_step();
+  void next_frame();
+  /// Does the next stage of a step on a copy, and shows what it left; after the last one the step
+  /// is taken.
+  void next_stage();
+
+  /// Starts anew. On an error the old simulation goes on.
+  void reset(std::shared_ptr<const Scene> scene);
+  /// Goes on with live changes. @param done called on the session's thread with the number of steps
+  /// before the change
+  void apply(std::shared_ptr<const Scene> scene, std::function<void(std::size_t steps)> done);
+
+  /// Shows a kept frame, the nearest at or before this number. The run waits.
+  void show_frame(int frame);
+  /// Back to where the run is.
+  void show_head();
+  /// The run goes on from the kept frame that is shown; those after it are forgotten.
+  /// @param done called on the session's thread with the number of steps there
+  void continue_from_here(std::function<void(std::size_t steps)> done);
+
+  /// What the pictures need: the session works out the fields of these views.
+  void set_views(std::vector<View> views);
+  void set_probe(std::optional<ProbeTarget> probe);
+  /// While on, every frame is shown at its end, and waits until taken() has it.
+  void set_recording(bool is_on);
+
+  std::shared_ptr<const LiveFrame> latest() const;
+  /// The picture of this one is done: the next is welcome.
+  void taken(std::uint64_t number);
+
+  /// Calls on the session's thread between steps, for what needs the simulation itself.
+  void call(std::function<void(const sim::Simulation&)> look);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// Until when it runs.
+  enum class Goal { none, step, frame, end };
+
+  void ask(std::function<void()> command);
+  void work();
+  void obey(const std::function<void()>& command);
+  void start(std::shared_ptr<const Scene> scene);
+  void set_goal(Goal goal);
+  void stop_looking_inside();
+  void leave_older();
+  void advance();
+  void reach_frame();
+  void note_sample();
+  bool is_publication_due() const;
+  void publish();
+  void after_step();
+  static bool poll();
+  std::shared_ptr<const Scene> shown_scene() const;
+  void look_inside_step(LiveFrame& live);
+  void load(const KeptFrame& kept);
+  void keep();
+  KeptFrame state_now() const;
+
+  std::function<void()> wake_;
+  SessionOptions options_;
+
+  // Only the session's thread.
+  std::shared_ptr<const Scene> scene_;
+  std::unique_ptr<sim::Simulation> simulation_;
+  std::vector<sim::Collider> colliders_;  ///< where the simulation has them
+  std::vector<std::size_t> body_end_;
+  double spacing_ = 0.01;
+  int frame_ = 0;                   ///< the last one passed
+  sim::AdvanceReport advance_;      ///< of the frame that was reached last, or is on its way
+  bool advance_is_new_ = true;      ///< the next step belongs to another frame
+  sim::ParticleArrays seeded_;      ///< what the run started from
+  std::size_t steps_of_frame_ = 0;  ///< that the simulation had at the frame before
+  std::vector<PlotSample> history_;
+  std::shared_ptr<std::vector<RunSample>> samples_;
+  KeptFrames kept_{0};
+  std::optional<KeptFrame> head_;  ///< where the run is, while an older frame is shown
+  Goal goal_ = Goal::none;
+  std::optional<int> stage_;  ///< of a step that is looked at: the last one done
+  std::vector<View> views_;
+  std::optional<ProbeTarget> probe_;
+  std::optional<ProbeReading> last_reading_;
+  bool is_recording_ = false;
+  bool has_news_ = true;
+  Clock::time_point published_at_{};
+  Clock::time_point probed_at_{};
+  Clock::time_point measured_at_{};
+  double measured_time_ = 0, speed_ = 0;
+  std::uint64_t number_ = 0;
+  std::string error_;
+  std::uint64_t errors_ = 0;
+  std::optional<Diagnosis> diagnosis_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::function<void()>> commands_;
+  std::shared_ptr<const LiveFrame> latest_;
+  std::atomic<bool> has_commands_ = false, is_wanted_ = true, is_ending_ = false;
+  std::atomic<std::uint64_t> taken_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace neve::app

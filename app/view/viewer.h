@@ -1,0 +1,85 @@
+#pragma once
+/// The loop of `neve view`: input, panels, pictures.
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/output/picture_writer.h"
+#include "app/view/front.h"
+#include "app/view/imgui_input.h"
+#include "app/view/viewer_state.h"
+#include "render/renderer.h"
+#include "render/screen.h"
+
+namespace neve::app {
+
+struct ViewerOptions {
+  int most_pictures = 0;            ///< ends after so many; 0: never
+  bool is_running = false;          ///< from the start
+  bool has_own_clock = false;       ///< panels see 1/60 s pass from picture to picture: scripts
+  std::optional<std::string> view;  ///< the first one; without: the scene's first
+};
+
+/// How long pictures took, for the bench.
+struct ViewerTimes {
+  std::vector<double> picture_seconds;  ///< from the beginning of drawing to the end of showing
+  std::vector<double> shown_at;         ///< s since the start
+};
+
+class Viewer {
+ public:
+  Viewer(Workbench& bench, Front& front, render::Screen& screen, render::Renderer& renderer,
+         const ViewerOptions& options);
+
+  /// Until the front closes, or Ctrl-C.
+  void run();
+
+  ViewerState& state() { return state_; }
+  const ViewerTimes& times() const { return times_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void take_events(std::vector<InputEvent> events);
+  void take_live_frame();
+  void show_news();
+  bool is_still() const;
+  void draw();
+  void paint_picture();
+  View shown_view() const;
+  render::Frame picture_frame(const PictureSize& size) const;
+  void lay_out();
+  void draw_panels();
+  void play(double seconds);
+  void follow();
+  void save_picture();
+  void record_frame();
+  double seconds_passed();
+  std::string picture_key() const;
+
+  Workbench& bench_;
+  Front& front_;
+  render::Screen& screen_;
+  render::Renderer& renderer_;
+  ViewerOptions options_;
+  ImGuiInput input_;
+  ViewerState state_;
+  PictureWriter writer_;
+  ViewerTimes times_;
+  bool is_closed_ = false;
+  int pictures_ = 0;
+  int settle_ = 3;  ///< pictures that ImGui still needs to come to rest
+  std::uint64_t painted_number_ = 0;
+  std::string painted_key_;
+  double scale_ = 1;         ///< of the picture last painted
+  double full_seconds_ = 0;  ///< that a picture of full size takes
+  Clock::time_point moved_at_{};
+  Clock::time_point started_ = Clock::now(), drawn_at_ = Clock::now(), file_looked_at_{};
+  bool has_input_ = false;  ///< since the last picture
+  int recorded_frame_ = -1;
+};
+
+}  // namespace neve::app

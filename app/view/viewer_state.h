@@ -1,0 +1,111 @@
+#pragma once
+/// What the panels of `neve view` show and change.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/view/live_frame.h"
+#include "app/view/orbit.h"
+#include "app/view/workbench.h"
+#include "render/screen.h"
+
+namespace neve::app {
+
+/// A quantity of what is probed over simulated time.
+struct ProbeTrace {
+  std::string quantity;                           ///< empty: the first one
+  std::vector<std::pair<double, double>> points;  ///< s, magnitude; times increase
+  std::optional<ProbeTarget> target;
+};
+
+/// Which columns stand beside the picture.
+struct PanelSwitches {
+  bool left = true, right = true;
+};
+
+struct ViewerState {
+  Workbench& bench;
+  std::shared_ptr<const LiveFrame> live{};
+  std::vector<RunSample> samples{};
+
+  Orbit orbit{};
+  bool is_camera_of_scene = true;  ///< nobody moved the camera yet: it moves as the scene says
+  std::string view = "particles";
+  render::PicturePlace viewport{};  ///< px
+  PanelSwitches panels{};
+  bool is_help_open = false;
+
+  std::string filter{};    ///< of the parameters
+  std::string selected{};  ///< "body.ball", "collider.floor" or ""
+  std::optional<ProbeTarget> probe{};
+  bool follows_probe = false;
+  ProbeTrace trace{};
+  std::optional<sim::Vec3d> last_followed{};
+
+  bool is_playing = false;  ///< kept frames, one after the other
+  double play_clock = 0;    ///< s since the last one
+  bool is_recording = false;
+  int recorded = 0;  ///< frames of the sequence so far
+  bool wants_picture = false;
+  std::size_t tab = 0;                     ///< of the right column
+  std::optional<std::size_t> go_to_tab{};  ///< opens this one
+  std::uint64_t errors_seen = 0;
+  bool is_divergence_told = false;
+  bool is_reload_offered = false;  ///< the scene file was changed by another program
+  std::string dropped_file{};      ///< that somebody wants to look at instead
+  bool shows_incident = false;     ///< rings around the culprits
+
+  double frames_per_second = 0;  ///< of the pictures
+  double picture_ms = 0;
+  std::function<void(const std::string&)> copy{};
+};
+
+/// The tabs of the right column.
+namespace tab {
+inline constexpr std::size_t view = 0, inspect = 1, plots = 2, messages = 3;
+}
+
+const View& current_view(const ViewerState& state);
+/// The picture of another view from now on.
+void choose_view(ViewerState& state, const std::string& name);
+/// The session works out what the current view shows.
+void announce_view(ViewerState& state);
+void set_probe(ViewerState& state, std::optional<ProbeTarget> probe);
+
+void toggle_run(ViewerState& state);
+/// All snow and small obstacles.
+void frame_all(ViewerState& state);
+/// What is probed or selected; all where nothing is.
+void frame_selection(ViewerState& state);
+/// Brings what broke the rule into the picture.
+void show_incident(ViewerState& state);
+
+/// Panels; each draws into the current ImGui window.
+void draw_transport(ViewerState& state);
+void draw_parameters(ViewerState& state);
+void draw_objects(ViewerState& state);
+void draw_changes(ViewerState& state);
+void draw_view_panel(ViewerState& state);
+void draw_inspector(ViewerState& state);
+void draw_plots_panel(ViewerState& state);
+void draw_messages(ViewerState& state);
+void draw_time_line(ViewerState& state);
+void draw_help(ViewerState& state);
+/// What has to be decided: a file that changed.
+void draw_offer(ViewerState& state);
+void draw_left_column(ViewerState& state);
+void draw_right_column(ViewerState& state);
+
+/// Mouse over the picture, and what is drawn over it: handles, the probed place.
+void use_viewport(ViewerState& state);
+/// Keys that are not for a text field.
+void use_keys(ViewerState& state);
+
+/// The current ImGui text size.
+float em();
+
+}  // namespace neve::app

@@ -1,0 +1,293 @@
+#include "app/view/workbench.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "app/output/atomic_file.h"
+#include "app/output/run_json.h"
+#include "app/scene/edit_text.h"
+#include "app/scene/error.h"
+#include "app/scene/read.h"
+#include "app/version.h"
+#include "app/view/production.h"
+
+namespace neve::app {
+
+namespace {
+
+constexpr std::size_t most_messages = 100;
+
+std::string text_of(const std::exception& error) {
+  if (const auto* usage = dynamic_cast<const UsageError*>(&error))
+    return usage->message + (usage->hint.empty() ? "" : "; " + usage->hint);
+  return error.what();
+}
+
+std::string value_in(const std::vector<Override>& edits, const std::string& address) {
+  for (const Override& edit : edits)
+    if (edit.address == address) return edit.value;
+  return {};
+}
+
+void put(std::vector<Override>& edits, const std::string& address,
+         const std::vector<Override>& from) {
+  std::erase_if(edits, [&](const Override& edit) { return edit.address == address; });
+  for (const Override& edit : from)
+    if (edit.address == address) edits.push_back(edit);
+}
+
+std::filesystem::file_time_type time_of(const std::string& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  return error ? std::filesystem::file_time_type{} : time;
+}
+
+}  // namespace
+
+Document open_document(const std::string& file, const std::vector<std::string>& overrides,
+                       double coarsening) {
+  std::vector<Override> parsed;
+  for (const std::string& argument : overrides) parsed.push_back(parse_override(argument));
+  return Document(file, read_toml_file(file), std::move(parsed), coarsening);
+}
+
+Workbench::Workbench(Document document, WorkbenchOptions options, std::function<void()> wake)
+    : document_(std::move(document)),
+      options_(std::move(options)),
+      file_time_(time_of(document_.file())),
+      session_(std::make_unique<Session>(document_.scene(), options_.session, std::move(wake))) {}
+
+std::vector<std::string> Workbench::overrides() const {
+  std::vector<std::string> all = options_.overrides;
+  for (const Override& edit : document_.edits())
+    if (effect_of(edit.address) != Effect::display) all.push_back(edit.address + "=" + edit.value);
+  return all;
+}
+
+/// A mistake is a message, never the end.
+template <class Act>
+void Workbench::attempt(Act act) {
+  const std::vector<Override> before = document_.edits();
+  try {
+    act();
+  } catch (const std::exception& error) {
+    say(Message::Kind::error, text_of(error));
+    return;
+  }
+  take_over(before);
+}
+
+void Workbench::edit(const Edit& edit) {
+  switch (edit.kind) {
+    case Edit::Kind::set:
+      set(edit.address, edit.value, edit.gesture);
+      return;
+    case Edit::Kind::as_in_file:
+      forget(edit.address);
+      return;
+    case Edit::Kind::to_default:
+      if (const auto value = document_.default_of(edit.address))
+        set(edit.address, *value);
+      else
+        say(Message::Kind::note, edit.address + " has no default; it is automatic or required");
+      return;
+    case Edit::Kind::sweep:
+      sweep_around(edit.address);
+      return;
+    case Edit::Kind::copy_address:
+      return;  // the clipboard belongs to whoever looks
+  }
+}
+
+void Workbench::set(const std::string& address, const std::string& value, std::uint64_t gesture) {
+  attempt([&] { document_.set(address, value, gesture); });
+}
+
+void Workbench::undo() {
+  attempt([&] { document_.undo(); });
+}
+
+void Workbench::redo() {
+  attempt([&] { document_.redo(); });
+}
+
+void Workbench::forget(const std::string& address) {
+  attempt([&] { document_.forget(address); });
+}
+
+/// The simulation learns what it can of the difference.
+void Workbench::take_over(const std::vector<Override>& before) {
+  const std::vector<std::string> changed = Document::difference(before, document_.edits());
+  std::vector<LiveChange> live;
+  bool needs_restart = false;
+  for (const std::string& address : changed) {
+    const Effect effect = effect_of(address);
+    needs_restart = needs_restart || effect == Effect::restart;
+    if (effect != Effect::live) continue;
+    put(running_, address, document_.edits());
+    std::string value = value_in(document_.edits(), address);
+    if (value.empty())
+      value = document_.in_file(address).value_or(document_.default_of(address).value_or(""));
+    live.push_back({0, address, value});
+  }
+  const std::shared_ptr<const LiveFrame> frame = session_->latest();
+  if (needs_restart && frame && frame->steps == 0 && !frame->is_older && frame->head == 0) {
+    reset();
+    return;
+  }
+  if (!live.empty()) apply_running(std::move(live));
+}
+
+void Workbench::apply_running(std::vector<LiveChange> changed) {
+  std::shared_ptr<const Scene> scene;
+  try {
+    scene = document_.scene_with(running_);
+  } catch (const std::exception& error) {
+    say(Message::Kind::warning,
+        "waits for Reset, together with what it belongs to: " + text_of(error));
+    return;
+  }
+  session_->apply(scene, [this, changed = std::move(changed)](std::size_t steps) mutable {
+    const std::lock_guard lock(log_mutex_);
+    for (LiveChange& change : changed) {
+      change.step = steps;
+      note_change(log_, std::move(change));
+    }
+  });
+}
+
+std::vector<std::string> Workbench::waiting_for_reset() const {
+  std::vector<std::string> waiting;
+  for (const std::string& address : Document::difference(running_, document_.edits()))
+    if (effect_of(address) != Effect::display) waiting.push_back(address);
+  return waiting;
+}
+
+void Workbench::reset() {
+  running_ = at_start_ = document_.edits();
+  {
+    const std::lock_guard lock(log_mutex_);
+    log_.clear();
+  }
+  session_->reset(document_.scene());
+}
+
+void Workbench::continue_from_here() {
+  session_->continue_from_here([this](std::size_t steps) {
+    const std::lock_guard lock(log_mutex_);
+    forget_changes_after(log_, steps);
+  });
+  std::vector<LiveChange> live;
+  for (const std::string& address : Document::difference(at_start_, running_))
+    live.push_back(
+        {0, address,
+         value_in(running_, address).empty()
+             ? document_.in_file(address).value_or(document_.default_of(address).value_or(""))
+             : value_in(running_, address)});
+  if (!live.empty()) apply_running(std::move(live));
+}
+
+Scene Workbench::display_scene(const LiveFrame& live) const {
+  Scene scene = *live.scene;
+  const Scene& mine = *document_.scene();
+  scene.title = mine.title;
+  scene.light = mine.light;
+  scene.background = Background::gradient;
+  for (std::size_t k = 0; k < std::min(scene.colliders.size(), mine.colliders.size()); ++k)
+    scene.colliders[k].style = mine.colliders[k].style;
+  return scene;
+}
+
+bool Workbench::has_file_changed() {
+  const auto now = time_of(document_.file());
+  return now != std::filesystem::file_time_type{} && now != file_time_;
+}
+
+void Workbench::reload() {
+  file_time_ = time_of(document_.file());
+  attempt([&] {
+    document_.reload(read_toml_file(document_.file()));
+    reset();
+    say(Message::Kind::note, "read " + document_.file() + " again; the run starts anew");
+  });
+}
+
+void Workbench::keep_file() {
+  file_time_ = time_of(document_.file());
+}
+
+void Workbench::save_scene(const std::filesystem::path& file) {
+  try {
+    std::vector<Override> all = document_.command_line();
+    all.insert(all.end(), document_.edits().begin(), document_.edits().end());
+    const std::string text =
+        edit_scene_text(document_.text(), all, document_.file(),
+                        std::filesystem::path(document_.file()).parent_path().string());
+    make_folder(file.parent_path());
+    write_file(file, text);
+    std::error_code error;
+    if (std::filesystem::equivalent(file, document_.file(), error))
+      file_time_ = time_of(document_.file());
+    say(Message::Kind::note, "saved the scene with its changes as " + file.string());
+  } catch (const std::exception& error) {
+    say(Message::Kind::error, "the scene was not saved: " + text_of(error));
+  }
+}
+
+std::filesystem::path Workbench::sweep_around(const std::string& address) {
+  try {
+    const std::filesystem::path file =
+        options_.folder / ("sweep_" + plain_file_name(address) + ".toml");
+    write_sweep_around(file, document_, address);
+    say(Message::Kind::note,
+        "wrote " + file.string() + "; neve sweep " + file.string() + " makes its runs");
+    return file;
+  } catch (const std::exception& error) {
+    say(Message::Kind::error, "no sweep: " + text_of(error));
+    return {};
+  }
+}
+
+std::string Workbench::command() const {
+  return render_command(document_);
+}
+
+PictureRecord Workbench::picture_record(const LiveFrame& live, const View& view) const {
+  std::vector<Override> edits = at_start_;
+  for (const Override& edit : document_.edits())
+    if (effect_of(edit.address) == Effect::display) put(edits, edit.address, document_.edits());
+  Scene scene = *document_.scene_with(edits);
+  scene.views = {view};
+  scene.mosaics.clear();
+  PictureRecord record;
+  record.scene = write_scene(scene);
+  record.overrides = options_.overrides;
+  for (const Override& edit : at_start_)
+    if (effect_of(edit.address) != Effect::display)
+      record.overrides.push_back(edit.address + "=" + edit.value);
+  record.coarsening = document_.coarsening();
+  record.seed = scene.seed;
+  record.version = version;
+  record.frame = live.frame;
+  record.view = view.name;
+  record.quality = name(options_.quality);
+  record.files = hash_files(scene);
+  record.changes = changes();
+  std::erase_if(record.changes,
+                [&](const LiveChange& change) { return change.step >= live.steps; });
+  return record;
+}
+
+std::vector<LiveChange> Workbench::changes() const {
+  const std::lock_guard lock(log_mutex_);
+  return log_;
+}
+
+void Workbench::say(Message::Kind kind, std::string text) {
+  if (!messages_.empty() && messages_.back().text == text) return;
+  messages_.push_back({kind, std::move(text)});
+  ++said_;
+  if (messages_.size() > most_messages) messages_.pop_front();
+}
+
+}  // namespace neve::app

@@ -1,0 +1,104 @@
+#pragma once
+/// What a person does to a scene while it runs, whatever it is done with: mouse, keys or a script.
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/changes.h"
+#include "app/picture_record.h"
+#include "app/view/document.h"
+#include "app/view/edit.h"
+#include "app/view/session.h"
+
+namespace neve::app {
+
+struct WorkbenchOptions {
+  SessionOptions session;
+  std::vector<std::string> overrides;  ///< of the command line, as they were given
+  Quality quality = Quality::preview;
+  std::filesystem::path folder;  ///< for pictures, sequences, scenes and sweeps
+};
+
+struct Message {
+  enum class Kind { note, warning, error };
+  Kind kind = Kind::note;
+  std::string text;
+};
+
+class Workbench {
+ public:
+  /// @param wake called from other threads when there is something new to see
+  Workbench(Document document, WorkbenchOptions options, std::function<void()> wake);
+
+  const Document& document() const { return document_; }
+  Session& session() { return *session_; }
+  const std::filesystem::path& folder() const { return options_.folder; }
+  Quality quality() const { return options_.quality; }
+  /// Of the command line and the document, as captions list them.
+  std::vector<std::string> overrides() const;
+
+  /// Does it at once where that is possible; what needs a restart waits for reset(), but at the
+  /// very beginning of a run, where nothing is lost. Errors become messages.
+  void edit(const Edit& edit);
+  void set(const std::string& address, const std::string& value, std::uint64_t gesture = 0);
+  void undo();
+  void redo();
+  void forget(const std::string& address);
+  /// Whether values were changed that only count from frame 0 on.
+  std::vector<std::string> waiting_for_reset() const;
+  void reset();
+  /// The run goes on from the older frame that is shown, with the parameters as they are now.
+  void continue_from_here();
+
+  /// The scene as a picture shows it: the one that runs, with the views and the light of the
+  /// document.
+  Scene display_scene(const LiveFrame& live) const;
+
+  /// Reads the file again when it has changed on disk. @return whether it had
+  bool has_file_changed();
+  void reload();
+  /// The change on disk is nothing to us.
+  void keep_file();
+
+  // Out of the workbench. What they wrote, or why not, becomes a message.
+  void save_scene(const std::filesystem::path& file);
+  std::filesystem::path sweep_around(const std::string& address);
+  std::string command() const;
+  /// What a picture of this moment has to know to be made again.
+  PictureRecord picture_record(const LiveFrame& live, const View& view) const;
+
+  void say(Message::Kind kind, std::string text);
+  const std::deque<Message>& messages() const { return messages_; }
+  std::size_t messages_said() const { return said_; }
+  void forget_messages() { messages_.clear(); }
+  std::vector<LiveChange> changes() const;
+
+ private:
+  void take_over(const std::vector<Override>& before);
+  void apply_running(std::vector<LiveChange> changed);
+  template <class Act>
+  void attempt(Act act);
+
+  Document document_;
+  WorkbenchOptions options_;
+  /// The edits that the running simulation knows: all of its start, live ones since.
+  std::vector<Override> running_, at_start_;
+  mutable std::mutex log_mutex_;
+  std::vector<LiveChange> log_;
+  std::deque<Message> messages_;
+  std::size_t said_ = 0;
+  std::filesystem::file_time_type file_time_{};
+  std::unique_ptr<Session> session_;  ///< last: its thread calls back
+};
+
+/// The scene in a file, the views in it, as `neve view` starts with it.
+Document open_document(const std::string& file, const std::vector<std::string>& overrides,
+                       double coarsening);
+
+}  // namespace neve::app

@@ -1,0 +1,100 @@
+#include "render/screen.h"
+
+#include <algorithm>
+
+#include "render/gl_objects.h"
+#include "render/imgui_draw.h"
+#include "render/read_back.h"
+
+namespace neve::render {
+
+struct Screen::Impl {
+  Context& context;
+  Gl gl;
+  ShaderLibrary library;
+  ImGuiDraw imgui;
+  ReadBack read_back;
+  Framebuffer framebuffer;
+  Texture color;
+  int width = 0, height = 0;
+
+  Impl(Context& c, const std::string& shader_dir)
+      : context(c),
+        gl(load_gl(c)),
+        library(shader_dir),
+        imgui(gl, library),
+        read_back(gl, false),
+        framebuffer(gl) {}
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() { context.make_current(); }
+
+  void resize(int new_width, int new_height) {
+    if (new_width == width && new_height == height) return;
+    width = new_width;
+    height = new_height;
+    color = make_texture_2d(gl, width, height, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, nullptr,
+                            GL_NEAREST);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.id(), 0);
+  }
+
+  void clear() const {
+    const GLfloat nothing[4] = {0.03f, 0.035f, 0.045f, 1};
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    gl.Viewport(0, 0, width, height);
+    gl.Disable(GL_SCISSOR_TEST);
+    gl.ClearBufferfv(GL_COLOR, 0, nothing);
+  }
+};
+
+Screen::Screen(Context& context, const std::string& shader_dir) {
+  context.make_current();
+  impl_ = std::make_unique<Impl>(context, shader_dir);
+}
+
+Screen::~Screen() = default;
+
+void Screen::select_panels() {
+  impl_->imgui.select();
+}
+
+void Screen::begin(int width, int height, int font_size, float seconds) {
+  Impl& s = *impl_;
+  s.context.make_current();
+  s.resize(std::max(width, 1), std::max(height, 1));
+  s.imgui.begin(s.width, s.height, font_size, {}, seconds);
+}
+
+void Screen::end(Renderer& renderer, const PicturePlace& place) {
+  Impl& s = *impl_;
+  s.context.make_current();
+  s.clear();
+  renderer.copy_picture(s.framebuffer.id(), place.x, s.height - place.y - place.height, place.width,
+                        place.height);
+  s.gl.BindFramebuffer(GL_FRAMEBUFFER, s.framebuffer.id());
+  s.gl.Viewport(0, 0, s.width, s.height);
+  s.imgui.select();
+  s.imgui.end();
+  s.gl.Disable(GL_SCISSOR_TEST);
+}
+
+Image Screen::pixels() {
+  Impl& s = *impl_;
+  s.context.make_current();
+  s.gl.BindFramebuffer(GL_FRAMEBUFFER, s.framebuffer.id());
+  s.read_back.begin(s.width, s.height, false);
+  return s.read_back.finish_newest();
+}
+
+void Screen::present() {
+  Impl& s = *impl_;
+  s.context.make_current();
+  s.gl.BindFramebuffer(GL_READ_FRAMEBUFFER, s.framebuffer.id());
+  s.gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
+  s.gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  s.gl.BlitFramebuffer(0, 0, s.width, s.height, 0, 0, s.width, s.height, GL_COLOR_BUFFER_BIT,
+                       GL_NEAREST);
+}
+
+}  // namespace neve::render

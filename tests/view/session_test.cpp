@@ -1,0 +1,164 @@
+/// What a person does to a running simulation, and that looking at it never changes it.
+
+#include <gtest/gtest.h>
+
+#include "app/changes.h"
+#include "app/seed_scene.h"
+#include "app/view/session.h"
+#include "tests/view/view_support.h"
+
+namespace {
+
+using namespace neve;
+using namespace neve::app;
+using namespace neve::test;
+
+std::shared_ptr<const Scene> scene_of(const std::string& text) {
+  const Document document("scene.toml", text, {}, 1);
+  return document.scene();
+}
+
+/// Hash of the state at a frame of a run that nobody looks at.
+std::uint64_t undisturbed(const Scene& scene, int frame) {
+  sim::Simulation simulation(scene.solver, scene.materials, sim_colliders(scene),
+                             seed_scene(scene));
+  for (int f = 1; f <= frame; ++f) simulation.advance_to(f / scene.fps);
+  return simulation.state_hash();
+}
+
+TEST(Session, RunsToTheEndAndKeepsEveryFrame) {
+  const auto scene = scene_of(tiny_scene);
+  Session session(scene, {}, {});
+  session.run();
+  const auto live = rest_at(session, 4);
+  EXPECT_EQ(live->state_hash, undisturbed(*scene, 4));
+  EXPECT_EQ(live->kept, (std::vector<int>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(live->history.size(), 5u);
+  EXPECT_FALSE(live->is_older);
+}
+
+TEST(Session, LookingChangesNothing) {
+  const auto scene = scene_of(tiny_scene);
+  Session session(scene, {}, {});
+  session.set_probe(ProbeTarget(std::size_t{7}));
+  session.next_frame();
+  rest_at(session, 1);
+  // Two stages of a step, an older frame, and back.
+  session.next_stage();
+  session.next_stage();
+  const auto inside = wait_for(session, [](const LiveFrame& live) {
+    return live.stage && live.stage->stage == sim::Stage::volumes;
+  });
+  EXPECT_GT(inside->stage->rows, 0u);
+  ASSERT_TRUE(inside->probe);
+  EXPECT_EQ(std::get<std::size_t>(inside->probe->target), 7u);
+  session.show_frame(0);
+  const auto older = wait_for(session, [](const LiveFrame& live) { return live.is_older; });
+  EXPECT_EQ(older->frame, 0);
+  EXPECT_EQ(older->head, 1);
+  EXPECT_EQ(older->state_hash, undisturbed(*scene, 0));
+  session.show_head();
+  wait_for(session, [](const LiveFrame& live) { return !live.is_older; });
+  session.next_step();
+  wait_for(session, [](const LiveFrame& live) { return !live.is_running && !live.is_frame_end; });
+  session.run();
+  EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
+}
+
+TEST(Session, GoesThroughAllStagesOfAStepAndTakesItThen) {
+  Session session(scene_of(tiny_scene), {}, {});
+  for (const char* const stage : sim::stage_names) {
+    session.next_stage();
+    const auto live = wait_for(session, [&](const LiveFrame& frame) {
+      return frame.stage && std::string(sim::name(frame.stage->stage)) == stage;
+    });
+    EXPECT_EQ(live->steps, 0u) << stage;
+    const bool leaves_numbers =
+        std::string(stage) != "implicit_solve" && std::string(stage) != "colliders";
+    EXPECT_TRUE(!leaves_numbers || !live->stage->quantities.empty()) << stage;
+    for (const QuantitySummary& quantity : live->stage->quantities)
+      // Volumes at the rim of a ball of two cells are too large: the paper's estimate.
+      EXPECT_LE(20 * quantity.strange, live->stage->rows) << stage << " " << quantity.name;
+  }
+  session.next_stage();
+  const auto live = wait_for(session, [](const LiveFrame& frame) { return frame.steps == 1; });
+  EXPECT_FALSE(live->stage);
+}
+
+TEST(Session, GoesOnFromAnOlderFrameAsIfTheRestHadNotBeen) {
+  const auto scene = scene_of(tiny_scene);
+  Session session(scene, {}, {});
+  session.run();
+  rest_at(session, 4);
+  session.show_frame(2);
+  wait_for(session, [](const LiveFrame& live) { return live.is_older && live.frame == 2; });
+  session.continue_from_here({});
+  const auto here = wait_for(session, [](const LiveFrame& live) { return !live.is_older; });
+  EXPECT_EQ(here->kept, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(here->history.size(), 3u);
+  session.run();
+  EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
+}
+
+TEST(Session, SaysWhyARunBrokeAndIsGoodForAnother) {
+  Session session(scene_of(exploding_scene), {}, {});
+  session.run();
+  const auto live = wait_for(session, [](const LiveFrame& frame) {
+    return frame.divergence.has_value() && !frame.is_running;
+  });
+  ASSERT_TRUE(live->diagnosis);
+  EXPECT_FALSE(live->diagnosis->evidence.empty());
+  session.run();  // a broken state does not go on
+  session.reset(scene_of(tiny_scene));
+  wait_for(session, [](const LiveFrame& frame) { return !frame.divergence && frame.steps == 0; });
+  session.next_frame();
+  EXPECT_FALSE(rest_at(session, 1)->divergence);
+}
+
+TEST(Session, TellsWhatItRefusesAndGoesOn) {
+  Session session(scene_of(tiny_scene), {}, {});
+  Scene huge = *scene_of(tiny_scene);
+  huge.limits.particles = 10;
+  session.reset(std::make_shared<const Scene>(huge));
+  const auto live = wait_for(session, [](const LiveFrame& frame) { return frame.errors == 1; });
+  EXPECT_TRUE(contains(live->error, "particles")) << live->error;
+  session.next_frame();
+  EXPECT_EQ(rest_at(session, 1)->frame, 1);
+}
+
+TEST(Session, RecordsEveryFrameOnce) {
+  Session session(scene_of(tiny_scene), {}, {});
+  session.set_recording(true);
+  session.run();
+  std::vector<int> seen;
+  wait_for(session, [&](const LiveFrame& live) {
+    if (live.is_frame_end && live.steps > 0 && (seen.empty() || seen.back() != live.frame))
+      seen.push_back(live.frame);
+    return live.frame == 4;
+  });
+  EXPECT_EQ(seen, (std::vector<int>{1, 2, 3, 4}));
+}
+
+TEST(KeptFrames, StayWithinTheirMemoryOldestThinnedFirst) {
+  KeptFrames kept(1000);
+  for (int frame = 0; frame <= 40; ++frame) {
+    KeptFrame one;
+    one.frame = frame;
+    one.state.resize(100);
+    kept.add(std::move(one));
+    ASSERT_LE(kept.bytes(), 1000u);
+  }
+  const std::vector<int> numbers = kept.numbers();
+  EXPECT_EQ(numbers.size(), 10u);
+  EXPECT_EQ(numbers.front(), 0);
+  EXPECT_EQ(numbers.back(), 40);
+  // No gap is more than twice an even one, and the newest are not the ones that went.
+  for (std::size_t k = 1; k < numbers.size(); ++k)
+    EXPECT_LE(numbers[k] - numbers[k - 1], 2 * 40 / 9) << k;
+  EXPECT_EQ(kept.at_or_before(39)->frame, numbers[8]);
+  kept.forget_after(numbers[3]);
+  EXPECT_EQ(kept.numbers().size(), 4u);
+  EXPECT_EQ(kept.bytes(), 400u);
+}
+
+}  // namespace

@@ -1,0 +1,42 @@
+#pragma once
+/// Sessions and workbenches on a small scene, without a screen.
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "app/view/workbench.h"
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+
+/// Waits for a frame that is as wanted, and takes every one on the way.
+inline std::shared_ptr<const app::LiveFrame> wait_for(
+    app::Session& session, const std::function<bool(const app::LiveFrame&)>& is_wanted) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  std::shared_ptr<const app::LiveFrame> live = session.latest();
+  while (std::chrono::steady_clock::now() < end) {
+    live = session.latest();
+    if (is_wanted(*live)) return live;
+    session.taken(live->number);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  ADD_FAILURE() << "never came: frame " << live->frame << ", step " << live->steps << ", error "
+                << live->error;
+  return live;
+}
+
+inline std::shared_ptr<const app::LiveFrame> rest_at(app::Session& session, int frame) {
+  return wait_for(session, [&](const app::LiveFrame& live) {
+    return !live.is_running && live.frame == frame && live.is_frame_end;
+  });
+}
+
+/// A workbench for a scene file in a folder.
+inline app::Workbench bench_for(const TemporaryFolder& folder, const std::string& text) {
+  app::WorkbenchOptions options;
+  options.folder = folder / "out";
+  return app::Workbench(app::open_document(folder.write("scene.toml", text), {}, 1), options, {});
+}
+
+}  // namespace neve::test

@@ -1,0 +1,200 @@
+/// Changes of a scene while it runs: what is live, what waits, what is taken back, what is kept.
+
+#include <gtest/gtest.h>
+
+#include "app/changes.h"
+#include "app/scene/error.h"
+#include "app/scene/read.h"
+#include "app/seed_scene.h"
+#include "app/sweep/read_sweep.h"
+#include "app/view/orbit.h"
+#include "app/view/pick.h"
+#include "tests/view/view_support.h"
+
+namespace {
+
+using namespace neve;
+using namespace neve::app;
+using namespace neve::test;
+
+TEST(Document, TakesBackAndDoesAgain) {
+  Document document("scene.toml", tiny_scene, {}, 1);
+  document.set("material.snow.hardening", "5");
+  document.set("solver.cfl", "0.3");
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 5);
+  document.undo();
+  document.undo();
+  EXPECT_FALSE(document.can_undo());
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 10);
+  document.redo();
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 5);
+  EXPECT_DOUBLE_EQ(document.scene()->solver.cfl, 0.4);
+  document.set("solver.max_dt", "5e-4");
+  EXPECT_FALSE(document.can_redo());
+  document.forget("");
+  EXPECT_TRUE(document.changes().empty());
+  EXPECT_DOUBLE_EQ(document.scene()->solver.max_dt, 1e-3);
+}
+
+TEST(Document, OneDragIsOneUndo) {
+  Document document("scene.toml", tiny_scene, {}, 1);
+  for (const char* value : {"9", "8", "7"}) document.set("material.snow.hardening", value, 42);
+  document.set("material.snow.hardening", "3", 43);
+  document.undo();
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 7);
+  document.undo();
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 10);
+}
+
+TEST(Document, RefusesWhatIsInvalidAndStaysAsItWas) {
+  Document document("scene.toml", tiny_scene, {}, 1);
+  document.set("material.snow.hardening", "5");
+  EXPECT_THROW(document.set("material.snow.poisson_ratio", "0.7"), UsageError);
+  EXPECT_THROW(document.set("material.snow.poison_ratio", "0.1"), UsageError);
+  EXPECT_EQ(document.changes().size(), 1u);
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].poisson_ratio, 0.2);
+}
+
+TEST(Document, KeepsTheCameraWhileKnobsAreTurned) {
+  Document document("scene.toml", tiny_scene, {}, 1);
+  const sim::Vec3d eye = *document.scene()->camera->eye;
+  document.set("body.ball.velocity", "[3, -2, 0]");
+  EXPECT_EQ(*document.scene()->camera->eye, eye);
+}
+
+TEST(Workbench, ChangesAreReplayedToTheBit) {
+  const TemporaryFolder folder;
+  Workbench bench = bench_for(folder, tiny_scene);
+  Session& session = bench.session();
+  session.next_frame();
+  rest_at(session, 1);
+  bench.set("material.snow.youngs_modulus", "30000");
+  session.next_step();
+  wait_for(session, [](const LiveFrame& live) { return !live.is_running && !live.is_frame_end; });
+  bench.set("solver.gravity", "[2, -9.81, 0]");
+  bench.set("material.snow.youngs_modulus", "50000");
+  session.run();
+  const auto live = rest_at(session, 4);
+  const PictureRecord record = bench.picture_record(*live, live->scene->views.front());
+  ASSERT_EQ(record.changes.size(), 3u);
+  const Scene start = read_scene_text(record.scene, "record");
+  EXPECT_DOUBLE_EQ(start.materials[0].youngs_modulus, 1.4e5);
+  sim::Simulation simulation(start.solver, start.materials, sim_colliders(start),
+                             seed_scene(start));
+  ChangePlayer player(start, record.changes, simulation);
+  std::vector<sim::Retry> retries;
+  player.begin();
+  for (int frame = 1; frame <= 4; ++frame)
+    player.advance_to(
+        frame / start.fps, [] { return false; }, retries);
+  EXPECT_EQ(simulation.state_hash(), live->state_hash);
+}
+
+TEST(Workbench, WhatNeedsARestartWaitsForItUnlessNothingIsLost) {
+  const TemporaryFolder folder;
+  Workbench bench = bench_for(folder, tiny_scene);
+  Session& session = bench.session();
+  bench.set("body.ball.shape.sphere.radius", "0.1");
+  EXPECT_TRUE(bench.waiting_for_reset().empty());
+  const auto grown = wait_for(session, [](const LiveFrame& live) {
+    return live.scene->bodies[0].shape.form.index() == 0 &&
+           std::get<sim::Sphere>(live.scene->bodies[0].shape.form).radius > 0.09;
+  });
+  session.next_frame();
+  const auto later = rest_at(session, 1);
+  EXPECT_EQ(later->snapshot.particles.x.size(), grown->snapshot.particles.x.size());
+  bench.set("material.snow.density", "200");
+  bench.set("material.snow.hardening", "5");
+  EXPECT_EQ(bench.waiting_for_reset(), (std::vector<std::string>{"material.snow.density"}));
+  const auto applied = wait_for(
+      session, [](const LiveFrame& live) { return live.scene->materials[0].hardening == 5; });
+  EXPECT_EQ(applied->frame, 1);
+  EXPECT_DOUBLE_EQ(applied->scene->materials[0].density, 400);
+  bench.reset();
+  const auto anew = wait_for(session, [](const LiveFrame& live) { return live.steps == 0; });
+  EXPECT_DOUBLE_EQ(anew->scene->materials[0].density, 200);
+  EXPECT_TRUE(bench.waiting_for_reset().empty());
+  EXPECT_TRUE(bench.changes().empty());
+}
+
+TEST(Workbench, SavesTheSceneWithItsComments) {
+  const TemporaryFolder folder;
+  Workbench bench = bench_for(folder, "# mine\n" + std::string(tiny_scene) + "# the end\n");
+  bench.set("solver.cell_size", "0.05");
+  bench.save_scene(folder / "saved.toml");
+  const std::string text = read_text(folder / "saved.toml");
+  EXPECT_TRUE(text.starts_with("# mine\n"));
+  EXPECT_TRUE(text.ends_with("# the end\n"));
+  EXPECT_DOUBLE_EQ(read_scene_text(text, "saved").solver.cell_size, 0.05);
+  EXPECT_EQ(bench.messages().back().kind, Message::Kind::note);
+}
+
+TEST(Workbench, WritesASweepAroundAValue) {
+  const TemporaryFolder folder;
+  Workbench bench = bench_for(folder, tiny_scene);
+  bench.set("material.snow.hardening", "5");
+  const std::filesystem::path file = bench.sweep_around("material.snow.hardening");
+  ASSERT_TRUE(std::filesystem::exists(file)) << bench.messages().back().text;
+  EXPECT_TRUE(contains(read_text(file), "material.snow.hardening"));
+}
+
+TEST(Workbench, NoticesAChangedFile) {
+  const TemporaryFolder folder;
+  Workbench bench = bench_for(folder, tiny_scene);
+  EXPECT_FALSE(bench.has_file_changed());
+  std::string text = tiny_scene;
+  text.replace(text.find("0.04"), 4, "0.05");
+  folder.write("scene.toml", text);
+  std::filesystem::last_write_time(
+      folder / "scene.toml",
+      std::filesystem::last_write_time(folder / "scene.toml") + std::chrono::seconds(2));
+  EXPECT_TRUE(bench.has_file_changed());
+  bench.reload();
+  EXPECT_DOUBLE_EQ(bench.document().scene()->solver.cell_size, 0.05);
+  EXPECT_FALSE(bench.has_file_changed());
+}
+
+TEST(Orbit, StartsWhereTheCameraIs) {
+  const sim::Vec3d eye(1.5, 0.9, 2.0), target(0.1, 0.2, -0.3);
+  const Orbit orbit(eye, target, {0, 1, 0}, 30);
+  EXPECT_LT((orbit.eye() - eye).norm(), 1e-12);
+}
+
+TEST(Orbit, ZoomsTowardsTheMouse) {
+  Orbit orbit({1.5, 0.9, 2.0}, {0, 0, 0}, {0, 1, 0}, 30);
+  // A point at the target's distance under the mouse stays under it.
+  const sim::Vec3d ray = orbit.ray(0.3, -0.2);
+  const sim::Vec3d point = orbit.eye() + ray * (orbit.distance() / ray.dot(orbit.forward()));
+  orbit.zoom(3, 0.3, -0.2);
+  const sim::Vec3d place = orbit.project(point);
+  EXPECT_NEAR(place.x(), 0.3, 1e-9);
+  EXPECT_NEAR(place.y(), -0.2, 1e-9);
+}
+
+TEST(Orbit, FramesABoxAndLooksAlongAxes) {
+  Orbit orbit;
+  orbit.frame({{-1, 0, -1}, {1, 2, 1}}, 1.5);
+  for (int corner = 0; corner < 8; ++corner) {
+    const sim::Vec3d p =
+        orbit.project({corner & 1 ? 1.0 : -1.0, corner & 2 ? 2.0 : 0.0, corner & 4 ? 1.0 : -1.0});
+    EXPECT_LT(std::abs(p.x()), 0.75) << corner;
+    EXPECT_LT(std::abs(p.y()), 0.5) << corner;
+  }
+  orbit.look_along(0);
+  EXPECT_NEAR(orbit.forward().x(), -1, 1e-9);
+  orbit.look_along(0);
+  EXPECT_NEAR(orbit.forward().x(), 1, 1e-9);
+}
+
+TEST(Pick, FindsTheNearestParticleUnderTheMouse) {
+  const Orbit orbit({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30);
+  LiveFrame live;
+  live.spacing = 0.1;
+  live.snapshot.particles.x = {{0, 0, -1}, {0, 0, 1}, {0.5, 0, 2}};
+  EXPECT_EQ(pick_particle(orbit, 0, 0, live), std::optional<std::size_t>(1));
+  const sim::Vec3d third = orbit.project({0.5, 0, 2});
+  EXPECT_EQ(pick_particle(orbit, third.x(), third.y(), live), std::optional<std::size_t>(2));
+  EXPECT_FALSE(pick_particle(orbit, -0.4, 0.3, live));
+}
+
+}  // namespace
