@@ -68,7 +68,8 @@ template <class Real>
 std::vector<Collider> Engine<Real>::colliders() const {
   std::vector<Collider> now = colliders_;
   // Where they stood when steps stopped moving them is where they still are.
-  for (Collider& collider : now) collider.travel.since += time_ - colliders_time_;
+  if (settings_.skips(Stage::colliders))
+    for (Collider& collider : now) collider.travel.since += time_ - colliders_time_;
   return now;
 }
 
@@ -83,7 +84,11 @@ void Engine<Real>::apply(const SolverSettings& settings, const std::vector<Mater
     throw std::logic_error("a simulation that broke a rule goes on from a state before it");
   std::vector<Collider> moving = going_on(colliders_, colliders, colliders_time_);
   for (const Collider& collider : moving) pose_of(collider);  // throws for those out of reach
-  const bool move_again = settings_.skips(Stage::colliders) && !settings.skips(Stage::colliders);
+  if (settings_.skips(Stage::colliders) && !settings.skips(Stage::colliders)) {
+    // They go on from where they waited.
+    for (Collider& collider : moving) collider.travel.since += time_ - colliders_time_;
+    colliders_time_ = time_;
+  }
 
   std::vector<bool> is_changed(materials.size());
   for (std::size_t k = 0; k < materials.size(); ++k)
@@ -103,10 +108,6 @@ void Engine<Real>::apply(const SolverSettings& settings, const std::vector<Mater
   settings_ = settings;
   material_list_ = materials;
   colliders_ = std::move(moving);
-  if (move_again) {
-    colliders_ = this->colliders();
-    colliders_time_ = time_;
-  }
   place_colliders();
   use_materials();
   use_sweeps();

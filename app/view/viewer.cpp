@@ -89,8 +89,7 @@ Viewer::Viewer(Workbench& bench, Front& front, render::Screen& screen, render::R
 void Viewer::run() {
   while (!is_closed_ && !is_interrupted()) {
     const bool is_busy = settle_ > 0 || state_.is_playing || !is_still();
-    take_events(
-        front_.wait(is_busy ? (options_.has_own_clock ? 0 : 1.0 / 60) : idle_wait));
+    take_events(front_.wait(is_busy ? (options_.has_own_clock ? 0 : 1.0 / 60) : idle_wait));
     if (is_closed_) break;
     if (!front_.is_ready()) continue;
     const std::uint64_t before = state_.live ? state_.live->number : 0;
@@ -202,7 +201,7 @@ void Viewer::draw() {
   }
   paint_picture();
   screen_.end(renderer_, state_.viewport);
-  if (state_.wants_picture) save_picture();
+  if (state_.wants_picture && has_picture_to_save()) save_picture();
   front_.set_progress(state_.live->frame, state_.live->is_running);
   front_.show(screen_);
   const double took = seconds(Clock::now() - start);
@@ -350,8 +349,26 @@ void Viewer::play(double passed) {
   }
 }
 
+/// Pictures can be made again where they belong to a frame: one that is asked for between two is
+/// that of the next.
+bool Viewer::has_picture_to_save() {
+  const LiveFrame& live = *state_.live;
+  if (live.is_frame_end && painted_number_ == live.number && !(goes_on_ && live.is_running))
+    return true;
+  if (live.divergence) return true;  // there is no next one
+  if (!is_going_to_frame_ && !live.is_frame_end) {
+    is_going_to_frame_ = true;
+    goes_on_ = live.is_running;
+    bench_.session().next_frame();
+  }
+  settle_ = 3;
+  return false;
+}
+
 void Viewer::save_picture() {
   state_.wants_picture = false;
+  if (goes_on_) bench_.session().run();
+  is_going_to_frame_ = goes_on_ = false;
   const LiveFrame& live = *state_.live;
   View view = current_view(state_);
   if (!state_.is_camera_of_scene) view.camera = state_.orbit.settings();

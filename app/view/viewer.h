@@ -55,6 +55,7 @@ class Viewer {
   void draw_panels();
   void play(double seconds);
   void follow();
+  bool has_picture_to_save();
   void save_picture();
   void record_frame();
   double seconds_passed();
@@ -78,7 +79,8 @@ class Viewer {
   double full_seconds_ = 0;  ///< that a picture of full size takes
   Clock::time_point moved_at_{};
   Clock::time_point started_ = Clock::now(), drawn_at_ = Clock::now(), file_looked_at_{};
-  bool has_input_ = false;  ///< since the last picture
+  bool has_input_ = false;                            ///< since the last picture
+  bool is_going_to_frame_ = false, goes_on_ = false;  ///< for a picture that is to be saved
   int recorded_frame_ = -1;
 };
 

@@ -3,6 +3,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cfloat>
 #include <cmath>
@@ -45,6 +46,26 @@ std::string format_of(const char* unit) {
   return std::string("%.4g") + (unit[0] ? std::string(" ") + unit : "");
 }
 
+/// Digits that are being typed into a slider count when they are complete: 30000 is never 3.
+/// Called after the widget. @return whether the value is a new one now
+template <class T>
+bool settle(const Knob& knob, const T& before, T& value) {
+  static std::pair<std::string, T> typed;  // address and value
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  const bool is_typing =
+      context.TempInputId != 0 && context.ActiveId == context.TempInputId && ImGui::IsItemActive();
+  if (is_typing) {
+    if (!(value == before)) typed = {knob.address, value};
+    value = before;
+    return false;
+  }
+  if (typed.first == knob.address) {
+    value = typed.second;
+    typed.first.clear();
+  }
+  return !(value == before);
+}
+
 double clamped(double value, const Valid& valid) {
   if (!std::isfinite(value)) return std::isfinite(valid.min) ? open_min(valid) : 0.0;
   return std::clamp(value, open_min(valid), open_max(valid));
@@ -62,7 +83,7 @@ bool edit_value(const Knob& knob, double& value) {
     ImGui::DragScalar("##value", ImGuiDataType_Double, &value, speed_of(value), &low, &high,
                       format.c_str());
   value = clamped(value, knob.valid);
-  return value != before;
+  return settle(knob, before, value);
 }
 
 bool edit_value(const Knob& knob, int& value) {
@@ -74,7 +95,7 @@ bool edit_value(const Knob& knob, int& value) {
   ImGui::DragInt("##value", &value, std::max(0.1f, 0.005f * static_cast<float>(value)), low, high,
                  knob.unit[0] ? (std::string("%d ") + knob.unit).c_str() : "%d");
   value = std::clamp(value, low, high);
-  return value != before;
+  return settle(knob, before, value);
 }
 
 bool edit_value(const Knob& knob, std::uint64_t& value) {
@@ -84,7 +105,7 @@ bool edit_value(const Knob& knob, std::uint64_t& value) {
   ImGui::DragScalar("##value", ImGuiDataType_U64, &value,
                     std::max(0.1f, 0.005f * static_cast<float>(value)), &low, &high);
   value = std::clamp(value, low, high);
-  return value != before;
+  return settle(knob, before, value);
 }
 
 bool edit_value(const Knob&, std::string& value) {
@@ -104,7 +125,7 @@ bool edit_value(const Knob& knob, sim::Vec3d& value) {
   ImGui::DragScalarN("##value", ImGuiDataType_Double, numbers, 3,
                      std::max(0.002f, speed_of(value.cwiseAbs().maxCoeff())), &low, &high, "%.4g");
   for (int a = 0; a < 3; ++a) value[a] = clamped(numbers[a], knob.valid);
-  return value != before;
+  return settle(knob, before, value);
 }
 
 bool edit_value(const Knob&, std::vector<std::string>& value) {
@@ -117,17 +138,19 @@ bool edit_value(const Knob&, std::vector<std::string>& value) {
 bool edit_value(const Knob& knob, PictureSize& value) {
   int numbers[2] = {value.width, value.height};
   const int low = static_cast<int>(knob.valid.min), high = 16384;
-  if (!ImGui::DragInt2("##value", numbers, 1, low, high, "%d")) return false;
-  value = {std::clamp(numbers[0], low, high), std::clamp(numbers[1], low, high)};
+  ImGui::DragInt2("##value", numbers, 1, low, high, "%d");
+  std::array size{std::clamp(numbers[0], low, high), std::clamp(numbers[1], low, high)};
+  if (!settle(knob, std::array{value.width, value.height}, size)) return false;
+  value = {size[0], size[1]};
   return true;
 }
 
 bool edit_value(const Knob& knob, Range& value) {
-  double numbers[2] = {value.min, value.max};
+  std::array numbers{value.min, value.max};
   const double low = knob.valid.min, high = knob.valid.max;
   const float drag = speed_of(std::max(std::abs(value.min), std::abs(value.max)));
-  if (!ImGui::DragScalarN("##value", ImGuiDataType_Double, numbers, 2, drag, &low, &high, "%.4g"))
-    return false;
+  ImGui::DragScalarN("##value", ImGuiDataType_Double, numbers.data(), 2, drag, &low, &high, "%.4g");
+  if (!settle(knob, std::array{value.min, value.max}, numbers)) return false;
   if (!(numbers[0] < numbers[1])) return false;  // on its way past each other
   value = {numbers[0], numbers[1]};
   return true;

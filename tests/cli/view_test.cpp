@@ -1,0 +1,88 @@
+/// neve view, worked by scripts: what it saves is what neve render makes of it.
+
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+class View : public Cli {
+ protected:
+  app::ProcessResult view(const std::string& script, std::vector<std::string> more = {}) {
+    folder.write("script.json", script);
+    std::vector<std::string> arguments{"view",  "scene.toml", "--replay", "script.json",
+                                       "--out", "viewed",     "--size",   "1100x700"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return neve(arguments);
+  }
+  app::Json info_of(const std::string& picture) {
+    const auto result = neve({"info", picture, "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return app::parse_json(std::string_view(result.output));
+  }
+};
+
+TEST_F(View, APictureOfAChangedRunIsMadeAgain) {
+  const auto result = view(R"([
+    {"click": "Frame"}, {"wait_for": "simulation frame 1"},
+    {"click": "material.snow.youngs_modulus", "ctrl": true},
+    {"key": "a", "ctrl": true}, {"type": "30000"}, {"key": "enter"}, {"wait": 5},
+    {"click": "Run"}, {"wait_for": "simulation frame 3"}, {"wait_for": "simulation paused"},
+    {"key": "left"}, {"wait_for": "simulation frame 3"}, {"wait": 5},
+    {"key": "p"}, {"wait": 10},
+    {"screenshot": "end.png"}, {"quit": true}])");
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  ASSERT_TRUE(exists("viewed/end.png"));
+  std::string picture;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "viewed"))
+    if (contains(entry.path().filename().string(), "particles_0003_step"))
+      picture = "viewed/" + entry.path().filename().string();
+  ASSERT_FALSE(picture.empty());
+  const app::Json saved = info_of(picture);
+  ASSERT_EQ(saved["changes"].size(), 1u);
+  EXPECT_EQ(saved["changes"][0]["address"], "material.snow.youngs_modulus");
+  EXPECT_GT(saved["changes"][0]["step"], 0);
+  const auto again = neve({"render", picture, "--out", "again"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(info_of("again/particles/0003.png")["state_hash"], saved["state_hash"]);
+}
+
+TEST_F(View, RecordsASequenceThatRenderWouldMake) {
+  const auto result = view(R"([
+    {"click": "Save ..."}, {"wait": 3}, {"click": "Record every frame"}, {"wait": 3},
+    {"key": "escape"}, {"wait": 3},
+    {"click": "Run"}, {"wait_for": "simulation frame 4"}, {"wait_for": "simulation paused"},
+    {"wait": 5}, {"quit": true}])");
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "rendered", "--no-movie"}).exit_code, 0);
+  for (const char* frame : {"0001.png", "0002.png", "0003.png", "0004.png"}) {
+    ASSERT_TRUE(exists(std::string("viewed/particles/") + frame)) << frame;
+    EXPECT_EQ(info_of(std::string("viewed/particles/") + frame)["state_hash"],
+              info_of(std::string("rendered/particles/") + frame)["state_hash"]);
+  }
+}
+
+TEST_F(View, ShowsWhyARunBroke) {
+  folder.write("scene.toml", exploding_scene);
+  const auto result = view(R"([
+    {"click": "Run"}, {"wait_for": "label Show me"}, {"click": "Show me"}, {"wait": 10},
+    {"screenshot": "incident.png"}, {"click": "Reset"}, {"wait": 10}, {"quit": true}])");
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(exists("viewed/incident.png"));
+}
+
+TEST_F(View, RefusesWhatItCannotDoBeforeAnythingOpens) {
+  EXPECT_EQ(neve({"view", "nowhere.toml"}).exit_code, 3);
+  EXPECT_EQ(neve({"view", "scene.toml", "--set", "material.snow.poisson_ratio=1"}).exit_code, 2);
+  EXPECT_EQ(neve({"view", "scene.toml", "--listen", "127.0.0.1:99999"}).exit_code, 2);
+  EXPECT_EQ(neve({"view", "scene.toml", "--web", "--window"}).exit_code, 2);
+  const auto view_name = neve({"view", "scene.toml", "--view", "smokey", "--web", "--frames", "1"});
+  EXPECT_EQ(view_name.exit_code, 2);
+  EXPECT_TRUE(contains(view_name.errors, "smoke")) << view_name.errors;
+  EXPECT_EQ(view(R"([{"klick": "Run"}])").exit_code, 3);
+  const auto label = view(R"([{"click": "Rum"}])");
+  EXPECT_EQ(label.exit_code, 9);
+  EXPECT_TRUE(contains(label.errors, "Run")) << label.errors;
+}
+
+}  // namespace
+}  // namespace neve::test
