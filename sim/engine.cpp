@@ -52,6 +52,7 @@ std::uint64_t Engine<Real>::memory_bytes() const {
   const std::size_t record = sizeof(Particle<Real>);
   return record * particles_.capacity() + reordering_.memory_bytes() + 8 * keys_.capacity() +
          2 * locals_.capacity() + partition_.memory_bytes() + tiles_.bytes() + nodes_.bytes() +
+         elasticity_.bytes() + solve_vectors_.bytes() + 8 * products_.capacity() +
          sizeof(BlockReport<Real>) * reports_.capacity() + 8 * node_contact_work_.capacity();
 }
 
@@ -83,6 +84,8 @@ void Engine<Real>::use_materials() {
   materials_.clear();
   limits_.max_hardening = 0;
   for (const Material& m : material_list_) {
+    if (m.yields && material_list_.size() > 1)
+      throw std::invalid_argument("material " + m.name + " yields besides snow: it must be alone");
     const Lame rest = lame(m.youngs_modulus, m.poisson_ratio);
     materials_.push_back({static_cast<Real>(rest.mu), static_cast<Real>(rest.lambda),
                           static_cast<Real>(m.hardening), static_cast<Real>(m.critical_compression),
@@ -95,6 +98,8 @@ template <class Real>
 void Engine<Real>::use_sweeps() {
   kernel_nodes_ = settings_.kernel == Kernel::cubic ? cubic_nodes : quadratic_nodes;
   sweeps_ = &sweeps_for(simd_, kernel_nodes_, transfer_kind(settings_.transfer), Real());
+  solve_sweeps_ =
+      &solve_sweeps_for(simd_, kernel_nodes_, settings_.transfer == Transfer::mls, Real());
 }
 
 /// Everything the first step relies on: stress, keys, volumes of new bodies, and the limits on dt.
@@ -240,22 +245,6 @@ void Engine<Real>::sort_storage() {
 }
 
 template <class Real>
-void Engine<Real>::over_particle_blocks(Sweep<Real> sweep, const SweepArgs<Real>& a) {
-  const int threads = active_threads(), parts = ThreadPool::parts_for(threads);
-  pool_->run(threads, parts, [&](int part) {
-    sweep(a, partition_.first_block(part, parts), partition_.first_block(part + 1, parts));
-  });
-}
-
-template <class Real>
-void Engine<Real>::over_node_blocks(Sweep<Real> sweep, const SweepArgs<Real>& a) {
-  pool_->ranges(partition_.node_blocks().size(), active_threads(),
-                [&](std::size_t begin, std::size_t end) {
-                  sweep(a, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
-                });
-}
-
-template <class Real>
 void Engine<Real>::step(double dt) {
   if (particles_.empty()) {
     time_ += dt;
@@ -263,10 +252,17 @@ void Engine<Real>::step(double dt) {
     move_colliders();
     return;
   }
-  if (!settings_.bypass.empty()) {
+  if (takes_stages()) {
     step_by_stages(dt);
     return;
   }
+  if (take_fused(dt, settings_.is_implicit())) return;
+  const int parts = explicit_parts(dt);
+  for (int part = 0; part < parts && !divergence_; ++part) take_fused(dt / parts, false);
+}
+
+template <class Real>
+bool Engine<Real>::take_fused(double dt, bool is_implicit) {
   PhaseSeconds& seconds = phase_seconds_;
   PhaseTimer timer;
   partition();
@@ -277,6 +273,11 @@ void Engine<Real>::step(double dt) {
   timer.add_to(seconds.particles_to_grid);
   over_node_blocks(sweeps_->grid_update, a);
   timer.add_to(seconds.grid_update);
+  if (is_implicit) {
+    const bool is_solved = solve_velocities(a, dt);
+    timer.add_to(seconds.solve);
+    if (!is_solved) return false;
+  }
   over_particle_blocks(sweeps_->grid_to_particles, a);
   timer.add_to(seconds.grid_to_particles);
   time_ += dt;
@@ -284,6 +285,7 @@ void Engine<Real>::step(double dt) {
   move_colliders();
   note(dt);
   timer.add_to(seconds.checks);
+  return true;
 }
 
 template <class Real>
@@ -311,15 +313,23 @@ AdvanceReport Engine<Real>::advance_to(double time, bool (*interrupted)(), std::
   while (done < whole && !divergence_ && steps_ < last_step) {
     const Simulation::Choice choice = choose_dt(whole - done);
     last_limit_ = choice.limit;
+    const std::size_t steps_before = steps_;
     step(choice.dt);
     done += choice.dt;
+    if (settings_.is_implicit()) {
+      if (!report.solve) report.solve.emplace();
+      report.solve->add(last_solve_);
+    }
     const bool is_last = choice.limit == DtLimit::frame_end && !(done < whole * (1 - 1e-12));
     if (is_last) done = whole;
     time_ = start + done;
-    report.dt_min = report.steps == 0 ? choice.dt : std::min(report.dt_min, choice.dt);
-    report.dt_max = std::max(report.dt_max, choice.dt);
-    ++report.ruled[static_cast<std::size_t>(choice.limit)];
-    ++report.steps;
+    // Explicit steps may have taken the place of one.
+    const std::size_t steps = steps_ - steps_before;
+    const double dt = steps > 1 ? last_dt_ : choice.dt;
+    report.dt_min = report.steps == 0 ? dt : std::min(report.dt_min, dt);
+    report.dt_max = std::max(report.dt_max, dt);
+    report.ruled[static_cast<std::size_t>(choice.limit)] += steps;
+    report.steps += steps;
     if (interrupted && interrupted()) break;
   }
   if (done >= whole) {

@@ -8,7 +8,7 @@
 
 #include "sim/base/thread_pool.h"
 #include "sim/energy_account.h"
-#include "sim/kernels.h"
+#include "sim/implicit.h"
 #include "sim/partition.h"
 #include "sim/rasterize.h"
 #include "sim/simd.h"
@@ -53,6 +53,10 @@ struct EnergyBudget {
   Vec3d centre_of_mass{0, 0, 0};
 };
 
+/// A sweep over blocks [begin, end).
+template <class Args>
+using BlockSweep = void (*)(const Args&, std::uint32_t begin, std::uint32_t end);
+
 template <class Real>
 class Engine {
  public:
@@ -82,6 +86,7 @@ class Engine {
   int threads() const { return pool_->thread_count(); }
   const std::optional<Divergence>& divergence() const { return divergence_; }
   const Warnings& warnings() const { return warnings_; }
+  const SolveReport& last_solve() const { return last_solve_; }
   const PhaseSeconds& phase_seconds() const { return phase_seconds_; }
   std::uint64_t memory_bytes() const;
 
@@ -110,9 +115,20 @@ class Engine {
   void partition();
   void sort_storage();
   /// Calls a sweep over particle blocks (weighted by particles) or node blocks, on all threads.
-  void over_particle_blocks(Sweep<Real> sweep, const SweepArgs<Real>& a);
-  void over_node_blocks(Sweep<Real> sweep, const SweepArgs<Real>& a);
+  template <class Args>
+  void over_particle_blocks(BlockSweep<Args> sweep, const Args& a);
+  template <class Args>
+  void over_node_blocks(BlockSweep<Args> sweep, const Args& a);
   int active_threads() const;
+  /// A step through the fused driver. @return false: the solve failed, nothing was changed
+  bool take_fused(double dt, bool is_implicit);
+  /// v_new from v_star on the nodes. @return false: no use, they have v_star as before
+  bool solve_velocities(const SweepArgs<Real>& step, double dt);
+  SolveReport conjugate_residuals(SolveArgs<Real>& a, double size);
+  double tolerance() const;
+  double over_nodes_summed(SolveSweep<Real> sweep, const SolveArgs<Real>& a);
+  /// Explicit steps that take the place of one of dt.
+  int explicit_parts(double dt) const;
   void note(double dt);
   void remember(double dt, const BlockReport<Real>& report);
   BlockReport<Real> combined_report() const;
@@ -130,8 +146,11 @@ class Engine {
     std::vector<Gathered<Real>> gathered;
     std::vector<Real> F_trial, v_before_collision;
   };
+  /// Whether the run itself has to.
+  bool takes_stages() const { return settings_.takes_stages() || material_list_[0].yields; }
   void step_by_stages(double dt);
   void take_stages(double dt, Traces& traces);
+  void deform(const SweepArgs<Real>& a);
   void read_back(const Traces& traces, StagedStep& out) const;
 
   SolverSettings settings_;
@@ -143,6 +162,7 @@ class Engine {
   std::shared_ptr<ThreadPool> pool_;
   SimdLevel simd_ = SimdLevel::baseline;
   const Sweeps<Real>* sweeps_ = nullptr;
+  const SolveSweeps<Real>* solve_sweeps_ = nullptr;
   int kernel_nodes_ = cubic_nodes;
 
   std::vector<Particle<Real>> particles_;
@@ -151,6 +171,9 @@ class Engine {
   std::vector<std::uint16_t> locals_;
   Partition partition_;
   LaneBuffer<Real> tiles_, nodes_;
+  LaneBuffer<Real> elasticity_, solve_vectors_;  ///< during a solve
+  std::vector<double> products_;
+  SolveReport last_solve_;
   std::vector<BlockReport<Real>> reports_;
   std::vector<double> node_contact_work_;
 
@@ -171,5 +194,23 @@ class Engine {
   Warnings warnings_;
   PhaseSeconds phase_seconds_;
 };
+
+template <class Real>
+template <class Args>
+void Engine<Real>::over_particle_blocks(BlockSweep<Args> sweep, const Args& a) {
+  const int threads = active_threads(), parts = ThreadPool::parts_for(threads);
+  pool_->run(threads, parts, [&](int part) {
+    sweep(a, partition_.first_block(part, parts), partition_.first_block(part + 1, parts));
+  });
+}
+
+template <class Real>
+template <class Args>
+void Engine<Real>::over_node_blocks(BlockSweep<Args> sweep, const Args& a) {
+  pool_->ranges(partition_.node_blocks().size(), active_threads(),
+                [&](std::size_t begin, std::size_t end) {
+                  sweep(a, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+                });
+}
 
 }  // namespace neve::sim

@@ -10,7 +10,7 @@ namespace neve::sim {
 
 namespace {
 
-constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '3'};
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '4'};
 
 /// What there is once; followed by the records and the travels of the colliders.
 struct SavedHead {
@@ -23,7 +23,7 @@ struct SavedHead {
   double energy_start, contact_work, energy_largest;
   double centre_of_mass[3];
   double worst_acoustic_cfl, dt_scale;
-  std::uint64_t inverted_trials;
+  std::uint64_t inverted_trials, solves_cut_short, solves_given_up;
   std::int32_t lattice_origin[3], unused;
   std::uint64_t colliders;
   double colliders_time;
@@ -77,6 +77,8 @@ std::vector<std::uint8_t> Engine<Real>::save() const {
   head.worst_acoustic_cfl = warnings_.worst_acoustic_cfl;
   head.dt_scale = dt_scale_;
   head.inverted_trials = warnings_.inverted_trials;
+  head.solves_cut_short = warnings_.solves_cut_short;
+  head.solves_given_up = warnings_.solves_given_up;
   for (int a = 0; a < 3; ++a) {
     head.centre_of_mass[a] = energy_.centre_of_mass[a];
     head.lattice_origin[a] = lattice_origin_[a];
@@ -149,7 +151,8 @@ void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
   energy_.contact_work = head.contact_work;
   energy_.largest = head.energy_largest;
   for (int a = 0; a < 3; ++a) energy_.centre_of_mass[a] = head.centre_of_mass[a];
-  warnings_ = {head.inverted_trials, head.worst_acoustic_cfl};
+  warnings_ = {head.inverted_trials, head.worst_acoustic_cfl, head.solves_cut_short,
+               head.solves_given_up};
   dt_scale_ = head.dt_scale;
   divergence_.reset();
   last_steps_.clear();

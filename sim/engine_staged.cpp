@@ -33,6 +33,11 @@ void Engine<Real>::take_stages(double dt, Traces& traces) {
   if (!takes(Stage::rasterize))
     each_node([](auto& nodes, int n) { nodes.momentum[n] = nodes.v_old[n] = Quad<Real>{}; });
   if (takes(Stage::volumes)) over_particle_blocks(s.volumes, a);
+  if (settings_.resting_mass > 0)
+    each_node([this](auto& nodes, int n) {
+      if (static_cast<double>(nodes.momentum[n][3]) <= settings_.resting_mass)
+        nodes.momentum[n] = nodes.v_old[n] = Quad<Real>{};
+    });
   if (takes(Stage::elastic_forces)) {
     over_particle_blocks(s.elastic_forces, a);
     over_node_blocks(s.collect_force, a);
@@ -49,10 +54,15 @@ void Engine<Real>::take_stages(double dt, Traces& traces) {
     each_node([](auto& nodes, int n) { nodes.v_star[n] = nodes.v_free[n]; });
     std::fill(node_contact_work_.begin(), node_contact_work_.end(), 0.0);
   }
-  over_node_blocks(s.keep_velocities, a);  // explicit: v_new = v_star
+  over_node_blocks(s.keep_velocities, a);  // v_new = v_star, also where a solve fails
+  if (settings_.is_implicit()) {
+    solve_velocities(a, dt);
+    for (std::size_t b = 0; b < traces.nodes.size(); ++b)
+      std::copy_n(a.nodes + b * all_channels * block_nodes, block_nodes, traces.nodes[b].v_new);
+  }
   over_particle_blocks(s.gather, a);
   if (takes(Stage::deformation))
-    over_particle_blocks(s.deformation, a);
+    deform(a);
   else
     std::fill(reports_.begin(), reports_.end(), BlockReport<Real>{});
   if (takes(Stage::particle_velocities)) over_particle_blocks(s.particle_velocities, a);
@@ -62,7 +72,25 @@ void Engine<Real>::take_stages(double dt, Traces& traces) {
   over_particle_blocks(s.advection, a);
 }
 
-/// A step of the run itself, for settings that skip stages.
+/// Step 7. Neo-Hookean particles that yield are projected as snow, then take their own stress.
+template <class Real>
+void Engine<Real>::deform(const SweepArgs<Real>& a) {
+  const bool yields_apart =
+      material_list_[0].yields && material_list_[0].model == Model::neo_hookean;
+  const auto become = [&](ModelKind model) {
+    for (Particle<Real>& p : particles_)
+      p.kind = (p.kind & ~Integer<Real>(0xff0000)) | static_cast<Integer<Real>>(model) << 16;
+  };
+  if (yields_apart) become(ModelKind::snow);
+  over_particle_blocks(sweeps_->deformation, a);
+  if (!yields_apart) return;
+  become(ModelKind::neo_hookean);
+  BlockReport<Real> report;
+  sweeps_->refresh(a, 0, static_cast<std::uint32_t>(particles_.size()), false, report);
+  for (BlockReport<Real>& block : reports_) block.max_sound_squared = report.max_sound_squared;
+}
+
+/// A step of the run itself, for settings that skip stages and for comparisons.
 template <class Real>
 void Engine<Real>::step_by_stages(double dt) {
   Traces traces;

@@ -72,7 +72,8 @@ template <class Real>
 void Engine<Real>::check(double dt, const StateLimits& before, const BlockReport<Real>& report) {
   const double h = settings_.cell_size;
   const double speed_cfl = limits_.max_speed * dt / h;
-  const double acoustic_cfl = limits_.max_sound_speed * dt / h;
+  // As an explicit step would feel it.
+  const double acoustic_cfl = limits_.max_sound_speed * dt / h / acoustic_stretch(settings_);
   warnings_.worst_acoustic_cfl = std::max(warnings_.worst_acoustic_cfl, acoustic_cfl);
   const double holds = stable_dt(settings_, before);
   const bool is_adaptive = settings_.time_step == TimeStep::adaptive;

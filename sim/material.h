@@ -16,6 +16,9 @@ struct Material {
   double hardening = 10.0;              ///< xi
   double critical_compression = 0.025;  ///< theta_c
   double critical_stretch = 0.0075;     ///< theta_s
+  /// Project neo-Hookean F_E as the snow's. For comparison with solvers that let any model yield;
+  /// no scene key. Such a run takes the staged driver and has no other material.
+  bool yields = false;
 };
 
 /// Lame parameters at rest: mu = E/(2(1+nu)), lambda = E nu/((1+nu)(1-2nu)), Pa.

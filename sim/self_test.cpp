@@ -21,6 +21,7 @@ constexpr Test tests[] = {
      self_test::affine_field},
     {"stress", "none in a rotation, turns with the body, symmetric", self_test::stress},
     {"force", "is minus the derivative of the elastic energy", self_test::force},
+    {"solve", "semi-implicit velocities fulfil their equation", self_test::solve},
     {"projection", "keeps the identity and det F, clamps the stretches", self_test::projection},
     {"hardening", "is 1 at J_P = 1 and grows as it should", self_test::hardening},
     {"initial_state", "F_E = I, J_P = 1, no stress", self_test::initial_state},

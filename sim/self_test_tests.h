@@ -13,6 +13,9 @@ void force(const SelfTestCase& test, Measure& measure);
 void projection(const SelfTestCase& test, Measure& measure);
 void hardening(const SelfTestCase& test, Measure& measure);
 
+// The semi-implicit step: self_test_implicit.cpp.
+void solve(const SelfTestCase& test, Measure& measure);
+
 // Bodies as a run has them: self_test_states.cpp.
 void initial_state(const SelfTestCase& test, Measure& measure);
 void free_fall(const SelfTestCase& test, Measure& measure);

@@ -12,12 +12,20 @@ DtLimit AdvanceReport::limit() const {
   return static_cast<DtLimit>(std::max_element(ruled.begin(), ruled.end()) - ruled.begin());
 }
 
+void SolveReport::add(const SolveReport& other) {
+  iterations = std::max(iterations, other.iterations);
+  residual = std::max(residual, other.residual);
+}
+
 void AdvanceReport::append(const AdvanceReport& later) {
   if (later.steps == 0) return;
   dt_min = steps == 0 ? later.dt_min : std::min(dt_min, later.dt_min);
   dt_max = std::max(dt_max, later.dt_max);
   steps += later.steps;
   for (std::size_t k = 0; k < ruled.size(); ++k) ruled[k] += later.ruled[k];
+  if (!later.solve) return;
+  if (!solve) solve.emplace();
+  solve->add(*later.solve);
 }
 
 struct Simulation::Impl {
@@ -101,6 +109,9 @@ const std::optional<Divergence>& Simulation::divergence() const {
 const Warnings& Simulation::warnings() const {
   return impl_->visit([](const auto& e) -> const Warnings& { return e.warnings(); });
 }
+SolveReport Simulation::last_solve() const {
+  return impl_->visit([](const auto& e) { return e.last_solve(); });
+}
 Summary Simulation::summary() const {
   return impl_->visit([](const auto& e) { return e.summary(); });
 }
@@ -161,13 +172,15 @@ std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,
   // Record, key, local, order and its neighbours in Partition, and what prepare() gathers.
   const double gathered =
       static_cast<double>(is_double ? sizeof(Gathered<double>) : sizeof(Gathered<float>));
-  const double per_particle = record + 8 + 2 + 2 * (4 + 2) + 1 + gathered;
+  const double kept = settings.is_implicit() ? elasticity_quads * 4 * real : 0;
+  const double per_particle = record + 8 + 2 + 2 * (4 + 2) + 1 + gathered + kept;
   // Snow fills about half of the blocks that it touches; each has a tile, and about two node
   // blocks.
   const double cells = static_cast<double>(particles) / particles_per_cell;
   const double blocks = std::min(2.0 * cells / block_nodes + 64, static_cast<double>(particles));
   const double tile = all_channels * Tile<cubic_nodes>::nodes * 4 * real;
-  const double nodes = 2 * (all_channels + 6) * block_nodes * 4 * real;
+  const int fields = all_channels + 6 + (settings.is_implicit() ? int(solve_vectors) : 0);
+  const double nodes = 2 * fields * block_nodes * 4 * real;
   const double total = static_cast<double>(particles) * per_particle + blocks * (tile + nodes) +
                        static_cast<double>(threads) * 1e6 + 8e6;
   return total < 1e18 ? static_cast<std::uint64_t>(total) : std::uint64_t(1e18);

@@ -45,12 +45,21 @@ struct Summary {
   double max_speed = 0, min_J_P = 1, max_J_P = 1;
 };
 
+/// How well the velocities of semi-implicit steps were found.
+struct SolveReport {
+  int iterations = 0;   ///< of conjugate residuals
+  double residual = 0;  ///< |v_star - (I + beta dt^2 M^-1 H) v_new| / |v_star|, weighted by mass
+  /// The worst of both.
+  void add(const SolveReport& other);
+};
+
 /// Steps taken by one call of advance_to.
 struct AdvanceReport {
   std::size_t steps = 0;
   double dt_min = 0, dt_max = 0;
   std::array<std::size_t, dt_limit_count> ruled{};  ///< steps that each limit ruled
   DtLimit limit() const;                            ///< the one that ruled most
+  std::optional<SolveReport> solve;                 ///< the worst; none of explicit steps
   /// Adds the steps that followed in the same frame.
   void append(const AdvanceReport& later);
 };
@@ -99,8 +108,10 @@ struct Divergence {
 
 /// What was noticed but did not stop the run.
 struct Warnings {
-  std::size_t inverted_trials = 0;  ///< trial det F_E <= 0, repaired by the projection
-  double worst_acoustic_cfl = 0;    ///< of fixed steps
+  std::size_t inverted_trials = 0;   ///< trial det F_E <= 0, repaired by the projection
+  double worst_acoustic_cfl = 0;     ///< of fixed steps
+  std::size_t solves_cut_short = 0;  ///< taken as they were after solve_iterations
+  std::size_t solves_given_up = 0;   ///< of no use: explicit steps in their place
 };
 
 /// Seconds spent in each phase of the steps so far.
@@ -108,6 +119,7 @@ struct PhaseSeconds {
   double partition = 0;          ///< particles to blocks
   double particles_to_grid = 0;  ///< rasterize, elastic_forces
   double grid_update = 0;        ///< grid_velocities, grid_collisions
+  double solve = 0;              ///< implicit_solve
   double grid_to_particles = 0;  ///< deformation to advection
   double checks = 0;             ///< limits of the next dt, rules of a healthy run
 };
@@ -190,6 +202,8 @@ class Simulation {
   /// Set once a rule of a healthy run was broken.
   const std::optional<Divergence>& divergence() const;
   const Warnings& warnings() const;
+  /// Of the last step, if it was semi-implicit.
+  SolveReport last_solve() const;
 
   Summary summary() const;
 

@@ -18,7 +18,7 @@ double ratio(double numerator, double denominator) {
 /// up to 0.7 v dt/h within the step (the steepest slope of the cubic weights) and hardens by e^(xi
 /// 0.7 v dt/h): the step is shortened until sound still crosses less than a cell afterwards.
 double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
-  const double h = s.cell_size, c = limits.max_sound_speed;
+  const double h = s.cell_size, c = limits.max_sound_speed / acoustic_stretch(s);
   double dt = ratio(s.acoustic_cfl * h, c);
   if (!(dt < unlimited)) return dt;
   for (int round = 0; round < 40; ++round) {
@@ -69,6 +69,11 @@ std::array<double, dt_limit_count> limits_on_dt(const SolverSettings& s,
 
 double stable_dt(const SolverSettings& s, const StateLimits& limits) {
   return std::min(ratio(s.cfl * s.cell_size, limits.max_speed), acoustic_dt(s, limits));
+}
+
+double acoustic_stretch(const SolverSettings& s) {
+  if (!s.is_implicit()) return 1;
+  return s.beta < 0.5 ? 1 / std::sqrt(1 - 2 * s.beta) : unlimited;
 }
 
 double flip_share(const SolverSettings& s, double dt) {

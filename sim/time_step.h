@@ -29,6 +29,11 @@ std::array<double, dt_limit_count> limits_on_dt(const SolverSettings& settings,
 /// The largest dt that speed and sound allow now, whatever the settings say about fixed steps.
 double stable_dt(const SolverSettings& settings, const StateLimits& limits);
 
+/// Largest stable dt over that of explicit steps: 1 / sqrt(1 - 2 beta) below beta = 1/2, infinite
+/// from there on. A mode of frequency w becomes v' = (v - dt w^2 x) / (1 + beta dt^2 w^2),
+/// x' = x + dt v'; its eigenvalues stay in the unit circle while dt^2 w^2 (1 - 2 beta) <= 4.
+double acoustic_stretch(const SolverSettings& settings);
+
 /// alpha of a step of dt: flip_ratio^(dt / flip_reference_dt), or flip_ratio itself.
 double flip_share(const SolverSettings& settings, double dt);
 

@@ -32,6 +32,7 @@ std::vector<Mistake> stress_mistakes();
 std::vector<Mistake> volume_mistakes();
 std::vector<Mistake> plasticity_mistakes();
 std::vector<Mistake> transfer_mistakes();
+std::vector<Mistake> solve_mistakes();
 std::vector<Mistake> step_mistakes();
 
 }  // namespace neve::test

@@ -6,6 +6,7 @@
 #include "sim/diagnostics.h"
 #include "tests/oracle/vectors.h"
 #include "tests/support/one_particle.h"
+#include "tests/support/stress_change.h"
 
 namespace {
 
@@ -188,6 +189,17 @@ TEST(OracleUnit, EnergyAndStressAgree) {
     EXPECT_LE((tau_of(p) - mat3(entry["kirchhoff"])).cwiseAbs().maxCoeff(), 1e-10 * scale);
     EXPECT_LE((tau_of(p) / J - mat3(entry["cauchy"])).cwiseAbs().maxCoeff(),
               1e-10 * std::max(1.0, mat3(entry["cauchy"]).cwiseAbs().maxCoeff()));
+    const Mat3d dP = mat3(entry["dP"]), G = mat3(entry["dF"]) * F_E.inverse();
+    const double dP_scale = std::max((dP * F_E.transpose()).cwiseAbs().maxCoeff(),
+                                     entry["mu"].get<double>() * G.cwiseAbs().maxCoeff());
+    EXPECT_LE((stress_change_of<double>(material, F_E, J_P, G) - dP * F_E.transpose())
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-10 * dP_scale);
+    EXPECT_LE((stress_change_of<float>(material, F_E, J_P, G) - dP * F_E.transpose())
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-4 * dP_scale);
   }
 }
 

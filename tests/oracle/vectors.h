@@ -90,7 +90,6 @@ struct Setup {
   std::vector<neve::sim::Collider> colliders;
   Vec3i first_node;
   double dt = 0;
-  std::string unsupported;  ///< why this scene cannot be run, empty if it can
 };
 
 inline Setup setup(const Json& scene, neve::sim::Precision precision) {
@@ -122,12 +121,13 @@ inline Setup setup(const Json& scene, neve::sim::Precision precision) {
   s.material.critical_compression = m["theta_c"].get<double>();
   s.material.critical_stretch = m["theta_s"].get<double>();
   for (const Json& c : scene["colliders"]) s.colliders.push_back(collider(c));
-  if (scene["beta"].get<double>() > 0)
-    s.unsupported = "semi-implicit steps";
-  else if (scene["mass_epsilon"].get<double>() > 0)
-    s.unsupported = "a mass below which nodes rest";
-  else if (s.material.model == Model::neo_hookean && is_plastic)
-    s.unsupported = "neo-Hookean with plasticity";
+  s.settings.beta = scene["beta"].get<double>();
+  s.settings.collide_after_solve = scene["collide_after_solve"].get<bool>();
+  // The reference solves to 1e-14. Float gets no further than rounding.
+  s.settings.solve_tolerance = precision == Precision::real64 ? 1e-13 : 1e-6;
+  s.settings.solve_iterations = 1000;
+  s.settings.resting_mass = scene["mass_epsilon"].get<double>();
+  s.material.yields = s.material.model == Model::neo_hookean && is_plastic;
   return s;
 }
 

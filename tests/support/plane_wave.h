@@ -17,6 +17,7 @@ struct WaveCase {
   double cfl = 0.05;             ///< c dt / h of the longitudinal wave
   double flip_ratio = 1;         ///< alpha
   double flip_reference_dt = 0;  ///< s
+  double beta = 0;               ///< of semi-implicit steps
   sim::Precision precision = sim::Precision::real64;
 
   static constexpr double density = 400, youngs_modulus = 1e5, poisson_ratio = 0.25;
@@ -85,7 +86,8 @@ inline Oscillation predicted_wave(const WaveCase& wave) {
   }
   const double G = wave.transfer == Transfer::mls ? A2 / (D * D) : S2;
   // v: velocity on the nodes before forces; e: strain, as the nodes feel it.
-  // v_new = v - dt c^2 e;  e' = e + dt G v_new;  v' = keep v + pass v_new.
+  // v_new = (v - dt c^2 e) / (1 + beta dt^2 c^2 G);  e' = e + dt G v_new;  v' = keep v + pass
+  // v_new.
   double keep = 0, pass = M + A2 / D;
   if (wave.transfer == Transfer::flip) {
     const double alpha = wave.flip_reference_dt > 0
@@ -93,8 +95,9 @@ inline Oscillation predicted_wave(const WaveCase& wave) {
                              : wave.flip_ratio;
     keep = alpha * (1 - M), pass = M;
   }
-  const double f = dt * c * c;
-  const Eigen::Matrix2d step{{keep + pass, -pass * f}, {dt * G, 1 - dt * G * f}};
+  const double f = dt * c * c, solved = 1 / (1 + wave.beta * dt * f * G);
+  const Eigen::Matrix2d step{{keep + pass * solved, -pass * solved * f},
+                             {dt * G * solved, 1 - dt * G * solved * f}};
   const std::complex<double> half_trace = 0.5 * step.trace();
   const std::complex<double> root =
       half_trace + std::sqrt(half_trace * half_trace - step.determinant());
@@ -111,6 +114,8 @@ inline Oscillation measured_wave(const WaveCase& wave) {
   s.transfer = wave.transfer;
   s.flip_ratio = wave.flip_ratio;
   s.flip_reference_dt = wave.flip_reference_dt;
+  s.beta = wave.beta;
+  s.solve_tolerance = 1e-12;
   s.precision = wave.precision;
   s.gravity.setZero();
   s.period = {wave.cells / 4, 1, 1};

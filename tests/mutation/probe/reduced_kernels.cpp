@@ -2,7 +2,7 @@
 /// instruction set. Compiled in seconds, where all of them take minutes. Takes the place of
 /// sim/simd.cpp and sim/kernels_*.cpp when it is linked before the library.
 
-#include "sim/kernels.h"
+#include "sim/implicit_sweeps.h"
 #include "sim/sweeps.h"
 
 namespace neve::sim {
@@ -17,6 +17,17 @@ const Sweeps<float>& KernelSet<BaselineSet>::sweeps(int, TransferKind, float) {
   __builtin_trap();
 }
 
+template <>
+const SolveSweeps<double>& SolveKernelSet<BaselineSet>::sweeps(int nodes, bool is_mls, double) {
+  if (nodes != cubic_nodes || is_mls) __builtin_trap();
+  return SolveSweepsFor<double, cubic_nodes, false, BaselineSet>::table;
+}
+template <>
+const SolveSweeps<float>& SolveKernelSet<BaselineSet>::sweeps(int, bool, float) {
+  __builtin_trap();
+}
+
 }  // namespace neve::sim
 
+#include "sim/implicit_simd.cpp"
 #include "sim/simd.cpp"

@@ -1,0 +1,360 @@
+/// The semi-implicit step: the equation it solves, what it keeps, and what it does where it fails.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "sim/diagnostics.h"
+#include "sim/self_test_bodies.h"
+#include "sim/staged.h"
+#include "tests/support/simd_levels.h"
+#include "tests/support/snow.h"
+
+namespace {
+
+using namespace neve;
+using namespace neve::sim;
+using namespace neve::test;
+using self_test::cell_size;
+using self_test::weight_gradient;
+
+/// Snow in two materials, strained and moving.
+ParticleArrays strained(std::size_t count) {
+  ParticleArrays p = self_test::small_ball();
+  p.x.resize(count), p.v.resize(count), p.m.resize(count), p.V0.resize(count);
+  disturb(p, 0.03, 1.0);
+  for (std::size_t q = 0; q < count; ++q) p.material.push_back(static_cast<int>(q % 3));
+  return p;
+}
+
+std::vector<Material> three_models() {
+  std::vector<Material> materials(3);
+  materials[1].model = Model::corotated;
+  materials[1].youngs_modulus = 4e5;
+  materials[2].model = Model::neo_hookean;
+  return materials;
+}
+
+SolverSettings implicit_settings(const SelfTestCase& test, double beta) {
+  SolverSettings s = self_test::settings_of(test);
+  s.beta = beta;
+  s.solve_tolerance = 1e-14;
+  s.solve_iterations = 500;
+  return s;
+}
+
+/// v_new of (I + beta dt^2 M^-1 H) v_new = v_star, with H put together column by column from
+/// differences of the stress and from weights by their definition.
+std::vector<Vec3d> solved_densely(const SelfTestCase& test, const StagedStep& step,
+                                  const ParticleArrays& p, const std::vector<Material>& materials,
+                                  double beta_dt_squared) {
+  constexpr double e = 1e-5;
+  const NodeFields& nodes = step.nodes;
+  const auto count = static_cast<Eigen::Index>(3 * nodes.mass.size());
+  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(count, count);
+  Eigen::VectorXd b(count);
+  for (std::size_t q = 0; q < p.x.size(); ++q) {
+    const Material& material = materials[static_cast<std::size_t>(p.material[q])];
+    std::vector<std::size_t> reached;
+    std::vector<Vec3d> gradient;
+    for (std::size_t i = 0; i < nodes.mass.size(); ++i) {
+      const Vec3d d = self_test::place(nodes.node[i]) - p.x[q];
+      if (d.cwiseAbs().maxCoeff() >= 2 * cell_size) continue;
+      reached.push_back(i);
+      gradient.push_back(weight_gradient(test.kernel, test.transfer, d));
+    }
+    const auto P = [&](const Mat3d& G, double by) {
+      return first_piola(material, (Mat3d::Identity() + by * G) * p.F_E[q], p.J_P[q]);
+    };
+    for (std::size_t j = 0; j < reached.size(); ++j)
+      for (int c = 0; c < 3; ++c) {
+        const Mat3d G = cell_size * Vec3d::Unit(c) * gradient[j].transpose();
+        const Mat3d dP = (P(G, e) - P(G, -e)) / (2 * e * cell_size);
+        const Mat3d D = p.V0[q] * dP * p.F_E[q].transpose();
+        for (std::size_t i = 0; i < reached.size(); ++i)
+          A.block<3, 1>(static_cast<Eigen::Index>(3 * reached[i]),
+                        static_cast<Eigen::Index>(3 * reached[j]) + c) +=
+              beta_dt_squared / nodes.mass[reached[i]] * (D * gradient[i]);
+      }
+  }
+  for (std::size_t i = 0; i < nodes.mass.size(); ++i)
+    b.segment<3>(static_cast<Eigen::Index>(3 * i)) = nodes.v_star[i];
+  const Eigen::VectorXd v = A.partialPivLu().solve(b);
+  std::vector<Vec3d> out;
+  for (std::size_t i = 0; i < nodes.mass.size(); ++i)
+    out.push_back(v.segment<3>(static_cast<Eigen::Index>(3 * i)));
+  return out;
+}
+
+/// Largest difference of momenta over the largest momentum.
+double momentum_error(const NodeFields& nodes, const std::vector<Vec3d>& expected) {
+  double worst = 0, largest = 0;
+  for (std::size_t i = 0; i < nodes.mass.size(); ++i) {
+    worst = std::max(worst, nodes.mass[i] * (nodes.v_new[i] - expected[i]).norm());
+    largest = std::max(largest, nodes.mass[i] * expected[i].norm());
+  }
+  return worst / largest;
+}
+
+TEST(ImplicitSolve, AgreesWithADenseSolve) {
+  // dt is 4 times what explicit steps would take.
+  constexpr double dt = 4e-3, beta = 1;
+  const ParticleArrays p = strained(12);
+  for (const SelfTestCase& test : all_self_test_cases()) {
+    if (test.transfer == Transfer::apic && test.kernel == Kernel::quadratic) continue;  // as FLIP
+    const Simulation simulation(implicit_settings(test, beta), three_models(), {}, p, 1);
+    const StagedStep step = staged_step(simulation, dt);
+    const auto expected = solved_densely(test, step, p, three_models(), beta * dt * dt);
+    double change = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      change = std::max(change, (step.nodes.v_new[i] - step.nodes.v_star[i]).norm());
+    EXPECT_GT(change, 0.1) << "the solve has nothing to do";
+    // Differences of the stress are good to 1e-9 of the moduli; float solves to 1e-6.
+    EXPECT_LE(momentum_error(step.nodes, expected),
+              test.precision == Precision::real64 ? 1e-7 : 3e-4)
+        << static_cast<int>(test.transfer) << static_cast<int>(test.kernel);
+  }
+}
+
+TEST(ImplicitSolve, KeepsMomentum) {
+  // Forces cancel whatever moves: sum grad_w = 0.
+  for (const SelfTestCase& test : all_self_test_cases()) {
+    const Simulation simulation(implicit_settings(test, 1), three_models(), {}, strained(150), 1);
+    const StagedStep step = staged_step(simulation, 5e-3);
+    Vec3d change(0, 0, 0);
+    double size = 0;
+    for (std::size_t i = 0; i < step.nodes.mass.size(); ++i) {
+      change += step.nodes.mass[i] * (step.nodes.v_new[i] - step.nodes.v_star[i]);
+      size += step.nodes.mass[i] * (step.nodes.v_new[i] - step.nodes.v_star[i]).norm();
+    }
+    EXPECT_LE(change.norm() / size, test.precision == Precision::real64 ? 1e-12 : 1e-5);
+  }
+}
+
+TEST(ImplicitSolve, OfSmallBetaIsTheExplicitStep) {
+  const SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::real64};
+  Simulation explicit_run(implicit_settings(test, 0), three_models(), {}, strained(150), 1);
+  Simulation implicit_run(implicit_settings(test, 1e-12), three_models(), {}, strained(150), 1);
+  explicit_run.step(1e-4);
+  implicit_run.step(1e-4);
+  const ParticleArrays a = explicit_run.particles(), b = implicit_run.particles();
+  for (std::size_t q = 0; q < a.x.size(); ++q) EXPECT_LE((a.v[q] - b.v[q]).norm(), 1e-11);
+}
+
+TEST(ImplicitSolve, EndsWithinItsToleranceAndSaysSo) {
+  const SelfTestCase test{Kernel::cubic, Transfer::mls, Precision::single};
+  SolverSettings s = implicit_settings(test, 1);
+  s.time_step = TimeStep::fixed;
+  s.dt = 5e-3;
+  int before = 0;
+  for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+    s.solve_tolerance = tolerance;
+    Simulation simulation(s, three_models(), {}, strained(150), 1);
+    const AdvanceReport report = simulation.advance_to(s.dt);
+    ASSERT_TRUE(report.solve);
+    EXPECT_LE(report.solve->residual, tolerance);
+    EXPECT_GT(report.solve->residual, 0.01 * tolerance) << "went on for nothing";
+    EXPECT_GT(report.solve->iterations, before);
+    before = report.solve->iterations;
+    EXPECT_EQ(simulation.warnings().solves_cut_short, 0u);
+  }
+  s.solve_iterations = before / 2;
+  Simulation simulation(s, three_models(), {}, strained(150), 1);
+  const AdvanceReport report = simulation.advance_to(s.dt);
+  EXPECT_EQ(report.solve->iterations, before / 2);
+  EXPECT_GT(report.solve->residual, s.solve_tolerance);
+  EXPECT_EQ(simulation.warnings().solves_cut_short, 1u);
+  s.beta = 0;
+  Simulation explicit_run(s, three_models(), {}, strained(150), 1);
+  EXPECT_FALSE(explicit_run.advance_to(s.dt).solve);
+}
+
+TEST(ImplicitSolve, ThatFailsIsReplacedByExplicitSteps) {
+  // One iteration at fifty times the explicit step is worse than to stand still. c dt/h may be 0.5.
+  const SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
+  SolverSettings s = implicit_settings(test, 1);
+  s.solve_iterations = 1;
+  Simulation failing(s, three_models(), {}, strained(150), 1);
+  constexpr double dt = 0.02;
+  failing.step(dt);
+  EXPECT_EQ(failing.warnings().solves_given_up, 1u);
+  EXPECT_GT(failing.steps(), 20u);
+  EXPECT_NEAR(failing.time(), dt, 1e-12);
+  s.beta = 0;
+  Simulation by_force(s, three_models(), {}, strained(150), 1);
+  const auto parts = failing.steps();
+  for (std::size_t part = 0; part < parts; ++part) by_force.step(dt / static_cast<double>(parts));
+  EXPECT_EQ(failing.state_hash(), by_force.state_hash());
+}
+
+TEST(ImplicitSolve, OfCrushedBodiesLeavesNumbers) {
+  // H is indefinite: crushed bodies buckle. dt is up to a hundred times the explicit one.
+  for (const double crushed : {0.9, 0.5, 0.3})
+    for (const Model model : {Model::snow, Model::corotated, Model::neo_hookean})
+      for (const double dt : {1e-3, 8e-3, 5e-2}) {
+        const SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
+        SolverSettings s = implicit_settings(test, 1);
+        s.solve_tolerance = 1e-4;
+        s.solve_iterations = 50;
+        std::vector<Material> materials(1);
+        materials[0].model = model;
+        ParticleArrays p = self_test::small_ball();
+        self_test::Numbers number(3);
+        for (Vec3d& v : p.v) {
+          v = number.vector();
+          p.F_E.push_back(crushed * Mat3d::Identity() + 0.05 * number.matrix());
+        }
+        Simulation simulation(s, materials, {}, p, 1);
+        const NodeFields nodes = staged_step(simulation, dt).nodes;
+        double before = 0, after = 0;
+        for (std::size_t i = 0; i < nodes.mass.size(); ++i) {
+          before += nodes.mass[i] * nodes.v_star[i].squaredNorm();
+          after += nodes.mass[i] * nodes.v_new[i].squaredNorm();
+        }
+        EXPECT_LE(after, 4.001 * before);
+        simulation.step(dt);
+        const ParticleArrays q = simulation.particles();
+        for (std::size_t k = 0; k < q.x.size(); ++k)
+          ASSERT_TRUE(q.x[k].allFinite() && q.v[k].allFinite() && q.F_E[k].allFinite());
+      }
+}
+
+SolverSettings impact_settings(double beta, double dt) {
+  SolverSettings s;
+  s.cell_size = 0.02;
+  s.beta = beta;
+  s.time_step = TimeStep::fixed;
+  s.dt = dt;
+  return s;
+}
+
+Simulation impact(const SolverSettings& s, double speed) {
+  const ParticleArrays p = ball_of_snow({0, 0.09, 0}, 0.07, 0.01, {0, -speed, 0});
+  return Simulation(s, {Material{}}, {plane({0, 0.005, 0}, {0, 1, 0}, 0.5)}, p, 1);
+}
+
+TEST(ImplicitStep, HoldsAtTenTimesTheExplicitStep) {
+  // c = 19.7 m/s at rest, so 0.5 ms has c dt/h = 0.5; the impact hardens the snow besides.
+  for (const double dt : {2.5e-3, 5e-3}) {
+    Simulation held = impact(impact_settings(1, dt), 2);
+    const double start = held.summary().kinetic_energy;
+    const AdvanceReport report = held.advance_to(0.1);
+    EXPECT_FALSE(held.divergence()) << held.divergence()->sentence;
+    EXPECT_EQ(held.warnings().solves_given_up + held.warnings().solves_cut_short, 0u);
+    EXPECT_LE(report.solve->residual, 1e-4);
+    const Summary s = held.summary();
+    EXPECT_LT(s.kinetic_energy, 0.2 * start);
+    EXPECT_GT(s.min_J_P, 0.8);
+    EXPECT_GT(s.centre_of_mass[1], 0.04) << "it lies on the floor";
+    Simulation lost = impact(impact_settings(0, dt), 2);
+    lost.advance_to(0.1);
+    EXPECT_TRUE(lost.divergence());
+  }
+}
+
+TEST(ImplicitStep, EndsWhereSmallExplicitStepsDo) {
+  Simulation small = impact(impact_settings(0, 1e-4), 1),
+             large = impact(impact_settings(1, 1e-3), 1);
+  small.advance_to(0.1);
+  large.advance_to(0.1);
+  // c dt/h is 0.1 and 1: some of the impact is taken as elastic that yields in small steps.
+  EXPECT_NEAR(large.summary().centre_of_mass[1], small.summary().centre_of_mass[1], 0.005);
+  EXPECT_NEAR(large.summary().min_J_P, small.summary().min_J_P, 0.05);
+}
+
+TEST(ImplicitStep, SoundDoesNotLimitIt) {
+  SolverSettings s = impact_settings(1, 0);
+  s.time_step = TimeStep::adaptive;
+  s.max_dt = 5e-3;
+  const auto acoustic = static_cast<std::size_t>(DtLimit::acoustic);
+  Simulation simulation = impact(s, 2);
+  const AdvanceReport report = simulation.advance_to(0.1);
+  EXPECT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
+  EXPECT_EQ(report.ruled[acoustic], 0u);
+  EXPECT_TRUE(std::isinf(simulation.step_limits().dt[acoustic]));
+  s.beta = 0;
+  EXPECT_GT(impact(s, 2).advance_to(0.1).steps, 10 * report.steps);
+  // Below 1/2 sound still limits steps, to 1/sqrt(1 - 2 beta) times the explicit ones.
+  const double by_force = impact(s, 2).step_limits().dt[acoustic];
+  s.beta = 0.375;
+  s.acoustic_cfl = 0.1;  // far from where looking ahead shortens steps
+  EXPECT_NEAR(impact(s, 2).step_limits().dt[acoustic], 2 * 0.1 / 0.5 * by_force, 0.1 * by_force);
+}
+
+TEST(ImplicitStep, SameBitsAtAnyNumberOfThreadsAndAfterARestart) {
+  for (const Transfer transfer : {Transfer::flip, Transfer::mls}) {
+    SolverSettings s = impact_settings(0.7, 1e-3);
+    s.transfer = transfer;
+    s.collide_after_solve = true;
+    s.cell_size = 0.01;
+    const auto start = [&](int threads) {
+      ParticleArrays p = ball_of_snow({0, 0.09, 0}, 0.07, 0.005, {0, -4, 0});
+      EXPECT_GT(p.x.size(), 8000u) << "too few for several threads";
+      return Simulation(s, {Material{}}, {plane({0, 0.005, 0}, {0, 1, 0}, 0.5)}, p, threads);
+    };
+    Simulation one = start(1), three = start(3);
+    one.advance_to(0.01);
+    three.advance_to(0.01);
+    ASSERT_FALSE(one.divergence()) << one.divergence()->sentence;
+    EXPECT_EQ(one.state_hash(), three.state_hash());
+    Simulation again = start(2);
+    again.restore(one.save());
+    one.advance_to(0.015);
+    again.advance_to(0.015);
+    EXPECT_EQ(one.state_hash(), again.state_hash());
+    EXPECT_EQ(one.save(), again.save());
+  }
+}
+
+TEST(ImplicitStep, DriversAgree) {
+  for (const SelfTestCase& test : all_self_test_cases()) {
+    SolverSettings s = implicit_settings(test, 0.8);
+    s.solve_tolerance = 1e-6;
+    s.collide_after_solve = true;
+    s.gravity = {0, -9.81, 0};
+    const Collider floor = plane({0, -1.03 * cell_size, 0}, {0.1, 1, 0}, 0.3);
+    Simulation simulation(s, three_models(), {floor}, strained(160), 1);
+    const StagedStep staged = staged_step(simulation, 3e-3);
+    simulation.step(3e-3);
+    if (test.transfer == Transfer::flip) {
+      EXPECT_EQ(simulation.state_hash(), staged.state_hash);
+    }
+    const ParticleArrays fast = simulation.particles();
+    const double tolerance = test.precision == Precision::real64 ? 1e-9 : 1e-3;
+    for (std::size_t q = 0; q < fast.x.size(); ++q)
+      EXPECT_LE((fast.v[q] - staged.after.v[q]).norm(), tolerance);
+  }
+}
+
+TEST(CollideAfterSolve, KeepsNodesOutOfColliders) {
+  const SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::real64};
+  const double height = -0.53 * cell_size;
+  const auto fastest_into = [&](bool collides) {
+    SolverSettings s = implicit_settings(test, 1);
+    s.collide_after_solve = collides;
+    ParticleArrays p = self_test::small_ball();
+    p.v.assign(p.x.size(), {0.5, -3, 0});
+    const Simulation simulation(s, {Material{}}, {plane({0, height, 0}, {0, 1, 0}, 0)}, p, 1);
+    const NodeFields nodes = staged_step(simulation, 4e-3).nodes;
+    double fastest = 0;
+    for (std::size_t i = 0; i < nodes.node.size(); ++i)
+      if (cell_size * nodes.node[i][1] <= height) fastest = std::max(fastest, -nodes.v_new[i][1]);
+    return fastest;
+  };
+  // The solve mixes velocities of nodes again, as in the paper.
+  EXPECT_GT(fastest_into(false), 0.1);
+  EXPECT_LE(fastest_into(true), 0);
+}
+
+TEST(ImplicitStep, SolveCanBeSkipped) {
+  const SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::real64};
+  SolverSettings s = implicit_settings(test, 1);
+  s.bypass = {Stage::implicit_solve};
+  Simulation skipped(s, three_models(), {}, strained(150), 1);
+  const NodeFields nodes = staged_step(skipped, 1e-3).nodes;
+  for (std::size_t i = 0; i < nodes.node.size(); ++i) EXPECT_EQ(nodes.v_new[i], nodes.v_star[i]);
+  EXPECT_FALSE(skipped.advance_to(1e-3).solve);
+}
+
+}  // namespace

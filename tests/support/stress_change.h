@@ -1,0 +1,38 @@
+#pragma once
+/// The lane kernel for the change of stress, asked about one particle.
+
+#include "sim/diagnostics.h"
+#include "sim/differential.h"
+#include "tests/support/elastic.h"
+
+namespace neve::test {
+
+/// dP F_E^T for dF = G F_E, in Pa, by the first of four lanes; the others hold other matrices.
+template <class Real>
+Mat3d stress_change_of(const sim::Material& material, const Mat3d& F_E, double J_P,
+                       const Mat3d& G) {
+  using V = Quad<Real>;
+  const sim::Lame rest = sim::lame(material.youngs_modulus, material.poisson_ratio);
+  const sim::MaterialConstants<Real> table[] = {{static_cast<Real>(rest.mu),
+                                                 static_cast<Real>(rest.lambda),
+                                                 static_cast<Real>(material.hardening), 0, 0}};
+  const sim::ModelKind model = material.model == sim::Model::neo_hookean
+                                   ? sim::ModelKind::neo_hookean
+                                   : sim::ModelKind::corotated;
+  sim::Record<V, Lanes<Integer<Real>, 4>> p{};
+  V G_lanes[9], D[9];
+  for (int q = 0; q < 9; ++q)
+    for (int l = 0; l < 4; ++l) {
+      const double odd = std::sin(1.0 + 5 * q + 3 * l);
+      p.F_E[q][l] = static_cast<Real>(l == 0 ? F_E(q / 3, q % 3) : odd);
+      G_lanes[q][l] = static_cast<Real>(l == 0 ? G(q / 3, q % 3) : 2 * odd);
+    }
+  p.J_P = all<V>(static_cast<Real>(J_P));
+  p.V0 = p.stiffness = p.threshold = all<V>(1);
+  sim::stress_change(sim::elasticity(p, model, table), model, G_lanes, D);
+  Mat3d out;
+  for (int q = 0; q < 9; ++q) out(q / 3, q % 3) = static_cast<double>(D[q][0]);
+  return out;
+}
+
+}  // namespace neve::test
