@@ -69,6 +69,8 @@ Json to_json(const Checkup& checkup, const RenderJob& job) {
   json["steps_per_frame"] = checkup.steps() / frames;
   json["seconds_per_frame"] = checkup.seconds() / frames;
   json["seconds_per_step"] = checkup.seconds_per_step;
+  json["solve_iterations"] =
+      job.scene.solver.is_implicit() ? Json(checkup.solve.iterations) : Json();
   json["seconds"] = checkup.seconds();
   json["warnings"] = Json::array();
   for (const Finding& finding : checkup.findings)

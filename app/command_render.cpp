@@ -126,6 +126,16 @@ void warn_about_steps(const sim::SolverSettings& settings, const sim::Simulation
     progress.warning("fixed steps: the acoustic CFL reached " +
                      fixed_text(warnings.worst_acoustic_cfl, 1) +
                      "; above 1.5 steps are unstable, make solver.dt smaller");
+  if (warnings.solves_cut_short > 0)
+    progress.warning(std::to_string(warnings.solves_cut_short) +
+                     " semi-implicit steps ended after solver.solve_iterations = " +
+                     std::to_string(settings.solve_iterations) +
+                     " above solve_tolerance, and were taken as they were: more iterations, or a "
+                     "smaller dt (solver.max_dt, solver.dt)");
+  if (warnings.solves_given_up > 0)
+    progress.warning(std::to_string(warnings.solves_given_up) +
+                     " semi-implicit steps could not be solved, explicit ones took their place: "
+                     "a smaller dt (solver.max_dt, solver.dt) helps");
   if (warnings.inverted_trials > 0)
     progress.detail(std::to_string(warnings.inverted_trials) +
                     " trial deformations were inverted and repaired");
@@ -143,8 +153,7 @@ int finish(const RenderOptions& options, const RenderJob& job, const RenderRun& 
   progress.clear();
   if (result.status == RunStatus::diverged)
     throw Error(exit_diverged, sentence(*run.record().divergence, *result.diagnosis),
-                job.scene_file,
-                "incident.json and diverged_*.png are in " + job.folder.string());
+                job.scene_file, "incident.json and diverged_*.png are in " + job.folder.string());
   if (options.is_json) print_result(job, run, result);
   if (result.status == RunStatus::interrupted) {
     std::cerr << "neve: interrupted; " << run.record().frames.size() << " frames are in "

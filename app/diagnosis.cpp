@@ -10,6 +10,7 @@
 #include "app/scene/value.h"
 #include "app/text.h"
 #include "sim/diagnostics.h"
+#include "sim/time_step.h"
 
 namespace neve::app {
 
@@ -28,7 +29,8 @@ struct Case {
   const sim::Divergence& d;
   double h;
   bool is_fixed;
-  double dt;  ///< of the steps before the end of the frame shortened one
+  double dt;       ///< of the steps before the end of the frame shortened one
+  double stretch;  ///< what semi-implicit steps make of the limits that sound sets; infinite: none
   const sim::Material& material;
 
   Case(const Scene& s, const sim::Divergence& divergence)
@@ -37,6 +39,7 @@ struct Case {
         h(s.solver.cell_size),
         is_fixed(s.solver.time_step == sim::TimeStep::fixed),
         dt(longest_step()),
+        stretch(sim::acoustic_stretch(s.solver)),
         material(s.materials[static_cast<std::size_t>(divergence.material)]) {}
 
   double longest_step() const {
@@ -48,7 +51,7 @@ struct Case {
   /// The first remembered step at which sound crossed so many cells; null if none did.
   const sim::StepRecord* sound_beyond(double cells) const {
     for (const sim::StepRecord& step : d.last_steps)
-      if (step.max_sound_speed * step.dt > cells * h) return &step;
+      if (step.max_sound_speed * step.dt > stretch * cells * h) return &step;
     return nullptr;
   }
   /// Speed of the snow before trouble began, m/s.
@@ -112,6 +115,7 @@ Hypothesis raised_limits(const Case& c) {
         std::any_of(c.d.last_steps.begin(), c.d.last_steps.end(),
                     [&](const sim::StepRecord& step) { return step.limit == limit.ruling; });
     // One that is far too high never rules: another one does, or max_dt.
+    if (limit.ruling == sim::DtLimit::acoustic && !(c.stretch < 1e9)) continue;
     if (limit.value <= limit.holds || !(has_ruled || limit.value > 2 * limit.holds)) continue;
     const sim::SolverSettings usual;
     const double default_value = limit.ruling == sim::DtLimit::acoustic ? usual.acoustic_cfl
@@ -129,9 +133,11 @@ Hypothesis raised_limits(const Case& c) {
 /// A fixed dt that does not even hold for snow at rest, and whose fault that is.
 Hypothesis too_long_at_rest(const Case& c) {
   if (!c.is_fixed) return std::nullopt;
-  const double sound = c.start_sound() * c.dt / c.h, speed = c.d.start.max_speed * c.dt / c.h;
+  const double sound = c.start_sound() / c.stretch * c.dt / c.h;
+  const double speed = c.d.start.max_speed * c.dt / c.h;
   if (sound < 0.9 && speed < 0.9) return std::nullopt;
-  const double holds = 0.5 * c.h / std::max(c.start_sound(), 1.25 * c.d.start.max_speed);
+  const double holds =
+      0.5 * c.h / std::max(c.start_sound() / c.stretch, 1.25 * c.d.start.max_speed);
   const std::string remedy = "solver.dt = " + rough_text(holds) + " or time_step = \"adaptive\"";
   if (sound >= speed) {
     const std::string crossed = "sound runs at " + rough_text(c.start_sound()) +

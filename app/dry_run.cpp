@@ -44,6 +44,7 @@ Scene coarsened(const Scene& scene, Substitute substitute) {
   coarse.solver.time_step = sim::TimeStep::adaptive;
   coarse.solver.max_dt = std::max(scene.solver.max_dt, 2e-3);
   coarse.solver.acoustic_cfl = 0.9;
+  coarse.solver.beta = 0;  // softened as it is below, explicit steps do it
   const double growth = std::max(1.0, planned_particles(scene) / particles_wanted);
   coarse.solver.cell_size *= std::cbrt(growth);
   for (sim::Material& material : coarse.materials) {

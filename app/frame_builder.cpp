@@ -52,10 +52,15 @@ std::string grouped(std::size_t count) {
   return digits;
 }
 
-/// "347 steps, dt 0.00012 s (acoustic)": the smallest dt and the limit that ruled most.
+/// "347 steps, dt 0.00012 s (acoustic)": the smallest dt and the limit that ruled most; and how far
+/// semi-implicit steps were solved at worst.
 std::string steps_text(const sim::AdvanceReport& advance) {
-  return grouped(advance.steps) + (advance.steps == 1 ? " step" : " steps") + ", dt " +
-         rough_text(advance.dt_min) + " s (" + sim::name(advance.limit()) + ")";
+  std::string text = grouped(advance.steps) + (advance.steps == 1 ? " step" : " steps") + ", dt " +
+                     rough_text(advance.dt_min) + " s (" + sim::name(advance.limit()) + ")";
+  if (advance.solve)
+    text += ", solved in " + std::to_string(advance.solve->iterations) + " to " +
+            rough_text(advance.solve->residual);
+  return text;
 }
 
 /// "hardening = 5 since step 120". Other views and colours are seen, not told.

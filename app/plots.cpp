@@ -5,6 +5,7 @@
 
 #include "app/auto_ranges.h"
 #include "app/round_number.h"
+#include "sim/time_step.h"
 
 namespace neve::app {
 
@@ -78,7 +79,8 @@ double step_at_rest(const sim::SolverSettings& solver,
   if (solver.time_step == sim::TimeStep::fixed) return solver.dt;
   double step = solver.max_dt;
   for (const sim::Material& material : materials)
-    step = std::min(step, solver.acoustic_cfl * solver.cell_size / sim::sound_speed(material));
+    step = std::min(step, sim::acoustic_stretch(solver) * solver.acoustic_cfl * solver.cell_size /
+                              sim::sound_speed(material));
   return step;
 }
 

@@ -17,9 +17,10 @@ struct Phase {
   const char* name;
   double sim::PhaseSeconds::*seconds;
 };
-constexpr std::array<Phase, 5> phases{{{"partition", &sim::PhaseSeconds::partition},
+constexpr std::array<Phase, 6> phases{{{"partition", &sim::PhaseSeconds::partition},
                                        {"particles_to_grid", &sim::PhaseSeconds::particles_to_grid},
                                        {"grid_update", &sim::PhaseSeconds::grid_update},
+                                       {"solve", &sim::PhaseSeconds::solve},
                                        {"grid_to_particles", &sim::PhaseSeconds::grid_to_particles},
                                        {"checks", &sim::PhaseSeconds::checks}}};
 
@@ -39,19 +40,25 @@ std::vector<Cells> figures(const std::vector<BenchRow>& rows) {
   return table;
 }
 
-/// Empty when no row has phases.
+/// Empty when no row has phases. Explicit steps have no solve.
 std::vector<Cells> phase_figures(const std::vector<BenchRow>& rows) {
+  std::vector<Phase> taken;
+  for (const Phase& phase : phases)
+    if (std::any_of(rows.begin(), rows.end(), [&](const BenchRow& row) {
+          return row.phases && (*row.phases).*phase.seconds > 0;
+        }))
+      taken.push_back(phase);
   std::vector<Cells> table;
   for (const BenchRow& row : rows) {
     if (!row.phases) continue;
     if (table.empty()) {
       table.push_back({"ns per particle and step", "threads", "particles"});
-      for (const Phase& phase : phases) table.front().push_back(phase.name);
+      for (const Phase& phase : taken) table.front().push_back(phase.name);
       table.front().push_back("all");
     }
     Cells cells{row.name, std::to_string(row.threads), std::to_string(row.particles)};
     double all = 0;
-    for (const Phase& phase : phases) {
+    for (const Phase& phase : taken) {
       const double nanoseconds = 1e9 * (*row.phases).*phase.seconds;
       cells.push_back(fixed_text(nanoseconds, 1));
       all += nanoseconds;

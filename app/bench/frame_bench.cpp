@@ -37,6 +37,7 @@ struct BoxSize {
   double x, y, z;  ///< m
 };
 constexpr BoxSize large_box{1.0, 0.6, 0.5};  // 300 000 particles
+constexpr BoxSize middle_box{0.4, 0.3, 0.25};  // 30 000
 constexpr BoxSize small_box{0.2, 0.2, 0.1};  // 4000
 constexpr BoxSize quick_box{0.16, 0.16, 0.16};
 
@@ -53,6 +54,18 @@ Scene falling_box(const BoxSize& size, const std::string& solver) {
           "[[collider]]\nshape = { plane = { point = [0, 0, 0], "
           "normal = [0, 1, 0] } }\n[output]\nsize = [640, 360]\n",
       "bench frame");
+}
+
+/// A box of snow that hits the floor, adaptive steps as long as motion and strain allow.
+/// @param youngs_modulus Pa
+Scene stiff_box(const BoxSize& size, double youngs_modulus, bool is_implicit) {
+  Scene scene = falling_box(size, mls);
+  scene.solver.time_step = sim::TimeStep::adaptive;
+  scene.solver.max_dt = 4e-3;
+  scene.solver.beta = is_implicit ? 1 : 0;
+  scene.solver.collide_after_solve = true;
+  scene.materials.front().youngs_modulus = youngs_modulus;
+  return scene;
 }
 
 /// What a scene needs to be drawn.
@@ -91,6 +104,7 @@ class FrameBench {
   double simulate(const std::string& name, const Scene& scene, int frames, bool is_drawn = false);
   double first_picture();
   void coarsen_2();
+  void implicit_steps();
   template <class Measure>
   void measure(const std::string& name, const std::string& unit, const Measure& once);
 
@@ -170,6 +184,28 @@ void FrameBench::coarsen_2() {
   });
 }
 
+/// The first frame by semi-implicit steps, and how many times longer explicit ones take.
+void FrameBench::implicit_steps() {
+  const BoxSize& size = options_.is_quick ? quick_box : middle_box;
+  for (const auto& [name, youngs_modulus] :
+       {std::pair{"snow", 1.4e5}, {"packed", 1.4e6}, {"ice", 1.4e7}}) {
+    const Scene by_solve = stiff_box(size, youngs_modulus, true);
+    const Scene by_force = stiff_box(size, youngs_modulus, false);
+    const std::string row = std::string("implicit_") + name;
+    std::vector<double> ratios;
+    measure(row, "s", [&] {
+      const double seconds = simulate(row, by_solve, 1);
+      ratios.push_back(simulate(row, by_force, 1) / seconds);
+      return seconds;
+    });
+    rows_.push_back(rows_.back());
+    rows_.back().name = row + "_gain";
+    rows_.back().value = statistics_of(ratios);
+    rows_.back().unit = "x explicit";
+    progress_.note(rows_.back().name + ": " + fixed_text(rows_.back().value.median, 2));
+  }
+}
+
 std::vector<BenchRow> FrameBench::run() {
   const BoxSize& large = options_.is_quick ? quick_box : large_box;
   const Scene flip_scene = falling_box(large, flip), mls_scene = falling_box(large, mls);
@@ -181,6 +217,7 @@ std::vector<BenchRow> FrameBench::run() {
                                        seed_scene(small), 1));  // the first one compiles shaders
   measure("flip_cubic_4000_drawn", "s",
           [&] { return simulate("flip_cubic_4000_drawn", small, 1, true); });
+  implicit_steps();
   coarsen_2();
   // Last: its particles are those of the default scene, which the row before it simulated.
   measure("first_picture", "s", [&] { return first_picture(); });

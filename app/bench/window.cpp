@@ -12,9 +12,9 @@ namespace {
 constexpr double shortest_measurement = 0.1;  // s
 
 constexpr double sim::PhaseSeconds::*all_phases[] = {
-    &sim::PhaseSeconds::partition, &sim::PhaseSeconds::particles_to_grid,
-    &sim::PhaseSeconds::grid_update, &sim::PhaseSeconds::grid_to_particles,
-    &sim::PhaseSeconds::checks};
+    &sim::PhaseSeconds::partition,         &sim::PhaseSeconds::particles_to_grid,
+    &sim::PhaseSeconds::grid_update,       &sim::PhaseSeconds::solve,
+    &sim::PhaseSeconds::grid_to_particles, &sim::PhaseSeconds::checks};
 
 template <class Value>
 Statistics of_each(const std::vector<Window>& windows, const Value& value) {

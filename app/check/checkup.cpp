@@ -35,12 +35,14 @@ sim::Simulation simulate(const Scene& scene, const sim::ParticleArrays& particle
 }
 
 /// The median of some steps, after two that warm caches up.
-double measure_step(sim::Simulation& simulation, double frame) {
+/// @param solve  the worst of them
+double measure_step(sim::Simulation& simulation, double frame, sim::SolveReport& solve) {
   std::vector<double> seconds;
   const auto start = Clock::now();
   for (int k = 0; k < calibration_steps && seconds_since(start) < calibration_seconds; ++k) {
     const auto before = Clock::now();
     simulation.step(simulation.choose_dt(frame).dt);
+    solve.add(simulation.last_solve());
     if (k >= 2) seconds.push_back(seconds_since(before));
     if (simulation.divergence() || is_interrupted()) break;
   }
@@ -139,7 +141,7 @@ Checkup examine(const Scene& scene, const Plan& plan, int threads) {
     const sim::Simulation::Choice choice = simulation.choose_dt(1 / scene.fps);
     checkup.dt_start = choice.dt;
     checkup.limit_start = choice.limit;
-    checkup.seconds_per_step = measure_step(simulation, 1 / scene.fps);
+    checkup.seconds_per_step = measure_step(simulation, 1 / scene.fps, checkup.solve);
     check_steps(scene, checkup, checkup.findings);
   } else {
     checkup.findings.push_back({Severity::note, "",

@@ -35,6 +35,7 @@ struct Checkup {
   std::vector<FrameForecast> forecast;  ///< every frame; empty where no coarse run was possible
   double coarse_particles = 0;          ///< of the run behind the forecast
   double seconds_per_step = 0;          ///< measured on this machine; 0: not measured
+  sim::SolveReport solve;               ///< of these steps; zero where they are explicit
   std::vector<Finding> findings;
 
   double steps() const;    ///< of the whole run, foreseen

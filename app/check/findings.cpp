@@ -152,14 +152,35 @@ void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
              " cells in a step" + (severity == Severity::error ? ", the run will explode" : ""),
          "solver.dt = " + rough_text(holds) + " holds, or time_step = \"adaptive\""});
   };
-  const double sound = checkup.start.max_sound_speed * s.dt / h;
+  // As an explicit step would feel it.
+  const double sound_speed = checkup.start.max_sound_speed / sim::acoustic_stretch(s);
+  const double sound = sound_speed * s.dt / h;
   const double speed = checkup.impact_speed * s.dt / h;
   if (sound > 0.5)
     report(sound > 1.5 ? Severity::error : Severity::warning, sound, "sound",
-           0.5 * h / checkup.start.max_sound_speed);
+           0.5 * h / sound_speed);
   if (speed > 0.5)
     report(speed > 1 ? Severity::error : Severity::warning, speed, "snow at impact",
            s.cfl * h / checkup.impact_speed);
+}
+
+/// What semi-implicit steps damp: a wave loses beta w^2 dt of its energy per second.
+void check_implicit_steps(const sim::SolverSettings& s, const Checkup& checkup,
+                          std::vector<Finding>& findings) {
+  if (!s.is_implicit() || checkup.start.max_sound_speed <= 0) return;
+  const double dt = checkup.dt_start, pi = 3.14159265358979323846;
+  const double w = 2 * pi * checkup.start.max_sound_speed / (10 * s.cell_size);
+  findings.push_back({Severity::note, "solver.beta",
+                      "semi-implicit steps: of a wave 10 cells long " +
+                          percent(std::exp(-s.beta * w * w * dt * 2 * pi / w)) +
+                          " of the energy is left after a period; the first steps took " +
+                          std::to_string(checkup.solve.iterations) +
+                          " iterations to a residual of " + rough_text(checkup.solve.residual),
+                      ""});
+  if (checkup.solve.residual > s.solve_tolerance)
+    findings.push_back({Severity::warning, "solver.solve_iterations",
+                        "the solve ends above solve_tolerance = " + number_text(s.solve_tolerance),
+                        "more iterations, or a smaller dt"});
 }
 
 void check_damping(const Scene& scene, const Checkup& checkup, std::vector<Finding>& findings) {
@@ -265,6 +286,7 @@ void check_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
 void check_steps(const Scene& scene, const Checkup& checkup, std::vector<Finding>& findings) {
   if (scene.solver.time_step == sim::TimeStep::fixed)
     check_fixed_steps(scene.solver, checkup, findings);
+  check_implicit_steps(scene.solver, checkup, findings);
   check_damping(scene, checkup, findings);
   const double c = checkup.start.max_sound_speed;
   if (c > 0 && checkup.impact_speed > c)

@@ -147,8 +147,11 @@ Listing nodes_after(const Inside& inside, const Expected& expected, sim::Stage s
   }
   if (reached(sim::Stage::grid_collisions))
     q.push_back(vectors("v_star", "m/s", n.v_star, expected.speed()));
-  if (reached(sim::Stage::implicit_solve))
+  if (reached(sim::Stage::implicit_solve)) {
     q.push_back(vectors("v_new", "m/s", n.v_new, expected.speed()));
+    if (inside.scene.solver.is_implicit())
+      q.push_back(vectors("dv_solve", "m/s", difference(n.v_new, n.v_star)));
+  }
   return listing;
 }
 

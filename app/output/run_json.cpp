@@ -72,6 +72,9 @@ Json to_json(const FrameRecord& frame) {
   json["dt_min"] = has_steps ? number_or_null(frame.advance.dt_min) : Json();
   json["dt_max"] = has_steps ? number_or_null(frame.advance.dt_max) : Json();
   json["dt_limit"] = has_steps ? Json(sim::name(frame.advance.limit())) : Json();
+  const std::optional<sim::SolveReport>& solve = frame.advance.solve;
+  json["solve_iterations"] = solve ? Json(solve->iterations) : Json();
+  json["solve_residual"] = solve ? number_or_null(solve->residual) : Json();
   json["seconds_sim"] = number_or_null(frame.seconds_sim);
   json["seconds_render"] = number_or_null(frame.seconds_render);
   json["particles"] = s.particles;
@@ -102,6 +105,10 @@ FrameRecord frame_record(const Json& json) {
     const sim::DtLimit limit = limit_named(json.at("dt_limit").get<std::string>());
     frame.advance.ruled[static_cast<std::size_t>(limit)] = frame.advance.steps;
   }
+  // Runs of earlier versions have none, explicit steps neither.
+  if (json.contains("solve_iterations") && !json.at("solve_iterations").is_null())
+    frame.advance.solve = {json.at("solve_iterations").get<int>(),
+                           number(json.at("solve_residual"))};
   frame.seconds_sim = number(json.at("seconds_sim"));
   frame.seconds_render = number(json.at("seconds_render"));
   sim::Summary& s = frame.summary;
@@ -135,10 +142,14 @@ std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder)
 }
 
 Json to_json(const sim::AdvanceReport& advance) {
-  return {{"steps", advance.steps},
-          {"dt_min", advance.dt_min},
-          {"dt_max", advance.dt_max},
-          {"ruled", advance.ruled}};
+  Json json = {{"steps", advance.steps},
+               {"dt_min", advance.dt_min},
+               {"dt_max", advance.dt_max},
+               {"ruled", advance.ruled}};
+  if (advance.solve)
+    json["solve"] = {{"iterations", advance.solve->iterations},
+                     {"residual", number_or_null(advance.solve->residual)}};
+  return json;
 }
 
 sim::AdvanceReport advance_report(const Json& json) {
@@ -147,6 +158,9 @@ sim::AdvanceReport advance_report(const Json& json) {
   advance.dt_min = json.at("dt_min").get<double>();
   advance.dt_max = json.at("dt_max").get<double>();
   advance.ruled = json.at("ruled").get<decltype(advance.ruled)>();
+  if (json.contains("solve"))
+    advance.solve = {json.at("solve").at("iterations").get<int>(),
+                     number(json.at("solve").at("residual"))};
   return advance;
 }
 

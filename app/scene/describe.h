@@ -76,6 +76,18 @@ void describe(V& visit, sim::SolverSettings& s) {
         "Cells that sound may travel in an adaptive step.");
   visit("strain_limit", s.strain_limit, unit::none, between(1e-3, 1e3), live,
         "Largest |dt grad v| of an adaptive step.");
+  visit(
+      "beta", s.beta, unit::none, between(0, 1), live,
+      "0: explicit steps; up to 1: the paper's semi-implicit steps, for longer dt (from 0.5 on no "
+      "acoustic limit). They damp.");
+  visit("solve_tolerance", s.solve_tolerance, unit::none, between(1e-14, 0.1), live,
+        "Residual of a semi-implicit step over its right side, where the solve ends; in float it "
+        "gets no further than 1e-6.");
+  visit("solve_iterations", s.solve_iterations, unit::none, between(1, 10000), live,
+        "Iterations of a semi-implicit step, at most.");
+  visit("collide_after_solve", s.collide_after_solve, unit::none, anything, live,
+        "Let nodes meet colliders again after the solve, which the paper does not; keeps snow out "
+        "of them.");
   visit("gravity", s.gravity, unit::acceleration, within(1e6), live, "Acceleration of all snow.");
   visit("precision", s.precision, unit::none, anything, restart, "Arithmetic of the solver.");
   visit("on_divergence", s.on_divergence, unit::none, anything, live,

@@ -12,6 +12,7 @@
 #include "app/sweep/expand.h"
 #include "app/sweep/read_sweep.h"
 #include "sim/material.h"
+#include "sim/time_step.h"
 
 namespace neve::app {
 
@@ -113,13 +114,16 @@ double foreseen_work(const Scene& scene, const Plan& plan) {
     // Snow that is packed conducts sound about three times as fast as at rest.
     constexpr double packed = 3;
     for (const sim::Material& material : scene.materials)
-      dt = std::min(dt, s.acoustic_cfl * s.cell_size / (packed * sim::sound_speed(material)));
+      dt = std::min(dt, sim::acoustic_stretch(s) * s.acoustic_cfl * s.cell_size /
+                            (packed * sim::sound_speed(material)));
     const double speed = impact_speed(scene);
     if (speed > 0) dt = std::min(dt, s.cfl * s.cell_size / speed);
   }
   // What a run costs before its first step counts as some steps of few particles.
   constexpr double start = 1e5;
-  return start + plan.particles * std::ceil(duration / dt);
+  // A solve takes about as long as some explicit steps.
+  const double step = s.is_implicit() ? 8 : 1;
+  return start + step * plan.particles * std::ceil(duration / dt);
 }
 
 }  // namespace neve::app
