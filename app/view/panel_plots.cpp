@@ -143,6 +143,7 @@ void draw_phases(const LiveFrame& live) {
   const std::pair<const char*, double> phases[] = {{"partition", p.partition},
                                                    {"particles to grid", p.particles_to_grid},
                                                    {"grid update", p.grid_update},
+                                                   {"solve", p.solve},
                                                    {"grid to particles", p.grid_to_particles},
                                                    {"checks", p.checks}};
   double all = 0;
@@ -150,6 +151,7 @@ void draw_phases(const LiveFrame& live) {
   if (!(all > 0) || live.steps == 0) return;
   ImGui::TextUnformatted("where the time of a step goes");
   for (const auto& [name, seconds] : phases) {
+    if (seconds == 0) continue;
     const std::string text = std::string(name) + ", " + fixed_text(100 * seconds / all, 0) + " %";
     ImGui::ProgressBar(static_cast<float>(seconds / all), ImVec2(-FLT_MIN, 1.1f * em()),
                        text.c_str());
