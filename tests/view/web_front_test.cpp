@@ -73,7 +73,8 @@ TEST_F(Web, TwoPicturesAreOnTheirWayAndThenTheNewest) {
   // One has been seen: of the eight that waited the last one comes.
   page->send_text("a " + std::to_string(first[0].number));
   std::optional<ServerFrame> next;
-  ASSERT_TRUE(wait_until([&] { return (next = page->receive(WebClient::binary, 0.01)); }));
+  ASSERT_TRUE(
+      wait_until([&] { return (next = page->receive(WebClient::binary, 0.01)).has_value(); }));
   EXPECT_NEAR(read_picture(next->payload).red, 200, 6);
   EXPECT_FALSE(front->is_ready());
   // Twice the same says nothing new.

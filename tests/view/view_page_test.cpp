@@ -1,0 +1,171 @@
+/// `neve view --web` as a person uses it: the program, its page in a real browser, a mouse and
+/// keys.
+
+#include <functional>
+
+#include "tests/support/child.h"
+#include "tests/support/chromium.h"
+
+namespace neve::test {
+namespace {
+
+/// A few hundred particles: what takes time here is drawing and the browser.
+constexpr const char* long_fall = R"(
+title = "Long fall"
+frames = 2000
+[solver]
+cell_size = 0.04
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.3, 0], radius = 0.1 } }
+[[collider]]
+name = "floor"
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+)";
+
+struct Region {
+  int x0, y0, x1, y1;  ///< px of the page
+};
+/// The page is 1280x800; the columns and bars of `neve view` are this wide at that size.
+constexpr Region status{460, 4, 940, 32}, left_column{0, 90, 318, 790}, picture{330, 120, 930, 750};
+/// Middle of the first button of the bar: Run, and Pause while it runs.
+constexpr double run_x = 25, run_y = 18;
+constexpr double find_x = 160, find_y = 78;
+
+/// Pixels that differ clearly between two screenshots.
+int difference(const render::Image& a, const render::Image& b, const Region& region) {
+  int count = 0;
+  for (int y = region.y0; y < region.y1; ++y)
+    for (int x = region.x0; x < region.x1; ++x) {
+      const std::size_t at = (std::size_t(y) * a.width + x) * a.channels;
+      int most = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        most = std::max(most, std::abs(a.pixels[at + c] - b.pixels[at + c]));
+      count += most > 24;  // more than JPEG changes when a picture becomes sharp
+    }
+  return count;
+}
+
+class ViewPage : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (find_chromium().empty())
+      GTEST_SKIP() << "no chromium, chromium-browser or google-chrome in PATH (Debian: chromium)";
+    folder.write("fall.toml", long_fall);
+    start_view();
+  }
+  void TearDown() override {
+    if (process > 0) {
+      ::kill(process, SIGKILL);
+      ::waitpid(process, nullptr, 0);
+    }
+  }
+
+  void start_view() {
+    process = start_program({"/bin/sh", "-c",
+                             "cd '" + folder.path().string() +
+                                 "' && exec '" NEVE_BINARY "' view fall.toml --web --out saved"
+                                 " > address.txt 2> messages.txt"});
+    for (int k = 0; k < 600 && address.find('\n') == std::string::npos; ++k) {
+      int status_of_process = 0;
+      if (::waitpid(process, &status_of_process, WNOHANG) == process) {
+        process = -1;
+        const std::string why = read_text(folder / "messages.txt");
+        if (WEXITSTATUS(status_of_process) == 4) GTEST_SKIP() << why;  // no OpenGL here
+        FAIL() << why;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      address = read_text(folder / "address.txt");
+    }
+    ASSERT_TRUE(address.starts_with("http://127.0.0.1:")) << address;
+    address.pop_back();
+  }
+
+  static bool wait_until(const std::function<bool()>& is_so, double seconds = 20) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (std::chrono::steady_clock::now() < end) {
+      if (is_so()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+  }
+  bool changes(const render::Image& before, const Region& region, int pixels) {
+    return wait_until([&] { return difference(before, browser->screenshot(), region) >= pixels; });
+  }
+  bool becomes_still() {
+    return wait_until([&] {
+      const render::Image before = browser->screenshot();
+      std::this_thread::sleep_for(std::chrono::milliseconds(400));
+      return difference(before, browser->screenshot(), {0, 0, 1280, 800}) == 0;
+    });
+  }
+  void press(const std::string& name, const std::string& code, int number) {
+    browser->key(true, name, code, number);
+    browser->key(false, name, code, number);
+  }
+
+  TemporaryFolder folder;
+  pid_t process = -1;
+  std::string address;
+  std::unique_ptr<Chromium> browser;
+};
+
+TEST_F(ViewPage, IsWorkedWithMouseAndKeys) {
+  browser = std::make_unique<Chromium>();
+  browser->resize(1280, 800);
+  browser->open(address);
+  ASSERT_TRUE(wait_until([&] {
+    return browser->evaluate("typeof drawn !== 'undefined' && drawn > 0 && note.hidden") == true;
+  })) << "no picture comes";
+  EXPECT_TRUE(wait_until(
+      [&] { return std::string(browser->evaluate("document.title")).starts_with("fall.toml"); }));
+  ASSERT_TRUE(becomes_still());
+
+  // The buttons of the bar.
+  const render::Image start = browser->screenshot();
+  browser->click(run_x, run_y);
+  EXPECT_TRUE(changes(start, status, 30)) << "Run does not run";
+  EXPECT_TRUE(changes(browser->screenshot(), status, 5)) << "and goes on";
+  browser->click(run_x, run_y);
+  ASSERT_TRUE(becomes_still()) << "Pause does not pause";
+
+  // The picture is turned and brought near; the panels beside it stay.
+  render::Image before = browser->screenshot();
+  browser->drag(640, 400, 800, 430);
+  EXPECT_TRUE(changes(before, picture, 1000)) << "a drag does not turn the picture";
+  ASSERT_TRUE(becomes_still());
+  const render::Image turned = browser->screenshot();
+  EXPECT_EQ(difference(before, turned, left_column), 0);
+  for (int k = 0; k < 4; ++k) browser->wheel(640, 400, 0, -100);
+  EXPECT_TRUE(changes(turned, picture, 1000)) << "the wheel does not bring it near";
+  ASSERT_TRUE(becomes_still());
+
+  // Text into a field: the list of parameters becomes short.
+  before = browser->screenshot();
+  browser->click(find_x, find_y);
+  for (const char c : std::string("hardening")) browser->type_letter(c);
+  EXPECT_TRUE(changes(before, left_column, 2000)) << "what is typed finds nothing";
+  press("Escape", "Escape", 27);
+
+  // A key: the picture of this moment goes to the folder, and nowhere else.
+  browser->click(640, 760);
+  press("p", "KeyP", 80);
+  EXPECT_TRUE(wait_until([&] {
+    std::error_code none;
+    for (const auto& file : std::filesystem::directory_iterator(folder / "saved", none))
+      if (file.path().extension() == ".png") return true;
+    return false;
+  })) << "P saves no picture";
+
+  // Ctrl-C in the terminal.
+  ::kill(process, SIGINT);
+  EXPECT_TRUE(wait_until([&] {
+    return browser->evaluate("note.textContent") == "neve has ended; you can close this page.";
+  }));
+  EXPECT_EQ(wait_for(process), 0) << read_text(folder / "messages.txt");
+  process = -1;
+  EXPECT_EQ(browser->exceptions, "");
+}
+
+}  // namespace
+}  // namespace neve::test
