@@ -82,8 +82,7 @@ struct LiveFrame {
   std::vector<int> kept;
   std::uint64_t kept_bytes = 0, kept_budget = 0;
 
-  std::uint64_t state_hash = 0;
-  sim::Summary summary;
+  std::uint64_t state_hash = 0;  ///< at the end of a frame
   sim::Simulation::Choice next{0, sim::DtLimit::max_dt};
   sim::Simulation::StepLimits limits;
   sim::PhaseSeconds phases;  ///< of the steps since the start

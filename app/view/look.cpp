@@ -67,7 +67,7 @@ StageLook stage_look(const Inside& inside, sim::Stage stage) {
   look.rows = listing.place.size();
   look.feathers = listing.feathers();
   for (const Quantity& quantity : listing.quantities)
-    if (quantity.name != "node")  // its index
+    if (quantity.name != "node" && quantity.name != "id")  // which they are
       look.quantities.push_back(summary_of(listing, quantity));
   return look;
 }

@@ -16,6 +16,8 @@ namespace neve::app {
 namespace {
 
 constexpr auto publish_interval = std::chrono::milliseconds(15);
+/// Sampling takes at most one part in so many of the time.
+constexpr int sampling_share = 20;
 constexpr std::size_t most_samples = 4000;
 constexpr int last_stage = static_cast<int>(sim::Stage::colliders);
 
@@ -239,8 +241,7 @@ void Session::start(std::shared_ptr<const Scene> scene) {
   diagnosis_.reset();
   error_.clear();
   speed_ = 0;
-  note_sample();
-  history_.push_back(plot_sample(0, simulation_->summary(), {}));
+  history_.push_back(plot_sample(0, note_sample(), {}));
   keep();
 }
 
@@ -309,7 +310,7 @@ void Session::after_step() {
       measured_at_ = now;
       measured_time_ = simulation_->time();
     }
-    note_sample();
+    if (now - sampled_at_ > sampling_share * sampling_took_) note_sample();
     publish();
   }
 }
@@ -337,20 +338,24 @@ void Session::advance() {
   }
   stepping = nullptr;
   advance_.append(report);
-  note_sample();
   if (simulation_->divergence()) {
+    note_sample();
     diagnosis_ = diagnose(*scene_, *simulation_->divergence());
     goal_ = Goal::none;
     return;
   }
   if (simulation_->time() >= time * (1 - 1e-12)) reach_frame();
-  if (goal_ == Goal::step) goal_ = Goal::none;
+  if (goal_ == Goal::step) {
+    note_sample();
+    goal_ = Goal::none;
+  }
 }
 
 void Session::reach_frame() {
   ++frame_;
   history_.resize(static_cast<std::size_t>(frame_));
-  history_.push_back(plot_sample(frame_ / scene_->fps, simulation_->summary(), advance_));
+  const sim::Summary summary = note_sample();
+  history_.push_back(plot_sample(frame_ / scene_->fps, summary, advance_));
   advance_is_new_ = true;
   steps_of_frame_ = simulation_->steps();
   keep();
@@ -358,8 +363,12 @@ void Session::reach_frame() {
   if (is_recording_) publish();
 }
 
-void Session::note_sample() {
+/// Needs a decomposition per particle, for the elastic energy.
+sim::Summary Session::note_sample() {
+  const Clock::time_point start = Clock::now();
   const sim::Summary summary = simulation_->summary();
+  sampled_at_ = Clock::now();
+  sampling_took_ = sampled_at_ - start;
   const double remaining = (frame_ + 1) / scene_->fps - simulation_->time();
   const sim::Simulation::Choice choice =
       simulation_->choose_dt(remaining > 0 ? remaining : 1 / scene_->fps);
@@ -369,10 +378,11 @@ void Session::note_sample() {
   while (!list.empty() && list.back().time >= summary.time) list.pop_back();
   list.push_back({summary.time, summary.kinetic_energy, summary.elastic_energy, summary.momentum,
                   summary.max_speed, summary.min_J_P, summary.max_J_P, choice.dt, choice.limit});
-  if (list.size() <= most_samples) return;
+  if (list.size() <= most_samples) return summary;
   std::size_t kept = 0;  // every other one: the plot covers the whole run with half the detail
   for (std::size_t k = 0; k < list.size(); k += 2) list[kept++] = list[k];
   list.resize(kept);
+  return summary;
 }
 
 bool Session::is_publication_due() const {
@@ -412,8 +422,8 @@ void Session::publish() {
   live->kept = kept_.numbers();
   live->kept_bytes = kept_.bytes();
   live->kept_budget = kept_.budget();
-  live->state_hash = simulation_->state_hash();
-  live->summary = simulation_->summary();
+  // Only pictures of frames are kept.
+  if (live->is_frame_end) live->state_hash = simulation_->state_hash();
   const double remaining = (frame_ + 1) / scene_->fps - simulation_->time();
   live->next = simulation_->choose_dt(remaining > 0 ? remaining : 1 / scene_->fps);
   live->limits = simulation_->step_limits();

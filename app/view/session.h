@@ -83,7 +83,7 @@ class Session {
   void leave_older();
   void advance();
   void reach_frame();
-  void note_sample();
+  sim::Summary note_sample();
   bool is_publication_due() const;
   void publish();
   void after_step();
@@ -120,7 +120,8 @@ class Session {
   bool is_recording_ = false;
   bool has_news_ = true;
   Clock::time_point published_at_{};
-  Clock::time_point probed_at_{};
+  Clock::time_point probed_at_{}, sampled_at_{};
+  Clock::duration sampling_took_{};
   Clock::time_point measured_at_{};
   double measured_time_ = 0, speed_ = 0;
   std::uint64_t number_ = 0;
