@@ -103,6 +103,12 @@ const std::string& Leaf::text(const std::string& what) const {
   return *content;
 }
 
+void read_leaf(const Leaf& leaf, bool& member) {
+  const bool* value = std::get_if<bool>(&leaf.value.data);
+  if (!value) leaf.fail("true or false");
+  member = *value;
+}
+
 void read_leaf(const Leaf& leaf, double& member) {
   member = number(leaf, "a number");
 }
@@ -175,6 +181,9 @@ void read_leaf(const Leaf& leaf, std::optional<Range>& member) {
 Value to_value(double member) {
   return {member};
 }
+Value to_value(bool member) {
+  return {member};
+}
 Value to_value(int member) {
   return {std::int64_t{member}};
 }
@@ -202,6 +211,9 @@ Value to_value(const std::optional<Range>& member) {
 
 std::string type_of(const double&) {
   return "number";
+}
+std::string type_of(const bool&) {
+  return "boolean";
 }
 std::string type_of(const int&) {
   return "integer";

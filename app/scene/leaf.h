@@ -41,6 +41,7 @@ struct Leaf {
   const std::string& text(const std::string& what) const;
 };
 
+void read_leaf(const Leaf& leaf, bool& member);
 void read_leaf(const Leaf& leaf, double& member);
 void read_leaf(const Leaf& leaf, int& member);
 void read_leaf(const Leaf& leaf, std::uint64_t& member);
@@ -52,6 +53,7 @@ void read_leaf(const Leaf& leaf, std::optional<sim::Vec3d>& member);
 void read_leaf(const Leaf& leaf, PictureSize& member);
 void read_leaf(const Leaf& leaf, std::optional<Range>& member);
 
+Value to_value(bool member);
 Value to_value(double member);
 Value to_value(int member);
 Value to_value(std::uint64_t member);
@@ -61,6 +63,7 @@ Value to_value(const std::vector<std::string>& member);
 Value to_value(const PictureSize& member);
 Value to_value(const std::optional<Range>& member);
 
+std::string type_of(const bool&);
 std::string type_of(const double&);
 std::string type_of(const int&);
 std::string type_of(const std::uint64_t&);

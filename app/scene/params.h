@@ -12,7 +12,8 @@ namespace neve::app {
 
 struct ParamInfo {
   std::string address;  ///< "material.NAME.hardening"
-  std::string type;     ///< number, integer, string, vector, choice, list of choices, size or range
+  std::string
+      type;  ///< boolean, number, integer, string, vector, choice, list of choices, size or range
   std::string unit;
   Valid valid;
   std::vector<std::string> choices;    ///< of choices, what may be written

@@ -73,6 +73,10 @@ double clamped(double value, const Valid& valid) {
 
 }  // namespace
 
+bool edit_value(const Knob&, bool& value) {
+  return ImGui::Checkbox("##value", &value);
+}
+
 bool edit_value(const Knob& knob, double& value) {
   const double before = value;
   const std::string format = format_of(knob.unit);

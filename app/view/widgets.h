@@ -24,6 +24,7 @@ struct Knob {
 };
 
 /// @return whether the value was changed; it is valid then
+bool edit_value(const Knob& knob, bool& value);
 bool edit_value(const Knob& knob, double& value);
 bool edit_value(const Knob& knob, int& value);
 bool edit_value(const Knob& knob, std::uint64_t& value);
