@@ -20,6 +20,7 @@ using Step = ReplayStep::Kind;
 
 /// Panels need some frames for what they open; more is a label that does not come.
 constexpr int patience = 120;
+constexpr double frame_seconds = 1.0 / 60;
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -72,11 +73,17 @@ void ReplayFront::give_up_label(const ReplayStep& step, const std::string& label
   give_up(step, "\"" + label + "\"" + what, hint);
 }
 
+bool ReplayFront::is_picture_wanted() const {
+  if (screenshot_) return true;
+  if (frames_waited_ == 0) return false;
+  const ReplayStep& step = steps_[next_];
+  return step.kind != Step::wait_for || parse_goal(step.text)->kind == ReplayGoal::Kind::label;
+}
+
 std::vector<InputEvent> ReplayFront::wait(double seconds) {
-  if (is_missing_) {
-    // Somebody else has to do something first: not as fast as the machine can.
+  if (is_idle_) {
     std::unique_lock lock(mutex_);
-    const auto longest = std::chrono::duration<double>(std::clamp(seconds, 0.0, 0.01));
+    const auto longest = std::chrono::duration<double>(std::clamp(seconds, 0.0, frame_seconds));
     woken_.wait_for(lock, longest, [&] { return is_woken_; });
     is_woken_ = false;
   }
@@ -87,6 +94,7 @@ std::vector<InputEvent> ReplayFront::wait(double seconds) {
     frames_waited_ = 0;
     seen_.clear();
   }
+  is_idle_ = frames_.empty() || frames_.front().events.empty();
   if (frames_.empty()) {
     if (next_ == steps_.size() && options_.frames == 0) return closing();
     return {};
@@ -106,15 +114,14 @@ std::vector<InputEvent> ReplayFront::closing() const {
 }
 
 bool ReplayFront::begin(const ReplayStep& step) {
-  is_missing_ = false;
   if (frame_ < step.at_frame) return false;
   switch (step.kind) {
     case Step::wait_for: {
-      is_missing_ = !is_reached(*parse_goal(step.text));
-      if (is_missing_ && !is_in_time(step))
+      if (is_reached(*parse_goal(step.text))) return true;
+      if (!is_in_time(step))
         give_up(step, "no " + step.text + " within " + rough_text(step.seconds) + " s", {});
       ++frames_waited_;
-      return !is_missing_;
+      return false;
     }
     case Step::screenshot:
       frames_ = {{}, {{}, &step}};

@@ -15,8 +15,9 @@
 
 namespace neve::app {
 
-/// Each wait() is one frame of the panels and brings what happens in it; for the panels it should be
-/// 1/60 s long however long it takes.
+/// Each wait() is one frame of the panels and brings what happens in it; for the panels it should
+/// be 1/60 s long however long it takes. Where nothing happens it lets that time pass, unless
+/// wait() is not to take any, so that others get on with what they do.
 class ReplayFront : public Front {
  public:
   struct Options {
@@ -35,8 +36,8 @@ class ReplayFront : public Front {
   std::vector<InputEvent> wait(double seconds) override;
   void wake() override;
   bool is_ready() const override { return true; }
-  /// Always: one picture a frame.
-  bool is_picture_wanted() const override { return true; }
+  /// For a screenshot, and where labels are waited for.
+  bool is_picture_wanted() const override;
   /// @throws IoError when a screenshot cannot be written
   void show(render::Screen& screen) override;
   void set_progress(int frame, bool is_running) override;
@@ -69,7 +70,7 @@ class ReplayFront : public Front {
 
   int frames_waited_ = 0;                   ///< for the step that cannot begin yet
   double waiting_since_ = 0;                ///< s
-  bool is_missing_ = false;                 ///< that somebody else must do something first
+  bool is_idle_ = false;                    ///< nothing happens in this frame
   std::map<std::string, LabelPlace> seen_;  ///< labels of the step, a frame ago
 
   std::string clipboard_;

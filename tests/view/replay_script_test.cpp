@@ -1,0 +1,160 @@
+#include "app/view/replay_script.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/scene/error.h"
+#include "app/view/key_names.h"
+
+namespace neve::app {
+namespace {
+
+std::string complaint(const std::string& text) {
+  try {
+    parse_replay(text, "clicks.json");
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+constexpr const char* every_step = R"([
+{"click":"Run"},
+{"click":[12,40],"at_frame":3,"button":"right","times":2,"ctrl":true},
+{"drag":["E0",{"label":"E0","part":[0.25,0.5]},[300,20.5]],"steps":4,"shift":true},
+{"move":{"label":"picture","part":[0.1,0.9]}},
+{"wheel":2,"at":[400,300]},
+{"wheel":[-1,0.5]},
+{"key":"z","ctrl":true,"alt":true,"super":true},
+{"key":"space","hold":30},
+{"type":"snö \"w\""},
+{"paste":"a\nb"},
+{"wait":5},
+{"wait_for":"simulation frame 12"},
+{"wait_for":"label Run","within":2.5},
+{"screenshot":"a/b.png"},
+{"screenshot":"part.png","crop":[1,2,30,40]},
+{"screenshot":"panel.png","crop":"Parameters"},
+{"resize":[1920,1080,2]},
+{"resize":[640,480]},
+{"drop":"scene.toml"},
+{"quit":true}
+]
+)";
+
+TEST(ReplayScript, EveryStepIsReadAndWrittenAlike) {
+  const std::vector<ReplayStep> steps = parse_replay(every_step, "clicks.json");
+  ASSERT_EQ(steps.size(), 20u);
+  // The order of the keys in a step is the writer's.
+  const std::string written = replay_text(steps);
+  EXPECT_EQ(replay_text(parse_replay(written, "written")), written);
+  EXPECT_EQ(std::count(written.begin(), written.end(), '\n'), 22);
+  EXPECT_EQ(steps[1].at_frame, 3);
+  EXPECT_EQ(steps[1].button, 1);
+  EXPECT_EQ(steps[1].times, 2);
+  EXPECT_TRUE(steps[1].held.ctrl);
+  ASSERT_EQ(steps[2].places.size(), 3u);
+  EXPECT_EQ(steps[2].places[1].label, "E0");
+  EXPECT_EQ(steps[2].places[1].x, 0.25f);
+  EXPECT_EQ(steps[2].places[2].y, 20.5f);
+  EXPECT_EQ(steps[4].wheel_y, 2);
+  EXPECT_EQ(steps[5].wheel_x, -1);
+  EXPECT_EQ(steps[6].key, 'Z');
+  EXPECT_EQ(steps[7].frames, 30);
+  EXPECT_EQ(steps[8].text, "snö \"w\"");
+  EXPECT_EQ(steps[12].seconds, 2.5);
+  EXPECT_EQ((*steps[14].crop)[3], 40);
+  EXPECT_EQ(steps[15].crop_label, "Parameters");
+  EXPECT_EQ(steps[16].size.scale, 2);
+  EXPECT_EQ(steps[18].line, 20);
+}
+
+TEST(ReplayScript, MisspeltStepNamesPlaceAndNearestName) {
+  EXPECT_EQ(complaint("[\n {\"wait\": 3},\n {\"clik\": \"Run\"}\n]"),
+            "clicks.json:3:2: error: step 2: nothing to do; expected one of click, drag, move, "
+            "wheel, key, type, paste, wait, wait_for, screenshot, resize, drop, quit; did you mean "
+            "\"click\"?");
+  EXPECT_EQ(complaint("[{\"click\": \"Run\", \"buton\": \"left\"}]"),
+            "clicks.json:1:19: error: step 1: unknown key \"buton\" in a step that does click; did "
+            "you mean \"button\"?");
+  EXPECT_EQ(complaint("[{\"key\": \"spacee\"}]"),
+            "clicks.json:1:3: error: step 1: unknown key of the keyboard \"spacee\"; did you mean "
+            "\"space\"?");
+}
+
+TEST(ReplayScript, ColumnCountsCharactersOverNestedValuesAndStrings) {
+  EXPECT_EQ(complaint("[{\"type\": \"ö]}\\\"{\"}, {\"click\": [1, 2], \"times\": 0}]"),
+            "clicks.json:1:40: error: step 2: times = 0; expected a whole number from 1 to 9");
+}
+
+struct Wrong {
+  const char* script;
+  const char* message;  ///< a part of it
+};
+
+TEST(ReplayScript, EveryWrongValueIsRefusedWithWhatWasExpected) {
+  const Wrong all[] = {
+      {"", "no valid JSON"},
+      {"[{\"wait\": 3}", "no valid JSON"},
+      {"{\"wait\": 3}", "is a list of steps"},
+      {"[3]", "3 is no step"},
+      {"[{}]", "nothing to do"},
+      {"[{\"wait\": 3, \"type\": \"a\"}]", "one thing"},
+      {"[{\"wait\": 3, \"wait\": 4}]", "\"wait\" is there twice"},
+      {"[{\"wait\": 0}]", "whole number from 1"},
+      {"[{\"wait\": 1.5}]", "whole number from 1"},
+      {"[{\"wait\": \"long\"}]", "whole number from 1"},
+      {"[{\"wait\": 1e300}]", "whole number from 1"},
+      {"[{\"click\": 3}]", "a place"},
+      {"[{\"click\": \"\"}]", "a place"},
+      {"[{\"click\": [1]}]", "a place"},
+      {"[{\"click\": [1, 1e30]}]", "a place"},
+      {"[{\"click\": {\"label\": \"a\", \"prat\": [0, 0]}}]", "a place"},
+      {"[{\"click\": {\"label\": \"a\", \"part\": [0, 2]}}]", "a place"},
+      {"[{\"click\": [1, 2], \"button\": \"top\"}]", "\"left\", \"right\" or \"middle\""},
+      {"[{\"click\": [1, 2], \"ctrl\": 1}]", "true or false"},
+      {"[{\"drag\": [[1, 2]]}]", "two places"},
+      {"[{\"drag\": \"Run\"}]", "two places"},
+      {"[{\"wheel\": 1000}]", "notches"},
+      {"[{\"key\": \"\"}]", "the name of a key"},
+      {"[{\"wait_for\": \"simulation frame x\"}]", "simulation frame N"},
+      {"[{\"wait_for\": \"label \"}]", "simulation frame N"},
+      {"[{\"wait_for\": \"simulation paused\", \"within\": 0}]", "seconds"},
+      {"[{\"screenshot\": \"a.jpg\"}]", ".png"},
+      {"[{\"screenshot\": \"a.png\", \"crop\": [1, 2, 3]}]", "[x, y, width, height]"},
+      {"[{\"screenshot\": \"a.png\", \"crop\": [1, 2, 0, 3]}]", "[x, y, width, height]"},
+      {"[{\"resize\": [1, 1]}]", "from 64 to 8192"},
+      {"[{\"resize\": [640, 480, 9]}]", "from 64 to 8192"},
+      {"[{\"quit\": false}]", "expected true"},
+      {"[{\"at_frame\": -1, \"wait\": 1}]", "at_frame"},
+  };
+  for (const Wrong& wrong : all) {
+    const std::string message = complaint(wrong.script);
+    EXPECT_NE(message.find(wrong.message), std::string::npos) << wrong.script << "\n" << message;
+    EXPECT_TRUE(message.starts_with("clicks.json:1:")) << message;
+  }
+}
+
+TEST(ReplayScript, DeepNestingIsNoTrouble) {
+  const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+  EXPECT_NE(complaint(deep).find("error"), std::string::npos);
+  EXPECT_NE(complaint("[{\"click\": " + deep + "}]").find("a place"), std::string::npos);
+}
+
+TEST(KeyNames, EveryNamedKeyIsFoundByItsName) {
+  int named = 0;
+  for (int key = 0; key <= key::last; ++key) {
+    const std::string name = key_name(key);
+    if (name.empty()) continue;
+    ++named;
+    EXPECT_EQ(key_named(name), key) << name;
+  }
+  // Letters, digits, signs, twelve function keys, and those listed by name.
+  EXPECT_EQ(named, 26 + 10 + 16 + static_cast<int>(key_names().size()));
+  EXPECT_EQ(key_named("Z"), 'Z');
+  EXPECT_EQ(key_named("f13"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace neve::app
