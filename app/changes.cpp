@@ -13,6 +13,8 @@ namespace neve::app {
 
 namespace {
 
+constexpr std::size_t no_step = std::numeric_limits<std::size_t>::max();
+
 /// Of two changes to one address the earlier one has no effect on the scene.
 std::vector<Override> overrides_of(const std::vector<LiveChange>& changes, std::size_t count) {
   std::vector<Override> overrides;
@@ -170,20 +172,33 @@ void ChangePlayer::go_to(std::size_t steps) {
   if (end > 0) make(end);
 }
 
+/// As far as the next change, or to the end of the frame.
+sim::AdvanceReport ChangePlayer::advance(double time, bool (*interrupted)(), std::size_t last_step,
+                                         std::vector<sim::Retry>& retries) {
+  if (scene_.solver.on_divergence == sim::OnDivergence::stop)
+    return simulation_.advance_to(time, interrupted, last_step);
+  if (last_step == no_step || simulation_.dt_scale() < 1)
+    return sim::advance_retrying(simulation_, time, interrupted, retries);
+  // While nothing breaks, steps with and without retrying are the same.
+  const std::vector<std::uint8_t> good = simulation_.save();
+  const sim::AdvanceReport report = simulation_.advance_to(time, interrupted, last_step);
+  const bool has_broken = simulation_.divergence().has_value();
+  if (!has_broken && (simulation_.time() >= time || simulation_.steps() >= last_step))
+    return report;
+  simulation_.restore(good);
+  return has_broken ? sim::advance_retrying(simulation_, time, interrupted, retries)
+                    : sim::AdvanceReport{};  // interrupted: the frame is simulated as a whole
+}
+
 sim::AdvanceReport ChangePlayer::advance_to(double time, bool (*interrupted)(),
                                             std::vector<sim::Retry>& retries) {
   sim::AdvanceReport report;
   for (;;) {
-    const bool has_next = made_ < changes_.size();
-    const std::size_t next =
-        has_next ? changes_[made_].step : std::numeric_limits<std::size_t>::max();
-    const bool goes_back = scene_.solver.on_divergence == sim::OnDivergence::retry;
-    report.append(goes_back ? sim::advance_retrying(simulation_, time, interrupted, retries)
-                            : simulation_.advance_to(time, interrupted, next));
+    const std::size_t next = made_ < changes_.size() ? changes_[made_].step : no_step;
+    report.append(advance(time, interrupted, next, retries));
     if (simulation_.divergence()) return report;
     make_due();
-    const bool stopped_for_a_change = has_next && simulation_.steps() == next;
-    if (goes_back || simulation_.time() >= time || !stopped_for_a_change) return report;
+    if (simulation_.time() >= time || simulation_.steps() != next) return report;
   }
 }
 

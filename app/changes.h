@@ -75,8 +75,9 @@ void apply_scene(Scene& scene, sim::Simulation& simulation);
 ///
 /// Whenever it returns, all changes with a step up to simulation.steps() have been made: which ones
 /// have follows from the number of steps alone, also for a state that was saved and restored. With
-/// on_divergence = "retry" the steps of a frame are not final before its end, so changes that fall
-/// inside a frame are made there.
+/// on_divergence = "retry" a frame that breaks a rule, or still takes shorter steps for an earlier
+/// one, is simulated as a whole: its steps are not final before its end, and changes that fall
+/// inside are made there.
 class ChangePlayer {
  public:
   /// @param start       resolved, what the simulation was built from; its views decide which are
@@ -104,6 +105,8 @@ class ChangePlayer {
  private:
   void make_due();
   void make(std::size_t end);
+  sim::AdvanceReport advance(double time, bool (*interrupted)(), std::size_t last_step,
+                             std::vector<sim::Retry>& retries);
 
   SceneSource source_;
   std::vector<LiveChange> changes_;

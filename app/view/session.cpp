@@ -7,6 +7,7 @@
 #include "app/changes.h"
 #include "app/machine.h"
 #include "app/plan.h"
+#include "app/scene/flat.h"
 #include "app/seed_scene.h"
 #include "app/view/look.h"
 #include "sim/retry.h"
@@ -101,17 +102,20 @@ void Session::reset(std::shared_ptr<const Scene> scene) {
   });
 }
 
-void Session::apply(std::shared_ptr<const Scene> scene,
-                    std::function<void(std::size_t steps)> done) {
-  ask([this, scene = std::move(scene), done = std::move(done)] {
+void Session::apply(std::shared_ptr<const Scene> scene) {
+  ask([this, scene = std::move(scene)] {
     leave_older();
     simulation_->apply(scene->solver, scene->materials, sim_colliders(*scene));
     const std::size_t steps = simulation_->steps();
+    // What the simulation was told, not what was typed: both differ where a scene is coarsened.
+    for (const Difference& change : differences(*scene_, *scene))
+      if (change.is_live && concerns_simulation(change.address))
+        note_change(changes_,
+                    {steps, change.address, change.after ? toml_literal(*change.after) : "none"});
     colliders_ = simulation_->colliders();
     scene_ = scene;
     // What is kept of this moment has to go on with the change.
     if (steps == steps_of_frame_) keep();
-    if (done) done(steps);
   });
 }
 
@@ -131,8 +135,8 @@ void Session::show_head() {
   ask([this] { leave_older(); });
 }
 
-void Session::continue_from_here(std::function<void(std::size_t steps)> done) {
-  ask([this, done = std::move(done)] {
+void Session::continue_from_here() {
+  ask([this] {
     if (!head_) return;
     head_.reset();
     kept_.forget_after(frame_);
@@ -141,7 +145,7 @@ void Session::continue_from_here(std::function<void(std::size_t steps)> done) {
     auto kept = std::make_shared<std::vector<RunSample>>(*samples_);
     std::erase_if(*kept, [&](const RunSample& sample) { return sample.time > now; });
     samples_ = kept;
-    if (done) done(simulation_->steps());
+    forget_changes_after(changes_, simulation_->steps());
   });
 }
 
@@ -233,6 +237,7 @@ void Session::start(std::shared_ptr<const Scene> scene) {
   advance_ = {};
   advance_is_new_ = true;
   steps_of_frame_ = 0;
+  changes_.clear();
   history_.clear();
   samples_ = std::make_shared<std::vector<RunSample>>();
   kept_.clear();
@@ -407,6 +412,8 @@ void Session::publish() {
   live->scene = shown_scene();
   live->snapshot = take_snapshot(*live->scene, *simulation_, frame_);
   live->snapshot.advance = advance_;
+  live->snapshot.changes = changes_;
+  forget_changes_after(live->snapshot.changes, simulation_->steps());
   live->probed = probe_;
   live->history = history_;
   live->snapshot.history = live->history;

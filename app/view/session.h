@@ -44,17 +44,17 @@ class Session {
 
   /// Starts anew. On an error the old simulation goes on.
   void reset(std::shared_ptr<const Scene> scene);
-  /// Goes on with live changes. @param done called on the session's thread with the number of steps
-  /// before the change
-  void apply(std::shared_ptr<const Scene> scene, std::function<void(std::size_t steps)> done);
+  /// Goes on with the live changes that make this scene of the one that runs. They are listed in
+  /// the snapshots of the frames that follow, whatever they were made by.
+  void apply(std::shared_ptr<const Scene> scene);
 
   /// Shows a kept frame, the nearest at or before this number. The run waits.
   void show_frame(int frame);
   /// Back to where the run is.
   void show_head();
-  /// The run goes on from the kept frame that is shown; those after it are forgotten.
-  /// @param done called on the session's thread with the number of steps there
-  void continue_from_here(std::function<void(std::size_t steps)> done);
+  /// The run goes on from the kept frame that is shown, with the parameters it had then; frames and
+  /// changes after it are forgotten.
+  void continue_from_here();
 
   /// What the pictures need: the session works out the fields of these views.
   void set_views(std::vector<View> views);
@@ -103,11 +103,12 @@ class Session {
   std::vector<sim::Collider> colliders_;  ///< where the simulation has them
   std::vector<std::size_t> body_end_;
   double spacing_ = 0.01;
-  int frame_ = 0;                   ///< the last one passed
-  sim::AdvanceReport advance_;      ///< of the frame that was reached last, or is on its way
-  bool advance_is_new_ = true;      ///< the next step belongs to another frame
-  sim::ParticleArrays seeded_;      ///< what the run started from
-  std::size_t steps_of_frame_ = 0;  ///< that the simulation had at the frame before
+  int frame_ = 0;                    ///< the last one passed
+  sim::AdvanceReport advance_;       ///< of the frame that was reached last, or is on its way
+  bool advance_is_new_ = true;       ///< the next step belongs to another frame
+  sim::ParticleArrays seeded_;       ///< what the run started from
+  std::size_t steps_of_frame_ = 0;   ///< that the simulation had at the frame before
+  std::vector<LiveChange> changes_;  ///< of the run, also those after an older frame that is shown
   std::vector<PlotSample> history_;
   std::shared_ptr<std::vector<RunSample>> samples_;
   KeptFrames kept_{0};

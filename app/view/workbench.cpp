@@ -23,12 +23,6 @@ std::string text_of(const std::exception& error) {
   return error.what();
 }
 
-std::string value_in(const std::vector<Override>& edits, const std::string& address) {
-  for (const Override& edit : edits)
-    if (edit.address == address) return edit.value;
-  return {};
-}
-
 void put(std::vector<Override>& edits, const std::string& address,
          const std::vector<Override>& from) {
   std::erase_if(edits, [&](const Override& edit) { return edit.address == address; });
@@ -59,7 +53,7 @@ Workbench::Workbench(Document document, WorkbenchOptions options, std::function<
 
 std::vector<std::string> Workbench::overrides() const {
   std::vector<std::string> all = options_.overrides;
-  for (const Override& edit : document_.edits())
+  for (const Override& edit : at_start_)
     if (effect_of(edit.address) != Effect::display) all.push_back(edit.address + "=" + edit.value);
   return all;
 }
@@ -117,43 +111,29 @@ void Workbench::forget(const std::string& address) {
 
 /// The simulation learns what it can of the difference.
 void Workbench::take_over(const std::vector<Override>& before) {
-  const std::vector<std::string> changed = Document::difference(before, document_.edits());
-  std::vector<LiveChange> live;
-  bool needs_restart = false;
-  for (const std::string& address : changed) {
+  bool needs_restart = false, is_live = false;
+  for (const std::string& address : Document::difference(before, document_.edits())) {
     const Effect effect = effect_of(address);
     needs_restart = needs_restart || effect == Effect::restart;
     if (effect != Effect::live) continue;
     put(running_, address, document_.edits());
-    std::string value = value_in(document_.edits(), address);
-    if (value.empty())
-      value = document_.in_file(address).value_or(document_.default_of(address).value_or(""));
-    live.push_back({0, address, value});
+    is_live = true;
   }
   const std::shared_ptr<const LiveFrame> frame = session_->latest();
   if (needs_restart && frame && frame->steps == 0 && !frame->is_older && frame->head == 0) {
     reset();
     return;
   }
-  if (!live.empty()) apply_running(std::move(live));
+  if (is_live) apply_running();
 }
 
-void Workbench::apply_running(std::vector<LiveChange> changed) {
-  std::shared_ptr<const Scene> scene;
+void Workbench::apply_running() {
   try {
-    scene = document_.scene_with(running_);
+    session_->apply(document_.scene_with(running_));
   } catch (const std::exception& error) {
     say(Message::Kind::warning,
         "waits for Reset, together with what it belongs to: " + text_of(error));
-    return;
   }
-  session_->apply(scene, [this, changed = std::move(changed)](std::size_t steps) mutable {
-    const std::lock_guard lock(log_mutex_);
-    for (LiveChange& change : changed) {
-      change.step = steps;
-      note_change(log_, std::move(change));
-    }
-  });
 }
 
 std::vector<std::string> Workbench::waiting_for_reset() const {
@@ -165,26 +145,12 @@ std::vector<std::string> Workbench::waiting_for_reset() const {
 
 void Workbench::reset() {
   running_ = at_start_ = document_.edits();
-  {
-    const std::lock_guard lock(log_mutex_);
-    log_.clear();
-  }
   session_->reset(document_.scene());
 }
 
 void Workbench::continue_from_here() {
-  session_->continue_from_here([this](std::size_t steps) {
-    const std::lock_guard lock(log_mutex_);
-    forget_changes_after(log_, steps);
-  });
-  std::vector<LiveChange> live;
-  for (const std::string& address : Document::difference(at_start_, running_))
-    live.push_back(
-        {0, address,
-         value_in(running_, address).empty()
-             ? document_.in_file(address).value_or(document_.default_of(address).value_or(""))
-             : value_in(running_, address)});
-  if (!live.empty()) apply_running(std::move(live));
+  session_->continue_from_here();
+  apply_running();
 }
 
 Scene Workbench::display_scene(const LiveFrame& live) const {
@@ -261,10 +227,7 @@ PictureRecord Workbench::picture_record(const LiveFrame& live, const View& view)
   scene.mosaics.clear();
   PictureRecord record;
   record.scene = write_scene(scene);
-  record.overrides = options_.overrides;
-  for (const Override& edit : at_start_)
-    if (effect_of(edit.address) != Effect::display)
-      record.overrides.push_back(edit.address + "=" + edit.value);
+  record.overrides = overrides();
   record.coarsening = document_.coarsening();
   record.seed = scene.seed;
   record.version = version;
@@ -272,15 +235,8 @@ PictureRecord Workbench::picture_record(const LiveFrame& live, const View& view)
   record.view = view.name;
   record.quality = name(options_.quality);
   record.files = hash_files(scene);
-  record.changes = changes();
-  std::erase_if(record.changes,
-                [&](const LiveChange& change) { return change.step >= live.steps; });
+  record.changes = live.snapshot.changes;
   return record;
-}
-
-std::vector<LiveChange> Workbench::changes() const {
-  const std::lock_guard lock(log_mutex_);
-  return log_;
 }
 
 void Workbench::say(Message::Kind kind, std::string text) {

@@ -5,12 +5,10 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/changes.h"
 #include "app/picture_record.h"
 #include "app/view/document.h"
 #include "app/view/edit.h"
@@ -40,7 +38,7 @@ class Workbench {
   Session& session() { return *session_; }
   const std::filesystem::path& folder() const { return options_.folder; }
   Quality quality() const { return options_.quality; }
-  /// Of the command line and the document, as captions list them.
+  /// That the run started with: of the command line and the document. Captions list them.
   std::vector<std::string> overrides() const;
 
   /// Does it at once where that is possible; what needs a restart waits for reset(), but at the
@@ -77,11 +75,10 @@ class Workbench {
   const std::deque<Message>& messages() const { return messages_; }
   std::size_t messages_said() const { return said_; }
   void forget_messages() { messages_.clear(); }
-  std::vector<LiveChange> changes() const;
 
  private:
   void take_over(const std::vector<Override>& before);
-  void apply_running(std::vector<LiveChange> changed);
+  void apply_running();
   template <class Act>
   void attempt(Act act);
 
@@ -89,8 +86,6 @@ class Workbench {
   WorkbenchOptions options_;
   /// The edits that the running simulation knows: all of its start, live ones since.
   std::vector<Override> running_, at_start_;
-  mutable std::mutex log_mutex_;
-  std::vector<LiveChange> log_;
   std::deque<Message> messages_;
   std::size_t said_ = 0;
   std::filesystem::file_time_type file_time_{};

@@ -92,7 +92,7 @@ TEST(Session, GoesOnFromAnOlderFrameAsIfTheRestHadNotBeen) {
   rest_at(session, 4);
   session.show_frame(2);
   wait_for(session, [](const LiveFrame& live) { return live.is_older && live.frame == 2; });
-  session.continue_from_here({});
+  session.continue_from_here();
   const auto here = wait_for(session, [](const LiveFrame& live) { return !live.is_older; });
   EXPECT_EQ(here->kept, (std::vector<int>{0, 1, 2}));
   EXPECT_EQ(here->history.size(), 3u);
