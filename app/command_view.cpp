@@ -101,7 +101,7 @@ void announce(const Place& place, bool is_quiet) {
 }
 
 /// @return the scene file to go on with, or ""
-std::string look_at(const std::string& file, const ViewOptions& options, Place& place,
+std::string look_at(const std::string& file, const ViewOptions& options, Place& place, Front& front,
                     bool is_first) {
   const std::vector<std::string> overrides =
       is_first ? options.run.overrides : std::vector<std::string>();
@@ -113,12 +113,6 @@ std::string look_at(const std::string& file, const ViewOptions& options, Place& 
       options.run.out.empty()
           ? std::filesystem::path("out") / (std::filesystem::path(file).stem().string() + "-view")
           : std::filesystem::path(options.run.out);
-  Front* front = place.front.get();
-  std::unique_ptr<RecordingFront> recording;
-  if (!options.record.empty()) {
-    recording = std::make_unique<RecordingFront>(*front, options.record);
-    front = recording.get();
-  }
   Workbench bench(open_document(file, overrides, is_first ? options.run.coarsening.value_or(1) : 1),
                   std::move(bench_options), [&place] { place.front->wake(); });
   ThreadPool pool(options.run.threads);
@@ -135,9 +129,8 @@ std::string look_at(const std::string& file, const ViewOptions& options, Place& 
     viewer_options.view = options.run.views.front();
     find_view(*bench.document().scene(), *viewer_options.view);
   }
-  Viewer viewer(bench, *front, screen, renderer, viewer_options);
+  Viewer viewer(bench, front, screen, renderer, viewer_options);
   viewer.run();
-  if (recording) recording->save();
   return viewer.state().dropped_file;
 }
 
@@ -150,15 +143,13 @@ int run_view(const ViewOptions& options) {
   open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
   Place place = open_place(options);
   announce(place, options.run.verbosity == Verbosity::quiet);
-  for (bool is_first = true; !file.empty(); is_first = false) {
-    try {
-      file = look_at(file, options, place, is_first);
-    } catch (const SceneError& error) {
-      if (is_first) throw;
-      std::cerr << error.what() << std::endl;  // a dropped file that is none: nothing to show
-      return exit_invalid_scene;
-    }
-  }
+  std::unique_ptr<RecordingFront> recording;
+  if (!options.record.empty())
+    recording = std::make_unique<RecordingFront>(*place.front, options.record);
+  Front& front = recording ? *recording : *place.front;
+  for (bool is_first = true; !file.empty(); is_first = false)
+    file = look_at(file, options, place, front, is_first);
+  if (recording) recording->save();
   return exit_ok;
 }
 

@@ -112,12 +112,22 @@ void Viewer::take_events(std::vector<InputEvent> events) {
   has_input_ = has_input_ || !events.empty();
   for (const InputEvent& event : events) {
     if (event.kind == InputEvent::Kind::close) is_closed_ = true;
-    if (event.kind == InputEvent::Kind::drop) {
-      state_.dropped_file = event.text;
-      is_closed_ = true;
-    }
+    if (event.kind == InputEvent::Kind::drop) take_drop(event.text);
   }
   input_.push(std::move(events));
+}
+
+/// The present run goes on when the file is no scene.
+void Viewer::take_drop(const std::string& file) {
+  try {
+    open_document(file, {}, 1);
+    state_.dropped_file = file;
+    is_closed_ = true;
+  } catch (const std::exception& error) {
+    bench_.say(Message::Kind::error, error.what());
+    state_.panels.right = true;
+    state_.go_to_tab = tab::messages;
+  }
 }
 
 void Viewer::take_live_frame() {

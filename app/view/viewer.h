@@ -44,6 +44,7 @@ class Viewer {
   using Clock = std::chrono::steady_clock;
 
   void take_events(std::vector<InputEvent> events);
+  void take_drop(const std::string& file);
   void take_live_frame();
   void show_news();
   bool is_still() const;
