@@ -190,6 +190,8 @@ std::vector<Change> changes() {
       {"short steps", [](World& w) { w.settings.max_dt = 1e-8; }},
       {"small strains", [](World& w) { w.settings.strain_limit = 1e-3; }},
       {"fixed", [](World& w) { w.settings.time_step = TimeStep::fixed, w.settings.dt = 5e-5; }},
+      {"semi-implicit", [](World& w) { w.settings.beta = 1, w.settings.solve_tolerance = 1e-5; }},
+      {"explicit", [](World& w) { w.settings.beta = 0; }},
       {"no floor", [](World& w) { w.colliders.clear(); }},
       {"another ball",
        [](World& w) {
