@@ -19,7 +19,7 @@ namespace neve::app {
 
 namespace {
 
-void print(const std::vector<BenchRow>& rows, const BenchOptions& options) {
+void print_rows(const std::vector<BenchRow>& rows, const BenchOptions& options) {
   if (options.is_json)
     std::cout << to_text(to_json(rows)) << "\n";
   else if (options.is_markdown)
@@ -45,7 +45,7 @@ int run_bench(const BenchOptions& options, const Bench& bench) {
                      " % of the machine meanwhile; trust ratios and the best of the rounds");
   if (options.is_quick)
     progress.note("neve: --quick looks whether it works; its figures mean little");
-  print(rows, options);
+  print_rows(rows, options);
   return exit_ok;
 }
 

@@ -29,7 +29,7 @@ const char* name(Severity severity) {
 }
 
 /// A count with three digits that count, written out.
-std::string count_text(double x) {
+std::string about_count_text(double x) {
   const double unit = x < 1000 ? 1 : std::pow(10, std::floor(std::log10(x)) - 2);
   return fixed_text(unit * std::round(x / unit), 0);
 }
@@ -44,7 +44,7 @@ const FrameForecast& busiest(const Checkup& checkup) {
       [](const FrameForecast& a, const FrameForecast& b) { return a.steps < b.steps; });
 }
 
-Json to_json(const Checkup& checkup, const RenderJob& job) {
+Json checkup_json(const Checkup& checkup, const RenderJob& job) {
   Json json = to_json(checkup.plan);
   json["cells"] = checkup.cells;
   json["cell_size"] = job.scene.solver.cell_size;
@@ -101,11 +101,12 @@ void print_limits(const Checkup& checkup) {
 void print_forecast(const Checkup& checkup) {
   if (checkup.forecast.empty()) return;
   const FrameForecast& worst = busiest(checkup);
-  std::cout << "steps      about " << count_text(checkup.steps()) << " in "
-            << checkup.forecast.size() << " frames: " << count_text(checkup.forecast.front().steps)
-            << " in frame 1, " << count_text(worst.steps) << " in frame " << worst.frame << " ("
+  std::cout << "steps      about " << about_count_text(checkup.steps()) << " in "
+            << checkup.forecast.size()
+            << " frames: " << about_count_text(checkup.forecast.front().steps) << " in frame 1, "
+            << about_count_text(worst.steps) << " in frame " << worst.frame << " ("
             << sim::name(worst.limit) << "), from a copy of "
-            << count_text(checkup.coarse_particles) << " particles\n";
+            << about_count_text(checkup.coarse_particles) << " particles\n";
   if (checkup.seconds_per_step <= 0) return;
   std::cout << "time       about " << time_text(checkup.seconds()) << " of simulation, "
             << time_text(worst.steps * checkup.seconds_per_step) << " for the busiest frame; "
@@ -113,7 +114,7 @@ void print_forecast(const Checkup& checkup) {
             << " ms a step, measured now on this machine\n";
 }
 
-void print(const Checkup& checkup, const RenderJob& job) {
+void print_checkup(const Checkup& checkup, const RenderJob& job) {
   const double h = job.scene.solver.cell_size;
   std::cout << "scene      " << job.scene_file
             << (job.coarsening > 1 ? ", coarsened " + coarsening_text(job.coarsening) : "") << "\n"
@@ -140,9 +141,9 @@ int run_check(const RenderOptions& options) {
   catch_interrupts();
   const Checkup checkup = examine(job.scene, plan, options.threads);
   if (options.is_json)
-    std::cout << to_text(to_json(checkup, job)) << "\n";
+    std::cout << to_text(checkup_json(checkup, job)) << "\n";
   else
-    print(checkup, job);
+    print_checkup(checkup, job);
   std::cout.flush();
   if (is_interrupted()) return exit_interrupted;
   check_limits(job.scene, checkup.plan);

@@ -30,7 +30,7 @@ Examination examine(const render::Attempt& attempt) {
   return result;
 }
 
-Json to_json(const Examination& examination) {
+Json examination_json(const Examination& examination) {
   const render::Attempt& attempt = examination.attempt;
   const bool is_right = attempt.available && examination.picture_fault.empty();
   Json json;
@@ -45,7 +45,7 @@ Json to_json(const Examination& examination) {
   return json;
 }
 
-void print(const Examination& examination) {
+void print_line(const Examination& examination) {
   const render::Attempt& attempt = examination.attempt;
   std::cout << attempt.backend
             << std::string(18 - std::min<std::size_t>(17, attempt.backend.size()), ' ');
@@ -61,11 +61,11 @@ void print(const Examination& examination) {
   if (!attempt.install.empty()) std::cout << std::string(28, ' ') << attempt.install << "\n";
 }
 
-Json to_json(const sim::SelfTestResult& result) {
+Json self_test_json(const sim::SelfTestResult& result) {
   return {{"check", result.name}, {"passed", result.passed}, {"detail", result.detail}};
 }
 
-void print(const sim::SelfTestResult& result) {
+void print_line(const sim::SelfTestResult& result) {
   const std::string label = "physics: " + result.name;
   std::cout << label << std::string(28 - std::min<std::size_t>(27, label.size()), ' ')
             << (result.passed ? "right     " : "WRONG     ") << result.detail << "\n";
@@ -83,13 +83,14 @@ int run_doctor(bool is_json) {
     Json json;
     json["backends"] = Json::array();
     for (const Examination& examination : examinations)
-      json["backends"].push_back(to_json(examination));
+      json["backends"].push_back(examination_json(examination));
     json["physics"] = Json::array();
-    for (const sim::SelfTestResult& result : physics) json["physics"].push_back(to_json(result));
+    for (const sim::SelfTestResult& result : physics)
+      json["physics"].push_back(self_test_json(result));
     std::cout << to_text(json) << "\n";
   } else {
-    for (const Examination& examination : examinations) print(examination);
-    for (const sim::SelfTestResult& result : physics) print(result);
+    for (const Examination& examination : examinations) print_line(examination);
+    for (const sim::SelfTestResult& result : physics) print_line(result);
   }
   const auto count = [&](auto is_true) {
     return std::count_if(examinations.begin(), examinations.end(), is_true);

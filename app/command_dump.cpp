@@ -98,8 +98,8 @@ std::size_t probed_row(const Listing& listing, const Probe& probe) {
   return id;
 }
 
-Json to_json(const RenderJob& job, const DumpOptions& options, const Inside& inside,
-             const Listing& listing, const std::vector<std::size_t>& probed) {
+Json dump_json(const RenderJob& job, const DumpOptions& options, const Inside& inside,
+               const Listing& listing, const std::vector<std::size_t>& probed) {
   Json json;
   json["scene"] = job.scene_file;
   json["time"] = inside.simulation.time();
@@ -115,14 +115,14 @@ Json to_json(const RenderJob& job, const DumpOptions& options, const Inside& ins
   return json;
 }
 
-void print(const RenderJob& job, const DumpOptions& options, const Inside& inside,
-           const Listing& listing) {
+void print_dump(const RenderJob& job, const DumpOptions& options, const Inside& inside,
+                const Listing& listing) {
   std::vector<std::size_t> probed;
   for (const Probe& probe : options.probes) probed.push_back(probed_row(listing, probe));
   const std::vector<std::string> head = heading(job, options, inside, listing);
   std::string text;
   if (options.run.is_json) {
-    text = to_text(to_json(job, options, inside, listing, probed)) + "\n";
+    text = to_text(dump_json(job, options, inside, listing, probed)) + "\n";
   } else if (!probed.empty()) {
     for (const std::string& line : head) text += line + "\n";
     for (const std::size_t row : probed) {
@@ -161,7 +161,7 @@ int run_dump(const DumpOptions& options) {
   const Inside inside = look_inside(job.scene, simulation, left > 0 ? left : 1 / job.scene.fps);
   Listing listing = options.stage ? list_stage(inside, *options.stage) : list_state(inside);
   keep_only(listing, options.fields);
-  print(job, options, inside, listing);
+  print_dump(job, options, inside, listing);
   return simulation.divergence() ? exit_diverged : exit_ok;
 }
 

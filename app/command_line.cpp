@@ -84,7 +84,7 @@ constexpr const char* footer =
     "6 input or output failed, 7 runs of a sweep failed, 8 refused by a limit, 9 a check failed,\n"
     "75 interrupted and can go on, 130 interrupted.";
 
-BenchOptions finished(const CLI::App& command, BenchOptions options) {
+BenchOptions finished_bench(const CLI::App& command, BenchOptions options) {
   check_threads(options.threads);
   check_backend(options.backend);
   if (command.count("--rounds") > 0 && (options.rounds < 1 || options.rounds > 1000))
@@ -204,7 +204,7 @@ CLI::App* add_bench_part(CLI::App& bench, Action& action, const char* name, cons
                     "Print Markdown tables, as in docs/performance.md");
   command->add_flag("--json", options->is_json, "Print a JSON list, one object per row");
   command->final_callback(
-      [=, &action] { action = [=] { return run(finished(*command, *options)); }; });
+      [=, &action] { action = [=] { return run(finished_bench(*command, *options)); }; });
   return command;
 }
 

@@ -16,8 +16,8 @@ struct DumpTexts {
   std::vector<std::string> probes;
 };
 
-DumpOptions finished(DumpOptions options, const RenderOptions& run, const RenderTexts& run_texts,
-                     const DumpTexts& texts) {
+DumpOptions finished_dump(DumpOptions options, const RenderOptions& run,
+                          const RenderTexts& run_texts, const DumpTexts& texts) {
   options.run = finished(run, run_texts);
   options.at = parse_time(texts.at);
   options.format = parse_format(texts.format);
@@ -57,7 +57,7 @@ void add_dump(CLI::App& app, Action& action) {
   command->add_flag("--json", run->is_json, "Print summary and probes as JSON");
   command->add_flag("--quiet,-q", run_texts->is_quiet, "Only errors and warnings");
   command->final_callback([=, &action] {
-    action = [=] { return run_dump(finished(*options, *run, *run_texts, *texts)); };
+    action = [=] { return run_dump(finished_dump(*options, *run, *run_texts, *texts)); };
   });
 }
 

@@ -18,7 +18,7 @@ struct SweepTexts {
   bool is_quiet = false, is_verbose = false;
 };
 
-SweepOptions finished(SweepOptions options, const SweepTexts& texts) {
+SweepOptions finished_sweep(SweepOptions options, const SweepTexts& texts) {
   if (options.file.empty())
     throw UsageError("sweep", "which sweep?", "give a sweep file, or a scene and -p ADDRESS=LIST");
   if (texts.frames) options.frames = parse_frames(*texts.frames);
@@ -148,7 +148,7 @@ void add_sweep(CLI::App& app, Action& action) {
     if (!command->get_subcommands().empty()) return;
     if (command->count("--out") > 0 && options->out.empty())
       throw UsageError("--out", "names no folder", "expected the path of one");
-    action = [=] { return run_sweep(finished(*options, *texts)); };
+    action = [=] { return run_sweep(finished_sweep(*options, *texts)); };
   });
 }
 

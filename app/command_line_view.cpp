@@ -38,8 +38,8 @@ void parse_listen(const std::string& text, ViewOptions& options) {
   if (options.port < 1 || options.port > 65535) fail();
 }
 
-ViewOptions finished(ViewOptions options, const RenderOptions& run, const RenderTexts& run_texts,
-                     const std::optional<std::string>& listen) {
+ViewOptions finished_view(ViewOptions options, const RenderOptions& run,
+                          const RenderTexts& run_texts, const std::optional<std::string>& listen) {
   options.run = finished(run, run_texts);
   if (listen) {
     parse_listen(*listen, options);
@@ -96,7 +96,7 @@ void add_view(CLI::App& app, Action& action) {
       ->type_name("DIR");
   command->add_flag("--quiet,-q", run_texts->is_quiet, "Only errors, warnings and the address");
   command->final_callback([=, &action] {
-    action = [=] { return run_view(finished(*options, *run, *run_texts, *listen)); };
+    action = [=] { return run_view(finished_view(*options, *run, *run_texts, *listen)); };
   });
 }
 

@@ -80,8 +80,8 @@ EngineResult run_engine(const SweepOptions& options, const std::filesystem::path
   return run_local(folder, manifest, indices, engine, progress);
 }
 
-void print_result(const SweepOptions& options, const std::filesystem::path& folder,
-                  const EngineResult& result, Progress& progress) {
+void print_sweep_result(const SweepOptions& options, const std::filesystem::path& folder,
+                        const EngineResult& result, Progress& progress) {
   if (options.is_json) {
     Json json;
     json["out"] = folder.string();
@@ -117,7 +117,7 @@ int run_sweep(const SweepOptions& options) {
   }
   const EngineResult result = run_engine(options, plan.folder, manifest, progress);
   collect_sweep(plan.folder, options.backend, cores, progress);
-  print_result(options, plan.folder, result, progress);
+  print_sweep_result(options, plan.folder, result, progress);
   if (result.is_interrupted || is_interrupted()) {
     std::cerr << "neve: interrupted; the same command goes on from here" << std::endl;
     return exit_resumable;

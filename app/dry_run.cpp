@@ -79,7 +79,7 @@ struct Run {
   bool is_whole = false;  ///< not cut short by a divergence
 };
 
-Run run(const Scene& coarse) {
+Run run_coarse(const Scene& coarse) {
   const sim::ParticleArrays particles = seed_what_fits(coarse);
   Run result;
   result.is_whole = true;
@@ -102,9 +102,9 @@ Run run(const Scene& coarse) {
 }  // namespace
 
 std::vector<Moment> dry_run(const Scene& scene) {
-  Run first = run(coarsened(scene, Substitute::same));
+  Run first = run_coarse(coarsened(scene, Substitute::same));
   if (first.is_whole || is_interrupted()) return first.seen;
-  Run second = run(coarsened(scene, Substitute::uncrushed));
+  Run second = run_coarse(coarsened(scene, Substitute::uncrushed));
   const bool is_longer = second.seen.size() > first.seen.size();
   return is_longer ? second.seen : first.seen;
 }

@@ -20,7 +20,7 @@ const View& view_called(const Scene& scene, const std::string& name) {
   return found != scene.views.end() ? *found : scene.views.front();
 }
 
-int columns_of(const Mosaic& mosaic) {
+int column_count(const Mosaic& mosaic) {
   const int count = static_cast<int>(mosaic.views.size());
   return std::min(count, mosaic.columns > 0 ? mosaic.columns : most_columns);
 }
@@ -59,7 +59,7 @@ MosaicLayout layout_of(const Scene& scene, const Mosaic& mosaic, int caption_lin
   layout.font_size = std::clamp(static_cast<int>(std::lround(layout.width / 80.0)), 10, 160);
   layout.caption_height =
       static_cast<int>(std::lround(layout.font_size * (1.3 + 1.3 * caption_lines)));
-  const int columns = columns_of(mosaic), gap = std::max(2, layout.width / 400);
+  const int columns = column_count(mosaic), gap = std::max(2, layout.width / 400);
   // Shares of the width that add up to it: columns may differ by a pixel.
   const auto left_of = [&](int c) { return c * (layout.width + gap) / columns; };
   int y = layout.caption_height, row_height = 0, column = 0;

@@ -38,8 +38,8 @@ render::PlotSeries curve(const char* name, Rgb color, std::span<const PlotSample
   return series;
 }
 
-render::Plot panel(const char* title, const char* unit, const std::optional<Range>& range,
-                   double now, double duration) {
+render::Plot plot_of(const char* title, const char* unit, const std::optional<Range>& range,
+                     double now, double duration) {
   const Range axis = range.value_or(Range{});
   return {.title = title,
           .unit = unit,
@@ -56,7 +56,7 @@ render::Plot dt_plot(const PlotRanges& ranges, std::span<const PlotSample> histo
                      double interval, double duration) {
   const Range seconds = ranges.dt.value_or(Range{});
   render::Plot plot =
-      panel("time step", "ms", Range{1000 * seconds.min, 1000 * seconds.max}, now, duration);
+      plot_of("time step", "ms", Range{1000 * seconds.min, 1000 * seconds.max}, now, duration);
   for (const LimitStyle& style : limit_styles) {
     render::PlotSeries bars{.name = style.name,
                             .color = style.color,
@@ -109,13 +109,13 @@ std::vector<render::Plot> make_plots(const PlotRanges& ranges, std::span<const P
   });
   history = history.first(static_cast<std::size_t>(later - history.begin()));
 
-  render::Plot energy = panel("energy", "J", ranges.energy, now, duration);
+  render::Plot energy = plot_of("energy", "J", ranges.energy, now, duration);
   energy.series = {
       curve("kinetic", sky_blue, history, [](const PlotSample& s) { return s.kinetic_energy; }),
       curve("elastic", orange, history, [](const PlotSample& s) { return s.elastic_energy; }),
       curve("total", white, history,
             [](const PlotSample& s) { return s.kinetic_energy + s.elastic_energy; })};
-  render::Plot speed = panel("largest speed", "m/s", ranges.speed, now, duration);
+  render::Plot speed = plot_of("largest speed", "m/s", ranges.speed, now, duration);
   speed.series = {curve("", vermillion, history, [](const PlotSample& s) { return s.max_speed; })};
   return {energy, speed, dt_plot(ranges, history, now, interval, duration)};
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <system_error>
 
+#include "app/clock.h"
 #include "app/incident.h"
 #include "app/interrupt.h"
 #include "app/mosaic.h"
@@ -20,12 +20,6 @@
 namespace neve::app {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The poll of a simulation has no argument; a process renders one scene at a time.
 Progress* stepping = nullptr;

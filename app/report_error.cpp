@@ -21,13 +21,13 @@ struct Report {
   std::string message, where, hint;
 };
 
-Report plain(int code, const std::string& message, const std::string& where = {},
-             const std::string& hint = {}) {
+Report plain_report(int code, const std::string& message, const std::string& where = {},
+                    const std::string& hint = {}) {
   return {code, "neve: error: " + message, message, where, hint};
 }
 
 Report of_error(const Error& error) {
-  Report report = plain(error.code, error.what(), error.where, error.hint);
+  Report report = plain_report(error.code, error.what(), error.where, error.hint);
   // Errors in files start with the file already.
   if (!error.where.empty() && report.message.starts_with(error.where + ": error: "))
     report.line = report.message;
@@ -44,25 +44,26 @@ Report describe_current_error() {
   } catch (const UsageError& error) {
     const std::string hint = error.hint.empty() ? "" : "; " + error.hint;
     const std::string where = error.where.empty() ? "" : error.where + ": ";
-    Report report = plain(exit_usage, where + error.message + hint, error.where, error.hint);
+    Report report = plain_report(exit_usage, where + error.message + hint, error.where, error.hint);
     report.message = error.message;
     return report;
   } catch (const Error& error) {
     return of_error(error);
   } catch (const sim::ShapeError& error) {
-    return plain(exit_invalid_scene, error.what());
+    return plain_report(exit_invalid_scene, error.what());
   } catch (const sim::SimdError& error) {
-    return plain(exit_usage, error.what(), "NEVE_SIMD", "unset NEVE_SIMD to use the widest");
+    return plain_report(exit_usage, error.what(), "NEVE_SIMD", "unset NEVE_SIMD to use the widest");
   } catch (const render::ParticlePathError& error) {
-    return plain(exit_usage, error.what(), "NEVE_PARTICLES", "unset NEVE_PARTICLES to choose");
+    return plain_report(exit_usage, error.what(), "NEVE_PARTICLES",
+                        "unset NEVE_PARTICLES to choose");
   } catch (const render::ContextError& error) {
-    return plain(exit_no_backend, error.what(), {}, "neve doctor explains each backend");
+    return plain_report(exit_no_backend, error.what(), {}, "neve doctor explains each backend");
   } catch (const std::bad_alloc&) {
-    return plain(exit_refused, "out of memory", {}, "make solver.cell_size larger");
+    return plain_report(exit_refused, "out of memory", {}, "make solver.cell_size larger");
   } catch (const std::exception& error) {
-    return plain(exit_internal, error.what());
+    return plain_report(exit_internal, error.what());
   } catch (...) {
-    return plain(exit_internal, "unknown exception");
+    return plain_report(exit_internal, "unknown exception");
   }
 }
 

@@ -27,7 +27,7 @@ constexpr double samples_per_node = 3;
 constexpr int max_samples = 768;
 
 /// The world axis along the normal, or -1.
-int axis_of(const Vec3d& normal) {
+int axis_along(const Vec3d& normal) {
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(normal[axis]) > 1 - 1e-9) return axis;
   return -1;
@@ -35,7 +35,7 @@ int axis_of(const Vec3d& normal) {
 
 /// A plane along two axes goes through nodes, so that its arrows are those of the nodes.
 SlicePlane snapped_to_nodes(SlicePlane plane, double h) {
-  const int axis = axis_of(plane.normal);
+  const int axis = axis_along(plane.normal);
   if (axis >= 0) plane.point[axis] = h * std::round(plane.point[axis] / h);
   return plane;
 }
@@ -70,7 +70,7 @@ Rectangle rectangle_of(const NodeFields& fields, const SlicePlane& plane) {
 }
 
 /// The point of the plane with the coordinates u and v.
-Vec3d place(const SlicePlane& plane, double u, double v) {
+Vec3d point_on(const SlicePlane& plane, double u, double v) {
   return u * plane.across + v * plane.up + plane.point.dot(plane.normal) * plane.normal;
 }
 
@@ -95,7 +95,7 @@ void add_arrows(const SliceStyle& slice, const NodeFields& fields, const SlicePl
   const FieldSampler sampler(fields);
   for (double j = std::ceil(r.bottom / step); j * step <= r.top; ++j)
     for (double i = std::ceil(r.left / step); i * step <= r.right; ++i) {
-      const Vec3d x = place(plane, i * step, j * step);
+      const Vec3d x = point_on(plane, i * step, j * step);
       const auto stencil = sampler.at(x);
       if (!stencil || stencil->cover < 0.5f) continue;
       const Vec3f value = FieldSampler::mean(*stencil, values);
@@ -116,7 +116,7 @@ void add_heat_map(const SliceStyle& slice, const NodeFields& fields, const Slice
   const std::vector<float>& values = fields.scalars.at(slice.scalar);
   render::HeatMap map;
   const double width = r.right - r.left, height = r.top - r.bottom;
-  map.corner = to_float(place(plane, r.left, r.bottom));
+  map.corner = to_float(point_on(plane, r.left, r.bottom));
   map.across = to_float(width * plane.across);
   map.up = to_float(height * plane.up);
   map.columns = samples(width);
@@ -129,8 +129,8 @@ void add_heat_map(const SliceStyle& slice, const NodeFields& fields, const Slice
   const FieldSampler sampler(fields);
   for (int row = 0; row < map.rows; ++row)
     for (int column = 0; column < map.columns; ++column) {
-      const auto stencil = sampler.at(place(plane, r.left + (column + 0.5) / map.columns * width,
-                                            r.bottom + (row + 0.5) / map.rows * height));
+      const auto stencil = sampler.at(point_on(plane, r.left + (column + 0.5) / map.columns * width,
+                                               r.bottom + (row + 0.5) / map.rows * height));
       map.value.push_back(stencil && stencil->cover > 0.5f
                               ? FieldSampler::mean(*stencil, values)
                               : std::numeric_limits<float>::quiet_NaN());
@@ -145,7 +145,7 @@ std::string short_number(double x, double parts = 1000) {
 }
 
 std::string describe_place(const SlicePlane& plane) {
-  const int axis = axis_of(plane.normal);
+  const int axis = axis_along(plane.normal);
   if (axis >= 0)
     return std::string(1, "xyz"[axis]) + " = " + short_number(plane.point[axis]) + " m";
   const auto triple = [](const Vec3d& v) {
@@ -158,8 +158,8 @@ std::string describe_place(const SlicePlane& plane) {
 void add_frame(const SlicePlane& plane, const Rectangle& r, const std::string& words,
                render::Frame& frame) {
   const Vec3f corner[4] = {
-      to_float(place(plane, r.left, r.bottom)), to_float(place(plane, r.right, r.bottom)),
-      to_float(place(plane, r.right, r.top)), to_float(place(plane, r.left, r.top))};
+      to_float(point_on(plane, r.left, r.bottom)), to_float(point_on(plane, r.right, r.bottom)),
+      to_float(point_on(plane, r.right, r.top)), to_float(point_on(plane, r.left, r.top))};
   render::Lines lines;
   lines.opacity = 0.7f;
   for (int k = 0; k < 4; ++k) {

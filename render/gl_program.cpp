@@ -1,6 +1,7 @@
 #include "render/gl_program.h"
 
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <utility>

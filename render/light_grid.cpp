@@ -12,7 +12,7 @@ constexpr int max_cells = 96;  // per axis
 constexpr float spacings_per_cell = 1.6f;
 constexpr int margin_cells = 4;  // room for shadows and for blurring
 
-struct Box {
+struct LightBox {
   static constexpr float inf = std::numeric_limits<float>::infinity();
   Vec3f low{inf, inf, inf}, high{-inf, -inf, -inf};
 
@@ -77,7 +77,7 @@ class Ranks {
 
 /// Extends the box along one axis over nearly all values: the middle 99 % widened by half of its
 /// width, but no wider than the data. A few strays do not blow the box up.
-void include_most(const Ranks& values, int axis, Box& box) {
+void include_most(const Ranks& values, int axis, LightBox& box) {
   if (values.count() == 0) return;
   const std::size_t cut = values.count() < 8 ? 0 : std::max<std::size_t>(1, values.count() / 200);
   const float middle_low = values.at(cut), middle_high = values.at(values.count() - 1 - cut);
@@ -86,16 +86,16 @@ void include_most(const Ranks& values, int axis, Box& box) {
   box.include(axis, std::min(values.high(), middle_high + extra));
 }
 
-Box box_of_points(const std::vector<Vec3f>& position, ThreadPool* pool) {
+LightBox box_of_points(const std::vector<Vec3f>& position, ThreadPool* pool) {
   constexpr std::array<float Vec3f::*, 3> members = {&Vec3f::x, &Vec3f::y, &Vec3f::z};
-  Box box;
+  LightBox box;
   for_each_task(3, pool, [&](int axis) {
     include_most(Ranks(position, members[static_cast<std::size_t>(axis)]), axis, box);
   });
   return box;
 }
 
-void include_smoke(const SmokeGrid& smoke, Box& box) {
+void include_smoke(const SmokeGrid& smoke, LightBox& box) {
   for (int axis = 0; axis < 3; ++axis) {
     box.include(axis, smoke.origin[axis] + smoke.spacing);
     box.include(axis,
@@ -105,9 +105,9 @@ void include_smoke(const SmokeGrid& smoke, Box& box) {
 
 /// Takes in a mesh, but no further from the snow than their own extent: it throws its shadow on
 /// snow beside it, and a large or distant one must not coarsen the light on the snow.
-void include_mesh(const TriangleMesh& mesh, const Box& snow, Box& box) {
-  const float reach = snow.is_empty() ? Box::inf : snow.extent();
-  Box clipped;
+void include_mesh(const TriangleMesh& mesh, const LightBox& snow, LightBox& box) {
+  const float reach = snow.is_empty() ? LightBox::inf : snow.extent();
+  LightBox clipped;
   for (const Vec3f& p : mesh.position) {
     for (int axis = 0; axis < 3; ++axis) clipped.include(axis, p[axis]);
   }
@@ -128,13 +128,13 @@ void include_mesh(const TriangleMesh& mesh, const Box& snow, Box& box) {
 
 LightGrid fit_light_grid(const Points& points, const std::vector<TriangleMesh>& meshes,
                          const SmokeGrid& smoke, ThreadPool* pool) {
-  Box snow = box_of_points(points.position, pool);
+  LightBox snow = box_of_points(points.position, pool);
   float finest = snow.is_empty() ? 0 : spacings_per_cell * points.spacing;
   if (!smoke.is_empty()) {
     include_smoke(smoke, snow);
     if (!(finest > 0)) finest = smoke_spacings_per_cell * smoke.node_spacing;
   }
-  Box box = snow;
+  LightBox box = snow;
   for (const TriangleMesh& mesh : meshes) include_mesh(mesh, snow, box);
   LightGrid grid;
   if (box.is_empty()) return grid;

@@ -25,7 +25,7 @@ struct Disc {
 };
 
 /// @param p centre relative to the eye
-Disc project(const View& view, Vec3f p, float radius, float max_point_size) {
+Disc disc_of(const View& view, Vec3f p, float radius, float max_point_size) {
   Disc d;
   d.z = dot(p, view.forward);
   if (!(d.z > view.near_distance) || !std::isfinite(d.z)) return d;
@@ -152,7 +152,7 @@ PointList list_points(const Points& points, const View& view, float max_point_si
   const std::vector<std::uint32_t> order = order_by_id(points);
   for (std::size_t i = 0; i < discs.size(); ++i) {
     const std::uint32_t p = order.empty() ? static_cast<std::uint32_t>(i) : order[i];
-    discs[p] = project(view, points.position[p] - view.eye, points.radius, max_point_size);
+    discs[p] = disc_of(view, points.position[p] - view.eye, points.radius, max_point_size);
     if (discs[p].drawn == Drawn::no) continue;
     drawn.push_back(p);
     sum_of_radii += static_cast<double>(discs[p].on_picture);

@@ -12,7 +12,7 @@ namespace {
 constexpr int nodes_per_block = 64;
 constexpr float max_opacity = 16;
 
-struct Box {
+struct NodeBox {
   Vec3i low, high;  ///< nodes, both inclusive
 };
 
@@ -20,14 +20,14 @@ struct Box {
 struct Blocks {
   std::vector<float> opacity;  ///< per node
   std::vector<int> seen;       ///< blocks with something to see
-  std::vector<Box> box;        ///< of what is seen, for each of those
+  std::vector<NodeBox> box;    ///< of what is seen, for each of those
 };
 
 Vec3i node_of(Vec3i block, int node) {
   return {4 * block.x + node / 16, 4 * block.y + node / 4 % 4, 4 * block.z + node % 4};
 }
 
-void extend(Box& box, Vec3i node) {
+void extend(NodeBox& box, Vec3i node) {
   for (int axis = 0; axis < 3; ++axis) {
     box.low[axis] = std::min(box.low[axis], node[axis]);
     box.high[axis] = std::max(box.high[axis], node[axis]);
@@ -48,7 +48,7 @@ Blocks look_at_blocks(const Smoke& smoke, ThreadPool* pool) {
           max_opacity, smoke.density_scale * smoke_opacity(smoke.density[i] * per_density));
   });
   for (std::size_t b = 0; b < count; ++b) {
-    Box box{};
+    NodeBox box{};
     bool is_seen = false;
     for (int n = 0; n < nodes_per_block; ++n) {
       if (!(blocks.opacity[b * nodes_per_block + static_cast<std::size_t>(n)] > 0)) continue;
@@ -69,7 +69,7 @@ std::int64_t texels_along(std::int64_t low, std::int64_t high, int nodes_per_tex
   return (high - low) / nodes_per_texel + 3;
 }
 
-bool fits(const Box& box, int nodes_per_texel) {
+bool fits(const NodeBox& box, int nodes_per_texel) {
   std::int64_t count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const std::int64_t n = texels_along(box.low[axis], box.high[axis], nodes_per_texel);
@@ -80,13 +80,13 @@ bool fits(const Box& box, int nodes_per_texel) {
 }
 
 /// Around nearly all blocks: the middle 99 % widened by half their width.
-void leave_out_strays(const std::vector<Box>& boxes, Box& box) {
+void leave_out_strays(const std::vector<NodeBox>& boxes, NodeBox& box) {
   std::vector<int> low, high;
   const std::size_t cut = boxes.size() < 8 ? 0 : std::max<std::size_t>(1, boxes.size() / 200);
   for (int axis = 0; axis < 3; ++axis) {
     low.clear();
     high.clear();
-    for (const Box& b : boxes) {
+    for (const NodeBox& b : boxes) {
       low.push_back(b.low[axis]);
       high.push_back(b.high[axis]);
     }
@@ -99,7 +99,7 @@ void leave_out_strays(const std::vector<Box>& boxes, Box& box) {
   }
 }
 
-bool is_inside(const Box& box, Vec3i node) {
+bool is_inside(const NodeBox& box, Vec3i node) {
   for (int axis = 0; axis < 3; ++axis) {
     if (node[axis] < box.low[axis] || node[axis] > box.high[axis]) return false;
   }
@@ -127,8 +127,8 @@ SmokeGrid make_smoke_grid(const Smoke& smoke, ThreadPool* pool) {
   const Blocks blocks = look_at_blocks(smoke, pool);
   if (blocks.seen.empty()) return grid;
 
-  Box box = blocks.box.front();
-  for (const Box& b : blocks.box) {
+  NodeBox box = blocks.box.front();
+  for (const NodeBox& b : blocks.box) {
     extend(box, b.low);
     extend(box, b.high);
   }

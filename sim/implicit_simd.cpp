@@ -9,7 +9,7 @@ namespace neve::sim {
 namespace {
 
 template <class Real>
-const SolveSweeps<Real>& choose(SimdLevel level, int nodes, bool is_mls) {
+const SolveSweeps<Real>& sweeps_at(SimdLevel level, int nodes, bool is_mls) {
 #ifdef NEVE_X86_KERNELS
   if (level == SimdLevel::avx512) return SolveKernelSet<Avx512Set>::sweeps(nodes, is_mls, Real());
   if (level == SimdLevel::avx2) return SolveKernelSet<Avx2Set>::sweeps(nodes, is_mls, Real());
@@ -21,10 +21,10 @@ const SolveSweeps<Real>& choose(SimdLevel level, int nodes, bool is_mls) {
 }  // namespace
 
 const SolveSweeps<float>& solve_sweeps_for(SimdLevel level, int nodes, bool is_mls, float) {
-  return choose<float>(level, nodes, is_mls);
+  return sweeps_at<float>(level, nodes, is_mls);
 }
 const SolveSweeps<double>& solve_sweeps_for(SimdLevel level, int nodes, bool is_mls, double) {
-  return choose<double>(level, nodes, is_mls);
+  return sweeps_at<double>(level, nodes, is_mls);
 }
 
 }  // namespace neve::sim

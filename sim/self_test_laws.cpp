@@ -20,10 +20,6 @@ Material without_stiffness() {
   return m;
 }
 
-double largest(const Mat3d& m) {
-  return m.cwiseAbs().maxCoeff();
-}
-
 }  // namespace
 
 /// sum w = 1, sum w (x_i - x_p) = 0, sum w (x_i - x_p)(x_i - x_p)^T = D I, and for the gradients

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "sim/math.h"
 #include "sim/self_test.h"
 
 namespace neve::sim::self_test {
@@ -17,6 +18,11 @@ inline constexpr Tolerance rounding{1e-11, 2e-5};
 /// Differences of energies with a step of 1e-5 are good to 1e-10 in double. In float the forces are
 /// good to 1e-6, and random ones cancel in part.
 inline constexpr Tolerance differences{1e-6, 2e-4};
+
+/// The largest entry, whatever its sign.
+inline double largest(const Mat3d& m) {
+  return m.cwiseAbs().maxCoeff();
+}
 
 /// The worst of what one test measured, relative to what it allows.
 class Measure {

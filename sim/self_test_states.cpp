@@ -7,14 +7,6 @@
 
 namespace neve::sim::self_test {
 
-namespace {
-
-double largest(const Mat3d& m) {
-  return m.cwiseAbs().maxCoeff();
-}
-
-}  // namespace
-
 /// Snow that nobody deformed starts with F_E = I, J_P = 1 and no stress.
 void initial_state(const SelfTestCase& test, Measure& measure) {
   const Simulation simulation(settings_of(test), {Material{}}, {}, small_ball(), 1);

@@ -84,7 +84,7 @@ const Rule& rule(WatchCheck check) {
   return rules[static_cast<std::size_t>(check)];
 }
 
-double ratio(double a, double b) {
+double share(double a, double b) {
   return b > 0 ? a / b : 0;
 }
 
@@ -120,7 +120,7 @@ void measure_particles(const ParticleArrays& p, const std::vector<Material>& mat
     out[WatchCheck::hardening] = std::max(out[WatchCheck::hardening], hardening);
     // Torn snow has hardly any stiffness left; what counts is the sound in packed snow.
     const double c = sound_speed(material) * std::sqrt(std::max(1.0, hardening));
-    out[WatchCheck::mach] = std::max(out[WatchCheck::mach], ratio(p.v[q].norm(), c));
+    out[WatchCheck::mach] = std::max(out[WatchCheck::mach], share(p.v[q].norm(), c));
   }
   out[WatchCheck::inverted] = min_J_E;
   out[WatchCheck::compaction] = min_J_P;
@@ -159,12 +159,12 @@ void measure_sums(const SolverSettings& settings, const ParticleArrays& p, const
   }
   // Snow at rest: the momentum that one step of gravity gives.
   size += mass * settings.gravity.norm() * dt;
-  out[WatchCheck::mass] = ratio(std::abs(node_mass - mass), mass);
-  out[WatchCheck::p2g_momentum] = ratio((before - momentum).norm(), size);
-  out[WatchCheck::g2p_momentum] = ratio((after - momentum_after).norm(), size + node_size);
-  out[WatchCheck::newton] = ratio(newton, newton_size);
-  out[WatchCheck::force_sum] = ratio(f.norm(), sum_f);
-  out[WatchCheck::torque] = ratio(turn.norm(), sum_turn);
+  out[WatchCheck::mass] = share(std::abs(node_mass - mass), mass);
+  out[WatchCheck::p2g_momentum] = share((before - momentum).norm(), size);
+  out[WatchCheck::g2p_momentum] = share((after - momentum_after).norm(), size + node_size);
+  out[WatchCheck::newton] = share(newton, newton_size);
+  out[WatchCheck::force_sum] = share(f.norm(), sum_f);
+  out[WatchCheck::torque] = share(turn.norm(), sum_turn);
 }
 
 /// Forces, the update of F_E and the energy belong together.
@@ -189,8 +189,8 @@ void measure_work(const std::vector<Material>& materials, bool is_float, const P
   }
   // The change of F_E is a difference of rounded numbers.
   size += 100 * stresses * (is_float ? 6e-8 : 1.1e-16);
-  out[WatchCheck::power] = ratio(std::abs(force_work + stress_work), size);
-  out[WatchCheck::work] = ratio(std::abs(energy - 0.5 * (trial_work - force_work)), size);
+  out[WatchCheck::power] = share(std::abs(force_work + stress_work), size);
+  out[WatchCheck::work] = share(std::abs(energy - 0.5 * (trial_work - force_work)), size);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 constexpr int particles_a_cell = 8;
 constexpr double squeeze = 8;  // 1/s
 
-void append(const sim::Vec3d& x, const sim::Vec3d& middle, BenchCase& to) {
+void append_particle(const sim::Vec3d& x, const sim::Vec3d& middle, BenchCase& to) {
   const double h = to.settings.cell_size, V0 = h * h * h / particles_a_cell;
   to.particles.x.push_back(x);
   to.particles.v.push_back(-squeeze * (x - middle));
@@ -22,53 +22,53 @@ void append(const sim::Vec3d& x, const sim::Vec3d& middle, BenchCase& to) {
 
 }  // namespace
 
-const char* name(Method method) {
+const char* name(BenchMethod method) {
   switch (method) {
-    case Method::mls_quadratic:
+    case BenchMethod::mls_quadratic:
       return "mls_quadratic";
-    case Method::flip_cubic:
+    case BenchMethod::flip_cubic:
       return "flip_cubic";
     default:
       return "apic_cubic";
   }
 }
 
-sim::SolverSettings bench_settings(Method method, sim::Precision precision) {
+sim::SolverSettings bench_settings(BenchMethod method, sim::Precision precision) {
   sim::SolverSettings s;
   s.cell_size = 0.01;
   s.time_step = sim::TimeStep::fixed;
   s.dt = 1e-4;
   s.precision = precision;
-  if (method == Method::mls_quadratic) {
+  if (method == BenchMethod::mls_quadratic) {
     s.transfer = sim::Transfer::mls;
     s.kernel = sim::Kernel::quadratic;
   } else {
-    s.transfer = method == Method::flip_cubic ? sim::Transfer::flip : sim::Transfer::apic;
+    s.transfer = method == BenchMethod::flip_cubic ? sim::Transfer::flip : sim::Transfer::apic;
     s.kernel = sim::Kernel::cubic;
   }
   return s;
 }
 
-BenchCase packed_case(int cells_a_side, Method method, sim::Precision precision) {
+BenchCase packed_case(int cells_a_side, BenchMethod method, sim::Precision precision) {
   BenchCase c{bench_settings(method, precision), {}, {}};
   const double spacing = 0.5 * c.settings.cell_size;
   const sim::Vec3d middle = sim::Vec3d::Constant(cells_a_side * spacing);
   for (int i = 0; i < 2 * cells_a_side; ++i)
     for (int j = 0; j < 2 * cells_a_side; ++j)
       for (int k = 0; k < 2 * cells_a_side; ++k)
-        append(spacing * sim::Vec3d(i + 0.5, j + 0.5, k + 0.5), middle, c);
+        append_particle(spacing * sim::Vec3d(i + 0.5, j + 0.5, k + 0.5), middle, c);
   return c;
 }
 
-BenchCase spray_case(int cells_a_side, Method method, sim::Precision precision) {
+BenchCase spray_case(int cells_a_side, BenchMethod method, sim::Precision precision) {
   BenchCase c{bench_settings(method, precision), {}, {}};
   const double side = cells_a_side * c.settings.cell_size;
   const sim::Vec3d middle = sim::Vec3d::Constant(0.5 * side);
   const auto count = static_cast<std::uint64_t>(cells_a_side) * cells_a_side * cells_a_side;
   for (std::uint64_t q = 0; q < count; ++q)
-    append(side * sim::Vec3d(unit_double(mix64(3 * q)), unit_double(mix64(3 * q + 1)),
-                             unit_double(mix64(3 * q + 2))),
-           middle, c);
+    append_particle(side * sim::Vec3d(unit_double(mix64(3 * q)), unit_double(mix64(3 * q + 1)),
+                                      unit_double(mix64(3 * q + 2))),
+                    middle, c);
   return c;
 }
 

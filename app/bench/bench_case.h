@@ -14,23 +14,23 @@ struct BenchCase {
   sim::ParticleArrays particles;  ///< with volumes
 };
 
-enum class Method { mls_quadratic, flip_cubic, apic_cubic };
+enum class BenchMethod { mls_quadratic, flip_cubic, apic_cubic };
 
 /// "mls_quadratic"
-const char* name(Method method);
+const char* name(BenchMethod method);
 
 /// h = 1 cm, fixed steps of 1e-4 s, what is not said is the default.
-sim::SolverSettings bench_settings(Method method, sim::Precision precision);
+sim::SolverSettings bench_settings(BenchMethod method, sim::Precision precision);
 
 /// Steps of one measurement: snow that is squeezed at 24 per second yields from step 31 on.
 inline constexpr int bench_steps = 60;
 
 /// The common case: a cube of n^3 cells of the paper's snow, 8 particles in each on a lattice,
 /// squeezed towards its middle c by v = -8 (x - c). About half of the particle steps yield.
-BenchCase packed_case(int cells_a_side, Method method, sim::Precision precision);
+BenchCase packed_case(int cells_a_side, BenchMethod method, sim::Precision precision);
 
 /// Particles of the same size at random in a cube, one per cell on average, moving alike.
-BenchCase spray_case(int cells_a_side, Method method, sim::Precision precision);
+BenchCase spray_case(int cells_a_side, BenchMethod method, sim::Precision precision);
 
 /// Cells on a side of the packed cube whose particle count is nearest.
 int packed_cells_a_side(double particles);

@@ -11,7 +11,7 @@ namespace neve::app {
 
 namespace {
 
-NaiveSnow make_naive(int cells_a_side, Method method) {
+NaiveSnow make_naive(int cells_a_side, BenchMethod method) {
   const BenchCase c = packed_case(cells_a_side, method, sim::Precision::real64);
   return {c.settings, c.material, c.particles};
 }
@@ -33,12 +33,12 @@ Outcome outcome_of(const sim::ParticleArrays& p) {
 
 }  // namespace
 
-Race::Runner Race::make_runner(int cells_a_side, Method method, sim::Precision precision) {
+Race::Runner Race::make_runner(int cells_a_side, BenchMethod method, sim::Precision precision) {
   const BenchCase c = packed_case(cells_a_side, method, precision);
   return {sim::Simulation(c.settings, {c.material}, {}, c.particles, 1), {}};
 }
 
-Race::Race(int cells_a_side, Method method)
+Race::Race(int cells_a_side, BenchMethod method)
     : name_(name(method)),
       single_(make_runner(cells_a_side, method, sim::Precision::single)),
       double_(make_runner(cells_a_side, method, sim::Precision::real64)),
@@ -50,7 +50,7 @@ void Race::run(int first, int last) {
     run_steps(runner->simulation, last - first);
     runner->seconds.push_back(watch.cpu());
   }
-  const double dt = bench_settings(Method::flip_cubic, sim::Precision::single).dt;
+  const double dt = bench_settings(BenchMethod::flip_cubic, sim::Precision::single).dt;
   const Stopwatch watch;
   for (int k = first; k < last; ++k) {
     naive_.step(dt);

@@ -13,7 +13,7 @@ namespace neve::app {
 /// minute. Measured in CPU time, which other processes on the machine hardly change.
 class Race {
  public:
-  Race(int cells_a_side, Method method);
+  Race(int cells_a_side, BenchMethod method);
 
   /// Steps [first, last) of the case, each code in turn.
   void run(int first, int last);
@@ -30,7 +30,7 @@ class Race {
     sim::Simulation simulation;
     std::vector<double> seconds;
   };
-  static Runner make_runner(int cells_a_side, Method method, sim::Precision precision);
+  static Runner make_runner(int cells_a_side, BenchMethod method, sim::Precision precision);
   void check_agreement(const Runner& runner) const;
 
   std::string name_;

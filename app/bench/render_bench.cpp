@@ -25,11 +25,11 @@ constexpr std::array<Size, 4> sizes{
 constexpr const char* main_size = "300k";
 
 /// design.md: what a picture on a machine without a GPU may take, ms.
-struct Target {
+struct SphereTarget {
   const char* row;
   int must, aim;
 };
-constexpr std::array<Target, 3> targets{
+constexpr std::array<SphereTarget, 3> targets{
     {{"particles_300k", 55, 30}, {"all_layers_300k", 110, 60}, {"png", 20, 20}}};
 
 class RenderBench {
@@ -87,7 +87,7 @@ std::vector<render::PhaseTime> phases_of(render::Renderer& renderer, const rende
   return times;
 }
 
-double seconds_of(const std::vector<render::PhaseTime>& times, const std::string& phase) {
+double phase_seconds(const std::vector<render::PhaseTime>& times, const std::string& phase) {
   const auto found = std::find_if(times.begin(), times.end(), [&](const render::PhaseTime& time) {
     return time.phase == phase;
   });
@@ -104,8 +104,8 @@ void RenderBench::measure_particles(const std::string& size, render::Frame& fram
   const Stopwatch again;
   renderer_.draw(frame);
   add("particles_" + size + "_same_state", again.wall(), frame);
-  add("spheres_" + size + "_by_gl", seconds_of(phases_of(by_gl_, frame), "particles"), frame);
-  add("spheres_" + size + "_by_cpu", seconds_of(phases_of(by_cpu_, frame), "particles"), frame);
+  add("spheres_" + size + "_by_gl", phase_seconds(phases_of(by_gl_, frame), "particles"), frame);
+  add("spheres_" + size + "_by_cpu", phase_seconds(phases_of(by_cpu_, frame), "particles"), frame);
   if (size == main_size) picture_ = std::move(image);
 }
 
@@ -120,8 +120,8 @@ void RenderBench::measure_all_layers(const render::Frame& frame) {
   // The layers that scripts ask for one by one.
   moved.heat_maps.clear();
   const std::vector<render::PhaseTime> times = phases_of(renderer_, moved);
-  add("smoke", seconds_of(times, "smoke"), frame);
-  add("arrows", seconds_of(times, "slices"), frame);
+  add("smoke", phase_seconds(times, "smoke"), frame);
+  add("arrows", phase_seconds(times, "slices"), frame);
 }
 
 void RenderBench::measure_png() {
@@ -175,7 +175,7 @@ std::vector<BenchRow> RenderBench::rows() const {
 }
 
 void RenderBench::compare_with_targets(const std::vector<BenchRow>& rows) {
-  for (const Target& target : targets) {
+  for (const SphereTarget& target : targets) {
     const auto row = std::find_if(rows.begin(), rows.end(),
                                   [&](const BenchRow& r) { return r.name == target.row; });
     if (row == rows.end()) continue;

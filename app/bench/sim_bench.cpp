@@ -20,17 +20,17 @@ constexpr double common_particles = 97336, quick_particles = 4096;
 constexpr double longest_curve = 4'913'000;
 
 struct Variant {
-  Method method;
+  BenchMethod method;
   sim::Precision precision;
 };
 
 /// Those that tables are about, and those that have a naive counterpart.
-constexpr Method main_methods[] = {Method::mls_quadratic, Method::flip_cubic};
-constexpr Variant variants[] = {{Method::mls_quadratic, sim::Precision::single},
-                                {Method::flip_cubic, sim::Precision::single},
-                                {Method::apic_cubic, sim::Precision::single},
-                                {Method::mls_quadratic, sim::Precision::real64},
-                                {Method::flip_cubic, sim::Precision::real64}};
+constexpr BenchMethod main_methods[] = {BenchMethod::mls_quadratic, BenchMethod::flip_cubic};
+constexpr Variant variants[] = {{BenchMethod::mls_quadratic, sim::Precision::single},
+                                {BenchMethod::flip_cubic, sim::Precision::single},
+                                {BenchMethod::apic_cubic, sim::Precision::single},
+                                {BenchMethod::mls_quadratic, sim::Precision::real64},
+                                {BenchMethod::flip_cubic, sim::Precision::real64}};
 
 std::string name_of(const Variant& v) {
   return std::string(name(v.method)) +
@@ -38,8 +38,8 @@ std::string name_of(const Variant& v) {
 }
 
 /// "spray_time" is about the paper's method; the other one says which it is.
-std::string name_for(const std::string& what, Method method) {
-  return method == Method::flip_cubic ? what : what + "_" + name(method);
+std::string name_for(const std::string& what, BenchMethod method) {
+  return method == BenchMethod::flip_cubic ? what : what + "_" + name(method);
 }
 
 /// @throws LimitError when `bytes` are more than 80 % of what is available
@@ -54,9 +54,9 @@ void check_memory(double bytes) {
 
 /// A simulation and the arrays it is made from.
 double memory_of(double particles, sim::Precision precision, int threads) {
-  return static_cast<double>(sim::estimate_memory(static_cast<std::size_t>(particles), 8,
-                                                  bench_settings(Method::flip_cubic, precision),
-                                                  threads)) +
+  return static_cast<double>(
+             sim::estimate_memory(static_cast<std::size_t>(particles), 8,
+                                  bench_settings(BenchMethod::flip_cubic, precision), threads)) +
          particles * 600;
 }
 
@@ -73,17 +73,17 @@ class SimBench {
   void gather_rows();
   BenchRow row(const std::string& name, int threads, const std::string& unit) const;
   void add_throughput(const Variant& variant);
-  void add_one_thread(Method method);
-  void add_naive(Method method);
-  void add_scaling(Method method);
-  void add_memory_and_spray(Method method);
+  void add_one_thread(BenchMethod method);
+  void add_naive(BenchMethod method);
+  void add_scaling(BenchMethod method);
+  void add_memory_and_spray(BenchMethod method);
 
   Progress& progress_;
   int rounds_, threads_, cells_;
   std::size_t particles_ = 0;
   std::string simd_;
   std::map<std::string, Samples> windows_;  ///< by name: what each round found
-  std::map<Method, Race> races_;
+  std::map<BenchMethod, Race> races_;
   std::vector<BenchRow> rows_;
 };
 
@@ -100,12 +100,12 @@ SimBench::SimBench(const BenchOptions& options, Progress& progress)
   const double particles = 8.0 * cells_ * cells_ * cells_;
   // Two races of three codes each wait while a simulation is timed.
   check_memory(5 * memory_of(particles, sim::Precision::real64, threads_));
-  const BenchCase c = packed_case(cells_, Method::flip_cubic, sim::Precision::single);
+  const BenchCase c = packed_case(cells_, BenchMethod::flip_cubic, sim::Precision::single);
   const sim::Simulation probe(c.settings, {c.material}, {}, c.particles, threads_);
   threads_ = probe.threads();
   simd_ = probe.simd();
   particles_ = probe.particle_count();
-  for (const Method method : main_methods) races_.try_emplace(method, cells_, method);
+  for (const BenchMethod method : main_methods) races_.try_emplace(method, cells_, method);
 }
 
 std::vector<BenchRow> SimBench::run() {
@@ -132,7 +132,7 @@ void SimBench::measure_variants() {
 }
 
 void SimBench::measure_spray() {
-  for (const Method method : main_methods) {
+  for (const BenchMethod method : main_methods) {
     // Twice as many cells a side: eight times the cells for the same particles.
     const BenchCase c = spray_case(2 * cells_, method, sim::Precision::single);
     windows_[name_for("spray", method)].add(time_window(c, threads_, "spray"));
@@ -140,7 +140,7 @@ void SimBench::measure_spray() {
 }
 
 void SimBench::measure_scaling() {
-  for (const Method method : main_methods) {
+  for (const BenchMethod method : main_methods) {
     const BenchCase c = packed_case(cells_, method, sim::Precision::single);
     const std::string name = name_of({method, sim::Precision::single});
     // What measure_variants() did with as many threads need not be done again.
@@ -178,14 +178,14 @@ void SimBench::add_throughput(const Variant& variant) {
   rows_.push_back(r);
 }
 
-void SimBench::add_naive(Method method) {
+void SimBench::add_naive(BenchMethod method) {
   BenchRow r = row(std::string("naive_") + name(method), 1, throughput_unit);
   r.simd = "none";
   r.value = races_.at(method).naive_throughput();
   rows_.push_back(r);
 }
 
-void SimBench::add_one_thread(Method method) {
+void SimBench::add_one_thread(BenchMethod method) {
   const std::string name = name_of({method, sim::Precision::single}) + "_1_thread";
   BenchRow r = row(name, 1, throughput_unit);
   r.value = windows_.at(name).throughput();
@@ -194,14 +194,14 @@ void SimBench::add_one_thread(Method method) {
   rows_.push_back(r);
 }
 
-void SimBench::add_scaling(Method method) {
+void SimBench::add_scaling(BenchMethod method) {
   const std::string name = name_of({method, sim::Precision::single});
   BenchRow r = row(name_for("scaling_2_threads", method), 2, "x one thread");
   r.value = time_ratio(windows_.at(name + "_1_thread"), windows_.at(name + "_2_threads"));
   rows_.push_back(r);
 }
 
-void SimBench::add_memory_and_spray(Method method) {
+void SimBench::add_memory_and_spray(BenchMethod method) {
   const Samples& packed = windows_.at(name_of({method, sim::Precision::single}));
   const Samples& spray = windows_.at(name_for("spray", method));
   BenchRow memory = row(name_for("memory_per_particle", method), threads_, "B");
@@ -215,12 +215,12 @@ void SimBench::add_memory_and_spray(Method method) {
 
 void SimBench::gather_rows() {
   for (const Variant& variant : variants) add_throughput(variant);
-  for (const Method method : main_methods) add_one_thread(method);
-  for (const Method method : main_methods) add_naive(method);
+  for (const BenchMethod method : main_methods) add_one_thread(method);
+  for (const BenchMethod method : main_methods) add_naive(method);
   // One core cannot tell.
   if (threads_ > 1)
-    for (const Method method : main_methods) add_scaling(method);
-  for (const Method method : main_methods) add_memory_and_spray(method);
+    for (const BenchMethod method : main_methods) add_scaling(method);
+  for (const BenchMethod method : main_methods) add_memory_and_spray(method);
 }
 
 }  // namespace
@@ -245,7 +245,7 @@ std::vector<BenchRow> bench_curve(const BenchOptions& options, Progress& progres
                     " of memory");
       break;
     }
-    for (const Method method : main_methods) {
+    for (const BenchMethod method : main_methods) {
       const std::string name = "curve_" + name_of({method, sim::Precision::single});
       const BenchCase c = packed_case(cells, method, sim::Precision::single);
       Samples samples;

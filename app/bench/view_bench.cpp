@@ -16,7 +16,7 @@ namespace neve::app {
 namespace {
 
 /// 97336 particles, as in bench sim: a ball that falls into a box of snow.
-constexpr const char* scene_text = R"(
+constexpr const char* viewed_scene = R"(
 title = "bench"
 frames = 1000
 [solver]
@@ -97,12 +97,12 @@ class BenchFront : public Front {
   std::vector<double> answers_;
 };
 
-struct Round {
+struct ViewRound {
   double pictures_per_second = 0, answer = 0;  ///< 1/s, ms
   std::size_t particles = 0;
 };
 
-Round measure_round(const std::string& file, const BenchOptions& options, bool is_running) {
+ViewRound measure_view(const std::string& file, const BenchOptions& options, bool is_running) {
   const auto context = render::open_context(options.backend);
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, {}, &pool);
@@ -126,14 +126,14 @@ Round measure_round(const std::string& file, const BenchOptions& options, bool i
 std::vector<BenchRow> bench_view(const BenchOptions& options, Progress& progress) {
   const ScratchFolder scratch;
   const std::string file = (scratch.path() / "scene.toml").string();
-  write_file(file, scene_text);
+  write_file(file, viewed_scene);
   const int rounds = options.rounds > 0 ? options.rounds : options.is_quick ? 1 : 3;
   std::vector<double> running_rate, running_answer, paused_rate, paused_answer;
   std::size_t particles = 0;
   for (int k = 0; k < rounds; ++k) {
     progress.line("round " + std::to_string(k + 1) + " of " + std::to_string(rounds));
-    const Round running = measure_round(file, options, true);
-    const Round paused = measure_round(file, options, false);
+    const ViewRound running = measure_view(file, options, true);
+    const ViewRound paused = measure_view(file, options, false);
     running_rate.push_back(running.pictures_per_second);
     running_answer.push_back(running.answer);
     paused_rate.push_back(paused.pictures_per_second);

@@ -1,11 +1,11 @@
 #include "app/check/checkup.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "app/auto_ranges.h"
 #include "app/check/findings.h"
+#include "app/clock.h"
 #include "app/interrupt.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/error.h"
@@ -16,8 +16,6 @@ namespace neve::app {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// A coarse copy large enough to yield as the scene does.
 constexpr double coarse_particles_wanted = 1500;
 constexpr double coarse_seconds = 2;
@@ -26,11 +24,8 @@ constexpr int calibration_steps = 40;
 /// Above this many particles seeding alone takes too long for a look.
 constexpr double most_seeded = 3e6;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-sim::Simulation simulate(const Scene& scene, const sim::ParticleArrays& particles, int threads) {
+sim::Simulation simulation_of(const Scene& scene, const sim::ParticleArrays& particles,
+                              int threads) {
   return sim::Simulation(scene.solver, scene.materials, sim_colliders(scene), particles, threads);
 }
 
@@ -89,7 +84,7 @@ void foresee_frames(const Scene& scene, Checkup& checkup) {
   if (!coarse) return;
   const sim::ParticleArrays particles = seed_scene(*coarse);
   checkup.coarse_particles = static_cast<double>(particles.x.size());
-  sim::Simulation simulation = simulate(*coarse, particles, 1);
+  sim::Simulation simulation = simulation_of(*coarse, particles, 1);
   const auto start = Clock::now();
   sim::Simulation::StepLimits worst = simulation.step_limits();
   for (int frame = 1; frame <= scene.frames; ++frame) {
@@ -136,7 +131,7 @@ Checkup examine(const Scene& scene, const Plan& plan, int threads) {
     const sim::ParticleArrays particles = seed_scene(scene, &body_end);
     checkup.plan.particles = static_cast<double>(particles.x.size());
     check_overlaps(scene, particles, body_end, checkup.findings);
-    sim::Simulation simulation = simulate(scene, particles, threads);
+    sim::Simulation simulation = simulation_of(scene, particles, threads);
     checkup.start = simulation.step_limits();
     const sim::Simulation::Choice choice = simulation.choose_dt(1 / scene.fps);
     checkup.dt_start = choice.dt;

@@ -18,7 +18,7 @@ using sim::Vec3d;
 
 constexpr double ice = 917;  // kg/m3
 
-std::string percent(double share) {
+std::string percent_text(double share) {
   return fixed_text(100 * share, share < 0.1 ? 1 : 0) + " %";
 }
 
@@ -62,13 +62,13 @@ void check_material_units(const sim::Material& m, std::vector<Finding>& findings
 }
 
 /// Nothing to find where the speed of every cell is its own: bodies share cells when they overlap.
-using Cell = std::array<long, 3>;
+using CellIndex = std::array<long, 3>;
 
-std::map<Cell, std::map<std::size_t, int>> bodies_in_cells(
+std::map<CellIndex, std::map<std::size_t, int>> bodies_in_cells(
     const Scene& scene, const sim::ParticleArrays& particles,
     const std::vector<std::size_t>& body_end) {
   const double h = scene.solver.cell_size;
-  std::map<Cell, std::map<std::size_t, int>> cells;
+  std::map<CellIndex, std::map<std::size_t, int>> cells;
   std::size_t first = 0;
   for (std::size_t body = 0; body < body_end.size(); ++body) {
     for (std::size_t p = first; p < body_end[body]; ++p) {
@@ -135,7 +135,7 @@ void check_collider_overlaps(const Scene& scene, const sim::ParticleArrays& part
       first = body_end[body];
       if (inside == 0) continue;
       findings.push_back({Severity::warning, "body." + scene.bodies[body].name + ".shape",
-                          percent(static_cast<double>(inside) / count) + " of " +
+                          percent_text(static_cast<double>(inside) / count) + " of " +
                               scene.bodies[body].name + " starts inside collider " + collider.name,
                           "move it out: contact stops snow at surfaces, it does not push it out"});
     }
@@ -192,13 +192,14 @@ void check_damping(const Scene& scene, const Checkup& checkup, std::vector<Findi
   if (s.flip_reference_dt == 0)
     findings.push_back({Severity::warning, "solver.flip_reference_dt",
                         "flip_ratio acts per step: with about " + rough_text(steps) +
-                            " steps a frame " + percent(kept) +
+                            " steps a frame " + percent_text(kept) +
                             " of the finest motion is left, and less with smaller steps",
                         "flip_reference_dt = 5e-4 makes damping independent of dt"});
   else
     findings.push_back({Severity::note, "solver.flip_ratio",
-                        percent(kept) + " of the finest motion (a cell or less) is left after a "
-                                        "frame; motion of the whole body is not damped",
+                        percent_text(kept) +
+                            " of the finest motion (a cell or less) is left after a "
+                            "frame; motion of the whole body is not damped",
                         ""});
 }
 
@@ -312,7 +313,7 @@ void check_cameras(const Scene& scene, const std::vector<Moment>& moments,
     }
     if (worst < 0.05) continue;
     findings.push_back({Severity::warning, view.camera ? "view." + view.name + ".camera" : "camera",
-                        "view " + view.name + ": " + percent(worst) +
+                        "view " + view.name + ": " + percent_text(worst) +
                             " of the snow is outside of the picture at " + rough_text(when) + " s",
                         "leave out eye and target to frame all of it"});
   }

@@ -11,7 +11,7 @@ namespace neve::app {
 
 namespace {
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// Sampling, and the bias of volumes estimated at surfaces (up to 3, see the reference's notes on
 /// the paper's step 2), put numbers apart from the mean.
@@ -21,8 +21,8 @@ constexpr double scatter = 2;
 
 Expected::Expected(const Scene& scene, const sim::ParticleArrays& state, double dt)
     : scene_(scene), dt_(dt), h_(scene.solver.cell_size) {
-  lightest_ = unlimited;
-  lightest_density_ = unlimited;
+  lightest_ = no_limit;
+  lightest_density_ = no_limit;
   std::vector<bool> is_used(scene.materials.size(), false);
   for (std::size_t p = 0; p < state.x.size(); ++p) {
     is_used[static_cast<std::size_t>(state.material[p])] = true;
@@ -65,7 +65,7 @@ Expectation Expected::momentum() const {
 }
 
 double Expected::stress_limit() const {
-  if (!is_bounded_) return unlimited;
+  if (!is_bounded_) return no_limit;
   const double strain = std::max(compression_, stretch_) * (1 + stretch_);
   return std::sqrt(3.0) * stiffest_ * strain * std::exp(hardening_ * (1 - min_J_P_));
 }
@@ -93,7 +93,7 @@ Expectation Expected::strain_rate() const {
 }
 
 Expectation Expected::stretch() const {
-  if (!is_bounded_) return {{0, unlimited}, "elastic models have no limit"};
+  if (!is_bounded_) return {{0, no_limit}, "elastic models have no limit"};
   // Singular values in the arithmetic of the solver.
   constexpr double rounding = 1e-5;
   return {{1 - compression_ - rounding, 1 + stretch_ + rounding},

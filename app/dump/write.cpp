@@ -51,7 +51,7 @@ Extremes extremes(const Listing& listing, const Quantity& q) {
 }
 
 /// Padded on the right to a width, at least one space.
-std::string padded(const std::string& text, std::size_t width) {
+std::string column_text(const std::string& text, std::size_t width) {
   return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
 }
 
@@ -66,13 +66,13 @@ void append_block(const std::vector<T>& values, std::string& bytes) {
 
 std::vector<std::string> summary_lines(const Listing& listing) {
   std::vector<std::string> lines;
-  lines.push_back(padded("quantity", 22) + padded("least", 12) + padded("greatest", 12) +
-                  padded("outside", 9) + "expected");
+  lines.push_back(column_text("quantity", 22) + column_text("least", 12) +
+                  column_text("greatest", 12) + column_text("outside", 9) + "expected");
   for (const Quantity& q : listing.quantities) {
     const Extremes e = extremes(listing, q);
-    lines.push_back(padded(title(q), 22) + padded(rough_text(e.least), 12) +
-                    padded(rough_text(e.greatest), 12) +
-                    padded(q.expected || e.strange > 0 ? std::to_string(e.strange) : "-", 9) +
+    lines.push_back(column_text(title(q), 22) + column_text(rough_text(e.least), 12) +
+                    column_text(rough_text(e.greatest), 12) +
+                    column_text(q.expected || e.strange > 0 ? std::to_string(e.strange) : "-", 9) +
                     expected_text(q));
   }
   return lines;
@@ -147,7 +147,8 @@ std::vector<std::string> probe_lines(const Listing& listing, std::size_t row) {
     const auto width = static_cast<std::size_t>(q.components);
     for (std::size_t c = 0; c < width; ++c)
       value += (c == 0 ? "" : c % 3 == 0 ? "; " : " ") + rough_text(q.values[row * width + c]);
-    lines.push_back((q.is_strange(row) ? "! " : "  ") + padded(title(q), 22) + padded(value, 30) +
+    lines.push_back((q.is_strange(row) ? "! " : "  ") + column_text(title(q), 22) +
+                    column_text(value, 30) +
                     (q.components > 1 && q.expected
                          ? "magnitude " + rough_text(q.magnitude(row)) + ", expected "
                      : q.expected ? "expected "

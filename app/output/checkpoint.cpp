@@ -25,7 +25,7 @@ fs::path folder_of(const fs::path& folder) {
   return folder / "checkpoint";
 }
 
-void append(std::vector<std::uint8_t>& bytes, const void* data, std::size_t size) {
+void append_bytes(std::vector<std::uint8_t>& bytes, const void* data, std::size_t size) {
   const auto* first = static_cast<const std::uint8_t*>(data);
   bytes.insert(bytes.end(), first, first + size);
 }
@@ -88,13 +88,13 @@ void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
                                     {"progress", checkpoint.progress}});
   std::vector<std::uint8_t> bytes;
   bytes.reserve(checkpoint.state.size() + text.size() + 64);
-  append(bytes, magic, sizeof magic);
+  append_bytes(bytes, magic, sizeof magic);
   const std::uint64_t length = text.size();
-  append(bytes, &length, number_bytes);
-  append(bytes, text.data(), text.size());
-  append(bytes, checkpoint.state.data(), checkpoint.state.size());
+  append_bytes(bytes, &length, number_bytes);
+  append_bytes(bytes, text.data(), text.size());
+  append_bytes(bytes, checkpoint.state.data(), checkpoint.state.size());
   const std::uint64_t sum = checksum(bytes);
-  append(bytes, &sum, number_bytes);
+  append_bytes(bytes, &sum, number_bytes);
   make_folder(folder_of(folder));
   write_file(folder_of(folder) / file_name(checkpoint), bytes, Durability::synced);
   const std::vector<fs::path> files = list(folder);

@@ -24,12 +24,12 @@ Json matrix_json(const sim::Mat3d& matrix) {
 }
 
 /// The inverse of number_or_null.
-double number(const Json& json) {
+double number_or_nan(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
 sim::Vec3d vector(const Json& json) {
-  return {number(json.at(0)), number(json.at(1)), number(json.at(2))};
+  return {number_or_nan(json.at(0)), number_or_nan(json.at(1)), number_or_nan(json.at(2))};
 }
 
 sim::DtLimit limit_named(const std::string& text) {
@@ -97,36 +97,36 @@ Json to_json(const FrameRecord& frame) {
 FrameRecord frame_record(const Json& json) {
   FrameRecord frame;
   frame.frame = json.at("frame").get<int>();
-  frame.time = number(json.at("time"));
+  frame.time = number_or_nan(json.at("time"));
   frame.advance.steps = json.at("steps").get<std::size_t>();
   if (frame.advance.steps > 0) {
-    frame.advance.dt_min = number(json.at("dt_min"));
-    frame.advance.dt_max = number(json.at("dt_max"));
+    frame.advance.dt_min = number_or_nan(json.at("dt_min"));
+    frame.advance.dt_max = number_or_nan(json.at("dt_max"));
     const sim::DtLimit limit = limit_named(json.at("dt_limit").get<std::string>());
     frame.advance.ruled[static_cast<std::size_t>(limit)] = frame.advance.steps;
   }
   // Runs of earlier versions have none, explicit steps neither.
   if (json.contains("solve_iterations") && !json.at("solve_iterations").is_null())
     frame.advance.solve = {json.at("solve_iterations").get<int>(),
-                           number(json.at("solve_residual"))};
-  frame.seconds_sim = number(json.at("seconds_sim"));
-  frame.seconds_render = number(json.at("seconds_render"));
+                           number_or_nan(json.at("solve_residual"))};
+  frame.seconds_sim = number_or_nan(json.at("seconds_sim"));
+  frame.seconds_render = number_or_nan(json.at("seconds_render"));
   sim::Summary& s = frame.summary;
   s.time = frame.time;
   s.particles = json.at("particles").get<std::size_t>();
-  s.kinetic_energy = number(json.at("kinetic_energy"));
-  s.elastic_energy = number(json.at("elastic_energy"));
+  s.kinetic_energy = number_or_nan(json.at("kinetic_energy"));
+  s.elastic_energy = number_or_nan(json.at("elastic_energy"));
   s.momentum = vector(json.at("momentum"));
   s.centre_of_mass = vector(json.at("centre_of_mass"));
-  s.max_speed = number(json.at("max_speed"));
-  s.min_J_P = number(json.at("min_J_P"));
-  s.max_J_P = number(json.at("max_J_P"));
+  s.max_speed = number_or_nan(json.at("max_speed"));
+  s.min_J_P = number_or_nan(json.at("min_J_P"));
+  s.max_J_P = number_or_nan(json.at("max_J_P"));
   frame.state_hash = std::stoull(json.at("state_hash").get<std::string>(), nullptr, 16);
   // Runs of earlier versions have none.
   if (!json.contains("spread")) return frame;
-  frame.metrics = {number(json.at("spread")), number(json.at("height")),
-                   number(json.at("mean_J_P")), json.at("fragments").get<std::size_t>(),
-                   number(json.at("largest_fragment"))};
+  frame.metrics = {number_or_nan(json.at("spread")), number_or_nan(json.at("height")),
+                   number_or_nan(json.at("mean_J_P")), json.at("fragments").get<std::size_t>(),
+                   number_or_nan(json.at("largest_fragment"))};
   return frame;
 }
 
@@ -160,7 +160,7 @@ sim::AdvanceReport advance_report(const Json& json) {
   advance.ruled = json.at("ruled").get<decltype(advance.ruled)>();
   if (json.contains("solve"))
     advance.solve = {json.at("solve").at("iterations").get<int>(),
-                     number(json.at("solve").at("residual"))};
+                     number_or_nan(json.at("solve").at("residual"))};
   return advance;
 }
 

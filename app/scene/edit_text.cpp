@@ -23,7 +23,7 @@ std::string joined(const Words& words, std::size_t first, std::size_t end) {
   return text;
 }
 
-std::string trimmed(std::string_view text) {
+std::string without_blanks(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
@@ -33,7 +33,7 @@ std::string trimmed(std::string_view text) {
 std::string literal_of(const Override& change) {
   const std::optional<ParamInfo> info = param_at(change.address);
   const Value value = value_of(change, info ? info->type : "table");
-  const std::string text = trimmed(change.value);
+  const std::string text = without_blanks(change.value);
   const auto* word = std::get_if<std::string>(&value.data);
   const bool is_quoted = text.starts_with('"') || text.starts_with('\'');
   return word && !is_quoted ? toml_string(*word) : text;
@@ -86,8 +86,9 @@ class Edit {
 
  private:
   [[noreturn]] void fail(const std::string& why) const {
-    change_.fail(change_.place, "cannot be put into the file: " + why,
-                 "change the file by hand: " + change_.address + " = " + trimmed(change_.value));
+    change_.fail(
+        change_.place, "cannot be put into the file: " + why,
+        "change the file by hand: " + change_.address + " = " + without_blanks(change_.value));
   }
 
   void replace(Span span, const std::string& with) { text_.replace(span.begin, span.size(), with); }

@@ -3,7 +3,7 @@
 namespace neve::app {
 namespace {
 
-std::string position(const std::string& file, int line, int column) {
+std::string place_text(const std::string& file, int line, int column) {
   std::string place = file;
   if (line > 0) place.append(":").append(std::to_string(line));
   if (line > 0) place.append(":").append(std::to_string(column));
@@ -22,7 +22,7 @@ std::string sentence(const std::string& place, const std::string& text, const st
 
 SceneError::SceneError(std::string file_name, int at_line, int at_column, std::string text,
                        std::string advice)
-    : std::runtime_error(sentence(position(file_name, at_line, at_column), text, advice)),
+    : std::runtime_error(sentence(place_text(file_name, at_line, at_column), text, advice)),
       file(std::move(file_name)),
       line(at_line),
       column(at_column),

@@ -1,6 +1,7 @@
 #include "app/scene/flat.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 

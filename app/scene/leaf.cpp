@@ -11,11 +11,8 @@
 namespace neve::app {
 namespace {
 
-/// Long strings are cut in messages.
-constexpr std::size_t max_shown = 60;
-
 /// A number, whole or not, within the bounds; `kind` says what was expected otherwise.
-double number(const Leaf& leaf, const std::string& kind) {
+double bounded_number(const Leaf& leaf, const std::string& kind) {
   double x = 0;
   if (const auto* i = std::get_if<std::int64_t>(&leaf.value.data)) {
     x = static_cast<double>(*i);
@@ -30,8 +27,8 @@ double number(const Leaf& leaf, const std::string& kind) {
 }
 
 /// Bounds of integers stay below 2^53, so going through double loses nothing that is valid.
-double whole_number(const Leaf& leaf) {
-  const double x = number(leaf, "a whole number");
+double bounded_whole_number(const Leaf& leaf) {
+  const double x = bounded_number(leaf, "a whole number");
   if (x != std::trunc(x)) leaf.fail("a whole number");
   return x;
 }
@@ -110,18 +107,18 @@ void read_leaf(const Leaf& leaf, bool& member) {
 }
 
 void read_leaf(const Leaf& leaf, double& member) {
-  member = number(leaf, "a number");
+  member = bounded_number(leaf, "a number");
 }
 
 void read_leaf(const Leaf& leaf, int& member) {
-  member = static_cast<int>(whole_number(leaf));
+  member = static_cast<int>(bounded_whole_number(leaf));
 }
 
 void read_leaf(const Leaf& leaf, std::uint64_t& member) {
   const auto* text = std::get_if<std::string>(&leaf.value.data);
   const bool is_bytes = std::string_view(leaf.unit) == "B";
   if (!text || !is_bytes) {
-    member = static_cast<std::uint64_t>(whole_number(leaf));
+    member = static_cast<std::uint64_t>(bounded_whole_number(leaf));
     return;
   }
   const std::optional<double> bytes = bytes_of(*text);

@@ -6,8 +6,6 @@
 namespace neve::app {
 namespace {
 
-constexpr std::size_t max_shown = 60;
-
 /// What to write instead of a key that is not one here.
 std::string advice(const std::string& key, const std::vector<std::string>& known) {
   const std::string nearest = nearest_name(key, known);

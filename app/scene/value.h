@@ -46,6 +46,8 @@ struct Entry {
   Value value{};
 };
 
+/// Where long values are cut in messages.
+inline constexpr std::size_t max_shown = 60;
 /// The value as TOML on one line; long ones are cut to `limit` bytes (0: never).
 std::string toml_literal(const Value& value, std::size_t limit = 0);
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int steps_each_way = 2;
 
-std::optional<double> number_of(const std::optional<Value>& value) {
+std::optional<double> double_of(const std::optional<Value>& value) {
   if (!value) return std::nullopt;
   if (const auto* whole = std::get_if<std::int64_t>(&value->data))
     return static_cast<double>(*whole);
@@ -27,7 +27,7 @@ std::optional<double> number_of(const std::optional<Value>& value) {
 }
 
 /// With three significant digits, as people write numbers.
-double rounded(double x) {
+double three_digits(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", x);
   return std::strtod(text, nullptr);
@@ -48,7 +48,7 @@ bool spans_decades(const FlatParam& param, double x) {
 /// How far to look from a number: half of it, or of what else is known about its size.
 double reach(const FlatParam& param, double x) {
   if (x != 0) return 0.5 * std::abs(x);
-  const double usual = number_of(param.default_value).value_or(0);
+  const double usual = double_of(param.default_value).value_or(0);
   return usual != 0 ? std::abs(usual) : 1;
 }
 
@@ -56,7 +56,7 @@ std::vector<double> numbers_around(const FlatParam& param, double x) {
   std::vector<double> numbers{x};
   const bool is_whole = param.type == "integer";
   const auto add = [&](double candidate) {
-    const double nice = is_whole ? std::round(candidate) : rounded(candidate);
+    const double nice = is_whole ? std::round(candidate) : three_digits(candidate);
     numbers.push_back(param.valid.contains(nice) ? nice : candidate);
   };
   if (spans_decades(param, x) && !is_whole) {
@@ -91,14 +91,14 @@ Value value_of(const FlatParam& param, double x) {
 std::vector<Value> vectors_around(const FlatParam& param, const Array& array) {
   std::vector<Value> vectors;
   bool is_zero = true;
-  for (const Value& item : array) is_zero = is_zero && number_of(item).value_or(0) == 0;
+  for (const Value& item : array) is_zero = is_zero && double_of(item).value_or(0) == 0;
   if (is_zero) refuse(param, "it is a vector of zeros");
   for (const double factor : {0.5, 0.75, 1.0, 1.25, 1.5}) {
     Array scaled;
     bool is_valid = true;
     for (const Value& item : array) {
-      const double x = number_of(item).value_or(0);
-      const double stretched = factor == 1 ? x : rounded(factor * x);
+      const double x = double_of(item).value_or(0);
+      const double stretched = factor == 1 ? x : three_digits(factor * x);
       scaled.emplace_back().data = stretched;
       is_valid = is_valid && param.valid.contains(stretched);
     }
@@ -129,7 +129,7 @@ std::vector<Value> values_around(const FlatParam& param) {
     for (const std::string& choice : param.choices) values.emplace_back().data = choice;
     return values;
   }
-  if (const std::optional<double> x = number_of(param.value)) {
+  if (const std::optional<double> x = double_of(param.value)) {
     for (const double number : numbers_around(param, *x)) values.push_back(value_of(param, number));
     return values;
   }

@@ -32,7 +32,7 @@ std::string whole_text(double x) {
   return std::to_string(std::llround(x));
 }
 
-std::optional<double> number(std::string text) {
+std::optional<double> trimmed_number(std::string text) {
   std::erase(text, ' ');
   if (text.starts_with("+")) text.erase(0, 1);
   double x = 0;
@@ -75,7 +75,7 @@ std::string column_name(const std::string& address) {
 std::string cell(const std::string& value, const std::string& type) {
   if (value.empty()) return "";
   if (type == "number" || type == "integer") {
-    const std::optional<double> x = number(value);
+    const std::optional<double> x = trimmed_number(value);
     if (!x) return "";
     return type == "number" ? float_text(*x) : whole_text(*x);
   }

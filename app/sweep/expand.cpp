@@ -29,7 +29,7 @@ double drawn_value(const AxisSpec& spec, double u) {
   return spec.normal->first + spec.normal->last * normal_quantile(std::clamp(u, 1e-9, 1 - 1e-9));
 }
 
-void append(PlannedRun& run, const Axis& axis, std::size_t value) {
+void append_value(PlannedRun& run, const Axis& axis, std::size_t value) {
   for (const Axis::Parameter& parameter : axis.parameters)
     run.settings.push_back(parameter.values[value]);
   if (axis.value_labels.empty()) return;
@@ -41,7 +41,7 @@ void append_at(PlannedRun& run, const Axis& axis, double u) {
   const Axis::Parameter& parameter = axis.parameters.front();
   if (!parameter.drawn) {
     const auto count = static_cast<double>(axis.size());
-    return append(run, axis, static_cast<std::size_t>(std::min(u * count, count - 1)));
+    return append_value(run, axis, static_cast<std::size_t>(std::min(u * count, count - 1)));
   }
   const std::optional<ParamInfo> info = param_at(parameter.address);
   const double x = drawn_value(*parameter.drawn, u);
@@ -79,7 +79,7 @@ std::vector<PlannedRun> drawn(const Sweep& sweep) {
 std::vector<PlannedRun> zipped(const Sweep& sweep) {
   std::vector<PlannedRun> runs(sweep.axes.empty() ? 0 : sweep.axes.front().size());
   for (std::size_t k = 0; k < runs.size(); ++k)
-    for (const Axis& axis : sweep.axes) append(runs[k], axis, k);
+    for (const Axis& axis : sweep.axes) append_value(runs[k], axis, k);
   return runs;
 }
 
@@ -91,7 +91,7 @@ std::vector<PlannedRun> combined(const Sweep& sweep) {
     PlannedRun& run = runs.emplace_back();
     run.coordinates = at;
     for (std::size_t a = 0; a < at.size(); ++a)
-      append(run, sweep.axes[a], static_cast<std::size_t>(at[a]));
+      append_value(run, sweep.axes[a], static_cast<std::size_t>(at[a]));
     std::size_t a = at.size();
     while (a > 0 && ++at[a - 1] == static_cast<int>(sweep.axes[a - 1].size())) at[--a] = 0;
     if (a == 0) return runs;

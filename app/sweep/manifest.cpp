@@ -34,7 +34,7 @@ std::string with_unit(const std::string& value, const std::string& unit) {
   return value_text(value) + (unit.empty() ? "" : " " + unit);
 }
 
-ManifestAxis axis_of(const Axis& axis, const std::vector<Varied>& parameters) {
+ManifestAxis manifest_axis(const Axis& axis, const std::vector<Varied>& parameters) {
   ManifestAxis result;
   const auto varied = [&](const std::string& address) {
     return *std::find_if(parameters.begin(), parameters.end(),
@@ -57,7 +57,7 @@ ManifestAxis axis_of(const Axis& axis, const std::vector<Varied>& parameters) {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-Json to_json(const Pairs& pairs) {
+Json pairs_json(const Pairs& pairs) {
   Json list = Json::array();
   for (const auto& [address, value] : pairs) list.push_back({address, value});
   return list;
@@ -82,13 +82,13 @@ Pairs unset_values(const RunPlan& item, const std::vector<Varied>& parameters) {
   return pairs;
 }
 
-Json to_json(const ManifestRun& run) {
+Json run_json(const ManifestRun& run) {
   return {{"run", run.index},
           {"folder", run.folder},
           {"key", run.key},
           {"label", run.label},
-          {"settings", to_json(run.settings)},
-          {"unset", to_json(run.unset)},
+          {"settings", pairs_json(run.settings)},
+          {"unset", pairs_json(run.unset)},
           {"coordinates", run.coordinates},
           {"first_frame", run.first_frame},
           {"last_frame", run.last_frame},
@@ -165,7 +165,7 @@ Manifest make_manifest(const SweepPlan& plan, const std::vector<std::string>& ke
   m.memory = static_cast<double>(plan.sweep.limits.memory);
   m.parameters = varied_parameters(plan);
   if (plan.sweep.settings.method == Method::grid)
-    for (const Axis& axis : plan.sweep.axes) m.axes.push_back(axis_of(axis, m.parameters));
+    for (const Axis& axis : plan.sweep.axes) m.axes.push_back(manifest_axis(axis, m.parameters));
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const RunPlan& item = plan.runs[k];
     ManifestRun& run = m.runs.emplace_back();
@@ -210,7 +210,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   for (const ManifestAxis& axis : m.axes)
     json["axes"].push_back({{"name", axis.name}, {"values", axis.values}});
   json["runs"] = Json::array();
-  for (const ManifestRun& run : m.runs) json["runs"].push_back(to_json(run));
+  for (const ManifestRun& run : m.runs) json["runs"].push_back(run_json(run));
   write_file(manifest_path(folder), to_text(json) + "\n");
 }
 

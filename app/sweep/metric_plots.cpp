@@ -14,7 +14,7 @@ namespace {
 constexpr double panel_width = 210, panel_height = 120, left_room = 62, top_room = 30,
                  bottom_room = 34, gap = 16, page_width = 1420;
 
-std::optional<double> number(const std::string& text) {
+std::optional<double> number_of(const std::string& text) {
   double x = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
   const bool is_whole =
@@ -102,13 +102,13 @@ Across by_number(const Varied& parameter, const std::vector<std::optional<double
   return across;
 }
 
-std::vector<Across> columns_of(const Manifest& manifest) {
+std::vector<Across> parameters_across(const Manifest& manifest) {
   std::vector<Across> columns;
   for (const Varied& parameter : manifest.parameters) {
     std::vector<std::optional<double>> values;
     std::size_t numbers = 0, given = 0;
     for (const ManifestRun& run : manifest.runs) {
-      values.push_back(number(run.value(parameter.address)));
+      values.push_back(number_of(run.value(parameter.address)));
       numbers += values.back().has_value();
       given += !run.value(parameter.address).empty();
     }
@@ -146,9 +146,9 @@ std::optional<Extent> extent_of(const std::vector<RunResult>& results, std::size
   return Extent{e.low - room, e.high + room};
 }
 
-std::string panel(const Across& across, const std::vector<RunResult>& results,
-                  const Manifest& manifest, std::size_t metric, const Extent& extent, double x0,
-                  double y0, bool is_first) {
+std::string svg_panel(const Across& across, const std::vector<RunResult>& results,
+                      const Manifest& manifest, std::size_t metric, const Extent& extent, double x0,
+                      double y0, bool is_first) {
   const auto y_of = [&](double value) {
     return y0 + panel_height * (1 - (value - extent.low) / (extent.high - extent.low));
   };
@@ -208,7 +208,7 @@ std::string xml_text(const std::string& text) {
 
 std::string metric_plots_svg(const Manifest& manifest, const std::vector<RunResult>& results,
                              bool is_document) {
-  const std::vector<Across> columns = columns_of(manifest);
+  const std::vector<Across> columns = parameters_across(manifest);
   const double row_height = top_room + panel_height + bottom_room;
   const double block_width = left_room + static_cast<double>(columns.size()) * (panel_width + gap);
   const int side_by_side = std::max(1, static_cast<int>(page_width / block_width));
@@ -225,7 +225,7 @@ std::string metric_plots_svg(const Manifest& manifest, const std::vector<RunResu
     body += text_at(left, y + top_room - 10, "start", "name", info.title + unit);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const double x = left + static_cast<double>(c) * (panel_width + gap);
-      body += panel(columns[c], results, manifest, metric, *extent, x, y + top_room, c == 0);
+      body += svg_panel(columns[c], results, manifest, metric, *extent, x, y + top_room, c == 0);
       body += text_at(x + panel_width / 2, y + top_room + panel_height + 28, "middle", "tick",
                       columns[c].title);
     }

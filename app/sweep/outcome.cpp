@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The last line that says something, of the last 64 KiB.
-std::string last_line(const fs::path& log) {
+std::string last_message(const fs::path& log) {
   std::ifstream in(log, std::ios::binary | std::ios::ate);
   if (!in) return {};
   const std::streamoff size = in.tellg(), most = 1 << 16;
@@ -65,7 +65,7 @@ void judge_divergence(const Manifest& manifest, const ManifestRun& run, const fs
         "frame " + std::to_string(frame) + ": " +
         rule_text(incident.value("rule", ""), value.is_number() ? value.get<double>() : 0);
   } catch (const std::exception&) {
-    report.reason = last_line(folder / "log");
+    report.reason = last_message(folder / "log");
   }
 }
 
@@ -84,7 +84,7 @@ void judge_exit(const ChildResult& result, const Manifest& manifest, const Manif
       report.reason = "interrupted";
       return;
     default:
-      report.reason = last_line(folder / "log");
+      report.reason = last_message(folder / "log");
   }
   const bool is_memory = report.reason.find("memory") != std::string::npos;
   if (result.code == exit_refused && report.reason.find("out of memory") != std::string::npos)
@@ -108,7 +108,8 @@ void judge_signal(const ChildResult& result, const fs::path& folder, RunReport& 
   if (result.signal == SIGKILL)
     report.reason += "; the system kills what takes too much memory, see dmesg";
   // An allocation that fails in a thread ends in abort.
-  if (result.signal != SIGABRT || last_line(folder / "log").find("bad_alloc") == std::string::npos)
+  if (result.signal != SIGABRT ||
+      last_message(folder / "log").find("bad_alloc") == std::string::npos)
     return;
   report.state = RunState::out_of_memory;
   report.reason = "an allocation failed";

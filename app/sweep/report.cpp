@@ -50,7 +50,7 @@ bool has_labels(const Manifest& manifest) {
                      [](const ManifestRun& run) { return !run.label.empty(); });
 }
 
-Json columns_of(const Manifest& manifest) {
+Json column_names(const Manifest& manifest) {
   Json columns = Json::array();
   columns.push_back(column("run", false, false));
   if (has_labels(manifest)) columns.push_back(column("name", true, false));
@@ -88,7 +88,7 @@ std::string script_json(const Json& json) {
   return out;
 }
 
-std::string percent(double part, double whole) {
+std::string css_percent(double part, double whole) {
   return fixed_text(100 * part / whole, 3) + "%";
 }
 
@@ -101,10 +101,10 @@ std::string sheet_section(const Manifest& manifest, const SheetLayout& layout,
   for (const SheetTile& tile : layout.tiles) {
     const std::string run = std::to_string(manifest.runs[tile.run].index);
     html += "<a href=\"#run-" + run + "\" data-run=\"" + run + "\" title=\"run " + run +
-            "\" style=\"left:" + percent(tile.x, layout.width) +
-            ";top:" + percent(tile.y, layout.height) +
-            ";width:" + percent(layout.tile_width, layout.width) +
-            ";height:" + percent(layout.tile_height, layout.height) + "\"></a>\n";
+            "\" style=\"left:" + css_percent(tile.x, layout.width) +
+            ";top:" + css_percent(tile.y, layout.height) +
+            ";width:" + css_percent(layout.tile_width, layout.width) +
+            ";height:" + css_percent(layout.tile_height, layout.height) + "\"></a>\n";
   }
   return html + "</div>\n";
 }
@@ -134,7 +134,7 @@ std::string report_html(const std::string& folder, const Manifest& manifest,
                         const std::vector<RunResult>& results, const SheetLayout& layout,
                         const std::vector<std::uint8_t>& sheet_png) {
   Json data;
-  data["columns"] = columns_of(manifest);
+  data["columns"] = column_names(manifest);
   data["rows"] = Json::array();
   int failed = 0, ok = 0;
   for (std::size_t k = 0; k < manifest.runs.size(); ++k) {

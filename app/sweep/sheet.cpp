@@ -22,7 +22,7 @@ constexpr double darkness = 0.42;  // of a tile whose run got less far
 constexpr std::size_t most_moments = 6;
 const char* const dot = "   \u00b7   ";
 
-render::Image plain(int width, int height, const Rgb& color) {
+render::Image plain_image(int width, int height, const Rgb& color) {
   return render::compose(width, height, color, {});
 }
 
@@ -47,8 +47,8 @@ bool is_late(const ManifestRun& run, const RunResult& result, int frame) {
   return !has_frame && !is_over;
 }
 
-render::Image read_picture(const std::filesystem::path& file, int width, int height,
-                           const Rgb& background) {
+render::Image read_tile(const std::filesystem::path& file, int width, int height,
+                        const Rgb& background) {
   try {
     render::Image image = render::decode_png(read_file(file));
     if (image.channels == 4)
@@ -59,7 +59,7 @@ render::Image read_picture(const std::filesystem::path& file, int width, int hei
                            {{(width - image.width) / 2, (height - image.height) / 2, image}});
   } catch (const std::exception&) {
     // A picture that is not there or is being replaced is no reason to have no sheet.
-    return plain(width, height, background);
+    return plain_image(width, height, background);
   }
 }
 
@@ -109,7 +109,7 @@ std::pair<std::string, std::string> split_state(const std::string& text) {
   return {text.substr(0, end), end < text.size() ? text.substr(end + 1) : ""};
 }
 
-std::string count_text(const std::vector<RunResult>& results) {
+std::string run_count_text(const std::vector<RunResult>& results) {
   int ok = 0, failed = 0;
   for (const RunResult& result : results) {
     ok += result.report.state == RunState::ok;
@@ -147,8 +147,8 @@ render::Image SheetMaker::tile_picture(const Tile& tile, int width, int height,
     file = incident;
   else if (frame)
     file = frame_path(run, manifest_.view, *frame);
-  if (file.empty()) return plain(width, height, empty_tile);
-  render::Image picture = read_picture(file, width, height, empty_tile);
+  if (file.empty()) return plain_image(width, height, empty_tile);
+  render::Image picture = read_tile(file, width, height, empty_tile);
   if (is_dark) darken(picture);
   return picture;
 }
@@ -213,7 +213,7 @@ render::Image SheetMaker::sheet(int frame) {
     tiles.push_back({&manifest_.runs[place.run], &results_[place.run], frame, place.x, place.y});
   const std::string line = "frame " + std::to_string(frame) +
                            "   t = " + fixed_text(frame / manifest_.fps, 3) + " s" + dot +
-                           count_text(results_);
+                           run_count_text(results_);
   render::Frame words = frame_of(layout_, line);
   return compose(layout_, tiles, words);
 }
@@ -223,7 +223,7 @@ render::Image SheetMaker::strips() {
   const SheetLayout layout =
       layout_sheet(strip_grid(frames), !legends_.empty(), renderer_.max_size());
   render::Frame words =
-      frame_of(layout, "moments of every run" + std::string(dot) + count_text(results_));
+      frame_of(layout, "moments of every run" + std::string(dot) + run_count_text(results_));
   std::vector<render::Tile> pictures;
   for (const SheetTile& place : layout.tiles) {
     const std::size_t run = place.run / frames.size();

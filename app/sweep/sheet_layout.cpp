@@ -9,7 +9,7 @@ namespace {
 
 using Anchor = render::Note::Anchor;
 
-constexpr std::array<std::uint8_t, 3> bright{240, 244, 250}, soft{172, 182, 196},
+constexpr std::array<std::uint8_t, 3> bright_ink{240, 244, 250}, soft_ink{172, 182, 196},
     bracket{96, 106, 122};
 constexpr double letter = 0.56;  // width of a letter, as a share of the height of its line
 constexpr std::size_t longest_row = 6;
@@ -203,7 +203,7 @@ class Layouter {
         out_.labels.push_back({0.5f * static_cast<float>(left + right), static_cast<float>(y),
                                label_text(m_, sides_.columns.axes[k], value), Anchor::middle,
                                static_cast<float>(right - left), false,
-                               k + 1 == levels ? bright : soft});
+                               k + 1 == levels ? bright_ink : soft_ink});
       }
     }
   }
@@ -229,7 +229,7 @@ class Layouter {
               middle + line() * (static_cast<double>(n) - 0.5 * static_cast<double>(lines.size()));
           const bool is_soft = has_name ? n == 0 : n > 0;
           out_.labels.push_back({static_cast<float>(x), static_cast<float>(at), lines[n],
-                                 Anchor::left, room, false, is_soft ? soft : bright});
+                                 Anchor::left, room, false, is_soft ? soft_ink : bright_ink});
         }
         if (k + 1 < levels) add_bracket(x + level_width(axis), first, first + block - 1);
       }

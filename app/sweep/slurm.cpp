@@ -26,7 +26,7 @@ namespace {
 constexpr auto look_interval = std::chrono::seconds(1);
 constexpr int default_max_array_size = 1001;
 
-std::string trimmed(std::string text) {
+std::string without_trailing_space(std::string text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
   return text;
 }
@@ -40,9 +40,9 @@ std::string call(const std::string& name, const std::vector<std::string>& argume
                 "work with any scheduler");
   const ProcessResult result = run_process(*program, arguments, fs::current_path());
   if (!result.has_started || result.exit_code != 0)
-    throw Error(exit_io, name + " failed: " + trimmed(result.errors + result.output), name,
-                "sinfo tells whether Slurm is there");
-  return trimmed(result.output);
+    throw Error(exit_io, name + " failed: " + without_trailing_space(result.errors + result.output),
+                name, "sinfo tells whether Slurm is there");
+  return without_trailing_space(result.output);
 }
 
 int max_array_size() {

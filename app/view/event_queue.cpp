@@ -4,13 +4,6 @@
 #include <utility>
 
 namespace neve::app {
-namespace {
-
-bool is_same(const Modifiers& a, const Modifiers& b) {
-  return a.ctrl == b.ctrl && a.shift == b.shift && a.alt == b.alt && a.super == b.super;
-}
-
-}  // namespace
 
 bool EventQueue::join(const InputEvent& event) {
   if (events_.empty()) return false;
@@ -21,11 +14,11 @@ bool EventQueue::join(const InputEvent& event) {
       last = event;
       return true;
     case InputEvent::Kind::move:
-      if (!is_same(last.held, event.held)) return false;
+      if (last.held != event.held) return false;
       last = event;
       return true;
     case InputEvent::Kind::wheel:
-      if (!is_same(last.held, event.held)) return false;
+      if (last.held != event.held) return false;
       last.x += event.x;
       last.y += event.y;
       return true;

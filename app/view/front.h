@@ -12,6 +12,8 @@ namespace neve::app {
 
 struct Modifiers {
   bool ctrl = false, shift = false, alt = false, super = false;
+
+  bool operator==(const Modifiers&) const = default;
 };
 
 /// Keys are their capital letter, digit or sign in ASCII, or one of these.

@@ -6,13 +6,13 @@
 namespace neve::app {
 namespace {
 
-char lower(char c) {
+char lower_ascii(char c) {
   return c >= 'A' && c <= 'Z' ? char(c + 32) : c;
 }
 
-std::string lower(std::string_view text) {
+std::string lower_ascii(std::string_view text) {
   std::string result(text);
-  for (char& c : result) c = lower(c);
+  for (char& c : result) c = lower_ascii(c);
   return result;
 }
 
@@ -60,7 +60,7 @@ int read_header_line(std::string_view line, HttpRequest& request) {
   if (colon == std::string::npos || !is_token(line.substr(0, colon))) return 400;
   const std::string_view value = trimmed(line.substr(colon + 1));
   if (!is_printable(value, true)) return 400;
-  std::string name = lower(line.substr(0, colon));
+  std::string name = lower_ascii(line.substr(0, colon));
   if ((name == "host" || name == "origin") && request.has_header(name)) return 400;
   // A body would have to be read and to be limited; nothing here takes one.
   if (name == "transfer-encoding" || (name == "content-length" && value != "0")) return 400;
@@ -125,7 +125,8 @@ bool HttpRequest::header_has_word(std::string_view name, std::string_view word) 
     if (key != name) continue;
     for (std::size_t begin = 0; begin <= value.size();) {
       const std::size_t end = std::min(value.find(',', begin), value.size());
-      if (lower(trimmed(std::string_view(value).substr(begin, end - begin))) == word) return true;
+      if (lower_ascii(trimmed(std::string_view(value).substr(begin, end - begin))) == word)
+        return true;
       begin = end + 1;
     }
   }

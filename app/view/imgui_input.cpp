@@ -80,10 +80,6 @@ Modifiers held_after(const InputEvent& event) {
   return held;
 }
 
-bool is_same(const Modifiers& a, const Modifiers& b) {
-  return a.ctrl == b.ctrl && a.shift == b.shift && a.alt == b.alt && a.super == b.super;
-}
-
 bool is_possible(const InputEvent& event) {
   switch (event.kind) {
     case Kind::move:
@@ -206,7 +202,7 @@ bool ImGuiInput::fits(const InputEvent& event, const Portion& portion) {
   if (portion.is_empty) return true;
   const bool is_pointed = portion.has_wheel || !portion.buttons.empty();
   const bool is_typed = portion.has_text || !portion.keys.empty();
-  const bool has_same_modifiers = is_same(held_after(event), portion.held);
+  const bool has_same_modifiers = held_after(event) == portion.held;
   if ((is_pointed || is_typed) && !has_same_modifiers) return false;
   switch (event.kind) {
     case Kind::move:
@@ -275,7 +271,7 @@ void ImGuiInput::set_modifiers(const Modifiers& held, ImGuiIO& io) {
 
 void ImGuiInput::apply(const InputEvent& event, ImGuiIO& io) {
   const Modifiers held = held_after(event);
-  if (!is_same(held, held_)) set_modifiers(held, io);
+  if (held != held_) set_modifiers(held, io);
   const bool is_off = event.x <= off_picture || event.y <= off_picture;
   const ImVec2 place = is_off ? ImVec2(-FLT_MAX, -FLT_MAX) : ImVec2(event.x, event.y);
 #if IMGUI_VERSION_NUM >= 18700

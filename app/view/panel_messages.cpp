@@ -13,7 +13,7 @@ namespace neve::app {
 
 namespace {
 
-ImVec4 color_of(Message::Kind kind) {
+ImVec4 message_color(Message::Kind kind) {
   switch (kind) {
     case Message::Kind::note:
       return {0.80f, 0.84f, 0.90f, 1};
@@ -28,7 +28,7 @@ ImVec4 color_of(Message::Kind kind) {
 void draw_incident(ViewerState& state) {
   const LiveFrame& live = *state.live;
   if (!live.divergence || !live.diagnosis) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, color_of(Message::Kind::error));
+  ImGui::PushStyleColor(ImGuiCol_Text, message_color(Message::Kind::error));
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(sentence(*live.divergence, *live.diagnosis).c_str());
   ImGui::PopTextWrapPos();
@@ -78,7 +78,7 @@ void draw_messages(ViewerState& state) {
   if (messages.empty()) ImGui::TextDisabled("Nothing to report.");
   ImGui::PushTextWrapPos(0);
   for (auto message = messages.rbegin(); message != messages.rend(); ++message) {
-    ImGui::PushStyleColor(ImGuiCol_Text, color_of(message->kind));
+    ImGui::PushStyleColor(ImGuiCol_Text, message_color(message->kind));
     ImGui::TextUnformatted(message->text.c_str());
     ImGui::PopStyleColor();
     ImGui::Spacing();

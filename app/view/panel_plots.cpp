@@ -23,7 +23,7 @@ struct Curve {
   std::function<double(const RunSample&)> value;
 };
 
-ImU32 color_of(sim::DtLimit limit) {
+ImU32 limit_color(sim::DtLimit limit) {
   switch (limit) {
     case sim::DtLimit::max_dt:
       return IM_COL32(150, 160, 175, 255);
@@ -125,7 +125,7 @@ void draw_dt(const ViewerState& state) {
   std::vector<std::pair<std::string, ImU32>> names;
   for (const RunSample& sample : state.samples) {
     high = std::max(high, sample.dt);
-    const std::pair<std::string, ImU32> name{sim::name(sample.limit), color_of(sample.limit)};
+    const std::pair<std::string, ImU32> name{sim::name(sample.limit), limit_color(sample.limit)};
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   const Scene& scene = *state.live->scene;
@@ -133,7 +133,7 @@ void draw_dt(const ViewerState& state) {
   for (std::size_t k = 1; k < state.samples.size(); ++k)
     chart.segment(chart.at(state.samples[k - 1].time, state.samples[k - 1].dt),
                   chart.at(state.samples[k].time, state.samples[k].dt),
-                  color_of(state.samples[k].limit));
+                  limit_color(state.samples[k].limit));
   chart.now(state.live->snapshot.time);
   draw_legend(names);
 }

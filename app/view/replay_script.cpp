@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "app/json.h"
@@ -16,37 +17,37 @@ namespace neve::app {
 
 namespace {
 
-using Kind = ReplayStep::Kind;
+using Step = ReplayStep::Kind;
 
 constexpr std::size_t step_limit = 100'000, text_limit = 64 << 10;
 
 /// What a step does, and which keys it may have beside at_frame.
 struct Action {
-  Kind kind;
+  Step kind;
   const char* name;
   std::vector<std::string> keys;
 };
 
 const std::vector<Action>& actions() {
   static const std::vector<Action> all = {
-      {Kind::click, "click", {"button", "times", "ctrl", "shift", "alt", "super"}},
-      {Kind::drag, "drag", {"button", "steps", "ctrl", "shift", "alt", "super"}},
-      {Kind::move, "move", {}},
-      {Kind::wheel, "wheel", {"at", "ctrl", "shift", "alt", "super"}},
-      {Kind::key, "key", {"hold", "ctrl", "shift", "alt", "super"}},
-      {Kind::type, "type", {}},
-      {Kind::paste, "paste", {}},
-      {Kind::wait, "wait", {}},
-      {Kind::wait_for, "wait_for", {"within"}},
-      {Kind::screenshot, "screenshot", {"crop"}},
-      {Kind::resize, "resize", {}},
-      {Kind::drop, "drop", {}},
-      {Kind::quit, "quit", {}},
+      {Step::click, "click", {"button", "times", "ctrl", "shift", "alt", "super"}},
+      {Step::drag, "drag", {"button", "steps", "ctrl", "shift", "alt", "super"}},
+      {Step::move, "move", {}},
+      {Step::wheel, "wheel", {"at", "ctrl", "shift", "alt", "super"}},
+      {Step::key, "key", {"hold", "ctrl", "shift", "alt", "super"}},
+      {Step::type, "type", {}},
+      {Step::paste, "paste", {}},
+      {Step::wait, "wait", {}},
+      {Step::wait_for, "wait_for", {"within"}},
+      {Step::screenshot, "screenshot", {"crop"}},
+      {Step::resize, "resize", {}},
+      {Step::drop, "drop", {}},
+      {Step::quit, "quit", {}},
   };
   return all;
 }
 
-const Action& action_of(Kind kind) {
+const Action& action_of(Step kind) {
   return *std::find_if(actions().begin(), actions().end(),
                        [&](const Action& action) { return action.kind == kind; });
 }
@@ -204,39 +205,39 @@ class StepReader {
     const std::string name = action_->name;
     const Json& value = json_[name];
     switch (step_.kind) {
-      case Kind::click:
-      case Kind::move:
+      case Step::click:
+      case Step::move:
         step_.places = {place(name, value)};
         break;
-      case Kind::drag:
+      case Step::drag:
         read_drag(value);
         break;
-      case Kind::wheel:
+      case Step::wheel:
         read_wheel(value);
         break;
-      case Kind::key:
+      case Step::key:
         read_key();
         break;
-      case Kind::type:
-      case Kind::paste:
+      case Step::type:
+      case Step::paste:
         step_.text = text(name, "some text");
         break;
-      case Kind::wait:
+      case Step::wait:
         step_.frames = whole(name, 1, 1'000'000, 1);
         break;
-      case Kind::wait_for:
+      case Step::wait_for:
         read_goal();
         break;
-      case Kind::screenshot:
+      case Step::screenshot:
         read_screenshot();
         break;
-      case Kind::resize:
+      case Step::resize:
         read_size(value);
         break;
-      case Kind::drop:
+      case Step::drop:
         step_.text = text(name, "the name of a file");
         break;
-      case Kind::quit:
+      case Step::quit:
         if (!flag(name)) expected(name, "true");
         break;
     }

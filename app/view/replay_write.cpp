@@ -8,7 +8,7 @@ namespace neve::app {
 
 namespace {
 
-using Kind = ReplayStep::Kind;
+using Step = ReplayStep::Kind;
 
 /// Without digits that nobody can place a mouse by; whole numbers without a point.
 Json rounded(float value, int parts) {
@@ -27,27 +27,27 @@ Json place_json(const ReplayPlace& place) {
 /// What the step does, without what modifies it.
 Json action_json(const ReplayStep& step) {
   switch (step.kind) {
-    case Kind::click:
-    case Kind::move:
+    case Step::click:
+    case Step::move:
       return place_json(step.places.at(0));
-    case Kind::drag: {
+    case Step::drag: {
       Json list = Json::array();
       for (const ReplayPlace& place : step.places) list.push_back(place_json(place));
       return list;
     }
-    case Kind::wheel:
+    case Step::wheel:
       if (step.wheel_x == 0) return rounded(step.wheel_y, 1000);
       return Json::array({rounded(step.wheel_x, 1000), rounded(step.wheel_y, 1000)});
-    case Kind::key:
+    case Step::key:
       return key_name(step.key);
-    case Kind::wait:
+    case Step::wait:
       return step.frames;
-    case Kind::resize: {
+    case Step::resize: {
       Json list = Json::array({step.size.width, step.size.height});
       if (step.size.scale != 1) list.push_back(step.size.scale);
       return list;
     }
-    case Kind::quit:
+    case Step::quit:
       return true;
     default:
       return step.text;
@@ -59,12 +59,12 @@ Json step_json(const ReplayStep& step) {
   Json json;
   json[name_of(step.kind)] = action_json(step);
   if (step.at_frame != usual.at_frame) json["at_frame"] = step.at_frame;
-  if (step.kind == Kind::wheel && !step.places.empty()) json["at"] = place_json(step.places[0]);
+  if (step.kind == Step::wheel && !step.places.empty()) json["at"] = place_json(step.places[0]);
   if (step.button != usual.button) json["button"] = button_names[step.button];
   if (step.times != usual.times) json["times"] = step.times;
-  if (step.kind == Kind::drag && step.steps != usual.steps) json["steps"] = step.steps;
-  if (step.kind == Kind::key && step.frames != usual.frames) json["hold"] = step.frames;
-  if (step.kind == Kind::wait_for && step.seconds != usual.seconds) json["within"] = step.seconds;
+  if (step.kind == Step::drag && step.steps != usual.steps) json["steps"] = step.steps;
+  if (step.kind == Step::key && step.frames != usual.frames) json["hold"] = step.frames;
+  if (step.kind == Step::wait_for && step.seconds != usual.seconds) json["within"] = step.seconds;
   if (!step.crop_label.empty()) json["crop"] = step.crop_label;
   if (step.crop) json["crop"] = *step.crop;
   if (step.held.ctrl) json["ctrl"] = true;

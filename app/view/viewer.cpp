@@ -25,7 +25,7 @@ constexpr double still_after = 0.25;       // s without a move
 constexpr double smallest_scale = 0.45;
 constexpr auto file_interval = std::chrono::seconds(1);
 
-double seconds(std::chrono::steady_clock::duration duration) {
+double seconds_of_wall(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
@@ -190,7 +190,7 @@ bool Viewer::is_still() const {
 
 double Viewer::seconds_passed() {
   const auto now = Clock::now();
-  const double passed = options_.has_own_clock ? 1.0 / 60 : seconds(now - drawn_at_);
+  const double passed = options_.has_own_clock ? 1.0 / 60 : seconds_of_wall(now - drawn_at_);
   drawn_at_ = now;
   return std::clamp(passed, 1e-4, 0.25);
 }
@@ -214,11 +214,11 @@ void Viewer::draw() {
   if (state_.wants_picture && has_picture_to_save()) save_picture();
   front_.set_progress(state_.live->frame, state_.live->is_running);
   front_.show(screen_);
-  const double took = seconds(Clock::now() - start);
+  const double took = seconds_of_wall(Clock::now() - start);
   state_.picture_ms = 1e3 * took;
   state_.frames_per_second = 0.9 * state_.frames_per_second + 0.1 / std::max(passed, 1e-3);
   times_.picture_seconds.push_back(took);
-  times_.shown_at.push_back(seconds(Clock::now() - started_));
+  times_.shown_at.push_back(seconds_of_wall(Clock::now() - started_));
 }
 
 /// Everything but the state that the picture depends on.
@@ -246,7 +246,7 @@ void Viewer::paint_picture() {
     state_.orbit =
         Orbit(place.eye, place.target, settings.up, widened(place.fov, std::max(1.0, narrower)));
   }
-  const bool is_moving = seconds(Clock::now() - moved_at_) < still_after;
+  const bool is_moving = seconds_of_wall(Clock::now() - moved_at_) < still_after;
   double scale = 1;
   if (is_moving && full_seconds_ > quick_enough)
     scale = std::clamp(std::sqrt(quick_enough / full_seconds_), smallest_scale, 1.0);
@@ -261,7 +261,7 @@ void Viewer::paint_picture() {
   frame.font_size = std::max(8, static_cast<int>(std::lround(scale * font_size_of(front_.size()))));
   renderer_.paint(frame);
   bench_.session().taken(state_.live->number);
-  if (scale >= 1) full_seconds_ = seconds(Clock::now() - start);
+  if (scale >= 1) full_seconds_ = seconds_of_wall(Clock::now() - start);
   scale_ = scale;
   painted_number_ = state_.live->number;
   painted_key_ = key;

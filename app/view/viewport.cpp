@@ -90,7 +90,7 @@ std::string literal(const Vec3d& value) {
 }
 
 /// Rounded to what a person would type at this zoom.
-double rounded(double value, double distance) {
+double rounded_move(double value, double distance) {
   const double step = std::pow(10, std::floor(std::log10(std::max(1e-9, distance))) - 2.0);
   return std::round(value / step) * step;
 }
@@ -147,7 +147,7 @@ bool use_handles(ViewerState& state, bool is_over_picture) {
   const double share = (static_cast<double>(mouse.x - drag.from.x) * dx +
                         static_cast<double>(mouse.y - drag.from.y) * dy) /
                        size;
-  const double moved = rounded(share * length, state.orbit.distance());
+  const double moved = rounded_move(share * length, state.orbit.distance());
   for (std::size_t k = 0; k < drag.start.places.size(); ++k) {
     const auto& [address, start] = drag.start.places[k];
     const Vec3d place = start + moved * unit;

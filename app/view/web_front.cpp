@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "app/clock.h"
 #include "app/errors.h"
 #include "app/view/web_protocol.h"
 #include "render/jpeg.h"
@@ -13,10 +14,6 @@ namespace {
 
 /// s without a new picture, after which the last one is worth its full quality.
 constexpr double still_seconds = 0.25;
-
-double clock_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 const WebOptions& checked(const WebOptions& options) {
   if (!render::can_encode_jpeg())
@@ -63,7 +60,7 @@ const char* css_of(Cursor cursor) {
   return "default";
 }
 
-bool is_same(const render::Image& a, const render::Image& b) {
+bool shows_same(const render::Image& a, const render::Image& b) {
   return a.width == b.width && a.height == b.height && a.channels == b.channels &&
          a.pixels == b.pixels;
 }
@@ -173,7 +170,7 @@ void WebFront::send_picture(std::unique_lock<std::mutex>& lock, bool is_sharp) {
 void WebFront::show_image(const render::Image& image) {
   std::unique_lock lock(mutex_);
   is_wanted_ = false;
-  if (!is_same(image, image_)) {
+  if (!shows_same(image, image_)) {
     image_ = image;
     sent_ = Sent::nothing;
   }

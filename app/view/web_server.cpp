@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 
+#include "app/clock.h"
 #include "app/view/web_listen.h"
 #include "app/view/web_page.h"
 
@@ -16,10 +16,6 @@ namespace neve::app {
 namespace {
 
 constexpr double goodbye_seconds = 0.5;
-
-double clock_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 std::string plain(int status, std::string_view sentence, const HttpHeaders& more = {}) {
   return http_answer(status, "text/plain; charset=utf-8", std::string(sentence) + "\n", more);

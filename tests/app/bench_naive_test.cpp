@@ -14,7 +14,7 @@ namespace {
 
 /// The bench case in small, squeezed so hard that all of it yields, with velocities that no
 /// symmetry keeps simple.
-BenchCase small_case(Method method) {
+BenchCase small_case(BenchMethod method) {
   BenchCase c = packed_case(5, method, sim::Precision::real64);
   for (std::size_t q = 0; q < c.particles.x.size(); ++q) {
     const sim::Vec3d x = c.particles.x[q] / 0.05;
@@ -24,7 +24,7 @@ BenchCase small_case(Method method) {
   return c;
 }
 
-class Naive : public testing::TestWithParam<Method> {};
+class Naive : public testing::TestWithParam<BenchMethod> {};
 
 TEST_P(Naive, DoesTheSameAsTheSolver) {
   const BenchCase c = small_case(GetParam());
@@ -55,20 +55,21 @@ TEST_P(Naive, DoesTheSameAsTheSolver) {
   EXPECT_GT(max_J_P, 1.01) << "nothing was torn";
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Naive, testing::Values(Method::flip_cubic, Method::mls_quadratic),
+INSTANTIATE_TEST_SUITE_P(Methods, Naive,
+                         testing::Values(BenchMethod::flip_cubic, BenchMethod::mls_quadratic),
                          [](const auto& tested) { return std::string(name(tested.param)); });
 
 TEST(NaiveSnow, RefusesWhatItDoesNotImplement) {
-  const BenchCase apic = packed_case(2, Method::apic_cubic, sim::Precision::real64);
+  const BenchCase apic = packed_case(2, BenchMethod::apic_cubic, sim::Precision::real64);
   EXPECT_THROW(NaiveSnow(apic.settings, apic.material, apic.particles), std::invalid_argument);
-  BenchCase estimated = packed_case(2, Method::flip_cubic, sim::Precision::real64);
+  BenchCase estimated = packed_case(2, BenchMethod::flip_cubic, sim::Precision::real64);
   estimated.particles.V0.clear();
   EXPECT_THROW(NaiveSnow(estimated.settings, estimated.material, estimated.particles),
                std::invalid_argument);
 }
 
 TEST(Window, OfACaseThatDivergesIsAnError) {
-  BenchCase c = packed_case(4, Method::flip_cubic, sim::Precision::single);
+  BenchCase c = packed_case(4, BenchMethod::flip_cubic, sim::Precision::single);
   c.settings.dt = 5e-3;  // sound crosses ten cells
   try {
     time_window(c, 1, "too_long_steps");
@@ -88,11 +89,11 @@ TEST(Statistics, MedianIsTheMiddleOrBetweenTheTwo) {
 }
 
 TEST(BenchCase, IsTheCommonCase) {
-  const BenchCase packed = packed_case(23, Method::flip_cubic, sim::Precision::single);
+  const BenchCase packed = packed_case(23, BenchMethod::flip_cubic, sim::Precision::single);
   EXPECT_EQ(packed.particles.x.size(), 97336u);
   EXPECT_EQ(packed_cells_a_side(97336), 23);
   EXPECT_EQ(packed_cells_a_side(0), 1);
-  const BenchCase spray = spray_case(46, Method::flip_cubic, sim::Precision::single);
+  const BenchCase spray = spray_case(46, BenchMethod::flip_cubic, sim::Precision::single);
   EXPECT_EQ(spray.particles.x.size(), packed.particles.x.size());
   sim::Vec3d momentum = sim::Vec3d::Zero();
   for (const sim::Vec3d& v : packed.particles.v) momentum += v;

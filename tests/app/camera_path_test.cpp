@@ -20,20 +20,21 @@ using sim::Vec3d;
 // Places are sums and products of a few numbers near 1: rounding stays far below this.
 constexpr double rounding = 1e-12;
 
-const char* const ball = "[[body]]\nshape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }\n";
+const char* const path_ball =
+    "[[body]]\nshape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }\n";
 
-Scene scene_with(const std::string& camera, const std::string& more = "") {
+Scene scene_with_camera(const std::string& camera, const std::string& more = "") {
   return read_scene_text(
-      "frames = 24\nfps = 24\n" + std::string(ball) + "[camera]\n" + camera + more, "s.toml");
+      "frames = 24\nfps = 24\n" + std::string(path_ball) + "[camera]\n" + camera + more, "s.toml");
 }
 
 CameraPlace place(const Scene& scene, double time) {
   return camera_at(*scene.camera, time, scene.frames / scene.fps);
 }
 
-std::string error_of(const std::string& camera) {
+std::string camera_error(const std::string& camera) {
   try {
-    scene_with(camera);
+    scene_with_camera(camera);
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -45,7 +46,7 @@ double distance(const Vec3d& a, const Vec3d& b) {
 }
 
 TEST(CameraPath, PassesThroughItsKeyframes) {
-  const Scene scene = scene_with(R"(eye = [9, 9, 9]
+  const Scene scene = scene_with_camera(R"(eye = [9, 9, 9]
 target = [0, 0, 0]
 keyframes = [
   { time = 0.25, eye = [1, 0, 0], fov = 20 },
@@ -63,7 +64,7 @@ keyframes = [
 }
 
 TEST(CameraPath, IsSmoothAndAtRestAtItsEnds) {
-  const Scene scene = scene_with(R"(keyframes = [
+  const Scene scene = scene_with_camera(R"(keyframes = [
   { time = 0, eye = [1, 0, 0], target = [0, 0, 0] }, { time = 0.3, eye = [2, 0, 3], target = [0, 0, 0] },
   { time = 1, eye = [6, 1, 4], target = [0, 0, 0] } ])");
   const double d = 1e-4;
@@ -82,7 +83,7 @@ TEST(CameraPath, IsSmoothAndAtRestAtItsEnds) {
 }
 
 TEST(CameraPath, NeverSwingsBeyondAKeyframeAndHoldsBetweenEqualOnes) {
-  const Scene scene = scene_with(R"(keyframes = [
+  const Scene scene = scene_with_camera(R"(keyframes = [
   { time = 0, eye = [0, 0, 9], target = [0, 0, 0], fov = 1 },
   { time = 0.2, eye = [5, 0, 9], target = [0, 0, 0], fov = 80 },
   { time = 0.6, eye = [5, 0, 9], target = [0, 0, 0], fov = 80 },
@@ -98,12 +99,12 @@ TEST(CameraPath, NeverSwingsBeyondAKeyframeAndHoldsBetweenEqualOnes) {
 
 TEST(CameraPath, OneKeyframeIsAStillCamera) {
   const Scene scene =
-      scene_with("keyframes = [{ time = 0.5, eye = [1, 2, 3], target = [0, 0, 0] }]");
+      scene_with_camera("keyframes = [{ time = 0.5, eye = [1, 2, 3], target = [0, 0, 0] }]");
   for (const double t : {0.0, 0.5, 1.0}) EXPECT_EQ(place(scene, t).eye, Vec3d(1, 2, 3));
 }
 
 TEST(CameraPath, OrbitTurnsAboutUpFromRestToRest) {
-  const Scene scene = scene_with("eye = [2, 1, 0]\ntarget = [0, 0.5, 0]\norbit = 90");
+  const Scene scene = scene_with_camera("eye = [2, 1, 0]\ntarget = [0, 0.5, 0]\norbit = 90");
   EXPECT_EQ(place(scene, 0).eye, Vec3d(2, 1, 0));
   EXPECT_LT(distance(place(scene, 1).eye, {0, 1, -2}), rounding);
   EXPECT_LT(distance(place(scene, 0.5).eye, {std::sqrt(2), 1, -std::sqrt(2)}), rounding);
@@ -113,21 +114,21 @@ TEST(CameraPath, OrbitTurnsAboutUpFromRestToRest) {
 }
 
 TEST(CameraPath, TurntableTurnsEvenlyOnceInItsTime) {
-  const Scene scene = scene_with("eye = [2, 1, 0]\ntarget = [0, 0, 0]\nturntable = 4");
+  const Scene scene = scene_with_camera("eye = [2, 1, 0]\ntarget = [0, 0, 0]\nturntable = 4");
   EXPECT_LT(distance(place(scene, 1).eye, {0, 1, -2}), rounding);
   EXPECT_LT(distance(place(scene, 4).eye, {2, 1, 0}), rounding);
   EXPECT_DOUBLE_EQ(turned(*scene.camera, 3, 1), 270);
 }
 
 TEST(CameraPath, OrbitTurnsWhatKeyframesGive) {
-  const Scene scene = scene_with(
+  const Scene scene = scene_with_camera(
       "orbit = 180\neye = [1, 0, 0]\ntarget = [0, 0, 0]\n"
       "keyframes = [{ time = 0 }, { time = 1, eye = [3, 0, 0] }]");
   EXPECT_LT(distance(place(scene, 1).eye, {-3, 0, 0}), rounding);
 }
 
 /// Larger of the coordinates of a point in the picture, 1 at its border.
-double reach(const CameraPlace& camera, double aspect, const Vec3d& point) {
+double reach_in_picture(const CameraPlace& camera, double aspect, const Vec3d& point) {
   const Vec3d forward = (camera.target - camera.eye).normalized();
   const Vec3d right = forward.cross(Vec3d(0, 1, 0)).normalized(), up = right.cross(forward);
   const Vec3d q = point - camera.eye;
@@ -152,7 +153,7 @@ TEST(CameraPath, OrbitAroundTheAutomaticTargetKeepsTheSnowInThePicture) {
     double largest = 0;
     for (double t = 0; t <= 1; t += 0.05)
       for (const double x : {-1.3, -0.7, 0.2, 0.8})
-        largest = std::max(largest, reach(place(scene, t), 16.0 / 9, {x, 0.5, 0.2}));
+        largest = std::max(largest, reach_in_picture(place(scene, t), 16.0 / 9, {x, 0.5, 0.2}));
     EXPECT_LT(largest, 1) << camera;
     EXPECT_GT(largest, 0.4) << camera << ": too far away";
   }
@@ -175,38 +176,39 @@ orbit = 360
 }
 
 TEST(CameraPath, KeyframesWithPlacesNeedNoFraming) {
-  Scene scene = scene_with("keyframes = [{ time = 0, eye = [1, 1, 1], target = [0, 0, 0] }]");
+  Scene scene =
+      scene_with_camera("keyframes = [{ time = 0, eye = [1, 1, 1], target = [0, 0, 0] }]");
   resolve(scene, 1000);
   EXPECT_FALSE(scene.camera->eye.has_value());
-  Scene zoom = scene_with("keyframes = [{ time = 0 }, { time = 1, fov = 10 }]");
+  Scene zoom = scene_with_camera("keyframes = [{ time = 0 }, { time = 1, fov = 10 }]");
   resolve(zoom, 1000);
   ASSERT_TRUE(zoom.camera->eye.has_value());
   EXPECT_EQ(place(zoom, 1).eye, *zoom.camera->eye);
 }
 
 TEST(CameraErrors, AreLocatedAndSayWhatToTry) {
-  EXPECT_EQ(error_of("keyframes = [{ time = 1 }, { time = 0.5 }]"),
+  EXPECT_EQ(camera_error("keyframes = [{ time = 1 }, { time = 0.5 }]"),
             "s.toml:6:37: error: keyframe 2 is at 0.5 s, the one before at 1 s; times increase "
             "from one keyframe to the next");
-  EXPECT_EQ(error_of("orbit = 90\nturntable = 2"),
+  EXPECT_EQ(camera_error("orbit = 90\nturntable = 2"),
             "s.toml:7:13: error: orbit and turntable both turn the eye; give one: orbit = degrees "
             "over the whole scene, turntable = seconds per turn");
-  EXPECT_EQ(error_of("keyframes = [{ tiem = 1 }]"),
+  EXPECT_EQ(camera_error("keyframes = [{ tiem = 1 }]"),
             "s.toml:6:16: error: unknown key \"tiem\" in [camera.keyframes[0]]; did you mean "
             "\"time\"?");
   EXPECT_EQ(
-      error_of("keyframes = 3"),
+      camera_error("keyframes = 3"),
       "s.toml:6:13: error: camera.keyframes = 3; expected a list of tables; write keyframes = "
       "[{ ... }, { ... }]");
-  EXPECT_EQ(error_of("turntable = 0"),
+  EXPECT_EQ(camera_error("turntable = 0"),
             "s.toml:6:13: error: camera.turntable = 0; expected 0.001 <= value <= 1000000");
-  EXPECT_EQ(error_of("keyframes = [{ eye = [1, 1, 1], target = [1, 1, 1] }]"),
+  EXPECT_EQ(camera_error("keyframes = [{ eye = [1, 1, 1], target = [1, 1, 1] }]"),
             "s.toml:6:42: error: eye and target are the same point; move one of them");
 }
 
 TEST(CameraErrors, KeyframesAreSetTogether) {
   const auto scene_set = [](const std::string& change) {
-    return read_scene_text(ball, "s.toml", {}, {parse_override(change)});
+    return read_scene_text(path_ball, "s.toml", {}, {parse_override(change)});
   };
   EXPECT_EQ(scene_set("camera.orbit=45").camera->orbit, 45);
   EXPECT_EQ(scene_set("camera.keyframes=[{time = 1}, {time = 2}]").camera->keyframes.size(), 2u);

@@ -11,7 +11,7 @@
 namespace neve::app {
 namespace {
 
-constexpr const char* scene_text = R"(
+constexpr const char* changed_scene = R"(
 frames = 4
 [solver]
 cell_size = 0.04
@@ -31,7 +31,7 @@ velocity = [-1, 0, 0]
 Scene start(const std::string& more = {}) {
   std::vector<Override> overrides;
   if (!more.empty()) overrides.push_back(parse_override(more));
-  return read_scene_text(scene_text, "s.toml", "", overrides);
+  return read_scene_text(changed_scene, "s.toml", "", overrides);
 }
 
 sim::Simulation simulate(const Scene& scene, bool is_empty = false) {
@@ -74,7 +74,7 @@ TEST(LiveChanges, OfOneStepAndAddressOnlyTheFirstAndTheLastAreKept) {
 }
 
 TEST(LiveChanges, MakeTheSceneUpToAStep) {
-  const SceneSource source{scene_text, "s.toml", "", {parse_override("solver.cfl=0.1")}};
+  const SceneSource source{changed_scene, "s.toml", "", {parse_override("solver.cfl=0.1")}};
   const std::vector<LiveChange> changes{{3, "solver.cfl", "0.2"},
                                         {5, "solver.cfl", "0.3"},
                                         {5, "camera.fov", "20"},

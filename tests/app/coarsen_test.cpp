@@ -16,7 +16,7 @@
 namespace neve::app {
 namespace {
 
-Scene ball(const std::string& solver = "") {
+Scene coarse_ball(const std::string& solver = "") {
   return read_scene_text("[solver]\ncell_size = 0.02\n" + solver +
                              "[[body]]\nname = \"ball\"\n"
                              "shape = { sphere = { center = [0, 0.3, 0], radius = 0.15 } }\n",
@@ -33,7 +33,7 @@ std::string message_of(Scene scene, double factor) {
 }
 
 TEST(Coarsen, CellsAndLongestStepsGrowParticlesPerCellStay) {
-  Scene scene = ball("dt = 1e-4\n");
+  Scene scene = coarse_ball("dt = 1e-4\n");
   coarsen(scene, 2);
   EXPECT_EQ(scene.solver.cell_size, 0.04);
   EXPECT_EQ(scene.solver.dt, 2e-4);
@@ -43,9 +43,9 @@ TEST(Coarsen, CellsAndLongestStepsGrowParticlesPerCellStay) {
 }
 
 TEST(Coarsen, LeavesAnEighthOfTheParticlesAndAllOfTheMass) {
-  Scene coarse = ball();
+  Scene coarse = coarse_ball();
   coarsen(coarse, 2);
-  const sim::ParticleArrays all = seed_scene(ball()), few = seed_scene(coarse);
+  const sim::ParticleArrays all = seed_scene(coarse_ball()), few = seed_scene(coarse);
   // Cells on the surface are in or out by chance, about 6 h^2 of them per 10 h^2 of surface.
   EXPECT_NEAR(static_cast<double>(few.x.size()), static_cast<double>(all.x.size()) / 8,
               0.03 * static_cast<double>(all.x.size()) / 8);
@@ -64,7 +64,7 @@ double kept(const sim::SolverSettings& s, double dt, int steps) {
 
 TEST(Coarsen, DampsAsMuchPerSecondWhateverTheRatioRefersTo) {
   for (const char* reference : {"flip_reference_dt = 5e-4\n", "flip_reference_dt = 0\n"}) {
-    const Scene full = ball(reference);
+    const Scene full = coarse_ball(reference);
     Scene coarse = full;
     coarsen(coarse, 3);
     EXPECT_NEAR(kept(coarse.solver, 3e-4, 10), kept(full.solver, 1e-4, 30), 1e-11) << reference;
@@ -72,20 +72,20 @@ TEST(Coarsen, DampsAsMuchPerSecondWhateverTheRatioRefersTo) {
 }
 
 TEST(Coarsen, OneChangesNothing) {
-  Scene scene = ball();
+  Scene scene = coarse_ball();
   coarsen(scene, 1);
-  EXPECT_EQ(write_scene(scene), write_scene(ball()));
+  EXPECT_EQ(write_scene(scene), write_scene(coarse_ball()));
 }
 
 TEST(Coarsen, FractionsAreTidy) {
-  Scene scene = ball();
+  Scene scene = coarse_ball();
   scene.solver.cell_size = 0.018;
   coarsen(scene, 1.5);
   EXPECT_EQ(scene.solver.cell_size, 0.027);
 }
 
 TEST(Coarsen, TheResultIsASceneThatReadsBack) {
-  Scene scene = ball("flip_reference_dt = 0\n");
+  Scene scene = coarse_ball("flip_reference_dt = 0\n");
   coarsen(scene, 2.5);
   EXPECT_EQ(write_scene(read_scene_text(write_scene(scene), "coarse.toml")), write_scene(scene));
 }
@@ -93,19 +93,19 @@ TEST(Coarsen, TheResultIsASceneThatReadsBack) {
 TEST(Coarsen, RefusesWhatIsNoFactor) {
   for (const double factor : {0.0, -2.0, 0.5, std::numeric_limits<double>::quiet_NaN(),
                               std::numeric_limits<double>::infinity()})
-    EXPECT_NE(message_of(ball(), factor).find("at least 1"), std::string::npos) << factor;
+    EXPECT_NE(message_of(coarse_ball(), factor).find("at least 1"), std::string::npos) << factor;
 }
 
 TEST(Coarsen, RefusesToLeaveABodyWithoutAParticleAndSaysWhatFits) {
   // 4/3 pi 0.15^3 m3 of 8 per 0.02^3 m3 are 14137 particles, 24.18 cubed.
-  const std::string message = message_of(ball(), 25);
+  const std::string message = message_of(coarse_ball(), 25);
   EXPECT_NE(message.find("no particle of body ball"), std::string::npos) << message;
   EXPECT_NE(message.find("at most 24.17 leaves one"), std::string::npos) << message;
-  EXPECT_EQ(message_of(ball(), 24.17), "");
+  EXPECT_EQ(message_of(coarse_ball(), 24.17), "");
 }
 
 TEST(Coarsen, RefusesStepsOutOfRange) {
-  const std::string message = message_of(ball("max_dt = 0.5\n"), 4);
+  const std::string message = message_of(coarse_ball("max_dt = 0.5\n"), 4);
   EXPECT_NE(message.find("solver.max_dt would become 2"), std::string::npos) << message;
 }
 

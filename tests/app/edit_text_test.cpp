@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "app/scene/edit_text.h"
@@ -15,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* scene_text = R"(# A ball. « névé »
+constexpr const char* edited_scene = R"(# A ball. « névé »
 
 title  = "Ball"        # shown
 frames = 10
@@ -44,21 +45,22 @@ velocity = [0,0,0]
 fov = 30
 )";
 
-std::string edit(const std::vector<std::string>& sets, const std::string& text = scene_text) {
+std::string edit(const std::vector<std::string>& sets, const std::string& text = edited_scene) {
   std::vector<Override> overrides;
   for (const std::string& set : sets) overrides.push_back(parse_override(set));
   return edit_scene_text(text, overrides);
 }
 
 /// The text with one part replaced.
-std::string with(const std::string& part, const std::string& other, std::string text = scene_text) {
+std::string with(const std::string& part, const std::string& other,
+                 std::string text = edited_scene) {
   const auto at = text.find(part);
   EXPECT_NE(at, std::string::npos) << part;
   return text.replace(at, part.size(), other);
 }
 
 TEST(EditText, WithoutChangesNothingChanges) {
-  EXPECT_EQ(edit({}), scene_text);
+  EXPECT_EQ(edit({}), edited_scene);
 }
 
 TEST(EditText, OnlyTheValueOfAKeyIsReplaced) {
@@ -99,7 +101,7 @@ TEST(EditText, NewKeysGoBelowTheLastOneOfTheirTable) {
 }
 
 TEST(EditText, NewTablesGetASectionAtTheEnd) {
-  const std::string text = scene_text;
+  const std::string text = edited_scene;
   EXPECT_EQ(edit({"output.size=[640, 360]", "output.background=transparent"}),
             text + "\n[output]\nsize = [640, 360]\nbackground = \"transparent\"\n");
   EXPECT_EQ(edit({"view.smoke.smoke.density_scale=2"}),
@@ -134,7 +136,7 @@ TEST(EditText, WhatIsSetToNoneGoesWithItsLine) {
   EXPECT_EQ(edit({"view.a.camera.orbit=none"}, one_line), with("orbit = 90, ", "", one_line));
   EXPECT_EQ(edit({"view.a.camera=none"}, one_line),
             with("camera = { orbit = 90, fov = 20 }\n", "", one_line));
-  EXPECT_EQ(edit({"camera.turntable=none"}), scene_text);
+  EXPECT_EQ(edit({"camera.turntable=none"}), edited_scene);
 }
 
 TEST(EditText, SectionsAndDottedKeysGiveWayToAWholeTable) {
@@ -147,7 +149,7 @@ TEST(EditText, SectionsAndDottedKeysGiveWayToAWholeTable) {
 
 TEST(EditText, KeepsLineEndsAndTheLackOfALastOne) {
   std::string text;
-  for (const char c : std::string(scene_text))
+  for (const char c : std::string(edited_scene))
     text += c == '\n' ? std::string("\r\n") : std::string(1, c);
   const std::string edited = edit({"fps=30", "light.ambient=2", "frames=7"}, text);
   EXPECT_EQ(edited.find("\n"), edited.find("\r\n") + 1);
@@ -155,7 +157,7 @@ TEST(EditText, KeepsLineEndsAndTheLackOfALastOne) {
     EXPECT_EQ(edited[at - 1], '\r');
   EXPECT_NE(edited.find("frames = 7\r\nfps    = 30\r\n"), std::string::npos);
   EXPECT_TRUE(edited.ends_with("fov = 30\r\n\r\n[light]\r\nambient = 2\r\n"));
-  const std::string cut(scene_text, std::string(scene_text).size() - 1);
+  const std::string cut(edited_scene, std::string(edited_scene).size() - 1);
   EXPECT_EQ(edit({"camera.fov=20"}, cut), with("fov = 30", "fov = 20", cut));
   EXPECT_EQ(edit({"camera.orbit=20"}, cut), cut + "\norbit = 20");
   EXPECT_EQ(edit({"fps=30"}, "\xEF\xBB\xBF# b\n[[body]]\nshape = { box = {} }\n"),

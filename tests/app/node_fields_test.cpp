@@ -20,7 +20,7 @@ namespace {
 
 using sim::Vec3d;
 
-constexpr const char* ball_text = R"(
+constexpr const char* thrown_ball = R"(
 [camera]
 eye = [0, 0.5, 2]
 target = [0, 0.5, 0]
@@ -30,8 +30,8 @@ shape = { sphere = { center = [0, 0.5, 0], radius = 0.15 } }
 velocity = [1, -2, 0.5]
 )";
 
-Scene read(const std::string& more, const std::vector<Override>& overrides = {}) {
-  return read_scene_text(ball_text + more, "ball.toml", {}, overrides);
+Scene read_thrown(const std::string& more, const std::vector<Override>& overrides = {}) {
+  return read_scene_text(thrown_ball + more, "ball.toml", {}, overrides);
 }
 
 struct Moment {
@@ -40,7 +40,7 @@ struct Moment {
 };
 
 Moment moment_of(const std::string& views) {
-  Moment moment{read(views), {}};
+  Moment moment{read_thrown(views), {}};
   const sim::ParticleArrays particles = seed_scene(moment.scene);
   resolve(moment.scene, particles.x.size());
   const sim::Simulation simulation(moment.scene.solver, moment.scene.materials,
@@ -65,9 +65,9 @@ slice = { field = "velocity", scalar = "speed" }
 )";
 
 TEST(NodeFields, AreSampledOnlyWhenAViewShowsThem) {
-  EXPECT_FALSE(field_needs(read("")).is_needed);
+  EXPECT_FALSE(field_needs(read_thrown("")).is_needed);
   EXPECT_EQ(moment_of("").snapshot.fields.lattice, nullptr);
-  const FieldNeeds needs = field_needs(read(all_fields));
+  const FieldNeeds needs = field_needs(read_thrown(all_fields));
   EXPECT_EQ(needs.vectors,
             (std::set{VectorField::force, VectorField::v_star, VectorField::velocity}));
   EXPECT_EQ(needs.scalars, (std::set{ScalarField::J_P, ScalarField::pressure, ScalarField::speed}));
@@ -197,23 +197,23 @@ TEST(Slice, MovesAndFollows) {
 }
 
 TEST(Slice, IsBuiltInAndSetByItsName) {
-  const Scene none = read("");
+  const Scene none = read_thrown("");
   EXPECT_EQ(none.views.size(), 1u);
   const View slice = find_view(none, "slice");
   EXPECT_TRUE(has_layer(slice, Layer::arrows));
   EXPECT_FALSE(has_layer(slice, Layer::particles));
-  const Scene set = read("", {{"view.slice.slice.every", "3"}});
+  const Scene set = read_thrown("", {{"view.slice.slice.every", "3"}});
   ASSERT_EQ(set.views.size(), 2u);
   EXPECT_EQ(set.views[1].slice.every, 3);
   EXPECT_TRUE(has_layer(set.views[1], Layer::arrows));
-  const Scene named = read("[[view]]\nname = \"slice\"\n");
+  const Scene named = read_thrown("[[view]]\nname = \"slice\"\n");
   EXPECT_EQ(named.views.at(0).layers, slice.layers);
 }
 
 TEST(Slice, MistakesAreLocated) {
   const auto message = [](const std::string& slice) {
     try {
-      read("[[view]]\nname = \"v\"\nlayers = [\"arrows\"]\nslice = { " + slice + " }\n");
+      read_thrown("[[view]]\nname = \"v\"\nlayers = [\"arrows\"]\nslice = { " + slice + " }\n");
     } catch (const SceneError& error) {
       return std::string(error.what());
     }

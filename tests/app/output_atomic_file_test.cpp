@@ -14,13 +14,9 @@
 namespace neve::app {
 namespace {
 
+using test::file_count;
 using test::read_text;
 using test::TemporaryFolder;
-
-std::size_t file_count(const std::filesystem::path& folder) {
-  const auto entries = std::filesystem::directory_iterator(folder);
-  return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
-}
 
 /// What a child process returns that may not write files of more than `bytes`.
 int run_with_file_limit(rlim_t bytes, const std::function<int()>& child) {

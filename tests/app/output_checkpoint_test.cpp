@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app/output/atomic_file.h"
 #include "tests/support/temporary_folder.h"
 

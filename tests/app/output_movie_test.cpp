@@ -16,6 +16,7 @@ namespace neve::app {
 namespace {
 
 namespace fs = std::filesystem;
+using test::file_count;
 using test::TemporaryFolder;
 
 /// Odd sides, as yuv420p cannot hold them.
@@ -38,11 +39,6 @@ struct Fixture {
   fs::path folder = outer / "a %d 'b' $(c)";
   Fixture() { fs::create_directories(folder / "v"); }
 };
-
-std::size_t file_count(const fs::path& folder) {
-  const auto entries = fs::directory_iterator(folder);
-  return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
-}
 
 class Movie : public testing::Test {
  protected:

@@ -11,7 +11,7 @@
 namespace neve::app {
 namespace {
 
-constexpr const char* scene_text = R"(
+constexpr const char* flat_scene = R"(
 [solver]
 cfl = 0.3
 [material.wet]
@@ -26,7 +26,7 @@ name = "close"
 camera = { fov = 20, keyframes = [{ time = 0, eye = [1, 2, 3], target = [0, 0, 0] }] }
 )";
 
-Scene read(const std::vector<std::string>& sets = {}, const std::string& text = scene_text) {
+Scene read(const std::vector<std::string>& sets = {}, const std::string& text = flat_scene) {
   std::vector<Override> overrides;
   for (const std::string& set : sets) overrides.push_back(parse_override(set));
   return read_scene_text(text, "s.toml", "", overrides);
@@ -149,7 +149,7 @@ TEST(Differences, OfTablesThatComeGoOrChangeKindAreWhole) {
 }
 
 TEST(Differences, OfItemsNeedARestart) {
-  const std::string more = std::string(scene_text) + "[[collider]]\nshape = { sphere = {} }\n";
+  const std::string more = std::string(flat_scene) + "[[collider]]\nshape = { sphere = {} }\n";
   const SplitDifferences split = split_live(read(), read({}, more));
   EXPECT_TRUE(split.live.empty());
   EXPECT_EQ(addresses(split.restart), std::vector<std::string>{"collider"});

@@ -93,6 +93,7 @@ class Perturb : public Walker<Perturb> {
     const double high = std::isfinite(valid.max) ? valid.max : low + 1;
     return low + (high - low) * std::fmod(0.6180339887498949 * (count_ + 1), 1.0);
   }
+  void change(bool& is_on, const Valid&, const std::string&) { is_on = !is_on; }
   void change(double& x, const Valid& valid, const std::string&) { x = fraction(valid); }
   void change(int& i, const Valid& valid, const std::string&) {
     i = static_cast<int>(fraction(valid));

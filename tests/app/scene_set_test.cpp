@@ -30,7 +30,7 @@ Scene set(const std::vector<std::string>& arguments, const char* text = scene_te
   return read_scene_text(text, "s.toml", "", overrides);
 }
 
-std::string error_of(const std::string& argument) {
+std::string override_error(const std::string& argument) {
   try {
     set({argument});
   } catch (const UsageError& error) {
@@ -84,37 +84,37 @@ TEST(Set, TakesBareWordsAsStrings) {
 }
 
 TEST(Set, ErrorsShowTheArgument) {
-  EXPECT_EQ(error_of("material.snow.poisson_ratio=0.62"),
+  EXPECT_EQ(override_error("material.snow.poisson_ratio=0.62"),
             "--set material.snow.poisson_ratio=0.62: error: expected 0 <= value < 0.5");
-  EXPECT_EQ(error_of("body.ball.velocity=[0, -5]"),
+  EXPECT_EQ(override_error("body.ball.velocity=[0, -5]"),
             "--set body.ball.velocity=[0, -5]: error: expected three numbers [x, y, z]");
-  EXPECT_EQ(error_of("body.ball.velocity=[0, -5"),
+  EXPECT_EQ(override_error("body.ball.velocity=[0, -5"),
             "--set body.ball.velocity=[0, -5: error: cannot parse array: encountered end-of-file");
-  EXPECT_EQ(error_of("body.ball.material=ice"),
+  EXPECT_EQ(override_error("body.ball.material=ice"),
             "--set body.ball.material=ice: error: there is no material \"ice\"; expected \"snow\" "
             "or \"wet\"");
-  EXPECT_EQ(error_of("solver.kernel=cubik"),
+  EXPECT_EQ(override_error("solver.kernel=cubik"),
             "--set solver.kernel=cubik: error: expected \"cubic\" or \"quadratic\"; did you mean "
             "\"cubic\"?");
-  EXPECT_EQ(error_of("camera={fow=3}"),
+  EXPECT_EQ(override_error("camera={fow=3}"),
             "--set camera={fow=3}: error: unknown key \"fow\" in [camera]; did you mean \"fov\"?");
-  EXPECT_EQ(error_of("frames=3\nseed=4"),
+  EXPECT_EQ(override_error("frames=3\nseed=4"),
             "--set frames=3\nseed=4: error: a value is one line of UTF-8 without control bytes");
 }
 
 TEST(Set, UnknownAddressesNameTheNearest) {
-  EXPECT_EQ(error_of("material.snow.hardenin=5"),
+  EXPECT_EQ(override_error("material.snow.hardenin=5"),
             "--set material.snow.hardenin=5: error: unknown parameter "
             "\"material.snow.hardenin\"; did you mean \"material.snow.hardening\"?");
-  EXPECT_EQ(error_of("hardening=5"),
+  EXPECT_EQ(override_error("hardening=5"),
             "--set hardening=5: error: unknown parameter \"hardening\"; did you mean "
             "\"material.snow.hardening\"?");
-  EXPECT_EQ(error_of("body.bull.velocity=[0,0,0]"),
+  EXPECT_EQ(override_error("body.bull.velocity=[0,0,0]"),
             "--set body.bull.velocity=[0,0,0]: error: there is no body \"bull\"; expected "
             "\"ball\" or \"2\"");
-  EXPECT_EQ(error_of("view.fog.size=[1,1]"),
+  EXPECT_EQ(override_error("view.fog.size=[1,1]"),
             "--set view.fog.size=[1,1]: error: there is no view \"fog\"; expected \"close\"");
-  EXPECT_EQ(error_of("body=3"),
+  EXPECT_EQ(override_error("body=3"),
             "--set body=3: error: unknown parameter \"body\"; neve params lists all of them");
 }
 

@@ -14,7 +14,7 @@
 namespace neve::app {
 namespace {
 
-constexpr const char* ball_text = R"([camera]
+constexpr const char* powder_ball = R"([camera]
 eye = [0, 0.5, 2]
 target = [0, 0.5, 0]
 [material.powder]
@@ -25,8 +25,8 @@ shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
 velocity = [0, -2, 0]
 )";
 
-Scene read(const std::string& more, const std::vector<Override>& overrides = {}) {
-  return read_scene_text(ball_text + more, "ball.toml", {}, overrides);
+Scene read_powder(const std::string& more, const std::vector<Override>& overrides = {}) {
+  return read_scene_text(powder_ball + more, "ball.toml", {}, overrides);
 }
 
 /// The first view of frame 0.
@@ -47,20 +47,20 @@ double mass_of(const render::Smoke& smoke) {
 }
 
 TEST(SmokeLayer, BuiltInViewTakesItsOwnLayers) {
-  const View view = find_view(read(""), "smoke");
+  const View view = find_view(read_powder(""), "smoke");
   EXPECT_TRUE(has_layer(view, Layer::smoke));
   EXPECT_TRUE(has_layer(view, Layer::ground));
   EXPECT_FALSE(has_layer(view, Layer::particles));
   EXPECT_EQ(view.smoke.field, ScalarField::mass);
-  const Scene named = read("[[view]]\nname = \"smoke\"\nsmoke = { density_scale = 2 }");
+  const Scene named = read_powder("[[view]]\nname = \"smoke\"\nsmoke = { density_scale = 2 }");
   EXPECT_TRUE(has_layer(named.views.front(), Layer::smoke));
   EXPECT_EQ(named.views.front().smoke.density_scale, 2);
-  EXPECT_EQ(read("", {{"view.smoke.smoke.field", "J_P"}}).views.back().smoke.field,
+  EXPECT_EQ(read_powder("", {{"view.smoke.smoke.field", "J_P"}}).views.back().smoke.field,
             ScalarField::J_P);
 }
 
 TEST(SmokeLayer, HoldsTheMassOfTheSnow) {
-  Scene scene = read("");
+  Scene scene = read_powder("");
   scene.views = {find_view(scene, "smoke")};
   const render::Frame frame = first_frame(scene);
   ASSERT_NE(frame.smoke.nodes, nullptr);
@@ -74,7 +74,7 @@ TEST(SmokeLayer, HoldsTheMassOfTheSnow) {
 }
 
 TEST(SmokeLayer, PackedIsTheDensestSnowOfABodyNotOfAnUnusedMaterial) {
-  Scene scene = read("", {{"body.ball.material", "powder"}});
+  Scene scene = read_powder("", {{"body.ball.material", "powder"}});
   scene.views = {find_view(scene, "smoke")};
   EXPECT_EQ(first_frame(scene).smoke.full_density, 100);
 }
@@ -82,7 +82,7 @@ TEST(SmokeLayer, PackedIsTheDensestSnowOfABodyNotOfAnUnusedMaterial) {
 TEST(SmokeLayer, AFieldColoursItWithALegendAndAnAutomaticRange) {
   for (const ScalarField field :
        {ScalarField::speed, ScalarField::J_P, ScalarField::pressure, ScalarField::density}) {
-    Scene scene = read("");
+    Scene scene = read_powder("");
     scene.views = {find_view(scene, "smoke")};
     scene.views.front().smoke.field = field;
     const render::Frame frame = first_frame(scene);
@@ -96,7 +96,7 @@ TEST(SmokeLayer, AFieldColoursItWithALegendAndAnAutomaticRange) {
 }
 
 TEST(SmokeLayer, ShowsTheSpeedOfTheBall) {
-  Scene scene = read("");
+  Scene scene = read_powder("");
   scene.views = {find_view(scene, "smoke")};
   scene.views.front().smoke.field = ScalarField::speed;
   const render::Smoke smoke = first_frame(scene).smoke;
@@ -106,9 +106,9 @@ TEST(SmokeLayer, ShowsTheSpeedOfTheBall) {
   }
 }
 
-std::string error_of(const std::string& more) {
+std::string smoke_error(const std::string& more) {
   try {
-    read(more);
+    read_powder(more);
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -119,14 +119,14 @@ TEST(SmokeLayer, MistakesAreLocated) {
   const auto with = [](const std::string& keys) {
     return "[[view]]\nname = \"smoke\"\nsmoke = { " + keys + " }";
   };
-  EXPECT_TRUE(error_of(with("field = \"fog\"")).starts_with("ball.toml:12:19: error: "))
-      << error_of(with("field = \"fog\""));
-  EXPECT_NE(error_of(with("density_scale = -1")).find("expected 0 <= value <= 1000"),
+  EXPECT_TRUE(smoke_error(with("field = \"fog\"")).starts_with("ball.toml:12:19: error: "))
+      << smoke_error(with("field = \"fog\""));
+  EXPECT_NE(smoke_error(with("density_scale = -1")).find("expected 0 <= value <= 1000"),
             std::string::npos)
-      << error_of(with("density_scale = -1"));
-  EXPECT_NE(error_of(with("densty_scale = 1")).find("did you mean \"density_scale\"?"),
+      << smoke_error(with("density_scale = -1"));
+  EXPECT_NE(smoke_error(with("densty_scale = 1")).find("did you mean \"density_scale\"?"),
             std::string::npos);
-  EXPECT_NE(error_of(with("range = [1, 0]")).find("expected min < max"), std::string::npos);
+  EXPECT_NE(smoke_error(with("range = [1, 0]")).find("expected min < max"), std::string::npos);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace neve::app {
 namespace {
 
-constexpr const char* scene_text = R"(
+constexpr const char* around_scene = R"(
 [solver]
 cell_size = 0.05
 [[body]]
@@ -23,16 +23,16 @@ velocity = [0, -4, 0]
 shape = { plane = {} }
 )";
 
-FlatParam param(const std::string& address, const std::string& value = {}) {
+FlatParam flat_param(const std::string& address, const std::string& value = {}) {
   std::vector<Override> overrides;
   if (!value.empty()) overrides.push_back({address, value});
-  for (FlatParam& found : flatten(read_scene_text(scene_text, "s.toml", "", overrides)))
+  for (FlatParam& found : flatten(read_scene_text(around_scene, "s.toml", "", overrides)))
     if (found.address == address) return found;
   throw std::runtime_error("nothing is called " + address);
 }
 
 std::string around(const std::string& address, const std::string& value = {}) {
-  return toml_literal({Array(values_around(param(address, value)))});
+  return toml_literal({Array(values_around(flat_param(address, value)))});
 }
 
 TEST(ValuesAround, SpanDecadesWhereRatiosMatter) {
@@ -66,7 +66,7 @@ TEST(ValuesAround, OfChoicesAreAllOfThemAndVectorsAreStretched) {
 /// All parameters that have values around them: each value is valid, the present one among them.
 TEST(ValuesAround, AreValidAndHaveThePresentOneAmongThem) {
   int count = 0;
-  for (const FlatParam& param : flatten(read_scene_text(scene_text, "s.toml"))) {
+  for (const FlatParam& param : flatten(read_scene_text(around_scene, "s.toml"))) {
     std::vector<Value> values;
     try {
       values = values_around(param);
@@ -79,7 +79,7 @@ TEST(ValuesAround, AreValidAndHaveThePresentOneAmongThem) {
     for (const Value& value : values) {
       has_present = has_present || same_value(value, param.value);
       try {
-        read_scene_text(scene_text, "s.toml", "", {{param.address, toml_literal(value)}});
+        read_scene_text(around_scene, "s.toml", "", {{param.address, toml_literal(value)}});
       } catch (const std::exception& error) {
         // Only what belongs together may object.
         EXPECT_EQ(std::string(error.what()).find("expected"), std::string::npos) << error.what();
@@ -92,7 +92,7 @@ TEST(ValuesAround, AreValidAndHaveThePresentOneAmongThem) {
 
 TEST(SweepAround, IsAFileThatReadsAsTheSweep) {
   const test::TemporaryFolder folder;
-  const auto scene = folder.write("scenes/a b.toml", scene_text);
+  const auto scene = folder.write("scenes/a b.toml", around_scene);
   const auto file = folder / "sweeps/hardening.toml";
   const std::vector<Override> set{parse_override("solver.cfl=0.3"),
                                   parse_override("title=It « is »"),
@@ -101,7 +101,7 @@ TEST(SweepAround, IsAFileThatReadsAsTheSweep) {
                                   parse_override("camera={ fov = 20 }"),
                                   parse_override("camera.orbit=none")};
   const std::string text =
-      sweep_around(scene.string(), file.string(), param("material.snow.hardening", "8"), set);
+      sweep_around(scene.string(), file.string(), flat_param("material.snow.hardening", "8"), set);
   EXPECT_NE(text.find("scene = \"../scenes/a b.toml\""), std::string::npos) << text;
   folder.write("sweeps/hardening.toml", text);
   const Sweep sweep = read_sweep(file.string(), {});

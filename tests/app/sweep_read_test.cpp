@@ -17,7 +17,7 @@
 namespace neve::app {
 namespace {
 
-const char* const scene = R"(
+const char* const swept_scene = R"(
 [solver]
 cell_size = 0.04
 [[body]]
@@ -27,7 +27,7 @@ shape = { sphere = { center = [0, 0.12, 0], radius = 0.08 } }
 
 class SweepFileTest : public testing::Test {
  protected:
-  SweepFileTest() { folder_.write("scene.toml", scene); }
+  SweepFileTest() { folder_.write("scene.toml", swept_scene); }
 
   Sweep read(const std::string& text, const SweepChanges& changes = {}) {
     folder_.write("sweep.toml", text);

@@ -8,7 +8,7 @@
 namespace neve::app {
 namespace {
 
-std::string error_of(std::string_view text) {
+std::string toml_error(std::string_view text) {
   try {
     parse_toml(text, "f");
   } catch (const SceneError& error) {
@@ -54,53 +54,53 @@ TEST(TomlText, StringsKeepTheirContent) {
 
 TEST(TomlText, MarksAndLineEndingsAreAccepted) {
   EXPECT_EQ(string_of("\xEF\xBB\xBFt = \"a\"\r\nu = 1\r\n"), "a");
-  EXPECT_EQ(error_of("\xEF\xBB\xBFt = \"a\"\r\nu 1\r\n"),
+  EXPECT_EQ(toml_error("\xEF\xBB\xBFt = \"a\"\r\nu 1\r\n"),
             "f:2:3: error: cannot parse key-value pair: expected '=', saw '1'");
 }
 
 TEST(TomlText, MoreThanAsciiOutsideBasicStringsIsLocated) {
   const std::string hint =
       "; only comments and strings in \"double quotes\" may hold more than ASCII";
-  EXPECT_EQ(error_of("title = \"é\"\nné = 1"), "f:2:2: error: U+00E9 outside a string" + hint);
-  EXPECT_EQ(error_of("t = 'né'"), "f:1:7: error: U+00E9 in a literal string" + hint);
-  EXPECT_EQ(error_of("t = '''\nné'''"), "f:2:2: error: U+00E9 in a literal string" + hint);
-  EXPECT_EQ(error_of("t = \"é\" ｻ"), "f:1:9: error: U+FF7B outside a string" + hint);
+  EXPECT_EQ(toml_error("title = \"é\"\nné = 1"), "f:2:2: error: U+00E9 outside a string" + hint);
+  EXPECT_EQ(toml_error("t = 'né'"), "f:1:7: error: U+00E9 in a literal string" + hint);
+  EXPECT_EQ(toml_error("t = '''\nné'''"), "f:2:2: error: U+00E9 in a literal string" + hint);
+  EXPECT_EQ(toml_error("t = \"é\" ｻ"), "f:1:9: error: U+FF7B outside a string" + hint);
 }
 
 TEST(TomlText, BackslashBeforeMoreThanAsciiIsLocated) {
-  EXPECT_EQ(error_of("t = \"\"\"\\é\"\"\""), "f:1:9: error: a backslash cannot escape U+00E9");
-  EXPECT_NE(error_of("t = \"\"\"\\ é\"\"\""), "no error");
+  EXPECT_EQ(toml_error("t = \"\"\"\\é\"\"\""), "f:1:9: error: a backslash cannot escape U+00E9");
+  EXPECT_NE(toml_error("t = \"\"\"\\ é\"\"\""), "no error");
 }
 
 TEST(TomlText, UnclosedStringsAreBlamedOnTheirQuote) {
-  EXPECT_EQ(error_of("a = 1\nt = \"abc\nb = 2"), "f:2:5: error: string is never closed");
-  EXPECT_EQ(error_of("t = 'abc"), "f:1:5: error: string is never closed");
-  EXPECT_EQ(error_of("t = \"\"\"abc\"\"\n"), "f:1:5: error: string is never closed");
-  EXPECT_EQ(error_of("t = '''abc"), "f:1:5: error: string is never closed");
-  EXPECT_EQ(error_of("t = \"abc\\\""), "f:1:5: error: string is never closed");
+  EXPECT_EQ(toml_error("a = 1\nt = \"abc\nb = 2"), "f:2:5: error: string is never closed");
+  EXPECT_EQ(toml_error("t = 'abc"), "f:1:5: error: string is never closed");
+  EXPECT_EQ(toml_error("t = \"\"\"abc\"\"\n"), "f:1:5: error: string is never closed");
+  EXPECT_EQ(toml_error("t = '''abc"), "f:1:5: error: string is never closed");
+  EXPECT_EQ(toml_error("t = \"abc\\\""), "f:1:5: error: string is never closed");
 }
 
 TEST(TomlText, BadBytesAreLocated) {
-  EXPECT_EQ(error_of("t = \"é\xFF\""), "f:1:7: error: invalid UTF-8");
-  EXPECT_EQ(error_of("# \xC0\x80"), "f:1:3: error: invalid UTF-8") << "overlong";
-  EXPECT_EQ(error_of("# \xED\xA0\x80"), "f:1:3: error: invalid UTF-8") << "surrogate";
-  EXPECT_EQ(error_of("# \xF4\x90\x80\x80"), "f:1:3: error: invalid UTF-8") << "beyond U+10FFFF";
-  EXPECT_EQ(error_of("# \xE2\x82"), "f:1:3: error: invalid UTF-8") << "cut off";
-  EXPECT_EQ(error_of("[\x1b"), "f:1:2: error: control character U+001B");
-  EXPECT_EQ(error_of(std::string_view("a\0", 2)), "f:1:2: error: control character U+0000");
-  EXPECT_EQ(error_of("a = 1\rb = 2"), "f:1:6: error: carriage return without line feed");
+  EXPECT_EQ(toml_error("t = \"é\xFF\""), "f:1:7: error: invalid UTF-8");
+  EXPECT_EQ(toml_error("# \xC0\x80"), "f:1:3: error: invalid UTF-8") << "overlong";
+  EXPECT_EQ(toml_error("# \xED\xA0\x80"), "f:1:3: error: invalid UTF-8") << "surrogate";
+  EXPECT_EQ(toml_error("# \xF4\x90\x80\x80"), "f:1:3: error: invalid UTF-8") << "beyond U+10FFFF";
+  EXPECT_EQ(toml_error("# \xE2\x82"), "f:1:3: error: invalid UTF-8") << "cut off";
+  EXPECT_EQ(toml_error("[\x1b"), "f:1:2: error: control character U+001B");
+  EXPECT_EQ(toml_error(std::string_view("a\0", 2)), "f:1:2: error: control character U+0000");
+  EXPECT_EQ(toml_error("a = 1\rb = 2"), "f:1:6: error: carriage return without line feed");
 }
 
 TEST(TomlText, SizeAndDepthAreBounded) {
-  EXPECT_EQ(error_of(std::string(max_toml_bytes + 1, '#')), "f: error: larger than 1 MiB");
-  EXPECT_EQ(error_of(std::string(max_toml_bytes, '#')), "no error");
-  EXPECT_EQ(error_of("a" + std::string(65, '.')), "f:1:66: error: more than 64 dots in one line");
-  EXPECT_EQ(error_of("# " + std::string(65, '.')), "no error");
-  EXPECT_EQ(error_of("a = " + std::string(33, '[')), "f:1:37: error: nested more than 32 deep");
+  EXPECT_EQ(toml_error(std::string(max_toml_bytes + 1, '#')), "f: error: larger than 1 MiB");
+  EXPECT_EQ(toml_error(std::string(max_toml_bytes, '#')), "no error");
+  EXPECT_EQ(toml_error("a" + std::string(65, '.')), "f:1:66: error: more than 64 dots in one line");
+  EXPECT_EQ(toml_error("# " + std::string(65, '.')), "no error");
+  EXPECT_EQ(toml_error("a = " + std::string(33, '[')), "f:1:37: error: nested more than 32 deep");
 }
 
 TEST(TomlText, AssertionsOfTheParserDoNotAbort) {
-  EXPECT_EQ(error_of("[\\"),
+  EXPECT_EQ(toml_error("[\\"),
             "f:1:2: error: cannot parse key: expected bare key starting character or string "
             "delimiter, saw '\\'");
 }

@@ -16,13 +16,14 @@ namespace {
 
 using sim::Vec3d;
 
-const char* const ball = "[[body]]\nshape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }\n";
+const char* const looked_at =
+    "[[body]]\nshape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }\n";
 
 Scene scene_with(const std::string& more) {
-  return read_scene_text(ball + more, "s.toml");
+  return read_scene_text(looked_at + more, "s.toml");
 }
 
-std::string error_of(const std::string& more) {
+std::string view_error(const std::string& more) {
   try {
     scene_with(more);
   } catch (const SceneError& error) {
@@ -84,7 +85,7 @@ TEST(ColliderStyle, IsNothingToTheSimulation) {
   const std::vector<sim::Collider> colliders = sim_colliders(scene);
   ASSERT_EQ(colliders.size(), 1u);
   EXPECT_EQ(colliders[0].friction, 0.3);
-  EXPECT_EQ(error_of("[[collider]]\nshape = { box = {} }\nstyle = \"glass\""),
+  EXPECT_EQ(view_error("[[collider]]\nshape = { box = {} }\nstyle = \"glass\""),
             "s.toml:5:9: error: collider.1.style = \"glass\"; expected \"solid\", \"wire\" or "
             "\"ghost\"");
 }
@@ -109,9 +110,9 @@ TEST(Clip, AutomaticallyCutsTheMiddleOfTheSnow) {
 }
 
 TEST(Clip, NeedsADirection) {
-  EXPECT_EQ(error_of("[[view]]\nclip = { normal = [0, 0, 0] }"),
+  EXPECT_EQ(view_error("[[view]]\nclip = { normal = [0, 0, 0] }"),
             "s.toml:4:19: error: normal is zero; it points towards the side that is cut away");
-  EXPECT_EQ(error_of("[[view]]\nclip = { point = \"middle\" }"),
+  EXPECT_EQ(view_error("[[view]]\nclip = { point = \"middle\" }"),
             "s.toml:4:18: error: view.1.clip.point = \"middle\"; expected three numbers [x, y, z]");
 }
 
@@ -167,14 +168,14 @@ TEST(Mosaic, MayNameBuiltInViews) {
 
 TEST(Mosaic, ErrorsAreLocated) {
   const std::string views = three_views;  // from line 3 to line 9
-  EXPECT_EQ(error_of(views + "[[mosaic]]\nviews = [\"a\", \"bb\"]"),
+  EXPECT_EQ(view_error(views + "[[mosaic]]\nviews = [\"a\", \"bb\"]"),
             "s.toml:11:9: error: there is no view \"bb\"; did you mean \"b\"?");
-  EXPECT_EQ(error_of(views + "[[mosaic]]\nname = \"a\"\nviews = [\"b\"]"),
+  EXPECT_EQ(view_error(views + "[[mosaic]]\nname = \"a\"\nviews = [\"b\"]"),
             "s.toml:11:8: error: a view is called \"a\" too; both would write into the folder of "
             "that name: name the mosaic");
-  EXPECT_EQ(error_of(views + "[[mosaic]]\nname = \"m\""),
+  EXPECT_EQ(view_error(views + "[[mosaic]]\nname = \"m\""),
             "s.toml:10:1: error: a mosaic of 0 views; name 1 to 64 of \"a\", \"b\" or \"c\"");
-  EXPECT_EQ(error_of(views + "[[mosaic]]\nviews = [1]"),
+  EXPECT_EQ(view_error(views + "[[mosaic]]\nviews = [1]"),
             "s.toml:11:10: error: mosaic.1.views[0] = 1; expected a string");
 }
 

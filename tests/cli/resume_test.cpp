@@ -1,5 +1,7 @@
 /// Checkpoints: nothing is lost, and what follows is the same to the bit.
 
+#include <algorithm>
+
 #include "tests/support/resume.h"
 
 namespace neve::test {

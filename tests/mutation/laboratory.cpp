@@ -43,7 +43,7 @@ void compile(const std::string& source, const fs::path& object, const fs::path& 
       copies);
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
+std::size_t count_in(const std::string& text, const std::string& part) {
   std::size_t found = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
     ++found;
@@ -57,7 +57,7 @@ void make_copies(const Mistake& mistake, const fs::path& copies) {
     if (!texts.contains(edit.file))
       texts[edit.file] = read_text(fs::path(NEVE_SOURCE_DIR) / edit.file);
     std::string& text = texts[edit.file];
-    if (count(text, edit.old_text) != 1)
+    if (count_in(text, edit.old_text) != 1)
       throw Trouble(mistake.name + " has lost its place in " + edit.file + ":\n" + edit.old_text);
     text.replace(text.find(edit.old_text), edit.old_text.size(), edit.new_text);
   }
@@ -78,7 +78,7 @@ std::vector<std::string> strings(const app::Json& json) {
 }  // namespace
 
 std::size_t occurrences(const Edit& edit) {
-  return count(read_text(fs::path(NEVE_SOURCE_DIR) / edit.file), edit.old_text);
+  return count_in(read_text(fs::path(NEVE_SOURCE_DIR) / edit.file), edit.old_text);
 }
 
 Laboratory::Laboratory(const fs::path& folder) : folder_(folder), kernels_(folder / "kernels.o") {

@@ -20,7 +20,7 @@ const TriangleMesh& before() {
   return mesh;
 }
 
-int middle(const Image& image) {
+int middle_value(const Image& image) {
   return pixel(image, 80, 60).brightness();
 }
 
@@ -28,24 +28,24 @@ TEST(Ghosts, LetTheSnowBehindThemShineThrough) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = with_ball();
-  const int snow = middle(renderer.draw(frame));
+  const int snow = middle_value(renderer.draw(frame));
   frame.ghosts = {before()};
   const Image through = renderer.draw(frame);
   frame.ghosts.clear();
   frame.meshes = {before()};
-  const int solid = middle(renderer.draw(frame));
+  const int solid = middle_value(renderer.draw(frame));
   ASSERT_GT(snow - solid, 40) << "the scene cannot tell them apart";
-  EXPECT_GT(middle(through) - solid, (snow - solid) / 2);
-  EXPECT_NE(middle(through), snow);
+  EXPECT_GT(middle_value(through) - solid, (snow - solid) / 2);
+  EXPECT_NE(middle_value(through), snow);
 }
 
 TEST(Ghosts, AreHiddenByTheSnowBeforeThem) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = with_ball();
-  const int snow = middle(renderer.draw(frame));
+  const int snow = middle_value(renderer.draw(frame));
   frame.ghosts = {sphere_mesh({0, 0, -1}, 0.3f)};
-  EXPECT_EQ(middle(renderer.draw(frame)), snow);
+  EXPECT_EQ(middle_value(renderer.draw(frame)), snow);
 }
 
 TEST(Ghosts, AreBrightestAtTheirRim) {
@@ -58,7 +58,7 @@ TEST(Ghosts, AreBrightestAtTheirRim) {
   int rim = 0;
   for (int x = 0; x < 80; ++x)
     rim = std::max(rim, pixel(image, x, 60).brightness() - pixel(nothing, x, 60).brightness());
-  const int face = middle(image) - middle(nothing);
+  const int face = middle_value(image) - middle_value(nothing);
   EXPECT_GT(face, 3);
   EXPECT_GT(rim, 2 * face);
 }

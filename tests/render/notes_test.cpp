@@ -14,7 +14,7 @@ struct Box {
   int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
 };
 
-Box changed(const Image& image) {
+Box changed_box(const Image& image) {
   Box box;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -32,7 +32,7 @@ Box drawn(Renderer& renderer, const Note& note) {
   frame.height = 200;
   frame.font_size = 16;
   frame.notes = {note};
-  return changed(renderer.draw_over(gray(400, 200), frame));
+  return changed_box(renderer.draw_over(gray(400, 200), frame));
 }
 
 TEST(Notes, StandWhereTheyAreAnchored) {

@@ -1,5 +1,6 @@
 /// Plots: where they stand, that the future is not drawn, and that nothing odd upsets them.
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -47,7 +48,7 @@ Extent extent(const Image& image, auto is) {
   return e;
 }
 
-Extent changed(const Image& a, const Image& b) {
+Extent changed_extent(const Image& a, const Image& b) {
   return extent(a, [&](int x, int y) {
     const Pixel p = pixel(a, x, y), q = pixel(b, x, y);
     return p.r != q.r || p.g != q.g || p.b != q.b;
@@ -69,7 +70,7 @@ TEST(Plots, StandInTheLowerLeftCornerOfAnyPicture) {
   for (const auto& [width, height] : {std::pair{320, 180}, {640, 360}, {1280, 720}, {3840, 2160}}) {
     const Image nothing = renderer.draw(small_frame(width, height));
     const Image image = renderer.draw(frame_with_plots(width, height, 1));
-    const Extent e = changed(nothing, image);
+    const Extent e = changed_extent(nothing, image);
     ASSERT_GT(e.count, 1000) << width;
     EXPECT_GT(e.left, 0) << width;
     EXPECT_LT(e.right, 0.56 * width) << width;
@@ -97,9 +98,9 @@ TEST(Plots, CurvesAreCutAtTheEndsOfTheirAxis) {
   Renderer renderer(*context);
   Frame frame = frame_with_plots(640, 360, 1);
   frame.plots.resize(1);
-  const Extent inside = changed(renderer.draw(small_frame(640, 360)), renderer.draw(frame));
+  const Extent inside = changed_extent(renderer.draw(small_frame(640, 360)), renderer.draw(frame));
   for (float& value : frame.plots[0].series[1].value) value = 1e30f;
-  const Extent beyond = changed(renderer.draw(small_frame(640, 360)), renderer.draw(frame));
+  const Extent beyond = changed_extent(renderer.draw(small_frame(640, 360)), renderer.draw(frame));
   EXPECT_EQ(inside.top, beyond.top);
   EXPECT_EQ(inside.bottom, beyond.bottom);
 }

@@ -37,7 +37,7 @@ struct World {
 };
 
 /// A ball of two materials about to hit the floor.
-ParticleArrays falling_ball() {
+ParticleArrays ball_of_two_materials() {
   ParticleArrays p = ball_of_snow({0.01, 0.11, -0.02}, 0.07, 0.01, {0.3, -4, 0.1});
   p.material.resize(p.x.size());
   for (std::size_t q = 0; q < p.x.size(); ++q) p.material[q] = p.x[q].x() > 0.05;
@@ -50,7 +50,7 @@ void advance(Simulation& simulation, int steps) {
 
 /// In the middle of the impact.
 Simulation crushed(const World& world, int threads = 1) {
-  Simulation simulation = world.simulate(falling_ball(), threads);
+  Simulation simulation = world.simulate(ball_of_two_materials(), threads);
   advance(simulation, 40);
   EXPECT_GT(simulation.summary().elastic_energy, 0);
   EXPECT_FALSE(simulation.divergence());
@@ -61,8 +61,8 @@ TEST(Apply, WithNothingChangedChangesNoBit) {
   World world;
   for (const Transfer transfer : {Transfer::flip, Transfer::mls}) {
     world.settings.transfer = transfer;
-    Simulation left_alone = world.simulate(falling_ball()),
-               applied = world.simulate(falling_ball());
+    Simulation left_alone = world.simulate(ball_of_two_materials()),
+               applied = world.simulate(ball_of_two_materials());
     for (int k = 0; k < 45; ++k) {
       world.apply_to(applied);
       advance(left_alone, 1);
@@ -237,7 +237,7 @@ TEST(Apply, AChangeAloneBreaksNoRule) {
 TEST(Apply, TheWorkOfEachGravityIsCounted) {
   World world;
   world.colliders.clear();
-  Simulation simulation = world.simulate(falling_ball());
+  Simulation simulation = world.simulate(ball_of_two_materials());
   advance(simulation, 20);
   for (const double g : {-30.0, 0.0, 12.0}) {
     world.settings.gravity = {0, g, 0};
@@ -343,7 +343,7 @@ TEST(Apply, ABrokenRunWantsAnEarlierStateFirst) {
   World world;
   world.settings.time_step = TimeStep::fixed;
   world.settings.dt = 1.0 / 24;
-  Simulation simulation = world.simulate(falling_ball());
+  Simulation simulation = world.simulate(ball_of_two_materials());
   const std::vector<std::uint8_t> good = simulation.save();
   simulation.advance_to(0.5);
   ASSERT_TRUE(simulation.divergence());
@@ -379,7 +379,8 @@ TEST(Apply, FlipHasNoAffineVelocities) {
 /// ended with.
 TEST(Apply, AFrameStoppedAtAStepGoesOnAsIfNothingHadHappened) {
   const World world;
-  Simulation whole = world.simulate(falling_ball()), stopped = world.simulate(falling_ball());
+  Simulation whole = world.simulate(ball_of_two_materials()),
+             stopped = world.simulate(ball_of_two_materials());
   AdvanceReport all = whole.advance_to(1.0 / 24), pieces;
   for (const std::size_t step : {std::size_t(0), std::size_t(7), std::size_t(8), std::size_t(33)}) {
     pieces.append(stopped.advance_to(1.0 / 24, nullptr, step));
@@ -398,7 +399,7 @@ Pose pose_of(const Simulation& simulation, std::size_t k) {
 
 TEST(AppliedCollider, GoesOnFromWhereItIsWithItsNewMotion) {
   // Also where there is no snow to step.
-  for (const ParticleArrays& particles : {ParticleArrays{}, falling_ball()}) {
+  for (const ParticleArrays& particles : {ParticleArrays{}, ball_of_two_materials()}) {
     World world;
     Simulation simulation = world.simulate(particles);
     for (int k = 0; k < 10; ++k) simulation.step(1e-4);
@@ -420,7 +421,7 @@ TEST(AppliedCollider, GoesOnFromWhereItIsWithItsNewMotion) {
 
 TEST(AppliedCollider, MovesByTheEditOfItsPlace) {
   World world;
-  Simulation simulation = world.simulate(falling_ball());
+  Simulation simulation = world.simulate(ball_of_two_materials());
   advance(simulation, 10);
   world.colliders[1].velocity = {0, 0, 1};
   world.apply_to(simulation);
@@ -436,7 +437,7 @@ TEST(AppliedCollider, MovesByTheEditOfItsPlace) {
 
 TEST(AppliedCollider, IsKnownByItsNameAndANewOneStandsWhereItSays) {
   World world;
-  Simulation simulation = world.simulate(falling_ball());
+  Simulation simulation = world.simulate(ball_of_two_materials());
   advance(simulation, 10);
   const Pose ball = pose_of(simulation, 1);
   Collider box;
@@ -454,7 +455,7 @@ TEST(AppliedCollider, IsKnownByItsNameAndANewOneStandsWhereItSays) {
 TEST(AppliedCollider, WaitsWhileItsStageIsSkippedAndThenGoesOn) {
   World world;
   world.colliders[1].velocity = {0, -5, 0};
-  Simulation simulation = world.simulate(falling_ball());
+  Simulation simulation = world.simulate(ball_of_two_materials());
   advance(simulation, 10);
   const Pose before = pose_of(simulation, 1);
   world.settings.bypass = {Stage::colliders};

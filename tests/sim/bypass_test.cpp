@@ -16,7 +16,7 @@ SolverSettings skipping(std::vector<Stage> stages) {
   return s;
 }
 
-struct Case {
+struct BypassCase {
   ParticleArrays particles = ball_of_snow({0, 0.13, 0}, 0.12, 0.015, {0, -3, 0});
   std::vector<Collider> colliders{plane({0, 0.043, 0}, {0, 1, 0}, 0.5)};
 
@@ -28,14 +28,14 @@ struct Case {
 };
 
 TEST(Bypass, ACollidersStageOfRestingCollidersChangesNothing) {
-  const Case c;
+  const BypassCase c;
   const Simulation whole = c.run(skipping({})), skipped = c.run(skipping({Stage::colliders}));
   // FLIP: the staged driver, which takes over, agrees with the fused one in every bit.
   EXPECT_EQ(whole.state_hash(), skipped.state_hash());
 }
 
 TEST(Bypass, WithoutAdvectionNothingMoves) {
-  const Case c;
+  const BypassCase c;
   const ParticleArrays after = c.run(skipping({Stage::advection})).particles();
   for (std::size_t p = 0; p < after.x.size(); ++p)
     // The places of the records: a float offset in cells of 3 cm.
@@ -43,7 +43,7 @@ TEST(Bypass, WithoutAdvectionNothingMoves) {
 }
 
 TEST(Bypass, WithoutDeformationSnowIsDust) {
-  const Case c;
+  const BypassCase c;
   const Simulation simulation = c.run(skipping({Stage::deformation}));
   for (const Mat3d& F : simulation.particles().F_E) EXPECT_EQ(F, Mat3d(Mat3d::Identity()));
   EXPECT_EQ(simulation.summary().elastic_energy, 0);
@@ -51,7 +51,7 @@ TEST(Bypass, WithoutDeformationSnowIsDust) {
 }
 
 TEST(Bypass, WithoutForcesSnowFallsAndStrainGrows) {
-  Case c;
+  BypassCase c;
   c.colliders.clear();
   const Simulation simulation = c.run(skipping({Stage::elastic_forces}));
   const Summary s = simulation.summary();
@@ -60,21 +60,21 @@ TEST(Bypass, WithoutForcesSnowFallsAndStrainGrows) {
 }
 
 TEST(Bypass, WithoutGridVelocitiesThereIsNoGravity) {
-  Case c;
+  BypassCase c;
   c.colliders.clear();
   const Summary s = c.run(skipping({Stage::grid_velocities})).summary();
   EXPECT_NEAR(s.momentum.y() / s.mass, -3, 1e-5);
 }
 
 TEST(Bypass, WithoutParticleVelocitiesTheyKeepTheirOwn) {
-  Case c;
+  BypassCase c;
   c.colliders.clear();
   const ParticleArrays after = c.run(skipping({Stage::particle_velocities})).particles();
   for (const Vec3d& v : after.v) EXPECT_EQ(v, Vec3d(0, -3, 0));
 }
 
 TEST(Bypass, WithoutCollisionsSnowFallsThroughTheFloor) {
-  const Case c;
+  const BypassCase c;
   const Summary with = c.run(skipping({}), 0.1).summary();
   const Summary without =
       c.run(skipping({Stage::grid_collisions, Stage::particle_collisions}), 0.1).summary();
@@ -85,7 +85,7 @@ TEST(Bypass, WithoutCollisionsSnowFallsThroughTheFloor) {
 }
 
 TEST(Bypass, WithoutRasterizingTheGridIsEmpty) {
-  Case c;
+  BypassCase c;
   c.colliders.clear();
   SolverSettings s = skipping({Stage::rasterize});
   s.flip_ratio = 1;
@@ -96,7 +96,7 @@ TEST(Bypass, WithoutRasterizingTheGridIsEmpty) {
 }
 
 TEST(Bypass, WithoutVolumesThereIsNoStress) {
-  Case c;
+  BypassCase c;
   c.particles.V0.clear();
   const Simulation simulation = c.run(skipping({Stage::volumes}));
   for (const double V0 : simulation.particles().V0) EXPECT_EQ(V0, 0);

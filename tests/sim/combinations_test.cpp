@@ -59,7 +59,7 @@ std::vector<Collider> three_colliders() {
 TEST(EveryCombination, GivesTheSameBitsOnAnyNumberOfThreadsAndAnywhere) {
   const ParticleArrays p = disturbed_ball();
   ASSERT_GE(p.x.size(), 7000u);
-  const Vec3i far_away(-19531, 19531, 19531);  // of 4 cells: a kilometre and a half
+  const neve::sim::Vec3i far_away(-19531, 19531, 19531);  // of 4 cells: a kilometre and a half
   at_every_simd_level([&] {
     std::set<std::uint64_t> hashes;
     for (const Combination& combination : all_combinations()) {
@@ -67,13 +67,14 @@ TEST(EveryCombination, GivesTheSameBitsOnAnyNumberOfThreadsAndAnywhere) {
       SolverSettings s;
       s.cell_size = 0.02;
       combination.apply_to(s);
-      const auto run = [&](int threads, const Vec3i& origin) {
+      const auto run = [&](int threads, const neve::sim::Vec3i& origin) {
         Simulation simulation(s, three_materials(), three_colliders(), p, threads, origin);
         for (int k = 0; k < 4; ++k) simulation.step(simulation.choose_dt(1).dt);
         return simulation.state_hash();
       };
-      const std::uint64_t one = run(1, Vec3i::Zero());
-      for (const int threads : {2, 3, 7}) EXPECT_EQ(run(threads, Vec3i::Zero()), one) << threads;
+      const std::uint64_t one = run(1, neve::sim::Vec3i::Zero());
+      for (const int threads : {2, 3, 7})
+        EXPECT_EQ(run(threads, neve::sim::Vec3i::Zero()), one) << threads;
       EXPECT_EQ(run(2, far_away), one) << "far away";
       hashes.insert(one);
     }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "sim/staged.h"
 #include "tests/support/snow.h"
 
@@ -51,7 +53,7 @@ TEST(Determinism, SameBitsWithTheLatticeOriginOneKilometreAway) {
     s.precision = precision;
     const ParticleArrays p = ball_of_snow({0.01, 0.17, -0.02}, 0.15, 0.016, {0.3, -4, 0.1});
     // Blocks of 4 cells: 19531 of them are 999.99 m.
-    const Vec3i far_away(19531, -19531, 19531);
+    const neve::sim::Vec3i far_away(19531, -19531, 19531);
     Collider ball;
     ball.name = "ball";
     ball.shape.form = Sphere{{0.05, 0.02, 0.03}, 0.06};

@@ -44,10 +44,10 @@ std::vector<Mat3d> deformations(Model model) {
   return out;
 }
 
-constexpr Model models[] = {Model::snow, Model::corotated, Model::neo_hookean};
+constexpr Model differentiated_models[] = {Model::snow, Model::corotated, Model::neo_hookean};
 
 TEST(StressChange, IsTheDerivativeOfTheStress) {
-  for (const Model model : models) {
+  for (const Model model : differentiated_models) {
     const Material material = material_of(model);
     for (const Mat3d& F_E : deformations(model)) {
       const Mat3d G = random_matrix();
@@ -69,7 +69,7 @@ TEST(StressChange, IsTheDerivativeOfTheStress) {
 }
 
 TEST(StressChange, IsSymmetric) {
-  for (const Model model : models) {
+  for (const Model model : differentiated_models) {
     const Material material = material_of(model);
     for (const Mat3d& F_E : deformations(model)) {
       const Mat3d A = random_matrix(), B = random_matrix();
@@ -82,7 +82,7 @@ TEST(StressChange, IsSymmetric) {
 }
 
 TEST(StressChange, OfABodyAtRestIsHookesLaw) {
-  for (const Model model : models) {
+  for (const Model model : differentiated_models) {
     const Material material = material_of(model);
     const Lame l = lame(material.youngs_modulus, material.poisson_ratio);
     const Mat3d G = random_matrix();
@@ -94,7 +94,7 @@ TEST(StressChange, OfABodyAtRestIsHookesLaw) {
 
 TEST(StressChange, IsFiniteForAnyFiniteDeformation) {
   // Where two stretches cancel the corotated stress has no derivative.
-  for (const Model model : models)
+  for (const Model model : differentiated_models)
     for (const Vec3d& s : {Vec3d(1, 0, 0), Vec3d(0, 0, 0), Vec3d(1, 0.5, -0.5), Vec3d(2, 2, -2),
                            Vec3d(1e-12, 1e-12, 1e-12), Vec3d(100, 1, 1e-4)}) {
       const Mat3d F_E = s.asDiagonal();

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cmath>
+#include <cstring>
 #include <random>
 
 #include "sim/diagnostics.h"

@@ -26,7 +26,7 @@ std::unique_ptr<const Form> solid(const std::string& text) {
   return make_mesh_solid(closed(text));
 }
 
-std::string message_of(const std::string& text) {
+std::string mesh_error(const std::string& text) {
   try {
     closed(text);
   } catch (const ShapeError& error) {
@@ -35,8 +35,8 @@ std::string message_of(const std::string& text) {
   return "no error";
 }
 
-void expect_message(const std::string& text, const std::string& part) {
-  const std::string message = message_of(text);
+void expect_mesh_error(const std::string& text, const std::string& part) {
+  const std::string message = mesh_error(text);
   EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 
@@ -58,7 +58,7 @@ std::string torus(int n, int m, double R, double r) {
   return text.str();
 }
 
-Vec3d random_point(std::uint64_t k) {
+Vec3d point_in_unit_cube(std::uint64_t k) {
   return {unit_double(mix64(k, 0)), unit_double(mix64(k, 1)), unit_double(mix64(k, 2))};
 }
 
@@ -109,7 +109,8 @@ TEST(Mesh, TorusAgreesWithItsFormula) {
   const double exact = 2 * std::numbers::pi * std::numbers::pi * 0.09;
   EXPECT_NEAR(mesh->volume() / exact, 1, 2e-3);  // a polygon of 80 sides lacks 0.1 % of its circle
   for (std::uint64_t k = 0; k < 20000; ++k) {
-    const Vec3d p = 2.8 * (random_point(k) - Vec3d::Constant(0.5)).cwiseProduct(Vec3d(1, 0.3, 1));
+    const Vec3d p =
+        2.8 * (point_in_unit_cube(k) - Vec3d::Constant(0.5)).cwiseProduct(Vec3d(1, 0.3, 1));
     const double distance = std::hypot(std::hypot(p.x(), p.z()) - 1.0, p.y()) - 0.3;
     EXPECT_TRUE(std::abs(distance) <= 2e-3 || mesh->contains(p) == (distance < 0)) << p.transpose();
   }
@@ -120,7 +121,7 @@ TEST(Mesh, InsideFillsTheVolume) {
   std::size_t inside = 0;
   constexpr std::uint64_t count = 200000;
   for (std::uint64_t k = 0; k < count; ++k)
-    inside += mesh->contains(3 * (random_point(k) - Vec3d::Constant(0.5))) ? 1 : 0;
+    inside += mesh->contains(3 * (point_in_unit_cube(k) - Vec3d::Constant(0.5))) ? 1 : 0;
   // Standard deviation of the count: about 1 % / 2.
   EXPECT_NEAR(27.0 * static_cast<double>(inside) / count / mesh->volume(), 1, 0.03);
 }
@@ -190,28 +191,28 @@ TEST(Mesh, CavitiesAndOverlapsGoByWindingNumber) {
 
 TEST(Mesh, OpenMeshNamesItsFirstOpenEdge) {
   const std::string open = cube.substr(0, cube.rfind("f "));
-  expect_message(open, "m.obj:9: the mesh is open");
-  expect_message(open, "4 edges, the first of face 1 between (0, 0, 0) and (0, 1, 0)");
-  expect_message(open, "Close the holes");
+  expect_mesh_error(open, "m.obj:9: the mesh is open");
+  expect_mesh_error(open, "4 edges, the first of face 1 between (0, 0, 0) and (0, 1, 0)");
+  expect_mesh_error(open, "Close the holes");
 }
 
 TEST(Mesh, FacesWoundAgainstEachOtherAreAnError) {
   std::string turned = cube;
   turned.replace(turned.find("f 1 4 3 2"), 9, "f 1 2 3 4");
-  expect_message(turned, "disagree");
-  expect_message(turned, "4 edges, the first of face 1");
+  expect_mesh_error(turned, "disagree");
+  expect_mesh_error(turned, "4 edges, the first of face 1");
 }
 
 TEST(Mesh, NonManifoldEdgesAreAnError) {
-  expect_message(cube + "f 1 3 7\nf 1 7 3\n", "not manifold");
-  expect_message(cube + cube_faces, "12 edges");
+  expect_mesh_error(cube + "f 1 3 7\nf 1 7 3\n", "not manifold");
+  expect_mesh_error(cube + cube_faces, "12 edges");
 }
 
 TEST(Mesh, MeshesWithoutVolumeAreErrors) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  expect_message(corners + "f 1 2 3\nf 3 2 1\n", "encloses no volume");
-  expect_message(corners + "f 1 1 1\n", "no face has an area");
-  expect_message(
+  expect_mesh_error(corners + "f 1 2 3\nf 3 2 1\n", "encloses no volume");
+  expect_mesh_error(corners + "f 1 1 1\n", "no face has an area");
+  expect_mesh_error(
       "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nv 0 0 1e200\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n",
       "too large");
 }

@@ -10,11 +10,11 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-constexpr double h = 1.0 / 16;  // dyadic: moving by whole cells is exact
+constexpr double dyadic_cell = 1.0 / 16;  // dyadic: moving by whole cells is exact
 
 SolverSettings periodic(Transfer transfer, Kernel kernel, const Vec3i& blocks) {
   SolverSettings s;
-  s.cell_size = h;
+  s.cell_size = dyadic_cell;
   s.transfer = transfer;
   s.kernel = kernel;
   s.precision = Precision::real64;
@@ -25,7 +25,8 @@ SolverSettings periodic(Transfer transfer, Kernel kernel, const Vec3i& blocks) {
 
 /// Fills the given number of blocks per axis, 8 particles per cell, all moving at random.
 ParticleArrays filled(const Vec3i& blocks) {
-  ParticleArrays p = box_of_snow(Vec3d::Zero(), 4 * h * blocks.cast<double>(), h / 2);
+  ParticleArrays p =
+      box_of_snow(Vec3d::Zero(), 4 * dyadic_cell * blocks.cast<double>(), dyadic_cell / 2);
   disturb(p, 0.004, 2.0);
   return p;
 }
@@ -78,7 +79,7 @@ TEST(PeriodicLattice, LooksTheSameFromEveryCell) {
   each_scheme([](Transfer transfer, Kernel kernel) {
     const SolverSettings s = periodic(transfer, kernel, {2, 3, 1});
     const ParticleArrays here = filled({2, 3, 1});
-    const Vec3d offset = h * Vec3d(3, -5, 14);
+    const Vec3d offset = dyadic_cell * Vec3d(3, -5, 14);
     ParticleArrays there = here;
     for (Vec3d& x : there.x) x += offset;
     Simulation a(s, {Material{}}, {}, here, 1), b(s, {Material{}}, {}, there, 1);
@@ -97,7 +98,7 @@ TEST(PeriodicLattice, IsAnEndlessRowOfCopies) {
       for (const int j : {0, -1, 1})
         for (const int k : {0, -1, 1})
           for (std::size_t q = 0; q < one.x.size(); ++q) {
-            many.x.push_back(one.x[q] + 4 * h * Vec3d(i, j, k));
+            many.x.push_back(one.x[q] + 4 * dyadic_cell * Vec3d(i, j, k));
             many.v.push_back(one.v[q]);
             many.m.push_back(one.m[q]);
             many.V0.push_back(one.V0[q]);

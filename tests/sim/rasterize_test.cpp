@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <map>
+#include <tuple>
 
 #include "sim/staged.h"
 #include "tests/support/snow.h"
@@ -17,18 +18,18 @@ using namespace neve;
 using namespace neve::sim;
 using namespace neve::test;
 
-constexpr double h = 0.02;
+constexpr double cube_cell = 0.02;
 
 ParticleArrays moving_cube() {
-  ParticleArrays in = box_of_snow(Vec3d(0, 0, 0), Vec3d(0.1, 0.1, 0.1), h / 2);
+  ParticleArrays in = box_of_snow(Vec3d(0, 0, 0), Vec3d(0.1, 0.1, 0.1), cube_cell / 2);
   for (std::size_t p = 0; p < in.x.size(); ++p)
     in.v[p] = Vec3d(1, -2, 0.5) + in.x[p].cross(Vec3d(3, 1, -2));
   return in;
 }
 
-Simulation simulate(Transfer transfer, Precision precision, const ParticleArrays& in) {
+Simulation simulation_of(Transfer transfer, Precision precision, const ParticleArrays& in) {
   SolverSettings settings;
-  settings.cell_size = h;
+  settings.cell_size = cube_cell;
   settings.transfer = transfer;
   settings.precision = precision;
   return Simulation(settings, {Material{}}, {}, in, 2);
@@ -49,12 +50,12 @@ class RasterizeTest : public testing::TestWithParam<std::tuple<Transfer, Precisi
 
 TEST_P(RasterizeTest, IsWhatTheStagedStepRasterizes) {
   const auto [transfer, precision] = GetParam();
-  Simulation simulation = simulate(transfer, precision, moving_cube());
+  Simulation simulation = simulation_of(transfer, precision, moving_cube());
   for (int k = 0; k < 3; ++k) simulation.step(1e-4);
   const std::uint64_t before = simulation.state_hash();
   const RasterizedNodes nodes = rasterize(simulation);
   EXPECT_EQ(simulation.state_hash(), before);
-  EXPECT_EQ(nodes.spacing, h);
+  EXPECT_EQ(nodes.spacing, cube_cell);
 
   // The staged step starts from the same particles with the same transfer, in the same order of
   // storage (a sort comes with step 32 only): the same bits.
@@ -77,7 +78,7 @@ TEST_P(RasterizeTest, IsWhatTheStagedStepRasterizes) {
 TEST_P(RasterizeTest, MeansArePartitionsOfTheParticles) {
   const auto [transfer, precision] = GetParam();
   const ParticleArrays in = moving_cube();
-  const Simulation simulation = simulate(transfer, precision, in);
+  const Simulation simulation = simulation_of(transfer, precision, in);
   const std::size_t count = in.x.size();
   std::vector<std::vector<double>> values(4, std::vector<double>(count, 2.5));
   double moment = 0, mass = 0;
@@ -108,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(All, RasterizeTest,
                                           testing::Values(Precision::single, Precision::real64)));
 
 TEST(Rasterize, BlocksAreSortedAndAroundTheParticles) {
-  const Simulation simulation = simulate(Transfer::flip, Precision::single, moving_cube());
+  const Simulation simulation = simulation_of(Transfer::flip, Precision::single, moving_cube());
   const RasterizedNodes nodes = rasterize(simulation);
   ASSERT_FALSE(nodes.block.empty());
   ASSERT_EQ(nodes.mass.size(), 64 * nodes.block.size());
@@ -118,9 +119,9 @@ TEST(Rasterize, BlocksAreSortedAndAroundTheParticles) {
 }
 
 TEST(Rasterize, NothingComesFromNothingAndLengthsAreChecked) {
-  const Simulation empty = simulate(Transfer::flip, Precision::single, {});
+  const Simulation empty = simulation_of(Transfer::flip, Precision::single, {});
   EXPECT_TRUE(rasterize(empty).block.empty());
-  const Simulation snow = simulate(Transfer::flip, Precision::single, moving_cube());
+  const Simulation snow = simulation_of(Transfer::flip, Precision::single, moving_cube());
   EXPECT_THROW(rasterize(snow, {{1.0, 2.0}}), std::invalid_argument);
 }
 

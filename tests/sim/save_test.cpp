@@ -11,7 +11,7 @@ using namespace neve;
 using namespace neve::sim;
 using namespace neve::test;
 
-struct Case {
+struct SaveCase {
   Transfer transfer;
   Precision precision;
 };
@@ -37,7 +37,7 @@ ParticleArrays two_materials() {
   return p;
 }
 
-class Save : public testing::TestWithParam<Case> {};
+class Save : public testing::TestWithParam<SaveCase> {};
 
 TEST_P(Save, ARestoredRunGoesOnToTheBit) {
   SolverSettings settings;
@@ -67,9 +67,9 @@ TEST_P(Save, ARestoredRunGoesOnToTheBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Save,
-                         testing::Values(Case{Transfer::flip, Precision::single},
-                                         Case{Transfer::apic, Precision::single},
-                                         Case{Transfer::mls, Precision::real64}));
+                         testing::Values(SaveCase{Transfer::flip, Precision::single},
+                                         SaveCase{Transfer::apic, Precision::single},
+                                         SaveCase{Transfer::mls, Precision::real64}));
 
 TEST(SavedState, DamagedBytesAreRefusedAndNothingChanges) {
   Simulation simulation = simulate({}, two_materials(), 1);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "sim/base/hash.h"
 #include "sim/solid.h"

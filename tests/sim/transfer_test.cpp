@@ -57,15 +57,16 @@ TEST(Stencil, WeightsSumToOneAndGradientsToZero) {
   check_weights<float, quadratic_nodes>(1e-6);
 }
 
-struct Case {
+struct TransferCase {
   Kernel kernel;
   Transfer transfer;
 };
-constexpr Case cases[] = {{Kernel::cubic, Transfer::flip},     {Kernel::cubic, Transfer::apic},
-                          {Kernel::cubic, Transfer::mls},      {Kernel::quadratic, Transfer::flip},
-                          {Kernel::quadratic, Transfer::apic}, {Kernel::quadratic, Transfer::mls}};
+constexpr TransferCase cases[] = {
+    {Kernel::cubic, Transfer::flip},     {Kernel::cubic, Transfer::apic},
+    {Kernel::cubic, Transfer::mls},      {Kernel::quadratic, Transfer::flip},
+    {Kernel::quadratic, Transfer::apic}, {Kernel::quadratic, Transfer::mls}};
 
-SolverSettings settings_of(const Case& c) {
+SolverSettings settings_of(const TransferCase& c) {
   SolverSettings s;
   s.cell_size = 0.05;
   s.kernel = c.kernel;
@@ -83,7 +84,7 @@ ParticleArrays disturbed_snow() {
 }
 
 TEST(Transfer, ConservesMassAndMomentumBothWays) {
-  for (const Case& c : cases) {
+  for (const TransferCase& c : cases) {
     const ParticleArrays before = disturbed_snow();
     Simulation simulation(settings_of(c), {Material{}}, {}, before, 1);
     const Summary start = simulation.summary();
@@ -106,7 +107,7 @@ TEST(Transfer, ConservesMassAndMomentumBothWays) {
 }
 
 TEST(Transfer, ApicAndMlsConserveAngularMomentum) {
-  for (const Case& c : cases) {
+  for (const TransferCase& c : cases) {
     if (c.transfer == Transfer::flip) continue;
     Simulation simulation(settings_of(c), {Material{}}, {}, disturbed_snow(), 1);
     const Summary start = simulation.summary();
@@ -118,7 +119,7 @@ TEST(Transfer, ApicAndMlsConserveAngularMomentum) {
 }
 
 TEST(Transfer, NodeForceIsMinusTheDerivativeOfEnergy) {
-  for (const Case& c : cases) {
+  for (const TransferCase& c : cases) {
     const SolverSettings settings = settings_of(c);
     const ParticleArrays p = disturbed_snow();
     const Simulation simulation(settings, {Material{}}, {}, p, 1);
@@ -130,7 +131,7 @@ TEST(Transfer, NodeForceIsMinusTheDerivativeOfEnergy) {
     std::map<std::array<int, 3>, Vec3d> u;
     double work = 0;
     for (std::size_t i = 0; i < staged.nodes.node.size(); ++i) {
-      const Vec3i n = staged.nodes.node[i];
+      const neve::sim::Vec3i n = staged.nodes.node[i];
       const Vec3d here = Vec3d::NullaryExpr([&] { return unit(random); });
       u[{n[0], n[1], n[2]}] = here;
       work += staged.nodes.force[i].dot(here);
@@ -181,7 +182,7 @@ TEST(Transfer, AffineVelocityArrivesAsItsGradient) {
   // symmetric.
   Mat3d A;
   A << 0.3, -1.1, 0.2, 0.7, -0.4, 0.5, -0.6, 0.1, 0.8;
-  for (const Case& c : cases) {
+  for (const TransferCase& c : cases) {
     if (c.transfer == Transfer::flip) continue;  // FLIP smears the field before it is gathered
     ParticleArrays p = box_of_snow({0, 0, 0}, {0.4, 0.4, 0.4}, 0.025);
     p.C.assign(p.x.size(), A);

@@ -11,7 +11,7 @@
 namespace neve::app {
 namespace {
 
-using Kind = PageMessage::Kind;
+using PageKind = PageMessage::Kind;
 
 TEST(PageMessage, TellsWhatAPersonDid) {
   const InputEvent move = read_page_message("m 12.5 -3 3").event;
@@ -53,7 +53,7 @@ TEST(PageMessage, ThatMakesNoSenseIsNothing) {
                            "s nan 1 1", "a -1",        "a 4294967296", "a 1.5",
                            "v 2",       "v",           "x 1 2 3",      "M 1 2 3",
                            "\n"})
-    EXPECT_EQ(read_page_message(text).kind, Kind::none) << text;
+    EXPECT_EQ(read_page_message(text).kind, PageKind::none) << text;
 }
 
 TEST(PageMessage, SurvivesRandomText) {
