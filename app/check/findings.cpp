@@ -172,7 +172,7 @@ void check_implicit_steps(const sim::SolverSettings& s, const Checkup& checkup,
   const double w = 2 * pi * checkup.start.max_sound_speed / (10 * s.cell_size);
   findings.push_back({Severity::note, "solver.beta",
                       "semi-implicit steps: of a wave 10 cells long " +
-                          percent(std::exp(-s.beta * w * w * dt * 2 * pi / w)) +
+                          percent_text(std::exp(-s.beta * w * w * dt * 2 * pi / w)) +
                           " of the energy is left after a period; the first steps took " +
                           std::to_string(checkup.solve.iterations) +
                           " iterations to a residual of " + rough_text(checkup.solve.residual),
