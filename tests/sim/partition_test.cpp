@@ -53,7 +53,7 @@ struct Cloud {
   }
 };
 
-std::uint64_t key_at(std::uint64_t key, int o, const Vec3i& period) {
+std::uint64_t key_at(std::uint64_t key, int o, const neve::sim::Vec3i& period) {
   int at[3];
   for (int a = 0; a < 3; ++a) {
     at[a] = block_coordinate(key, a) + (o >> (2 - a) & 1);
@@ -81,7 +81,7 @@ void expect_order(const Partition& p, const Cloud& c) {
   ASSERT_EQ(at, c.points.size());
 }
 
-void expect_links(const Partition& p, const Vec3i& period) {
+void expect_links(const Partition& p, const neve::sim::Vec3i& period) {
   std::map<std::uint64_t, NodeBlock> expected;
   for (std::size_t b = 0; b < p.blocks().size(); ++b) {
     for (int o = 0; o < 8; ++o) {
@@ -114,7 +114,7 @@ TEST(Partition, KeepsTheOrderOfADefinitionThatKnowsNoHistory) {
           cloud.locate();
           partition.build(cloud.keys, cloud.locals, pool, threads);
           expect_order(partition, cloud);
-          expect_links(partition, Vec3i::Zero());
+          expect_links(partition, neve::sim::Vec3i::Zero());
           if (step % 5 == 4) {
             Reordering<Point> reordering;
             partition.sort_storage(cloud.points, reordering, cloud.keys, cloud.locals, pool,
@@ -144,13 +144,14 @@ TEST(Partition, TakesParticlesThatComeAndGo) {
     cloud.locate();
     partition.build(cloud.keys, cloud.locals, pool, 2);
     expect_order(partition, cloud);
-    expect_links(partition, Vec3i::Zero());
+    expect_links(partition, neve::sim::Vec3i::Zero());
   }
 }
 
 TEST(Partition, LinksBlocksAroundAPeriod) {
   ThreadPool pool(2);
-  for (const Vec3i& period : {Vec3i(1, 0, 2), Vec3i(3, 2, 5), Vec3i(0, 0, 4)}) {
+  for (const neve::sim::Vec3i& period :
+       {neve::sim::Vec3i(1, 0, 2), neve::sim::Vec3i(3, 2, 5), neve::sim::Vec3i(0, 0, 4)}) {
     Cloud cloud;
     cloud.add(3000, 30);
     Partition partition;
@@ -178,7 +179,7 @@ TEST(Partition, OneParticleFarAwayCostsOneBlock) {
   both.build(cloud.keys, cloud.locals, pool, 1);
   EXPECT_EQ(both.blocks().size(), near.blocks().size() + 1);
   EXPECT_EQ(both.node_blocks().size(), near.node_blocks().size() + 8);
-  expect_links(both, Vec3i::Zero());
+  expect_links(both, neve::sim::Vec3i::Zero());
 }
 
 }  // namespace

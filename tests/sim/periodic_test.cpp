@@ -12,7 +12,7 @@ using namespace neve::test;
 
 constexpr double dyadic_cell = 1.0 / 16;  // dyadic: moving by whole cells is exact
 
-SolverSettings periodic(Transfer transfer, Kernel kernel, const Vec3i& blocks) {
+SolverSettings periodic(Transfer transfer, Kernel kernel, const neve::sim::Vec3i& blocks) {
   SolverSettings s;
   s.cell_size = dyadic_cell;
   s.transfer = transfer;
@@ -24,7 +24,7 @@ SolverSettings periodic(Transfer transfer, Kernel kernel, const Vec3i& blocks) {
 }
 
 /// Fills the given number of blocks per axis, 8 particles per cell, all moving at random.
-ParticleArrays filled(const Vec3i& blocks) {
+ParticleArrays filled(const neve::sim::Vec3i& blocks) {
   ParticleArrays p =
       box_of_snow(Vec3d::Zero(), 4 * dyadic_cell * blocks.cast<double>(), dyadic_cell / 2);
   disturb(p, 0.004, 2.0);

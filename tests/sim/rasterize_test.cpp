@@ -65,7 +65,7 @@ TEST_P(RasterizeTest, IsWhatTheStagedStepRasterizes) {
   for (const double m : nodes.mass) with_mass += m > 0;
   ASSERT_EQ(with_mass, step.nodes.node.size());
   for (std::size_t n = 0; n < step.nodes.node.size(); ++n) {
-    const Vec3i at = step.nodes.node[n];
+    const neve::sim::Vec3i at = step.nodes.node[n];
     const auto found = index.find({at.x(), at.y(), at.z()});
     ASSERT_NE(found, index.end());
     EXPECT_EQ(nodes.mass[found->second], step.nodes.mass[n]);
@@ -113,7 +113,7 @@ TEST(Rasterize, BlocksAreSortedAndAroundTheParticles) {
   const RasterizedNodes nodes = rasterize(simulation);
   ASSERT_FALSE(nodes.block.empty());
   ASSERT_EQ(nodes.mass.size(), 64 * nodes.block.size());
-  const auto key = [](const Vec3i& b) { return Node{b.x(), b.y(), b.z()}; };
+  const auto key = [](const neve::sim::Vec3i& b) { return Node{b.x(), b.y(), b.z()}; };
   for (std::size_t b = 1; b < nodes.block.size(); ++b)
     EXPECT_LT(key(nodes.block[b - 1]), key(nodes.block[b]));
 }
