@@ -54,8 +54,9 @@ double widened(double fov, double narrower) {
   return 2 * std::atan(narrower * std::tan(0.5 * fov * radians)) / radians;
 }
 
-void style_panels() {
-  ImGuiStyle& style = ImGui::GetStyle();
+/// @param scale px per point, of every distance
+void style_panels(float scale) {
+  ImGuiStyle style;
   ImGui::StyleColorsDark(&style);
   style.WindowRounding = 0;
   style.FrameRounding = 3;
@@ -66,6 +67,8 @@ void style_panels() {
   style.Colors[ImGuiCol_Button] = ImVec4(0.20f, 0.23f, 0.29f, 1);
   style.Colors[ImGuiCol_PlotHistogram] = ImVec4(0.24f, 0.45f, 0.70f, 1);
   style.Colors[ImGuiCol_Header] = ImVec4(0.18f, 0.27f, 0.38f, 1);
+  style.ScaleAllSizes(scale);
+  ImGui::GetStyle() = style;
 }
 
 }  // namespace
@@ -79,7 +82,6 @@ Viewer::Viewer(Workbench& bench, Front& front, render::Screen& screen, render::R
       options_(options),
       input_((screen.select_panels(), front)),
       state_{.bench = bench} {
-  style_panels();
   state_.view = options.view.value_or(bench.document().scene()->views.front().name);
   state_.copy = [this](const std::string& text) { front_.set_clipboard(text); };
   announce_view(state_);
@@ -199,6 +201,11 @@ void Viewer::draw() {
   const auto start = Clock::now();
   const ScreenSize size = front_.size();
   const double passed = seconds_passed();
+  if (size.scale != styled_scale_) {
+    screen_.select_panels();
+    style_panels(size.scale);
+    styled_scale_ = size.scale;
+  }
   play(passed);
   const Orbit camera_before = state_.orbit;
   lay_out();

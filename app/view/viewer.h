@@ -73,6 +73,7 @@ class Viewer {
   ViewerTimes times_;
   bool is_closed_ = false;
   int pictures_ = 0;
+  float styled_scale_ = 0;  ///< that the panels' distances are for
   int settle_ = 3;  ///< pictures that ImGui still needs to come to rest
   std::uint64_t painted_number_ = 0;
   std::string painted_key_;

@@ -1,6 +1,6 @@
 /// The picture under the mouse: camera, probing, handles of bodies and obstacles; and the keys.
 
-#include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -281,7 +281,9 @@ void use_keys(ViewerState& state) {
   if (pressed('/') && io.KeyShift) state.is_help_open = !state.is_help_open;
   if (pressed('?') || pressed(key::f1)) state.is_help_open = !state.is_help_open;
   if (pressed(key::escape)) {
-    if (state.is_help_open)
+    if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
+      ImGui::ClosePopupToLevel(0, true);
+    else if (state.is_help_open)
       state.is_help_open = false;
     else if (state.probe)
       set_probe(state, std::nullopt);

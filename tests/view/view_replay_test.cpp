@@ -34,6 +34,8 @@ class ViewByScript : public Cli {
 TEST_F(ViewByScript, AParameterIsFoundChangedSimulatedWithAndSaved) {
   const auto result = view(R"([
     {"click": "find a parameter"}, {"type": "hardening"},
+    {"click": "material.snow.hardening", "button": "right"},
+    {"wait_for": "label Copy the address"}, {"key": "escape"},
     {"click": "material.snow.hardening", "ctrl": true}, {"type": "17"}, {"key": "enter"},
     {"key": "."}, {"wait_for": "simulation frame 1"}, {"wait_for": "simulation paused"},
     {"key": "p"}, {"wait": 5}, {"key": "s", "ctrl": true}, {"wait": 5},
