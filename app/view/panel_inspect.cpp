@@ -95,7 +95,8 @@ void draw_values(const ProbeRow& row) {
   std::string text;
   for (std::size_t k = 0; k < row.values.size(); ++k) {
     text += (k == 0 ? "" : row.values.size() == 9 && k % 3 == 0 ? "\n" : "  ");
-    text += rough_text(row.values[k]);
+    text += row.name == "id" || row.name == "node" ? fixed_text(row.values[k], 0)
+                                                   : rough_text(row.values[k]);
   }
   cell(text, row.is_strange);
 }

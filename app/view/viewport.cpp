@@ -132,8 +132,11 @@ bool use_handles(ViewerState& state, bool is_over_picture) {
     list.AddCircleFilled(to, is_bright ? 7.0f : 5.0f, color);
     note_label(("handle " + std::string(1, "xyz"[axis])).c_str(), {to.x - 5, to.y - 5, 10, 10});
   }
-  list.AddText(ImVec2(from.x + 8, from.y + 8), IM_COL32(240, 244, 250, 255),
-               (state.selected + (state.live->steps > 0 ? " (at the start)" : "")).c_str());
+  list.AddText(
+      ImVec2(from.x + 8, from.y + 8), IM_COL32(240, 244, 250, 255),
+      (state.selected +
+       (state.live->steps > 0 && state.selected.starts_with("body.") ? " (at the start)" : ""))
+          .c_str());
   if (drag.axis < 0 && hovered >= 0 && ImGui::IsMouseClicked(0)) drag = {hovered, mouse, *object};
   if (drag.axis >= 0 && !ImGui::IsMouseDown(0)) drag.axis = -1;
   if (drag.axis < 0) return hovered >= 0;
