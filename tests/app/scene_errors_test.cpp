@@ -71,8 +71,8 @@ TEST(SceneErrors, KeysInTheWrongTableNameTheRightOne) {
 }
 
 TEST(SceneErrors, KeysOfOtherVersionsListWhatThereIs) {
-  EXPECT_EQ(error_of(with_ball("[light]\nbeta = 0.5")),
-            "s.toml:5:1: error: unknown key \"beta\" in [light]; expected \"direction\", "
+  EXPECT_EQ(error_of(with_ball("[light]\nbloom = 0.5")),
+            "s.toml:5:1: error: unknown key \"bloom\" in [light]; expected \"direction\", "
             "\"intensity\" or \"ambient\"");
 }
 
