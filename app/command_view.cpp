@@ -101,10 +101,9 @@ void announce(const Place& place, bool is_quiet) {
 }
 
 /// @return the scene file to go on with, or ""
-std::string look_at(const std::string& file, const ViewOptions& options, Place& place, Front& front,
-                    bool is_first) {
-  const std::vector<std::string> overrides =
-      is_first ? options.run.overrides : std::vector<std::string>();
+std::string look_at(Document document, const std::vector<std::string>& overrides,
+                    const ViewOptions& options, Place& place, Front& front) {
+  const std::string file = document.file();
   WorkbenchOptions bench_options;
   bench_options.session.threads = options.run.threads;
   bench_options.session.kept_budget = options.kept_memory;
@@ -113,8 +112,7 @@ std::string look_at(const std::string& file, const ViewOptions& options, Place& 
       options.run.out.empty()
           ? std::filesystem::path("out") / (std::filesystem::path(file).stem().string() + "-view")
           : std::filesystem::path(options.run.out);
-  Workbench bench(open_document(file, overrides, is_first ? options.run.coarsening.value_or(1) : 1),
-                  std::move(bench_options), [&place] { place.front->wake(); });
+  Workbench bench(std::move(document), std::move(bench_options), [&place] { place.front->wake(); });
   ThreadPool pool(options.run.threads);
   render::Renderer renderer(*place.context, options.run.shader_dir, &pool);
   render::Screen screen(*place.context, options.run.shader_dir);
@@ -140,15 +138,16 @@ int run_view(const ViewOptions& options) {
   catch_interrupts();
   std::string file = options.run.scene.empty() ? default_scene().string() : options.run.scene;
   // A scene that cannot be read is told before a window opens.
-  open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
+  Document document =
+      open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
   Place place = open_place(options);
   announce(place, options.run.verbosity == Verbosity::quiet);
   std::unique_ptr<RecordingFront> recording;
   if (!options.record.empty())
     recording = std::make_unique<RecordingFront>(*place.front, options.record);
   Front& front = recording ? *recording : *place.front;
-  for (bool is_first = true; !file.empty(); is_first = false)
-    file = look_at(file, options, place, front, is_first);
+  file = look_at(std::move(document), options.run.overrides, options, place, front);
+  while (!file.empty()) file = look_at(open_document(file, {}, 1), {}, options, place, front);
   if (recording) recording->save();
   return exit_ok;
 }

@@ -23,14 +23,6 @@ bool is_out_of_steps() {
   return --steps_left <= 0 || is_interrupted();
 }
 
-double planned_particles(const Scene& scene) {
-  const double h = scene.solver.cell_size;
-  double count = 0;
-  for (const sim::Body& body : scene.bodies)
-    count += sim::plan_seeding(body, h).volume / (h * h * h) * body.particles_per_cell;
-  return count;
-}
-
 /// What a dry run makes of the scene's snow.
 enum class Substitute {
   same,      ///< the scene's own, but for a bound on its stiffness
@@ -100,6 +92,14 @@ Run run_coarse(const Scene& coarse) {
 }
 
 }  // namespace
+
+double planned_particles(const Scene& scene) {
+  const double h = scene.solver.cell_size;
+  double count = 0;
+  for (const sim::Body& body : scene.bodies)
+    count += sim::plan_seeding(body, h).volume / (h * h * h) * body.particles_per_cell;
+  return count;
+}
 
 std::vector<Moment> dry_run(const Scene& scene) {
   Run first = run_coarse(coarsened(scene, Substitute::same));

@@ -13,6 +13,9 @@ struct Moment {
   std::vector<sim::Vec3d> x;
 };
 
+/// How many particles the bodies will have, roughly.
+double planned_particles(const Scene& scene);
+
 /// Some hundred particles over the whole scene, or as long as a fixed budget of steps times
 /// particles lasts: what comes out depends on the scene alone, never on the machine.
 std::vector<Moment> dry_run(const Scene& scene);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/dry_run.h"
 #include "app/resolve.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/params.h"
@@ -35,12 +36,8 @@ void add_built_in_views(Scene& scene) {
   }
 }
 
-std::size_t planned_particles(const Scene& scene) {
-  double count = 0;
-  const double h = scene.solver.cell_size;
-  for (const sim::Body& body : scene.bodies)
-    count += sim::plan_seeding(body, h).volume / (h * h * h) * body.particles_per_cell;
-  return static_cast<std::size_t>(std::clamp(count, 1.0, 1e9));
+std::size_t particle_count(const Scene& scene) {
+  return static_cast<std::size_t>(std::clamp(planned_particles(scene), 1.0, 1e9));
 }
 
 }  // namespace
@@ -61,19 +58,23 @@ Document::Document(std::string file, std::string text, std::vector<Override> ove
       coarsening_(coarsening) {
   scene_ = read(text_, {});
   Scene placed = *scene_;
-  resolve(placed, planned_particles(placed));
+  resolve(placed, particle_count(placed));
   camera_ = placed.camera;
   for (const View& view : placed.views)
     if (view.camera) view_cameras_[view.name] = *view.camera;
   scene_ = std::make_shared<const Scene>(std::move(placed));
 }
 
-std::shared_ptr<const Scene> Document::read(const std::string& text,
-                                            const std::vector<Override>& edits) const {
+std::vector<Override> Document::with(const std::vector<Override>& edits) const {
   std::vector<Override> all = overrides_;
   all.insert(all.end(), edits.begin(), edits.end());
-  Scene scene =
-      read_scene_text(text, file_, std::filesystem::path(file_).parent_path().string(), all);
+  return all;
+}
+
+std::shared_ptr<const Scene> Document::read(const std::string& text,
+                                            const std::vector<Override>& edits) const {
+  Scene scene = read_scene_text(text, file_, std::filesystem::path(file_).parent_path().string(),
+                                with(edits));
   if (coarsening_ > 1) coarsen(scene, coarsening_);
   add_built_in_views(scene);
   if (camera_) {
@@ -85,7 +86,7 @@ std::shared_ptr<const Scene> Document::read(const std::string& text,
       if (!view.camera) view.camera = found->second;
       place(found->second, *view.camera);
     }
-  resolve_ranges(scene, planned_particles(scene));
+  resolve_ranges(scene, particle_count(scene));
   return std::make_shared<const Scene>(std::move(scene));
 }
 

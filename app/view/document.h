@@ -42,6 +42,8 @@ class Document {
   const std::shared_ptr<const Scene>& scene() const { return scene_; }
   const std::vector<Override>& command_line() const { return overrides_; }
   double coarsening() const { return coarsening_; }
+  /// Those of the command line, then the edits.
+  std::vector<Override> all_overrides() const { return with(edits_); }
 
   /// @param value TOML
   /// @param gesture changes with the same number, not 0, are taken back together
@@ -80,6 +82,7 @@ class Document {
   void reload(std::string text);
 
  private:
+  std::vector<Override> with(const std::vector<Override>& edits) const;
   std::shared_ptr<const Scene> read(const std::string& text,
                                     const std::vector<Override>& edits) const;
   void become(std::vector<Override> edits);

@@ -83,11 +83,9 @@ struct LiveFrame {
   std::uint64_t kept_bytes = 0, kept_budget = 0;
 
   std::uint64_t state_hash = 0;  ///< at the end of a frame
-  sim::Simulation::Choice next{0, sim::DtLimit::max_dt};
-  sim::Simulation::StepLimits limits;
-  sim::PhaseSeconds phases;  ///< of the steps since the start
-  double speed = 0;          ///< simulated over wall seconds while it ran last
-  std::uint64_t memory = 0;  ///< bytes of the simulation
+  sim::PhaseSeconds phases;      ///< of the steps since the start
+  double speed = 0;              ///< simulated over wall seconds while it ran last
+  std::uint64_t memory = 0;      ///< bytes of the simulation
   int threads = 1;
   std::string simd;
 

@@ -103,8 +103,9 @@ void draw_legend(const std::vector<std::pair<std::string, ImU32>>& names) {
 
 void draw_curves(const ViewerState& state, const char* title, const char* unit,
                  const std::vector<Curve>& curves) {
+  const std::vector<RunSample>& samples = *state.live->samples;
   double low = 0, high = 0;
-  for (const RunSample& sample : state.samples)
+  for (const RunSample& sample : samples)
     for (const Curve& curve : curves) {
       const double value = curve.value(sample);
       if (!std::isfinite(value)) continue;
@@ -113,7 +114,7 @@ void draw_curves(const ViewerState& state, const char* title, const char* unit,
     }
   const Scene& scene = *state.live->scene;
   const Chart chart(title, unit, scene.frames / scene.fps, low, high);
-  for (const Curve& curve : curves) chart.curve(state.samples, curve);
+  for (const Curve& curve : curves) chart.curve(samples, curve);
   chart.now(state.live->snapshot.time);
   std::vector<std::pair<std::string, ImU32>> names;
   for (const Curve& curve : curves) names.emplace_back(curve.name, curve.color);
@@ -121,19 +122,19 @@ void draw_curves(const ViewerState& state, const char* title, const char* unit,
 }
 
 void draw_dt(const ViewerState& state) {
+  const std::vector<RunSample>& samples = *state.live->samples;
   double high = 0;
   std::vector<std::pair<std::string, ImU32>> names;
-  for (const RunSample& sample : state.samples) {
+  for (const RunSample& sample : samples) {
     high = std::max(high, sample.dt);
     const std::pair<std::string, ImU32> name{sim::name(sample.limit), limit_color(sample.limit)};
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   const Scene& scene = *state.live->scene;
   const Chart chart("time step", "s", scene.frames / scene.fps, 0, high);
-  for (std::size_t k = 1; k < state.samples.size(); ++k)
-    chart.segment(chart.at(state.samples[k - 1].time, state.samples[k - 1].dt),
-                  chart.at(state.samples[k].time, state.samples[k].dt),
-                  limit_color(state.samples[k].limit));
+  for (std::size_t k = 1; k < samples.size(); ++k)
+    chart.segment(chart.at(samples[k - 1].time, samples[k - 1].dt),
+                  chart.at(samples[k].time, samples[k].dt), limit_color(samples[k].limit));
   chart.now(state.live->snapshot.time);
   draw_legend(names);
 }

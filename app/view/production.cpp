@@ -8,16 +8,6 @@
 
 namespace neve::app {
 
-namespace {
-
-std::vector<Override> all_overrides(const Document& document) {
-  std::vector<Override> all = document.command_line();
-  all.insert(all.end(), document.edits().begin(), document.edits().end());
-  return all;
-}
-
-}  // namespace
-
 std::string plain_file_name(const std::string& address) {
   std::string name = address;
   for (char& c : name)
@@ -28,7 +18,7 @@ std::string plain_file_name(const std::string& address) {
 std::string render_command(const Document& document) {
   RenderCommand command;
   command.scene_file = document.file();
-  command.overrides = all_overrides(document);
+  command.overrides = document.all_overrides();
   command.coarsening = document.coarsening();
   return command_line(command);
 }
@@ -38,7 +28,7 @@ void write_sweep_around(const std::filesystem::path& file, const Document& docum
   for (const FlatParam& param : flatten(*document.scene())) {
     if (param.address != address) continue;
     make_folder(file.parent_path());
-    write_file(file, sweep_around(document.file(), file.string(), param, all_overrides(document)));
+    write_file(file, sweep_around(document.file(), file.string(), param, document.all_overrides()));
     return;
   }
   throw UsageError("", "nothing has the address " + address);

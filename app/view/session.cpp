@@ -164,10 +164,6 @@ void Session::set_recording(bool is_on) {
   ask([this, is_on] { is_recording_ = is_on; });
 }
 
-void Session::call(std::function<void(const sim::Simulation&)> look) {
-  ask([this, look = std::move(look)] { look(*simulation_); });
-}
-
 std::shared_ptr<const LiveFrame> Session::latest() const {
   const std::lock_guard lock(mutex_);
   return latest_;
@@ -368,15 +364,19 @@ void Session::reach_frame() {
   if (is_recording_) publish();
 }
 
+/// Until the end of the frame.
+double Session::seconds_left() const {
+  const double left = (frame_ + 1) / scene_->fps - simulation_->time();
+  return left > 0 ? left : 1 / scene_->fps;
+}
+
 /// Needs a decomposition per particle, for the elastic energy.
 sim::Summary Session::note_sample() {
   const Clock::time_point start = Clock::now();
   const sim::Summary summary = simulation_->summary();
   sampled_at_ = Clock::now();
   sampling_took_ = sampled_at_ - start;
-  const double remaining = (frame_ + 1) / scene_->fps - simulation_->time();
-  const sim::Simulation::Choice choice =
-      simulation_->choose_dt(remaining > 0 ? remaining : 1 / scene_->fps);
+  const sim::Simulation::Choice choice = simulation_->choose_dt(seconds_left());
   // Readers hold the list they were given; a new one is made only when it is shared.
   if (samples_.use_count() > 1) samples_ = std::make_shared<std::vector<RunSample>>(*samples_);
   std::vector<RunSample>& list = *samples_;
@@ -431,9 +431,6 @@ void Session::publish() {
   live->kept_budget = kept_.budget();
   // Only pictures of frames are kept.
   if (live->is_frame_end) live->state_hash = simulation_->state_hash();
-  const double remaining = (frame_ + 1) / scene_->fps - simulation_->time();
-  live->next = simulation_->choose_dt(remaining > 0 ? remaining : 1 / scene_->fps);
-  live->limits = simulation_->step_limits();
   live->phases = simulation_->phase_seconds();
   live->speed = speed_;
   live->memory = simulation_->memory_bytes();
@@ -463,9 +460,7 @@ void Session::look_inside_step(LiveFrame& live) {
     live.probe = probe_ ? last_reading_ : std::nullopt;
     return;
   }
-  const double remaining = (frame_ + 1) / scene_->fps - simulation_->time();
-  const Inside inside =
-      look_inside(*live.scene, *simulation_, remaining > 0 ? remaining : 1 / scene_->fps);
+  const Inside inside = look_inside(*live.scene, *simulation_, seconds_left());
   std::optional<sim::Stage> stage;
   if (is_stage) {
     stage = static_cast<sim::Stage>(*stage_);

@@ -66,9 +66,6 @@ class Session {
   /// The picture of this one is done: the next is welcome.
   void taken(std::uint64_t number);
 
-  /// Calls on the session's thread between steps, for what needs the simulation itself.
-  void call(std::function<void(const sim::Simulation&)> look);
-
  private:
   using Clock = std::chrono::steady_clock;
   /// Until when it runs.
@@ -83,6 +80,7 @@ class Session {
   void leave_older();
   void advance();
   void reach_frame();
+  double seconds_left() const;
   sim::Summary note_sample();
   bool is_publication_due() const;
   void publish();

@@ -136,7 +136,6 @@ void Viewer::take_live_frame() {
   const std::shared_ptr<const LiveFrame> live = bench_.session().latest();
   if (state_.live && live->number == state_.live->number) return;
   state_.live = live;
-  state_.samples = *live->samples;
   if (live->probe) {
     ProbeTrace& trace = state_.trace;
     if (trace.quantity.empty() && !live->probe->rows.empty())
@@ -224,8 +223,6 @@ void Viewer::draw() {
   const double took = seconds_of_wall(Clock::now() - start);
   state_.picture_ms = 1e3 * took;
   state_.frames_per_second = 0.9 * state_.frames_per_second + 0.1 / std::max(passed, 1e-3);
-  times_.picture_seconds.push_back(took);
-  times_.shown_at.push_back(seconds_of_wall(Clock::now() - started_));
 }
 
 /// Everything but the state that the picture depends on.
@@ -242,7 +239,7 @@ std::string Viewer::picture_key() const {
 
 void Viewer::paint_picture() {
   if (state_.is_camera_of_scene) {
-    const Scene scene = bench_.display_scene(*state_.live);
+    const Scene& scene = *state_.live->scene;
     const View& view = current_view(state_);
     const CameraSettings settings = view.camera ? *view.camera : *bench_.document().scene()->camera;
     const CameraPlace place =
@@ -382,25 +379,31 @@ bool Viewer::has_picture_to_save() {
   return false;
 }
 
-void Viewer::save_picture() {
-  state_.wants_picture = false;
-  if (goes_on_) bench_.session().run();
-  is_going_to_frame_ = goes_on_ = false;
+/// The current view at its own size, with all that makes it again.
+Picture Viewer::picture_to_keep(const std::filesystem::path& file) {
   const LiveFrame& live = *state_.live;
   View view = current_view(state_);
   if (!state_.is_camera_of_scene) view.camera = state_.orbit.settings();
   const PictureSize size = size_of(*bench_.document().scene(), view);
   view.size = size;
+  PictureRecord record = bench_.picture_record(live, view);
+  record.state_hash = hash_text(live.state_hash);
+  painted_key_.clear();  // another picture takes the place of the one on the screen
+  return {file, renderer_.draw(picture_frame(size)), to_png_text(record)};
+}
+
+void Viewer::save_picture() {
+  state_.wants_picture = false;
+  if (goes_on_) bench_.session().run();
+  is_going_to_frame_ = goes_on_ = false;
+  const LiveFrame& live = *state_.live;
   char number[32];
   std::snprintf(number, sizeof number, "%04d_step%zu.png", live.frame, live.steps);
-  const std::filesystem::path file = bench_.folder() / (view.name + "_" + number);
+  const std::filesystem::path file = bench_.folder() / (current_view(state_).name + "_" + number);
   try {
-    PictureRecord record = bench_.picture_record(live, view);
-    record.state_hash = hash_text(live.state_hash);
-    const render::Image image = renderer_.draw(picture_frame(size));
-    painted_key_.clear();
+    const Picture picture = picture_to_keep(file);
     make_folder(bench_.folder());
-    write_file(file, render::encode_png(image, to_png_text(record)));
+    write_file(file, render::encode_png(picture.image, picture.text));
     bench_.say(Message::Kind::note,
                "saved " + file.string() + "; neve render " + file.string() + " makes it again");
   } catch (const std::exception& error) {
@@ -410,22 +413,15 @@ void Viewer::save_picture() {
   settle_ = 3;
 }
 
-/// Every frame once, at the size of the view, with all that makes it again.
+/// Every frame once.
 void Viewer::record_frame() {
   const LiveFrame& live = *state_.live;
   if (!live.is_frame_end || live.frame == recorded_frame_) return;
   recorded_frame_ = live.frame;
-  View view = current_view(state_);
-  if (!state_.is_camera_of_scene) view.camera = state_.orbit.settings();
-  const PictureSize size = size_of(*bench_.document().scene(), view);
-  view.size = size;
   try {
-    PictureRecord record = bench_.picture_record(live, view);
-    record.state_hash = hash_text(live.state_hash);
-    make_folder(bench_.folder() / view.name);
-    writer_.write({frame_path(bench_.folder(), view.name, live.frame),
-                   renderer_.draw(picture_frame(size)), to_png_text(record)});
-    painted_key_.clear();
+    const std::string& view = current_view(state_).name;
+    make_folder(bench_.folder() / view);
+    writer_.write(picture_to_keep(frame_path(bench_.folder(), view, live.frame)));
     ++state_.recorded;
   } catch (const std::exception& error) {
     bench_.say(Message::Kind::error, std::string("recording stopped: ") + error.what());

@@ -23,12 +23,6 @@ struct ViewerOptions {
   std::optional<std::string> view;  ///< the first one; without: the scene's first
 };
 
-/// How long pictures took, for the bench.
-struct ViewerTimes {
-  std::vector<double> picture_seconds;  ///< from the beginning of drawing to the end of showing
-  std::vector<double> shown_at;         ///< s since the start
-};
-
 class Viewer {
  public:
   Viewer(Workbench& bench, Front& front, render::Screen& screen, render::Renderer& renderer,
@@ -38,7 +32,6 @@ class Viewer {
   void run();
 
   ViewerState& state() { return state_; }
-  const ViewerTimes& times() const { return times_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -57,6 +50,7 @@ class Viewer {
   void play(double seconds);
   void follow();
   bool has_picture_to_save();
+  Picture picture_to_keep(const std::filesystem::path& file);
   void save_picture();
   void record_frame();
   double seconds_passed();
@@ -70,17 +64,16 @@ class Viewer {
   ImGuiInput input_;
   ViewerState state_;
   PictureWriter writer_;
-  ViewerTimes times_;
   bool is_closed_ = false;
   int pictures_ = 0;
   float styled_scale_ = 0;  ///< that the panels' distances are for
-  int settle_ = 3;  ///< pictures that ImGui still needs to come to rest
+  int settle_ = 3;          ///< pictures that ImGui still needs to come to rest
   std::uint64_t painted_number_ = 0;
   std::string painted_key_;
   double scale_ = 1;         ///< of the picture last painted
   double full_seconds_ = 0;  ///< that a picture of full size takes
   Clock::time_point moved_at_{};
-  Clock::time_point started_ = Clock::now(), drawn_at_ = Clock::now(), file_looked_at_{};
+  Clock::time_point drawn_at_ = Clock::now(), file_looked_at_{};
   bool has_input_ = false;                            ///< since the last picture
   bool is_going_to_frame_ = false, goes_on_ = false;  ///< for a picture that is to be saved
   int recorded_frame_ = -1;

@@ -30,7 +30,6 @@ struct PanelSwitches {
 struct ViewerState {
   Workbench& bench;
   std::shared_ptr<const LiveFrame> live{};
-  std::vector<RunSample> samples{};
 
   Orbit orbit{};
   bool is_camera_of_scene = true;  ///< nobody moved the camera yet: it moves as the scene says

@@ -184,10 +184,8 @@ void Workbench::keep_file() {
 
 void Workbench::save_scene(const std::filesystem::path& file) {
   try {
-    std::vector<Override> all = document_.command_line();
-    all.insert(all.end(), document_.edits().begin(), document_.edits().end());
     const std::string text =
-        edit_scene_text(document_.text(), all, document_.file(),
+        edit_scene_text(document_.text(), document_.all_overrides(), document_.file(),
                         std::filesystem::path(document_.file()).parent_path().string());
     make_folder(file.parent_path());
     write_file(file, text);
@@ -242,7 +240,6 @@ PictureRecord Workbench::picture_record(const LiveFrame& live, const View& view)
 void Workbench::say(Message::Kind kind, std::string text) {
   if (!messages_.empty() && messages_.back().text == text) return;
   messages_.push_back({kind, std::move(text)});
-  ++said_;
   if (messages_.size() > most_messages) messages_.pop_front();
 }
 

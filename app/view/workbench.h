@@ -73,8 +73,6 @@ class Workbench {
 
   void say(Message::Kind kind, std::string text);
   const std::deque<Message>& messages() const { return messages_; }
-  std::size_t messages_said() const { return said_; }
-  void forget_messages() { messages_.clear(); }
 
  private:
   void take_over(const std::vector<Override>& before);
@@ -87,7 +85,6 @@ class Workbench {
   /// The edits that the running simulation knows: all of its start, live ones since.
   std::vector<Override> running_, at_start_;
   std::deque<Message> messages_;
-  std::size_t said_ = 0;
   std::filesystem::file_time_type file_time_{};
   std::unique_ptr<Session> session_;  ///< last: its thread calls back
 };
