@@ -53,7 +53,7 @@ double attribute(const Scene& scene, ColorBy color_by, const Snapshot& s, std::s
     case ColorBy::von_mises:
       return von_mises(sigma(s, p));
     case ColorBy::id:
-      return static_cast<double>(p);
+      return s.particles.id_of(p);
   }
   return 0;
 }

@@ -8,6 +8,7 @@
 
 #include "app/camera_path.h"
 #include "app/round_number.h"
+#include "app/snow_pieces.h"
 
 namespace neve::app {
 
@@ -80,8 +81,8 @@ std::vector<Vec3d> scattered(std::vector<Vec3d> points) {
 /// Everything that should be seen at some time.
 std::vector<Vec3d> subject(const Scene& scene, const std::vector<Moment>& moments) {
   std::vector<Vec3d> points;
-  for (const sim::Body& body : scene.bodies) {
-    const sim::Bounds bounds = sim::bounds(body.shape);
+  for (const SnowPiece& piece : snow_places(scene)) {
+    const sim::Bounds bounds = sim::bounds(*piece.shape);
     points.push_back(bounds.min);
     points.push_back(bounds.max);
   }

@@ -5,6 +5,7 @@
 
 #include "app/attributes.h"
 #include "app/round_number.h"
+#include "app/snow_pieces.h"
 
 namespace neve::app {
 
@@ -35,17 +36,17 @@ double distance_to(const sim::Collider& collider, const Vec3d& point, const Vec3
   return enter <= leave ? enter : -1;
 }
 
-/// Speed of a body when it meets what is below it, or at the end of the scene when nothing is.
-double impact_speed(const Scene& scene, const sim::Body& body) {
-  const sim::Bounds box = sim::bounds(body.shape);
+/// Speed of snow when it meets what is below it, or at the end of the scene when nothing is.
+double impact_speed(const Scene& scene, const SnowPiece& piece) {
+  const sim::Bounds box = sim::bounds(*piece.shape);
   const double radius = 0.5 * (box.max - box.min).norm();
-  const double start = body.velocity.norm() + body.angular_velocity.norm() * radius;
+  const double start = piece.velocity.norm() + piece.angular_velocity.norm() * radius;
   const double g = scene.solver.gravity.norm();
   if (g == 0) return start;
   const Vec3d down = scene.solver.gravity / g;
   double fall = -1;
   for (const sim::Collider& collider : scene.colliders) {
-    const double distance = distance_to(collider, sim::center(body.shape), down);
+    const double distance = distance_to(collider, sim::center(*piece.shape), down);
     if (distance >= 0 && (fall < 0 || distance < fall)) fall = distance;
   }
   const double duration = scene.frames / scene.fps;
@@ -87,19 +88,16 @@ Range density_range(const Scene& scene) {
 
 double impact_speed(const Scene& scene) {
   double speed = 0;
-  for (const sim::Body& body : scene.bodies) speed = std::max(speed, impact_speed(scene, body));
+  for (const SnowPiece& piece : snow_places(scene))
+    speed = std::max(speed, impact_speed(scene, piece));
   return speed;
 }
 
 double energy_of_impact(const Scene& scene) {
   double energy = 0;
-  for (const sim::Body& body : scene.bodies) {
-    const auto material =
-        std::find_if(scene.materials.begin(), scene.materials.end(),
-                     [&](const sim::Material& m) { return m.name == body.material; });
-    if (material == scene.materials.end()) continue;
-    const double mass = material->density * sim::plan_seeding(body, scene.solver.cell_size).volume;
-    const double speed = impact_speed(scene, body);
+  for (const SnowPiece& piece : snow_pieces(scene)) {
+    const double mass = piece.material->density * piece.volume;
+    const double speed = impact_speed(scene, piece);
     energy += 0.5 * mass * speed * speed;
   }
   return energy;

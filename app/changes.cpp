@@ -107,6 +107,8 @@ Scene recorded_scene(const Scene& start, const Scene& now) {
   scene.solver = start.solver;
   scene.materials = start.materials;
   scene.bodies = start.bodies;
+  scene.emitters = start.emitters;
+  scene.sinks = start.sinks;
   scene.fps = start.fps;
   scene.seed = start.seed;
   scene.colliders = start.colliders;

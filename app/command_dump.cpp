@@ -151,8 +151,8 @@ int run_dump(const DumpOptions& options) {
                      "give a file with --out, as in --out fields.vtp");
   catch_interrupts();
   Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO));
-  sim::Simulation simulation(job.scene.solver, job.scene.materials, sim_colliders(job.scene),
-                             seed_scene(job.scene), options.run.threads);
+  sim::Simulation simulation =
+      make_simulation(job.scene, seed_scene(job.scene), options.run.threads);
   run_to(options.at, job.scene.fps, simulation, progress);
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the time asked for");
   if (simulation.divergence())

@@ -14,6 +14,7 @@
 #include "app/scene/coarsen.h"
 #include "app/scene/value.h"
 #include "app/seed_scene.h"
+#include "app/snow_pieces.h"
 #include "app/text.h"
 #include "render/context.h"
 
@@ -192,18 +193,17 @@ int run_render(const RenderOptions& options) {
 
   std::vector<std::size_t> body_end;
   const sim::ParticleArrays particles = seed_scene(job.scene, &body_end);
-  resolve(job.scene, particles.x.size());
+  const SnowCount snow = count_snow(job.scene, particles.x.size());
+  resolve(job.scene, snow.particles);
   // A framing that was cut short is another one: nothing may be written with it.
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first frame");
-  sim::Simulation simulation(job.scene.solver, job.scene.materials, sim_colliders(job.scene),
-                             particles, options.threads);
-  const auto count = static_cast<double>(particles.x.size());
-  progress.note(job.scene_file + ": " + std::to_string(particles.x.size()) + " particles, about " +
-                bytes_text(plan.memory) + " of memory" +
+  sim::Simulation simulation = make_simulation(job.scene, particles, options.threads);
+  progress.note(job.scene_file + ": " + std::to_string(particles.x.size()) + " particles" +
+                (plan.emitted > 0 ? " and " + fixed_text(plan.emitted, 0) + " to come" : "") +
+                ", about " + bytes_text(plan.memory) + " of memory" +
                 (job.coarsening > 1 ? ", coarsened " + coarsening_text(job.coarsening) : ""));
 
-  RenderRun run(job, simulation, *context, renderer, std::cbrt(plan.volume / count), body_end,
-                progress);
+  RenderRun run(job, simulation, *context, renderer, snow.spacing, body_end, progress);
   const RenderResult result = run.run();
   warn_about_steps(job.scene.solver, simulation, progress);
   if (run.validation()) report_validation(*run.validation(), progress);

@@ -5,6 +5,7 @@
 
 #include "app/interrupt.h"
 #include "app/seed_scene.h"
+#include "app/snow_pieces.h"
 
 namespace neve::app {
 
@@ -75,17 +76,21 @@ Run run_coarse(const Scene& coarse) {
   const sim::ParticleArrays particles = seed_what_fits(coarse);
   Run result;
   result.is_whole = true;
-  if (particles.x.empty()) return result;
-  result.seen.push_back({0, particles.x});
+  const double emitted = planned_emission(coarse, coarse.frames / coarse.fps);
+  if (particles.x.empty() && emitted == 0) return result;
+  const auto note = [&](double time, const std::vector<sim::Vec3d>& x) {
+    if (!x.empty()) result.seen.push_back({time, x});
+  };
+  note(0, particles.x);
 
-  sim::Simulation simulation(coarse.solver, coarse.materials, sim_colliders(coarse), particles, 1);
-  steps_left = std::lround(work_budget / static_cast<double>(particles.x.size()));
+  sim::Simulation simulation = make_simulation(coarse, particles, 1);
+  steps_left = std::lround(work_budget / (static_cast<double>(particles.x.size()) + emitted));
   const double duration = coarse.frames / coarse.fps;
   for (int k = 1; k <= moments && duration > 0; ++k) {
     simulation.advance_to(duration * k / moments, is_out_of_steps);
     result.is_whole = !simulation.divergence();
     if (!result.is_whole) break;
-    result.seen.push_back({simulation.time(), simulation.particles().x});
+    note(simulation.time(), simulation.particles().x);
     if (steps_left <= 0) break;
   }
   return result;
@@ -94,10 +99,8 @@ Run run_coarse(const Scene& coarse) {
 }  // namespace
 
 double planned_particles(const Scene& scene) {
-  const double h = scene.solver.cell_size;
   double count = 0;
-  for (const sim::Body& body : scene.bodies)
-    count += sim::plan_seeding(body, h).volume / (h * h * h) * body.particles_per_cell;
+  for (const SnowPiece& piece : snow_pieces(scene)) count += piece.particles;
   return count;
 }
 

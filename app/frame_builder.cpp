@@ -130,8 +130,9 @@ render::Frame FrameBuilder::build_incident(const View& view, const Snapshot& sna
   };
   for (const std::uint32_t p : divergence.culprits) {
     if (frame.marks.size() == max_marks) break;
-    if (p >= snapshot.particles.x.size()) continue;
-    const sim::Vec3d& x = snapshot.particles.x[p];
+    const auto index = snapshot.particles.index_of(p);
+    if (!index) continue;
+    const sim::Vec3d& x = snapshot.particles.x[*index];
     if (x.allFinite() && is_shown(x)) frame.marks.push_back(to_float(x));
   }
   if (!frame.caption.empty())
@@ -160,7 +161,7 @@ void FrameBuilder::add_points(const View& view, const Snapshot& snapshot,
     // A diverged state is drawn too, as far as it can be.
     if (!snapshot.particles.x[p].allFinite() || cut.removes(snapshot.particles.x[p])) continue;
     points.position.push_back(to_float(snapshot.particles.x[p]));
-    points.id.push_back(static_cast<std::uint32_t>(p));
+    points.id.push_back(snapshot.particles.id_of(p));
     if (!values.empty())
       points.value.push_back(static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
   }
@@ -182,7 +183,7 @@ void FrameBuilder::add_bounds(const Snapshot& snapshot, render::Frame& frame) co
   render::Lines lines;
   lines.opacity = 0.6f;
   for (std::size_t body = 0; body < body_end_.size(); ++body) {
-    const auto [first, end] = particles_of(body);
+    const auto [first, end] = particles_of(body, snapshot);
     sim::Bounds box{sim::Vec3d::Constant(1e300), sim::Vec3d::Constant(-1e300)};
     for (std::size_t p = first; p < end; ++p) {
       if (!snapshot.particles.x[p].allFinite()) continue;
@@ -198,15 +199,17 @@ void FrameBuilder::add_bounds(const Snapshot& snapshot, render::Frame& frame) co
   frame.lines.push_back(std::move(lines));
 }
 
-std::pair<std::size_t, std::size_t> FrameBuilder::particles_of(std::size_t body) const {
-  return {body == 0 ? 0 : body_end_[body - 1], body_end_[body]};
+std::pair<std::size_t, std::size_t> FrameBuilder::particles_of(std::size_t body,
+                                                               const Snapshot& snapshot) const {
+  const sim::ParticleArrays& p = snapshot.particles;
+  return {body == 0 ? 0 : p.first_from(body_end_[body - 1]), p.first_from(body_end_[body])};
 }
 
 std::optional<sim::Vec3d> FrameBuilder::centre_of_mass(const std::string& name,
                                                        const Snapshot& snapshot) const {
   for (std::size_t body = 0; body < body_end_.size(); ++body) {
     if (scene_.bodies[body].name != name) continue;
-    const auto [first, end] = particles_of(body);
+    const auto [first, end] = particles_of(body, snapshot);
     sim::Vec3d moment = sim::Vec3d::Zero();
     double mass = 0;
     for (std::size_t p = first; p < end; ++p) {

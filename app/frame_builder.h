@@ -20,7 +20,7 @@ class FrameBuilder {
   /// @param spacing mean distance of particles in packed snow, m
   /// @param overrides "material.snow.hardening=5", for the caption
   /// @param coarsening what --coarsen did to the scene, for the caption; 1: nothing
-  /// @param body_end for each body the index after its last particle, see seed_scene
+  /// @param body_end for each body the id after its last particle, see seed_scene
   FrameBuilder(const Scene& scene, double spacing, Quality quality,
                const std::vector<std::string>& overrides, double coarsening,
                const std::vector<std::size_t>& body_end);
@@ -43,7 +43,8 @@ class FrameBuilder {
   void add_grid(const View& view, const Snapshot& snapshot, render::Frame& frame) const;
   void add_bounds(const Snapshot& snapshot, render::Frame& frame) const;
   /// Particles of a body: the first and the one after the last.
-  std::pair<std::size_t, std::size_t> particles_of(std::size_t body) const;
+  std::pair<std::size_t, std::size_t> particles_of(std::size_t body,
+                                                   const Snapshot& snapshot) const;
   std::optional<sim::Vec3d> centre_of_mass(const std::string& body, const Snapshot& snapshot) const;
 
   const Scene& scene_;

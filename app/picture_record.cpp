@@ -143,11 +143,15 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
 
 std::map<std::string, std::string> hash_files(const Scene& scene) {
   std::map<std::string, std::string> files;
-  for (const sim::Body& body : scene.bodies)
-    if (const auto* mesh = std::get_if<sim::Mesh>(&body.shape.form)) {
+  const auto add = [&](const sim::Shape& shape) {
+    if (const auto* mesh = std::get_if<sim::Mesh>(&shape.form)) {
       const std::vector<std::uint8_t> bytes = read_file(mesh->file);
       files[mesh->file] = hash_text(hash_bytes(bytes.data(), bytes.size()));
     }
+  };
+  for (const sim::Body& body : scene.bodies) add(body.shape);
+  for (const sim::Emitter& emitter : scene.emitters) add(emitter.shape);
+  for (const sim::Sink& sink : scene.sinks) add(sink.shape);
   return files;
 }
 

@@ -9,6 +9,7 @@
 #include "app/mosaic.h"
 #include "app/output/picture_writer.h"
 #include "app/scene/value.h"
+#include "app/seed_scene.h"
 #include "app/text.h"
 #include "sim/simulation.h"
 
@@ -74,6 +75,15 @@ Plan make_plan(const Scene& scene, const FrameRange& frames, Quality quality, in
     plan.particles += std::max(static_cast<double>(seeding.particle_count),
                                std::floor(filled * body.particles_per_cell));
   }
+  const double time = frames.last / scene.fps;
+  for (const sim::Emitter& emitter : scene.emitters) {
+    const sim::Material& material = scene.materials[material_index(scene, emitter.material)];
+    const auto count = static_cast<double>(sim::count_emitted(emitter, material, h, time));
+    plan.emitted += count;
+    cells += count / emitter.particles_per_cell;
+    plan.volume += count / emitter.particles_per_cell * (h * h * h);
+  }
+  plan.particles += plan.emitted;
   const double per_cell = cells > 0 ? std::max(1.0, plan.particles / cells) : 8.0;
   // Beyond any machine's memory the exact figure does not matter; this keeps it a whole number.
   const double counted = std::min(plan.particles, 1e15);
@@ -128,6 +138,7 @@ void check_limits(const Scene& scene, const Plan& plan) {
 Json to_json(const Plan& plan) {
   Json json;
   json["particles"] = plan.particles;
+  json["emitted_particles"] = plan.emitted;
   json["memory_bytes"] = plan.memory;
   json["memory_limit_bytes"] = plan.memory_limit;
   json["largest_picture_pixels"] = plan.largest_picture;

@@ -19,11 +19,12 @@ struct FrameRange {
 
 struct Plan {
   double particles = 0;      ///< an estimate; a double, so that absurd scenes do not overflow it
+  double emitted = 0;        ///< of those, particles that emitters make until the last frame
   std::uint64_t memory = 0;  ///< bytes, particles, grid and pictures
   std::uint64_t memory_limit = 0;  ///< bytes
   double largest_picture = 0;      ///< pixels, supersamples included
   FrameRange frames;
-  double volume = 0;  ///< m3 of all bodies
+  double volume = 0;  ///< m3 of all bodies and of what is emitted
 };
 
 int supersampling(Quality quality);

@@ -6,6 +6,7 @@
 #include "app/auto_ranges.h"
 #include "app/dry_run.h"
 #include "app/plots.h"
+#include "app/snow_pieces.h"
 
 namespace neve::app {
 
@@ -47,11 +48,12 @@ bool needs_shared_camera(const Scene& scene) {
   return is_used && !has_place(scene.camera.value_or(CameraSettings{}));
 }
 
-/// The plane goes through the middle of what the scene starts with.
-sim::Vec3d middle_of_bodies(const Scene& scene) {
-  sim::Bounds all = sim::bounds(scene.bodies.front().shape);
-  for (const sim::Body& body : scene.bodies) {
-    const sim::Bounds box = sim::bounds(body.shape);
+/// The plane goes through the middle of what the snow comes from.
+sim::Vec3d middle_of_snow(const Scene& scene) {
+  const std::vector<SnowPiece> pieces = snow_places(scene);
+  sim::Bounds all = sim::bounds(*pieces.front().shape);
+  for (const SnowPiece& piece : pieces) {
+    const sim::Bounds box = sim::bounds(*piece.shape);
     all.min = all.min.cwiseMin(box.min);
     all.max = all.max.cwiseMax(box.max);
   }
@@ -59,7 +61,7 @@ sim::Vec3d middle_of_bodies(const Scene& scene) {
 }
 
 void resolve_slice(const Scene& scene, SliceStyle& slice) {
-  if (!slice.point && slice.follow.empty()) slice.point = middle_of_bodies(scene);
+  if (!slice.point && slice.follow.empty()) slice.point = middle_of_snow(scene);
   if (!slice.range) slice.range = automatic_range(scene, slice.field);
   if (!slice.scalar_range) slice.scalar_range = automatic_range(scene, slice.scalar);
 }

@@ -4,7 +4,18 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/snow_pieces.h"
+#include "sim/base/hash.h"
+#include "sim/variation.h"
+
 namespace neve::app {
+
+namespace {
+
+/// Apart from the keys of places.
+constexpr std::uint64_t variation_key = 0x76617279;
+
+}  // namespace
 
 std::size_t material_index(const Scene& scene, const std::string& name) {
   const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
@@ -12,6 +23,33 @@ std::size_t material_index(const Scene& scene, const std::string& name) {
   if (found == scene.materials.end()) throw std::logic_error("no material is called " + name);
   return static_cast<std::size_t>(found - scene.materials.begin());
 }
+
+namespace {
+
+/// Factors of the particles that were appended last. They are left out while all are 1.
+void vary_body(const Scene& scene, std::size_t index, const sim::SeededBody& seeded,
+               sim::ParticleArrays& particles) {
+  const std::size_t material = material_index(scene, scene.bodies[index].material);
+  const sim::Variation& variation = scene.materials[material].variation;
+  const bool is_varied = variation.youngs_modulus > 0 || variation.thresholds > 0;
+  const std::size_t end = particles.x.size(), first = end - seeded.x.size();
+  if (is_varied || !particles.stiffness.empty()) {
+    particles.stiffness.resize(end, 1.0);
+    particles.threshold.resize(end, 1.0);
+  }
+  if (!is_varied && variation.density == 0) return;
+  const std::uint64_t key = mix64(mix64(scene.seed, variation_key), index);
+  for (std::size_t p = first; p < end; ++p) {
+    const sim::Factors factors =
+        sim::vary(variation, key, p - first, particles.x[p] - seeded.center);
+    particles.m[p] *= factors.density;
+    if (!is_varied) continue;
+    particles.stiffness[p] = factors.stiffness;
+    particles.threshold[p] = factors.threshold;
+  }
+}
+
+}  // namespace
 
 void append_body(const Scene& scene, std::size_t index, sim::ParticleArrays& particles) {
   const sim::Body& body = scene.bodies[index];
@@ -26,6 +64,18 @@ void append_body(const Scene& scene, std::size_t index, sim::ParticleArrays& par
     particles.V0.push_back(V0);
     particles.material.push_back(static_cast<int>(material));
   }
+  vary_body(scene, index, seeded, particles);
+}
+
+sim::Simulation make_simulation(const Scene& scene, const sim::ParticleArrays& particles,
+                                int threads, const std::vector<sim::Collider>& colliders) {
+  return sim::Simulation(scene.solver, scene.materials, colliders, particles, threads,
+                         sim::Vec3i::Zero(), flow_of(scene));
+}
+
+sim::Simulation make_simulation(const Scene& scene, const sim::ParticleArrays& particles,
+                                int threads) {
+  return make_simulation(scene, particles, threads, sim_colliders(scene));
 }
 
 sim::ParticleArrays seed_scene(const Scene& scene, std::vector<std::size_t>* body_end) {

@@ -14,6 +14,13 @@ sim::ParticleArrays seed_scene(const Scene& scene, std::vector<std::size_t>* bod
 /// Appends one body. @param index in the scene: the key of its random numbers
 void append_body(const Scene& scene, std::size_t index, sim::ParticleArrays& particles);
 
+/// The simulation of a scene. @throws as sim::Simulation
+/// @param colliders  the scene's, or where they have got to
+sim::Simulation make_simulation(const Scene& scene, const sim::ParticleArrays& particles,
+                                int threads);
+sim::Simulation make_simulation(const Scene& scene, const sim::ParticleArrays& particles,
+                                int threads, const std::vector<sim::Collider>& colliders);
+
 /// The index of a material by its name; scenes were checked when they were read.
 std::size_t material_index(const Scene& scene, const std::string& name);
 

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 
+#include "app/snow_pieces.h"
+
 namespace neve::app {
 
 namespace {
 
-/// What counts as packed: the densest snow there is at the start.
+/// What counts as packed: the densest snow that there is.
 double full_density(const Scene& scene) {
   double density = 0;
-  for (const sim::Body& body : scene.bodies) {
-    for (const sim::Material& material : scene.materials)
-      if (material.name == body.material) density = std::max(density, material.density);
-  }
+  for (const SnowPiece& piece : snow_places(scene))
+    density = std::max(density, piece.material->density);
   return density;
 }
 

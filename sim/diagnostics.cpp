@@ -67,9 +67,9 @@ double badness(const std::string& rule, const ParticleArrays& p, std::size_t id,
   if (rule == "J_P") return -p.J_P[id];
   if (rule == "inverted") return -p.F_E[id].determinant();
   if (rule == "acoustic_cfl" || rule == "time_step")
-    return p.V0[id] > 0 ? wave_speed(materials[static_cast<std::size_t>(p.material[id])], p.F_E[id],
-                                     p.J_P[id], p.m[id] / p.V0[id])
-                        : 0;
+    return p.V0[id] > 0
+               ? wave_speed(p.material_of(id, materials), p.F_E[id], p.J_P[id], p.m[id] / p.V0[id])
+               : 0;
   return p.v[id].norm();
 }
 
@@ -154,7 +154,7 @@ void find_culprits(const ParticleArrays& particles, const SolverSettings& settin
   // The ones that stand out with the worst; a threshold of half its badness keeps marks few.
   if (kept > 0) {
     const std::size_t worst = ids[0];
-    d.particle = static_cast<std::int64_t>(worst);
+    d.particle = particles.id_of(worst);
     d.x = particles.x[worst];
     d.v = particles.v[worst];
     d.material = particles.material[worst];
@@ -162,8 +162,9 @@ void find_culprits(const ParticleArrays& particles, const SolverSettings& settin
     d.J_E = d.F_E.determinant();
     d.J_P = particles.J_P[worst];
     const double bar = bad[worst] > 0 ? 0.5 * bad[worst] : bad[worst];
-    for (std::size_t k = 0; k < kept && bad[ids[k]] >= bar; ++k) d.culprits.push_back(ids[k]);
-    const Material& material = materials[static_cast<std::size_t>(d.material)];
+    for (std::size_t k = 0; k < kept && bad[ids[k]] >= bar; ++k)
+      d.culprits.push_back(particles.id_of(ids[k]));
+    const Material material = particles.material_of(worst, materials);
     if (d.F_E.allFinite()) {
       d.stretches = decompose(d.F_E).s;
       d.kirchhoff = first_piola(material, d.F_E, d.J_P) * d.F_E.transpose();

@@ -59,7 +59,7 @@ std::uint64_t Engine<Real>::memory_bytes() const {
 template <class Real>
 Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>& materials,
                      const std::vector<Collider>& colliders, const ParticleArrays& particles,
-                     int threads, const Vec3i& lattice_origin)
+                     int threads, const Vec3i& lattice_origin, const Flow& flow)
     : settings_(settings),
       material_list_(materials),
       colliders_(colliders),
@@ -77,6 +77,7 @@ Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>
   place_colliders();
   load(particles);
   prepare();
+  open(flow);
 }
 
 template <class Real>
@@ -143,7 +144,7 @@ void Engine<Real>::prepare() {
   const Summary start = summary();
   energy_.start = start.kinetic_energy + start.elastic_energy;
   energy_.largest = energy_.start;
-  energy_.centre_of_mass = start.centre_of_mass;
+  energy_.moment = start.mass * start.centre_of_mass;
 }
 
 template <class Real>
@@ -246,6 +247,12 @@ void Engine<Real>::sort_storage() {
 
 template <class Real>
 void Engine<Real>::step(double dt) {
+  take_step(dt);
+  if (!divergence_) exchange();
+}
+
+template <class Real>
+void Engine<Real>::take_step(double dt) {
   if (particles_.empty()) {
     time_ += dt;
     ++steps_;

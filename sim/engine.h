@@ -4,10 +4,12 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sim/base/thread_pool.h"
 #include "sim/energy_account.h"
+#include "sim/flow.h"
 #include "sim/implicit.h"
 #include "sim/partition.h"
 #include "sim/rasterize.h"
@@ -47,11 +49,31 @@ class LaneBuffer {
 
 /// What energy the run may have: start, and what gravity and colliders put in.
 struct EnergyBudget {
-  double start = 0;         ///< J, kinetic and elastic
+  double start = 0;         ///< J, kinetic and elastic; with that of snow that came, without that
+                            ///< of snow that went
   double contact_work = 0;  ///< J, only what contacts added
   double largest = 0;       ///< J, the largest budget so far: the scale of the rule
-  Vec3d centre_of_mass{0, 0, 0};
+  Vec3d moment{0, 0, 0};    ///< kg m, sum m x at the start, and of snow that came and went
 };
+
+/// Where particles stand in id order.
+class Ranks {
+ public:
+  /// @param by_id may be empty: ids are ranks
+  explicit Ranks(std::vector<std::uint32_t> by_id) : by_id_(std::move(by_id)) {}
+  bool are_ids() const { return by_id_.empty(); }
+  template <class Real>
+  std::size_t operator[](const Particle<Real>& p) const {
+    const auto id = static_cast<std::size_t>(p.id);
+    return by_id_.empty() ? id : by_id_[id];
+  }
+
+ private:
+  std::vector<std::uint32_t> by_id_;
+};
+
+/// Ids are signed words.
+inline constexpr std::uint64_t max_ids = std::uint64_t(1) << 31;
 
 /// A sweep over blocks [begin, end).
 template <class Args>
@@ -62,8 +84,9 @@ class Engine {
  public:
   Engine(const SolverSettings& settings, const std::vector<Material>& materials,
          const std::vector<Collider>& colliders, const ParticleArrays& particles, int threads,
-         const Vec3i& lattice_origin);
+         const Vec3i& lattice_origin, const Flow& flow);
 
+  /// One step, then snow comes and goes.
   void step(double dt);
   AdvanceReport advance_to(double time, bool (*interrupted)(), std::size_t last_step);
   void apply(const SolverSettings& settings, const std::vector<Material>& materials,
@@ -82,6 +105,7 @@ class Engine {
   double time() const { return time_; }
   std::size_t steps() const { return steps_; }
   std::size_t particle_count() const { return particles_.size(); }
+  const FlowTotals& flow_totals() const { return totals_; }
   SimdLevel simd() const { return simd_; }
   int threads() const { return pool_->thread_count(); }
   const std::optional<Divergence>& divergence() const { return divergence_; }
@@ -99,6 +123,28 @@ class Engine {
 
  private:
   void load(const ParticleArrays& in);
+  void take_step(double dt);
+
+  struct Stream {
+    EmitterStream births;
+    std::uint16_t material;
+  };
+  struct OpenSink {
+    Solid solid;
+    bool outside;
+  };
+  void open(const Flow& flow);
+  void exchange();
+  void emit();
+  void remove_gone();
+  bool may_remove(const OpenSink& sink, std::uint64_t block) const;
+  Particle<Real> record_of(const Birth& birth, std::uint16_t material) const;
+  void account_for(const Particle<Real>& p, double sign);
+  double kinetic_energy_of(const Particle<Real>& p) const;
+  double elastic_energy_of(const Particle<Real>& p) const;
+  double affine_inertia() const;
+  Ranks ranks() const;
+
   /// Where a particle is, m from the lattice origin.
   Vec3d place(const Particle<Real>& p) const;
   void prepare();
@@ -164,6 +210,11 @@ class Engine {
   const Sweeps<Real>* sweeps_ = nullptr;
   const SolveSweeps<Real>* solve_sweeps_ = nullptr;
   int kernel_nodes_ = cubic_nodes;
+
+  std::vector<Stream> streams_;
+  std::vector<OpenSink> sinks_;
+  FlowTotals totals_;
+  std::uint64_t next_id_ = 0;
 
   std::vector<Particle<Real>> particles_;
   Reordering<Particle<Real>> reordering_;

@@ -159,7 +159,7 @@ void Engine<Real>::rebase_energy(const SolverSettings& before, const EnergyAccou
   // Steps that skip stages are not watched; they may have left any energy behind.
   const double explained = before.bypass.empty() ? account.explained + change : energy;
   energy_.start = explained - energy_.contact_work;
-  energy_.centre_of_mass = now.centre_of_mass;
+  energy_.moment = now.mass * now.centre_of_mass;
   energy_.largest = std::max({energy_.largest, account.scale, explained});
 }
 

@@ -10,9 +10,9 @@ namespace neve::sim {
 
 namespace {
 
-constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '4'};
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '5'};
 
-/// What there is once; followed by the records and the travels of the colliders.
+/// What there is once; followed by the records, the travels of the colliders and the emitters.
 struct SavedHead {
   char magic[8];
   std::uint32_t bytes_per_number, bytes_per_record;
@@ -21,12 +21,14 @@ struct SavedHead {
   double frame_start, frame_done, frame_end;
   double max_speed, max_sound_speed, max_strain_rate, max_hardening;
   double energy_start, contact_work, energy_largest;
-  double centre_of_mass[3];
+  double moment[3];
   double worst_acoustic_cfl, dt_scale;
   std::uint64_t inverted_trials, solves_cut_short, solves_given_up;
   std::int32_t lattice_origin[3], unused;
   std::uint64_t colliders;
   double colliders_time;
+  std::uint64_t next_id, emitters, emitted, removed;
+  double emitted_mass, removed_mass;
 };
 static_assert(std::is_trivially_copyable_v<SavedHead> && sizeof(SavedHead) % 8 == 0);
 
@@ -40,6 +42,11 @@ SavedTravel saved(const Travel& travel) {
   for (int a = 0; a < 3; ++a) out.moved[a] = travel.moved[a];
   for (int q = 0; q < 9; ++q) out.turned[q] = travel.turned(q / 3, q % 3);
   return out;
+}
+
+template <class T>
+std::size_t saved_bytes(const std::vector<T>& list) {
+  return sizeof(T) * list.size();
 }
 
 Travel travel(const SavedTravel& in) {
@@ -80,20 +87,32 @@ std::vector<std::uint8_t> Engine<Real>::save() const {
   head.solves_cut_short = warnings_.solves_cut_short;
   head.solves_given_up = warnings_.solves_given_up;
   for (int a = 0; a < 3; ++a) {
-    head.centre_of_mass[a] = energy_.centre_of_mass[a];
+    head.moment[a] = energy_.moment[a];
     head.lattice_origin[a] = lattice_origin_[a];
   }
   head.colliders = colliders_.size();
   head.colliders_time = colliders_time_;
   std::vector<SavedTravel> travels;
   for (const Collider& collider : colliders_) travels.push_back(saved(collider.travel));
-  const std::size_t record_bytes = particles_.size() * sizeof(Particle<Real>);
-  const std::size_t travel_bytes = travels.size() * sizeof(SavedTravel);
-  std::vector<std::uint8_t> bytes(sizeof head + record_bytes + travel_bytes);
-  std::memcpy(bytes.data(), &head, sizeof head);
-  std::uint8_t* end = bytes.data() + sizeof head;
-  if (record_bytes > 0) std::memcpy(end, particles_.data(), record_bytes);
-  if (travel_bytes > 0) std::memcpy(end + record_bytes, travels.data(), travel_bytes);
+  head.next_id = next_id_;
+  head.emitters = streams_.size();
+  head.emitted = totals_.emitted;
+  head.removed = totals_.removed;
+  head.emitted_mass = totals_.emitted_mass;
+  head.removed_mass = totals_.removed_mass;
+  std::vector<EmitterStream::State> streams;
+  for (const Stream& stream : streams_) streams.push_back(stream.births.state());
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(sizeof head + saved_bytes(particles_) + saved_bytes(travels) +
+                saved_bytes(streams));
+  const auto append = [&](const void* data, std::size_t size) {
+    const auto* first = static_cast<const std::uint8_t*>(data);
+    bytes.insert(bytes.end(), first, first + size);
+  };
+  append(&head, sizeof head);
+  append(particles_.data(), saved_bytes(particles_));
+  append(travels.data(), saved_bytes(travels));
+  append(streams.data(), saved_bytes(streams));
   return bytes;
 }
 
@@ -109,32 +128,39 @@ void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
   if (head.bytes_per_number != sizeof(Real)) refuse("has another precision");
   if (head.bytes_per_record != sizeof(Particle<Real>)) refuse("has other particles");
   if (head.colliders != colliders_.size()) refuse("has another number of colliders");
-  const std::size_t travel_bytes = colliders_.size() * sizeof(SavedTravel);
+  if (head.emitters != streams_.size()) refuse("has another number of emitters");
+  std::vector<SavedTravel> travels(colliders_.size());
+  std::vector<EmitterStream::State> streams(streams_.size());
   if (head.count > bytes.size() / sizeof(Particle<Real>) ||
-      bytes.size() != sizeof head + head.count * sizeof(Particle<Real>) + travel_bytes)
+      bytes.size() != sizeof head + head.count * sizeof(Particle<Real>) + saved_bytes(travels) +
+                          saved_bytes(streams))
     refuse("has another length than it says");
+  if (head.next_id < head.count || head.next_id > max_ids) refuse("has impossible ids");
   for (int a = 0; a < 3; ++a)
     if (head.lattice_origin[a] != lattice_origin_[a]) refuse("has another lattice");
 
   std::vector<Particle<Real>> records(head.count);
-  if (head.count > 0)
-    std::memcpy(records.data(), bytes.data() + sizeof head, head.count * sizeof(Particle<Real>));
+  const std::uint8_t* next = bytes.data() + sizeof head;
+  const auto take = [&](void* data, std::size_t size) {
+    if (size > 0) std::memcpy(data, next, size);
+    next += size;
+  };
+  take(records.data(), saved_bytes(records));
+  take(travels.data(), saved_bytes(travels));
+  take(streams.data(), saved_bytes(streams));
   for (const Particle<Real>& p : records) {
     for (const Integer<Real> cell : p.cell)
       if (cell <= -4 * block_limit || cell >= 4 * block_limit)
         refuse("has particles outside of the lattice");
     if (static_cast<std::size_t>(p.material()) >= material_list_.size() ||
-        static_cast<std::uint64_t>(p.id) >= head.count)
+        static_cast<std::uint64_t>(p.id) >= head.next_id)
       refuse("names a material or a particle that is not there");
   }
 
-  const std::uint8_t* next_travel = bytes.data() + bytes.size() - travel_bytes;
-  for (Collider& collider : colliders_) {
-    SavedTravel in{};
-    std::memcpy(&in, next_travel, sizeof in);
-    collider.travel = travel(in);
-    next_travel += sizeof in;
-  }
+  for (std::size_t k = 0; k < travels.size(); ++k) colliders_[k].travel = travel(travels[k]);
+  for (std::size_t k = 0; k < streams.size(); ++k) streams_[k].births.restore(streams[k]);
+  next_id_ = head.next_id;
+  totals_ = {head.emitted, head.removed, head.emitted_mass, head.removed_mass};
   colliders_time_ = head.colliders_time;
   particles_ = records;
   keys_.assign(head.count, 0);
@@ -150,7 +176,7 @@ void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
   energy_.start = head.energy_start;
   energy_.contact_work = head.contact_work;
   energy_.largest = head.energy_largest;
-  for (int a = 0; a < 3; ++a) energy_.centre_of_mass[a] = head.centre_of_mass[a];
+  for (int a = 0; a < 3; ++a) energy_.moment[a] = head.moment[a];
   warnings_ = {head.inverted_trials, head.worst_acoustic_cfl, head.solves_cut_short,
                head.solves_given_up};
   dt_scale_ = head.dt_scale;

@@ -145,8 +145,9 @@ void Engine<Real>::read_back(const Traces& traces, StagedStep& out) const {
   out.grad_v.resize(count);
   out.F_E_trial.resize(count);
   out.v_before_collision.resize(count);
+  const Ranks rank = ranks();
   for (std::size_t q = 0; q < count; ++q) {
-    const auto id = static_cast<std::size_t>(particles_[q].id);
+    const std::size_t id = rank[particles_[q]];
     out.grad_v[id] = matrix(traces.gathered[q].grad_v);
     out.F_E_trial[id] = matrix(traces.F_trial.data() + 9 * q);
     out.v_before_collision[id] = sim::vector(traces.v_before_collision.data() + 3 * q);

@@ -60,6 +60,9 @@ void Engine<Real>::load(const ParticleArrays& in) {
   require_length(in.J_P, count, "J_P");
   require_length(in.C, count, "C");
   require_length(in.material, count, "material");
+  require_length(in.stiffness, count, "stiffness");
+  require_length(in.threshold, count, "threshold");
+  require_length(in.id, count, "id");
   if (in.m.size() != count) throw std::invalid_argument("every particle needs a mass");
   particles_.resize(count);
   keys_.resize(count);
@@ -67,7 +70,11 @@ void Engine<Real>::load(const ParticleArrays& in) {
   for (std::size_t q = 0; q < count; ++q) {
     Particle<Real>& p = particles_[q];
     p = Particle<Real>{};
-    p.id = static_cast<Integer<Real>>(q);
+    const std::uint64_t id = in.id.empty() ? q : in.id[q];
+    if (id < next_id_ || id >= max_ids)
+      throw std::invalid_argument("ids of particles have to grow, up to 2^31");
+    p.id = static_cast<Integer<Real>>(id);
+    next_id_ = id + 1;
     const int material = in.material.empty() ? 0 : in.material[q];
     if (material < 0 || static_cast<std::size_t>(material) >= material_list_.size())
       throw std::invalid_argument("a particle names a material that does not exist");
@@ -90,8 +97,10 @@ void Engine<Real>::load(const ParticleArrays& in) {
     store_matrix(in.F_E.empty() ? Mat3d(Mat3d::Identity()) : in.F_E[q], p.F_E);
     store_matrix(in.C.empty() ? Mat3d(Mat3d::Zero()) : in.C[q], p.C);
     p.J_P = in.J_P.empty() ? Real(1) : static_cast<Real>(in.J_P[q]);
-    p.stiffness = 1;
-    p.threshold = 1;
+    p.stiffness = in.stiffness.empty() ? Real(1) : static_cast<Real>(in.stiffness[q]);
+    p.threshold = in.threshold.empty() ? Real(1) : static_cast<Real>(in.threshold[q]);
+    if (!(p.stiffness > Real(0)) || !(p.threshold > Real(0)))
+      throw std::invalid_argument("a particle's factor on stiffness or thresholds is not positive");
   }
   start_ = start_state(in);
 }
@@ -106,6 +115,27 @@ Vec3d Engine<Real>::place(const Particle<Real>& p) const {
   return x;
 }
 
+/// m2, of the weights around a particle.
+template <class Real>
+double Engine<Real>::affine_inertia() const {
+  return settings_.cell_size * settings_.cell_size *
+         (kernel_nodes_ == cubic_nodes ? apic_inertia<cubic_nodes> : apic_inertia<quadratic_nodes>);
+}
+
+template <class Real>
+double Engine<Real>::kinetic_energy_of(const Particle<Real>& p) const {
+  const double m = static_cast<double>(p.m), energy = 0.5 * m * vector(p.v).squaredNorm();
+  if (settings_.transfer == Transfer::flip) return energy;
+  return energy + 0.5 * m * affine_inertia() * matrix(p.C).squaredNorm();
+}
+
+template <class Real>
+double Engine<Real>::elastic_energy_of(const Particle<Real>& p) const {
+  return static_cast<double>(p.V0) * static_cast<double>(p.stiffness) *
+         energy_density(material_list_[static_cast<std::size_t>(p.material())], matrix(p.F_E),
+                        static_cast<double>(p.J_P));
+}
+
 template <class Real>
 Summary Engine<Real>::summary() const {
   // Sums over fixed chunks, added in order: the same bits at any number of threads.
@@ -113,9 +143,7 @@ Summary Engine<Real>::summary() const {
   const std::size_t chunks = (particles_.size() + chunk - 1) / chunk;
   std::vector<Summary> parts(chunks);
   const bool has_C = settings_.transfer != Transfer::flip;
-  const double inertia =
-      settings_.cell_size * settings_.cell_size *
-      (kernel_nodes_ == cubic_nodes ? apic_inertia<cubic_nodes> : apic_inertia<quadratic_nodes>);
+  const double inertia = affine_inertia();
   pool_->ranges(chunks, active_threads(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       const std::size_t last = std::min(particles_.size(), (c + 1) * chunk);
@@ -124,20 +152,17 @@ Summary Engine<Real>::summary() const {
         Summary& s = parts[c];
         const double m = static_cast<double>(p.m), J_P = static_cast<double>(p.J_P);
         const Vec3d x = place(p), v = vector(p.v);
-        const Mat3d C = matrix(p.C);
         s.mass += m;
-        s.kinetic_energy += 0.5 * m * v.squaredNorm();
+        s.kinetic_energy += kinetic_energy_of(p);
         s.momentum += m * v;
         s.centre_of_mass += m * x;
         s.angular_momentum += m * x.cross(v);
         if (has_C) {
-          s.kinetic_energy += 0.5 * m * inertia * C.squaredNorm();
+          const Mat3d C = matrix(p.C);
           s.angular_momentum +=
               m * inertia * Vec3d(C(2, 1) - C(1, 2), C(0, 2) - C(2, 0), C(1, 0) - C(0, 1));
         }
-        s.elastic_energy += static_cast<double>(p.V0) * static_cast<double>(p.stiffness) *
-                            energy_density(material_list_[static_cast<std::size_t>(p.material())],
-                                           matrix(p.F_E), J_P);
+        s.elastic_energy += elastic_energy_of(p);
         s.max_speed = std::max(s.max_speed, v.norm());
         s.min_J_P = q == c * chunk ? J_P : std::min(s.min_J_P, J_P);
         s.max_J_P = q == c * chunk ? J_P : std::max(s.max_J_P, J_P);
@@ -159,6 +184,8 @@ Summary Engine<Real>::summary() const {
   }
   all.time = time_;
   all.particles = particles_.size();
+  all.emitted = totals_.emitted;
+  all.removed = totals_.removed;
   if (all.mass > 0) all.centre_of_mass /= all.mass;
   return all;
 }
@@ -175,8 +202,13 @@ ParticleArrays Engine<Real>::particles() const {
   out.J_P.resize(count);
   out.C.resize(count);
   out.material.resize(count);
+  const Ranks rank = ranks();
+  if (!rank.are_ids()) out.id.resize(count);
+  bool is_varied = false;
   for (const Particle<Real>& p : particles_) {
-    const auto id = static_cast<std::size_t>(p.id);
+    const std::size_t id = rank[p];
+    if (!out.id.empty()) out.id[id] = static_cast<std::uint32_t>(p.id);
+    is_varied = is_varied || p.stiffness != Real(1) || p.threshold != Real(1);
     out.x[id] = place(p);
     out.v[id] = vector(p.v);
     out.m[id] = static_cast<double>(p.m);
@@ -186,16 +218,24 @@ ParticleArrays Engine<Real>::particles() const {
     out.C[id] = matrix(p.C);
     out.material[id] = static_cast<int>(p.material());
   }
+  if (!is_varied) return out;
+  out.stiffness.resize(count);
+  out.threshold.resize(count);
+  for (const Particle<Real>& p : particles_) {
+    out.stiffness[rank[p]] = static_cast<double>(p.stiffness);
+    out.threshold[rank[p]] = static_cast<double>(p.threshold);
+  }
   return out;
 }
 
 template <class Real>
 std::vector<Mat3d> Engine<Real>::kirchhoff() const {
   std::vector<Mat3d> out(particles_.size());
+  const Ranks rank = ranks();
   for (const Particle<Real>& p : particles_) {
     const Real* t = p.tau;
     const Real full[9] = {t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2]};
-    out[static_cast<std::size_t>(p.id)] = matrix(full);
+    out[rank[p]] = matrix(full);
   }
   return out;
 }
@@ -203,9 +243,9 @@ std::vector<Mat3d> Engine<Real>::kirchhoff() const {
 template <class Real>
 std::vector<Vec3i> Engine<Real>::cells() const {
   std::vector<Vec3i> out(particles_.size());
+  const Ranks rank = ranks();
   for (const Particle<Real>& p : particles_)
-    out[static_cast<std::size_t>(p.id)] =
-        Eigen::Matrix<Integer<Real>, 3, 1>(p.cell).template cast<int>();
+    out[rank[p]] = Eigen::Matrix<Integer<Real>, 3, 1>(p.cell).template cast<int>();
   return out;
 }
 
@@ -230,12 +270,18 @@ std::uint64_t Engine<Real>::state_hash() const {
 }
 
 template void Engine<float>::load(const ParticleArrays&);
+template Vec3d Engine<float>::place(const Particle<float>&) const;
+template double Engine<float>::kinetic_energy_of(const Particle<float>&) const;
+template double Engine<float>::elastic_energy_of(const Particle<float>&) const;
 template Summary Engine<float>::summary() const;
 template ParticleArrays Engine<float>::particles() const;
 template std::vector<Mat3d> Engine<float>::kirchhoff() const;
 template std::vector<Vec3i> Engine<float>::cells() const;
 template std::uint64_t Engine<float>::state_hash() const;
 template void Engine<double>::load(const ParticleArrays&);
+template Vec3d Engine<double>::place(const Particle<double>&) const;
+template double Engine<double>::kinetic_energy_of(const Particle<double>&) const;
+template double Engine<double>::elastic_energy_of(const Particle<double>&) const;
 template Summary Engine<double>::summary() const;
 template ParticleArrays Engine<double>::particles() const;
 template std::vector<Mat3d> Engine<double>::kirchhoff() const;

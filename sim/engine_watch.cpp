@@ -98,8 +98,7 @@ void Engine<Real>::check(double dt, const StateLimits& before, const BlockReport
 template <class Real>
 EnergyAccount Engine<Real>::energy_account() const {
   const Summary now = summary();
-  const double gravity_work =
-      now.mass * settings_.gravity.dot(now.centre_of_mass - energy_.centre_of_mass);
+  const double gravity_work = settings_.gravity.dot(now.mass * now.centre_of_mass - energy_.moment);
   EnergyAccount account;
   account.found = now.kinetic_energy + now.elastic_energy;
   account.explained = energy_.start + gravity_work + energy_.contact_work;

@@ -7,6 +7,13 @@ namespace neve::sim {
 
 enum class Model { snow, corotated, neo_hookean };
 
+/// How much particles differ: relative standard deviations.
+struct Variation {
+  double density = 0, youngs_modulus = 0;
+  double thresholds = 0;  ///< theta_c and theta_s together
+  double size = 0.05;     ///< m, of stiffer and softer lumps; 0: each particle on its own
+};
+
 struct Material {
   std::string name = "snow";
   Model model = Model::snow;
@@ -16,6 +23,7 @@ struct Material {
   double hardening = 10.0;              ///< xi
   double critical_compression = 0.025;  ///< theta_c
   double critical_stretch = 0.0075;     ///< theta_s
+  Variation variation;
   /// Project neo-Hookean F_E as the snow's. For comparison with solvers that let any model yield;
   /// no scene key. Such a run takes the staged driver and has no other material.
   bool yields = false;
@@ -26,6 +34,9 @@ struct Lame {
   double mu, lambda;
 };
 Lame lame(double youngs_modulus, double poisson_ratio);
+
+/// The material of a particle that has factors on its stiffness and its thresholds.
+Material scaled(const Material& material, double stiffness, double threshold);
 
 /// sqrt((lambda + 2 mu)/rho) of undeformed material, m/s.
 double sound_speed(const Material& material);

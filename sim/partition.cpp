@@ -50,13 +50,15 @@ std::size_t bytes_of(const std::vector<T>& v) {
 
 }  // namespace
 
+void Partition::forget() {
+  order_.clear();
+  locals_.clear();
+  blocks_.clear();
+  node_blocks_.clear();
+}
+
 void Partition::build(const std::vector<std::uint64_t>& keys,
                       const std::vector<std::uint16_t>& locals, ThreadPool& pool, int threads) {
-  if (keys.size() < order_.size()) {
-    order_.clear();
-    blocks_.clear();
-    node_blocks_.clear();
-  }
   const std::size_t known = order_.size();
   order_.resize(keys.size());
   locals_.resize(keys.size());

@@ -23,11 +23,14 @@ class Partition {
   /// Brings keys of particles into the first period.
   void wrap(std::vector<std::uint64_t>& keys, ThreadPool& pool, int threads) const;
 
-  /// Particles may have been added at the end since the last call; if there are fewer, all is done
-  /// anew.
+  /// Particles may have been added at the end since the last call; after any other change of the
+  /// storage forget() has to be called.
   /// @param keys, locals  per storage index, see SweepArgs
   void build(const std::vector<std::uint64_t>& keys, const std::vector<std::uint16_t>& locals,
              ThreadPool& pool, int threads);
+
+  /// The storage is another one: the next build starts anew.
+  void forget();
 
   /// Brings storage into the order found; keys and locals follow.
   template <class Record>

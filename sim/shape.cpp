@@ -54,6 +54,13 @@ Solid::Solid(const Shape& shape)
                      " m3; expected a finite number above 0");
 }
 
+double Solid::extent(const Vec3d& direction) const {
+  const Mat3d to_x =
+      Eigen::Quaterniond::FromTwoVectors(direction, Vec3d::UnitX()).toRotationMatrix();
+  const Bounds b = form_->bounds_after(to_x * rotation_);
+  return b.max.x() - b.min.x();
+}
+
 Bounds Solid::bounds() const {
   const Bounds b = form_->bounds_after(rotation_);
   return {center_ + b.min, center_ + b.max};

@@ -43,19 +43,37 @@ std::variant<Engine<float>, Engine<double>> make_engine(const SolverSettings& se
                                                         const std::vector<Material>& materials,
                                                         const std::vector<Collider>& colliders,
                                                         const ParticleArrays& particles,
-                                                        int threads, const Vec3i& lattice_origin) {
+                                                        int threads, const Vec3i& lattice_origin,
+                                                        const Flow& flow) {
   if (settings.precision == Precision::real64)
-    return Engine<double>(settings, materials, colliders, particles, threads, lattice_origin);
-  return Engine<float>(settings, materials, colliders, particles, threads, lattice_origin);
+    return Engine<double>(settings, materials, colliders, particles, threads, lattice_origin, flow);
+  return Engine<float>(settings, materials, colliders, particles, threads, lattice_origin, flow);
 }
 
 }  // namespace
 
+std::size_t ParticleArrays::first_from(std::uint64_t wanted) const {
+  if (id.empty()) return static_cast<std::size_t>(std::min<std::uint64_t>(wanted, x.size()));
+  return static_cast<std::size_t>(std::lower_bound(id.begin(), id.end(), wanted) - id.begin());
+}
+
+std::optional<std::size_t> ParticleArrays::index_of(std::uint64_t wanted) const {
+  const std::size_t index = first_from(wanted);
+  if (index == x.size() || id_of(index) != wanted) return std::nullopt;
+  return index;
+}
+
+Material ParticleArrays::material_of(std::size_t index,
+                                     const std::vector<Material>& materials) const {
+  return scaled(materials[static_cast<std::size_t>(material[index])],
+                stiffness.empty() ? 1 : stiffness[index], threshold.empty() ? 1 : threshold[index]);
+}
+
 Simulation::Simulation(const SolverSettings& settings, const std::vector<Material>& materials,
                        const std::vector<Collider>& colliders, const ParticleArrays& particles,
-                       int threads, const Vec3i& lattice_origin)
+                       int threads, const Vec3i& lattice_origin, const Flow& flow)
     : impl_(std::make_unique<Impl>(
-          make_engine(settings, materials, colliders, particles, threads, lattice_origin))) {}
+          make_engine(settings, materials, colliders, particles, threads, lattice_origin, flow))) {}
 
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -69,6 +87,9 @@ std::size_t Simulation::steps() const {
 }
 std::size_t Simulation::particle_count() const {
   return impl_->visit([](const auto& e) { return e.particle_count(); });
+}
+FlowTotals Simulation::flow_totals() const {
+  return impl_->visit([](const auto& e) { return e.flow_totals(); });
 }
 int Simulation::threads() const {
   return impl_->visit([](const auto& e) { return e.threads(); });

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sim/collider.h"
+#include "sim/flow.h"
 #include "sim/material.h"
 #include "sim/settings.h"
 
@@ -19,14 +20,27 @@ namespace neve::sim {
 
 /// Particles as plain arrays in id order, SI units. Empty optional arrays take their defaults.
 struct ParticleArrays {
-  std::vector<Vec3d> x;       ///< m, measured from the lattice origin
-  std::vector<Vec3d> v;       ///< m/s
-  std::vector<double> m;      ///< kg
-  std::vector<double> V0;     ///< m3; empty or 0: estimated (the paper's step 2)
-  std::vector<Mat3d> F_E;     ///< default I
-  std::vector<double> J_P;    ///< det F_P, default 1
-  std::vector<Mat3d> C;       ///< 1/s, APIC and MLS, default 0
-  std::vector<int> material;  ///< index, default 0
+  std::vector<Vec3d> x;           ///< m, measured from the lattice origin
+  std::vector<Vec3d> v;           ///< m/s
+  std::vector<double> m;          ///< kg
+  std::vector<double> V0;         ///< m3; empty or 0: estimated (the paper's step 2)
+  std::vector<Mat3d> F_E;         ///< default I
+  std::vector<double> J_P;        ///< det F_P, default 1
+  std::vector<Mat3d> C;           ///< 1/s, APIC and MLS, default 0
+  std::vector<int> material;      ///< index, default 0
+  std::vector<double> stiffness;  ///< factor on mu and lambda, default 1
+  std::vector<double> threshold;  ///< factor on theta_c and theta_s, default 1
+  std::vector<std::uint32_t> id;  ///< increasing; default 0, 1, 2, ...
+
+  std::uint32_t id_of(std::size_t index) const {
+    return id.empty() ? static_cast<std::uint32_t>(index) : id[index];
+  }
+  /// Index of the first particle with at least this id; the number of particles if there is none.
+  std::size_t first_from(std::uint64_t id) const;
+  /// Index of a particle; nothing if it is not (any more) there.
+  std::optional<std::size_t> index_of(std::uint64_t id) const;
+  /// The material with the particle's own factors.
+  Material material_of(std::size_t index, const std::vector<Material>& materials) const;
 };
 
 /// What limited a time step.
@@ -38,6 +52,7 @@ const char* name(DtLimit limit);
 struct Summary {
   double time = 0;
   std::size_t particles = 0;
+  std::uint64_t emitted = 0, removed = 0;  ///< particles that came and went since the start
   double mass = 0;
   double kinetic_energy = 0, elastic_energy = 0;  ///< J
   Vec3d momentum{0, 0, 0}, centre_of_mass{0, 0, 0};
@@ -131,12 +146,14 @@ struct SavedStateError : std::runtime_error {
 
 class Simulation {
  public:
+  /// @param flow snow that comes and goes; emitters and sinks stay as they are
   /// @param lattice_origin in blocks of 4 cells; x is measured from it. Moving it changes no bit of
   ///        the result but the cells.
   /// @throws std::invalid_argument when arrays disagree in length or hold non-finite numbers
+  /// @throws ShapeError for emitters and sinks without a volume
   Simulation(const SolverSettings& settings, const std::vector<Material>& materials,
              const std::vector<Collider>& colliders, const ParticleArrays& particles,
-             int threads = 0, const Vec3i& lattice_origin = Vec3i::Zero());
+             int threads = 0, const Vec3i& lattice_origin = Vec3i::Zero(), const Flow& flow = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -144,6 +161,7 @@ class Simulation {
   double time() const;
   std::size_t steps() const;
   std::size_t particle_count() const;
+  FlowTotals flow_totals() const;
   int threads() const;
   const char* simd() const;
   PhaseSeconds phase_seconds() const;

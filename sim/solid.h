@@ -34,6 +34,9 @@ class Solid {
   Bounds local_bounds() const { return form_->bounds_after(Mat3d::Identity()); }  ///< tight
   Bounds bounds() const;  ///< in the world, tight
 
+  /// m, of its projection on a direction that is not zero.
+  double extent(const Vec3d& direction) const;
+
   bool contains_local(const Vec3d& y) const { return form_->contains(y); }
   bool contains(const Vec3d& x) const {
     return form_->contains(rotation_.transpose() * (x - center_));
@@ -49,7 +52,7 @@ class Solid {
  private:
   Vec3d center_;
   Mat3d rotation_;
-  std::unique_ptr<const Form> form_;
+  std::shared_ptr<const Form> form_;  ///< copies share it: it never changes
 };
 
 }  // namespace neve::sim

@@ -112,7 +112,7 @@ void measure_particles(const ParticleArrays& p, const std::vector<Material>& mat
       ++out[WatchCheck::not_finite];
       continue;
     }
-    const Material& material = materials[static_cast<std::size_t>(p.material[q])];
+    const Material material = p.material_of(q, materials);
     min_J_E = std::min(min_J_E, p.F_E[q].determinant());
     min_J_P = std::min(min_J_P, p.J_P[q]);
     max_J_P = std::max(max_J_P, p.J_P[q]);
@@ -178,7 +178,7 @@ void measure_work(const std::vector<Material>& materials, bool is_float, const P
   }
   double stress_work = 0, trial_work = 0, energy = 0, stresses = 0;
   for (std::size_t q = 0; q < p.x.size(); ++q) {
-    const Material& material = materials[static_cast<std::size_t>(p.material[q])];
+    const Material material = p.material_of(q, materials);
     const Mat3d change = step.F_E_trial[q] - p.F_E[q];
     const ElasticResponse now = elastic_response(material, p.F_E[q], p.J_P[q]);
     const ElasticResponse trial = elastic_response(material, step.F_E_trial[q], p.J_P[q]);

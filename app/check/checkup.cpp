@@ -10,6 +10,7 @@
 #include "app/scene/coarsen.h"
 #include "app/scene/error.h"
 #include "app/seed_scene.h"
+#include "app/snow_pieces.h"
 #include "app/text.h"
 
 namespace neve::app {
@@ -23,11 +24,6 @@ constexpr double calibration_seconds = 1;
 constexpr int calibration_steps = 40;
 /// Above this many particles seeding alone takes too long for a look.
 constexpr double most_seeded = 3e6;
-
-sim::Simulation simulation_of(const Scene& scene, const sim::ParticleArrays& particles,
-                              int threads) {
-  return sim::Simulation(scene.solver, scene.materials, sim_colliders(scene), particles, threads);
-}
 
 /// The median of some steps, after two that warm caches up.
 /// @param solve  the worst of them
@@ -64,6 +60,18 @@ FrameForecast foresee(const Scene& scene, int frame, const sim::Simulation::Step
   return forecast;
 }
 
+/// Of a scene that starts empty: what its first snow will allow.
+sim::Simulation::Choice first_emission(const Scene& scene, sim::Simulation::StepLimits& start) {
+  sim::StateLimits limits;
+  for (const SnowPiece& piece : snow_places(scene)) {
+    limits.max_speed = std::max(limits.max_speed, piece.velocity.norm());
+    limits.max_sound_speed = std::max(limits.max_sound_speed, sim::sound_speed(*piece.material));
+    limits.max_hardening = std::max(limits.max_hardening, piece.material->hardening);
+  }
+  start = {sim::limits_on_dt(scene.solver, limits), limits.max_speed, limits.max_sound_speed, 0};
+  return sim::choose_dt(scene.solver, limits, 1 / scene.fps);
+}
+
 /// A copy of the scene that runs in a moment; the largest factor that leaves every body something.
 std::optional<Scene> coarse_copy(const Scene& scene, double particles) {
   double factor = std::max(1.0, std::cbrt(particles / coarse_particles_wanted));
@@ -79,20 +87,27 @@ std::optional<Scene> coarse_copy(const Scene& scene, double particles) {
   }
 }
 
-void foresee_frames(const Scene& scene, Checkup& checkup) {
+/// @return s per step and particle, on one thread
+double foresee_frames(const Scene& scene, Checkup& checkup) {
   const std::optional<Scene> coarse = coarse_copy(scene, checkup.plan.particles);
-  if (!coarse) return;
+  if (!coarse) return 0;
   const sim::ParticleArrays particles = seed_scene(*coarse);
-  checkup.coarse_particles = static_cast<double>(particles.x.size());
-  sim::Simulation simulation = simulation_of(*coarse, particles, 1);
+  checkup.coarse_particles =
+      static_cast<double>(particles.x.size()) + planned_emission(*coarse, scene.frames / scene.fps);
+  sim::Simulation simulation = make_simulation(*coarse, particles, 1);
   const auto start = Clock::now();
   sim::Simulation::StepLimits worst = simulation.step_limits();
+  double particle_steps = 0, seconds = 0;
   for (int frame = 1; frame <= scene.frames; ++frame) {
     // The frame's start and end both count; where time runs out the last frames are as the one
     // before.
     if (!simulation.divergence() && seconds_since(start) < coarse_seconds && !is_interrupted()) {
       const sim::Simulation::StepLimits before = simulation.step_limits();
-      simulation.advance_to(frame / scene.fps, is_interrupted);
+      const auto before_frame = Clock::now();
+      const sim::AdvanceReport report = simulation.advance_to(frame / scene.fps, is_interrupted);
+      seconds += seconds_since(before_frame);
+      particle_steps +=
+          static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());
       worst = simulation.step_limits();
       worst.max_speed = std::max(worst.max_speed, before.max_speed);
       worst.max_sound_speed = std::max(worst.max_sound_speed, before.max_sound_speed);
@@ -105,6 +120,7 @@ void foresee_frames(const Scene& scene, Checkup& checkup) {
                                 "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) +
                                     " m diverges: " + simulation.divergence()->sentence,
                                 "run the scene itself to see whether it does too"});
+  return particle_steps > 0 ? seconds / particle_steps : 0;
 }
 
 }  // namespace
@@ -124,16 +140,20 @@ Checkup examine(const Scene& scene, const Plan& plan, int threads) {
   checkup.plan = plan;
   checkup.cells = plan.volume / std::pow(scene.solver.cell_size, 3);
   checkup.impact_speed = impact_speed(scene);
+  int used_threads = 1;
   check_units(scene, checkup.findings);
   check_resolution(scene, checkup.findings);
+  check_emitters(scene, checkup.findings);
   if (plan.particles <= most_seeded && plan.memory <= plan.memory_limit) {
     std::vector<std::size_t> body_end;
     const sim::ParticleArrays particles = seed_scene(scene, &body_end);
-    checkup.plan.particles = static_cast<double>(particles.x.size());
+    checkup.plan.particles = static_cast<double>(particles.x.size()) + plan.emitted;
     check_overlaps(scene, particles, body_end, checkup.findings);
-    sim::Simulation simulation = simulation_of(scene, particles, threads);
+    sim::Simulation simulation = make_simulation(scene, particles, threads);
+    used_threads = simulation.threads();
     checkup.start = simulation.step_limits();
-    const sim::Simulation::Choice choice = simulation.choose_dt(1 / scene.fps);
+    sim::Simulation::Choice choice = simulation.choose_dt(1 / scene.fps);
+    if (particles.x.empty()) choice = first_emission(scene, checkup.start);
     checkup.dt_start = choice.dt;
     checkup.limit_start = choice.limit;
     checkup.seconds_per_step = measure_step(simulation, 1 / scene.fps, checkup.solve);
@@ -144,7 +164,11 @@ Checkup examine(const Scene& scene, const Plan& plan, int threads) {
                                 "are not known",
                                 "neve check with --coarsen 2 tells more"});
   }
-  foresee_frames(scene, checkup);
+  const double particle_step = foresee_frames(scene, checkup);
+  // What emitters will add cannot be timed at the start: half of it, as the coarse copy ran.
+  if (plan.emitted > 0 && checkup.seconds_per_step > 0)
+    checkup.seconds_per_step =
+        particle_step / used_threads * (checkup.plan.particles - 0.5 * plan.emitted);
   check_cameras(scene, dry_run(scene), checkup.findings);
   std::stable_sort(checkup.findings.begin(), checkup.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });

@@ -6,6 +6,8 @@
 #include <map>
 
 #include "app/scene/value.h"
+#include "app/seed_scene.h"
+#include "app/snow_pieces.h"
 #include "app/text.h"
 #include "sim/solid.h"
 #include "sim/time_step.h"
@@ -17,6 +19,9 @@ namespace {
 using sim::Vec3d;
 
 constexpr double ice = 917;  // kg/m3
+
+/// Of what an emitter's velocity carries away: spheres and cones are not as wide everywhere.
+constexpr double most_packing = 1.3;
 
 std::string percent_text(double share) {
   return fixed_text(100 * share, share < 0.1 ? 1 : 0) + " %";
@@ -223,16 +228,17 @@ double share_outside(const CameraSettings& camera, double aspect, const Moment& 
 
 double largest_extent(const Scene& scene) {
   double largest = 0;
-  for (const sim::Body& body : scene.bodies)
-    largest = std::max(largest, extent(body.shape).maxCoeff());
+  for (const SnowPiece& piece : snow_places(scene))
+    largest = std::max(largest, extent(*piece.shape).maxCoeff());
   return largest;
 }
 
 void check_units(const Scene& scene, std::vector<Finding>& findings) {
+  const std::vector<SnowPiece> pieces = snow_places(scene);
   for (const sim::Material& material : scene.materials) {
-    const bool is_used =
-        std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                    [&](const sim::Body& body) { return body.material == material.name; });
+    const bool is_used = std::any_of(pieces.begin(), pieces.end(), [&](const SnowPiece& piece) {
+      return piece.material == &material;
+    });
     if (is_used) check_material_units(material, findings);
   }
   const double g = scene.solver.gravity.norm();
@@ -244,8 +250,8 @@ void check_units(const Scene& scene, std::vector<Finding>& findings) {
   const double largest = largest_extent(scene);
   if (largest > most_extent)
     findings.push_back(
-        {Severity::warning, "body." + scene.bodies.front().name + ".shape",
-         "the largest body is " + rough_text(largest) + " m across",
+        {Severity::warning, pieces.front().address + ".shape",
+         "the largest piece of snow is " + rough_text(largest) + " m across",
          "lengths are in metres: in centimetres it would be " + rough_text(0.01 * largest) +
              " m, with solver.cell_size = " + number_text(0.01 * scene.solver.cell_size)});
 }
@@ -275,6 +281,28 @@ void check_resolution(const Scene& scene, std::vector<Finding>& findings) {
                               " cells thick: snow leaks through less than 2",
                           "make it thicker, or solver.cell_size = " +
                               rough_text(0.5 * thickness(collider.shape))});
+  }
+}
+
+void check_emitters(const Scene& scene, std::vector<Finding>& findings) {
+  const double end = scene.frames / scene.fps;
+  for (const sim::Emitter& emitter : scene.emitters) {
+    const std::string at = "emitter." + emitter.name;
+    if (emitter.start >= end && end > 0) {
+      findings.push_back({Severity::warning, at + ".start",
+                          emitter.name + " opens at " + rough_text(emitter.start) +
+                              " s, the scene ends at " + rough_text(end) + " s",
+                          "an earlier start, or more frames"});
+      continue;
+    }
+    const sim::Material& material = scene.materials[material_index(scene, emitter.material)];
+    const double carried = sim::carried_rate(emitter, material);
+    if (emitter.rate > 0 && carried > 0 && emitter.rate > most_packing * carried)
+      findings.push_back({Severity::warning, at + ".rate",
+                          "its velocity carries about " + rough_text(carried) +
+                              " kg/s away at the density of " + material.name +
+                              "; snow will be born inside of snow",
+                          "at most that rate, a faster velocity or a larger shape"});
   }
 }
 

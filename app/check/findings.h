@@ -10,7 +10,7 @@ namespace neve::app {
 inline constexpr double most_gravity = 60;  ///< m/s2
 inline constexpr double most_extent = 20;   ///< m, of a body
 
-/// The longest edge of the boxes around the bodies, m.
+/// The longest edge of the boxes around bodies and emitters, m.
 double largest_extent(const Scene& scene);
 
 /// Numbers that look like centimetres, grams or kilopascals.
@@ -18,6 +18,9 @@ void check_units(const Scene& scene, std::vector<Finding>& findings);
 
 /// Bodies and colliders a few cells thick, too few particles in a cell.
 void check_resolution(const Scene& scene, std::vector<Finding>& findings);
+
+/// Emitters that never open, or that pack more snow than their velocity carries away.
+void check_emitters(const Scene& scene, std::vector<Finding>& findings);
 
 /// Bodies in one another and in colliders. @param body_end see seed_scene
 void check_overlaps(const Scene& scene, const sim::ParticleArrays& particles,

@@ -91,8 +91,7 @@ std::vector<double> elastic_energies(const Scene& scene, const sim::ParticleArra
   std::vector<double> energies;
   for (std::size_t q = 0; q < p.x.size(); ++q)
     energies.push_back(p.V0[q] *
-                       sim::energy_density(scene.materials[static_cast<std::size_t>(p.material[q])],
-                                           p.F_E[q], p.J_P[q]));
+                       sim::energy_density(p.material_of(q, scene.materials), p.F_E[q], p.J_P[q]));
   return energies;
 }
 
@@ -103,16 +102,16 @@ std::vector<double> current_volumes(const sim::ParticleArrays& p) {
   return volumes;
 }
 
-std::vector<double> ids(std::size_t count) {
-  std::vector<double> out(count);
-  for (std::size_t q = 0; q < count; ++q) out[q] = static_cast<double>(q);
+std::vector<double> ids(const sim::ParticleArrays& p) {
+  std::vector<double> out(p.x.size());
+  for (std::size_t q = 0; q < out.size(); ++q) out[q] = p.id_of(q);
   return out;
 }
 
 Listing particles_at(const sim::ParticleArrays& p) {
   Listing listing;
   listing.place = p.x;
-  listing.quantities.push_back(scalars("id", "", ids(p.x.size())));
+  listing.quantities.push_back(scalars("id", "", ids(p)));
   listing.quantities.push_back(vectors("x", "m", p.x));
   return listing;
 }

@@ -78,6 +78,9 @@ Json to_json(const FrameRecord& frame) {
   json["seconds_sim"] = number_or_null(frame.seconds_sim);
   json["seconds_render"] = number_or_null(frame.seconds_render);
   json["particles"] = s.particles;
+  json["emitted"] = s.emitted;
+  json["removed"] = s.removed;
+  json["mass"] = number_or_null(s.mass);
   json["kinetic_energy"] = number_or_null(s.kinetic_energy);
   json["elastic_energy"] = number_or_null(s.elastic_energy);
   json["momentum"] = vector_json(s.momentum);
@@ -114,6 +117,10 @@ FrameRecord frame_record(const Json& json) {
   sim::Summary& s = frame.summary;
   s.time = frame.time;
   s.particles = json.at("particles").get<std::size_t>();
+  // Runs of earlier versions knew no emitters.
+  s.emitted = json.value("emitted", std::uint64_t(0));
+  s.removed = json.value("removed", std::uint64_t(0));
+  s.mass = json.contains("mass") ? number_or_nan(json.at("mass")) : std::nan("");
   s.kinetic_energy = number_or_nan(json.at("kinetic_energy"));
   s.elastic_energy = number_or_nan(json.at("elastic_energy"));
   s.momentum = vector(json.at("momentum"));

@@ -69,28 +69,50 @@ Place place(const sim::Mesh& m) {
   return {".mesh.center", m.center};
 }
 
-Found material_problem(const Scene& scene, const sim::Body& body, const std::string& address) {
+Found material_problem(const Scene& scene, const std::string& wanted, const std::string& address) {
   std::vector<std::string> names;
   for (const sim::Material& material : scene.materials) {
-    if (material.name == body.material) return {};
+    if (material.name == wanted) return {};
     names.push_back(material.name);
   }
-  const std::string nearest = nearest_name(body.material, names);
-  return Problem{address + ".material", "there is no material " + toml_string(body.material),
+  const std::string nearest = nearest_name(wanted, names);
+  return Problem{address + ".material", "there is no material " + toml_string(wanted),
                  nearest.empty() ? "expected " + list_of(names)
                                  : "did you mean " + toml_string(nearest) + "?"};
 }
 
-Found body_problem(const Scene& scene, const sim::Body& body) {
-  const std::string address = "body." + body.name;
-  if (const Found found = material_problem(scene, body, address)) return found;
-  const Place at = std::visit([](const auto& form) { return place(form); }, body.shape.form);
+Found shape_problem(const Scene& scene, const sim::Shape& shape, const std::string& address) {
+  const Place at = std::visit([](const auto& form) { return place(form); }, shape.form);
   if (at.point.cwiseAbs().maxCoeff() > max_cells_from_origin * scene.solver.cell_size) {
     return Problem{address + ".shape" + at.key, "more than 2^30 cells from the origin",
                    "move it closer or enlarge solver.cell_size"};
   }
   return std::visit([&](const auto& form) { return problem(form, address + ".shape"); },
-                    body.shape.form);
+                    shape.form);
+}
+
+Found body_problem(const Scene& scene, const sim::Body& body) {
+  const std::string address = "body." + body.name;
+  if (const Found found = material_problem(scene, body.material, address)) return found;
+  return shape_problem(scene, body.shape, address);
+}
+
+Found emitter_problem(const Scene& scene, const sim::Emitter& emitter) {
+  const std::string address = "emitter." + emitter.name;
+  if (const Found found = material_problem(scene, emitter.material, address)) return found;
+  if (emitter.end && !(*emitter.end > emitter.start))
+    return Problem{address + ".end",
+                   "it closes at " + number_text(*emitter.end) + " s and opens at " +
+                       number_text(emitter.start) + " s",
+                   "end is later than start; leave it out for an emitter that stays open"};
+  if (emitter.end && emitter.rate == 0)
+    return Problem{address + ".end", "without a rate the whole shape is filled at once",
+                   "give rate, in kg/s, or leave end out"};
+  return shape_problem(scene, emitter.shape, address);
+}
+
+Found sink_problem(const Scene& scene, const sim::Sink& sink) {
+  return shape_problem(scene, sink.shape, "sink." + sink.name);
 }
 
 /// Of one place to look from.
@@ -197,12 +219,18 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
 
 std::optional<Problem> find_problem(const Scene& scene) {
   Found found;
-  if (scene.bodies.empty()) {
-    return Problem{"", "the scene has no body",
+  if (scene.bodies.empty() && scene.emitters.empty()) {
+    return Problem{"", "the scene has no body and no emitter",
                    "add [[body]] with shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }"};
   }
   for (const sim::Body& body : scene.bodies) {
     if ((found = body_problem(scene, body))) return found;
+  }
+  for (const sim::Emitter& emitter : scene.emitters) {
+    if ((found = emitter_problem(scene, emitter))) return found;
+  }
+  for (const sim::Sink& sink : scene.sinks) {
+    if ((found = sink_problem(scene, sink))) return found;
   }
   if (scene.colliders.size() > sim::max_colliders)
     return Problem{"collider." + scene.colliders[sim::max_colliders].name,

@@ -23,8 +23,8 @@ namespace neve::app {
 namespace unit {
 inline constexpr const char *none = "", *metre = "m", *second = "s", *per_second = "1/s",
                             *velocity = "m/s", *acceleration = "m/s2", *spin = "rad/s",
-                            *density = "kg/m3", *pascal = "Pa", *degrees = "degrees",
-                            *pixels = "px", *bytes = "B", *joule = "J";
+                            *density = "kg/m3", *mass_rate = "kg/s", *pascal = "Pa",
+                            *degrees = "degrees", *pixels = "px", *bytes = "B", *joule = "J";
 }
 
 /// Beyond these, single precision and 64-bit counts stop making sense.
@@ -43,6 +43,12 @@ inline sim::Body fresh<sim::Body>() {
   sim::Body body;
   body.material = sim::Material{}.name;
   return body;
+}
+template <>
+inline sim::Emitter fresh<sim::Emitter>() {
+  sim::Emitter emitter;
+  emitter.material = sim::Material{}.name;
+  return emitter;
 }
 template <>
 inline View fresh<View>() {
@@ -109,6 +115,19 @@ void describe(V& visit, Limits& l) {
 }
 
 template <class V>
+void describe(V& visit, sim::Variation& v) {
+  using enum Change;
+  visit("density", v.density, unit::none, between(0, 0.5), restart,
+        "Relative standard deviation of the particles' density.");
+  visit("youngs_modulus", v.youngs_modulus, unit::none, between(0, 2), restart,
+        "Relative standard deviation of their stiffness.");
+  visit("thresholds", v.thresholds, unit::none, between(0, 2), restart,
+        "Relative standard deviation of theta_c and theta_s, which vary together.");
+  visit("size", v.size, unit::metre, between(0, 1e6), restart,
+        "Of the lumps that differ; 0: each particle on its own.");
+}
+
+template <class V>
 void describe(V& visit, sim::Material& m) {
   using enum Change;
   visit("model", m.model, unit::none, anything, live,
@@ -125,6 +144,7 @@ void describe(V& visit, sim::Material& m) {
         "The paper's theta_c: compression where snow starts to yield.");
   visit("critical_stretch", m.critical_stretch, unit::none, between(0, 100), live,
         "The paper's theta_s: stretch where snow starts to break.");
+  visit.section("variation", "How uneven the snow is.", [&](auto& v) { describe(v, m.variation); });
 }
 
 template <class V>
@@ -192,7 +212,7 @@ void describe_rotation(V& visit, sim::Shape& shape, Change change) {
 }
 
 template <class V>
-void describe_body_forms(V& visit, sim::Shape& shape) {
+void describe_solid_forms(V& visit, sim::Shape& shape) {
   visit.template form<sim::Sphere>("sphere", shape, Change::restart, "A ball.");
   visit.template form<sim::Box>("box", shape, Change::restart, "A box.");
   visit.template form<sim::Capsule>("capsule", shape, Change::restart,
@@ -217,7 +237,7 @@ void describe(V& visit, sim::Body& b) {
         "What addresses call it; otherwise its number from 1.");
   visit("material", b.material, unit::none, identifier, restart, "Name of a material.");
   visit.shape("shape", b.shape, "What is filled with snow.",
-              [](auto& v, sim::Shape& shape) { describe_body_forms(v, shape); });
+              [](auto& v, sim::Shape& shape) { describe_solid_forms(v, shape); });
   visit("velocity", b.velocity, unit::velocity, speed, restart, "Velocity at the start.");
   visit("angular_velocity", b.angular_velocity, unit::spin, speed, restart,
         "Spin about the shape's centre at the start.");
@@ -226,6 +246,36 @@ void describe(V& visit, sim::Body& b) {
   visit("sampling", b.sampling, unit::none, anything, restart, "How particles are placed.");
   visit("volumes", b.volumes, unit::none, anything, restart,
         "Particle volumes from the density on the grid (the paper) or body volume / particles.");
+}
+
+template <class V>
+void describe(V& visit, sim::Emitter& e) {
+  using enum Change;
+  visit("name", e.name, unit::none, identifier, restart,
+        "What addresses call it; otherwise its number from 1.");
+  visit("material", e.material, unit::none, identifier, restart, "Name of a material.");
+  visit.shape("shape", e.shape, "Where snow comes into being.",
+              [](auto& v, sim::Shape& shape) { describe_solid_forms(v, shape); });
+  visit("velocity", e.velocity, unit::velocity, speed, restart, "Velocity of the snow.");
+  visit("angular_velocity", e.angular_velocity, unit::spin, speed, restart,
+        "Its spin about the shape's centre.");
+  visit("rate", e.rate, unit::mass_rate, between(0, 1e9), restart,
+        "Mass per second; 0: the whole shape is filled once, at start.");
+  visit("start", e.start, unit::second, between(0, 1e6), restart, "When it opens.");
+  visit("end", e.end, unit::second, between(0, 1e6), restart,
+        "When it closes; without it, it stays open.");
+  visit("particles_per_cell", e.particles_per_cell, unit::none, between(0.1, 1000), restart,
+        "How many particles the snow of a cell is made of.");
+}
+
+template <class V>
+void describe(V& visit, sim::Sink& s) {
+  using enum Change;
+  visit("name", s.name, unit::none, identifier, restart,
+        "What addresses call it; otherwise its number from 1.");
+  visit.shape("shape", s.shape, "Snow inside is removed.",
+              [](auto& v, sim::Shape& shape) { describe_solid_forms(v, shape); });
+  visit("outside", s.outside, unit::none, anything, restart, "Snow outside is removed instead.");
 }
 
 template <class V>
@@ -411,6 +461,8 @@ void describe(V& visit, Scene& s) {
                 [&](auto& v) { describe(v, s.limits); });
   visit.named("material", s.materials, "A named material.");
   visit.list("body", s.bodies, "A piece of snow.");
+  visit.list("emitter", s.emitters, "A source of snow while the scene runs.");
+  visit.list("sink", s.sinks, "A solid that removes the snow in it.");
   visit.list("collider", s.colliders, "A rigid obstacle.");
   visit.optional("camera", s.camera, "Without it the whole scene is framed.");
   visit.section("light", "The sun and the sky.", [&](auto& v) { describe(v, s.light); });

@@ -115,8 +115,8 @@ class Flattener {
 
 /// "material.NAME.hardening" for "material.snow.hardening".
 std::string pattern_of(std::string_view address) {
-  static const std::set<std::string, std::less<>> named{"material", "body", "collider", "view",
-                                                        "mosaic"};
+  static const std::set<std::string, std::less<>> named{"material", "body", "emitter", "sink",
+                                                        "collider", "view", "mosaic"};
   const auto first = address.find('.');
   if (first == std::string_view::npos || !named.contains(address.substr(0, first)))
     return std::string(address);
@@ -141,6 +141,8 @@ std::vector<std::string> item_names_of(const Scene& scene, const std::string& li
   };
   if (list == "material") take(scene.materials);
   if (list == "body") take(scene.bodies);
+  if (list == "emitter") take(scene.emitters);
+  if (list == "sink") take(scene.sinks);
   if (list == "collider") take(scene.colliders);
   if (list == "view") take(scene.views);
   if (list == "mosaic") take(scene.mosaics);
@@ -202,7 +204,7 @@ bool is_live(std::string_view address) {
 
 bool concerns_simulation(std::string_view address) {
   if (address.starts_with("collider.")) return !address.ends_with(".style");
-  for (const char* part : {"solver.", "material.", "body."})
+  for (const char* part : {"solver.", "material.", "body.", "emitter.", "sink."})
     if (address.starts_with(part)) return true;
   return address == "fps" || address == "seed";
 }
@@ -214,7 +216,7 @@ bool same_value(const std::optional<Value>& a, const std::optional<Value>& b) {
 
 std::vector<Difference> differences(const Scene& before, const Scene& after) {
   std::vector<Difference> found;
-  for (const char* list : {"material", "body", "collider", "view", "mosaic"}) {
+  for (const char* list : {"material", "body", "emitter", "sink", "collider", "view", "mosaic"}) {
     const auto old_names = item_names_of(before, list), new_names = item_names_of(after, list);
     // The order counts too: unnamed items are numbered, and materials are known by their place.
     if (old_names == new_names) continue;

@@ -30,7 +30,7 @@ struct FlatParam {
   bool is_default() const;
 };
 
-/// In the order of describe.h. Materials, bodies, colliders, views and mosaics one after the other.
+/// In the order of describe.h. Lists one item after the other.
 std::vector<FlatParam> flatten(const Scene& scene);
 
 /// Whether what has this address may change while a simulation runs; of a table all of it. False

@@ -9,6 +9,7 @@
 
 #include "render/frame.h"
 #include "sim/collider.h"
+#include "sim/flow.h"
 #include "sim/material.h"
 #include "sim/seeding.h"
 #include "sim/settings.h"
@@ -158,6 +159,8 @@ struct Scene {
   Limits limits;
   std::vector<sim::Material> materials;  ///< "snow" is always there
   std::vector<sim::Body> bodies;
+  std::vector<sim::Emitter> emitters;
+  std::vector<sim::Sink> sinks;
   std::vector<Collider> colliders;
   std::optional<CameraSettings> camera;  ///< automatic when absent
   LightSettings light;

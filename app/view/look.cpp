@@ -96,8 +96,8 @@ std::optional<ProbeReading> read_probe(const Inside& inside, const ProbeTarget& 
   std::optional<std::size_t> row;
   if (is_node)
     row = nearest_row(listing, std::get<sim::Vec3d>(target));
-  else if (const std::size_t id = std::get<std::size_t>(target); id < listing.place.size())
-    row = id;
+  else
+    row = inside.step.after.index_of(std::get<std::size_t>(target));
   if (!row) return std::nullopt;
   ProbeReading reading{target, listing.place[*row], is_node, after ? name(*after) : "", {}};
   for (const Quantity& quantity : listing.quantities) {

@@ -55,8 +55,9 @@ void fit_range(ViewerState& state, const View& view) {
   std::size_t first = 0, end = values.size();
   for (std::size_t b = 0; b < live.body_end.size(); ++b)
     if (state.selected == "body." + live.scene->bodies[b].name) {
-      first = b == 0 ? 0 : live.body_end[b - 1];
-      end = std::min(end, live.body_end[b]);
+      const sim::ParticleArrays& p = live.snapshot.particles;
+      first = b == 0 ? 0 : p.first_from(live.body_end[b - 1]);
+      end = std::min(end, p.first_from(live.body_end[b]));
     }
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (std::size_t p = first; p < end; ++p) {
@@ -138,21 +139,25 @@ void draw_objects(ViewerState& state) {
     }
   };
   for (const sim::Body& body : scene.bodies) entry("body." + body.name, body.shape);
+  for (const sim::Emitter& emitter : scene.emitters)
+    entry("emitter." + emitter.name, emitter.shape);
+  for (const sim::Sink& sink : scene.sinks) entry("sink." + sink.name, sink.shape);
   for (const Collider& collider : scene.colliders)
     entry("collider." + collider.name, collider.shape);
   ImGui::Separator();
   ImGui::BeginChild("object");
   KnobPanel panel("", changed_addresses(state.bench.document()));
-  for (sim::Body& body : scene.bodies)
-    if (state.selected == "body." + body.name) {
-      Knobs knobs(panel, state.selected);
-      describe(knobs, body);
-    }
-  for (Collider& collider : scene.colliders)
-    if (state.selected == "collider." + collider.name) {
-      Knobs knobs(panel, state.selected);
-      describe(knobs, collider);
-    }
+  const auto knobs_of = [&](const char* list, auto& items) {
+    for (auto& item : items)
+      if (state.selected == list + item.name) {
+        Knobs knobs(panel, state.selected);
+        describe(knobs, item);
+      }
+  };
+  knobs_of("body.", scene.bodies);
+  knobs_of("emitter.", scene.emitters);
+  knobs_of("sink.", scene.sinks);
+  knobs_of("collider.", scene.colliders);
   if (state.selected.empty()) ImGui::TextDisabled("Choose one to move it and to change it.");
   ImGui::EndChild();
   take_edits(state, panel);

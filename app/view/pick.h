@@ -9,7 +9,8 @@
 
 namespace neve::app {
 
-/// The nearest drawn particle. @param x, y share of the picture's height from its middle, y up
+/// The index of the nearest drawn particle. @param x, y share of the picture's height from its
+/// middle, y up
 /// @param clip what is cut away lets look through
 std::optional<std::size_t> pick_particle(const Orbit& orbit, double x, double y,
                                          const LiveFrame& live,

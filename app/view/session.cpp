@@ -9,6 +9,7 @@
 #include "app/plan.h"
 #include "app/scene/flat.h"
 #include "app/seed_scene.h"
+#include "app/snow_pieces.h"
 #include "app/view/look.h"
 #include "sim/retry.h"
 
@@ -220,15 +221,15 @@ void Session::start(std::shared_ptr<const Scene> scene) {
   check_limits(*scene, plan);
   std::vector<std::size_t> body_end;
   sim::ParticleArrays particles = seed_scene(*scene, &body_end);
-  auto simulation = std::make_unique<sim::Simulation>(
-      scene->solver, scene->materials, sim_colliders(*scene), particles, options_.threads);
+  auto simulation =
+      std::make_unique<sim::Simulation>(make_simulation(*scene, particles, options_.threads));
   // From here on nothing fails: the old run may go.
   simulation_ = std::move(simulation);
   seeded_ = std::move(particles);
   scene_ = std::move(scene);
   colliders_ = simulation_->colliders();
   body_end_ = std::move(body_end);
-  spacing_ = std::cbrt(plan.volume / static_cast<double>(seeded_.x.size()));
+  spacing_ = count_snow(*scene_, seeded_.x.size()).spacing;
   frame_ = 0;
   advance_ = {};
   advance_is_new_ = true;
@@ -273,8 +274,8 @@ void Session::leave_older() {
 /// only with those that it had.
 void Session::load(const KeptFrame& kept) {
   if (kept.scene != scene_) {
-    auto simulation = std::make_unique<sim::Simulation>(kept.scene->solver, kept.scene->materials,
-                                                        kept.colliders, seeded_, options_.threads);
+    auto simulation = std::make_unique<sim::Simulation>(
+        make_simulation(*kept.scene, seeded_, options_.threads, kept.colliders));
     simulation->restore(kept.state);
     simulation_ = std::move(simulation);
   } else {

@@ -82,10 +82,22 @@ void frame_selection(ViewerState& state) {
   const std::vector<sim::Body>& bodies = state.live->scene->bodies;
   for (std::size_t b = 0; b < std::min(bodies.size(), state.live->body_end.size()); ++b) {
     if (state.selected != "body." + bodies[b].name) continue;
-    const std::size_t first = b == 0 ? 0 : state.live->body_end[b - 1];
-    frame_box(state, bounds_of(state.live->snapshot.particles.x, first, state.live->body_end[b]));
+    const sim::ParticleArrays& p = state.live->snapshot.particles;
+    const std::size_t first = b == 0 ? 0 : p.first_from(state.live->body_end[b - 1]);
+    frame_box(state, bounds_of(p.x, first, p.first_from(state.live->body_end[b])));
     return;
   }
+  const auto frame_shape = [&](const char* list, const auto& items) {
+    for (const auto& item : items)
+      if (state.selected == list + item.name) {
+        frame_box(state, sim::bounds(item.shape));
+        return true;
+      }
+    return false;
+  };
+  if (frame_shape("emitter.", state.live->scene->emitters) ||
+      frame_shape("sink.", state.live->scene->sinks))
+    return;
   for (const Collider& collider : state.live->scene->colliders) {
     if (state.selected != "collider." + collider.name) continue;
     if (std::holds_alternative<sim::Plane>(collider.shape.form)) {

@@ -78,6 +78,10 @@ std::optional<Movable> selected_object(const ViewerState& state) {
   const Scene& scene = *state.bench.document().scene();
   for (const sim::Body& body : scene.bodies)
     if (state.selected == "body." + body.name) return movable(body.shape, state.selected);
+  for (const sim::Emitter& emitter : scene.emitters)
+    if (state.selected == "emitter." + emitter.name) return movable(emitter.shape, state.selected);
+  for (const sim::Sink& sink : scene.sinks)
+    if (state.selected == "sink." + sink.name) return movable(sink.shape, state.selected);
   for (const Collider& collider : scene.colliders)
     if (state.selected == "collider." + collider.name)
       return movable(collider.shape, state.selected);
@@ -190,13 +194,13 @@ void click(ViewerState& state, ImVec2 mouse, bool wants_node) {
     if (is_slice && view.slice.point)
       place = pick_plane(state.orbit, x, y, slice_plane(view.slice, live.snapshot.time, {}));
     if (!place)
-      if (const auto id = pick_particle(state.orbit, x, y, live, view.clip))
-        place = live.snapshot.particles.x[*id];
+      if (const auto hit = pick_particle(state.orbit, x, y, live, view.clip))
+        place = live.snapshot.particles.x[*hit];
     if (place) set_probe(state, ProbeTarget(*place));
     return;
   }
-  if (const auto id = pick_particle(state.orbit, x, y, live, view.clip))
-    set_probe(state, ProbeTarget(*id));
+  if (const auto hit = pick_particle(state.orbit, x, y, live, view.clip))
+    set_probe(state, ProbeTarget(std::size_t(live.snapshot.particles.id_of(*hit))));
 }
 
 void move_camera(ViewerState& state, ImVec2 delta, int button) {

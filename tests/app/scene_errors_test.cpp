@@ -252,9 +252,9 @@ TEST(SceneErrors, ColourRangesAreNotEmpty) {
             "numbers [min, max]");
 }
 
-TEST(SceneErrors, ASceneHasABody) {
+TEST(SceneErrors, ASceneHasSnow) {
   const std::string none =
-      "s.toml:1:1: error: the scene has no body; add [[body]] with shape = { sphere = { center = "
+      "s.toml:1:1: error: the scene has no body and no emitter; add [[body]] with shape = { sphere = { center = "
       "[0, 0.5, 0], radius = 0.1 } }";
   EXPECT_EQ(error_of("title = \"nothing\""), none);
   EXPECT_EQ(error_of("body = []"), none);

@@ -70,6 +70,12 @@ TEST(Flat, FollowsTheOrderOfTheDescription) {
 [[body]]
 name = "NAME"
 shape = { sphere = { radius = 0.1 } }
+[[emitter]]
+name = "NAME"
+shape = { cone = {} }
+[[sink]]
+name = "NAME"
+shape = { torus = {} }
 [[collider]]
 name = "NAME"
 shape = { box = {} }
@@ -94,6 +100,8 @@ views = ["NAME"]
   for (const ParamInfo& info : params()) {
     const bool is_other_form = info.address.find(".shape.") != std::string::npos &&
                                !info.address.starts_with("body.NAME.shape.sphere.") &&
+                               !info.address.starts_with("emitter.NAME.shape.cone.") &&
+                               !info.address.starts_with("sink.NAME.shape.torus.") &&
                                !info.address.starts_with("collider.NAME.shape.box.");
     if (!is_other_form && info.address.find('[') == std::string::npos)
       expected.push_back(info.address);

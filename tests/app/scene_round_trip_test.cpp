@@ -202,6 +202,8 @@ Scene full_scene(const std::string& mesh_file) {
   for (const char* form : {"sphere", "box", "capsule", "cylinder", "cone", "torus"}) {
     text += "[[body]]\nmaterial = \"ice\"\nshape = { " + std::string(form) + " = {} }\n";
   }
+  text += "[[emitter]]\nname = \"spout\"\nshape = { box = {} }\nrate = 1\nend = 1\n";
+  text += "[[sink]]\nname = \"pit\"\nshape = { torus = {} }\n";
   text += "[[body]]\nname = \"mesh\"\nshape = { mesh = { file = \"" + mesh_file + "\" } }\n";
   for (const char* form : {"plane", "sphere", "box"}) {
     text += "[[collider]]\nshape = { " + std::string(form) + " = {} }\n";

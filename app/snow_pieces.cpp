@@ -1,0 +1,70 @@
+#include "app/snow_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/seed_scene.h"
+#include "sim/solid.h"
+
+namespace neve::app {
+
+namespace {
+
+const sim::Material& material_of(const Scene& scene, const std::string& name) {
+  return scene.materials[material_index(scene, name)];
+}
+
+double emission(const Scene& scene, const sim::Emitter& emitter, double time) {
+  return static_cast<double>(sim::count_emitted(emitter, material_of(scene, emitter.material),
+                                                scene.solver.cell_size, time));
+}
+
+}  // namespace
+
+std::vector<SnowPiece> snow_places(const Scene& scene) {
+  std::vector<SnowPiece> pieces;
+  for (const sim::Body& body : scene.bodies)
+    pieces.push_back({&body.shape, &material_of(scene, body.material), body.velocity,
+                      body.angular_velocity, 0, 0, "body." + body.name});
+  for (const sim::Emitter& emitter : scene.emitters)
+    pieces.push_back({&emitter.shape, &material_of(scene, emitter.material), emitter.velocity,
+                      emitter.angular_velocity, 0, 0, "emitter." + emitter.name});
+  return pieces;
+}
+
+std::vector<SnowPiece> snow_pieces(const Scene& scene) {
+  const double h = scene.solver.cell_size, cell = h * h * h;
+  std::vector<SnowPiece> pieces = snow_places(scene);
+  auto piece = pieces.begin();
+  for (const sim::Body& body : scene.bodies) {
+    piece->volume = sim::plan_seeding(body, scene.solver.cell_size).volume;
+    piece->particles = piece->volume / cell * body.particles_per_cell;
+    ++piece;
+  }
+  for (const sim::Emitter& emitter : scene.emitters) {
+    piece->particles = emission(scene, emitter, scene.frames / scene.fps);
+    piece->volume = piece->particles * cell / emitter.particles_per_cell;
+    ++piece;
+  }
+  return pieces;
+}
+
+double planned_emission(const Scene& scene, double time) {
+  double count = 0;
+  for (const sim::Emitter& emitter : scene.emitters) count += emission(scene, emitter, time);
+  return count;
+}
+
+SnowCount count_snow(const Scene& scene, std::size_t seeded) {
+  double volume = 0;
+  for (const SnowPiece& piece : snow_pieces(scene)) volume += piece.volume;
+  const double count =
+      static_cast<double>(seeded) + planned_emission(scene, scene.frames / scene.fps);
+  return {static_cast<std::size_t>(count), std::cbrt(volume / std::max(1.0, count))};
+}
+
+sim::Flow flow_of(const Scene& scene) {
+  return {scene.emitters, scene.sinks, scene.seed};
+}
+
+}  // namespace neve::app

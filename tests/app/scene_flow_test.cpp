@@ -1,0 +1,173 @@
+/// Emitters, sinks and uneven snow in scenes: read, checked, planned, seeded and drawn.
+
+#include <gtest/gtest.h>
+
+#include "app/auto_ranges.h"
+#include "app/check/findings.h"
+#include "app/dry_run.h"
+#include "app/frame_builder.h"
+#include "app/metrics.h"
+#include "app/plan.h"
+#include "app/resolve.h"
+#include "app/scene/error.h"
+#include "app/scene/override.h"
+#include "app/scene/read.h"
+#include "app/seed_scene.h"
+#include "app/snow_pieces.h"
+
+namespace neve::app {
+namespace {
+
+const std::string spout = R"(
+[[emitter]]
+name = "spout"
+shape = { box = { center = [0, 1, 0], size = [0.2, 0.04, 0.2] } }
+velocity = [0, -2, 0]
+rate = 20
+)";
+
+Scene flow_scene(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return read_scene_text(text, "scene.toml", "", overrides);
+}
+
+std::string flow_error(const std::string& text) {
+  try {
+    flow_scene(text);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SceneFlow, AnEmitterIsEnoughOfAScene) {
+  const Scene scene = flow_scene(spout + "end = 0.5\n");
+  ASSERT_EQ(scene.emitters.size(), 1u);
+  const sim::Emitter& e = scene.emitters[0];
+  EXPECT_EQ(e.name, "spout");
+  EXPECT_EQ(e.material, "snow");
+  EXPECT_EQ(e.rate, 20);
+  EXPECT_EQ(e.end, 0.5);
+  EXPECT_EQ(flow_scene(spout, {parse_override("emitter.spout.end=none")}).emitters[0].end,
+            std::nullopt);
+}
+
+TEST(SceneFlow, MistakesAreLocated) {
+  EXPECT_NE(flow_error("title = \"x\"\n").find("no body and no emitter"), std::string::npos);
+  const std::string late = flow_error(spout + "start = 1\nend = 0.5\n");
+  EXPECT_NE(late.find("scene.toml:8"), std::string::npos) << late;
+  EXPECT_NE(late.find("it closes at 0.5 s and opens at 1 s"), std::string::npos) << late;
+  const std::string sand = flow_error(spout + "material = \"snwo\"\n");
+  EXPECT_NE(sand.find("did you mean \"snow\"?"), std::string::npos) << sand;
+  const std::string plane = flow_error(spout + "[[sink]]\nshape = { plane = {} }\n");
+  EXPECT_NE(plane.find("plane"), std::string::npos) << plane;
+  EXPECT_NE(flow_error(spout + "rat = 3\n").find("did you mean \"rate\"?"), std::string::npos);
+}
+
+TEST(SceneFlow, ThePlanCountsWhatWillCome) {
+  Scene scene = flow_scene(spout);
+  const double share = 400 * std::pow(scene.solver.cell_size, 3) / 8;
+  const Plan plan = make_plan(scene, {0, 12}, Quality::preview, 1);
+  EXPECT_NEAR(plan.emitted, 20 * 12 / scene.fps / share, 1);
+  EXPECT_NEAR(plan.volume, 20 * 12 / scene.fps / 400, 1e-4);
+  scene.limits.particles = 100;
+  EXPECT_THROW(check_limits(scene, plan), std::exception);
+}
+
+TEST(SceneFlow, CamerasAndRangesKnowWhereSnowWillBe) {
+  Scene scene = flow_scene(spout + "[[collider]]\nshape = { plane = {} }\n");
+  // Falls 1 m from 2 m/s.
+  EXPECT_NEAR(impact_speed(scene), std::sqrt(4 + 2 * 9.81), 1e-6);
+  const std::vector<Moment> moments = dry_run(scene);
+  ASSERT_FALSE(moments.empty());
+  double lowest = 1;
+  for (const Moment& moment : moments)
+    for (const sim::Vec3d& x : moment.x) lowest = std::min(lowest, x.y());
+  EXPECT_LT(lowest, 0.2) << "the coarse copy's snow reaches the floor";
+  resolve(scene, 1000);
+  ASSERT_TRUE(scene.camera && scene.camera->eye);
+}
+
+TEST(SceneFlow, AMomentWithoutParticlesIsDrawnAndMeasured) {
+  Scene scene = flow_scene(spout);
+  resolve(scene, 1000);
+  const sim::Simulation simulation = make_simulation(scene, {}, 1);
+  const Snapshot snapshot = take_snapshot(scene, simulation, 0);
+  const FrameBuilder builder(scene, 0.01, Quality::draft, {}, 1, {});
+  for (const View& view : scene.views)
+    EXPECT_TRUE(builder.build(view, snapshot).points.position.empty());
+  EXPECT_EQ(measure(snapshot.particles, 0.02).fragments, 0u);
+}
+
+TEST(SceneFlow, IdsStayWhereParticlesWereRemoved) {
+  Scene scene = flow_scene(R"(
+[[body]]
+name = "gone"
+shape = { box = { center = [0, 0.05, 0], size = [0.1, 0.1, 0.1] } }
+[[body]]
+name = "kept"
+shape = { box = { center = [1, 0.05, 0], size = [0.1, 0.1, 0.1] } }
+[[sink]]
+shape = { sphere = { center = [0, 0, 0], radius = 0.5 } }
+[[view]]
+name = "slice"
+layers = ["bounds"]
+)");
+  resolve(scene, 1000);
+  std::vector<std::size_t> body_end;
+  const sim::ParticleArrays seeded = seed_scene(scene, &body_end);
+  const sim::Simulation simulation = make_simulation(scene, seeded, 1);
+  EXPECT_EQ(simulation.particle_count(), body_end[1] - body_end[0]);
+  const Snapshot snapshot = take_snapshot(scene, simulation, 0);
+  EXPECT_EQ(snapshot.particles.id_of(0), body_end[0]);
+  const FrameBuilder builder(scene, 0.01, Quality::draft, {}, 1, body_end);
+  const render::Frame frame = builder.build(scene.views[0], snapshot);
+  ASSERT_EQ(frame.labels.size(), 1u);
+  EXPECT_EQ(frame.labels[0].text, "kept");
+}
+
+TEST(SceneFlow, VariationBelongsToTheBodyAndNotToTheGrid) {
+  const std::string text = R"(
+[material.snow]
+variation = { density = 0.2, youngs_modulus = 0.5, thresholds = 0.3, size = 0.05 }
+[[body]]
+shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
+volumes = "given"
+)";
+  const Scene scene = flow_scene(text);
+  const sim::ParticleArrays p = seed_scene(scene);
+  ASSERT_EQ(p.stiffness.size(), p.x.size());
+  const auto [least, most] = std::minmax_element(p.stiffness.begin(), p.stiffness.end());
+  EXPECT_LT(*least, 0.8);
+  EXPECT_GT(*most, 1.3);
+  const sim::ParticleArrays moved =
+      seed_scene(flow_scene(text, {parse_override("body.1.shape.sphere.center=[3,1,2]")}));
+  ASSERT_EQ(moved.x.size(), p.x.size());
+  for (std::size_t q = 0; q < p.x.size(); ++q) {
+    // Places are rounded where they stand.
+    EXPECT_NEAR(moved.stiffness[q], p.stiffness[q], 1e-9);
+    EXPECT_NEAR(moved.m[q] / p.m[q], 1, 1e-9);
+  }
+  EXPECT_TRUE(
+      seed_scene(flow_scene(text, {parse_override("material.snow.variation.thresholds=0"),
+                                   parse_override("material.snow.variation.youngs_modulus=0")}))
+          .stiffness.empty());
+}
+
+std::vector<std::string> findings_of(const std::string& text) {
+  std::vector<Finding> findings;
+  check_emitters(flow_scene(text), findings);
+  std::vector<std::string> addresses;
+  for (const Finding& finding : findings) addresses.push_back(finding.address);
+  return addresses;
+}
+
+TEST(SceneFlow, EmittersThatCannotBeMeantAreFound) {
+  EXPECT_TRUE(findings_of(spout).empty());
+  EXPECT_EQ(findings_of(spout + "start = 100\n"), std::vector<std::string>{"emitter.spout.start"});
+  std::string packed = spout;
+  packed.replace(packed.find("rate = 20"), 9, "rate = 60");
+  EXPECT_EQ(findings_of(packed), std::vector<std::string>{"emitter.spout.rate"});
+}
+
+}  // namespace
+}  // namespace neve::app

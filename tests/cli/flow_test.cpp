@@ -1,0 +1,63 @@
+/// Snow that comes and goes from the command line: counted, resumed and checked.
+
+#include "tests/support/resume.h"
+
+namespace neve::test {
+namespace {
+
+class FlowCli : public Cli {
+ protected:
+  FlowCli() {
+    folder.write("flow.toml", R"(
+frames = 6
+fps = 24
+[solver]
+cell_size = 0.04
+[[emitter]]
+name = "spout"
+shape = { box = { center = [0, 0.5, 0], size = [0.3, 0.08, 0.3] } }
+velocity = [0, -3, 0]
+rate = 60
+[[sink]]
+shape = { box = { center = [0, -0.5, 0], size = [2, 1, 2] } }
+[output]
+size = [160, 120]
+)");
+  }
+};
+
+TEST_F(FlowCli, WhatComesAndGoesIsCounted) {
+  const auto run = neve({"render", "flow.toml", "--out", "out"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_TRUE(contains(run.errors, "0 particles and")) << run.errors;
+  const app::Json json = app::parse_json(std::string_view(read_text(folder / "out/run.json")));
+  const app::Json &first = json["frames"].front(), &last = json["frames"].back();
+  EXPECT_EQ(first["particles"], 0);
+  // 60 kg/s for 0.25 s, in shares of 400 kg/m3 (4 cm)^3 / 8.
+  EXPECT_NEAR(last["emitted"].get<double>(), 60 * 0.25 / (400 * 0.04 * 0.04 * 0.04 / 8), 1);
+  EXPECT_GT(last["removed"].get<int>(), 500);
+  EXPECT_EQ(last["particles"].get<int>(),
+            last["emitted"].get<int>() - last["removed"].get<int>());
+  EXPECT_GT(last["mass"].get<double>(), 1);
+}
+
+TEST_F(FlowCli, PartsOfARunAreTheWholeOne) {
+  ASSERT_EQ(neve({"render", "flow.toml", "--out", "whole"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", "flow.toml", "--out", "parts", "--frames", "0-3"}).exit_code, 0);
+  const auto more = neve({"render", "flow.toml", "--out", "parts", "--resume"});
+  ASSERT_EQ(more.exit_code, 0) << more.errors;
+  EXPECT_TRUE(contains(more.errors, "resumed after frame 3")) << more.errors;
+  const RunFiles x = files_of(folder / "whole"), y = files_of(folder / "parts");
+  EXPECT_EQ(x.hashes, y.hashes);
+  EXPECT_TRUE(x.pictures == y.pictures);
+}
+
+TEST_F(FlowCli, CheckKnowsWhatItWillCost) {
+  const auto check = neve({"check", "flow.toml", "--json"});
+  EXPECT_EQ(check.exit_code, 0) << check.errors;
+  const app::Json json = app::parse_json(std::string_view(check.output));
+  EXPECT_GT(json["seconds_per_step"].get<double>(), 0);
+}
+
+}  // namespace
+}  // namespace neve::test

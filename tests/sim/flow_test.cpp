@@ -1,0 +1,295 @@
+/// Snow that comes and goes: how much, where, with what momentum and energy, and the same whatever
+/// the steps, the threads and the interruptions.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sim/staged.h"
+#include "sim/watch.h"
+#include "tests/support/snow.h"
+
+namespace {
+
+using namespace neve;
+using namespace neve::sim;
+using namespace neve::test;
+
+/// Box of 0.2 x 0.04 x 0.2 m that snow leaves downwards.
+Emitter spout(double rate) {
+  Emitter e;
+  e.name = "spout";
+  e.material = "snow";
+  e.shape.form = Box{{0.1, 1.0, -0.2}, {0.2, 0.04, 0.2}};
+  e.velocity = {0, -2, 0};
+  e.rate = rate;
+  return e;
+}
+
+Sink pit(double top) {
+  Sink sink;
+  sink.name = "pit";
+  sink.shape.form = Box{{0, top - 5, 0}, {10, 10, 10}};
+  return sink;
+}
+
+SolverSettings without_gravity() {
+  SolverSettings s;
+  s.gravity = Vec3d::Zero();
+  return s;
+}
+
+Simulation flowing(const SolverSettings& settings, const ParticleArrays& particles,
+                   const Flow& flow, int threads = 1, const Vec3i& origin = Vec3i::Zero()) {
+  return Simulation(settings, {Material{}}, {}, particles, threads, origin, flow);
+}
+
+std::vector<Birth> births_of(EmitterStream& stream, double time) {
+  std::vector<Birth> births;
+  stream.advance_to(time, births);
+  return births;
+}
+
+TEST(Flow, TheRateIsKeptFromStartToEnd) {
+  Emitter e = spout(3);
+  e.start = 0.1;
+  e.end = 0.35;
+  const Material snow;
+  const double m = snow.density * std::pow(0.02, 3) / e.particles_per_cell;
+  EmitterStream stream(e, 0, snow, 1, 0.02);
+  EXPECT_TRUE(births_of(stream, 0.1).empty());
+  std::size_t count = 0;
+  double mass = 0;
+  for (double t = 0; t <= 1; t += 0.01) {
+    for (const Birth& b : births_of(stream, t)) {
+      ++count;
+      mass += b.m;
+      EXPECT_DOUBLE_EQ(b.V0 * snow.density, b.m);
+    }
+    // Half a particle: times of births are rounded to whole ones.
+    EXPECT_NEAR(mass, 3 * std::clamp(t - 0.1, 0.0, 0.25), 0.5001 * m) << t;
+    EXPECT_EQ(count, count_emitted(e, snow, 0.02, t)) << t;
+  }
+}
+
+TEST(Flow, BirthsDoNotDependOnWhenTheyAreAskedFor) {
+  Emitter e = spout(3);
+  e.angular_velocity = {0, 1, 0.5};
+  const Material snow;
+  EmitterStream whole(e, 2, snow, 7, 0.02), parts(e, 2, snow, 7, 0.02), other(e, 3, snow, 7, 0.02);
+  const std::vector<Birth> once = births_of(whole, 0.25);
+  std::vector<Birth> piecewise;
+  for (const double t : {0.013, 0.014, 0.1, 0.25})
+    for (Birth b : births_of(parts, t)) {
+      b.x += (0.25 - t) * b.v;
+      piecewise.push_back(b);
+    }
+  ASSERT_EQ(piecewise.size(), once.size());
+  for (std::size_t k = 0; k < once.size(); ++k) {
+    // Rounding of ages and positions of order 1.
+    EXPECT_LT((piecewise[k].x - once[k].x).norm(), 1e-13);
+    EXPECT_EQ(piecewise[k].v, once[k].v);
+  }
+  EXPECT_GT((births_of(other, 0.25)[0].x - once[0].x).norm(), 1e-3) << "emitters share a pattern";
+}
+
+/// At the rate that its velocity carries away, a jet is as dense as packed snow, everywhere.
+TEST(Flow, AJetHasTheDensityOfItsMaterial) {
+  const Material snow;
+  Emitter e = spout(0.001);
+  EXPECT_NEAR(carried_rate(e, snow), 400 * 0.2 * 0.2 * 2, 1e-9);
+  Emitter turned = e;
+  turned.shape.rotation = {0, 0, 30};
+  turned.velocity = rotation_from_degrees(turned.shape.rotation) * e.velocity;
+  EXPECT_NEAR(carried_rate(turned, snow), 400 * 0.2 * 0.2 * 2, 1e-9);
+  e.rate = carried_rate(e, snow);
+  EmitterStream stream(e, 0, snow, 1, 0.01);
+  const std::vector<Birth> births = births_of(stream, 0.4);
+  // The jet reaches from the spout, at 1 m, to 0.8 m below; its ends are as long as the spout.
+  const double cell = 0.04;
+  double sum_of_squares = 0;
+  int cells = 0;
+  for (double y = 0.28; y < 0.9; y += cell)
+    for (double x = 0; x + 1e-9 < 0.2; x += cell)
+      for (double z = -0.3; z + 1e-9 < -0.1; z += cell) {
+        double mass = 0;
+        for (const Birth& b : births)
+          if (b.x.x() >= x && b.x.x() < x + cell && b.x.y() >= y && b.x.y() < y + cell &&
+              b.x.z() >= z && b.x.z() < z + cell)
+            mass += b.m;
+        sum_of_squares += std::pow(mass / (400 * cell * cell * cell) - 1, 2);
+        ++cells;
+      }
+  // 512 particles a cell: independent random places would deviate by 1 / sqrt(512) = 4.4 %. Even
+  // ones do better.
+  EXPECT_LT(std::sqrt(sum_of_squares / cells), 0.035);
+}
+
+TEST(Flow, WithoutARateTheShapeIsFilledOnce) {
+  Emitter e = spout(0);
+  e.start = 0.2;
+  const Material snow;
+  EmitterStream stream(e, 0, snow, 1, 0.02);
+  EXPECT_TRUE(births_of(stream, 0.1999).empty());
+  const std::vector<Birth> births = births_of(stream, 0.2);
+  double mass = 0;
+  for (const Birth& b : births) mass += b.m;
+  EXPECT_NEAR(mass, 400 * 0.2 * 0.04 * 0.2, 1e-9);
+  EXPECT_TRUE(births_of(stream, 5).empty());
+}
+
+TEST(Flow, ASceneMayBeginEmpty) {
+  Simulation simulation = flowing(without_gravity(), {}, {{spout(2)}, {}, 1});
+  EXPECT_EQ(simulation.particle_count(), 0u);
+  simulation.advance_to(0.1);
+  EXPECT_FALSE(simulation.divergence());
+  EXPECT_EQ(simulation.particle_count(), count_emitted(spout(2), Material{}, 0.02, 0.1));
+  EXPECT_EQ(simulation.flow_totals().emitted, simulation.particle_count());
+  // With snow there are steps that its sound allows: 0.5 h / c.
+  EXPECT_LT(simulation.choose_dt(1).dt, 0.6 * 0.02 / sound_speed(Material{}));
+}
+
+/// Transfers keep momentum; gravity pulls a particle from the first whole step of its life on.
+TEST(Flow, MomentumIsThatOfTheBirthsAndOfGravity) {
+  SolverSettings settings;
+  settings.precision = Precision::real64;
+  Simulation simulation = flowing(settings, {}, {{spout(5)}, {}, 1});
+  double pulled = 0;  // kg s
+  while (simulation.time() < 0.12) {
+    const double dt = simulation.choose_dt(1).dt;
+    pulled += simulation.summary().mass * dt;
+    simulation.step(dt);
+  }
+  const Summary s = simulation.summary();
+  const Vec3d expected =
+      simulation.flow_totals().emitted_mass * Vec3d(0, -2, 0) + pulled * settings.gravity;
+  EXPECT_FALSE(simulation.divergence());
+  // Double arithmetic over hundreds of steps.
+  EXPECT_LT((s.momentum - expected).norm(), 1e-11 * expected.norm());
+  EXPECT_NEAR(s.mass, simulation.flow_totals().emitted_mass, 1e-12);
+}
+
+TEST(Flow, WhatGoesIsGoneAndWhatStaysKeepsItsId) {
+  SolverSettings settings;
+  ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.01);
+  const std::size_t bodies = block.x.size();
+  Simulation simulation = flowing(settings, block, {{spout(5)}, {pit(0.25)}, 1});
+  simulation.advance_to(0.06);
+  const ParticleArrays before = simulation.particles();
+  EXPECT_TRUE(before.id.empty()) << "nothing has gone yet";
+  simulation.advance_to(0.35);
+  ASSERT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
+  const ParticleArrays after = simulation.particles();
+  const FlowTotals totals = simulation.flow_totals();
+  EXPECT_GT(totals.removed, bodies / 2);
+  EXPECT_EQ(after.x.size(), bodies + totals.emitted - totals.removed);
+  EXPECT_NEAR(simulation.summary().mass,
+              static_cast<double>(bodies) * block.m[0] + totals.emitted_mass - totals.removed_mass,
+              1e-4);
+  ASSERT_EQ(after.id.size(), after.x.size());
+  EXPECT_TRUE(std::is_sorted(after.id.begin(), after.id.end()));
+  // A step moves snow by less than a cell, and it is removed every eighth step.
+  for (const Vec3d& x : after.x) EXPECT_GT(x.y(), 0.25 - 8 * 0.02);
+  EXPECT_FALSE(after.index_of(after.id.back() + 1));
+  EXPECT_EQ(after.index_of(after.id[17]), 17u);
+  EXPECT_EQ(after.first_from(after.id[17]), 17u);
+  // The newest was born in the spout a moment ago: ids did not move.
+  EXPECT_EQ(after.id.back() + 1, bodies + totals.emitted);
+  EXPECT_GT(after.x.back().y(), 0.9);
+  EXPECT_EQ(simulation.kirchhoff().size(), after.x.size());
+  EXPECT_EQ(simulation.cells().size(), after.x.size());
+  EXPECT_EQ(staged_step(simulation, 1e-5).grad_v.size(), after.x.size());
+}
+
+TEST(Flow, OutsideOfASinkTurnedInsideOut) {
+  Sink room;
+  room.shape.form = Sphere{{0.05, 0.35, 0.05}, 0.2};
+  room.outside = true;
+  const ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.01);
+  Simulation inside = flowing(without_gravity(), block, {{}, {room}, 1});
+  EXPECT_EQ(inside.flow_totals().removed, 0u);
+  room.shape.form = Sphere{{0.05, 0.35, 0.05}, 0.05};
+  Simulation cut = flowing(without_gravity(), block, {{}, {room}, 1});
+  std::size_t expected = 0;
+  for (const Vec3d& x : block.x) expected += (x - Vec3d(0.05, 0.35, 0.05)).norm() <= 0.05;
+  EXPECT_EQ(cut.particle_count(), expected) << "the start counts too";
+  EXPECT_GT(expected, 300u);
+}
+
+TEST(Flow, ThreadsAndTheLatticeChangeNothing) {
+  const ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.006);
+  const auto hash = [&](int threads, const Vec3i& origin) {
+    Simulation simulation =
+        flowing(SolverSettings{}, block, {{spout(5), spout(1)}, {pit(0.25)}, 1}, threads, origin);
+    simulation.advance_to(0.2);
+    EXPECT_GT(simulation.flow_totals().removed, 500u);
+    return simulation.state_hash();
+  };
+  const std::uint64_t reference = hash(1, Vec3i::Zero());
+  EXPECT_EQ(hash(2, Vec3i::Zero()), reference);
+  EXPECT_EQ(hash(1, {100, -7, 31}), reference);
+}
+
+TEST(Flow, ARestoredRunGoesOnToTheBit) {
+  const ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.01);
+  const Flow flow{{spout(5), spout(0)}, {pit(0.25)}, 3};
+  for (const double moment : {0.0, 0.1, 0.2, 0.21}) {
+    Simulation whole = flowing(SolverSettings{}, block, flow, 2);
+    whole.advance_to(moment);
+    const std::vector<std::uint8_t> bytes = whole.save();
+    Simulation again = flowing(SolverSettings{}, {}, flow, 1);
+    again.restore(bytes);
+    EXPECT_EQ(again.save(), bytes);
+    whole.advance_to(0.3);
+    again.advance_to(0.3);
+    EXPECT_EQ(again.save(), whole.save()) << moment;
+    EXPECT_EQ(again.flow_totals().removed, whole.flow_totals().removed);
+    EXPECT_GT(whole.flow_totals().removed, 500u);
+    Simulation without = flowing(SolverSettings{}, {}, {});
+    EXPECT_THROW(without.restore(bytes), SavedStateError);
+  }
+}
+
+/// What comes brings its energy, what goes takes it along.
+TEST(Flow, EnergyIsAccountedFor) {
+  SolverSettings settings = without_gravity();
+  settings.precision = Precision::real64;
+  const Flow flow{{spout(5)}, {pit(0.4)}, 1};
+  const auto gap = [](const Simulation& simulation) {
+    const EnergyAccount account = energy_account(simulation);
+    return (account.found - account.explained) / account.scale;
+  };
+  // All snow moves alike: nothing is lost, and the sums are exact but for rounding.
+  Simulation floating = flowing(settings, {}, flow);
+  floating.advance_to(0.5);
+  EXPECT_GT(floating.flow_totals().removed, 1000u);
+  EXPECT_NEAR(gap(floating), 0, 1e-10);
+
+  // A jet that gravity stretches loses energy, more than a tenth of it here; it never gains any.
+  settings.gravity = {0, -9.81, 0};
+  Simulation falling = flowing(settings, {}, flow);
+  falling.advance_to(0.5);
+  EXPECT_FALSE(falling.divergence());
+  EXPECT_GT(falling.flow_totals().removed, 1000u);
+  EXPECT_LT(gap(falling), 1e-3);
+  EXPECT_GT(gap(falling), -0.3);
+}
+
+TEST(Flow, RefusesWhatCannotBe) {
+  Emitter e = spout(1);
+  e.material = "sand";
+  EXPECT_THROW(flowing({}, {}, {{e}, {}, 1}), std::invalid_argument);
+  e = spout(-1);
+  EXPECT_THROW(flowing({}, {}, {{e}, {}, 1}), std::invalid_argument);
+  e = spout(1);
+  e.shape.form = Box{{1e9, 0, 0}, {1, 1, 1}};
+  Simulation far = flowing({}, {}, {{e}, {}, 1});
+  EXPECT_THROW(far.advance_to(0.1), std::invalid_argument);
+  e = spout(0);
+  e.shape.form = Box{{0, 0, 0}, {1e3, 1e3, 1e3}};
+  e.particles_per_cell = 1000;
+  EXPECT_THROW(flowing({}, {}, {{e}, {}, 1}), ShapeError);
+}
+
+}  // namespace

@@ -1,0 +1,143 @@
+/// Noise on density, stiffness and thresholds: its size and smoothness, and that all laws of a step
+/// hold with it.
+
+#include "sim/variation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/diagnostics.h"
+#include "sim/watch.h"
+#include "tests/support/snow.h"
+
+namespace {
+
+using namespace neve;
+using namespace neve::sim;
+using namespace neve::test;
+
+struct Spread {
+  double mean = 0, deviation = 0;
+};
+
+template <class Value>
+Spread spread(const Variation& variation, const Value& value) {
+  constexpr int n = 40'000;
+  double sum = 0, squares = 0;
+  for (int k = 0; k < n; ++k) {
+    // Places far from each other: independent lumps.
+    const Vec3d y(0.37 * (k % 34), 0.41 * (k / 34 % 34), 0.43 * (k / 34 / 34));
+    const double x = value(vary(variation, 5, static_cast<std::uint64_t>(k), y));
+    sum += x;
+    squares += x * x;
+  }
+  const double mean = sum / n;
+  return {mean, std::sqrt(squares / n - mean * mean)};
+}
+
+TEST(Variation, FactorsHaveTheDeviationsThatAreAskedFor) {
+  for (const double size : {0.0, 0.05}) {
+    const Variation variation{0.1, 0.4, 0.25, size};
+    const Spread density = spread(variation, [](const Factors&f) { return f.density; }),
+                 stiffness = spread(variation, [](const Factors&f) { return f.stiffness; }),
+                 threshold = spread(variation, [](const Factors&f) { return f.threshold; });
+    // 40 000 samples: the mean is known to 0.4 / 200, the deviation to 1 %; cutting at three
+    // deviations takes another percent from it.
+    EXPECT_NEAR(density.mean, 1, 0.003);
+    EXPECT_NEAR(density.deviation, 0.1, 0.004);
+    EXPECT_NEAR(stiffness.mean, 1, 0.01);
+    EXPECT_NEAR(stiffness.deviation, 0.4, 0.016);
+    EXPECT_NEAR(threshold.mean, 1, 0.006);
+    EXPECT_NEAR(threshold.deviation, 0.25, 0.01);
+  }
+}
+
+TEST(Variation, WithoutAnyFactorsAreOne) {
+  const Factors f = vary(Variation{}, 5, 3, {0.1, 0.2, 0.3});
+  EXPECT_EQ(f.density, 1);
+  EXPECT_EQ(f.stiffness, 1);
+  EXPECT_EQ(f.threshold, 1);
+}
+
+TEST(Variation, LumpsAreSmoothAndAsLargeAsAskedFor) {
+  const Variation variation{0, 0.4, 0, 0.05};
+  const auto at = [&](double x) { return vary(variation, 5, 0, {x, 0.01, 0.02}).stiffness; };
+  double largest_step = 0, near = 0, far = 0, variance = 0;
+  constexpr int n = 4000;
+  for (int k = 0; k < n; ++k) {
+    const double x = 0.013 * k;
+    largest_step = std::max(largest_step, std::abs(at(x + 1e-6) - at(x)));
+    near += std::pow(at(x + 0.005) - at(x), 2);
+    far += std::pow(at(x + 0.2) - at(x), 2);
+    variance += std::pow(at(x) - 1, 2);
+  }
+  // The steepest fade is 15/8 per lump between values a few deviations apart.
+  EXPECT_LT(largest_step, 1e-6 / 0.05 * 20);
+  EXPECT_LT(near, 0.1 * variance) << "a tenth of a lump away it is nearly the same";
+  EXPECT_NEAR(far / variance, 2, 0.3) << "four lumps away it is another";
+}
+
+/// A factor on the stiffness is a material of that stiffness; likewise the thresholds.
+TEST(Variation, AFactorIsAnotherMaterial) {
+  SolverSettings settings;
+  settings.precision = Precision::real64;
+  ParticleArrays p = ball_of_snow({0, 0.2, 0}, 0.05, 0.01, Vec3d::Zero());
+  disturb(p, 0.1, 2);
+  const double dt = 1e-4;
+  ParticleArrays varied = p;
+  varied.stiffness.assign(p.x.size(), 3.0);
+  varied.threshold.assign(p.x.size(), 0.5);
+  Simulation by_factor(settings, {Material{}}, {}, varied, 1);
+  Simulation by_material(settings, {scaled(Material{}, 3, 0.5)}, {}, p, 1);
+  EXPECT_NEAR(by_factor.summary().elastic_energy, by_material.summary().elastic_energy,
+              1e-12 * by_material.summary().elastic_energy);
+  EXPECT_DOUBLE_EQ(by_factor.step_limits().max_sound_speed,
+                   by_material.step_limits().max_sound_speed);
+  for (int k = 0; k < 20; ++k) {
+    by_factor.step(dt);
+    by_material.step(dt);
+  }
+  const ParticleArrays a = by_factor.particles(), b = by_material.particles();
+  // The factor is one more rounding of each modulus.
+  for (std::size_t q = 0; q < a.x.size(); ++q) {
+    EXPECT_LT((a.F_E[q] - b.F_E[q]).norm(), 1e-10);
+    EXPECT_NEAR(a.J_P[q], b.J_P[q], 1e-10);
+  }
+  EXPECT_EQ(a.stiffness, varied.stiffness);
+  EXPECT_EQ(a.threshold, varied.threshold);
+}
+
+TEST(Variation, EveryLawOfAStepHolds) {
+  for (const double beta : {0.0, 0.5}) {
+    SolverSettings settings;
+    settings.precision = Precision::real64;
+    settings.beta = beta;
+    ParticleArrays p = ball_of_snow({0, 0.2, 0}, 0.05, 0.01, {0, -2, 0});
+    disturb(p, 0.02, 1);
+    const Variation variation{0, 0.5, 0.3, 0.03};
+    for (std::size_t q = 0; q < p.x.size(); ++q) {
+      const Factors f = vary(variation, 1, q, p.x[q]);
+      p.stiffness.push_back(f.stiffness);
+      p.threshold.push_back(f.threshold);
+    }
+    Simulation simulation(settings, {Material{}}, {}, p, 1);
+    Watch watch(settings, {Material{}});
+    for (int k = 0; k < 10; ++k) {
+      for (const std::string& broken : watch.look(simulation)) ADD_FAILURE() << broken;
+      simulation.step(simulation.choose_dt(1).dt);
+    }
+    EXPECT_FALSE(watch.has_errors());
+  }
+}
+
+TEST(Variation, RefusesFactorsThatAreNotPositive) {
+  ParticleArrays p = ball_of_snow({0, 0.2, 0}, 0.03, 0.01, Vec3d::Zero());
+  p.stiffness.assign(p.x.size(), 1.0);
+  p.stiffness.back() = 0;
+  EXPECT_THROW(Simulation({}, {Material{}}, {}, p, 1), std::invalid_argument);
+  p.stiffness.pop_back();
+  EXPECT_THROW(Simulation({}, {Material{}}, {}, p, 1), std::invalid_argument);
+}
+
+}  // namespace
