@@ -104,10 +104,15 @@ void EmitterStream::advance_to(double time, std::vector<Birth>& births) {
   }
 }
 
+/// Evenly spread, and shaken by up to half a spacing, so that no rows are seen.
 Vec3d EmitterStream::next_place() {
   const Bounds box = solid_.local_bounds();
+  const double spacing = std::cbrt(V0_);
   for (int tries = 0; tries < most_candidates; ++tries) {
-    const Vec3d y = box.min + even_point(key_, state_.candidate++).cwiseProduct(box.max - box.min);
+    const std::uint64_t c = state_.candidate++, shake = mix64(key_, c);
+    Vec3d y = box.min + even_point(key_, c).cwiseProduct(box.max - box.min);
+    for (std::uint64_t a = 0; a < 3; ++a)
+      y[static_cast<Eigen::Index>(a)] += spacing * (unit_double(mix64(shake, a)) - 0.5);
     if (solid_.contains_local(y)) return y;
   }
   return solid_.inner_point();
