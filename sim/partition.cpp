@@ -59,6 +59,7 @@ void Partition::forget() {
 
 void Partition::build(const std::vector<std::uint64_t>& keys,
                       const std::vector<std::uint16_t>& locals, ThreadPool& pool, int threads) {
+  if (keys.size() < order_.size()) forget();
   const std::size_t known = order_.size();
   order_.resize(keys.size());
   locals_.resize(keys.size());

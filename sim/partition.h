@@ -23,8 +23,8 @@ class Partition {
   /// Brings keys of particles into the first period.
   void wrap(std::vector<std::uint64_t>& keys, ThreadPool& pool, int threads) const;
 
-  /// Particles may have been added at the end since the last call; after any other change of the
-  /// storage forget() has to be called.
+  /// Particles may have been added at the end since the last call; if there are fewer, all is done
+  /// anew. After any other change of the storage forget() has to be called.
   /// @param keys, locals  per storage index, see SweepArgs
   void build(const std::vector<std::uint64_t>& keys, const std::vector<std::uint16_t>& locals,
              ThreadPool& pool, int threads);
