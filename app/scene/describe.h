@@ -13,8 +13,11 @@
 ///   visit.address_lists(key, tables, help)         [[run]], each with addresses as keys (sweeps)
 ///   visit.shape(key, shape, help, describe_forms)  a table with exactly one form
 ///   visit.form<Form>(key, shape, change, help)     one of these forms
+///   visit.shorthand(key, choice, use, help)        a choice that sets several parameters after it;
+///                                                  `use` does, and it is never written itself
 /// Nested tables are described by calling back with a visitor for them.
 
+#include "app/scene/presets.h"
 #include "app/scene/scene.h"
 #include "app/scene/valid.h"
 
@@ -127,11 +130,10 @@ void describe(V& visit, sim::Variation& v) {
         "Of the lumps that differ; 0: each particle on its own.");
 }
 
+/// What a preset sets.
 template <class V>
-void describe(V& visit, sim::Material& m) {
+void describe_snow_numbers(V& visit, sim::Material& m) {
   using enum Change;
-  visit("model", m.model, unit::none, anything, live,
-        "Elastic law; all harden when compacted, only snow also yields.");
   visit("density", m.density, unit::density, between(1e-3, 1e5), restart,
         "Mass per volume at the start.");
   visit("youngs_modulus", m.youngs_modulus, unit::pascal, between(1e-3, 1e12), live,
@@ -144,6 +146,17 @@ void describe(V& visit, sim::Material& m) {
         "The paper's theta_c: compression where snow starts to yield.");
   visit("critical_stretch", m.critical_stretch, unit::none, between(0, 100), live,
         "The paper's theta_s: stretch where snow starts to break.");
+}
+
+template <class V>
+void describe(V& visit, sim::Material& m) {
+  visit.shorthand(
+      "preset", preset_of(m), [&m](Preset preset) { use_preset(m, preset); },
+      "A kind of snow by name: sets density and all numbers below it that are not given beside "
+      "it.");
+  visit("model", m.model, unit::none, anything, Change::live,
+        "Elastic law; all harden when compacted, only snow also yields.");
+  describe_snow_numbers(visit, m);
   visit.section("variation", "How uneven the snow is.", [&](auto& v) { describe(v, m.variation); });
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/scene/error.h"
 #include "app/scene/params.h"
+#include "app/scene/presets.h"
 #include "app/scene/read.h"
 #include "app/scene/toml_layout.h"
 #include "app/scene/toml_source.h"
@@ -70,10 +71,7 @@ class Edit {
   void make() {
     walk();
     const bool is_there = depth_ == words_.size();
-    if (takes_away(change_)) {
-      if (is_there) remove();
-      return;
-    }
+    if (takes_away(change_)) return take_away();
     const std::string literal = literal_of(change_);
     if (is_there && node_->is_in_one_place()) return replace(node_->written, literal);
     if (is_there) {
@@ -84,7 +82,17 @@ class Edit {
     add(literal);
   }
 
+  /// Whatever the address is.
+  void make_absent() {
+    walk();
+    take_away();
+  }
+
  private:
+  void take_away() {
+    if (depth_ == words_.size()) remove();
+  }
+
   [[noreturn]] void fail(const std::string& why) const {
     change_.fail(
         change_.place, "cannot be put into the file: " + why,
@@ -298,6 +306,15 @@ class Edit {
   Words keys_;             ///< of those the ones that are keys, not names in lists
 };
 
+/// A preset that is set takes the place of the file's numbers.
+void give_way_to_preset(std::string& text, const Override& preset) {
+  if (takes_away(preset)) return;
+  for (const std::string& address : addresses_set_by(preset.address)) {
+    const Override number{address, "none"};
+    Edit(text, number).make_absent();
+  }
+}
+
 }  // namespace
 
 std::string edit_scene_text(const std::string& text, const std::vector<Override>& changes,
@@ -306,6 +323,8 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
   std::string edited = text;
   bool is_right = false;
   try {
+    for (const Override& change : changes)
+      if (is_preset_address(change.address)) give_way_to_preset(edited, change);
     for (const Override& change : changes) Edit(edited, change).make();
     is_right = write_scene(read_scene_text(edited, name, base_dir)) == wanted;
   } catch (const SceneError&) {

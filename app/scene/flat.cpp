@@ -86,6 +86,10 @@ class Flattener {
     describe_rotation(inner, shape, change);
   }
 
+  /// The numbers say it.
+  template <Choice E, class Use>
+  void shorthand(const char*, const std::optional<E>&, Use, const char*) {}
+
  private:
   Flattener inside(const std::string& key) { return Flattener(list_, prefix_ + key + "."); }
 

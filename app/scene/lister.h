@@ -91,6 +91,12 @@ class Lister {
     describe_rotation(inner, shape, change);
   }
 
+  template <Choice E, class Use>
+  void shorthand(const char* key, const std::optional<E>&, Use, const char* help) {
+    list_.push_back(
+        {prefix_ + key, "choice", unit::none, anything, choices<E>(), std::nullopt, false, help});
+  }
+
  private:
   template <class T>
   void list_item(const std::string& prefix) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/scene/presets.h"
 #include "app/scene/scene.h"
 
 namespace neve::app {
@@ -52,6 +53,19 @@ constexpr auto names(sim::Model) {
   using enum sim::Model;
   return std::array{Name{snow, "snow"}, Name{corotated, "corotated"},
                     Name{neo_hookean, "neo_hookean"}};
+}
+constexpr auto names(Preset) {
+  using enum Preset;
+  return std::array{Name{paper, "paper"},
+                    Name{lower_hardening, "lower_hardening"},
+                    Name{lower_youngs_modulus, "lower_youngs_modulus"},
+                    Name{lower_critical_compression, "lower_critical_compression"},
+                    Name{lower_critical_stretch, "lower_critical_stretch"},
+                    Name{lower_compression_and_stretch, "lower_compression_and_stretch"},
+                    Name{powder, "powder"},
+                    Name{wet, "wet"},
+                    Name{packed, "packed"},
+                    Name{icy, "icy"}};
 }
 constexpr auto names(sim::Sampling) {
   using enum sim::Sampling;

@@ -6,6 +6,7 @@
 #include "app/scene/error.h"
 #include "app/scene/leaf.h"
 #include "app/scene/params.h"
+#include "app/scene/presets.h"
 #include "app/scene/toml_source.h"
 #include "app/scene/toml_text.h"
 #include "app/text.h"
@@ -235,11 +236,19 @@ void remove(Table& root, const Path& path, bool is_in_item) {
     std::erase_if(table->entries, [&](const Entry& entry) { return entry.key == path.back(); });
 }
 
+void remove(Table& root, const std::string& address, bool is_in_item) {
+  remove(root, words_of(address), is_in_item);
+}
+
 }  // namespace
 
 void apply_override(Table& root, const Override& change, int index) {
   const Target target = resolve(change, root);
-  if (takes_away(change)) return remove(root, words_of(change.address), target.is_in_item);
+  if (takes_away(change)) return remove(root, change.address, target.is_in_item);
+  // What is set here counts more than what the file says, so its numbers give way to a preset.
+  if (is_preset_address(change.address))
+    for (const std::string& number : addresses_set_by(change.address))
+      remove(root, number, target.is_in_item);
   Value value = value_of(change, target.type);
   set_place(value, index);
 

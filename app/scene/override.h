@@ -27,7 +27,8 @@ struct Override {
 /// @throws UsageError
 Override parse_override(std::string_view argument);
 
-/// Puts the value into the document, creating tables on the way. Later ones win.
+/// Puts the value into the document, creating tables on the way. Later ones win. A preset takes the
+/// place of the numbers that the document has beside it, so presets come first.
 /// @param index  of this override, kept as the location of what it sets
 /// @throws UsageError when nothing has this address (with the nearest that has) or the value is
 ///         no TOML

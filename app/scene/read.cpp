@@ -128,9 +128,11 @@ Scene read_scene_text(std::string_view text, const std::string& name, const std:
                       const std::vector<Override>& overrides) {
   Table root = parse_toml(text, name);
   add_built_ins(root, overrides);
-  for (std::size_t k = 0; k < overrides.size(); ++k) {
-    apply_override(root, overrides[k], static_cast<int>(k));
-  }
+  // Presets first: wherever a single number is set beside one, the number counts.
+  for (const bool is_turn_of_presets : {true, false})
+    for (std::size_t k = 0; k < overrides.size(); ++k)
+      if (is_preset_address(overrides[k].address) == is_turn_of_presets)
+        apply_override(root, overrides[k], static_cast<int>(k));
   Reading reading{{name, base_dir, overrides}, {}};
   Scene scene;
   Reader(reading, root, "").read([&](auto& visit) { describe(visit, scene); });

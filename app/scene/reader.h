@@ -64,6 +64,10 @@ class Keys {
   void form(const char* key, Rest&&...) {
     keys.emplace_back(key);
   }
+  template <class... Rest>
+  void shorthand(const char* key, Rest&&...) {
+    keys.emplace_back(key);
+  }
 };
 
 class Reader {
@@ -163,6 +167,15 @@ class Reader {
       describe(v, form, change);
       describe_rotation(v, shape, change);
     });
+  }
+
+  template <Choice E, class Use>
+  void shorthand(const char* key, const std::optional<E>&, Use use, const char*) {
+    const Entry* entry = given(key);
+    if (!entry) return;
+    E chosen{};
+    read_leaf(Leaf{reading_.source, entry->value, address_of(key), unit::none, anything}, chosen);
+    use(chosen);
   }
 
   /// Reads the members of this table after refusing keys that are none of them.

@@ -67,6 +67,10 @@ class Writer {
     add(key, {std::move(inner.table)});
   }
 
+  /// What it stands for is written, which later versions read alike.
+  template <Choice E, class Use>
+  void shorthand(const char*, const std::optional<E>&, Use, const char*) {}
+
  private:
   template <class T>
   static Value written(T& item) {

@@ -6,6 +6,8 @@
 #include "app/dry_run.h"
 #include "app/resolve.h"
 #include "app/scene/coarsen.h"
+#include "app/scene/flat.h"
+#include "app/scene/names.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/scene/toml_source.h"
@@ -26,6 +28,35 @@ void place(const CameraSettings& found, CameraSettings& camera) {
   if (camera.eye && camera.target) return;
   camera.eye = found.eye;
   camera.target = found.target;
+}
+
+void put_edit(std::vector<Override>& edits, const std::string& address, const std::string& value) {
+  if (const auto old = find(edits, address); old != edits.end())
+    old->value = value;
+  else
+    edits.push_back({address, value});
+}
+
+/// The numbers of a preset that differ from the scene's. They are what is remembered: a number can
+/// change while a simulation runs, be taken back, and be made again with pictures.
+void put_preset(const Scene& scene, Preset preset, const std::string& address,
+                std::vector<Override>& edits) {
+  Scene chosen = scene;
+  for (sim::Material& material : chosen.materials)
+    if (address == "material." + material.name + ".preset") use_preset(material, preset);
+  for (const Difference& difference : differences(scene, chosen))
+    put_edit(edits, difference.address, toml_literal(*difference.after));
+}
+
+/// Of a material that there is; whatever else is wrong, reading tells.
+std::optional<Preset> preset_in(const Override& edit, const Scene& scene) {
+  const auto is_meant = [&](const sim::Material& material) {
+    return edit.address == "material." + material.name + ".preset";
+  };
+  if (std::none_of(scene.materials.begin(), scene.materials.end(), is_meant)) return std::nullopt;
+  const Value value = value_of(edit, "choice");
+  const auto* word = std::get_if<std::string>(&value.data);
+  return word ? value_named<Preset>(*word) : std::nullopt;
 }
 
 void add_built_in_views(Scene& scene) {
@@ -97,10 +128,10 @@ void Document::become(std::vector<Override> edits) {
 
 void Document::set(const std::string& address, const std::string& value, std::uint64_t gesture) {
   std::vector<Override> edits = edits_;
-  if (const auto old = find(edits, address); old != edits.end())
-    old->value = value;
+  if (const std::optional<Preset> preset = preset_in({address, value}, *scene_))
+    put_preset(*scene_, *preset, address, edits);
   else
-    edits.push_back({address, value});
+    put_edit(edits, address, value);
   const std::vector<Override> before = edits_;
   become(std::move(edits));
   if (gesture == 0 || gesture != gesture_) done_.push_back(before);
@@ -111,8 +142,11 @@ void Document::set(const std::string& address, const std::string& value, std::ui
 
 void Document::forget(const std::string& address) {
   std::vector<Override> edits = edits_;
+  const std::vector<std::string> numbers =
+      is_preset_address(address) ? addresses_set_by(address) : std::vector<std::string>{};
   std::erase_if(edits, [&](const Override& edit) {
-    return address.empty() || edit.address == address ||
+    return std::find(numbers.begin(), numbers.end(), edit.address) != numbers.end() ||
+           address.empty() || edit.address == address ||
            (address.ends_with('.') && edit.address.starts_with(address));
   });
   if (edits.size() == edits_.size()) return;
@@ -171,12 +205,26 @@ std::vector<std::string> Document::difference(const std::vector<Override>& befor
   return changed;
 }
 
+/// The value of a number that a preset in the file or of the command line sets.
+std::optional<std::string> Document::in_preset(const Table& root,
+                                               const std::string& address) const {
+  if (!address.starts_with("material.")) return std::nullopt;
+  const std::string preset = address.substr(0, address.rfind('.')) + ".preset";
+  const bool is_set = std::any_of(overrides_.begin(), overrides_.end(),
+                                  [&](const Override& o) { return o.address == preset; });
+  if (!is_set && !value_at(root, preset)) return std::nullopt;
+  for (const FlatParam& param : flatten(*read(text_, {})))
+    if (param.address == address) return param.text();
+  return std::nullopt;
+}
+
 std::optional<std::string> Document::in_file(const std::string& address) const {
   const auto given = std::find_if(overrides_.rbegin(), overrides_.rend(),
                                   [&](const Override& o) { return o.address == address; });
   if (given != overrides_.rend()) return given->value;
   const Table root = parse_toml(text_, file_);
   const Value* value = value_at(root, address);
+  if (const auto number = in_preset(root, address)) return number;
   return value ? std::optional(toml_literal(*value)) : std::nullopt;
 }
 

@@ -45,6 +45,7 @@ class Document {
   /// Those of the command line, then the edits.
   std::vector<Override> all_overrides() const { return with(edits_); }
 
+  /// A material's preset is remembered as the numbers that it changes.
   /// @param value TOML
   /// @param gesture changes with the same number, not 0, are taken back together
   /// @throws SceneError, UsageError, and then nothing has changed
@@ -85,6 +86,7 @@ class Document {
   std::vector<Override> with(const std::vector<Override>& edits) const;
   std::shared_ptr<const Scene> read(const std::string& text,
                                     const std::vector<Override>& edits) const;
+  std::optional<std::string> in_preset(const Table& root, const std::string& address) const;
   void become(std::vector<Override> edits);
 
   std::string file_, text_;

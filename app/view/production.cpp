@@ -1,12 +1,45 @@
 #include "app/view/production.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "app/command_text.h"
 #include "app/output/atomic_file.h"
 #include "app/scene/error.h"
 #include "app/scene/flat.h"
+#include "app/scene/leaf.h"
 #include "app/sweep/around.h"
 
 namespace neve::app {
+
+namespace {
+
+/// A preset among all parameters of a scene: nothing but its choices matters to a sweep.
+std::vector<FlatParam> with_presets(const Scene& scene) {
+  std::vector<FlatParam> params = flatten(scene);
+  for (const sim::Material& material : scene.materials) {
+    FlatParam& param = params.emplace_back();
+    param.address = "material." + material.name + ".preset";
+    param.type = "choice";
+    param.choices = choices<Preset>();
+    param.help = "Kinds of snow by name.";
+    if (const auto preset = preset_of(material)) param.value = to_value(*preset);
+  }
+  return params;
+}
+
+/// What is set in all runs of a sweep: not the numbers that its presets set.
+std::vector<Override> set_in_all(const Document& document, const std::string& address) {
+  std::vector<Override> all = document.all_overrides();
+  if (!is_preset_address(address)) return all;
+  const std::vector<std::string> numbers = addresses_set_by(address);
+  std::erase_if(all, [&](const Override& override) {
+    return std::find(numbers.begin(), numbers.end(), override.address) != numbers.end();
+  });
+  return all;
+}
+
+}  // namespace
 
 std::string plain_file_name(const std::string& address) {
   std::string name = address;
@@ -25,10 +58,11 @@ std::string render_command(const Document& document) {
 
 void write_sweep_around(const std::filesystem::path& file, const Document& document,
                         const std::string& address) {
-  for (const FlatParam& param : flatten(*document.scene())) {
+  for (const FlatParam& param : with_presets(*document.scene())) {
     if (param.address != address) continue;
     make_folder(file.parent_path());
-    write_file(file, sweep_around(document.file(), file.string(), param, document.all_overrides()));
+    write_file(file,
+               sweep_around(document.file(), file.string(), param, set_in_all(document, address)));
     return;
   }
   throw UsageError("", "nothing has the address " + address);

@@ -162,7 +162,9 @@ bool edit_value(const Knob& knob, Range& value) {
 
 bool edit_choice(const Knob&, const std::vector<std::string>& choices, int& index) {
   const int before = index;
-  if (!ImGui::BeginCombo("##value", choices[static_cast<std::size_t>(index)].c_str())) return false;
+  const char* shown =
+      index < 0 ? "(own numbers)" : choices[static_cast<std::size_t>(index)].c_str();
+  if (!ImGui::BeginCombo("##value", shown)) return false;
   for (std::size_t k = 0; k < choices.size(); ++k) {
     if (ImGui::Selectable(choices[k].c_str(), static_cast<int>(k) == index))
       index = static_cast<int>(k);

@@ -33,6 +33,7 @@ bool edit_value(const Knob& knob, sim::Vec3d& value);
 bool edit_value(const Knob& knob, std::vector<std::string>& value);
 bool edit_value(const Knob& knob, PictureSize& value);
 bool edit_value(const Knob& knob, Range& value);
+/// @param index -1: none of them
 bool edit_choice(const Knob& knob, const std::vector<std::string>& choices, int& index);
 bool edit_choices(const Knob& knob, const std::vector<std::string>& choices,
                   std::vector<bool>& chosen);
@@ -146,6 +147,21 @@ class Knobs {
     Knobs inner(panel_, at(key));
     describe(inner, *form, change);
     describe_rotation(inner, shape, change);
+  }
+
+  template <Choice E, class Use>
+  void shorthand(const char* key, const std::optional<E>& now, Use, const char* help) {
+    // What it sets says itself what waits for a reset.
+    const Knob knob{at(key), key, unit::none, anything, help, true};
+    if (!panel_.shows(knob.address, help)) return;
+    panel_.begin(knob);
+    const std::vector<std::string> all = choices<E>();
+    int index =
+        now ? static_cast<int>(std::find(all.begin(), all.end(), name_of(*now)) - all.begin()) : -1;
+    const bool is_set = edit_choice(knob, all, index);
+    const std::string value = index < 0 ? "" : toml_string(all[static_cast<std::size_t>(index)]);
+    panel_.end(knob, value);
+    if (is_set) panel_.note({Edit::Kind::set, knob.address, value, panel_.gesture()});
   }
 
  private:

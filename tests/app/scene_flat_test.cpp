@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/scene/flat.h"
+#include "app/scene/presets.h"
 #include "app/scene/read.h"
 
 namespace neve::app {
@@ -103,7 +104,9 @@ views = ["NAME"]
                                !info.address.starts_with("emitter.NAME.shape.cone.") &&
                                !info.address.starts_with("sink.NAME.shape.torus.") &&
                                !info.address.starts_with("collider.NAME.shape.box.");
-    if (!is_other_form && info.address.find('[') == std::string::npos)
+    // A preset is a way to write the numbers after it.
+    const bool is_shorthand = is_preset_address(info.address);
+    if (!is_other_form && !is_shorthand && info.address.find('[') == std::string::npos)
       expected.push_back(info.address);
   }
   EXPECT_EQ(found, expected);

@@ -64,6 +64,9 @@ class Walker {
     describe(inner, *form, change);
     describe_rotation(inner, shape, change);
   }
+  /// Says nothing that is not written elsewhere.
+  template <class... Rest>
+  void shorthand(const char*, Rest&&...) {}
 
  protected:
   std::string prefix_;

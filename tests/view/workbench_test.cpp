@@ -163,6 +163,55 @@ TEST(Workbench, APausedChangeBelongsToThePicture) {
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
 }
 
+TEST(Document, KeepsAPresetAsTheNumbersThatItChanges) {
+  Document document("scene.toml", tiny_scene, {}, 1);
+  document.set("material.snow.preset", "\"lower_hardening\"");
+  ASSERT_EQ(document.changes().size(), 1u);
+  EXPECT_EQ(document.changes()[0].address, "material.snow.hardening");
+  document.set("material.snow.hardening", "3");
+  document.set("material.snow.preset", "icy");
+  EXPECT_EQ(preset_of(document.scene()->materials[0]), Preset::icy);
+  document.undo();
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 3);
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].density, 400);
+  document.redo();
+  document.forget("material.snow.preset");
+  EXPECT_TRUE(document.changes().empty());
+  EXPECT_THROW(document.set("material.snow.preset", "icey"), UsageError);
+  EXPECT_THROW(document.set("material.ice.preset", "icy"), UsageError);
+}
+
+TEST(Document, KnowsTheNumbersOfAPresetInTheFile) {
+  const std::string text = std::string(tiny_scene) + "[material.snow]\npreset = \"wet\"\n";
+  Document document("scene.toml", text, {}, 1);
+  EXPECT_EQ(document.in_file("material.snow.hardening"), "5");
+  EXPECT_EQ(document.in_file("material.snow.model"), "\"snow\"");
+  Document set("scene.toml", text, {parse_override("material.snow.preset=icy")}, 1);
+  EXPECT_EQ(set.in_file("material.snow.hardening"), "20");
+}
+
+TEST(Workbench, APresetChosenWhileItRunsIsReplayedToTheBit) {
+  const TemporaryFolder folder;
+  const std::string text = std::string(tiny_scene) + "[material.snow]\npreset = \"wet\"\n";
+  Workbench bench = bench_for(folder, text);
+  Session& session = bench.session();
+  session.next_frame();
+  rest_at(session, 1);
+  bench.set("material.snow.preset", "icy");
+  EXPECT_EQ(bench.waiting_for_reset(), (std::vector<std::string>{"material.snow.density"}));
+  session.next_frame();
+  rest_at(session, 2);
+  bench.forget("material.snow.hardening");  // back to that of "wet", not to the default
+  session.run();
+  const auto live = rest_at(session, 4);
+  EXPECT_DOUBLE_EQ(live->scene->materials[0].density, 500);
+  EXPECT_DOUBLE_EQ(live->scene->materials[0].hardening, 5);
+  const PictureRecord record = bench.picture_record(*live, live->scene->views.front());
+  ASSERT_EQ(record.changes.size(), 6u);
+  EXPECT_EQ(preset_of(read_scene_text(record.scene, "record").materials[0]), Preset::wet);
+  EXPECT_EQ(hash_of_replay(record), live->state_hash);
+}
+
 TEST(Workbench, WhatNeedsARestartWaitsForItUnlessNothingIsLost) {
   const TemporaryFolder folder;
   Workbench bench = bench_for(folder, tiny_scene);

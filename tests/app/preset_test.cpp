@@ -1,0 +1,171 @@
+// Kinds of snow by name: what they set, what counts more, and that pictures keep numbers alone.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "app/scene/describe.h"
+#include "app/scene/edit_text.h"
+#include "app/scene/error.h"
+#include "app/scene/flat.h"
+#include "app/scene/leaf.h"
+#include "app/scene/names.h"
+#include "app/scene/params.h"
+#include "app/scene/read.h"
+
+namespace neve::app {
+namespace {
+
+const std::string body = "\n[[body]]\nshape = { box = {} }\n";
+
+Scene preset_scene(const std::string& material, const std::vector<std::string>& sets = {}) {
+  std::vector<Override> overrides;
+  for (const std::string& set : sets) overrides.push_back(parse_override(set));
+  return read_scene_text(material + body, "s.toml", "", overrides);
+}
+
+sim::Material preset_snow(const std::string& material, const std::vector<std::string>& sets = {}) {
+  return preset_scene(material, sets).materials.at(0);
+}
+
+const std::string powder = "[material.snow]\npreset = \"powder\"\n";
+
+TEST(Preset, OfThePaperIsTheDefault) {
+  EXPECT_EQ(preset_of(sim::Material{}), Preset::paper);
+}
+
+TEST(Preset, EachHasNumbersOfItsOwnThatASceneMayHave) {
+  std::set<std::string> written;
+  for (const auto& name : names(Preset{})) {
+    const Scene scene =
+        preset_scene("[material.snow]\npreset = \"" + std::string(name.text) + "\"\n");
+    EXPECT_EQ(preset_of(scene.materials[0]), name.value) << name.text;
+    // Writing and reading back refuses what is out of range.
+    const std::string text = write_scene(scene);
+    EXPECT_EQ(write_scene(read_scene_text(text, "again", "")), text) << name.text;
+    EXPECT_TRUE(written.insert(text).second) << name.text << " is the same as another one";
+  }
+}
+
+TEST(Preset, SetsEveryNumberOfTheSnowAndNothingElse) {
+  Scene before = preset_scene("");
+  sim::Material& m = before.materials[0];
+  m.density = m.youngs_modulus = m.hardening = 3;
+  m.poisson_ratio = m.critical_compression = m.critical_stretch = 0.123;
+  m.model = sim::Model::corotated;
+  Scene after = before;
+  use_preset(after.materials[0], Preset::icy);
+  std::vector<std::string> changed;
+  for (const Difference& difference : differences(before, after))
+    changed.push_back(difference.address);
+  EXPECT_EQ(changed, addresses_set_by("material.snow.preset"));
+  EXPECT_EQ(changed.size(), 6u);
+}
+
+TEST(Preset, GivesWayToNumbersBesideIt) {
+  const sim::Material m = preset_snow("[material.snow]\nhardening = 3\npreset = \"powder\"\n");
+  EXPECT_EQ(m.hardening, 3);
+  EXPECT_EQ(m.density, snow_of(Preset::powder).density);
+  EXPECT_EQ(m.critical_stretch, snow_of(Preset::powder).critical_stretch);
+}
+
+TEST(Preset, GivesWayToNumbersThatAreSet) {
+  for (const auto& sets : {std::vector<std::string>{"material.snow.hardening=3"},
+                           {"material.snow.preset=icy", "material.snow.hardening=3"},
+                           {"material.snow.hardening=3", "material.snow.preset=icy"}}) {
+    const sim::Material m = preset_snow(powder, sets);
+    EXPECT_EQ(m.hardening, 3);
+    EXPECT_EQ(m.density, snow_of(sets.size() == 1 ? Preset::powder : Preset::icy).density);
+  }
+}
+
+// The scene kept with a picture gives all its numbers; a preset set for it must not do nothing.
+TEST(Preset, ThatIsSetCountsMoreThanTheFile) {
+  EXPECT_EQ(
+      preset_of(preset_snow("[material.snow]\nhardening = 3\n", {"material.snow.preset=wet"})),
+      Preset::wet);
+  const std::string kept = write_scene(preset_scene(powder));
+  const Scene again =
+      read_scene_text(kept, "s.toml", "", {parse_override("material.snow.preset=\"packed\"")});
+  EXPECT_EQ(preset_of(again.materials[0]), Preset::packed);
+}
+
+TEST(Preset, TakenAwayLeavesTheNumbersOfTheFile) {
+  const sim::Material m = preset_snow(powder + "hardening = 3\n", {"material.snow.preset=none"});
+  EXPECT_EQ(m.hardening, 3);
+  EXPECT_EQ(m.density, sim::Material{}.density);
+}
+
+TEST(Preset, IsWrittenAsNumbers) {
+  const std::string text = write_scene(preset_scene(powder + "hardening = 3\n"));
+  EXPECT_EQ(text.find("preset"), std::string::npos) << text;
+  const sim::Material m = read_scene_text(text, "again", "").materials[0];
+  EXPECT_EQ(m.hardening, 3);
+  EXPECT_EQ(m.youngs_modulus, snow_of(Preset::powder).youngs_modulus);
+}
+
+TEST(Preset, OfAnUnknownNameIsRefusedWithTheNearest) {
+  try {
+    preset_snow("[material.snow]\npreset = \"powdr\"\n");
+    ADD_FAILURE() << "was read";
+  } catch (const SceneError& error) {
+    EXPECT_EQ(error.line, 2);
+    EXPECT_NE(std::string(error.what()).find("did you mean \"powder\"?"), std::string::npos)
+        << error.what();
+  }
+  try {
+    preset_snow("", {"material.snow.preset=ice"});
+    ADD_FAILURE() << "was set";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean \"icy\"?"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_THROW(preset_snow("[material.snow]\npreset = 3\n"), SceneError);
+}
+
+TEST(Preset, IsListedWithItsChoices) {
+  const auto info = param_at("material.snow.preset");
+  ASSERT_TRUE(info);
+  EXPECT_EQ(info->choices, choices<Preset>());
+  // Density needs a restart; kept changes of a running simulation are numbers.
+  EXPECT_FALSE(is_live("material.snow.preset"));
+}
+
+TEST(Preset, IsDocumentedWithItsNumbers) {
+  std::ifstream file(std::string(NEVE_SOURCE_DIR) + "/docs/scenes.md");
+  std::map<std::string, std::vector<double>> rows;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream cells(line);
+    std::string bar, name, word;
+    if (!(cells >> bar >> name) || bar != "|") continue;
+    while (cells >> word)
+      if (word[0] >= '0' && word[0] <= '9')
+        rows[name].push_back(std::strtod(word.c_str(), nullptr));
+  }
+  for (const auto& name : names(Preset{})) {
+    const sim::Material m = snow_of(name.value);
+    EXPECT_EQ(rows[name.text],
+              (std::vector<double>{m.density, m.youngs_modulus, m.poisson_ratio, m.hardening,
+                                   m.critical_compression, m.critical_stretch}))
+        << name.text;
+  }
+}
+
+TEST(Preset, PutIntoAFileTakesThePlaceOfItsNumbers) {
+  const std::string text =
+      "[material.snow]   # mine\ndensity = 300   # heavy\nmodel = \"snow\"\nhardening = 4\n" + body;
+  const std::string expected =
+      "[material.snow]   # mine\nmodel = \"snow\"\npreset = \"wet\"\nhardening = 7\n" + body;
+  EXPECT_EQ(edit_scene_text(text, {parse_override("material.snow.hardening=7"),
+                                   parse_override("material.snow.preset=wet")}),
+            "[material.snow]   # mine\nmodel = \"snow\"\nhardening = 7\npreset = \"wet\"\n" + body);
+  EXPECT_EQ(edit_scene_text(text, {parse_override("material.snow.preset=wet"),
+                                   parse_override("material.snow.hardening=7")}),
+            expected);
+}
+
+}  // namespace
+}  // namespace neve::app
