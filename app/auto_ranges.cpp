@@ -6,6 +6,7 @@
 #include "app/attributes.h"
 #include "app/round_number.h"
 #include "app/snow_pieces.h"
+#include "sim/placed_points.h"
 
 namespace neve::app {
 
@@ -36,11 +37,19 @@ double distance_to(const sim::Collider& collider, const Vec3d& point, const Vec3
   return enter <= leave ? enter : -1;
 }
 
+/// Of points that have velocities in their file.
+double own_speed(const sim::Shape& shape) {
+  const auto* points = std::get_if<sim::Points>(&shape.form);
+  if (!points) return 0;
+  return sim::summary_of(*points, sim::rotation_from_degrees(shape.rotation)).max_speed;
+}
+
 /// Speed of snow when it meets what is below it, or at the end of the scene when nothing is.
 double impact_speed(const Scene& scene, const SnowPiece& piece) {
   const sim::Bounds box = sim::bounds(*piece.shape);
   const double radius = 0.5 * (box.max - box.min).norm();
-  const double start = piece.velocity.norm() + piece.angular_velocity.norm() * radius;
+  const double start =
+      piece.velocity.norm() + piece.angular_velocity.norm() * radius + own_speed(*piece.shape);
   const double g = scene.solver.gravity.norm();
   if (g == 0) return start;
   const Vec3d down = scene.solver.gravity / g;
@@ -96,9 +105,8 @@ double impact_speed(const Scene& scene) {
 double energy_of_impact(const Scene& scene) {
   double energy = 0;
   for (const SnowPiece& piece : snow_pieces(scene)) {
-    const double mass = piece.material->density * piece.volume;
     const double speed = impact_speed(scene, piece);
-    energy += 0.5 * mass * speed * speed;
+    energy += 0.5 * piece.mass * speed * speed;
   }
   return energy;
 }

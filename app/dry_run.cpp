@@ -40,6 +40,8 @@ Scene coarsened(const Scene& scene, Substitute substitute) {
   coarse.solver.beta = 0;  // softened as it is below, explicit steps do it
   const double growth = std::max(1.0, planned_particles(scene) / particles_wanted);
   coarse.solver.cell_size *= std::cbrt(growth);
+  for (sim::Body& body : coarse.bodies)
+    if (auto* points = std::get_if<sim::Points>(&body.shape.form)) points->thinning *= growth;
   for (sim::Material& material : coarse.materials) {
     const double c = sim::sound_speed(material);
     if (c > most_sound_speed)

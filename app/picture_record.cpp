@@ -143,11 +143,13 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
 
 std::map<std::string, std::string> hash_files(const Scene& scene) {
   std::map<std::string, std::string> files;
+  const auto hash = [&](const std::string& file) {
+    const std::vector<std::uint8_t> bytes = read_file(file);
+    files[file] = hash_text(hash_bytes(bytes.data(), bytes.size()));
+  };
   const auto add = [&](const sim::Shape& shape) {
-    if (const auto* mesh = std::get_if<sim::Mesh>(&shape.form)) {
-      const std::vector<std::uint8_t> bytes = read_file(mesh->file);
-      files[mesh->file] = hash_text(hash_bytes(bytes.data(), bytes.size()));
-    }
+    if (const auto* mesh = std::get_if<sim::Mesh>(&shape.form)) hash(mesh->file);
+    if (const auto* points = std::get_if<sim::Points>(&shape.form)) hash(points->file);
   };
   for (const sim::Body& body : scene.bodies) add(body.shape);
   for (const sim::Emitter& emitter : scene.emitters) add(emitter.shape);

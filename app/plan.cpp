@@ -72,8 +72,9 @@ Plan make_plan(const Scene& scene, const FrameRange& frames, Quality quality, in
     const double filled = seeding.volume / (h * h * h);
     plan.volume += seeding.volume;
     cells += filled;
+    const bool is_listed = std::holds_alternative<sim::Points>(body.shape.form);
     plan.particles += std::max(static_cast<double>(seeding.particle_count),
-                               std::floor(filled * body.particles_per_cell));
+                               is_listed ? 0.0 : std::floor(filled * body.particles_per_cell));
   }
   const double time = frames.last / scene.fps;
   for (const sim::Emitter& emitter : scene.emitters) {

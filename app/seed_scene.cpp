@@ -55,13 +55,18 @@ void append_body(const Scene& scene, std::size_t index, sim::ParticleArrays& par
   const sim::Body& body = scene.bodies[index];
   const sim::SeededBody seeded = sim::seed_body(body, index, scene.seed, scene.solver.cell_size);
   const std::size_t material = material_index(scene, body.material);
-  const double volume = seeded.volume / static_cast<double>(seeded.x.size());
-  const double V0 = body.volumes == sim::Volumes::given ? volume : 0.0;
-  for (const sim::Vec3d& x_p : seeded.x) {
+  const double share = seeded.volume / static_cast<double>(seeded.x.size());
+  const bool is_given = body.volumes == sim::Volumes::given;
+  for (std::size_t p = 0; p < seeded.x.size(); ++p) {
+    const sim::Vec3d& x_p = seeded.x[p];
+    const double volume = seeded.V.empty() ? share : seeded.V[p];
+    sim::Vec3d v_p = body.velocity + body.angular_velocity.cross(x_p - seeded.center);
+    if (!seeded.v.empty()) v_p += seeded.v[p];
     particles.x.push_back(x_p);
-    particles.v.push_back(body.velocity + body.angular_velocity.cross(x_p - seeded.center));
-    particles.m.push_back(scene.materials[material].density * volume);
-    particles.V0.push_back(V0);
+    particles.v.push_back(v_p);
+    particles.m.push_back(seeded.m.empty() ? scene.materials[material].density * volume
+                                           : seeded.m[p]);
+    particles.V0.push_back(is_given ? volume : 0.0);
     particles.material.push_back(static_cast<int>(material));
   }
   vary_body(scene, index, seeded, particles);

@@ -24,11 +24,12 @@ double emission(const Scene& scene, const sim::Emitter& emitter, double time) {
 std::vector<SnowPiece> snow_places(const Scene& scene) {
   std::vector<SnowPiece> pieces;
   for (const sim::Body& body : scene.bodies)
-    pieces.push_back({&body.shape, &material_of(scene, body.material), body.velocity,
-                      body.angular_velocity, 0, 0, "body." + body.name});
+    pieces.push_back({"body." + body.name, &body.shape, &material_of(scene, body.material),
+                      body.velocity, body.angular_velocity});
   for (const sim::Emitter& emitter : scene.emitters)
-    pieces.push_back({&emitter.shape, &material_of(scene, emitter.material), emitter.velocity,
-                      emitter.angular_velocity, 0, 0, "emitter." + emitter.name});
+    pieces.push_back({"emitter." + emitter.name, &emitter.shape,
+                      &material_of(scene, emitter.material), emitter.velocity,
+                      emitter.angular_velocity});
   return pieces;
 }
 
@@ -37,13 +38,16 @@ std::vector<SnowPiece> snow_pieces(const Scene& scene) {
   std::vector<SnowPiece> pieces = snow_places(scene);
   auto piece = pieces.begin();
   for (const sim::Body& body : scene.bodies) {
-    piece->volume = sim::plan_seeding(body, scene.solver.cell_size).volume;
-    piece->particles = piece->volume / cell * body.particles_per_cell;
+    const sim::SeedingPlan plan = sim::plan_seeding(body, h);
+    piece->volume = plan.volume;
+    piece->mass = plan.mass > 0 ? plan.mass : piece->material->density * plan.volume;
+    piece->particles = sim::expected_particles(body, h);
     ++piece;
   }
   for (const sim::Emitter& emitter : scene.emitters) {
     piece->particles = emission(scene, emitter, scene.frames / scene.fps);
     piece->volume = piece->particles * cell / emitter.particles_per_cell;
+    piece->mass = piece->material->density * piece->volume;
     ++piece;
   }
   return pieces;

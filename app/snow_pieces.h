@@ -9,19 +9,20 @@
 namespace neve::app {
 
 struct SnowPiece {
+  std::string address;  ///< "body.ball"
   const sim::Shape* shape;
   const sim::Material* material;
   sim::Vec3d velocity, angular_velocity;
   double volume = 0;     ///< m3; of an emitter all that it emits
   double particles = 0;  ///< roughly
-  std::string address;   ///< "body.ball"
+  double mass = 0;       ///< kg, of all
 };
 
 /// Bodies, then emitters; until the scene ends. Points into the scene.
-/// @throws sim::ShapeError for meshes that cannot be read
+/// @throws sim::ShapeError for files that cannot be read
 std::vector<SnowPiece> snow_pieces(const Scene& scene);
 
-/// The same without what a file has to be read for: volume and particles stay 0.
+/// The same without what a file has to be read for: volume, particles and mass stay 0.
 std::vector<SnowPiece> snow_places(const Scene& scene);
 
 /// Particles of all emitters until a time, s.

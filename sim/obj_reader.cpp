@@ -2,14 +2,12 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
+#include <optional>
 #include <system_error>
 #include <utility>
 
-#include "sim/shape.h"
+#include "sim/input_file.h"
 
 // An own reader rather than tinyobjloader (2.0rc10 tried): that reads "v 1 abc" as (1, 0, 0), lets
 // the index 99999999999999 wrap round into a valid range, returns indices out of range with a
@@ -17,24 +15,6 @@
 
 namespace neve::sim {
 namespace {
-
-constexpr std::uintmax_t max_file_size = 256u << 20;
-
-[[noreturn]] void fail(const std::string& where, const std::string& what) {
-  throw ShapeError(where + ": " + what);
-}
-
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
-
-/// Text from a file as it may be shown in a message: short and printable.
-std::string quoted(std::string_view word) {
-  std::string shown(word.substr(0, 40));
-  for (char& c : shown)
-    if (c < ' ' || c > '~') c = '?';
-  return '"' + shown + (word.size() > 40 ? "...\"" : "\"");
-}
 
 /// The words of a text, line by line.
 class Words {
@@ -121,15 +101,11 @@ class Parser {
   }
 
   double read_coordinate(std::string_view word) const {
-    if (word.empty()) fail(here(), "a vertex with less than three coordinates");
-    std::string_view digits = word;
-    if (digits.front() == '+') digits.remove_prefix(1);
-    double value = 0;
-    const char* end = digits.data() + digits.size();
-    const auto [stop, error] = std::from_chars(digits.data(), end, value);
-    if (error != std::errc{} || stop != end || !std::isfinite(value))
-      fail(here(), "the coordinate " + quoted(word) + " is not a finite number");
-    return value;
+    if (word.empty()) refuse_input(here(), "a vertex with less than three coordinates");
+    const std::optional<double> value = number_in(word);
+    if (!value || !std::isfinite(*value))
+      refuse_input(here(), "the coordinate " + quoted_input(word) + " is not a finite number");
+    return *value;
   }
 
   void read_polygon() {
@@ -138,7 +114,7 @@ class Parser {
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next(), ++count)
       mesh_.corners.push_back(read_index(word));
     if (count < 3)
-      fail(here(), "a face of " + std::to_string(count) + " corners; expected 3 or more");
+      refuse_input(here(), "a face of " + std::to_string(count) + " corners; expected 3 or more");
   }
 
   /// Index from 0. One beyond the last vertex so far may still come true, see check_indices.
@@ -150,19 +126,21 @@ class Parser {
     const bool is_number = error == std::errc{} && (stop == end || *stop == '/');
     if (!is_number || index == 0 || index < -count ||
         index > std::numeric_limits<std::uint32_t>::max())
-      fail(here(), "the face names the vertex " + quoted(word) + "; there are " +
-                       std::to_string(count) + " so far, counted from 1, or from -1 backwards");
+      refuse_input(here(), "the face names the vertex " + quoted_input(word) + "; there are " +
+                               std::to_string(count) +
+                               " so far, counted from 1, or from -1 backwards");
     return static_cast<std::uint32_t>(index > 0 ? index - 1 : index + count);
   }
 
   void check_indices() const {
-    if (mesh_.polygons.empty()) fail(name_, "no faces; expected an OBJ file with lines f 1 2 3");
+    if (mesh_.polygons.empty())
+      refuse_input(name_, "no faces; expected an OBJ file with lines f 1 2 3");
     for (std::size_t p = 0; p < mesh_.polygons.size(); ++p)
       for (std::size_t c = mesh_.polygons[p].first; c < mesh_.corner_end(p); ++c)
         if (mesh_.corners[c] >= mesh_.vertices.size())
-          fail(name_ + ":" + std::to_string(mesh_.polygons[p].line),
-               "the face names vertex " + std::to_string(mesh_.corners[c] + 1ull) +
-                   "; the file has " + std::to_string(mesh_.vertices.size()));
+          refuse_input(name_ + ":" + std::to_string(mesh_.polygons[p].line),
+                       "the face names vertex " + std::to_string(mesh_.corners[c] + 1ull) +
+                           "; the file has " + std::to_string(mesh_.vertices.size()));
   }
 
   Words words_;
@@ -177,19 +155,7 @@ PolygonMesh parse_obj(std::string_view text, const std::string& name) {
 }
 
 PolygonMesh read_obj(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) fail(path, "no such file");
-  if (!std::filesystem::is_regular_file(status)) fail(path, "not a file");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) fail(path, "cannot be read: " + error.message());
-  if (size > max_file_size)
-    fail(path, std::to_string(size >> 20) + " MiB; meshes of up to 256 MiB are read. Simplify it");
-  std::ifstream file(path, std::ios::binary);
-  std::string text(size, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(size));
-  if (!file) fail(path, "cannot be read");
-  return parse_obj(text, path);
+  return parse_obj(read_input_file(path, 256, "meshes"), path);
 }
 
 }  // namespace neve::sim

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/base/hash.h"
+#include "sim/placed_points.h"
 #include "sim/sampling.h"
 #include "sim/solid.h"
 
@@ -27,13 +28,38 @@ std::size_t saturated(double count) {
   return count < static_cast<double>(max) ? static_cast<std::size_t>(count) : max;
 }
 
+SeededBody seed_points(const Body& body, const Points& points) {
+  PlacedPoints placed(points);
+  const Mat3d R = rotation_from_degrees(body.shape.rotation);
+  SeededBody seeded{std::move(placed.x), points.center,       placed.volume,
+                    std::move(placed.v), std::move(placed.m), std::move(placed.V)};
+  for (Vec3d& x : seeded.x) x = seeded.center + R * x;
+  for (Vec3d& v : seeded.v) v = R * v;
+  return seeded;
+}
+
 }  // namespace
 
+double expected_particles(const Body& body, double cell_size) {
+  if (const auto* points = std::get_if<Points>(&body.shape.form))
+    return summary_of(*points, rotation_from_degrees(body.shape.rotation)).expected_count;
+  return Solid(body.shape).volume() /
+         std::pow(particle_spacing(body.particles_per_cell, cell_size), 3);
+}
+
 SeedingPlan plan_seeding(const Body& body, double cell_size) {
+  if (const auto* points = std::get_if<Points>(&body.shape.form)) {
+    const PointsSummary p = summary_of(*points, rotation_from_degrees(body.shape.rotation));
+    return {p.volume,
+            p.count,
+            {points->center + p.bounds.min, points->center + p.bounds.max},
+            p.max_speed,
+            p.mass};
+  }
   const Solid solid(body.shape);
   const double count =
       expected_count(body, solid, particle_spacing(body.particles_per_cell, cell_size));
-  return {solid.volume(), saturated(std::max(1.0, std::ceil(count))), solid.bounds()};
+  return {solid.volume(), saturated(std::max(1.0, std::ceil(count))), solid.bounds(), 0, 0};
 }
 
 double poisson_distance(double particles_per_cell, double cell_size) {
@@ -42,13 +68,14 @@ double poisson_distance(double particles_per_cell, double cell_size) {
 
 SeededBody seed_body(const Body& body, std::uint64_t body_index, std::uint64_t seed,
                      double cell_size) {
+  if (const auto* points = std::get_if<Points>(&body.shape.form)) return seed_points(body, *points);
   const Solid solid(body.shape);
   const double spacing = particle_spacing(body.particles_per_cell, cell_size);
   if (!(expected_count(body, solid, spacing) < max_particles))
     throw ShapeError("body " + body.name + ": more than 2^32 particles fit into it");
 
   const std::uint64_t key = mix64(mix64(seed), body_index);
-  SeededBody seeded{{}, solid.center(), solid.volume()};
+  SeededBody seeded{{}, solid.center(), solid.volume(), {}, {}, {}};
   switch (body.sampling) {
     case Sampling::jittered:
       seeded.x = sample_jittered(solid, spacing, key);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/mesh.h"
+#include "sim/placed_points.h"
 #include "sim/solid.h"
 #include "sim/solid_forms.h"
 
@@ -30,6 +31,7 @@ struct MakeForm {
     throw std::invalid_argument("a plane bounds no volume: it serves as a collider only");
   }
   Result operator()(const Mesh& s) const { return read_mesh_solid(s.file, s.scale); }
+  Result operator()(const Points& s) const { return make_points_solid(s); }
 };
 
 struct CenterOf {

@@ -45,9 +45,16 @@ struct Mesh {
   double scale = 1.0;
   Vec3d center{0, 0, 0};
 };
+/// Particles in a PLY or CSV file, see sim/point_reader.h.
+struct Points {
+  std::string file;       ///< resolved path
+  double spacing = 0;     ///< m; of a file without volumes each point has spacing^3; 0: not given
+  double thinning = 1;    ///< one point in so many is used, and stands for all of them
+  Vec3d center{0, 0, 0};  ///< where the origin of the file goes
+};
 
 struct Shape {
-  std::variant<Sphere, Box, Capsule, Cylinder, Cone, Torus, Plane, Mesh> form;
+  std::variant<Sphere, Box, Capsule, Cylinder, Cone, Torus, Plane, Mesh, Points> form;
   Vec3d rotation{0, 0, 0};  ///< degrees, R = Rz Ry Rx, about the shape's centre
 };
 
@@ -62,11 +69,11 @@ struct ShapeError : std::runtime_error {
 };
 
 /// What rotation and angular velocity turn about: the middle of a capsule, the point of a plane,
-/// where the file's origin of a mesh goes.
+/// where the file's origin of a mesh or of points goes.
 Vec3d center(const Shape& shape);
 
-/// Of solid shapes only. Each call prepares the shape, which reads the file of a mesh; class Solid
-/// (sim/solid.h) prepares it once for many questions.
+/// Of solid shapes only. Each call prepares the shape, which reads the file of a mesh or of points;
+/// class Solid (sim/solid.h) prepares it once for many questions.
 /// @throws ShapeError when a mesh cannot be read or is open, or the shape has no finite volume > 0;
 ///         std::invalid_argument for a plane
 double volume(const Shape& shape);  ///< m3, exact for analytic shapes, of the polyhedron for meshes

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/check/point_findings.h"
 #include "app/scene/value.h"
 #include "app/seed_scene.h"
 #include "app/snow_pieces.h"
@@ -98,13 +99,16 @@ void check_body_overlaps(const Scene& scene, const sim::ParticleArrays& particle
     for (std::size_t b = a + 1; b < scene.bodies.size(); ++b)
       may_overlap = may_overlap || boxes_touch(scene.bodies[a].shape, scene.bodies[b].shape);
   if (!may_overlap) return;
+  std::vector<double> per_cell;
+  for (const sim::Body& body : scene.bodies)
+    per_cell.push_back(particles_in_cell(body, scene.solver.cell_size));
   // In a cell that both fill, each has most of the particles that it has where it is alone.
   std::map<std::pair<std::size_t, std::size_t>, double> shared;
   for (const auto& [cell, counts] : bodies_in_cells(scene, particles, body_end))
     for (auto a = counts.begin(); a != counts.end(); ++a)
       for (auto b = std::next(a); b != counts.end(); ++b) {
-        const double in_a = a->second / scene.bodies[a->first].particles_per_cell;
-        const double in_b = b->second / scene.bodies[b->first].particles_per_cell;
+        const double in_a = a->second / per_cell[a->first];
+        const double in_b = b->second / per_cell[b->first];
         if (in_a + in_b > 1.5) shared[{a->first, b->first}] += std::min(in_a, in_b);
       }
   for (const auto& [pair, cells] : shared) {
@@ -266,11 +270,14 @@ void check_resolution(const Scene& scene, std::vector<Finding>& findings) {
                           body.name + " is " + rough_text(across) + " cells thick",
                           "weights reach 2 cells: 6 and more show its shape; solver.cell_size = " +
                               rough_text(thickness(body.shape) / 6)});
-    if (body.particles_per_cell < 4)
+    if (is_from_points(body)) {
+      check_point_distance(body, h, findings);
+    } else if (body.particles_per_cell < 4) {
       findings.push_back({Severity::warning, at + ".particles_per_cell",
                           rough_text(body.particles_per_cell) +
                               " particles per cell leave gaps: snow breaks where none should",
                           "8 is usual"});
+    }
   }
   for (const sim::Collider& collider : scene.colliders) {
     if (is_plane(collider.shape)) continue;
@@ -310,6 +317,7 @@ void check_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
                     const std::vector<std::size_t>& body_end, std::vector<Finding>& findings) {
   check_body_overlaps(scene, particles, body_end, findings);
   check_collider_overlaps(scene, particles, body_end, findings);
+  check_point_masses(scene, particles, body_end, findings);
 }
 
 void check_steps(const Scene& scene, const Checkup& checkup, std::vector<Finding>& findings) {

@@ -22,7 +22,8 @@ void check_resolution(const Scene& scene, std::vector<Finding>& findings);
 /// Emitters that never open, or that pack more snow than their velocity carries away.
 void check_emitters(const Scene& scene, std::vector<Finding>& findings);
 
-/// Bodies in one another and in colliders. @param body_end see seed_scene
+/// Bodies in one another and in colliders, points that weigh too much.
+/// @param body_end see seed_scene
 void check_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
                     const std::vector<std::size_t>& body_end, std::vector<Finding>& findings);
 

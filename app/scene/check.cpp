@@ -35,6 +35,11 @@ Found problem(const sim::Mesh& mesh, const std::string& at) {
   return Problem{at + ".mesh", "mesh has no file", "give file = \"NAME.obj\""};
 }
 
+Found problem(const sim::Points& points, const std::string& at) {
+  if (!points.file.empty()) return {};
+  return Problem{at + ".points", "points have no file", "give file = \"NAME.ply\" or .csv"};
+}
+
 template <class Form>
 Found problem(const Form&, const std::string&) {
   return {};
@@ -67,6 +72,9 @@ Place place(const sim::Torus& t) {
 }
 Place place(const sim::Mesh& m) {
   return {".mesh.center", m.center};
+}
+Place place(const sim::Points& p) {
+  return {".points.center", p.center};
 }
 
 Found material_problem(const Scene& scene, const std::string& wanted, const std::string& address) {

@@ -38,11 +38,6 @@ double tidy(double x) {
   return x;
 }
 
-/// How many particles the volume of a body asks for.
-double particles_of(const sim::Body& body, double h) {
-  return sim::plan_seeding(body, h).volume / (h * h * h) * body.particles_per_cell;
-}
-
 /// Rounded down to two digits after the point.
 std::string text_below(double x) {
   return fixed_text(std::floor(100 * x) / 100, 2);
@@ -50,7 +45,7 @@ std::string text_below(double x) {
 
 void refuse_empty_bodies(const Scene& scene, double factor) {
   for (const sim::Body& body : scene.bodies) {
-    const double full = particles_of(body, scene.solver.cell_size);
+    const double full = sim::expected_particles(body, scene.solver.cell_size);
     // A body too small for one particle at full resolution has one all the same.
     if (full < 1 || full / (factor * factor * factor) >= 1) continue;
     throw UsageError(argument(factor), "no particle of body " + body.name + " would be left",
@@ -66,6 +61,9 @@ void coarsen(Scene& scene, double factor) {
                      "expected a number of at least 1, as in --coarsen 2");
   if (factor == 1) return;
   refuse_empty_bodies(scene, factor);
+  for (sim::Body& body : scene.bodies)
+    if (auto* points = std::get_if<sim::Points>(&body.shape.form))
+      points->thinning = tidy(points->thinning * factor * factor * factor);
   sim::SolverSettings& s = scene.solver;
   for (double* grows : {&s.cell_size, &s.dt, &s.max_dt}) *grows = tidy(*grows * factor);
   if (s.flip_reference_dt == 0) s.flip_ratio = tidy(std::pow(s.flip_ratio, factor));

@@ -217,6 +217,18 @@ void describe(V& visit, sim::Mesh& m, Change change) {
   visit("center", m.center, unit::metre, position, change, "Where the origin of the file goes.");
 }
 
+template <class V>
+void describe(V& visit, sim::Points& p, Change change) {
+  visit("file", p.file, unit::none, file_path, change,
+        "Particles, PLY or CSV, with columns x y z and, if wanted, vx vy vz, mass and volume; "
+        "relative to the scene file.");
+  visit("spacing", p.spacing, unit::metre, between(0, 1e6), change,
+        "Of a file without volumes, the distance between neighbours: each has spacing^3.");
+  visit("thinning", p.thinning, unit::none, between(1, 1e9), change,
+        "One point in so many is used, and stands for all of them.");
+  visit("center", p.center, unit::metre, position, change, "Where the origin of the file goes.");
+}
+
 /// Every form can be turned.
 template <class V>
 void describe_rotation(V& visit, sim::Shape& shape, Change change) {
@@ -237,6 +249,12 @@ void describe_solid_forms(V& visit, sim::Shape& shape) {
 }
 
 template <class V>
+void describe_body_forms(V& visit, sim::Shape& shape) {
+  describe_solid_forms(visit, shape);
+  visit.template form<sim::Points>("points", shape, Change::restart, "Particles from a file.");
+}
+
+template <class V>
 void describe_collider_forms(V& visit, sim::Shape& shape) {
   visit.template form<sim::Plane>("plane", shape, Change::live, "A half space.");
   visit.template form<sim::Sphere>("sphere", shape, Change::live, "A ball.");
@@ -250,7 +268,7 @@ void describe(V& visit, sim::Body& b) {
         "What addresses call it; otherwise its number from 1.");
   visit("material", b.material, unit::none, identifier, restart, "Name of a material.");
   visit.shape("shape", b.shape, "What is filled with snow.",
-              [](auto& v, sim::Shape& shape) { describe_solid_forms(v, shape); });
+              [](auto& v, sim::Shape& shape) { describe_body_forms(v, shape); });
   visit("velocity", b.velocity, unit::velocity, speed, restart, "Velocity at the start.");
   visit("angular_velocity", b.angular_velocity, unit::spin, speed, restart,
         "Spin about the shape's centre at the start.");

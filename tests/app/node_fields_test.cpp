@@ -34,13 +34,13 @@ Scene read_thrown(const std::string& more, const std::vector<Override>& override
   return read_scene_text(thrown_ball + more, "ball.toml", {}, overrides);
 }
 
-struct Moment {
+struct FieldMoment {
   Scene scene;
   Snapshot snapshot;
 };
 
-Moment moment_of(const std::string& views) {
-  Moment moment{read_thrown(views), {}};
+FieldMoment moment_of(const std::string& views) {
+  FieldMoment moment{read_thrown(views), {}};
   const sim::ParticleArrays particles = seed_scene(moment.scene);
   resolve(moment.scene, particles.x.size());
   const sim::Simulation simulation(moment.scene.solver, moment.scene.materials,
@@ -74,7 +74,7 @@ TEST(NodeFields, AreSampledOnlyWhenAViewShowsThem) {
 }
 
 TEST(NodeFields, OfABallThatFliesAreThoseOfItsParticles) {
-  const Moment moment = moment_of(all_fields);
+  const FieldMoment moment = moment_of(all_fields);
   const NodeFields& fields = moment.snapshot.fields;
   ASSERT_NE(fields.lattice, nullptr);
   ASSERT_EQ(fields.density.size(), 64 * fields.lattice->block.size());
@@ -99,7 +99,7 @@ TEST(NodeFields, OfABallThatFliesAreThoseOfItsParticles) {
 }
 
 TEST(FieldSampler, ReproducesLinearFieldsInside) {
-  Moment moment = moment_of(all_fields);
+  FieldMoment moment = moment_of(all_fields);
   NodeFields& fields = moment.snapshot.fields;
   const float h = fields.lattice->spacing;
   std::vector<float>& values = fields.scalars.at(ScalarField::J_P);
@@ -121,14 +121,14 @@ TEST(FieldSampler, ReproducesLinearFieldsInside) {
   EXPECT_FALSE(sampler.at({std::nan(""), 0, 0}));
 }
 
-render::Frame frame_of_slice(const Moment& moment, std::size_t view, const SlicePlane& plane) {
+render::Frame frame_of_slice(const FieldMoment& moment, std::size_t view, const SlicePlane& plane) {
   render::Frame frame;
   add_slice(moment.scene.views[view], moment.snapshot.fields, plane, 1000, frame);
   return frame;
 }
 
 TEST(Slice, ArrowsStandOnNodesAndHaveTheirVelocity) {
-  const Moment moment = moment_of(all_fields);
+  const FieldMoment moment = moment_of(all_fields);
   const SliceStyle& slice = moment.scene.views[2].slice;
   const SlicePlane plane = slice_plane(slice, 0, std::nullopt);
   EXPECT_TRUE(plane.across.isApprox(Vec3d(1, 0, 0)));
@@ -151,7 +151,7 @@ TEST(Slice, ArrowsStandOnNodesAndHaveTheirVelocity) {
 }
 
 TEST(Slice, ArrowsStayApartOnThePicture) {
-  const Moment moment = moment_of(all_fields);
+  const FieldMoment moment = moment_of(all_fields);
   const SlicePlane plane = slice_plane(moment.scene.views[2].slice, 0, std::nullopt);
   const auto distance = [&](double pixels_per_metre) {
     render::Frame frame;
@@ -166,7 +166,7 @@ TEST(Slice, ArrowsStayApartOnThePicture) {
 }
 
 TEST(Slice, AnyPlaneAndOneThatMissesTheSnow) {
-  const Moment moment = moment_of(all_fields);
+  const FieldMoment moment = moment_of(all_fields);
   SliceStyle slice = moment.scene.views[2].slice;
   slice.normal = {1, 2, 3};
   const SlicePlane tilted = slice_plane(slice, 0, std::nullopt);

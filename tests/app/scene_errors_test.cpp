@@ -188,7 +188,7 @@ TEST(SceneErrors, AShapeHasExactlyOneForm) {
             "s.toml:2:1: error: body.a has no shape" + example);
   EXPECT_EQ(error_of(in_body("shape = {}")),
             "s.toml:2:9: error: body.1.shape is empty; expected \"sphere\", \"box\", \"capsule\", "
-            "\"cylinder\", \"cone\", \"torus\" or \"mesh\"");
+            "\"cylinder\", \"cone\", \"torus\", \"mesh\" or \"points\"");
   EXPECT_EQ(error_of(in_body("shape = { sphere = {}, box = {} }")),
             "s.toml:2:24: error: body.1.shape has two forms, \"sphere\" and \"box\"; expected "
             "exactly one");
@@ -197,7 +197,7 @@ TEST(SceneErrors, AShapeHasExactlyOneForm) {
             "\"sphere\"?");
   EXPECT_EQ(error_of(in_body("shape = { plane = {} }")),
             "s.toml:2:11: error: unsupported shape \"plane\" in body.1.shape; expected \"sphere\", "
-            "\"box\", \"capsule\", \"cylinder\", \"cone\", \"torus\" or \"mesh\"");
+            "\"box\", \"capsule\", \"cylinder\", \"cone\", \"torus\", \"mesh\" or \"points\"");
   EXPECT_EQ(error_of(with_ball("[[collider]]\nshape = { torus = {} }")),
             "s.toml:5:11: error: unsupported shape \"torus\" in collider.1.shape; expected "
             "\"plane\", \"sphere\" or \"box\"");
@@ -211,6 +211,8 @@ TEST(SceneErrors, DegenerateShapesAreRefused) {
             "s.toml:5:30: error: normal is zero; it points out of the solid side");
   EXPECT_EQ(error_of(in_body("shape = { mesh = { scale = 2 } }")),
             "s.toml:2:18: error: mesh has no file; give file = \"NAME.obj\"");
+  EXPECT_EQ(error_of(in_body("shape = { points = { spacing = 0.1 } }")),
+            "s.toml:2:20: error: points have no file; give file = \"NAME.ply\" or .csv");
   EXPECT_EQ(error_of(in_body("shape = { box = { size = [1, 0, 1] } }")),
             "s.toml:2:30: error: body.1.shape.box.size[1] = 0; expected 0 < value <= 1000000");
   EXPECT_EQ(error_of("[solver]\ncell_size = 1e-9\n" + in_body("shape = { box = { center = [9, 0, "

@@ -1,0 +1,16 @@
+#include "sim/point_reader.h"
+
+#include "sim/input_file.h"
+
+namespace neve::sim {
+
+PointCloud parse_points(std::string_view bytes, const std::string& name) {
+  const bool is_ply = bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n");
+  return is_ply ? parse_ply_points(bytes, name) : parse_csv_points(bytes, name);
+}
+
+PointCloud read_points(const std::string& path) {
+  return parse_points(read_input_file(path, 1024, "point files"), path);
+}
+
+}  // namespace neve::sim

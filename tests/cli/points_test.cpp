@@ -1,0 +1,133 @@
+/// Bodies from point files as a user meets them: rendered, checked, coarsened, resumed, refused.
+
+#include <cstdio>
+
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+/// A block of 10x10x10 points 2 cm apart that falls at 1 m/s; eight in a cell of the scene.
+/// @param mass  kg of a point; 3.2e-3 is snow of 400 kg/m3
+std::string block_csv(double mass) {
+  std::string text = "x,y,z,vx,vy,vz,mass,volume\n";
+  for (int k = 0; k < 1000; ++k) {
+    char row[128];
+    std::snprintf(row, sizeof row, "%g,%g,%g,0,-1,0,%g,8e-6\n", 0.02 * (k % 10),
+                  0.02 * (k / 10 % 10), 0.02 * (k / 100), mass);
+    text += row;
+  }
+  return text;
+}
+
+constexpr const char* block_scene = R"(
+frames = 2
+[solver]
+cell_size = 0.04
+[[body]]
+name = "block"
+shape = { points = { file = "points/block.csv", center = [0, 0.05, 0] } }
+[[collider]]
+name = "floor"
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[output]
+size = [160, 90]
+)";
+
+class PointFiles : public Cli {
+ protected:
+  PointFiles() {
+    folder.write("scene.toml", block_scene);
+    folder.write("points/block.csv", block_csv(3.2e-3));
+  }
+
+  app::ProcessResult render(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"render", "scene.toml", "--out", "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    return neve(words);
+  }
+
+  /// Address and text of the warnings.
+  std::string warnings() {
+    const auto result = neve({"check", "scene.toml", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    std::string all;
+    const app::Json json = app::parse_json(std::string_view(result.output));
+    for (const app::Json& finding : json["findings"])
+      if (finding["severity"] == "warning")
+        all += finding["address"].get<std::string>() + ": " + finding["what"].get<std::string>() +
+               "\n";
+    return all;
+  }
+};
+
+TEST_F(PointFiles, StartWithTheirPositionsVelocitiesAndMasses) {
+  ASSERT_EQ(render({"--frames", "0-0"}).exit_code, 0);
+  const app::Json frame = json_of("out/run.json")["frames"][0];
+  EXPECT_EQ(frame["particles"], 1000);
+  // Kept as numbers of 32 bits.
+  EXPECT_NEAR(frame["momentum"][1].get<double>(), -3.2, 1e-5);
+  EXPECT_NEAR(frame["max_speed"].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(frame["centre_of_mass"][0].get<double>(), 0.09, 1e-6);
+  EXPECT_NEAR(frame["centre_of_mass"][1].get<double>(), 0.14, 1e-6);
+}
+
+TEST_F(PointFiles, CoarsenedKeepTheirMass) {
+  ASSERT_EQ(render({"--frames", "0-0", "--coarsen", "2"}).exit_code, 0);
+  const app::Json frame = json_of("out/run.json")["frames"][0];
+  EXPECT_EQ(frame["particles"], 125);
+  EXPECT_NEAR(frame["momentum"][1].get<double>(), -3.2, 1e-5);
+}
+
+TEST_F(PointFiles, CountForLimitsWhateverTheScenesParticlesPerCell) {
+  const auto refused = render({"--set", "limits.particles=999"});
+  EXPECT_EQ(refused.exit_code, 8);
+  EXPECT_TRUE(contains(refused.errors, "1000 particles")) << refused.errors;
+  EXPECT_EQ(render({"--set", "limits.particles=1000", "--set", "body.block.particles_per_cell=500",
+                    "--frames", "0-0"})
+                .exit_code,
+            0);
+}
+
+TEST_F(PointFiles, AreToldApartByTheirBytes) {
+  ASSERT_EQ(render({"--frames", "0-1"}).exit_code, 0);
+  EXPECT_EQ(render({"--frames", "0-2", "--resume"}).exit_code, 0);
+  const auto again = neve({"render", "out/particles/0001.png", "--out", "again"});
+  EXPECT_EQ(again.exit_code, 0) << again.errors;
+  folder.write("points/block.csv", block_csv(3.3e-3));
+  const auto resumed = render({"--resume"});
+  EXPECT_EQ(resumed.exit_code, 2) << resumed.errors;
+  EXPECT_TRUE(contains(resumed.errors, "another one")) << resumed.errors;
+  const auto changed = neve({"render", "out/particles/0001.png", "--out", "again"});
+  EXPECT_NE(changed.exit_code, 0);
+  EXPECT_TRUE(contains(changed.errors, "block.csv")) << changed.errors;
+}
+
+TEST_F(PointFiles, MistakesAreToldWithFileAndLine) {
+  folder.write("points/block.csv", "x,y,z,volume\n0,0,0,8e-6\n0,zero,0,8e-6\n");
+  const auto render_result = render();
+  EXPECT_EQ(render_result.exit_code, 3);
+  EXPECT_TRUE(contains(render_result.errors, "points/block.csv:3: \"zero\" is not a number"))
+      << render_result.errors;
+  EXPECT_FALSE(exists("out"));
+  folder.write("points/block.csv", "x,y,z\n0,0,0\n");
+  const auto spacing = neve({"check", "scene.toml"});
+  EXPECT_EQ(spacing.exit_code, 3);
+  EXPECT_TRUE(contains(spacing.errors, "give spacing")) << spacing.errors;
+}
+
+TEST_F(PointFiles, AreExaminedByTheirDistanceAndMass) {
+  EXPECT_EQ(warnings(), "");
+  folder.write("points/block.csv", block_csv(3.2));  // in grams
+  EXPECT_TRUE(contains(warnings(), "body.block.shape.points: the points of block weigh"))
+      << warnings();
+  std::string far = block_scene;
+  far.replace(far.find("cell_size = 0.04"), 16, "cell_size = 0.02");
+  folder.write("points/block.csv", block_csv(3.2e-3));
+  folder.write("scene.toml", far);
+  EXPECT_TRUE(contains(warnings(), "body.block.shape.points: the points of block are 1 in a cell"))
+      << warnings();
+}
+
+}  // namespace
+}  // namespace neve::test

@@ -1,0 +1,252 @@
+// Particles from PLY and CSV files, also from files that are none.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "sim/placed_points.h"
+#include "sim/point_reader.h"
+#include "sim/seeding.h"
+#include "tests/support/temporary_folder.h"
+
+namespace neve::sim {
+namespace {
+
+const std::string csv = "x,y,z,vx,vy,vz,mass,volume\n1,2,3,4,5,6,0.5,0.25\n-1,0,1e-3,0,0,0,2,1\n";
+
+std::string point_error(const std::string& bytes) {
+  try {
+    parse_points(bytes, "p");
+  } catch (const ShapeError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// Two points as a binary PLY, with a property and elements that say nothing.
+std::string binary_ply(bool is_little) {
+  std::string bytes = std::string("ply\nformat binary_") + (is_little ? "little" : "big") +
+                      "_endian 1.0\ncomment snow\nelement camera 1\nproperty short zoom\n"
+                      "element vertex 2\nproperty double x\nproperty float y\nproperty int z\n"
+                      "property uchar red\nproperty double mass\n"
+                      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto put = [&](std::uint64_t bits, int size) {
+    for (int k = 0; k < size; ++k)
+      bytes += static_cast<char>(bits >> (8 * (is_little ? k : size - 1 - k)));
+  };
+  put(7, 2);
+  for (const double x : {0.1, -2.5}) {
+    put(std::bit_cast<std::uint64_t>(x), 8);
+    put(std::bit_cast<std::uint32_t>(static_cast<float>(3 * x)), 4);
+    put(static_cast<std::uint32_t>(-4), 4);
+    put(255, 1);
+    put(std::bit_cast<std::uint64_t>(0.125), 8);
+  }
+  return bytes + std::string("\x01\x00\x00\x00\x00", 5);
+}
+
+TEST(PointReader, ReadsEveryColumnOfACsv) {
+  const PointCloud cloud = parse_points(csv, "p");
+  ASSERT_EQ(cloud.x.size(), 2u);
+  EXPECT_EQ(cloud.x[1], Vec3d(-1, 0, 1e-3));
+  EXPECT_EQ(cloud.v[0], Vec3d(4, 5, 6));
+  EXPECT_EQ(cloud.m, (std::vector<double>{0.5, 2}));
+  EXPECT_EQ(cloud.V, (std::vector<double>{0.25, 1}));
+}
+
+TEST(PointReader, FindsColumnsByNameInAnyOrderAndPassesOverOthers) {
+  const PointCloud cloud = parse_points(
+      "\xEF\xBB\xBF# from elsewhere\r\n\r\n\"Pz\"; color ;\"P.y\";Position_X\r\n"
+      "3; red ;2;+1\r\n\r\n# half way\r\n6;;5;4",
+      "p");
+  ASSERT_EQ(cloud.x.size(), 2u);
+  EXPECT_EQ(cloud.x[0], Vec3d(1, 2, 3));
+  EXPECT_EQ(cloud.x[1], Vec3d(4, 5, 6));
+  EXPECT_TRUE(cloud.v.empty() && cloud.m.empty() && cloud.V.empty());
+  EXPECT_EQ(parse_points("Points:0\tPoints:1\tPoints:2\n1\t2\t3\n", "p").x[0], Vec3d(1, 2, 3));
+}
+
+TEST(PointReader, TakesQuotedFieldsOfACsvAsTheyAre) {
+  const PointCloud cloud =
+      parse_points("name;x;\"y\";z\n\"a;b \"\"c\"\"\";\"1\";2;3\n\"\";4;5;6\n", "p");
+  ASSERT_EQ(cloud.x.size(), 2u);
+  EXPECT_EQ(cloud.x[0], Vec3d(1, 2, 3));
+  EXPECT_EQ(cloud.x[1], Vec3d(4, 5, 6));
+}
+
+TEST(PointReader, ReadsAsciiPly) {
+  const PointCloud cloud = parse_points(
+      "ply\r\nformat ascii 1.0\r\nelement vertex 2\r\nproperty float x\r\nproperty float y\r\n"
+      "property float z\r\nproperty float vol\r\nend_header\r\n1 2 3 0.5\r\n4 5 6 0.25",
+      "p");
+  ASSERT_EQ(cloud.x.size(), 2u);
+  EXPECT_EQ(cloud.x[1], Vec3d(4, 5, 6));
+  EXPECT_EQ(cloud.V, (std::vector<double>{0.5, 0.25}));
+}
+
+TEST(PointReader, ReadsBinaryPlyOfBothByteOrders) {
+  for (const bool is_little : {true, false}) {
+    const PointCloud cloud = parse_points(binary_ply(is_little), "p");
+    ASSERT_EQ(cloud.x.size(), 2u);
+    EXPECT_EQ(cloud.x[0], Vec3d(0.1, static_cast<double>(0.3f), -4));
+    EXPECT_EQ(cloud.x[1], Vec3d(-2.5, -7.5, -4));
+    EXPECT_EQ(cloud.m, (std::vector<double>{0.125, 0.125}));
+  }
+}
+
+TEST(PointReader, TellsWhereAndWhatIsWrong) {
+  const auto expect = [](const std::string& bytes, const std::string& part) {
+    EXPECT_NE(point_error(bytes).find(part), std::string::npos) << point_error(bytes);
+  };
+  expect("", "p: it has no header line");
+  expect("x,y,z\n", "p: it has no points");
+  expect("x,y\n1,2\n", "p:1: no column z");
+  expect("x,y,z,vx\n1,2,3,4\n", "p:1: a velocity without column vy");
+  expect("x,y,z,X\n1,2,3,4\n", "p:1: two columns are the point's x");
+  expect("x,y,z\n1,2\n", "p:2: 2 fields; the header has 3");
+  expect("x,y,z\n1,2,3\n1,2,3,4\n", "p:3: more fields than the header's 3");
+  expect("x y z\n1 2 3\n", "no column x among \"x y z\"");
+  expect("1,2,3\n4,5,6\n", "p:1: the first line has numbers");
+  expect("x,y,z\n1,\"2,3\n", "p:2: 2 fields");
+  expect("x,y,z\n1,snow,3\n", "p:2: \"snow\" is not a number, in column \"y\"");
+  expect("x,y,z\n1,nan,3\n", "p:2: y = nan; expected a finite number");
+  expect("x,y,z\n1,2,inf\n", "p:2: z = inf");
+  expect("x,y,z\n1,2,2e6\n", "p:2: z = 2e+06; expected a finite number, at most 1e6");
+  expect("x,y,z,m\n1,2,3,-1\n", "p:2: mass = -1; expected a number above 0");
+  expect("x,y,z,m\n1,2,3,0\n", "p:2: mass = 0");
+  expect("x,y,z,volume\n1,2,3,nan\n", "p:2: volume = nan");
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex ";
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  expect("ply\n", "without end_header");
+  expect("ply\nformat ascii 2.0\nsnow\n", "p:3: \"snow\" is no keyword");
+  expect("ply\nformat zip 1.0\n", "p:2: the format \"zip\"");
+  expect("ply\nend_header\n", "names no format");
+  expect("ply\nformat ascii 1.0\nend_header\n", "no element vertex");
+  expect(ply + "-1\n", "p:3: \"-1\" is no number of elements");
+  expect(ply + "1\nproperty half x\n", "p:4: \"half\" is no type");
+  expect(ply + "2\n" + xyz + "end_header\n1 2 3 \n", "truncated");
+  expect(ply + "1\n" + xyz + "end_header\n1 2      \n", "p:8: 2 numbers");
+  expect(ply + "1\n" + xyz + "end_header\n1 2 3 4\n", "p:8: more numbers than the header's 3");
+  expect(ply + "1\n" + xyz + "end_header\n1 2 snow\n",
+         "p:8: \"snow\" is not a number, in property \"z\"");
+  expect(ply + "1\n" + xyz + "property list uchar int a\nend_header\n1 2 3\n",
+         "p:7: a list in element");
+  expect(ply + "1\nproperty float x\nproperty float y\nend_header\n1 2\n", "p:3: no column z");
+  // A second one of the same name would leave its columns without values.
+  expect(ply + "1\nproperty float x\nproperty float y\nelement vertex 1\nproperty float z\n",
+         "p:6: a second element \"vertex\"");
+}
+
+TEST(PointReader, ComparesWhatAFileClaimsWithItsLengthBeforeAllocating) {
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"})
+    for (const char* count : {"1000000000000", "18446744073709551615", "4611686018427387904"}) {
+      const std::string header = "ply\nformat " + std::string(format) + " 1.0\nelement vertex " +
+                                 count + "\nproperty double x\nproperty double y\n" +
+                                 "property double z\nend_header\n1 2 3\n";
+      EXPECT_NE(point_error(header).find("truncated"), std::string::npos) << point_error(header);
+    }
+}
+
+TEST(PointReader, TakesLinesOfManyMegabytes) {
+  const std::string digits(10u << 20, '1');
+  EXPECT_NE(point_error("x,y,z\n1,2," + digits + "\n"), "no error");
+  EXPECT_NE(point_error("x,y,z\n" + std::string(10u << 20, ',') + "\n").find("more fields than"),
+            std::string::npos);
+  EXPECT_NE(point_error(std::string(10u << 20, ',')).find("256"), std::string::npos);
+  EXPECT_LT(point_error(digits + "\n1\n").size(), 300u);
+  EXPECT_LT(point_error("ply\n" + digits).size(), 300u);
+}
+
+// Whatever stands in a file, reading it ends, with points that could be simulated or with an error.
+TEST(PointReader, SurvivesTruncatedAndDamagedFiles) {
+  const std::string ascii =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+      "property float z\nproperty double mass\nend_header\n1 2 3 4\n5 6 7 8\n";
+  const auto check = [](const std::string& bytes) {
+    try {
+      const PointCloud cloud = parse_points(bytes, "p");
+      ASSERT_FALSE(cloud.x.empty());
+      for (const Vec3d& x : cloud.x) ASSERT_TRUE(x.allFinite());
+      for (const double m : cloud.m) ASSERT_GT(m, 0);
+      EXPECT_TRUE(cloud.m.empty() || cloud.m.size() == cloud.x.size());
+    } catch (const ShapeError&) {
+    }
+  };
+  std::mt19937 random(1);
+  for (const std::string& good : {csv, ascii, binary_ply(true), binary_ply(false)}) {
+    for (std::size_t length = 0; length < good.size(); ++length) check(good.substr(0, length));
+    for (int trial = 0; trial < 5000; ++trial) {
+      std::string bad = good;
+      for (int damage = 0; damage < 1 + trial % 4; ++damage)
+        bad[random() % bad.size()] = static_cast<char>(random());
+      check(bad);
+    }
+  }
+}
+
+TEST(Points, StandTurnAndMoveWithTheirBody) {
+  const test::TemporaryFolder folder;
+  Body body;
+  body.shape.form = Points{.file = folder.write("p.csv", csv).string(), .center = {10, 0, 0}};
+  body.shape.rotation = {0, 0, 90};  // x to y
+  const SeededBody seeded = seed_body(body, 0, 1, 0.1);
+  ASSERT_EQ(seeded.x.size(), 2u);
+  // Rotations of 90 degrees are right to rounding.
+  EXPECT_LT((seeded.x[0] - Vec3d(8, 1, 3)).norm(), 1e-14);
+  EXPECT_LT((seeded.v[0] - Vec3d(-5, 4, 6)).norm(), 1e-14);
+  EXPECT_EQ(seeded.volume, 1.25);
+  const SeedingPlan plan = plan_seeding(body, 0.1);
+  EXPECT_DOUBLE_EQ(plan.max_speed, Vec3d(4, 5, 6).norm());
+  EXPECT_EQ(plan.mass, 2.5);
+  EXPECT_EQ(plan.particle_count, 2u);
+  EXPECT_TRUE((plan.bounds.min.array() < seeded.x[0].array()).all());
+  EXPECT_TRUE((plan.bounds.max.array() > seeded.x[1].array()).all());
+}
+
+TEST(Points, AreReadAgainWhenTheirFileHasChanged) {
+  const test::TemporaryFolder folder;
+  Body body;
+  const auto count = [&](const std::string& text) {
+    body.shape.form = Points{.file = folder.write("p.csv", text).string()};
+    return plan_seeding(body, 0.1).particle_count;
+  };
+  EXPECT_EQ(count(csv), 2u);
+  EXPECT_EQ(count(csv + "5,5,5,0,0,0,1,1\n"), 3u);
+  std::filesystem::remove(folder / "p.csv");
+  EXPECT_THROW(plan_seeding(body, 0.1), ShapeError);
+}
+
+TEST(Points, WithoutVolumesNeedASpacing) {
+  const PointCloud cloud = parse_points("x,y,z\n0,0,0\n0.1,0,0\n", "p");
+  EXPECT_THROW(PlacedPoints(cloud, Points{}, "p"), ShapeError);
+  EXPECT_NEAR(PlacedPoints(cloud, Points{.file = "", .spacing = 0.1}, "p").volume, 2e-3, 1e-18);
+}
+
+TEST(Points, ThinnedKeepMassAndVolume) {
+  PointCloud cloud;
+  double mass = 0, volume = 0;
+  for (int k = 1; k <= 1000; ++k) {
+    cloud.x.emplace_back(k, 0, 0);
+    cloud.m.push_back(k);
+    cloud.V.push_back(1e-3 * k);
+    mass += k;
+    volume += 1e-3 * k;
+  }
+  for (const double thinning : {1.0, 2.0, 3.375, 8.0, 999.0, 1e9}) {
+    const PlacedPoints points(cloud, Points{.file = "", .thinning = thinning}, "p");
+    EXPECT_EQ(points.x.size(), std::max(1.0, std::floor(1000 / thinning)));
+    double kept_mass = 0, kept_volume = 0;
+    for (std::size_t p = 0; p < points.x.size(); ++p) {
+      kept_mass += points.m[p];
+      kept_volume += points.V[p];
+    }
+    // Sums of a thousand rounded numbers.
+    EXPECT_NEAR(kept_mass, mass, 1e-12 * mass);
+    EXPECT_NEAR(kept_volume, volume, 1e-12 * volume);
+  }
+}
+
+}  // namespace
+}  // namespace neve::sim
