@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "render/light_fields.h"
+#include "render/same_bytes.h"
 #include "sim/base/lanes.h"
 
 namespace neve::render {
@@ -184,13 +185,6 @@ struct Lighting::Key {
 };
 
 namespace {
-
-/// Bytes and not values: not-a-number is the same as itself, and 0 is not -0.
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() &&
-         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
 
 bool same_smoke(const SmokeGrid& a, const SmokeGrid& b) {
   return a.origin == b.origin && a.spacing == b.spacing && a.size == b.size &&

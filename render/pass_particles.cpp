@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "render/gbuffer_tile.h"
 #include "render/passes.h"
 #include "render/point_list.h"
 
@@ -39,12 +40,11 @@ void ParticlePass::draw(const Points& points, const View& view) {
 void ParticlePass::draw_list(const Program& program, bool as_quads, const Points& points,
                              const View& view, const void* vertices, std::size_t count) {
   if (count == 0) return;
-  constexpr float kind_snow = 3, kind_attribute = 4;  // shaders/gbuffer.glsl
   program.use();
   set_view(program, view);
   program.set("radius", points.radius);
   program.set("min_radius_pixels", min_radius_pixels);
-  program.set("kind", points.value.empty() ? kind_snow : kind_attribute);
+  program.set("kind", static_cast<float>(points.value.empty() ? kind_snow : kind_attribute));
   gl_.BindVertexArray(vertex_array_.id());
   gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(count * sizeof(PointVertex)), vertices,

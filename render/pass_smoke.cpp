@@ -1,15 +1,9 @@
-#include <array>
-#include <cmath>
 #include <stdexcept>
 
-#include "render/colormap.h"
 #include "render/passes.h"
 
 namespace neve::render {
 namespace {
-
-constexpr int rays_per_tile = 8;  // along each axis
-constexpr int colormap_width = 64;
 
 void upload_2d(const Gl& gl, const Texture& texture, GLint internal, GLenum format, int width,
                int height, const float* texels, GLint filter) {
@@ -31,16 +25,6 @@ void upload_3d(const Gl& gl, const Texture& texture, GLint internal, GLenum form
     gl.TexParameteri(GL_TEXTURE_3D, name, filter);
   for (const GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
     gl.TexParameteri(GL_TEXTURE_3D, name, GL_CLAMP_TO_EDGE);
-}
-
-std::vector<std::array<float, 3>> linear_colors(ColorMap map) {
-  std::vector<std::array<float, 3>> colors;
-  for (int i = 0; i < colormap_width; ++i) {
-    const Rgb8 color = map_color(map, static_cast<float>(i) / (colormap_width - 1));
-    const auto linear = [](std::uint8_t c) { return std::pow(static_cast<float>(c) / 255, 2.2f); };
-    colors.push_back({linear(color.r), linear(color.g), linear(color.b)});
-  }
-  return colors;
 }
 
 }  // namespace
@@ -83,8 +67,8 @@ void SmokePass::upload(const SmokeGrid& grid, const SmokeVolume& volume, const S
 }
 
 void SmokePass::upload_colormap(const Smoke& smoke) {
-  const std::vector<std::array<float, 3>> colors = linear_colors(smoke.colormap);
-  upload_2d(gl_, colormap_, GL_RGB32F, GL_RGB, colormap_width, 1, colors.front().data(), GL_LINEAR);
+  const std::vector<float> colors = linear_colors(smoke.colormap);
+  upload_2d(gl_, colormap_, GL_RGBA32F, GL_RGBA, colormap_width, 1, colors.data(), GL_LINEAR);
 }
 
 void SmokePass::march(const Smoke& smoke, const SmokeGrid& grid, const SmokeVolume& volume,
@@ -111,9 +95,8 @@ void SmokePass::march(const Smoke& smoke, const SmokeGrid& grid, const SmokeVolu
   program.set("step_length", 0.5f * grid.spacing);
   program.set("extinction", grid.extinction());
   program.set("smoke_range", spans.nearest, spans.farthest);
-  // Without a tint of their own, so that colours are those of the legend.
-  program.set("key_light", 1.15f * light.intensity);
-  program.set("sky_light", 0.55f * light.ambient);
+  program.set("key_light", key_on_colors * light.intensity);
+  program.set("sky_light", sky_on_colors * light.ambient);
   const auto bind = [&](int unit, GLenum target, const Texture& texture, const char* sampler) {
     gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     gl_.BindTexture(target, texture.id());
@@ -132,7 +115,7 @@ std::optional<SmokePicture> SmokePass::draw(const Smoke& smoke, const SmokeGrid&
                                             const SmokeVolume& volume, const Light& light,
                                             const Targets& targets, const View& view) {
   const int n = smoke.samples_per_ray;
-  const SmokeSpans spans = make_smoke_spans(grid, volume, view, rays_per_tile * n);
+  const SmokeSpans spans = make_smoke_spans(grid, volume, view, smoke_rays_per_tile * n);
   if (spans.nearest > spans.farthest) return std::nullopt;
   march(smoke, grid, volume, spans, light, targets, view);
   SmokePicture picture;

@@ -8,7 +8,6 @@
 #include "render/gl_program.h"
 #include "render/lighting.h"
 #include "render/smoke_volume.h"
-#include "render/splat.h"
 #include "render/targets.h"
 #include "render/view.h"
 
@@ -35,20 +34,6 @@ class ParticlePass {
   bool is_software_;
 };
 
-/// Spheres, drawn on the CPU into the textures of the G-buffer; see splat.h. They have to be the
-/// first thing in it: what they leave out is as it was cleared, what is behind them is overwritten.
-class SplatPass {
- public:
-  /// @param pool may be null
-  SplatPass(const Gl& gl, ThreadPool* pool) : gl_(gl), pool_(pool) {}
-  void draw(const Points& points, const View& view, const Targets& targets);
-
- private:
-  const Gl& gl_;
-  ThreadPool* pool_;
-  Splatter splatter_;
-};
-
 /// Infinite planes with grid lines; see shaders/ground.frag.
 class GroundPass {
  public:
@@ -59,7 +44,6 @@ class GroundPass {
   void draw_ghosts(const Frame& frame, const View& view);
 
  private:
-  void set_scale(const Program& program, const Frame& frame, const View& view) const;
   void draw_plane(const Program& program, const GroundPlane& ground, const Frame& frame,
                   const View& view) const;
   const Gl& gl_;

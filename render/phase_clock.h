@@ -17,6 +17,7 @@ class PhaseClock {
   PhaseClock(const Gl& gl, std::vector<PhaseTime>* times) : gl_(gl), times_(times) {
     if (times_) times_->clear();
   }
+  bool is_wanted() const { return times_ != nullptr; }
   /// What was done since the last phase ended was this one.
   void end(const char* phase) {
     if (!times_) return;

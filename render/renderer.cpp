@@ -11,6 +11,10 @@
 #include "render/phase_clock.h"
 #include "render/read_back.h"
 #include "render/slice_passes.h"
+#include "render/smoke_cache.h"
+#include "render/smoke_march.h"
+#include "render/solid_cache.h"
+#include "render/surfaces.h"
 
 namespace neve::render {
 namespace {
@@ -109,10 +113,13 @@ struct Renderer::Impl {
   Gl gl;
   ShaderLibrary library;
   Lighting lighting;
+  SmokeCache smoke_cache;
   GroundPass ground;
   MeshPass meshes;
   ParticlePass particles;
-  SplatPass splats;
+  Surfaces surfaces;
+  SmokeMarch smoke_march;
+  SolidCache solids;
   SmokePass smoke;
   ArrowPass arrows;
   HeatMapPass heat_maps;
@@ -133,7 +140,8 @@ struct Renderer::Impl {
         ground(gl, library),
         meshes(gl, library),
         particles(gl, library, c.is_software),
-        splats(gl, p),
+        surfaces(p),
+        smoke_march(p),
         smoke(gl, library),
         arrows(gl, library),
         heat_maps(gl, library),
@@ -239,48 +247,115 @@ struct Renderer::Impl {
     context.make_current();
     check_frame(frame, max_size());
     prepare_targets(frame);
-    const SmokeGrid smoke_grid = make_smoke_grid(frame.smoke, pool);
+    const SmokeGrid& smoke_grid = smoke_cache.grid(frame.smoke, pool);
     const LightVolume& light = lighting.volume(frame, smoke_grid, pool);
     clock.end("light");
 
     const View view = make_view(frame.camera, targets->sample_width(), targets->sample_height());
-    bind(targets->gbuffer, view.width, view.height);
-    clear_gbuffer();
     if (path == ParticlePath::cpu)
-      splats.draw(frame.points, view, *targets);
+      draw_on_cpu(frame, view, smoke_grid, light, clock);
     else
-      particles.draw(frame.points, view);
-    clock.end("particles");
-    ground.draw(frame, view);
-    meshes.draw(frame.meshes, view);
-    clock.end("solids");
-    const auto samples = static_cast<float>(frame.supersampling);
-    heat_maps.draw(frame.heat_maps, view, samples);
-    arrows.draw(frame.arrows, view);
-    clock.end("slices");
-
-    std::optional<SmokePicture> smoke_picture;
-    if (!smoke_grid.is_empty()) {
-      const SmokeVolume volume =
-          make_smoke_volume(smoke_grid, light, toward_light(frame.light), pool);
-      smoke_picture = smoke.draw(frame.smoke, smoke_grid, volume, frame.light, *targets, view);
-    }
-    clock.end("smoke");
-
-    bind(targets->shaded, view.width, view.height);
-    shade.draw(*targets, light, frame, view, smoke_picture ? &*smoke_picture : nullptr);
+      draw_by_gl(frame, view, smoke_grid, light, clock);
 
     bind(targets->shaded_with_depth, view.width, view.height);
     ground.draw_ghosts(frame, view);
     meshes.draw_ghosts(frame.ghosts, toward_light(frame.light), view);
     bind(targets->shaded, view.width, view.height);
-    lines.draw(frame.lines, *targets, view, samples);
+    lines.draw(frame.lines, *targets, view, static_cast<float>(frame.supersampling));
 
     bind(targets->finished, frame.width, frame.height);
     if (frame.supersampling > 1) resolve.draw(*targets);
     clock.end("shade");
     overlay.draw(frame, make_view(frame.camera, frame.width, frame.height));
     clock.end("overlay");
+  }
+
+  void draw_by_gl(const Frame& frame, const View& view, const SmokeGrid& smoke_grid,
+                  const LightVolume& light, PhaseClock& clock) {
+    bind(targets->gbuffer, view.width, view.height);
+    clear_gbuffer();
+    particles.draw(frame.points, view);
+    clock.end("particles");
+    ground.draw(frame, view);
+    meshes.draw(frame.meshes, view);
+    clock.end("solids");
+    draw_slices(frame, view);
+    clock.end("slices");
+    std::optional<SmokePicture> smoke_picture;
+    if (!smoke_grid.is_empty())
+      smoke_picture = smoke.draw(frame.smoke, smoke_grid,
+                                 smoke_cache.volume(light, toward_light(frame.light), pool),
+                                 frame.light, *targets, view);
+    clock.end("smoke");
+    bind(targets->shaded, view.width, view.height);
+    shade.draw(*targets, light, frame, view, smoke_picture ? &*smoke_picture : nullptr);
+  }
+
+  void draw_slices(const Frame& frame, const View& view) {
+    heat_maps.draw(frame.heat_maps, view, static_cast<float>(frame.supersampling));
+    arrows.draw(frame.arrows, view);
+  }
+
+  void draw_on_cpu(const Frame& frame, const View& view, const SmokeGrid& smoke_grid,
+                   const LightVolume& light, PhaseClock& clock) {
+    surfaces.prepare(frame, view);
+    // Kept where smoke ends at them, and where each step is timed.
+    const bool is_kept = clock.is_wanted() || !smoke_grid.is_empty();
+    if (is_kept) surfaces.keep_points();
+    clock.end("particles");
+    if (is_kept) surfaces.keep_grounds();
+    const bool has_solids =
+        !frame.meshes.empty() || !frame.heat_maps.empty() || !frame.arrows.empty();
+    const bool is_drawn = has_solids && !solids.holds(frame, view);
+    if (is_drawn) {
+      bind(targets->gbuffer, view.width, view.height);
+      clear_gbuffer();
+      meshes.draw(frame.meshes, view);
+    }
+    clock.end("solids");
+    if (is_drawn) {
+      draw_slices(frame, view);
+      read_solids(solids.renew(frame, view));
+    }
+    if (has_solids) surfaces.set_solids(&solids.samples());
+    if (is_kept) surfaces.keep_solids();
+    clock.end("slices");
+    std::optional<SmokeCover> cover;
+    if (!smoke_grid.is_empty())
+      cover = smoke_march.march(frame.smoke, smoke_grid,
+                                smoke_cache.volume(light, toward_light(frame.light), pool),
+                                frame.light, surfaces, view);
+    clock.end("smoke");
+    const bool wants_depth =
+        !frame.ghosts.empty() || !frame.ghost_grounds.empty() || !frame.lines.empty();
+    surfaces.shade(light, cover ? &*cover : nullptr, wants_depth);
+    upload_surfaces(view, wants_depth);
+  }
+
+  /// The G-buffer as OpenGL has it.
+  void read_solids(SolidSamples& samples) {
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    const auto read = [&](GLenum buffer, GLenum format, GLenum type, void* to) {
+      gl.ReadBuffer(buffer);
+      gl.ReadPixels(0, 0, samples.width, samples.height, format, type, to);
+    };
+    read(GL_COLOR_ATTACHMENT0, GL_DEPTH_COMPONENT, GL_FLOAT, samples.depth.data());
+    read(GL_COLOR_ATTACHMENT0, GL_RGBA, GL_HALF_FLOAT, samples.normal_kind.data());
+    read(GL_COLOR_ATTACHMENT1, GL_RGBA, GL_UNSIGNED_BYTE, samples.albedo.data());
+  }
+
+  void upload_surfaces(const View& view, bool has_depth) {
+    gl.ActiveTexture(GL_TEXTURE0);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.PixelStorei(GL_UNPACK_ROW_LENGTH, surfaces.pitch());
+    const auto upload = [&](const Texture& texture, GLenum format, GLenum type, const void* from) {
+      gl.BindTexture(GL_TEXTURE_2D, texture.id());
+      gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, view.width, view.height, format, type, from);
+    };
+    upload(targets->supersampling > 1 ? targets->samples : targets->picture, GL_RGBA,
+           GL_UNSIGNED_BYTE, surfaces.picture());
+    if (has_depth) upload(targets->depth, GL_DEPTH_COMPONENT, GL_FLOAT, surfaces.depth());
+    gl.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   }
 };
 

@@ -13,9 +13,9 @@
 
 namespace neve::render {
 
-/// What draws the particles: OpenGL, or the CPU (splat.h), which is several times faster where
-/// OpenGL itself runs on the CPU. Automatic: whichever is faster here, or what the environment
-/// variable NEVE_PARTICLES names: gl or cpu.
+/// What draws particles, ground, smoke and the light on them: OpenGL, or the CPU (surfaces.h),
+/// which is several times faster where OpenGL itself runs on the CPU. Automatic: whichever is
+/// faster here, or what the environment variable NEVE_PARTICLES names: gl or cpu.
 enum class ParticlePath { automatic, gl, cpu };
 
 /// How pictures come back: through pixel buffers while the CPU goes on, or at once. Automatic:

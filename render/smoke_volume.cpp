@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "render/colormap.h"
 #include "render/light_fields.h"
 
 namespace neve::render {
@@ -128,6 +129,17 @@ SmokeVolume make_smoke_volume(const SmokeGrid& grid, const LightVolume& light, V
     }
   });
   return volume;
+}
+
+std::vector<float> linear_colors(ColorMap map) {
+  std::vector<float> colors;
+  for (int i = 0; i < colormap_width; ++i) {
+    const Rgb8 color = map_color(map, static_cast<float>(i) / (colormap_width - 1));
+    for (const std::uint8_t c : {color.r, color.g, color.b})
+      colors.push_back(std::pow(static_cast<float>(c) / 255, 2.2f));
+    colors.push_back(0);
+  }
+  return colors;
 }
 
 namespace {

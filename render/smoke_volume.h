@@ -3,9 +3,11 @@
 /// the picture it lies.
 
 #include <cstdint>
+#include <vector>
 
 #include "render/lighting.h"
 #include "render/smoke_grid.h"
+#include "render/smoke_job.h"
 #include "render/view.h"
 
 namespace neve::render {
@@ -23,6 +25,16 @@ struct SmokeVolume {
 /// @param grid not empty @param pool may be null
 SmokeVolume make_smoke_volume(const SmokeGrid& grid, const LightVolume& light, Vec3f toward_light,
                               ThreadPool* pool);
+
+/// Linear light at colormap_width places of a colour map, four numbers each, the last one 0.
+std::vector<float> linear_colors(ColorMap map);
+
+/// Where light that falls on smoke is taken to colours: without a tint of its own, so that these
+/// are those of the legend.
+inline constexpr float key_on_colors = 1.15f, sky_on_colors = 0.55f;
+
+/// Rays of a tile along each axis.
+inline constexpr int smoke_rays_per_tile = 8;
 
 /// Between which distances along the view each tile of the picture shows smoke.
 struct SmokeSpans {

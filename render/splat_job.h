@@ -5,11 +5,10 @@
 /// Places on the picture are in samples, y up. Slopes are samples / pixels_per_slope, so that the
 /// ray of slope s is (s.x, s.y, 1) in the axes of the view, with length 1 along it.
 
+#include "render/gbuffer_tile.h"
 #include "sim/base/vec.h"
 
 namespace neve::render {
-
-inline constexpr int splat_tile_width = 64, splat_tile_height = 32;
 
 /// A sphere on the picture. One that is not seen has x_low > x_high.
 struct SplatDisc {
@@ -45,24 +44,9 @@ struct TileJob {
   const SplatDisc* discs;
   const int* list;  ///< indices of discs, nearest first
   int count;
-  int x, y;                     ///< lower corner of the tile
-  unsigned kind;                ///< of surface (shaders/gbuffer.glsl), as a half float
-  float* depth;                 ///< lower corner; row r starts at r * pitch
-  unsigned short* normal_kind;  ///< four half floats per sample
-  unsigned* albedo;
-  int pitch;  ///< samples
+  int x, y;          ///< lower left sample of the tile
+  int kind;          ///< of surface (gbuffer_tile.h)
+  GBufferTile* out;  ///< where there is no disc, only `inverse` and `kind` are set
 };
-
-/// The kernels compiled for one instruction set. All of them give the same bits.
-struct SplatKernels {
-  const char* simd;
-  void (*project)(const ProjectJob&);
-  void (*draw_tile)(const TileJob&);
-};
-
-extern const SplatKernels splat_baseline;
-#ifdef NEVE_X86_SPLAT
-extern const SplatKernels splat_avx2;
-#endif
 
 }  // namespace neve::render

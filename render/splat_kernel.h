@@ -11,23 +11,11 @@
 /// inverse of that is (num + sqrt D) / (z (Q - ratio^2)): one root and no division per sample. In d
 /// nothing large cancels, however small the sphere is against its distance.
 
+#include "render/lane_math.h"
 #include "render/splat_job.h"
-#include "sim/base/lanes.h"
 
 namespace neve::render {
 namespace {
-
-template <class V>
-NEVE_INLINE V clamp_lanes(V x, float low, float high) {
-  return smaller_lanes(larger_lanes(x, all<V>(low)), all<V>(high));
-}
-
-/// Largest integers <= x, |x| < 2^23.
-template <class V>
-NEVE_INLINE MaskOf<V> floor_lanes(V x) {
-  const MaskOf<V> i = __builtin_convertvector(x, MaskOf<V>);  // towards zero
-  return i + (__builtin_convertvector(i, V) > x);             // true is -1
-}
 
 // ---- projection ---------------------------------------------------------------------------------
 
@@ -55,11 +43,6 @@ NEVE_INLINE Extent<V> extent_of(V slope, V ratio, float pixels_per_slope, int si
 }
 
 template <class V>
-struct Points3 {
-  V x, y, z;
-};
-
-template <class V>
 NEVE_INLINE Points3<V> load_points(const ProjectJob& job, int first, int count) {
   Points3<V> p{};
   for (int l = 0; l < lane_count<V>; ++l) {
@@ -70,11 +53,6 @@ NEVE_INLINE Points3<V> load_points(const ProjectJob& job, int first, int count) 
     p.z[l] = at.z - job.view.eye.z;
   }
   return p;
-}
-
-template <class V>
-NEVE_INLINE V along(const Points3<V>& p, Vec3f axis) {
-  return p.x * axis.x + p.y * axis.y + p.z * axis.z;
 }
 
 template <class V>
@@ -132,14 +110,14 @@ NEVE_INLINE void project_discs(const ProjectJob& job) {
 // ---- drawing a tile -----------------------------------------------------------------------------
 
 constexpr int block_side = 8;
-constexpr int blocks_across = splat_tile_width / block_side;
-constexpr int block_count = blocks_across * (splat_tile_height / block_side);
+constexpr int blocks_across = tile_width / block_side;
+constexpr int block_count = blocks_across * (tile_height / block_side);
 static_assert(block_count <= 32, "one bit each");
 
 /// The nearest surface so far, and for each block of samples a bound behind which all is hidden.
 struct Tile {
-  alignas(64) float inverse[splat_tile_height * splat_tile_width];  ///< 1/m along the view; 0: none
-  alignas(64) int disc[splat_tile_height * splat_tile_width];       ///< -1: none
+  float* inverse;              ///< 1/m along the view; 0: none
+  int* disc;                   ///< -1: none
   float covered[block_count];  ///< 1/m: every sample of the block has this much or more
   unsigned stale;              ///< blocks drawn to since `covered` was found
 };
@@ -151,10 +129,10 @@ struct Span {
 /// Smallest inverse distance of a block.
 template <class V>
 NEVE_INLINE float least_of_block(const Tile& tile, int block) {
-  const float* row = tile.inverse + block / blocks_across * block_side * splat_tile_width +
+  const float* row = tile.inverse + block / blocks_across * block_side * tile_width +
                      block % blocks_across * block_side;
   V least = load_lanes<V>(row);
-  for (int y = 0; y < block_side; ++y, row += splat_tile_width)
+  for (int y = 0; y < block_side; ++y, row += tile_width)
     for (int x = 0; x < block_side; x += lane_count<V>)
       least = smaller_lanes(least, load_lanes<V>(row + x));
   return smallest_lane(least);
@@ -184,14 +162,6 @@ NEVE_INLINE unsigned blocks_of(const Span& span) {
   return bits;
 }
 
-/// 0.5, 1.5, 2.5 ...: centres of samples side by side.
-template <class V>
-NEVE_INLINE V sample_centers() {
-  V v{};
-  for (int l = 0; l < lane_count<V>; ++l) v[l] = static_cast<float>(l) + 0.5f;
-  return v;
-}
-
 template <class V>
 NEVE_INLINE void draw_disc(const TileJob& job, Tile& tile, const Span& span, int index) {
   using I = MaskOf<V>;
@@ -211,8 +181,8 @@ NEVE_INLINE void draw_disc(const TileJob& job, Tile& tile, const Span& span, int
     const V a1 = all<V>(2 * cx * (ratio2 + cy * dy));
     const V a0 = all<V>(ratio2 * (Q + 2 * dy * cy + dy * dy) - dy * dy - cx * cx * (dy * dy));
     const V n0 = all<V>(Q + cy * dy);
-    float* inverse = tile.inverse + y * splat_tile_width;
-    int* owner = tile.disc + y * splat_tile_width;
+    float* inverse = tile.inverse + y * tile_width;
+    int* owner = tile.disc + y * tile_width;
     for (int x = first; x <= span.x1; x += lane_count<V>) {
       const V dx = (centers + (static_cast<float>(x) + left)) * per_sample;
       const V D = (a2 * dx + a1) * dx + a0;
@@ -226,16 +196,6 @@ NEVE_INLINE void draw_disc(const TileJob& job, Tile& tile, const Span& span, int
       store_lanes(is_nearer ? id_bits : load_lanes<V>(ids), ids);
     }
   }
-}
-
-/// The bits of half floats in the lower halves, rounded to nearest; |x| <= 1, below 2^-14 zero.
-template <class V>
-NEVE_INLINE MaskOf<V> to_half(V x) {
-  using I = MaskOf<V>;
-  const I bits = reinterpret_cast<I>(x);
-  const I magnitude = bits & 0x7fffffff, sign = bits >> 16 & 0x8000;
-  const I half = (magnitude - (112 << 23) + 0x1000) >> 13;
-  return (magnitude < all<I>(113 << 23) ? I{} : half) | sign;
 }
 
 /// Discs of the lanes, as far as normals need them.
@@ -277,61 +237,52 @@ NEVE_INLINE Points3<V> normals_of(const SplatView& view, const Discs<V>& disc, V
           part * (dy * num - cy * back - (cy + dy) * root), part * (-back - root)};
 }
 
-/// Four halves per lane, written side by side.
-template <class V, int... I>
-NEVE_INLINE void store_halves(MaskOf<V> xy, MaskOf<V> zw, unsigned short* to, Indices<I...>) {
-  constexpr int n = lane_count<V>;
-  const MaskOf<V> low = __builtin_shufflevector(xy, zw, (I / 2 + (I % 2) * n)...);
-  const MaskOf<V> high = __builtin_shufflevector(xy, zw, (n / 2 + I / 2 + (I % 2) * n)...);
-  __builtin_memcpy(to, &low, sizeof low);
-  __builtin_memcpy(to + 2 * n, &high, sizeof high);
-}
-
-/// What the tile holds, as the textures of the G-buffer hold it.
+/// Whose disc each sample of a lane shows becomes what is seen of it.
 template <class V>
-NEVE_INLINE void write_samples(const TileJob& job, const Tile& tile, int x, int y) {
+NEVE_INLINE void finish_samples(const TileJob& job, int x, int y) {
   using I = MaskOf<V>;
-  const int at = y * splat_tile_width + x, out = y * job.pitch + x;
-  const V inverse = load_lanes<V>(tile.inverse + at);
-  const I is_hit = inverse > V{};
-  I xy{}, zw{}, color{};
+  GBufferTile& out = *job.out;
+  const int at = y * tile_width + x;
+  const I is_hit = load_lanes<V>(out.inverse + at) > V{};
+  I kind{}, color{};
   if (any_lane(is_hit)) {
-    const Discs<V> disc = gather_discs<V>(job, tile.disc + at);
+    const Discs<V> disc = gather_discs<V>(job, out.kind + at);
     const V px = sample_centers<V>() + static_cast<float>(job.x + x);
     const Points3<V> n = normals_of(job.view, disc, px, static_cast<float>(job.y + y) + 0.5f);
     const auto axis = [&](float Vec3f::*m) NEVE_INLINE_BODY {
       return n.x * (job.view.right.*m) + n.y * (job.view.up.*m) + n.z * (job.view.forward.*m);
     };
-    xy = to_half<V>(axis(&Vec3f::x)) | to_half<V>(axis(&Vec3f::y)) << 16;
-    zw = to_half<V>(axis(&Vec3f::z)) | static_cast<int>(job.kind) << 16;
-    xy &= is_hit;
-    zw &= is_hit;
-    color = disc.color & is_hit;
+    store_lanes(axis(&Vec3f::x), out.normal_x + at);
+    store_lanes(axis(&Vec3f::y), out.normal_y + at);
+    store_lanes(axis(&Vec3f::z), out.normal_z + at);
+    kind = is_hit & job.kind;
+    color = is_hit & disc.color;
   }
-  const V depth = larger_lanes(all<V>(1) - job.view.near_distance * inverse, V{});
-  store_lanes(depth, job.depth + out);
-  __builtin_memcpy(job.albedo + out, &color, sizeof color);
-  store_halves<V>(xy, zw, job.normal_kind + 4 * out, Indices<__integer_pack(lane_count<V>)...>{});
+  __builtin_memcpy(out.kind + at, &kind, sizeof kind);
+  __builtin_memcpy(out.albedo + at, &color, sizeof color);
 }
 
 template <class V>
 NEVE_INLINE void draw_tile_lanes(const TileJob& job) {
   Tile tile;
-  __builtin_memset(tile.inverse, 0, sizeof tile.inverse);
-  __builtin_memset(tile.disc, 0xff, sizeof tile.disc);
+  tile.inverse = job.out->inverse;
+  tile.disc = job.out->kind;
+  __builtin_memset(job.out->inverse, 0, sizeof job.out->inverse);
+  __builtin_memset(job.out->kind, job.count > 0 ? 0xff : 0, sizeof job.out->kind);
+  if (job.count == 0) return;
   __builtin_memset(tile.covered, 0, sizeof tile.covered);
   tile.stale = 0;
   for (int k = 0; k < job.count; ++k) {
     const SplatDisc& disc = job.discs[job.list[k]];
-    const Span span = {
-        larger(disc.x_low - job.x, 0), smaller(disc.x_high - job.x, splat_tile_width - 1),
-        larger(disc.y_low - job.y, 0), smaller(disc.y_high - job.y, splat_tile_height - 1)};
+    const Span span = {larger(disc.x_low - job.x, 0), smaller(disc.x_high - job.x, tile_width - 1),
+                       larger(disc.y_low - job.y, 0),
+                       smaller(disc.y_high - job.y, tile_height - 1)};
     if (is_hidden<V>(tile, span, disc.nearest)) continue;
     draw_disc<V>(job, tile, span, job.list[k]);
     tile.stale |= blocks_of(span);
   }
-  for (int y = 0; y < splat_tile_height; ++y)
-    for (int x = 0; x < splat_tile_width; x += lane_count<V>) write_samples<V>(job, tile, x, y);
+  for (int y = 0; y < tile_height; ++y)
+    for (int x = 0; x < tile_width; x += lane_count<V>) finish_samples<V>(job, x, y);
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+#pragma once
+/// What the kernels work on that finish and light a tile of surfaces: plain data, as splat_job.h.
+///
+/// Positions are relative to the eye, in m, with the axes of the world. Samples count from the
+/// lower left corner of the picture.
+
+#include "render/gbuffer_tile.h"
+#include "sim/base/vec.h"
+
+namespace neve::render {
+
+/// The camera; see View.
+struct LaneView {
+  Vec3f right, up, forward;
+  float pixels_per_slope;
+  float near_distance;  ///< m
+  int width, height;    ///< samples
+};
+
+/// An infinite plane with grid lines, as shaders/ground.frag takes it.
+struct GroundJob {
+  LaneView view;
+  Vec3f point, normal, tangent, bitangent;
+  float eye_on_grid[2], line_spacing;
+  Vec3f fade_center;
+  float fade_distance;
+  Vec3f root_color;  ///< square root of linear light
+  float line_width;  ///< samples
+};
+
+/// Samples that OpenGL has drawn, as the textures of the G-buffer hold them.
+struct SolidJob {
+  float near_distance;                ///< m
+  const float* depth;                 ///< of the lower left sample of the tile
+  const unsigned short* normal_kind;  ///< four half floats each
+  const unsigned* albedo;
+  int pitch;  ///< samples from one row to the next
+  int columns, rows;
+};
+
+/// A LightVolume. Four bytes per cell: normal of the body and density, signed; key light and sky,
+/// 16 bits each.
+struct LightCells {
+  Vec3f origin;
+  float cell;
+  Vec3i count;
+  const unsigned *body, *light;
+};
+
+/// Smoke that is laid over the surfaces, one number per ray; see SmokeRays.
+struct SmokeCover {
+  const float* sums[4];
+  const float* depth;
+  int width, height;  ///< rays
+  float samples_per_ray, nearest, farthest, spacing;
+  int is_colored;
+};
+
+/// Lights one tile, as shaders/shade.frag does.
+struct ShadeJob {
+  LaneView view;
+  LightCells light;
+  Vec3f toward_light;
+  float key_intensity, ambient_intensity;
+  int is_transparent;
+  const SmokeCover* smoke;  ///< null where there is none
+  const GBufferTile* tile;
+  int x, y;  ///< lower left corner of the tile
+  unsigned*
+      out;    ///< of that corner; sRGB and alpha, red lowest; whole rows of the tile are written
+  int pitch;  ///< samples from one row to the next
+};
+
+}  // namespace neve::render
