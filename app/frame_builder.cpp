@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "app/attributes.h"
 #include "app/camera_path.h"
@@ -85,7 +86,8 @@ FrameBuilder::FrameBuilder(const Scene& scene, double spacing, Quality quality,
       coarsening_(coarsening),
       body_end_(body_end) {}
 
-render::Frame FrameBuilder::build(const View& view, const Snapshot& snapshot) const {
+render::Frame FrameBuilder::build(const View& view, const Snapshot& snapshot,
+                                  std::optional<render::Points> points) const {
   render::Frame frame;
   const PictureSize size = size_of(scene_, view);
   frame.width = size.width;
@@ -99,7 +101,10 @@ render::Frame FrameBuilder::build(const View& view, const Snapshot& snapshot) co
   const render::Camera first = camera_of(scene_, view, 0);
   const double spacing = round_down(0.1 * static_cast<double>(length(first.eye - first.target)));
   add_colliders(scene_, view, snapshot.time, static_cast<float>(spacing), frame);
-  if (has_layer(view, Layer::particles)) add_points(view, snapshot, frame);
+  if (points)
+    frame.points = std::move(*points);
+  else if (has_layer(view, Layer::particles))
+    add_points(view, snapshot, frame);
   add_grid(view, snapshot, frame);
   if (has_layer(view, Layer::legend)) frame.legends = legends_of(view);
   if (has_layer(view, Layer::bounds)) add_bounds(snapshot, frame);
@@ -119,8 +124,9 @@ std::vector<std::string> FrameBuilder::incident_lines(const sim::Divergence& div
 
 render::Frame FrameBuilder::build_incident(const View& view, const Snapshot& snapshot,
                                            const sim::Divergence& divergence,
-                                           const Diagnosis& diagnosis) const {
-  render::Frame frame = build(view, snapshot);
+                                           const Diagnosis& diagnosis,
+                                           std::optional<render::Points> points) const {
+  render::Frame frame = build(view, snapshot, std::move(points));
   // Where only a plane is drawn, rings around what is before or behind it point at nothing.
   const bool is_plane = !has_layer(view, Layer::particles) && !has_layer(view, Layer::smoke);
   const auto is_shown = [&](const sim::Vec3d& x) {

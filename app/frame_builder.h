@@ -25,7 +25,10 @@ class FrameBuilder {
                const std::vector<std::string>& overrides, double coarsening,
                const std::vector<std::size_t>& body_end);
 
-  render::Frame build(const View& view, const Snapshot& snapshot) const;
+  /// @param points of a frame that was built before from the same snapshot and view, except for
+  /// the camera and the size: taken as they are, since they cost most to make
+  render::Frame build(const View& view, const Snapshot& snapshot,
+                      std::optional<render::Points> points = std::nullopt) const;
 
   /// What the caption of such a picture adds: rule, cause, evidence, remedy.
   static std::vector<std::string> incident_lines(const sim::Divergence& divergence,
@@ -33,7 +36,8 @@ class FrameBuilder {
 
   /// The same picture with rings around the particles that broke a rule.
   render::Frame build_incident(const View& view, const Snapshot& snapshot,
-                               const sim::Divergence& divergence, const Diagnosis& diagnosis) const;
+                               const sim::Divergence& divergence, const Diagnosis& diagnosis,
+                               std::optional<render::Points> points = std::nullopt) const;
 
   /// Title, frame and time, particles and steps, and what was overridden; one line each.
   std::vector<std::string> caption(const Snapshot& snapshot) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/camera_path.h"
 #include "app/frame_builder.h"
@@ -225,16 +226,23 @@ void Viewer::draw() {
   state_.frames_per_second = 0.9 * state_.frames_per_second + 0.1 / std::max(passed, 1e-3);
 }
 
-/// Everything but the state that the picture depends on.
+/// What the picture shows, from wherever it is seen.
+std::string Viewer::state_key() const {
+  char text[120];
+  std::snprintf(
+      text, sizeof text, "%p %llu %d ", static_cast<const void*>(bench_.document().scene().get()),
+      static_cast<unsigned long long>(state_.live->number), state_.shows_incident ? 1 : 0);
+  return text + state_.view;
+}
+
+/// Everything that the picture depends on.
 std::string Viewer::picture_key() const {
   const sim::Vec3d eye = state_.orbit.eye(), target = state_.orbit.target();
   char text[400];
-  std::snprintf(text, sizeof text, "%p %s %d %d %a %a %a %a %a %a %a %d %d",
-                static_cast<const void*>(bench_.document().scene().get()), state_.view.c_str(),
-                state_.viewport.width, state_.viewport.height, eye.x(), eye.y(), eye.z(),
-                target.x(), target.y(), target.z(), state_.orbit.fov(),
-                state_.is_camera_of_scene ? 1 : 0, state_.shows_incident ? 1 : 0);
-  return text;
+  std::snprintf(text, sizeof text, " %d %d %a %a %a %a %a %a %a %d", state_.viewport.width,
+                state_.viewport.height, eye.x(), eye.y(), eye.z(), target.x(), target.y(),
+                target.z(), state_.orbit.fov(), state_.is_camera_of_scene ? 1 : 0);
+  return state_key() + text;
 }
 
 void Viewer::paint_picture() {
@@ -255,7 +263,7 @@ void Viewer::paint_picture() {
   if (is_moving && full_seconds_ > quick_enough)
     scale = std::clamp(std::sqrt(quick_enough / full_seconds_), smallest_scale, 1.0);
   const std::string key = picture_key();
-  if (painted_number_ == state_.live->number && key == painted_key_ && scale <= scale_) return;
+  if (key == painted_key_ && scale <= scale_) return;
   if (!has_all(state_.live->snapshot, shown_view())) return;
   const auto start = Clock::now();
   const PictureSize size{
@@ -264,6 +272,7 @@ void Viewer::paint_picture() {
   render::Frame frame = picture_frame(size);
   frame.font_size = std::max(8, static_cast<int>(std::lround(scale * font_size_of(front_.size()))));
   renderer_.paint(frame);
+  keep_points(std::move(frame.points));
   bench_.session().taken(state_.live->number);
   if (scale >= 1) full_seconds_ = seconds_of_wall(Clock::now() - start);
   scale_ = scale;
@@ -289,7 +298,12 @@ View Viewer::shown_view() const {
   return view;
 }
 
-render::Frame Viewer::picture_frame(const PictureSize& size) const {
+void Viewer::keep_points(render::Points points) {
+  points_ = std::move(points);
+  points_key_ = state_key();
+}
+
+render::Frame Viewer::picture_frame(const PictureSize& size) {
   const LiveFrame& live = *state_.live;
   Scene scene = bench_.display_scene(live);
   View view = shown_view();
@@ -299,9 +313,13 @@ render::Frame Viewer::picture_frame(const PictureSize& size) const {
   scene.views = {view};
   const FrameBuilder builder(scene, live.spacing, Quality::preview, bench_.overrides(),
                              bench_.document().coarsening(), live.body_end);
+  std::optional<render::Points> points;
+  if (points_key_ == state_key()) points = std::move(points_);
+  points_key_.clear();
   if (live.divergence && live.diagnosis && state_.shows_incident)
-    return builder.build_incident(view, live.snapshot, *live.divergence, *live.diagnosis);
-  return builder.build(view, live.snapshot);
+    return builder.build_incident(view, live.snapshot, *live.divergence, *live.diagnosis,
+                                  std::move(points));
+  return builder.build(view, live.snapshot, std::move(points));
 }
 
 void Viewer::lay_out() {

@@ -44,7 +44,8 @@ class Viewer {
   void draw();
   void paint_picture();
   View shown_view() const;
-  render::Frame picture_frame(const PictureSize& size) const;
+  render::Frame picture_frame(const PictureSize& size);
+  void keep_points(render::Points points);
   void lay_out();
   void draw_panels();
   void play(double seconds);
@@ -54,6 +55,7 @@ class Viewer {
   void save_picture();
   void record_frame();
   double seconds_passed();
+  std::string state_key() const;
   std::string picture_key() const;
 
   Workbench& bench_;
@@ -70,6 +72,9 @@ class Viewer {
   int settle_ = 3;          ///< pictures that ImGui still needs to come to rest
   std::uint64_t painted_number_ = 0;
   std::string painted_key_;
+  render::Points
+      points_;  ///< of the last picture: the next has the same while only the camera moves
+  std::string points_key_;   ///< what they belong to; empty: nothing
   double scale_ = 1;         ///< of the picture last painted
   double full_seconds_ = 0;  ///< that a picture of full size takes
   Clock::time_point moved_at_{};
