@@ -4,13 +4,14 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "app/bench/measure.h"
 #include "app/bench/render_frames.h"
 #include "app/text.h"
 #include "render/context.h"
+#include "render/draw_kernels.h"
 #include "render/renderer.h"
-#include "render/splat.h"
 
 namespace neve::app {
 
@@ -39,7 +40,7 @@ class RenderBench {
 
  private:
   void measure_particles(const std::string& size, render::Frame& frame);
-  void measure_all_layers(const render::Frame& frame);
+  void measure_all_layers(render::Frame& frame);
   void measure_png();
   void add(const std::string& name, double seconds, const render::Frame& frame);
   std::vector<BenchRow> rows() const;
@@ -109,19 +110,35 @@ void RenderBench::measure_particles(const std::string& size, render::Frame& fram
   if (size == main_size) picture_ = std::move(image);
 }
 
-void RenderBench::measure_all_layers(const render::Frame& frame) {
-  render::Frame moved = frame;
-  moved.points.position.front().x = -moved.points.position.front().x;
+/// Another state than before in every layer, so that nothing of the last picture can be used again.
+void change_state(render::Frame& frame) {
+  frame.points.position.front().x *= -1;
+  for (render::Arrows& arrows : frame.arrows) arrows.vector.front().y += 1e-3f;
+  for (float& density : frame.smoke.density) density *= 1.001f;
+}
+
+void RenderBench::measure_all_layers(render::Frame& frame) {
+  const std::string name = std::string("all_layers_") + main_size;
+  change_state(frame);
   const Stopwatch watch;
-  renderer_.draw(moved);
-  add(std::string("all_layers_") + main_size, watch.wall(), frame);
+  renderer_.draw(frame);
+  add(name, watch.wall(), frame);
+  // As somebody does who turns the view.
+  frame.camera.eye.x += 1e-3f;
+  const Stopwatch again;
+  renderer_.draw(frame);
+  add(name + "_same_state", again.wall(), frame);
+  change_state(frame);
   for (const render::PhaseTime& time : phases_of(renderer_, frame))
     add(std::string("phase_") + time.phase, time.seconds, frame);
   // The layers that scripts ask for one by one.
-  moved.heat_maps.clear();
-  const std::vector<render::PhaseTime> times = phases_of(renderer_, moved);
+  change_state(frame);
+  std::vector<render::HeatMap> heat_maps;
+  std::swap(heat_maps, frame.heat_maps);
+  const std::vector<render::PhaseTime> times = phases_of(renderer_, frame);
   add("smoke", phase_seconds(times, "smoke"), frame);
   add("arrows", phase_seconds(times, "slices"), frame);
+  std::swap(heat_maps, frame.heat_maps);
 }
 
 void RenderBench::measure_png() {
@@ -140,7 +157,7 @@ std::vector<BenchRow> RenderBench::run() {
   for (const Size& size : sizes)
     frames[size.name] = particles_frame(options_.is_quick ? size.quick : size.particles);
   const double main_particles = options_.is_quick ? sizes[2].quick : sizes[2].particles;
-  const render::Frame all_layers = all_layers_frame(main_particles);
+  render::Frame all_layers = all_layers_frame(main_particles);
   // The first picture of each kind compiles shaders and fills caches.
   for (render::Renderer* renderer : {&renderer_, &by_gl_, &by_cpu_}) renderer->draw(frames["4k"]);
   renderer_.draw(all_layers);
@@ -166,7 +183,7 @@ std::vector<BenchRow> RenderBench::rows() const {
     row.name = name;
     row.threads = pool_.thread_count();
     row.particles = samples.particles;
-    row.simd = render::chosen_splat_kernels().simd;
+    row.simd = render::chosen_draw_kernels().simd;
     row.value = statistics_of(samples.milliseconds);
     row.unit = "ms";
     rows.push_back(row);
