@@ -1,8 +1,16 @@
 #include "app/view/session.h"
 
+#ifdef __linux__
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <exception>
+#include <future>
+#include <utility>
 
 #include "app/changes.h"
 #include "app/machine.h"
@@ -17,7 +25,11 @@ namespace neve::app {
 
 namespace {
 
-constexpr auto publish_interval = std::chrono::milliseconds(15);
+/// Between two moments of a run that are shown; turning the view draws pictures in between.
+constexpr auto publish_interval = std::chrono::milliseconds(30);
+/// By how much a simulation that is watched steps back behind the pictures of it: where both want
+/// the same cores, these get about twice as much.
+constexpr int niceness = 3;
 /// Sampling takes at most one part in so many of the time.
 constexpr int sampling_share = 20;
 constexpr std::size_t most_samples = 4000;
@@ -28,6 +40,16 @@ thread_local Session* stepping = nullptr;
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
+}
+
+/// Of the calling thread, and of those that it starts from now on.
+void step_back() {
+#ifdef __linux__
+  const auto thread = static_cast<id_t>(gettid());
+  errno = 0;
+  const int now = getpriority(PRIO_PROCESS, thread);
+  if (errno == 0) setpriority(PRIO_PROCESS, thread, now + niceness);  // only a matter of speed
+#endif
 }
 
 std::uint64_t default_budget() {
@@ -42,9 +64,26 @@ Session::Session(std::shared_ptr<const Scene> scene, const SessionOptions& optio
       options_(options),
       kept_(options.kept_budget > 0 ? options.kept_budget : default_budget()) {
   views_ = scene->views;
-  start(std::move(scene));
-  publish();
-  thread_ = std::thread([this] { work(); });
+  std::promise<void> promise;
+  std::future<void> start_of_run = promise.get_future();
+  thread_ = std::thread([this, &scene, started = std::move(promise)]() mutable {
+    step_back();
+    try {
+      start(std::move(scene));
+      publish();
+    } catch (...) {
+      started.set_exception(std::current_exception());
+      return;
+    }
+    started.set_value();
+    work();
+  });
+  try {
+    start_of_run.get();
+  } catch (...) {
+    thread_.join();
+    throw;
+  }
 }
 
 Session::~Session() {
