@@ -138,9 +138,17 @@ Rgb8 PointColors::of(std::uint32_t point) const {
 
 std::uint32_t PointColors::root_albedo(std::uint32_t point) const {
   static const std::array<std::uint8_t, 256> root = root_table();
-  const Rgb8 c = of(point);
-  return root[c.r] | static_cast<std::uint32_t>(root[c.g]) << 8 |
-         static_cast<std::uint32_t>(root[c.b]) << 16 | 0xff000000u;
+  const auto packed = [](Rgb8 c) {
+    return root[c.r] | static_cast<std::uint32_t>(root[c.g]) << 8 |
+           static_cast<std::uint32_t>(root[c.b]) << 16 | 0xff000000u;
+  };
+  if (!points_.value.empty()) return packed(of(point));
+  static const std::array<std::uint32_t, 64> shades = [&] {
+    std::array<std::uint32_t, 64> all{};
+    std::ranges::transform(snow_shades(), all.begin(), packed);
+    return all;
+  }();
+  return shades[scramble(points_.id.empty() ? point : points_.id[point]) & 63u];
 }
 
 PointList list_points(const Points& points, const View& view, float max_point_size,

@@ -29,10 +29,13 @@ Image upright(const std::uint8_t* rgba, int picture_width, int picture_height, b
     const std::uint8_t* from = rgba + 4 * width * (height - 1 - y);
     std::uint8_t* to = image.pixels.data() + channels * width * y;
     for (std::size_t x = 0; x < width; ++x, from += 4, to += channels) {
-      if (has_alpha)
+      if (has_alpha) {
         straighten(from, to);
-      else
-        std::copy_n(from, 3, to);
+      } else {
+        to[0] = from[0];
+        to[1] = from[1];
+        to[2] = from[2];
+      }
     }
   }
   return image;
