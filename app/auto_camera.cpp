@@ -113,7 +113,7 @@ void add_small_colliders(const Scene& scene, std::vector<Vec3d>& points) {
   const Vec3d margin = Vec3d::Constant(0.25 * snow.diagonal());
   for (const sim::Collider& collider : scene.colliders) {
     if (std::holds_alternative<sim::Plane>(collider.shape.form)) continue;
-    const sim::Bounds bounds = sim::bounds(collider.shape);
+    const sim::Bounds bounds = sim::bounds_at(collider, 0);
     const bool is_near = ((bounds.min - margin).array() <= snow.max.array()).all() &&
                          ((bounds.max + margin).array() >= snow.min.array()).all();
     if (!is_near || (bounds.max - bounds.min).norm() > 1.5 * snow.diagonal()) continue;

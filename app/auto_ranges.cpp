@@ -17,12 +17,14 @@ using sim::Vec3d;
 /// How far a point moves along a unit direction until it meets a collider; negative: never.
 double distance_to(const sim::Collider& collider, const Vec3d& point, const Vec3d& direction) {
   if (const auto* plane = std::get_if<sim::Plane>(&collider.shape.form)) {
-    const double approach = -direction.dot(plane->normal);
-    const double height = (point - plane->point).dot(plane->normal);
+    const sim::Pose pose = sim::pose_at(collider, 0);
+    const Vec3d normal = pose.rotation * plane->normal;
+    const double approach = -direction.dot(normal);
+    const double height = (point - pose.point).dot(normal);
     return approach > 1e-9 && height > 0 ? height / approach : -1;
   }
   // Any other shape by the box around it: an estimate is all that is needed.
-  const sim::Bounds box = sim::bounds(collider.shape);
+  const sim::Bounds box = sim::bounds_at(collider, 0);
   double enter = 0, leave = 1e300;
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(direction[axis]) < 1e-9) {

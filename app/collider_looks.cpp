@@ -1,7 +1,13 @@
 #include "app/collider_looks.h"
-#include "app/to_float.h"
 
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "app/scene/value.h"
+#include "app/to_float.h"
 #include "render/mesh_shapes.h"
+#include "sim/mesh_surface.h"
 
 namespace neve::app {
 
@@ -57,6 +63,63 @@ void add_box(const sim::Box& box, const sim::Pose& pose, ColliderStyle style,
       .push_back(render::box_mesh(center, size, rotation));
 }
 
+/// Of any other form, placed: solid or ghost as triangles, otherwise as lines. Edges show where a
+/// ghost would have no rim.
+void add_form(render::TriangleMesh mesh, render::Lines lines, ColliderStyle style, bool has_rim,
+              render::Frame& frame) {
+  if (style == ColliderStyle::wire) return add_lines(std::move(lines), 0.7f, frame);
+  if (style == ColliderStyle::ghost && !has_rim) add_lines(std::move(lines), 0.35f, frame);
+  (style == ColliderStyle::ghost ? frame.ghosts : frame.meshes).push_back(std::move(mesh));
+}
+
+std::optional<render::Profile> profile_of(const sim::Shape& shape) {
+  const auto real = [](double x) { return static_cast<float>(x); };
+  if (const auto* s = std::get_if<sim::Capsule>(&shape.form))
+    return render::capsule_profile(real(0.5 * (s->b - s->a).norm()), real(s->radius));
+  if (const auto* s = std::get_if<sim::Cylinder>(&shape.form))
+    return render::cylinder_profile(real(0.5 * s->height), real(s->radius));
+  if (const auto* s = std::get_if<sim::Cone>(&shape.form))
+    return render::cone_profile(real(0.5 * s->height), real(s->radius));
+  if (const auto* s = std::get_if<sim::Torus>(&shape.form))
+    return render::torus_profile(real(s->major_radius), real(s->minor_radius));
+  return std::nullopt;
+}
+
+/// Of a mesh, about the origin of its file.
+struct MeshLook {
+  render::TriangleMesh mesh;
+  render::Lines lines;
+};
+
+/// Made once for all frames.
+std::shared_ptr<const MeshLook> look_of(const sim::Mesh& mesh) {
+  static sim::Recent<MeshLook> recent;
+  return recent.get(sim::file_stamp(mesh.file) + "|" + number_text(mesh.scale), [&] {
+    const std::shared_ptr<const sim::MeshSurface> surface = sim::mesh_surface(mesh);
+    std::vector<Vec3f> position;
+    std::vector<std::uint32_t> index;
+    for (const sim::Vec3d& x : surface->mesh().vertices) position.push_back(to_float(x));
+    for (const auto& t : surface->mesh().triangles) index.insert(index.end(), t.begin(), t.end());
+    return std::make_shared<const MeshLook>(
+        MeshLook{render::creased_mesh(position, index), render::mesh_lines(position, index)});
+  });
+}
+
+void add_other(const sim::Shape& shape, const sim::Pose& pose, ColliderStyle style,
+               render::Frame& frame) {
+  const Vec3f center = to_float(pose.point);
+  const render::Rotation rotation = to_rotation(pose.rotation * sim::form_axes(shape));
+  if (const std::optional<render::Profile> profile = profile_of(shape)) {
+    const bool has_rim = std::holds_alternative<sim::Capsule>(shape.form) ||
+                         std::holds_alternative<sim::Torus>(shape.form);
+    return add_form(render::round_mesh(*profile, center, rotation),
+                    render::round_lines(*profile, center, rotation), style, has_rim, frame);
+  }
+  const std::shared_ptr<const MeshLook> look = look_of(std::get<sim::Mesh>(shape.form));
+  add_form(render::moved_mesh(look->mesh, center, rotation),
+           render::moved_lines(look->lines, center, rotation), style, false, frame);
+}
+
 }  // namespace
 
 void add_colliders(const Scene& scene, const View& view, double time, float line_spacing,
@@ -71,6 +134,8 @@ void add_colliders(const Scene& scene, const View& view, double time, float line
       add_sphere(*sphere, pose, collider.style, frame);
     else if (const auto* box = std::get_if<sim::Box>(&collider.shape.form))
       add_box(*box, pose, collider.style, frame);
+    else
+      add_other(collider.shape, pose, collider.style, frame);
   }
 }
 

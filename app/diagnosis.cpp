@@ -179,6 +179,10 @@ std::vector<NearSurface> surfaces_near(const Case& c, double cells) {
   return near;
 }
 
+std::string motion_address(const Collider& collider) {
+  return "collider." + collider.name + (collider.keyframes.empty() ? ".velocity" : ".keyframes");
+}
+
 Hypothesis collider_speed(const Case& c) {
   for (const NearSurface& near : surfaces_near(c, 6)) {
     const double speed = near.surface.velocity.norm();
@@ -191,7 +195,7 @@ Hypothesis collider_speed(const Case& c) {
                          rough_text(speed * c.dt / c.h) + " cells in a step",
                      "move it slower than " + rough_text(0.5 * c.start_sound()) +
                          " m/s, or let it speed up gently",
-                     "collider." + near.collider->name + ".velocity"};
+                     motion_address(*near.collider)};
   }
   return std::nullopt;
 }
@@ -211,7 +215,7 @@ Hypothesis colliders_closing(const Case& c) {
               rough_text(gap / c.h) + " cells",
           "stop before the snow is as dense as ice: packed to " +
               rough_text(c.material.density / std::max(0.02, c.d.J_P)) + " kg/m3 it has no room",
-          "collider." + b.collider->name + ".velocity"};
+          motion_address(*b.collider)};
     }
   return std::nullopt;
 }

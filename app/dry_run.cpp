@@ -68,6 +68,19 @@ sim::ParticleArrays seed_what_fits(const Scene& coarse) {
   return particles;
 }
 
+/// Meshes too thin for the coarse cells stand in nobody's way.
+sim::Simulation coarse_simulation(const Scene& coarse, const sim::ParticleArrays& particles) {
+  try {
+    return make_simulation(coarse, particles, 1);
+  } catch (const sim::ShapeError&) {
+    Scene clear = coarse;
+    std::erase_if(clear.colliders, [](const Collider& collider) {
+      return std::holds_alternative<sim::Mesh>(collider.shape.form);
+    });
+    return make_simulation(clear, particles, 1);
+  }
+}
+
 /// A run as far as the budget lasts, or the coarse snow holds together.
 struct Run {
   std::vector<Moment> seen;
@@ -85,7 +98,7 @@ Run run_coarse(const Scene& coarse) {
   };
   note(0, particles.x);
 
-  sim::Simulation simulation = make_simulation(coarse, particles, 1);
+  sim::Simulation simulation = coarse_simulation(coarse, particles);
   steps_left = std::lround(work_budget / (static_cast<double>(particles.x.size()) + emitted));
   const double duration = coarse.frames / coarse.fps;
   for (int k = 1; k <= moments && duration > 0; ++k) {

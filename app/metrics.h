@@ -13,6 +13,7 @@ struct Metrics {
   double mean_J_P = 1;  ///< weighted by mass
   std::size_t fragments = 0;    ///< groups of occupied cells that touch, corners included
   double largest_fragment = 0;  ///< share of the particles that are in the largest of them
+  double max_depth_cells = 0;   ///< of the particle that is deepest in a collider, cells
 };
 
 /// Particles whose position is no number are left out.

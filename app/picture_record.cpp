@@ -144,6 +144,7 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
 std::map<std::string, std::string> hash_files(const Scene& scene) {
   std::map<std::string, std::string> files;
   const auto hash = [&](const std::string& file) {
+    if (files.contains(file)) return;
     const std::vector<std::uint8_t> bytes = read_file(file);
     files[file] = hash_text(hash_bytes(bytes.data(), bytes.size()));
   };
@@ -152,6 +153,7 @@ std::map<std::string, std::string> hash_files(const Scene& scene) {
     if (const auto* points = std::get_if<sim::Points>(&shape.form)) hash(points->file);
   };
   for (const sim::Body& body : scene.bodies) add(body.shape);
+  for (const Collider& collider : scene.colliders) add(collider.shape);
   for (const sim::Emitter& emitter : scene.emitters) add(emitter.shape);
   for (const sim::Sink& sink : scene.sinks) add(sink.shape);
   return files;

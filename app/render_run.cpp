@@ -262,16 +262,18 @@ void RenderRun::draw_frame(int frame) {
   fetch_down_to(0);
   for (const Mosaic& mosaic : scene_.mosaics)
     add(mosaic.name, draw_mosaic(scene_, mosaic, builder_, snapshot, renderer_));
+  Metrics metrics = measure(snapshot.particles, job_.scene.solver.cell_size);
+  metrics.max_depth_cells = summary_.max_depth / job_.scene.solver.cell_size;
   add_frame_record({frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start),
-                    summary_, state_hash,
-                    measure(snapshot.particles, job_.scene.solver.cell_size)});
+                    summary_, state_hash, metrics});
   // Listed first and written then: whenever the process is killed, the next run knows every picture
   // that it has to remove.
   write_run_json(job_.folder, record_);
   for (Picture& picture : pictures) writer_.write(std::move(picture));
   progress_.detail("frame " + std::to_string(frame) + ": " + std::to_string(advance_.steps) +
                    " steps, simulated in " + fixed_text(seconds_sim_, 2) + " s, drawn in " +
-                   fixed_text(seconds_since(start), 2) + " s");
+                   fixed_text(seconds_since(start), 2) + " s, deepest in a collider " +
+                   rough_text(metrics.max_depth_cells) + " cells");
 }
 
 /// In the place of the one that a run before this one made.

@@ -13,6 +13,17 @@ Vec3f rotate(const Rotation& r, Vec3f v) {
 
 }  // namespace
 
+TriangleMesh moved_mesh(TriangleMesh mesh, Vec3f center, const Rotation& rotation) {
+  for (Vec3f& x : mesh.position) x = center + rotate(rotation, x);
+  for (Vec3f& n : mesh.normal) n = rotate(rotation, n);
+  return mesh;
+}
+
+Lines moved_lines(Lines lines, Vec3f center, const Rotation& rotation) {
+  for (Vec3f& x : lines.ends) x = center + rotate(rotation, x);
+  return lines;
+}
+
 TriangleMesh sphere_mesh(Vec3f center, float radius) {
   constexpr std::uint32_t rings = 48, segments = 96;
   constexpr float pi = std::numbers::pi_v<float>;

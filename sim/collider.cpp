@@ -1,78 +1,195 @@
 #include "sim/collider.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
+
+#include "sim/mesh_surface.h"
+#include "sim/solid.h"
 
 namespace neve::sim {
 namespace {
 
+/// In the axes of the form, about its centre.
 struct Touch {
   double distance;
   Vec3d normal;
 };
 
-Touch touch(const Plane& plane, const Pose& pose, const Vec3d& x) {
-  const Vec3d normal = pose.rotation * plane.normal.normalized();
-  return {normal.dot(x - pose.point), normal};
+/// Beside the axis y of a round form.
+struct Beside {
+  double out;     ///< m, from the axis
+  Vec3d outward;  ///< unit vector
+  explicit Beside(const Vec3d& y) : out(std::hypot(y.x(), y.z())) {
+    outward = out > 0 ? Vec3d(y.x() / out, 0, y.z() / out) : Vec3d(Vec3d::UnitX());
+  }
+};
+
+double beyond(double a, double b) {
+  return std::hypot(std::max(a, 0.0), std::max(b, 0.0));
 }
 
-Touch touch(const Sphere& sphere, const Pose& pose, const Vec3d& x) {
-  const Vec3d d = x - pose.point;
-  const double r = d.norm();
-  return {r - sphere.radius, r > 0 ? Vec3d(d / r) : Vec3d(Vec3d::UnitY())};
-}
-
-Touch touch(const Box& box, const Pose& pose, const Vec3d& x) {
-  const Vec3d local = pose.rotation.transpose() * (x - pose.point);
-  const Vec3d beyond = local.cwiseAbs() - 0.5 * box.size;
+Touch touch(const Box& box, const Vec3d& y) {
+  const Vec3d q = y.cwiseAbs() - 0.5 * box.size;
   int axis = 0;
   for (int a = 1; a < 3; ++a)
-    if (beyond[a] > beyond[axis]) axis = a;
-  const bool is_outside = beyond[axis] > 0;
-  const double sign = local[axis] >= 0 ? 1.0 : -1.0;
-  return {is_outside ? beyond.cwiseMax(0.0).norm() : beyond[axis], sign * pose.rotation.col(axis)};
+    if (q[a] > q[axis]) axis = a;
+  const double sign = y[axis] >= 0 ? 1.0 : -1.0;
+  return {q[axis] > 0 ? q.cwiseMax(0.0).norm() : q[axis], sign * Vec3d::Unit(axis)};
 }
+
+Touch touch(const Capsule& capsule, const Vec3d& y) {
+  const double half = 0.5 * (capsule.b - capsule.a).norm();
+  const Vec3d away = y - Vec3d(0, std::clamp(y.y(), -half, half), 0);
+  const double r = away.norm();
+  return {r - capsule.radius, r > 0 ? Vec3d(away / r) : Vec3d(Vec3d::UnitX())};
+}
+
+Touch touch(const Cylinder& cylinder, const Vec3d& y) {
+  const Beside m(y);
+  const double wall = m.out - cylinder.radius, end = std::abs(y.y()) - 0.5 * cylinder.height;
+  const Vec3d normal = wall >= end ? m.outward : Vec3d((y.y() >= 0 ? 1.0 : -1.0) * Vec3d::UnitY());
+  return {std::max(wall, end) > 0 ? beyond(wall, end) : std::max(wall, end), normal};
+}
+
+/// From a point to a segment, in the plane of a meridian.
+double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
+                           const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double part = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (p - a - part * along).norm();
+}
+
+Touch touch(const Cone& cone, const Vec3d& y) {
+  const Beside m(y);
+  const double half = 0.5 * cone.height, slant = std::hypot(cone.height, cone.radius);
+  const double wall = (cone.height * m.out + cone.radius * (y.y() - half)) / slant;
+  const double base = -y.y() - half;
+  const Vec3d normal = wall >= base
+                           ? Vec3d((cone.height * m.outward + cone.radius * Vec3d::UnitY()) / slant)
+                           : Vec3d(-Vec3d::UnitY());
+  if (std::max(wall, base) <= 0) return {std::max(wall, base), normal};
+  const Eigen::Vector2d p(m.out, y.y()), rim(cone.radius, -half), apex(0, half), foot(0, -half);
+  return {std::min(distance_to_segment(p, rim, apex), distance_to_segment(p, foot, rim)), normal};
+}
+
+Touch touch(const Torus& torus, const Vec3d& y) {
+  const Beside m(y);
+  const double out = m.out - torus.major_radius, r = std::hypot(out, y.y());
+  const Vec3d normal =
+      r > 0 ? Vec3d((out * m.outward + y.y() * Vec3d::UnitY()) / r) : Vec3d(Vec3d::UnitY());
+  return {r - torus.minor_radius, normal};
+}
+
+Touch touch(const Mesh& mesh, const Vec3d& y) {
+  const std::shared_ptr<const MeshSurface> surface = mesh_surface(mesh);
+  return {surface->signed_distance(y), surface->normal(y)};
+}
+
+Touch touch(const Points&, const Vec3d&) {
+  throw std::invalid_argument("points have no surface: they cannot be a collider");
+}
+
+/// The other forms in the world: the middle of a sphere looks up however it has turned.
+struct TouchInWorld {
+  const Shape& shape;
+  const Pose& pose;
+  const Vec3d& x;
+
+  Touch operator()(const Plane& plane) const {
+    const Vec3d normal = pose.rotation * plane.normal.normalized();
+    return {normal.dot(x - pose.point), normal};
+  }
+  Touch operator()(const Sphere& sphere) const {
+    const Vec3d d = x - pose.point;
+    const double r = d.norm();
+    return {r - sphere.radius, r > 0 ? Vec3d(d / r) : Vec3d(Vec3d::UnitY())};
+  }
+  template <class Form>
+  Touch operator()(const Form& form) const {
+    const Mat3d axes = pose.rotation * form_axes(shape);
+    const Touch own = touch(form, axes.transpose() * (x - pose.point));
+    return {own.distance, axes * own.normal};
+  }
+};
 
 /// Of a plane only the surface moves.
 bool turns(const Collider& collider) {
   return !std::holds_alternative<Plane>(collider.shape.form);
 }
 
-template <class Other>
-Touch touch(const Other&, const Pose&, const Vec3d&) {
-  throw std::invalid_argument("colliders are planes, spheres and boxes");
+bool same_motion(const Collider& a, const Collider& b) {
+  return a.velocity == b.velocity && a.angular_velocity == b.angular_velocity;
 }
 
 }  // namespace
 
 Pose pose_at(const Collider& collider, double time) {
   const Travel& travel = collider.travel;
+  if (!collider.keyframes.empty())
+    return motion_at(collider.keyframes, center(collider.shape), collider.shape.rotation,
+                     time - travel.waited);
   const double moving = time - travel.since;
-  const Mat3d start = rotation_from_degrees(collider.shape.rotation);
-  const Mat3d turned = turns(collider) ? rotation_from_vector(moving * collider.angular_velocity) *
-                                             travel.turned * start
-                                       : start;
-  return {center(collider.shape) + travel.moved + moving * collider.velocity, turned};
+  const Mat3d start = travel.turned * rotation_from_degrees(collider.shape.rotation);
+  return {
+      center(collider.shape) + travel.moved + moving * collider.velocity,
+      turns(collider) ? rotation_from_vector(moving * collider.angular_velocity) * start : start,
+      collider.velocity, collider.angular_velocity};
 }
 
 Travel travel_after(const Collider& before, const Collider& after, double time) {
-  if (before.velocity == after.velocity && before.angular_velocity == after.angular_velocity)
-    return before.travel;
-  const Travel& so_far = before.travel;
-  const double moving = time - so_far.since;
-  Travel travel;
+  if (!after.keyframes.empty()) return before.travel;
+  if (before.keyframes.empty() && same_motion(before, after)) return before.travel;
+  Travel travel = before.travel;
   travel.since = time;
-  travel.moved = so_far.moved + moving * before.velocity;
+  if (!before.keyframes.empty()) {
+    const Pose now = pose_at(before, time);
+    travel.moved = now.point - center(before.shape);
+    travel.turned = now.rotation * rotation_from_degrees(before.shape.rotation).transpose();
+    return travel;
+  }
+  const double moving = time - before.travel.since;
+  travel.moved += moving * before.velocity;
   if (turns(before))
-    travel.turned = rotation_from_vector(moving * before.angular_velocity) * so_far.turned;
+    travel.turned = rotation_from_vector(moving * before.angular_velocity) * travel.turned;
   return travel;
+}
+
+Travel waited(Travel travel, double seconds) {
+  travel.since += seconds;
+  travel.waited += seconds;
+  return travel;
+}
+
+Bounds bounds_at(const Collider& collider, double time) {
+  const Pose pose = pose_at(collider, time);
+  if (const auto* mesh = std::get_if<Mesh>(&collider.shape.form)) {
+    const Bounds b = bounds_of(mesh_surface(*mesh)->mesh(), pose.rotation);
+    return {pose.point + b.min, pose.point + b.max};
+  }
+  return Solid(collider.shape).bounds_at(pose.point, pose.rotation);
+}
+
+double largest_speed(const Collider& collider) {
+  double speed = collider.velocity.norm();
+  for (std::size_t k = 1; k < collider.keyframes.size(); ++k) {
+    // A monotone cubic is nowhere three times as quick as the mean: looked for instead of solved.
+    constexpr int looks = 32;
+    const double from = collider.keyframes[k - 1].time, to = collider.keyframes[k].time;
+    for (int look = 0; look <= looks; ++look) {
+      const double time = from + (to - from) * look / looks + collider.travel.waited;
+      speed = std::max(speed, pose_at(collider, time).velocity.norm());
+    }
+  }
+  return speed;
 }
 
 Surface surface_at(const Collider& collider, double time, const Vec3d& x) {
   const Pose pose = pose_at(collider, time);
   const auto [distance, normal] =
-      std::visit([&](const auto& form) { return touch(form, pose, x); }, collider.shape.form);
-  return {distance, normal, collider.velocity + collider.angular_velocity.cross(x - pose.point)};
+      std::visit(TouchInWorld{collider.shape, pose, x}, collider.shape.form);
+  return {distance, normal, pose.velocity + pose.angular_velocity.cross(x - pose.point)};
 }
 
 double signed_distance(const Collider& collider, double time, const Vec3d& x) {

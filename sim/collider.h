@@ -2,7 +2,9 @@
 /// Rigid obstacles: signed distance, normal and velocity at a time, and the contact law.
 
 #include <string>
+#include <vector>
 
+#include "sim/keyframes.h"
 #include "sim/shape.h"
 
 namespace neve::sim {
@@ -15,42 +17,54 @@ struct Travel {
   double since = 0;                  ///< s; from then on it moves with its present velocity
   Vec3d moved{0, 0, 0};              ///< m, until then
   Mat3d turned = Mat3d::Identity();  ///< until then, after the rotation of the shape
+  double waited = 0;                 ///< s that steps did not move it: keyframes are so much later
 };
 
 struct Collider {
   std::string name;
-  Shape shape;  ///< plane, sphere or box
+  Shape shape;
   Contact contact = Contact::separate;
   double friction = 0.5;    ///< Coulomb, of separate contact
   Vec3d velocity{0, 0, 0};  ///< m/s
   Vec3d angular_velocity{
       0, 0, 0};  ///< rad/s about the shape's centre; a plane's only adds surface velocity
+  std::vector<PoseKeyframe> keyframes;  ///< times increase; the velocities above are 0 then
   Travel travel{};
 };
 
-/// Where a collider is at a time, moved from its place in the scene at t = 0, or as its travel
-/// says.
-struct Pose {
-  Vec3d point;     ///< centre, or the point of a plane
-  Mat3d rotation;  ///< columns are the shape's axes
-};
+/// Where a collider is at a time, and how it moves: from its place in the scene at t = 0 with
+/// constant velocities, or as its travel says; through its keyframes if it has any. Point: centre,
+/// or the point of a plane.
+using Pose = RigidMotion;
 Pose pose_at(const Collider& collider, double time);
 
-/// The travel of a collider that is changed at a time: with another velocity or spin it goes on
-/// from where it is; one whose place, shape or contact was edited moves by the edit alone.
+/// The travel of a collider that is changed at a time: with another velocity or spin, or without
+/// its keyframes, it goes on from where it is; one whose place, shape or contact was edited moves
+/// by the edit alone. Keyframes say themselves where it is.
 Travel travel_after(const Collider& before, const Collider& after, double time);
+
+/// The travel of a collider that steps did not move for a while.
+Travel waited(Travel travel, double seconds);
+
+/// Axis-aligned bounds at a time. @throws std::invalid_argument for a plane, ShapeError
+Bounds bounds_at(const Collider& collider, double time);
+
+/// The most that the collider's point moves in a second, over all of its keyframes, m/s.
+double largest_speed(const Collider& collider);
 
 /// A collider as seen from a point.
 struct Surface {
-  double distance;  ///< m; Euclidean outside, to the nearest face inside a box; < 0 inside
-  Vec3d normal;     ///< outward unit vector; of a box its nearest face's (outside: the face that is
-                    ///< furthest below the point), on a tie the lowest axis; (0, 1, 0) in the
-                    ///< middle of a sphere
-  Vec3d velocity;   ///< m/s, of the rigid motion at the point
+  double distance;  ///< m; Euclidean outside, to the nearest face inside; < 0 inside
+  Vec3d normal;  ///< outward unit vector of the nearest face; of a box, cylinder or cone, outside:
+                 ///< of the face that is furthest below the point. On a tie the lowest axis,
+                 ///< wall before ends; (0, 1, 0) in the middle of a sphere, the first axis of
+                 ///< the shape on the axis of a round one, its second in the middle of a tube
+  Vec3d velocity;  ///< m/s, of the rigid motion at the point
 };
 
-/// For the host: tests, warnings, planning. The solver's kernels have their own.
-/// @throws std::invalid_argument when the shape is neither plane, sphere nor box
+/// For the host: tests, warnings, planning. The solver's kernels have their own; of a mesh this is
+/// exact, theirs is interpolated (sim/distance_field.h).
+/// @throws ShapeError when a mesh cannot be read or is open
 Surface surface_at(const Collider& collider, double time, const Vec3d& x);
 double signed_distance(const Collider& collider, double time, const Vec3d& x);
 

@@ -10,20 +10,31 @@ namespace neve::sim {
 /// A simulation with more colliders is refused when it is built.
 inline constexpr int max_colliders = 64;
 
-enum class ColliderShape : int { plane, sphere, box };
+enum class ColliderShape : int { plane, sphere, box, capsule, cylinder, cone, torus, field };
 enum class ContactLaw : int { separate, slip, sticky };
 
-/// A collider at one time. The point is cell and offset, like a particle's position.
+/// Signed distances on a regular lattice, in the axes of a shape that has no formula. Plain data.
+struct DistanceSamples {
+  const float* distance = nullptr;  ///< m, < 0 inside; z runs fastest, then y
+  int size[3] = {0, 0, 0};          ///< samples along each axis, at least 2
+  double spacing = 0;               ///< m
+  double first[3] = {0, 0, 0};      ///< m: place of the first sample from the shape's point
+};
+
+/// A collider at one time. The point is cell and offset, like a particle's position. What is round
+/// is so about the second of its axes.
 struct ColliderPose {
   ColliderShape shape;
   ContactLaw contact;
   double friction;
   int cell[3];
   double offset[3];
-  double axes[9];    ///< columns are the box's axes
-  double normal[3];  ///< of a plane
-  double half[3];    ///< m, of a box
-  double radius;     ///< m, of a sphere
+  double axes[9];           ///< columns are the shape's axes
+  double normal[3];         ///< of a plane
+  double half[3];           ///< m, of a box; [1]: half the axis of a capsule, cylinder or cone
+  double radius;            ///< m: of a sphere, capsule, cylinder, a cone's base, a torus's tube
+  double ring;              ///< m, of a torus: from its centre to the middle of the tube
+  DistanceSamples samples;  ///< of a field
   double velocity[3], omega[3];
 };
 
@@ -36,7 +47,12 @@ struct LocalCollider {
   Vec3<Real> to_block;  ///< from the collider's point to the block's first node, m
   Real plane_distance;  ///< of the block's first node, m
   Vec3<Real> axis[3], normal, half, velocity, omega;
-  Real radius;
+  Real radius, ring;
+  Real slope_out, slope_up;  ///< of a cone: the normal of its wall, outward and along the axis
+  const float* samples;
+  int size[3];
+  Real spacing;
+  Vec3<Real> first;
 };
 
 template <class Real>
@@ -55,19 +71,19 @@ NEVE_INLINE LocalCollider<Real> localize(const ColliderPose& c, const int* block
     out.velocity[a] = static_cast<Real>(c.velocity[a]);
     out.omega[a] = static_cast<Real>(c.omega[a]);
     for (int b = 0; b < 3; ++b) out.axis[a][b] = static_cast<Real>(c.axes[3 * b + a]);
+    out.size[a] = c.samples.size[a];
+    out.first[a] = static_cast<Real>(c.samples.first[a]);
   }
   out.plane_distance = static_cast<Real>(plane_distance);
   out.radius = static_cast<Real>(c.radius);
+  out.ring = static_cast<Real>(c.ring);
+  // A wall falls from the apex by the height over the radius.
+  const double height = 2 * c.half[1], slant = square_root(height * height + c.radius * c.radius);
+  out.slope_out = static_cast<Real>(slant > 0 ? height / slant : 0);
+  out.slope_up = static_cast<Real>(slant > 0 ? c.radius / slant : 0);
+  out.samples = c.samples.distance;
+  out.spacing = static_cast<Real>(c.samples.spacing);
   return out;
-}
-
-/// Nothing within `reach` metres of the place `centre` in the block can touch the collider.
-template <class Real>
-NEVE_INLINE bool is_out_of_reach(const LocalCollider<Real>& c, const Vec3<Real>& centre,
-                                 Real reach) {
-  if (c.shape == ColliderShape::plane) return c.plane_distance + dot(centre, c.normal) > reach;
-  const Real extent = c.shape == ColliderShape::sphere ? c.radius : length(c.half);
-  return length(c.to_block + centre) > extent + reach;
 }
 
 template <class V, class Real>
@@ -79,23 +95,28 @@ NEVE_INLINE Vec3<V> select(MaskOf<V> mask, const Vec3<V>& a, const Vec3<V>& b) {
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }
 
-/// The lanes inside (phi <= 0, the surface counts as inside), and the outward normal there.
-/// @param r from the block's first node, m
+// ---- one function per shape ---------------------------------------------------------------------
+//
+// @param d  from the shape's point, m
+// @return signed distance in m: exact inside and on the surface; outside a bound from below that
+//         is above 0, and falls by no more than what a place moves
+// @param normal  outward unit vector of the surface that the distance is to; where several are as
+//         near, the first of them in the order below
+
+/// The middle looks up.
 template <class V, class Real>
-NEVE_INLINE MaskOf<V> touch(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal) {
+NEVE_INLINE V sphere_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
   const V zero{};
-  if (c.shape == ColliderShape::plane) {
-    normal = widened<V>(c.normal);
-    return c.plane_distance + dot(r, normal) <= zero;
-  }
-  const Vec3<V> d = widened<V>(c.to_block) + r;
-  if (c.shape == ColliderShape::sphere) {
-    const V distance = square_root_lanes(dot(d, d));
-    const Vec3<V> up{zero, all<V>(1), zero};
-    normal = select(distance > zero, d / distance, up);
-    return distance <= all<V>(c.radius);
-  }
-  // Box: the nearest face is the one of largest signed distance, the lowest axis on a tie.
+  const V distance = square_root_lanes(dot(d, d));
+  const Vec3<V> up{zero, all<V>(1), zero};
+  normal = select(distance > zero, d / distance, up);
+  return distance - all<V>(c.radius);
+}
+
+/// The nearest face is the one of largest signed distance, the lowest axis on a tie.
+template <class V, class Real>
+NEVE_INLINE V box_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const V zero{};
   V deepest{};
   for (int a = 0; a < 3; ++a) {
     const Vec3<V> axis = widened<V>(c.axis[a]);
@@ -105,7 +126,163 @@ NEVE_INLINE MaskOf<V> touch(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3
     normal = select(is_nearest, select(along >= zero, axis, -axis), normal);
     deepest = is_nearest ? q : deepest;
   }
-  return deepest <= zero;
+  return deepest;
+}
+
+/// A place beside the axis of a round shape.
+template <class V>
+struct Meridian {
+  V along, out;           ///< m: along the axis, and away from it
+  Vec3<V> axis, outward;  ///< unit vectors; on the axis itself outward is the shape's first axis
+};
+template <class V, class Real>
+NEVE_INLINE Meridian<V> meridian(const LocalCollider<Real>& c, const Vec3<V>& d) {
+  Meridian<V> m;
+  m.axis = widened<V>(c.axis[1]);
+  m.along = dot(d, m.axis);
+  const Vec3<V> away = d - m.axis * m.along;
+  m.out = square_root_lanes(dot(away, away));
+  m.outward = select(m.out > V{}, away / m.out, widened<V>(c.axis[0]));
+  return m;
+}
+
+template <class V, class Real>
+NEVE_INLINE V capsule_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const Meridian<V> m = meridian(c, d);
+  const V end = all<V>(c.half.y);
+  const Vec3<V> away = d - m.axis * larger_lanes(smaller_lanes(m.along, end), -end);
+  const V distance = square_root_lanes(dot(away, away));
+  normal = select(distance > V{}, away / distance, widened<V>(c.axis[0]));
+  return distance - all<V>(c.radius);
+}
+
+/// The wall, then the ends.
+template <class V, class Real>
+NEVE_INLINE V cylinder_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const Meridian<V> m = meridian(c, d);
+  const V wall = m.out - c.radius, end = absolute_lanes(m.along) - c.half.y;
+  const MaskOf<V> is_wall = wall >= end;
+  normal = select(is_wall, m.outward, select(m.along >= V{}, m.axis, -m.axis));
+  return is_wall ? wall : end;
+}
+
+/// The wall, then the base.
+template <class V, class Real>
+NEVE_INLINE V cone_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const Meridian<V> m = meridian(c, d);
+  const V wall = m.out * c.slope_out + (m.along - c.half.y) * c.slope_up;
+  const V base = -(m.along + c.half.y);
+  const MaskOf<V> is_wall = wall >= base;
+  normal = select(is_wall, m.outward * all<V>(c.slope_out) + m.axis * all<V>(c.slope_up), -m.axis);
+  return is_wall ? wall : base;
+}
+
+/// The middle of the tube looks along the axis.
+template <class V, class Real>
+NEVE_INLINE V torus_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const Meridian<V> m = meridian(c, d);
+  const V out = m.out - c.ring;
+  const V distance = square_root_lanes(out * out + m.along * m.along);
+  normal =
+      select(distance > V{}, m.outward * (out / distance) + m.axis * (m.along / distance), m.axis);
+  return distance - all<V>(c.radius);
+}
+
+/// Between eight samples; the normal is the gradient of the same interpolation. Beyond the lattice,
+/// the nearest place in it and the way there.
+template <class V, class Real>
+NEVE_INLINE V field_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  using I = MaskOf<V>;
+  constexpr int W = lane_count<V>;
+  const V zero{};
+  V part[3], beyond{};
+  I index{};
+  for (int a = 0; a < 3; ++a) {
+    const V place = (dot(d, widened<V>(c.axis[a])) - c.first[a]) / c.spacing;
+    const V last = all<V>(static_cast<Real>(c.size[a] - 1));
+    // What is no number is held at 0.
+    V held = place > zero ? place : zero;
+    held = held < last ? held : last;
+    beyond += (place - held) * (place - held);
+    I cell = __builtin_convertvector(held, I);
+    const I before_last = all<I>(c.size[a] - 2);
+    cell = cell < before_last ? cell : before_last;
+    part[a] = held - __builtin_convertvector(cell, V);
+    index = index * c.size[a] + cell;
+  }
+  Real corner[8][W];
+  const int row = c.size[2], slab = c.size[1] * c.size[2];
+  for (int l = 0; l < W; ++l) {
+    const float* at = c.samples + index[l];
+    for (int k = 0; k < 8; ++k)
+      corner[k][l] = static_cast<Real>(at[(k >> 2) * slab + (k >> 1 & 1) * row + (k & 1)]);
+  }
+  V value[4], along_z[4];
+  for (int k = 0; k < 4; ++k) {
+    const V low = load_lanes<V>(corner[2 * k]);
+    along_z[k] = load_lanes<V>(corner[2 * k + 1]) - low;
+    value[k] = low + part[2] * along_z[k];
+  }
+  V along_y[2];
+  for (int k = 0; k < 2; ++k) {
+    along_y[k] = value[2 * k + 1] - value[2 * k];
+    value[k] = value[2 * k] + part[1] * along_y[k];
+    along_z[k] = along_z[2 * k] + part[1] * (along_z[2 * k + 1] - along_z[2 * k]);
+  }
+  const V along_x = value[1] - value[0];
+  const V distance = value[0] + part[0] * along_x;
+  const Vec3<V> gradient =
+      widened<V>(c.axis[0]) * along_x +
+      widened<V>(c.axis[1]) * (along_y[0] + part[0] * (along_y[1] - along_y[0])) +
+      widened<V>(c.axis[2]) * (along_z[0] + part[0] * (along_z[1] - along_z[0]));
+  const V steepness = square_root_lanes(dot(gradient, gradient));
+  normal = select(steepness > zero, gradient / steepness, widened<V>(c.axis[1]));
+  const V way = larger_lanes(distance, zero);
+  const V outside = square_root_lanes(beyond * (c.spacing * c.spacing) + way * way);
+  return beyond > zero ? outside : distance;
+}
+
+/// Of the collider's shape, as the functions above. @param r from the block's first node, m
+template <class V, class Real>
+NEVE_INLINE V surface_distance(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal) {
+  if (c.shape == ColliderShape::plane) {
+    normal = widened<V>(c.normal);
+    return c.plane_distance + dot(r, normal);
+  }
+  const Vec3<V> d = widened<V>(c.to_block) + r;
+  switch (c.shape) {
+    case ColliderShape::sphere:
+      return sphere_distance(c, d, normal);
+    case ColliderShape::capsule:
+      return capsule_distance(c, d, normal);
+    case ColliderShape::cylinder:
+      return cylinder_distance(c, d, normal);
+    case ColliderShape::cone:
+      return cone_distance(c, d, normal);
+    case ColliderShape::torus:
+      return torus_distance(c, d, normal);
+    case ColliderShape::field:
+      return field_distance(c, d, normal);
+    default:
+      return box_distance(c, d, normal);
+  }
+}
+
+/// Nothing within `reach` metres of the place `centre` in the block can touch the collider.
+template <class Real>
+NEVE_INLINE bool is_out_of_reach(const LocalCollider<Real>& c, const Vec3<Real>& centre,
+                                 Real reach) {
+  using V = Quad<Real>;
+  Vec3<V> normal;
+  // Between samples a field is off by less than the diagonal of their cell, here and there.
+  return surface_distance(c, widened<V>(centre), normal)[0] > reach + 2 * c.spacing;
+}
+
+/// The lanes inside (phi <= 0, the surface counts as inside), and the outward normal there.
+/// @param r from the block's first node, m
+template <class V, class Real>
+NEVE_INLINE MaskOf<V> touch(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal) {
+  return surface_distance(c, r, normal) <= V{};
 }
 
 /// Velocity of the collider's surface at a place.

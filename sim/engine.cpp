@@ -25,13 +25,6 @@ TransferKind transfer_kind(Transfer transfer) {
   }
 }
 
-ColliderShape collider_shape(const Collider& c) {
-  if (std::holds_alternative<Plane>(c.shape.form)) return ColliderShape::plane;
-  if (std::holds_alternative<Sphere>(c.shape.form)) return ColliderShape::sphere;
-  if (std::holds_alternative<Box>(c.shape.form)) return ColliderShape::box;
-  throw std::invalid_argument("collider \"" + c.name + "\" must be a plane, a sphere or a box");
-}
-
 /// Time since the last call.
 class PhaseTimer {
  public:
@@ -50,10 +43,13 @@ class PhaseTimer {
 template <class Real>
 std::uint64_t Engine<Real>::memory_bytes() const {
   const std::size_t record = sizeof(Particle<Real>);
-  return record * particles_.capacity() + reordering_.memory_bytes() + 8 * keys_.capacity() +
-         2 * locals_.capacity() + partition_.memory_bytes() + tiles_.bytes() + nodes_.bytes() +
-         elasticity_.bytes() + solve_vectors_.bytes() + 8 * products_.capacity() +
-         sizeof(BlockReport<Real>) * reports_.capacity() + 8 * node_contact_work_.capacity();
+  std::size_t fields = 0;
+  for (const auto& field : fields_) fields += field ? field->bytes() : 0;
+  return fields + record * particles_.capacity() + reordering_.memory_bytes() +
+         8 * keys_.capacity() + 2 * locals_.capacity() + partition_.memory_bytes() +
+         tiles_.bytes() + nodes_.bytes() + elasticity_.bytes() + solve_vectors_.bytes() +
+         8 * products_.capacity() + sizeof(BlockReport<Real>) * reports_.capacity() +
+         8 * node_contact_work_.capacity();
 }
 
 template <class Real>
@@ -74,6 +70,7 @@ Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>
   if (settings.period.minCoeff() < 0 || settings.period.maxCoeff() > block_limit)
     throw std::invalid_argument("a period of the lattice is negative or too long");
   partition_.set_period(settings.period);
+  fields_ = fields_of(colliders_);
   place_colliders();
   load(particles);
   prepare();
@@ -145,48 +142,6 @@ void Engine<Real>::prepare() {
   energy_.start = start.kinetic_energy + start.elastic_energy;
   energy_.largest = energy_.start;
   energy_.moment = start.mass * start.centre_of_mass;
-}
-
-template <class Real>
-ColliderPose Engine<Real>::pose_of(const Collider& c) const {
-  const Pose pose = pose_at(c, colliders_time_);
-  ColliderPose out{};
-  out.shape = collider_shape(c);
-  out.contact = static_cast<ContactLaw>(c.contact);
-  out.friction = c.friction;
-  for (int a = 0; a < 3; ++a) {
-    const double in_cells = pose.point[a] / settings_.cell_size;
-    if (!(std::abs(in_cells) < 4.0 * block_limit))
-      throw std::invalid_argument("collider \"" + c.name + "\" is outside the lattice");
-    split(in_cells, out.cell[a], out.offset[a]);
-    out.cell[a] += block_side * lattice_origin_[a];
-    out.velocity[a] = c.velocity[a];
-    out.omega[a] = c.angular_velocity[a];
-    for (int b = 0; b < 3; ++b) out.axes[3 * a + b] = pose.rotation(a, b);
-  }
-  if (const auto* plane = std::get_if<Plane>(&c.shape.form)) {
-    const Vec3d n = pose.rotation * plane->normal.normalized();
-    for (int a = 0; a < 3; ++a) out.normal[a] = n[a];
-  } else if (const auto* sphere = std::get_if<Sphere>(&c.shape.form)) {
-    out.radius = sphere->radius;
-  } else if (const auto* box = std::get_if<Box>(&c.shape.form)) {
-    for (int a = 0; a < 3; ++a) out.half[a] = 0.5 * box->size[a];
-  }
-  return out;
-}
-
-template <class Real>
-void Engine<Real>::place_colliders() {
-  poses_.clear();
-  for (const Collider& c : colliders_) poses_.push_back(pose_of(c));
-}
-
-/// Paper step 11.
-template <class Real>
-void Engine<Real>::move_colliders() {
-  if (settings_.skips(Stage::colliders)) return;
-  colliders_time_ = time_;
-  place_colliders();
 }
 
 template <class Real>
@@ -287,9 +242,7 @@ bool Engine<Real>::take_fused(double dt, bool is_implicit) {
   }
   over_particle_blocks(sweeps_->grid_to_particles, a);
   timer.add_to(seconds.grid_to_particles);
-  time_ += dt;
-  ++steps_;
-  move_colliders();
+  end_step(dt, a);
   note(dt);
   timer.add_to(seconds.checks);
   return true;

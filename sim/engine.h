@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/base/thread_pool.h"
+#include "sim/distance_field.h"
 #include "sim/energy_account.h"
 #include "sim/flow.h"
 #include "sim/implicit.h"
@@ -150,9 +151,15 @@ class Engine {
   void prepare();
   /// @param channels of tiles and nodes
   SweepArgs<Real> args(double dt, int channels);
-  ColliderPose pose_of(const Collider& collider) const;
+  /// Per collider; null but of meshes.
+  using Fields = std::vector<std::shared_ptr<const DistanceField>>;
+  Fields fields_of(const std::vector<Collider>& colliders) const;
+  ColliderPose pose_of(const Collider& collider, const DistanceField* field) const;
   void place_colliders();
   void move_colliders();
+  void end_step(double dt, SweepArgs<Real> a);
+  /// How deep the deepest particle is in a collider, m; 0 where all are outside.
+  double max_depth() const;
   void use_materials();
   void use_sweeps();
   void stress_anew(const std::vector<bool>& is_changed);
@@ -203,6 +210,7 @@ class Engine {
   std::vector<Material> material_list_;
   std::vector<MaterialConstants<Real>> materials_;
   std::vector<Collider> colliders_;
+  Fields fields_;
   std::vector<ColliderPose> poses_;
   Vec3i lattice_origin_;
   std::shared_ptr<ThreadPool> pool_;

@@ -69,7 +69,8 @@ std::vector<Collider> Engine<Real>::colliders() const {
   std::vector<Collider> now = colliders_;
   // Where they stood when steps stopped moving them is where they still are.
   if (settings_.skips(Stage::colliders))
-    for (Collider& collider : now) collider.travel.since += time_ - colliders_time_;
+    for (Collider& collider : now)
+      collider.travel = waited(collider.travel, time_ - colliders_time_);
   return now;
 }
 
@@ -83,10 +84,13 @@ void Engine<Real>::apply(const SolverSettings& settings, const std::vector<Mater
   if (divergence_)
     throw std::logic_error("a simulation that broke a rule goes on from a state before it");
   std::vector<Collider> moving = going_on(colliders_, colliders, colliders_time_);
-  for (const Collider& collider : moving) pose_of(collider);  // throws for those out of reach
+  // Both throw for what cannot be.
+  Fields fields = fields_of(moving);
+  for (std::size_t k = 0; k < moving.size(); ++k) pose_of(moving[k], fields[k].get());
   if (settings_.skips(Stage::colliders) && !settings.skips(Stage::colliders)) {
     // They go on from where they waited.
-    for (Collider& collider : moving) collider.travel.since += time_ - colliders_time_;
+    for (Collider& collider : moving)
+      collider.travel = waited(collider.travel, time_ - colliders_time_);
     colliders_time_ = time_;
   }
 
@@ -108,6 +112,7 @@ void Engine<Real>::apply(const SolverSettings& settings, const std::vector<Mater
   settings_ = settings;
   material_list_ = materials;
   colliders_ = std::move(moving);
+  fields_ = std::move(fields);
   place_colliders();
   use_materials();
   use_sweeps();

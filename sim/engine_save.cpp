@@ -10,7 +10,7 @@ namespace neve::sim {
 
 namespace {
 
-constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '5'};
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '6'};
 
 /// What there is once; followed by the records, the travels of the colliders and the emitters.
 struct SavedHead {
@@ -33,12 +33,13 @@ struct SavedHead {
 static_assert(std::is_trivially_copyable_v<SavedHead> && sizeof(SavedHead) % 8 == 0);
 
 struct SavedTravel {
-  double since, moved[3], turned[9];
+  double since, moved[3], turned[9], waited;
 };
 
 SavedTravel saved(const Travel& travel) {
   SavedTravel out{};
   out.since = travel.since;
+  out.waited = travel.waited;
   for (int a = 0; a < 3; ++a) out.moved[a] = travel.moved[a];
   for (int q = 0; q < 9; ++q) out.turned[q] = travel.turned(q / 3, q % 3);
   return out;
@@ -52,6 +53,7 @@ std::size_t saved_bytes(const std::vector<T>& list) {
 Travel travel(const SavedTravel& in) {
   Travel out;
   out.since = in.since;
+  out.waited = in.waited;
   for (int a = 0; a < 3; ++a) out.moved[a] = in.moved[a];
   for (int q = 0; q < 9; ++q) out.turned(q / 3, q % 3) = in.turned[q];
   return out;

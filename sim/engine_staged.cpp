@@ -70,6 +70,7 @@ void Engine<Real>::take_stages(double dt, Traces& traces) {
   // It also finds speeds and lost particles: skipped, particles move by nothing.
   if (!takes(Stage::advection)) a.constants.dt_over_h = 0;
   over_particle_blocks(s.advection, a);
+  end_step(dt, a);
 }
 
 /// Step 7. Neo-Hookean particles that yield are projected as snow, then take their own stress.
@@ -95,9 +96,6 @@ template <class Real>
 void Engine<Real>::step_by_stages(double dt) {
   Traces traces;
   take_stages(dt, traces);
-  time_ += dt;
-  ++steps_;
-  move_colliders();
   const double sound_speed = limits_.max_sound_speed;
   note(dt);
   // Nothing has looked at the stress; it is what it was.

@@ -182,6 +182,7 @@ Summary Engine<Real>::summary() const {
     all.min_J_P = c == 0 ? s.min_J_P : std::min(all.min_J_P, s.min_J_P);
     all.max_J_P = c == 0 ? s.max_J_P : std::max(all.max_J_P, s.max_J_P);
   }
+  all.max_depth = max_depth();
   all.time = time_;
   all.particles = particles_.size();
   all.emitted = totals_.emitted;

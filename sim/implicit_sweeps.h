@@ -233,7 +233,11 @@ struct SolveSweepsFor {
       Quad<Real>* v_new = nodes_of(a.step, b, channel_v_new);
       for (int n = 0; n < block_nodes; ++n) v[n] = with_fourth(y[n] * u[n][3], v_new[n][3]);
       double work = 0;
-      if (a.collides) collide_nodes<Set>(v, c, near_nodes(c, a.step.node_blocks[b].key), work);
+      if (a.collides) {
+        NearColliders<Real> near;
+        find_near_nodes<Set>(near, c, a.step.node_blocks[b].key);
+        collide_nodes<Set>(v, c, near, work);
+      }
       a.step.node_contact_work[b] += work;
       if (a.step.channels > channel_change) {
         Quad<Real>* change = nodes_of(a.step, b, channel_change);

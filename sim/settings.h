@@ -34,7 +34,10 @@ struct SolverSettings {
   double solve_tolerance = 1e-4;     ///< of the solve for v_new: |residual| / |right side|
   int solve_iterations = 50;         ///< of the solve, at most
   bool collide_after_solve = false;  ///< nodes meet colliders again, after the solve
-  Vec3d gravity{0.0, -9.81, 0.0};    ///< m/s2
+  /// Particles deeper than a tenth of a cell in a collider are moved out to there after the step,
+  /// velocities and deformation kept. The paper leaves them where they are.
+  bool push_out = false;
+  Vec3d gravity{0.0, -9.81, 0.0};  ///< m/s2
   Precision precision = Precision::single;
   OnDivergence on_divergence = OnDivergence::stop;
   /// Stages to skip while debugging; the run then takes the staged driver, and its energy is not

@@ -47,9 +47,9 @@ struct CenterOf {
 
 Solid::Solid(const Shape& shape)
     : center_(sim::center(shape)),
-      rotation_(rotation_from_degrees(shape.rotation)),
+      axes_(form_axes(shape)),
+      rotation_(rotation_from_degrees(shape.rotation) * axes_),
       form_(std::visit(MakeForm{}, shape.form)) {
-  if (const auto* capsule = std::get_if<Capsule>(&shape.form)) rotation_ *= capsule_axes(*capsule);
   const double v = form_->volume();
   if (!(v > 0) || !std::isfinite(v))
     throw ShapeError("the volume of the shape is " + std::to_string(v) +
@@ -66,6 +66,16 @@ double Solid::extent(const Vec3d& direction) const {
 Bounds Solid::bounds() const {
   const Bounds b = form_->bounds_after(rotation_);
   return {center_ + b.min, center_ + b.max};
+}
+
+Bounds Solid::bounds_at(const Vec3d& center, const Mat3d& rotation) const {
+  const Bounds b = form_->bounds_after(rotation * axes_);
+  return {center + b.min, center + b.max};
+}
+
+Mat3d form_axes(const Shape& shape) {
+  const auto* capsule = std::get_if<Capsule>(&shape.form);
+  return capsule ? capsule_axes(*capsule) : Mat3d(Mat3d::Identity());
 }
 
 Vec3d center(const Shape& shape) {

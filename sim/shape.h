@@ -72,6 +72,10 @@ struct ShapeError : std::runtime_error {
 /// where the file's origin of a mesh or of points goes.
 Vec3d center(const Shape& shape);
 
+/// Axes that the form of a shape is described in, before its rotation: of a capsule y points from a
+/// to b, of all others they are those of the world.
+Mat3d form_axes(const Shape& shape);
+
 /// Of solid shapes only. Each call prepares the shape, which reads the file of a mesh or of points;
 /// class Solid (sim/solid.h) prepares it once for many questions.
 /// @throws ShapeError when a mesh cannot be read or is open, or the shape has no finite volume > 0;

@@ -58,6 +58,7 @@ struct Summary {
   Vec3d momentum{0, 0, 0}, centre_of_mass{0, 0, 0};
   Vec3d angular_momentum{0, 0, 0};  ///< about the lattice origin
   double max_speed = 0, min_J_P = 1, max_J_P = 1;
+  double max_depth = 0;  ///< m, of the particle that is deepest in a collider
 };
 
 /// How well the velocities of semi-implicit steps were found.

@@ -33,6 +33,8 @@ class Solid {
   double volume() const { return form_->volume(); }                               ///< m3
   Bounds local_bounds() const { return form_->bounds_after(Mat3d::Identity()); }  ///< tight
   Bounds bounds() const;  ///< in the world, tight
+  /// Of the shape moved to another centre and turned by this instead of its own rotation.
+  Bounds bounds_at(const Vec3d& center, const Mat3d& rotation) const;
 
   /// m, of its projection on a direction that is not zero.
   double extent(const Vec3d& direction) const;
@@ -51,6 +53,7 @@ class Solid {
 
  private:
   Vec3d center_;
+  Mat3d axes_;  ///< of the form, before the shape's rotation
   Mat3d rotation_;
   std::shared_ptr<const Form> form_;  ///< copies share it: it never changes
 };

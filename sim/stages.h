@@ -261,30 +261,42 @@ NEVE_APART void collide(Vec3<V>& v, const V& mass, const Vec3<V>& r, const MaskO
 /// Colliders that a block can touch, placed relative to it.
 template <class Real>
 struct NearColliders {
-  LocalCollider<Real> local[max_colliders];
+  union {
+    LocalCollider<Real> local[max_colliders];  ///< only the first `count` are there
+  };
   int count = 0;
-
-  /// @param centre, reach  places in the block lie within `reach` cells of (centre, centre, centre)
-  NEVE_INLINE NearColliders(const StepConstants<Real>& c, std::uint64_t key, Real centre,
-                            Real reach) {
-    int cell[3];
-    for (int a = 0; a < 3; ++a) cell[a] = block_coordinate(key, a) * block_side;
-    const Vec3<Real> middle{centre * c.h, centre * c.h, centre * c.h};
-    for (int k = 0; k < c.collider_count; ++k) {
-      const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
-      if (!is_out_of_reach(candidate, middle, reach * c.h)) local[count++] = candidate;
-    }
-  }
+  NEVE_INLINE NearColliders() {}
 };
 
-/// Nodes lie in [0, 3] cells from the block's first node, particles of the block in [0.5, 5).
-template <class Real>
-NEVE_INLINE NearColliders<Real> near_nodes(const StepConstants<Real>& c, std::uint64_t key) {
-  return {c, key, Real(1.5), Real(2.7)};
+/// @param centre, reach  places in the block lie within `reach` cells of (centre, centre, centre)
+template <class Set, class Real>
+NEVE_APART void find_near(NearColliders<Real>& near, const StepConstants<Real>& c,
+                          std::uint64_t key, Real centre, Real reach) {
+  int cell[3];
+  for (int a = 0; a < 3; ++a) cell[a] = block_coordinate(key, a) * block_side;
+  const Vec3<Real> middle{centre * c.h, centre * c.h, centre * c.h};
+  for (int k = 0; k < c.collider_count; ++k) {
+    const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
+    if (!is_out_of_reach(candidate, middle, reach * c.h)) near.local[near.count++] = candidate;
+  }
 }
-template <class Real>
-NEVE_INLINE NearColliders<Real> near_particles(const StepConstants<Real>& c, std::uint64_t key) {
-  return {c, key, Real(2.75), Real(4)};
+
+/// Nodes lie in [0, 3] cells from the block's first node, particles of the block in [0.5, 5), and
+/// after a step less than a cell further.
+template <class Set, class Real>
+NEVE_INLINE void find_near_nodes(NearColliders<Real>& near, const StepConstants<Real>& c,
+                                 std::uint64_t key) {
+  if (c.collider_count > 0) find_near<Set>(near, c, key, Real(1.5), Real(2.7));
+}
+template <class Set, class Real>
+NEVE_INLINE void find_near_particles(NearColliders<Real>& near, const StepConstants<Real>& c,
+                                     std::uint64_t key) {
+  if (c.collider_count > 0) find_near<Set>(near, c, key, Real(2.75), Real(4));
+}
+template <class Set, class Real>
+NEVE_INLINE void find_near_moved(NearColliders<Real>& near, const StepConstants<Real>& c,
+                                 std::uint64_t key) {
+  if (c.collider_count > 0) find_near<Set>(near, c, key, Real(2.75), Real(5.7));
 }
 
 /// Step 5 on the nodes of a block: v_star from v_free.
@@ -379,18 +391,53 @@ NEVE_INLINE Vec3<V> particle_velocity(Record<V, I>& p, const Gathered<V>& g, Ele
   return v;
 }
 
+/// Places of particles from the first node of a block, m.
+template <class V, class I, class Real>
+NEVE_INLINE Vec3<V> places_in_block(const Record<V, I>& p, std::uint64_t key, Real h) {
+  Vec3<V> r;
+  for (int a = 0; a < 3; ++a) {
+    const auto cell = p.cell[a] - block_coordinate(key, a) * block_side;
+    r[a] = (__builtin_convertvector(cell, V) + p.offset[a]) * h;
+  }
+  return r;
+}
+
 /// Step 9 on particles of a block, where they are before they move.
 template <class Set, class V, class I, class Real>
 NEVE_INLINE void collide_particles(const Record<V, I>& p, Vec3<V>& v, MaskOf<V> is_used,
                                    std::uint64_t key, const StepConstants<Real>& c,
                                    const NearColliders<Real>& near, double& work) {
   if (near.count == 0) return;
-  Vec3<V> r;
-  for (int a = 0; a < 3; ++a) {
-    const auto cell = p.cell[a] - block_coordinate(key, a) * block_side;
-    r[a] = (__builtin_convertvector(cell, V) + p.offset[a]) * c.h;
-  }
+  const Vec3<V> r = places_in_block(p, key, c.h);
   collide<Set>(v, p.m, r, is_used, near.local, near.count, work);
+}
+
+/// Where the option is on, what is deeper in a collider than this is brought out to it, cells. A
+/// hair less than the tenth that is promised, so that rounding does not break it.
+inline constexpr double depth_left = 0.0999;
+/// Out of one collider may be into another: as often as a corner of three needs with room to spare.
+inline constexpr int push_rounds = 8;
+
+/// Moves places that are too deep out along the normal, collider after collider.
+/// @param deepest  m
+/// @return what was moved
+template <class Set, class V, class Real>
+NEVE_APART MaskOf<V> push_out(Vec3<V>& r, Real deepest, const LocalCollider<Real>* colliders,
+                              int count) {
+  MaskOf<V> moved{};
+  for (int round = 0; round < push_rounds; ++round) {
+    MaskOf<V> found{};
+    for (int k = 0; k < count; ++k) {
+      Vec3<V> normal;
+      const V missing = -deepest - surface_distance(colliders[k], r, normal);
+      const MaskOf<V> is_deep = missing > all<V>(Real(1e-5) * deepest);
+      r = r + select(is_deep, normal * missing, Vec3<V>{});
+      found = found | is_deep;
+    }
+    if (!any_lane(found)) break;
+    moved = moved | found;
+  }
+  return moved;
 }
 
 /// The block that a stencil starts in and the code of its cell and the particle's model.

@@ -237,7 +237,9 @@ struct SweepsFor {
         v_new[n] = node_v_free(momentum[n], force[n], c);
       }
       double work = 0;
-      collide_nodes<Set>(v_new, c, near_nodes(c, a.node_blocks[b].key), work);
+      NearColliders<Real> near;
+      find_near_nodes<Set>(near, c, a.node_blocks[b].key);
+      collide_nodes<Set>(v_new, c, near, work);
       if constexpr (is_flip) {
         Quad<Real>* change = nodes_of(a, b, channel_change);
         for (int n = 0; n < block_nodes; ++n) change[n] = v_new[n] - momentum[n];
@@ -258,7 +260,8 @@ struct SweepsFor {
       load_tile<Real, K, Set>(block, channel_source(a, channel_v_new), v_new);
       if constexpr (is_flip)
         load_tile<Real, K, Set>(block, channel_source(a, channel_change), change);
-      const NearColliders<Real> near = near_particles(c, block.key);
+      NearColliders<Real> near;
+      find_near_particles<Set>(near, c, block.key);
       ReportLanes report;
       each_group<gather_group>(a, block, [&](const Group<gather_group>& group) {
         for (int q = 0; q < group.count; q += W) {
@@ -347,8 +350,9 @@ struct SweepsFor {
       StagedNodes<Real>& nodes = a.staged[b];
       double work = 0;
       for (int n = 0; n < block_nodes; ++n) nodes.v_star[n] = nodes.v_free[n];
-      collide_nodes<Set>(nodes.v_star, a.constants, near_nodes(a.constants, a.node_blocks[b].key),
-                         work);
+      NearColliders<Real> near;
+      find_near_nodes<Set>(near, a.constants, a.node_blocks[b].key);
+      collide_nodes<Set>(nodes.v_star, a.constants, near, work);
       a.node_contact_work[b] = work;
     }
   }
@@ -430,7 +434,8 @@ struct SweepsFor {
   static void particle_collisions(const Args& a, Index begin, Index end) {
     for (Index b = begin; b < end; ++b) {
       const std::uint64_t key = a.blocks[b].key;
-      const NearColliders<Real> near = near_particles(a.constants, key);
+      NearColliders<Real> near;
+      find_near_particles<Set>(near, a.constants, key);
       each_batch(a, a.blocks[b], [&](const auto& group, int q, Batch& p) {
         load_whole(p, group.record + q);
         Vec3<V> v{p.v[0], p.v[1], p.v[2]};
@@ -452,6 +457,38 @@ struct SweepsFor {
                a.blocks[b].key, report);
       });
       a.reports[b] = report.reduced();
+    }
+  }
+
+  // ---- both -------------------------------------------------------------------------------------
+
+  /// After the step, with colliders where they are then: particles of blocks as they were before
+  /// it. Their velocities stay; what lifting them takes is work of the colliders.
+  static void push_out(const Args& a, Index begin, Index end) {
+    const StepConstants<Real>& c = a.constants;
+    const Vec3<V> gravity{all<V>(c.gravity[0]), all<V>(c.gravity[1]), all<V>(c.gravity[2])};
+    for (Index b = begin; b < end; ++b) {
+      const std::uint64_t key = a.blocks[b].key;
+      NearColliders<Real> near;
+      find_near_moved<Set>(near, c, key);
+      if (near.count == 0) continue;
+      each_batch(a, a.blocks[b], [&](const auto& group, int q, Batch& p) {
+        const Vec3<V> before = places_in_block(p, key, c.h);
+        Vec3<V> r = before;
+        const auto is_moved =
+            sim::push_out<Set>(r, static_cast<Real>(depth_left) * c.h, near.local, near.count);
+        if ((lane_bits(is_moved) & group.used(q)) == 0) return;
+        load_whole(p, group.record + q);
+        const Vec3<V> shift = r - before;
+        const V work = -(p.m * dot(gravity, shift));
+        Location<I> at;
+        move<K>(p, shift, c.inv_h, group.used(q), a.reports[b], at);
+        keep(p, group, q);
+        each_lane(group, q, [&](int l, Index storage) {
+          if (work[l] > Real(0)) a.reports[b].contact_work += static_cast<double>(work[l]);
+          write_location(a, storage, at, l);
+        });
+      });
     }
   }
 
@@ -504,6 +541,7 @@ struct SweepsFor {
                                       particle_velocities,
                                       particle_collisions,
                                       advection,
+                                      push_out,
                                       refresh};
 
  private:

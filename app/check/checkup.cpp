@@ -158,6 +158,7 @@ Checkup examine(const Scene& scene, const Plan& plan, int threads) {
     checkup.limit_start = choice.limit;
     checkup.seconds_per_step = measure_step(simulation, 1 / scene.fps, checkup.solve);
     check_steps(scene, checkup, checkup.findings);
+    check_motion(scene, checkup, checkup.findings);
   } else {
     checkup.findings.push_back({Severity::note, "",
                                 "too large to be seeded for a look: overlaps, dt and time per step "

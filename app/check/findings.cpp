@@ -24,10 +24,6 @@ constexpr double ice = 917;  // kg/m3
 /// Of what an emitter's velocity carries away: spheres and cones are not as wide everywhere.
 constexpr double most_packing = 1.3;
 
-std::string percent_text(double share) {
-  return fixed_text(100 * share, share < 0.1 ? 1 : 0) + " %";
-}
-
 Vec3d extent(const sim::Shape& shape) {
   const sim::Bounds box = sim::bounds(shape);
   return box.max - box.min;
@@ -41,7 +37,14 @@ bool is_plane(const sim::Shape& shape) {
 double thickness(const sim::Shape& shape) {
   if (const auto* box = std::get_if<sim::Box>(&shape.form)) return box->size.minCoeff();
   if (const auto* torus = std::get_if<sim::Torus>(&shape.form)) return 2 * torus->minor_radius;
-  return extent(shape).minCoeff();
+  if (const auto* capsule = std::get_if<sim::Capsule>(&shape.form)) return 2 * capsule->radius;
+  if (const auto* c = std::get_if<sim::Cylinder>(&shape.form))
+    return std::min(2 * c->radius, c->height);
+  if (const auto* c = std::get_if<sim::Cone>(&shape.form))
+    return std::min(2 * c->radius, c->height);
+  sim::Shape level = shape;
+  level.rotation.setZero();
+  return extent(level).minCoeff();
 }
 
 void check_material_units(const sim::Material& m, std::vector<Finding>& findings) {
@@ -118,36 +121,6 @@ void check_body_overlaps(const Scene& scene, const sim::ParticleArrays& particle
                             " overlap in about " + rough_text(cells) +
                             " cells: twice the mass there, and one velocity for both",
                         "move them apart"});
-  }
-}
-
-bool is_inside(const sim::Shape& shape, const sim::Solid* solid, const Vec3d& x) {
-  if (const auto* plane = std::get_if<sim::Plane>(&shape.form)) {
-    const sim::Vec3d normal = sim::rotation_from_degrees(shape.rotation) * plane->normal;
-    return (x - plane->point).dot(normal) < 0;
-  }
-  return solid && solid->contains(x);
-}
-
-void check_collider_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
-                             const std::vector<std::size_t>& body_end,
-                             std::vector<Finding>& findings) {
-  for (const sim::Collider& collider : scene.colliders) {
-    const auto solid =
-        is_plane(collider.shape) ? nullptr : std::make_unique<sim::Solid>(collider.shape);
-    std::size_t first = 0;
-    for (std::size_t body = 0; body < body_end.size(); ++body) {
-      std::size_t inside = 0;
-      for (std::size_t p = first; p < body_end[body]; ++p)
-        inside += is_inside(collider.shape, solid.get(), particles.x[p]);
-      const double count = static_cast<double>(body_end[body] - first);
-      first = body_end[body];
-      if (inside == 0) continue;
-      findings.push_back({Severity::warning, "body." + scene.bodies[body].name + ".shape",
-                          percent_text(static_cast<double>(inside) / count) + " of " +
-                              scene.bodies[body].name + " starts inside collider " + collider.name,
-                          "move it out: contact stops snow at surfaces, it does not push it out"});
-    }
   }
 }
 
@@ -229,6 +202,10 @@ double share_outside(const CameraSettings& camera, double aspect, const Moment& 
 }
 
 }  // namespace
+
+std::string percent_text(double share) {
+  return fixed_text(100 * share, share < 0.1 ? 1 : 0) + " %";
+}
 
 double largest_extent(const Scene& scene) {
   double largest = 0;

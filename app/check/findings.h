@@ -10,6 +10,9 @@ namespace neve::app {
 inline constexpr double most_gravity = 60;  ///< m/s2
 inline constexpr double most_extent = 20;   ///< m, of a body
 
+/// "0.7 %", "31 %".
+std::string percent_text(double share);
+
 /// The longest edge of the boxes around bodies and emitters, m.
 double largest_extent(const Scene& scene);
 
@@ -26,6 +29,14 @@ void check_emitters(const Scene& scene, std::vector<Finding>& findings);
 /// @param body_end see seed_scene
 void check_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
                     const std::vector<std::size_t>& body_end, std::vector<Finding>& findings);
+
+/// The second half of it.
+void check_collider_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
+                             const std::vector<std::size_t>& body_end,
+                             std::vector<Finding>& findings);
+
+/// Colliders that cross too much of a cell in a step, or outrun sound in the snow.
+void check_motion(const Scene& scene, const Checkup& checkup, std::vector<Finding>& findings);
 
 /// Fixed steps against the limits, what the transfer damps per frame, speed against sound.
 void check_steps(const Scene& scene, const Checkup& checkup, std::vector<Finding>& findings);

@@ -56,7 +56,8 @@ Expectation Expected::node_mass() const {
 
 Expectation Expected::speed() const {
   double most = impact_speed(scene_);
-  for (const Collider& collider : scene_.colliders) most = std::max(most, collider.velocity.norm());
+  for (const Collider& collider : scene_.colliders)
+    most = std::max(most, sim::largest_speed(collider));
   return {{0, 1.5 * most}, "the quickest body or collider has " + rough_text(most) + " m/s"};
 }
 

@@ -88,6 +88,8 @@ Json to_json(const FrameRecord& frame) {
   json["max_speed"] = number_or_null(s.max_speed);
   json["min_J_P"] = number_or_null(s.min_J_P);
   json["max_J_P"] = number_or_null(s.max_J_P);
+  json["max_depth"] = number_or_null(s.max_depth);
+  json["max_depth_cells"] = number_or_null(frame.metrics.max_depth_cells);
   json["spread"] = number_or_null(frame.metrics.spread);
   json["height"] = number_or_null(frame.metrics.height);
   json["mean_J_P"] = number_or_null(frame.metrics.mean_J_P);
@@ -134,6 +136,9 @@ FrameRecord frame_record(const Json& json) {
   frame.metrics = {number_or_nan(json.at("spread")), number_or_nan(json.at("height")),
                    number_or_nan(json.at("mean_J_P")), json.at("fragments").get<std::size_t>(),
                    number_or_nan(json.at("largest_fragment"))};
+  if (!json.contains("max_depth")) return frame;
+  s.max_depth = number_or_nan(json.at("max_depth"));
+  frame.metrics.max_depth_cells = number_or_nan(json.at("max_depth_cells"));
   return frame;
 }
 

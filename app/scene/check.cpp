@@ -223,6 +223,40 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
   return {};
 }
 
+Found motion_problem(const Collider& collider) {
+  const std::string at = "collider." + collider.name;
+  if (collider.keyframes.empty()) return {};
+  for (const auto& [key, velocity] : {std::pair{".velocity", collider.velocity},
+                                      std::pair{".angular_velocity", collider.angular_velocity}}) {
+    if (velocity.isZero(0)) continue;
+    return Problem{at + key, std::string(key + 1) + " and keyframes both move the collider",
+                   "give one of them; keyframes hold a thing still where two are equal"};
+  }
+  const sim::PoseKeyframe* before = nullptr;
+  std::size_t index = 0;
+  for (const sim::PoseKeyframe& key : collider.keyframes) {
+    const std::string key_at = at + ".keyframes[" + std::to_string(index++) + "]";
+    const std::string who = "keyframe " + std::to_string(index);
+    if (before && !(key.time > before->time)) {
+      return Problem{key_at + ".time",
+                     who + " is at " + number_text(key.time) + " s, the one before at " +
+                         number_text(before->time) + " s",
+                     "times increase from one keyframe to the next"};
+    }
+    const sim::Vec3d own = collider.shape.rotation;
+    const sim::Vec3d rotation = key.rotation.value_or(own);
+    const sim::Vec3d last = before ? before->rotation.value_or(own) : rotation;
+    if (sim::written_turn(last, rotation) > 180) {
+      return Problem{key_at + ".rotation",
+                     who + " turns by more than 180 degrees since the one before",
+                     "the shorter way is taken: put a keyframe in between, or let "
+                     "angular_velocity turn it"};
+    }
+    before = &key;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<Problem> find_problem(const Scene& scene) {
@@ -244,10 +278,10 @@ std::optional<Problem> find_problem(const Scene& scene) {
     return Problem{"collider." + scene.colliders[sim::max_colliders].name,
                    "there are " + std::to_string(scene.colliders.size()) + " colliders",
                    "at most " + std::to_string(sim::max_colliders) + " can be there"};
-  for (const sim::Collider& collider : scene.colliders) {
+  for (const Collider& collider : scene.colliders) {
     const std::string at = "collider." + collider.name + ".shape";
     found = std::visit([&](const auto& form) { return problem(form, at); }, collider.shape.form);
-    if (found) return found;
+    if (found || (found = motion_problem(collider))) return found;
   }
   if (scene.camera && (found = camera_problem(*scene.camera, "camera"))) return found;
   if ((found = light_problem(scene.light))) return found;

@@ -97,6 +97,10 @@ void describe(V& visit, sim::SolverSettings& s) {
   visit("collide_after_solve", s.collide_after_solve, unit::none, anything, live,
         "Let nodes meet colliders again after the solve, which the paper does not; keeps snow out "
         "of them.");
+  visit(
+      "push_out", s.push_out, unit::none, anything, live,
+      "Bring particles deeper than 0.1 cell_size in a collider out to there, which the paper does "
+      "not.");
   visit("gravity", s.gravity, unit::acceleration, within(1e6), live, "Acceleration of all snow.");
   visit("precision", s.precision, unit::none, anything, restart, "Arithmetic of the solver.");
   visit("on_divergence", s.on_divergence, unit::none, anything, live,
@@ -259,6 +263,11 @@ void describe_collider_forms(V& visit, sim::Shape& shape) {
   visit.template form<sim::Plane>("plane", shape, Change::live, "A half space.");
   visit.template form<sim::Sphere>("sphere", shape, Change::live, "A ball.");
   visit.template form<sim::Box>("box", shape, Change::live, "A box.");
+  visit.template form<sim::Capsule>("capsule", shape, Change::live, "A cylinder with round ends.");
+  visit.template form<sim::Cylinder>("cylinder", shape, Change::live, "A cylinder.");
+  visit.template form<sim::Cone>("cone", shape, Change::live, "A cone.");
+  visit.template form<sim::Torus>("torus", shape, Change::live, "A ring.");
+  visit.template form<sim::Mesh>("mesh", shape, Change::live, "The inside of a triangle mesh.");
 }
 
 template <class V>
@@ -324,8 +333,20 @@ void describe(V& visit, Collider& c) {
   visit("velocity", c.velocity, unit::velocity, speed, live, "Constant velocity.");
   visit("angular_velocity", c.angular_velocity, unit::spin, speed, live,
         "Constant spin about the shape's centre; of a plane only its surface moves.");
+  visit.sequence("keyframes", c.keyframes,
+                 "The shape passes through these, from rest to rest; instead of the velocities.");
   visit("style", c.style, unit::none, anything, live,
         "solid; wire: lines only; ghost: see-through. Snow behind the last two can be seen.");
+}
+
+template <class V>
+void describe(V& visit, sim::PoseKeyframe& k) {
+  using enum Change;
+  visit("time", k.time, unit::second, between(0, 1e6), live, "When; later than the one before.");
+  visit("position", k.position, unit::metre, position, live,
+        "Where the shape's centre (a plane's point) is then; without it where the shape says.");
+  visit("rotation", k.rotation, unit::degrees, within(1e6), live,
+        "The shape's rotation then, at most 180 degrees from the one before; without it its own.");
 }
 
 template <class V>

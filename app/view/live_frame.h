@@ -24,6 +24,7 @@ struct RunSample {
   double min_J_P = 1, max_J_P = 1;
   double dt = 0;                              ///< s, that the settings choose next
   sim::DtLimit limit = sim::DtLimit::max_dt;  ///< that rules it
+  double max_depth = 0;                       ///< m, of the particle deepest in a collider
 };
 
 /// A quantity of many nodes or particles in a few numbers.

@@ -177,6 +177,8 @@ void draw_plots_panel(ViewerState& state) {
   draw_curves(state, "J_P, plastic volume", "",
               {{"least", orange, [](const RunSample& s) { return s.min_J_P; }},
                {"greatest", blue, [](const RunSample& s) { return s.max_J_P; }}});
+  draw_curves(state, "deepest in a collider", "m",
+              {{"depth", pink, [](const RunSample& s) { return s.max_depth; }}});
   draw_phases(*state.live);
   const LiveFrame& live = *state.live;
   ImGui::TextDisabled("%s particles, %s, %d threads, %s",

@@ -422,7 +422,8 @@ sim::Summary Session::note_sample() {
   std::vector<RunSample>& list = *samples_;
   while (!list.empty() && list.back().time >= summary.time) list.pop_back();
   list.push_back({summary.time, summary.kinetic_energy, summary.elastic_energy, summary.momentum,
-                  summary.max_speed, summary.min_J_P, summary.max_J_P, choice.dt, choice.limit});
+                  summary.max_speed, summary.min_J_P, summary.max_J_P, choice.dt, choice.limit,
+                  summary.max_depth});
   if (list.size() <= most_samples) return summary;
   std::size_t kept = 0;  // every other one: the plot covers the whole run with half the detail
   for (std::size_t k = 0; k < list.size(); k += 2) list[kept++] = list[k];

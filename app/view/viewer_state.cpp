@@ -101,11 +101,9 @@ void frame_selection(ViewerState& state) {
   for (const Collider& collider : state.live->scene->colliders) {
     if (state.selected != "collider." + collider.name) continue;
     if (std::holds_alternative<sim::Plane>(collider.shape.form)) {
-      state.orbit.move_target(sim::center(collider.shape));
+      state.orbit.move_target(sim::pose_at(collider, state.live->snapshot.time).point);
     } else {
-      const sim::Bounds box = sim::bounds(collider.shape);
-      const sim::Vec3d moved = state.live->snapshot.time * collider.velocity;
-      frame_box(state, {box.min + moved, box.max + moved});
+      frame_box(state, sim::bounds_at(collider, state.live->snapshot.time));
     }
     return;
   }

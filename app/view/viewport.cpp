@@ -83,7 +83,8 @@ std::optional<Movable> selected_object(const ViewerState& state) {
   for (const sim::Sink& sink : scene.sinks)
     if (state.selected == "sink." + sink.name) return movable(sink.shape, state.selected);
   for (const Collider& collider : scene.colliders)
-    if (state.selected == "collider." + collider.name)
+    // Keyframes say where it is: arrows that move nothing would only mislead.
+    if (state.selected == "collider." + collider.name && collider.keyframes.empty())
       return movable(collider.shape, state.selected);
   return std::nullopt;
 }

@@ -43,6 +43,8 @@ TEST(RunJson, HasTheFieldsOfTheContract) {
                                           "max_speed",
                                           "min_J_P",
                                           "max_J_P",
+                                          "max_depth",
+                                          "max_depth_cells",
                                           "spread",
                                           "height",
                                           "mean_J_P",

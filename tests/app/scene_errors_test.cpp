@@ -198,9 +198,10 @@ TEST(SceneErrors, AShapeHasExactlyOneForm) {
   EXPECT_EQ(error_of(in_body("shape = { plane = {} }")),
             "s.toml:2:11: error: unsupported shape \"plane\" in body.1.shape; expected \"sphere\", "
             "\"box\", \"capsule\", \"cylinder\", \"cone\", \"torus\", \"mesh\" or \"points\"");
-  EXPECT_EQ(error_of(with_ball("[[collider]]\nshape = { torus = {} }")),
-            "s.toml:5:11: error: unsupported shape \"torus\" in collider.1.shape; expected "
-            "\"plane\", \"sphere\" or \"box\"");
+  EXPECT_EQ(error_of(with_ball("[[collider]]\nshape = { pyramid = {} }")),
+            "s.toml:5:11: error: unsupported shape \"pyramid\" in collider.1.shape; expected "
+            "\"plane\", \"sphere\", \"box\", \"capsule\", \"cylinder\", \"cone\", \"torus\" or "
+            "\"mesh\"");
 }
 
 TEST(SceneErrors, DegenerateShapesAreRefused) {
@@ -219,6 +220,30 @@ TEST(SceneErrors, DegenerateShapesAreRefused) {
                                                               "0] } }")),
             "s.toml:4:28: error: more than 2^30 cells from the origin; move it closer or enlarge "
             "solver.cell_size");
+}
+
+TEST(SceneErrors, KeyframesOfCollidersAreLocated) {
+  const auto error_with = [](const std::string& line) {
+    return error_of(with_ball("[[collider]]\nshape = { box = {} }\n" + line));
+  };
+  EXPECT_EQ(
+      error_with("keyframes = [{ time = 1 }, { time = 0.5 }]"),
+      "s.toml:6:37: error: keyframe 2 is at 0.5 s, the one before at 1 s; times increase from "
+      "one keyframe to the next");
+  EXPECT_EQ(error_with("velocity = [1, 0, 0]\nkeyframes = [{ time = 1 }]"),
+            "s.toml:6:12: error: velocity and keyframes both move the collider; give one of them; "
+            "keyframes hold a thing still where two are equal");
+  EXPECT_EQ(
+      error_with("keyframes = [{ time = 1 }]\nangular_velocity = [0, 0, 1]"),
+      "s.toml:7:20: error: angular_velocity and keyframes both move the collider; give one of "
+      "them; keyframes hold a thing still where two are equal");
+  EXPECT_EQ(error_with("keyframes = [{}, { time = 1, rotation = [0, 270, 0] }]"),
+            "s.toml:6:41: error: keyframe 2 turns by more than 180 degrees since the one before; "
+            "the shorter way is taken: put a keyframe in between, or let angular_velocity turn it");
+  EXPECT_EQ(
+      error_with("keyframes = [{ place = [0, 0, 0] }]").find("s.toml:6:16: error: unknown key"),
+      0u);
+  EXPECT_EQ(error_with("keyframes = { time = 1 }").find("s.toml:6:13: error: "), 0u);
 }
 
 TEST(SceneErrors, MeshFilesExist) {

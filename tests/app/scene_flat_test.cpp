@@ -116,7 +116,8 @@ TEST(Flat, KnowsWhatMayChangeWhileASimulationRuns) {
   for (const char* live :
        {"solver.gravity", "solver.bypass", "material.snow.hardening", "material.a.model",
         "collider.floor.velocity", "collider.1.shape", "collider.1.shape.sphere.center", "camera",
-        "camera.keyframes", "view.close.camera", "view.close.clip", "view.x.slice", "light"})
+        "camera.keyframes", "collider.1.keyframes", "solver.push_out", "view.close.camera",
+        "view.close.clip", "view.x.slice", "light"})
     EXPECT_TRUE(is_live(live)) << live;
   for (const char* restart :
        {"solver", "solver.cell_size", "solver.precision", "material.snow.density", "material.snow",

@@ -209,9 +209,11 @@ Scene full_scene(const std::string& mesh_file) {
   text += "[[sink]]\nname = \"pit\"\nshape = { torus = {} }\n";
   text += "[[body]]\nname = \"points\"\nshape = { points = { file = \"" + mesh_file + "\" } }\n";
   text += "[[body]]\nname = \"mesh\"\nshape = { mesh = { file = \"" + mesh_file + "\" } }\n";
-  for (const char* form : {"plane", "sphere", "box"}) {
+  for (const char* form : {"plane", "sphere", "box", "capsule", "cylinder", "cone", "torus"}) {
     text += "[[collider]]\nshape = { " + std::string(form) + " = {} }\n";
   }
+  text += "[[collider]]\nname = \"mesh\"\nshape = { mesh = { file = \"" + mesh_file + "\" } }\n";
+  text += "[[collider]]\nshape = { box = {} }\nkeyframes = [{ time = 1 }, { time = 2 }]\n";
   text +=
       "[[view]]\n[[view]]\nname = \"close\"\ncamera = { eye = [1,1,1], target = [0,0,0] }\n"
       "clip = { point = [1, 2, 3] }\n[[mosaic]]\nname = \"wall\"\nviews = [\"close\"]\n";
@@ -233,10 +235,17 @@ TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {
   describe(perturb, scene);
   EXPECT_GT(count, 150) << "the visitor did not get everywhere";
   // Put right what only holds together.
-  for (sim::Shape* shape : {&scene.bodies[5].shape, &scene.sinks[0].shape}) {
+  for (sim::Shape* shape :
+       {&scene.bodies[5].shape, &scene.colliders[6].shape, &scene.sinks[0].shape}) {
     auto& torus = std::get<sim::Torus>(shape->form);
     torus.minor_radius = torus.major_radius / 3;
   }
+  scene.emitters[0].end = scene.emitters[0].start + 1.0 / 3;
+  Collider& moved = scene.colliders.back();
+  moved.velocity.setZero();
+  moved.angular_velocity.setZero();
+  moved.keyframes[1].time = moved.keyframes[0].time + 1.0 / 3;
+  moved.keyframes[1].rotation = *moved.keyframes[0].rotation + sim::Vec3d(10.0 / 3, 20, 30);
   scene.solver.cell_size = 0.1;
   for (View& view : scene.views) view.slice.follow = "mesh";
   scene.camera->turntable.reset();  // there is an orbit
@@ -254,8 +263,8 @@ TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {
   int same = 0;
   for (const auto& [address, bits] : before)
     same += unchanged.contains(address) && unchanged.at(address) == bits;
-  EXPECT_EQ(same, 13 + 8 + 2 + 2 + 2 + 3)
-      << "only names, materials, files and the turns not taken stay";
+  EXPECT_EQ(same, 19 + 8 + 3 + 2 + 2 + 2 + 3)
+      << "only names, materials, files, the turns not taken and velocities beside keyframes stay";
 }
 
 TEST_F(RoundTrip, KeepsAnAutomaticScene) {

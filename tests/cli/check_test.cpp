@@ -56,6 +56,18 @@ TEST_F(Check, SaysWhatEachMistakeIs) {
                                    "[[collider]]\nname = \"sheet\"\nshape = { box = { center = "
                                    "[0, 0, 0.5], size = [1, 1, 0.02] } }\n")),
             Findings{"warning collider.sheet.shape"});
+  // The box around this rod is thick every way, the rod is not.
+  EXPECT_EQ(
+      findings(scene("", std::string(floor_plane) +
+                             "[[collider]]\nname = \"rod\"\nshape = { capsule = { a = [0.5, 0, "
+                             "0.3], b = [0.8, 0.3, 0.6], radius = 0.01 } }\n")),
+      Findings{"warning collider.rod.shape"});
+  EXPECT_EQ(
+      findings(scene("", std::string(floor_plane) +
+                             "[[collider]]\nname = \"ram\"\nshape = { box = { center = [1, 1, "
+                             "1] } }\nkeyframes = [{ time = 0 }, { time = 0.05, position = "
+                             "[1, 1.8, 1] }]\n")),
+      Findings{"warning collider.ram.keyframes"});
   EXPECT_EQ(findings(scene("",
                            "[[body]]\nname = \"other\"\nshape = { sphere = { center = [0.05, "
                            "0.2, 0], radius = 0.08 } }\nvelocity = [0, -3, 0]\n"))

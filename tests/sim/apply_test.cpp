@@ -91,7 +91,7 @@ TEST(Apply, RefusesWhatNeedsARestartAndIsAsBefore) {
   refused([](World& w) { w.materials.pop_back(); });
   refused([](World& w) { w.materials.emplace_back(); });
   refused([](World& w) { w.colliders.resize(65, w.colliders[0]); });
-  refused([](World& w) { w.colliders[1].shape.form = Capsule{}; });
+  refused([](World& w) { w.colliders[1].shape.form = Points{}; });
   refused([](World& w) { w.colliders[1].shape.form = Sphere{{1e12, 0, 0}, 1}; });
   // Not even the dt of the next step has changed.
   const Simulation again = crushed(world);

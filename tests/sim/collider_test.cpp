@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include "sim/base/hash.h"
@@ -24,7 +23,11 @@ std::vector<Collider> colliders() {
   const Vec3d turn(20, -35, 50);
   return {moving({Plane{{0.1, 0.2, 0.3}, {1, 4, -2}}, turn}),
           moving({Sphere{{0.1, 0.2, 0.3}, 0.5}, turn}),
-          moving({Box{{0.1, 0.2, 0.3}, {0.6, 1.0, 0.4}}, turn})};
+          moving({Box{{0.1, 0.2, 0.3}, {0.6, 1.0, 0.4}}, turn}),
+          moving({Capsule{{-0.2, -0.3, 0.1}, {0.4, 0.7, 0.5}, 0.3}, turn}),
+          moving({Cylinder{{0.1, 0.2, 0.3}, 0.5, 0.8}, turn}),
+          moving({Cone{{0.1, 0.2, 0.3}, 0.6, 1.1}, turn}),
+          moving({Torus{{0.1, 0.2, 0.3}, 0.6, 0.25}, turn})};
 }
 
 Vec3d random_point(std::uint64_t k) {
@@ -89,10 +92,16 @@ TEST(Collider, NormalIsTheGradientOfTheDistance) {
       const Surface s = surface_at(c, 0.3, x);
       EXPECT_NEAR(s.normal.norm(), 1, 1e-14);
       EXPECT_NEAR(gradient.norm(), 1, 1e-3);
-      // Beside an edge of a box the normal stays that of a face, by design.
+      // Beside an edge the normal stays that of a face, by design: of a box one of three, of a
+      // cylinder one of two; the wall of a cone is nowhere steeper to its base than its tip is
+      // sharp.
       const bool is_box_outside = std::holds_alternative<Box>(c.shape.form) && s.distance > 0;
+      const bool has_edges = std::holds_alternative<Cylinder>(c.shape.form) ||
+                             std::holds_alternative<Cone>(c.shape.form);
       if (is_box_outside) {
         EXPECT_GT(gradient.dot(s.normal), 1 / std::sqrt(3.0) - 1e-6) << k;
+      } else if (has_edges && s.distance > 0) {
+        EXPECT_GT(gradient.dot(s.normal), 0.4) << k;
       } else {
         EXPECT_LT((gradient - s.normal).norm(), 1e-6) << k;
       }
@@ -117,12 +126,6 @@ TEST(Collider, MiddleOfASphereLooksUp) {
   c.shape = {Sphere{{1, 2, 3}, 0.5}, {10, 20, 30}};
   EXPECT_EQ(surface_at(c, 0, {1, 2, 3}).normal, Vec3d(0, 1, 0));
   EXPECT_EQ(signed_distance(c, 0, {1, 2, 3}), -0.5);
-}
-
-TEST(Collider, OtherShapesAreRefused) {
-  Collider c;
-  c.shape = {Torus{}, {0, 0, 0}};
-  EXPECT_THROW(surface_at(c, 0, {0, 0, 0}), std::invalid_argument);
 }
 
 }  // namespace

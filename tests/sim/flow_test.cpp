@@ -41,7 +41,8 @@ SolverSettings without_gravity() {
 }
 
 Simulation flowing(const SolverSettings& settings, const ParticleArrays& particles,
-                   const Flow& flow, int threads = 1, const Vec3i& origin = Vec3i::Zero()) {
+                   const Flow& flow, int threads = 1,
+                   const sim::Vec3i& origin = sim::Vec3i::Zero()) {
   return Simulation(settings, {Material{}}, {}, particles, threads, origin, flow);
 }
 
@@ -219,15 +220,15 @@ TEST(Flow, OutsideOfASinkTurnedInsideOut) {
 
 TEST(Flow, ThreadsAndTheLatticeChangeNothing) {
   const ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.006);
-  const auto hash = [&](int threads, const Vec3i& origin) {
+  const auto hash = [&](int threads, const sim::Vec3i& origin) {
     Simulation simulation =
         flowing(SolverSettings{}, block, {{spout(5), spout(1)}, {pit(0.25)}, 1}, threads, origin);
     simulation.advance_to(0.2);
     EXPECT_GT(simulation.flow_totals().removed, 500u);
     return simulation.state_hash();
   };
-  const std::uint64_t reference = hash(1, Vec3i::Zero());
-  EXPECT_EQ(hash(2, Vec3i::Zero()), reference);
+  const std::uint64_t reference = hash(1, sim::Vec3i::Zero());
+  EXPECT_EQ(hash(2, sim::Vec3i::Zero()), reference);
   EXPECT_EQ(hash(1, {100, -7, 31}), reference);
 }
 

@@ -1,0 +1,84 @@
+#include "sim/kernel_pose.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/blocks.h"
+#include "sim/engine_records.h"
+
+namespace neve::sim {
+
+namespace {
+
+/// The measures of each form, as kernels want them.
+struct SetForm {
+  ColliderPose& out;
+  const Pose& pose;
+  const DistanceField* field;
+
+  void operator()(const Plane& plane) const {
+    out.shape = ColliderShape::plane;
+    const Vec3d n = pose.rotation * plane.normal.normalized();
+    for (int a = 0; a < 3; ++a) out.normal[a] = n[a];
+  }
+  void operator()(const Sphere& sphere) const {
+    out.shape = ColliderShape::sphere;
+    out.radius = sphere.radius;
+  }
+  void operator()(const Box& box) const {
+    out.shape = ColliderShape::box;
+    for (int a = 0; a < 3; ++a) out.half[a] = 0.5 * box.size[a];
+  }
+  void operator()(const Capsule& capsule) const {
+    set_round(ColliderShape::capsule, capsule.radius, (capsule.b - capsule.a).norm());
+  }
+  void operator()(const Cylinder& cylinder) const {
+    set_round(ColliderShape::cylinder, cylinder.radius, cylinder.height);
+  }
+  void operator()(const Cone& cone) const {
+    set_round(ColliderShape::cone, cone.radius, cone.height);
+  }
+  void operator()(const Torus& torus) const {
+    set_round(ColliderShape::torus, torus.minor_radius, 0);
+    out.ring = torus.major_radius;
+  }
+  void operator()(const Mesh&) const {
+    out.shape = ColliderShape::field;
+    out.samples = field->samples();
+  }
+  void operator()(const Points&) const {
+    throw std::invalid_argument("points have no surface: they cannot be a collider");
+  }
+
+ private:
+  void set_round(ColliderShape shape, double radius, double length) const {
+    out.shape = shape;
+    out.radius = radius;
+    out.half[1] = 0.5 * length;
+  }
+};
+
+}  // namespace
+
+ColliderPose kernel_pose(const Collider& c, double time, double cell_size,
+                         const Vec3i& lattice_origin, const DistanceField* field) {
+  const Pose pose = pose_at(c, time);
+  const Mat3d axes = pose.rotation * form_axes(c.shape);
+  ColliderPose out{};
+  out.contact = static_cast<ContactLaw>(c.contact);
+  out.friction = c.friction;
+  for (int a = 0; a < 3; ++a) {
+    const double in_cells = pose.point[a] / cell_size;
+    if (!(std::abs(in_cells) < 4.0 * block_limit))
+      throw std::invalid_argument("collider \"" + c.name + "\" is outside the lattice");
+    split(in_cells, out.cell[a], out.offset[a]);
+    out.cell[a] += block_side * lattice_origin[a];
+    out.velocity[a] = pose.velocity[a];
+    out.omega[a] = pose.angular_velocity[a];
+    for (int b = 0; b < 3; ++b) out.axes[3 * a + b] = axes(a, b);
+  }
+  std::visit(SetForm{out, pose, field}, c.shape.form);
+  return out;
+}
+
+}  // namespace neve::sim

@@ -1,0 +1,16 @@
+#pragma once
+/// A collider at a time as kernels want it.
+
+#include "sim/collider.h"
+#include "sim/distance_field.h"
+
+namespace neve::sim {
+
+/// @param cell_size  m
+/// @param lattice_origin  blocks
+/// @param field  of a mesh, otherwise not looked at; has to live as long as the pose is used
+/// @throws std::invalid_argument for a collider outside the lattice
+ColliderPose kernel_pose(const Collider& collider, double time, double cell_size,
+                         const Vec3i& lattice_origin, const DistanceField* field);
+
+}  // namespace neve::sim

@@ -1,0 +1,270 @@
+/// The kernels' distances against those of the host, for every shape.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "sim/kernel_pose.h"
+#include "tests/support/temporary_folder.h"
+
+namespace neve::sim {
+namespace {
+
+struct Seen {
+  double distance;
+  Vec3d normal;
+};
+
+/// Places are a few cells from the first node of the block.
+constexpr double h = 0.1;
+constexpr int block[3] = {-4, 8, 4};
+const Vec3d place_of_block = h * Vec3d(-4, 8, 4);
+
+/// As the kernels of a precision see a place, in every lane the same.
+template <class Real>
+Seen seen_by_kernel(const ColliderPose& pose, const Vec3d& x) {
+  using V = Quad<Real>;
+  const LocalCollider<Real> local = localize<Real>(pose, block, h);
+  const Vec3d from = x - place_of_block;
+  Vec3<V> normal;
+  const V distance = surface_distance(
+      local,
+      Vec3<V>{all<V>(static_cast<Real>(from[0])), all<V>(static_cast<Real>(from[1])),
+              all<V>(static_cast<Real>(from[2]))},
+      normal);
+  return {static_cast<double>(distance[1]),
+          Vec3d(static_cast<double>(normal.x[1]), static_cast<double>(normal.y[1]),
+                static_cast<double>(normal.z[1]))};
+}
+
+const Vec3d middle_of_shapes(-0.1, 1.0, 0.6);
+
+std::vector<Shape> analytic_shapes() {
+  const Vec3d turn(20, -35, 50);
+  return {{Plane{middle_of_shapes, {1, 4, -2}}, turn},
+          {Sphere{middle_of_shapes, 0.4}, turn},
+          {Box{middle_of_shapes, {0.5, 0.9, 0.3}}, turn},
+          {Capsule{middle_of_shapes - Vec3d(0.2, 0.3, -0.1),
+                   middle_of_shapes + Vec3d(0.3, 0.2, 0.1), 0.2},
+           turn},
+          {Capsule{middle_of_shapes, middle_of_shapes, 0.3}, turn},
+          {Cylinder{middle_of_shapes, 0.4, 0.5}, turn},
+          {Cylinder{middle_of_shapes, 0.15, 0.9}, turn},
+          {Cone{middle_of_shapes, 0.4, 0.8}, turn},
+          {Cone{middle_of_shapes, 0.5, 0.3}, turn},
+          {Torus{middle_of_shapes, 0.35, 0.15}, turn},
+          {Torus{middle_of_shapes, 0.2, 0.2}, turn}};
+}
+
+Collider moving_and_turned(const Shape& shape) {
+  Collider c;
+  c.shape = shape;
+  c.velocity = {0.2, -0.1, 0.3};
+  c.angular_velocity = {0.5, 1, -0.7};
+  return c;
+}
+
+std::vector<Vec3d> random_places(std::size_t count, double reach) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<Vec3d> places;
+  for (std::size_t k = 0; k < count; ++k)
+    places.push_back(middle_of_shapes + reach * Vec3d(unit(random), unit(random), unit(random)));
+  return places;
+}
+
+TEST(ContactKernel, AgreesWithTheHostForEveryShape) {
+  for (const Shape& shape : analytic_shapes()) {
+    SCOPED_TRACE(shape.form.index());
+    const Collider c = moving_and_turned(shape);
+    const double time = 0.3;
+    const ColliderPose pose = kernel_pose(c, time, h, Vec3i::Zero(), nullptr);
+    int inside = 0;
+    for (const Vec3d& x : random_places(4000, 0.6)) {
+      const Surface host = surface_at(c, time, x);
+      const Seen lane = seen_by_kernel<double>(pose, x);
+      // Rounding decides on the surface itself.
+      if (std::abs(host.distance) > 1e-12) {
+        EXPECT_EQ(lane.distance <= 0, host.distance <= 0);
+      }
+      // Outside kernels need no more than a bound.
+      EXPECT_LE(lane.distance, host.distance + 1e-12);
+      EXPECT_LT((lane.normal - host.normal).norm(), 1e-10);
+      if (host.distance > 0) continue;
+      ++inside;
+      EXPECT_NEAR(lane.distance, host.distance, 1e-12);
+      // Places are known to 1e-7 of the metre or so that they are from the collider.
+      EXPECT_NEAR(seen_by_kernel<float>(pose, x).distance, host.distance, 1e-6);
+    }
+    EXPECT_GT(inside, 80);
+  }
+}
+
+TEST(ContactKernel, NormalIsTheGradientOfTheDistanceInside) {
+  for (const Shape& shape : analytic_shapes()) {
+    SCOPED_TRACE(shape.form.index());
+    const ColliderPose pose = kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
+    for (const Vec3d& x : random_places(1000, 0.5)) {
+      const Seen here = seen_by_kernel<double>(pose, x);
+      EXPECT_NEAR(here.normal.norm(), 1, 1e-12);
+      if (here.distance > 0) continue;
+      const double e = 1e-6;
+      Vec3d gradient;
+      for (int a = 0; a < 3; ++a)
+        gradient[a] = (seen_by_kernel<double>(pose, x + e * Vec3d::Unit(a)).distance -
+                       seen_by_kernel<double>(pose, x - e * Vec3d::Unit(a)).distance) /
+                      (2 * e);
+      // Within 1e-6 of where two faces are as near, differences mix both: random places are not.
+      EXPECT_LT((gradient - here.normal).norm(), 1e-6);
+    }
+  }
+}
+
+/// Where several places of the surface are as near, or a direction has no length.
+TEST(ContactKernel, TiesAndCentresAreAsDocumented) {
+  struct Case {
+    Shape shape;
+    Vec3d from_middle, normal;
+    double distance;
+  };
+  const Vec3d none(0, 0, 0);
+  const double slope = std::hypot(0.8, 0.4);
+  const std::vector<Case> cases{
+      {{Sphere{middle_of_shapes, 0.4}, none}, {0, 0, 0}, {0, 1, 0}, -0.4},
+      {{Box{middle_of_shapes, {0.4, 0.4, 0.4}}, none}, {0, 0, 0}, {1, 0, 0}, -0.2},
+      {{Box{middle_of_shapes, {0.4, 0.4, 0.4}}, none}, {-0.1, 0.1, -0.1}, {-1, 0, 0}, -0.1},
+      // Both ends of a capsule's axis, and along it.
+      {{Capsule{middle_of_shapes - Vec3d(0, 0.25, 0), middle_of_shapes + Vec3d(0, 0.25, 0), 0.1},
+        none},
+       {0, 0.25, 0},
+       {1, 0, 0},
+       -0.1},
+      {{Capsule{middle_of_shapes - Vec3d(0, 0.25, 0), middle_of_shapes + Vec3d(0, 0.25, 0), 0.1},
+        none},
+       {0, 0, 0},
+       {1, 0, 0},
+       -0.1},
+      {{Capsule{middle_of_shapes, middle_of_shapes, 0.1}, none}, {0, 0, 0}, {1, 0, 0}, -0.1},
+      {{Cylinder{middle_of_shapes, 0.2, 0.4}, none}, {0, 0, 0}, {1, 0, 0}, -0.2},
+      {{Cylinder{middle_of_shapes, 0.4, 0.2}, none}, {0, 0, 0}, {0, 1, 0}, -0.1},
+      // As near to the wall as to an end: the wall.
+      {{Cylinder{middle_of_shapes, 0.25, 0.5}, none}, {-0.125, -0.125, 0}, {-1, 0, 0}, -0.125},
+      {{Cone{middle_of_shapes, 0.4, 0.8}, none}, {0, 0.4, 0}, {0.8 / slope, 0.4 / slope, 0}, 0},
+      {{Cone{middle_of_shapes, 0.4, 0.8}, none}, {0, -0.4, 0}, {0, -1, 0}, 0},
+      {{Torus{middle_of_shapes, 0.35, 0.15}, none}, {0.35, 0, 0}, {0, 1, 0}, -0.15},
+      {{Torus{middle_of_shapes, 0.2, 0.2}, none}, {0, 0, 0}, {-1, 0, 0}, 0}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.shape.form.index());
+    Collider collider;
+    collider.shape = c.shape;
+    // The middle_of_shapes is at cell -1, 10, 6 exactly, so that ties are exact in the kernels'
+    // arithmetic too; what is left is the rounding of 0.1.
+    const ColliderPose pose = kernel_pose(collider, 0, h, Vec3i::Zero(), nullptr);
+    const Seen lane = seen_by_kernel<double>(pose, middle_of_shapes + c.from_middle);
+    const Surface host = surface_at(collider, 0, middle_of_shapes + c.from_middle);
+    EXPECT_NEAR(host.distance, c.distance, 1e-12);
+    EXPECT_NEAR(lane.distance, c.distance, 1e-12);
+    EXPECT_NEAR(host.normal.norm(), 1, 1e-12);
+    EXPECT_NEAR(lane.normal.norm(), 1, 1e-12);
+    // At the very place, in the shape's own arithmetic.
+    collider.shape = c.shape;
+    std::visit(
+        [&](auto& form) {
+          using Form = std::decay_t<decltype(form)>;
+          if constexpr (std::is_same_v<Form, Capsule>) {
+            form.a -= middle_of_shapes, form.b -= middle_of_shapes;
+          } else if constexpr (!std::is_same_v<Form, Plane>) {
+            form.center.setZero();
+          }
+        },
+        collider.shape.form);
+    const ColliderPose at_origin = kernel_pose(collider, 0, 0.125, Vec3i::Zero(), nullptr);
+    const int origin[3] = {0, 0, 0};
+    using V = Quad<double>;
+    Vec3<V> normal;
+    const Vec3d& r = c.from_middle;
+    surface_distance(localize<double>(at_origin, origin, 0.125),
+                     Vec3<V>{all<V>(r[0]), all<V>(r[1]), all<V>(r[2])}, normal);
+    EXPECT_LT((Vec3d(normal.x[0], normal.y[0], normal.z[0]) - c.normal).norm(), 1e-9);
+    EXPECT_LT((surface_at(collider, 0, r).normal - c.normal).norm(), 1e-9);
+  }
+}
+
+TEST(ContactKernel, NothingInReachIsEverLeftOut) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (const Shape& shape : analytic_shapes()) {
+    SCOPED_TRACE(shape.form.index());
+    const ColliderPose pose = kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
+    const LocalCollider<float> local = localize<float>(pose, block, h);
+    int left_out = 0;
+    for (int k = 0; k < 400; ++k) {
+      const Vec3d centre = middle_of_shapes + Vec3d(unit(random), unit(random), unit(random));
+      const double reach = 0.1 + 0.1 * unit(random);
+      const Vec3d from = centre - place_of_block;
+      if (!is_out_of_reach(local,
+                           Vec3<float>{static_cast<float>(from[0]), static_cast<float>(from[1]),
+                                       static_cast<float>(from[2])},
+                           static_cast<float>(reach)))
+        continue;
+      ++left_out;
+      for (int q = 0; q < 20; ++q) {
+        Vec3d way(unit(random), unit(random), unit(random));
+        way *= std::abs(unit(random)) * (reach - 1e-5) / way.norm();
+        EXPECT_GT(seen_by_kernel<double>(pose, centre + way).distance, 0);
+      }
+    }
+    EXPECT_GT(left_out, 20);
+  }
+}
+
+/// The contact law of the paper's section 8, in double, from the host's surface.
+Vec3d after_contact(const Collider& c, const Surface& surface, const Vec3d& v) {
+  if (surface.distance > 0) return v;
+  if (c.contact == Contact::sticky) return surface.velocity;
+  const Vec3d relative = v - surface.velocity;
+  const double v_n = relative.dot(surface.normal);
+  if (c.contact == Contact::slip) return v - v_n * surface.normal;
+  if (v_n >= 0) return v;
+  const Vec3d v_t = relative - v_n * surface.normal;
+  const double kept = v_t.norm() + c.friction * v_n;
+  return surface.velocity + (kept > 0 ? Vec3d(kept / v_t.norm() * v_t) : Vec3d(Vec3d::Zero()));
+}
+
+TEST(ContactKernel, EveryShapeHasFrictionSlipAndStickiness) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (const Shape& shape : analytic_shapes())
+    for (const Contact contact : {Contact::separate, Contact::slip, Contact::sticky}) {
+      SCOPED_TRACE(shape.form.index());
+      Collider c = moving_and_turned(shape);
+      c.contact = contact;
+      c.friction = 0.4;
+      const ColliderPose pose = kernel_pose(c, 0.3, h, Vec3i::Zero(), nullptr);
+      const LocalCollider<double> local = localize<double>(pose, block, h);
+      int changed = 0, stuck = 0;
+      for (const Vec3d& x : random_places(1500, 0.5)) {
+        const Vec3d v(unit(random), unit(random), unit(random)), r = x - place_of_block;
+        using V = Quad<double>;
+        const auto lanes = [](const Vec3d& a) {
+          return Vec3<V>{all<V>(a[0]), all<V>(a[1]), all<V>(a[2])};
+        };
+        const Vec3<V> out = respond(local, lanes(r), lanes(v));
+        const Surface surface = surface_at(c, 0.3, x);
+        const Vec3d expected = after_contact(c, surface, v), found(out.x[3], out.y[3], out.z[3]);
+        EXPECT_LT((found - expected).norm(), 1e-11);
+        changed += expected != v;
+        stuck += (expected - surface.velocity).norm() == 0;
+      }
+      EXPECT_GT(changed, 10);
+      if (contact == Contact::separate) {
+        EXPECT_GT(stuck, 1);
+        EXPECT_LT(stuck, changed);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace neve::sim
