@@ -113,7 +113,8 @@ void add_other(const sim::Shape& shape, const sim::Pose& pose, ColliderStyle sty
     const bool has_rim = std::holds_alternative<sim::Capsule>(shape.form) ||
                          std::holds_alternative<sim::Torus>(shape.form);
     return add_form(render::round_mesh(*profile, center, rotation),
-                    render::round_lines(*profile, center, rotation), style, has_rim, frame);
+                    render::round_lines(*profile, center, rotation, style == ColliderStyle::ghost),
+                    style, has_rim, frame);
   }
   const std::shared_ptr<const MeshLook> look = look_of(std::get<sim::Mesh>(shape.form));
   add_form(render::moved_mesh(look->mesh, center, rotation),

@@ -35,8 +35,9 @@ Profile torus_profile(float ring, float radius);
 /// @param rotation turns y into the axis
 TriangleMesh round_mesh(const Profile& profile, Vec3f center, const Rotation& rotation);
 
-/// Circles around the axis and profiles along it.
-Lines round_lines(const Profile& profile, Vec3f center, const Rotation& rotation);
+/// Circles around the axis and profiles along it; or, for a ghost, only the sharp edges.
+Lines round_lines(const Profile& profile, Vec3f center, const Rotation& rotation,
+                  bool only_edges = false);
 
 /// A mesh with vertices of its own at edges sharper than 40 degrees, so that these stay sharp and
 /// the rest is smooth.

@@ -76,11 +76,11 @@ TriangleMesh round_mesh(const Profile& profile, Vec3f center, const Rotation& ro
   return moved_mesh(std::move(mesh), center, rotation);
 }
 
-Lines round_lines(const Profile& profile, Vec3f center, const Rotation& rotation) {
+Lines round_lines(const Profile& profile, Vec3f center, const Rotation& rotation, bool only_edges) {
   constexpr int circle = 72, meridians = 12, circles = 8;
   Lines lines;
   const auto add = [&](Vec3f a, Vec3f b) { lines.ends.insert(lines.ends.end(), {a, b}); };
-  for (int m = 0; m < meridians; ++m) {
+  for (int m = 0; m < meridians && !only_edges; ++m) {
     const float around = 2 * pi * static_cast<float>(m) / meridians;
     for (std::size_t i = 0; i + 1 < profile.points.size(); ++i)
       add(on_circle(profile.points[i], around), on_circle(profile.points[i + 1], around));
@@ -92,7 +92,8 @@ Lines round_lines(const Profile& profile, Vec3f center, const Rotation& rotation
     const Profile::Point& p = profile.points[i];
     const bool is_edge =
         i > 0 && p.out == profile.points[i - 1].out && p.along == profile.points[i - 1].along;
-    if (p.out <= 0 || (!is_edge && (i % every != 0 || count < circles))) continue;
+    const bool is_shown = is_edge || (!only_edges && i % every == 0 && count >= circles);
+    if (p.out <= 0 || !is_shown) continue;
     for (int k = 0; k < circle; ++k)
       add(on_circle(p, 2 * pi * static_cast<float>(k) / circle),
           on_circle(p, 2 * pi * static_cast<float>((k + 1) % circle) / circle));
