@@ -1,6 +1,8 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "app/commands.h"
 #include "app/errors.h"
@@ -100,9 +102,9 @@ void announce(const Place& place, bool is_quiet) {
             << std::endl;
 }
 
-/// @return the scene file to go on with, or ""
-std::string look_at(Document document, const std::vector<std::string>& overrides,
-                    const ViewOptions& options, Place& place, Front& front) {
+/// @return the scene to go on with, if there is one
+std::optional<Document> look_at(Document document, const std::vector<std::string>& overrides,
+                                const ViewOptions& options, Place& place, Front& front) {
   const std::string file = document.file();
   WorkbenchOptions bench_options;
   bench_options.session.threads = options.run.threads;
@@ -129,16 +131,16 @@ std::string look_at(Document document, const std::vector<std::string>& overrides
   }
   Viewer viewer(bench, front, screen, renderer, viewer_options);
   viewer.run();
-  return viewer.state().dropped_file;
+  return std::move(viewer.state().dropped);
 }
 
 }  // namespace
 
 int run_view(const ViewOptions& options) {
   catch_interrupts();
-  std::string file = options.run.scene.empty() ? default_scene().string() : options.run.scene;
+  const std::string file = options.run.scene.empty() ? default_scene().string() : options.run.scene;
   // A scene that cannot be read is told before a window opens.
-  Document document =
+  std::optional<Document> document =
       open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
   Place place = open_place(options);
   announce(place, options.run.verbosity == Verbosity::quiet);
@@ -146,8 +148,9 @@ int run_view(const ViewOptions& options) {
   if (!options.record.empty())
     recording = std::make_unique<RecordingFront>(*place.front, options.record);
   Front& front = recording ? *recording : *place.front;
-  file = look_at(std::move(document), options.run.overrides, options, place, front);
-  while (!file.empty()) file = look_at(open_document(file, {}, 1), {}, options, place, front);
+  document = look_at(*std::move(document), options.run.overrides, options, place, front);
+  // What was set for the first scene is not meant for another one; how coarse it is, is.
+  while (document) document = look_at(*std::move(document), {}, options, place, front);
   if (recording) recording->save();
   return exit_ok;
 }

@@ -198,6 +198,7 @@ class Engine {
     std::vector<StagedNodes<Real>> nodes;
     std::vector<Gathered<Real>> gathered;
     std::vector<Real> F_trial, v_before_collision;
+    std::array<double, stage_names.size()> seconds{};  ///< see StagedStep
   };
   /// Whether the run itself has to.
   bool takes_stages() const { return settings_.takes_stages() || material_list_[0].yields; }

@@ -1,12 +1,46 @@
 /// The staged driver: the list of stages as the paper has it, on a copy that is thrown away.
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <optional>
 #include <vector>
 
 #include "sim/engine.h"
 #include "sim/engine_records.h"
 
 namespace neve::sim {
+
+namespace {
+
+/// Adds the time from one stage to the next.
+class StageClock {
+ public:
+  explicit StageClock(std::array<double, stage_names.size()>& seconds) : seconds_(seconds) {}
+  StageClock(const StageClock&) = delete;
+  StageClock& operator=(const StageClock&) = delete;
+  ~StageClock() { stop(); }
+
+  void enter(Stage stage) {
+    stop();
+    stage_ = stage;
+    since_ = Clock::now();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void stop() {
+    if (stage_)
+      seconds_[static_cast<std::size_t>(*stage_)] +=
+          std::chrono::duration<double>(Clock::now() - since_).count();
+  }
+
+  std::array<double, stage_names.size()>& seconds_;
+  std::optional<Stage> stage_;
+  Clock::time_point since_{};
+};
+
+}  // namespace
 
 /// The list of stages but those that the settings skip: what they would have changed stays.
 template <class Real>
@@ -28,45 +62,56 @@ void Engine<Real>::take_stages(double dt, Traces& traces) {
       for (int n = 0; n < block_nodes; ++n) change(nodes, n);
   };
   const Sweeps<Real>& s = *sweeps_;
+  StageClock clock(traces.seconds);
+  clock.enter(Stage::rasterize);
   over_particle_blocks(s.rasterize, a);
   over_node_blocks(s.collect_momentum, a);
   if (!takes(Stage::rasterize))
     each_node([](auto& nodes, int n) { nodes.momentum[n] = nodes.v_old[n] = Quad<Real>{}; });
+  clock.enter(Stage::volumes);
   if (takes(Stage::volumes)) over_particle_blocks(s.volumes, a);
   if (settings_.resting_mass > 0)
     each_node([this](auto& nodes, int n) {
       if (static_cast<double>(nodes.momentum[n][3]) <= settings_.resting_mass)
         nodes.momentum[n] = nodes.v_old[n] = Quad<Real>{};
     });
+  clock.enter(Stage::elastic_forces);
   if (takes(Stage::elastic_forces)) {
     over_particle_blocks(s.elastic_forces, a);
     over_node_blocks(s.collect_force, a);
   } else {
     each_node([](auto& nodes, int n) { nodes.force[n] = Quad<Real>{}; });
   }
+  clock.enter(Stage::grid_velocities);
   if (takes(Stage::grid_velocities))
     over_node_blocks(s.grid_velocities, a);
   else
     each_node([](auto& nodes, int n) { nodes.v_free[n] = nodes.v_old[n]; });
+  clock.enter(Stage::grid_collisions);
   if (takes(Stage::grid_collisions)) {
     over_node_blocks(s.grid_collisions, a);
   } else {
     each_node([](auto& nodes, int n) { nodes.v_star[n] = nodes.v_free[n]; });
     std::fill(node_contact_work_.begin(), node_contact_work_.end(), 0.0);
   }
+  clock.enter(Stage::implicit_solve);
   over_node_blocks(s.keep_velocities, a);  // v_new = v_star, also where a solve fails
   if (settings_.is_implicit()) {
     solve_velocities(a, dt);
     for (std::size_t b = 0; b < traces.nodes.size(); ++b)
       std::copy_n(a.nodes + b * all_channels * block_nodes, block_nodes, traces.nodes[b].v_new);
   }
+  clock.enter(Stage::deformation);
   over_particle_blocks(s.gather, a);
   if (takes(Stage::deformation))
     deform(a);
   else
     std::fill(reports_.begin(), reports_.end(), BlockReport<Real>{});
+  clock.enter(Stage::particle_velocities);
   if (takes(Stage::particle_velocities)) over_particle_blocks(s.particle_velocities, a);
+  clock.enter(Stage::particle_collisions);
   if (takes(Stage::particle_collisions)) over_particle_blocks(s.particle_collisions, a);
+  clock.enter(Stage::advection);
   // It also finds speeds and lost particles: skipped, particles move by nothing.
   if (!takes(Stage::advection)) a.constants.dt_over_h = 0;
   over_particle_blocks(s.advection, a);
@@ -110,6 +155,7 @@ StagedStep Engine<Real>::staged_step(double dt) const {
   Traces traces;
   copy.take_stages(dt, traces);
   copy.read_back(traces, out);
+  out.seconds = traces.seconds;
   return out;
 }
 

@@ -206,11 +206,13 @@ bool is_live(std::string_view address) {
   return is_known;
 }
 
-bool concerns_simulation(std::string_view address) {
-  if (address.starts_with("collider.")) return !address.ends_with(".style");
-  for (const char* part : {"solver.", "material.", "body.", "emitter.", "sink."})
-    if (address.starts_with(part)) return true;
-  return address == "fps" || address == "seed";
+Concern concern_of(std::string_view address) {
+  if (address.starts_with("collider.") && address.ends_with(".style")) return Concern::pictures;
+  for (const char* part : {"solver.", "material.", "body.", "emitter.", "sink.", "collider."})
+    if (address.starts_with(part)) return Concern::simulation;
+  if (address == "fps" || address == "seed") return Concern::simulation;
+  if (address == "frames" || address.starts_with("limits.")) return Concern::run;
+  return Concern::pictures;
 }
 
 bool same_value(const std::optional<Value>& a, const std::optional<Value>& b) {

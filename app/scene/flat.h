@@ -37,8 +37,17 @@ std::vector<FlatParam> flatten(const Scene& scene);
 /// for addresses that no scene has.
 bool is_live(std::string_view address);
 
-/// Whether the simulation itself depends on it; otherwise only pictures do.
-bool concerns_simulation(std::string_view address);
+/// What depends on a parameter.
+enum class Concern {
+  simulation,  ///< every number of it
+  run,         ///< how far it goes, and whether it may: no number
+  pictures     ///< only what is drawn
+};
+Concern concern_of(std::string_view address);
+
+inline bool concerns_simulation(std::string_view address) {
+  return concern_of(address) == Concern::simulation;
+}
 
 /// What is at an address in two scenes; absent where one has none.
 struct Difference {

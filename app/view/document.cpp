@@ -74,11 +74,8 @@ std::size_t particle_count(const Scene& scene) {
 }  // namespace
 
 Effect effect_of(const std::string& address) {
-  for (const char* prefix : {"view.", "mosaic.", "camera.", "light.", "output."})
-    if (address.starts_with(prefix)) return Effect::display;
-  if (address == "title" || address.ends_with(".style")) return Effect::display;
-  const std::optional<ParamInfo> info = param_at(address);
-  return info && info->is_live ? Effect::live : Effect::restart;
+  if (concern_of(address) == Concern::pictures) return Effect::display;
+  return is_live(address) ? Effect::live : Effect::restart;
 }
 
 Document::Document(std::string file, std::string text, std::vector<Override> overrides,

@@ -43,6 +43,7 @@ struct StageLook {
   bool is_of_nodes = false;
   std::size_t rows = 0, feathers = 0;
   std::vector<QuantitySummary> quantities;
+  std::array<double, sim::stage_names.size()> seconds{};  ///< of every stage of the step
 };
 
 /// What is read out: a particle by its id, or the node that is nearest to a place.

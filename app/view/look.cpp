@@ -66,6 +66,7 @@ StageLook stage_look(const Inside& inside, sim::Stage stage) {
   look.is_of_nodes = listing.is_of_nodes;
   look.rows = listing.place.size();
   look.feathers = listing.feathers();
+  look.seconds = inside.step.seconds;
   for (const Quantity& quantity : listing.quantities)
     if (quantity.name != "node" && quantity.name != "id")  // which they are
       look.quantities.push_back(summary_of(listing, quantity));

@@ -1,12 +1,13 @@
 /// Messages and incidents, the time line of kept frames, help.
 
-#include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 
 #include "app/incident.h"
 #include "app/text.h"
 #include "app/view/labels.h"
+#include "app/view/tip.h"
 #include "app/view/viewer_state.h"
 
 namespace neve::app {
@@ -98,13 +99,22 @@ void draw_time_line(ViewerState& state) {
     }
   }
   note_label(state.is_playing ? "Stop" : "Play");
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("kept frames, one after the other, without simulating");
+  tip("kept frames, one after the other, without simulating");
   ImGui::SameLine();
-  const float right = live.is_older ? 18.5f * em() : 11 * em();
+  // Beside the bar, where the grab cannot cover it, and as wide for every frame.
+  ImGui::AlignTextToFramePadding();
+  ImGui::Text("frame %d", live.frame);
+  ImGui::SameLine(ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x +
+                  ImGui::CalcTextSize(("frame " + std::to_string(last)).c_str()).x + 0.6f * em());
+  const bool is_short = ImGui::GetContentRegionAvail().x < 26 * em();
+  const float right = live.is_older ? (is_short ? 9 : 18.5f) * em() : 11 * em();
   ImGui::SetNextItemWidth(std::max(4 * em(), ImGui::GetContentRegionAvail().x - right));
   int frame = live.frame;
-  if (ImGui::SliderInt("##time", &frame, 0, last, "frame %d")) {
+  const bool is_typed = ImGui::TempInputIsActive(ImGui::GetID("##time"));
+  if (!is_typed) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_BLACK_TRANS);
+  const bool is_moved = ImGui::SliderInt("##time", &frame, 0, last);
+  if (!is_typed) ImGui::PopStyleColor();
+  if (is_moved) {
     state.is_playing = false;
     show_frame(state, std::clamp(frame, 0, live.head));
   }
@@ -112,20 +122,17 @@ void draw_time_line(ViewerState& state) {
   draw_ticks(live, last);
   ImGui::SameLine();
   if (live.is_older) {
-    if (ImGui::Button("Go on from here")) state.bench.continue_from_here();
+    if (ImGui::Button(is_short ? "Go on" : "Go on from here")) state.bench.continue_from_here();
     note_label("Go on from here");
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip(
-          "simulate from this frame with the values as they are now;\nwhat came "
-          "after it is forgotten");
+    tip("simulate from this frame with the values as they are now;\nwhat came after it is "
+        "forgotten");
     ImGui::SameLine();
-    if (ImGui::Button("Back to the run")) state.bench.session().show_head();
+    if (ImGui::Button(is_short ? "Back" : "Back to the run")) state.bench.session().show_head();
     note_label("Back to the run");
+    tip("the newest frame");
   } else {
     ImGui::TextDisabled("%zu kept, %s", live.kept.size(), bytes_text(live.kept_bytes).c_str());
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("up to %s; then older ones are thinned out",
-                        bytes_text(live.kept_budget).c_str());
+    tip(("up to " + bytes_text(live.kept_budget) + "; then older ones are thinned out").c_str());
   }
 }
 

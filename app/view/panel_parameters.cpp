@@ -7,7 +7,9 @@
 
 #include "app/attributes.h"
 #include "app/round_number.h"
+#include "app/text.h"
 #include "app/view/labels.h"
+#include "app/view/tip.h"
 #include "app/view/viewer_state.h"
 #include "app/view/widgets.h"
 
@@ -90,6 +92,12 @@ void draw_parameters(ViewerState& state) {
   KnobPanel panel(state.filter, changed_addresses(state.bench.document()));
   Knobs knobs(panel, "");
   describe(knobs, scene);
+  if (!panel.has_shown()) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextDisabled("Nothing here has \"%s\" in its name or its sentence.",
+                        state.filter.c_str());
+    ImGui::PopTextWrapPos();
+  }
   ImGui::EndChild();
   take_edits(state, panel);
 }
@@ -111,7 +119,7 @@ void draw_changes(ViewerState& state) {
   for (const ChangedValue& change : changes) {
     ImGui::PushID(change.address.c_str());
     if (ImGui::SmallButton("x")) state.bench.forget(change.address);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to what the file says");
+    tip("back to what the file says");
     ImGui::SameLine();
     ImGui::TextUnformatted(change.address.c_str());
     ImGui::Indent(1.6f * em());
@@ -132,10 +140,10 @@ void draw_objects(ViewerState& state) {
     if (ImGui::Selectable(address.c_str(), is_selected))
       state.selected = is_selected ? "" : address;
     note_label(address.c_str());
-    if (ImGui::IsItemHovered()) {
+    if (wants_tip()) {
       const sim::Vec3d place = sim::center(shape);
-      ImGui::SetTooltip("at %.3g, %.3g, %.3g m; drag its arrows in the picture", place.x(),
-                        place.y(), place.z());
+      show_tip({{"at " + rough_text(place.x()) + ", " + rough_text(place.y()) + ", " +
+                 rough_text(place.z()) + " m; drag its arrows in the picture"}});
     }
   };
   for (const sim::Body& body : scene.bodies) entry("body." + body.name, body.shape);
@@ -173,7 +181,7 @@ void draw_view_panel(ViewerState& state) {
     const bool is_current = view.name == state.view;
     if (ImGui::RadioButton(view.name.c_str(), is_current)) choose_view(state, view.name);
     note_label(("view " + view.name).c_str());
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("key %d", number);
+    tip(("key " + std::to_string(number)).c_str());
     ++number;
   }
   if (ImGui::Button("Frame all")) frame_all(state);
@@ -186,10 +194,8 @@ void draw_view_panel(ViewerState& state) {
     ImGui::SameLine();
     if (ImGui::Button("Fit the range")) fit_range(state, current_view(state));
     note_label("Fit the range");
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip(
-          "colours from the least to the greatest value of the selected body,\nor of "
-          "all snow, at this moment");
+    tip("colours from the least to the greatest value of the selected body,\nor of all snow, at "
+        "this moment");
   }
   ImGui::Separator();
   ImGui::BeginChild("view");

@@ -12,6 +12,7 @@
 #include "app/text.h"
 #include "app/view/labels.h"
 #include "app/view/viewer_state.h"
+#include "render/ticks.h"
 
 namespace neve::app {
 
@@ -41,12 +42,28 @@ ImU32 limit_color(sim::DtLimit limit) {
   return IM_COL32_WHITE;
 }
 
-/// A panel with its frame, its title above it, and the range of its axis inside.
+/// Names of curves in their colours.
+using Legend = std::vector<std::pair<std::string, ImU32>>;
+
+/// On the line of the title where there is room.
+void draw_legend(const Legend& names) {
+  for (const auto& [name, color] : names) {
+    const float width = ImGui::CalcTextSize(name.c_str()).x + em();
+    if (ImGui::GetItemRectMax().x + width < ImGui::GetWindowPos().x + ImGui::GetWindowWidth())
+      ImGui::SameLine(0, em());
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(color), "%s", name.c_str());
+  }
+}
+
+/// A panel with its frame, title and legend above it, the range of its axis inside and the time
+/// below it.
 class Chart {
  public:
-  Chart(const std::string& title, const std::string& unit, double t_end, double low, double high)
+  Chart(const std::string& title, const std::string& unit, double t_end, double low, double high,
+        const Legend& legend)
       : t_end_(std::max(t_end, 1e-9)), low_(low), high_(high > low ? high : low + 1) {
     ImGui::TextUnformatted((title + (unit.empty() ? "" : " (" + unit + ")")).c_str());
+    draw_legend(legend);
     const ImVec2 size(ImGui::GetContentRegionAvail().x, 5.2f * em());
     at_ = ImGui::GetCursorScreenPos();
     to_ = ImVec2(at_.x + size.x, at_.y + size.y);
@@ -55,7 +72,8 @@ class Chart {
     // At the right: the run comes there last.
     label(rough_text(high_), at_.y + 1);
     label(rough_text(low_), to_.y - em() - 2);
-    ImGui::Dummy(size);
+    draw_time_axis();
+    ImGui::Dummy(ImVec2(size.x, size.y + 1.1f * em()));
     note_label(title.c_str());
   }
 
@@ -87,19 +105,23 @@ class Chart {
     list_->AddText(ImVec2(to_.x - width - 4, y), IM_COL32(150, 160, 175, 200), text.c_str());
   }
 
+  void draw_time_axis() const {
+    const int most = std::clamp(static_cast<int>((to_.x - at_.x) / (4 * em())), 1, 6);
+    const std::vector<render::Tick> ticks = render::nice_ticks(0, t_end_, most);
+    for (const render::Tick& tick : ticks) {
+      const float x = at(tick.value, low_).x;
+      list_->AddLine(ImVec2(x, at_.y), ImVec2(x, to_.y), IM_COL32(255, 255, 255, 22));
+      const std::string text = tick.label + (&tick == &ticks.back() ? " s" : "");
+      const float width = ImGui::CalcTextSize(text.c_str()).x;
+      const float left = std::clamp(x - 0.5f * width, at_.x, std::max(at_.x, to_.x - width));
+      list_->AddText(ImVec2(left, to_.y), IM_COL32(150, 160, 175, 200), text.c_str());
+    }
+  }
+
   ImVec2 at_, to_;
   ImDrawList* list_;
   double t_end_, low_, high_;
 };
-
-void draw_legend(const std::vector<std::pair<std::string, ImU32>>& names) {
-  bool is_first = true;
-  for (const auto& [name, color] : names) {
-    if (!is_first) ImGui::SameLine(0, em());
-    is_first = false;
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(color), "%s", name.c_str());
-  }
-}
 
 void draw_curves(const ViewerState& state, const char* title, const char* unit,
                  const std::vector<Curve>& curves) {
@@ -113,30 +135,29 @@ void draw_curves(const ViewerState& state, const char* title, const char* unit,
       high = std::max(high, value);
     }
   const Scene& scene = *state.live->scene;
-  const Chart chart(title, unit, scene.frames / scene.fps, low, high);
+  Legend legend;
+  if (curves.size() > 1)
+    for (const Curve& curve : curves) legend.emplace_back(curve.name, curve.color);
+  const Chart chart(title, unit, scene.frames / scene.fps, low, high, legend);
   for (const Curve& curve : curves) chart.curve(samples, curve);
   chart.now(state.live->snapshot.time);
-  std::vector<std::pair<std::string, ImU32>> names;
-  for (const Curve& curve : curves) names.emplace_back(curve.name, curve.color);
-  if (curves.size() > 1) draw_legend(names);
 }
 
 void draw_dt(const ViewerState& state) {
   const std::vector<RunSample>& samples = *state.live->samples;
   double high = 0;
-  std::vector<std::pair<std::string, ImU32>> names;
+  Legend legend;
   for (const RunSample& sample : samples) {
     high = std::max(high, sample.dt);
     const std::pair<std::string, ImU32> name{sim::name(sample.limit), limit_color(sample.limit)};
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (std::find(legend.begin(), legend.end(), name) == legend.end()) legend.push_back(name);
   }
   const Scene& scene = *state.live->scene;
-  const Chart chart("time step", "s", scene.frames / scene.fps, 0, high);
+  const Chart chart("time step", "s", scene.frames / scene.fps, 0, high, legend);
   for (std::size_t k = 1; k < samples.size(); ++k)
     chart.segment(chart.at(samples[k - 1].time, samples[k - 1].dt),
                   chart.at(samples[k].time, samples[k].dt), limit_color(samples[k].limit));
   chart.now(state.live->snapshot.time);
-  draw_legend(names);
 }
 
 void draw_phases(const LiveFrame& live) {

@@ -5,20 +5,21 @@
 #include "app/output/run_json.h"
 #include "app/text.h"
 #include "app/view/labels.h"
+#include "app/view/tip.h"
 #include "app/view/viewer_state.h"
 
 namespace neve::app {
 
 namespace {
 
-bool button(const char* label, const char* tip, bool is_enabled = true, bool is_marked = false) {
+bool button(const char* label, const char* what, bool is_enabled = true, bool is_marked = false) {
   if (!is_enabled) ImGui::BeginDisabled();
   if (is_marked) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.16f, 0.46f, 0.78f, 1));
   const bool is_pressed = ImGui::Button(label);
   if (is_marked) ImGui::PopStyleColor();
   if (!is_enabled) ImGui::EndDisabled();
   note_label(label);
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", tip);
+  tip(what);
   ImGui::SameLine();
   return is_pressed && is_enabled;
 }
@@ -54,12 +55,18 @@ void draw_out_menu(ViewerState& state) {
   ImGui::EndPopup();
 }
 
-/// "frame 12 of 48   t = 0.512 s   step 812   0.21 x real time"
-std::string status_text(const LiveFrame& live) {
-  std::string text =
-      "frame " + std::to_string(live.frame) + " of " + std::to_string(live.scene->frames) +
-      "   t = " + fixed_text(live.snapshot.time, 4) + " s   step " + std::to_string(live.steps);
-  if (live.is_running && live.speed > 0) text += "   " + rough_text(live.speed) + " x real time";
+/// "frame 12 of 48   t = 0.512 s   step 812   0.21 x real time", or as much of it as there is room
+/// for.
+std::string status_text(const LiveFrame& live, float room) {
+  std::string text;
+  const auto add = [&](const std::string& more) {
+    const std::string longer = text + (text.empty() ? "" : "   ") + more;
+    if (ImGui::CalcTextSize(longer.c_str()).x <= room) text = longer;
+  };
+  add("frame " + std::to_string(live.frame) + " of " + std::to_string(live.scene->frames));
+  add("t = " + fixed_text(live.snapshot.time, 4) + " s");
+  if (live.is_running && live.speed > 0) add(rough_text(live.speed) + " x real time");
+  add("step " + std::to_string(live.steps));
   return text;
 }
 
@@ -101,9 +108,15 @@ void draw_transport(ViewerState& state) {
   gap();
   draw_out_menu(state);
   if (button("?", "keys and mouse")) state.is_help_open = !state.is_help_open;
+  PanelSwitches& panels = state.panels;
+  if (panels.is_one_of_two() &&
+      button(panels.prefers_right ? "Parameters" : "View",
+             panels.prefers_right ? "parameters, objects and changes in the column"
+                                  : "view, inspection, plots and messages in the column"))
+    panels.prefers_right = !panels.prefers_right;
   gap();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(status_text(live).c_str());
+  ImGui::TextUnformatted(status_text(live, ImGui::GetContentRegionAvail().x).c_str());
   if (state.is_recording) {
     ImGui::SameLine();
     ImGui::TextColored(ImVec4(1, 0.35f, 0.3f, 1), "recording: %d", state.recorded);

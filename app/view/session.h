@@ -41,6 +41,8 @@ class Session {
   /// Does the next stage of a step on a copy, and shows what it left; after the last one the step
   /// is taken.
   void next_stage();
+  /// The same up to the end of this stage, wherever it is.
+  void show_stage(sim::Stage stage);
 
   /// Starts anew. On an error the old simulation goes on.
   void reset(std::shared_ptr<const Scene> scene);

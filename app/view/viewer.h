@@ -1,12 +1,12 @@
 #pragma once
 /// The loop of `neve view`: input, panels, pictures.
 
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/clock.h"
 #include "app/output/picture_writer.h"
 #include "app/view/front.h"
 #include "app/view/imgui_input.h"
@@ -34,8 +34,6 @@ class Viewer {
   ViewerState& state() { return state_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   void take_events(std::vector<InputEvent> events);
   void take_drop(const std::string& file);
   void take_live_frame();
@@ -46,6 +44,7 @@ class Viewer {
   View shown_view() const;
   render::Frame picture_frame(const PictureSize& size);
   void keep_points(render::Points points);
+  int font_size() const;  ///< px
   void lay_out();
   void draw_panels();
   void play(double seconds);

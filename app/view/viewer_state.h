@@ -25,6 +25,19 @@ struct ProbeTrace {
 /// Which columns stand beside the picture.
 struct PanelSwitches {
   bool left = true, right = true;
+  bool is_narrow = false;      ///< there is room for one
+  bool prefers_right = false;  ///< of both this one
+
+  bool is_one_of_two() const { return is_narrow && left && right; }
+  bool shows_left() const { return left && !(is_one_of_two() && prefers_right); }
+  bool shows_right() const { return right && !(is_one_of_two() && !prefers_right); }
+};
+
+/// A few words at a place of the picture, for a moment.
+struct Hint {
+  std::string text;
+  float x = 0, y = 0;  ///< px
+  double seconds = 0;  ///< that it stays
 };
 
 struct ViewerState {
@@ -54,9 +67,10 @@ struct ViewerState {
   std::optional<std::size_t> go_to_tab{};  ///< opens this one
   std::uint64_t errors_seen = 0;
   bool is_divergence_told = false;
-  bool is_reload_offered = false;  ///< the scene file was changed by another program
-  std::string dropped_file{};      ///< that somebody wants to look at instead
-  bool shows_incident = false;     ///< rings around the culprits
+  bool is_reload_offered = false;     ///< the scene file was changed by another program
+  std::optional<Document> dropped{};  ///< that somebody wants to look at instead
+  Hint hint{};
+  bool shows_incident = false;  ///< rings around the culprits
 
   double frames_per_second = 0;  ///< of the pictures
   double picture_ms = 0;

@@ -167,11 +167,11 @@ void WebFront::send_picture(std::unique_lock<std::mutex>& lock, bool is_sharp) {
   server_.send(to, Opcode::binary, page_picture(number, bytes));
 }
 
-void WebFront::show_image(const render::Image& image) {
+void WebFront::show_image(render::Image image) {
   std::unique_lock lock(mutex_);
   is_wanted_ = false;
   if (!shows_same(image, image_)) {
-    image_ = image;
+    image_ = std::move(image);
     sent_ = Sent::nothing;
   }
   send_what_is_due(lock);

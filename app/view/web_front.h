@@ -64,7 +64,7 @@ class WebFront final : public Front, private WebListener {
 
   /// Shows a picture; of several that have to wait only the newest is ever sent. While nothing
   /// changes it is sent once more in full quality, by wait().
-  void show_image(const render::Image& image);
+  void show_image(render::Image image);
 
   void set_cursor(Cursor cursor);
   /// Of the page: the browser's tab has it.

@@ -1,6 +1,10 @@
 #pragma once
 /// Serves one page and one web socket to one viewer. A thread of its own does all reading and
 /// writing; nothing that comes over the network can make anybody else wait.
+///
+/// Why not a library: libcivetweb 1.15 takes memory for whatever length a frame announces, up to
+/// 2 GiB, waits for ever for the rest of a frame, and accepts frames that are not masked without
+/// telling. Here every byte and every second is bounded, and a page that sends too much waits.
 
 #include <atomic>
 #include <cstdint>

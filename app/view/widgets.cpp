@@ -11,6 +11,7 @@
 
 #include "app/text.h"
 #include "app/view/labels.h"
+#include "app/view/slider_scale.h"
 
 namespace neve::app {
 
@@ -18,23 +19,11 @@ namespace {
 
 const ImVec4 changed_color{1.0f, 0.72f, 0.35f, 1.0f};
 /// Share of a row that the widget takes; its name takes the rest.
-constexpr float widget_share = 0.52f;
+constexpr float widget_share = 0.48f;
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
-}
-
-double open_min(const Valid& valid) {
-  return valid.is_min_open ? std::nextafter(valid.min, HUGE_VAL) : valid.min;
-}
-
-double open_max(const Valid& valid) {
-  return valid.is_max_open ? std::nextafter(valid.max, -HUGE_VAL) : valid.max;
-}
-
-bool has_bounds(const Valid& valid, double widest) {
-  return std::isfinite(valid.min) && std::isfinite(valid.max) && valid.max - valid.min <= widest;
 }
 
 /// A pixel of dragging changes a value by this much.
@@ -66,9 +55,25 @@ bool settle(const Knob& knob, const T& before, T& value) {
   return !(value == before);
 }
 
+/// A turning arrow: what stands beside it waits for Reset.
+void draw_reset_mark() {
+  const float size = ImGui::GetFontSize(), r = 0.30f * size;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 middle(at.x + 0.4f * size, at.y + 0.5f * ImGui::GetFrameHeight());
+  const ImU32 color = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PathArcTo(middle, r, -0.6f, 4.2f, 16);
+  list.PathStroke(color, 0, 0.1f * size);
+  const ImVec2 tip_at(middle.x + r * std::cos(-0.6f), middle.y + r * std::sin(-0.6f));
+  const float a = 0.26f * size;
+  list.AddTriangleFilled(ImVec2(tip_at.x - a, tip_at.y), ImVec2(tip_at.x + 0.6f * a, tip_at.y),
+                         ImVec2(tip_at.x, tip_at.y - 1.1f * a), color);
+  ImGui::Dummy(ImVec2(0.8f * size, ImGui::GetFrameHeight()));
+}
+
 double clamped(double value, const Valid& valid) {
-  if (!std::isfinite(value)) return std::isfinite(valid.min) ? open_min(valid) : 0.0;
-  return std::clamp(value, open_min(valid), open_max(valid));
+  if (!std::isfinite(value)) return std::isfinite(valid.min) ? least(valid) : 0.0;
+  return std::clamp(value, least(valid), greatest(valid));
 }
 
 }  // namespace
@@ -80,12 +85,17 @@ bool edit_value(const Knob&, bool& value) {
 bool edit_value(const Knob& knob, double& value) {
   const double before = value;
   const std::string format = format_of(knob.unit);
-  const double low = open_min(knob.valid), high = open_max(knob.valid);
-  if (has_bounds(knob.valid, 10))
-    ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format.c_str());
-  else
+  const SliderScale scale = slider_scale(knob.valid, usual_number(knob.address), value);
+  if (scale.kind == SliderScale::Kind::drag) {
+    const double low = least(knob.valid), high = greatest(knob.valid);
     ImGui::DragScalar("##value", ImGuiDataType_Double, &value, speed_of(value), &low, &high,
                       format.c_str());
+  } else {
+    const bool is_log = scale.kind == SliderScale::Kind::logarithmic;
+    ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &scale.low, &scale.high,
+                        format.c_str(), is_log ? ImGuiSliderFlags_Logarithmic : 0);
+    if (scale.is_zero_at_low && value == scale.low && value != before) value = 0;
+  }
   value = clamped(value, knob.valid);
   return settle(knob, before, value);
 }
@@ -124,7 +134,7 @@ bool edit_value(const Knob&, std::string& value) {
 
 bool edit_value(const Knob& knob, sim::Vec3d& value) {
   const sim::Vec3d before = value;
-  const double low = open_min(knob.valid), high = open_max(knob.valid);
+  const double low = least(knob.valid), high = greatest(knob.valid);
   double numbers[3] = {value.x(), value.y(), value.z()};
   ImGui::DragScalarN("##value", ImGuiDataType_Double, numbers, 3,
                      std::max(0.002f, speed_of(value.cwiseAbs().maxCoeff())), &low, &high, "%.4g");
@@ -208,9 +218,20 @@ bool KnobPanel::has_changes_below(const std::string& prefix) const {
                      [&](const std::string& address) { return address.starts_with(prefix + "."); });
 }
 
-void KnobPanel::begin(const Knob& knob) const {
+void KnobPanel::begin(const Knob& knob) {
+  for (const std::string& title : titles_) ImGui::TextDisabled("%s", title.c_str());
+  titles_.clear();
+  has_shown_ = true;
   ImGui::PushID(knob.address.c_str());
   ImGui::SetNextItemWidth(widget_share * ImGui::GetContentRegionAvail().x);
+}
+
+void KnobPanel::open_title(const std::string& title) {
+  titles_.push_back(title);
+}
+
+void KnobPanel::close_title() {
+  if (!titles_.empty()) titles_.pop_back();
 }
 
 void KnobPanel::end(const Knob& knob, const std::string& value) {
@@ -228,32 +249,29 @@ void KnobPanel::end(const Knob& knob, const std::string& value) {
     menu("Copy the address", Edit::Kind::copy_address);
     ImGui::EndPopup();
   };
-  const auto tooltip = [&] {
-    if (!ImGui::IsItemHovered()) return;
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(26 * ImGui::GetFontSize());
-    ImGui::TextUnformatted(knob.address.c_str());
-    ImGui::TextUnformatted(knob.help);
+  const auto explain = [&] {
+    if (!wants_tip()) return;
+    std::vector<TipLine> lines{{knob.address}, {knob.help}};
     const std::string bounds = knob.valid.text_of_bounds();
-    if (!bounds.empty()) ImGui::TextDisabled("%s %s", bounds.c_str(), knob.unit);
-    ImGui::TextDisabled("%s",
-                        knob.is_live ? "live: from the next step on" : "takes effect with Reset");
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
+    if (!bounds.empty()) lines.push_back({bounds + " " + knob.unit, true});
+    lines.push_back(
+        {knob.is_live ? "live: from the next step on" : "takes effect with Reset", true});
+    show_tip(lines);
   };
   context("menu");
-  tooltip();
+  explain();
   ImGui::SameLine(0, 0.5f * ImGui::GetFontSize());
+  if (!knob.is_live) {
+    draw_reset_mark();
+    explain();
+    ImGui::SameLine(0, 0.3f * ImGui::GetFontSize());
+  }
   if (is_changed(knob.address))
     ImGui::TextColored(changed_color, "%s", knob.label.c_str());
   else
     ImGui::TextUnformatted(knob.label.c_str());
   context("label menu");
-  tooltip();
-  if (!knob.is_live) {
-    ImGui::SameLine(0, 0.4f * ImGui::GetFontSize());
-    ImGui::TextDisabled("(reset)");
-  }
+  explain();
   ImGui::PopID();
 }
 
@@ -263,9 +281,9 @@ std::uint64_t KnobPanel::gesture() const {
 
 bool Knobs::open(const std::string& address, const std::string& title, const char* help) {
   ImGui::PushID(address.c_str());
-  // With a filter everything is open: what does not match shows nothing.
+  // With a filter everything is open, and the title waits for something that matches.
   if (panel_.is_filtered()) {
-    ImGui::TextDisabled("%s", title.c_str());
+    panel_.open_title(title);
     return true;
   }
   const bool is_changed = panel_.has_changes_below(address);
@@ -275,13 +293,16 @@ bool Knobs::open(const std::string& address, const std::string& title, const cha
   const bool is_open = ImGui::TreeNode(title.c_str());
   if (is_changed) ImGui::PopStyleColor();
   note_label(address.c_str());
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  tip(help);
   if (!is_open) ImGui::PopID();
   return is_open;
 }
 
 void Knobs::close() {
-  if (!panel_.is_filtered()) ImGui::TreePop();
+  if (panel_.is_filtered())
+    panel_.close_title();
+  else
+    ImGui::TreePop();
   ImGui::PopID();
 }
 

@@ -11,6 +11,7 @@
 #include "app/scene/leaf.h"
 #include "app/scene/value.h"
 #include "app/view/edit.h"
+#include "app/view/tip.h"
 
 namespace neve::app {
 
@@ -72,11 +73,15 @@ class KnobPanel {
 
   bool shows(const std::string& address, const char* help) const;
   bool is_filtered() const { return !filter_.empty(); }
+  /// A title that is drawn with the first knob below it, or never.
+  void open_title(const std::string& title);
+  void close_title();
+  bool has_shown() const { return has_shown_; }  ///< a knob
   bool is_changed(const std::string& address) const;
   /// Whether something below this address differs from the file.
   bool has_changes_below(const std::string& prefix) const;
   /// Before and after the widget: id, label, tooltip, menu.
-  void begin(const Knob& knob) const;
+  void begin(const Knob& knob);
   void end(const Knob& knob, const std::string& value);
   void note(Edit edit) { edits_.push_back(std::move(edit)); }
   std::uint64_t gesture() const;
@@ -87,6 +92,8 @@ class KnobPanel {
   std::string filter_;
   std::vector<std::string> changed_;
   std::vector<Edit> edits_;
+  std::vector<std::string> titles_;  ///< that wait for a knob
+  bool has_shown_ = false;
 };
 
 /// Knows nothing of what is behind the addresses: a scene, or a part of one.
@@ -200,8 +207,7 @@ class Knobs {
     bool is_given = member.has_value();
     T value = member.value_or(T{});
     ImGui::Checkbox("##given", &is_given);
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s", is_given ? "given; untick: back to what the file says" : "automatic");
+    tip(is_given ? "given; untick: back to what the file says" : "automatic");
     ImGui::SameLine();
     bool is_set = false;
     if (is_given)

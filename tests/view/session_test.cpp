@@ -65,6 +65,32 @@ TEST(Session, LookingChangesNothing) {
   EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
 }
 
+TEST(Session, ShowsAnyStageOfAStepAndWhatEachTook) {
+  const auto scene = scene_of(tiny_scene);
+  Session session(scene, {}, {});
+  session.next_frame();
+  rest_at(session, 1);
+  session.show_stage(sim::Stage::deformation);
+  const auto inside = wait_for(session, [](const LiveFrame& live) {
+    return live.stage && live.stage->stage == sim::Stage::deformation;
+  });
+  using enum sim::Stage;
+  const auto seconds = [&](sim::Stage stage) {
+    return inside->stage->seconds[static_cast<std::size_t>(stage)];
+  };
+  double all = 0;
+  for (const double s : inside->stage->seconds) all += s;
+  for (const sim::Stage stage : {rasterize, elastic_forces, deformation, advection})
+    EXPECT_GT(seconds(stage), 0) << sim::name(stage);
+  EXPECT_EQ(seconds(colliders), 0);
+  EXPECT_LT(all, 10);  // s, of 300 particles: not a moment of some clock
+  session.show_stage(rasterize);
+  wait_for(session,
+           [](const LiveFrame& live) { return live.stage && live.stage->stage == rasterize; });
+  session.run();
+  EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
+}
+
 TEST(Session, GoesThroughAllStagesOfAStepAndTakesItThen) {
   Session session(scene_of(tiny_scene), {}, {});
   for (const char* const stage : sim::stage_names) {

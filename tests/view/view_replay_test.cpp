@@ -12,9 +12,12 @@ namespace {
 
 class ViewByScript : public Cli {
  protected:
-  app::ProcessResult view(const std::string& script) {
+  app::ProcessResult view(const std::string& script, const std::vector<std::string>& more = {}) {
     folder.write("clicks.json", script);
-    return neve({"view", "scene.toml", "--replay", "clicks.json", "--out", "out", "--quiet"});
+    std::vector<std::string> words{"view",  "scene.toml", "--replay", "clicks.json",
+                                   "--out", "out",        "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    return neve(words);
   }
 
   /// Files of the output folder whose names begin and end so.
@@ -64,9 +67,56 @@ TEST_F(ViewByScript, DroppedSceneTakesOverAndWhatIsNoneIsOnlyAMessage) {
   const auto result = view(R"([
     {"wait_for": "label body.ball"}, {"drop": "wrong.toml"}, {"wait": 10},
     {"click": "body.ball"}, {"wait": 5}, {"screenshot": "wrong.png"},
-    {"drop": "other.toml"}, {"wait_for": "label body.egg"}])");
+    {"drop": "other.toml"}, {"wait_for": "label body.egg"}, {"key": "p"}, {"wait": 5}])",
+                           {"--coarsen", "1.25", "--set", "material.snow.hardening=5"});
   SKIP_WITHOUT_GL(result);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
+  // As coarse as the first one; what was set was meant for that.
+  const std::vector<std::string> saved = files("particles_0000_step", ".png");
+  ASSERT_EQ(saved.size(), 1u);
+  const auto info = neve({"info", "out/" + saved[0], "--json"});
+  const app::Json json = app::parse_json(std::string_view(info.output));
+  EXPECT_EQ(json["coarsen"], 1.25);
+  EXPECT_TRUE(json["overrides"].empty()) << info.output;
+}
+
+TEST_F(ViewByScript, ANarrowWindowShowsOneColumnAtATime) {
+  const auto result = view(R"([
+    {"resize": [800, 600]}, {"wait": 3}, {"wait_for": "label Parameters"},
+    {"click": "View"}, {"wait_for": "label Inspect"}, {"screenshot": "right.png"},
+    {"click": "Parameters"}, {"wait_for": "label Objects"}, {"key": ";"},
+    {"wait_for": "label Probe"}, {"screenshot": "stage.png"},
+    {"resize": [640, 480]}, {"wait": 3}, {"click": "time line"}, {"click": "Parameters"},
+    {"resize": [1280, 760]}, {"wait_for": "label Objects"}, {"wait_for": "label Inspect"}])");
+  SKIP_WITHOUT_GL(result);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+}
+
+/// How many bytes of the pixels differ between two screenshots.
+std::size_t changed_bytes(const render::Image& a, const render::Image& b) {
+  EXPECT_EQ(a.pixels.size(), b.pixels.size());
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k < std::min(a.pixels.size(), b.pixels.size()); ++k)
+    changed += a.pixels[k] != b.pixels[k];
+  return changed;
+}
+
+TEST_F(ViewByScript, AClickBesideTheSnowIsAnsweredForAMoment) {
+  const auto result = view(R"([
+    {"wait": 20}, {"move": {"label": "picture", "part": [0.1, 0.9]}}, {"wait": 20},
+    {"screenshot": "before.png", "crop": "picture"},
+    {"click": {"label": "picture", "part": [0.1, 0.9]}}, {"wait": 3},
+    {"screenshot": "told.png", "crop": "picture"}, {"wait": 150},
+    {"screenshot": "after.png", "crop": "picture"}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto image = [&](const char* name) {
+    return render::decode_png(app::read_file(folder / "out" / name));
+  };
+  const render::Image before = image("before.png");
+  // A box of three words.
+  EXPECT_GT(changed_bytes(before, image("told.png")), 500u);
+  EXPECT_EQ(changed_bytes(before, image("after.png")), 0u);
 }
 
 TEST_F(ViewByScript, WhatCannotBeDoneEndsItWithStepAndReason) {

@@ -33,10 +33,12 @@ inline std::shared_ptr<const app::LiveFrame> rest_at(app::Session& session, int 
 }
 
 /// A workbench for a scene file in a folder.
-inline app::Workbench bench_for(const TemporaryFolder& folder, const std::string& text) {
+inline app::Workbench bench_for(const TemporaryFolder& folder, const std::string& text,
+                                double coarsening = 1) {
   app::WorkbenchOptions options;
   options.folder = folder / "out";
-  return app::Workbench(app::open_document(folder.write("scene.toml", text), {}, 1), options, {});
+  return app::Workbench(app::open_document(folder.write("scene.toml", text), {}, coarsening),
+                        options, {});
 }
 
 }  // namespace neve::test

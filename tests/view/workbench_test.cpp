@@ -4,6 +4,9 @@
 
 #include "app/changes.h"
 #include "app/scene/error.h"
+#include "app/scene/flat.h"
+#include "app/scene/params.h"
+#include "app/scene/presets.h"
 #include "app/scene/read.h"
 #include "app/seed_scene.h"
 #include "app/sweep/read_sweep.h"
@@ -29,6 +32,24 @@ std::uint64_t hash_of_replay(const PictureRecord& record) {
     player.advance_to(frame / start.fps, nullptr, retries);
   return simulation.state_hash();
 }
+
+/// A workbench with the run of a scene on it.
+struct Working {
+  explicit Working(const std::string& text = tiny_scene, double coarsening = 1)
+      : bench(bench_for(folder, text, coarsening)) {}
+
+  Session& session() { return bench.session(); }
+  void go_to(int frame) {
+    session().next_frame();
+    rest_at(session(), frame);
+  }
+  PictureRecord picture(const LiveFrame& live) {
+    return bench.picture_record(live, live.scene->views.front());
+  }
+
+  const TemporaryFolder folder;
+  Workbench bench;
+};
 
 TEST(Document, TakesBackAndDoesAgain) {
   Document document("scene.toml", tiny_scene, {}, 1);
@@ -75,20 +96,33 @@ TEST(Document, KeepsTheCameraWhileKnobsAreTurned) {
   EXPECT_EQ(*document.scene()->camera->eye, eye);
 }
 
+// What a change waits for and what a picture lists of it come from one list of concerns.
+TEST(Document, KnowsWhatEveryParameterConcerns) {
+  for (const ParamInfo& info : params()) {
+    const bool is_drawn = concern_of(info.address) == Concern::pictures;
+    EXPECT_EQ(effect_of(info.address) == Effect::display, is_drawn) << info.address;
+    if (!is_drawn && info.address.find('[') == std::string::npos) {
+      EXPECT_EQ(effect_of(info.address) == Effect::live, info.is_live) << info.address;
+    }
+  }
+  EXPECT_EQ(effect_of("frames"), Effect::live);
+  EXPECT_FALSE(concerns_simulation("frames"));
+  EXPECT_EQ(effect_of("limits.particles"), Effect::restart);
+  EXPECT_FALSE(concerns_simulation("limits.particles"));
+}
+
 TEST(Workbench, ChangesAreReplayedToTheBit) {
-  const TemporaryFolder folder;
-  Workbench bench = bench_for(folder, tiny_scene);
-  Session& session = bench.session();
-  session.next_frame();
-  rest_at(session, 1);
-  bench.set("material.snow.youngs_modulus", "30000");
-  session.next_step();
-  wait_for(session, [](const LiveFrame& live) { return !live.is_running && !live.is_frame_end; });
-  bench.set("solver.gravity", "[2, -9.81, 0]");
-  bench.set("material.snow.youngs_modulus", "50000");
-  session.run();
-  const auto live = rest_at(session, 4);
-  const PictureRecord record = bench.picture_record(*live, live->scene->views.front());
+  Working work;
+  work.go_to(1);
+  work.bench.set("material.snow.youngs_modulus", "30000");
+  work.session().next_step();
+  wait_for(work.session(),
+           [](const LiveFrame& live) { return !live.is_running && !live.is_frame_end; });
+  work.bench.set("solver.gravity", "[2, -9.81, 0]");
+  work.bench.set("material.snow.youngs_modulus", "50000");
+  work.session().run();
+  const auto live = rest_at(work.session(), 4);
+  const PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 3u);
   EXPECT_DOUBLE_EQ(read_scene_text(record.scene, "record").materials[0].youngs_modulus, 1.4e5);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
@@ -96,26 +130,21 @@ TEST(Workbench, ChangesAreReplayedToTheBit) {
 
 /// What was taken back or left behind is no part of the run any more; what it is continued with is.
 TEST(Workbench, ARunContinuedFromAnOlderFrameIsReplayedToTheBit) {
-  const TemporaryFolder folder;
-  Workbench bench = bench_for(folder, tiny_scene);
-  Session& session = bench.session();
-  session.next_frame();
-  rest_at(session, 1);
-  bench.set("material.snow.youngs_modulus", "30000");
-  session.next_frame();
-  rest_at(session, 2);
-  bench.set("collider.floor.shape.plane.point", "[0, 0.01, 0]");
-  session.next_frame();
-  rest_at(session, 3);
-  bench.undo();
-  bench.undo();
-  bench.set("solver.gravity", "[2, -9.81, 0]");
-  session.show_frame(2);
-  wait_for(session, [](const LiveFrame& live) { return live.is_older && live.frame == 2; });
-  bench.continue_from_here();
-  session.run();
-  const auto live = rest_at(session, 4);
-  const PictureRecord record = bench.picture_record(*live, live->scene->views.front());
+  Working work;
+  work.go_to(1);
+  work.bench.set("material.snow.youngs_modulus", "30000");
+  work.go_to(2);
+  work.bench.set("collider.floor.shape.plane.point", "[0, 0.01, 0]");
+  work.go_to(3);
+  work.bench.undo();
+  work.bench.undo();
+  work.bench.set("solver.gravity", "[2, -9.81, 0]");
+  work.session().show_frame(2);
+  wait_for(work.session(), [](const LiveFrame& live) { return live.is_older && live.frame == 2; });
+  work.bench.continue_from_here();
+  work.session().run();
+  const auto live = rest_at(work.session(), 4);
+  const PictureRecord record = work.picture(*live);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
   const Scene last = with_changes({record.scene, "record", "", {}}, record.changes);
   EXPECT_DOUBLE_EQ(last.materials[0].youngs_modulus, 1.4e5);
@@ -124,20 +153,14 @@ TEST(Workbench, ARunContinuedFromAnOlderFrameIsReplayedToTheBit) {
 
 /// A coarsened scene has other values than were typed; pictures keep those that the run had.
 TEST(Workbench, ChangesOfACoarsenedRunAreReplayedToTheBit) {
-  const TemporaryFolder folder;
-  WorkbenchOptions options;
-  options.folder = folder / "out";
-  Workbench bench(open_document(folder.write("scene.toml", tiny_scene), {}, 1.5), options, {});
-  Session& session = bench.session();
-  session.next_frame();
-  rest_at(session, 1);
-  bench.set("solver.max_dt", "2e-4");
-  session.next_frame();
-  rest_at(session, 2);
-  bench.undo();
-  session.run();
-  const auto live = rest_at(session, 4);
-  const PictureRecord record = bench.picture_record(*live, live->scene->views.front());
+  Working work(tiny_scene, 1.5);
+  work.go_to(1);
+  work.bench.set("solver.max_dt", "2e-4");
+  work.go_to(2);
+  work.bench.undo();
+  work.session().run();
+  const auto live = rest_at(work.session(), 4);
+  const PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 2u);
   EXPECT_NEAR(std::stod(record.changes[0].value), 3e-4, 1e-15);
   EXPECT_NEAR(std::stod(record.changes[1].value), 1.5e-3, 1e-15);
@@ -146,19 +169,15 @@ TEST(Workbench, ChangesOfACoarsenedRunAreReplayedToTheBit) {
 
 /// A picture of a paused run shows what was changed at that very moment, and so does its replay.
 TEST(Workbench, APausedChangeBelongsToThePicture) {
-  const TemporaryFolder folder;
-  Workbench bench = bench_for(folder, tiny_scene);
-  Session& session = bench.session();
-  session.next_frame();
-  rest_at(session, 1);
-  bench.set("solver.transfer", "apic");
-  session.next_frame();
-  rest_at(session, 2);
-  bench.set("solver.transfer", "flip");
-  const auto live = wait_for(session, [](const LiveFrame& now) {
+  Working work;
+  work.go_to(1);
+  work.bench.set("solver.transfer", "apic");
+  work.go_to(2);
+  work.bench.set("solver.transfer", "flip");
+  const auto live = wait_for(work.session(), [](const LiveFrame& now) {
     return now.is_frame_end && now.scene->solver.transfer == sim::Transfer::flip;
   });
-  const PictureRecord record = bench.picture_record(*live, live->scene->views.front());
+  const PictureRecord record = work.picture(*live);
   EXPECT_EQ(record.changes.size(), 2u);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
 }
@@ -191,89 +210,80 @@ TEST(Document, KnowsTheNumbersOfAPresetInTheFile) {
 }
 
 TEST(Workbench, APresetChosenWhileItRunsIsReplayedToTheBit) {
-  const TemporaryFolder folder;
-  const std::string text = std::string(tiny_scene) + "[material.snow]\npreset = \"wet\"\n";
-  Workbench bench = bench_for(folder, text);
-  Session& session = bench.session();
-  session.next_frame();
-  rest_at(session, 1);
-  bench.set("material.snow.preset", "icy");
-  EXPECT_EQ(bench.waiting_for_reset(), (std::vector<std::string>{"material.snow.density"}));
-  session.next_frame();
-  rest_at(session, 2);
-  bench.forget("material.snow.hardening");  // back to that of "wet", not to the default
-  session.run();
-  const auto live = rest_at(session, 4);
+  Working work(std::string(tiny_scene) + "[material.snow]\npreset = \"wet\"\n");
+  work.go_to(1);
+  work.bench.set("material.snow.preset", "icy");
+  EXPECT_EQ(work.bench.waiting_for_reset(), (std::vector<std::string>{"material.snow.density"}));
+  work.go_to(2);
+  work.bench.forget("material.snow.hardening");  // back to that of "wet", not to the default
+  work.session().run();
+  const auto live = rest_at(work.session(), 4);
   EXPECT_DOUBLE_EQ(live->scene->materials[0].density, 500);
   EXPECT_DOUBLE_EQ(live->scene->materials[0].hardening, 5);
-  const PictureRecord record = bench.picture_record(*live, live->scene->views.front());
+  const PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 6u);
   EXPECT_EQ(preset_of(read_scene_text(record.scene, "record").materials[0]), Preset::wet);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
 }
 
 TEST(Workbench, WhatNeedsARestartWaitsForItUnlessNothingIsLost) {
-  const TemporaryFolder folder;
-  Workbench bench = bench_for(folder, tiny_scene);
-  Session& session = bench.session();
-  bench.set("body.ball.shape.sphere.radius", "0.1");
-  EXPECT_TRUE(bench.waiting_for_reset().empty());
-  const auto grown = wait_for(session, [](const LiveFrame& live) {
+  Working work;
+  work.bench.set("body.ball.shape.sphere.radius", "0.1");
+  EXPECT_TRUE(work.bench.waiting_for_reset().empty());
+  const auto grown = wait_for(work.session(), [](const LiveFrame& live) {
     return live.scene->bodies[0].shape.form.index() == 0 &&
            std::get<sim::Sphere>(live.scene->bodies[0].shape.form).radius > 0.09;
   });
-  session.next_frame();
-  const auto later = rest_at(session, 1);
+  work.session().next_frame();
+  const auto later = rest_at(work.session(), 1);
   EXPECT_EQ(later->snapshot.particles.x.size(), grown->snapshot.particles.x.size());
-  bench.set("material.snow.density", "200");
-  bench.set("material.snow.hardening", "5");
-  EXPECT_EQ(bench.waiting_for_reset(), (std::vector<std::string>{"material.snow.density"}));
-  const auto applied = wait_for(
-      session, [](const LiveFrame& live) { return live.scene->materials[0].hardening == 5; });
+  work.bench.set("material.snow.density", "200");
+  work.bench.set("material.snow.hardening", "5");
+  EXPECT_EQ(work.bench.waiting_for_reset(), (std::vector<std::string>{"material.snow.density"}));
+  const auto applied = wait_for(work.session(), [](const LiveFrame& live) {
+    return live.scene->materials[0].hardening == 5;
+  });
   EXPECT_EQ(applied->frame, 1);
   EXPECT_DOUBLE_EQ(applied->scene->materials[0].density, 400);
-  bench.reset();
-  const auto anew = wait_for(session, [](const LiveFrame& live) { return live.steps == 0; });
+  work.bench.reset();
+  const auto anew = wait_for(work.session(), [](const LiveFrame& live) { return live.steps == 0; });
   EXPECT_DOUBLE_EQ(anew->scene->materials[0].density, 200);
-  EXPECT_TRUE(bench.waiting_for_reset().empty());
+  EXPECT_TRUE(work.bench.waiting_for_reset().empty());
   EXPECT_TRUE(anew->snapshot.changes.empty());
 }
 
 TEST(Workbench, SavesTheSceneWithItsComments) {
-  const TemporaryFolder folder;
-  Workbench bench = bench_for(folder, "# mine\n" + std::string(tiny_scene) + "# the end\n");
-  bench.set("solver.cell_size", "0.05");
-  bench.save_scene(folder / "saved.toml");
-  const std::string text = read_text(folder / "saved.toml");
+  Working work("# mine\n" + std::string(tiny_scene) + "# the end\n");
+  work.bench.set("solver.cell_size", "0.05");
+  work.bench.save_scene(work.folder / "saved.toml");
+  const std::string text = read_text(work.folder / "saved.toml");
   EXPECT_TRUE(text.starts_with("# mine\n"));
   EXPECT_TRUE(text.ends_with("# the end\n"));
   EXPECT_DOUBLE_EQ(read_scene_text(text, "saved").solver.cell_size, 0.05);
-  EXPECT_EQ(bench.messages().back().kind, Message::Kind::note);
+  EXPECT_EQ(work.bench.messages().back().kind, Message::Kind::note);
 }
 
 TEST(Workbench, WritesASweepAroundAValue) {
-  const TemporaryFolder folder;
-  Workbench bench = bench_for(folder, tiny_scene);
-  bench.set("material.snow.hardening", "5");
-  const std::filesystem::path file = bench.sweep_around("material.snow.hardening");
-  ASSERT_TRUE(std::filesystem::exists(file)) << bench.messages().back().text;
+  Working work;
+  work.bench.set("material.snow.hardening", "5");
+  const std::filesystem::path file = work.bench.sweep_around("material.snow.hardening");
+  ASSERT_TRUE(std::filesystem::exists(file)) << work.bench.messages().back().text;
   EXPECT_TRUE(contains(read_text(file), "material.snow.hardening"));
 }
 
 TEST(Workbench, NoticesAChangedFile) {
-  const TemporaryFolder folder;
-  Workbench bench = bench_for(folder, tiny_scene);
-  EXPECT_FALSE(bench.has_file_changed());
+  Working work;
+  EXPECT_FALSE(work.bench.has_file_changed());
   std::string text = tiny_scene;
   text.replace(text.find("0.04"), 4, "0.05");
-  folder.write("scene.toml", text);
+  work.folder.write("scene.toml", text);
   std::filesystem::last_write_time(
-      folder / "scene.toml",
-      std::filesystem::last_write_time(folder / "scene.toml") + std::chrono::seconds(2));
-  EXPECT_TRUE(bench.has_file_changed());
-  bench.reload();
-  EXPECT_DOUBLE_EQ(bench.document().scene()->solver.cell_size, 0.05);
-  EXPECT_FALSE(bench.has_file_changed());
+      work.folder / "scene.toml",
+      std::filesystem::last_write_time(work.folder / "scene.toml") + std::chrono::seconds(2));
+  EXPECT_TRUE(work.bench.has_file_changed());
+  work.bench.reload();
+  EXPECT_DOUBLE_EQ(work.bench.document().scene()->solver.cell_size, 0.05);
+  EXPECT_FALSE(work.bench.has_file_changed());
 }
 
 TEST(Orbit, StartsWhereTheCameraIs) {

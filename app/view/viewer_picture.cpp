@@ -1,0 +1,141 @@
+/// The picture in the middle of the panels: what it shows, and when it is painted anew.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/camera_path.h"
+#include "app/clock.h"
+#include "app/frame_builder.h"
+#include "app/round_number.h"
+#include "app/scene/names.h"
+#include "app/view/viewer.h"
+
+namespace neve::app {
+
+namespace {
+
+constexpr double quick_enough = 1.0 / 30;  // s; a picture that takes longer is drawn smaller
+constexpr double still_after = 0.25;       // s without a move
+constexpr double smallest_scale = 0.45;
+
+/// Whether all that the view shows was worked out for this moment: a view that was just chosen has
+/// to wait for the session.
+bool has_all(const Snapshot& snapshot, const View& view) {
+  Scene scene;
+  scene.views = {view};
+  const FieldNeeds needs = field_needs(scene);
+  const auto& fields = snapshot.fields;
+  return (!needs.is_needed || fields.lattice) &&
+         (!needs_stress(scene) || !snapshot.kirchhoff.empty()) &&
+         std::all_of(needs.scalars.begin(), needs.scalars.end(),
+                     [&](ScalarField field) { return fields.scalars.contains(field); }) &&
+         std::all_of(needs.vectors.begin(), needs.vectors.end(),
+                     [&](VectorField field) { return fields.vectors.contains(field); });
+}
+
+/// Vertical angle of view of a picture that many times narrower, with the same left and right.
+double widened(double fov, double narrower) {
+  constexpr double radians = 3.14159265358979323846 / 180;
+  return 2 * std::atan(narrower * std::tan(0.5 * fov * radians)) / radians;
+}
+
+}  // namespace
+
+/// What the picture shows, from wherever it is seen.
+std::string Viewer::state_key() const {
+  char text[120];
+  std::snprintf(
+      text, sizeof text, "%p %llu %d ", static_cast<const void*>(bench_.document().scene().get()),
+      static_cast<unsigned long long>(state_.live->number), state_.shows_incident ? 1 : 0);
+  return text + state_.view;
+}
+
+/// Everything that the picture depends on.
+std::string Viewer::picture_key() const {
+  const sim::Vec3d eye = state_.orbit.eye(), target = state_.orbit.target();
+  char text[400];
+  std::snprintf(text, sizeof text, " %d %d %a %a %a %a %a %a %a %d", state_.viewport.width,
+                state_.viewport.height, eye.x(), eye.y(), eye.z(), target.x(), target.y(),
+                target.z(), state_.orbit.fov(), state_.is_camera_of_scene ? 1 : 0);
+  return state_key() + text;
+}
+
+void Viewer::paint_picture() {
+  if (state_.is_camera_of_scene) {
+    const Scene& scene = *state_.live->scene;
+    const View& view = current_view(state_);
+    const CameraSettings settings = view.camera ? *view.camera : *bench_.document().scene()->camera;
+    const CameraPlace place =
+        camera_at(settings, state_.live->snapshot.time, scene.frames / scene.fps);
+    const PictureSize framed = size_of(*bench_.document().scene(), view);
+    const double narrower = (static_cast<double>(framed.width) / framed.height) /
+                            (static_cast<double>(state_.viewport.width) / state_.viewport.height);
+    state_.orbit =
+        Orbit(place.eye, place.target, settings.up, widened(place.fov, std::max(1.0, narrower)));
+  }
+  const bool is_moving = seconds_since(moved_at_) < still_after;
+  double scale = 1;
+  if (is_moving && full_seconds_ > quick_enough)
+    scale = std::clamp(std::sqrt(quick_enough / full_seconds_), smallest_scale, 1.0);
+  const std::string key = picture_key();
+  if (key == painted_key_ && scale <= scale_) return;
+  if (!has_all(state_.live->snapshot, shown_view())) return;
+  const auto start = Clock::now();
+  const PictureSize size{
+      std::max(16, static_cast<int>(std::lround(scale * state_.viewport.width))),
+      std::max(16, static_cast<int>(std::lround(scale * state_.viewport.height)))};
+  render::Frame frame = picture_frame(size);
+  frame.font_size = std::max(8, static_cast<int>(std::lround(scale * font_size())));
+  renderer_.paint(frame);
+  keep_points(std::move(frame.points));
+  bench_.session().taken(state_.live->number);
+  if (scale >= 1) full_seconds_ = seconds_since(start);
+  scale_ = scale;
+  painted_number_ = state_.live->number;
+  painted_key_ = key;
+  if (state_.is_recording) record_frame();
+}
+
+/// The current view; inside a step its arrows are what the stage has just worked out.
+View Viewer::shown_view() const {
+  View view = current_view(state_);
+  const std::vector<View>& asked = state_.live->scene->views;
+  if (state_.live->stage && !asked.empty() && asked.front().name == view.name) {
+    view.slice.field = asked.front().slice.field;
+    // Forces differ by orders of magnitude from step to step: the longest arrow is the largest.
+    const std::string name =
+        view.slice.field == VectorField::velocity ? "v_old" : name_of(view.slice.field);
+    view.slice.range = asked.front().slice.range;
+    for (const QuantitySummary& quantity : state_.live->stage->quantities)
+      if (quantity.name == name && quantity.max > 0)
+        view.slice.range = Range{0, round_up(quantity.max)};
+  }
+  return view;
+}
+
+void Viewer::keep_points(render::Points points) {
+  points_ = std::move(points);
+  points_key_ = state_key();
+}
+
+render::Frame Viewer::picture_frame(const PictureSize& size) {
+  const LiveFrame& live = *state_.live;
+  Scene scene = bench_.display_scene(live);
+  View view = shown_view();
+  view.size = size;
+  view.background = Background::gradient;
+  view.camera = state_.orbit.settings();
+  scene.views = {view};
+  const FrameBuilder builder(scene, live.spacing, Quality::preview, bench_.overrides(),
+                             bench_.document().coarsening(), live.body_end);
+  std::optional<render::Points> points;
+  if (points_key_ == state_key()) points = std::move(points_);
+  points_key_.clear();
+  if (live.divergence && live.diagnosis && state_.shows_incident)
+    return builder.build_incident(view, live.snapshot, *live.divergence, *live.diagnosis,
+                                  std::move(points));
+  return builder.build(view, live.snapshot, std::move(points));
+}
+
+}  // namespace neve::app

@@ -1,0 +1,31 @@
+#pragma once
+/// The parts of what happens over the picture.
+
+#include <imgui.h>
+
+#include <array>
+#include <string>
+
+#include "app/view/viewer_state.h"
+
+namespace neve::app {
+
+/// Where a projected place is, px; see Orbit::project.
+ImVec2 on_screen(const ViewerState& state, const sim::Vec3d& projected);
+/// Of the mouse: share of the picture's height from its middle, y up.
+std::array<double, 2> in_picture(const ViewerState& state, ImVec2 mouse);
+
+/// Words in a dark box, which stays inside of the picture.
+/// @param at, px: its left end in the middle of its height
+void draw_note(const ViewerState& state, ImVec2 at, const std::string& text, ImU32 color);
+
+/// The probed place with its quantity, hints, and why there is nothing to see.
+void draw_marks(ViewerState& state);
+
+/// Why a slice with arrows shows none, or "".
+std::string reason_for_no_arrows(const View& view, const NodeFields& fields);
+
+/// Arrows at the middle of the selected object. @return whether the mouse is busy with them
+bool use_handles(ViewerState& state, bool is_over_picture);
+
+}  // namespace neve::app

@@ -1,0 +1,100 @@
+/// Words over the picture: what is probed, and why there is nothing to see.
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scene/names.h"
+#include "app/slice.h"
+#include "app/text.h"
+#include "app/view/viewport.h"
+
+namespace neve::app {
+
+namespace {
+
+using sim::Vec3d;
+
+constexpr ImU32 hint_color = IM_COL32(235, 240, 248, 255);
+/// Arrows shorter than this share of the range cannot be seen.
+constexpr double visible_share = 0.01;
+
+void draw_probe_mark(const ViewerState& state) {
+  if (!state.live->probe) return;
+  const ProbeReading& probe = *state.live->probe;
+  const Vec3d at = state.orbit.project(probe.place);
+  if (!(at.z() > 0)) return;
+  const ImVec2 place = on_screen(state, at);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  // Dark around bright: it stands out from snow and from shadow.
+  list.AddCircle(place, 9, IM_COL32(20, 12, 6, 190), 24, 4);
+  list.AddCircle(place, 9, IM_COL32(255, 122, 40, 255), 24, 2);
+  for (const ProbeRow& row : probe.rows) {
+    if (row.name != state.trace.quantity && !(state.trace.quantity.empty() && row.name == "v"))
+      continue;
+    draw_note(state, ImVec2(place.x + 15, place.y),
+              "|" + row.name + "| = " + rough_text(row.magnitude) + " " + row.unit,
+              IM_COL32(255, 190, 140, 255));
+    return;
+  }
+}
+
+void draw_hint(ViewerState& state) {
+  Hint& hint = state.hint;
+  if (hint.seconds <= 0) return;
+  hint.seconds -= static_cast<double>(ImGui::GetIO().DeltaTime);
+  draw_note(state, ImVec2(hint.x + 12, hint.y), hint.text, hint_color);
+}
+
+double longest(const std::vector<Vec3f>& arrows) {
+  double longest = 0;
+  for (const Vec3f& arrow : arrows)
+    longest = std::max(longest, std::sqrt(static_cast<double>(arrow.x) * arrow.x +
+                                          static_cast<double>(arrow.y) * arrow.y +
+                                          static_cast<double>(arrow.z) * arrow.z));
+  return longest;
+}
+
+}  // namespace
+
+void draw_note(const ViewerState& state, ImVec2 at, const std::string& text, ImU32 color) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float margin = 0.3f * em();
+  const auto left = static_cast<float>(state.viewport.x) + 2 * margin;
+  const auto right = static_cast<float>(state.viewport.x + state.viewport.width) - 2 * margin;
+  const float x = std::max(left, std::min(at.x, right - size.x)), y = at.y - 0.5f * size.y;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddRectFilled(ImVec2(x - margin, y - 0.5f * margin),
+                     ImVec2(x + size.x + margin, y + size.y + 0.5f * margin),
+                     IM_COL32(12, 15, 22, 215), margin);
+  list.AddText(ImVec2(x, y), color, text.c_str());
+}
+
+std::string reason_for_no_arrows(const View& view, const NodeFields& fields) {
+  if (!has_layer(view, Layer::arrows) || has_layer(view, Layer::heatmap)) return "";
+  const auto arrows = fields.vectors.find(view.slice.field);
+  if (arrows == fields.vectors.end()) return "";
+  const double most = longest(arrows->second);
+  const double range = view.slice.range ? view.slice.range->max : 0;
+  const std::string name = name_of(view.slice.field);
+  if (most == 0) return "no arrows: " + name + " is 0 everywhere";
+  if (range > 0 && most < visible_share * range)
+    return "no arrows to be seen: the largest " + name + " is " + rough_text(most) +
+           ", the range ends at " + rough_text(range);
+  return "";
+}
+
+void draw_marks(ViewerState& state) {
+  const std::string reason = reason_for_no_arrows(current_view(state), state.live->snapshot.fields);
+  if (!reason.empty()) {
+    const float width = ImGui::CalcTextSize(reason.c_str()).x;
+    const render::PicturePlace& p = state.viewport;
+    draw_note(state,
+              ImVec2(static_cast<float>(p.x) + 0.5f * (static_cast<float>(p.width) - width),
+                     static_cast<float>(p.y) + 0.85f * static_cast<float>(p.height)),
+              reason, hint_color);
+  }
+  draw_probe_mark(state);
+  draw_hint(state);
+}
+
+}  // namespace neve::app
