@@ -1,5 +1,7 @@
 #include "app/scene/reader.h"
 
+#include <algorithm>
+
 #include "app/scene/params.h"
 #include "app/text.h"
 
@@ -86,6 +88,15 @@ std::vector<std::string> Reader::unique_names(const Entry& list) const {
   return names;
 }
 
+/// [[material]] is what who knows [[body]] tries first.
+void Reader::require_no_list(const Entry& entry) const {
+  if (!std::holds_alternative<Array>(entry.value.data)) return;
+  const std::string address = address_of(entry.key);
+  reading_.source.fail(
+      entry.where, address + " is no list",
+      "each has a table of its name, with one pair of brackets: [" + address + ".NAME]");
+}
+
 void Reader::require_name(const Entry& item, const std::string& list) const {
   if (!std::holds_alternative<Table>(item.value.data)) {
     reading_.source.fail(item.where, "unknown key " + toml_string(item.key) + " in [" + list + "]",
@@ -103,6 +114,12 @@ void Reader::require_one_form(const Entry& shape, const std::vector<std::string>
     bool is_known = false;
     for (const std::string& name : forms) is_known = is_known || name == form.key;
     if (!is_known) {
+      const std::string& first = table.entries.front().key;
+      if (std::find(forms.begin(), forms.end(), first) != forms.end())
+        reading_.source.fail(form.where,
+                             toml_string(form.key) + " is beside the shape in " + address,
+                             "write it into the braces of the shape: { " + first + " = { ..., " +
+                                 form.key + " = ... } }");
       const std::string nearest = nearest_name(form.key, forms);
       reading_.source.fail(form.where,
                            "unsupported shape " + toml_string(form.key) + " in " + address,

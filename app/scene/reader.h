@@ -101,6 +101,7 @@ class Reader {
   void named(const char* key, std::vector<T>& items, const char*) {
     const Entry* entry = given(key);
     if (!entry) return;
+    require_no_list(*entry);
     for (const Entry& item : table_of(entry->value, address_of(key)).entries) {
       const std::string address = address_of(key) + "." + item.key;
       require_name(item, address_of(key));
@@ -204,6 +205,7 @@ class Reader {
   const Array& list_of_tables(const Entry& entry) const;
   const Array& array_of_tables(const Entry& entry) const;
   std::vector<std::string> unique_names(const Entry& list) const;
+  void require_no_list(const Entry& entry) const;
   void require_name(const Entry& item, const std::string& list) const;
   void require_one_form(const Entry& shape, const std::vector<std::string>& forms) const;
   void refuse_unknown(const std::vector<std::string>& known) const;

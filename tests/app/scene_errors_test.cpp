@@ -132,6 +132,9 @@ TEST(SceneErrors, TypesAreNamed) {
   EXPECT_EQ(error_of("[limits]\nmemory = \"8 bananas\""),
             "s.toml:2:10: error: limits.memory = \"8 bananas\"; expected bytes, or a size such as "
             "\"8GiB\" or \"500MB\"");
+  EXPECT_EQ(error_of("[[material]]\nname = \"snow\""),
+            "s.toml:1:3: error: material is no list; each has a table of its name, with one pair "
+            "of brackets: [material.NAME]");
   EXPECT_EQ(error_of("body = [3]"), "s.toml:1:9: error: body.1 = 3; expected a table");
 }
 
@@ -195,6 +198,9 @@ TEST(SceneErrors, AShapeHasExactlyOneForm) {
   EXPECT_EQ(error_of(in_body("shape = { spere = {} }")),
             "s.toml:2:11: error: unsupported shape \"spere\" in body.1.shape; did you mean "
             "\"sphere\"?");
+  EXPECT_EQ(error_of(in_body("shape = { box = {}, rotation = [0, 0, 45] }")),
+            "s.toml:2:21: error: \"rotation\" is beside the shape in body.1.shape; write it into "
+            "the braces of the shape: { box = { ..., rotation = ... } }");
   EXPECT_EQ(error_of(in_body("shape = { plane = {} }")),
             "s.toml:2:11: error: unsupported shape \"plane\" in body.1.shape; expected \"sphere\", "
             "\"box\", \"capsule\", \"cylinder\", \"cone\", \"torus\", \"mesh\" or \"points\"");
@@ -281,7 +287,8 @@ TEST(SceneErrors, ColourRangesAreNotEmpty) {
 
 TEST(SceneErrors, ASceneHasSnow) {
   const std::string none =
-      "s.toml:1:1: error: the scene has no body and no emitter; add [[body]] with shape = { sphere = { center = "
+      "s.toml:1:1: error: the scene has no body and no emitter; add [[body]] with shape = { sphere "
+      "= { center = "
       "[0, 0.5, 0], radius = 0.1 } }";
   EXPECT_EQ(error_of("title = \"nothing\""), none);
   EXPECT_EQ(error_of("body = []"), none);
