@@ -26,6 +26,7 @@ void add_smoke(const Scene& scene, const View& view, const NodeFields& fields,
   smoke.density = fields.density;
   smoke.full_density = static_cast<float>(full_density(scene));
   smoke.density_scale = static_cast<float>(style.density_scale);
+  if (frame.supersampling > 1) smoke.samples_per_ray = frame.supersampling;  // one for each pixel
   if (style.field == ScalarField::mass) return;
   const auto values = fields.scalars.find(style.field);
   if (values != fields.scalars.end()) smoke.value = values->second;

@@ -47,7 +47,8 @@ struct Smoke {
   std::vector<float> value;                  ///< empty: white
   float full_density = 400;                  ///< kg/m3, density of packed snow
   float density_scale = 1;                   ///< opacity, as a factor of what packed snow has
-  int samples_per_ray = 2;                   ///< 1 to 4, along each axis: 1 is exact, 4 is quick
+  int samples_per_ray = 0;  ///< 1 to 4, along each axis: 1 is exact, 4 is quick; 0: at least 2, as
+                            ///< many as still give every node several rays
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;
 };

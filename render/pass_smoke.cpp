@@ -74,7 +74,7 @@ void SmokePass::upload_colormap(const Smoke& smoke) {
 void SmokePass::march(const Smoke& smoke, const SmokeGrid& grid, const SmokeVolume& volume,
                       const SmokeSpans& spans, const Light& light, const Targets& targets,
                       const View& view) {
-  const int n = smoke.samples_per_ray;
+  const int n = spans.tile / smoke_rays_per_tile;
   const bool has_values = !smoke.value.empty();
   prepare_target((view.width + n - 1) / n, (view.height + n - 1) / n);
   gl_.ActiveTexture(GL_TEXTURE0);
@@ -114,7 +114,7 @@ void SmokePass::march(const Smoke& smoke, const SmokeGrid& grid, const SmokeVolu
 std::optional<SmokePicture> SmokePass::draw(const Smoke& smoke, const SmokeGrid& grid,
                                             const SmokeVolume& volume, const Light& light,
                                             const Targets& targets, const View& view) {
-  const int n = smoke.samples_per_ray;
+  const int n = samples_per_ray(smoke, grid, view);
   const SmokeSpans spans = make_smoke_spans(grid, volume, view, smoke_rays_per_tile * n);
   if (spans.nearest > spans.farthest) return std::nullopt;
   march(smoke, grid, volume, spans, light, targets, view);

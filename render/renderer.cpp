@@ -39,9 +39,9 @@ void check_smoke(const Smoke& smoke) {
                                 std::to_string(smoke.value.size()) + " values");
   const auto is_positive = [](float x) { return x > 0 && std::isfinite(x); };
   if (!is_positive(smoke.nodes->spacing) || !is_positive(smoke.full_density) ||
-      !(smoke.samples_per_ray >= 1 && smoke.samples_per_ray <= 4))
+      !(smoke.samples_per_ray >= 0 && smoke.samples_per_ray <= 4))
     throw std::invalid_argument(
-        "Frame: smoke needs a positive spacing and full_density, and 1 to 4 samples per ray");
+        "Frame: smoke needs a positive spacing and full_density, and 0 to 4 samples per ray");
 }
 
 void check_plot(const Plot& plot) {

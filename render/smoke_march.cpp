@@ -31,7 +31,7 @@ void SmokeMarch::make_rays(int width, int height) {
 std::optional<SmokeCover> SmokeMarch::march(const Smoke& smoke, const SmokeGrid& grid,
                                             const SmokeVolume& volume, const Light& light,
                                             const Surfaces& surfaces, const View& view) {
-  const int n = smoke.samples_per_ray;
+  const int n = samples_per_ray(smoke, grid, view);
   const SmokeSpans spans = make_smoke_spans(grid, volume, view, smoke_rays_per_tile * n);
   if (spans.nearest > spans.farthest) return std::nullopt;
   const int width = (view.width + n - 1) / n, height = (view.height + n - 1) / n;

@@ -188,6 +188,17 @@ void add_brick(const SmokeGrid& grid, Vec3i brick, const View& view, SmokeSpans&
 
 }  // namespace
 
+int samples_per_ray(const Smoke& smoke, const SmokeGrid& grid, const View& view) {
+  if (smoke.samples_per_ray > 0) return smoke.samples_per_ray;
+  constexpr float rays_per_texel = 3;  // smoke is straight between texels, its outline is not
+  const Vec3f size{static_cast<float>(grid.size.x - 1), static_cast<float>(grid.size.y - 1),
+                   static_cast<float>(grid.size.z - 1)};
+  const float distance = view.project(grid.origin + (0.5f * grid.spacing) * size).z;
+  if (!(distance > view.near_distance)) return 2;                       // the eye is in it
+  const float texel = grid.spacing * view.pixels_per_slope / distance;  // samples
+  return static_cast<int>(std::clamp(texel / rays_per_texel, 2.0f, 4.0f));
+}
+
 SmokeSpans make_smoke_spans(const SmokeGrid& grid, const SmokeVolume& volume, const View& view,
                             int tile) {
   constexpr float none = 1e30f;

@@ -36,6 +36,10 @@ inline constexpr float key_on_colors = 1.15f, sky_on_colors = 0.55f;
 /// Rays of a tile along each axis.
 inline constexpr int smoke_rays_per_tile = 8;
 
+/// How many samples along each axis share a ray: what the smoke asks for, or by how large its
+/// texels are in the picture.
+int samples_per_ray(const Smoke& smoke, const SmokeGrid& grid, const View& view);
+
 /// Between which distances along the view each tile of the picture shows smoke.
 struct SmokeSpans {
   int tile = 1, columns = 0, rows = 0;

@@ -201,6 +201,22 @@ TEST(Smoke, HalfResolutionIsCloseToFullAndKeepsEdges) {
   EXPECT_LT(far_off, full.pixels.size() / 3 / 500);
 }
 
+TEST(Smoke, RaysAreAsFarApartAsItsTexelsAllow) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  const auto picture = [&](float spacing, int samples) {
+    Frame frame = small_frame(301, 201);
+    frame.smoke = make_smoke({-0.4f, -0.3f, -0.3f}, {0.4f, 0.3f, 0.3f}, spacing,
+                             [](Vec3f p) { return 0.15f + 0.1f * std::sin(9 * p.x); });
+    frame.smoke.samples_per_ray = samples;
+    return renderer.draw(frame).pixels;
+  };
+  // 301 x 201 samples: the smoke is 160 wide, so that a texel has 3 of them, or 20.
+  EXPECT_EQ(picture(0.015f, 0), picture(0.015f, 2));
+  EXPECT_EQ(picture(0.1f, 0), picture(0.1f, 4));
+  EXPECT_NE(picture(0.1f, 4), picture(0.1f, 2));
+}
+
 TEST(Smoke, ColoursShowValues) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
@@ -258,8 +274,10 @@ TEST(Smoke, ThatFitsNoLatticeIsRefused) {
   frame.smoke.value = {1, 2};
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
   frame.smoke = good;
-  frame.smoke.samples_per_ray = 0;
-  EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
+  for (const int samples : {-1, 5}) {
+    frame.smoke.samples_per_ray = samples;
+    EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
+  }
   frame.smoke = good;
   auto flat = std::make_shared<NodeLattice>(*good.nodes);
   flat->spacing = 0;
