@@ -72,6 +72,26 @@ BenchCase spray_case(int cells_a_side, BenchMethod method, sim::Precision precis
   return c;
 }
 
+BenchCase stream_case(int cells_a_side, BenchMethod method, bool flows) {
+  BenchCase c = packed_case(cells_a_side, method, sim::Precision::single);
+  const double h = c.settings.cell_size, side = cells_a_side * h;
+  const sim::Vec3d velocity(0, -0.1 * h / c.settings.dt, 0);
+  c.settings.gravity.setZero();
+  std::fill(c.particles.v.begin(), c.particles.v.end(), velocity);
+  if (!flows) return c;
+  c.material.name = "snow";
+  sim::Emitter above;
+  above.material = c.material.name;
+  above.shape.form = sim::Box{{0.5 * side, side + 0.5 * h, 0.5 * side}, {side, h, side}};
+  above.velocity = velocity;
+  above.rate = c.material.density * side * side * velocity.norm();
+  sim::Sink below;
+  below.shape.form = sim::Box{{0.5 * side, -side, 0.5 * side}, {4 * side, 2 * side, 4 * side}};
+  c.flow.emitters.push_back(above);
+  c.flow.sinks.push_back(below);
+  return c;
+}
+
 int packed_cells_a_side(double particles) {
   return std::max(1, static_cast<int>(std::lround(std::cbrt(particles / particles_a_cell))));
 }

@@ -12,6 +12,7 @@ struct BenchCase {
   sim::SolverSettings settings;
   sim::Material material;
   sim::ParticleArrays particles;  ///< with volumes
+  sim::Flow flow{};
 };
 
 enum class BenchMethod { mls_quadratic, flip_cubic, apic_cubic };
@@ -31,6 +32,10 @@ BenchCase packed_case(int cells_a_side, BenchMethod method, sim::Precision preci
 
 /// Particles of the same size at random in a cube, one per cell on average, moving alike.
 BenchCase spray_case(int cells_a_side, BenchMethod method, sim::Precision precision);
+
+/// The packed cube falling through a place of its size at a tenth of a cell per step.
+/// @param flows  it is emitted above and removed below, as much as passes; false: it only falls
+BenchCase stream_case(int cells_a_side, BenchMethod method, bool flows);
 
 /// Cells on a side of the packed cube whose particle count is nearest.
 int packed_cells_a_side(double particles);

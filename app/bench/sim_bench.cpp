@@ -68,6 +68,7 @@ class SimBench {
  private:
   void measure_variants();
   void measure_spray();
+  void measure_flow();
   void measure_scaling();
   void measure_naive(int round);
   void gather_rows();
@@ -77,6 +78,7 @@ class SimBench {
   void add_naive(BenchMethod method);
   void add_scaling(BenchMethod method);
   void add_memory_and_spray(BenchMethod method);
+  void add_flow(BenchMethod method);
 
   Progress& progress_;
   int rounds_, threads_, cells_;
@@ -115,6 +117,7 @@ std::vector<BenchRow> SimBench::run() {
   for (int round = 0; round < rounds_; ++round) {
     measure_variants();
     measure_spray();
+    measure_flow();
     measure_scaling();
     measure_naive(round);
     progress_.note("round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
@@ -137,6 +140,13 @@ void SimBench::measure_spray() {
     const BenchCase c = spray_case(2 * cells_, method, sim::Precision::single);
     windows_[name_for("spray", method)].add(time_window(c, threads_, "spray"));
   }
+}
+
+void SimBench::measure_flow() {
+  for (const BenchMethod method : main_methods)
+    for (const bool flows : {false, true})
+      windows_[name_for(flows ? "flow" : "stream", method)].add(
+          time_window(stream_case(cells_, method, flows), threads_, "flow"));
 }
 
 void SimBench::measure_scaling() {
@@ -213,6 +223,13 @@ void SimBench::add_memory_and_spray(BenchMethod method) {
   rows_.insert(rows_.end(), {memory, time, bytes});
 }
 
+void SimBench::add_flow(BenchMethod method) {
+  BenchRow time = row(name_for("flow_time", method), threads_, "x without");
+  time.value =
+      time_ratio(windows_.at(name_for("flow", method)), windows_.at(name_for("stream", method)));
+  rows_.push_back(time);
+}
+
 void SimBench::gather_rows() {
   for (const Variant& variant : variants) add_throughput(variant);
   for (const BenchMethod method : main_methods) add_one_thread(method);
@@ -221,6 +238,7 @@ void SimBench::gather_rows() {
   if (threads_ > 1)
     for (const BenchMethod method : main_methods) add_scaling(method);
   for (const BenchMethod method : main_methods) add_memory_and_spray(method);
+  for (const BenchMethod method : main_methods) add_flow(method);
 }
 
 }  // namespace

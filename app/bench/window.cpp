@@ -57,7 +57,7 @@ Window time_window(const BenchCase& bench_case, int threads, const std::string& 
   Window window;
   do {
     sim::Simulation simulation(bench_case.settings, {bench_case.material}, {}, bench_case.particles,
-                               threads);
+                               threads, sim::Vec3i::Zero(), bench_case.flow);
     const Stopwatch watch;
     run_steps(simulation, bench_steps);
     window.seconds += watch.wall();

@@ -93,6 +93,15 @@ TEST(BenchCase, IsTheCommonCase) {
   EXPECT_EQ(packed.particles.x.size(), 97336u);
   EXPECT_EQ(packed_cells_a_side(97336), 23);
   EXPECT_EQ(packed_cells_a_side(0), 1);
+  // As much comes as goes.
+  const BenchCase stream = stream_case(12, BenchMethod::flip_cubic, true);
+  sim::Simulation flowing(stream.settings, {stream.material}, {}, stream.particles, 1,
+                          sim::Vec3i::Zero(), stream.flow);
+  run_steps(flowing, bench_steps);
+  EXPECT_GT(flowing.flow_totals().removed, stream.particles.x.size() / 3);
+  EXPECT_NEAR(static_cast<double>(flowing.particle_count()),
+              static_cast<double>(stream.particles.x.size()),
+              0.1 * static_cast<double>(stream.particles.x.size()));
   const BenchCase spray = spray_case(46, BenchMethod::flip_cubic, sim::Precision::single);
   EXPECT_EQ(spray.particles.x.size(), packed.particles.x.size());
   sim::Vec3d momentum = sim::Vec3d::Zero();
