@@ -85,17 +85,26 @@ std::size_t nearest_row(const Listing& listing, const sim::Vec3d& place) {
 }
 
 /// @throws UsageError when no such particle or node is there
-std::size_t probed_row(const Listing& listing, const Probe& probe) {
-  if (listing.place.empty()) throw UsageError("--probe", "there is nothing", "an empty scene");
-  if (const auto* place = std::get_if<sim::Vec3d>(&probe)) return nearest_row(listing, *place);
+std::size_t probed_row(const Inside& inside, const Listing& listing, const Probe& probe) {
+  if (const auto* place = std::get_if<sim::Vec3d>(&probe)) {
+    if (listing.place.empty())
+      throw UsageError("--probe", "there is nothing", "there is no snow at this time");
+    return nearest_row(listing, *place);
+  }
   const std::size_t id = std::get<std::size_t>(probe);
   if (listing.is_of_nodes)
     throw UsageError("--probe", "nodes have no number " + std::to_string(id),
                      "expected a place, as in --probe 0,0.5,0");
-  if (id >= listing.place.size())
-    throw UsageError("--probe", "there is no particle " + std::to_string(id),
-                     "expected 0 to " + std::to_string(listing.place.size() - 1));
-  return id;
+  const std::optional<std::size_t> row = inside.step.after.index_of(id);
+  if (row) return *row;
+  const std::string particle = "particle " + std::to_string(id);
+  const std::size_t ids = inside.before.x.size() + inside.simulation.flow_totals().removed;
+  if (id < ids)
+    throw UsageError("--probe", particle + " was removed", "a sink took it before this time");
+  throw UsageError(
+      "--probe",
+      inside.scene.emitters.empty() ? "there is no " + particle : particle + " is not emitted yet",
+      ids == 0 ? "there were none so far" : "expected 0 to " + std::to_string(ids - 1));
 }
 
 Json dump_json(const RenderJob& job, const DumpOptions& options, const Inside& inside,
@@ -118,7 +127,7 @@ Json dump_json(const RenderJob& job, const DumpOptions& options, const Inside& i
 void print_dump(const RenderJob& job, const DumpOptions& options, const Inside& inside,
                 const Listing& listing) {
   std::vector<std::size_t> probed;
-  for (const Probe& probe : options.probes) probed.push_back(probed_row(listing, probe));
+  for (const Probe& probe : options.probes) probed.push_back(probed_row(inside, listing, probe));
   const std::vector<std::string> head = heading(job, options, inside, listing);
   std::string text;
   if (options.run.is_json) {

@@ -102,12 +102,14 @@ void print_sweep_result(const SweepOptions& options, const std::filesystem::path
 int run_sweep(const SweepOptions& options) {
   SweepPlan plan = plan_sweep(options);
   const int cores = core_count(options.threads);
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  for (const std::string& value : repeated_values(plan.sweep))
+    progress.warning(value + " is twice in its list: a run is made twice");
   if (options.is_dry_run) {
     print_sweep_plan(plan, cores, options.is_json);
     return exit_ok;
   }
   catch_interrupts();
-  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
   share_look(plan, cores);
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first run");
   const Manifest manifest = prepare_sweep(plan);

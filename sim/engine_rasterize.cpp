@@ -63,13 +63,14 @@ RasterizedNodes Engine<Real>::rasterize(const std::vector<std::vector<double>>& 
   MassAndMean nodes = sweep();
   out.mass = std::move(nodes.mass);
   out.velocity = std::move(nodes.mean);
+  const Ranks rank = ranks();
   // Three lists at a time, where velocity was. An affine part would belong to the velocity.
   for (Particle<Real>& p : copy.particles_) std::fill(std::begin(p.C), std::end(p.C), Real(0));
   for (std::size_t first = 0; first < values.size(); first += 3) {
     const std::size_t lists = std::min<std::size_t>(3, values.size() - first);
     for (Particle<Real>& p : copy.particles_)
       for (std::size_t k = 0; k < lists; ++k)
-        p.v[k] = static_cast<Real>(values[first + k][static_cast<std::size_t>(p.id)]);
+        p.v[k] = static_cast<Real>(values[first + k][rank[p]]);
     const MassAndMean means = sweep();
     for (std::size_t k = 0; k < lists; ++k) {
       std::vector<double>& list = out.mean[first + k];

@@ -18,6 +18,15 @@ std::string digits(double value) {
   return text;
 }
 
+/// Names of particles and nodes, not measures.
+bool is_index(const Quantity& q) {
+  return q.name == "id" || q.name == "node";
+}
+
+std::string value_text(const Quantity& q, double value) {
+  return is_index(q) ? fixed_text(value, 0) : rough_text(value);
+}
+
 std::string expected_text(const Quantity& q) {
   if (!q.expected) return "";
   const Range r = *q.expected;
@@ -27,6 +36,12 @@ std::string expected_text(const Quantity& q) {
 
 std::string title(const Quantity& q) {
   return q.name + (q.unit.empty() ? "" : " (" + q.unit + ")");
+}
+
+/// What least and greatest are of: |v| of vectors and tensors.
+std::string summary_title(const Quantity& q) {
+  if (q.components == 1) return title(q);
+  return "|" + q.name + "|" + (q.unit.empty() ? "" : " (" + q.unit + ")");
 }
 
 struct Extremes {
@@ -69,9 +84,10 @@ std::vector<std::string> summary_lines(const Listing& listing) {
   lines.push_back(column_text("quantity", 22) + column_text("least", 12) +
                   column_text("greatest", 12) + column_text("outside", 9) + "expected");
   for (const Quantity& q : listing.quantities) {
+    if (is_index(q) && q.components > 1) continue;  // the length of i, j, k means nothing
     const Extremes e = extremes(listing, q);
-    lines.push_back(column_text(title(q), 22) + column_text(rough_text(e.least), 12) +
-                    column_text(rough_text(e.greatest), 12) +
+    lines.push_back(column_text(summary_title(q), 22) + column_text(value_text(q, e.least), 12) +
+                    column_text(value_text(q, e.greatest), 12) +
                     column_text(q.expected || e.strange > 0 ? std::to_string(e.strange) : "-", 9) +
                     expected_text(q));
   }
@@ -146,7 +162,7 @@ std::vector<std::string> probe_lines(const Listing& listing, std::size_t row) {
     std::string value;
     const auto width = static_cast<std::size_t>(q.components);
     for (std::size_t c = 0; c < width; ++c)
-      value += (c == 0 ? "" : c % 3 == 0 ? "; " : " ") + rough_text(q.values[row * width + c]);
+      value += (c == 0 ? "" : c % 3 == 0 ? "; " : " ") + value_text(q, q.values[row * width + c]);
     lines.push_back((q.is_strange(row) ? "! " : "  ") + column_text(title(q), 22) +
                     column_text(value, 30) +
                     (q.components > 1 && q.expected
@@ -165,6 +181,7 @@ Json summary_json(const Listing& listing) {
     Json json = {{"name", q.name},
                  {"unit", q.unit},
                  {"components", q.components},
+                 {"is_magnitude", q.components > 1},
                  {"least", number_or_null(e.least)},
                  {"greatest", number_or_null(e.greatest)},
                  {"outside", e.strange}};

@@ -189,6 +189,20 @@ std::vector<const Override*> varied(const Sweep& sweep) {
   return settings;
 }
 
+/// Axes of the command line, each of which is there once.
+std::vector<Axis::Parameter> parse_axes(const std::vector<std::string>& arguments) {
+  std::vector<Axis::Parameter> axes;
+  for (const std::string& argument : arguments) {
+    Axis::Parameter axis = parse_axis(argument);
+    for (const Axis::Parameter& other : axes)
+      if (other.address == axis.address)
+        throw UsageError("-p " + argument, axis.address + " is given twice",
+                         "write all its values into one list, as in -p " + axis.address + "=A,B,C");
+    axes.push_back(std::move(axis));
+  }
+  return axes;
+}
+
 /// An address that is an axis may be nothing else.
 void refuse_duplicates(const Sweep& sweep) {
   const std::vector<const Override*> settings = varied(sweep);
@@ -222,7 +236,7 @@ Sweep read_sweep(const std::string& file, const SweepChanges& changes) {
     sweep.scene_file = file;
   }
   sweep.name = fs::path(file).stem().string();
-  for (const std::string& argument : changes.axes) put_axis(sweep, parse_axis(argument));
+  for (const Axis::Parameter& axis : parse_axes(changes.axes)) put_axis(sweep, axis);
   for (const std::string& argument : changes.sets) sweep.fixed.push_back(parse_override(argument));
   refuse_duplicates(sweep);
   if (!is_sweep && sweep.axes.empty())
@@ -233,6 +247,27 @@ Sweep read_sweep(const std::string& file, const SweepChanges& changes) {
     throw SceneError(file, 1, 1, "the sweep has no axes and no runs",
                      "write [axis] or [[run]], or add -p ADDRESS=LIST");
   return sweep;
+}
+
+std::vector<std::string> repeated_values(const Sweep& sweep) {
+  std::vector<std::string> repeated;
+  if (sweep.settings.method != Method::grid) return repeated;
+  const auto is_same = [](const std::string& a, const std::string& b) {
+    char *end_a = nullptr, *end_b = nullptr;
+    const double x = std::strtod(a.c_str(), &end_a), y = std::strtod(b.c_str(), &end_b);
+    return a == b || (*end_a == 0 && *end_b == 0 && x == y);
+  };
+  for (const Axis& axis : sweep.axes) {
+    if (axis.parameters.size() > 1) continue;  // linked: the others may differ
+    const std::vector<Override>& values = axis.parameters.front().values;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      for (std::size_t j = 0; j < k; ++j)
+        if (is_same(values[j].value, values[k].value)) {
+          repeated.push_back(values[k].address + " = " + values[k].value);
+          break;
+        }
+  }
+  return repeated;
 }
 
 std::vector<ParamInfo> sweep_params() {

@@ -42,7 +42,7 @@ class Viewer {
   void draw();
   void paint_picture();
   View shown_view() const;
-  render::Frame picture_frame(const PictureSize& size);
+  render::Frame picture_frame(View view);
   void keep_points(render::Points points);
   int font_size() const;  ///< px
   void lay_out();

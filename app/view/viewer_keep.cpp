@@ -27,20 +27,25 @@ bool Viewer::has_picture_to_save() {
 Picture Viewer::picture_to_keep(const std::filesystem::path& file) {
   const LiveFrame& live = *state_.live;
   View view = current_view(state_);
-  if (!state_.is_camera_of_scene) view.camera = state_.orbit.settings();
-  const PictureSize size = size_of(*bench_.document().scene(), view);
-  view.size = size;
+  const Scene& scene = *bench_.document().scene();
+  view.size = size_of(scene, view);
+  // The orbit of a moving camera is widened where the window is narrower than the picture.
+  if (!state_.is_camera_of_scene)
+    view.camera = state_.orbit.settings();
+  else if (!view.camera)
+    view.camera = scene.camera;
   PictureRecord record = bench_.picture_record(live, view);
   record.state_hash = hash_text(live.state_hash);
   painted_key_.clear();  // another picture takes the place of the one on the screen
-  return {file, renderer_.draw(picture_frame(size)), to_png_text(record)};
+  return {file, renderer_.draw(picture_frame(std::move(view))), to_png_text(record)};
 }
 
 void Viewer::save_picture() {
   state_.wants_picture = false;
+  const LiveFrame& live = *state_.live;
+  const bool was_between = is_going_to_frame_ && live.is_frame_end;
   if (goes_on_) bench_.session().run();
   is_going_to_frame_ = goes_on_ = false;
-  const LiveFrame& live = *state_.live;
   char number[32];
   std::snprintf(number, sizeof number, "%04d_step%zu.png", live.frame, live.steps);
   const std::filesystem::path file = bench_.folder() / (current_view(state_).name + "_" + number);
@@ -49,7 +54,10 @@ void Viewer::save_picture() {
     make_folder(bench_.folder());
     write_file(file, render::encode_png(picture.image, picture.text));
     bench_.say(Message::Kind::note,
-               "saved " + file.string() + "; neve render " + file.string() + " makes it again");
+               "saved " + file.string() + "; neve render " + file.string() + " makes it again" +
+                   (was_between ? "; it is of frame " + std::to_string(live.frame) +
+                                      ", the next one: only whole frames can be made again"
+                                : ""));
   } catch (const std::exception& error) {
     bench_.say(Message::Kind::error, std::string("no picture: ") + error.what());
   }

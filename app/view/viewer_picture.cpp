@@ -85,7 +85,10 @@ void Viewer::paint_picture() {
   const PictureSize size{
       std::max(16, static_cast<int>(std::lround(scale * state_.viewport.width))),
       std::max(16, static_cast<int>(std::lround(scale * state_.viewport.height)))};
-  render::Frame frame = picture_frame(size);
+  View view = shown_view();
+  view.size = size;
+  view.camera = state_.orbit.settings();
+  render::Frame frame = picture_frame(std::move(view));
   frame.font_size = std::max(8, static_cast<int>(std::lround(scale * font_size())));
   renderer_.paint(frame);
   keep_points(std::move(frame.points));
@@ -119,13 +122,10 @@ void Viewer::keep_points(render::Points points) {
   points_key_ = state_key();
 }
 
-render::Frame Viewer::picture_frame(const PictureSize& size) {
+render::Frame Viewer::picture_frame(View view) {
   const LiveFrame& live = *state_.live;
   Scene scene = bench_.display_scene(live);
-  View view = shown_view();
-  view.size = size;
   view.background = Background::gradient;
-  view.camera = state_.orbit.settings();
   scene.views = {view};
   const FrameBuilder builder(scene, live.spacing, Quality::preview, bench_.overrides(),
                              bench_.document().coarsening(), live.body_end);

@@ -36,9 +36,30 @@ TEST_F(FlowCli, WhatComesAndGoesIsCounted) {
   // 60 kg/s for 0.25 s, in shares of 400 kg/m3 (4 cm)^3 / 8.
   EXPECT_NEAR(last["emitted"].get<double>(), 60 * 0.25 / (400 * 0.04 * 0.04 * 0.04 / 8), 1);
   EXPECT_GT(last["removed"].get<int>(), 500);
-  EXPECT_EQ(last["particles"].get<int>(),
-            last["emitted"].get<int>() - last["removed"].get<int>());
+  EXPECT_EQ(last["particles"].get<int>(), last["emitted"].get<int>() - last["removed"].get<int>());
   EXPECT_GT(last["mass"].get<double>(), 1);
+}
+
+TEST_F(FlowCli, AProbeIsToldById) {
+  const auto table = neve({"dump", "flow.toml", "--at", "0.25", "--field", "id", "--quiet"});
+  ASSERT_EQ(table.exit_code, 0) << table.errors;
+  const std::size_t header = table.output.find("\nid\n");
+  ASSERT_NE(header, std::string::npos) << table.output;
+  const int first = std::stoi(table.output.substr(header + 4));
+  ASSERT_GT(first, 0);
+  EXPECT_FALSE(contains(table.output, "e+0")) << table.output;
+  const auto probe = [&](int id) {
+    return neve({"dump", "flow.toml", "--at", "0.25", "--probe", std::to_string(id), "--json"});
+  };
+  const auto there = probe(first + 1000);
+  ASSERT_EQ(there.exit_code, 0) << there.errors;
+  const app::Json json = app::parse_json(std::string_view(there.output));
+  EXPECT_EQ(json["probes"][0]["id"]["value"], first + 1000);
+  const auto removed = probe(0), later = probe(1000000);
+  EXPECT_EQ(removed.exit_code, 2);
+  EXPECT_TRUE(contains(removed.output + removed.errors, "was removed")) << removed.output;
+  EXPECT_EQ(later.exit_code, 2);
+  EXPECT_TRUE(contains(later.output + later.errors, "not emitted yet")) << later.output;
 }
 
 TEST_F(FlowCli, PartsOfARunAreTheWholeOne) {

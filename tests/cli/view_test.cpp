@@ -46,6 +46,25 @@ TEST_F(View, APictureOfAChangedRunIsMadeAgain) {
   EXPECT_EQ(info_of("again/particles/0003.png")["state_hash"], saved["state_hash"]);
 }
 
+/// Panels leave a place for the picture that is higher than wide.
+TEST_F(View, APictureIsFramedAsRenderFramesIt) {
+  const auto result = view(R"([
+    {"click": "Frame"}, {"wait_for": "simulation frame 1"}, {"wait": 5},
+    {"key": "p"}, {"wait": 10}, {"quit": true}])");
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  std::string picture;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "viewed"))
+    if (entry.path().extension() == ".png") picture = "viewed/" + entry.path().filename().string();
+  ASSERT_FALSE(picture.empty());
+  ASSERT_EQ(neve({"render", picture, "--out", "again"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "rendered", "--no-movie"}).exit_code, 0);
+  for (const char* other : {"again/particles/0001.png", "rendered/particles/0001.png"}) {
+    const auto same =
+        neve({"compare", picture, other, "--threshold", "0", "--local-threshold", "0"});
+    EXPECT_EQ(same.exit_code, 0) << other << same.output << same.errors;
+  }
+}
+
 TEST_F(View, RecordsASequenceThatRenderWouldMake) {
   const auto result = view(R"([
     {"click": "Save ..."}, {"wait": 3}, {"click": "Record every frame"}, {"wait": 3},

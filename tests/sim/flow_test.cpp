@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/rasterize.h"
 #include "sim/staged.h"
 #include "sim/watch.h"
 #include "tests/support/snow.h"
@@ -250,6 +251,25 @@ TEST(Flow, ARestoredRunGoesOnToTheBit) {
     Simulation without = flowing(SolverSettings{}, {}, {});
     EXPECT_THROW(without.restore(bytes), SavedStateError);
   }
+}
+
+/// What pictures show is a mean over the particles that are there: the same of a run that began
+/// with them.
+TEST(Flow, MeansAreOfTheParticlesThatAreLeft) {
+  const ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.01);
+  Simulation flowed = flowing(SolverSettings{}, block, {{spout(5)}, {pit(0.25)}, 1});
+  flowed.advance_to(0.2);
+  ASSERT_GT(flowed.flow_totals().removed, 500u);
+  ParticleArrays left = flowed.particles();
+  std::vector<double> heights;
+  for (const Vec3d& x : left.x) heights.push_back(x.y());
+  left.id.clear();
+  const Simulation fresh = flowing(SolverSettings{}, left, {});
+  const RasterizedNodes found = rasterize(flowed, {heights}), wanted = rasterize(fresh, {heights});
+  ASSERT_EQ(found.block, wanted.block);
+  for (std::size_t n = 0; n < wanted.mass.size(); ++n)
+    // Sums of at most some hundred floats near 1, in another order.
+    EXPECT_NEAR(found.mean[0][n], wanted.mean[0][n], 1e-5) << n;
 }
 
 /// What comes brings its energy, what goes takes it along.
