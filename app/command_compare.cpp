@@ -46,8 +46,8 @@ int compare_pictures(const CompareOptions& options) {
               << "\n";
   } else {
     std::cout << "max " << fixed_text(difference.max, 0) << "  mean "
-              << fixed_text(difference.mean, 4) << "  local "
-              << fixed_text(difference.local, 2) << "  of 255\n";
+              << fixed_text(difference.mean, 4) << "  local " << fixed_text(difference.local, 2)
+              << "  of 255\n";
   }
   return is_same ? exit_ok : exit_check_failed;
 }
@@ -101,6 +101,10 @@ int compare_runs(const CompareOptions& options) {
 
 int run_compare(const CompareOptions& options) {
   std::error_code error;
+  for (const std::string& path : {options.a, options.b})
+    if (!fs::exists(path, error))
+      throw IoError(path + ": error: does not exist", path,
+                    "compare two pictures or two run folders");
   const bool is_a_run = fs::is_directory(options.a, error);
   const bool is_b_run = fs::is_directory(options.b, error);
   if (is_a_run != is_b_run)

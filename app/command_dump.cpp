@@ -11,6 +11,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/run_json.h"
 #include "app/render_job.h"
+#include "app/report_error.h"
 #include "app/scene/error.h"
 #include "app/scene/names.h"
 #include "app/seed_scene.h"
@@ -142,8 +143,8 @@ void print_dump(const RenderJob& job, const DumpOptions& options, const Inside& 
     text = options.format == DumpFormat::vtk ? to_vtk(listing) : to_table(listing, head);
   }
   if (options.file.empty()) {
-    std::cout << text << std::flush;
-    if (!std::cout) throw IoError("cannot write to standard output", "stdout");
+    std::cout << text;
+    finish_output();
     return;
   }
   write_file(options.file, text);

@@ -13,6 +13,7 @@
 #include "app/picture_record.h"
 #include "app/scene/error.h"
 #include "app/text.h"
+#include "app/usage_hints.h"
 #include "app/version.h"
 #include "render/context.h"
 
@@ -39,6 +40,13 @@ CLI::Option* add_repeatable(CLI::App& command, const char* flag, std::vector<std
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+std::string with_toml_suffix(const std::string& file) {
+  std::error_code error;
+  const std::string longer = file + ".toml";
+  const bool is_short = !file.empty() && !std::filesystem::exists(file, error);
+  return is_short && std::filesystem::is_regular_file(longer, error) ? longer : file;
+}
+
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.frames) options.frames = parse_frames(*texts.frames);
   if (texts.coarsening) options.coarsening = parse_coarsening(*texts.coarsening);
@@ -49,6 +57,7 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
                      "expected a folder with the files of shaders/");
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
+  options.scene = with_toml_suffix(options.scene);
   check_threads(options.threads);
   if (options.checkpoint_every < 0 || options.checkpoint_every > 1000000)
     throw UsageError("--checkpoint-every", "cannot use " + std::to_string(options.checkpoint_every),
@@ -80,9 +89,9 @@ void add_scene(CLI::App& command, const std::shared_ptr<RenderOptions>& options,
 namespace {
 
 constexpr const char* footer =
-    "Exit codes: 0 ok, 1 internal, 2 usage, 3 scene invalid, 4 no GL backend, 5 diverged,\n"
-    "6 input or output failed, 7 runs of a sweep failed, 8 refused by a limit, 9 a check failed,\n"
-    "75 interrupted and can go on, 130 interrupted.";
+    "Exit codes: 0 ok, 1 internal, 2 usage, 3 scene invalid or not there, 4 no GL backend,\n"
+    "5 diverged, 6 input or output failed, 7 runs of a sweep failed, 8 refused by a limit,\n"
+    "9 a check failed, 75 interrupted and can go on, 130 interrupted.";
 
 BenchOptions finished_bench(const CLI::App& command, BenchOptions options) {
   check_threads(options.threads);
@@ -266,10 +275,13 @@ void add_params(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("params", "Every parameter: address, unit, range, default");
   const auto is_json = std::make_shared<bool>(false), is_sweep = std::make_shared<bool>(false);
+  const auto filter = std::make_shared<std::string>();
+  command->add_option("FILTER", *filter, "Only those with this in their address, as in camera")
+      ->type_name("");
   command->add_flag("--sweep", *is_sweep, "Those of sweep files instead of scenes");
   command->add_flag("--json", *is_json, "Print JSON");
   command->final_callback(
-      [=, &action] { action = [=] { return run_params(*is_sweep, *is_json); }; });
+      [=, &action] { action = [=] { return run_params(*filter, *is_sweep, *is_json); }; });
 }
 
 void add_info(CLI::App& app, Action& action) {
@@ -289,62 +301,12 @@ int print_version() {
   return exit_ok;
 }
 
-std::vector<std::string> subcommand_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
-  return names;
-}
-
-std::string suggestion(const std::string& wrong, const std::vector<std::string>& names,
-                       const std::string& otherwise) {
-  const std::string nearest = nearest_name(wrong, names);
-  return nearest.empty() ? otherwise : "did you mean " + nearest + "?";
-}
-
-/// CLI11 says of a misspelt subcommand only that one is required.
-void check_subcommand(const CLI::App& app, int argc, char** argv) {
-  const std::string word = argv[1];
-  const std::vector<std::string> names = subcommand_names(app);
-  if (argc < 2 || word.starts_with("-")) return;
-  if (std::find(names.begin(), names.end(), word) == names.end())
-    throw UsageError("", "unknown subcommand \"" + word + "\"",
-                     suggestion(word, names, "neve --help lists them"));
-  const CLI::App& command = *app.get_subcommand(word);
-  const std::vector<std::string> parts = subcommand_names(command);
-  if (command.get_require_subcommand_min() == 0) return;
-  const std::string known = joined(parts, ", ");
-  const std::string part = argc < 3 ? "" : argv[2];
-  if (part == "-h" || part == "--help" ||
-      std::find(parts.begin(), parts.end(), part) != parts.end())
-    return;
-  if (part.empty() || part.starts_with("-"))
-    throw UsageError(word, "which part?", "expected one of " + known);
-  throw UsageError(word + " " + part, "there is no such part", "expected one of " + known);
-}
-
-/// @param name of the command with those above it
-void check_leftovers(const CLI::App& command, const std::string& name) {
-  for (const CLI::App* inner : command.get_subcommands())
-    check_leftovers(*inner, name + " " + inner->get_name());
-  const std::vector<std::string> leftovers = command.remaining();
-  if (leftovers.empty()) return;
-  std::string word = leftovers.front();
-  if (!word.starts_with("-"))
-    throw UsageError("", "unexpected argument \"" + word + "\"",
-                     name + " --help lists what it takes");
-  word = word.substr(0, word.find('='));
-  std::vector<std::string> flags;
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& flag : option->get_lnames()) flags.push_back("--" + flag);
-  throw UsageError("", "unknown option " + word,
-                   suggestion(word, flags, name + " --help lists what it takes"));
-}
-
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
-  CLI::App app("neve simulates snow and draws it, without a window.", "neve");
+  CLI::App app(
+      "neve simulates snow and draws it: to pictures and movies without a window, or live in one.",
+      "neve");
   Action action;
   add_render(app, action);
   add_check(app, action);
@@ -360,7 +322,7 @@ int run_command_line(int argc, char** argv) {
   add_bench(app, action);
   CLI::App* version_command = app.add_subcommand("version", "Print the version");
   version_command->final_callback([&] { action = print_version; });
-  CLI::App* help_command = app.add_subcommand("help", "Print this help");
+  app.add_subcommand("help", "Print this help, or that of a subcommand");
   app.set_version_flag("--version", std::string("neve ") + version);
   app.footer(footer);
   const auto is_any = [](CLI::App*) { return true; };
@@ -373,19 +335,19 @@ int run_command_line(int argc, char** argv) {
     std::cerr << app.help();
     return exit_usage;
   }
+  if (std::string_view(argv[1]) == "help") {
+    std::cout << help_of(app, {argv + 2, argv + argc});
+    return exit_ok;
+  }
   check_subcommand(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {
     return app.exit(request, std::cout, std::cerr);  // --help, --version
   } catch (const CLI::ParseError& error) {
-    throw UsageError("", error.what(), "see neve --help");
+    fail_parse(app, error);
   }
-  check_leftovers(app, "neve");
-  if (help_command->parsed()) {
-    std::cout << app.help();
-    return exit_ok;
-  }
+  check_leftovers(app);
   return action();
 }
 

@@ -21,6 +21,7 @@ struct SweepTexts {
 SweepOptions finished_sweep(SweepOptions options, const SweepTexts& texts) {
   if (options.file.empty())
     throw UsageError("sweep", "which sweep?", "give a sweep file, or a scene and -p ADDRESS=LIST");
+  options.file = with_toml_suffix(options.file);
   if (texts.frames) options.frames = parse_frames(*texts.frames);
   if (texts.coarsening) options.coarsening = parse_coarsening(*texts.coarsening);
   if (texts.size) options.size = parse_size(*texts.size);

@@ -133,7 +133,9 @@ int run_bench_sweep(const BenchOptions& options);
 int run_bench_view(const BenchOptions& options);
 int run_info(const std::string& path, bool is_json);
 int run_doctor(bool is_json);
-int run_params(bool is_sweep, bool is_json);
+/// @param filter  only addresses with this in them; "" for all
+/// @throws UsageError when there is none
+int run_params(const std::string& filter, bool is_sweep, bool is_json);
 int run_sweep(const SweepOptions& options);
 int run_sweep_run(const SweepRunOptions& options);
 int run_sweep_collect(const CollectOptions& options);

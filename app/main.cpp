@@ -3,7 +3,6 @@
 #include <iostream>
 
 #include "app/command_line.h"
-#include "app/errors.h"
 #include "app/output/atomic_file.h"
 #include "app/report_error.h"
 
@@ -12,7 +11,7 @@ int main(int argc, char** argv) {
   ignore_write_signals();
   try {
     const int code = run_command_line(argc, argv);
-    if (!std::cout.flush()) throw IoError("cannot write to standard output", "stdout");
+    finish_output();
     return code;
   } catch (...) {
     return report_current_error(wants_json(argc, argv));

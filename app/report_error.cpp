@@ -1,5 +1,8 @@
 #include "app/report_error.h"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <iostream>
 #include <new>
 
@@ -80,6 +83,13 @@ int report_current_error(bool is_json) {
     std::cout << to_text(json) << std::endl;
   }
   return report.code;
+}
+
+void finish_output() {
+  if (std::cout.flush()) return;
+  pollfd out{STDOUT_FILENO, 0, 0};
+  const bool is_reader_gone = ::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
+  if (!is_reader_gone) throw IoError("cannot write to standard output", "stdout");
 }
 
 }  // namespace neve::app

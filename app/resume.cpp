@@ -1,7 +1,12 @@
 #include "app/resume.h"
 
+#include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
+#include "app/output/sequence.h"
 #include "app/scene/error.h"
+#include "app/scene/flat.h"
+#include "app/scene/read.h"
+#include "app/text.h"
 #include "sim/base/hash.h"
 
 namespace neve::app {
@@ -15,6 +20,36 @@ std::string identity_of(PictureRecord picture) {
   picture.state_hash.clear();
   const std::string text = to_text(to_json(picture));
   return hash_text(hash_bytes(text.data(), text.size()));
+}
+
+std::string value_or_none(const std::optional<Value>& value) {
+  return value ? toml_literal(*value, 60) : "none";
+}
+
+/// The first thing in which the run of a folder is another one, with what it was and what it is;
+/// what may differ where run.json cannot tell.
+std::string other_thing(const std::filesystem::path& folder, const PictureRecord& picture) {
+  try {
+    const Json run = parse_json(read_file(run_json_path(folder)));
+    const Scene before = read_scene_text(run.at("scene").get<std::string>(), "run.json");
+    const Scene after = read_scene_text(picture.scene, "the scene");
+    const std::vector<Difference> list = differences(before, after);
+    if (!list.empty()) {
+      const std::size_t more = list.size() - 1;
+      return list.front().address + " was " + value_or_none(list.front().before) + " and is " +
+             value_or_none(list.front().after) +
+             (more > 0 ? ", and " + std::to_string(more) + " more differ" : "");
+    }
+    const auto version = run.at("version").get<std::string>();
+    if (version != picture.version) return "its version was " + version;
+    if (run.at("changes") != to_json(picture.changes)) return "other changes were made in it";
+    if (run.at("coarsen") != picture.coarsening)
+      return "--coarsen was " + rough_text(run.at("coarsen").get<double>());
+    if (run.at("overrides") != Json(picture.overrides)) return "it had other --set";
+  } catch (const std::exception&) {
+    // Whatever is wrong with it: the identity alone says that the run is another one.
+  }
+  return "its scene, changes, views, quality or version differ";
 }
 
 Json history_json(std::span<const PlotSample> history) {
@@ -46,6 +81,7 @@ std::vector<PlotSample> history_of(const Json& rows) {
 Checkpoints::Checkpoints(std::filesystem::path folder, const PictureRecord& picture,
                          sim::Simulation& simulation, ChangePlayer& player, Progress& progress)
     : folder_(std::move(folder)),
+      picture_(picture),
       identity_(identity_of(picture)),
       simulation_(simulation),
       player_(player),
@@ -76,10 +112,10 @@ std::optional<ResumedRun> Checkpoints::resume() {
   }
   const Checkpoint& checkpoint = *found.checkpoint;
   if (checkpoint.identity != identity_)
-    throw UsageError("--resume",
-                     "the run in " + folder_.string() +
-                         " is another one: its scene, changes, views, quality or version differ",
-                     "without --resume it is replaced; with --out it stays");
+    throw UsageError(
+        "--resume",
+        "the run in " + folder_.string() + " is another one: " + other_thing(folder_, picture_),
+        "without --resume it is replaced; with --out it stays");
   if (checkpoint.simd != simulation_.simd())
     progress_.warning("the run so far was made with " + checkpoint.simd +
                       " instructions, now with " + simulation_.simd() +

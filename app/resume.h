@@ -43,6 +43,7 @@ class Checkpoints {
 
  private:
   std::filesystem::path folder_;
+  PictureRecord picture_;
   std::string identity_;
   sim::Simulation& simulation_;
   ChangePlayer& player_;

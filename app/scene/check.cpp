@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "app/scene/leaf.h"
+#include "app/scene/names.h"
+#include "app/scene/read.h"
 #include "app/text.h"
 #include "sim/contact.h"
 
@@ -83,6 +85,10 @@ Found material_problem(const Scene& scene, const std::string& wanted, const std:
     if (material.name == wanted) return {};
     names.push_back(material.name);
   }
+  if (value_named<Preset>(wanted))
+    return Problem{address + ".material",
+                   toml_string(wanted) + " is a preset, and no material of this scene",
+                   "add [material." + wanted + "] with preset = " + toml_string(wanted)};
   const std::string nearest = nearest_name(wanted, names);
   return Problem{address + ".material", "there is no material " + toml_string(wanted),
                  nearest.empty() ? "expected " + list_of(names)
@@ -140,7 +146,7 @@ Found keyframe_problem(const CameraSettings& camera, const std::string& at) {
   const CameraKeyframe* before = nullptr;
   std::size_t index = 0;
   for (const CameraKeyframe& key : camera.keyframes) {
-    const std::string key_at = at + ".keyframes[" + std::to_string(index++) + "]";
+    const std::string key_at = at + ".keyframes[" + std::to_string(++index) + "]";
     if (before && !(key.time > before->time)) {
       return Problem{key_at + ".time",
                      "keyframe " + std::to_string(index) + " is at " + number_text(key.time) +
@@ -206,6 +212,10 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
     return Problem{at + ".views", "a mosaic of " + std::to_string(mosaic.views.size()) + " views",
                    "name 1 to " + std::to_string(most) + " of " + list_of(names)};
   }
+  std::vector<std::string> drawable = names;
+  for (const View& view : built_in_views())
+    if (std::find(names.begin(), names.end(), view.name) == names.end())
+      drawable.push_back(view.name);
   const auto is_view = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -215,9 +225,9 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
   }
   for (const std::string& name : mosaic.views) {
     if (is_view(name)) continue;
-    const std::string nearest = nearest_name(name, names);
+    const std::string nearest = nearest_name(name, drawable);
     return Problem{at + ".views", "there is no view " + toml_string(name),
-                   nearest.empty() ? "expected " + list_of(names)
+                   nearest.empty() ? "expected " + list_of(drawable)
                                    : "did you mean " + toml_string(nearest) + "?"};
   }
   return {};
@@ -235,7 +245,7 @@ Found motion_problem(const Collider& collider) {
   const sim::PoseKeyframe* before = nullptr;
   std::size_t index = 0;
   for (const sim::PoseKeyframe& key : collider.keyframes) {
-    const std::string key_at = at + ".keyframes[" + std::to_string(index++) + "]";
+    const std::string key_at = at + ".keyframes[" + std::to_string(++index) + "]";
     const std::string who = "keyframe " + std::to_string(index);
     if (before && !(key.time > before->time)) {
       return Problem{key_at + ".time",

@@ -46,6 +46,11 @@ void refuse_unknown_name(const Override& change, const Table& root) {
     const Entry* items = root.find(path[0]);
     const Path known = items ? item_names(items->value) : Path{};
     if (std::find(known.begin(), known.end(), path[1]) != known.end()) return;
+    const std::string rest = change.address.substr(path[0].size() + 1);
+    if (param_at(path[0] + ".NAME." + rest))
+      change.fail(change.key, change.address + " does not say which " + path[0],
+                  "write " + path[0] + ".NAME." + rest +
+                      (known.empty() ? "; the scene has none" : ", NAME being " + list_of(known)));
     change.fail(change.key, "there is no " + path[0] + " " + toml_string(path[1]),
                 known.empty() ? "the scene has none" : "expected " + list_of(known));
   }

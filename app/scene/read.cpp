@@ -105,6 +105,24 @@ void add_built_ins(Table& root, const std::vector<Override>& overrides) {
   add_views(root, overrides);
 }
 
+/// Advice for a file that is not there: what its folder has of a like name, or that there is none.
+std::string nearest_file(const std::string& file) {
+  namespace fs = std::filesystem;
+  const fs::path wanted(file);
+  const fs::path folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
+  std::error_code error;
+  if (fs::exists(wanted, error)) return "";
+  if (!fs::is_directory(folder, error)) return "there is no folder " + folder.string();
+  std::vector<std::string> names;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->path().extension() == ".toml" && names.size() < 10'000)
+      names.push_back(at->path().stem().string());
+  std::sort(names.begin(), names.end());
+  const std::string nearest = nearest_name(wanted.stem().string(), names);
+  if (nearest.empty()) return "";
+  return "did you mean " + (wanted.parent_path() / (nearest + ".toml")).string() + "?";
+}
+
 }  // namespace
 
 std::string read_toml_file(const std::string& file) {
@@ -114,7 +132,9 @@ std::string read_toml_file(const std::string& file) {
   }
   errno = 0;
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be opened");
+  if (!in)
+    throw SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be opened",
+                     nearest_file(file));
   // One byte more than allowed tells an oversized file without reading all of it.
   std::string text(max_toml_bytes + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -127,6 +147,9 @@ std::string read_toml_file(const std::string& file) {
 Scene read_scene_text(std::string_view text, const std::string& name, const std::string& base_dir,
                       const std::vector<Override>& overrides) {
   Table root = parse_toml(text, name);
+  if (const Entry* sweep = root.find("sweep"))
+    throw SceneError(name, sweep->where.line, sweep->where.column, "this is a sweep, not a scene",
+                     "neve sweep " + name + " makes its runs");
   add_built_ins(root, overrides);
   // Presets first: wherever a single number is set beside one, the number counts.
   for (const bool is_turn_of_presets : {true, false})

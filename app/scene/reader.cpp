@@ -1,6 +1,7 @@
 #include "app/scene/reader.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/scene/params.h"
 #include "app/text.h"
@@ -8,16 +9,81 @@
 namespace neve::app {
 namespace {
 
-/// What to write instead of a key that is not one here.
-std::string advice(const std::string& key, const std::vector<std::string>& known) {
-  const std::string nearest = nearest_name(key, known);
-  if (!nearest.empty()) return "did you mean " + toml_string(nearest) + "?";
-  // A key of another table was put into this one; single letters say too little to guess.
+/// What others call it: the first that is a key here.
+constexpr std::pair<const char*, const char*> other_names[] = {{"h", "cell_size"},
+                                                               {"dx", "cell_size"},
+                                                               {"resolution", "cell_size"},
+                                                               {"E", "youngs_modulus"},
+                                                               {"nu", "poisson_ratio"},
+                                                               {"xi", "hardening"},
+                                                               {"theta_c", "critical_compression"},
+                                                               {"theta_s", "critical_stretch"},
+                                                               {"rho", "density"},
+                                                               {"mu", "friction"},
+                                                               {"center", "position"},
+                                                               {"position", "eye"},
+                                                               {"position", "center"},
+                                                               {"pos", "center"},
+                                                               {"centre", "center"},
+                                                               {"look_at", "target"},
+                                                               {"bodies", "body"},
+                                                               {"cube", "box"},
+                                                               {"ball", "sphere"}};
+
+std::string other_name(const std::string& key, const std::vector<std::string>& known) {
+  for (const auto& [other, ours] : other_names)
+    if (key == other && std::find(known.begin(), known.end(), ours) != known.end()) return ours;
+  return "";
+}
+
+std::string quoted_question(const std::string& name) {
+  return "did you mean " + toml_string(name) + "?";
+}
+
+/// Forms and keyframes are each of their own: what others of them have helps nobody.
+bool is_of_one_kind_alone(const std::string& address) {
+  return address.find(".shape.") != std::string::npos || address.find('[') != std::string::npos;
+}
+
+/// The only parameter of that name in other tables, or the one of the same item.
+std::string other_address(const std::string& key, const std::string& here) {
+  const std::string kind = here.substr(0, here.find('.')) + ".";
+  std::vector<std::string> found;
   for (const ParamInfo& info : params()) {
-    if (key.size() > 1 && info.address.ends_with("." + key))
-      return "did you mean " + info.address + "?";
+    if (!info.address.ends_with("." + key) || is_of_one_kind_alone(info.address)) continue;
+    if (info.address == kind + "NAME." + key) return info.address;
+    found.push_back(info.address);
   }
-  return "expected " + list_of(known);
+  return found.size() == 1 ? found.front() : "";
+}
+
+bool is_at_the_top(const std::string& key) {
+  const std::vector<ParamInfo> all = params();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const ParamInfo& info) { return info.address == key; });
+}
+
+/// Keys of the table that a kind of thing describes its shape in.
+std::vector<std::string> forms_of(const std::string& kind) {
+  Keys forms;
+  sim::Shape shape;
+  if (kind == "body") describe_body_forms(forms, shape);
+  if (kind == "collider") describe_collider_forms(forms, shape);
+  if (kind == "emitter" || kind == "sink") describe_solid_forms(forms, shape);
+  return forms.keys;
+}
+
+/// What to write instead of a form that is none here.
+std::string form_advice(const std::string& key, const std::vector<std::string>& forms) {
+  if (key == "plane") return "only colliders can be planes: use a large box";
+  if (key == "points") return "only bodies can be points";
+  const std::string other = other_name(key, forms);
+  const std::string nearest = other.empty() ? nearest_name(key, forms) : other;
+  return nearest.empty() ? "expected " + list_of(forms) : quoted_question(nearest);
+}
+
+bool contains(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
 }
 
 }  // namespace
@@ -32,6 +98,27 @@ Location Reading::place_of(std::string address) const {
   return {1, 1};
 }
 
+/// What to write instead of a key that is not one here.
+std::string Reader::advice(const std::string& key, const std::vector<std::string>& known) const {
+  const std::string other = other_name(key, known);
+  if (!other.empty()) return quoted_question(other);
+  const std::string kind = address_.substr(0, address_.find('.'));
+  if (contains(known, "shape") && contains(forms_of(kind), key))
+    return "write shape = { " + key + " = { ... } }";
+  if (contains(known, "shape") && key == "plane") return "only colliders can be planes";
+  const std::string nearest = nearest_name(key, known);
+  if (!nearest.empty()) return quoted_question(nearest);
+  if (!address_.empty() && is_at_the_top(key))
+    return "it belongs at the top of the file, before the first [table]";
+  for (const auto& [word, ours] : other_names)
+    if (key == word && address_.empty() && !other_address(ours, "").empty())
+      return "did you mean " + other_address(ours, "") + "?";
+  // A key of another table was put into this one; single letters say too little to guess.
+  const std::string elsewhere = key.size() > 1 ? other_address(key, address_) : "";
+  if (!elsewhere.empty()) return "did you mean " + elsewhere + "?";
+  return "expected " + list_of(known);
+}
+
 const Entry* Reader::given(const char* key) {
   const Entry* entry = table_.find(key);
   if (entry) reading_.places[address_of(key)] = entry->value.where;
@@ -41,6 +128,12 @@ const Entry* Reader::given(const char* key) {
 const Table& Reader::table_of(const Value& value, const std::string& address) const {
   const Table* table = std::get_if<Table>(&value.data);
   if (!table) {
+    const Array* array = std::get_if<Array>(&value.data);
+    if (array && !array->empty() && std::holds_alternative<Table>(array->front().data))
+      reading_.source.fail(value.where, address + " is no list",
+                           address.find('.') == std::string::npos
+                               ? "write [" + address + "], with one pair of brackets"
+                               : "write it with one pair of brackets");
     const Valid any;
     Leaf{reading_.source, value, address, "", any}.fail("a table");
   }
@@ -120,11 +213,9 @@ void Reader::require_one_form(const Entry& shape, const std::vector<std::string>
                              toml_string(form.key) + " is beside the shape in " + address,
                              "write it into the braces of the shape: { " + first + " = { ..., " +
                                  form.key + " = ... } }");
-      const std::string nearest = nearest_name(form.key, forms);
       reading_.source.fail(form.where,
                            "unsupported shape " + toml_string(form.key) + " in " + address,
-                           nearest.empty() ? "expected " + list_of(forms)
-                                           : "did you mean " + toml_string(nearest) + "?");
+                           form_advice(form.key, forms));
     }
   }
   if (table.entries.size() == 1) return;

@@ -132,7 +132,7 @@ class Reader {
     const Array& array = array_of_tables(*entry);
     for (std::size_t k = 0; k < array.size(); ++k) {
       T& member = items.emplace_back();
-      enter(array[k], address_of(key) + "[" + std::to_string(k) + "]",
+      enter(array[k], address_of(key) + "[" + std::to_string(k + 1) + "]",
             [&](auto& v) { describe(v, member); });
     }
   }
@@ -205,6 +205,7 @@ class Reader {
   const Array& list_of_tables(const Entry& entry) const;
   const Array& array_of_tables(const Entry& entry) const;
   std::vector<std::string> unique_names(const Entry& list) const;
+  std::string advice(const std::string& key, const std::vector<std::string>& known) const;
   void require_no_list(const Entry& entry) const;
   void require_name(const Entry& item, const std::string& list) const;
   void require_one_form(const Entry& shape, const std::vector<std::string>& forms) const;

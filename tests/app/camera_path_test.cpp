@@ -194,7 +194,7 @@ TEST(CameraErrors, AreLocatedAndSayWhatToTry) {
             "s.toml:7:13: error: orbit and turntable both turn the eye; give one: orbit = degrees "
             "over the whole scene, turntable = seconds per turn");
   EXPECT_EQ(camera_error("keyframes = [{ tiem = 1 }]"),
-            "s.toml:6:16: error: unknown key \"tiem\" in [camera.keyframes[0]]; did you mean "
+            "s.toml:6:16: error: unknown key \"tiem\" in [camera.keyframes[1]]; did you mean "
             "\"time\"?");
   EXPECT_EQ(
       camera_error("keyframes = 3"),

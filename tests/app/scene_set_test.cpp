@@ -114,6 +114,9 @@ TEST(Set, UnknownAddressesNameTheNearest) {
             "\"ball\" or \"2\"");
   EXPECT_EQ(override_error("view.fog.size=[1,1]"),
             "--set view.fog.size=[1,1]: error: there is no view \"fog\"; expected \"close\"");
+  EXPECT_EQ(override_error("body.velocity=[0,0,0]"),
+            "--set body.velocity=[0,0,0]: error: body.velocity does not say which body; write "
+            "body.NAME.velocity, NAME being \"ball\" or \"2\"");
   EXPECT_EQ(override_error("body=3"),
             "--set body=3: error: unknown parameter \"body\"; neve params lists all of them");
 }

@@ -76,8 +76,8 @@ TEST_F(SweepFileTest, GridsCombineAllAxesAndTheLastVariesFastest) {
 TEST_F(SweepFileTest, NoValueOfTheCommandLineIsLost) {
   const SweepChanges twice{{"seed=1,2", "fps=24,30", "seed=3"}, {}};
   EXPECT_THROW(read(head + "[axis]\n\"seed\" = [1]\n", twice), UsageError);
-  const Sweep sweep = read(head + "[axis]\n\"fps\" = [24, 30, 24.0]\n", {{"seed=1,2,1"}, {}});
-  EXPECT_EQ(repeated_values(sweep), (Strings{"fps = 24.0", "seed = 1"}));
+  const Sweep sweep = read(head + "[axis]\n\"fps\" = [24, 30, 24]\n", {{"seed=1,2,1"}, {}});
+  EXPECT_EQ(repeated_values(sweep), (Strings{"fps = 24", "seed = 1"}));
 }
 
 TEST_F(SweepFileTest, ZipGoesAlongAllAxesAtOnce) {

@@ -30,6 +30,63 @@ TEST_F(Cli, UsageErrorsSuggestTheNearestName) {
   EXPECT_TRUE(contains(flag.errors, "did you mean --frames?")) << flag.errors;
 }
 
+TEST_F(Cli, OptionsOfOtherProgramsAreKnown) {
+  const auto hint = [&](const Arguments& arguments) { return neve(arguments).errors; };
+  EXPECT_TRUE(contains(hint({"render", "scene.toml", "-o", "out"}), "did you mean --out?"));
+  EXPECT_TRUE(contains(hint({"render", "scene.toml", "--output=out"}), "did you mean --out?"));
+  EXPECT_TRUE(contains(hint({"render", "scene.toml", "-j4"}), "did you mean --threads?"));
+  EXPECT_TRUE(contains(hint({"sweep", "scene.toml", "-j", "4"}), "did you mean --jobs?"));
+  EXPECT_TRUE(contains(hint({"render", "scene.toml", "--check"}), "did you mean --checkpoint-ev"));
+  const std::string number = hint({"render", "scene.toml", "--threads", "x"});
+  EXPECT_TRUE(contains(number, "--threads: cannot use \"x\"; expected a whole number")) << number;
+  EXPECT_TRUE(contains(hint({"compare", "a.png"}), "see neve compare --help"));
+}
+
+TEST_F(Cli, HelpIsThatOfTheCommand) {
+  const auto render = neve({"help", "render"});
+  EXPECT_EQ(render.exit_code, 0) << render.errors;
+  EXPECT_EQ(render.output, neve({"render", "--help"}).output);
+  EXPECT_TRUE(contains(neve({"help", "sweep", "run"}).output, "--index"));
+  const auto wrong = neve({"help", "rendr"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_TRUE(contains(wrong.errors, "did you mean render?")) << wrong.errors;
+}
+
+TEST_F(Cli, ParamsAreFoundByAPartOfTheirAddress) {
+  const auto found = neve({"params", "camera.fov", "--json"});
+  ASSERT_EQ(found.exit_code, 0) << found.errors;
+  for (const app::Json& info : app::parse_json(std::string_view(found.output)))
+    EXPECT_TRUE(contains(info["address"].get<std::string>(), "camera.fov"));
+  const auto none = neve({"params", "hardning"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_TRUE(contains(none.errors, "did you mean hardening?")) << none.errors;
+}
+
+TEST_F(Cli, AScenesFileIsFoundByItsName) {
+  EXPECT_EQ(neve({"render", "scene", "--dry-run"}).exit_code, 0);
+  const auto wrong = neve({"render", "scnee.toml"});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_TRUE(contains(wrong.errors, "did you mean scene.toml?")) << wrong.errors;
+}
+
+/// neve dump ... | head
+TEST_F(Cli, NobodyHasToReadAllThatIsPrinted) {
+  for (const std::string arguments : {"params", "dump scene.toml --quiet"}) {
+    const auto result = app::run_process(
+        "/bin/bash",
+        {"-c", "set -o pipefail; (sleep 0.2; " NEVE_BINARY " " + arguments + ") | true"},
+        folder.path());
+    EXPECT_EQ(result.exit_code, 0) << arguments;
+    EXPECT_EQ(result.errors, "") << arguments;
+  }
+}
+
+TEST_F(Cli, WhatIsComparedHasToBeThere) {
+  const auto result = neve({"compare", "scene.toml", "nofolder"});
+  EXPECT_EQ(result.exit_code, 6);
+  EXPECT_TRUE(contains(result.errors, "nofolder: error: does not exist")) << result.errors;
+}
+
 TEST_F(Cli, UsageErrorsExitWithTwo) {
   for (const Arguments& arguments :
        std::vector<Arguments>{{"render", "scene.toml", "extra"},

@@ -72,6 +72,8 @@ TEST_F(Resume, AnotherSceneIsRefusedAndNothingIsTouched) {
   const auto other = render("out", {"--resume", "--set", "material.snow.hardening=5"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_TRUE(contains(other.errors, "--resume")) << other.errors;
+  EXPECT_TRUE(contains(other.errors, "material.snow.hardening was 10")) << other.errors;
+  EXPECT_TRUE(contains(other.errors, " and is 5")) << other.errors;
   EXPECT_EQ(files_of(folder / "out").pictures, before.pictures);
   // Without --resume it is replaced, checkpoints too.
   ASSERT_EQ(render("out", {"--frames", "0-1", "--checkpoint-every", "0"}).exit_code, 0);
