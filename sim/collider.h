@@ -49,7 +49,10 @@ Travel waited(Travel travel, double seconds);
 /// Axis-aligned bounds at a time. @throws std::invalid_argument for a plane, ShapeError
 Bounds bounds_at(const Collider& collider, double time);
 
-/// The most that the collider's point moves in a second, over all of its keyframes, m/s.
+/// A bound of how fast places of the collider move, over all of its keyframes, m/s. Its spin counts
+/// where it changes what space the collider fills: not of spheres, about the axis of round shapes,
+/// and of planes, which have no furthest place.
+/// @throws ShapeError when a mesh that turns cannot be read
 double largest_speed(const Collider& collider);
 
 /// A collider as seen from a point.

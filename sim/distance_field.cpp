@@ -26,7 +26,10 @@ double field_spacing(const MeshSurface& surface, double cell_size) {
   const Bounds& bounds = surface.bounds();
   const Vec3d extent = bounds.max - bounds.min;
   const double coarse = 0.5 * cell_size;
-  double fine = std::min({coarse, extent.minCoeff() / 8, extent.maxCoeff() / 64});
+  // A row of so many samples is too many by itself: no need to begin below, where a flat mesh
+  // would.
+  const double least = extent.maxCoeff() / most_refined;
+  double fine = std::max(std::min({coarse, extent.minCoeff() / 8, extent.maxCoeff() / 64}), least);
   while (fine < coarse && counts(bounds, fine).prod() > most_refined) fine *= 1.1;
   return std::min(fine, coarse);
 }

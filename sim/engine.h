@@ -138,6 +138,7 @@ class Engine {
   void exchange();
   void emit();
   void remove_gone();
+  bool is_time_to_look() const;
   bool may_remove(const OpenSink& sink, std::uint64_t block) const;
   Particle<Real> record_of(const Birth& birth, std::uint16_t material) const;
   void account_for(const Particle<Real>& p, double sign);
@@ -154,7 +155,7 @@ class Engine {
   /// Per collider; null but of meshes.
   using Fields = std::vector<std::shared_ptr<const DistanceField>>;
   Fields fields_of(const std::vector<Collider>& colliders) const;
-  ColliderPose pose_of(const Collider& collider, const DistanceField* field) const;
+  std::optional<ColliderPose> pose_of(const Collider& collider, const DistanceField* field) const;
   void place_colliders();
   void move_colliders();
   void end_step(double dt, SweepArgs<Real> a);
@@ -223,6 +224,8 @@ class Engine {
   std::vector<Stream> streams_;
   std::vector<OpenSink> sinks_;
   FlowTotals totals_;
+  std::uint64_t steps_since_look_ = 0;  ///< for particles that are to go
+  double way_since_look_ = 0;           ///< m, of the fastest particle of each step
   std::uint64_t next_id_ = 0;
 
   std::vector<Particle<Real>> particles_;

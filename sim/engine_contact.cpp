@@ -14,13 +14,18 @@ typename Engine<Real>::Fields Engine<Real>::fields_of(
   Fields fields;
   for (const Collider& c : colliders) {
     const auto* mesh = std::get_if<Mesh>(&c.shape.form);
-    fields.push_back(mesh ? distance_field(*mesh, settings_.cell_size, *pool_) : nullptr);
+    try {
+      fields.push_back(mesh ? distance_field(*mesh, settings_.cell_size, *pool_) : nullptr);
+    } catch (const ShapeError& error) {
+      throw ShapeError("collider " + c.name + ": " + error.what());
+    }
   }
   return fields;
 }
 
 template <class Real>
-ColliderPose Engine<Real>::pose_of(const Collider& c, const DistanceField* field) const {
+std::optional<ColliderPose> Engine<Real>::pose_of(const Collider& c,
+                                                  const DistanceField* field) const {
   return kernel_pose(c, colliders_time_, settings_.cell_size, lattice_origin_, field);
 }
 
@@ -28,7 +33,7 @@ template <class Real>
 void Engine<Real>::place_colliders() {
   poses_.clear();
   for (std::size_t k = 0; k < colliders_.size(); ++k)
-    poses_.push_back(pose_of(colliders_[k], fields_[k].get()));
+    if (const auto pose = pose_of(colliders_[k], fields_[k].get())) poses_.push_back(*pose);
 }
 
 /// Paper step 11.
@@ -86,7 +91,8 @@ double Engine<Real>::max_depth() const {
 
 #define NEVE_ENGINE_CONTACT(Real)                                                            \
   template Engine<Real>::Fields Engine<Real>::fields_of(const std::vector<Collider>&) const; \
-  template ColliderPose Engine<Real>::pose_of(const Collider&, const DistanceField*) const;  \
+  template std::optional<ColliderPose> Engine<Real>::pose_of(const Collider&,                \
+                                                             const DistanceField*) const;    \
   template void Engine<Real>::place_colliders();                                             \
   template void Engine<Real>::move_colliders();                                              \
   template void Engine<Real>::end_step(double, SweepArgs<Real>);                             \

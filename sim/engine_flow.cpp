@@ -14,8 +14,9 @@ namespace neve::sim {
 
 namespace {
 
-/// Particles that left make the partition start anew, so they go together.
-constexpr std::size_t steps_between_removals = 8;
+/// Particles that left make the partition start anew, so they go together: after so many steps, or
+/// when the fastest has gone a cell.
+constexpr std::uint64_t steps_between_looks = 8;
 
 std::size_t index_of(const std::vector<Material>& materials, const Emitter& emitter) {
   const auto found = std::find_if(materials.begin(), materials.end(),
@@ -47,7 +48,7 @@ void Engine<Real>::open(const Flow& flow) {
 
 template <class Real>
 void Engine<Real>::exchange() {
-  if (!sinks_.empty() && steps_ % steps_between_removals == 0) remove_gone();
+  if (!sinks_.empty() && is_time_to_look()) remove_gone();
   emit();
 }
 
@@ -119,16 +120,21 @@ void Engine<Real>::emit() {
   limits_.max_sound_speed = std::max(limits_.max_sound_speed, born.max_sound_speed);
 }
 
-/// Whether a block may hold particles that go.
+template <class Real>
+bool Engine<Real>::is_time_to_look() const {
+  return steps_since_look_ >= steps_between_looks || way_since_look_ >= settings_.cell_size;
+}
+
+/// Whether a block may hold particles that go. Blocks are those at the beginning of the last step,
+/// by where stencils start: its particles were within [0.5, 5) cells, and went a cell since, see
+/// find_near_moved.
 template <class Real>
 bool Engine<Real>::may_remove(const OpenSink& sink, std::uint64_t block) const {
   const double h = settings_.cell_size;
   Vec3d centre;
   for (int a = 0; a < 3; ++a)
-    centre[a] =
-        h * (block_side * (block_coordinate(block, a) - lattice_origin_[a]) + 0.5 * block_side);
-  // Blocks are those of the step; since then particles moved by a cell at most.
-  const double reach = std::sqrt(3.0) * (0.5 * block_side + 1) * h;
+    centre[a] = h * (block_side * (block_coordinate(block, a) - lattice_origin_[a]) + 2.75);
+  const double reach = 5.7 * h;
   const Solid& solid = sink.solid;
   const double clearance =
       solid.clearance(solid.rotation().transpose() * (centre - solid.center()));
@@ -138,6 +144,8 @@ bool Engine<Real>::may_remove(const OpenSink& sink, std::uint64_t block) const {
 template <class Real>
 void Engine<Real>::remove_gone() {
   std::vector<std::uint32_t> gone;
+  steps_since_look_ = 0;
+  way_since_look_ = 0;
   for (const ParticleBlock& block : partition_.blocks()) {
     for (const OpenSink& sink : sinks_) {
       if (!may_remove(sink, block.key)) continue;

@@ -10,7 +10,7 @@ namespace neve::sim {
 
 namespace {
 
-constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '6'};
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '7'};
 
 /// What there is once; followed by the records, the travels of the colliders and the emitters.
 struct SavedHead {
@@ -29,6 +29,8 @@ struct SavedHead {
   double colliders_time;
   std::uint64_t next_id, emitters, emitted, removed;
   double emitted_mass, removed_mass;
+  std::uint64_t steps_since_look;
+  double way_since_look;
 };
 static_assert(std::is_trivially_copyable_v<SavedHead> && sizeof(SavedHead) % 8 == 0);
 
@@ -102,6 +104,8 @@ std::vector<std::uint8_t> Engine<Real>::save() const {
   head.removed = totals_.removed;
   head.emitted_mass = totals_.emitted_mass;
   head.removed_mass = totals_.removed_mass;
+  head.steps_since_look = steps_since_look_;
+  head.way_since_look = way_since_look_;
   std::vector<EmitterStream::State> streams;
   for (const Stream& stream : streams_) streams.push_back(stream.births.state());
   std::vector<std::uint8_t> bytes;
@@ -163,6 +167,8 @@ void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
   for (std::size_t k = 0; k < streams.size(); ++k) streams_[k].births.restore(streams[k]);
   next_id_ = head.next_id;
   totals_ = {head.emitted, head.removed, head.emitted_mass, head.removed_mass};
+  steps_since_look_ = head.steps_since_look;
+  way_since_look_ = head.way_since_look;
   colliders_time_ = head.colliders_time;
   particles_ = records;
   keys_.assign(head.count, 0);

@@ -44,6 +44,8 @@ void Engine<Real>::note(double dt) {
   limits_.max_speed = std::sqrt(static_cast<double>(report.max_speed_squared));
   limits_.max_sound_speed = std::sqrt(static_cast<double>(report.max_sound_squared));
   limits_.max_strain_rate = static_cast<double>(report.max_strain_rate);
+  ++steps_since_look_;
+  way_since_look_ += dt * std::max(before.max_speed, limits_.max_speed);
   warnings_.inverted_trials += report.inverted;
   energy_.contact_work += report.contact_work;
   last_dt_ = dt;

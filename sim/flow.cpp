@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/base/hash.h"
 #include "sim/sampling.h"
+#include "sim/sampling_blocks.h"
 #include "sim/variation.h"
 
 namespace neve::sim {
@@ -16,8 +18,15 @@ namespace {
 /// Apart from the keys of bodies.
 constexpr std::uint64_t emitter_key = 0x656d6974;
 
-/// Candidates for one place: a shape that fills less of its box is hit by luck only.
-constexpr int most_candidates = 100'000;
+/// Candidates for one place. Of a shape that fills this share of its box one of 64 is inside: that
+/// none of so many is, does not happen.
+constexpr int most_candidates = 8192;
+constexpr double least_share = 1.0 / 64;
+
+/// Of a shape that fills less, places are looked for once and used in turn: a tenth of a second, a
+/// second for a mesh.
+constexpr std::uint64_t pool_candidates = 1 << 20;
+constexpr std::size_t pool_places = 1 << 14;
 
 constexpr double most_particles = 4294967296.0;  // ids have 32 bits
 
@@ -35,6 +44,10 @@ double births_until(const Emitter& emitter, double mass, double time) {
 
 double fraction(double x) {
   return x - std::floor(x);
+}
+
+bool fills(const Bounds& box, double volume) {
+  return volume >= least_share * (box.max - box.min).prod();
 }
 
 /// The c-th point of a sequence that fills the unit cube evenly, however long it is: multiples of
@@ -79,20 +92,17 @@ EmitterStream::EmitterStream(const Emitter& emitter, std::size_t number, const M
       material_(material),
       key_(mix64(mix64(mix64(seed), emitter_key), number)),
       solid_(emitter.shape),
+      box_(solid_.local_bounds()),
       V0_(share_of(emitter, cell_size)) {
   if (emitter.rate > 0) return;
   if (!(solid_.volume() / V0_ < most_particles))
     throw ShapeError("emitter " + emitter.name + ": more than 2^32 particles fit into it");
-  whole_ = sample_jittered(solid_, particle_spacing(emitter.particles_per_cell, cell_size), key_);
-  if (whole_.empty()) whole_.push_back(solid_.inner_point());
-  V0_ = solid_.volume() / static_cast<double>(whole_.size());
+  require_few_blocks(solid_, Vec3d::Zero(), std::cbrt(V0_));
 }
 
 void EmitterStream::advance_to(double time, std::vector<Birth>& births) {
   if (emitter_.rate == 0) {
-    if (time < emitter_.start) return;
-    for (; state_.born < whole_.size(); ++state_.born)
-      births.push_back(born_at(whole_[state_.born], time - emitter_.start));
+    if (time >= emitter_.start && state_.born == 0) fill_whole(time - emitter_.start, births);
     return;
   }
   const double mass = material_.density * V0_, period = mass / emitter_.rate;
@@ -104,18 +114,48 @@ void EmitterStream::advance_to(double time, std::vector<Birth>& births) {
   }
 }
 
-/// Evenly spread, and shaken by up to half a spacing, so that no rows are seen.
-Vec3d EmitterStream::next_place() {
-  const Bounds box = solid_.local_bounds();
+/// Not before its time: what never opens costs nothing, and what was born is not kept.
+void EmitterStream::fill_whole(double age, std::vector<Birth>& births) {
   const double spacing = std::cbrt(V0_);
-  for (int tries = 0; tries < most_candidates; ++tries) {
-    const std::uint64_t c = state_.candidate++, shake = mix64(key_, c);
-    Vec3d y = box.min + even_point(key_, c).cwiseProduct(box.max - box.min);
-    for (std::uint64_t a = 0; a < 3; ++a)
-      y[static_cast<Eigen::Index>(a)] += spacing * (unit_double(mix64(shake, a)) - 0.5);
-    if (solid_.contains_local(y)) return y;
+  std::vector<Vec3d> places = sample_jittered(solid_, spacing, key_);
+  if (places.empty()) places.push_back(solid_.inner_point());
+  V0_ = solid_.volume() / static_cast<double>(places.size());
+  for (; state_.born < places.size(); ++state_.born)
+    births.push_back(born_at(places[state_.born], age));
+}
+
+/// In the box around the shape, evenly spread and shaken by up to half a spacing, so that no rows
+/// are seen. What is shaken out on one side comes in on the other: all of the box is as dense.
+Vec3d EmitterStream::next_candidate() {
+  const Vec3d size = box_.max - box_.min;
+  const double spacing = std::cbrt(V0_);
+  const std::uint64_t c = state_.candidate++, shake = mix64(key_, c);
+  const Vec3d even = even_point(key_, c);
+  Vec3d y;
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const double moved = unit_double(mix64(shake, static_cast<std::uint64_t>(a))) - 0.5;
+    y[a] = box_.min[a] + size[a] * fraction(even[a] + moved * std::min(1.0, spacing / size[a]));
   }
+  return y;
+}
+
+Vec3d EmitterStream::next_place() {
+  if (!fills(box_, solid_.volume())) {
+    if (pool_.empty()) fill_pool();
+    return pool_[state_.candidate++ % pool_.size()];
+  }
+  for (int tries = 0; tries < most_candidates; ++tries)
+    if (const Vec3d y = next_candidate(); solid_.contains_local(y)) return y;
   return solid_.inner_point();
+}
+
+/// The same whenever it is made: a run that goes on makes it anew.
+void EmitterStream::fill_pool() {
+  const std::uint64_t places_so_far = std::exchange(state_.candidate, 0);
+  while (state_.candidate < pool_candidates && pool_.size() < pool_places)
+    if (const Vec3d y = next_candidate(); solid_.contains_local(y)) pool_.push_back(y);
+  if (pool_.empty()) pool_.push_back(solid_.inner_point());
+  state_.candidate = places_so_far;
 }
 
 Birth EmitterStream::born_at(const Vec3d& local, double age) const {

@@ -77,22 +77,25 @@ class EmitterStream {
 
   /// What a run that goes on has to know.
   struct State {
-    std::uint64_t born = 0, candidate = 0;
+    std::uint64_t born = 0, candidate = 0;  ///< candidates for places, looked at so far
   };
   const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
-  double start() const { return emitter_.start; }
 
  private:
+  void fill_whole(double age, std::vector<Birth>& births);
+  Vec3d next_candidate();
   Vec3d next_place();
+  void fill_pool();
   Birth born_at(const Vec3d& local, double age) const;
 
   Emitter emitter_;
   Material material_;
   std::uint64_t key_;
   Solid solid_;
-  double V0_;                 ///< m3
-  std::vector<Vec3d> whole_;  ///< local places, at rate 0
+  Bounds box_;               ///< local
+  double V0_;                ///< m3
+  std::vector<Vec3d> pool_;  ///< local places, of a shape that fills next to nothing of its box
   State state_;
 };
 

@@ -58,19 +58,33 @@ struct SetForm {
   }
 };
 
+bool is_in_lattice(const Vec3d& x, double cell_size) {
+  return x.cwiseAbs().maxCoeff() / cell_size < 4.0 * block_limit;
+}
+
+/// The same plane by the point of its surface that is nearest to the origin.
+void move_to_foot(const Plane& plane, Pose& pose) {
+  const Vec3d n = pose.rotation * plane.normal.normalized();
+  const Vec3d foot = n.dot(pose.point) * n;
+  pose.velocity += pose.angular_velocity.cross(foot - pose.point);
+  pose.point = foot;
+}
+
 }  // namespace
 
-ColliderPose kernel_pose(const Collider& c, double time, double cell_size,
-                         const Vec3i& lattice_origin, const DistanceField* field) {
-  const Pose pose = pose_at(c, time);
+std::optional<ColliderPose> kernel_pose(const Collider& c, double time, double cell_size,
+                                        const Vec3i& lattice_origin, const DistanceField* field) {
+  Pose pose = pose_at(c, time);
+  if (const auto* plane = std::get_if<Plane>(&c.shape.form);
+      plane && !is_in_lattice(pose.point, cell_size))
+    move_to_foot(*plane, pose);
+  if (!is_in_lattice(pose.point, cell_size)) return std::nullopt;
   const Mat3d axes = pose.rotation * form_axes(c.shape);
   ColliderPose out{};
   out.contact = static_cast<ContactLaw>(c.contact);
   out.friction = c.friction;
   for (int a = 0; a < 3; ++a) {
     const double in_cells = pose.point[a] / cell_size;
-    if (!(std::abs(in_cells) < 4.0 * block_limit))
-      throw std::invalid_argument("collider \"" + c.name + "\" is outside the lattice");
     split(in_cells, out.cell[a], out.offset[a]);
     out.cell[a] += block_side * lattice_origin[a];
     out.velocity[a] = pose.velocity[a];

@@ -1,6 +1,8 @@
 #pragma once
 /// A collider at a time as kernels want it.
 
+#include <optional>
+
 #include "sim/collider.h"
 #include "sim/distance_field.h"
 
@@ -9,8 +11,9 @@ namespace neve::sim {
 /// @param cell_size  m
 /// @param lattice_origin  blocks
 /// @param field  of a mesh, otherwise not looked at; has to live as long as the pose is used
-/// @throws std::invalid_argument for a collider outside the lattice
-ColliderPose kernel_pose(const Collider& collider, double time, double cell_size,
-                         const Vec3i& lattice_origin, const DistanceField* field);
+/// @return nothing for a collider whose point left the lattice: out of reach. Of a plane any point
+///         of its surface does.
+std::optional<ColliderPose> kernel_pose(const Collider& collider, double time, double cell_size,
+                                        const Vec3i& lattice_origin, const DistanceField* field);
 
 }  // namespace neve::sim

@@ -1,6 +1,7 @@
 #include "sim/keyframes.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "sim/curve.h"
@@ -78,10 +79,20 @@ class Attitudes {
   const CurvePlace& place_;
 };
 
+/// The two keyframes on either side of a time: the slopes at the nearer ones depend on the others.
+std::vector<PoseKeyframe> keyframes_around(const std::vector<PoseKeyframe>& all, double time) {
+  const auto next = std::upper_bound(
+      all.begin(), all.end(), time, [](double t, const PoseKeyframe& key) { return t < key.time; });
+  const auto first = next - std::min<std::ptrdiff_t>(2, next - all.begin());
+  const auto end = next + std::min<std::ptrdiff_t>(2, all.end() - next);
+  return {first, end};
+}
+
 }  // namespace
 
-RigidMotion motion_at(const std::vector<PoseKeyframe>& keyframes, const Vec3d& position,
+RigidMotion motion_at(const std::vector<PoseKeyframe>& all, const Vec3d& position,
                       const Vec3d& degrees, double time) {
+  const std::vector<PoseKeyframe> keyframes = keyframes_around(all, time);
   std::vector<double> times;
   std::vector<Vec3d> angles;
   for (const PoseKeyframe& key : keyframes) {

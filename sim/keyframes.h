@@ -37,7 +37,7 @@ RigidMotion motion_at(const std::vector<PoseKeyframe>& keyframes, const Vec3d& p
                       const Vec3d& degrees, double time);
 
 /// Degrees between the attitudes of two keyframes as their angles are written: what the shorter way
-/// round covers only up to 180.
+/// round covers only below 180.
 double written_turn(const Vec3d& degrees, const Vec3d& next);
 
 }  // namespace neve::sim

@@ -8,10 +8,16 @@
 #include <tuple>
 #include <utility>
 
+#include "sim/mesh_surface.h"
+#include "sim/number_text.h"
+
 namespace neve::sim {
 namespace {
 
 using Corner = std::uint32_t;
+
+/// m, across a mesh: cells are no smaller.
+constexpr double least_extent = 1e-9;
 
 /// For every vertex the first one at the same position.
 std::vector<Corner> weld(const std::vector<Vec3d>& vertices) {
@@ -153,13 +159,28 @@ ClosedMesh close_mesh(const PolygonMesh& mesh, const std::string& name) {
   return closed;
 }
 
-std::unique_ptr<const Form> read_mesh_solid(const std::string& path, double scale) {
+ClosedMesh scaled(ClosedMesh mesh, double scale, const std::string& name) {
   if (!(scale > 0) || !std::isfinite(scale))
-    throw ShapeError(path + ": the scale of a mesh must be a finite number above 0");
-  ClosedMesh mesh = close_mesh(read_obj(path), path);
+    throw ShapeError(name + ": the scale of a mesh must be a finite number above 0");
   for (Vec3d& x : mesh.vertices) x *= scale;
   mesh.volume *= scale * scale * scale;
-  return make_mesh_solid(std::move(mesh));
+  const Bounds b = bounds_of(mesh);
+  const double across = (b.max - b.min).maxCoeff();
+  const std::string what = name + ": with scale = " + number_text(scale) + " the mesh is ";
+  if (!std::isfinite(mesh.volume) || !std::isfinite(across))
+    throw ShapeError(what +
+                     "too large: its volume overflows. scale is metres per unit of the file");
+  if (!(across >= least_extent && mesh.volume > 0))
+    throw ShapeError(what + number_text(across) + " m across; expected at least " +
+                     number_text(least_extent) + " m. scale is metres per unit of the file");
+  return mesh;
+}
+
+std::shared_ptr<const Form> read_mesh_solid(const std::string& path, double scale) {
+  static Recent<Form> recent;
+  return recent.get(file_stamp(path) + "|" + number_text(scale, 17), [&] {
+    return make_mesh_solid(scaled(close_mesh(read_obj(path), path), scale, path));
+  });
 }
 
 }  // namespace neve::sim

@@ -30,9 +30,15 @@ Bounds bounds_of(const ClosedMesh& mesh, const Mat3d& rotation = Mat3d::Identity
 ///         what to do; also for a volume that is not finite, or 0 within rounding
 ClosedMesh close_mesh(const PolygonMesh& mesh, const std::string& name);
 
-/// A mesh from an OBJ file as a solid: inside is where the winding number is above 0.
+/// The mesh in metres. @param scale metres per unit of the file
+/// @throws ShapeError for a scale that is no number above 0, or makes the mesh larger than numbers
+///         can tell or smaller than a nanometre
+ClosedMesh scaled(ClosedMesh mesh, double scale, const std::string& name);
+
+/// A mesh from an OBJ file as a solid: inside is where the winding number is above 0. Read once:
+/// whoever asks again has the same one, unless the file was written since.
 /// @throws ShapeError
-std::unique_ptr<const Form> read_mesh_solid(const std::string& path, double scale);
+std::shared_ptr<const Form> read_mesh_solid(const std::string& path, double scale);
 std::unique_ptr<const Form> make_mesh_solid(ClosedMesh mesh);
 
 }  // namespace neve::sim

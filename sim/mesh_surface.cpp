@@ -143,14 +143,10 @@ std::shared_ptr<const MeshSurface> mesh_surface(const Mesh& mesh) {
   name.precision(17);
   name << file_stamp(mesh.file) << "|" << mesh.scale;
   return recent.get(name.str(), [&] {
-    if (!(mesh.scale > 0) || !std::isfinite(mesh.scale))
-      throw ShapeError(mesh.file + ": the scale of a mesh must be a finite number above 0");
     const PolygonMesh polygons = read_obj(mesh.file);
     ClosedMesh closed = close_mesh(polygons, mesh.file);
     require_convex_faces(polygons, mesh.file);
-    for (Vec3d& x : closed.vertices) x *= mesh.scale;
-    closed.volume *= mesh.scale * mesh.scale * mesh.scale;
-    return std::make_shared<const MeshSurface>(std::move(closed));
+    return std::make_shared<const MeshSurface>(scaled(std::move(closed), mesh.scale, mesh.file));
   });
 }
 

@@ -1,7 +1,6 @@
 #include "sim/point_table.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "sim/input_file.h"
@@ -16,6 +15,7 @@ constexpr std::array quantity_names{"x", "y", "z", "vx", "vy", "vz", "mass", "vo
 
 constexpr double max_coordinate = 1e6;  // m and m/s
 constexpr double max_amount = 1e12;     // kg and m3
+constexpr double min_amount = 1e-30;    // single precision ends at 1e-38
 
 /// "velocity_x", "Velocity.X" and "velocityx" are the same.
 std::string plain_column_name(std::string_view name) {
@@ -103,12 +103,11 @@ double PointTable::value(const std::vector<double>& row, std::size_t quantity,
                          const std::function<std::string()>& where) const {
   const double value = row[*column_[quantity]];
   const bool is_amount = quantity >= mass;
-  const bool is_allowed = is_amount
-                              ? value >= std::numeric_limits<double>::min() && value <= max_amount
-                              : value >= -max_coordinate && value <= max_coordinate;
+  const bool is_allowed = is_amount ? value >= min_amount && value <= max_amount
+                                    : value >= -max_coordinate && value <= max_coordinate;
   if (!is_allowed)
     refuse_input(where(), std::string(quantity_names[quantity]) + " = " + number_text(value, 6) +
-                              (is_amount ? "; expected a number above 0, at most 1e12"
+                              (is_amount ? "; expected a number from 1e-30 to 1e12"
                                          : "; expected a finite number, at most 1e6 from 0"));
   return value;
 }

@@ -16,9 +16,12 @@ struct LatticeBlock {
 };
 inline constexpr int block_cells = 4;
 
+/// @throws ShapeError when the solid's bounds hold more blocks than can be looked at
+void require_few_blocks(const Solid& solid, const Vec3d& origin, double spacing);
+
 /// All blocks that may hold points inside, x fastest. Cell i spans from origin + i * spacing to
 /// origin + (i+1) * spacing.
-/// @throws ShapeError when the solid's bounds hold more blocks than can be looked at
+/// @throws ShapeError as require_few_blocks
 std::vector<LatticeBlock> blocks_in(const Solid& solid, const Vec3d& origin, double spacing);
 
 }  // namespace neve::sim

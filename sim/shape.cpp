@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/mesh.h"
+#include "sim/number_text.h"
 #include "sim/placed_points.h"
 #include "sim/solid.h"
 #include "sim/solid_forms.h"
@@ -20,7 +21,7 @@ Mat3d capsule_axes(const Capsule& capsule) {
 }
 
 struct MakeForm {
-  using Result = std::unique_ptr<const Form>;
+  using Result = std::shared_ptr<const Form>;
   Result operator()(const Sphere& s) const { return make_ball(s.radius); }
   Result operator()(const Box& s) const { return make_cuboid(s.size); }
   Result operator()(const Capsule& s) const { return make_rod((s.b - s.a).norm(), s.radius); }
@@ -52,7 +53,7 @@ Solid::Solid(const Shape& shape)
       form_(std::visit(MakeForm{}, shape.form)) {
   const double v = form_->volume();
   if (!(v > 0) || !std::isfinite(v))
-    throw ShapeError("the volume of the shape is " + std::to_string(v) +
+    throw ShapeError("the volume of the shape is " + number_text(v) +
                      " m3; expected a finite number above 0");
 }
 

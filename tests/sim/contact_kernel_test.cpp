@@ -80,7 +80,7 @@ TEST(ContactKernel, AgreesWithTheHostForEveryShape) {
     SCOPED_TRACE(shape.form.index());
     const Collider c = moving_and_turned(shape);
     const double time = 0.3;
-    const ColliderPose pose = kernel_pose(c, time, h, Vec3i::Zero(), nullptr);
+    const ColliderPose pose = *kernel_pose(c, time, h, Vec3i::Zero(), nullptr);
     int inside = 0;
     for (const Vec3d& x : random_places(4000, 0.6)) {
       const Surface host = surface_at(c, time, x);
@@ -105,7 +105,8 @@ TEST(ContactKernel, AgreesWithTheHostForEveryShape) {
 TEST(ContactKernel, NormalIsTheGradientOfTheDistanceInside) {
   for (const Shape& shape : analytic_shapes()) {
     SCOPED_TRACE(shape.form.index());
-    const ColliderPose pose = kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
+    const ColliderPose pose =
+        *kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
     for (const Vec3d& x : random_places(1000, 0.5)) {
       const Seen here = seen_by_kernel<double>(pose, x);
       EXPECT_NEAR(here.normal.norm(), 1, 1e-12);
@@ -161,7 +162,7 @@ TEST(ContactKernel, TiesAndCentresAreAsDocumented) {
     collider.shape = c.shape;
     // The middle_of_shapes is at cell -1, 10, 6 exactly, so that ties are exact in the kernels'
     // arithmetic too; what is left is the rounding of 0.1.
-    const ColliderPose pose = kernel_pose(collider, 0, h, Vec3i::Zero(), nullptr);
+    const ColliderPose pose = *kernel_pose(collider, 0, h, Vec3i::Zero(), nullptr);
     const Seen lane = seen_by_kernel<double>(pose, middle_of_shapes + c.from_middle);
     const Surface host = surface_at(collider, 0, middle_of_shapes + c.from_middle);
     EXPECT_NEAR(host.distance, c.distance, 1e-12);
@@ -180,7 +181,7 @@ TEST(ContactKernel, TiesAndCentresAreAsDocumented) {
           }
         },
         collider.shape.form);
-    const ColliderPose at_origin = kernel_pose(collider, 0, 0.125, Vec3i::Zero(), nullptr);
+    const ColliderPose at_origin = *kernel_pose(collider, 0, 0.125, Vec3i::Zero(), nullptr);
     const int origin[3] = {0, 0, 0};
     using V = Quad<double>;
     Vec3<V> normal;
@@ -197,7 +198,8 @@ TEST(ContactKernel, NothingInReachIsEverLeftOut) {
   std::uniform_real_distribution<double> unit(-1, 1);
   for (const Shape& shape : analytic_shapes()) {
     SCOPED_TRACE(shape.form.index());
-    const ColliderPose pose = kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
+    const ColliderPose pose =
+        *kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
     const LocalCollider<float> local = localize<float>(pose, block, h);
     int left_out = 0;
     for (int k = 0; k < 400; ++k) {
@@ -242,7 +244,7 @@ TEST(ContactKernel, EveryShapeHasFrictionSlipAndStickiness) {
       Collider c = moving_and_turned(shape);
       c.contact = contact;
       c.friction = 0.4;
-      const ColliderPose pose = kernel_pose(c, 0.3, h, Vec3i::Zero(), nullptr);
+      const ColliderPose pose = *kernel_pose(c, 0.3, h, Vec3i::Zero(), nullptr);
       const LocalCollider<double> local = localize<double>(pose, block, h);
       int changed = 0, stuck = 0;
       for (const Vec3d& x : random_places(1500, 0.5)) {
@@ -264,6 +266,27 @@ TEST(ContactKernel, EveryShapeHasFrictionSlipAndStickiness) {
         EXPECT_LT(stuck, changed);
       }
     }
+}
+
+TEST(KernelPose, APlaneIsTakenByTheFootNearestToTheOrigin) {
+  Collider floor;
+  floor.shape = {Plane{{-1e6, 0.25, 3e6}, {0, 1, 0}}, {0, 0, 0}};
+  floor.angular_velocity = {0, 1e-6, 0};
+  const auto pose = kernel_pose(floor, 0, h, Vec3i::Zero(), nullptr);
+  ASSERT_TRUE(pose);
+  const Vec3d x(0.3, 0.5, -0.2);
+  EXPECT_NEAR(seen_by_kernel<double>(*pose, x).distance, surface_at(floor, 0, x).distance, 1e-9);
+  // Its surface turns about the point that was given.
+  EXPECT_NEAR(pose->velocity[0], 1e-6 * -3e6, 1e-9);
+  EXPECT_NEAR(pose->velocity[2], 1e-6 * -1e6, 1e-9);
+}
+
+TEST(KernelPose, AColliderThatLeftTheLatticeIsOutOfReach) {
+  Collider press;
+  press.shape.form = Box{};
+  press.velocity = {0, 0, 1e6};
+  EXPECT_TRUE(kernel_pose(press, 0, 0.01, Vec3i::Zero(), nullptr));
+  EXPECT_FALSE(kernel_pose(press, 1, 0.01, Vec3i::Zero(), nullptr));
 }
 
 }  // namespace

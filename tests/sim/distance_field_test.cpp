@@ -9,6 +9,7 @@
 
 #include "sim/collider.h"
 #include "sim/kernel_pose.h"
+#include "sim/solid.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -65,7 +66,7 @@ std::pair<double, Vec3d> kernel_in_field(const DistanceField& field, const Vec3d
   collider.shape.form = Mesh{};
   const double h = 0.125;
   const int block[3] = {0, 0, 0};
-  const ColliderPose pose = kernel_pose(collider, 0, h, Vec3i::Zero(), &field);
+  const ColliderPose pose = *kernel_pose(collider, 0, h, Vec3i::Zero(), &field);
   using V = Quad<Real>;
   Vec3<V> n;
   const V d =
@@ -199,6 +200,20 @@ TEST(DistanceField, SaysWhatIsWrongWithAMesh) {
   // As thin as paper: no place of the lattice is inside. Too long for a finer lattice.
   const std::string paper = box_obj({4, 0.001, 4});
   EXPECT_NE(mesh_complaint(written_mesh(folder, paper), 0.05).find("thinner"), std::string::npos);
+}
+
+TEST(DistanceField, RefusesScalesThatLeaveNoMesh) {
+  const TemporaryFolder folder;
+  const std::string box = box_obj({1, 1, 1});
+  // 1e-322 cubed, and then already over 64, is 0.
+  for (const double scale : {1e-322, 1e-160, 1e-10, 1e200}) {
+    const std::string said = mesh_complaint(written_mesh(folder, box, scale), 0.05);
+    EXPECT_NE(said.find("mesh.obj: with scale = "), std::string::npos) << said;
+    EXPECT_NE(said.find("metres per unit of the file"), std::string::npos) << said;
+    EXPECT_THROW(Solid({written_mesh(folder, box, scale)}), ShapeError);
+  }
+  // What is smaller than cells by far has a lattice of its own size.
+  EXPECT_EQ(mesh_complaint(written_mesh(folder, box, 1e-8), 0.05), "");
 }
 
 }  // namespace

@@ -140,4 +140,12 @@ TEST(Variation, RefusesFactorsThatAreNotPositive) {
   EXPECT_THROW(Simulation({}, {Material{}}, {}, p, 1), std::invalid_argument);
 }
 
+TEST(Variation, LumpsOfNoSizeAreStillNumbers) {
+  for (const double size : {1e-310, 1e-30}) {
+    const Factors factors = vary({0.1, 0.2, 0.3, size}, 5, 1, {0.3, -0.2, 0});
+    EXPECT_TRUE(factors.density > 0 && factors.density < 2) << factors.density;
+    EXPECT_TRUE(factors.stiffness > 0 && factors.stiffness < 4) << factors.stiffness;
+  }
+}
+
 }  // namespace
