@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/scene/value.h"
 #include "app/snow_pieces.h"
 #include "sim/base/hash.h"
+#include "sim/blocks.h"
 #include "sim/variation.h"
 
 namespace neve::app {
@@ -51,9 +53,32 @@ void vary_body(const Scene& scene, std::size_t index, const sim::SeededBody& see
 
 }  // namespace
 
+namespace {
+
+/// Particles of a body, within the lattice. @throws sim::ShapeError that names the body
+sim::SeededBody seed_checked(const Scene& scene, std::size_t index) {
+  const sim::Body& body = scene.bodies[index];
+  const std::string at = "body." + body.name + ".shape: ";
+  const double h = scene.solver.cell_size, limit = h * (4.0 * sim::block_limit - 8);
+  sim::SeededBody seeded;
+  try {
+    seeded = sim::seed_body(body, index, scene.seed, h);
+  } catch (const sim::ShapeError& error) {
+    throw sim::ShapeError(at + error.what());
+  }
+  for (const sim::Vec3d& x : seeded.x)
+    if (!(x.cwiseAbs().maxCoeff() <= limit))
+      throw sim::ShapeError(at + "a particle is more than " + number_text(limit) +
+                            " m from the origin, where the lattice ends; move it closer or enlarge "
+                            "solver.cell_size");
+  return seeded;
+}
+
+}  // namespace
+
 void append_body(const Scene& scene, std::size_t index, sim::ParticleArrays& particles) {
   const sim::Body& body = scene.bodies[index];
-  const sim::SeededBody seeded = sim::seed_body(body, index, scene.seed, scene.solver.cell_size);
+  const sim::SeededBody seeded = seed_checked(scene, index);
   const std::size_t material = material_index(scene, body.material);
   const double share = seeded.volume / static_cast<double>(seeded.x.size());
   const bool is_given = body.volumes == sim::Volumes::given;

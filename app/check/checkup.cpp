@@ -144,6 +144,7 @@ Checkup examine(const Scene& scene, const Plan& plan, int threads) {
   check_units(scene, checkup.findings);
   check_resolution(scene, checkup.findings);
   check_emitters(scene, checkup.findings);
+  check_sinks(scene, checkup.impact_speed, checkup.findings);
   if (plan.particles <= most_seeded && plan.memory <= plan.memory_limit) {
     std::vector<std::size_t> body_end;
     const sim::ParticleArrays particles = seed_scene(scene, &body_end);

@@ -21,9 +21,6 @@ using sim::Vec3d;
 
 constexpr double ice = 917;  // kg/m3
 
-/// Of what an emitter's velocity carries away: spheres and cones are not as wide everywhere.
-constexpr double most_packing = 1.3;
-
 Vec3d extent(const sim::Shape& shape) {
   const sim::Bounds box = sim::bounds(shape);
   return box.max - box.min;
@@ -31,20 +28,6 @@ Vec3d extent(const sim::Shape& shape) {
 
 bool is_plane(const sim::Shape& shape) {
   return std::holds_alternative<sim::Plane>(shape.form);
-}
-
-/// The thinnest part of a shape, m.
-double thickness(const sim::Shape& shape) {
-  if (const auto* box = std::get_if<sim::Box>(&shape.form)) return box->size.minCoeff();
-  if (const auto* torus = std::get_if<sim::Torus>(&shape.form)) return 2 * torus->minor_radius;
-  if (const auto* capsule = std::get_if<sim::Capsule>(&shape.form)) return 2 * capsule->radius;
-  if (const auto* c = std::get_if<sim::Cylinder>(&shape.form))
-    return std::min(2 * c->radius, c->height);
-  if (const auto* c = std::get_if<sim::Cone>(&shape.form))
-    return std::min(2 * c->radius, c->height);
-  sim::Shape level = shape;
-  level.rotation.setZero();
-  return extent(level).minCoeff();
 }
 
 void check_material_units(const sim::Material& m, std::vector<Finding>& findings) {
@@ -207,6 +190,19 @@ std::string percent_text(double share) {
   return fixed_text(100 * share, share < 0.1 ? 1 : 0) + " %";
 }
 
+double thickness(const sim::Shape& shape) {
+  if (const auto* box = std::get_if<sim::Box>(&shape.form)) return box->size.minCoeff();
+  if (const auto* torus = std::get_if<sim::Torus>(&shape.form)) return 2 * torus->minor_radius;
+  if (const auto* capsule = std::get_if<sim::Capsule>(&shape.form)) return 2 * capsule->radius;
+  if (const auto* c = std::get_if<sim::Cylinder>(&shape.form))
+    return std::min(2 * c->radius, c->height);
+  if (const auto* c = std::get_if<sim::Cone>(&shape.form))
+    return std::min(2 * c->radius, c->height);
+  sim::Shape level = shape;
+  level.rotation.setZero();
+  return extent(level).minCoeff();
+}
+
 double largest_extent(const Scene& scene) {
   double largest = 0;
   for (const SnowPiece& piece : snow_places(scene))
@@ -265,28 +261,6 @@ void check_resolution(const Scene& scene, std::vector<Finding>& findings) {
                               " cells thick: snow leaks through less than 2",
                           "make it thicker, or solver.cell_size = " +
                               rough_text(0.5 * thickness(collider.shape))});
-  }
-}
-
-void check_emitters(const Scene& scene, std::vector<Finding>& findings) {
-  const double end = scene.frames / scene.fps;
-  for (const sim::Emitter& emitter : scene.emitters) {
-    const std::string at = "emitter." + emitter.name;
-    if (emitter.start >= end && end > 0) {
-      findings.push_back({Severity::warning, at + ".start",
-                          emitter.name + " opens at " + rough_text(emitter.start) +
-                              " s, the scene ends at " + rough_text(end) + " s",
-                          "an earlier start, or more frames"});
-      continue;
-    }
-    const sim::Material& material = scene.materials[material_index(scene, emitter.material)];
-    const double carried = sim::carried_rate(emitter, material);
-    if (emitter.rate > 0 && carried > 0 && emitter.rate > most_packing * carried)
-      findings.push_back({Severity::warning, at + ".rate",
-                          "its velocity carries about " + rough_text(carried) +
-                              " kg/s away at the density of " + material.name +
-                              "; snow will be born inside of snow",
-                          "at most that rate, a faster velocity or a larger shape"});
   }
 }
 

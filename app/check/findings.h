@@ -16,14 +16,21 @@ std::string percent_text(double share);
 /// The longest edge of the boxes around bodies and emitters, m.
 double largest_extent(const Scene& scene);
 
+/// The thinnest part of a shape, m.
+double thickness(const sim::Shape& shape);
+
 /// Numbers that look like centimetres, grams or kilopascals.
 void check_units(const Scene& scene, std::vector<Finding>& findings);
 
 /// Bodies and colliders a few cells thick, too few particles in a cell.
 void check_resolution(const Scene& scene, std::vector<Finding>& findings);
 
-/// Emitters that never open, or that pack more snow than their velocity carries away.
+/// Emitters that never open, are thinner than particles are apart, or pack more snow than their
+/// velocity, or gravity, carries away.
 void check_emitters(const Scene& scene, std::vector<Finding>& findings);
+
+/// Sinks that fast snow crosses between two looks. @param speed  m/s, of the fastest snow
+void check_sinks(const Scene& scene, double speed, std::vector<Finding>& findings);
 
 /// Bodies in one another and in colliders, points that weigh too much.
 /// @param body_end see seed_scene

@@ -68,8 +68,11 @@ void check_motion(const Scene& scene, const Checkup& checkup, std::vector<Findin
   for (const sim::Collider& collider : scene.colliders) {
     const double speed = sim::largest_speed(collider), cells = speed * dt / s.cell_size;
     const double c = checkup.start.max_sound_speed;
-    const std::string at =
-        "collider." + collider.name + (collider.keyframes.empty() ? ".velocity" : ".keyframes");
+    const bool spins = collider.velocity.norm() < 0.5 * speed;
+    const std::string at = "collider." + collider.name +
+                           (!collider.keyframes.empty() ? ".keyframes"
+                            : spins                     ? ".angular_velocity"
+                                                        : ".velocity");
     if (cells > 0.5)
       findings.push_back(
           {Severity::warning, at,

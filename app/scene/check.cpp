@@ -8,7 +8,10 @@
 #include "app/scene/names.h"
 #include "app/scene/read.h"
 #include "app/text.h"
+#include "sim/blocks.h"
 #include "sim/contact.h"
+#include "sim/mesh_surface.h"
+#include "sim/solid.h"
 
 namespace neve::app {
 namespace {
@@ -18,8 +21,8 @@ using Found = std::optional<Problem>;
 /// Directions shorter than this, and points closer, are the same as none.
 constexpr double negligible = 1e-6;
 
-/// Cells are numbered by 32-bit integers.
-constexpr double max_cells_from_origin = 1 << 30;
+/// The solver's lattice of nodes ends there; the reach of a stencil is left.
+constexpr double max_cells_from_origin = 4.0 * sim::block_limit - 8;
 
 Found problem(const sim::Torus& torus, const std::string& at) {
   if (torus.minor_radius <= torus.major_radius) return {};
@@ -47,37 +50,18 @@ Found problem(const Form&, const std::string&) {
   return {};
 }
 
-struct Place {
-  const char* key;
-  sim::Vec3d point;
+/// The key of where a form stands.
+struct PlaceKey {
+  const char* operator()(const sim::Capsule&) const { return ".capsule.a"; }
+  const char* operator()(const sim::Plane&) const { return ".plane.point"; }
+  const char* operator()(const sim::Sphere&) const { return ".sphere.center"; }
+  const char* operator()(const sim::Box&) const { return ".box.center"; }
+  const char* operator()(const sim::Cylinder&) const { return ".cylinder.center"; }
+  const char* operator()(const sim::Cone&) const { return ".cone.center"; }
+  const char* operator()(const sim::Torus&) const { return ".torus.center"; }
+  const char* operator()(const sim::Mesh&) const { return ".mesh.center"; }
+  const char* operator()(const sim::Points&) const { return ".points.center"; }
 };
-Place place(const sim::Capsule& c) {
-  return {".capsule.a", c.a};
-}
-Place place(const sim::Plane& p) {
-  return {".plane.point", p.point};
-}
-Place place(const sim::Sphere& s) {
-  return {".sphere.center", s.center};
-}
-Place place(const sim::Box& b) {
-  return {".box.center", b.center};
-}
-Place place(const sim::Cylinder& c) {
-  return {".cylinder.center", c.center};
-}
-Place place(const sim::Cone& c) {
-  return {".cone.center", c.center};
-}
-Place place(const sim::Torus& t) {
-  return {".torus.center", t.center};
-}
-Place place(const sim::Mesh& m) {
-  return {".mesh.center", m.center};
-}
-Place place(const sim::Points& p) {
-  return {".points.center", p.center};
-}
 
 Found material_problem(const Scene& scene, const std::string& wanted, const std::string& address) {
   std::vector<std::string> names;
@@ -95,14 +79,43 @@ Found material_problem(const Scene& scene, const std::string& wanted, const std:
                                  : "did you mean " + toml_string(nearest) + "?"};
 }
 
-Found shape_problem(const Scene& scene, const sim::Shape& shape, const std::string& address) {
-  const Place at = std::visit([](const auto& form) { return place(form); }, shape.form);
-  if (at.point.cwiseAbs().maxCoeff() > max_cells_from_origin * scene.solver.cell_size) {
-    return Problem{address + ".shape" + at.key, "more than 2^30 cells from the origin",
-                   "move it closer or enlarge solver.cell_size"};
+Found too_far(const Scene& scene, const sim::Vec3d& x, const std::string& address) {
+  if (x.cwiseAbs().maxCoeff() <= max_cells_from_origin * scene.solver.cell_size) return {};
+  return Problem{address,
+                 "more than " + number_text(max_cells_from_origin) + " cells from the origin",
+                 "move it closer or enlarge solver.cell_size"};
+}
+
+/// What only making the shape ready tells: a mesh that is open, a volume that is none.
+template <class Make>
+Found ready_problem(const std::string& address, const Make& make) {
+  try {
+    return make();
+  } catch (const sim::ShapeError& error) {
+    return Problem{address + ".shape", error.what(), ""};
   }
+}
+
+/// Of the form, and of where it stands.
+Found form_problem(const sim::Shape& shape, const std::string& address) {
   return std::visit([&](const auto& form) { return problem(form, address + ".shape"); },
                     shape.form);
+}
+
+std::string place_address(const sim::Shape& shape, const std::string& address) {
+  return address + ".shape" + std::visit(PlaceKey{}, shape.form);
+}
+
+/// Of a shape that is filled with snow. Files of points are read when they are.
+Found shape_problem(const Scene& scene, const sim::Shape& shape, const std::string& address) {
+  const std::string at = place_address(shape, address);
+  if (Found found = too_far(scene, sim::center(shape), at)) return found;
+  if (Found found = form_problem(shape, address)) return found;
+  if (std::holds_alternative<sim::Points>(shape.form)) return {};
+  return ready_problem(address, [&] {
+    const sim::Bounds b = sim::Solid(shape).bounds();
+    return too_far(scene, b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs()), at);
+  });
 }
 
 Found body_problem(const Scene& scene, const sim::Body& body) {
@@ -125,8 +138,13 @@ Found emitter_problem(const Scene& scene, const sim::Emitter& emitter) {
   return shape_problem(scene, emitter.shape, address);
 }
 
-Found sink_problem(const Scene& scene, const sim::Sink& sink) {
-  return shape_problem(scene, sink.shape, "sink." + sink.name);
+Found sink_problem(const sim::Sink& sink) {
+  const std::string address = "sink." + sink.name;
+  if (Found found = form_problem(sink.shape, address)) return found;
+  return ready_problem(address, [&] {
+    sim::Solid(sink.shape);
+    return Found{};
+  });
 }
 
 /// Of one place to look from.
@@ -233,6 +251,13 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
   return {};
 }
 
+/// Of the attitudes themselves, whatever angles they are written in. Within 1e-4 degrees.
+bool is_half_turn(const sim::Vec3d& degrees, const sim::Vec3d& next) {
+  const sim::Mat3d turn =
+      sim::rotation_from_degrees(degrees).transpose() * sim::rotation_from_degrees(next);
+  return turn.trace() < -1 + 1e-12;
+}
+
 Found motion_problem(const Collider& collider) {
   const std::string at = "collider." + collider.name;
   if (collider.keyframes.empty()) return {};
@@ -253,18 +278,45 @@ Found motion_problem(const Collider& collider) {
                          number_text(before->time) + " s",
                      "times increase from one keyframe to the next"};
     }
+    if (before && key.time - before->time < 1e-9) {
+      return Problem{key_at + ".time", who + " is less than 1e-9 s after the one before",
+                     "a thing that is to jump does so within a step: 1e-4 s is soon enough"};
+    }
     const sim::Vec3d own = collider.shape.rotation;
     const sim::Vec3d rotation = key.rotation.value_or(own);
     const sim::Vec3d last = before ? before->rotation.value_or(own) : rotation;
-    if (sim::written_turn(last, rotation) > 180) {
-      return Problem{key_at + ".rotation",
-                     who + " turns by more than 180 degrees since the one before",
-                     "the shorter way is taken: put a keyframe in between, or let "
-                     "angular_velocity turn it"};
+    if (sim::written_turn(last, rotation) >= 180 || is_half_turn(last, rotation)) {
+      return Problem{
+          key_at + ".rotation", who + " turns by 180 degrees or more since the one before",
+          "the shorter way is taken, of two as long either: put a keyframe in between, or let "
+          "angular_velocity turn it"};
     }
     before = &key;
   }
   return {};
+}
+
+/// A plane may have its point anywhere: any other of its surface does as well.
+Found collider_problem(const Scene& scene, const Collider& collider) {
+  const std::string address = "collider." + collider.name;
+  if (Found found = form_problem(collider.shape, address)) return found;
+  if (Found found = motion_problem(collider)) return found;
+  if (std::holds_alternative<sim::Plane>(collider.shape.form)) return {};
+  const std::string at = place_address(collider.shape, address);
+  if (Found found = too_far(scene, sim::center(collider.shape), at)) return found;
+  for (std::size_t k = 0; k < collider.keyframes.size(); ++k) {
+    if (!collider.keyframes[k].position) continue;
+    if (Found found = too_far(scene, *collider.keyframes[k].position,
+                              address + ".keyframes[" + std::to_string(k + 1) + "].position"))
+      return found;
+  }
+  return ready_problem(address, [&] {
+    if (const auto* mesh = std::get_if<sim::Mesh>(&collider.shape.form))
+      sim::mesh_surface(*mesh);
+    else
+      sim::Solid(collider.shape);
+    return Found{};
+  });
 }
 
 }  // namespace
@@ -282,16 +334,14 @@ std::optional<Problem> find_problem(const Scene& scene) {
     if ((found = emitter_problem(scene, emitter))) return found;
   }
   for (const sim::Sink& sink : scene.sinks) {
-    if ((found = sink_problem(scene, sink))) return found;
+    if ((found = sink_problem(sink))) return found;
   }
   if (scene.colliders.size() > sim::max_colliders)
     return Problem{"collider." + scene.colliders[sim::max_colliders].name,
                    "there are " + std::to_string(scene.colliders.size()) + " colliders",
                    "at most " + std::to_string(sim::max_colliders) + " can be there"};
   for (const Collider& collider : scene.colliders) {
-    const std::string at = "collider." + collider.name + ".shape";
-    found = std::visit([&](const auto& form) { return problem(form, at); }, collider.shape.form);
-    if (found || (found = motion_problem(collider))) return found;
+    if ((found = collider_problem(scene, collider))) return found;
   }
   if (scene.camera && (found = camera_problem(*scene.camera, "camera"))) return found;
   if ((found = light_problem(scene.light))) return found;

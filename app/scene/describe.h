@@ -130,7 +130,7 @@ void describe(V& visit, sim::Variation& v) {
         "Relative standard deviation of their stiffness.");
   visit("thresholds", v.thresholds, unit::none, between(0, 2), restart,
         "Relative standard deviation of theta_c and theta_s, which vary together.");
-  visit("size", v.size, unit::metre, between(0, 1e6), restart,
+  visit("size", v.size, unit::metre, at_least(1e-6).at_most_or_0(1e6), restart,
         "Of the lumps that differ; 0: each particle on its own.");
 }
 
@@ -226,7 +226,7 @@ void describe(V& visit, sim::Points& p, Change change) {
   visit("file", p.file, unit::none, file_path, change,
         "Particles, PLY or CSV, with columns x y z and, if wanted, vx vy vz, mass and volume; "
         "relative to the scene file.");
-  visit("spacing", p.spacing, unit::metre, between(0, 1e6), change,
+  visit("spacing", p.spacing, unit::metre, at_least(1e-9).at_most_or_0(1e6), change,
         "Of a file without volumes, the distance between neighbours: each has spacing^3.");
   visit("thinning", p.thinning, unit::none, between(1, 1e9), change,
         "One point in so many is used, and stands for all of them.");
@@ -345,8 +345,9 @@ void describe(V& visit, sim::PoseKeyframe& k) {
   visit("time", k.time, unit::second, between(0, 1e6), live, "When; later than the one before.");
   visit("position", k.position, unit::metre, position, live,
         "Where the shape's centre (a plane's point) is then; without it where the shape says.");
-  visit("rotation", k.rotation, unit::degrees, within(1e6), live,
-        "The shape's rotation then, at most 180 degrees from the one before; without it its own.");
+  visit(
+      "rotation", k.rotation, unit::degrees, within(1e6), live,
+      "The shape's rotation then, less than 180 degrees from the one before; without it its own.");
 }
 
 template <class V>

@@ -17,9 +17,11 @@ struct Valid {
   double max = std::numeric_limits<double>::infinity();
   bool is_min_open = false, is_max_open = false;
   Text text = Text::any;
+  double least_above_0 = 0;  ///< 0 is allowed, what lies between 0 and this is not
 
   constexpr Valid below(double x) const { return {min, x, is_min_open, true, text}; }
   constexpr Valid at_most(double x) const { return {min, x, is_min_open, false, text}; }
+  constexpr Valid at_most_or_0(double x) const { return {0, x, false, false, text, min}; }
 
   /// False for NaN and infinities as well.
   bool contains(double x) const;

@@ -275,10 +275,11 @@ TEST(SceneErrors, DegenerateShapesAreRefused) {
             "s.toml:2:20: error: points have no file; give file = \"NAME.ply\" or .csv");
   EXPECT_EQ(error_of(in_body("shape = { box = { size = [1, 0, 1] } }")),
             "s.toml:2:30: error: body.1.shape.box.size[1] = 0; expected 0 < value <= 1000000");
-  EXPECT_EQ(error_of("[solver]\ncell_size = 1e-9\n" + in_body("shape = { box = { center = [9, 0, "
-                                                              "0] } }")),
-            "s.toml:4:28: error: more than 2^30 cells from the origin; move it closer or enlarge "
-            "solver.cell_size");
+  EXPECT_EQ(
+      error_of("[solver]\ncell_size = 1e-9\n" + in_body("shape = { box = { center = [9, 0, "
+                                                        "0] } }")),
+      "s.toml:4:28: error: more than 4194280 cells from the origin; move it closer or enlarge "
+      "solver.cell_size");
 }
 
 TEST(SceneErrors, KeyframesOfCollidersAreLocated) {
@@ -297,8 +298,15 @@ TEST(SceneErrors, KeyframesOfCollidersAreLocated) {
       "s.toml:7:20: error: angular_velocity and keyframes both move the collider; give one of "
       "them; keyframes hold a thing still where two are equal");
   EXPECT_EQ(error_with("keyframes = [{}, { time = 1, rotation = [0, 270, 0] }]"),
-            "s.toml:6:41: error: keyframe 2 turns by more than 180 degrees since the one before; "
-            "the shorter way is taken: put a keyframe in between, or let angular_velocity turn it");
+            "s.toml:6:41: error: keyframe 2 turns by 180 degrees or more since the one before; "
+            "the shorter way is taken, of two as long either: put a keyframe in between, or let "
+            "angular_velocity turn it");
+  for (const char* half : {"[0, 180, 0]", "[0, 0, -180]", "[90, 90, -90]"})
+    EXPECT_NE(error_with(std::string("keyframes = [{}, { time = 1, rotation = ") + half + " }]")
+                  .find("keyframe 2 turns by 180 degrees"),
+              std::string::npos)
+        << half;
+  EXPECT_EQ(error_with("keyframes = [{}, { time = 1, rotation = [0, 179.9, 0] }]"), "no error");
   EXPECT_EQ(
       error_with("keyframes = [{ place = [0, 0, 0] }]").find("s.toml:6:16: error: unknown key"),
       0u);

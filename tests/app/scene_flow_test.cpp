@@ -14,6 +14,7 @@
 #include "app/scene/read.h"
 #include "app/seed_scene.h"
 #include "app/snow_pieces.h"
+#include "tests/support/temporary_folder.h"
 
 namespace neve::app {
 namespace {
@@ -167,6 +168,74 @@ TEST(SceneFlow, EmittersThatCannotBeMeantAreFound) {
   std::string packed = spout;
   packed.replace(packed.find("rate = 20"), 9, "rate = 60");
   EXPECT_EQ(findings_of(packed), std::vector<std::string>{"emitter.spout.rate"});
+}
+
+TEST(SceneFlow, EmittersThinnerThanASpacingAreFound) {
+  const std::string pin = R"(
+[[emitter]]
+name = "pin"
+shape = { sphere = { radius = 1e-4 } }
+velocity = [0, -1, 0]
+rate = 1e-7
+)";
+  EXPECT_EQ(findings_of(pin), std::vector<std::string>{"emitter.pin.shape"});
+}
+
+TEST(SceneFlow, SnowBornAtRestHasToFallOut) {
+  std::string still = spout;
+  still.replace(still.find("velocity = [0, -2, 0]"), 21, "velocity = [0, 0, 0]");
+  EXPECT_EQ(findings_of(still), std::vector<std::string>{"emitter.spout.rate"});
+  still.replace(still.find("rate = 20"), 9, "rate = 5");
+  EXPECT_TRUE(findings_of(still).empty());
+  EXPECT_EQ(findings_of("[solver]\ngravity = [0, 0, 0]\n" + still),
+            std::vector<std::string>{"emitter.spout.rate"});
+}
+
+TEST(SceneFlow, SinksThatSnowFliesThroughAreFound) {
+  const auto found = [](double thick, double speed, const std::string& more) {
+    std::vector<Finding> findings;
+    check_sinks(flow_scene("[solver]\ncell_size = 0.02\n" + spout +
+                           "[[sink]]\nshape = { box = { size = [1, " + std::to_string(thick) +
+                           ", 1] } }\n" + more),
+                speed, findings);
+    return findings.size();
+  };
+  EXPECT_EQ(found(0.025, 100, ""), 1u);
+  EXPECT_EQ(found(0.025, 1, ""), 0u) << "a millimetre in a step";
+  EXPECT_EQ(found(0.03, 100, ""), 0u) << "1.4 cells";
+  EXPECT_EQ(found(0.025, 100, "outside = true\n"), 0u);
+}
+
+/// What the whole scene says, not the file of a mesh alone.
+TEST(SceneFlow, ShapesThatCannotBeAreLocated) {
+  const auto expect_error = [](const std::string& text, const std::string& part) {
+    const std::string said = flow_error(spout + text);
+    EXPECT_EQ(said.find("scene.toml:"), 0u) << said;
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+  };
+  const std::string no_volume = "the volume of the shape is 0 m3";
+  const std::string cone = "shape = { cone = { radius = 1e-300 } }\n";
+  for (const char* piece : {"body", "sink", "collider"})
+    expect_error(std::string("[[") + piece + "]]\n" + cone, "scene.toml:8:9: error: " + no_volume);
+  const test::TemporaryFolder folder;
+  const std::string open = folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const char* piece : {"body", "sink", "collider"})
+    expect_error(std::string("[[") + piece + "]]\nshape = { mesh = { file = \"" + open + "\" } }\n",
+                 "open.obj:4: the mesh is open");
+  const std::string far = "center = [1e6, 0, 0]";
+  for (const char* piece : {"body", "collider", "emitter"})
+    expect_error(std::string("[[") + piece + "]]\nshape = { box = { " + far + " } }\n",
+                 "more than 4194280 cells from the origin");
+  expect_error("[[collider]]\nshape = { box = {} }\nkeyframes = [{ position = [1e6, 0, 0] }]\n",
+               "scene.toml:9:27: error: more than 4194280 cells from the origin");
+  expect_error("[[body]]\nshape = { box = { size = [1e6, 1, 1] } }\n", "more than 4194280 cells");
+  EXPECT_EQ(flow_error(spout + "[[collider]]\nshape = { plane = { point = [-1e6, 0, 0] } }\n"), "");
+}
+
+TEST(SceneFlow, NumbersThatDoublesCannotDivideByAreRefused) {
+  const std::string said = flow_error(spout + "[material.snow]\nvariation = { size = 1e-310 }\n");
+  EXPECT_NE(said.find("expected 0 or 1e-6 <= value <= 1000000"), std::string::npos) << said;
+  EXPECT_EQ(flow_error(spout + "[material.snow]\nvariation = { size = 0 }\n"), "");
 }
 
 }  // namespace

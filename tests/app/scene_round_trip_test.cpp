@@ -11,6 +11,7 @@
 #include "app/scene/describe.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
+#include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -222,7 +223,7 @@ Scene full_scene(const std::string& mesh_file) {
 
 class RoundTrip : public testing::Test {
  protected:
-  RoundTrip() { std::ofstream(mesh_) << "v 0 0 0\n"; }
+  RoundTrip() { std::ofstream(mesh_) << test::box_obj({1, 1, 1}); }
   test::TemporaryFolder folder_;
   std::string mesh_ = (folder_ / "round_trip_é.obj").string();
 };
@@ -246,7 +247,7 @@ TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {
   moved.angular_velocity.setZero();
   moved.keyframes[1].time = moved.keyframes[0].time + 1.0 / 3;
   moved.keyframes[1].rotation = *moved.keyframes[0].rotation + sim::Vec3d(10.0 / 3, 20, 30);
-  scene.solver.cell_size = 0.1;
+  scene.solver.cell_size = 10.1;
   for (View& view : scene.views) view.slice.follow = "mesh";
   scene.camera->turntable.reset();  // there is an orbit
   scene.views[1].camera->orbit.reset();
