@@ -102,11 +102,15 @@ void print_forecast(const Checkup& checkup) {
   if (checkup.forecast.empty()) return;
   const FrameForecast& worst = busiest(checkup);
   std::cout << "steps      about " << about_count_text(checkup.steps()) << " in "
-            << checkup.forecast.size()
-            << " frames: " << about_count_text(checkup.forecast.front().steps) << " in frame 1, "
-            << about_count_text(worst.steps) << " in frame " << worst.frame << " ("
-            << sim::name(worst.limit) << "), from a copy of "
-            << about_count_text(checkup.coarse_particles) << " particles\n";
+            << checkup.forecast.size() << " frames: ";
+  if (worst.frame != 1)
+    std::cout << about_count_text(checkup.forecast.front().steps) << " in frame 1, ";
+  std::cout << about_count_text(worst.steps)
+            << (worst.frame == 1 ? ", the most, in frame " : " in frame ") << worst.frame << " ("
+            << sim::name(worst.limit) << ")";
+  if (checkup.coarse_particles >= 1)
+    std::cout << ", from a copy of " << about_count_text(checkup.coarse_particles) << " particles";
+  std::cout << "\n";
   if (checkup.seconds_per_step <= 0) return;
   std::cout << "time       about " << time_text(checkup.seconds()) << " of simulation, "
             << time_text(worst.steps * checkup.seconds_per_step) << " for the busiest frame; "
@@ -139,7 +143,7 @@ int run_check(const RenderOptions& options) {
   const RenderJob job = make_job(options);
   const Plan plan = make_plan(job.scene, job.frames, job.quality, options.threads);
   catch_interrupts();
-  const Checkup checkup = examine(job.scene, plan, options.threads);
+  const Checkup checkup = examine(job.scene, plan, options.threads, job.coarsening);
   if (options.is_json)
     std::cout << to_text(checkup_json(checkup, job)) << "\n";
   else

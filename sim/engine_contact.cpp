@@ -83,7 +83,8 @@ double Engine<Real>::max_depth() const {
           least = smaller_lanes(least, surface_distance(collider, r, normal));
         }
       }
-      deepest[c] = -smallest_lane(least);
+      // Not -smallest: nothing is 0 deep, never -0.
+      deepest[c] = 0 - smallest_lane(least);
     }
   });
   return *std::max_element(deepest.begin(), deepest.end());

@@ -43,20 +43,36 @@ double measure_step(sim::Simulation& simulation, double frame, sim::SolveReport&
   return *middle;
 }
 
-/// The steps of a frame at the scene's resolution, from the extremes that a coarse run had.
-FrameForecast foresee(const Scene& scene, int frame, const sim::Simulation::StepLimits& coarse,
-                      double coarse_cell) {
+/// What limits steps of a scene, or of a copy with other cells, in a state that a copy had.
+sim::Simulation::Choice allowed(const Scene& scene, const sim::Simulation::StepLimits& state,
+                                double cell_of_state) {
   sim::StateLimits limits;
-  limits.max_speed = coarse.max_speed;
-  limits.max_sound_speed = coarse.max_sound_speed;
+  limits.max_speed = state.max_speed;
+  limits.max_sound_speed = state.max_sound_speed;
   // The same difference of velocity over smaller cells.
-  limits.max_strain_rate = coarse.max_strain_rate * coarse_cell / scene.solver.cell_size;
+  limits.max_strain_rate = state.max_strain_rate * cell_of_state / scene.solver.cell_size;
   for (const sim::Material& m : scene.materials)
     limits.max_hardening = std::max(limits.max_hardening, m.hardening);
-  const sim::Simulation::Choice choice = sim::choose_dt(scene.solver, limits, 1e9);
-  const double duration = 1 / scene.fps;
-  FrameForecast forecast{frame, choice.dt, std::ceil(duration / choice.dt), choice.limit};
-  if (choice.dt >= duration) forecast.limit = sim::DtLimit::frame_end;
+  return sim::choose_dt(scene.solver, limits, 1e9);
+}
+
+/// The steps of a frame at the scene's resolution: those that the coarse copy took, in proportion
+/// to what both may take in the worst state that the copy had at the frame's ends. That state alone
+/// says little of the frame: it may last a single step.
+FrameForecast foresee(const Scene& scene, const Scene& coarse, int frame,
+                      const sim::Simulation::StepLimits& worst, const sim::AdvanceReport& ran) {
+  // A frame that the copy does in a step or two does not tell how long these might have been.
+  constexpr std::size_t telling = 3;
+  const double duration = 1 / scene.fps, cell = coarse.solver.cell_size;
+  const sim::Simulation::Choice own = allowed(scene, worst, cell);
+  FrameForecast forecast{frame, own.dt, std::max(1.0, std::ceil(duration / own.dt)), own.limit};
+  if (ran.steps >= telling) {
+    const double ratio = allowed(coarse, worst, cell).dt / own.dt;
+    forecast.steps = std::ceil(static_cast<double>(ran.steps) * ratio);
+    forecast.dt = duration / forecast.steps;
+    if (ran.limit() != sim::DtLimit::frame_end) forecast.limit = ran.limit();
+  }
+  if (forecast.steps == 1) forecast.limit = sim::DtLimit::frame_end;
   return forecast;
 }
 
@@ -96,7 +112,7 @@ double foresee_frames(const Scene& scene, Checkup& checkup) {
       static_cast<double>(particles.x.size()) + planned_emission(*coarse, scene.frames / scene.fps);
   sim::Simulation simulation = make_simulation(*coarse, particles, 1);
   const auto start = Clock::now();
-  sim::Simulation::StepLimits worst = simulation.step_limits();
+  FrameForecast forecast = foresee(scene, *coarse, 1, simulation.step_limits(), {});
   double particle_steps = 0, seconds = 0;
   for (int frame = 1; frame <= scene.frames; ++frame) {
     // The frame's start and end both count; where time runs out the last frames are as the one
@@ -108,12 +124,14 @@ double foresee_frames(const Scene& scene, Checkup& checkup) {
       seconds += seconds_since(before_frame);
       particle_steps +=
           static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());
-      worst = simulation.step_limits();
+      sim::Simulation::StepLimits worst = simulation.step_limits();
       worst.max_speed = std::max(worst.max_speed, before.max_speed);
       worst.max_sound_speed = std::max(worst.max_sound_speed, before.max_sound_speed);
       worst.max_strain_rate = std::max(worst.max_strain_rate, before.max_strain_rate);
+      forecast = foresee(scene, *coarse, frame, worst, report);
     }
-    checkup.forecast.push_back(foresee(scene, frame, worst, coarse->solver.cell_size));
+    forecast.frame = frame;
+    checkup.forecast.push_back(forecast);
   }
   if (simulation.divergence())
     checkup.findings.push_back({Severity::warning, "",
@@ -135,7 +153,7 @@ double Checkup::seconds() const {
   return steps() * seconds_per_step;
 }
 
-Checkup examine(const Scene& scene, const Plan& plan, int threads) {
+Checkup examine(const Scene& scene, const Plan& plan, int threads, double coarsening) {
   Checkup checkup;
   checkup.plan = plan;
   checkup.cells = plan.volume / std::pow(scene.solver.cell_size, 3);
@@ -145,6 +163,7 @@ Checkup examine(const Scene& scene, const Plan& plan, int threads) {
   check_resolution(scene, checkup.findings);
   check_emitters(scene, checkup.findings);
   check_sinks(scene, checkup.impact_speed, checkup.findings);
+  check_unused(scene, coarsening, checkup.findings);
   if (plan.particles <= most_seeded && plan.memory <= plan.memory_limit) {
     std::vector<std::size_t> body_end;
     const sim::ParticleArrays particles = seed_scene(scene, &body_end);

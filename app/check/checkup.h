@@ -44,6 +44,7 @@ struct Checkup {
 
 /// Seeds the scene, takes some steps, and runs a coarse copy: about three seconds.
 /// @param scene resolved is not needed
-Checkup examine(const Scene& scene, const Plan& plan, int threads);
+/// @param coarsening  what --coarsen did to it
+Checkup examine(const Scene& scene, const Plan& plan, int threads, double coarsening = 1);
 
 }  // namespace neve::app

@@ -30,6 +30,32 @@ bool is_plane(const sim::Shape& shape) {
   return std::holds_alternative<sim::Plane>(shape.form);
 }
 
+/// A shape that the cells do not resolve.
+struct Thin {
+  std::string address, name;
+  double cells;  ///< across its thinnest part
+};
+
+/// All of a kind in one finding, of the thinnest.
+/// @param size_per_cell  m, of the cells that would do, for each cell that it is thick
+void report_thin(const std::vector<Thin>& thin, const std::string& bound, const std::string& remedy,
+                 double size_per_cell, std::vector<Finding>& findings) {
+  if (thin.empty()) return;
+  const auto worst = std::min_element(
+      thin.begin(), thin.end(), [](const Thin& a, const Thin& b) { return a.cells < b.cells; });
+  constexpr std::size_t most_named = 5;
+  std::vector<std::string> others;
+  for (auto other = thin.begin(); other != thin.end(); ++other)
+    if (other != worst && others.size() < most_named) others.push_back(other->name);
+  const std::size_t left = thin.size() - 1 - others.size();
+  std::string what = worst->name + " is " + rough_text(worst->cells) + " cells thick";
+  if (!others.empty())
+    what += " (also under " + bound + ": " + joined(others, ", ") +
+            (left > 0 ? " and " + std::to_string(left) + " more)" : ")");
+  findings.push_back({Severity::warning, worst->address + ".shape", what,
+                      remedy + "; solver.cell_size = " + rough_text(worst->cells * size_per_cell)});
+}
+
 void check_material_units(const sim::Material& m, std::vector<Finding>& findings) {
   const std::string at = "material." + m.name + ".";
   if (m.density > 0.03 && m.density < 2)
@@ -100,8 +126,9 @@ void check_body_overlaps(const Scene& scene, const sim::ParticleArrays& particle
   for (const auto& [pair, cells] : shared) {
     if (cells < 1) continue;
     findings.push_back({Severity::warning, "body." + scene.bodies[pair.second].name + ".shape",
-                        scene.bodies[pair.first].name + " and " + scene.bodies[pair.second].name +
-                            " overlap in about " + rough_text(cells) +
+                        called("body", scene.bodies[pair.first].name) + " and " +
+                            called("body", scene.bodies[pair.second].name) + " overlap in about " +
+                            rough_text(cells) +
                             " cells: twice the mass there, and one velocity for both",
                         "move them apart"});
   }
@@ -160,7 +187,11 @@ void check_damping(const Scene& scene, const Checkup& checkup, std::vector<Findi
                             " steps a frame " + percent_text(kept) +
                             " of the finest motion is left, and less with smaller steps",
                         "flip_reference_dt = 5e-4 makes damping independent of dt"});
-  else
+  // The defaults are no news.
+  const sim::SolverSettings usual;
+  const bool is_usual =
+      s.flip_ratio == usual.flip_ratio && s.flip_reference_dt == usual.flip_reference_dt;
+  if (s.flip_reference_dt != 0 && !is_usual)
     findings.push_back({Severity::note, "solver.flip_ratio",
                         percent_text(kept) +
                             " of the finest motion (a cell or less) is left after a "
@@ -185,6 +216,12 @@ double share_outside(const CameraSettings& camera, double aspect, const Moment& 
 }
 
 }  // namespace
+
+std::string called(const std::string& kind, const std::string& name) {
+  const bool is_number =
+      std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return is_number ? kind + " " + name : name;
+}
 
 std::string percent_text(double share) {
   return fixed_text(100 * share, share < 0.1 ? 1 : 0) + " %";
@@ -235,33 +272,25 @@ void check_units(const Scene& scene, std::vector<Finding>& findings) {
 
 void check_resolution(const Scene& scene, std::vector<Finding>& findings) {
   const double h = scene.solver.cell_size;
+  std::vector<Thin> bodies, colliders;
   for (const sim::Body& body : scene.bodies) {
-    const std::string at = "body." + body.name;
-    const double across = thickness(body.shape) / h;
-    if (across < 4)
-      findings.push_back({Severity::warning, at + ".shape",
-                          body.name + " is " + rough_text(across) + " cells thick",
-                          "weights reach 2 cells: 6 and more show its shape; solver.cell_size = " +
-                              rough_text(thickness(body.shape) / 6)});
+    if (thickness(body.shape) < 4 * h)
+      bodies.push_back({"body." + body.name, called("body", body.name), thickness(body.shape) / h});
     if (is_from_points(body)) {
       check_point_distance(body, h, findings);
     } else if (body.particles_per_cell < 4) {
-      findings.push_back({Severity::warning, at + ".particles_per_cell",
+      findings.push_back({Severity::warning, "body." + body.name + ".particles_per_cell",
                           rough_text(body.particles_per_cell) +
                               " particles per cell leave gaps: snow breaks where none should",
                           "8 is usual"});
     }
   }
-  for (const sim::Collider& collider : scene.colliders) {
-    if (is_plane(collider.shape)) continue;
-    const double across = thickness(collider.shape) / h;
-    if (across < 2)
-      findings.push_back({Severity::warning, "collider." + collider.name + ".shape",
-                          collider.name + " is " + rough_text(across) +
-                              " cells thick: snow leaks through less than 2",
-                          "make it thicker, or solver.cell_size = " +
-                              rough_text(0.5 * thickness(collider.shape))});
-  }
+  for (const sim::Collider& collider : scene.colliders)
+    if (!is_plane(collider.shape) && thickness(collider.shape) < 2 * h)
+      colliders.push_back({"collider." + collider.name, called("collider", collider.name),
+                           thickness(collider.shape) / h});
+  report_thin(bodies, "4", "weights reach 2 cells: 6 and more show its shape", h / 6, findings);
+  report_thin(colliders, "2", "snow leaks through less than 2; make it thicker", h / 2, findings);
 }
 
 void check_overlaps(const Scene& scene, const sim::ParticleArrays& particles,

@@ -13,6 +13,9 @@ inline constexpr double most_extent = 20;   ///< m, of a body
 /// "0.7 %", "31 %".
 std::string percent_text(double share);
 
+/// "ball", or "body 1" of a body that has a number for a name.
+std::string called(const std::string& kind, const std::string& name);
+
 /// The longest edge of the boxes around bodies and emitters, m.
 double largest_extent(const Scene& scene);
 
@@ -31,6 +34,11 @@ void check_emitters(const Scene& scene, std::vector<Finding>& findings);
 
 /// Sinks that fast snow crosses between two looks. @param speed  m/s, of the fastest snow
 void check_sinks(const Scene& scene, double speed, std::vector<Finding>& findings);
+
+/// What the scene says without effect: bodies and emitters in sinks, keyframes after the last
+/// frame, slices that no layer shows, a dt that adaptive steps do not use.
+/// @param coarsening  what --coarsen did to the scene
+void check_unused(const Scene& scene, double coarsening, std::vector<Finding>& findings);
 
 /// Bodies in one another and in colliders, points that weigh too much.
 /// @param body_end see seed_scene

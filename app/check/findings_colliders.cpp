@@ -55,7 +55,8 @@ void check_collider_overlaps(const Scene& scene, const sim::ParticleArrays& part
       if (inside == 0) continue;
       findings.push_back({Severity::warning, "body." + scene.bodies[body].name + ".shape",
                           percent_text(static_cast<double>(inside) / count) + " of " +
-                              scene.bodies[body].name + " starts inside collider " + collider.name,
+                              called("body", scene.bodies[body].name) + " starts inside " +
+                              "collider " + collider.name,
                           "move it out: contact stops snow at surfaces, it does not push it out "
                           "(solver.push_out does, and leaves it crushed)"});
     }
@@ -76,13 +77,13 @@ void check_motion(const Scene& scene, const Checkup& checkup, std::vector<Findin
     if (cells > 0.5)
       findings.push_back(
           {Severity::warning, at,
-           collider.name + " moves up to " + rough_text(speed) + " m/s: " + rough_text(cells) +
-               " cells in a step, it runs over snow at rest",
+           called("collider", collider.name) + " moves up to " + rough_text(speed) +
+               " m/s: " + rough_text(cells) + " cells in a step, it runs over snow at rest",
            std::string(s.time_step == sim::TimeStep::fixed ? "solver.dt" : "solver.max_dt") +
                " = " + rough_text(0.4 * s.cell_size / speed)});
     else if (c > 0 && speed > c)
       findings.push_back({Severity::warning, at,
-                          collider.name + " moves up to " + rough_text(speed) +
+                          called("collider", collider.name) + " moves up to " + rough_text(speed) +
                               " m/s, faster than sound in the snow (" + rough_text(c) +
                               " m/s): it crushes what it hits",
                           "slower, or a larger youngs_modulus"});

@@ -68,8 +68,9 @@ void check_emitters(const Scene& scene, std::vector<Finding>& findings) {
   for (const sim::Emitter& emitter : scene.emitters) {
     if (emitter.start >= end && end > 0)
       findings.push_back({Severity::warning, "emitter." + emitter.name + ".start",
-                          emitter.name + " opens at " + rough_text(emitter.start) +
-                              " s, the scene ends at " + rough_text(end) + " s",
+                          called("emitter", emitter.name) + " opens at " +
+                              rough_text(emitter.start) + " s, the scene ends at " +
+                              rough_text(end) + " s",
                           "an earlier start, or more frames"});
     else
       check_opening(scene, emitter, end, findings);

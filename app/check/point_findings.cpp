@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/check/findings.h"
 #include "app/seed_scene.h"
 #include "app/text.h"
 
@@ -26,8 +27,8 @@ void check_point_distance(const sim::Body& body, double cell_size, std::vector<F
   const std::string eight = rough_text(cell_size * std::cbrt(8 / per_cell));
   findings.push_back({per_cell < 4 ? Severity::warning : Severity::note,
                       "body." + body.name + ".shape.points",
-                      "the points of " + body.name + " are " + rough_text(per_cell) +
-                          " in a cell, going by their volumes" +
+                      "the points of " + called("body", body.name) + " are " +
+                          rough_text(per_cell) + " in a cell, going by their volumes" +
                           (per_cell < 4 ? ": they leave gaps, and snow breaks where none should"
                                         : ": more than the grid can tell apart"),
                       "solver.cell_size = " + eight + " has 8" +
@@ -36,18 +37,23 @@ void check_point_distance(const sim::Body& body, double cell_size, std::vector<F
 
 namespace {
 
-/// kg/m3, the mean over the particles of the mass in their cell.
+/// Fewer have too few neighbours to go by.
+constexpr std::size_t fewest_points = 27;
+
+/// kg/m3, the mean over the particles of what the others weigh in their cell: 0 where each is
+/// alone.
 double density_where_they_lie(const sim::ParticleArrays& particles, std::size_t first,
                               std::size_t end, double h) {
   std::map<std::array<double, 3>, double> cells;
-  double mass = 0, weighted = 0;
+  double mass = 0, weighted = 0, alone = 0;
   for (std::size_t p = first; p < end; ++p) {
     const sim::Vec3d& x = particles.x[p];
     cells[{std::floor(x.x() / h), std::floor(x.y() / h), std::floor(x.z() / h)}] += particles.m[p];
     mass += particles.m[p];
+    alone += particles.m[p] * particles.m[p];
   }
   for (const auto& [cell, in_cell] : cells) weighted += in_cell * in_cell;
-  return weighted / mass / (h * h * h);
+  return (weighted - alone) / mass / (h * h * h);
 }
 
 }  // namespace
@@ -59,20 +65,24 @@ void check_point_masses(const Scene& scene, const sim::ParticleArrays& particles
     const sim::Body& body = scene.bodies[k];
     const std::size_t begin = first;
     first = body_end[k];
-    if (!is_from_points(body)) continue;
-    // Large enough for some points, or one alone would count as a dense cell.
+    if (!is_from_points(body) || body_end[k] - begin < fewest_points) continue;
+    // Large enough for some points: what one of them weighs itself is left out.
     const double h = scene.solver.cell_size;
     const double edge = h * std::max(1.0, std::cbrt(8 / particles_in_cell(body, h)));
     const double found = density_where_they_lie(particles, begin, body_end[k], edge);
     const double wanted = scene.materials[material_index(scene, body.material)].density;
     // Thin bodies fill a part of their cells; a tenth is a mistake of units.
     if (found < 2.5 * wanted && found > 0.1 * wanted) continue;
-    findings.push_back({Severity::warning, "body." + body.name + ".shape.points",
-                        "the points of " + body.name + " weigh " + rough_text(found) +
-                            " kg/m3 where they lie, material " + body.material + " has " +
-                            rough_text(wanted),
-                        "positions are in m, masses in kg, volumes in m3; spacing is the distance "
-                        "between neighbours in m"});
+    const std::string points = "the points of " + called("body", body.name);
+    const std::string of_material =
+        " kg/m3 where they lie, material " + body.material + " has " + rough_text(wanted);
+    findings.push_back(
+        {Severity::warning, "body." + body.name + ".shape.points",
+         found < wanted
+             ? points + " are too far apart: they weigh " + rough_text(found) + of_material
+             : points + " weigh " + rough_text(found) + of_material,
+         "positions are in m, masses in kg, volumes in m3; spacing is the distance between "
+         "neighbours in m"});
   }
 }
 

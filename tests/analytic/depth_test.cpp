@@ -234,6 +234,7 @@ TEST(Depth, OfPlacedParticlesIsTheirDistance) {
   EXPECT_NEAR(depth(p), 0.05, 1e-7);
   p.x[2].x() = 1.5;
   EXPECT_EQ(depth(p), 0);
+  EXPECT_FALSE(std::signbit(depth(p))) << "run.json would say -0.0";
 }
 
 /// A block on the level top of what has one, gravity leaning as in SlidingBlock, on other shapes.

@@ -9,12 +9,13 @@ namespace {
 
 /// A block of 10x10x10 points 2 cm apart that falls at 1 m/s; eight in a cell of the scene.
 /// @param mass  kg of a point; 3.2e-3 is snow of 400 kg/m3
-std::string block_csv(double mass) {
+/// @param distance  of neighbours, m
+std::string block_csv(double mass, double distance = 0.02) {
   std::string text = "x,y,z,vx,vy,vz,mass,volume\n";
   for (int k = 0; k < 1000; ++k) {
     char row[128];
-    std::snprintf(row, sizeof row, "%g,%g,%g,0,-1,0,%g,8e-6\n", 0.02 * (k % 10),
-                  0.02 * (k / 10 % 10), 0.02 * (k / 100), mass);
+    std::snprintf(row, sizeof row, "%g,%g,%g,0,-1,0,%g,8e-6\n", distance * (k % 10),
+                  distance * (k / 10 % 10), distance * (k / 100), mass);
     text += row;
   }
   return text;
@@ -126,6 +127,11 @@ TEST_F(PointFiles, AreExaminedByTheirDistanceAndMass) {
   folder.write("points/block.csv", block_csv(3.2e-3));
   folder.write("scene.toml", far);
   EXPECT_TRUE(contains(warnings(), "body.block.shape.points: the points of block are 1 in a cell"))
+      << warnings();
+  // In centimetres; what the file says of masses and volumes fits.
+  folder.write("points/block.csv", block_csv(3.2e-3, 2));
+  folder.write("scene.toml", block_scene);
+  EXPECT_TRUE(contains(warnings(), "shape.points: the points of block are too far apart"))
       << warnings();
 }
 
