@@ -222,15 +222,27 @@ Framing fit(const std::vector<Vec3d>& points, const Vec3d& middle, const Vec3d& 
   return framing;
 }
 
+/// When to look where planes are: keyframes may move and tilt them.
+std::vector<double> times_of(const sim::Collider& collider, double duration) {
+  constexpr int parts = 12;
+  if (collider.keyframes.empty()) return {0};
+  std::vector<double> times;
+  for (int k = 0; k <= parts; ++k) times.push_back(duration * k / parts);
+  return times;
+}
+
 /// No plane between the eye and what it looks at.
 bool is_clear_at(const Scene& scene, const Framing& framing, const Vec3d& towards_eye) {
   const Vec3d eye = framing.target + framing.distance * towards_eye;
   return std::all_of(scene.colliders.begin(), scene.colliders.end(), [&](const auto& collider) {
     const auto* plane = std::get_if<sim::Plane>(&collider.shape.form);
     if (!plane) return true;
-    const sim::Pose pose = sim::pose_at(collider, 0);
-    const Vec3d normal = (pose.rotation * plane->normal).normalized();
-    return (eye - pose.point).dot(normal) > 0.08 * framing.distance;
+    const std::vector<double> times = times_of(collider, scene.frames / scene.fps);
+    return std::all_of(times.begin(), times.end(), [&](double time) {
+      const sim::Pose pose = sim::pose_at(collider, time);
+      const Vec3d normal = (pose.rotation * plane->normal).normalized();
+      return (eye - pose.point).dot(normal) > 0.08 * framing.distance;
+    });
   });
 }
 

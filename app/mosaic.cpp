@@ -12,7 +12,8 @@ namespace neve::app {
 namespace {
 
 constexpr std::array<std::uint8_t, 3> strip_color{38, 42, 49};
-constexpr int most_columns = 3;
+/// How much a sheet twice as wide as wanted counts against gaps of that share of it.
+constexpr double weight_of_shape = 0.15;
 
 const View& view_called(const Scene& scene, const std::string& name) {
   const auto found = std::find_if(scene.views.begin(), scene.views.end(),
@@ -20,9 +21,29 @@ const View& view_called(const Scene& scene, const std::string& name) {
   return found != scene.views.end() ? *found : scene.views.front();
 }
 
-int column_count(const Mosaic& mosaic) {
+double shape_of(const PictureSize& size) {
+  return static_cast<double>(size.width) / size.height;
+}
+
+/// Few gaps, and about the shape of the output.
+int column_count(const Scene& scene, const Mosaic& mosaic) {
   const int count = static_cast<int>(mosaic.views.size());
-  return std::min(count, mosaic.columns > 0 ? mosaic.columns : most_columns);
+  if (mosaic.columns > 0) return std::min(count, mosaic.columns);
+  double tile = 0;
+  for (const std::string& name : mosaic.views)
+    tile += shape_of(size_of(scene, view_called(scene, name))) / count;
+  const double wanted = shape_of(scene.size);
+  int best = 1;
+  double least = 1e300;
+  // Of two that are as good the wider one: three views side by side.
+  for (int columns = count; columns >= 1; --columns) {
+    const int rows = (count + columns - 1) / columns;
+    const double empty = 1 - static_cast<double>(count) / (rows * columns);
+    const double shape = std::abs(std::log(tile * columns / rows / wanted));
+    const double cost = empty + weight_of_shape * shape;
+    if (cost < least - 1e-9) least = cost, best = columns;
+  }
+  return best;
 }
 
 View tile_view(const Scene& scene, const std::string& name, int width) {
@@ -59,7 +80,7 @@ MosaicLayout layout_of(const Scene& scene, const Mosaic& mosaic, int caption_lin
   layout.font_size = std::clamp(static_cast<int>(std::lround(layout.width / 80.0)), 10, 160);
   layout.caption_height =
       static_cast<int>(std::lround(layout.font_size * (1.3 + 1.3 * caption_lines)));
-  const int columns = column_count(mosaic), gap = std::max(2, layout.width / 400);
+  const int columns = column_count(scene, mosaic), gap = std::max(2, layout.width / 400);
   // Shares of the width that add up to it: columns may differ by a pixel.
   const auto left_of = [&](int c) { return c * (layout.width + gap) / columns; };
   int y = layout.caption_height, row_height = 0, column = 0;

@@ -155,8 +155,7 @@ std::string describe_place(const SlicePlane& plane) {
   return "plane through " + triple(plane.point) + " m, normal " + triple(plane.normal);
 }
 
-void add_frame(const SlicePlane& plane, const Rectangle& r, const std::string& words,
-               render::Frame& frame) {
+void add_frame(const SlicePlane& plane, const Rectangle& r, render::Frame& frame) {
   const Vec3f corner[4] = {
       to_float(point_on(plane, r.left, r.bottom)), to_float(point_on(plane, r.right, r.bottom)),
       to_float(point_on(plane, r.right, r.top)), to_float(point_on(plane, r.left, r.top))};
@@ -167,10 +166,6 @@ void add_frame(const SlicePlane& plane, const Rectangle& r, const std::string& w
     lines.ends.push_back(corner[(k + 1) % 4]);
   }
   frame.lines.push_back(std::move(lines));
-  // On the right: the caption is in the upper left corner of the picture. And raised, as the upper
-  // edge of a plane seen askew rises towards the left.
-  const Vec3f raised = to_float(0.06 * (r.right - r.left) * plane.up);
-  frame.labels.push_back({corner[2] + raised, words, true});
 }
 
 }  // namespace
@@ -208,7 +203,8 @@ void add_slice(const View& view, const NodeFields& fields, const SlicePlane& wan
     const Range range = slice.range.value_or(Range{});
     words += ", longest arrow " + number_text(range.max) + " " + attribute_name(slice.field).unit;
   }
-  add_frame(plane, r, words, frame);
+  add_frame(plane, r, frame);
+  frame.footnote = words;
 }
 
 }  // namespace neve::app

@@ -85,7 +85,6 @@ struct Lines {
 struct Label {
   Vec3f position;  ///< m
   std::string text;
-  bool ends_here = false;  ///< the text ends at the place instead of starting there
 };
 
 /// A solid triangle mesh, flat or smooth by its normals.
@@ -175,6 +174,7 @@ struct Frame {
   std::vector<Patch> patches;
   std::vector<Note> notes;
   std::vector<std::string> caption;  ///< lines, UTF-8; the first one is the title
+  std::string footnote;              ///< at the bottom, between plots and legends
   int caption_height = 0;            ///< px; above 0: the caption has a strip this high to itself
   int font_size = 0;                 ///< px; 0: in proportion to the picture
   std::vector<Vec3f> marks;          ///< centres of rings that point out particles, for incidents

@@ -26,6 +26,7 @@ std::string title_of(const Legend& legend) {
 
 std::vector<std::string> all_texts(const Frame& frame) {
   std::vector<std::string> texts = frame.caption;
+  texts.push_back(frame.footnote);
   for (const Legend& legend : frame.legends) texts.push_back(title_of(legend));
   for (const Label& label : frame.labels) texts.push_back(label.text);
   for (const Note& note : frame.notes) texts.push_back(note.text);
@@ -36,59 +37,98 @@ std::vector<std::string> all_texts(const Frame& frame) {
   return texts;
 }
 
-/// A colour bar standing on `bottom`, its text ending at `right`.
-/// @return its left edge
-float draw_legend(const Legend& legend, const ImFont& font, float right, float bottom, float height,
-                  float max_width) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const float unit = unit_of(font);
+struct LegendText {
+  std::string title;
+  std::vector<Tick> ticks;
+  float width = 0;  ///< of all of it, pixels
+};
+
+float bar_width(const ImFont& font) {
+  return std::max(6.0f, std::round(14 * unit_of(font)));
+}
+
+float tick_gap(const ImFont& font) {
+  return std::round(7 * unit_of(font));
+}
+
+LegendText text_of(const Legend& legend, const ImFont& font, float height, float max_width) {
   const int tick_count = std::clamp(static_cast<int>(height / (1.6f * font.FontSize)), 1, 5);
-  const std::vector<Tick> ticks = nice_ticks(legend.min, legend.max, tick_count);
+  LegendText text{elide(font, title_of(legend), max_width),
+                  nice_ticks(legend.min, legend.max, tick_count)};
   float label_width = 0;
-  for (const Tick& tick : ticks) label_width = std::max(label_width, text_width(font, tick.label));
+  for (const Tick& tick : text.ticks)
+    label_width = std::max(label_width, text_width(font, tick.label));
+  text.width =
+      std::max(text_width(font, text.title), bar_width(font) + tick_gap(font) + label_width);
+  return text;
+}
 
-  const float bar_width = std::max(6.0f, std::round(14 * unit)), gap = std::round(7 * unit);
-  const std::string title = elide(font, title_of(legend), max_width);
-  const float width = std::max(text_width(font, title), bar_width + gap + label_width);
-  const float left = std::round(right - width), top = std::round(bottom - height);
-  draw_text(font, ImVec2(left, top - 1.7f * font.FontSize), bright_text, title);
-
+/// A colour bar standing on `bottom`, with its title above and its numbers to the right.
+void draw_legend(const Legend& legend, const LegendText& text, const ImFont& font, float left,
+                 float bottom, float height) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float unit = unit_of(font), gap = tick_gap(font), right = left + bar_width(font);
+  const float top = std::round(bottom - height);
+  draw_text(font, ImVec2(left, top - 1.7f * font.FontSize), bright_text, text.title);
   for (float y = top; y < bottom; y += 1) {
     const Rgb8 c = map_color(legend.colormap, (bottom - y - 0.5f) / (bottom - top));
-    list.AddRectFilled(ImVec2(left, y), ImVec2(left + bar_width, y + 1),
-                       IM_COL32(c.r, c.g, c.b, 255));
+    list.AddRectFilled(ImVec2(left, y), ImVec2(right, y + 1), IM_COL32(c.r, c.g, c.b, 255));
   }
-  list.AddRect(ImVec2(left, top), ImVec2(left + bar_width, bottom), IM_COL32(0, 0, 0, 110));
+  list.AddRect(ImVec2(left, top), ImVec2(right, bottom), IM_COL32(0, 0, 0, 110));
   const double range = static_cast<double>(legend.max) - static_cast<double>(legend.min);
-  for (const Tick& tick : ticks) {
+  for (const Tick& tick : text.ticks) {
     const double part =
-        ticks.size() == 1 ? 0.5 : (tick.value - static_cast<double>(legend.min)) / range;
+        text.ticks.size() == 1 ? 0.5 : (tick.value - static_cast<double>(legend.min)) / range;
     const float y = bottom - static_cast<float>(part) * (bottom - top);
-    list.AddLine(ImVec2(left + bar_width, y), ImVec2(left + bar_width + 0.6f * gap, y), soft_text,
-                 std::max(1.0f, unit));
-    draw_text(font, ImVec2(left + bar_width + gap, y - 0.5f * font.FontSize), soft_text,
-              tick.label);
+    list.AddLine(ImVec2(right, y), ImVec2(right + 0.6f * gap, y), soft_text, std::max(1.0f, unit));
+    draw_text(font, ImVec2(right + gap, y - 0.5f * font.FontSize), soft_text, tick.label);
   }
-  return left;
 }
 
 }  // namespace
 
 float OverlayPass::draw_legends(const Frame& frame) const {
   const ImFont& font = *imgui_.text_font();
-  const float unit = unit_of(font);
+  const float unit = unit_of(font), size = font.FontSize;
   const float width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
-  const float margin = std::round(24 * unit);
-  float right = width - margin;
+  const float margin = std::round(24 * unit), right = width - margin;
   // A picture too small for a bar, its title and two ticks gets none.
-  if (height < 7 * font.FontSize || width < 12 * font.FontSize) return right;
-  const float bar_height = std::round(std::min(210 * unit, 0.5f * height));
-  for (const Legend& legend : frame.legends) {
-    if (right < 0.4f * width) break;
-    const float left = draw_legend(legend, font, right, height - margin, bar_height, 0.35f * width);
-    right = left - margin;
+  if (frame.legends.empty() || height < 7 * size || width < 12 * size) return right;
+  // One above the other: side by side they would reach into the snow. Those without room are left
+  // out.
+  const float above = 2.7f * size, least = 4 * size, room = 0.5f * height;
+  const auto count = std::min(frame.legends.size(),
+                              static_cast<std::size_t>(std::max(1.0f, std::floor(room / least))));
+  const float bar_height = std::round(std::min(210 * unit, room / static_cast<float>(count)));
+  std::vector<LegendText> texts;
+  float widest = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    texts.push_back(text_of(frame.legends[k], font, bar_height, 0.35f * width));
+    widest = std::max(widest, texts.back().width);
   }
-  return right;
+  const float left = std::round(right - widest);
+  for (std::size_t k = 0; k < count; ++k) {
+    const float below = static_cast<float>(count - 1 - k) * (bar_height + above);
+    draw_legend(frame.legends[k], texts[k], font, left, std::round(height - margin - below),
+                bar_height);
+  }
+  return left - margin;
+}
+
+void OverlayPass::draw_footnote(const Frame& frame, float left, float right) const {
+  if (frame.footnote.empty()) return;
+  const ImFont& font = *imgui_.text_font();
+  const float margin = std::round(20 * unit_of(font)), line = 1.25f * font.FontSize;
+  const float from = left > 0 ? left + 1.5f * margin : margin;
+  // The snow is in the middle: no higher than a fifth of the picture.
+  const float room = 0.18f * static_cast<float>(frame.height);
+  const auto most = static_cast<std::size_t>(std::min(2.0f, std::floor(room / line)));
+  if (right - from < 8 * font.FontSize || most == 0) return;
+  const std::vector<std::string> lines = wrap(font, frame.footnote, right - from, most);
+  const float top =
+      static_cast<float>(frame.height) - margin - line * static_cast<float>(lines.size());
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    draw_text(font, ImVec2(from, top + line * static_cast<float>(k)), soft_text, lines[k]);
 }
 
 void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
@@ -127,8 +167,7 @@ void OverlayPass::draw_labels(const Frame& frame, const View& view) const {
     const float text_size = text_width(font, text);
     // Above its place, and kept on the picture as long as the place itself is.
     if (p.x < 0 || p.x > width || p.y < 0 || p.y > height) continue;
-    const float wanted = label.ends_here ? p.x - text_size : p.x;
-    const float left = std::clamp(wanted, margin, std::max(margin, width - text_size - margin));
+    const float left = std::clamp(p.x, margin, std::max(margin, width - text_size - margin));
     const float top = std::max(margin, height - p.y - 1.35f * font.FontSize);
     draw_text(font, ImVec2(left, top), soft_text, text);
   }
@@ -173,15 +212,17 @@ void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
 
 void OverlayPass::draw(const Frame& frame, const View& view) {
   if (frame.caption.empty() && frame.legends.empty() && frame.marks.empty() &&
-      frame.labels.empty() && frame.plots.empty() && frame.patches.empty() && frame.notes.empty())
+      frame.labels.empty() && frame.plots.empty() && frame.patches.empty() && frame.notes.empty() &&
+      frame.footnote.empty())
     return;
   const int font_size =
       frame.font_size > 0 ? frame.font_size : font_size_for(frame.width, frame.height);
   imgui_.begin(frame.width, frame.height, font_size, all_texts(frame));
   draw_labels(frame, view);
   draw_marks(frame, view);
-  draw_caption(frame, draw_legends(frame));
-  draw_plots(frame, *imgui_.text_font());
+  const float legends = draw_legends(frame);
+  draw_caption(frame, legends);
+  draw_footnote(frame, draw_plots(frame, *imgui_.text_font()), legends);
   draw_notes(frame);
   imgui_.end();
 }

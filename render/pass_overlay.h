@@ -1,7 +1,7 @@
 #pragma once
-/// Text and signs over the finished picture: caption in the upper left corner, legends in the lower
-/// right one, labels beside their places, rings around marked ones, plots in the
-/// lower left one; patches and notes wherever they say.
+/// Text and signs over the finished picture: caption in the upper left corner, legends one above the
+/// other in the lower right one, labels beside their places, rings around marked ones, plots in the
+/// lower left one, a footnote beside them; patches and notes wherever they say.
 
 #include "render/frame.h"
 #include "render/imgui_draw.h"
@@ -19,6 +19,7 @@ class OverlayPass {
   /// @return left edge of what was drawn, pixels
   float draw_legends(const Frame& frame) const;
   void draw_caption(const Frame& frame, float right_limit) const;
+  void draw_footnote(const Frame& frame, float left, float right) const;
   void draw_labels(const Frame& frame, const View& view) const;
   void draw_notes(const Frame& frame) const;
   void draw_marks(const Frame& frame, const View& view) const;

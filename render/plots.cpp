@@ -55,7 +55,10 @@ int tick_count(float length, float per_tick, int most) {
 
 std::vector<Tick> value_ticks(const Axes& axes, const ImFont& font) {
   const float height = axes.panel.bottom - axes.panel.top;
-  return nice_ticks(axes.min, axes.max, tick_count(height, 1.5f * font.FontSize, 4));
+  // One step alone is often longer than the axis: a low panel would have no scale.
+  const int least = height > 2 * font.FontSize ? 2 : 1;
+  return nice_ticks(axes.min, axes.max,
+                    std::max(least, tick_count(height, 1.5f * font.FontSize, 4)));
 }
 
 std::vector<Tick> time_ticks(const Axes& axes, const ImFont& font) {
@@ -178,8 +181,8 @@ void draw_time_labels(const Axes& axes, const ImFont& font) {
 
 }  // namespace
 
-void draw_plots(const Frame& frame, const ImFont& font) {
-  if (frame.plots.empty()) return;
+float draw_plots(const Frame& frame, const ImFont& font) {
+  if (frame.plots.empty()) return 0;
   const float width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
   const float size = font.FontSize, unit = unit_of(font);
   const float title = 1.4f * size, gap = 0.6f * size, least = 1.9f * size;
@@ -188,8 +191,12 @@ void draw_plots(const Frame& frame, const ImFont& font) {
   const int fitting = static_cast<int>((bottom - top) / (title + gap + least));
   const std::size_t count =
       std::min(frame.plots.size(), static_cast<std::size_t>(std::max(fitting, 0)));
-  if (count == 0 || width < 20 * size) return;
-  const float each = std::min((bottom - top) / static_cast<float>(count), 9.5f * size);
+  if (count == 0 || width < 20 * size) return 0;
+  // An upright picture has its snow above them: they keep to a fifth of its height.
+  const float highest =
+      height > width ? std::max(title + gap + least, 0.2f * height / static_cast<float>(count))
+                     : 9.5f * size;
+  const float each = std::min((bottom - top) / static_cast<float>(count), highest);
 
   const float left = std::round(20 * unit + 3.2f * size);  // room for the numbers
   const float right = std::round(left + std::clamp(0.22f * width, 11 * size, 22 * size));
@@ -201,6 +208,7 @@ void draw_plots(const Frame& frame, const ImFont& font) {
     draw_panel(frame.plots[k], axes, font);
     if (k + 1 == count) draw_time_labels(axes, font);
   }
+  return right;
 }
 
 }  // namespace neve::render

@@ -9,6 +9,7 @@ namespace neve::render {
 
 /// One below the other over a common time axis. A picture too small for all of them shows the
 /// first ones. To be called between ImGuiDraw::begin and end.
-void draw_plots(const Frame& frame, const ImFont& font);
+/// @return right edge of what was drawn, pixels; 0: nothing was
+float draw_plots(const Frame& frame, const ImFont& font);
 
 }  // namespace neve::render

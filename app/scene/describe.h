@@ -488,7 +488,7 @@ void describe(V& visit, Mosaic& m) {
         "Its folder, and what addresses call it; otherwise its number from 1.");
   visit("views", m.views, unit::none, identifier, live, "Names of the views in it, row by row.");
   visit("columns", m.columns, unit::none, between(0, 64), live,
-        "Views side by side; 0: all of them up to three.");
+        "Views side by side; 0: as leaves few gaps and comes near the output's shape.");
   visit("width", m.width, unit::pixels, between(64, 1000000), live,
         "Width of the whole picture; without it the output's. The height follows.");
 }

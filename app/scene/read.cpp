@@ -22,8 +22,12 @@ std::vector<View> built_in_views() {
     built_in.layers = layers;
     return built_in;
   };
-  return {View{}, view("smoke", {ground, colliders, smoke, legend, caption}),
-          view("slice", {ground, colliders, arrows, legend, caption})};
+  View slice = view("slice", {ground, colliders, heatmap, arrows, legend, caption});
+  // Below arrows of the velocity, its magnitude would say the same again; and on pale packed snow
+  // all of their colours can be told.
+  slice.slice.scalar = ScalarField::density;
+  slice.slice.scalar_colormap = render::ColorMap::coolwarm;
+  return {View{}, view("smoke", {ground, colliders, smoke, legend, caption}), slice};
 }
 
 namespace {
@@ -45,12 +49,20 @@ bool is_named(const Value& view, const std::string& name) {
   return table && is_named(*table, name);
 }
 
-/// Built-in views keep their layers where the scene names none.
+/// Built-in views keep their layers, and what the heat map among them shows, where the scene names
+/// none.
 void add_layers(Table& view) {
   if (view.find("layers")) return;
   for (const View& built_in : built_in_views()) {
     if (!is_named(view, built_in.name)) continue;
     view.entries.push_back({"layers", {}, to_value(built_in.layers)});
+    if (!has_layer(built_in, Layer::heatmap)) return;
+    if (!view.find("slice")) view.entries.push_back({"slice", {}, {Table{}}});
+    Table* slice = std::get_if<Table>(&view.find("slice")->value.data);
+    if (!slice || slice->find("scalar")) return;
+    slice->entries.push_back({"scalar", {}, to_value(built_in.slice.scalar)});
+    if (!slice->find("scalar_colormap"))
+      slice->entries.push_back({"scalar_colormap", {}, to_value(built_in.slice.scalar_colormap)});
     return;
   }
 }

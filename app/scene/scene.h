@@ -140,7 +140,7 @@ inline bool has_layer(const View& view, Layer layer) {
 struct Mosaic {
   std::string name;
   std::vector<std::string> views;  ///< names, row by row
-  int columns = 0;                 ///< 0: all in a row, up to three
+  int columns = 0;                 ///< 0: few gaps, about the output's shape
   std::optional<int> width;        ///< px; the output's when absent
 };
 

@@ -146,8 +146,7 @@ TEST(Slice, ArrowsStandOnNodesAndHaveTheirVelocity) {
     EXPECT_NEAR(arrows.vector[k].x, 1, 1e-4);
   }
   ASSERT_EQ(frame.heat_maps.size(), 1u);
-  ASSERT_EQ(frame.labels.size(), 1u);
-  EXPECT_NE(frame.labels[0].text.find("z = 0 m"), std::string::npos) << frame.labels[0].text;
+  EXPECT_NE(frame.footnote.find("z = 0 m"), std::string::npos) << frame.footnote;
 }
 
 TEST(Slice, ArrowsStayApartOnThePicture) {
@@ -201,6 +200,7 @@ TEST(Slice, IsBuiltInAndSetByItsName) {
   EXPECT_EQ(none.views.size(), 1u);
   const View slice = find_view(none, "slice");
   EXPECT_TRUE(has_layer(slice, Layer::arrows));
+  EXPECT_TRUE(has_layer(slice, Layer::heatmap)) << "arrows alone may all be too short to be seen";
   EXPECT_FALSE(has_layer(slice, Layer::particles));
   const Scene set = read_thrown("", {{"view.slice.slice.every", "3"}});
   ASSERT_EQ(set.views.size(), 2u);
@@ -208,6 +208,10 @@ TEST(Slice, IsBuiltInAndSetByItsName) {
   EXPECT_TRUE(has_layer(set.views[1], Layer::arrows));
   const Scene named = read_thrown("[[view]]\nname = \"slice\"\n");
   EXPECT_EQ(named.views.at(0).layers, slice.layers);
+  EXPECT_EQ(named.views.at(0).slice.scalar, ScalarField::density);
+  const Scene own =
+      read_thrown("[[view]]\nname = \"slice\"\nslice = { scalar = \"J_P\", isolines = 3 }\n");
+  EXPECT_EQ(own.views.at(0).slice.scalar, ScalarField::J_P);
 }
 
 TEST(Slice, MistakesAreLocated) {

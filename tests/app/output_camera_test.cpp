@@ -71,6 +71,23 @@ shape = { plane = { point = [0, 0, 0], normal = [0.5, 0.866, 0] } }
   EXPECT_GT(scene.camera->eye->dot(sim::Vec3d(0.5, 0.866, 0)), 0);
 }
 
+TEST(AutomaticCamera, StaysAboveGroundThatKeyframesTilt) {
+  Scene scene = read_scene_text(R"(
+frames = 12
+[[body]]
+shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
+[[collider]]
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+keyframes = [{ time = 0 }, { time = 0.2, rotation = [0, 0, 40] }]
+)",
+                                "tilt.toml");
+  resolve(scene, 1000);
+  for (const double time : {0.0, 0.1, 0.2, 0.5}) {
+    const sim::Vec3d normal = sim::pose_at(scene.colliders[0], time).rotation * sim::Vec3d(0, 1, 0);
+    EXPECT_GT(scene.camera->eye->dot(normal), 0) << time;
+  }
+}
+
 TEST(DryRun, CoversTheWholeScene) {
   const Scene scene = read_scene_text(drop, "drop.toml");
   const std::vector<Moment> moments = dry_run(scene);

@@ -152,7 +152,26 @@ TEST(Mosaic, TilesKeepTheShapeOfTheirViewsAndStandInRows) {
     EXPECT_FALSE(has_layer(tile.view, Layer::caption)) << "there is one caption";
 }
 
-TEST(Mosaic, IsAsWideAsTheOutputAndHasUpToThreeColumns) {
+TEST(Mosaic, LeavesFewGapsAndComesNearTheShapeOfTheOutput) {
+  const auto columns = [](int views, const std::string& size) {
+    std::string text, names;
+    for (int k = 0; k < views; ++k) {
+      const std::string name = "v" + std::to_string(k);
+      text += "[[view]]\nname = \"" + name + "\"\nsize = " + size + "\n";
+      names += (k > 0 ? ", \"" : "\"") + name + "\"";
+    }
+    const Scene scene = scene_with(text + "[[mosaic]]\nname = \"all\"\nviews = [" + names + "]\n");
+    const MosaicLayout layout = layout_of(scene, scene.mosaics[0], 2);
+    return std::count_if(layout.tiles.begin(), layout.tiles.end(),
+                         [&](const MosaicTile& tile) { return tile.y == layout.tiles[0].y; });
+  };
+  const int wide[] = {1, 2, 3, 2, 3, 3, 3, 4, 3};
+  for (int views = 1; views <= 9; ++views)
+    EXPECT_EQ(columns(views, "[1280, 720]"), wide[views - 1]) << views;
+  EXPECT_EQ(columns(4, "[720, 1280]"), 4);
+}
+
+TEST(Mosaic, IsAsWideAsTheOutput) {
   const Scene scene = scene_with(std::string(three_views) + "[[mosaic]]\nviews = [\"c\", \"a\"]\n");
   const MosaicLayout layout = layout_of(scene, scene.mosaics[0], 2);
   EXPECT_EQ(layout.width, 1280);

@@ -138,17 +138,42 @@ TEST(Legend, AnyRangeIsDrawn) {
   }
 }
 
-TEST(Legend, SeveralStandSideBySide) {
+TEST(Legend, SeveralStandAboveEachOther) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
+  for (const auto& [width, height] : {std::pair{640, 360}, {480, 270}, {320, 180}}) {
+    Frame frame = small_frame(width, height);
+    const Image nothing = renderer.draw(frame);
+    frame.legends.push_back({.title = "speed", .unit = "m/s"});
+    const Changed one = changed(nothing, renderer.draw(frame));
+    frame.legends.push_back({.title = "velocity", .unit = "m/s"});
+    const Changed two = changed(nothing, renderer.draw(frame));
+    // As narrow as the wider title, and above the caption's third only where it must.
+    EXPECT_GT(two.left, 0.7 * width) << width;
+    EXPECT_LT(two.top, one.top - 20) << width;
+    EXPECT_GT(two.top, 5) << width;
+    EXPECT_LT(two.right, width - 1) << width;
+  }
+}
+
+TEST(Footnote, StandsBetweenPlotsAndLegends) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  const auto place_of = [&](Frame frame) {
+    const Image without = renderer.draw(frame);
+    frame.footnote = "z = 0 m, one arrow per 2 nodes, longest arrow 12.5 m/s, and more of it all";
+    return changed(without, renderer.draw(frame));
+  };
   Frame frame = small_frame(640, 360);
-  const Image nothing = renderer.draw(frame);
+  const Changed alone = place_of(frame);
+  EXPECT_LT(alone.left, 0.05 * 640);
+  EXPECT_GT(alone.top, 0.9 * 360);
   frame.legends.push_back({.title = "speed", .unit = "m/s"});
-  const Changed one = changed(nothing, renderer.draw(frame));
-  frame.legends.push_back({.title = "pressure", .unit = "Pa"});
-  const Changed two = changed(nothing, renderer.draw(frame));
-  EXPECT_EQ(one.right, two.right);
-  EXPECT_LT(two.left, one.left - 20);
+  const Image nothing = renderer.draw(small_frame(640, 360));
+  EXPECT_LT(place_of(frame).right, changed(nothing, renderer.draw(frame)).left);
+  frame.legends.clear();
+  frame.plots = {Plot{.title = "energy", .unit = "J", .series = {}}};
+  EXPECT_GT(place_of(frame).left, changed(nothing, renderer.draw(frame)).right);
 }
 
 TEST(Marks, RingSurroundsTheMarkedPlace) {
