@@ -40,9 +40,11 @@ ManifestAxis manifest_axis(const Axis& axis, const std::vector<Varied>& paramete
     return *std::find_if(parameters.begin(), parameters.end(),
                          [&](const Varied& v) { return v.address == address; });
   };
-  for (const Axis::Parameter& parameter : axis.parameters)
+  for (const Axis::Parameter& parameter : axis.parameters) {
+    result.addresses.push_back(parameter.address);
     result.name += (result.name.empty() ? "" : ", ") +
                    (parameter.label.empty() ? varied(parameter.address).name : parameter.label);
+  }
   for (std::size_t k = 0; k < axis.size(); ++k) {
     std::string text = axis.value_labels.empty() ? "" : axis.value_labels[k];
     for (const Axis::Parameter& parameter : axis.parameters) {
@@ -208,7 +210,8 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
         {{"address", p.address}, {"name", p.name}, {"unit", p.unit}, {"type", p.type}});
   json["axes"] = Json::array();
   for (const ManifestAxis& axis : m.axes)
-    json["axes"].push_back({{"name", axis.name}, {"values", axis.values}});
+    json["axes"].push_back(
+        {{"name", axis.name}, {"values", axis.values}, {"addresses", axis.addresses}});
   json["runs"] = Json::array();
   for (const ManifestRun& run : m.runs) json["runs"].push_back(run_json(run));
   write_file(manifest_path(folder), to_text(json) + "\n");
@@ -239,8 +242,9 @@ Manifest read_manifest(const std::filesystem::path& folder) {
       m.parameters.push_back({p.at("address").get<std::string>(), p.at("name").get<std::string>(),
                               p.at("unit").get<std::string>(), p.at("type").get<std::string>()});
     for (const Json& axis : json.at("axes"))
-      m.axes.push_back(
-          {axis.at("name").get<std::string>(), axis.at("values").get<std::vector<std::string>>()});
+      m.axes.push_back({axis.at("name").get<std::string>(),
+                        axis.at("values").get<std::vector<std::string>>(),
+                        axis.value("addresses", std::vector<std::string>{})});
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
     return m;
   } catch (const std::exception& error) {

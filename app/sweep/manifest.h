@@ -30,8 +30,9 @@ struct ManifestRun {
 };
 
 struct ManifestAxis {
-  std::string name;                 ///< for the edge of the sheet; may be empty
-  std::vector<std::string> values;  ///< texts for the edge, with units
+  std::string name;                      ///< for the edge of the sheet; may be empty
+  std::vector<std::string> values;       ///< texts for the edge, with units
+  std::vector<std::string> addresses{};  ///< of the parameters that it sets
 };
 
 struct Manifest {

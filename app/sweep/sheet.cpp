@@ -64,7 +64,9 @@ render::Image read_tile(const std::filesystem::path& file, int width, int height
 }
 
 /// "hardening = 5" and so on, or the name of the run.
-std::vector<std::string> tile_lines(const Manifest& manifest, const ManifestRun& run) {
+/// @param has_edges  what the sheet's edges say is left out
+std::vector<std::string> tile_lines(const Manifest& manifest, const ManifestRun& run,
+                                    bool has_edges) {
   std::vector<std::string> lines;
   if (manifest.tile_label == "none") return lines;
   if (!run.label.empty()) lines.push_back(run.label);
@@ -72,10 +74,17 @@ std::vector<std::string> tile_lines(const Manifest& manifest, const ManifestRun&
     if (lines.empty()) lines.push_back("run " + run.folder);
     return lines;
   }
+  const bool is_at_edges = has_edges && run.coordinates.size() == manifest.axes.size();
+  const auto is_at_edge = [&](const std::string& address) {
+    return is_at_edges &&
+           std::any_of(manifest.axes.begin(), manifest.axes.end(), [&](const auto& a) {
+             return std::find(a.addresses.begin(), a.addresses.end(), address) != a.addresses.end();
+           });
+  };
   std::string settings;
   for (const Varied& parameter : manifest.parameters) {
     const std::string value = run.setting(parameter.address);
-    if (value.empty()) continue;
+    if (value.empty() || is_at_edge(parameter.address)) continue;
     settings += (settings.empty() ? "" : ", ") + parameter.name + " = " + value_text(value);
     if (!parameter.unit.empty()) settings += " " + parameter.unit;
   }
@@ -159,7 +168,7 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
   const float left = static_cast<float>(tile.x) + 0.6f * size,
               top = static_cast<float>(tile.y) + 0.45f * size;
   const float room = static_cast<float>(layout.tile_width) - 1.2f * size;
-  const std::vector<std::string> lines = tile_lines(manifest_, *tile.run);
+  const std::vector<std::string> lines = tile_lines(manifest_, *tile.run, layout.has_edges);
   for (std::size_t k = 0; k < lines.size(); ++k)
     words.notes.push_back({left, top + 1.25f * size * static_cast<float>(k), lines[k],
                            render::Note::Anchor::left, room, false,

@@ -122,6 +122,7 @@ class Layouter {
     top_ = static_cast<int>(3.6 * line()) + (is_wrapped_ ? 0 : column_label_height());
     out_.header = static_cast<int>(3.3 * line());
     place_tiles();
+    out_.has_edges = !is_wrapped_;
     if (!is_wrapped_) add_labels();
     const int legend = has_legend_ ? static_cast<int>(9.5 * out_.font_size) : 0;
     out_.width = column_x(columns_ - 1) + out_.tile_width + margin() + legend;
@@ -170,13 +171,37 @@ class Layouter {
         std::lround(line() * static_cast<double>(sides_.columns.axes.size()) + 0.2 * line()));
   }
 
-  /// Name above value, so that it stays narrow.
+  double most_level_width() const { return 14.0 * out_.font_size; }
+  double width_of(std::size_t letters) const {
+    return letter * out_.font_size * static_cast<double>(letters + 1);
+  }
+
+  /// Whether "name = value" fits side by side for all values of an axis.
+  bool is_joined(std::size_t axis) const {
+    const ManifestAxis& a = m_.axes[axis];
+    std::size_t longest = 0;
+    for (const std::string& value : a.values) {
+      if (value.find('\n') != std::string::npos) return false;
+      longest = std::max(longest, value.size());
+    }
+    return !a.name.empty() && width_of(a.name.size() + 3 + longest) <= most_level_width();
+  }
+
+  /// Of a row: name above value where both do not fit side by side.
+  std::vector<std::string> row_lines(std::size_t axis, int value) const {
+    if (is_joined(axis)) return {label_text(m_, axis, value)};
+    std::vector<std::string> lines =
+        lines_of(m_.axes[axis].values[static_cast<std::size_t>(value)]);
+    if (!m_.axes[axis].name.empty()) lines.insert(lines.begin(), m_.axes[axis].name + " =");
+    return lines;
+  }
+
   int level_width(std::size_t axis) const {
-    std::size_t longest = m_.axes[axis].name.size() + 2;
-    for (const std::string& value : m_.axes[axis].values)
-      for (const std::string& text : lines_of(value)) longest = std::max(longest, text.size());
-    const double width = letter * out_.font_size * static_cast<double>(longest + 1);
-    return static_cast<int>(std::min(width, 14.0 * out_.font_size));
+    std::size_t longest = 0;
+    for (int value = 0; value < static_cast<int>(m_.axes[axis].values.size()); ++value)
+      for (const std::string& text : row_lines(axis, value))
+        longest = std::max(longest, text.size());
+    return static_cast<int>(std::min(width_of(longest), most_level_width()));
   }
   int row_label_width() const {
     int width = 0;
@@ -220,10 +245,8 @@ class Layouter {
         const int value = sides_.rows.values(m_, first)[k];
         const double middle = 0.5 * (row_y(first) + row_y(first + block - 1) + out_.tile_height);
         const auto room = static_cast<float>(level_width(axis));
-        std::vector<std::string> lines =
-            lines_of(m_.axes[axis].values[static_cast<std::size_t>(value)]);
-        const bool has_name = !m_.axes[axis].name.empty();
-        if (has_name) lines.insert(lines.begin(), m_.axes[axis].name + " =");
+        const std::vector<std::string> lines = row_lines(axis, value);
+        const bool has_name = !m_.axes[axis].name.empty() && !is_joined(axis);
         for (std::size_t n = 0; n < lines.size(); ++n) {
           const double at =
               middle + line() * (static_cast<double>(n) - 0.5 * static_cast<double>(lines.size()));

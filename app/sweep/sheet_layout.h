@@ -19,6 +19,7 @@ struct SheetLayout {
   int tile_width = 0, tile_height = 0;  ///< px
   int font_size = 16;                   ///< px
   int header = 0;                       ///< px, above the labels
+  bool has_edges = false;               ///< the axes are along the edges
   std::vector<SheetTile> tiles;
   std::vector<render::Note> labels;     ///< along the edges
   std::vector<render::Patch> brackets;  ///< beside rows that share an outer value

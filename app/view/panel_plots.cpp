@@ -70,7 +70,7 @@ class Chart {
     list_ = ImGui::GetWindowDrawList();
     list_->AddRectFilled(at_, to_, IM_COL32(10, 13, 19, 255), 3);
     // At the right: the run comes there last.
-    label(rough_text(high_), at_.y + 1);
+    if (high > low) label(rough_text(high_), at_.y + 1);
     label(rough_text(low_), to_.y - em() - 2);
     draw_time_axis();
     ImGui::Dummy(ImVec2(size.x, size.y + 1.1f * em()));
@@ -108,12 +108,16 @@ class Chart {
   void draw_time_axis() const {
     const int most = std::clamp(static_cast<int>((to_.x - at_.x) / (4 * em())), 1, 6);
     const std::vector<render::Tick> ticks = render::nice_ticks(0, t_end_, most);
-    for (const render::Tick& tick : ticks) {
-      const float x = at(tick.value, low_).x;
+    // The last one has the unit and comes first; what would run into it has no number.
+    float free = FLT_MAX;
+    for (auto tick = ticks.rbegin(); tick != ticks.rend(); ++tick) {
+      const float x = at(tick->value, low_).x;
       list_->AddLine(ImVec2(x, at_.y), ImVec2(x, to_.y), IM_COL32(255, 255, 255, 22));
-      const std::string text = tick.label + (&tick == &ticks.back() ? " s" : "");
+      const std::string text = tick->label + (tick == ticks.rbegin() ? " s" : "");
       const float width = ImGui::CalcTextSize(text.c_str()).x;
       const float left = std::clamp(x - 0.5f * width, at_.x, std::max(at_.x, to_.x - width));
+      if (left + width > free) continue;
+      free = left - 0.5f * em();
       list_->AddText(ImVec2(left, to_.y), IM_COL32(150, 160, 175, 200), text.c_str());
     }
   }

@@ -104,7 +104,7 @@ void Viewer::take_live_frame() {
   if (live->probe) {
     ProbeTrace& trace = state_.trace;
     if (trace.quantity.empty() && !live->probe->rows.empty())
-      trace.quantity = live->probe->is_node ? live->probe->rows.front().name : "v";
+      trace.quantity = live->probe->is_node ? "v_old" : "v";
     for (const ProbeRow& row : live->probe->rows) {
       if (row.name != trace.quantity) continue;
       while (!trace.points.empty() && trace.points.back().first >= live->snapshot.time)

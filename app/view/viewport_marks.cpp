@@ -28,9 +28,12 @@ void draw_probe_mark(const ViewerState& state) {
   // Dark around bright: it stands out from snow and from shadow.
   list.AddCircle(place, 9, IM_COL32(20, 12, 6, 190), 24, 4);
   list.AddCircle(place, 9, IM_COL32(255, 122, 40, 255), 24, 2);
+  // Which one it is says nothing of its size.
+  const bool is_index = state.trace.quantity.empty() || state.trace.quantity == "node" ||
+                        state.trace.quantity == "id";
+  const std::string shown = !is_index ? state.trace.quantity : probe.is_node ? "v_old" : "v";
   for (const ProbeRow& row : probe.rows) {
-    if (row.name != state.trace.quantity && !(state.trace.quantity.empty() && row.name == "v"))
-      continue;
+    if (row.name != shown) continue;
     draw_note(state, ImVec2(place.x + 15, place.y),
               "|" + row.name + "| = " + rough_text(row.magnitude) + " " + row.unit,
               IM_COL32(255, 190, 140, 255));

@@ -136,6 +136,23 @@ TEST(SheetLayout, LastAxisGoesAcrossUnlessAskedOtherwise) {
   EXPECT_TRUE(is_across(0, 3));
 }
 
+TEST(SheetLayout, RowsSayNameAndValueInOneLineWhereBothFit) {
+  Manifest m = manifest_of({2, 3});
+  m.axes[0].name = "rate";
+  m.axes[0].values = {"5 kg/s", "10 kg/s"};
+  const auto has = [&](const std::string& text) {
+    const SheetLayout layout = layout_sheet(m, false, 8192);
+    return std::any_of(layout.labels.begin(), layout.labels.end(),
+                       [&](const render::Note& label) { return label.text == text; });
+  };
+  EXPECT_TRUE(has("rate = 5 kg/s"));
+  m.axes[0].name = "critical_compression, critical_stretch";
+  EXPECT_TRUE(has("critical_compression, critical_stretch ="));
+  EXPECT_TRUE(has("5 kg/s"));
+  EXPECT_TRUE(layout_sheet(m, false, 8192).has_edges);
+  EXPECT_FALSE(layout_sheet(manifest_of({20}), false, 8192).has_edges);
+}
+
 TEST(SheetLayout, FurtherAxesAreSetApart) {
   const Manifest m = manifest_of({2, 3, 3});
   const SheetLayout layout = layout_sheet(m, false, 8192);
