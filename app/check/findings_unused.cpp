@@ -32,7 +32,7 @@ double share_removed(const sim::Solid& solid, const sim::Solid& sink, bool outsi
 /// Snow that is removed before anything happens to it.
 void check_removed(const Scene& scene, const std::string& kind, const std::string& name,
                    const sim::Shape& shape, double least, std::vector<Finding>& findings) {
-  if (std::holds_alternative<sim::Points>(shape.form)) return;
+  if (scene.sinks.empty() || std::holds_alternative<sim::Points>(shape.form)) return;
   const sim::Solid solid(shape);
   for (const sim::Sink& sink : scene.sinks) {
     const double share = share_removed(solid, sim::Solid(sink.shape), sink.outside);
