@@ -242,7 +242,7 @@ TEST_F(Cli, LimitsAreRefusedWithEightBeforeAnythingIsMade) {
     EXPECT_FALSE(exists("out"));
   }
   // No limit could be raised that far.
-  const auto absurd = neve({"render", "scene.toml", "--set", "solver.cell_size=1e-9"});
+  const auto absurd = neve({"render", "scene.toml", "--set", "solver.cell_size=1e-6"});
   EXPECT_EQ(absurd.exit_code, 8);
   EXPECT_TRUE(contains(absurd.errors, "make solver.cell_size larger")) << absurd.errors;
   EXPECT_FALSE(contains(absurd.errors, "raise it")) << absurd.errors;
