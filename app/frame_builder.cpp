@@ -64,13 +64,12 @@ std::string steps_text(const sim::AdvanceReport& advance) {
   return text;
 }
 
-/// "hardening = 5 since step 120". Other views and colours are seen, not told.
+/// "hardening = 5 since step 120".
 std::vector<std::string> change_lines(const std::vector<LiveChange>& changes) {
   std::vector<std::string> texts;
   for (const LiveChange& change : changes)
-    if (concerns_simulation(change.address))
-      texts.push_back(change.address + "=" + change.value + " since step " +
-                      std::to_string(change.step));
+    texts.push_back(change.address + "=" + change.value + " since step " +
+                    std::to_string(change.step));
   return override_lines(texts);
 }
 
@@ -259,6 +258,7 @@ std::vector<std::string> override_lines(const std::vector<std::string>& override
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) continue;
     const std::string address = text.substr(0, equals);
+    if (!concerns_simulation(address)) continue;
     if (!by_address.contains(address)) {
       order.push_back(address);
       ++ending_alike[last_word(address)];

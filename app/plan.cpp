@@ -8,9 +8,9 @@
 #include "app/machine.h"
 #include "app/mosaic.h"
 #include "app/output/picture_writer.h"
-#include "app/scene/value.h"
 #include "app/seed_scene.h"
 #include "app/text.h"
+#include "sim/number_text.h"
 #include "sim/simulation.h"
 
 namespace neve::app {
@@ -49,7 +49,7 @@ std::uint64_t whole_bytes(double bytes) {
 }
 
 std::string count_text(double count) {
-  return count < 1e15 ? fixed_text(count, 0) : number_text(count);
+  return count < 1e15 ? fixed_text(count, 0) : sim::number_text(count);
 }
 
 }  // namespace

@@ -139,11 +139,14 @@ void draw_stage(ViewerState& state, sim::Stage stage, const char* name) {
   ImGui::AlignTextToFramePadding();
   const bool is_past = live.stage && stage <= live.stage->stage;
   if (is_past) ImGui::PushStyleColor(ImGuiCol_Text, done_color);
-  if (ImGui::Selectable(name, live.stage && stage == live.stage->stage))
-    state.bench.session().show_stage(stage);
+  const bool is_shown = live.stage && stage == live.stage->stage;
+  if (ImGui::Selectable(name, is_shown)) {
+    Session& session = state.bench.session();
+    is_shown ? session.leave_stage() : session.show_stage(stage);
+  }
   if (is_past) ImGui::PopStyleColor();
   note_label(name);
-  tip("click: a step on a copy, up to the end of this stage");
+  tip("click: a step on a copy, up to the end of this stage; again: back to the frame");
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", is_done ? stage_time_text(live, stage).c_str() : "skipped");

@@ -20,8 +20,8 @@ namespace neve::app {
 namespace {
 
 /// By how much a simulation that is watched steps back behind the pictures of it: where both want
-/// the same cores, these get about twice as much.
-constexpr int niceness = 3;
+/// the same cores, these get about three times as much.
+constexpr int niceness = 5;
 constexpr int last_stage = static_cast<int>(sim::Stage::colliders);
 
 /// Of the calling thread, and of those that it starts from now on.
@@ -123,6 +123,10 @@ void Session::show_stage(sim::Stage stage) {
     set_goal(Goal::none);
     if (!simulation_->divergence()) stage_ = static_cast<int>(stage);
   });
+}
+
+void Session::leave_stage() {
+  ask([this] { stage_.reset(); });
 }
 
 void Session::reset(std::shared_ptr<const Scene> scene) {

@@ -43,6 +43,8 @@ class Session {
   void next_stage();
   /// The same up to the end of this stage, wherever it is.
   void show_stage(sim::Stage stage);
+  /// Shows the state between two steps again.
+  void leave_stage();
 
   /// Starts anew. On an error the old simulation goes on.
   void reset(std::shared_ptr<const Scene> scene);

@@ -11,6 +11,11 @@ namespace neve::app {
 /// that of the next.
 bool Viewer::has_picture_to_save() {
   const LiveFrame& live = *state_.live;
+  if (live.stage && live.is_frame_end) {
+    bench_.session().leave_stage();
+    settle_ = 3;
+    return false;
+  }
   if (live.is_frame_end && painted_number_ == live.number && !(goes_on_ && live.is_running))
     return true;
   if (live.divergence) return true;  // there is no next one

@@ -15,8 +15,10 @@ namespace neve::app {
 
 namespace {
 
-constexpr double quick_enough = 1.0 / 30;  // s; a picture that takes longer is drawn smaller
-constexpr double still_after = 0.25;       // s without a move
+/// s; a picture that takes longer is drawn smaller while it moves. As much again is for panels,
+/// encoding, and the simulation behind it: 30 pictures a second.
+constexpr double quick_enough = 1.0 / 60;
+constexpr double still_after = 0.25;  // s without a move
 constexpr double smallest_scale = 0.45;
 
 /// Whether all that the view shows was worked out for this moment: a view that was just chosen has

@@ -80,10 +80,10 @@ TEST(SizeArguments, AreTwoSides) {
     EXPECT_THROW(parse_size(wrong), UsageError) << wrong;
 }
 
-TEST(Caption, NamesOverridesByTheirLastWordUnlessTwoAreAlike) {
-  const std::vector<std::string> lines =
-      override_lines({"material.snow.hardening=5", "body.a.velocity=[0,1,0]",
-                      "body.b.velocity=[0,2,0]", "material.snow.hardening=6"});
+TEST(Caption, NamesOverridesOfTheSnowByTheirLastWordUnlessTwoAreAlike) {
+  const std::vector<std::string> lines = override_lines(
+      {"material.snow.hardening=5", "body.a.velocity=[0,1,0]", "body.b.velocity=[0,2,0]",
+       "camera.fov=20", "material.snow.hardening=6", "view.particles.layers=[\"particles\"]"});
   const std::vector<std::string> expected{"hardening = 6", "body.a.velocity = [0,1,0]",
                                           "body.b.velocity = [0,2,0]"};
   EXPECT_EQ(lines, expected);

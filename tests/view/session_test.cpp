@@ -87,6 +87,8 @@ TEST(Session, ShowsAnyStageOfAStepAndWhatEachTook) {
   session.show_stage(rasterize);
   wait_for(session,
            [](const LiveFrame& live) { return live.stage && live.stage->stage == rasterize; });
+  session.leave_stage();
+  wait_for(session, [](const LiveFrame& live) { return !live.stage; });
   session.run();
   EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
 }

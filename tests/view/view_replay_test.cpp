@@ -101,6 +101,24 @@ std::size_t changed_bytes(const render::Image& a, const render::Image& b) {
   return changed;
 }
 
+TEST_F(ViewByScript, APictureOfAFrameShowsNoStage) {
+  const auto picture = [&](const char* name) {
+    return render::decode_png(app::read_file(folder / "out" / name));
+  };
+  const char* const saved = "particles_0000_step0.png";
+  const auto result = view(R"([
+    {"key": "p"}, {"wait": 8}, {"screenshot": "frame.png", "crop": "picture"}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const render::Image plain = picture(saved);
+  const auto inside = view(R"([
+    {"key": ";"}, {"wait": 10}, {"key": ";"}, {"wait": 30},
+    {"screenshot": "stage.png", "crop": "picture"}, {"key": "p"}, {"wait": 12}])");
+  ASSERT_EQ(inside.exit_code, 0) << inside.errors;
+  EXPECT_GT(changed_bytes(picture("frame.png"), picture("stage.png")), 500u);  // its arrows
+  EXPECT_EQ(changed_bytes(plain, picture(saved)), 0u);
+}
+
 TEST_F(ViewByScript, AClickBesideTheSnowIsAnsweredForAMoment) {
   const auto result = view(R"([
     {"wait": 20}, {"move": {"label": "picture", "part": [0.1, 0.9]}}, {"wait": 20},
