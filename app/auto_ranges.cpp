@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/attributes.h"
 #include "app/round_number.h"
@@ -86,6 +87,13 @@ double yield_shear(const sim::Material& m) {
   return 2 * l.mu * theta;
 }
 
+/// Of snow that meets something, rho v^2: below the elastic limit, and well above its own weight.
+double stagnation_pressure(const Scene& scene) {
+  const double speed = impact_speed(scene);
+  const double density = largest(scene.materials, [](const sim::Material& m) { return m.density; });
+  return speed > 0 ? density * speed * speed : std::numeric_limits<double>::infinity();
+}
+
 Range density_range(const Scene& scene) {
   double low = 1e300, high = 0;
   for (const sim::Material& m : scene.materials) {
@@ -138,11 +146,13 @@ Range automatic_range(const Scene& scene, ColorBy color_by, std::size_t particle
     case ColorBy::J_P:
       return {0.8, 1.2};  // about 1, so that diverging maps have their middle there
     case ColorBy::pressure: {
-      const double pressure = round_up(hardened * largest(scene.materials, yield_pressure));
+      const double yield = hardened * largest(scene.materials, yield_pressure);
+      const double pressure = round_up(std::min(yield, stagnation_pressure(scene)));
       return {-pressure, pressure};
     }
     case ColorBy::von_mises:
-      return {0, round_up(hardened * largest(scene.materials, yield_shear))};
+      return {0, round_up(std::min(hardened * largest(scene.materials, yield_shear),
+                                   stagnation_pressure(scene)))};
     case ColorBy::id:
       return {0, static_cast<double>(std::max<std::size_t>(particle_count, 2) - 1)};
   }
@@ -162,7 +172,7 @@ Range automatic_range(const Scene& scene, VectorField field) {
       // A node of packed snow has the mass of a cell.
       return {0, round_up(density_range(scene).max * h * h * h * speeds.max)};
     case VectorField::force:
-      // Stress at the elastic limit on the face of a cell.
+      // Stress on the face of a cell.
       return {0, round_up(automatic_range(scene, ColorBy::pressure, 0).max * h * h)};
     default:
       return speeds;

@@ -163,6 +163,9 @@ int run_dump(const DumpOptions& options) {
   Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO));
   sim::Simulation simulation =
       make_simulation(job.scene, seed_scene(job.scene), options.run.threads);
+  if (const double end = job.scene.frames / job.scene.fps; options.at > end * (1 + 1e-12))
+    progress.warning("--at " + rough_text(options.at) + " s is after the end of the scene, " +
+                     rough_text(end) + " s; Ctrl-C stops");
   run_to(options.at, job.scene.fps, simulation, progress);
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the time asked for");
   if (simulation.divergence())

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "app/check/findings.h"
 #include "app/commands.h"
 #include "app/errors.h"
 #include "app/interrupt.h"
@@ -15,6 +16,7 @@
 #include "app/scene/value.h"
 #include "app/seed_scene.h"
 #include "app/snow_pieces.h"
+#include "app/step_warnings.h"
 #include "app/text.h"
 #include "render/context.h"
 
@@ -118,28 +120,15 @@ void print_result(const RenderJob& job, const RenderRun& run, const RenderResult
   std::cout << to_text(json) << "\n";
 }
 
-/// Fixed steps are used as they are; what that risks is said once. Adaptive ones stop the run
-/// instead.
-void warn_about_steps(const sim::SolverSettings& settings, const sim::Simulation& simulation,
-                      Progress& progress) {
-  const sim::Warnings& warnings = simulation.warnings();
-  if (settings.time_step == sim::TimeStep::fixed && warnings.worst_acoustic_cfl > 1.5)
-    progress.warning("fixed steps: the acoustic CFL reached " +
-                     fixed_text(warnings.worst_acoustic_cfl, 1) +
-                     "; above 1.5 steps are unstable, make solver.dt smaller");
-  if (warnings.solves_cut_short > 0)
-    progress.warning(std::to_string(warnings.solves_cut_short) +
-                     " semi-implicit steps ended after solver.solve_iterations = " +
-                     std::to_string(settings.solve_iterations) +
-                     " above solve_tolerance, and were taken as they were: more iterations, or a "
-                     "smaller dt (solver.max_dt, solver.dt)");
-  if (warnings.solves_given_up > 0)
-    progress.warning(std::to_string(warnings.solves_given_up) +
-                     " semi-implicit steps could not be solved, explicit ones took their place: "
-                     "a smaller dt (solver.max_dt, solver.dt) helps");
-  if (warnings.inverted_trials > 0)
-    progress.detail(std::to_string(warnings.inverted_trials) +
-                    " trial deformations were inverted and repaired");
+/// Snow that starts inside colliders: nothing else about the run would show it.
+void warn_about_start(RenderJob& job, const sim::ParticleArrays& particles,
+                      const std::vector<std::size_t>& body_end, Progress& progress) {
+  std::vector<Finding> findings;
+  check_collider_overlaps(job.scene, particles, body_end, findings);
+  for (const Finding& finding : findings) {
+    job.warnings.push_back(finding.what);
+    progress.warning(finding.address + ": " + finding.what + "; " + finding.hint);
+  }
 }
 
 void report_validation(const Validation& validation, Progress& progress) {
@@ -193,6 +182,7 @@ int run_render(const RenderOptions& options) {
 
   std::vector<std::size_t> body_end;
   const sim::ParticleArrays particles = seed_scene(job.scene, &body_end);
+  warn_about_start(job, particles, body_end, progress);
   const SnowCount snow = count_snow(job.scene, particles.x.size());
   resolve(job.scene, snow.particles);
   // A framing that was cut short is another one: nothing may be written with it.
@@ -205,7 +195,10 @@ int run_render(const RenderOptions& options) {
 
   RenderRun run(job, simulation, *context, renderer, snow.spacing, body_end, progress);
   const RenderResult result = run.run();
-  warn_about_steps(job.scene.solver, simulation, progress);
+  for (const std::string& warning : step_warnings(job.scene.solver, simulation.warnings()))
+    progress.warning(warning);
+  if (const std::size_t trials = simulation.warnings().inverted_trials; trials > 0)
+    progress.detail(std::to_string(trials) + " trial deformations were inverted and repaired");
   if (run.validation()) report_validation(*run.validation(), progress);
   const int code = finish(options, job, run, result, progress);
   if (code == exit_ok && run.validation() && run.validation()->has_errors())

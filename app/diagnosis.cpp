@@ -183,19 +183,35 @@ std::string motion_address(const Collider& collider) {
   return "collider." + collider.name + (collider.keyframes.empty() ? ".velocity" : ".keyframes");
 }
 
+/// The largest speed at which a collider came by the culprit in the last steps, in m/s: one that is
+/// fast is beyond it, or at rest at its last keyframe, when the snow breaks.
+double speed_beside_culprit(const Case& c, const Collider& collider) {
+  double fastest = 0;
+  const auto look = [&](double time, double dt) {
+    const sim::Surface surface = sim::surface_at(collider, time, c.d.x);
+    const double speed = surface.velocity.norm();
+    if (surface.distance < 6 * c.h + speed * dt) fastest = std::max(fastest, speed);
+  };
+  if (!c.d.x.allFinite()) return 0;
+  look(c.d.time, c.dt);
+  for (const sim::StepRecord& step : c.d.last_steps)
+    for (const double part : {0.0, 0.5, 1.0}) look(step.time - part * step.dt, step.dt);
+  return fastest;
+}
+
 Hypothesis collider_speed(const Case& c) {
-  for (const NearSurface& near : surfaces_near(c, 6)) {
-    const double speed = near.surface.velocity.norm();
+  for (const Collider& collider : c.scene.colliders) {
+    const double speed = speed_beside_culprit(c, collider);
     const double mach = speed / std::max(1e-9, c.start_sound());
     if (mach < 1 && speed * c.dt < 0.5 * c.h) continue;
     if (speed < 2 * c.d.start.max_speed) continue;
     return Diagnosis{Cause::collider_speed,
-                     "collider " + near.collider->name + " hits the snow at " + rough_text(speed) +
+                     "collider " + collider.name + " hits the snow at " + rough_text(speed) +
                          " m/s, " + rough_text(mach) + " times the speed of its sound, and " +
                          rough_text(speed * c.dt / c.h) + " cells in a step",
                      "move it slower than " + rough_text(0.5 * c.start_sound()) +
                          " m/s, or let it speed up gently",
-                     motion_address(*near.collider)};
+                     motion_address(collider)};
   }
   return std::nullopt;
 }

@@ -246,13 +246,26 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
   return lines;
 }
 
+namespace {
+
+/// "hardening" of material.snow.hardening, "post center" of collider.post.shape.sphere.center.
+std::string short_name(const std::string& address) {
+  const std::size_t first = address.find('.'), last = address.rfind('.');
+  if (first == std::string::npos) return address;
+  const std::string kind = address.substr(0, first), word = address.substr(last + 1);
+  const bool is_of_one = kind == "body" || kind == "collider" || kind == "emitter" ||
+                         kind == "sink" || kind == "material";
+  const std::size_t second = address.find('.', first + 1);
+  if (!is_of_one || second == std::string::npos) return word;
+  const std::string name = address.substr(first + 1, second - first - 1);
+  return name == "snow" && kind == "material" ? word : name + " " + word;
+}
+
+}  // namespace
+
 std::vector<std::string> override_lines(const std::vector<std::string>& overrides) {
-  const auto last_word = [](const std::string& address) {
-    const std::size_t dot = address.rfind('.');
-    return dot == std::string::npos ? address : address.substr(dot + 1);
-  };
   std::map<std::string, std::string> by_address;  // the last value of an address counts
-  std::map<std::string, int> ending_alike;
+  std::map<std::string, int> named_alike;
   std::vector<std::string> order;
   for (const std::string& text : overrides) {
     const std::size_t equals = text.find('=');
@@ -261,14 +274,14 @@ std::vector<std::string> override_lines(const std::vector<std::string>& override
     if (!concerns_simulation(address)) continue;
     if (!by_address.contains(address)) {
       order.push_back(address);
-      ++ending_alike[last_word(address)];
+      ++named_alike[short_name(address)];
     }
     by_address[address] = text.substr(equals + 1);
   }
   std::vector<std::string> lines;
   for (const std::string& address : order) {
-    const std::string word = last_word(address);
-    lines.push_back((ending_alike[word] > 1 ? address : word) + " = " + by_address[address]);
+    const std::string name = short_name(address);
+    lines.push_back((named_alike[name] > 1 ? address : name) + " = " + by_address[address]);
   }
   return lines;
 }

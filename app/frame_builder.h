@@ -59,8 +59,9 @@ class FrameBuilder {
   std::vector<std::size_t> body_end_;
 };
 
-/// "hardening = 5" for "material.snow.hardening=5"; the whole address where two end alike. None for
-/// other cameras, views and colours: these are seen.
+/// "hardening = 5" for "material.snow.hardening=5", "post center = ..." for what is a collider's;
+/// the whole address where two are named alike. None for other cameras, views and colours: these
+/// are seen.
 std::vector<std::string> override_lines(const std::vector<std::string>& overrides);
 
 }  // namespace neve::app

@@ -1,5 +1,7 @@
 #include "app/legends.h"
 
+#include <algorithm>
+
 #include "app/attributes.h"
 
 namespace neve::app {
@@ -13,6 +15,11 @@ render::Legend legend(const AttributeName& name, render::ColorMap colormap,
           static_cast<float>(ends.max)};
 }
 
+bool is_same(const render::Legend& a, const render::Legend& b) {
+  return a.title == b.title && a.unit == b.unit && a.colormap == b.colormap && a.min == b.min &&
+         a.max == b.max;
+}
+
 }  // namespace
 
 std::vector<render::Legend> legends_of(const View& view) {
@@ -23,13 +30,18 @@ std::vector<render::Legend> legends_of(const View& view) {
   if (has_layer(view, Layer::particles) && particles.color_by != ColorBy::snow)
     legends.push_back(
         legend(attribute_name(particles.color_by), particles.colormap, particles.range));
+  const auto add = [&](const render::Legend& another) {
+    // Two layers of one quantity in the same colours need one.
+    if (std::none_of(legends.begin(), legends.end(),
+                     [&](const render::Legend& other) { return is_same(other, another); }))
+      legends.push_back(another);
+  };
   if (has_layer(view, Layer::smoke) && smoke.field != ScalarField::mass)
-    legends.push_back(legend(attribute_name(smoke.field), smoke.colormap, smoke.range));
+    add(legend(attribute_name(smoke.field), smoke.colormap, smoke.range));
   if (has_layer(view, Layer::heatmap))
-    legends.push_back(
-        legend(attribute_name(slice.scalar), slice.scalar_colormap, slice.scalar_range));
+    add(legend(attribute_name(slice.scalar), slice.scalar_colormap, slice.scalar_range));
   if (has_layer(view, Layer::arrows))
-    legends.push_back(legend(attribute_name(slice.field), slice.colormap, slice.range));
+    add(legend(attribute_name(slice.field), slice.colormap, slice.range));
   return legends;
 }
 

@@ -24,7 +24,8 @@ struct RenderJob {
   bool is_resumed = false;              ///< goes on from the checkpoint in the folder
   int checkpoint_every = 10;            ///< frames; 0: none
   bool has_movies = true;
-  double coarsening = 1;  ///< done to the scene, a picture's included
+  std::vector<std::string> warnings;  ///< of the start, for run.json
+  double coarsening = 1;              ///< done to the scene, a picture's included
 };
 
 /// @throws SceneError, UsageError, IoError, Error

@@ -13,6 +13,7 @@
 #include "app/output/movie.h"
 #include "app/output/sequence.h"
 #include "app/scene/read.h"
+#include "app/step_warnings.h"
 #include "app/text.h"
 #include "app/version.h"
 #include "render/context.h"
@@ -54,6 +55,7 @@ RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation,
   record.scene_file = job.scene_file;
   record.overrides = job.overrides;
   record.changes = job.changes;
+  record.warnings = job.warnings;
   record.coarsening = job.coarsening;
   record.backend = context.backend;
   record.gl_renderer = context.renderer;
@@ -219,6 +221,9 @@ bool RenderRun::advance_to_frame(int frame) {
   note_retries(advanced.retries);
   seconds_sim_ = advanced.seconds;
   if (validation_) record_.validation = validation_->records();
+  record_.warnings = job_.warnings;
+  for (std::string& warning : step_warnings(scene_.solver, simulation_.warnings()))
+    record_.warnings.push_back(std::move(warning));
   if (simulation_.divergence()) {
     record_.divergence = simulation_.divergence();
     result_.status = RunStatus::diverged;

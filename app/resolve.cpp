@@ -1,6 +1,7 @@
 #include "app/resolve.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/auto_camera.h"
 #include "app/auto_ranges.h"
@@ -28,17 +29,9 @@ bool shows_slice(const View& view) {
   return has_layer(view, Layer::arrows) || has_layer(view, Layer::heatmap);
 }
 
-/// The narrowest of the views that share the scene's camera.
-double shared_aspect(const Scene& scene) {
-  double aspect = aspect_of(scene.size);
-  bool is_first = true;
-  for (const View& view : scene.views) {
-    if (view.camera) continue;
-    const double own = aspect_of(size_of(scene, view));
-    aspect = is_first ? own : std::min(aspect, own);
-    is_first = false;
-  }
-  return aspect;
+/// Pictures of about the same shape are framed by the same camera.
+bool is_of_shape(double aspect, double other) {
+  return std::abs(aspect / other - 1) < 0.02;
 }
 
 /// Whether the scene's own camera is used and has no place.
@@ -77,13 +70,16 @@ bool needs_framing(const Scene& scene) {
 void resolve_cameras(Scene& scene, const std::vector<Moment>& moments) {
   const bool is_shared = needs_shared_camera(scene);
   const CameraSettings lens = scene.camera.value_or(CameraSettings{});
-  if (is_shared) scene.camera = automatic_camera(scene, moments, lens, shared_aspect(scene));
+  const double shared = aspect_of(scene.size);
+  if (is_shared) scene.camera = automatic_camera(scene, moments, lens, shared);
   for (View& view : scene.views) {
     const double aspect = aspect_of(size_of(scene, view));
     if (view.camera && !has_place(*view.camera))
       view.camera = automatic_camera(scene, moments, *view.camera, aspect);
     else if (!view.camera && is_shared && shows_slice(view))
       view.camera = automatic_camera(scene, moments, lens, aspect, view.slice.normal);
+    else if (!view.camera && is_shared && !is_of_shape(aspect, shared))
+      view.camera = automatic_camera(scene, moments, lens, aspect);
   }
 }
 

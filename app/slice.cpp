@@ -193,8 +193,11 @@ void add_slice(const View& view, const NodeFields& fields, const SlicePlane& wan
   const double h = static_cast<double>(fields.lattice->spacing);
   const SlicePlane plane = snapped_to_nodes(wanted, h);
   const Rectangle r = rectangle_of(fields, plane);
-  if (r.is_empty()) return;
   std::string words = describe_place(plane);
+  if (r.is_empty()) {
+    frame.footnote = words + ": no snow here";
+    return;
+  }
   if (has_map) add_heat_map(slice, fields, plane, r, frame);
   if (has_arrows) {
     const int every = nodes_between_arrows(slice, h, pixels_per_metre);

@@ -13,6 +13,7 @@ namespace neve::render {
 namespace {
 
 constexpr ImU32 mark_color = IM_COL32(255, 122, 40, 255);
+constexpr ImU32 label_plate = IM_COL32(18, 21, 26, 150);
 
 /// Height of text: 16 pixels at 1280x720, in proportion elsewhere, but never too small to read.
 int font_size_for(int width, int height) {
@@ -136,6 +137,7 @@ void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
   const float height = static_cast<float>(frame.height);
   const float margin = std::round(20 * unit);
   const bool has_strip = frame.caption_height > 0;
+  if (!has_strip && height < 7 * imgui_.text_font()->FontSize) return;  // it would be all text
   const float width = has_strip
                           ? static_cast<float>(frame.width) - 2 * margin
                           : std::min(right_limit, 0.66f * static_cast<float>(frame.width)) - margin;
@@ -169,6 +171,10 @@ void OverlayPass::draw_labels(const Frame& frame, const View& view) const {
     if (p.x < 0 || p.x > width || p.y < 0 || p.y > height) continue;
     const float left = std::clamp(p.x, margin, std::max(margin, width - text_size - margin));
     const float top = std::max(margin, height - p.y - 1.35f * font.FontSize);
+    const float rim = 3 * unit;
+    ImGui::GetBackgroundDrawList()->AddRectFilled(
+        ImVec2(left - rim, top - 0.5f * rim),
+        ImVec2(left + text_size + rim, top + font.FontSize + 0.5f * rim), label_plate, rim);
     draw_text(font, ImVec2(left, top), soft_text, text);
   }
 }
@@ -222,7 +228,7 @@ void OverlayPass::draw(const Frame& frame, const View& view) {
   draw_marks(frame, view);
   const float legends = draw_legends(frame);
   draw_caption(frame, legends);
-  draw_footnote(frame, draw_plots(frame, *imgui_.text_font()), legends);
+  draw_footnote(frame, draw_plots(frame, *imgui_.text_font(), legends), legends);
   draw_notes(frame);
   imgui_.end();
 }

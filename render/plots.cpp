@@ -181,7 +181,7 @@ void draw_time_labels(const Axes& axes, const ImFont& font) {
 
 }  // namespace
 
-float draw_plots(const Frame& frame, const ImFont& font) {
+float draw_plots(const Frame& frame, const ImFont& font, float right_limit) {
   if (frame.plots.empty()) return 0;
   const float width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
   const float size = font.FontSize, unit = unit_of(font);
@@ -199,7 +199,9 @@ float draw_plots(const Frame& frame, const ImFont& font) {
   const float each = std::min((bottom - top) / static_cast<float>(count), highest);
 
   const float left = std::round(20 * unit + 3.2f * size);  // room for the numbers
-  const float right = std::round(left + std::clamp(0.22f * width, 11 * size, 22 * size));
+  const float right = std::round(
+      std::min(left + std::clamp(0.22f * width, 11 * size, 22 * size), right_limit - 0.5f * size));
+  if (right - left < 8 * size) return 0;
   for (std::size_t k = 0; k < count; ++k) {
     const float below = static_cast<float>(count - 1 - k) * each;
     const Panel panel{left, right, std::round(bottom - below - (each - title - gap)),

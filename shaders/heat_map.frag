@@ -24,6 +24,9 @@ void main() {
     float pixels = abs(fract(steps - 0.5) - 0.5) / span;
     float cover = clamp(0.5 * isoline_width + 0.5 - pixels, 0.0, 1.0);
     cover *= 1.0 - smoothstep(0.15, 0.4, span);  // closer than that they are a veil
+    // Beyond the range colours do not change, and no line has its value on the legend.
+    float last = (range_max - range_min) / isoline_step;
+    cover *= step(-0.5, steps) * step(steps, last + 0.5);
     float luminance = dot(root_color * root_color, vec3(0.21, 0.72, 0.07));
     root_color = mix(root_color, vec3(luminance > 0.2 ? 0.0 : 1.0), 0.55 * cover);
   }

@@ -52,8 +52,8 @@ DistanceField::DistanceField(const MeshSurface& surface, const std::string& name
   fill(surface, pool);
   if (std::none_of(values_.begin(), values_.end(), [](float d) { return d < 0; }))
     throw ShapeError(name + ": the mesh is thinner than the " + number_text(spacing) +
-                     " m between the places where its distance is kept (half a cell): snow would "
-                     "pass through. Make it thicker, or solver.cell_size smaller");
+                     " m between the places where its distance is kept, and snow would pass "
+                     "through. Make it thicker, or smaller as a whole, or take a box");
 }
 
 void DistanceField::fill(const MeshSurface& surface, ThreadPool& pool) {

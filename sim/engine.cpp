@@ -288,7 +288,8 @@ AdvanceReport Engine<Real>::advance_to(double time, bool (*interrupted)(), std::
     const double dt = steps > 1 ? last_dt_ : choice.dt;
     report.dt_min = report.steps == 0 ? dt : std::min(report.dt_min, dt);
     report.dt_max = std::max(report.dt_max, dt);
-    report.ruled[static_cast<std::size_t>(choice.limit)] += steps;
+    const DtLimit limit = steps > 1 ? explicit_limit() : choice.limit;
+    report.ruled[static_cast<std::size_t>(limit)] += steps;
     report.steps += steps;
     if (interrupted && interrupted()) break;
   }

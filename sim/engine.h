@@ -183,6 +183,8 @@ class Engine {
   double over_nodes_summed(SolveSweep<Real> sweep, const SolveArgs<Real>& a);
   /// Explicit steps that take the place of one of dt.
   int explicit_parts(double dt) const;
+  /// What rules those.
+  DtLimit explicit_limit() const;
   void note(double dt);
   void remember(double dt, const BlockReport<Real>& report);
   BlockReport<Real> combined_report() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/engine.h"
 
@@ -83,10 +84,14 @@ bool Engine<Real>::solve_velocities(const SweepArgs<Real>& step, double dt) {
   // Snow that stands still has a residual of 1. NaN is of no use either.
   const bool is_useful = last_solve_.residual < 1 && found <= most_growth_squared * given;
   if (!is_useful) {
+    last_solve_.given_up = 1;
     ++warnings_.solves_given_up;
     return false;
   }
-  if (last_solve_.residual > tolerance()) ++warnings_.solves_cut_short;
+  if (last_solve_.residual > tolerance()) {
+    last_solve_.cut_short = 1;
+    ++warnings_.solves_cut_short;
+  }
   over_node_blocks(s.finish, a);
   return true;
 }
@@ -99,9 +104,19 @@ int Engine<Real>::explicit_parts(double dt) const {
   return static_cast<int>(std::clamp(parts, 1.0, most_parts));
 }
 
+template <class Real>
+DtLimit Engine<Real>::explicit_limit() const {
+  SolverSettings settings = settings_;
+  settings.beta = 0;
+  settings.time_step = TimeStep::adaptive;
+  return sim::choose_dt(settings, limits_, std::numeric_limits<double>::infinity()).limit;
+}
+
 template bool Engine<float>::solve_velocities(const SweepArgs<float>&, double);
 template bool Engine<double>::solve_velocities(const SweepArgs<double>&, double);
 template int Engine<float>::explicit_parts(double) const;
 template int Engine<double>::explicit_parts(double) const;
+template DtLimit Engine<float>::explicit_limit() const;
+template DtLimit Engine<double>::explicit_limit() const;
 
 }  // namespace neve::sim

@@ -6,6 +6,8 @@ namespace neve::sim {
 
 PointCloud parse_points(std::string_view bytes, const std::string& name) {
   const bool is_ply = bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n");
+  if (!is_ply && name.ends_with(".ply"))
+    refuse_input(name, "it does not begin with a line \"ply\"; expected a PLY file");
   return is_ply ? parse_ply_points(bytes, name) : parse_csv_points(bytes, name);
 }
 

@@ -15,6 +15,8 @@ DtLimit AdvanceReport::limit() const {
 void SolveReport::add(const SolveReport& other) {
   iterations = std::max(iterations, other.iterations);
   residual = std::max(residual, other.residual);
+  cut_short += other.cut_short;
+  given_up += other.given_up;
 }
 
 void AdvanceReport::append(const AdvanceReport& later) {

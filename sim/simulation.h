@@ -65,7 +65,9 @@ struct Summary {
 struct SolveReport {
   int iterations = 0;   ///< of conjugate residuals
   double residual = 0;  ///< |v_star - (I + beta dt^2 M^-1 H) v_new| / |v_star|, weighted by mass
-  /// The worst of both.
+  std::size_t cut_short = 0;  ///< solves taken as they were after solve_iterations
+  std::size_t given_up = 0;   ///< solves of no use: explicit steps in their place
+  /// The worst of both, and how many of both ended early.
   void add(const SolveReport& other);
 };
 

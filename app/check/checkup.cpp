@@ -117,13 +117,14 @@ double foresee_frames(const Scene& scene, Checkup& checkup) {
   for (int frame = 1; frame <= scene.frames; ++frame) {
     // The frame's start and end both count; where time runs out the last frames are as the one
     // before.
-    if (!simulation.divergence() && seconds_since(start) < coarse_seconds && !is_interrupted()) {
+    if (seconds_since(start) < coarse_seconds && !is_interrupted()) {
       const sim::Simulation::StepLimits before = simulation.step_limits();
       const auto before_frame = Clock::now();
       const sim::AdvanceReport report = simulation.advance_to(frame / scene.fps, is_interrupted);
       seconds += seconds_since(before_frame);
       particle_steps +=
           static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());
+      if (simulation.divergence()) break;  // a broken state foretells nothing
       sim::Simulation::StepLimits worst = simulation.step_limits();
       worst.max_speed = std::max(worst.max_speed, before.max_speed);
       worst.max_sound_speed = std::max(worst.max_sound_speed, before.max_sound_speed);

@@ -32,7 +32,7 @@ struct Checkup {
   sim::Simulation::StepLimits start;  ///< of the initial state
   double dt_start = 0;                ///< s, what the first step would take
   sim::DtLimit limit_start = sim::DtLimit::max_dt;
-  std::vector<FrameForecast> forecast;  ///< every frame; empty where no coarse run was possible
+  std::vector<FrameForecast> forecast;  ///< frames that a coarse run reached; may be empty
   double coarse_particles = 0;          ///< of the run behind the forecast
   double seconds_per_step = 0;          ///< measured on this machine; 0: not measured
   sim::SolveReport solve;               ///< of these steps; zero where they are explicit

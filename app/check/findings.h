@@ -45,7 +45,7 @@ void check_unused(const Scene& scene, double coarsening, std::vector<Finding>& f
 void check_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
                     const std::vector<std::size_t>& body_end, std::vector<Finding>& findings);
 
-/// The second half of it.
+/// Bodies and emitters in colliders.
 void check_collider_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
                              const std::vector<std::size_t>& body_end,
                              std::vector<Finding>& findings);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "app/check/findings.h"
 #include "app/text.h"
@@ -13,11 +14,19 @@ namespace {
 
 using sim::Vec3d;
 
-/// Whether a place is in a collider at the start.
+constexpr const char* why_move_it =
+    "move it out: contact stops snow at surfaces, it does not push it out (solver.push_out does, "
+    "and "
+    "leaves it crushed)";
+
+/// Particles of a body: a share needs no more.
+constexpr std::size_t most_looked_at = 20000;
+
+/// Whether a place is in a collider at a time.
 class Inside {
  public:
-  explicit Inside(const sim::Collider& collider)
-      : pose_(sim::pose_at(collider, 0)),
+  Inside(const sim::Collider& collider, double time)
+      : pose_(sim::pose_at(collider, time)),
         start_(sim::rotation_from_degrees(collider.shape.rotation)),
         center_(sim::center(collider.shape)) {
     if (const auto* plane = std::get_if<sim::Plane>(&collider.shape.form))
@@ -39,26 +48,61 @@ class Inside {
   std::unique_ptr<sim::Solid> solid_;
 };
 
+/// Some hundred places in a shape, regularly.
+std::vector<Vec3d> places_in(const sim::Shape& shape) {
+  constexpr int parts = 11;
+  std::vector<Vec3d> places;
+  const sim::Solid solid(shape);
+  const sim::Bounds box = solid.bounds();
+  for (int i = 0; i < parts; ++i)
+    for (int j = 0; j < parts; ++j)
+      for (int k = 0; k < parts; ++k) {
+        const Vec3d part = (Vec3d(i, j, k) + Vec3d::Constant(0.5)) / parts;
+        const Vec3d x = box.min + part.cwiseProduct(box.max - box.min);
+        if (solid.contains(x)) places.push_back(x);
+      }
+  return places;
+}
+
+void check_emitters_in(const sim::Collider& collider, const Scene& scene,
+                       std::vector<Finding>& findings) {
+  constexpr double much = 0.02;  // a nozzle that ends in a wall is none
+  for (const sim::Emitter& emitter : scene.emitters) {
+    const std::vector<Vec3d> places = places_in(emitter.shape);
+    if (places.empty()) continue;
+    const Inside is_inside(collider, emitter.start);
+    const auto inside =
+        std::count_if(places.begin(), places.end(), [&](const Vec3d& x) { return is_inside(x); });
+    const double share = static_cast<double>(inside) / static_cast<double>(places.size());
+    if (share < much) continue;
+    findings.push_back({Severity::warning, "emitter." + emitter.name + ".shape",
+                        percent_text(share) + " of " + called("emitter", emitter.name) +
+                            " is inside collider " + collider.name + " when it starts",
+                        why_move_it});
+  }
+}
+
 }  // namespace
 
 void check_collider_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
                              const std::vector<std::size_t>& body_end,
                              std::vector<Finding>& findings) {
   for (const sim::Collider& collider : scene.colliders) {
-    const Inside is_inside(collider);
+    check_emitters_in(collider, scene, findings);
+    const Inside is_inside(collider, 0);
     std::size_t first = 0;
     for (std::size_t body = 0; body < body_end.size(); ++body) {
-      std::size_t inside = 0;
-      for (std::size_t p = first; p < body_end[body]; ++p) inside += is_inside(particles.x[p]);
-      const double count = static_cast<double>(body_end[body] - first);
+      const std::size_t stride = (body_end[body] - first) / most_looked_at + 1;
+      std::size_t inside = 0, count = 0;
+      for (std::size_t p = first; p < body_end[body]; p += stride, ++count)
+        inside += is_inside(particles.x[p]);
       first = body_end[body];
       if (inside == 0) continue;
       findings.push_back({Severity::warning, "body." + scene.bodies[body].name + ".shape",
-                          percent_text(static_cast<double>(inside) / count) + " of " +
-                              called("body", scene.bodies[body].name) + " starts inside " +
+                          percent_text(static_cast<double>(inside) / static_cast<double>(count)) +
+                              " of " + called("body", scene.bodies[body].name) + " starts inside " +
                               "collider " + collider.name,
-                          "move it out: contact stops snow at surfaces, it does not push it out "
-                          "(solver.push_out does, and leaves it crushed)"});
+                          why_move_it});
     }
   }
 }

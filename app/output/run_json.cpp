@@ -75,6 +75,8 @@ Json to_json(const FrameRecord& frame) {
   const std::optional<sim::SolveReport>& solve = frame.advance.solve;
   json["solve_iterations"] = solve ? Json(solve->iterations) : Json();
   json["solve_residual"] = solve ? number_or_null(solve->residual) : Json();
+  json["solves_cut_short"] = solve ? Json(solve->cut_short) : Json();
+  json["solves_given_up"] = solve ? Json(solve->given_up) : Json();
   json["seconds_sim"] = number_or_null(frame.seconds_sim);
   json["seconds_render"] = number_or_null(frame.seconds_render);
   json["particles"] = s.particles;
@@ -113,7 +115,9 @@ FrameRecord frame_record(const Json& json) {
   // Runs of earlier versions have none, explicit steps neither.
   if (json.contains("solve_iterations") && !json.at("solve_iterations").is_null())
     frame.advance.solve = {json.at("solve_iterations").get<int>(),
-                           number_or_nan(json.at("solve_residual"))};
+                           number_or_nan(json.at("solve_residual")),
+                           json.value("solves_cut_short", std::size_t(0)),
+                           json.value("solves_given_up", std::size_t(0))};
   frame.seconds_sim = number_or_nan(json.at("seconds_sim"));
   frame.seconds_render = number_or_nan(json.at("seconds_render"));
   sim::Summary& s = frame.summary;
@@ -160,7 +164,9 @@ Json to_json(const sim::AdvanceReport& advance) {
                {"ruled", advance.ruled}};
   if (advance.solve)
     json["solve"] = {{"iterations", advance.solve->iterations},
-                     {"residual", number_or_null(advance.solve->residual)}};
+                     {"residual", number_or_null(advance.solve->residual)},
+                     {"cut_short", advance.solve->cut_short},
+                     {"given_up", advance.solve->given_up}};
   return json;
 }
 
@@ -172,7 +178,9 @@ sim::AdvanceReport advance_report(const Json& json) {
   advance.ruled = json.at("ruled").get<decltype(advance.ruled)>();
   if (json.contains("solve"))
     advance.solve = {json.at("solve").at("iterations").get<int>(),
-                     number_or_nan(json.at("solve").at("residual"))};
+                     number_or_nan(json.at("solve").at("residual")),
+                     json.at("solve").value("cut_short", std::size_t(0)),
+                     json.at("solve").value("given_up", std::size_t(0))};
   return advance;
 }
 
@@ -242,6 +250,7 @@ Json to_json(const RunRecord& run) {
   if (!run.error.empty()) json["error"] = run.error;
   json["frames"] = Json::array();
   for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
+  json["warnings"] = run.warnings;
   if (!run.validation.empty()) json["validation"] = to_json(run.validation);
   if (!run.retries.empty()) json["retries"] = Json::array();
   for (const sim::Retry& retry : run.retries) json["retries"].push_back(to_json(retry));

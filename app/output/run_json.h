@@ -42,6 +42,7 @@ struct RunRecord {
   RunStatus status = RunStatus::running;
   std::string error;  ///< of a run that failed
   std::vector<FrameRecord> frames;
+  std::vector<std::string> warnings;         ///< of the start and of the steps so far
   std::vector<sim::WatchRecord> validation;  ///< of --validate; empty without it
   std::vector<sim::Retry> retries;           ///< times that it went back
   std::optional<sim::Divergence> divergence;

@@ -45,6 +45,14 @@ shape = { sphere = { center = [-0.9, 0.3, 0], radius = 0.1 } }
 velocity = [800, 0, 0]
 )";
 
+/// At rest again, beyond the snow, when it breaks.
+constexpr const char* flash = R"(
+[[collider]]
+name = "flash"
+shape = { box = { center = [0, -1, 0], size = [1, 0.1, 1] } }
+keyframes = [{ time = 0 }, { time = 0.001, position = [0, 1, 0] }]
+)";
+
 struct Fault {
   const char* what;
   Cause cause;
@@ -113,6 +121,7 @@ const std::vector<Fault>& faults() {
        {"solver.time_step=\"fixed\"", "solver.dt=5e-4"},
        bullet,
        "bullet"},
+      {"a plate at the speed of a bullet", Cause::collider_speed, {}, flash, "collider flash hits"},
       {"an impact at twenty times the speed of sound",
        Cause::shock,
        {"body.ball.velocity=[0,-400,0]"},

@@ -8,6 +8,7 @@
 
 #include "app/auto_ranges.h"
 #include "app/field_sampler.h"
+#include "app/legends.h"
 #include "app/resolve.h"
 #include "app/scene/error.h"
 #include "app/scene/read.h"
@@ -147,6 +148,27 @@ TEST(Slice, ArrowsStandOnNodesAndHaveTheirVelocity) {
   }
   ASSERT_EQ(frame.heat_maps.size(), 1u);
   EXPECT_NE(frame.footnote.find("z = 0 m"), std::string::npos) << frame.footnote;
+}
+
+TEST(Slice, SaysWhereThereIsNoSnow) {
+  const FieldMoment moment = moment_of(all_fields);
+  SliceStyle slice = moment.scene.views[2].slice;
+  slice.point = Vec3d(0, 0, 5);
+  const render::Frame frame = frame_of_slice(moment, 2, slice_plane(slice, 0, std::nullopt));
+  EXPECT_TRUE(frame.heat_maps.empty());
+  EXPECT_NE(frame.footnote.find("no snow here"), std::string::npos) << frame.footnote;
+}
+
+TEST(Legends, StandOnceForTwoLayersOfOneQuantity) {
+  View view;
+  view.layers = {Layer::particles, Layer::smoke, Layer::legend};
+  view.particles.color_by = ColorBy::J_P;
+  view.smoke.field = ScalarField::J_P;
+  view.particles.range = view.smoke.range = Range{0.8, 1.2};
+  view.smoke.colormap = view.particles.colormap;
+  EXPECT_EQ(legends_of(view).size(), 1u);
+  view.smoke.range = Range{0.5, 2};
+  EXPECT_EQ(legends_of(view).size(), 2u);
 }
 
 TEST(Slice, ArrowsStayApartOnThePicture) {

@@ -44,6 +44,27 @@ TEST(AutomaticCamera, ShowsWhereTheSnowStartsAndLands) {
   EXPECT_GT(largest, 0.4);
 }
 
+/// Width of what may be seen of a plane through the target.
+double width_seen(const CameraSettings& camera, double aspect) {
+  return 2 * aspect * std::tan(camera.fov * std::numbers::pi / 360) *
+         (*camera.target - *camera.eye).norm();
+}
+
+TEST(AutomaticCamera, FramesUprightPicturesByThemselves) {
+  const std::string upright = "[[view]]\nname = \"tall\"\nsize = [200, 600]\n";
+  Scene scene =
+      read_scene_text(std::string(drop) + "[[view]]\nname = \"wide\"\n" + upright, "d.toml");
+  Scene alone = read_scene_text(drop, "d.toml");
+  resolve(scene, 1000);
+  resolve(alone, 1000);
+  EXPECT_EQ(*scene.camera->eye, *alone.camera->eye);
+  EXPECT_FALSE(scene.views[0].camera);
+  ASSERT_TRUE(scene.views[1].camera);
+  const CameraSettings& tall = *scene.views[1].camera;
+  for (const double x : {-0.1, 0.1}) EXPECT_LT(reach(tall, 1.0 / 3, {x, 0.5, 0}), 0.95);
+  EXPECT_LT(width_seen(tall, 1.0 / 3), width_seen(*scene.camera, 16.0 / 9));
+}
+
 TEST(AutomaticCamera, IsTheSameEveryTime) {
   Scene a = read_scene_text(drop, "drop.toml"), b = a;
   resolve(a, 1000);

@@ -20,7 +20,7 @@ TEST(RunJson, HasTheFieldsOfTheContract) {
   run.frames.emplace_back();
   const Json json = to_json(run);
   for (const char* key : {"version", "scene", "overrides", "backend", "gl_renderer", "threads",
-                          "simd", "status", "frames"})
+                          "simd", "status", "warnings", "frames"})
     EXPECT_TRUE(json.contains(key)) << key;
   const std::vector<std::string> expected{"frame",
                                           "time",
@@ -30,6 +30,8 @@ TEST(RunJson, HasTheFieldsOfTheContract) {
                                           "dt_limit",
                                           "solve_iterations",
                                           "solve_residual",
+                                          "solves_cut_short",
+                                          "solves_given_up",
                                           "seconds_sim",
                                           "seconds_render",
                                           "particles",
@@ -96,6 +98,7 @@ TEST(RunJson, FramesComeBackAsTheyWereWritten) {
   frame.advance.dt_min = 1.0 / 3e4;
   frame.advance.dt_max = 2.0 / 3e4;
   frame.advance.ruled[static_cast<std::size_t>(sim::DtLimit::strain)] = 12;
+  frame.advance.solve = {50, 0.01, 3, 2};
   frame.seconds_sim = 0.123456789;
   frame.summary.particles = 99;
   frame.summary.kinetic_energy = std::numeric_limits<double>::quiet_NaN();

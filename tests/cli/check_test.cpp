@@ -61,6 +61,11 @@ TEST_F(Check, SaysWhatEachMistakeIs) {
                              "[[collider]]\nname = \"rod\"\nshape = { capsule = { a = [0.5, 0, "
                              "0.3], b = [0.8, 0.3, 0.6], radius = 0.01 } }\n")),
       Findings{"warning collider.rod.shape"});
+  EXPECT_EQ(findings(scene("", std::string(floor_plane) +
+                                   "[[emitter]]\nname = \"well\"\nrate = 1\nshape = { box = { "
+                                   "center = [0, -0.1, 0], size = [0.2, 0.16, 0.2] } }\n"))
+                .at(0),
+            "warning emitter.well.shape");
   EXPECT_EQ(
       findings(scene("", std::string(floor_plane) +
                              "[[collider]]\nname = \"ram\"\nshape = { box = { center = [1, 1, "

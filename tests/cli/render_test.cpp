@@ -6,6 +6,25 @@
 namespace neve::test {
 namespace {
 
+TEST_F(Cli, WarnsOfWhatMakesResultsDoubtfulAndKeepsItInTheRecord) {
+  std::string text = tiny_scene;
+  text.replace(text.find("0.12, 0]"), 8, "0.02, 0]");
+  folder.write("sunk.toml", text);
+  const auto sunk = neve({"render", "sunk.toml", "--frames", "0", "--out", "sunk"});
+  EXPECT_EQ(sunk.exit_code, 0) << sunk.errors;
+  EXPECT_TRUE(contains(sunk.errors, "starts inside collider floor")) << sunk.errors;
+  const app::Json warnings = json_of("sunk/run.json")["warnings"];
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(contains(warnings[0].get<std::string>(), "inside collider floor"));
+  // c dt/h of more than 1.5, whatever comes of it.
+  const auto fast = neve({"render", "scene.toml", "--frames", "1", "--out", "fast", "--set",
+                          "solver.time_step=fixed", "--set", "solver.dt=4e-3"});
+  const std::string kept = json_of("fast/run.json")["warnings"].dump();
+  EXPECT_TRUE(contains(kept, "the acoustic CFL reached")) << kept << fast.errors;
+  ASSERT_EQ(neve({"render", "scene.toml", "--frames", "0", "--out", "good"}).exit_code, 0);
+  EXPECT_TRUE(json_of("good/run.json")["warnings"].empty());
+}
+
 TEST_F(Cli, RenderMakesPicturesMovieAndRunJson) {
   const auto result = neve({"render", "scene.toml"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;

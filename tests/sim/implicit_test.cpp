@@ -186,6 +186,12 @@ TEST(ImplicitSolve, ThatFailsIsReplacedByExplicitSteps) {
   const auto parts = failing.steps();
   for (std::size_t part = 0; part < parts; ++part) by_force.step(dt / static_cast<double>(parts));
   EXPECT_EQ(failing.state_hash(), by_force.state_hash());
+  s.beta = 1;
+  Simulation reporting(s, three_models(), {}, strained(150), 1);
+  const AdvanceReport report = reporting.advance_to(dt);
+  ASSERT_TRUE(report.solve);
+  EXPECT_GT(report.solve->given_up, 0u);
+  EXPECT_EQ(report.limit(), DtLimit::acoustic);  // of the steps that were taken
 }
 
 TEST(ImplicitSolve, OfCrushedBodiesLeavesNumbers) {

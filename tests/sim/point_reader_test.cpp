@@ -108,6 +108,7 @@ TEST(PointReader, TellsWhereAndWhatIsWrong) {
   expect("x,y,z\n1,2\n", "p:2: 2 fields; the header has 3");
   expect("x,y,z\n1,2,3\n1,2,3,4\n", "p:3: more fields than the header's 3");
   expect("x y z\n1 2 3\n", "no column x among \"x y z\"");
+  EXPECT_THROW(parse_points("x,y,z\n1,2,3\n", "cloud.ply"), ShapeError);
   expect("1,2,3\n4,5,6\n", "p:1: the first line has numbers");
   expect("x,y,z\n1,\"2,3\n", "p:2: 2 fields");
   expect("x,y,z\n1,snow,3\n", "p:2: \"snow\" is not a number, in column \"y\"");
