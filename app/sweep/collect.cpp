@@ -72,6 +72,9 @@ void collect_sweep(const fs::path& folder, const std::string& backend, int threa
   if (const std::string plots = metric_plots_svg(manifest, results, true); !plots.empty())
     write_file(folder / "plots.svg", plots);
 
+  progress.clear();
+  for (const std::string& line : warning_lines(manifest, results)) progress.warning(line);
+
   // Whoever interrupts a sweep does not wait for pictures of it.
   if (is_interrupted()) return;
   const std::vector<render::Legend> legends = shared_legends(folder, manifest);

@@ -113,7 +113,7 @@ void add_header(const Manifest& manifest, bool with_times, Rows& rows) {
     }
     for (const char* axis : {"_x", "_y", "_z"}) rows.add(name + axis);
   }
-  for (const char* name : {"state", "reason", "frames"}) rows.add(name);
+  for (const char* name : {"state", "reason", "warnings", "frames"}) rows.add(name);
   for (const MetricInfo& metric : metric_infos())
     if (with_times || !metric.is_time) rows.add(metric.name);
   for (const char* name : {"FILE", "FILE_scene"}) rows.add(name);
@@ -138,6 +138,7 @@ void add_row(const Manifest& manifest, const ManifestRun& run, const RunResult& 
   add_parameters(manifest, run, rows);
   rows.add(name(result.report.state));
   rows.add(result.report.reason.empty() ? "-" : cell(result.report.reason, "string"));
+  rows.add(std::to_string(result.warnings.size()));
   rows.add(std::to_string(result.frames.size()));
   for (std::size_t k = 0; k < metric_infos().size(); ++k) {
     const MetricInfo& metric = metric_infos()[k];

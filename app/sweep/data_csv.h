@@ -8,9 +8,9 @@
 
 namespace neve::app {
 
-/// Columns: run, label, one per parameter (three for vectors), state, reason, frames, metrics, and
-/// the FILE columns last. A column's type comes from the parameter, never from its values: floats
-/// always have a point or an exponent, whole numbers never.
+/// Columns: run, label, one per parameter (three for vectors), state, reason, warnings (how many),
+/// frames, metrics, and the FILE columns last. A column's type comes from the parameter, never from
+/// its values: floats always have a point or an exponent, whole numbers never.
 /// @param with_times false leaves out what differs from one machine to the next
 std::string data_csv(const Manifest& manifest, const std::vector<RunResult>& results,
                      bool with_times = true);

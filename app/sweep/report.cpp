@@ -58,6 +58,8 @@ Json column_names(const Manifest& manifest) {
     columns.push_back(column(p.name + (p.unit.empty() ? "" : " (" + p.unit + ")"),
                              p.type != "number" && p.type != "integer", true, p.address));
   columns.push_back(column("state", true, false));
+  columns.push_back(column("warnings", false, false, "a cell's tooltip has the words"));
+  columns.back()["is_warning"] = true;
   for (const MetricInfo& metric : metric_infos())
     columns.push_back(column(
         std::string(metric.title) + (metric.unit[0] ? std::string(" (") + metric.unit + ")" : ""),
@@ -72,12 +74,14 @@ Json row_of(const Manifest& manifest, const ManifestRun& run, const RunResult& r
   if (has_labels(manifest)) cells.push_back(run.label);
   for (const Varied& p : manifest.parameters) cells.push_back(cell_of(run.value(p.address)));
   cells.push_back(name(result.report.state));
+  cells.push_back(result.warnings.size());
   for (const std::optional<double>& value : result.metrics)
     cells.push_back(value ? Json(*value) : Json());
   cells.push_back(result.report.reason);
   return {{"run", run.index},
           {"label", run.label},
           {"failed", has_failed(result.report.state)},
+          {"warnings", result.warnings},
           {"cells", cells}};
 }
 

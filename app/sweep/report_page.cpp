@@ -21,7 +21,7 @@ th[data-way="1"]::after { content: " \25B2"; font-size: 9px; }
 th[data-way="-1"]::after { content: " \25BC"; font-size: 9px; }
 #plots svg { display: block; max-width: 100%; }
 td { text-align: right; padding: 3px 7px; border-bottom: 1px solid #e6eaef; white-space: nowrap; }
-tr.failed td { background: #fff3ec; } tr.on td { background: #e4eefb; }
+tr.failed td { background: #fff3ec; } td.warned { color: #a14a00; font-weight: bold; cursor: help; } tr.on td { background: #e4eefb; }
 td.reason { white-space: normal; min-width: 220px; }
 code { font: 12px "DejaVu Sans Mono", monospace; background: #f1f4f7; padding: 2px 5px; border-radius: 3px; }
 button { font: inherit; font-size: 11px; border: 1px solid #c3ccd6; background: #fff; border-radius: 3px;
@@ -80,8 +80,12 @@ data.columns.forEach((column, c) => {
 data.rows.forEach((r, at) => {
   const tr = make(body, "tr", {"data-run": r.run, "data-at": at, id: "run-" + r.run,
                                class: r.failed ? "failed" : ""});
-  r.cells.forEach((cell, c) =>
-    make(tr, "td", {class: data.columns[c].text ? "text" : ""}, short(cell)));
+  r.cells.forEach((cell, c) => {
+    const td = make(tr, "td", {class: data.columns[c].text ? "text" : ""}, short(cell));
+    if (!data.columns[c].is_warning || cell === 0) return;
+    td.title = r.warnings.join("\n");
+    td.className = "warned";
+  });
   listen(tr, r.run);
 });
 document.querySelectorAll(".sheet a, #plots circle").forEach(e => listen(e, e.dataset.run));

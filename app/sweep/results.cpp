@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 
+#include "app/output/atomic_file.h"
 #include "app/output/run_json.h"
+#include "app/output/sequence.h"
 
 namespace neve::app {
 
@@ -38,6 +41,16 @@ std::vector<std::optional<double>> metrics_of(const std::vector<FrameRecord>& fr
           finite(report.seconds)};
 }
 
+/// Of DIR/run.json; none where it is not there yet, or was written before there were any.
+std::vector<std::string> read_warnings(const std::filesystem::path& run_folder) {
+  try {
+    const Json run = parse_json(read_file(run_json_path(run_folder)));
+    return run.value("warnings", std::vector<std::string>{});
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 const std::vector<MetricInfo>& metric_infos() {
@@ -64,7 +77,10 @@ RunResult read_result(const std::filesystem::path& folder, const ManifestRun& ru
   // A folder that was given to another run in the meantime tells nothing about this one.
   if (result.report.key != run.key) result.report = RunReport{};
   std::vector<FrameRecord> frames;
-  if (result.report.key == run.key) frames = read_frame_records(run_folder);
+  if (result.report.key == run.key) {
+    frames = read_frame_records(run_folder);
+    result.warnings = read_warnings(run_folder);
+  }
   for (const FrameRecord& frame : frames) result.frames.push_back(frame.frame);
   result.metrics = metrics_of(frames, result.report);
   return result;
@@ -74,6 +90,31 @@ std::vector<RunResult> read_results(const std::filesystem::path& folder, const M
   std::vector<RunResult> results;
   for (const ManifestRun& run : manifest.runs) results.push_back(read_result(folder, run));
   return results;
+}
+
+std::string warning_count_text(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " warning" : " warnings");
+}
+
+std::vector<std::string> warning_lines(const Manifest& manifest,
+                                       const std::vector<RunResult>& results) {
+  constexpr std::size_t most_lines = 5;
+  std::vector<std::string> lines;
+  std::size_t further = 0;
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    if (results[k].warnings.empty()) continue;
+    if (lines.size() >= most_lines) {
+      ++further;
+      continue;
+    }
+    std::string line = "run " + std::to_string(manifest.runs[k].index) + ": ";
+    for (const std::string& warning : results[k].warnings)
+      line += (&warning == &results[k].warnings.front() ? "" : "; ") + warning;
+    lines.push_back(line);
+  }
+  if (further > 0)
+    lines.push_back("and " + std::to_string(further) + " more runs with warnings, see report.html");
+  return lines;
 }
 
 }  // namespace neve::app

@@ -24,6 +24,8 @@ struct RunResult {
   std::vector<int> frames;  ///< that have a picture, in order
   /// One per metric_infos(), of the last frame; nothing where there is no frame.
   std::vector<std::optional<double>> metrics;
+  /// That the run ended with: its numbers may not be what they seem.
+  std::vector<std::string> warnings{};
 
   std::optional<int> last_frame() const {
     return frames.empty() ? std::nullopt : std::optional(frames.back());
@@ -33,5 +35,12 @@ struct RunResult {
 /// @param folder of the sweep
 RunResult read_result(const std::filesystem::path& folder, const ManifestRun& run);
 std::vector<RunResult> read_results(const std::filesystem::path& folder, const Manifest& manifest);
+
+/// "1 warning", "2 warnings"
+std::string warning_count_text(std::size_t count);
+
+/// "run 3: WARNING; WARNING" for each of the first five runs that have some, then how many more.
+std::vector<std::string> warning_lines(const Manifest& manifest,
+                                       const std::vector<RunResult>& results);
 
 }  // namespace neve::app

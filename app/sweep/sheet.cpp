@@ -17,7 +17,8 @@ namespace {
 using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr Rgb paper{30, 33, 39}, empty_tile{44, 48, 56};
-constexpr Rgb bright{240, 244, 250}, soft{190, 199, 212}, alarm{255, 138, 76};
+constexpr Rgb bright{240, 244, 250}, soft{190, 199, 212}, alarm{255, 138, 76},
+    caution{255, 205, 96};
 constexpr double darkness = 0.42;  // of a tile whose run got less far
 constexpr std::size_t most_moments = 6;
 const char* const dot = "   \u00b7   ";
@@ -173,6 +174,10 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
     words.notes.push_back({left, top + 1.25f * size * static_cast<float>(k), lines[k],
                            render::Note::Anchor::left, room, false,
                            k == 0 && !tile.run->label.empty() ? bright : soft});
+  if (!tile.result->warnings.empty())
+    words.notes.push_back({left, top + 1.25f * size * static_cast<float>(lines.size()),
+                           "! " + warning_count_text(tile.result->warnings.size()),
+                           render::Note::Anchor::left, room, false, caution});
   if (!is_dark) return;
   const auto [state, reason] = split_state(tile_text(tile.result->report));
   const bool is_alarm = has_failed(tile.result->report.state);

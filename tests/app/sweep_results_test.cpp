@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "app/metrics.h"
 #include "app/sweep/data_csv.h"
@@ -260,6 +262,49 @@ TEST(MetricPlots, HaveAPointForEachRunThatHasTheMetric) {
                            4, {{}, {}, std::vector<std::optional<double>>(metric_infos().size())}),
                        true),
       "");
+}
+
+TEST(RunWarnings, AreReadFromRunJsonAndCountedInTableAndReport) {
+  const test::TemporaryFolder folder;
+  Manifest m = manifest_of({3});
+  for (ManifestRun& run : m.runs) {
+    run.key = "k";
+    RunReport report;
+    report.state = RunState::ok;
+    report.key = "k";
+    const auto run_folder = folder.path() / "runs" / run.folder;
+    std::filesystem::create_directories(run_folder);
+    write_report(run_folder, report);
+  }
+  folder.write("runs/0000/run.json", R"({"frames": [], "warnings": ["CFL < 4", "odd"]})");
+  folder.write("runs/0001/run.json", R"({"frames": []})");  // of an older version
+  folder.write("runs/0002/run.json", R"({"frames": [], "warnings": 3})");
+  const std::vector<RunResult> results = read_results(folder.path(), m);
+  EXPECT_EQ(results[0].warnings, (std::vector<std::string>{"CFL < 4", "odd"}));
+  EXPECT_TRUE(results[1].warnings.empty());
+  EXPECT_TRUE(results[2].warnings.empty());
+  EXPECT_EQ(warning_lines(m, results), (std::vector<std::string>{"run 0: CFL < 4; odd"}));
+  const std::vector<test::CsvRow> rows = test::parse_csv(data_csv(m, results));
+  const auto column = static_cast<std::size_t>(
+      std::find(rows[0].begin(), rows[0].end(), "warnings") - rows[0].begin());
+  ASSERT_LT(column, rows[0].size());
+  EXPECT_EQ(rows[1][column], "2");
+  EXPECT_EQ(rows[2][column], "0");
+  const std::string html = report_html("out", m, results, layout_sheet(m, false, 8192), {});
+  // As script_json writes "<".
+  EXPECT_NE(html.find("\"warnings\":[\"CFL \\u003c 4\",\"odd\"]"), std::string::npos);
+}
+
+TEST(RunWarnings, NameFiveRunsAndCountTheOthers) {
+  const Manifest m = manifest_of({8});
+  std::vector<RunResult> results = results_of(m);
+  EXPECT_TRUE(warning_lines(m, results).empty());
+  for (RunResult& result : results) result.warnings = {"x"};
+  const std::vector<std::string> lines = warning_lines(m, results);
+  ASSERT_EQ(lines.size(), 6u);
+  EXPECT_EQ(lines[4], "run 4: x");
+  EXPECT_EQ(lines[5], "and 3 more runs with warnings, see report.html");
+  EXPECT_EQ(warning_count_text(1), "1 warning");
 }
 
 TEST(TileText, SaysWhatHappenedInPlace) {
