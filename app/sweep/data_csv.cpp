@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "app/output/sequence.h"
 
@@ -84,6 +85,19 @@ std::string cell(const std::string& value, const std::string& type) {
   return looks_like_number(text) || text.empty() ? "'" + text + "'" : text;
 }
 
+/// Names of columns, each of which is there once.
+class ColumnNames {
+ public:
+  /// @param suffix  follows a name that is taken
+  std::string unique(std::string name, const std::string& suffix) {
+    while (!taken_.insert(name).second) name += suffix;
+    return name;
+  }
+
+ private:
+  std::set<std::string> taken_;
+};
+
 class Rows {
  public:
   void add(const std::string& text) {
@@ -103,19 +117,21 @@ class Rows {
 };
 
 void add_header(const Manifest& manifest, bool with_times, Rows& rows) {
-  rows.add("run");
-  rows.add("label");
+  ColumnNames names;
+  for (const char* name : {"run", "label"}) rows.add(names.unique(name, "_"));
   for (const Varied& parameter : manifest.parameters) {
     const std::string name = column_name(parameter.address);
     if (parameter.type != "vector") {
-      rows.add(name);
+      rows.add(names.unique(name, "_set"));
       continue;
     }
-    for (const char* axis : {"_x", "_y", "_z"}) rows.add(name + axis);
+    for (const char* axis : {"_x", "_y", "_z"}) rows.add(names.unique(name + axis, "_set"));
   }
-  for (const char* name : {"state", "reason", "warnings", "frames"}) rows.add(name);
+  // What runs came to gives way to what they were given: frames, frames_done.
+  for (const char* name : {"state", "reason", "warnings", "frames"})
+    rows.add(names.unique(name, "_done"));
   for (const MetricInfo& metric : metric_infos())
-    if (with_times || !metric.is_time) rows.add(metric.name);
+    if (with_times || !metric.is_time) rows.add(names.unique(metric.name, "_done"));
   for (const char* name : {"FILE", "FILE_scene"}) rows.add(name);
   rows.end();
 }

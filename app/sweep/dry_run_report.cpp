@@ -32,14 +32,20 @@ struct Totals {
   double seconds = 0;  ///< of one core
   double longest = 0;
   std::uint64_t largest = 0;  ///< bytes
+  int too_large = 0;          ///< runs over [limits] memory
 };
+
+bool is_over_limit(const SweepPlan& plan, const RunPlan& run) {
+  return plan.sweep.limits.memory > 0 && run.memory() > plan.sweep.limits.memory;
+}
 
 Totals totals_of(const SweepPlan& plan, double seconds_per_unit) {
   Totals totals;
   for (const RunPlan& run : plan.runs) {
     totals.seconds += run.work * seconds_per_unit;
     totals.longest = std::max(totals.longest, run.work * seconds_per_unit);
-    totals.largest = std::max(totals.largest, run.plan.memory);
+    totals.largest = std::max(totals.largest, run.memory());
+    totals.too_large += is_over_limit(plan, run);
   }
   return totals;
 }
@@ -61,7 +67,8 @@ void print_json(const SweepPlan& plan, double seconds_per_unit, double seconds) 
                             {"first_frame", item.frames.first},
                             {"last_frame", item.frames.last},
                             {"particles", item.plan.particles},
-                            {"memory_bytes", item.plan.memory},
+                            {"memory_bytes", item.memory()},
+                            {"over_memory_limit", is_over_limit(plan, item)},
                             {"seconds", item.work * seconds_per_unit}});
   }
   json["memory_bytes"] = totals.largest;
@@ -72,6 +79,18 @@ void print_json(const SweepPlan& plan, double seconds_per_unit, double seconds) 
 std::string padded(const std::string& text, std::size_t width, bool to_the_right = false) {
   const std::string space(width > text.size() ? width - text.size() : 0, ' ');
   return to_the_right ? space + text : text + space;
+}
+
+/// True of all runs.
+std::string frames_text(const SweepPlan& plan) {
+  FrameRange all = plan.runs.front().frames;
+  bool is_same = true;
+  for (const RunPlan& run : plan.runs) {
+    is_same = is_same && run.frames.first == all.first && run.frames.last == all.last;
+    all.last = std::max(all.last, run.frames.last);
+  }
+  return is_same ? "frames " + std::to_string(all.first) + " to " + std::to_string(all.last)
+                 : "up to frame " + std::to_string(all.last);
 }
 
 void print_table(const SweepPlan& plan, double seconds_per_unit) {
@@ -88,8 +107,9 @@ void print_table(const SweepPlan& plan, double seconds_per_unit) {
     const RunPlan& item = plan.runs[k];
     std::cout << padded(std::to_string(item.run.index), 6) << padded(what[k], width)
               << padded(fixed_text(item.plan.particles, 0), 12, true)
-              << padded(bytes_text(item.plan.memory), 11, true)
-              << padded(duration_text(item.work * seconds_per_unit), 11, true) << "\n";
+              << padded(bytes_text(item.memory()), 11, true)
+              << padded(duration_text(item.work * seconds_per_unit), 11, true)
+              << (is_over_limit(plan, item) ? "  over [limits] memory" : "") << "\n";
   }
 }
 
@@ -101,16 +121,18 @@ void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
   const double seconds = std::max(totals.longest, totals.seconds / cores);
   if (is_json) return print_json(plan, unit, seconds);
   print_table(plan, unit);
-  const FrameRange frames = plan.runs.front().frames;
   std::cout << "\n"
             << plan.runs.size() << (plan.runs.size() == 1 ? " run of " : " runs of ")
-            << plan.sweep.scene_file << ", frames " << frames.first << " to " << frames.last
-            << ", view " << plan.view << " in tiles of " << plan.base.size.width << "x"
-            << plan.base.size.height << "\n"
+            << plan.sweep.scene_file << ", " << frames_text(plan) << ", view " << plan.view
+            << " in tiles of " << plan.base.size.width << "x" << plan.base.size.height << "\n"
             << "about " << duration_text(seconds) << " on " << cores
             << (cores == 1 ? " core" : " cores") << ", measured now on this machine; at most "
             << bytes_text(totals.largest) << " of memory a run\n"
             << "out: " << plan.folder.string() << "\n";
+  if (totals.too_large > 0)
+    std::cout << totals.too_large << (totals.too_large == 1 ? " run needs" : " runs need")
+              << " more than [limits] memory = " << bytes_text(plan.sweep.limits.memory)
+              << " and will not be started\n";
 }
 
 }  // namespace neve::app

@@ -182,7 +182,7 @@ Manifest make_manifest(const SweepPlan& plan, const std::vector<std::string>& ke
     run.first_frame = item.frames.first;
     run.last_frame = item.frames.last;
     run.particles = item.plan.particles;
-    run.memory = static_cast<double>(item.plan.memory);
+    run.memory = static_cast<double>(item.memory());
     run.work = item.work;
   }
   return m;

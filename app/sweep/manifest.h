@@ -21,7 +21,7 @@ struct ManifestRun {
   std::vector<std::pair<std::string, std::string>> unset;
   std::vector<int> coordinates;
   int first_frame = 0, last_frame = 0;
-  double particles = 0, memory = 0, work = 0;  ///< foreseen; memory in bytes
+  double particles = 0, memory = 0, work = 0;  ///< foreseen; memory in bytes, of the process
 
   /// "" where the run leaves it to the scene.
   std::string setting(const std::string& address) const;

@@ -82,11 +82,35 @@ FrameRange frames_of(const SweepOptions& options, const Sweep& sweep, const Scen
   return {0, scene.frames};
 }
 
+/// A setting of a run that says how many frames there are; null where none does.
+const Override* frames_setting(const Sweep& sweep) {
+  for (const Axis& axis : sweep.axes)
+    for (const Axis::Parameter& parameter : axis.parameters)
+      if (parameter.address == "frames") return &parameter.values.front();
+  for (const ExplicitRun& row : sweep.rows)
+    for (const Override& setting : row.settings)
+      if (setting.address == "frames") return &setting;
+  return nullptr;
+}
+
+/// Frames that are the same for all runs would hide those that differ.
+void refuse_two_frames(const SweepOptions& options, const Sweep& sweep) {
+  const Override* setting = frames_setting(sweep);
+  if (!setting) return;
+  if (options.frames)
+    throw UsageError("--frames", "the sweep varies frames",
+                     "leave out --frames, or take frames out of the axes and runs");
+  if (!sweep.settings.frames.empty())
+    sweep.fail("sweep.frames", "sweep.frames is for all runs, and the sweep varies frames",
+               "remove one of them");
+}
+
 }  // namespace
 
 SweepPlan plan_sweep(const SweepOptions& options) {
   SweepPlan plan;
   plan.sweep = read_sweep(options.file, {options.axes, options.overrides});
+  refuse_two_frames(options, plan.sweep);
   plan.folder =
       options.out.empty() ? fs::path("out") / (plan.sweep.name + ".cdb") : fs::path(options.out);
   const SceneMaker maker(options, plan.sweep);

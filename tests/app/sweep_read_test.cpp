@@ -12,6 +12,7 @@
 #include "app/sweep/labels.h"
 #include "app/sweep/read_sweep.h"
 #include "app/sweep/sweep_leaf.h"
+#include "app/sweep/sweep_plan.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -242,6 +243,29 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
       {"[set]\n\"solver.cell_size\" = -1\n[axis]\n\"fps\" = [1]\n",
        "4:22 solver.cell_size = -1; expected 1e-9 <= value <= 1000000"}};
   for (const auto& c : cases) EXPECT_EQ(complaint(head + c.text), c.complaint) << c.text;
+}
+
+TEST_F(SweepFileTest, FramesAreGivenForAllRunsOrVaried) {
+  EXPECT_EQ(complaint(head + "frames = \"0-2\"\n[axis]\n\"frames\" = [1, 2]\n"),
+            "3:10 sweep.frames is for all runs, and the sweep varies frames; remove one of them");
+  EXPECT_EQ(complaint(head + "frames = \"0-2\"\n[[run]]\nframes = 1\n"),
+            "3:10 sweep.frames is for all runs, and the sweep varies frames; remove one of them");
+  SweepOptions options;
+  options.file = (folder_ / "scene.toml").string();
+  options.axes = {"frames=1,2"};
+  const SweepPlan plan = plan_sweep(options);
+  EXPECT_EQ(plan.runs[1].frames.last, 2);
+  options.frames = FrameRange{0, 3};
+  EXPECT_THROW(plan_sweep(options), UsageError);
+}
+
+TEST_F(SweepFileTest, RunsNeedTheMemoryOfTheirProcess) {
+  SweepOptions options;
+  options.file = (folder_ / "scene.toml").string();
+  options.axes = {"seed=1"};
+  const RunPlan run = plan_sweep(options).runs[0];
+  EXPECT_EQ(run.memory(), run.plan.memory + program_memory);
+  EXPECT_GT(run.memory(), 80'000'000u);
 }
 
 TEST_F(SweepFileTest, MissingScenesAreNamedWithThePlaceLookedAt) {

@@ -216,6 +216,14 @@ TEST(DataCsv, KeepsTheRulesOfCinema) {
   EXPECT_TRUE(breaks("state", "FILE_x"));
 }
 
+TEST(DataCsv, HasEveryColumnOnceWhenAnAxisIsCalledAsAMetric) {
+  Manifest m = manifest_of({2});
+  m.parameters = {{"frames", "frames", "", "integer"}, {"steps", "steps", "", "integer"}};
+  const std::vector<test::CsvRow> rows = test::parse_csv(data_csv(m, results_of(m)));
+  for (const char* name : {"frames", "frames_done", "steps", "steps_done"})
+    EXPECT_EQ(std::count(rows[0].begin(), rows[0].end(), name), 1) << name;
+}
+
 TEST(DataCsv, LeavesOutTimesWhereTablesAreCompared) {
   const Manifest m = manifest_of({2});
   std::vector<RunResult> results = results_of(m);

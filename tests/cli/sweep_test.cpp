@@ -67,7 +67,25 @@ TEST_F(SweepCli, DryRunsListRunsCostAndMemoryAndStartNothing) {
   ASSERT_EQ(plan["runs"].size(), 4u);
   EXPECT_EQ(plan["runs"][3]["settings"]["material.snow.hardening"], "10");
   EXPECT_GT(plan["runs"][3]["seconds"].get<double>(), 0);
-  EXPECT_GT(plan["memory_bytes"].get<double>(), 1e6);
+  // The program itself takes 80 MiB.
+  EXPECT_GT(plan["memory_bytes"].get<double>(), 80e6);
+  EXPECT_EQ(plan["runs"][3]["over_memory_limit"], false);
+}
+
+TEST_F(SweepCli, DryRunsMarkWhatIsOverTheLimitAndSayFramesThatAreTrueForAll) {
+  folder.write("tight.toml",
+               "[sweep]\nscene = \"scene.toml\"\n[limits]\nmemory = \"60MiB\"\n[axis]\nframes = "
+               "[1, 2]\n");
+  const auto result = neve({"sweep", "tight.toml", "--dry-run"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(contains(result.output, "over [limits] memory")) << result.output;
+  EXPECT_TRUE(contains(result.output, "2 runs need more than [limits] memory = 60.0 MiB"))
+      << result.output;
+  EXPECT_TRUE(contains(result.output, ", up to frame 2, view")) << result.output;
+  // And are not started.
+  const auto made = neve({"sweep", "tight.toml"});
+  EXPECT_EQ(made.exit_code, 7);
+  EXPECT_TRUE(contains(made.errors, "OUT OF MEMORY needs")) << made.errors;
 }
 
 TEST_F(SweepCli, MistakesExitWithTheirCodesAndSuggestions) {
