@@ -2,6 +2,11 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+
 #include "app/view/labels.h"
 #include "app/view/viewer_state.h"
 
@@ -62,12 +67,23 @@ void draw_offer(ViewerState& state) {
   if (ImGui::Begin("offer", nullptr,
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
+    ImGui::PushTextWrapPos(std::min(30 * em(), static_cast<float>(p.width)));
     ImGui::TextUnformatted((state.bench.document().file() + " was changed on disk.").c_str());
-    if (ImGui::Button("Reload and start anew")) state.bench.reload();
+    const std::string error = state.bench.reload_error();
+    if (!error.empty()) {
+      ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.42f, 0.32f, 1));
+      ImGui::TextUnformatted(error.c_str());
+      ImGui::PopStyleColor();
+    }
+    ImGui::PopTextWrapPos();
+    const bool is_reload = ImGui::Button("Reload and start anew");
     note_label("Reload and start anew");
     ImGui::SameLine();
-    if (ImGui::Button("Keep what is here")) state.bench.keep_file();
+    const bool is_kept = ImGui::Button("Keep what is here");
     note_label("Keep what is here");
+    if (is_reload) state.bench.reload();
+    if (is_kept) state.bench.keep_file();
+    if (is_reload || is_kept) state.is_reload_offered = state.bench.has_file_changed();
   }
   ImGui::End();
 }

@@ -92,8 +92,6 @@ void Viewer::take_drop(const std::string& file) {
     is_closed_ = true;
   } catch (const std::exception& error) {
     bench_.say(Message::Kind::error, error.what());
-    state_.panels.right = true;
-    state_.go_to_tab = tab::messages;
   }
 }
 
@@ -121,7 +119,13 @@ void Viewer::show_news() {
   if (live.errors != state_.errors_seen) {
     state_.errors_seen = live.errors;
     bench_.say(Message::Kind::error, live.error);
+  }
+  // Nothing moves away below a drag or a text that is being typed.
+  if (bench_.errors_said() != state_.errors_told && !ImGui::IsAnyItemActive()) {
+    state_.errors_told = bench_.errors_said();
+    state_.panels.right = true;
     state_.go_to_tab = tab::messages;
+    settle_ = 3;
   }
   if (!live.divergence) {
     state_.is_divergence_told = state_.shows_incident = false;

@@ -1,6 +1,8 @@
 #pragma once
 /// What the panels of `neve view` show and change.
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -65,7 +67,8 @@ struct ViewerState {
   bool wants_picture = false;
   std::size_t tab = 0;                     ///< of the right column
   std::optional<std::size_t> go_to_tab{};  ///< opens this one
-  std::uint64_t errors_seen = 0;
+  std::uint64_t errors_seen = 0;           ///< of the session
+  std::uint64_t errors_told = 0;           ///< of the messages: their tab was opened for these
   bool is_divergence_told = false;
   bool is_reload_offered = false;     ///< the scene file was changed by another program
   std::optional<Document> dropped{};  ///< that somebody wants to look at instead

@@ -164,18 +164,29 @@ Scene Workbench::display_scene(const LiveFrame& live) const {
   return scene;
 }
 
-bool Workbench::has_file_changed() {
+bool Workbench::has_file_changed() const {
   const auto now = time_of(document_.file());
   return now != std::filesystem::file_time_type{} && now != file_time_;
 }
 
 void Workbench::reload() {
-  file_time_ = time_of(document_.file());
-  attempt([&] {
+  const auto time = time_of(document_.file());  // before it is read: a later change is another one
+  reload_error_.clear();
+  try {
     document_.reload(read_toml_file(document_.file()));
-    reset();
-    say(Message::Kind::note, "read " + document_.file() + " again; the run starts anew");
-  });
+  } catch (const std::exception& error) {
+    reload_error_ = text_of(error);
+    failed_time_ = time;
+    say(Message::Kind::error, "not read again: " + reload_error_);
+    return;
+  }
+  file_time_ = time;
+  reset();
+  say(Message::Kind::note, "read " + document_.file() + " again; the run starts anew");
+}
+
+std::string Workbench::reload_error() const {
+  return failed_time_ == time_of(document_.file()) ? reload_error_ : "";
 }
 
 void Workbench::keep_file() {
@@ -238,6 +249,7 @@ PictureRecord Workbench::picture_record(const LiveFrame& live, const View& view)
 }
 
 void Workbench::say(Message::Kind kind, std::string text) {
+  if (kind == Message::Kind::error) ++errors_said_;
   if (!messages_.empty() && messages_.back().text == text) return;
   messages_.push_back({kind, std::move(text)});
   if (messages_.size() > most_messages) messages_.pop_front();

@@ -1,6 +1,7 @@
 #pragma once
 /// What a person does to a scene while it runs, whatever it is done with: mouse, keys or a script.
 
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -58,9 +59,13 @@ class Workbench {
   /// document.
   Scene display_scene(const LiveFrame& live) const;
 
-  /// Reads the file again when it has changed on disk. @return whether it had
-  bool has_file_changed();
+  /// Whether it is another one on disk than what was read or kept last.
+  bool has_file_changed() const;
+  /// Reads the file again and starts anew. Where it is no scene, all stays as it was, and the file
+  /// still counts as changed.
   void reload();
+  /// Why the last reload failed; empty where it did not, or where the file has changed since.
+  std::string reload_error() const;
   /// The change on disk is nothing to us.
   void keep_file();
 
@@ -73,6 +78,8 @@ class Workbench {
 
   void say(Message::Kind kind, std::string text);
   const std::deque<Message>& messages() const { return messages_; }
+  /// Errors that were said so far, repeated ones too: a higher number is one to be seen.
+  std::uint64_t errors_said() const { return errors_said_; }
 
  private:
   void take_over(const std::vector<Override>& before);
@@ -85,7 +92,10 @@ class Workbench {
   /// The edits that the running simulation knows: all of its start, live ones since.
   std::vector<Override> running_, at_start_;
   std::deque<Message> messages_;
+  std::uint64_t errors_said_ = 0;
   std::filesystem::file_time_type file_time_{};
+  std::filesystem::file_time_type failed_time_{};  ///< of the file that reload_error_ is about
+  std::string reload_error_;
   std::unique_ptr<Session> session_;  ///< last: its thread calls back
 };
 

@@ -286,6 +286,45 @@ TEST(Workbench, NoticesAChangedFile) {
   EXPECT_FALSE(work.bench.has_file_changed());
 }
 
+/// Another text in the scene's file, written a while after the last one.
+void change_file(const Working& work, const std::string& text) {
+  const std::filesystem::path file = work.folder / "scene.toml";
+  const auto before = std::filesystem::last_write_time(file);
+  work.folder.write("scene.toml", text);
+  std::filesystem::last_write_time(file, before + std::chrono::seconds(2));
+}
+
+// The offer to reload stays until it works, or until the file is another one again.
+TEST(Workbench, AFailedReloadSaysWhereAndLeavesTheFileChanged) {
+  Working work;
+  const std::uint64_t before = work.bench.errors_said();
+  change_file(work, std::string(tiny_scene) + "[nonsense\n");
+  work.bench.reload();
+  EXPECT_TRUE(work.bench.has_file_changed());
+  EXPECT_TRUE(contains(work.bench.reload_error(), "scene.toml:")) << work.bench.reload_error();
+  EXPECT_EQ(work.bench.messages().back().kind, Message::Kind::error);
+  EXPECT_EQ(work.bench.errors_said(), before + 1);
+  work.bench.reload();
+  EXPECT_EQ(work.bench.errors_said(), before + 2) << "the same error is one to be seen again";
+  change_file(work, tiny_scene);
+  EXPECT_EQ(work.bench.reload_error(), "") << "of a file that is not there any more";
+  EXPECT_TRUE(work.bench.has_file_changed());
+  work.bench.reload();
+  EXPECT_FALSE(work.bench.has_file_changed());
+  EXPECT_EQ(work.bench.reload_error(), "");
+  EXPECT_EQ(work.bench.messages().back().kind, Message::Kind::note);
+}
+
+TEST(Workbench, WhatFailsIsAnErrorToBeSeen) {
+  Working work;
+  const std::uint64_t before = work.bench.errors_said();
+  work.folder.write("file", "");
+  work.bench.save_scene(work.folder / "file" / "scene.toml");
+  EXPECT_EQ(work.bench.errors_said(), before + 1);
+  work.bench.sweep_around("no.such.thing");
+  EXPECT_EQ(work.bench.errors_said(), before + 2);
+}
+
 TEST(Orbit, StartsWhereTheCameraIs) {
   const sim::Vec3d eye(1.5, 0.9, 2.0), target(0.1, 0.2, -0.3);
   const Orbit orbit(eye, target, {0, 1, 0}, 30);
