@@ -7,9 +7,16 @@
 #include <cctype>
 #include <cfloat>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "app/text.h"
+#include "app/view/imgui_input.h"
 #include "app/view/labels.h"
 #include "app/view/slider_scale.h"
 
@@ -35,23 +42,74 @@ std::string format_of(const char* unit) {
   return std::string("%.4g") + (unit[0] ? std::string(" ") + unit : "");
 }
 
-/// Digits that are being typed into a slider count when they are complete: 30000 is never 3.
-/// Called after the widget. @return whether the value is a new one now
+/// What was typed so far into a field with a value of this type.
 template <class T>
-bool settle(const Knob& knob, const T& before, T& value) {
-  static std::pair<std::string, T> typed;  // address and value
+struct Typing {
+  T value{};
+  bool has_strange_letters = false;  ///< that are no part of a number; ImGui leaves them out
+};
+
+/// Of the field that is active, by its address, and of one that was left in this frame.
+template <class T>
+std::map<std::string, Typing<T>>& typings() {
+  static std::map<std::string, Typing<T>> typings;
+  return typings;
+}
+
+/// Whether a key was typed in this frame that no number has: of "30 kPa" 30 would be left.
+bool has_strange_letters(bool is_whole) {
+  const std::string_view allowed = is_whole ? "0123456789+-*/ " : "0123456789+-*/.eE ";
+  const ImVector<ImWchar>& typed = ImGui::GetIO().InputQueueCharacters;
+  return std::any_of(typed.begin(), typed.end(), [&](ImWchar c) {
+    return c >= 32 && (c > 126 || allowed.find(static_cast<char>(c)) == std::string_view::npos);
+  });
+}
+
+/// Called before the widget: it goes on with what was typed so far.
+/// @return the value that counts meanwhile
+template <class T>
+T resume_typing(const Knob& knob, T& value, bool is_whole = false) {
+  const T before = value;
+  const auto typing = typings<T>().find(knob.address);
+  if (typing == typings<T>().end()) return before;
+  value = typing->second.value;
+  typing->second.has_strange_letters |= has_strange_letters(is_whole);
+  return before;
+}
+
+std::string refusal_text(const Knob& knob) {
+  const std::string bounds = knob.valid.text_of_bounds();
+  return "not taken; expected " + (bounds == "value" ? std::string("a plain number") : bounds) +
+         (knob.unit[0] ? std::string(" ") + knob.unit : "");
+}
+
+/// Called after the widget. Digits that are being typed into it count when they are complete: 30000
+/// is never 3. What is no valid value then is refused; a drag stops at the ends.
+/// @param bound moves a value between the ends
+/// @return whether the value is a new one now
+template <class T, class IsValid, class Bound>
+bool settle(const Knob& knob, const T& before, T& value, IsValid is_valid, Bound bound) {
   const ImGuiContext& context = *ImGui::GetCurrentContext();
-  const bool is_typing =
-      context.TempInputId != 0 && context.ActiveId == context.TempInputId && ImGui::IsItemActive();
-  if (is_typing) {
-    if (!(value == before)) typed = {knob.address, value};
+  if (context.TempInputId != 0 && context.ActiveId == context.TempInputId &&
+      ImGui::IsItemActive()) {
+    typings<T>()[knob.address].value = value;
     value = before;
     return false;
   }
-  if (typed.first == knob.address) {
-    value = typed.second;
-    typed.first.clear();
+  const auto found = typings<T>().find(knob.address);
+  if (found == typings<T>().end()) {
+    value = bound(value);
+    return !(value == before);
   }
+  const Typing<T> typed = found->second;
+  typings<T>().erase(found);
+  value = before;
+  if (is_key_pressed(key::escape)) return false;
+  if (typed.has_strange_letters || (!(typed.value == before) && !is_valid(typed.value))) {
+    knob.refusal = refusal_text(knob);
+    return false;
+  }
+  value = typed.value;
   return !(value == before);
 }
 
@@ -83,9 +141,9 @@ bool edit_value(const Knob&, bool& value) {
 }
 
 bool edit_value(const Knob& knob, double& value) {
-  const double before = value;
   const std::string format = format_of(knob.unit);
   const SliderScale scale = slider_scale(knob.valid, usual_number(knob.address), value);
+  const double before = resume_typing(knob, value);
   if (scale.kind == SliderScale::Kind::drag) {
     const double low = least(knob.valid), high = greatest(knob.valid);
     ImGui::DragScalar("##value", ImGuiDataType_Double, &value, speed_of(value), &low, &high,
@@ -94,32 +152,37 @@ bool edit_value(const Knob& knob, double& value) {
     const bool is_log = scale.kind == SliderScale::Kind::logarithmic;
     ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &scale.low, &scale.high,
                         format.c_str(), is_log ? ImGuiSliderFlags_Logarithmic : 0);
-    if (scale.is_zero_at_low && value == scale.low && value != before) value = 0;
   }
-  value = clamped(value, knob.valid);
-  return settle(knob, before, value);
+  return settle(
+      knob, before, value, [&](double x) { return knob.valid.contains(x); },
+      [&](double x) {
+        if (scale.is_zero_at_low && x == scale.low && x != before) return 0.0;
+        return clamped(x, knob.valid);
+      });
 }
 
 bool edit_value(const Knob& knob, int& value) {
-  const int before = value;
   const auto bound = [](double x, int otherwise) {
     return std::abs(x) < 2e9 ? static_cast<int>(x) : otherwise;
   };
   const int low = bound(knob.valid.min, -2000000000), high = bound(knob.valid.max, 2000000000);
+  const int before = resume_typing(knob, value, true);
   ImGui::DragInt("##value", &value, std::max(0.1f, 0.005f * static_cast<float>(value)), low, high,
                  knob.unit[0] ? (std::string("%d ") + knob.unit).c_str() : "%d");
-  value = std::clamp(value, low, high);
-  return settle(knob, before, value);
+  return settle(
+      knob, before, value, [&](int x) { return low <= x && x <= high; },
+      [&](int x) { return std::clamp(x, low, high); });
 }
 
 bool edit_value(const Knob& knob, std::uint64_t& value) {
-  const std::uint64_t before = value;
   const auto low = static_cast<std::uint64_t>(std::max(0.0, knob.valid.min));
   const auto high = static_cast<std::uint64_t>(std::min(9e15, knob.valid.max));
+  const std::uint64_t before = resume_typing(knob, value, true);
   ImGui::DragScalar("##value", ImGuiDataType_U64, &value,
                     std::max(0.1f, 0.005f * static_cast<float>(value)), &low, &high);
-  value = std::clamp(value, low, high);
-  return settle(knob, before, value);
+  return settle(
+      knob, before, value, [&](std::uint64_t x) { return low <= x && x <= high; },
+      [&](std::uint64_t x) { return std::clamp(x, low, high); });
 }
 
 bool edit_value(const Knob&, std::string& value) {
@@ -133,13 +196,21 @@ bool edit_value(const Knob&, std::string& value) {
 }
 
 bool edit_value(const Knob& knob, sim::Vec3d& value) {
-  const sim::Vec3d before = value;
   const double low = least(knob.valid), high = greatest(knob.valid);
-  double numbers[3] = {value.x(), value.y(), value.z()};
-  ImGui::DragScalarN("##value", ImGuiDataType_Double, numbers, 3,
+  std::array numbers{value.x(), value.y(), value.z()};
+  const auto before = resume_typing(knob, numbers);
+  ImGui::DragScalarN("##value", ImGuiDataType_Double, numbers.data(), 3,
                      std::max(0.002f, speed_of(value.cwiseAbs().maxCoeff())), &low, &high, "%.4g");
-  for (int a = 0; a < 3; ++a) value[a] = clamped(numbers[a], knob.valid);
-  return settle(knob, before, value);
+  const auto is_valid = [&](const auto& all) {
+    return std::all_of(all.begin(), all.end(), [&](double x) { return knob.valid.contains(x); });
+  };
+  const auto bound = [&](auto all) {
+    for (double& x : all) x = clamped(x, knob.valid);
+    return all;
+  };
+  if (!settle(knob, before, numbers, is_valid, bound)) return false;
+  value = {numbers[0], numbers[1], numbers[2]};
+  return true;
 }
 
 bool edit_value(const Knob&, std::vector<std::string>& value) {
@@ -150,11 +221,18 @@ bool edit_value(const Knob&, std::vector<std::string>& value) {
 }
 
 bool edit_value(const Knob& knob, PictureSize& value) {
-  int numbers[2] = {value.width, value.height};
+  std::array size{value.width, value.height};
+  const auto before = resume_typing(knob, size, true);
   const int low = static_cast<int>(knob.valid.min), high = 16384;
-  ImGui::DragInt2("##value", numbers, 1, low, high, "%d");
-  std::array size{std::clamp(numbers[0], low, high), std::clamp(numbers[1], low, high)};
-  if (!settle(knob, std::array{value.width, value.height}, size)) return false;
+  ImGui::DragInt2("##value", size.data(), 1, low, high, "%d");
+  const auto is_valid = [&](const auto& all) {
+    return std::all_of(all.begin(), all.end(), [&](int x) { return low <= x && x <= high; });
+  };
+  const auto bound = [&](auto all) {
+    for (int& x : all) x = std::clamp(x, low, high);
+    return all;
+  };
+  if (!settle(knob, before, size, is_valid, bound)) return false;
   value = {size[0], size[1]};
   return true;
 }
@@ -163,9 +241,17 @@ bool edit_value(const Knob& knob, Range& value) {
   std::array numbers{value.min, value.max};
   const double low = knob.valid.min, high = knob.valid.max;
   const float drag = speed_of(std::max(std::abs(value.min), std::abs(value.max)));
+  const auto before = resume_typing(knob, numbers);
   ImGui::DragScalarN("##value", ImGuiDataType_Double, numbers.data(), 2, drag, &low, &high, "%.4g");
-  if (!settle(knob, std::array{value.min, value.max}, numbers)) return false;
-  if (!(numbers[0] < numbers[1])) return false;  // on its way past each other
+  const auto is_valid = [&](const auto& ends) {
+    return knob.valid.contains(ends[0]) && knob.valid.contains(ends[1]) && ends[0] < ends[1];
+  };
+  // In a drag, on their way past each other, they stay as they were.
+  const auto bound = [&](const auto& ends) { return ends[0] < ends[1] ? ends : before; };
+  if (!settle(knob, before, numbers, is_valid, bound)) {
+    if (!knob.refusal.empty()) knob.refusal += ", the first number below the second";
+    return false;
+  }
   value = {numbers[0], numbers[1]};
   return true;
 }
@@ -236,6 +322,7 @@ void KnobPanel::close_title() {
 
 void KnobPanel::end(const Knob& knob, const std::string& value) {
   note_label(knob.address.c_str());
+  if (!knob.refusal.empty()) note({Edit::Kind::refused, knob.address, knob.refusal, 0});
   const auto menu = [&](const char* label, Edit::Kind kind) {
     if (ImGui::MenuItem(label)) note({kind, knob.address, value, 0});
     note_label(label);

@@ -88,6 +88,9 @@ void Workbench::edit(const Edit& edit) {
     case Edit::Kind::sweep:
       sweep_around(edit.address);
       return;
+    case Edit::Kind::refused:
+      say(Message::Kind::error, edit.address + ": " + edit.value);
+      return;
     case Edit::Kind::copy_address:
       return;  // the clipboard belongs to whoever looks
   }

@@ -315,6 +315,14 @@ TEST(Workbench, AFailedReloadSaysWhereAndLeavesTheFileChanged) {
   EXPECT_EQ(work.bench.messages().back().kind, Message::Kind::note);
 }
 
+TEST(Workbench, TellsWhatAFieldRefused) {
+  Working work;
+  work.bench.edit({Edit::Kind::refused, "solver.cfl", "not taken; expected 0 < value", 0});
+  EXPECT_EQ(work.bench.messages().back().text, "solver.cfl: not taken; expected 0 < value");
+  EXPECT_EQ(work.bench.messages().back().kind, Message::Kind::error);
+  EXPECT_TRUE(work.bench.document().changes().empty());
+}
+
 TEST(Workbench, WhatFailsIsAnErrorToBeSeen) {
   Working work;
   const std::uint64_t before = work.bench.errors_said();

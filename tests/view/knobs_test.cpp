@@ -1,0 +1,110 @@
+/// What becomes of numbers that are typed into a parameter's field.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/view/imgui_input.h"
+#include "app/view/widgets.h"
+#include "tests/view/panels.h"
+
+namespace neve::app {
+namespace {
+
+/// One parameter's field, and the edits that it has made.
+template <class T>
+struct Field {
+  ClipboardFront front;
+  Panels panels;
+  ImGuiInput input{front};
+  T value;
+  Valid valid;
+  std::vector<Edit> edits;
+  ImVec2 middle;
+
+  Field(T start, const Valid& allowed) : value(start), valid(allowed) { play({}); }
+
+  void draw() {
+    KnobPanel panel("", {});
+    Knobs knobs(panel, "test");
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    middle = ImVec2(at.x + 40, at.y + 0.5f * ImGui::GetFrameHeight());
+    knobs("stiffness", value, "Pa", valid, Change::live, "How stiff it is.");
+    for (const Edit& edit : panel.edits()) edits.push_back(edit);
+  }
+
+  void play(std::vector<InputEvent> events) {
+    input.push(std::move(events));
+    for (bool is_more = true; is_more;) {
+      is_more = input.feed();
+      panels.frame([&] { draw(); });
+    }
+    panels.frame([&] { draw(); });
+  }
+
+  /// With ctrl and a click into the field; what was there is selected.
+  void type(const std::string& typed, int last_key = key::enter) {
+    const Modifiers ctrl{.ctrl = true};
+    edits.clear();
+    const InputEvent down{.kind = InputEvent::Kind::button, .is_down = true, .held = ctrl};
+    const InputEvent up{.kind = InputEvent::Kind::button, .held = ctrl};
+    play({move_to(middle.x, middle.y), press(key::ctrl, ctrl), down, up, release(key::ctrl)});
+    for (const char c : typed) play({text(std::string(1, c))});
+    play({press(last_key), release(last_key)});
+  }
+};
+
+TEST(TypedNumber, CountsWhenItIsComplete) {
+  Field<double> field(140000, between(0.001, 1e12));
+  field.type("30000");
+  ASSERT_EQ(field.edits.size(), 1u);
+  EXPECT_EQ(field.edits[0].kind, Edit::Kind::set);
+  EXPECT_EQ(field.edits[0].address, "test.stiffness");
+  EXPECT_EQ(std::stod(field.edits[0].value), 30000);
+}
+
+TEST(TypedNumber, OutOfRangeIsRefusedWithTheRange) {
+  Field<double> field(140000, between(0.001, 1e12));
+  for (const char* typed : {"-5", "0", "2e13"}) {
+    field.type(typed);
+    ASSERT_EQ(field.edits.size(), 1u) << typed;
+    EXPECT_EQ(field.edits[0].kind, Edit::Kind::refused) << typed;
+    EXPECT_EQ(field.edits[0].address, "test.stiffness") << typed;
+    EXPECT_NE(field.edits[0].value.find("expected 0.001 <= value <= "), std::string::npos)
+        << field.edits[0].value;
+    EXPECT_NE(field.edits[0].value.find(" Pa"), std::string::npos) << field.edits[0].value;
+  }
+}
+
+TEST(TypedNumber, WithLettersIsRefused) {
+  Field<double> field(140000, between(0.001, 1e12));
+  for (const char* typed : {"banana", "30 kPa", "0,5"}) {
+    field.type(typed);
+    ASSERT_EQ(field.edits.size(), 1u) << typed;
+    EXPECT_EQ(field.edits[0].kind, Edit::Kind::refused) << typed;
+  }
+}
+
+TEST(TypedNumber, IsForgottenWithEscape) {
+  Field<double> field(140000, between(0.001, 1e12));
+  field.type("30000", key::escape);
+  EXPECT_TRUE(field.edits.empty());
+  field.type("-5", key::escape);
+  EXPECT_TRUE(field.edits.empty());
+}
+
+TEST(TypedNumber, OfAWholeNumberIsHeldToItsRangeToo) {
+  Field<int> field(5, between(1, 100));
+  field.type("101");
+  ASSERT_EQ(field.edits.size(), 1u);
+  EXPECT_EQ(field.edits[0].kind, Edit::Kind::refused);
+  field.type("100");
+  ASSERT_EQ(field.edits.size(), 1u);
+  EXPECT_EQ(field.edits[0].kind, Edit::Kind::set);
+  EXPECT_EQ(field.edits[0].value, "100");
+}
+
+}  // namespace
+}  // namespace neve::app
