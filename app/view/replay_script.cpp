@@ -1,11 +1,15 @@
 #include "app/view/replay_script.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <limits>
+#include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "app/json.h"
 #include "app/scene/error.h"
@@ -67,6 +71,12 @@ std::string joined(const std::vector<std::string>& words) {
 std::string shown(const Json& value) {
   const std::string text = to_text(value, -1);
   return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+}
+
+/// Whether a name stays within the folder that it is taken relative to.
+bool stays_inside(const std::filesystem::path& file) {
+  return !file.has_root_path() &&
+         std::none_of(file.begin(), file.end(), [](const auto& part) { return part == ".."; });
 }
 
 /// Reads one step; every complaint names file, line and column.
@@ -285,6 +295,9 @@ class StepReader {
   void read_screenshot() {
     step_.text = text("screenshot", "the name of a PNG file");
     if (!step_.text.ends_with(".png")) expected("screenshot", "a name that ends in .png");
+    if (!stays_inside(step_.text))
+      expected("screenshot",
+               "a name within the folder of --out, without \"..\" and no absolute one");
     if (!json_.contains("crop")) return;
     const std::string what = "a label, or [x, y, width, height] in px";
     const Json& crop = json_["crop"];
