@@ -138,14 +138,26 @@ std::vector<Value> values_around(const FlatParam& param) {
   refuse(param, param.value ? "it is a " + param.type : "it has none itself");
 }
 
+std::string sweep_command(const std::string& sweep_file, double coarsening) {
+  return "neve sweep " + shell_word(sweep_file) +
+         (coarsening > 1 ? " --coarsen " + number_text(coarsening) : "");
+}
+
 std::string sweep_around(const std::string& scene_file, const std::string& sweep_file,
-                         const FlatParam& param, const std::vector<Override>& set) {
+                         const FlatParam& param, const std::vector<Override>& set,
+                         double coarsening, const std::vector<std::string>& set_later) {
   const std::vector<Value> values = values_around(param);
   const std::string scene = relative_to(scene_file, sweep_file);
   std::string text = "# What " + param.address + " does, around its value of " + param.text() +
                      (*param.unit ? std::string(" ") + param.unit : "") + ".\n# " + param.help +
-                     "\n#   neve sweep " + shell_word(sweep_file) +
-                     "\n\n[sweep]\nscene = " + toml_string(scene) + "\n";
+                     "\n#   " + sweep_command(sweep_file, coarsening) + "\n";
+  if (!set_later.empty()) {
+    text +=
+        "# Changed while the run went on, here start values of all runs, so that none is that run:";
+    for (const std::string& address : set_later) text += "\n#   " + address;
+    text += "\n";
+  }
+  text += "\n[sweep]\nscene = " + toml_string(scene) + "\n";
   std::string fixed;
   for (std::size_t k = 0; k < set.size(); ++k) {
     const auto is_same = [&](const Override& later) { return later.address == set[k].address; };

@@ -21,8 +21,15 @@ std::vector<Value> values_around(const FlatParam& param);
 /// @param sweep_file  where the text will be: the scene is named relative to it
 /// @param param       as it is now, see flatten()
 /// @param set         what else is not as in the scene file; of the parameter itself is left out
+/// @param coarsening  of the run that it comes from: a comment says how neve sweep gets it
+/// @param set_later   addresses that were changed while that run went on: a comment says that they
+///                    are start values now
 /// @throws UsageError like values_around
 std::string sweep_around(const std::string& scene_file, const std::string& sweep_file,
-                         const FlatParam& param, const std::vector<Override>& set);
+                         const FlatParam& param, const std::vector<Override>& set,
+                         double coarsening = 1, const std::vector<std::string>& set_later = {});
+
+/// The command that makes the runs, to paste into a shell.
+std::string sweep_command(const std::string& sweep_file, double coarsening = 1);
 
 }  // namespace neve::app

@@ -1,6 +1,9 @@
 #include "app/view/production.h"
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "app/command_text.h"
@@ -8,6 +11,7 @@
 #include "app/scene/error.h"
 #include "app/scene/flat.h"
 #include "app/scene/leaf.h"
+#include "app/scene/read.h"
 #include "app/sweep/around.h"
 
 namespace neve::app {
@@ -39,6 +43,17 @@ std::vector<Override> set_in_all(const Document& document, const std::string& ad
   return all;
 }
 
+/// The value before the scene was coarsened, where it has one: the runs of the sweep are coarsened
+/// after their values are set.
+void take_finer_value(FlatParam& param, const Document& document) {
+  if (!(document.coarsening() > 1)) return;
+  const Scene finer = read_scene_text(document.text(), document.file(),
+                                      std::filesystem::path(document.file()).parent_path().string(),
+                                      document.all_overrides());
+  for (const FlatParam& other : flatten(finer))
+    if (other.address == param.address && other.value) param.value = other.value;
+}
+
 }  // namespace
 
 std::string plain_file_name(const std::string& address) {
@@ -57,12 +72,13 @@ std::string render_command(const Document& document) {
 }
 
 void write_sweep_around(const std::filesystem::path& file, const Document& document,
-                        const std::string& address) {
-  for (const FlatParam& param : with_presets(*document.scene())) {
+                        const std::string& address, const std::vector<std::string>& set_later) {
+  for (FlatParam& param : with_presets(*document.scene())) {
     if (param.address != address) continue;
+    take_finer_value(param, document);
     make_folder(file.parent_path());
-    write_file(file,
-               sweep_around(document.file(), file.string(), param, set_in_all(document, address)));
+    write_file(file, sweep_around(document.file(), file.string(), param,
+                                  set_in_all(document, address), document.coarsening(), set_later));
     return;
   }
   throw UsageError("", "nothing has the address " + address);

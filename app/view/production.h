@@ -16,8 +16,10 @@ std::string plain_file_name(const std::string& address);
 std::string render_command(const Document& document);
 
 /// Writes a sweep file with values around the present one of a parameter; the rest of the document
-/// is as it is now. @throws IoError, UsageError
+/// is as it is now.
+/// @param set_later see sweep_around()
+/// @throws IoError, UsageError
 void write_sweep_around(const std::filesystem::path& file, const Document& document,
-                        const std::string& address);
+                        const std::string& address, const std::vector<std::string>& set_later);
 
 }  // namespace neve::app

@@ -7,7 +7,9 @@
 #include "app/output/run_json.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/error.h"
+#include "app/scene/flat.h"
 #include "app/scene/read.h"
+#include "app/sweep/around.h"
 #include "app/version.h"
 #include "app/view/production.h"
 
@@ -212,13 +214,38 @@ void Workbench::save_scene(const std::filesystem::path& file) {
   }
 }
 
+/// What the simulation was told after its first step.
+std::vector<std::string> Workbench::changed_while_running() const {
+  std::vector<std::string> changed = Document::difference(at_start_, running_);
+  const std::shared_ptr<const LiveFrame> live = session_->latest();
+  const auto was_before_the_first_step = [&](const std::string& address) {
+    bool is_told = false, is_later = false;
+    for (const LiveChange& change : live->snapshot.changes) {
+      if (change.address != address) continue;
+      is_told = true;
+      is_later = is_later || change.step > 0;
+    }
+    return is_told && !is_later;
+  };
+  std::erase_if(changed, [&](const std::string& address) {
+    return !concerns_simulation(address) || was_before_the_first_step(address);
+  });
+  return changed;
+}
+
 std::filesystem::path Workbench::sweep_around(const std::string& address) {
   try {
     const std::filesystem::path file =
         options_.folder / ("sweep_" + plain_file_name(address) + ".toml");
-    write_sweep_around(file, document_, address);
-    say(Message::Kind::note,
-        "wrote " + file.string() + "; neve sweep " + file.string() + " makes its runs");
+    const std::vector<std::string> later = changed_while_running();
+    write_sweep_around(file, document_, address, later);
+    std::string text = "wrote " + file.string() + "; " +
+                       sweep_command(file.string(), document_.coarsening()) + " makes its runs";
+    for (const std::string& changed : later)
+      text += (&changed == &later.front() ? "; changed while it ran, start values of all of them: "
+                                          : ", ") +
+              changed;
+    say(Message::Kind::note, text);
     return file;
   } catch (const std::exception& error) {
     say(Message::Kind::error, "no sweep: " + text_of(error));

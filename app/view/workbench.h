@@ -83,6 +83,7 @@ class Workbench {
 
  private:
   void take_over(const std::vector<Override>& before);
+  std::vector<std::string> changed_while_running() const;
   void apply_running();
   template <class Act>
   void attempt(Act act);

@@ -271,6 +271,32 @@ TEST(Workbench, WritesASweepAroundAValue) {
   EXPECT_TRUE(contains(read_text(file), "material.snow.hardening"));
 }
 
+// The sweep's runs are as coarse as the run was that it comes from, and not twice as coarse.
+TEST(Workbench, ASweepOfACoarsenedRunSaysHowCoarse) {
+  Working work(tiny_scene, 1.5);
+  const std::filesystem::path file = work.bench.sweep_around("solver.cell_size");
+  ASSERT_TRUE(std::filesystem::exists(file)) << work.bench.messages().back().text;
+  const std::string text = read_text(file);
+  EXPECT_TRUE(contains(text, "--coarsen 1.5\n")) << text;
+  EXPECT_TRUE(contains(text, "around its value of 0.04 m")) << text;
+  EXPECT_TRUE(contains(work.bench.messages().back().text, "--coarsen 1.5"))
+      << work.bench.messages().back().text;
+}
+
+TEST(Workbench, ASweepSaysWhatWasChangedWhileItRan) {
+  Working work;
+  work.bench.set("material.snow.hardening", "5");  // before the first step
+  work.go_to(1);
+  work.bench.set("material.snow.youngs_modulus", "30000");
+  const std::string text = read_text(work.bench.sweep_around("solver.cfl"));
+  const std::size_t comment = text.find("# Changed while the run went on");
+  ASSERT_NE(comment, std::string::npos) << text;
+  const std::string list = text.substr(comment, text.find("[sweep]") - comment);
+  EXPECT_TRUE(contains(list, "material.snow.youngs_modulus")) << text;
+  EXPECT_FALSE(contains(list, "material.snow.hardening")) << text;
+  EXPECT_TRUE(contains(work.bench.messages().back().text, "material.snow.youngs_modulus"));
+}
+
 TEST(Workbench, NoticesAChangedFile) {
   Working work;
   EXPECT_FALSE(work.bench.has_file_changed());
