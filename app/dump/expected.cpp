@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "app/auto_ranges.h"
 #include "app/text.h"
@@ -13,9 +14,11 @@ namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-/// Sampling, and the bias of volumes estimated at surfaces (up to 3, see the reference's notes on
-/// the paper's step 2), put numbers apart from the mean.
+/// Sampling, and the bias of volumes estimated at surfaces, put numbers apart from the mean.
 constexpr double scatter = 2;
+/// The paper's step 2 takes for snow what the nodes around a particle hold: at a coarse corner a
+/// particle gets about 6 times its share.
+constexpr double estimated_scatter = 8, given_scatter = 3;
 
 }  // namespace
 
@@ -111,8 +114,14 @@ Expectation Expected::J_P() const {
 }
 
 Expectation Expected::volume() const {
-  return {{0.3 * lightest_ / density_, 3 * heaviest_ / lightest_density_},
-          "mass / density; more at surfaces where it is estimated"};
+  const bool is_estimated =
+      std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                  [](const sim::Body& body) { return body.volumes == sim::Volumes::estimated; });
+  const double most = is_estimated ? estimated_scatter : given_scatter;
+  return {{0.3 * lightest_ / density_, most * heaviest_ / lightest_density_},
+          is_estimated ? "mass / density; up to " + rough_text(most) +
+                             " times that at surfaces, where it is estimated"
+                       : "mass / density"};
 }
 
 }  // namespace neve::app

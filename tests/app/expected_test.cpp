@@ -1,0 +1,42 @@
+/// What numbers of a healthy step are taken for.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "app/dump/expected.h"
+#include "app/scene/read.h"
+#include "app/seed_scene.h"
+
+namespace neve::app {
+namespace {
+
+constexpr const char* coarse_cube = R"(
+[solver]
+cell_size = 0.1
+[[body]]
+name = "cube"
+shape = { box = { center = [0, 0.2, 0], size = [0.3, 0.3, 0.3] } }
+)";
+
+// The sharp corners of a cube of three cells: the worst that the paper's estimate does.
+TEST(ExpectedVolume, HasRoomForEstimatesAtCornersAndNoMoreWhereVolumesAreGiven) {
+  const Scene scene = read_scene_text(coarse_cube, "cube.toml");
+  sim::Simulation simulation = make_simulation(scene, seed_scene(scene), 1);
+  const sim::ParticleArrays state = simulation.particles();
+  const Range expected = Expected(scene, state, 1e-4).volume().range;
+  const double share = state.m.front() / scene.materials[0].density;
+  EXPECT_DOUBLE_EQ(expected.max, 8 * *std::max_element(state.m.begin(), state.m.end()) /
+                                     scene.materials[0].density);
+  const auto [least, most] = std::minmax_element(state.V0.begin(), state.V0.end());
+  EXPECT_GT(*most, 2 * share) << "the corners are why there is room";
+  EXPECT_LT(*most, expected.max);
+  EXPECT_GT(*least, expected.min);
+  const Scene given =
+      read_scene_text(std::string(coarse_cube) + "volumes = \"given\"\n", "cube.toml");
+  EXPECT_DOUBLE_EQ(Expected(given, state, 1e-4).volume().range.max, 3 * expected.max / 8);
+}
+
+}  // namespace
+}  // namespace neve::app
