@@ -15,6 +15,7 @@
 #include "app/sweep/engine.h"
 #include "app/sweep/look.h"
 #include "app/sweep/prepare.h"
+#include "app/sweep/read_sweep.h"
 #include "app/sweep/report.h"
 #include "app/sweep/slurm.h"
 #include "app/sweep/store.h"
@@ -109,6 +110,7 @@ int run_sweep(const SweepOptions& options) {
     print_sweep_plan(plan, cores, options.is_json);
     return exit_ok;
   }
+  check_folder(plan);
   catch_interrupts();
   share_look(plan, cores);
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first run");

@@ -1,9 +1,13 @@
 #include "app/sweep/manifest.h"
 
 #include <algorithm>
+#include <exception>
+#include <stdexcept>
+#include <system_error>
 
 #include "app/errors.h"
 #include "app/output/atomic_file.h"
+#include "app/scene/error.h"
 #include "app/scene/read.h"
 #include "app/scene/toml_source.h"
 #include "app/sweep/sweep_leaf.h"
@@ -120,6 +124,41 @@ ManifestRun run_of(const Json& json) {
   return run;
 }
 
+std::vector<std::string> axis_addresses(const Sweep& sweep) {
+  std::vector<std::string> addresses;
+  for (const Axis& axis : sweep.axes)
+    for (const Axis::Parameter& parameter : axis.parameters) addresses.push_back(parameter.address);
+  std::sort(addresses.begin(), addresses.end());
+  return addresses;
+}
+
+/// Of an earlier sweep; nothing where they are not known.
+std::optional<std::vector<std::string>> axis_addresses(const Manifest& manifest) {
+  if (manifest.varied || manifest.axes.empty()) return manifest.varied;
+  std::vector<std::string> addresses;
+  for (const ManifestAxis& axis : manifest.axes)
+    addresses.insert(addresses.end(), axis.addresses.begin(), axis.addresses.end());
+  std::sort(addresses.begin(), addresses.end());
+  return addresses;
+}
+
+std::string axes_text(const std::vector<std::string>& addresses) {
+  std::string text;
+  for (const std::string& address : addresses) text += (text.empty() ? "" : ", ") + address;
+  return text.empty() ? "nothing but its [[run]]s" : text;
+}
+
+/// That the folder has; nothing where there is none that can be read.
+std::optional<Manifest> earlier_manifest(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(manifest_path(folder), error)) return std::nullopt;
+  try {
+    return read_manifest(folder);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::string ManifestRun::setting(const std::string& address) const {
@@ -166,6 +205,7 @@ Manifest make_manifest(const SweepPlan& plan, const std::vector<std::string>& ke
   m.timeout = plan.sweep.limits.timeout.seconds;
   m.memory = static_cast<double>(plan.sweep.limits.memory);
   m.parameters = varied_parameters(plan);
+  m.varied = axis_addresses(plan.sweep);
   if (plan.sweep.settings.method == Method::grid)
     for (const Axis& axis : plan.sweep.axes) m.axes.push_back(manifest_axis(axis, m.parameters));
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
@@ -186,6 +226,17 @@ Manifest make_manifest(const SweepPlan& plan, const std::vector<std::string>& ke
     run.work = item.work;
   }
   return m;
+}
+
+void check_folder(const SweepPlan& plan) {
+  const std::optional<Manifest> earlier = earlier_manifest(plan.folder);
+  if (!earlier) return;
+  const std::optional<std::vector<std::string>> before = axis_addresses(*earlier);
+  const std::vector<std::string> now = axis_addresses(plan.sweep);
+  if (!before || *before == now) return;
+  throw UsageError(plan.folder.string(),
+                   "has a sweep of " + axes_text(*before) + "; this one varies " + axes_text(now),
+                   "give --out another folder, or remove the old one");
 }
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
@@ -212,6 +263,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   for (const ManifestAxis& axis : m.axes)
     json["axes"].push_back(
         {{"name", axis.name}, {"values", axis.values}, {"addresses", axis.addresses}});
+  if (m.varied) json["varied"] = *m.varied;
   json["runs"] = Json::array();
   for (const ManifestRun& run : m.runs) json["runs"].push_back(run_json(run));
   write_file(manifest_path(folder), to_text(json) + "\n");
@@ -245,6 +297,7 @@ Manifest read_manifest(const std::filesystem::path& folder) {
       m.axes.push_back({axis.at("name").get<std::string>(),
                         axis.at("values").get<std::vector<std::string>>(),
                         axis.value("addresses", std::vector<std::string>{})});
+    if (json.contains("varied")) m.varied = json.at("varied").get<std::vector<std::string>>();
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
     return m;
   } catch (const std::exception& error) {

@@ -3,6 +3,7 @@
 /// the folders of the runs.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,7 +45,9 @@ struct Manifest {
   std::string tile_label;  ///< differences, name, none
   double timeout = 0, memory = 0;
   std::vector<Varied> parameters;
-  std::vector<ManifestAxis> axes;
+  std::vector<ManifestAxis> axes;  ///< of a grid
+  /// Addresses of all axes, whatever the method; sorted. Nothing in files of before they had it.
+  std::optional<std::vector<std::string>> varied;
   std::vector<ManifestRun> runs;
 
   int first_frame() const;
@@ -56,6 +59,10 @@ Manifest make_manifest(const SweepPlan& plan, const std::vector<std::string>& ke
                        const std::vector<std::string>& folders);
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
+/// One sweep in a folder: its table, sheet and report replace those of another.
+/// @throws UsageError when the folder has a sweep with axes of other addresses
+void check_folder(const SweepPlan& plan);
+
 /// @throws Error when there is none, or a broken one
 Manifest read_manifest(const std::filesystem::path& folder);
 

@@ -68,6 +68,18 @@ Json column_names(const Manifest& manifest) {
   return columns;
 }
 
+/// Parameters that are numbers as they were written, by column: rounding is for results.
+Json written_values(const Manifest& manifest, const ManifestRun& run) {
+  Json texts = Json::object();
+  std::size_t c = has_labels(manifest) ? 2 : 1;
+  for (const Varied& p : manifest.parameters) {
+    const std::string value = run.value(p.address);
+    if (cell_of(value).is_number()) texts[std::to_string(c)] = value;
+    ++c;
+  }
+  return texts;
+}
+
 Json row_of(const Manifest& manifest, const ManifestRun& run, const RunResult& result) {
   Json cells = Json::array();
   cells.push_back(run.index);
@@ -82,6 +94,7 @@ Json row_of(const Manifest& manifest, const ManifestRun& run, const RunResult& r
           {"label", run.label},
           {"failed", has_failed(result.report.state)},
           {"warnings", result.warnings},
+          {"texts", written_values(manifest, run)},
           {"cells", cells}};
 }
 

@@ -51,6 +51,8 @@ const short = x => {
   if (Number.isInteger(x) && Math.abs(x) < 1e7) return String(x);
   return String(Number(x.toPrecision(4)));
 };
+// As written where it was given, rounded where it was measured.
+const shown = (r, c) => c in r.texts ? r.texts[c] : short(r.cells[c]);
 const mark = (run, on) => document.querySelectorAll('[data-run="' + run + '"]').forEach(
   e => e.classList.toggle("on", on));
 const listen = (e, run) => {
@@ -81,7 +83,7 @@ data.rows.forEach((r, at) => {
   const tr = make(body, "tr", {"data-run": r.run, "data-at": at, id: "run-" + r.run,
                                class: r.failed ? "failed" : ""});
   r.cells.forEach((cell, c) => {
-    const td = make(tr, "td", {class: data.columns[c].text ? "text" : ""}, short(cell));
+    const td = make(tr, "td", {class: data.columns[c].text ? "text" : ""}, shown(r, c));
     if (!data.columns[c].is_warning || cell === 0) return;
     td.title = r.warnings.join("\n");
     td.className = "warned";
@@ -123,8 +125,9 @@ axes.forEach((a, k) => {
   make(svg, "svg:text", {x: x(k), y: 16, "text-anchor": "middle", class: "name"},
        a.title.length > 22 ? a.title.slice(0, 21) + "\u2026" : a.title);
   if (a.numeric) {
-    make(svg, "svg:text", {x: x(k) + 5, y: top0 + 4}, short(a.high));
-    make(svg, "svg:text", {x: x(k) + 5, y: top0 + height + 4}, short(a.low));
+    const text = v => shown(data.rows.find(r => r.cells[a.c] === v), a.c);
+    make(svg, "svg:text", {x: x(k) + 5, y: top0 + 4}, text(a.high));
+    make(svg, "svg:text", {x: x(k) + 5, y: top0 + height + 4}, text(a.low));
   } else {
     a.kinds.forEach(kind => make(svg, "svg:text", {x: x(k) + 5, y: y(a.at(kind)) + 4},
                                  String(kind).slice(0, 18)));

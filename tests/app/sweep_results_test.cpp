@@ -254,6 +254,15 @@ TEST(SweepReport, IsOneFileThatNamesNothingOutside) {
   EXPECT_EQ(scripts, 2u);
 }
 
+TEST(SweepReport, KeepsParametersAsTheyWereWritten) {
+  Manifest m = manifest_of({2});
+  m.runs[0].settings[0].second = "0.123456789";
+  m.runs[1].settings[0].second = "1.40e5";
+  const std::string html = report_html("out", m, results_of(m), layout_sheet(m, false, 8192), {});
+  EXPECT_NE(html.find("\"texts\":{\"1\":\"0.123456789\"}"), std::string::npos);
+  EXPECT_NE(html.find("\"texts\":{\"1\":\"1.40e5\"}"), std::string::npos);
+}
+
 TEST(MetricPlots, HaveAPointForEachRunThatHasTheMetric) {
   const Manifest m = manifest_of({4});
   const std::string svg = metric_plots_svg(m, results_of(m), true);

@@ -129,6 +129,23 @@ TEST_F(SweepCli, RunsOnceAndGoesOnWithWhatIsNew) {
   EXPECT_EQ(app::parse_json(std::string_view(third.output))["started"], 0);
 }
 
+TEST_F(SweepCli, AnotherStudyDoesNotReplaceTheFirst) {
+  const auto first = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--frames", "0"});
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  const std::string table = read_text(folder / "out/scene.cdb/data.csv");
+  const auto other =
+      neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,10", "--frames", "0"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_TRUE(contains(other.errors,
+                       "out/scene.cdb: error: has a sweep of seed; this one varies "
+                       "material.snow.hardening; give --out another folder"))
+      << other.errors;
+  EXPECT_EQ(read_text(folder / "out/scene.cdb/data.csv"), table);
+  const auto finer = neve({"sweep", "scene.toml", "-p", "seed=1,2,3", "--frames", "0", "--json"});
+  ASSERT_EQ(finer.exit_code, 0) << finer.errors;
+  EXPECT_EQ(app::parse_json(std::string_view(finer.output))["started"], 1);
+}
+
 TEST_F(SweepCli, RunsAreRepeatedByTheirSceneFileBitForBit) {
   ASSERT_EQ(neve({"sweep", "sweep.toml"}).exit_code, 0);
   const std::string run = "out/sweep.cdb/runs/0003";
