@@ -60,8 +60,8 @@ void emit_commands(const SweepOptions& options, const std::filesystem::path& fol
     ++count;
   }
   write_file(options.emit, text);
-  progress.note(std::to_string(count) + " commands in " + options.emit +
-                "; then: neve sweep collect " + folder.string());
+  progress.note(std::to_string(count) + (count == 1 ? " command in " : " commands in ") +
+                options.emit + "; then: neve sweep collect " + folder.string());
 }
 
 EngineResult run_engine(const SweepOptions& options, const std::filesystem::path& folder,
@@ -135,7 +135,7 @@ int run_sweep_run(const SweepRunOptions& options) {
   const Manifest manifest = read_manifest(options.folder);
   if (options.index < 0 || options.index >= static_cast<int>(manifest.runs.size()))
     throw UsageError("--index", "there is no run " + std::to_string(options.index),
-                     "the last one is " + std::to_string(manifest.runs.size() - 1));
+                     "expected a number from 0 to " + std::to_string(manifest.runs.size() - 1));
   EngineOptions engine;
   engine.cores = core_count(options.threads);
   engine.jobs = 1;

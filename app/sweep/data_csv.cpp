@@ -150,7 +150,7 @@ void add_parameters(const Manifest& manifest, const ManifestRun& run, Rows& rows
 void add_row(const Manifest& manifest, const ManifestRun& run, const RunResult& result,
              bool with_times, Rows& rows) {
   rows.add(std::to_string(run.index));
-  rows.add(cell(run.label.empty() ? "run " + run.folder : run.label, "string"));
+  rows.add(cell(run.label.empty() ? "run " + std::to_string(run.index) : run.label, "string"));
   add_parameters(manifest, run, rows);
   rows.add(name(result.report.state));
   rows.add(result.report.reason.empty() ? "-" : cell(result.report.reason, "string"));
@@ -159,7 +159,9 @@ void add_row(const Manifest& manifest, const ManifestRun& run, const RunResult& 
   for (std::size_t k = 0; k < metric_infos().size(); ++k) {
     const MetricInfo& metric = metric_infos()[k];
     if (!with_times && metric.is_time) continue;
-    const std::optional<double>& value = result.metrics[k];
+    // The moment at which a run broke down is none to compare with.
+    const bool is_told = metric.is_cost || is_whole(run, result);
+    const std::optional<double> value = is_told ? result.metrics[k] : std::nullopt;
     rows.add(!value ? "" : metric.is_whole ? whole_text(*value) : float_text(*value));
   }
   const std::string folder = "runs/" + run.folder;

@@ -151,7 +151,7 @@ class LocalEngine {
     const fs::path folder = folder_of(run);
     RunLock lock(folder);
     if (!lock.is_held()) {
-      progress_.warning("run " + run.folder + " is left to another sweep that is at it");
+      progress_.warning(run_text(run) + " is left to another sweep that is at it");
       --state_.all;
       work_left_ -= run.work;
       return;
@@ -171,7 +171,7 @@ class LocalEngine {
     report.short_reason.clear();
     write_report(folder, report);
     ++result_.started;
-    progress_.detail("run " + run.folder + " starts on " + std::to_string(threads) +
+    progress_.detail(run_text(run) + " starts on " + std::to_string(threads) +
                      (threads == 1 ? " thread" : " threads"));
     active_.push_back({&run, folder, std::move(lock), std::move(report), std::move(child), threads,
                        run.first_frame});
@@ -234,8 +234,7 @@ class LocalEngine {
     work_done_ += run.work;
     work_left_ -= run.work;
     clock_.note(work_done_);
-    const std::string what =
-        "run " + run.folder + (run.label.empty() ? "" : " (" + run.label + ")");
+    const std::string what = run_text(run) + (run.label.empty() ? "" : ", " + run.label);
     if (has_failed(report.state))
       progress_.note(what + ": " + tile_text(report) +
                      (report.reason.empty() ? "" : "\n  " + report.reason));

@@ -10,6 +10,7 @@
 #include "app/scene/error.h"
 #include "app/scene/read.h"
 #include "app/scene/toml_source.h"
+#include "app/sweep/store.h"
 #include "app/sweep/sweep_leaf.h"
 #include "app/version.h"
 
@@ -172,6 +173,11 @@ std::string ManifestRun::value(const std::string& address) const {
   for (const auto& [name, text] : unset)
     if (own.empty() && name == address) return text;
   return own;
+}
+
+std::string run_text(const ManifestRun& run) {
+  const std::string text = "run " + std::to_string(run.index);
+  return run.folder == run_folder_name(run.index) ? text : text + " (runs/" + run.folder + ")";
 }
 
 int Manifest::first_frame() const {

@@ -30,6 +30,10 @@ struct ManifestRun {
   std::string value(const std::string& address) const;
 };
 
+/// "run 1", which --only and --index mean, with its folder where that has another number:
+/// "run 1 (runs/0010)"
+std::string run_text(const ManifestRun& run);
+
 struct ManifestAxis {
   std::string name;                      ///< for the edge of the sheet; may be empty
   std::vector<std::string> values;       ///< texts for the edge, with units

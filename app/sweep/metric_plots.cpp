@@ -135,11 +135,18 @@ struct Extent {
   double low = 0, high = 1;
 };
 
-std::optional<Extent> extent_of(const std::vector<RunResult>& results, std::size_t metric) {
-  Extent e{1e300, -1e300};
-  for (const RunResult& result : results)
-    if (const std::optional<double>& x = result.metrics[metric])
-      e.low = std::min(e.low, *x), e.high = std::max(e.high, *x);
+/// Of the runs that got to their end; of all where none did.
+std::optional<Extent> extent_of(const Manifest& manifest, const std::vector<RunResult>& results,
+                                std::size_t metric) {
+  Extent all{1e300, -1e300}, whole = all;
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    const std::optional<double>& x = results[k].metrics[metric];
+    if (!x) continue;
+    all = {std::min(all.low, *x), std::max(all.high, *x)};
+    if (is_whole(manifest.runs[k], results[k]))
+      whole = {std::min(whole.low, *x), std::max(whole.high, *x)};
+  }
+  const Extent e = whole.low > whole.high ? all : whole;
   if (e.low > e.high) return std::nullopt;
   const double room =
       e.high > e.low ? 0.08 * (e.high - e.low) : std::max(1e-9, 0.1 * std::abs(e.high));
@@ -166,7 +173,9 @@ std::string svg_panel(const Across& across, const std::vector<RunResult>& result
     const std::optional<double>& value = results[k].metrics[metric];
     if (!value || !across.place[k]) continue;
     const bool is_ok = results[k].report.state == RunState::ok;
-    svg += "<circle cx=\"" + n(x0 + *across.place[k] * panel_width) + "\" cy=\"" + n(y_of(*value)) +
+    // One that exploded lies far beyond; its tooltip has the number.
+    const double inside = std::clamp(*value, extent.low, extent.high);
+    svg += "<circle cx=\"" + n(x0 + *across.place[k] * panel_width) + "\" cy=\"" + n(y_of(inside)) +
            "\" r=\"" + (is_ok ? "3.2" : "3.6") + "\" class=\"" + (is_ok ? "run" : "run failed") +
            "\" data-run=\"" + std::to_string(manifest.runs[k].index) + "\"><title>run " +
            std::to_string(manifest.runs[k].index) + ": " +
@@ -215,7 +224,7 @@ std::string metric_plots_svg(const Manifest& manifest, const std::vector<RunResu
   std::string body;
   int count = 0;
   for (std::size_t metric = 0; metric < metric_infos().size(); ++metric) {
-    const std::optional<Extent> extent = extent_of(results, metric);
+    const std::optional<Extent> extent = extent_of(manifest, results, metric);
     if (!extent) continue;
     const MetricInfo& info = metric_infos()[metric];
     const std::string unit = info.unit[0] ? std::string(" (") + info.unit + ")" : "";

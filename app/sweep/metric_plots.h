@@ -9,7 +9,8 @@
 namespace neve::app {
 
 /// A row per metric, a column per parameter that differs; without parameters that are numbers or
-/// choices, against the runs. Runs that failed are rings. Empty where no run has a metric.
+/// choices, against the runs. Runs that did not get to their end are
+/// rings, held at the edges of what the others span. Empty where no run has a metric.
 /// @param is_document with the XML head of a file of its own
 std::string metric_plots_svg(const Manifest& manifest, const std::vector<RunResult>& results,
                              bool is_document);

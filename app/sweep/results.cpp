@@ -19,7 +19,8 @@ std::optional<double> finite(double x) {
 
 /// In the order of metric_infos().
 std::vector<std::optional<double>> metrics_of(const std::vector<FrameRecord>& frames,
-                                              const RunReport& report) {
+                                              const RunReport& report,
+                                              std::optional<double> diverged_at) {
   if (frames.empty()) return std::vector<std::optional<double>>(metric_infos().size());
   const FrameRecord& last = frames.back();
   double steps = 0, max_speed = 0;
@@ -27,6 +28,8 @@ std::vector<std::optional<double>> metrics_of(const std::vector<FrameRecord>& fr
     steps += static_cast<double>(frame.advance.steps);
     max_speed = std::max(max_speed, frame.summary.max_speed);
   }
+  // Steps after the last frame count too.
+  if (diverged_at) steps = std::max(steps, *diverged_at);
   return {finite(last.metrics.spread),
           finite(last.metrics.height),
           static_cast<double>(last.metrics.fragments),
@@ -41,14 +44,23 @@ std::vector<std::optional<double>> metrics_of(const std::vector<FrameRecord>& fr
           finite(report.seconds)};
 }
 
-/// Of DIR/run.json; none where it is not there yet, or was written before there were any.
-std::vector<std::string> read_warnings(const std::filesystem::path& run_folder) {
+/// What DIR/run.json says besides its frames; what it does not have, or had not yet when it was
+/// written, is left out.
+struct RunNotes {
+  std::vector<std::string> warnings;
+  std::optional<double> diverged_at;  ///< step
+};
+
+RunNotes read_notes(const std::filesystem::path& run_folder) {
+  RunNotes notes;
   try {
     const Json run = parse_json(read_file(run_json_path(run_folder)));
-    return run.value("warnings", std::vector<std::string>{});
+    if (run.contains("divergence")) notes.diverged_at = run["divergence"].at("step").get<double>();
+    notes.warnings = run.value("warnings", notes.warnings);
   } catch (const std::exception&) {
-    return {};
+    return notes;
   }
+  return notes;
 }
 
 }  // namespace
@@ -65,9 +77,14 @@ const std::vector<MetricInfo>& metric_infos() {
       {"min_J_P", "", "least J_P", false, false},
       {"max_J_P", "", "greatest J_P", false, false},
       {"max_speed", "m/s", "top speed", false, false},
-      {"steps", "", "steps", true, false},
-      {"seconds", "s", "time", false, true}};
+      {"steps", "", "steps", true, false, true},
+      {"seconds", "s", "time", false, true, true}};
   return infos;
+}
+
+bool is_whole(const ManifestRun& run, const RunResult& result) {
+  return result.report.state == RunState::ok ||
+         (!result.frames.empty() && result.frames.back() >= run.last_frame);
 }
 
 RunResult read_result(const std::filesystem::path& folder, const ManifestRun& run) {
@@ -77,12 +94,14 @@ RunResult read_result(const std::filesystem::path& folder, const ManifestRun& ru
   // A folder that was given to another run in the meantime tells nothing about this one.
   if (result.report.key != run.key) result.report = RunReport{};
   std::vector<FrameRecord> frames;
+  RunNotes notes;
   if (result.report.key == run.key) {
     frames = read_frame_records(run_folder);
-    result.warnings = read_warnings(run_folder);
+    notes = read_notes(run_folder);
+    result.warnings = notes.warnings;
   }
   for (const FrameRecord& frame : frames) result.frames.push_back(frame.frame);
-  result.metrics = metrics_of(frames, result.report);
+  result.metrics = metrics_of(frames, result.report, notes.diverged_at);
   return result;
 }
 
@@ -107,7 +126,7 @@ std::vector<std::string> warning_lines(const Manifest& manifest,
       ++further;
       continue;
     }
-    std::string line = "run " + std::to_string(manifest.runs[k].index) + ": ";
+    std::string line = run_text(manifest.runs[k]) + ": ";
     for (const std::string& warning : results[k].warnings)
       line += (&warning == &results[k].warnings.front() ? "" : "; ") + warning;
     lines.push_back(line);

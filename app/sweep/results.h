@@ -14,7 +14,8 @@ namespace neve::app {
 struct MetricInfo {
   const char *name, *unit, *title;
   bool is_whole;
-  bool is_time;  ///< differs from machine to machine
+  bool is_time;          ///< differs from machine to machine
+  bool is_cost = false;  ///< says something of a run that did not get to its end as well
 };
 /// In the order in which they are listed everywhere.
 const std::vector<MetricInfo>& metric_infos();
@@ -31,6 +32,9 @@ struct RunResult {
     return frames.empty() ? std::nullopt : std::optional(frames.back());
   }
 };
+
+/// Whether the metrics are those of the moment that all runs are compared at: its last frame.
+bool is_whole(const ManifestRun& run, const RunResult& result);
 
 /// @param folder of the sweep
 RunResult read_result(const std::filesystem::path& folder, const ManifestRun& run);

@@ -44,7 +44,7 @@ std::vector<int> parse_selection(const std::string& text, int last) {
                        "expected numbers of runs, as in 3,7-12");
     if (*end > last)
       throw UsageError("--only", "there is no run " + std::to_string(*end),
-                       "the last one is " + std::to_string(last));
+                       "expected numbers from 0 to " + std::to_string(last));
     for (int k = *first; k <= *end; ++k) numbers.insert(k);
     if (comma == rest.size()) break;
     rest.remove_prefix(comma + 1);

@@ -72,7 +72,7 @@ std::vector<std::string> tile_lines(const Manifest& manifest, const ManifestRun&
   if (manifest.tile_label == "none") return lines;
   if (!run.label.empty()) lines.push_back(run.label);
   if (manifest.tile_label == "name") {
-    if (lines.empty()) lines.push_back("run " + run.folder);
+    if (lines.empty()) lines.push_back(run_text(run));
     return lines;
   }
   const bool is_at_edges = has_edges && run.coordinates.size() == manifest.axes.size();
@@ -105,7 +105,7 @@ std::string strip_name(const Manifest& manifest, const ManifestRun& run) {
     text += (text.empty() ? "" : "\n") + parameter.name + " = " + value_text(value) +
             (parameter.unit.empty() ? "" : " " + parameter.unit);
   }
-  return text.empty() ? "run " + run.folder : text;
+  return text.empty() ? run_text(run) : text;
 }
 
 /// The word in capitals, and what follows it.

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "app/metrics.h"
+#include "app/output/run_json.h"
 #include "app/sweep/data_csv.h"
 #include "app/sweep/metric_plots.h"
 #include "app/sweep/outcome.h"
@@ -224,6 +225,53 @@ TEST(DataCsv, HasEveryColumnOnceWhenAnAxisIsCalledAsAMetric) {
     EXPECT_EQ(std::count(rows[0].begin(), rows[0].end(), name), 1) << name;
 }
 
+TEST(DataCsv, HasNoMetricsOfRunsThatBrokeDownButWhatTheyCost) {
+  const Manifest m = manifest_of({2});
+  const std::vector<test::CsvRow> rows = test::parse_csv(data_csv(m, results_of(m)));
+  const auto cell = [&](std::size_t row, const char* name) {
+    const auto at = std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin();
+    return rows[row].at(static_cast<std::size_t>(at));
+  };
+  EXPECT_EQ(cell(1, "spread"), "0.0");
+  EXPECT_EQ(cell(2, "state"), "diverged");
+  EXPECT_EQ(cell(2, "spread"), "");
+  EXPECT_EQ(cell(2, "steps"), "1");  // 0.5, rounded
+  EXPECT_EQ(cell(2, "seconds"), "0.5");
+}
+
+TEST(RunResults, CountTheStepsUntilARunDiverged) {
+  const test::TemporaryFolder folder;
+  Manifest m = manifest_of({1});
+  m.runs[0].key = "k";
+  FrameRecord frame;
+  frame.advance.steps = 5;
+  Json run = {{"frames", Json::array({to_json(frame)})}, {"divergence", {{"step", 17}}}};
+  folder.write("runs/0000/run.json", to_text(run));
+  RunReport report;
+  report.state = RunState::diverged;
+  report.key = "k";
+  write_report(folder.path() / "runs/0000", report);
+  const auto steps = [&] {
+    const RunResult result = read_result(folder.path(), m.runs[0]);
+    for (std::size_t k = 0; k < metric_infos().size(); ++k)
+      if (metric_infos()[k].name == std::string("steps")) return result.metrics[k];
+    return std::optional<double>();
+  };
+  EXPECT_EQ(steps(), 17);
+  run.erase("divergence");
+  folder.write("runs/0000/run.json", to_text(run));
+  EXPECT_EQ(steps(), 5);
+}
+
+TEST(RunText, HasTheFolderWhereItsNumberIsAnother) {
+  ManifestRun run;
+  run.index = 1;
+  run.folder = "0001";
+  EXPECT_EQ(run_text(run), "run 1");
+  run.folder = "0010";
+  EXPECT_EQ(run_text(run), "run 1 (runs/0010)");
+}
+
 TEST(DataCsv, LeavesOutTimesWhereTablesAreCompared) {
   const Manifest m = manifest_of({2});
   std::vector<RunResult> results = results_of(m);
@@ -322,6 +370,23 @@ TEST(RunWarnings, NameFiveRunsAndCountTheOthers) {
   EXPECT_EQ(lines[4], "run 4: x");
   EXPECT_EQ(lines[5], "and 3 more runs with warnings, see report.html");
   EXPECT_EQ(warning_count_text(1), "1 warning");
+}
+
+TEST(MetricPlots, LeaveTheAxesToRunsThatGotToTheirEnd) {
+  const Manifest m = manifest_of({4});
+  std::vector<RunResult> results = results_of(m);
+  const std::string svg = metric_plots_svg(m, results, true);
+  // The second run diverged: wherever above the others it was, its ring is at the edge.
+  for (std::optional<double>& value : results[1].metrics) value = 1e6;
+  const std::string far = metric_plots_svg(m, results, true);
+  for (std::optional<double>& value : results[1].metrics) value = 1e9;
+  const auto without_tooltips = [](std::string text) {
+    for (std::size_t at; (at = text.find("<title>")) != std::string::npos;)
+      text.erase(at, text.find("</title>", at) + 8 - at);
+    return text;
+  };
+  EXPECT_EQ(without_tooltips(metric_plots_svg(m, results, true)), without_tooltips(far));
+  EXPECT_NE(without_tooltips(svg), without_tooltips(far));
 }
 
 TEST(TileText, SaysWhatHappenedInPlace) {
