@@ -105,7 +105,7 @@ int run_sweep(const SweepOptions& options) {
   const int cores = core_count(options.threads);
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
   for (const std::string& value : repeated_values(plan.sweep))
-    progress.warning(value + " is twice in its list: a run is made twice");
+    progress.warning(value + " is twice in its list: that run is made once and shown twice");
   if (options.is_dry_run) {
     print_sweep_plan(plan, cores, options.is_json);
     return exit_ok;

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 
 #include "app/errors.h"
 #include "app/scene/error.h"
+#include "app/scene/params.h"
 #include "app/scene/reader.h"
 #include "app/scene/toml_source.h"
 #include "app/sweep/describe_sweep.h"
@@ -153,6 +155,29 @@ Axis::Parameter parse_rule(const Override& change) {
   }
 }
 
+/// "material.snow.hardening=5:10:3", "linspace(5, 10, 3)": ranges as other programs write them.
+void refuse_foreign_range(const Override& change, const std::string& what) {
+  const std::optional<ParamInfo> info = param_at(change.address);
+  if (!info || (info->type != "number" && info->type != "integer")) return;
+  const std::string& text = change.value;
+  const bool has_colons = text.find(':') != std::string::npos &&
+                          text.find_first_not_of("0123456789.eE+-: ") == std::string::npos;
+  if (has_colons || text.find("space(") != std::string::npos || text.starts_with("range("))
+    throw UsageError(what, "is no list of values",
+                     "for a range write { linspace = [5, 10], num = 3 }, in quotes for the shell");
+}
+
+/// "body.ball.velocity.y", "body.ball.velocity[1]"
+void refuse_component(const std::string& address, const std::string& what) {
+  const auto end = address.find_last_of(".[");
+  if (end == std::string::npos) return;
+  const std::optional<ParamInfo> info = param_at(address.substr(0, end));
+  if (!info || info->type != "vector") return;
+  throw UsageError(
+      what, "components of a vector cannot be varied alone",
+      "write whole vectors, as in -p " + address.substr(0, end) + "=[0,-1,0],[0,-2,0]");
+}
+
 }  // namespace
 
 std::vector<Entry> addresses_in(const Table& table) {
@@ -199,6 +224,8 @@ Axis::Parameter parse_axis(const std::string& argument) {
     throw UsageError(what, "expected ADDRESS=LIST", "for example -p material.snow.hardening=5,10");
   Override change = parse_override(argument);
   change.flag = "-p";
+  refuse_component(change.address, what);
+  refuse_foreign_range(change, what);
   if (change.value.starts_with("{")) return parse_rule(change);
   Axis::Parameter parameter;
   parameter.address = change.address;

@@ -19,7 +19,7 @@ struct SweepChanges {
 /// @throws SceneError for the file, UsageError for the changes
 Sweep read_sweep(const std::string& file, const SweepChanges& changes);
 
-/// "ADDRESS = VALUE" of the values that a list has twice, so that a run is made twice.
+/// "ADDRESS = VALUE" of the values that a list has twice, so that a run is shown twice.
 std::vector<std::string> repeated_values(const Sweep& sweep);
 
 /// Parameters of sweep files, for `neve params --sweep`.

@@ -268,6 +268,26 @@ TEST_F(SweepFileTest, RunsNeedTheMemoryOfTheirProcess) {
   EXPECT_GT(run.memory(), 80'000'000u);
 }
 
+TEST_F(SweepFileTest, RangesOfOtherProgramsAndComponentsAreExplained) {
+  const auto hint = [&](const std::string& axis) -> std::string {
+    try {
+      read_sweep((folder_ / "scene.toml").string(), {{axis}, {}});
+    } catch (const UsageError& error) {
+      return error.hint;
+    }
+    return "";
+  };
+  for (const char* range : {"5:10:3", "linspace(5,10,3)", "range(5,10)"})
+    EXPECT_TRUE(hint("material.snow.hardening=" + std::string(range))
+                    .starts_with("for a range write { linspace = [5, 10], num = 3 }"))
+        << range;
+  for (const char* component : {".y", ".1", "[1]"})
+    EXPECT_EQ(hint("body.ball.velocity" + std::string(component) + "=1,2"),
+              "write whole vectors, as in -p body.ball.velocity=[0,-1,0],[0,-2,0]")
+        << component;
+  EXPECT_EQ(hint("title=1:2,3"), "");
+}
+
 TEST_F(SweepFileTest, MissingScenesAreNamedWithThePlaceLookedAt) {
   const std::string text = complaint("[sweep]\nscene = \"no.toml\"\n");
   EXPECT_TRUE(
