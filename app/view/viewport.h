@@ -19,6 +19,10 @@ std::array<double, 2> in_picture(const ViewerState& state, ImVec2 mouse);
 /// @param at, px: its left end in the middle of its height
 void draw_note(const ViewerState& state, ImVec2 at, const std::string& text, ImU32 color);
 
+/// The words beside the probed place: "|v| = 2 m/s", and ", cut away" where a plane removes it.
+/// @param quantity that is plotted, or "" for the speed
+std::string probe_text(const ProbeReading& probe, const std::string& quantity, bool is_cut);
+
 /// The probed place with its quantity, hints, and why there is nothing to see.
 void draw_marks(ViewerState& state);
 

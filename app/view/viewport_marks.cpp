@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "app/cut.h"
 #include "app/scene/names.h"
 #include "app/slice.h"
 #include "app/text.h"
@@ -24,21 +27,18 @@ void draw_probe_mark(const ViewerState& state) {
   const Vec3d at = state.orbit.project(probe.place);
   if (!(at.z() > 0)) return;
   const ImVec2 place = on_screen(state, at);
+  // Nodes are in the picture whatever the plane removes: it removes particles.
+  const Cut cut(current_view(state).clip, state.live->snapshot.particles.x);
+  const bool is_cut = !probe.is_node && cut.removes(probe.place);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  // Dark around bright: it stands out from snow and from shadow.
-  list.AddCircle(place, 9, IM_COL32(20, 12, 6, 190), 24, 4);
-  list.AddCircle(place, 9, IM_COL32(255, 122, 40, 255), 24, 2);
-  // Which one it is says nothing of its size.
-  const bool is_index = state.trace.quantity.empty() || state.trace.quantity == "node" ||
-                        state.trace.quantity == "id";
-  const std::string shown = !is_index ? state.trace.quantity : probe.is_node ? "v_old" : "v";
-  for (const ProbeRow& row : probe.rows) {
-    if (row.name != shown) continue;
-    draw_note(state, ImVec2(place.x + 15, place.y),
-              "|" + row.name + "| = " + rough_text(row.magnitude) + " " + row.unit,
-              IM_COL32(255, 190, 140, 255));
-    return;
-  }
+  // Dark around bright: it stands out from snow and from shadow. Where nothing is to be seen in it,
+  // it is faint.
+  list.AddCircle(place, 9, IM_COL32(20, 12, 6, is_cut ? 60 : 190), 24, 4);
+  list.AddCircle(place, 9, IM_COL32(255, 122, 40, is_cut ? 90 : 255), 24, 2);
+  const std::string text = probe_text(probe, state.trace.quantity, is_cut);
+  if (!text.empty())
+    draw_note(state, ImVec2(place.x + 15, place.y), text,
+              is_cut ? IM_COL32(200, 185, 175, 255) : IM_COL32(255, 190, 140, 255));
 }
 
 void draw_hint(ViewerState& state) {
@@ -58,6 +58,18 @@ double longest(const std::vector<Vec3f>& arrows) {
 }
 
 }  // namespace
+
+std::string probe_text(const ProbeReading& probe, const std::string& quantity, bool is_cut) {
+  // Which one it is says nothing of its size.
+  const bool is_index = quantity.empty() || quantity == "node" || quantity == "id";
+  const std::string shown = !is_index ? quantity : probe.is_node ? "v_old" : "v";
+  std::string text;
+  for (const ProbeRow& row : probe.rows)
+    if (row.name == shown && text.empty())
+      text = "|" + row.name + "| = " + rough_text(row.magnitude) + " " + row.unit;
+  if (is_cut) text += text.empty() ? "cut away" : ", cut away";
+  return text;
+}
 
 void draw_note(const ViewerState& state, ImVec2 at, const std::string& text, ImU32 color) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());

@@ -6,6 +6,7 @@
 
 #include "app/scene/params.h"
 #include "app/scene/read.h"
+#include "app/text.h"
 #include "app/view/labels.h"
 #include "app/view/slider_scale.h"
 #include "app/view/tip.h"
@@ -148,6 +149,19 @@ TEST(Columns, ShareTheRoomOfANarrowWindow) {
   EXPECT_TRUE(!panels.shows_left() && panels.shows_right());
   panels.right = false;
   EXPECT_TRUE(panels.shows_left() && !panels.shows_right());
+}
+
+TEST(ProbeText, HasTheSizeOfTheQuantityAndSaysWhatIsCutAway) {
+  ProbeReading probe;
+  EXPECT_EQ(probe_text(probe, "", true), "cut away");
+  EXPECT_EQ(probe_text(probe, "", false), "");
+  ProbeRow row;
+  row.name = "v";
+  row.unit = "m/s";
+  row.magnitude = 2;
+  probe.rows = {row};
+  EXPECT_EQ(probe_text(probe, "id", false), "|v| = " + rough_text(2) + " m/s");
+  EXPECT_EQ(probe_text(probe, "v", true), "|v| = " + rough_text(2) + " m/s, cut away");
 }
 
 TEST(Slice, TellsWhyThereAreNoArrows) {
