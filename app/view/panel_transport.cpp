@@ -2,6 +2,10 @@
 
 #include <imgui.h>
 
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "app/output/run_json.h"
 #include "app/text.h"
 #include "app/view/labels.h"
@@ -12,7 +16,14 @@ namespace neve::app {
 
 namespace {
 
+/// Where the row has no room for the next item, that begins another one.
+void start_item(float width) {
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetCursorScreenPos().x + width > end) ImGui::NewLine();
+}
+
 bool button(const char* label, const char* what, bool is_enabled = true, bool is_marked = false) {
+  start_item(ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x);
   if (!is_enabled) ImGui::BeginDisabled();
   if (is_marked) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.16f, 0.46f, 0.78f, 1));
   const bool is_pressed = ImGui::Button(label);
@@ -79,6 +90,7 @@ void draw_transport(ViewerState& state) {
   const LiveFrame& live = *state.live;
   Session& session = state.bench.session();
   const bool is_broken = live.divergence.has_value();
+  const float first_row = ImGui::GetCursorPosY();
   if (live.is_running) {
     if (button("Pause", "stop after this step (space)", true, true)) session.pause();
   } else {
@@ -117,6 +129,8 @@ void draw_transport(ViewerState& state) {
              panels.prefers_right ? "parameters, objects and changes in the column"
                                   : "view, inspection, plots and messages in the column"))
     panels.prefers_right = !panels.prefers_right;
+  state.bar_rows = 1 + static_cast<int>(std::lround((ImGui::GetCursorPosY() - first_row) /
+                                                    ImGui::GetFrameHeightWithSpacing()));
   gap();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(status_text(live, ImGui::GetContentRegionAvail().x).c_str());

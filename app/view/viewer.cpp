@@ -203,7 +203,9 @@ void Viewer::lay_out() {
   PanelSwitches& panels = state_.panels;
   panels.is_narrow = static_cast<float>(size.width) < narrow * unit;
   if (state_.go_to_tab) panels.prefers_right = true;
-  const int bar = static_cast<int>(2.6f * unit), line = static_cast<int>(2.6f * unit);
+  constexpr float row = 1.75f;  // a button and the gap below it
+  const int line = static_cast<int>(2.6f * unit);
+  const int bar = line + static_cast<int>(row * unit * static_cast<float>(state_.bar_rows - 1));
   const bool has_panels = panels.left || panels.right;
   const float share = panels.is_narrow ? 0.45f : 1 / 3.0f;
   const auto column = [&](bool is_on, float width) {

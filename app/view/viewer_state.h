@@ -52,6 +52,7 @@ struct ViewerState {
   render::PicturePlace viewport{};  ///< px
   PanelSwitches panels{};
   bool is_help_open = false;
+  int bar_rows = 1;  ///< of buttons at the top, in the last picture
 
   std::string filter{};    ///< of the parameters
   std::string selected{};  ///< "body.ball", "collider.floor" or ""

@@ -80,6 +80,20 @@ TEST_F(ViewByScript, DroppedSceneTakesOverAndWhatIsNoneIsOnlyAMessage) {
   EXPECT_TRUE(json["overrides"].empty()) << info.output;
 }
 
+TEST_F(ViewByScript, ASmallWindowHasAllButtonsOfTheBar) {
+  const auto result = view(R"([
+    {"click": "find a parameter"}, {"type": "hardening"},
+    {"click": "material.snow.hardening", "ctrl": true}, {"type": "17"}, {"key": "enter"},
+    {"wait": 3}, {"resize": [320, 240]}, {"wait": 5},
+    {"click": "Undo"}, {"wait": 3}, {"click": "Redo"}, {"wait": 3},
+    {"click": "Save ..."}, {"wait_for": "label Scene with the changes"},
+    {"click": "Scene with the changes"}, {"wait": 5}, {"click": "?"}, {"wait": 3},
+    {"screenshot": "small.png"}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(contains(read_text(folder / "out" / "scene.toml"), "hardening = 17"));
+}
+
 TEST_F(ViewByScript, ANarrowWindowShowsOneColumnAtATime) {
   const auto result = view(R"([
     {"resize": [800, 600]}, {"wait": 3}, {"wait_for": "label Parameters"},
