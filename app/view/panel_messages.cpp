@@ -157,7 +157,7 @@ void draw_help(ViewerState& state) {
     draw_keys(".   ,   ;", "next frame, step, stage");
     draw_keys("R", "reset to frame 0");
     draw_keys("left, right, home, end", "kept frames");
-    draw_keys("1 to 9", "views");
+    draw_keys("1 to 9", "the first nine views");
     draw_keys("F   shift + F", "frame the selection; everything");
     draw_keys("X   Y   Z", "look along an axis; again: from the other side");
     draw_keys("P", "save a picture");

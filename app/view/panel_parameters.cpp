@@ -3,7 +3,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <vector>
 
 #include "app/attributes.h"
 #include "app/round_number.h"
@@ -75,6 +80,42 @@ void fit_range(ViewerState& state, const View& view) {
   state.bench.set("view." + view.name + ".particles.range",
                   "[" + number_text(round_to(low, scale, 2)) + ", " +
                       number_text(round_to(high, scale, 2)) + "]");
+}
+
+constexpr std::size_t most_view_buttons = 8;
+
+void note_view(const View& view, std::size_t index) {
+  note_label(("view " + view.name).c_str());
+  if (index < 9) tip(("key " + std::to_string(index + 1)).c_str());
+}
+
+/// In as many rows as their names need.
+void draw_view_buttons(ViewerState& state, const std::vector<View>& views) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const std::string& name = views[k].name;
+    const float width =
+        ImGui::GetFrameHeight() + style.ItemInnerSpacing.x + ImGui::CalcTextSize(name.c_str()).x;
+    if (k > 0 && ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= end) ImGui::SameLine();
+    if (ImGui::RadioButton(name.c_str(), name == state.view)) choose_view(state, name);
+    note_view(views[k], k);
+  }
+}
+
+void draw_view_list(ViewerState& state, const std::vector<View>& views) {
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::BeginCombo("##views", current_view(state).name.c_str(), ImGuiComboFlags_HeightLarge)) {
+    std::string chosen;
+    for (std::size_t k = 0; k < views.size(); ++k) {
+      if (ImGui::Selectable(views[k].name.c_str(), views[k].name == state.view))
+        chosen = views[k].name;
+      note_view(views[k], k);
+    }
+    ImGui::EndCombo();
+    if (!chosen.empty()) choose_view(state, chosen);
+  }
+  note_label("views");
 }
 
 }  // namespace
@@ -173,17 +214,10 @@ void draw_objects(ViewerState& state) {
 
 void draw_view_panel(ViewerState& state) {
   const Scene& scene = *state.bench.document().scene();
-  int number = 1;
-  for (const View& view : scene.views) {
-    if (number > 1 &&
-        ImGui::GetItemRectMax().x + 7 * em() < ImGui::GetWindowPos().x + ImGui::GetWindowWidth())
-      ImGui::SameLine();
-    const bool is_current = view.name == state.view;
-    if (ImGui::RadioButton(view.name.c_str(), is_current)) choose_view(state, view.name);
-    note_label(("view " + view.name).c_str());
-    tip(("key " + std::to_string(number)).c_str());
-    ++number;
-  }
+  if (scene.views.size() <= most_view_buttons)
+    draw_view_buttons(state, scene.views);
+  else
+    draw_view_list(state, scene.views);
   if (ImGui::Button("Frame all")) frame_all(state);
   note_label("Frame all");
   ImGui::SameLine();
