@@ -64,6 +64,8 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
                      "expected frames, or 0 for none");
   if (!(options.reference_threshold >= 0))
     throw UsageError("--reference-threshold", "is negative", "expected 0 to 255");
+  if (!(options.reference_local_threshold >= 0))
+    throw UsageError("--reference-local-threshold", "is negative", "expected 0 to 255");
   check_backend(options.backend);
   return options;
 }
@@ -148,6 +150,11 @@ void add_render(CLI::App& app, Action& action) {
   command
       ->add_option("--reference-threshold", options->reference_threshold,
                    "Mean difference allowed, 0 to 255")
+      ->type_name("MEAN")
+      ->capture_default_str();
+  command
+      ->add_option("--reference-local-threshold", options->reference_local_threshold,
+                   "The same of every square of 8x8 pixels: finds small snow that is elsewhere")
       ->type_name("MEAN")
       ->capture_default_str();
   command->add_flag(

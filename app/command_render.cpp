@@ -94,9 +94,11 @@ int compare_with_reference(const RenderOptions& options, const RenderJob& job,
                     options.reference + " has " + std::to_string(reference.channels),
                 options.reference, "set output.background to what the reference has");
   const render::Difference difference = render::compare(picture, reference);
-  const std::string found = "mean difference " + fixed_text(difference.mean, 3) + ", largest " +
+  const std::string found = "mean difference " + fixed_text(difference.mean, 3) +
+                            ", of 8x8 pixels " + fixed_text(difference.local, 2) + ", largest " +
                             fixed_text(difference.max, 0) + " of 255";
-  if (difference.mean <= options.reference_threshold) {
+  const bool is_mean_right = difference.mean <= options.reference_threshold;
+  if (is_mean_right && difference.local <= options.reference_local_threshold) {
     if (options.verbosity != Verbosity::quiet) std::cerr << "as the reference: " << found << "\n";
     return exit_ok;
   }
@@ -105,7 +107,10 @@ int compare_with_reference(const RenderOptions& options, const RenderJob& job,
   throw Error(
       exit_check_failed,
       "the picture differs from " + options.reference + ": " + found + "; see " + file.string(),
-      options.reference, "raise --reference-threshold if this is expected");
+      options.reference,
+      std::string(is_mean_right ? "raise --reference-local-threshold"
+                                : "raise --reference-threshold") +
+          " if this is expected");
 }
 
 void print_result(const RenderJob& job, const RenderRun& run, const RenderResult& result) {

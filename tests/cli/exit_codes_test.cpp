@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 #include "tests/cli/run_neve.h"
 
@@ -271,6 +273,27 @@ TEST_F(Cli, ChecksThatFailExitWithNine) {
   EXPECT_EQ(result.exit_code, 9);
   EXPECT_TRUE(exists("out/scene/difference.png")) << result.errors;
   EXPECT_TRUE(exists("out/scene/particles/0004.png"));
+}
+
+// Snow that is somewhere else: a small part of the picture, and all of some 8x8 pixels.
+TEST_F(Cli, AReferenceIsHeldToTheWorstPartOfThePicture) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "a", "--frames", "0"}).exit_code, 0);
+  const auto compared = [&](const std::string& mean, const std::string& local) {
+    std::vector<std::string> arguments{
+        "render", "scene.toml", "--reference",  "a/particles/0000.png", "--reference-threshold",
+        mean,     "--out",      "again" + local};
+    if (!local.empty()) {
+      arguments.push_back("--reference-local-threshold");
+      arguments.push_back(local);
+    }
+    return neve(arguments);
+  };
+  const auto elsewhere = compared("255", "");
+  EXPECT_EQ(elsewhere.exit_code, 9);
+  EXPECT_TRUE(contains(elsewhere.errors, "of 8x8 pixels ")) << elsewhere.errors;
+  EXPECT_TRUE(contains(elsewhere.errors, "--reference-local-threshold")) << elsewhere.errors;
+  EXPECT_EQ(compared("255", "255").exit_code, 0);
+  EXPECT_EQ(compared("255", "-1").exit_code, 2);
 }
 
 }  // namespace
