@@ -1,5 +1,10 @@
+#include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <map>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/errors.h"
@@ -97,6 +102,19 @@ int compare_runs(const CompareOptions& options) {
   return is_same ? exit_ok : exit_check_failed;
 }
 
+/// @throws UsageError when it has no run.json; where the folder around it has one, that is named
+void check_run_folder(fs::path folder) {
+  std::error_code error;
+  if (fs::exists(run_json_path(folder), error)) return;
+  const std::string name = folder.string();
+  if (!folder.has_filename()) folder = folder.parent_path();  // of "a/particles/"
+  const fs::path around = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+  throw UsageError("", name + " is not the folder of a run: it has no run.json",
+                   fs::exists(run_json_path(around), error)
+                       ? around.string() + " is one; compare that, or two pictures"
+                       : "compare two pictures or two run folders");
+}
+
 }  // namespace
 
 int run_compare(const CompareOptions& options) {
@@ -110,7 +128,10 @@ int run_compare(const CompareOptions& options) {
   if (is_a_run != is_b_run)
     throw UsageError("", "one is a folder and the other is not",
                      "compare two pictures or two run folders");
-  return is_a_run ? compare_runs(options) : compare_pictures(options);
+  if (!is_a_run) return compare_pictures(options);
+  check_run_folder(options.a);
+  check_run_folder(options.b);
+  return compare_runs(options);
 }
 
 }  // namespace neve::app

@@ -269,6 +269,11 @@ TEST_F(Cli, ChecksThatFailExitWithNine) {
   EXPECT_EQ(neve({"compare", "a/particles/0000.png", "a/particles/0000.png"}).exit_code, 0);
   EXPECT_EQ(neve({"compare", "a", "b"}).exit_code, 9);
   EXPECT_EQ(neve({"compare", "a", "a/particles/0000.png"}).exit_code, 2);
+  const auto pictures = neve({"compare", "a/particles/", "b/particles"});
+  EXPECT_EQ(pictures.exit_code, 2);
+  EXPECT_TRUE(contains(pictures.errors, "a/particles/ is not the folder of a run"))
+      << pictures.errors;
+  EXPECT_TRUE(contains(pictures.errors, "a is one; compare that")) << pictures.errors;
   const auto result = neve({"render", "scene.toml", "--reference", "a/particles/0000.png"});
   EXPECT_EQ(result.exit_code, 9);
   EXPECT_TRUE(exists("out/scene/difference.png")) << result.errors;
