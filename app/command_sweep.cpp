@@ -1,7 +1,12 @@
 #include <unistd.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
+#include <map>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "app/command_text.h"
 #include "app/commands.h"
@@ -10,9 +15,11 @@
 #include "app/machine.h"
 #include "app/output/atomic_file.h"
 #include "app/scene/error.h"
+#include "app/scene/read.h"
 #include "app/sweep/collect.h"
 #include "app/sweep/dry_run_report.h"
 #include "app/sweep/engine.h"
+#include "app/sweep/labels.h"
 #include "app/sweep/look.h"
 #include "app/sweep/prepare.h"
 #include "app/sweep/read_sweep.h"
@@ -98,6 +105,28 @@ void print_sweep_result(const SweepOptions& options, const std::filesystem::path
                 ", in " + folder.string());
 }
 
+/// Runs whose scenes are equal although their settings are not, at most five.
+void warn_of_equal_runs(const SweepPlan& plan, Progress& progress) {
+  int warnings = 0;
+  std::map<std::string, const RunPlan*> seen;
+  for (const RunPlan& item : plan.runs) {
+    const std::string text = write_scene(item.scene) + std::to_string(item.frames.first) + "-" +
+                             std::to_string(item.frames.last);
+    const auto [first, is_new] = seen.emplace(text, &item);
+    if (is_new) continue;
+    std::string differing;
+    for (const Override& setting : item.run.settings)
+      if (value_of(first->second->run, setting.address) != setting.value)
+        differing += (differing.empty() ? "" : ", ") + setting.address;
+    // One that is given twice is told already.
+    if (differing.empty() || ++warnings > 5) continue;
+    progress.warning("runs " + std::to_string(first->second->run.index) + " and " +
+                     std::to_string(item.run.index) + " are the same: " +
+                     (differing == "output.size" ? "the sweep sets output.size itself, see --size"
+                                                 : differing + " changes nothing here"));
+  }
+}
+
 }  // namespace
 
 int run_sweep(const SweepOptions& options) {
@@ -106,6 +135,7 @@ int run_sweep(const SweepOptions& options) {
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
   for (const std::string& value : repeated_values(plan.sweep))
     progress.warning(value + " is twice in its list: that run is made once and shown twice");
+  warn_of_equal_runs(plan, progress);
   if (options.is_dry_run) {
     print_sweep_plan(plan, cores, options.is_json);
     return exit_ok;

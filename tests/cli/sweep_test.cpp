@@ -129,6 +129,14 @@ TEST_F(SweepCli, RunsOnceAndGoesOnWithWhatIsNew) {
   EXPECT_EQ(app::parse_json(std::string_view(third.output))["started"], 0);
 }
 
+TEST_F(SweepCli, RunsThatAreTheSameAreNamed) {
+  const auto result =
+      neve({"sweep", "scene.toml", "-p", "output.size=[320,180],[640,360]", "--dry-run"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "runs 0 and 1 are the same: the sweep sets output.size"))
+      << result.errors;
+}
+
 TEST_F(SweepCli, AnotherStudyDoesNotReplaceTheFirst) {
   const auto first = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--frames", "0"});
   ASSERT_EQ(first.exit_code, 0) << first.errors;
