@@ -137,7 +137,7 @@ void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
   const float height = static_cast<float>(frame.height);
   const float margin = std::round(20 * unit);
   const bool has_strip = frame.caption_height > 0;
-  if (!has_strip && height < 7 * imgui_.text_font()->FontSize) return;  // it would be all text
+  if (!has_strip && height < 4 * imgui_.text_font()->FontSize) return;  // it would be all text
   const float width = has_strip
                           ? static_cast<float>(frame.width) - 2 * margin
                           : std::min(right_limit, 0.66f * static_cast<float>(frame.width)) - margin;

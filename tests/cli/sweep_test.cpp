@@ -145,7 +145,7 @@ TEST_F(SweepCli, AnotherStudyDoesNotReplaceTheFirst) {
       neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,10", "--frames", "0"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_TRUE(contains(other.errors,
-                       "out/scene.cdb: error: has a sweep of seed; this one varies "
+                       "out/scene.cdb: has a sweep of seed; this one varies "
                        "material.snow.hardening; give --out another folder"))
       << other.errors;
   EXPECT_EQ(read_text(folder / "out/scene.cdb/data.csv"), table);

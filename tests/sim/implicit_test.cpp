@@ -187,6 +187,7 @@ TEST(ImplicitSolve, ThatFailsIsReplacedByExplicitSteps) {
   for (std::size_t part = 0; part < parts; ++part) by_force.step(dt / static_cast<double>(parts));
   EXPECT_EQ(failing.state_hash(), by_force.state_hash());
   s.beta = 1;
+  s.dt = s.max_dt = dt;
   Simulation reporting(s, three_models(), {}, strained(150), 1);
   const AdvanceReport report = reporting.advance_to(dt);
   ASSERT_TRUE(report.solve);

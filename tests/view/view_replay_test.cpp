@@ -119,14 +119,16 @@ TEST_F(ViewByScript, APictureOfAFrameShowsNoStage) {
   const auto picture = [&](const char* name) {
     return render::decode_png(app::read_file(folder / "out" / name));
   };
-  const char* const saved = "particles_0000_step0.png";
+  const char* const saved = "slice_0000_step0.png";
   const auto result = view(R"([
-    {"key": "p"}, {"wait": 8}, {"screenshot": "frame.png", "crop": "picture"}])");
+    {"key": "3"}, {"wait": 10}, {"key": "p"}, {"wait": 8},
+    {"screenshot": "frame.png", "crop": "picture"}])");
   SKIP_WITHOUT_GL(result);
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const render::Image plain = picture(saved);
   const auto inside = view(R"([
-    {"key": ";"}, {"wait": 10}, {"key": ";"}, {"wait": 30},
+    {"key": "3"}, {"wait": 10}, {"key": ";"}, {"wait": 10}, {"key": ";"}, {"wait": 10},
+    {"key": ";"}, {"wait": 30},
     {"screenshot": "stage.png", "crop": "picture"}, {"key": "p"}, {"wait": 12}])");
   ASSERT_EQ(inside.exit_code, 0) << inside.errors;
   EXPECT_GT(changed_bytes(picture("frame.png"), picture("stage.png")), 500u);  // its arrows
