@@ -1,38 +1,9 @@
 /// The drawing kernels for the baseline instruction set.
 
-#include "render/draw_kernels.h"
-#include "render/ground_kernel.h"
-#include "render/shade_kernel.h"
-#include "render/smoke_kernel.h"
-#include "render/splat_kernel.h"
+#include "render/draw_kernel_table.h"
 
 namespace neve::render {
-namespace {
 
-using V = Lanes<float, 4>;
-
-void project(const ProjectJob& job) {
-  project_discs<V>(job);
-}
-void splat_tile(const TileJob& job) {
-  draw_tile_lanes<V>(job);
-}
-void ground_tile(const GroundJob& job, GBufferTile& tile, int x, int y) {
-  ground_tile_lanes<V>(job, tile, x, y);
-}
-void solid_tile(const SolidJob& job, GBufferTile& tile) {
-  solid_tile_lanes<V>(job, tile);
-}
-void march(const SmokeJob& job) {
-  march_rays<V>(job);
-}
-void shade_tile(const ShadeJob& job) {
-  shade_tile_lanes<V>(job);
-}
-
-}  // namespace
-
-const DrawKernels draw_baseline = {"baseline", project, splat_tile, ground_tile,
-                                   solid_tile, march,   shade_tile};
+constinit const DrawKernels draw_baseline = draw_kernel_table<Lanes<float, 4>>("baseline");
 
 }  // namespace neve::render
