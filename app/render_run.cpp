@@ -55,7 +55,6 @@ RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation,
   record.scene_file = job.scene_file;
   record.overrides = job.overrides;
   record.changes = job.changes;
-  record.warnings = job.warnings;
   record.coarsening = job.coarsening;
   record.backend = context.backend;
   record.gl_renderer = context.renderer;
@@ -120,6 +119,7 @@ int RenderRun::begin() {
     remove_checkpoints(job_.folder);
   }
   scene_ = player_.scene();
+  note_warnings();
   for (const std::string& view : record_.views) make_folder(job_.folder / view);
   write_run_json(job_.folder, record_);
   return resumed ? resumed->frame + 1 : 0;
@@ -221,9 +221,7 @@ bool RenderRun::advance_to_frame(int frame) {
   note_retries(advanced.retries);
   seconds_sim_ = advanced.seconds;
   if (validation_) record_.validation = validation_->records();
-  record_.warnings = job_.warnings;
-  for (std::string& warning : step_warnings(scene_.solver, simulation_.warnings()))
-    record_.warnings.push_back(std::move(warning));
+  note_warnings();
   if (simulation_.divergence()) {
     record_.divergence = simulation_.divergence();
     result_.status = RunStatus::diverged;
@@ -290,6 +288,13 @@ void RenderRun::add_frame_record(const FrameRecord& frame) {
     *place = frame;
   else
     record_.frames.insert(place, frame);
+}
+
+/// Those of a run that is resumed are in its state.
+void RenderRun::note_warnings() {
+  record_.warnings = job_.warnings;
+  for (std::string& warning : step_warnings(scene_.solver, simulation_.warnings()))
+    record_.warnings.push_back(std::move(warning));
 }
 
 void RenderRun::note_retries(const std::vector<sim::Retry>& retries) {

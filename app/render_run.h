@@ -65,6 +65,7 @@ class RenderRun {
   void begin_next(int frame);
   void draw_frame(int frame);
   void add_frame_record(const FrameRecord& frame);
+  void note_warnings();
   void note_retries(const std::vector<sim::Retry>& retries);
   void report_incident();
   void write_movies();
