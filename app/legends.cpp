@@ -27,15 +27,14 @@ std::vector<render::Legend> legends_of(const View& view) {
   const ParticleStyle& particles = view.particles;
   const SmokeStyle& smoke = view.smoke;
   const SliceStyle& slice = view.slice;
-  if (has_layer(view, Layer::particles) && particles.color_by != ColorBy::snow)
-    legends.push_back(
-        legend(attribute_name(particles.color_by), particles.colormap, particles.range));
   const auto add = [&](const render::Legend& another) {
     // Two layers of one quantity in the same colours need one.
     if (std::none_of(legends.begin(), legends.end(),
                      [&](const render::Legend& other) { return is_same(other, another); }))
       legends.push_back(another);
   };
+  if (has_layer(view, Layer::particles) && particles.color_by != ColorBy::snow)
+    add(legend(attribute_name(particles.color_by), particles.colormap, particles.range));
   if (has_layer(view, Layer::smoke) && smoke.field != ScalarField::mass)
     add(legend(attribute_name(smoke.field), smoke.colormap, smoke.range));
   if (has_layer(view, Layer::heatmap))

@@ -15,9 +15,8 @@ namespace {
 using sim::Vec3d;
 
 constexpr const char* why_move_it =
-    "move it out: contact stops snow at surfaces, it does not push it out (solver.push_out does, "
-    "and "
-    "leaves it crushed)";
+    "move it out: contact stops snow at surfaces, it does not push it out "
+    "(solver.push_out does, and leaves it crushed)";
 
 /// Particles of a body: a share needs no more.
 constexpr std::size_t most_looked_at = 20000;
@@ -64,21 +63,22 @@ std::vector<Vec3d> places_in(const sim::Shape& shape) {
   return places;
 }
 
-void check_emitters_in(const sim::Collider& collider, const Scene& scene,
-                       std::vector<Finding>& findings) {
+void check_emitter_overlaps(const Scene& scene, std::vector<Finding>& findings) {
   constexpr double much = 0.02;  // a nozzle that ends in a wall is none
   for (const sim::Emitter& emitter : scene.emitters) {
     const std::vector<Vec3d> places = places_in(emitter.shape);
     if (places.empty()) continue;
-    const Inside is_inside(collider, emitter.start);
-    const auto inside =
-        std::count_if(places.begin(), places.end(), [&](const Vec3d& x) { return is_inside(x); });
-    const double share = static_cast<double>(inside) / static_cast<double>(places.size());
-    if (share < much) continue;
-    findings.push_back({Severity::warning, "emitter." + emitter.name + ".shape",
-                        percent_text(share) + " of " + called("emitter", emitter.name) +
-                            " is inside collider " + collider.name + " when it starts",
-                        why_move_it});
+    for (const sim::Collider& collider : scene.colliders) {
+      const Inside is_inside(collider, emitter.start);
+      const auto inside =
+          std::count_if(places.begin(), places.end(), [&](const Vec3d& x) { return is_inside(x); });
+      const double share = static_cast<double>(inside) / static_cast<double>(places.size());
+      if (share < much) continue;
+      findings.push_back({Severity::warning, "emitter." + emitter.name + ".shape",
+                          percent_text(share) + " of " + called("emitter", emitter.name) +
+                              " is inside collider " + collider.name + " when it starts",
+                          why_move_it});
+    }
   }
 }
 
@@ -87,8 +87,8 @@ void check_emitters_in(const sim::Collider& collider, const Scene& scene,
 void check_collider_overlaps(const Scene& scene, const sim::ParticleArrays& particles,
                              const std::vector<std::size_t>& body_end,
                              std::vector<Finding>& findings) {
+  check_emitter_overlaps(scene, findings);
   for (const sim::Collider& collider : scene.colliders) {
-    check_emitters_in(collider, scene, findings);
     const Inside is_inside(collider, 0);
     std::size_t first = 0;
     for (std::size_t body = 0; body < body_end.size(); ++body) {

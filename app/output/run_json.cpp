@@ -146,15 +146,26 @@ FrameRecord frame_record(const Json& json) {
   return frame;
 }
 
-std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder) {
+Json read_run_json(const std::filesystem::path& folder) {
+  try {
+    return parse_json(read_file(run_json_path(folder)));
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+std::vector<FrameRecord> frame_records(const Json& run) {
   std::vector<FrameRecord> frames;
   try {
-    const Json run = parse_json(read_file(run_json_path(folder)));
     for (const Json& frame : run.at("frames")) frames.push_back(frame_record(frame));
   } catch (const std::exception&) {
     frames.clear();
   }
   return frames;
+}
+
+std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder) {
+  return frame_records(read_run_json(folder));
 }
 
 Json to_json(const sim::AdvanceReport& advance) {

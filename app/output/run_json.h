@@ -57,7 +57,13 @@ Json to_json(const FrameRecord& frame);
 /// @throws nlohmann::json::exception
 FrameRecord frame_record(const Json& json);
 
-/// The frames that DIR/run.json lists; none where there is no such file or it cannot be read.
+/// DIR/run.json; null where there is no such file or it cannot be read.
+Json read_run_json(const std::filesystem::path& folder);
+
+/// The frames that it lists; none where they cannot be read.
+std::vector<FrameRecord> frame_records(const Json& run);
+
+/// Both at once.
 std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder);
 
 /// Every field, exactly.

@@ -5,9 +5,7 @@
 #include <exception>
 #include <limits>
 
-#include "app/output/atomic_file.h"
 #include "app/output/run_json.h"
-#include "app/output/sequence.h"
 
 namespace neve::app {
 
@@ -51,10 +49,9 @@ struct RunNotes {
   std::optional<double> diverged_at;  ///< step
 };
 
-RunNotes read_notes(const std::filesystem::path& run_folder) {
+RunNotes notes_of(const Json& run) {
   RunNotes notes;
   try {
-    const Json run = parse_json(read_file(run_json_path(run_folder)));
     if (run.contains("divergence")) notes.diverged_at = run["divergence"].at("step").get<double>();
     notes.warnings = run.value("warnings", notes.warnings);
   } catch (const std::exception&) {
@@ -96,8 +93,9 @@ RunResult read_result(const std::filesystem::path& folder, const ManifestRun& ru
   std::vector<FrameRecord> frames;
   RunNotes notes;
   if (result.report.key == run.key) {
-    frames = read_frame_records(run_folder);
-    notes = read_notes(run_folder);
+    const Json record = read_run_json(run_folder);
+    frames = frame_records(record);
+    notes = notes_of(record);
     result.warnings = notes.warnings;
   }
   for (const FrameRecord& frame : frames) result.frames.push_back(frame.frame);
