@@ -2,18 +2,18 @@
 
 #include <iostream>
 
-#include "app/command_line.h"
+#include "app/cli/command_line.h"
+#include "app/cli/report_error.h"
 #include "app/output/atomic_file.h"
-#include "app/report_error.h"
 
 int main(int argc, char** argv) {
   using namespace neve::app;
-  ignore_write_signals();
+  output::ignore_write_signals();
   try {
-    const int code = run_command_line(argc, argv);
-    finish_output();
+    const int code = cli::run_command_line(argc, argv);
+    cli::finish_output();
     return code;
   } catch (...) {
-    return report_current_error(wants_json(argc, argv));
+    return cli::report_current_error(cli::wants_json(argc, argv));
   }
 }

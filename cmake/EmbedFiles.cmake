@@ -1,14 +1,16 @@
-# neve_embed_files(TARGET FUNCTION FILE...): compiles files into TARGET as bytes.
-# The generated source defines, in neve::render,
+# neve_embed_files(TARGET NAMESPACE FUNCTION FILE...): compiles files into TARGET as bytes.
+# The generated source defines, in NAMESPACE,
 #   std::string_view FUNCTION(std::string_view file_name);   // empty for an unknown name
-function(neve_embed_files target function)
+function(neve_embed_files target namespace function)
   set(output ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
   list(JOIN ARGN "|" joined)
   add_custom_command(
     OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DFUNCTION=${function} "-DFILES=${joined}" -DOUTPUT=${output}
+    COMMAND ${CMAKE_COMMAND} -DFUNCTION=${function} -DNAMESPACE=${namespace} "-DFILES=${joined}" -DOUTPUT=${output}
             -P ${PROJECT_SOURCE_DIR}/cmake/WriteEmbeddedSource.cmake
     DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/cmake/WriteEmbeddedSource.cmake
     VERBATIM)
   target_sources(${target} PRIVATE ${output})
+  # A font is longer than the literals that a compiler must accept; ours accept it.
+  set_source_files_properties(${output} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
 endfunction()

@@ -1,7 +1,7 @@
-# Writes OUTPUT, a C++ source with the bytes of FILES (separated by |) and the function FUNCTION
-# that finds them by name. String literals compile much faster than lists of numbers.
+# Writes OUTPUT, a C++ source with the bytes of FILES (separated by |) and, in NAMESPACE, the
+# function FUNCTION that finds them by name. String literals compile much faster than lists of numbers.
 string(REPLACE "|" ";" files "${FILES}")
-set(source "#include <string_view>\n\nnamespace neve::render {\n\n")
+set(source "#include <string_view>\n\nnamespace ${NAMESPACE} {\n\n")
 set(lookup "")
 foreach(file IN LISTS files)
   get_filename_component(name ${file} NAME)
@@ -15,5 +15,5 @@ foreach(file IN LISTS files)
 endforeach()
 string(APPEND source "\nstd::string_view ${FUNCTION}(std::string_view name);\n"
   "std::string_view ${FUNCTION}(std::string_view name) {\n${lookup}  return {};\n}\n\n"
-  "}  // namespace neve::render\n")
+  "}  // namespace ${NAMESPACE}\n")
 file(WRITE ${OUTPUT} "${source}")

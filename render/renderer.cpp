@@ -6,15 +6,15 @@
 #include <optional>
 #include <stdexcept>
 
-#include "render/pass_overlay.h"
-#include "render/passes.h"
-#include "render/phase_clock.h"
-#include "render/read_back.h"
-#include "render/slice_passes.h"
-#include "render/smoke_cache.h"
-#include "render/smoke_march.h"
-#include "render/solid_cache.h"
-#include "render/surfaces.h"
+#include "render/cpu/smoke_march.h"
+#include "render/cpu/surfaces.h"
+#include "render/gl/read_back.h"
+#include "render/light/smoke_cache.h"
+#include "render/overlay/pass_overlay.h"
+#include "render/passes/passes.h"
+#include "render/passes/phase_clock.h"
+#include "render/passes/slice_passes.h"
+#include "render/passes/solid_cache.h"
 
 namespace neve::render {
 namespace {
@@ -86,7 +86,7 @@ void check_frame(const Frame& frame, int max_size) {
   for (const Plot& plot : frame.plots) check_plot(plot);
 }
 
-ParticlePath resolve_path(ParticlePath path, const Context& context) {
+ParticlePath resolve_path(ParticlePath path, const gl::Context& context) {
   if (path != ParticlePath::automatic) return path;
   const char* wanted = std::getenv("NEVE_PARTICLES");
   const std::string name = wanted ? wanted : "";
@@ -107,35 +107,35 @@ void check_picture(const Image& picture, const Frame& frame) {
 }  // namespace
 
 struct Renderer::Impl {
-  Context& context;
+  gl::Context& context;
   ThreadPool* pool;
   ParticlePath path;
-  Gl gl;
-  ShaderLibrary library;
-  Lighting lighting;
-  SmokeCache smoke_cache;
-  GroundPass ground;
-  MeshPass meshes;
-  ParticlePass particles;
-  Surfaces surfaces;
-  SmokeMarch smoke_march;
-  SolidCache solids;
-  SmokePass smoke;
-  ArrowPass arrows;
-  HeatMapPass heat_maps;
-  LinePass lines;
-  ShadePass shade;
-  ResolvePass resolve;
-  OverlayPass overlay;
-  ReadBack read_back;
-  std::optional<Targets> targets;
+  gl::Gl gl;
+  gl::ShaderLibrary library;
+  light::Lighting lighting;
+  light::SmokeCache smoke_cache;
+  passes::GroundPass ground;
+  passes::MeshPass meshes;
+  passes::ParticlePass particles;
+  cpu::Surfaces surfaces;
+  cpu::SmokeMarch smoke_march;
+  passes::SolidCache solids;
+  passes::SmokePass smoke;
+  passes::ArrowPass arrows;
+  passes::HeatMapPass heat_maps;
+  passes::LinePass lines;
+  passes::ShadePass shade;
+  passes::ResolvePass resolve;
+  overlay::OverlayPass overlay;
+  gl::ReadBack read_back;
+  std::optional<gl::Targets> targets;
 
-  Impl(Context& c, const std::string& shader_dir, ThreadPool* p, ParticlePath wanted,
+  Impl(gl::Context& c, const std::string& shader_dir, ThreadPool* p, ParticlePath wanted,
        ReadBackWay way)
       : context(c),
         pool(p),
         path(resolve_path(wanted, c)),
-        gl(load_gl(c)),
+        gl(gl::load_gl(c)),
         library(shader_dir),
         ground(gl, library),
         meshes(gl, library),
@@ -171,7 +171,7 @@ struct Renderer::Impl {
     targets.emplace(gl, frame.width, frame.height, frame.supersampling);
   }
 
-  void bind(const Framebuffer& framebuffer, int width, int height) const {
+  void bind(const gl::Framebuffer& framebuffer, int width, int height) const {
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     gl.Viewport(0, 0, width, height);
     gl.Disable(GL_SCISSOR_TEST);
@@ -215,7 +215,7 @@ struct Renderer::Impl {
   }
 
   Image draw(const Frame& frame, std::vector<PhaseTime>* times) {
-    PhaseClock clock(gl, times);
+    passes::PhaseClock clock(gl, times);
     draw_into_targets(frame, clock);
     Image image = take(frame);
     clock.end("read_back");
@@ -223,7 +223,7 @@ struct Renderer::Impl {
   }
 
   void paint(const Frame& frame) {
-    PhaseClock clock(gl, nullptr);
+    passes::PhaseClock clock(gl, nullptr);
     draw_into_targets(frame, clock);
   }
 
@@ -243,12 +243,12 @@ struct Renderer::Impl {
     read_back.begin(frame.width, frame.height, frame.is_transparent);
   }
 
-  void draw_into_targets(const Frame& frame, PhaseClock& clock) {
+  void draw_into_targets(const Frame& frame, passes::PhaseClock& clock) {
     context.make_current();
     check_frame(frame, max_size());
     prepare_targets(frame);
-    const SmokeGrid& smoke_grid = smoke_cache.grid(frame.smoke, pool);
-    const LightVolume& light = lighting.volume(frame, smoke_grid, pool);
+    const light::SmokeGrid& smoke_grid = smoke_cache.grid(frame.smoke, pool);
+    const light::LightVolume& light = lighting.volume(frame, smoke_grid, pool);
     clock.end("light");
 
     const View view = make_view(frame.camera, targets->sample_width(), targets->sample_height());
@@ -259,7 +259,7 @@ struct Renderer::Impl {
 
     bind(targets->shaded_with_depth, view.width, view.height);
     ground.draw_ghosts(frame, view);
-    meshes.draw_ghosts(frame.ghosts, toward_light(frame.light), view);
+    meshes.draw_ghosts(frame.ghosts, light::toward_light(frame.light), view);
     bind(targets->shaded, view.width, view.height);
     lines.draw(frame.lines, *targets, view, static_cast<float>(frame.supersampling));
 
@@ -270,8 +270,8 @@ struct Renderer::Impl {
     clock.end("overlay");
   }
 
-  void draw_by_gl(const Frame& frame, const View& view, const SmokeGrid& smoke_grid,
-                  const LightVolume& light, PhaseClock& clock) {
+  void draw_by_gl(const Frame& frame, const View& view, const light::SmokeGrid& smoke_grid,
+                  const light::LightVolume& light, passes::PhaseClock& clock) {
     bind(targets->gbuffer, view.width, view.height);
     clear_gbuffer();
     particles.draw(frame.points, view);
@@ -281,10 +281,10 @@ struct Renderer::Impl {
     clock.end("solids");
     draw_slices(frame, view);
     clock.end("slices");
-    std::optional<SmokePicture> smoke_picture;
+    std::optional<passes::SmokePicture> smoke_picture;
     if (!smoke_grid.is_empty())
       smoke_picture = smoke.draw(frame.smoke, smoke_grid,
-                                 smoke_cache.volume(light, toward_light(frame.light), pool),
+                                 smoke_cache.volume(light, light::toward_light(frame.light), pool),
                                  frame.light, *targets, view);
     clock.end("smoke");
     bind(targets->shaded, view.width, view.height);
@@ -296,8 +296,8 @@ struct Renderer::Impl {
     arrows.draw(frame.arrows, view);
   }
 
-  void draw_on_cpu(const Frame& frame, const View& view, const SmokeGrid& smoke_grid,
-                   const LightVolume& light, PhaseClock& clock) {
+  void draw_on_cpu(const Frame& frame, const View& view, const light::SmokeGrid& smoke_grid,
+                   const light::LightVolume& light, passes::PhaseClock& clock) {
     surfaces.prepare(frame, view);
     // Kept where smoke ends at them, and where each step is timed.
     const bool is_kept = clock.is_wanted() || !smoke_grid.is_empty();
@@ -320,10 +320,10 @@ struct Renderer::Impl {
     if (has_solids) surfaces.set_solids(&solids.samples());
     if (is_kept) surfaces.keep_solids();
     clock.end("slices");
-    std::optional<SmokeCover> cover;
+    std::optional<light::SmokeCover> cover;
     if (!smoke_grid.is_empty())
       cover = smoke_march.march(frame.smoke, smoke_grid,
-                                smoke_cache.volume(light, toward_light(frame.light), pool),
+                                smoke_cache.volume(light, light::toward_light(frame.light), pool),
                                 frame.light, surfaces, view);
     clock.end("smoke");
     const bool wants_depth =
@@ -333,7 +333,7 @@ struct Renderer::Impl {
   }
 
   /// The G-buffer as OpenGL has it.
-  void read_solids(SolidSamples& samples) {
+  void read_solids(cpu::SolidSamples& samples) {
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     const auto read = [&](GLenum buffer, GLenum format, GLenum type, void* to) {
       gl.ReadBuffer(buffer);
@@ -348,7 +348,8 @@ struct Renderer::Impl {
     gl.ActiveTexture(GL_TEXTURE0);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.PixelStorei(GL_UNPACK_ROW_LENGTH, surfaces.pitch());
-    const auto upload = [&](const Texture& texture, GLenum format, GLenum type, const void* from) {
+    const auto upload = [&](const gl::Texture& texture, GLenum format, GLenum type,
+                            const void* from) {
       gl.BindTexture(GL_TEXTURE_2D, texture.id());
       gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, view.width, view.height, format, type, from);
     };
@@ -359,7 +360,7 @@ struct Renderer::Impl {
   }
 };
 
-Renderer::Renderer(Context& context, const std::string& shader_dir, ThreadPool* pool,
+Renderer::Renderer(gl::Context& context, const std::string& shader_dir, ThreadPool* pool,
                    ParticlePath path, ReadBackWay read_back) {
   context.make_current();
   impl_ = std::make_unique<Impl>(context, shader_dir, pool, path, read_back);

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "render/context.h"
-#include "render/frame.h"
-#include "render/image.h"
+#include "render/frame/frame.h"
+#include "render/frame/phase_time.h"
+#include "render/gl/context.h"
+#include "render/image/image.h"
 #include "sim/base/thread_pool.h"
 
 namespace neve::render {
@@ -27,19 +28,13 @@ struct ParticlePathError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How long a phase of a picture took.
-struct PhaseTime {
-  const char* phase;  ///< light, particles, solids, slices, smoke, shade, overlay, read_back
-  double seconds;
-};
-
 class Renderer {
  public:
   /// @param shader_dir reads shaders from there instead of the embedded ones when not empty
   /// @param pool shared worker threads for work on the CPU, may be null
   /// @throws std::runtime_error with the compiler's log when a shader does not build;
   /// ParticlePathError
-  explicit Renderer(Context& context, const std::string& shader_dir = {},
+  explicit Renderer(gl::Context& context, const std::string& shader_dir = {},
                     ThreadPool* pool = nullptr, ParticlePath path = ParticlePath::automatic,
                     ReadBackWay read_back = ReadBackWay::automatic);
   ~Renderer();

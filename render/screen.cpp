@@ -2,25 +2,25 @@
 
 #include <algorithm>
 
-#include "render/gl_objects.h"
-#include "render/imgui_draw.h"
-#include "render/read_back.h"
+#include "render/gl/gl_objects.h"
+#include "render/gl/read_back.h"
+#include "render/overlay/imgui_draw.h"
 
 namespace neve::render {
 
 struct Screen::Impl {
-  Context& context;
-  Gl gl;
-  ShaderLibrary library;
-  ImGuiDraw imgui;
-  ReadBack read_back;
-  Framebuffer framebuffer;
-  Texture color;
+  gl::Context& context;
+  gl::Gl gl;
+  gl::ShaderLibrary library;
+  overlay::ImGuiDraw imgui;
+  gl::ReadBack read_back;
+  gl::Framebuffer framebuffer;
+  gl::Texture color;
   int width = 0, height = 0;
 
-  Impl(Context& c, const std::string& shader_dir)
+  Impl(gl::Context& c, const std::string& shader_dir)
       : context(c),
-        gl(load_gl(c)),
+        gl(gl::load_gl(c)),
         library(shader_dir),
         imgui(gl, library),
         read_back(gl, false),
@@ -33,8 +33,8 @@ struct Screen::Impl {
     if (new_width == width && new_height == height) return;
     width = new_width;
     height = new_height;
-    color = make_texture_2d(gl, width, height, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, nullptr,
-                            GL_NEAREST);
+    color = gl::make_texture_2d(gl, width, height, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, nullptr,
+                                GL_NEAREST);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.id(), 0);
   }
@@ -48,7 +48,7 @@ struct Screen::Impl {
   }
 };
 
-Screen::Screen(Context& context, const std::string& shader_dir) {
+Screen::Screen(gl::Context& context, const std::string& shader_dir) {
   context.make_current();
   impl_ = std::make_unique<Impl>(context, shader_dir);
 }

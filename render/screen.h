@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "render/context.h"
-#include "render/image.h"
+#include "render/gl/context.h"
+#include "render/image/image.h"
 #include "render/renderer.h"
 
 namespace neve::render {
@@ -18,7 +18,7 @@ struct PicturePlace {
 
 class Screen {
  public:
-  explicit Screen(Context& context, const std::string& shader_dir = {});
+  explicit Screen(gl::Context& context, const std::string& shader_dir = {});
   ~Screen();
 
   /// Makes the panels' ImGui context the current one: for input, between pictures.

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "render/frame/view.h"
 #include "render/renderer.h"
-#include "render/view.h"
 
 namespace neve::render {
 namespace {
@@ -78,7 +78,7 @@ std::string check_text(Renderer& renderer, const Image& without, Frame frame) {
 
 }  // namespace
 
-std::string self_test(Context& context) try {
+std::string self_test(gl::Context& context) try {
   Renderer renderer(context);
   const Frame frame = ball_over_ground();
   const Image image = renderer.draw(frame);

@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "render/context.h"
+#include "render/gl/context.h"
 
 namespace neve::render {
 
 /// @return "" or what was wrong with the picture; never throws
-std::string self_test(Context& context);
+std::string self_test(gl::Context& context);
 
 }  // namespace neve::render

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "render/glfw_context.h"
+#include "render/gl/glfw_context.h"
 #endif
 
 namespace neve::render {
@@ -15,14 +15,15 @@ namespace neve::render {
 namespace {
 
 [[noreturn]] void refuse(const std::string& reason, const std::string& install) {
-  Attempt attempt;
+  gl::Attempt attempt;
   attempt.backend = "window";
   attempt.reason = reason;
   attempt.install = install;
-  throw ContextError("no window: " + reason + ". " +
-                         (install.empty() ? "neve view --web needs none" : "Install " + install) +
-                         ", or see neve doctor",
-                     {attempt});
+  throw gl::ContextError(
+      "no window: " + reason + ". " +
+          (install.empty() ? "neve view --web needs none" : "Install " + install) +
+          ", or see neve doctor",
+      {attempt});
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ constexpr std::size_t cursor_count = 8;
 }  // namespace
 
 struct Window::Impl {
-  GlfwContext context;
+  gl::GlfwContext context;
   GLFWwindow* window = nullptr;
   std::vector<WindowEvent> events;
   int width = 1, height = 1;
@@ -127,7 +128,7 @@ struct Window::Impl {
   }
 
   void open(const Options& options) {
-    if (const std::string reason = missing_display(); !reason.empty()) refuse(reason, {});
+    if (const std::string reason = gl::missing_display(); !reason.empty()) refuse(reason, {});
     if (const std::string reason = context.open(options.title, options.width, options.height, true);
         !reason.empty())
       refuse(reason, {});
@@ -268,7 +269,7 @@ Window::Window(const Options& options) : impl_(std::make_unique<Impl>()) {
 
 Window::~Window() = default;
 
-Context& Window::context() {
+gl::Context& Window::context() {
   return impl_->context;
 }
 int Window::width() const {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/context.h"
+#include "render/gl/context.h"
 
 namespace neve::render {
 
@@ -41,7 +41,7 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   /// Of the window; its own as long as the window is there. It is current after construction.
-  Context& context();
+  gl::Context& context();
 
   /// Of the picture, px; at least 1.
   int width() const;

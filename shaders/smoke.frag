@@ -1,6 +1,6 @@
 // Marches from the eye through smoke up to what the depth map shows. In: per texel of a box of nodes opacity, and times that the key light, the sky,
 // and light that was scattered many times, or with VALUE the place in the colour map
-// (render/smoke_volume.h). Out: sums along the ray, premultiplied, and the depth (m along the view)
+// (render/light/smoke_volume.h). Out: sums along the ray, premultiplied, and the depth (m along the view)
 // where it ended. Writes no depth.
 
 #include "view.glsl"

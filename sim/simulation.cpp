@@ -3,35 +3,14 @@
 #include <algorithm>
 #include <variant>
 
-#include "sim/engine.h"
-#include "sim/watch.h"
+#include "sim/engine/engine.h"
+#include "sim/rasterize.h"
+#include "sim/staged.h"
 
 namespace neve::sim {
 
-DtLimit AdvanceReport::limit() const {
-  return static_cast<DtLimit>(std::max_element(ruled.begin(), ruled.end()) - ruled.begin());
-}
-
-void SolveReport::add(const SolveReport& other) {
-  iterations = std::max(iterations, other.iterations);
-  residual = std::max(residual, other.residual);
-  cut_short += other.cut_short;
-  given_up += other.given_up;
-}
-
-void AdvanceReport::append(const AdvanceReport& later) {
-  if (later.steps == 0) return;
-  dt_min = steps == 0 ? later.dt_min : std::min(dt_min, later.dt_min);
-  dt_max = std::max(dt_max, later.dt_max);
-  steps += later.steps;
-  for (std::size_t k = 0; k < ruled.size(); ++k) ruled[k] += later.ruled[k];
-  if (!later.solve) return;
-  if (!solve) solve.emplace();
-  solve->add(*later.solve);
-}
-
 struct Simulation::Impl {
-  std::variant<Engine<float>, Engine<double>> engine;
+  std::variant<engine::Engine<float>, engine::Engine<double>> engine;
 
   template <class Call>
   decltype(auto) visit(Call&& call) {
@@ -41,41 +20,25 @@ struct Simulation::Impl {
 
 namespace {
 
-std::variant<Engine<float>, Engine<double>> make_engine(const SolverSettings& settings,
-                                                        const std::vector<Material>& materials,
-                                                        const std::vector<Collider>& colliders,
-                                                        const ParticleArrays& particles,
-                                                        int threads, const Vec3i& lattice_origin,
-                                                        const Flow& flow) {
+std::variant<engine::Engine<float>, engine::Engine<double>> make_engine(
+    const SolverSettings& settings, const std::vector<Material>& materials,
+    const std::vector<shapes::Collider>& colliders, const ParticleArrays& particles, int threads,
+    const Vec3i& lattice_origin, const seeding::Flow& flow) {
   if (settings.precision == Precision::real64)
-    return Engine<double>(settings, materials, colliders, particles, threads, lattice_origin, flow);
-  return Engine<float>(settings, materials, colliders, particles, threads, lattice_origin, flow);
+    return engine::Engine<double>(settings, materials, colliders, particles, threads,
+                                  lattice_origin, flow);
+  return engine::Engine<float>(settings, materials, colliders, particles, threads, lattice_origin,
+                               flow);
 }
 
 }  // namespace
 
-std::size_t ParticleArrays::first_from(std::uint64_t wanted) const {
-  if (id.empty()) return static_cast<std::size_t>(std::min<std::uint64_t>(wanted, x.size()));
-  return static_cast<std::size_t>(std::lower_bound(id.begin(), id.end(), wanted) - id.begin());
-}
-
-std::optional<std::size_t> ParticleArrays::index_of(std::uint64_t wanted) const {
-  const std::size_t index = first_from(wanted);
-  if (index == x.size() || id_of(index) != wanted) return std::nullopt;
-  return index;
-}
-
-Material ParticleArrays::material_of(std::size_t index,
-                                     const std::vector<Material>& materials) const {
-  return scaled(materials[static_cast<std::size_t>(material[index])],
-                stiffness.empty() ? 1 : stiffness[index], threshold.empty() ? 1 : threshold[index]);
-}
-
 Simulation::Simulation(const SolverSettings& settings, const std::vector<Material>& materials,
-                       const std::vector<Collider>& colliders, const ParticleArrays& particles,
-                       int threads, const Vec3i& lattice_origin, const Flow& flow)
-    : impl_(std::make_unique<Impl>(
-          make_engine(settings, materials, colliders, particles, threads, lattice_origin, flow))) {}
+                       const std::vector<shapes::Collider>& colliders,
+                       const ParticleArrays& particles, int threads, const Vec3i& lattice_origin,
+                       const seeding::Flow& flow)
+    : impl_(new Impl{
+          make_engine(settings, materials, colliders, particles, threads, lattice_origin, flow)}) {}
 
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -90,14 +53,14 @@ std::size_t Simulation::steps() const {
 std::size_t Simulation::particle_count() const {
   return impl_->visit([](const auto& e) { return e.particle_count(); });
 }
-FlowTotals Simulation::flow_totals() const {
+seeding::FlowTotals Simulation::flow_totals() const {
   return impl_->visit([](const auto& e) { return e.flow_totals(); });
 }
 int Simulation::threads() const {
   return impl_->visit([](const auto& e) { return e.threads(); });
 }
 const char* Simulation::simd() const {
-  return name(impl_->visit([](const auto& e) { return e.simd(); }));
+  return kernels::name(impl_->visit([](const auto& e) { return e.simd(); }));
 }
 PhaseSeconds Simulation::phase_seconds() const {
   return impl_->visit([](const auto& e) { return e.phase_seconds(); });
@@ -113,16 +76,16 @@ AdvanceReport Simulation::advance_to(double time, bool (*interrupted)(), std::si
   return impl_->visit([&](auto& e) { return e.advance_to(time, interrupted, last_step); });
 }
 void Simulation::apply(const SolverSettings& settings, const std::vector<Material>& materials,
-                       const std::vector<Collider>& colliders) {
+                       const std::vector<shapes::Collider>& colliders) {
   impl_->visit([&](auto& e) { e.apply(settings, materials, colliders); });
 }
-std::vector<Collider> Simulation::colliders() const {
+std::vector<shapes::Collider> Simulation::colliders() const {
   return impl_->visit([](const auto& e) { return e.colliders(); });
 }
-Simulation::Choice Simulation::choose_dt(double remaining) const {
+DtChoice Simulation::choose_dt(double remaining) const {
   return impl_->visit([&](const auto& e) { return e.choose_dt(remaining); });
 }
-Simulation::StepLimits Simulation::step_limits() const {
+StepLimits Simulation::step_limits() const {
   return impl_->visit([](const auto& e) { return e.step_limits(); });
 }
 const std::optional<Divergence>& Simulation::divergence() const {
@@ -190,20 +153,22 @@ std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,
                               const SolverSettings& settings, int threads) {
   const bool is_double = settings.precision == Precision::real64;
   const double real = is_double ? 8 : 4;
-  const double record =
-      static_cast<double>(is_double ? sizeof(Particle<double>) : sizeof(Particle<float>));
+  const double record = static_cast<double>(is_double ? sizeof(kernels::Particle<double>)
+                                                      : sizeof(kernels::Particle<float>));
   // Record, key, local, order and its neighbours in Partition, and what prepare() gathers.
-  const double gathered =
-      static_cast<double>(is_double ? sizeof(Gathered<double>) : sizeof(Gathered<float>));
-  const double kept = settings.is_implicit() ? elasticity_quads * 4 * real : 0;
+  const double gathered = static_cast<double>(is_double ? sizeof(kernels::Gathered<double>)
+                                                        : sizeof(kernels::Gathered<float>));
+  const double kept = settings.is_implicit() ? kernels::elasticity_quads * 4 * real : 0;
   const double per_particle = record + 8 + 2 + 2 * (4 + 2) + 1 + gathered + kept;
   // Snow fills about half of the blocks that it touches; each has a tile, and about two node
   // blocks.
   const double cells = static_cast<double>(particles) / particles_per_cell;
-  const double blocks = std::min(2.0 * cells / block_nodes + 64, static_cast<double>(particles));
-  const double tile = all_channels * Tile<cubic_nodes>::nodes * 4 * real;
-  const int fields = all_channels + 6 + (settings.is_implicit() ? int(solve_vectors) : 0);
-  const double nodes = 2 * fields * block_nodes * 4 * real;
+  const double blocks =
+      std::min(2.0 * cells / kernels::block_nodes + 64, static_cast<double>(particles));
+  const double tile = kernels::all_channels * kernels::Tile<kernels::cubic_nodes>::nodes * 4 * real;
+  const int fields =
+      kernels::all_channels + 6 + (settings.is_implicit() ? int(kernels::solve_vectors) : 0);
+  const double nodes = 2 * fields * kernels::block_nodes * 4 * real;
   const double total = static_cast<double>(particles) * per_particle + blocks * (tile + nodes) +
                        static_cast<double>(threads) * 1e6 + 8e6;
   return total < 1e18 ? static_cast<std::uint64_t>(total) : std::uint64_t(1e18);

@@ -5,7 +5,7 @@
 
 #include "sim/base/hash.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -80,13 +80,14 @@ BenchCase stream_case(int cells_a_side, BenchMethod method, bool flows) {
   std::fill(c.particles.v.begin(), c.particles.v.end(), velocity);
   if (!flows) return c;
   c.material.name = "snow";
-  sim::Emitter above;
+  sim::seeding::Emitter above;
   above.material = c.material.name;
-  above.shape.form = sim::Box{{0.5 * side, side + 0.5 * h, 0.5 * side}, {side, h, side}};
+  above.shape.form = sim::shapes::Box{{0.5 * side, side + 0.5 * h, 0.5 * side}, {side, h, side}};
   above.velocity = velocity;
   above.rate = c.material.density * side * side * velocity.norm();
-  sim::Sink below;
-  below.shape.form = sim::Box{{0.5 * side, -side, 0.5 * side}, {4 * side, 2 * side, 4 * side}};
+  sim::seeding::Sink below;
+  below.shape.form =
+      sim::shapes::Box{{0.5 * side, -side, 0.5 * side}, {4 * side, 2 * side, 4 * side}};
   c.flow.emitters.push_back(above);
   c.flow.sinks.push_back(below);
   return c;
@@ -96,4 +97,4 @@ int packed_cells_a_side(double particles) {
   return std::max(1, static_cast<int>(std::lround(std::cbrt(particles / particles_a_cell))));
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -1,18 +1,18 @@
 #pragma once
 /// The snow that `neve bench sim` pushes around.
 
-#include "sim/material.h"
-#include "sim/settings.h"
 #include "sim/simulation.h"
+#include "sim/types/material.h"
+#include "sim/types/settings.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 /// What makes a simulation.
 struct BenchCase {
   sim::SolverSettings settings;
   sim::Material material;
   sim::ParticleArrays particles;  ///< with volumes
-  sim::Flow flow{};
+  sim::seeding::Flow flow{};
 };
 
 enum class BenchMethod { mls_quadratic, flip_cubic, apic_cubic };
@@ -40,4 +40,4 @@ BenchCase stream_case(int cells_a_side, BenchMethod method, bool flows);
 /// Cells on a side of the packed cube whose particle count is nearest.
 int packed_cells_a_side(double particles);
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

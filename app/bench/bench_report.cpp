@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 
-#include "app/machine.h"
-#include "app/text.h"
-#include "app/version.h"
+#include "app/support/machine.h"
+#include "app/support/text.h"
+#include "app/support/version.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -151,4 +151,4 @@ void print_markdown(std::ostream& out, const std::vector<BenchRow>& rows) {
   print_markdown_table(out, by_phase);
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/json.h"
+#include "app/support/json.h"
 #include "sim/simulation.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 /// Of the rounds of one measurement.
 struct Statistics {
@@ -40,4 +40,4 @@ void print_table(std::ostream& out, const std::vector<BenchRow>& rows);
 /// The same as Markdown tables, with the machine above them.
 void print_markdown(std::ostream& out, const std::vector<BenchRow>& rows);
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -10,21 +10,21 @@
 #include "app/bench/measure.h"
 #include "app/bench/scratch_folder.h"
 #include "app/bench/window.h"
-#include "app/errors.h"
-#include "app/frame_builder.h"
-#include "app/interrupt.h"
-#include "app/machine.h"
 #include "app/output/process.h"
-#include "app/resolve.h"
+#include "app/picture/frame_builder.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/read.h"
-#include "app/scene/value.h"
-#include "app/seed_scene.h"
-#include "app/text.h"
-#include "render/context.h"
+#include "app/scene/toml/value.h"
+#include "app/setup/resolve.h"
+#include "app/setup/seed_scene.h"
+#include "app/support/errors.h"
+#include "app/support/interrupt.h"
+#include "app/support/machine.h"
+#include "app/support/text.h"
+#include "render/gl/context.h"
 #include "render/renderer.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -43,13 +43,14 @@ constexpr BoxSize quick_box{0.16, 0.16, 0.16};
 
 /// A box of the paper's snow that hits the floor within the first frame, 8 particles to a cell.
 /// @param solver more keys of [solver]
-Scene falling_box(const BoxSize& size, const std::string& solver) {
-  const std::string middle = number_text(0.03 + 0.5 * size.y);
-  return read_scene_text(
+scene::Scene falling_box(const BoxSize& size, const std::string& solver) {
+  const std::string middle = scene::toml::number_text(0.03 + 0.5 * size.y);
+  return scene::read_scene_text(
       "frames = 1\nfps = 24\n[solver]\ncell_size = 0.02\n"
       "time_step = \"fixed\"\ndt = 2e-4\n" +
           solver + "[[body]]\nshape = { box = { center = [0, " + middle + ", 0], size = [" +
-          number_text(size.x) + ", " + number_text(size.y) + ", " + number_text(size.z) +
+          scene::toml::number_text(size.x) + ", " + scene::toml::number_text(size.y) + ", " +
+          scene::toml::number_text(size.z) +
           "] } }\nvelocity = [0, -3, 0]\nsampling = \"lattice\"\n"
           "[[collider]]\nshape = { plane = { point = [0, 0, 0], "
           "normal = [0, 1, 0] } }\n[output]\nsize = [640, 360]\n",
@@ -58,8 +59,8 @@ Scene falling_box(const BoxSize& size, const std::string& solver) {
 
 /// A box of snow that hits the floor, adaptive steps as long as motion and strain allow.
 /// @param youngs_modulus Pa
-Scene stiff_box(const BoxSize& size, double youngs_modulus, bool is_implicit) {
-  Scene scene = falling_box(size, mls);
+scene::Scene stiff_box(const BoxSize& size, double youngs_modulus, bool is_implicit) {
+  scene::Scene scene = falling_box(size, mls);
   scene.solver.time_step = sim::TimeStep::adaptive;
   scene.solver.max_dt = 4e-3;
   scene.solver.beta = is_implicit ? 1 : 0;
@@ -72,19 +73,22 @@ Scene stiff_box(const BoxSize& size, double youngs_modulus, bool is_implicit) {
 class Drawing {
  public:
   Drawing(const std::string& backend, int threads)
-      : context_(render::open_context(backend)), pool_(threads), renderer_(*context_, {}, &pool_) {}
+      : context_(render::gl::open_context(backend)),
+        pool_(threads),
+        renderer_(*context_, {}, &pool_) {}
 
   /// Seconds until the picture of the simulation's state is in memory.
-  double draw(const Scene& scene, const sim::Simulation& simulation) {
+  double draw(const scene::Scene& scene, const sim::Simulation& simulation) {
     const Stopwatch watch;
-    const FrameBuilder builder(scene, 0.5 * scene.solver.cell_size, Quality::preview, {}, 1, {});
-    const Snapshot snapshot = take_snapshot(scene, simulation, 1);
+    const picture::FrameBuilder builder(scene, 0.5 * scene.solver.cell_size,
+                                        setup::Quality::preview, {}, 1, {});
+    const picture::Snapshot snapshot = picture::take_snapshot(scene, simulation, 1);
     renderer_.draw(builder.build(scene.views.front(), snapshot));
     return watch.wall();
   }
 
  private:
-  std::unique_ptr<render::Context> context_;
+  std::unique_ptr<render::gl::Context> context_;
   ThreadPool pool_;
   render::Renderer renderer_;
 };
@@ -101,7 +105,8 @@ class FrameBench {
   std::vector<BenchRow> run();
 
  private:
-  double simulate(const std::string& name, const Scene& scene, int frames, bool is_drawn = false);
+  double simulate(const std::string& name, const scene::Scene& scene, int frames,
+                  bool is_drawn = false);
   double first_picture();
   void coarsen_2();
   void implicit_steps();
@@ -139,10 +144,10 @@ void FrameBench::measure(const std::string& name, const std::string& unit, const
 }
 
 /// Seconds that the frames take, from a fresh start; making the particles is not counted.
-double FrameBench::simulate(const std::string& name, const Scene& scene, int frames,
+double FrameBench::simulate(const std::string& name, const scene::Scene& scene, int frames,
                             bool is_drawn) {
-  sim::Simulation simulation(scene.solver, scene.materials, sim_colliders(scene), seed_scene(scene),
-                             options_.threads);
+  sim::Simulation simulation(scene.solver, scene.materials, scene::sim_colliders(scene),
+                             setup::seed_scene(scene), options_.threads);
   threads_ = simulation.threads();
   particles_ = simulation.particle_count();
   simd_ = simulation.simd();
@@ -161,11 +166,11 @@ double FrameBench::simulate(const std::string& name, const Scene& scene, int fra
 double FrameBench::first_picture() {
   const ScratchFolder folder;
   const Stopwatch watch;
-  const ProcessResult result =
-      run_process("/proc/self/exe",
-                  {"render", "--frames", "0", "--quiet", "--out", "out", "--threads",
-                   std::to_string(options_.threads), "--backend", options_.backend},
-                  folder.path());
+  const output::ProcessResult result =
+      output::run_process("/proc/self/exe",
+                          {"render", "--frames", "0", "--quiet", "--out", "out", "--threads",
+                           std::to_string(options_.threads), "--backend", options_.backend},
+                          folder.path());
   const double seconds = watch.wall();
   if (result.exit_code != 0)
     throw Error(exit_internal, "first_picture: neve render failed: " + result.errors);
@@ -174,9 +179,9 @@ double FrameBench::first_picture() {
 
 /// Simulation time of the default scene in cells twice as large, over that of the scene itself.
 void FrameBench::coarsen_2() {
-  const Scene full = read_scene_file(default_scene().string());
-  Scene coarse = full;
-  coarsen(coarse, 2);
+  const scene::Scene full = scene::read_scene_file(default_scene().string());
+  scene::Scene coarse = full;
+  scene::coarsen(coarse, 2);
   const int frames = options_.is_quick ? std::min(full.frames, 2) : full.frames;
   measure("coarsen_2", "of the full time", [&] {
     const double few = simulate("coarsen_2", coarse, frames);
@@ -188,8 +193,8 @@ void FrameBench::coarsen_2() {
 void FrameBench::implicit_steps() {
   const BoxSize& size = options_.is_quick ? quick_box : middle_box;
   const double youngs_modulus = 1.4e5;  // stiffer snow breaks a rule in steps as long as these
-  const Scene by_solve = stiff_box(size, youngs_modulus, true);
-  const Scene by_force = stiff_box(size, youngs_modulus, false);
+  const scene::Scene by_solve = stiff_box(size, youngs_modulus, true);
+  const scene::Scene by_force = stiff_box(size, youngs_modulus, false);
   const std::string row = "implicit_snow";
   std::vector<double> ratios;
   measure(row, "s", [&] {
@@ -206,13 +211,14 @@ void FrameBench::implicit_steps() {
 
 std::vector<BenchRow> FrameBench::run() {
   const BoxSize& large = options_.is_quick ? quick_box : large_box;
-  const Scene flip_scene = falling_box(large, flip), mls_scene = falling_box(large, mls);
-  Scene small = falling_box(small_box, flip);
-  resolve(small, 4000);
+  const scene::Scene flip_scene = falling_box(large, flip), mls_scene = falling_box(large, mls);
+  scene::Scene small = falling_box(small_box, flip);
+  setup::resolve(small, 4000);
   measure("flip_cubic_300k", "s", [&] { return simulate("flip_cubic_300k", flip_scene, 1); });
   measure("mls_quadratic_300k", "s", [&] { return simulate("mls_quadratic_300k", mls_scene, 1); });
-  drawing_.draw(small, sim::Simulation(small.solver, small.materials, sim_colliders(small),
-                                       seed_scene(small), 1));  // the first one compiles shaders
+  drawing_.draw(small,
+                sim::Simulation(small.solver, small.materials, scene::sim_colliders(small),
+                                setup::seed_scene(small), 1));  // the first one compiles shaders
   measure("flip_cubic_4000_drawn", "s",
           [&] { return simulate("flip_cubic_4000_drawn", small, 1, true); });
   implicit_steps();
@@ -230,4 +236,4 @@ std::vector<BenchRow> bench_frame(const BenchOptions& options, Progress& progres
   return bench.run();
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -8,10 +8,10 @@
 #include <ctime>
 #include <fstream>
 
-#include "app/errors.h"
-#include "app/interrupt.h"
+#include "app/support/errors.h"
+#include "app/support/interrupt.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -80,4 +80,4 @@ void stop_if_interrupted() {
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted");
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-namespace neve::app {
+namespace neve::app::bench {
 
 /// Seconds since it was made.
 class Stopwatch {
@@ -41,4 +41,4 @@ std::string build_fault();
 /// @throws Error with exit_interrupted after Ctrl-C
 void stop_if_interrupted();
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -249,4 +249,4 @@ sim::ParticleArrays NaiveSnow::particles() const {
   return out;
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -10,11 +10,11 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/material.h"
-#include "sim/settings.h"
 #include "sim/simulation.h"
+#include "sim/types/material.h"
+#include "sim/types/settings.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 class NaiveSnow {
  public:
@@ -68,4 +68,4 @@ class NaiveSnow {
   Eigen::Vector3i first_{0, 0, 0}, size_{0, 0, 0};  ///< corner of the grid and its nodes
 };
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -4,10 +4,10 @@
 
 #include "app/bench/measure.h"
 #include "app/bench/window.h"
-#include "app/errors.h"
-#include "app/text.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -97,4 +97,4 @@ void Race::check_agreement(const Runner& runner) const {
               name_, "this is a fault of the program: please report it");
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -7,7 +7,7 @@
 #include "app/bench/bench_report.h"
 #include "app/bench/naive.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 /// All start together and are advanced in turns, so that they meet the same snow in the same
 /// minute. Measured in CPU time, which other processes on the machine hardly change.
@@ -39,4 +39,4 @@ class Race {
   std::vector<double> naive_seconds_, particle_steps_;
 };
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

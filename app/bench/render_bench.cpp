@@ -8,12 +8,12 @@
 
 #include "app/bench/measure.h"
 #include "app/bench/render_frames.h"
-#include "app/text.h"
-#include "render/context.h"
-#include "render/draw_kernels.h"
+#include "app/support/text.h"
+#include "render/cpu/draw_kernels.h"
+#include "render/gl/context.h"
 #include "render/renderer.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -49,7 +49,7 @@ class RenderBench {
   BenchOptions options_;
   Progress& progress_;
   int rounds_;
-  std::unique_ptr<render::Context> context_;
+  std::unique_ptr<render::gl::Context> context_;
   ThreadPool pool_;
   render::Renderer renderer_, by_gl_, by_cpu_;
   render::Image picture_;  ///< the last one of the main size
@@ -67,7 +67,7 @@ RenderBench::RenderBench(const BenchOptions& options, Progress& progress)
       rounds_(options.rounds > 0 ? options.rounds
               : options.is_quick ? 1
                                  : 7),
-      context_(render::open_context(options.backend)),
+      context_(render::gl::open_context(options.backend)),
       pool_(options.threads),
       renderer_(*context_, {}, &pool_),
       by_gl_(*context_, {}, &pool_, render::ParticlePath::gl),
@@ -183,7 +183,7 @@ std::vector<BenchRow> RenderBench::rows() const {
     row.name = name;
     row.threads = pool_.thread_count();
     row.particles = samples.particles;
-    row.simd = render::chosen_draw_kernels().simd;
+    row.simd = render::cpu::chosen_draw_kernels().simd;
     row.value = statistics_of(samples.milliseconds);
     row.unit = "ms";
     rows.push_back(row);
@@ -209,4 +209,4 @@ std::vector<BenchRow> bench_render(const BenchOptions& options, Progress& progre
   return RenderBench(options, progress).run();
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "render/mesh_shapes.h"
+#include "render/shapes/mesh_shapes.h"
 #include "sim/base/hash.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -105,10 +105,10 @@ render::Frame all_layers_frame(double particles) {
   render::Frame frame = particles_frame(particles);
   add_smoke(frame.smoke);
   add_slice(frame);
-  frame.meshes.push_back(render::sphere_mesh({0.75f, -0.35f, 0.7f}, 0.15f));
+  frame.meshes.push_back(render::shapes::sphere_mesh({0.75f, -0.35f, 0.7f}, 0.15f));
   frame.legends.push_back({"speed", "m/s", render::ColorMap::viridis, 0, 1});
   frame.caption = {"neve bench render", "frame 24   t = 1.000 s", "all layers"};
   return frame;
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -1,9 +1,9 @@
 #pragma once
 /// The pictures that `neve bench render` draws: the same ones on every machine.
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 /// A ball of packed points on a slab of them, on the ground, at 1280x720.
 /// @param particles about so many
@@ -13,4 +13,4 @@ render::Frame particles_frame(double particles);
 /// slice, a solid, a legend and a caption.
 render::Frame all_layers_frame(double particles);
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

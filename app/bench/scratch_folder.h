@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/errors.h"
+#include "app/support/errors.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 class ScratchFolder {
  public:
@@ -31,4 +31,4 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -8,11 +8,11 @@
 #include "app/bench/measure.h"
 #include "app/bench/race.h"
 #include "app/bench/window.h"
-#include "app/errors.h"
-#include "app/machine.h"
-#include "app/text.h"
+#include "app/support/errors.h"
+#include "app/support/machine.h"
+#include "app/support/text.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -277,4 +277,4 @@ std::vector<BenchRow> bench_curve(const BenchOptions& options, Progress& progres
   return rows;
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

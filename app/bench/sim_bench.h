@@ -3,11 +3,11 @@
 
 #include <vector>
 
+#include "app/bench/bench_options.h"
 #include "app/bench/bench_report.h"
-#include "app/commands.h"
-#include "app/progress.h"
+#include "app/support/progress.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 /// The common case in all variants against the naive code, spray, scaling.
 /// @throws Error when the case diverges, the codes disagree or memory does not suffice
@@ -16,4 +16,4 @@ std::vector<BenchRow> bench_sim(const BenchOptions& options, Progress& progress)
 /// Throughput from a thousand particles to the most that fit.
 std::vector<BenchRow> bench_curve(const BenchOptions& options, Progress& progress);
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

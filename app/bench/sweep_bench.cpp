@@ -4,18 +4,19 @@
 
 #include "app/bench/measure.h"
 #include "app/bench/scratch_folder.h"
-#include "app/errors.h"
-#include "app/machine.h"
 #include "app/output/atomic_file.h"
-#include "app/output/run_json.h"
-#include "app/sweep/engine.h"
-#include "app/sweep/look.h"
-#include "app/sweep/prepare.h"
-#include "app/sweep/store.h"
-#include "app/sweep/sweep_plan.h"
-#include "sim/simd.h"
+#include "app/run/run_json.h"
+#include "app/support/errors.h"
+#include "app/support/machine.h"
+#include "app/sweep/jobs/engine.h"
+#include "app/sweep/plan/look.h"
+#include "app/sweep/plan/sweep_options.h"
+#include "app/sweep/plan/sweep_plan.h"
+#include "app/sweep/store/prepare.h"
+#include "app/sweep/store/store.h"
+#include "sim/kernels/simd.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -39,36 +40,39 @@ struct Round {
 };
 
 /// Seconds that a run spent on what it is for.
-double seconds_of_work(const std::filesystem::path& folder, const ManifestRun& run) {
+double seconds_of_work(const std::filesystem::path& folder, const sweep::store::ManifestRun& run) {
   double seconds = 0;
-  for (const FrameRecord& frame : read_frame_records(runs_folder(folder) / run.folder))
+  for (const run::FrameRecord& frame :
+       run::read_frame_records(sweep::store::runs_folder(folder) / run.folder))
     seconds += frame.seconds_sim + frame.seconds_render;
   return seconds;
 }
 
 Round measure_round(const BenchOptions& options, int cores, int run_count, Progress& progress) {
   const ScratchFolder scratch;
-  write_file(scratch.path() / "scene.toml", scene_text);
-  SweepOptions sweep;
+  output::write_file(scratch.path() / "scene.toml", scene_text);
+  sweep::plan::SweepOptions sweep;
   sweep.file = (scratch.path() / "scene.toml").string();
   sweep.axes = {"seed={ range = [1, " + std::to_string(run_count) + "] }"};
   sweep.out = (scratch.path() / "out").string();
-  SweepPlan plan = plan_sweep(sweep);
-  share_look(plan, cores);
-  const Manifest manifest = prepare_sweep(plan);
-  EngineOptions engine;
+  sweep::plan::SweepPlan plan = sweep::plan::plan_sweep(sweep);
+  sweep::plan::share_look(plan, cores);
+  const sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan);
+  sweep::jobs::EngineOptions engine;
   engine.cores = cores;
   engine.backend = options.backend;
   engine.program = this_program();
   std::vector<int> all;
-  for (const ManifestRun& run : manifest.runs) all.push_back(run.index);
-  const EngineResult result = run_local(plan.folder, manifest, all, engine, progress);
+  for (const sweep::store::ManifestRun& run : manifest.runs) all.push_back(run.index);
+  const sweep::jobs::EngineResult result =
+      sweep::jobs::run_local(plan.folder, manifest, all, engine, progress);
   stop_if_interrupted();
   if (result.failed > 0) throw Error(exit_internal, "a run of the bench failed");
   double overhead = 0;
-  for (const ManifestRun& run : manifest.runs)
-    overhead += read_report(runs_folder(plan.folder) / run.folder).seconds -
-                seconds_of_work(plan.folder, run);
+  for (const sweep::store::ManifestRun& run : manifest.runs)
+    overhead +=
+        sweep::store::read_report(sweep::store::runs_folder(plan.folder) / run.folder).seconds -
+        seconds_of_work(plan.folder, run);
   return {result.core_seconds / (cores * result.seconds), overhead / run_count};
 }
 
@@ -92,7 +96,7 @@ std::vector<BenchRow> bench_sweep(const BenchOptions& options, Progress& progres
     result.name = name;
     result.threads = cores;
     result.particles = 4500;
-    result.simd = sim::name(sim::chosen_simd_level());
+    result.simd = sim::kernels::name(sim::kernels::chosen_simd_level());
     result.value = statistics_of(samples);
     result.unit = unit;
     return result;
@@ -100,4 +104,4 @@ std::vector<BenchRow> bench_sweep(const BenchOptions& options, Progress& progres
   return {row("cores_busy", busy, "%"), row("overhead_per_run", overhead, "s")};
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -7,11 +7,11 @@
 #include "app/bench/scratch_folder.h"
 #include "app/output/atomic_file.h"
 #include "app/view/viewer.h"
-#include "render/context.h"
-#include "render/jpeg.h"
-#include "sim/simd.h"
+#include "render/gl/context.h"
+#include "render/image/jpeg.h"
+#include "sim/kernels/simd.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -38,33 +38,33 @@ target = [0, 0.25, 0]
 constexpr int picture_width = 960, picture_height = 540;
 
 /// Somebody who drags the camera without pause, at a page that takes every picture at once.
-class BenchFront : public Front {
+class BenchFront : public view::front::Front {
  public:
   explicit BenchFront(int pictures) : pictures_(pictures) {}
 
   std::string where() const override { return "bench"; }
-  ScreenSize size() const override { return {picture_width, picture_height, 1}; }
+  view::front::ScreenSize size() const override { return {picture_width, picture_height, 1}; }
 
-  std::vector<InputEvent> wait(double) override {
+  std::vector<view::front::InputEvent> wait(double) override {
     asked_ = Stopwatch();
-    std::vector<InputEvent> events;
-    InputEvent event;
+    std::vector<view::front::InputEvent> events;
+    view::front::InputEvent event;
     event.x = 480 + 200 * std::sin(0.05f * static_cast<float>(shown_));
     event.y = 270 + 60 * std::cos(0.08f * static_cast<float>(shown_));
     if (shown_ == 0) {
-      InputEvent hide;  // the panels: all of the window is picture
-      hide.kind = InputEvent::Kind::key;
-      hide.key = key::tab;
+      view::front::InputEvent hide;  // the panels: all of the window is picture
+      hide.kind = view::front::InputEvent::Kind::key;
+      hide.key = view::front::key::tab;
       hide.is_down = true;
       events.push_back(hide);
       hide.is_down = false;
       events.push_back(hide);
     }
     if (shown_ == 8) {
-      event.kind = InputEvent::Kind::button;
+      event.kind = view::front::InputEvent::Kind::button;
       event.is_down = true;
     }
-    if (shown_ >= pictures_) event.kind = InputEvent::Kind::close;
+    if (shown_ >= pictures_) event.kind = view::front::InputEvent::Kind::close;
     events.push_back(event);
     return events;
   }
@@ -103,17 +103,17 @@ struct ViewRound {
 };
 
 ViewRound measure_view(const std::string& file, const BenchOptions& options, bool is_running) {
-  const auto context = render::open_context(options.backend);
+  const auto context = render::gl::open_context(options.backend);
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, {}, &pool);
   render::Screen screen(*context);
   BenchFront front(options.is_quick ? 30 : 150);
-  WorkbenchOptions bench_options;
+  view::session::WorkbenchOptions bench_options;
   bench_options.session.threads = options.threads;
-  Workbench bench(open_document(file, {}, 1), bench_options, {});
-  ViewerOptions viewer_options;
+  view::session::Workbench bench(view::session::open_document(file, {}, 1), bench_options, {});
+  view::ViewerOptions viewer_options;
   viewer_options.is_running = is_running;
-  Viewer viewer(bench, front, screen, renderer, viewer_options);
+  view::Viewer viewer(bench, front, screen, renderer, viewer_options);
   viewer.run();
   front.stop_clock();
   stop_if_interrupted();
@@ -126,7 +126,7 @@ ViewRound measure_view(const std::string& file, const BenchOptions& options, boo
 std::vector<BenchRow> bench_view(const BenchOptions& options, Progress& progress) {
   const ScratchFolder scratch;
   const std::string file = (scratch.path() / "scene.toml").string();
-  write_file(file, viewed_scene);
+  output::write_file(file, viewed_scene);
   const int rounds = options.rounds > 0 ? options.rounds : options.is_quick ? 1 : 3;
   std::vector<double> running_rate, running_answer, paused_rate, paused_answer;
   std::size_t particles = 0;
@@ -149,7 +149,7 @@ std::vector<BenchRow> bench_view(const BenchOptions& options, Progress& progress
     result.name = name;
     result.threads = threads;
     result.particles = particles;
-    result.simd = sim::name(sim::chosen_simd_level());
+    result.simd = sim::kernels::name(sim::kernels::chosen_simd_level());
     result.value = statistics_of(samples);
     result.unit = unit;
     return result;
@@ -160,4 +160,4 @@ std::vector<BenchRow> bench_view(const BenchOptions& options, Progress& progress
           row("input_to_picture_paused", paused_answer, "ms")};
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -4,13 +4,13 @@
 
 #include <vector>
 
+#include "app/bench/bench_options.h"
 #include "app/bench/bench_report.h"
-#include "app/commands.h"
-#include "app/progress.h"
+#include "app/support/progress.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 /// @throws render::ContextError, Error
 std::vector<BenchRow> bench_view(const BenchOptions& options, Progress& progress);
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "app/bench/measure.h"
-#include "app/errors.h"
+#include "app/support/errors.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 namespace {
 
@@ -115,4 +115,4 @@ Statistics memory_ratio(const Samples& a, const Samples& b) {
   return ratio_of_each(a, b, bytes_a_particle);
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

@@ -7,7 +7,7 @@
 #include "app/bench/bench_case.h"
 #include "app/bench/bench_report.h"
 
-namespace neve::app {
+namespace neve::app::bench {
 
 struct Window {
   double seconds = 0;        ///< wall, of all steps
@@ -49,4 +49,4 @@ Statistics memory_ratio(const Samples& a, const Samples& b);
 void run_steps(sim::Simulation& simulation, int steps);
 void check_health(const sim::Simulation& simulation, const std::string& name);
 
-}  // namespace neve::app
+}  // namespace neve::app::bench

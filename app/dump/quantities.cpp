@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/dump/expected.h"
-#include "app/scene/error.h"
-#include "app/text.h"
-#include "sim/diagnostics.h"
+#include "app/health/expected.h"
+#include "app/scene/toml/error.h"
+#include "app/support/text.h"
+#include "sim/health/diagnostics.h"
 
-namespace neve::app {
+namespace neve::app::dump {
 
 namespace {
 
@@ -18,7 +18,7 @@ using sim::Mat3d;
 using sim::Vec3d;
 
 Quantity quantity(const char* name, const char* unit, int components,
-                  const std::optional<Expectation>& expected = std::nullopt) {
+                  const std::optional<health::Expectation>& expected = std::nullopt) {
   Quantity q;
   q.name = name;
   q.unit = unit;
@@ -31,14 +31,14 @@ Quantity quantity(const char* name, const char* unit, int components,
 }
 
 Quantity scalars(const char* name, const char* unit, const std::vector<double>& values,
-                 const std::optional<Expectation>& expected = std::nullopt) {
+                 const std::optional<health::Expectation>& expected = std::nullopt) {
   Quantity q = quantity(name, unit, 1, expected);
   q.values = values;
   return q;
 }
 
 Quantity vectors(const char* name, const char* unit, const std::vector<Vec3d>& values,
-                 const std::optional<Expectation>& expected = std::nullopt) {
+                 const std::optional<health::Expectation>& expected = std::nullopt) {
   Quantity q = quantity(name, unit, 3, expected);
   for (const Vec3d& v : values)
     for (int a = 0; a < 3; ++a) q.values.push_back(v[a]);
@@ -46,7 +46,7 @@ Quantity vectors(const char* name, const char* unit, const std::vector<Vec3d>& v
 }
 
 Quantity tensors(const char* name, const char* unit, const std::vector<Mat3d>& values,
-                 const std::optional<Expectation>& expected = std::nullopt) {
+                 const std::optional<health::Expectation>& expected = std::nullopt) {
   Quantity q = quantity(name, unit, 9, expected);
   for (const Mat3d& F : values)
     for (int a = 0; a < 3; ++a)
@@ -70,7 +70,8 @@ std::vector<Vec3d> singular_values(const std::vector<Mat3d>& F) {
 }
 
 /// Smallest and largest stretch apart, so that each can be compared with its limit.
-void add_stretches(const std::vector<Mat3d>& F, const Expected& expected, Listing& listing) {
+void add_stretches(const std::vector<Mat3d>& F, const health::Expected& expected,
+                   Listing& listing) {
   std::vector<double> least, greatest;
   for (const Vec3d& s : singular_values(F)) {
     least.push_back(s[2]);
@@ -80,18 +81,19 @@ void add_stretches(const std::vector<Mat3d>& F, const Expected& expected, Listin
   listing.quantities.push_back(scalars("stretch_max", "", greatest, expected.stretch()));
 }
 
-void add_deformation(const sim::ParticleArrays& p, const Expected& expected, Listing& listing) {
+void add_deformation(const sim::ParticleArrays& p, const health::Expected& expected,
+                     Listing& listing) {
   listing.quantities.push_back(tensors("F_E", "", p.F_E));
   listing.quantities.push_back(scalars("J_E", "", determinants(p.F_E), expected.J_E()));
   add_stretches(p.F_E, expected, listing);
   listing.quantities.push_back(scalars("J_P", "", p.J_P, expected.J_P()));
 }
 
-std::vector<double> elastic_energies(const Scene& scene, const sim::ParticleArrays& p) {
+std::vector<double> elastic_energies(const scene::Scene& scene, const sim::ParticleArrays& p) {
   std::vector<double> energies;
   for (std::size_t q = 0; q < p.x.size(); ++q)
-    energies.push_back(p.V0[q] *
-                       sim::energy_density(p.material_of(q, scene.materials), p.F_E[q], p.J_P[q]));
+    energies.push_back(p.V0[q] * sim::health::energy_density(p.material_of(q, scene.materials),
+                                                             p.F_E[q], p.J_P[q]));
   return energies;
 }
 
@@ -122,7 +124,7 @@ std::vector<Vec3d> difference(const std::vector<Vec3d>& a, const std::vector<Vec
   return out;
 }
 
-Listing nodes_after(const Inside& inside, const Expected& expected, sim::Stage stage) {
+Listing nodes_after(const Inside& inside, const health::Expected& expected, sim::Stage stage) {
   const sim::NodeFields& n = inside.step.nodes;
   Listing listing;
   listing.is_of_nodes = true;
@@ -181,8 +183,8 @@ std::string component_name(const Quantity& quantity, int component) {
   return quantity.name + "_" + axes[component / 3] + axes[component % 3];
 }
 
-Inside look_inside(const Scene& scene, const sim::Simulation& simulation, double remaining) {
-  const sim::Simulation::Choice choice = simulation.choose_dt(remaining);
+Inside look_inside(const scene::Scene& scene, const sim::Simulation& simulation, double remaining) {
+  const sim::DtChoice choice = simulation.choose_dt(remaining);
   return {scene,
           simulation,
           choice.dt,
@@ -193,7 +195,7 @@ Inside look_inside(const Scene& scene, const sim::Simulation& simulation, double
 
 Listing list_state(const Inside& inside) {
   const sim::ParticleArrays& p = inside.before;
-  const Expected expected(inside.scene, p, inside.dt);
+  const health::Expected expected(inside.scene, p, inside.dt);
   Listing listing = particles_at(p);
   auto& q = listing.quantities;
   q.push_back(vectors("v", "m/s", p.v, expected.speed()));
@@ -209,7 +211,7 @@ Listing list_state(const Inside& inside) {
 
 Listing list_stage(const Inside& inside, sim::Stage stage) {
   using enum sim::Stage;
-  const Expected expected(inside.scene, inside.before, inside.dt);
+  const health::Expected expected(inside.scene, inside.before, inside.dt);
   if (stage == rasterize || (stage >= elastic_forces && stage <= implicit_solve))
     return nodes_after(inside, expected, stage);
   const sim::StagedStep& step = inside.step;
@@ -234,9 +236,9 @@ Listing list_stage(const Inside& inside, sim::Stage stage) {
       q.push_back(vectors("v", "m/s", step.after.v, expected.speed()));
       break;
     default:  // advection, and the colliders that move with it
-      q.push_back(
-          vectors("moved", "m", difference(step.after.x, inside.before.x),
-                  Expectation{{0, expected.speed().range.max * inside.dt}, "speed times dt"}));
+      q.push_back(vectors(
+          "moved", "m", difference(step.after.x, inside.before.x),
+          health::Expectation{{0, expected.speed().range.max * inside.dt}, "speed times dt"}));
       q.push_back(vectors("v", "m/s", step.after.v, expected.speed()));
   }
   return listing;
@@ -250,10 +252,11 @@ void keep_only(Listing& listing, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end())
-      throw UsageError("--field", "there is no \"" + name + "\" here", names_advice(name, known));
+      throw scene::toml::UsageError("--field", "there is no \"" + name + "\" here",
+                                    names_advice(name, known));
     kept.push_back(listing.quantities[static_cast<std::size_t>(found - known.begin())]);
   }
   listing.quantities = std::move(kept);
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::dump

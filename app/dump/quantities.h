@@ -10,7 +10,7 @@
 #include "sim/simulation.h"
 #include "sim/staged.h"
 
-namespace neve::app {
+namespace neve::app::dump {
 
 /// Numbers at nodes or particles: 1, 3 (a vector) or 9 (a tensor, row by row) each.
 struct Quantity {
@@ -19,7 +19,7 @@ struct Quantity {
   std::vector<double> values;
   /// What magnitudes (of vectors the length, of tensors the Frobenius norm) lie in when all is
   /// well, and why.
-  std::optional<Range> expected;
+  std::optional<scene::Range> expected;
   std::string why;
 
   std::size_t rows() const { return values.size() / static_cast<std::size_t>(components); }
@@ -33,14 +33,14 @@ std::string component_name(const Quantity& quantity, int component);
 
 /// A step that is looked at: the state before it and what its stages leave.
 struct Inside {
-  const Scene& scene;
+  const scene::Scene& scene;
   const sim::Simulation& simulation;
   double dt;  ///< s
   sim::DtLimit limit;
   sim::StagedStep step;
   sim::ParticleArrays before;
 };
-Inside look_inside(const Scene& scene, const sim::Simulation& simulation, double remaining);
+Inside look_inside(const scene::Scene& scene, const sim::Simulation& simulation, double remaining);
 
 /// Either nodes (place and index known) or particles (id order).
 struct Listing {
@@ -63,4 +63,4 @@ Listing list_stage(const Inside& inside, sim::Stage stage);
 /// @throws UsageError with the nearest name
 void keep_only(Listing& listing, const std::vector<std::string>& names);
 
-}  // namespace neve::app
+}  // namespace neve::app::dump

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "app/text.h"
+#include "app/support/text.h"
 
-namespace neve::app {
+namespace neve::app::dump {
 
 namespace {
 
@@ -29,7 +29,7 @@ std::string value_text(const Quantity& q, double value) {
 
 std::string expected_text(const Quantity& q) {
   if (!q.expected) return "";
-  const Range r = *q.expected;
+  const scene::Range r = *q.expected;
   if (!std::isfinite(r.max)) return "any (" + q.why + ")";
   return rough_text(r.min) + " to " + rough_text(r.max) + " (" + q.why + ")";
 }
@@ -208,4 +208,4 @@ Json probe_json(const Listing& listing, std::size_t row) {
   return json;
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::dump

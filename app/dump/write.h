@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "app/dump/quantities.h"
-#include "app/json.h"
+#include "app/support/json.h"
 
-namespace neve::app {
+namespace neve::app::dump {
 
 /// One line per quantity: least and greatest magnitude, what is expected, how many are outside.
 std::vector<std::string> summary_lines(const Listing& listing);
@@ -24,4 +24,4 @@ std::vector<std::string> probe_lines(const Listing& listing, std::size_t row);
 Json summary_json(const Listing& listing);
 Json probe_json(const Listing& listing, std::size_t row);
 
-}  // namespace neve::app
+}  // namespace neve::app::dump

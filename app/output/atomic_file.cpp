@@ -10,7 +10,7 @@
 #include <string>
 #include <system_error>
 
-namespace neve::app {
+namespace neve::app::output {
 
 namespace {
 
@@ -139,4 +139,4 @@ void ignore_write_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::output

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/errors.h"
+#include "app/support/errors.h"
 
-namespace neve::app {
+namespace neve::app::output {
 
 /// Whether the bytes must survive a power cut before the call returns.
 enum class Durability { cached, synced };
@@ -37,4 +37,4 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path,
 /// Full disks and closed pipes then come back as errors of write() instead of killing the process.
 void ignore_write_signals();
 
-}  // namespace neve::app
+}  // namespace neve::app::output

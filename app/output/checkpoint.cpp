@@ -9,7 +9,7 @@
 
 #include "app/output/atomic_file.h"
 
-namespace neve::app {
+namespace neve::app::output {
 
 namespace {
 
@@ -121,4 +121,4 @@ void remove_checkpoints(const fs::path& folder) {
   fs::remove(folder_of(folder), error);  // only when nothing else is in it
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::output

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/json.h"
+#include "app/support/json.h"
 
-namespace neve::app {
+namespace neve::app::output {
 
 struct Checkpoint {
   /// What has to be the same for a run to go on: version, resolved scene, quality, contents of
@@ -36,4 +36,4 @@ FoundCheckpoint find_checkpoint(const std::filesystem::path& folder);
 /// Of a run that starts anew. Other files stay.
 void remove_checkpoints(const std::filesystem::path& folder);
 
-}  // namespace neve::app
+}  // namespace neve::app::output

@@ -9,7 +9,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/process.h"
 
-namespace neve::app {
+namespace neve::app::output {
 
 namespace fs = std::filesystem;
 
@@ -106,4 +106,4 @@ MovieResult write_movie(const MovieRequest& request) {
   return {MovieOutcome::written, {}};
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::output

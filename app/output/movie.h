@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace neve::app {
+namespace neve::app::output {
 
 struct MovieRequest {
   std::filesystem::path picture_folder;  ///< holds 0000.png ...
@@ -26,4 +26,4 @@ struct MovieResult {
 /// Never throws for what ffmpeg does.
 MovieResult write_movie(const MovieRequest& request);
 
-}  // namespace neve::app
+}  // namespace neve::app::output

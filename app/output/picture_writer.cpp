@@ -2,7 +2,7 @@
 
 #include "app/output/atomic_file.h"
 
-namespace neve::app {
+namespace neve::app::output {
 
 PictureWriter::PictureWriter() : worker_([this] { work(); }) {}
 
@@ -61,4 +61,4 @@ void PictureWriter::rethrow_failure() {
   if (failure_) std::rethrow_exception(failure_);
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::output

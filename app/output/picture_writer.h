@@ -8,9 +8,9 @@
 #include <mutex>
 #include <thread>
 
-#include "render/image.h"
+#include "render/image/image.h"
 
-namespace neve::app {
+namespace neve::app::output {
 
 struct Picture {
   std::filesystem::path file;
@@ -47,4 +47,4 @@ class PictureWriter {
   std::thread worker_;
 };
 
-}  // namespace neve::app
+}  // namespace neve::app::output

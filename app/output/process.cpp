@@ -15,7 +15,7 @@
 
 extern "C" char** environ;
 
-namespace neve::app {
+namespace neve::app::output {
 
 namespace {
 
@@ -135,4 +135,4 @@ std::optional<std::filesystem::path> find_program(const std::string& name) {
   return std::nullopt;
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::output

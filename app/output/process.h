@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace neve::app {
+namespace neve::app::output {
 
 struct ProcessResult {
   bool has_started = false;
@@ -24,4 +24,4 @@ ProcessResult run_process(const std::filesystem::path& program,
 /// Searches PATH for an executable file.
 std::optional<std::filesystem::path> find_program(const std::string& name);
 
-}  // namespace neve::app
+}  // namespace neve::app::output

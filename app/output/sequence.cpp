@@ -1,5 +1,4 @@
 #include "app/output/sequence.h"
-#include "app/incident.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -7,10 +6,10 @@
 #include <system_error>
 #include <vector>
 
-#include "app/json.h"
 #include "app/output/atomic_file.h"
+#include "app/support/json.h"
 
-namespace neve::app {
+namespace neve::app::output {
 
 namespace fs = std::filesystem;
 
@@ -106,4 +105,4 @@ std::size_t remove_earlier_run(const fs::path& folder) {
   return removed;
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::output

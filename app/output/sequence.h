@@ -4,7 +4,10 @@
 #include <filesystem>
 #include <string>
 
-namespace neve::app {
+namespace neve::app::output {
+
+/// Name of the slice through the culprit of a diverged run, next to the pictures of its views.
+inline constexpr const char* culprit_view = "culprit_slice";
 
 /// [A-Za-z0-9_-]+: safe as the name of a folder.
 bool is_plain_name(const std::string& name);
@@ -25,4 +28,4 @@ std::filesystem::path run_json_path(const std::filesystem::path& folder);
 /// @return how many files were removed
 std::size_t remove_earlier_run(const std::filesystem::path& folder);
 
-}  // namespace neve::app
+}  // namespace neve::app::output

@@ -7,13 +7,13 @@
 #include "app/scene/leaf.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
-#include "app/text.h"
-#include "sim/blocks.h"
-#include "sim/contact.h"
-#include "sim/mesh_surface.h"
-#include "sim/solid.h"
+#include "app/support/text.h"
+#include "sim/kernels/blocks.h"
+#include "sim/kernels/contact.h"
+#include "sim/shapes/mesh_surface.h"
+#include "sim/shapes/solid.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 namespace {
 
 using Found = std::optional<Problem>;
@@ -22,25 +22,25 @@ using Found = std::optional<Problem>;
 constexpr double negligible = 1e-6;
 
 /// The solver's lattice of nodes ends there; the reach of a stencil is left.
-constexpr double max_cells_from_origin = 4.0 * sim::block_limit - 8;
+constexpr double max_cells_from_origin = 4.0 * sim::kernels::block_limit - 8;
 
-Found problem(const sim::Torus& torus, const std::string& at) {
+Found problem(const sim::shapes::Torus& torus, const std::string& at) {
   if (torus.minor_radius <= torus.major_radius) return {};
   return Problem{at + ".torus.minor_radius", "minor_radius is larger than major_radius",
                  "a tube thicker than its ring overlaps itself"};
 }
 
-Found problem(const sim::Plane& plane, const std::string& at) {
+Found problem(const sim::shapes::Plane& plane, const std::string& at) {
   if (plane.normal.norm() > negligible) return {};
   return Problem{at + ".plane.normal", "normal is zero", "it points out of the solid side"};
 }
 
-Found problem(const sim::Mesh& mesh, const std::string& at) {
+Found problem(const sim::shapes::Mesh& mesh, const std::string& at) {
   if (!mesh.file.empty()) return {};
   return Problem{at + ".mesh", "mesh has no file", "give file = \"NAME.obj\""};
 }
 
-Found problem(const sim::Points& points, const std::string& at) {
+Found problem(const sim::shapes::Points& points, const std::string& at) {
   if (!points.file.empty()) return {};
   return Problem{at + ".points", "points have no file", "give file = \"NAME.ply\" or .csv"};
 }
@@ -52,15 +52,15 @@ Found problem(const Form&, const std::string&) {
 
 /// The key of where a form stands.
 struct PlaceKey {
-  const char* operator()(const sim::Capsule&) const { return ".capsule.a"; }
-  const char* operator()(const sim::Plane&) const { return ".plane.point"; }
-  const char* operator()(const sim::Sphere&) const { return ".sphere.center"; }
-  const char* operator()(const sim::Box&) const { return ".box.center"; }
-  const char* operator()(const sim::Cylinder&) const { return ".cylinder.center"; }
-  const char* operator()(const sim::Cone&) const { return ".cone.center"; }
-  const char* operator()(const sim::Torus&) const { return ".torus.center"; }
-  const char* operator()(const sim::Mesh&) const { return ".mesh.center"; }
-  const char* operator()(const sim::Points&) const { return ".points.center"; }
+  const char* operator()(const sim::shapes::Capsule&) const { return ".capsule.a"; }
+  const char* operator()(const sim::shapes::Plane&) const { return ".plane.point"; }
+  const char* operator()(const sim::shapes::Sphere&) const { return ".sphere.center"; }
+  const char* operator()(const sim::shapes::Box&) const { return ".box.center"; }
+  const char* operator()(const sim::shapes::Cylinder&) const { return ".cylinder.center"; }
+  const char* operator()(const sim::shapes::Cone&) const { return ".cone.center"; }
+  const char* operator()(const sim::shapes::Torus&) const { return ".torus.center"; }
+  const char* operator()(const sim::shapes::Mesh&) const { return ".mesh.center"; }
+  const char* operator()(const sim::shapes::Points&) const { return ".points.center"; }
 };
 
 Found material_problem(const Scene& scene, const std::string& wanted, const std::string& address) {
@@ -71,18 +71,18 @@ Found material_problem(const Scene& scene, const std::string& wanted, const std:
   }
   if (value_named<Preset>(wanted))
     return Problem{address + ".material",
-                   toml_string(wanted) + " is a preset, and no material of this scene",
-                   "add [material." + wanted + "] with preset = " + toml_string(wanted)};
+                   toml::toml_string(wanted) + " is a preset, and no material of this scene",
+                   "add [material." + wanted + "] with preset = " + toml::toml_string(wanted)};
   const std::string nearest = nearest_name(wanted, names);
-  return Problem{address + ".material", "there is no material " + toml_string(wanted),
+  return Problem{address + ".material", "there is no material " + toml::toml_string(wanted),
                  nearest.empty() ? "expected " + list_of(names)
-                                 : "did you mean " + toml_string(nearest) + "?"};
+                                 : "did you mean " + toml::toml_string(nearest) + "?"};
 }
 
 Found too_far(const Scene& scene, const sim::Vec3d& x, const std::string& address) {
   if (x.cwiseAbs().maxCoeff() <= max_cells_from_origin * scene.solver.cell_size) return {};
   return Problem{address,
-                 "more than " + number_text(max_cells_from_origin) + " cells from the origin",
+                 "more than " + toml::number_text(max_cells_from_origin) + " cells from the origin",
                  "move it closer or enlarge solver.cell_size"};
 }
 
@@ -97,40 +97,41 @@ Found ready_problem(const std::string& address, const Make& make) {
 }
 
 /// Of the form, and of where it stands.
-Found form_problem(const sim::Shape& shape, const std::string& address) {
+Found form_problem(const sim::shapes::Shape& shape, const std::string& address) {
   return std::visit([&](const auto& form) { return problem(form, address + ".shape"); },
                     shape.form);
 }
 
-std::string place_address(const sim::Shape& shape, const std::string& address) {
+std::string place_address(const sim::shapes::Shape& shape, const std::string& address) {
   return address + ".shape" + std::visit(PlaceKey{}, shape.form);
 }
 
 /// Of a shape that is filled with snow. Files of points are read when they are.
-Found shape_problem(const Scene& scene, const sim::Shape& shape, const std::string& address) {
+Found shape_problem(const Scene& scene, const sim::shapes::Shape& shape,
+                    const std::string& address) {
   const std::string at = place_address(shape, address);
-  if (Found found = too_far(scene, sim::center(shape), at)) return found;
+  if (Found found = too_far(scene, sim::shapes::center(shape), at)) return found;
   if (Found found = form_problem(shape, address)) return found;
-  if (std::holds_alternative<sim::Points>(shape.form)) return {};
+  if (std::holds_alternative<sim::shapes::Points>(shape.form)) return {};
   return ready_problem(address, [&] {
-    const sim::Bounds b = sim::Solid(shape).bounds();
+    const sim::shapes::Bounds b = sim::shapes::Solid(shape).bounds();
     return too_far(scene, b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs()), at);
   });
 }
 
-Found body_problem(const Scene& scene, const sim::Body& body) {
+Found body_problem(const Scene& scene, const sim::seeding::Body& body) {
   const std::string address = "body." + body.name;
   if (const Found found = material_problem(scene, body.material, address)) return found;
   return shape_problem(scene, body.shape, address);
 }
 
-Found emitter_problem(const Scene& scene, const sim::Emitter& emitter) {
+Found emitter_problem(const Scene& scene, const sim::seeding::Emitter& emitter) {
   const std::string address = "emitter." + emitter.name;
   if (const Found found = material_problem(scene, emitter.material, address)) return found;
   if (emitter.end && !(*emitter.end > emitter.start))
     return Problem{address + ".end",
-                   "it closes at " + number_text(*emitter.end) + " s and opens at " +
-                       number_text(emitter.start) + " s",
+                   "it closes at " + toml::number_text(*emitter.end) + " s and opens at " +
+                       toml::number_text(emitter.start) + " s",
                    "end is later than start; leave it out for an emitter that stays open"};
   if (emitter.end && emitter.rate == 0)
     return Problem{address + ".end", "without a rate the whole shape is filled at once",
@@ -138,11 +139,11 @@ Found emitter_problem(const Scene& scene, const sim::Emitter& emitter) {
   return shape_problem(scene, emitter.shape, address);
 }
 
-Found sink_problem(const sim::Sink& sink) {
+Found sink_problem(const sim::seeding::Sink& sink) {
   const std::string address = "sink." + sink.name;
   if (Found found = form_problem(sink.shape, address)) return found;
   return ready_problem(address, [&] {
-    sim::Solid(sink.shape);
+    sim::shapes::Solid(sink.shape);
     return Found{};
   });
 }
@@ -167,8 +168,8 @@ Found keyframe_problem(const CameraSettings& camera, const std::string& at) {
     const std::string key_at = at + ".keyframes[" + std::to_string(++index) + "]";
     if (before && !(key.time > before->time)) {
       return Problem{key_at + ".time",
-                     "keyframe " + std::to_string(index) + " is at " + number_text(key.time) +
-                         " s, the one before at " + number_text(before->time) + " s",
+                     "keyframe " + std::to_string(index) + " is at " + toml::number_text(key.time) +
+                         " s, the one before at " + toml::number_text(before->time) + " s",
                      "times increase from one keyframe to the next"};
     }
     before = &key;
@@ -211,14 +212,14 @@ Found slice_problem(const Scene& scene, const SliceStyle& slice, const std::stri
     return Problem{at + ".normal", "normal is zero", "it points across the plane"};
   if (slice.follow.empty()) return {};
   std::vector<std::string> names;
-  for (const sim::Body& body : scene.bodies) {
+  for (const sim::seeding::Body& body : scene.bodies) {
     if (body.name == slice.follow) return {};
     names.push_back(body.name);
   }
   const std::string nearest = nearest_name(slice.follow, names);
-  return Problem{at + ".follow", "there is no body " + toml_string(slice.follow),
+  return Problem{at + ".follow", "there is no body " + toml::toml_string(slice.follow),
                  nearest.empty() ? "expected " + list_of(names)
-                                 : "did you mean " + toml_string(nearest) + "?"};
+                                 : "did you mean " + toml::toml_string(nearest) + "?"};
 }
 
 Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
@@ -238,15 +239,15 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   if (is_view(mosaic.name)) {
-    return Problem{at + ".name", "a view is called " + toml_string(mosaic.name) + " too",
+    return Problem{at + ".name", "a view is called " + toml::toml_string(mosaic.name) + " too",
                    "both would write into the folder of that name: name the mosaic"};
   }
   for (const std::string& name : mosaic.views) {
     if (is_view(name)) continue;
     const std::string nearest = nearest_name(name, drawable);
-    return Problem{at + ".views", "there is no view " + toml_string(name),
+    return Problem{at + ".views", "there is no view " + toml::toml_string(name),
                    nearest.empty() ? "expected " + list_of(drawable)
-                                   : "did you mean " + toml_string(nearest) + "?"};
+                                   : "did you mean " + toml::toml_string(nearest) + "?"};
   }
   return {};
 }
@@ -267,15 +268,15 @@ Found motion_problem(const Collider& collider) {
     return Problem{at + key, std::string(key + 1) + " and keyframes both move the collider",
                    "give one of them; keyframes hold a thing still where two are equal"};
   }
-  const sim::PoseKeyframe* before = nullptr;
+  const sim::shapes::PoseKeyframe* before = nullptr;
   std::size_t index = 0;
-  for (const sim::PoseKeyframe& key : collider.keyframes) {
+  for (const sim::shapes::PoseKeyframe& key : collider.keyframes) {
     const std::string key_at = at + ".keyframes[" + std::to_string(++index) + "]";
     const std::string who = "keyframe " + std::to_string(index);
     if (before && !(key.time > before->time)) {
       return Problem{key_at + ".time",
-                     who + " is at " + number_text(key.time) + " s, the one before at " +
-                         number_text(before->time) + " s",
+                     who + " is at " + toml::number_text(key.time) + " s, the one before at " +
+                         toml::number_text(before->time) + " s",
                      "times increase from one keyframe to the next"};
     }
     if (before && key.time - before->time < 1e-9) {
@@ -285,7 +286,7 @@ Found motion_problem(const Collider& collider) {
     const sim::Vec3d own = collider.shape.rotation;
     const sim::Vec3d rotation = key.rotation.value_or(own);
     const sim::Vec3d last = before ? before->rotation.value_or(own) : rotation;
-    if (sim::written_turn(last, rotation) >= 180 || is_half_turn(last, rotation)) {
+    if (sim::shapes::written_turn(last, rotation) >= 180 || is_half_turn(last, rotation)) {
       return Problem{
           key_at + ".rotation", who + " turns by 180 degrees or more since the one before",
           "the shorter way is taken, of two as long either: put a keyframe in between, or let "
@@ -301,9 +302,9 @@ Found collider_problem(const Scene& scene, const Collider& collider) {
   const std::string address = "collider." + collider.name;
   if (Found found = form_problem(collider.shape, address)) return found;
   if (Found found = motion_problem(collider)) return found;
-  if (std::holds_alternative<sim::Plane>(collider.shape.form)) return {};
+  if (std::holds_alternative<sim::shapes::Plane>(collider.shape.form)) return {};
   const std::string at = place_address(collider.shape, address);
-  if (Found found = too_far(scene, sim::center(collider.shape), at)) return found;
+  if (Found found = too_far(scene, sim::shapes::center(collider.shape), at)) return found;
   for (std::size_t k = 0; k < collider.keyframes.size(); ++k) {
     if (!collider.keyframes[k].position) continue;
     if (Found found = too_far(scene, *collider.keyframes[k].position,
@@ -311,10 +312,10 @@ Found collider_problem(const Scene& scene, const Collider& collider) {
       return found;
   }
   return ready_problem(address, [&] {
-    if (const auto* mesh = std::get_if<sim::Mesh>(&collider.shape.form))
-      sim::mesh_surface(*mesh);
+    if (const auto* mesh = std::get_if<sim::shapes::Mesh>(&collider.shape.form))
+      sim::shapes::mesh_surface(*mesh);
     else
-      sim::Solid(collider.shape);
+      sim::shapes::Solid(collider.shape);
     return Found{};
   });
 }
@@ -327,19 +328,19 @@ std::optional<Problem> find_problem(const Scene& scene) {
     return Problem{"", "the scene has no body and no emitter",
                    "add [[body]] with shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }"};
   }
-  for (const sim::Body& body : scene.bodies) {
+  for (const sim::seeding::Body& body : scene.bodies) {
     if ((found = body_problem(scene, body))) return found;
   }
-  for (const sim::Emitter& emitter : scene.emitters) {
+  for (const sim::seeding::Emitter& emitter : scene.emitters) {
     if ((found = emitter_problem(scene, emitter))) return found;
   }
-  for (const sim::Sink& sink : scene.sinks) {
+  for (const sim::seeding::Sink& sink : scene.sinks) {
     if ((found = sink_problem(sink))) return found;
   }
-  if (scene.colliders.size() > sim::max_colliders)
-    return Problem{"collider." + scene.colliders[sim::max_colliders].name,
+  if (scene.colliders.size() > sim::kernels::max_colliders)
+    return Problem{"collider." + scene.colliders[sim::kernels::max_colliders].name,
                    "there are " + std::to_string(scene.colliders.size()) + " colliders",
-                   "at most " + std::to_string(sim::max_colliders) + " can be there"};
+                   "at most " + std::to_string(sim::kernels::max_colliders) + " can be there"};
   for (const Collider& collider : scene.colliders) {
     if ((found = collider_problem(scene, collider))) return found;
   }
@@ -359,4 +360,4 @@ std::optional<Problem> find_problem(const Scene& scene) {
   return {};
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

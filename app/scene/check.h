@@ -6,7 +6,7 @@
 
 #include "app/scene/scene.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 struct Problem {
   std::string address;  ///< of the parameter to blame, "" for the scene
@@ -16,4 +16,4 @@ struct Problem {
 /// The first thing wrong with a scene whose parameters are each in range.
 std::optional<Problem> find_problem(const Scene& scene);
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "app/scene/describe.h"
-#include "app/scene/error.h"
-#include "app/scene/value.h"
-#include "app/text.h"
+#include "app/scene/toml/error.h"
+#include "app/scene/toml/value.h"
+#include "app/support/text.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 namespace {
 
 std::string argument(double factor) {
-  return "--coarsen " + number_text(factor);
+  return "--coarsen " + toml::number_text(factor);
 }
 
 /// Looks for a number of the solver outside the range that its description gives.
@@ -22,9 +22,10 @@ struct RangeCheck {
   void operator()(const char* key, double member, const char*, const Valid& valid, Change,
                   const char*) const {
     if (valid.contains(member)) return;
-    throw UsageError(argument(factor),
-                     std::string("solver.") + key + " would become " + number_text(member),
-                     "expected " + valid.text_of_bounds());
+    throw toml::UsageError(
+        argument(factor),
+        std::string("solver.") + key + " would become " + toml::number_text(member),
+        "expected " + valid.text_of_bounds());
   }
   template <class T>
   void operator()(const char*, const T&, const char*, const Valid&, Change, const char*) const {}
@@ -44,12 +45,12 @@ std::string text_below(double x) {
 }
 
 void refuse_empty_bodies(const Scene& scene, double factor) {
-  for (const sim::Body& body : scene.bodies) {
-    const double full = sim::expected_particles(body, scene.solver.cell_size);
+  for (const sim::seeding::Body& body : scene.bodies) {
+    const double full = sim::seeding::expected_particles(body, scene.solver.cell_size);
     // A body too small for one particle at full resolution has one all the same.
     if (full < 1 || full / (factor * factor * factor) >= 1) continue;
-    throw UsageError(argument(factor), "no particle of body " + body.name + " would be left",
-                     "at most " + text_below(std::cbrt(full)) + " leaves one");
+    throw toml::UsageError(argument(factor), "no particle of body " + body.name + " would be left",
+                           "at most " + text_below(std::cbrt(full)) + " leaves one");
   }
 }
 
@@ -57,12 +58,12 @@ void refuse_empty_bodies(const Scene& scene, double factor) {
 
 void coarsen(Scene& scene, double factor) {
   if (!(factor >= 1) || !std::isfinite(factor))
-    throw UsageError("--coarsen", "cannot use " + number_text(factor),
-                     "expected a number of at least 1, as in --coarsen 2");
+    throw toml::UsageError("--coarsen", "cannot use " + toml::number_text(factor),
+                           "expected a number of at least 1, as in --coarsen 2");
   if (factor == 1) return;
   refuse_empty_bodies(scene, factor);
-  for (sim::Body& body : scene.bodies)
-    if (auto* points = std::get_if<sim::Points>(&body.shape.form))
+  for (sim::seeding::Body& body : scene.bodies)
+    if (auto* points = std::get_if<sim::shapes::Points>(&body.shape.form))
       points->thinning = tidy(points->thinning * factor * factor * factor);
   sim::SolverSettings& s = scene.solver;
   for (double* grows : {&s.cell_size, &s.dt, &s.max_dt}) *grows = tidy(*grows * factor);
@@ -72,7 +73,7 @@ void coarsen(Scene& scene, double factor) {
 }
 
 std::string coarsening_text(double factor) {
-  return number_text(factor) + "x";
+  return toml::number_text(factor) + "x";
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

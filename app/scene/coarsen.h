@@ -3,7 +3,7 @@
 
 #include "app/scene/scene.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 /// Makes cells `factor` times as large: 1/factor^3 of the particles, because particles_per_cell
 /// stays; a fixed dt and max_dt grow with the cells, like the limits that follow from them. Snow is
@@ -17,4 +17,4 @@ void coarsen(Scene& scene, double factor);
 /// "2x", "1.5x"
 std::string coarsening_text(double factor);
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

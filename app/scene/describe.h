@@ -21,7 +21,7 @@
 #include "app/scene/scene.h"
 #include "app/scene/valid.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 namespace unit {
 inline constexpr const char *none = "", *metre = "m", *second = "s", *per_second = "1/s",
@@ -42,14 +42,14 @@ T fresh() {
   return T{};
 }
 template <>
-inline sim::Body fresh<sim::Body>() {
-  sim::Body body;
+inline sim::seeding::Body fresh<sim::seeding::Body>() {
+  sim::seeding::Body body;
   body.material = sim::Material{}.name;
   return body;
 }
 template <>
-inline sim::Emitter fresh<sim::Emitter>() {
-  sim::Emitter emitter;
+inline sim::seeding::Emitter fresh<sim::seeding::Emitter>() {
+  sim::seeding::Emitter emitter;
   emitter.material = sim::Material{}.name;
   return emitter;
 }
@@ -165,33 +165,33 @@ void describe(V& visit, sim::Material& m) {
 }
 
 template <class V>
-void describe(V& visit, sim::Sphere& s, Change change) {
+void describe(V& visit, sim::shapes::Sphere& s, Change change) {
   visit("center", s.center, unit::metre, position, change, "Centre.");
   visit("radius", s.radius, unit::metre, length, change, "Radius.");
 }
 
 template <class V>
-void describe(V& visit, sim::Box& b, Change change) {
+void describe(V& visit, sim::shapes::Box& b, Change change) {
   visit("center", b.center, unit::metre, position, change, "Centre.");
   visit("size", b.size, unit::metre, length, change, "Edge lengths.");
 }
 
 template <class V>
-void describe(V& visit, sim::Capsule& c, Change change) {
+void describe(V& visit, sim::shapes::Capsule& c, Change change) {
   visit("a", c.a, unit::metre, position, change, "One end of the axis.");
   visit("b", c.b, unit::metre, position, change, "The other end of the axis.");
   visit("radius", c.radius, unit::metre, length, change, "Radius.");
 }
 
 template <class V>
-void describe(V& visit, sim::Cylinder& c, Change change) {
+void describe(V& visit, sim::shapes::Cylinder& c, Change change) {
   visit("center", c.center, unit::metre, position, change, "Middle of the axis, along y.");
   visit("radius", c.radius, unit::metre, length, change, "Radius.");
   visit("height", c.height, unit::metre, length, change, "Length of the axis.");
 }
 
 template <class V>
-void describe(V& visit, sim::Cone& c, Change change) {
+void describe(V& visit, sim::shapes::Cone& c, Change change) {
   visit("center", c.center, unit::metre, position, change,
         "Middle of the axis, along y; the apex is up.");
   visit("radius", c.radius, unit::metre, length, change, "Radius of the base.");
@@ -199,7 +199,7 @@ void describe(V& visit, sim::Cone& c, Change change) {
 }
 
 template <class V>
-void describe(V& visit, sim::Torus& t, Change change) {
+void describe(V& visit, sim::shapes::Torus& t, Change change) {
   visit("center", t.center, unit::metre, position, change, "Centre; the axis is y.");
   visit("major_radius", t.major_radius, unit::metre, length, change,
         "From the centre to the middle of the tube.");
@@ -207,14 +207,14 @@ void describe(V& visit, sim::Torus& t, Change change) {
 }
 
 template <class V>
-void describe(V& visit, sim::Plane& p, Change change) {
+void describe(V& visit, sim::shapes::Plane& p, Change change) {
   visit("point", p.point, unit::metre, position, change, "A point of the surface.");
   visit("normal", p.normal, unit::none, within(1e6), change,
         "Out of the solid side, of any length.");
 }
 
 template <class V>
-void describe(V& visit, sim::Mesh& m, Change change) {
+void describe(V& visit, sim::shapes::Mesh& m, Change change) {
   visit("file", m.file, unit::none, file_path, change,
         "A closed triangle mesh, OBJ; relative to the scene file.");
   visit("scale", m.scale, unit::none, length, change, "Metres per unit of the file.");
@@ -222,7 +222,7 @@ void describe(V& visit, sim::Mesh& m, Change change) {
 }
 
 template <class V>
-void describe(V& visit, sim::Points& p, Change change) {
+void describe(V& visit, sim::shapes::Points& p, Change change) {
   visit("file", p.file, unit::none, file_path, change,
         "Particles, PLY or CSV, with columns x y z and, if wanted, vx vy vz, mass and volume; "
         "relative to the scene file.");
@@ -235,49 +235,53 @@ void describe(V& visit, sim::Points& p, Change change) {
 
 /// Every form can be turned.
 template <class V>
-void describe_rotation(V& visit, sim::Shape& shape, Change change) {
+void describe_rotation(V& visit, sim::shapes::Shape& shape, Change change) {
   visit("rotation", shape.rotation, unit::degrees, within(1e6), change,
         "Angles about x, y, z through the centre; x turns first.");
 }
 
 template <class V>
-void describe_solid_forms(V& visit, sim::Shape& shape) {
-  visit.template form<sim::Sphere>("sphere", shape, Change::restart, "A ball.");
-  visit.template form<sim::Box>("box", shape, Change::restart, "A box.");
-  visit.template form<sim::Capsule>("capsule", shape, Change::restart,
-                                    "A cylinder with round ends.");
-  visit.template form<sim::Cylinder>("cylinder", shape, Change::restart, "A cylinder.");
-  visit.template form<sim::Cone>("cone", shape, Change::restart, "A cone.");
-  visit.template form<sim::Torus>("torus", shape, Change::restart, "A ring.");
-  visit.template form<sim::Mesh>("mesh", shape, Change::restart, "The inside of a triangle mesh.");
+void describe_solid_forms(V& visit, sim::shapes::Shape& shape) {
+  visit.template form<sim::shapes::Sphere>("sphere", shape, Change::restart, "A ball.");
+  visit.template form<sim::shapes::Box>("box", shape, Change::restart, "A box.");
+  visit.template form<sim::shapes::Capsule>("capsule", shape, Change::restart,
+                                            "A cylinder with round ends.");
+  visit.template form<sim::shapes::Cylinder>("cylinder", shape, Change::restart, "A cylinder.");
+  visit.template form<sim::shapes::Cone>("cone", shape, Change::restart, "A cone.");
+  visit.template form<sim::shapes::Torus>("torus", shape, Change::restart, "A ring.");
+  visit.template form<sim::shapes::Mesh>("mesh", shape, Change::restart,
+                                         "The inside of a triangle mesh.");
 }
 
 template <class V>
-void describe_body_forms(V& visit, sim::Shape& shape) {
+void describe_body_forms(V& visit, sim::shapes::Shape& shape) {
   describe_solid_forms(visit, shape);
-  visit.template form<sim::Points>("points", shape, Change::restart, "Particles from a file.");
+  visit.template form<sim::shapes::Points>("points", shape, Change::restart,
+                                           "Particles from a file.");
 }
 
 template <class V>
-void describe_collider_forms(V& visit, sim::Shape& shape) {
-  visit.template form<sim::Plane>("plane", shape, Change::live, "A half space.");
-  visit.template form<sim::Sphere>("sphere", shape, Change::live, "A ball.");
-  visit.template form<sim::Box>("box", shape, Change::live, "A box.");
-  visit.template form<sim::Capsule>("capsule", shape, Change::live, "A cylinder with round ends.");
-  visit.template form<sim::Cylinder>("cylinder", shape, Change::live, "A cylinder.");
-  visit.template form<sim::Cone>("cone", shape, Change::live, "A cone.");
-  visit.template form<sim::Torus>("torus", shape, Change::live, "A ring.");
-  visit.template form<sim::Mesh>("mesh", shape, Change::live, "The inside of a triangle mesh.");
+void describe_collider_forms(V& visit, sim::shapes::Shape& shape) {
+  visit.template form<sim::shapes::Plane>("plane", shape, Change::live, "A half space.");
+  visit.template form<sim::shapes::Sphere>("sphere", shape, Change::live, "A ball.");
+  visit.template form<sim::shapes::Box>("box", shape, Change::live, "A box.");
+  visit.template form<sim::shapes::Capsule>("capsule", shape, Change::live,
+                                            "A cylinder with round ends.");
+  visit.template form<sim::shapes::Cylinder>("cylinder", shape, Change::live, "A cylinder.");
+  visit.template form<sim::shapes::Cone>("cone", shape, Change::live, "A cone.");
+  visit.template form<sim::shapes::Torus>("torus", shape, Change::live, "A ring.");
+  visit.template form<sim::shapes::Mesh>("mesh", shape, Change::live,
+                                         "The inside of a triangle mesh.");
 }
 
 template <class V>
-void describe(V& visit, sim::Body& b) {
+void describe(V& visit, sim::seeding::Body& b) {
   using enum Change;
   visit("name", b.name, unit::none, identifier, restart,
         "What addresses call it; otherwise its number from 1.");
   visit("material", b.material, unit::none, identifier, restart, "Name of a material.");
   visit.shape("shape", b.shape, "What is filled with snow.",
-              [](auto& v, sim::Shape& shape) { describe_body_forms(v, shape); });
+              [](auto& v, sim::shapes::Shape& shape) { describe_body_forms(v, shape); });
   visit("velocity", b.velocity, unit::velocity, speed, restart, "Velocity at the start.");
   visit("angular_velocity", b.angular_velocity, unit::spin, speed, restart,
         "Spin about the shape's centre at the start.");
@@ -289,13 +293,13 @@ void describe(V& visit, sim::Body& b) {
 }
 
 template <class V>
-void describe(V& visit, sim::Emitter& e) {
+void describe(V& visit, sim::seeding::Emitter& e) {
   using enum Change;
   visit("name", e.name, unit::none, identifier, restart,
         "What addresses call it; otherwise its number from 1.");
   visit("material", e.material, unit::none, identifier, restart, "Name of a material.");
   visit.shape("shape", e.shape, "Where snow comes into being.",
-              [](auto& v, sim::Shape& shape) { describe_solid_forms(v, shape); });
+              [](auto& v, sim::shapes::Shape& shape) { describe_solid_forms(v, shape); });
   visit("velocity", e.velocity, unit::velocity, speed, restart, "Velocity of the snow.");
   visit("angular_velocity", e.angular_velocity, unit::spin, speed, restart,
         "Its spin about the shape's centre.");
@@ -309,12 +313,12 @@ void describe(V& visit, sim::Emitter& e) {
 }
 
 template <class V>
-void describe(V& visit, sim::Sink& s) {
+void describe(V& visit, sim::seeding::Sink& s) {
   using enum Change;
   visit("name", s.name, unit::none, identifier, restart,
         "What addresses call it; otherwise its number from 1.");
   visit.shape("shape", s.shape, "Snow inside is removed.",
-              [](auto& v, sim::Shape& shape) { describe_solid_forms(v, shape); });
+              [](auto& v, sim::shapes::Shape& shape) { describe_solid_forms(v, shape); });
   visit("outside", s.outside, unit::none, anything, restart, "Snow outside is removed instead.");
 }
 
@@ -324,7 +328,7 @@ void describe(V& visit, Collider& c) {
   visit("name", c.name, unit::none, identifier, restart,
         "What addresses call it; otherwise its number from 1.");
   visit.shape("shape", c.shape, "What snow keeps out of.",
-              [](auto& v, sim::Shape& shape) { describe_collider_forms(v, shape); });
+              [](auto& v, sim::shapes::Shape& shape) { describe_collider_forms(v, shape); });
   visit("contact", c.contact, unit::none, anything, live,
         "separate: leaves freely, slides with friction; slip: cannot leave, slides freely; "
         "sticky: moves along.");
@@ -340,7 +344,7 @@ void describe(V& visit, Collider& c) {
 }
 
 template <class V>
-void describe(V& visit, sim::PoseKeyframe& k) {
+void describe(V& visit, sim::shapes::PoseKeyframe& k) {
   using enum Change;
   visit("time", k.time, unit::second, between(0, 1e6), live, "When; later than the one before.");
   visit("position", k.position, unit::metre, position, live,
@@ -524,4 +528,4 @@ void describe(V& visit, Scene& s) {
   visit.section("output", "The pictures.", [&](auto& v) { describe_output(v, s); });
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -4,18 +4,18 @@
 #include <optional>
 #include <string_view>
 
-#include "app/scene/error.h"
 #include "app/scene/params.h"
 #include "app/scene/presets.h"
 #include "app/scene/read.h"
-#include "app/scene/toml_layout.h"
-#include "app/scene/toml_source.h"
+#include "app/scene/toml/error.h"
+#include "app/scene/toml/toml_layout.h"
+#include "app/scene/toml/toml_source.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 namespace {
 
-using Kind = TomlNode::Kind;
+using Kind = toml::TomlNode::Kind;
 using Words = std::vector<std::string>;
 
 std::string joined(const Words& words, std::size_t first, std::size_t end) {
@@ -33,11 +33,11 @@ std::string without_blanks(std::string_view text) {
 /// The value as it will stand in the file: numbers, arrays and tables as they were given.
 std::string literal_of(const Override& change) {
   const std::optional<ParamInfo> info = param_at(change.address);
-  const Value value = value_of(change, info ? info->type : "table");
+  const toml::Value value = value_of(change, info ? info->type : "table");
   const std::string text = without_blanks(change.value);
   const auto* word = std::get_if<std::string>(&value.data);
   const bool is_quoted = text.starts_with('"') || text.starts_with('\'');
-  return word && !is_quoted ? toml_string(*word) : text;
+  return word && !is_quoted ? toml::toml_string(*word) : text;
 }
 
 /// "a = { b = VALUE }" for a, b.
@@ -64,8 +64,8 @@ class Edit {
       : text_(text),
         change_(change),
         words_(words_of(change.address)),
-        root_(parse_toml(text, "")),
-        layout_(toml_layout(text)),
+        root_(toml::parse_toml(text, "")),
+        layout_(toml::toml_layout(text)),
         line_end_(text.find("\r\n") == std::string::npos ? "\n" : "\r\n") {}
 
   void make() {
@@ -99,18 +99,20 @@ class Edit {
         "change the file by hand: " + change_.address + " = " + without_blanks(change_.value));
   }
 
-  void replace(Span span, const std::string& with) { text_.replace(span.begin, span.size(), with); }
+  void replace(toml::Span span, const std::string& with) {
+    text_.replace(span.begin, span.size(), with);
+  }
   void insert(std::size_t at, const std::string& what) { text_.insert(at, what); }
 
   /// As far as the text has what the address says.
   void walk() {
     node_ = &layout_.root;
-    const Table* table = &root_;
-    const Value* value = nullptr;
+    const toml::Table* table = &root_;
+    const toml::Value* value = nullptr;
     for (; depth_ < words_.size(); ++depth_) {
       const std::string& word = words_[depth_];
-      const TomlNode* next = nullptr;
-      if (const Array* array = value ? std::get_if<Array>(&value->data) : nullptr) {
+      const toml::TomlNode* next = nullptr;
+      if (const toml::Array* array = value ? std::get_if<toml::Array>(&value->data) : nullptr) {
         const Words names = item_names(*value);
         const auto k =
             static_cast<std::size_t>(std::find(names.begin(), names.end(), word) - names.begin());
@@ -118,13 +120,13 @@ class Edit {
         next = node_->items[k].get();
         value = &(*array)[k];
       } else {
-        const Entry* entry = table ? table->find(word) : nullptr;
+        const toml::Entry* entry = table ? table->find(word) : nullptr;
         next = entry ? node_->find(word) : nullptr;
         if (!next) return;
         value = &entry->value;
         keys_.push_back(word);
       }
-      table = std::get_if<Table>(&value->data);
+      table = std::get_if<toml::Table>(&value->data);
       parent_ = node_;
       node_ = next;
     }
@@ -158,7 +160,7 @@ class Edit {
   }
 
   /// Where the last "key = value" inside ends; 0: there is none.
-  static std::size_t last_entry(const TomlNode& node) {
+  static std::size_t last_entry(const toml::TomlNode& node) {
     std::size_t end = 0;
     for (const auto& member : node.members)
       end = std::max({end, member->entry.end, member->entry.size() ? 0 : last_entry(*member)});
@@ -166,7 +168,7 @@ class Edit {
   }
 
   void add_line(const std::string& literal) {
-    const TomlSection& section = layout_.sections[static_cast<std::size_t>(node_->section)];
+    const toml::TomlSection& section = layout_.sections[static_cast<std::size_t>(node_->section)];
     const std::string line = node_->prefix + nested(words_, depth_, literal);
     if (section.last_line.size() == 0) return add_first_line(section, line);
     const std::string_view text = text_;
@@ -182,7 +184,7 @@ class Edit {
     insert_line(section.last_line.end, padded);
   }
 
-  void add_first_line(const TomlSection& section, const std::string& line) {
+  void add_first_line(const toml::TomlSection& section, const std::string& line) {
     if (node_ != &layout_.root) return insert_line(section.begin, line);
     // Above the first header and the comment that belongs to it.
     const std::size_t header = first_header(layout_.root);
@@ -201,10 +203,11 @@ class Edit {
 
   /// [header] with the members of a table below.
   void add_table_section() {
-    const Value value = value_of(change_, "table");
+    const toml::Value value = value_of(change_, "table");
     std::string lines;
-    for (const Entry& entry : std::get<Table>(value.data).entries)
-      lines += (lines.empty() ? "" : line_end_) + entry.key + " = " + toml_literal(entry.value);
+    for (const toml::Entry& entry : std::get<toml::Table>(value.data).entries)
+      lines +=
+          (lines.empty() ? "" : line_end_) + entry.key + " = " + toml::toml_literal(entry.value);
     add_section(words_[0], lines);
   }
 
@@ -230,10 +233,10 @@ class Edit {
     Edit(text_, change_).make();
   }
 
-  static std::string named(const std::string& name) { return "name = " + toml_string(name); }
+  static std::string named(const std::string& name) { return "name = " + toml::toml_string(name); }
 
   /// The first byte of the first header in or below a table; the end of the text without one.
-  std::size_t first_header(const TomlNode& node) const {
+  std::size_t first_header(const toml::TomlNode& node) const {
     std::size_t first = node.header.size() > 0 ? node.header.begin : text_.size();
     for (const auto* nodes : {&node.members, &node.items})
       for (const auto& inner : *nodes) first = std::min(first, first_header(*inner));
@@ -244,7 +247,7 @@ class Edit {
   std::size_t above_comment(std::size_t line) const {
     const std::size_t top = layout_.sections.front().begin;  // below a byte order mark
     while (line > top) {
-      Span before = line_around(text_, line - 1);
+      toml::Span before = toml::line_around(text_, line - 1);
       before.begin = std::max(before.begin, top);
       if (!is_comment(std::string_view(text_).substr(before.begin, before.size()))) break;
       line = before.begin;
@@ -255,14 +258,15 @@ class Edit {
   // What goes away.
 
   void remove() {
-    std::vector<Span> spans;
+    std::vector<toml::Span> spans;
     collect(*node_, parent_, spans);
     std::sort(spans.begin(), spans.end(),
-              [](const Span& a, const Span& b) { return a.begin > b.begin; });
-    for (const Span& span : spans) replace(span, "");
+              [](const toml::Span& a, const toml::Span& b) { return a.begin > b.begin; });
+    for (const toml::Span& span : spans) replace(span, "");
   }
 
-  void collect(const TomlNode& node, const TomlNode* parent, std::vector<Span>& spans) const {
+  void collect(const toml::TomlNode& node, const toml::TomlNode* parent,
+               std::vector<toml::Span>& spans) const {
     if (node.is_in_one_place()) {
       const bool is_inline = parent && (parent->kind == Kind::inline_table || parent->section < 0);
       spans.push_back(is_inline ? with_comma(node.entry) : with_line(node.entry));
@@ -273,11 +277,11 @@ class Edit {
       for (const auto& inner : *nodes) collect(*inner, &node, spans);
   }
 
-  Span with_line(Span entry) const {
-    return {line_around(text_, entry.begin).begin, line_around(text_, entry.end).end};
+  toml::Span with_line(toml::Span entry) const {
+    return {toml::line_around(text_, entry.begin).begin, toml::line_around(text_, entry.end).end};
   }
 
-  Span with_comma(Span entry) const {
+  toml::Span with_comma(toml::Span entry) const {
     const std::size_t next = text_.find_first_not_of(" \t", entry.end);
     if (next != std::string::npos && text_[next] == ',')
       return {entry.begin, std::min(text_.find_first_not_of(" \t", next + 1), text_.size())};
@@ -287,21 +291,21 @@ class Edit {
     return entry;
   }
 
-  Span with_blank_before(Span line) const {
+  toml::Span with_blank_before(toml::Span line) const {
     if (line.begin == 0) return line;
-    const Span before = line_around(text_, line.begin - 1);
+    const toml::Span before = toml::line_around(text_, line.begin - 1);
     const bool is_empty = is_blank(std::string_view(text_).substr(before.begin, before.size()));
-    return is_empty ? Span{before.begin, line.end} : line;
+    return is_empty ? toml::Span{before.begin, line.end} : line;
   }
 
   std::string& text_;
   const Override& change_;
   const Words words_;
-  const Table root_;
-  const TomlLayout layout_;
+  const toml::Table root_;
+  const toml::TomlLayout layout_;
   const std::string line_end_;
-  const TomlNode* node_ = nullptr;  ///< the deepest that is there
-  const TomlNode* parent_ = nullptr;
+  const toml::TomlNode* node_ = nullptr;  ///< the deepest that is there
+  const toml::TomlNode* parent_ = nullptr;
   std::size_t depth_ = 0;  ///< how many words lead to it
   Words keys_;             ///< of those the ones that are keys, not names in lists
 };
@@ -327,12 +331,12 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
       if (is_preset_address(change.address)) give_way_to_preset(edited, change);
     for (const Override& change : changes) Edit(edited, change).make();
     is_right = write_scene(read_scene_text(edited, name, base_dir)) == wanted;
-  } catch (const SceneError&) {
+  } catch (const toml::SceneError&) {
     // Whatever is wrong with it, it is not returned.
   }
   if (is_right) return edited;
-  throw UsageError(name, "the changed values cannot be put into this file as it is written",
-                   "save the scene under another name, or change the file by hand");
+  throw toml::UsageError(name, "the changed values cannot be put into this file as it is written",
+                         "save the scene under another name, or change the file by hand");
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

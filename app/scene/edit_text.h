@@ -6,7 +6,7 @@
 
 #include "app/scene/override.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 /// The text of a scene with other values put in. Comments, order, blank lines, line ends and the
 /// way other values are written stay byte for byte: of keys that are there only the value is
@@ -23,4 +23,4 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
                             const std::string& name = "the scene",
                             const std::string& base_dir = {});
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -10,7 +10,7 @@
 #include "app/scene/lister.h"
 #include "app/scene/writer.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 namespace {
 
@@ -38,7 +38,7 @@ class Flattener {
 
   template <class T>
   void optional(const char* key, std::optional<T>& member, const char* help) {
-    std::optional<Value> value;
+    std::optional<toml::Value> value;
     if (member) value = written(*member);
     add_table(key, table_type, std::move(value), is_live(prefix_ + key), help);
     if (!member) return;
@@ -61,24 +61,25 @@ class Flattener {
 
   template <class T>
   void sequence(const char* key, std::vector<T>& items, const char* help) {
-    Array array;
+    toml::Array array;
     for (T& item : items) array.push_back(written(item));
-    std::optional<Value> value;
-    if (!array.empty()) value = Value{std::move(array)};
+    std::optional<toml::Value> value;
+    if (!array.empty()) value = toml::Value{std::move(array)};
     add_table(key, tables_type, std::move(value), true, help);
   }
 
   template <class Describe>
-  void shape(const char* key, sim::Shape& shape, const char* help, Describe describe_forms) {
+  void shape(const char* key, sim::shapes::Shape& shape, const char* help,
+             Describe describe_forms) {
     Writer writer;
     describe_forms(writer, shape);
-    add_table(key, table_type, Value{std::move(writer.table)}, is_live(prefix_ + key), help);
+    add_table(key, table_type, toml::Value{std::move(writer.table)}, is_live(prefix_ + key), help);
     Flattener inner = inside(key);
     describe_forms(inner, shape);
   }
 
   template <class Form>
-  void form(const char* key, sim::Shape& shape, Change change, const char*) {
+  void form(const char* key, sim::shapes::Shape& shape, Change change, const char*) {
     Form* form = std::get_if<Form>(&shape.form);
     if (!form) return;
     Flattener inner = inside(key);
@@ -94,13 +95,13 @@ class Flattener {
   Flattener inside(const std::string& key) { return Flattener(list_, prefix_ + key + "."); }
 
   template <class T>
-  static Value written(T& item) {
+  static toml::Value written(T& item) {
     Writer writer;
     describe(writer, item);
     return {std::move(writer.table)};
   }
 
-  void add_table(const char* key, const char* type, std::optional<Value> value, bool live,
+  void add_table(const char* key, const char* type, std::optional<toml::Value> value, bool live,
                  const char* help) {
     list_.push_back({prefix_ + key,
                      type,
@@ -159,8 +160,8 @@ bool is_inside(const std::string& address, const std::string& table) {
 }
 
 /// Of a shape the form, which is the table's only key; "" of anything else.
-std::string form_of(const std::optional<Value>& value) {
-  const Table* table = value ? std::get_if<Table>(&value->data) : nullptr;
+std::string form_of(const std::optional<toml::Value>& value) {
+  const toml::Table* table = value ? std::get_if<toml::Table>(&value->data) : nullptr;
   return table && table->entries.size() == 1 ? table->entries.front().key : "";
 }
 
@@ -173,7 +174,7 @@ bool differs_as_a_whole(const FlatParam& before, const FlatParam& after) {
 }  // namespace
 
 std::string FlatParam::text() const {
-  return value ? toml_literal(*value) : "none";
+  return value ? toml::toml_literal(*value) : "none";
 }
 
 bool FlatParam::is_default() const {
@@ -215,9 +216,9 @@ Concern concern_of(std::string_view address) {
   return Concern::pictures;
 }
 
-bool same_value(const std::optional<Value>& a, const std::optional<Value>& b) {
+bool same_value(const std::optional<toml::Value>& a, const std::optional<toml::Value>& b) {
   if (a.has_value() != b.has_value()) return false;
-  return !a || toml_literal(*a) == toml_literal(*b);
+  return !a || toml::toml_literal(*a) == toml::toml_literal(*b);
 }
 
 std::vector<Difference> differences(const Scene& before, const Scene& after) {
@@ -255,4 +256,4 @@ SplitDifferences split_live(const Scene& before, const Scene& after) {
   return split;
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -9,7 +9,7 @@
 #include "app/scene/params.h"
 #include "app/scene/scene.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 /// A parameter of one scene. Besides those of params() with names filled in there is an entry of
 /// type "table" for what exists or has a kind as a whole, before its members: shapes, and cameras
@@ -19,11 +19,12 @@ struct FlatParam {
   std::string type;     ///< see ParamInfo, or table, tables
   const char* unit = "";
   Valid valid;
-  std::vector<std::string> choices;    ///< of choices, what may be written
-  bool is_live = false;                ///< may change while a simulation runs
-  const char* help = "";               ///< one sentence
-  std::optional<Value> value;          ///< absent: nothing, the help says what then happens
-  std::optional<Value> default_value;  ///< of a new item; absent like value, or if there is none
+  std::vector<std::string> choices;  ///< of choices, what may be written
+  bool is_live = false;              ///< may change while a simulation runs
+  const char* help = "";             ///< one sentence
+  std::optional<toml::Value> value;  ///< absent: nothing, the help says what then happens
+  std::optional<toml::Value>
+      default_value;  ///< of a new item; absent like value, or if there is none
 
   /// The value as --set takes it; "none" where it is absent.
   std::string text() const;
@@ -52,7 +53,7 @@ inline bool concerns_simulation(std::string_view address) {
 /// What is at an address in two scenes; absent where one has none.
 struct Difference {
   std::string address;  ///< of a parameter; of a table that only one has or that is of another kind
-  std::optional<Value> before, after;
+  std::optional<toml::Value> before, after;
   bool is_live = false;
 };
 
@@ -68,6 +69,6 @@ struct SplitDifferences {
 SplitDifferences split_live(const Scene& before, const Scene& after);
 
 /// Same type and content; -0 is not 0.
-bool same_value(const std::optional<Value>& a, const std::optional<Value>& b);
+bool same_value(const std::optional<toml::Value>& a, const std::optional<toml::Value>& b);
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string_view>
 
-#include "app/scene/error.h"
-#include "app/text.h"
+#include "app/scene/toml/error.h"
+#include "app/support/text.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 namespace {
 
 /// A number, whole or not, within the bounds; `kind` says what was expected otherwise.
@@ -65,12 +65,12 @@ std::string existing_file(const Leaf& leaf, const std::string& name) {
 
 }  // namespace
 
-void Source::fail(Location where, const std::string& message, const std::string& hint) const {
+void Source::fail(toml::Location where, const std::string& message, const std::string& hint) const {
   if (where.override_index >= 0) {
     const Override& given = overrides[static_cast<std::size_t>(where.override_index)];
     given.fail(given.place, message, hint);
   }
-  throw SceneError(file, where.line, where.column, message, hint);
+  throw toml::SceneError(file, where.line, where.column, message, hint);
 }
 
 void Leaf::fail(const std::string& expected, const std::string& hint) const {
@@ -79,17 +79,17 @@ void Leaf::fail(const std::string& expected, const std::string& hint) const {
   const int index = value.where.override_index;
   if (index >= 0 && source.overrides[static_cast<std::size_t>(index)].file.empty())
     source.fail(value.where, wanted, hint);
-  source.fail(value.where, address + " = " + toml_literal(value, max_shown),
+  source.fail(value.where, address + " = " + toml::toml_literal(value, toml::max_shown),
               hint.empty() ? wanted : wanted + "; " + hint);
 }
 
 Leaf Leaf::element(std::size_t index) const {
-  const Value& item = std::get<Array>(value.data)[index];
+  const toml::Value& item = std::get<toml::Array>(value.data)[index];
   return {source, item, address + "[" + std::to_string(index) + "]", unit, valid};
 }
 
-const Array& Leaf::array(std::size_t count, const std::string& what) const {
-  const Array* items = std::get_if<Array>(&value.data);
+const toml::Array& Leaf::array(std::size_t count, const std::string& what) const {
+  const toml::Array* items = std::get_if<toml::Array>(&value.data);
   if (!items || (count != 0 && items->size() != count)) fail(what);
   return *items;
 }
@@ -175,35 +175,35 @@ void read_leaf(const Leaf& leaf, std::optional<Range>& member) {
   member = range;
 }
 
-Value to_value(double member) {
+toml::Value to_value(double member) {
   return {member};
 }
-Value to_value(bool member) {
+toml::Value to_value(bool member) {
   return {member};
 }
-Value to_value(int member) {
+toml::Value to_value(int member) {
   return {std::int64_t{member}};
 }
-Value to_value(std::uint64_t member) {
+toml::Value to_value(std::uint64_t member) {
   return {static_cast<std::int64_t>(member)};
 }
-Value to_value(const std::string& member) {
+toml::Value to_value(const std::string& member) {
   return {member};
 }
-Value to_value(const sim::Vec3d& member) {
-  return {Array{to_value(member.x()), to_value(member.y()), to_value(member.z())}};
+toml::Value to_value(const sim::Vec3d& member) {
+  return {toml::Array{to_value(member.x()), to_value(member.y()), to_value(member.z())}};
 }
-Value to_value(const std::vector<std::string>& member) {
-  Array array;
+toml::Value to_value(const std::vector<std::string>& member) {
+  toml::Array array;
   for (const std::string& item : member) array.push_back(to_value(item));
   return {std::move(array)};
 }
-Value to_value(const PictureSize& member) {
-  return {Array{to_value(member.width), to_value(member.height)}};
+toml::Value to_value(const PictureSize& member) {
+  return {toml::Array{to_value(member.width), to_value(member.height)}};
 }
-Value to_value(const std::optional<Range>& member) {
+toml::Value to_value(const std::optional<Range>& member) {
   if (!member) return {std::string("auto")};
-  return {Array{to_value(member->min), to_value(member->max)}};
+  return {toml::Array{to_value(member->min), to_value(member->max)}};
 }
 
 std::string type_of(const double&) {
@@ -238,7 +238,7 @@ std::string list_of(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t k = 0; k < names.size(); ++k) {
     if (k > 0) text += k + 1 == names.size() ? " or " : ", ";
-    text += toml_string(names[k]);
+    text += toml::toml_string(names[k]);
   }
   return text;
 }
@@ -246,7 +246,8 @@ std::string list_of(const std::vector<std::string>& names) {
 void fail_choice(const Leaf& leaf, const std::vector<std::string>& allowed) {
   const auto* text = std::get_if<std::string>(&leaf.value.data);
   const std::string nearest = text ? nearest_name(*text, allowed) : "";
-  leaf.fail(list_of(allowed), nearest.empty() ? "" : "did you mean " + toml_string(nearest) + "?");
+  leaf.fail(list_of(allowed),
+            nearest.empty() ? "" : "did you mean " + toml::toml_string(nearest) + "?");
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -8,10 +8,10 @@
 #include "app/scene/names.h"
 #include "app/scene/override.h"
 #include "app/scene/scene.h"
+#include "app/scene/toml/value.h"
 #include "app/scene/valid.h"
-#include "app/scene/value.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 /// What a document is read from: for messages, relative paths and values given by --set.
 struct Source {
@@ -20,14 +20,14 @@ struct Source {
   std::vector<Override> overrides;
 
   /// Throws a SceneError at the place, or a UsageError when it is a --set.
-  [[noreturn]] void fail(Location where, const std::string& message,
+  [[noreturn]] void fail(toml::Location where, const std::string& message,
                          const std::string& hint = {}) const;
 };
 
 /// A value about to become a parameter.
 struct Leaf {
   const Source& source;
-  const Value& value;
+  const toml::Value& value;
   std::string address;  ///< "material.snow.hardening"
   const char* unit;
   const Valid& valid;
@@ -37,7 +37,7 @@ struct Leaf {
   /// One element of an array.
   Leaf element(std::size_t index) const;
   /// An array, of exactly `count` elements unless that is 0; `what` names it in the message.
-  const Array& array(std::size_t count, const std::string& what) const;
+  const toml::Array& array(std::size_t count, const std::string& what) const;
   const std::string& text(const std::string& what) const;
 };
 
@@ -53,15 +53,15 @@ void read_leaf(const Leaf& leaf, std::optional<sim::Vec3d>& member);
 void read_leaf(const Leaf& leaf, PictureSize& member);
 void read_leaf(const Leaf& leaf, std::optional<Range>& member);
 
-Value to_value(bool member);
-Value to_value(double member);
-Value to_value(int member);
-Value to_value(std::uint64_t member);
-Value to_value(const std::string& member);
-Value to_value(const sim::Vec3d& member);
-Value to_value(const std::vector<std::string>& member);
-Value to_value(const PictureSize& member);
-Value to_value(const std::optional<Range>& member);
+toml::Value to_value(bool member);
+toml::Value to_value(double member);
+toml::Value to_value(int member);
+toml::Value to_value(std::uint64_t member);
+toml::Value to_value(const std::string& member);
+toml::Value to_value(const sim::Vec3d& member);
+toml::Value to_value(const std::vector<std::string>& member);
+toml::Value to_value(const PictureSize& member);
+toml::Value to_value(const std::optional<Range>& member);
 
 std::string type_of(const bool&);
 std::string type_of(const double&);
@@ -114,29 +114,29 @@ void read_leaf(const Leaf& leaf, std::optional<T>& member) {
 }
 
 template <Choice E>
-Value to_value(E member) {
+toml::Value to_value(E member) {
   return {std::string(name_of(member))};
 }
 
 template <Choice E>
-Value to_value(const std::vector<E>& member) {
-  Array array;
+toml::Value to_value(const std::vector<E>& member) {
+  toml::Array array;
   for (const E& item : member) array.push_back(to_value(item));
   return {std::move(array)};
 }
 
 /// Nothing for an optional parameter that is absent.
 template <class T>
-std::optional<Value> value_if_any(const T& member) {
+std::optional<toml::Value> value_if_any(const T& member) {
   return to_value(member);
 }
 template <class T>
-std::optional<Value> value_if_any(const std::optional<T>& member) {
+std::optional<toml::Value> value_if_any(const std::optional<T>& member) {
   if (!member) return std::nullopt;
   return to_value(*member);
 }
 /// A range without numbers is written "auto".
-inline std::optional<Value> value_if_any(const std::optional<Range>& member) {
+inline std::optional<toml::Value> value_if_any(const std::optional<Range>& member) {
   return to_value(member);
 }
 
@@ -155,4 +155,4 @@ std::string type_of(const std::optional<T>&) {
   return type_of(T{});
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

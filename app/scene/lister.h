@@ -8,7 +8,7 @@
 #include "app/scene/leaf.h"
 #include "app/scene/params.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 template <class T>
 std::vector<std::string> choices_of(const T&) {
@@ -67,24 +67,24 @@ class Lister {
     describe(inner, item);
   }
 
-  void addresses(const char* key, Table&, const char* help) {
+  void addresses(const char* key, toml::Table&, const char* help) {
     list_.push_back(
         {prefix_ + key + ".ADDRESS", "value", "", anything, {}, std::nullopt, false, help});
   }
 
-  void address_lists(const char* key, std::vector<Table>& items, const char* help) {
+  void address_lists(const char* key, std::vector<toml::Table>& items, const char* help) {
     if (items.empty()) items.emplace_back();
     addresses(key, items.front(), help);
   }
 
   template <class Describe>
-  void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
+  void shape(const char* key, sim::shapes::Shape& shape, const char*, Describe describe_forms) {
     Lister inner(list_, prefix_ + key + ".");
     describe_forms(inner, shape);
   }
 
   template <class Form>
-  void form(const char* key, sim::Shape& shape, Change change, const char*) {
+  void form(const char* key, sim::shapes::Shape& shape, Change change, const char*) {
     Lister inner(list_, prefix_ + key + ".");
     Form item;
     describe(inner, item, change);
@@ -109,4 +109,4 @@ class Lister {
   std::string prefix_;
 };
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -9,7 +9,7 @@
 #include "app/scene/presets.h"
 #include "app/scene/scene.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 template <class E>
 struct Name {
@@ -67,16 +67,16 @@ constexpr auto names(Preset) {
                     Name{packed, "packed"},
                     Name{icy, "icy"}};
 }
-constexpr auto names(sim::Sampling) {
-  using enum sim::Sampling;
+constexpr auto names(sim::seeding::Sampling) {
+  using enum sim::seeding::Sampling;
   return std::array{Name{jittered, "jittered"}, Name{poisson, "poisson"}, Name{lattice, "lattice"}};
 }
-constexpr auto names(sim::Volumes) {
-  using enum sim::Volumes;
+constexpr auto names(sim::seeding::Volumes) {
+  using enum sim::seeding::Volumes;
   return std::array{Name{estimated, "estimated"}, Name{given, "given"}};
 }
-constexpr auto names(sim::Contact) {
-  using enum sim::Contact;
+constexpr auto names(sim::shapes::Contact) {
+  using enum sim::shapes::Contact;
   return std::array{Name{separate, "separate"}, Name{slip, "slip"}, Name{sticky, "sticky"}};
 }
 constexpr auto names(Background) {
@@ -144,4 +144,4 @@ constexpr std::optional<E> value_named(std::string_view text) {
   return std::nullopt;
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

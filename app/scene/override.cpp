@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/scene/error.h"
 #include "app/scene/leaf.h"
 #include "app/scene/params.h"
 #include "app/scene/presets.h"
-#include "app/scene/toml_source.h"
-#include "app/scene/toml_text.h"
-#include "app/text.h"
+#include "app/scene/toml/error.h"
+#include "app/scene/toml/toml_source.h"
+#include "app/scene/toml/toml_text.h"
+#include "app/support/text.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 namespace {
 
 using Path = std::vector<std::string>;
@@ -23,11 +23,11 @@ std::string trimmed(std::string_view text) {
 }
 
 /// The parameter with NAME replaced by each name there is.
-std::vector<std::string> addresses_of(const ParamInfo& info, const Table& root) {
+std::vector<std::string> addresses_of(const ParamInfo& info, const toml::Table& root) {
   const std::string placeholder = ".NAME.";
   const auto at = info.address.find(placeholder);
   if (at == std::string::npos) return {info.address};
-  const Entry* items = root.find(info.address.substr(0, at));
+  const toml::Entry* items = root.find(info.address.substr(0, at));
   std::vector<std::string> addresses;
   if (!items) return addresses;
   for (const std::string& name : item_names(items->value)) {
@@ -38,12 +38,12 @@ std::vector<std::string> addresses_of(const ParamInfo& info, const Table& root) 
 }
 
 /// body.bull.velocity: the kind is one, the name is none.
-void refuse_unknown_name(const Override& change, const Table& root) {
+void refuse_unknown_name(const Override& change, const toml::Table& root) {
   const Path path = words_of(change.address);
   if (path.size() < 2) return;
   for (const ParamInfo& info : params()) {
     if (!info.address.starts_with(path[0] + ".NAME.")) continue;
-    const Entry* items = root.find(path[0]);
+    const toml::Entry* items = root.find(path[0]);
     const Path known = items ? item_names(items->value) : Path{};
     if (std::find(known.begin(), known.end(), path[1]) != known.end()) return;
     const std::string rest = change.address.substr(path[0].size() + 1);
@@ -51,7 +51,7 @@ void refuse_unknown_name(const Override& change, const Table& root) {
       change.fail(change.key, change.address + " does not say which " + path[0],
                   "write " + path[0] + ".NAME." + rest +
                       (known.empty() ? "; the scene has none" : ", NAME being " + list_of(known)));
-    change.fail(change.key, "there is no " + path[0] + " " + toml_string(path[1]),
+    change.fail(change.key, "there is no " + path[0] + " " + toml::toml_string(path[1]),
                 known.empty() ? "the scene has none" : "expected " + list_of(known));
   }
 }
@@ -63,9 +63,9 @@ void refuse_unknown_name(const Override& change, const Table& root) {
     if (nearest.empty() && address.ends_with("." + change.address)) nearest = address;
   }
   if (nearest.empty()) nearest = nearest_name(change.address, known);
-  change.fail(change.key, "unknown parameter " + toml_string(change.address),
+  change.fail(change.key, "unknown parameter " + toml::toml_string(change.address),
               nearest.empty() ? "neve params lists all of them"
-                              : "did you mean " + toml_string(nearest) + "?");
+                              : "did you mean " + toml::toml_string(nearest) + "?");
 }
 
 /// Whether the address is that of a table inside an item or at the top: "camera",
@@ -86,7 +86,7 @@ struct Target {
   bool is_in_item;   ///< of a list, whose name is the second word
 };
 
-Target resolve(const Override& change, const Table& root) {
+Target resolve(const Override& change, const toml::Table& root) {
   std::vector<std::string> known;
   std::optional<Target> table;
   for (const ParamInfo& info : params()) {
@@ -105,12 +105,12 @@ Target resolve(const Override& change, const Table& root) {
   return *table;
 }
 
-void set_place(Value& value, int index) {
+void set_place(toml::Value& value, int index) {
   value.where = {0, 0, index};
-  if (Array* array = std::get_if<Array>(&value.data)) {
-    for (Value& item : *array) set_place(item, index);
-  } else if (Table* table = std::get_if<Table>(&value.data)) {
-    for (Entry& entry : table->entries) {
+  if (toml::Array* array = std::get_if<toml::Array>(&value.data)) {
+    for (toml::Value& item : *array) set_place(item, index);
+  } else if (toml::Table* table = std::get_if<toml::Table>(&value.data)) {
+    for (toml::Entry& entry : table->entries) {
       entry.where = {0, 0, index};
       set_place(entry.value, index);
     }
@@ -118,33 +118,34 @@ void set_place(Value& value, int index) {
 }
 
 /// The table called `name` in a list or a table of tables.
-Table* item_called(Value& items, const std::string& name) {
+toml::Table* item_called(toml::Value& items, const std::string& name) {
   const std::vector<std::string> names = item_names(items);
   const auto k = std::find(names.begin(), names.end(), name) - names.begin();
   if (static_cast<std::size_t>(k) == names.size()) return nullptr;
-  if (Array* array = std::get_if<Array>(&items.data)) {
-    return std::get_if<Table>(&(*array)[static_cast<std::size_t>(k)].data);
+  if (toml::Array* array = std::get_if<toml::Array>(&items.data)) {
+    return std::get_if<toml::Table>(&(*array)[static_cast<std::size_t>(k)].data);
   }
-  return std::get_if<Table>(
-      &std::get<Table>(items.data).entries[static_cast<std::size_t>(k)].value.data);
+  return std::get_if<toml::Table>(
+      &std::get<toml::Table>(items.data).entries[static_cast<std::size_t>(k)].value.data);
 }
 
-Entry& entry_called(Table& table, const std::string& key, int index) {
-  if (Entry* entry = table.find(key)) return *entry;
-  return table.entries.emplace_back(Entry{key, {0, 0, index}, {Table{}, {0, 0, index}}});
+toml::Entry& entry_called(toml::Table& table, const std::string& key, int index) {
+  if (toml::Entry* entry = table.find(key)) return *entry;
+  return table.entries.emplace_back(
+      toml::Entry{key, {0, 0, index}, {toml::Table{}, {0, 0, index}}});
 }
 
 }  // namespace
 
-Value value_of(const Override& change, const std::string& type) {
+toml::Value value_of(const Override& change, const std::string& type) {
   const std::string text = trimmed(change.value);
-  if (!is_clean_text(text) || text.find_first_of("\r\n") != std::string::npos) {
+  if (!toml::is_clean_text(text) || text.find_first_of("\r\n") != std::string::npos) {
     change.fail(change.place, "a value is one line of UTF-8 without control bytes");
   }
-  Value value{text};
+  toml::Value value{text};
   try {
-    value = parse_toml("value = " + text, "").entries.at(0).value;
-  } catch (const SceneError& error) {
+    value = toml::parse_toml("value = " + text, "").entries.at(0).value;
+  } catch (const toml::SceneError& error) {
     // Words need no quotes; what starts like other TOML was meant to be that.
     if (!text.empty() && std::string_view("[{\"'").find(text[0]) != std::string_view::npos) {
       change.fail(change.place, error.message, error.hint);
@@ -173,28 +174,29 @@ bool takes_away(const Override& change) {
   return !info || !info->default_value;
 }
 
-void Override::fail(Location where, const std::string& message, const std::string& hint) const {
-  if (!file.empty()) throw SceneError(file, where.line, where.column, message, hint);
-  throw UsageError(flag + " " + address + "=" + value, message, hint);
+void Override::fail(toml::Location where, const std::string& message,
+                    const std::string& hint) const {
+  if (!file.empty()) throw toml::SceneError(file, where.line, where.column, message, hint);
+  throw toml::UsageError(flag + " " + address + "=" + value, message, hint);
 }
 
 Override parse_override(std::string_view text) {
   const auto equals = text.find('=');
   if (equals == std::string_view::npos || trimmed(text.substr(0, equals)).empty()) {
-    throw UsageError("--set " + std::string(text), "expected ADDRESS=VALUE",
-                     "for example --set material.snow.hardening=5");
+    throw toml::UsageError("--set " + std::string(text), "expected ADDRESS=VALUE",
+                           "for example --set material.snow.hardening=5");
   }
   return {trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1))};
 }
 
-std::vector<std::string> item_names(const Value& items) {
+std::vector<std::string> item_names(const toml::Value& items) {
   std::vector<std::string> names;
-  if (const Table* table = std::get_if<Table>(&items.data)) {
-    for (const Entry& entry : table->entries) names.push_back(entry.key);
-  } else if (const Array* array = std::get_if<Array>(&items.data)) {
-    for (const Value& item : *array) {
-      const Table* members = std::get_if<Table>(&item.data);
-      const Entry* name = members ? members->find("name") : nullptr;
+  if (const toml::Table* table = std::get_if<toml::Table>(&items.data)) {
+    for (const toml::Entry& entry : table->entries) names.push_back(entry.key);
+  } else if (const toml::Array* array = std::get_if<toml::Array>(&items.data)) {
+    for (const toml::Value& item : *array) {
+      const toml::Table* members = std::get_if<toml::Table>(&item.data);
+      const toml::Entry* name = members ? members->find("name") : nullptr;
       const std::string* text = name ? std::get_if<std::string>(&name->value.data) : nullptr;
       names.push_back(text && is_identifier(*text) ? *text : std::to_string(names.size() + 1));
     }
@@ -202,23 +204,23 @@ std::vector<std::string> item_names(const Value& items) {
   return names;
 }
 
-const Value* value_at(const Table& root, const std::string& address) {
-  const Table* table = &root;
-  const Value* value = nullptr;
+const toml::Value* value_at(const toml::Table& root, const std::string& address) {
+  const toml::Table* table = &root;
+  const toml::Value* value = nullptr;
   for (const std::string& word : words_of(address)) {
     // Names of [[body]] and the like are no keys but members of the entries.
-    const Array* list = value ? std::get_if<Array>(&value->data) : nullptr;
+    const toml::Array* list = value ? std::get_if<toml::Array>(&value->data) : nullptr;
     if (list) {
       const std::vector<std::string> names = item_names(*value);
       const auto k = std::find(names.begin(), names.end(), word) - names.begin();
       value = static_cast<std::size_t>(k) < names.size() ? &(*list)[static_cast<std::size_t>(k)]
                                                          : nullptr;
     } else {
-      const Entry* entry = table ? table->find(word) : nullptr;
+      const toml::Entry* entry = table ? table->find(word) : nullptr;
       value = entry ? &entry->value : nullptr;
     }
     if (!value) return nullptr;
-    table = std::get_if<Table>(&value->data);
+    table = std::get_if<toml::Table>(&value->data);
   }
   return value;
 }
@@ -226,53 +228,54 @@ const Value* value_at(const Table& root, const std::string& address) {
 namespace {
 
 /// Takes away what the document has there, if anything.
-void remove(Table& root, const Path& path, bool is_in_item) {
-  Table* table = &root;
+void remove(toml::Table& root, const Path& path, bool is_in_item) {
+  toml::Table* table = &root;
   std::size_t depth = 0;
   if (is_in_item) {
     table = item_called(root.find(path[0])->value, path[1]);
     depth = 2;
   }
   for (; table && depth + 1 < path.size(); ++depth) {
-    Entry* entry = table->find(path[depth]);
-    table = entry ? std::get_if<Table>(&entry->value.data) : nullptr;
+    toml::Entry* entry = table->find(path[depth]);
+    table = entry ? std::get_if<toml::Table>(&entry->value.data) : nullptr;
   }
   if (table)
-    std::erase_if(table->entries, [&](const Entry& entry) { return entry.key == path.back(); });
+    std::erase_if(table->entries,
+                  [&](const toml::Entry& entry) { return entry.key == path.back(); });
 }
 
-void remove(Table& root, const std::string& address, bool is_in_item) {
+void remove(toml::Table& root, const std::string& address, bool is_in_item) {
   remove(root, words_of(address), is_in_item);
 }
 
 }  // namespace
 
-void apply_override(Table& root, const Override& change, int index) {
+void apply_override(toml::Table& root, const Override& change, int index) {
   const Target target = resolve(change, root);
   if (takes_away(change)) return remove(root, change.address, target.is_in_item);
   // What is set here counts more than what the file says, so its numbers give way to a preset.
   if (is_preset_address(change.address))
     for (const std::string& number : addresses_set_by(change.address))
       remove(root, number, target.is_in_item);
-  Value value = value_of(change, target.type);
+  toml::Value value = value_of(change, target.type);
   set_place(value, index);
 
   Path path = words_of(change.address);
   const std::string last = path.back();
   path.pop_back();
-  Table* table = &root;
+  toml::Table* table = &root;
   std::size_t depth = 0;
   if (target.is_in_item) {
     table = item_called(root.find(path[0])->value, path[1]);
     depth = 2;
   }
   for (; table && depth < path.size(); ++depth) {
-    table = std::get_if<Table>(&entry_called(*table, path[depth], index).value.data);
+    table = std::get_if<toml::Table>(&entry_called(*table, path[depth], index).value.data);
   }
   if (!table) return;  // the file has something else here, which reading it will tell
-  Entry& entry = entry_called(*table, last, index);
+  toml::Entry& entry = entry_called(*table, last, index);
   entry.where = {0, 0, index};
   entry.value = std::move(value);
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/scene/value.h"
+#include "app/scene/toml/value.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 struct Override {
   std::string address;         ///< "material.snow.hardening", "body.1.velocity"
@@ -15,11 +15,11 @@ struct Override {
                                ///< absent: an optional parameter, or a table
   std::string flag = "--set";  ///< that gave it on the command line
   std::string file = {};       ///< or the sweep file that did
-  Location key = {};           ///< of the address in that file
-  Location place = {};         ///< of the value in that file
+  toml::Location key = {};     ///< of the address in that file
+  toml::Location place = {};   ///< of the value in that file
 
   /// Throws a SceneError located in the file, or a UsageError that shows the flag.
-  [[noreturn]] void fail(Location where, const std::string& message,
+  [[noreturn]] void fail(toml::Location where, const std::string& message,
                          const std::string& hint = {}) const;
 };
 
@@ -32,11 +32,11 @@ Override parse_override(std::string_view argument);
 /// @param index  of this override, kept as the location of what it sets
 /// @throws UsageError when nothing has this address (with the nearest that has) or the value is
 ///         no TOML
-void apply_override(Table& root, const Override& change, int index);
+void apply_override(toml::Table& root, const Override& change, int index);
 
 /// The value of a change, for a parameter of this type: see ParamInfo, or "table".
 /// @throws UsageError, SceneError
-Value value_of(const Override& change, const std::string& type);
+toml::Value value_of(const Override& change, const std::string& type);
 
 /// Whether the change takes away what may be absent.
 bool takes_away(const Override& change);
@@ -45,10 +45,10 @@ bool takes_away(const Override& change);
 std::vector<std::string> words_of(const std::string& address);
 
 /// What a document has at an address; null where it has nothing.
-const Value* value_at(const Table& root, const std::string& address);
+const toml::Value* value_at(const toml::Table& root, const std::string& address);
 
 /// What the entries of a list or table of tables are called: names, or numbers from 1 where there
 /// is none that could be one.
-std::vector<std::string> item_names(const Value& items);
+std::vector<std::string> item_names(const toml::Value& items);
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -4,7 +4,7 @@
 
 #include "app/scene/lister.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 namespace {
 
 /// Up to the next dot, which is taken away with it.
@@ -39,4 +39,4 @@ std::optional<ParamInfo> param_at(const std::string& address) {
   return std::nullopt;
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

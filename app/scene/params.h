@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/toml/value.h"
 #include "app/scene/valid.h"
-#include "app/scene/value.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 struct ParamInfo {
   std::string address;  ///< "material.NAME.hardening"
@@ -16,9 +16,9 @@ struct ParamInfo {
       type;  ///< boolean, number, integer, string, vector, choice, list of choices, size or range
   std::string unit;
   Valid valid;
-  std::vector<std::string> choices;    ///< of choices, what may be written
-  std::optional<Value> default_value;  ///< absent: nothing, the help says what then happens
-  bool is_live = false;                ///< may change while a simulation runs
+  std::vector<std::string> choices;          ///< of choices, what may be written
+  std::optional<toml::Value> default_value;  ///< absent: nothing, the help says what then happens
+  bool is_live = false;                      ///< may change while a simulation runs
   std::string help;
 };
 
@@ -34,4 +34,4 @@ std::string params_table(const std::vector<ParamInfo>& list = params());
 /// are some, min_open or max_open where the bound itself is not allowed.
 std::string params_json(const std::vector<ParamInfo>& list = params());
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

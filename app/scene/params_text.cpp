@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/json.h"
 #include "app/scene/params.h"
-#include "app/text.h"
+#include "app/support/json.h"
+#include "app/support/text.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 namespace {
 
 struct ToJson {
@@ -13,15 +13,15 @@ struct ToJson {
   Json operator()(std::int64_t i) const { return i; }
   Json operator()(double x) const { return number_or_null(x); }
   Json operator()(const std::string& s) const { return s; }
-  Json operator()(Date) const { return {}; }
-  Json operator()(const Array& array) const {
+  Json operator()(toml::Date) const { return {}; }
+  Json operator()(const toml::Array& array) const {
     Json list = Json::array();
-    for (const Value& value : array) list.push_back(std::visit(*this, value.data));
+    for (const toml::Value& value : array) list.push_back(std::visit(*this, value.data));
     return list;
   }
-  Json operator()(const Table& table) const {
+  Json operator()(const toml::Table& table) const {
     Json object = Json::object();
-    for (const Entry& entry : table.entries)
+    for (const toml::Entry& entry : table.entries)
       object[entry.key] = std::visit(*this, entry.value.data);
     return object;
   }
@@ -53,7 +53,7 @@ std::string params_table(const std::vector<ParamInfo>& list) {
   std::vector<Row> rows{{"ADDRESS", "TYPE", "DEFAULT", "UNIT", "RANGE", "CHANGE", "MEANING"}};
   for (const ParamInfo& info : list) {
     rows.push_back({info.address, info.type,
-                    info.default_value ? toml_literal(*info.default_value) : "-",
+                    info.default_value ? toml::toml_literal(*info.default_value) : "-",
                     info.unit.empty() ? "-" : info.unit, range_text(info),
                     info.is_live ? "live" : "restart", info.help});
   }
@@ -102,4 +102,4 @@ std::string params_json(const std::vector<ParamInfo>& params) {
   return to_text(list) + "\n";
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

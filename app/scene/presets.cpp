@@ -4,7 +4,7 @@
 
 #include "app/scene/reader.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::vector<std::string> addresses_set_by(const std::string& preset_address) {
   return std::move(keys.keys);
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

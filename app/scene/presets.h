@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/material.h"
+#include "sim/types/material.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 /// The first six are the paper's variations; `paper` is its reference snow, and the default.
 enum class Preset {
@@ -43,4 +43,4 @@ bool is_preset_address(std::string_view address);
 /// on for "material.snow.preset".
 std::vector<std::string> addresses_set_by(const std::string& preset_address);
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

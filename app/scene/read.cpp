@@ -8,11 +8,11 @@
 
 #include "app/scene/check.h"
 #include "app/scene/reader.h"
-#include "app/scene/toml_source.h"
-#include "app/scene/toml_text.h"
-#include "app/text.h"
+#include "app/scene/toml/toml_source.h"
+#include "app/scene/toml/toml_text.h"
+#include "app/support/text.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 std::vector<View> built_in_views() {
   using enum Layer;
@@ -32,33 +32,33 @@ std::vector<View> built_in_views() {
 
 namespace {
 
-Table table_of(const View& built_in) {
-  Table view;
+toml::Table table_of(const View& built_in) {
+  toml::Table view;
   view.entries.push_back({"name", {}, {built_in.name}});
   return view;
 }
 
-bool is_named(const Table& view, const std::string& name) {
-  const Entry* entry = view.find("name");
+bool is_named(const toml::Table& view, const std::string& name) {
+  const toml::Entry* entry = view.find("name");
   const auto* text = entry ? std::get_if<std::string>(&entry->value.data) : nullptr;
   return text && *text == name;
 }
 
-bool is_named(const Value& view, const std::string& name) {
-  const Table* table = std::get_if<Table>(&view.data);
+bool is_named(const toml::Value& view, const std::string& name) {
+  const toml::Table* table = std::get_if<toml::Table>(&view.data);
   return table && is_named(*table, name);
 }
 
 /// Built-in views keep their layers, and what the heat map among them shows, where the scene names
 /// none.
-void add_layers(Table& view) {
+void add_layers(toml::Table& view) {
   if (view.find("layers")) return;
   for (const View& built_in : built_in_views()) {
     if (!is_named(view, built_in.name)) continue;
     view.entries.push_back({"layers", {}, to_value(built_in.layers)});
     if (!has_layer(built_in, Layer::heatmap)) return;
-    if (!view.find("slice")) view.entries.push_back({"slice", {}, {Table{}}});
-    Table* slice = std::get_if<Table>(&view.find("slice")->value.data);
+    if (!view.find("slice")) view.entries.push_back({"slice", {}, {toml::Table{}}});
+    toml::Table* slice = std::get_if<toml::Table>(&view.find("slice")->value.data);
     if (!slice || slice->find("scalar")) return;
     slice->entries.push_back({"scalar", {}, to_value(built_in.slice.scalar)});
     if (!slice->find("scalar_colormap"))
@@ -68,16 +68,16 @@ void add_layers(Table& view) {
 }
 
 /// Whether a [[mosaic]] lists the view.
-bool is_in_mosaic(const Table& root, const std::string& name) {
-  const Entry* entry = root.find("mosaic");
-  const Array* mosaics = entry ? std::get_if<Array>(&entry->value.data) : nullptr;
+bool is_in_mosaic(const toml::Table& root, const std::string& name) {
+  const toml::Entry* entry = root.find("mosaic");
+  const toml::Array* mosaics = entry ? std::get_if<toml::Array>(&entry->value.data) : nullptr;
   if (!mosaics) return false;
-  for (const Value& mosaic : *mosaics) {
-    const Table* table = std::get_if<Table>(&mosaic.data);
-    const Entry* views = table ? table->find("views") : nullptr;
-    const Array* names = views ? std::get_if<Array>(&views->value.data) : nullptr;
+  for (const toml::Value& mosaic : *mosaics) {
+    const toml::Table* table = std::get_if<toml::Table>(&mosaic.data);
+    const toml::Entry* views = table ? table->find("views") : nullptr;
+    const toml::Array* names = views ? std::get_if<toml::Array>(&views->value.data) : nullptr;
     if (!names) continue;
-    for (const Value& item : *names) {
+    for (const toml::Value& item : *names) {
       const auto* text = std::get_if<std::string>(&item.data);
       if (text && *text == name) return true;
     }
@@ -87,32 +87,33 @@ bool is_in_mosaic(const Table& root, const std::string& name) {
 
 /// The views that the scene has, or the one that is drawn when it has none; and built-in ones that
 /// a --set or a mosaic speaks of.
-void add_views(Table& root, const std::vector<Override>& overrides) {
-  if (!root.find("view")) root.entries.push_back({"view", {}, {Array{Value{table_of(View{})}}}});
-  Array* views = std::get_if<Array>(&root.find("view")->value.data);
+void add_views(toml::Table& root, const std::vector<Override>& overrides) {
+  if (!root.find("view"))
+    root.entries.push_back({"view", {}, {toml::Array{toml::Value{table_of(View{})}}}});
+  toml::Array* views = std::get_if<toml::Array>(&root.find("view")->value.data);
   if (!views) return;
   for (const View& built_in : built_in_views()) {
     const bool is_set = std::any_of(overrides.begin(), overrides.end(), [&](const Override& o) {
       return o.address.starts_with("view." + built_in.name + ".");
     });
-    const bool is_there = std::any_of(views->begin(), views->end(), [&](const Value& view) {
+    const bool is_there = std::any_of(views->begin(), views->end(), [&](const toml::Value& view) {
       return is_named(view, built_in.name);
     });
     const bool is_wanted = is_set || is_in_mosaic(root, built_in.name);
     if (is_wanted && !is_there) views->push_back({table_of(built_in)});
   }
-  for (Value& view : *views)
-    if (Table* table = std::get_if<Table>(&view.data)) add_layers(*table);
+  for (toml::Value& view : *views)
+    if (toml::Table* table = std::get_if<toml::Table>(&view.data)) add_layers(*table);
 }
 
 /// What is there although no scene says so: a material and views with the names of their defaults.
 /// In the document, so that --set finds them too.
-void add_built_ins(Table& root, const std::vector<Override>& overrides) {
-  if (!root.find("material")) root.entries.push_back({"material", {}, {Table{}}});
-  Table* materials = std::get_if<Table>(&root.find("material")->value.data);
+void add_built_ins(toml::Table& root, const std::vector<Override>& overrides) {
+  if (!root.find("material")) root.entries.push_back({"material", {}, {toml::Table{}}});
+  toml::Table* materials = std::get_if<toml::Table>(&root.find("material")->value.data);
   const std::string snow = sim::Material{}.name;
   if (materials && !materials->find(snow)) {
-    materials->entries.insert(materials->entries.begin(), Entry{snow, {}, {Table{}}});
+    materials->entries.insert(materials->entries.begin(), toml::Entry{snow, {}, {toml::Table{}}});
   }
   add_views(root, overrides);
 }
@@ -140,28 +141,30 @@ std::string nearest_file(const std::string& file) {
 std::string read_toml_file(const std::string& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) {
-    throw SceneError(file, 0, 0, "is a directory", "name a scene file");
+    throw toml::SceneError(file, 0, 0, "is a directory", "name a scene file");
   }
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in)
-    throw SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be opened",
-                     nearest_file(file));
+    throw toml::SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be opened",
+                           nearest_file(file));
   // One byte more than allowed tells an oversized file without reading all of it.
-  std::string text(max_toml_bytes + 1, '\0');
+  std::string text(toml::max_toml_bytes + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be read");
+  if (in.bad()) throw toml::SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be read");
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.empty()) throw SceneError(file, 0, 0, "is empty", "a scene needs at least one [[body]]");
+  if (text.empty())
+    throw toml::SceneError(file, 0, 0, "is empty", "a scene needs at least one [[body]]");
   return text;
 }
 
 Scene read_scene_text(std::string_view text, const std::string& name, const std::string& base_dir,
                       const std::vector<Override>& overrides) {
-  Table root = parse_toml(text, name);
-  if (const Entry* sweep = root.find("sweep"))
-    throw SceneError(name, sweep->where.line, sweep->where.column, "this is a sweep, not a scene",
-                     "neve sweep " + name + " makes its runs");
+  toml::Table root = toml::parse_toml(text, name);
+  if (const toml::Entry* sweep = root.find("sweep"))
+    throw toml::SceneError(name, sweep->where.line, sweep->where.column,
+                           "this is a sweep, not a scene",
+                           "neve sweep " + name + " makes its runs");
   add_built_ins(root, overrides);
   // Presets first: wherever a single number is set beside one, the number counts.
   for (const bool is_turn_of_presets : {true, false})
@@ -193,9 +196,10 @@ View find_view(const Scene& scene, const std::string& name) {
     if (std::find(names.begin(), names.end(), view.name) == names.end()) names.push_back(view.name);
   }
   const std::string nearest = nearest_name(name, names);
-  throw UsageError("--view " + name, "the scene has no such view",
-                   "expected " + list_of(names) +
-                       (nearest.empty() ? "" : "; did you mean " + toml_string(nearest) + "?"));
+  throw toml::UsageError(
+      "--view " + name, "the scene has no such view",
+      "expected " + list_of(names) +
+          (nearest.empty() ? "" : "; did you mean " + toml::toml_string(nearest) + "?"));
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "app/scene/error.h"
 #include "app/scene/override.h"
 #include "app/scene/scene.h"
+#include "app/scene/toml/error.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 /// The text of a scene or sweep file. @throws SceneError when it is none, or too large
 std::string read_toml_file(const std::string& file);
@@ -34,4 +34,4 @@ std::vector<View> built_in_views();
 /// @throws UsageError with the nearest name
 View find_view(const Scene& scene, const std::string& name);
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

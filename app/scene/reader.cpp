@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "app/scene/params.h"
-#include "app/text.h"
+#include "app/support/text.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 namespace {
 
 /// What others call it: the first that is a key here.
@@ -37,7 +37,7 @@ std::string other_name(const std::string& key, const std::vector<std::string>& k
 }
 
 std::string quoted_question(const std::string& name) {
-  return "did you mean " + toml_string(name) + "?";
+  return "did you mean " + toml::toml_string(name) + "?";
 }
 
 /// Forms and keyframes are each of their own: what others of them have helps nobody.
@@ -66,7 +66,7 @@ bool is_at_the_top(const std::string& key) {
 /// Keys of the table that a kind of thing describes its shape in.
 std::vector<std::string> forms_of(const std::string& kind) {
   Keys forms;
-  sim::Shape shape;
+  sim::shapes::Shape shape;
   if (kind == "body") describe_body_forms(forms, shape);
   if (kind == "collider") describe_collider_forms(forms, shape);
   if (kind == "emitter" || kind == "sink") describe_solid_forms(forms, shape);
@@ -88,7 +88,7 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
 
 }  // namespace
 
-Location Reading::place_of(std::string address) const {
+toml::Location Reading::place_of(std::string address) const {
   while (!address.empty()) {
     const auto found = places.find(address);
     if (found != places.end()) return found->second;
@@ -119,17 +119,17 @@ std::string Reader::advice(const std::string& key, const std::vector<std::string
   return "expected " + list_of(known);
 }
 
-const Entry* Reader::given(const char* key) {
-  const Entry* entry = table_.find(key);
+const toml::Entry* Reader::given(const char* key) {
+  const toml::Entry* entry = table_.find(key);
   if (entry) reading_.places[address_of(key)] = entry->value.where;
   return entry;
 }
 
-const Table& Reader::table_of(const Value& value, const std::string& address) const {
-  const Table* table = std::get_if<Table>(&value.data);
+const toml::Table& Reader::table_of(const toml::Value& value, const std::string& address) const {
+  const toml::Table* table = std::get_if<toml::Table>(&value.data);
   if (!table) {
-    const Array* array = std::get_if<Array>(&value.data);
-    if (array && !array->empty() && std::holds_alternative<Table>(array->front().data))
+    const toml::Array* array = std::get_if<toml::Array>(&value.data);
+    if (array && !array->empty() && std::holds_alternative<toml::Table>(array->front().data))
       reading_.source.fail(value.where, address + " is no list",
                            address.find('.') == std::string::npos
                                ? "write [" + address + "], with one pair of brackets"
@@ -140,17 +140,17 @@ const Table& Reader::table_of(const Value& value, const std::string& address) co
   return *table;
 }
 
-const Array& Reader::list_of_tables(const Entry& entry) const {
-  const Array* array = std::get_if<Array>(&entry.value.data);
+const toml::Array& Reader::list_of_tables(const toml::Entry& entry) const {
+  const toml::Array* array = std::get_if<toml::Array>(&entry.value.data);
   if (!array) {
-    reading_.source.fail(entry.where, toml_string(entry.key) + " is a list",
+    reading_.source.fail(entry.where, toml::toml_string(entry.key) + " is a list",
                          "write [[" + entry.key + "]], with two brackets");
   }
   return *array;
 }
 
-const Array& Reader::array_of_tables(const Entry& entry) const {
-  const Array* array = std::get_if<Array>(&entry.value.data);
+const toml::Array& Reader::array_of_tables(const toml::Entry& entry) const {
+  const toml::Array* array = std::get_if<toml::Array>(&entry.value.data);
   if (!array) {
     const Valid any;
     Leaf{reading_.source, entry.value, address_of(entry.key), "", any}.fail(
@@ -159,8 +159,8 @@ const Array& Reader::array_of_tables(const Entry& entry) const {
   return *array;
 }
 
-std::vector<std::string> Reader::unique_names(const Entry& list) const {
-  const Array& items = std::get<Array>(list.value.data);
+std::vector<std::string> Reader::unique_names(const toml::Entry& list) const {
+  const toml::Array& items = std::get<toml::Array>(list.value.data);
   const std::vector<std::string> names = item_names(list.value);
   std::map<std::string, std::size_t> first;
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -168,12 +168,12 @@ std::vector<std::string> Reader::unique_names(const Entry& list) const {
     if (is_new) continue;
     // Blame a name that was written; an unnamed item cannot help its number.
     const auto written = [&](std::size_t item) {
-      const Table* table = std::get_if<Table>(&items[item].data);
+      const toml::Table* table = std::get_if<toml::Table>(&items[item].data);
       return table ? table->find("name") : nullptr;
     };
-    const Entry* name = written(k) ? written(k) : written(found->second);
+    const toml::Entry* name = written(k) ? written(k) : written(found->second);
     reading_.source.fail(name ? name->value.where : items[k].where,
-                         "duplicate " + list.key + " name " + toml_string(names[k]),
+                         "duplicate " + list.key + " name " + toml::toml_string(names[k]),
                          written(k) && written(found->second)
                              ? "names are unique among them"
                              : "the unnamed one there is called by its number");
@@ -182,39 +182,41 @@ std::vector<std::string> Reader::unique_names(const Entry& list) const {
 }
 
 /// [[material]] is what who knows [[body]] tries first.
-void Reader::require_no_list(const Entry& entry) const {
-  if (!std::holds_alternative<Array>(entry.value.data)) return;
+void Reader::require_no_list(const toml::Entry& entry) const {
+  if (!std::holds_alternative<toml::Array>(entry.value.data)) return;
   const std::string address = address_of(entry.key);
   reading_.source.fail(
       entry.where, address + " is no list",
       "each has a table of its name, with one pair of brackets: [" + address + ".NAME]");
 }
 
-void Reader::require_name(const Entry& item, const std::string& list) const {
-  if (!std::holds_alternative<Table>(item.value.data)) {
-    reading_.source.fail(item.where, "unknown key " + toml_string(item.key) + " in [" + list + "]",
+void Reader::require_name(const toml::Entry& item, const std::string& list) const {
+  if (!std::holds_alternative<toml::Table>(item.value.data)) {
+    reading_.source.fail(item.where,
+                         "unknown key " + toml::toml_string(item.key) + " in [" + list + "]",
                          "each " + list + " has a name: [" + list + ".NAME]");
   }
   if (is_identifier(item.key)) return;
-  reading_.source.fail(item.where, "bad " + list + " name " + toml_string(item.key),
+  reading_.source.fail(item.where, "bad " + list + " name " + toml::toml_string(item.key),
                        "expected 1 to 64 letters, digits, _ and -");
 }
 
-void Reader::require_one_form(const Entry& shape, const std::vector<std::string>& forms) const {
+void Reader::require_one_form(const toml::Entry& shape,
+                              const std::vector<std::string>& forms) const {
   const std::string address = address_of(shape.key);
-  const Table& table = table_of(shape.value, address);
-  for (const Entry& form : table.entries) {
+  const toml::Table& table = table_of(shape.value, address);
+  for (const toml::Entry& form : table.entries) {
     bool is_known = false;
     for (const std::string& name : forms) is_known = is_known || name == form.key;
     if (!is_known) {
       const std::string& first = table.entries.front().key;
       if (std::find(forms.begin(), forms.end(), first) != forms.end())
         reading_.source.fail(form.where,
-                             toml_string(form.key) + " is beside the shape in " + address,
+                             toml::toml_string(form.key) + " is beside the shape in " + address,
                              "write it into the braces of the shape: { " + first + " = { ..., " +
                                  form.key + " = ... } }");
       reading_.source.fail(form.where,
-                           "unsupported shape " + toml_string(form.key) + " in " + address,
+                           "unsupported shape " + toml::toml_string(form.key) + " in " + address,
                            form_advice(form.key, forms));
     }
   }
@@ -229,12 +231,12 @@ void Reader::require_one_form(const Entry& shape, const std::vector<std::string>
 }
 
 void Reader::refuse_unknown(const std::vector<std::string>& known) const {
-  for (const Entry& entry : table_.entries) {
+  for (const toml::Entry& entry : table_.entries) {
     bool is_known = false;
     for (const std::string& key : known) is_known = is_known || key == entry.key;
     if (is_known) continue;
     reading_.source.fail(entry.where,
-                         "unknown key " + toml_literal({entry.key}, max_shown) +
+                         "unknown key " + toml::toml_literal({entry.key}, toml::max_shown) +
                              (address_.empty() ? "" : " in [" + address_ + "]"),
                          advice(entry.key, known));
   }
@@ -245,4 +247,4 @@ void Reader::fail_without_shape(const char* key) const {
                        "for example shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }");
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -8,15 +8,15 @@
 #include "app/scene/describe.h"
 #include "app/scene/leaf.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 /// What all readers of one document share.
 struct Reading {
   Source source;
-  std::map<std::string, Location> places;  ///< where each address was given
+  std::map<std::string, toml::Location> places;  ///< where each address was given
 
   /// Of the address, or of the closest thing around it that was written.
-  Location place_of(std::string address) const;
+  toml::Location place_of(std::string address) const;
 };
 
 /// The visitor that collects the keys of one table.
@@ -73,25 +73,26 @@ class Keys {
 class Reader {
  public:
   /// @param address  of the table, "" for the document
-  Reader(Reading& reading, const Table& table, std::string address)
+  Reader(Reading& reading, const toml::Table& table, std::string address)
       : reading_(reading), table_(table), address_(std::move(address)) {}
 
   template <class T>
   void operator()(const char* key, T& member, const char* unit, const Valid& valid, Change,
                   const char*) {
-    if (const Entry* entry = given(key)) {
+    if (const toml::Entry* entry = given(key)) {
       read_leaf(Leaf{reading_.source, entry->value, address_of(key), unit, valid}, member);
     }
   }
 
   template <class Describe>
   void section(const char* key, const char*, Describe describe_members) {
-    if (const Entry* entry = given(key)) enter(entry->value, address_of(key), describe_members);
+    if (const toml::Entry* entry = given(key))
+      enter(entry->value, address_of(key), describe_members);
   }
 
   template <class T>
   void optional(const char* key, std::optional<T>& member, const char*) {
-    const Entry* entry = given(key);
+    const toml::Entry* entry = given(key);
     if (!entry) return;
     member = fresh<T>();
     enter(entry->value, address_of(key), [&](auto& v) { describe(v, *member); });
@@ -99,10 +100,10 @@ class Reader {
 
   template <class T>
   void named(const char* key, std::vector<T>& items, const char*) {
-    const Entry* entry = given(key);
+    const toml::Entry* entry = given(key);
     if (!entry) return;
     require_no_list(*entry);
-    for (const Entry& item : table_of(entry->value, address_of(key)).entries) {
+    for (const toml::Entry& item : table_of(entry->value, address_of(key)).entries) {
       const std::string address = address_of(key) + "." + item.key;
       require_name(item, address_of(key));
       T& member = items.emplace_back(fresh<T>());
@@ -113,9 +114,9 @@ class Reader {
 
   template <class T>
   void list(const char* key, std::vector<T>& items, const char*) {
-    const Entry* entry = given(key);
+    const toml::Entry* entry = given(key);
     if (!entry) return;
-    const Array& array = list_of_tables(*entry);
+    const toml::Array& array = list_of_tables(*entry);
     const std::vector<std::string> names = unique_names(*entry);
     for (std::size_t k = 0; k < array.size(); ++k) {
       T& member = items.emplace_back(fresh<T>());
@@ -126,10 +127,10 @@ class Reader {
 
   template <class T>
   void sequence(const char* key, std::vector<T>& items, const char*) {
-    const Entry* entry = given(key);
+    const toml::Entry* entry = given(key);
     if (!entry) return;
     items.clear();
-    const Array& array = array_of_tables(*entry);
+    const toml::Array& array = array_of_tables(*entry);
     for (std::size_t k = 0; k < array.size(); ++k) {
       T& member = items.emplace_back();
       enter(array[k], address_of(key) + "[" + std::to_string(k + 1) + "]",
@@ -137,31 +138,31 @@ class Reader {
     }
   }
 
-  void addresses(const char* key, Table& member, const char*) {
-    if (const Entry* entry = given(key)) member = table_of(entry->value, address_of(key));
+  void addresses(const char* key, toml::Table& member, const char*) {
+    if (const toml::Entry* entry = given(key)) member = table_of(entry->value, address_of(key));
   }
 
-  void address_lists(const char* key, std::vector<Table>& members, const char*) {
-    const Entry* entry = given(key);
+  void address_lists(const char* key, std::vector<toml::Table>& members, const char*) {
+    const toml::Entry* entry = given(key);
     if (!entry) return;
-    for (const Value& item : list_of_tables(*entry))
+    for (const toml::Value& item : list_of_tables(*entry))
       members.push_back(table_of(item, address_of(key)));
   }
 
   template <class Describe>
-  void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
-    const Entry* entry = given(key);
+  void shape(const char* key, sim::shapes::Shape& shape, const char*, Describe describe_forms) {
+    const toml::Entry* entry = given(key);
     if (!entry) fail_without_shape(key);
     Keys forms;
     describe_forms(forms, shape);
     require_one_form(*entry, forms.keys);
-    Reader inner(reading_, std::get<Table>(entry->value.data), address_of(key));
+    Reader inner(reading_, std::get<toml::Table>(entry->value.data), address_of(key));
     describe_forms(inner, shape);
   }
 
   template <class Form>
-  void form(const char* key, sim::Shape& shape, Change change, const char*) {
-    const Entry* entry = given(key);
+  void form(const char* key, sim::shapes::Shape& shape, Change change, const char*) {
+    const toml::Entry* entry = given(key);
     if (!entry) return;
     Form& form = shape.form.emplace<Form>();
     enter(entry->value, address_of(key), [&](auto& v) {
@@ -172,7 +173,7 @@ class Reader {
 
   template <Choice E, class Use>
   void shorthand(const char* key, const std::optional<E>&, Use use, const char*) {
-    const Entry* entry = given(key);
+    const toml::Entry* entry = given(key);
     if (!entry) return;
     E chosen{};
     read_leaf(Leaf{reading_.source, entry->value, address_of(key), unit::none, anything}, chosen);
@@ -190,7 +191,7 @@ class Reader {
 
  private:
   template <class Describe>
-  void enter(const Value& value, const std::string& address, Describe describe_members) {
+  void enter(const toml::Value& value, const std::string& address, Describe describe_members) {
     reading_.places[address] = value.where;
     Reader(reading_, table_of(value, address), address).read(describe_members);
   }
@@ -200,21 +201,21 @@ class Reader {
   }
 
   /// The key's entry, remembered as the place of its address.
-  const Entry* given(const char* key);
-  const Table& table_of(const Value& value, const std::string& address) const;
-  const Array& list_of_tables(const Entry& entry) const;
-  const Array& array_of_tables(const Entry& entry) const;
-  std::vector<std::string> unique_names(const Entry& list) const;
+  const toml::Entry* given(const char* key);
+  const toml::Table& table_of(const toml::Value& value, const std::string& address) const;
+  const toml::Array& list_of_tables(const toml::Entry& entry) const;
+  const toml::Array& array_of_tables(const toml::Entry& entry) const;
+  std::vector<std::string> unique_names(const toml::Entry& list) const;
   std::string advice(const std::string& key, const std::vector<std::string>& known) const;
-  void require_no_list(const Entry& entry) const;
-  void require_name(const Entry& item, const std::string& list) const;
-  void require_one_form(const Entry& shape, const std::vector<std::string>& forms) const;
+  void require_no_list(const toml::Entry& entry) const;
+  void require_name(const toml::Entry& item, const std::string& list) const;
+  void require_one_form(const toml::Entry& shape, const std::vector<std::string>& forms) const;
   void refuse_unknown(const std::vector<std::string>& known) const;
   [[noreturn]] void fail_without_shape(const char* key) const;
 
   Reading& reading_;
-  const Table& table_;
+  const toml::Table& table_;
   std::string address_;
 };
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

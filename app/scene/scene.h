@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "render/frame.h"
-#include "sim/collider.h"
-#include "sim/flow.h"
-#include "sim/material.h"
-#include "sim/seeding.h"
-#include "sim/settings.h"
+#include "render/frame/frame.h"
+#include "sim/seeding/flow.h"
+#include "sim/seeding/seeding.h"
+#include "sim/shapes/collider.h"
+#include "sim/types/material.h"
+#include "sim/types/settings.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 enum class ColorBy { snow, speed, density, J_E, J_P, pressure, von_mises, id };
 /// Fields on the nodes of the grid. All but mass and speed are means of the particles around.
@@ -44,7 +44,7 @@ enum class Background { gradient, transparent };
 enum class ColliderStyle { solid, wire, ghost };
 
 /// What the simulation knows of an obstacle, and how it is drawn.
-struct Collider : sim::Collider {
+struct Collider : sim::shapes::Collider {
   ColliderStyle style = ColliderStyle::solid;
 };
 
@@ -158,9 +158,9 @@ struct Scene {
   sim::SolverSettings solver;
   Limits limits;
   std::vector<sim::Material> materials;  ///< "snow" is always there
-  std::vector<sim::Body> bodies;
-  std::vector<sim::Emitter> emitters;
-  std::vector<sim::Sink> sinks;
+  std::vector<sim::seeding::Body> bodies;
+  std::vector<sim::seeding::Emitter> emitters;
+  std::vector<sim::seeding::Sink> sinks;
   std::vector<Collider> colliders;
   std::optional<CameraSettings> camera;  ///< automatic when absent
   LightSettings light;
@@ -175,8 +175,8 @@ inline Background background_of(const Scene& scene, const View& view) {
 }
 
 /// The scene's colliders without their looks.
-inline std::vector<sim::Collider> sim_colliders(const Scene& scene) {
+inline std::vector<sim::shapes::Collider> sim_colliders(const Scene& scene) {
   return {scene.colliders.begin(), scene.colliders.end()};
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scene/value.h"
+#include "app/scene/toml/value.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 namespace {
 
 constexpr std::size_t max_name_length = 64;  // views name folders
@@ -25,13 +25,14 @@ bool Valid::contains(double x) const {
 std::string Valid::text_of_bounds() const {
   std::string bounds = "value";
   if (least_above_0 > 0)
-    return "0 or " + number_text(least_above_0) + " <= value <= " + number_text(max);
+    return "0 or " + toml::number_text(least_above_0) + " <= value <= " + toml::number_text(max);
   if (std::isfinite(min)) {
     // One bound reads better with the value first: value > 0.
-    if (!std::isfinite(max)) return bounds + (is_min_open ? " > " : " >= ") + number_text(min);
-    bounds = number_text(min) + (is_min_open ? " < " : " <= ") + bounds;
+    if (!std::isfinite(max))
+      return bounds + (is_min_open ? " > " : " >= ") + toml::number_text(min);
+    bounds = toml::number_text(min) + (is_min_open ? " < " : " <= ") + bounds;
   }
-  if (std::isfinite(max)) bounds += (is_max_open ? " < " : " <= ") + number_text(max);
+  if (std::isfinite(max)) bounds += (is_max_open ? " < " : " <= ") + toml::number_text(max);
   return bounds;
 }
 
@@ -40,4 +41,4 @@ bool is_identifier(const std::string& text) {
          std::all_of(text.begin(), text.end(), is_word);
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-namespace neve::app {
+namespace neve::app::scene {
 
 /// live: may change while a simulation runs; restart: only from frame 0.
 enum class Change { live, restart };
@@ -49,4 +49,4 @@ constexpr Valid within(double x) {
 /// Whether `text` can name a body, material, collider or view.
 bool is_identifier(const std::string& text);
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -2,13 +2,13 @@
 
 #include "app/scene/read.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 std::string write_scene(const Scene& scene) {
   Scene copy = scene;  // visitors take members they could change
   Writer writer;
   describe(writer, copy);
-  return toml_document(writer.table);
+  return toml::toml_document(writer.table);
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -8,15 +8,15 @@
 #include "app/scene/describe.h"
 #include "app/scene/leaf.h"
 
-namespace neve::app {
+namespace neve::app::scene {
 
 class Writer {
  public:
-  Table table;
+  toml::Table table;
 
   template <class T>
   void operator()(const char* key, T& member, const char*, const Valid&, Change, const char*) {
-    if (std::optional<Value> value = value_if_any(member)) add(key, std::move(*value));
+    if (std::optional<toml::Value> value = value_if_any(member)) add(key, std::move(*value));
   }
 
   template <class Describe>
@@ -33,14 +33,14 @@ class Writer {
 
   template <class T>
   void named(const char* key, std::vector<T>& items, const char*) {
-    Table all;
+    toml::Table all;
     for (T& item : items) all.entries.push_back({item.name, {}, written(item)});
     add(key, {std::move(all)});
   }
 
   template <class T>
   void list(const char* key, std::vector<T>& items, const char*) {
-    Array all;
+    toml::Array all;
     for (T& item : items) all.push_back(written(item));
     add(key, {std::move(all)});
   }
@@ -51,14 +51,14 @@ class Writer {
   }
 
   template <class Describe>
-  void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
+  void shape(const char* key, sim::shapes::Shape& shape, const char*, Describe describe_forms) {
     Writer inner;
     describe_forms(inner, shape);
     add(key, {std::move(inner.table)});
   }
 
   template <class Form>
-  void form(const char* key, sim::Shape& shape, Change change, const char*) {
+  void form(const char* key, sim::shapes::Shape& shape, Change change, const char*) {
     Form* form = std::get_if<Form>(&shape.form);
     if (!form) return;
     Writer inner;
@@ -73,13 +73,15 @@ class Writer {
 
  private:
   template <class T>
-  static Value written(T& item) {
+  static toml::Value written(T& item) {
     Writer inner;
     describe(inner, item);
     return {std::move(inner.table)};
   }
 
-  void add(const char* key, Value value) { table.entries.push_back({key, {}, std::move(value)}); }
+  void add(const char* key, toml::Value value) {
+    table.entries.push_back({key, {}, std::move(value)});
+  }
 };
 
-}  // namespace neve::app
+}  // namespace neve::app::scene

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <utility>
 
-#include "app/clock.h"
-#include "app/interrupt.h"
-#include "app/view/labels.h"
-#include "app/view/tip.h"
+#include "app/support/clock.h"
+#include "app/support/interrupt.h"
+#include "app/view/panels/labels.h"
+#include "app/view/panels/tip.h"
 
-namespace neve::app {
+namespace neve::app::view {
 
 namespace {
 
@@ -38,8 +38,8 @@ void style_panels(float scale) {
 
 }  // namespace
 
-Viewer::Viewer(Workbench& bench, Front& front, render::Screen& screen, render::Renderer& renderer,
-               const ViewerOptions& options)
+Viewer::Viewer(session::Workbench& bench, front::Front& front, render::Screen& screen,
+               render::Renderer& renderer, const ViewerOptions& options)
     : bench_(bench),
       front_(front),
       screen_(screen),
@@ -49,14 +49,14 @@ Viewer::Viewer(Workbench& bench, Front& front, render::Screen& screen, render::R
       state_{.bench = bench} {
   state_.view = options.view.value_or(bench.document().scene()->views.front().name);
   state_.copy = [this](const std::string& text) { front_.set_clipboard(text); };
-  announce_view(state_);
+  panels::announce_view(state_);
   if (options.is_running) bench_.session().run();
 }
 
 void Viewer::run() {
   while (!is_closed_ && !is_interrupted()) {
-    const bool is_busy = settle_ > 0 || state_.is_playing || !is_still() || is_tip_coming() ||
-                         state_.hint.seconds > 0;
+    const bool is_busy = settle_ > 0 || state_.is_playing || !is_still() ||
+                         panels::is_tip_coming() || state_.hint.seconds > 0;
     take_events(front_.wait(is_busy ? (options_.has_own_clock ? 0 : 1.0 / 60) : idle_wait));
     if (is_closed_) break;
     if (!front_.is_ready()) continue;
@@ -76,11 +76,11 @@ void Viewer::run() {
   writer_.finish();
 }
 
-void Viewer::take_events(std::vector<InputEvent> events) {
+void Viewer::take_events(std::vector<front::InputEvent> events) {
   has_input_ = has_input_ || !events.empty();
-  for (const InputEvent& event : events) {
-    if (event.kind == InputEvent::Kind::close) is_closed_ = true;
-    if (event.kind == InputEvent::Kind::drop) take_drop(event.text);
+  for (const front::InputEvent& event : events) {
+    if (event.kind == front::InputEvent::Kind::close) is_closed_ = true;
+    if (event.kind == front::InputEvent::Kind::drop) take_drop(event.text);
   }
   input_.push(std::move(events));
 }
@@ -88,22 +88,22 @@ void Viewer::take_events(std::vector<InputEvent> events) {
 /// The present run goes on when the file is no scene.
 void Viewer::take_drop(const std::string& file) {
   try {
-    state_.dropped = open_document(file, {}, bench_.document().coarsening());
+    state_.dropped = session::open_document(file, {}, bench_.document().coarsening());
     is_closed_ = true;
   } catch (const std::exception& error) {
-    bench_.say(Message::Kind::error, error.what());
+    bench_.say(session::Message::Kind::error, error.what());
   }
 }
 
 void Viewer::take_live_frame() {
-  const std::shared_ptr<const LiveFrame> live = bench_.session().latest();
+  const std::shared_ptr<const session::LiveFrame> live = bench_.session().latest();
   if (state_.live && live->number == state_.live->number) return;
   state_.live = live;
   if (live->probe) {
-    ProbeTrace& trace = state_.trace;
+    panels::ProbeTrace& trace = state_.trace;
     if (trace.quantity.empty() && !live->probe->rows.empty())
       trace.quantity = live->probe->is_node ? "v_old" : "v";
-    for (const ProbeRow& row : live->probe->rows) {
+    for (const session::ProbeRow& row : live->probe->rows) {
       if (row.name != trace.quantity) continue;
       while (!trace.points.empty() && trace.points.back().first >= live->snapshot.time)
         trace.points.pop_back();
@@ -115,16 +115,16 @@ void Viewer::take_live_frame() {
 
 /// What went wrong since the last picture becomes a message, and its tab is opened.
 void Viewer::show_news() {
-  const LiveFrame& live = *state_.live;
+  const session::LiveFrame& live = *state_.live;
   if (live.errors != state_.errors_seen) {
     state_.errors_seen = live.errors;
-    bench_.say(Message::Kind::error, live.error);
+    bench_.say(session::Message::Kind::error, live.error);
   }
   // Nothing moves away below a drag or a text that is being typed.
   if (bench_.errors_said() != state_.errors_told && !ImGui::IsAnyItemActive()) {
     state_.errors_told = bench_.errors_said();
     state_.panels.right = true;
-    state_.go_to_tab = tab::messages;
+    state_.go_to_tab = panels::tab::messages;
     settle_ = 3;
   }
   if (!live.divergence) {
@@ -132,7 +132,7 @@ void Viewer::show_news() {
   } else if (!state_.is_divergence_told) {
     state_.is_divergence_told = true;
     state_.panels.right = true;
-    state_.go_to_tab = tab::messages;
+    state_.go_to_tab = panels::tab::messages;
   }
   const auto now = Clock::now();
   if (now - file_looked_at_ < file_interval) return;
@@ -166,7 +166,7 @@ double Viewer::seconds_passed() {
 
 void Viewer::draw() {
   const auto start = Clock::now();
-  const ScreenSize size = front_.size();
+  const front::ScreenSize size = front_.size();
   const double passed = seconds_passed();
   if (size.scale != styled_scale_) {
     screen_.select_panels();
@@ -174,7 +174,7 @@ void Viewer::draw() {
     styled_scale_ = size.scale;
   }
   play(passed);
-  const Orbit camera_before = state_.orbit;
+  const panels::Orbit camera_before = state_.orbit;
   lay_out();
   // Panels are laid out and used first: what they change is in this picture already.
   screen_.begin(size.width, size.height, font_size(), static_cast<float>(passed));
@@ -198,9 +198,9 @@ int Viewer::font_size() const {
 
 /// Where there is no room for two columns beside the picture, one stands for both.
 void Viewer::lay_out() {
-  const ScreenSize size = front_.size();
+  const front::ScreenSize size = front_.size();
   const auto unit = static_cast<float>(font_size());
-  PanelSwitches& panels = state_.panels;
+  panels::PanelSwitches& panels = state_.panels;
   panels.is_narrow = static_cast<float>(size.width) < narrow * unit;
   if (state_.go_to_tab) panels.prefers_right = true;
   constexpr float row = 1.75f;  // a button and the gap below it
@@ -237,21 +237,22 @@ void Viewer::draw_panels() {
   };
   const auto bar = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
   window(
-      "transport", ImVec2(0, 0), ImVec2(all.x, y), [&] { draw_transport(state_); }, bar);
-  window("left", ImVec2(0, y), ImVec2(x, all.y - y), [&] { draw_left_column(state_); });
+      "transport", ImVec2(0, 0), ImVec2(all.x, y), [&] { panels::draw_transport(state_); }, bar);
+  window("left", ImVec2(0, y), ImVec2(x, all.y - y), [&] { panels::draw_left_column(state_); });
   window("right", ImVec2(x + w, y), ImVec2(all.x - x - w, all.y - y),
-         [&] { draw_right_column(state_); });
+         [&] { panels::draw_right_column(state_); });
   window(
-      "time", ImVec2(x, y + h), ImVec2(w, all.y - y - h), [&] { draw_time_line(state_); }, bar);
-  draw_offer(state_);
-  draw_help(state_);
-  use_viewport(state_);
-  use_keys(state_);
+      "time", ImVec2(x, y + h), ImVec2(w, all.y - y - h), [&] { panels::draw_time_line(state_); },
+      bar);
+  panels::draw_offer(state_);
+  panels::draw_help(state_);
+  panels::use_viewport(state_);
+  panels::use_keys(state_);
 }
 
 void Viewer::play(double passed) {
   if (!state_.is_playing) return;
-  const LiveFrame& live = *state_.live;
+  const session::LiveFrame& live = *state_.live;
   state_.play_clock += passed * live.scene->fps;
   if (state_.play_clock < 1 || painted_number_ != live.number) return;
   const int wanted = live.frame + static_cast<int>(state_.play_clock);
@@ -265,4 +266,4 @@ void Viewer::play(double passed) {
   }
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::view

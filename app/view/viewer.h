@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "app/clock.h"
 #include "app/output/picture_writer.h"
-#include "app/view/front.h"
-#include "app/view/imgui_input.h"
-#include "app/view/viewer_state.h"
+#include "app/support/clock.h"
+#include "app/view/front/front.h"
+#include "app/view/front/imgui_input.h"
+#include "app/view/panels/viewer_state.h"
 #include "render/renderer.h"
 #include "render/screen.h"
 
-namespace neve::app {
+namespace neve::app::view {
 
 struct ViewerOptions {
   int most_pictures = 0;            ///< ends after so many; 0: never
@@ -25,24 +25,24 @@ struct ViewerOptions {
 
 class Viewer {
  public:
-  Viewer(Workbench& bench, Front& front, render::Screen& screen, render::Renderer& renderer,
-         const ViewerOptions& options);
+  Viewer(session::Workbench& bench, front::Front& front, render::Screen& screen,
+         render::Renderer& renderer, const ViewerOptions& options);
 
   /// Until the front closes, or Ctrl-C.
   void run();
 
-  ViewerState& state() { return state_; }
+  panels::ViewerState& state() { return state_; }
 
  private:
-  void take_events(std::vector<InputEvent> events);
+  void take_events(std::vector<front::InputEvent> events);
   void take_drop(const std::string& file);
   void take_live_frame();
   void show_news();
   bool is_still() const;
   void draw();
   void paint_picture();
-  View shown_view() const;
-  render::Frame picture_frame(View view);
+  scene::View shown_view() const;
+  render::Frame picture_frame(scene::View view);
   void keep_points(render::Points points);
   int font_size() const;  ///< px
   void lay_out();
@@ -50,21 +50,21 @@ class Viewer {
   void play(double seconds);
   void follow();
   bool has_picture_to_save();
-  Picture picture_to_keep(const std::filesystem::path& file);
+  output::Picture picture_to_keep(const std::filesystem::path& file);
   void save_picture();
   void record_frame();
   double seconds_passed();
   std::string state_key() const;
   std::string picture_key() const;
 
-  Workbench& bench_;
-  Front& front_;
+  session::Workbench& bench_;
+  front::Front& front_;
   render::Screen& screen_;
   render::Renderer& renderer_;
   ViewerOptions options_;
-  ImGuiInput input_;
-  ViewerState state_;
-  PictureWriter writer_;
+  front::ImGuiInput input_;
+  panels::ViewerState state_;
+  output::PictureWriter writer_;
   bool is_closed_ = false;
   int pictures_ = 0;
   float styled_scale_ = 0;  ///< that the panels' distances are for
@@ -83,4 +83,4 @@ class Viewer {
   int recorded_frame_ = -1;
 };
 
-}  // namespace neve::app
+}  // namespace neve::app::view

@@ -1,16 +1,16 @@
 /// Pictures that stay: of a moment, and a recording of every frame.
 
 #include "app/output/atomic_file.h"
-#include "app/output/run_json.h"
 #include "app/output/sequence.h"
+#include "app/run/run_json.h"
 #include "app/view/viewer.h"
 
-namespace neve::app {
+namespace neve::app::view {
 
 /// Pictures can be made again where they belong to a frame: one that is asked for between two is
 /// that of the next.
 bool Viewer::has_picture_to_save() {
-  const LiveFrame& live = *state_.live;
+  const session::LiveFrame& live = *state_.live;
   if (live.stage && live.is_frame_end) {
     bench_.session().leave_stage();
     settle_ = 3;
@@ -29,62 +29,63 @@ bool Viewer::has_picture_to_save() {
 }
 
 /// The current view at its own size, with all that makes it again.
-Picture Viewer::picture_to_keep(const std::filesystem::path& file) {
-  const LiveFrame& live = *state_.live;
-  View view = current_view(state_);
-  const Scene& scene = *bench_.document().scene();
-  view.size = size_of(scene, view);
+output::Picture Viewer::picture_to_keep(const std::filesystem::path& file) {
+  const session::LiveFrame& live = *state_.live;
+  scene::View view = panels::current_view(state_);
+  const scene::Scene& scene = *bench_.document().scene();
+  view.size = setup::size_of(scene, view);
   // The orbit of a moving camera is widened where the window is narrower than the picture.
   if (!state_.is_camera_of_scene)
     view.camera = state_.orbit.settings();
   else if (!view.camera)
     view.camera = scene.camera;
-  PictureRecord record = bench_.picture_record(live, view);
-  record.state_hash = hash_text(live.state_hash);
+  run::PictureRecord record = bench_.picture_record(live, view);
+  record.state_hash = run::hash_text(live.state_hash);
   painted_key_.clear();  // another picture takes the place of the one on the screen
-  return {file, renderer_.draw(picture_frame(std::move(view))), to_png_text(record)};
+  return {file, renderer_.draw(picture_frame(std::move(view))), run::to_png_text(record)};
 }
 
 void Viewer::save_picture() {
   state_.wants_picture = false;
-  const LiveFrame& live = *state_.live;
+  const session::LiveFrame& live = *state_.live;
   const bool was_between = is_going_to_frame_ && live.is_frame_end;
   if (goes_on_) bench_.session().run();
   is_going_to_frame_ = goes_on_ = false;
   char number[32];
   std::snprintf(number, sizeof number, "%04d_step%zu.png", live.frame, live.steps);
-  const std::filesystem::path file = bench_.folder() / (current_view(state_).name + "_" + number);
+  const std::filesystem::path file =
+      bench_.folder() / (panels::current_view(state_).name + "_" + number);
   try {
-    const Picture picture = picture_to_keep(file);
-    make_folder(bench_.folder());
-    write_file(file, render::encode_png(picture.image, picture.text));
-    bench_.say(Message::Kind::note,
+    const output::Picture picture = picture_to_keep(file);
+    output::make_folder(bench_.folder());
+    output::write_file(file, render::encode_png(picture.image, picture.text));
+    bench_.say(session::Message::Kind::note,
                "saved " + file.string() + "; neve render " + file.string() + " makes it again" +
                    (was_between ? "; it is of frame " + std::to_string(live.frame) +
                                       ", the next one: only whole frames can be made again"
                                 : ""));
   } catch (const std::exception& error) {
-    bench_.say(Message::Kind::error, std::string("no picture: ") + error.what());
+    bench_.say(session::Message::Kind::error, std::string("no picture: ") + error.what());
   }
-  state_.go_to_tab = tab::messages;
+  state_.go_to_tab = panels::tab::messages;
   settle_ = 3;
 }
 
 /// Every frame once.
 void Viewer::record_frame() {
-  const LiveFrame& live = *state_.live;
+  const session::LiveFrame& live = *state_.live;
   if (!live.is_frame_end || live.frame == recorded_frame_) return;
   recorded_frame_ = live.frame;
   try {
-    const std::string& view = current_view(state_).name;
-    make_folder(bench_.folder() / view);
-    writer_.write(picture_to_keep(frame_path(bench_.folder(), view, live.frame)));
+    const std::string& view = panels::current_view(state_).name;
+    output::make_folder(bench_.folder() / view);
+    writer_.write(picture_to_keep(output::frame_path(bench_.folder(), view, live.frame)));
     ++state_.recorded;
   } catch (const std::exception& error) {
-    bench_.say(Message::Kind::error, std::string("recording stopped: ") + error.what());
+    bench_.say(session::Message::Kind::error, std::string("recording stopped: ") + error.what());
     state_.is_recording = false;
     bench_.session().set_recording(false);
   }
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::view

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "app/camera_path.h"
-#include "app/clock.h"
-#include "app/frame_builder.h"
-#include "app/round_number.h"
+#include "app/picture/frame_builder.h"
 #include "app/scene/names.h"
+#include "app/setup/camera_path.h"
+#include "app/support/clock.h"
+#include "app/support/round_number.h"
 #include "app/view/viewer.h"
 
-namespace neve::app {
+namespace neve::app::view {
 
 namespace {
 
@@ -23,17 +23,17 @@ constexpr double smallest_scale = 0.45;
 
 /// Whether all that the view shows was worked out for this moment: a view that was just chosen has
 /// to wait for the session.
-bool has_all(const Snapshot& snapshot, const View& view) {
-  Scene scene;
+bool has_all(const picture::Snapshot& snapshot, const scene::View& view) {
+  scene::Scene scene;
   scene.views = {view};
-  const FieldNeeds needs = field_needs(scene);
+  const picture::FieldNeeds needs = picture::field_needs(scene);
   const auto& fields = snapshot.fields;
   return (!needs.is_needed || fields.lattice) &&
-         (!needs_stress(scene) || !snapshot.kirchhoff.empty()) &&
+         (!picture::needs_stress(scene) || !snapshot.kirchhoff.empty()) &&
          std::all_of(needs.scalars.begin(), needs.scalars.end(),
-                     [&](ScalarField field) { return fields.scalars.contains(field); }) &&
+                     [&](scene::ScalarField field) { return fields.scalars.contains(field); }) &&
          std::all_of(needs.vectors.begin(), needs.vectors.end(),
-                     [&](VectorField field) { return fields.vectors.contains(field); });
+                     [&](scene::VectorField field) { return fields.vectors.contains(field); });
 }
 
 /// Vertical angle of view of a picture that many times narrower, with the same left and right.
@@ -65,16 +65,17 @@ std::string Viewer::picture_key() const {
 
 void Viewer::paint_picture() {
   if (state_.is_camera_of_scene) {
-    const Scene& scene = *state_.live->scene;
-    const View& view = current_view(state_);
-    const CameraSettings settings = view.camera ? *view.camera : *bench_.document().scene()->camera;
-    const CameraPlace place =
-        camera_at(settings, state_.live->snapshot.time, scene.frames / scene.fps);
-    const PictureSize framed = size_of(*bench_.document().scene(), view);
+    const scene::Scene& scene = *state_.live->scene;
+    const scene::View& view = panels::current_view(state_);
+    const scene::CameraSettings settings =
+        view.camera ? *view.camera : *bench_.document().scene()->camera;
+    const setup::CameraPlace place =
+        setup::camera_at(settings, state_.live->snapshot.time, scene.frames / scene.fps);
+    const scene::PictureSize framed = setup::size_of(*bench_.document().scene(), view);
     const double narrower = (static_cast<double>(framed.width) / framed.height) /
                             (static_cast<double>(state_.viewport.width) / state_.viewport.height);
-    state_.orbit =
-        Orbit(place.eye, place.target, settings.up, widened(place.fov, std::max(1.0, narrower)));
+    state_.orbit = panels::Orbit(place.eye, place.target, settings.up,
+                                 widened(place.fov, std::max(1.0, narrower)));
   }
   const bool is_moving = seconds_since(moved_at_) < still_after;
   double scale = 1;
@@ -84,10 +85,10 @@ void Viewer::paint_picture() {
   if (key == painted_key_ && scale <= scale_) return;
   if (!has_all(state_.live->snapshot, shown_view())) return;
   const auto start = Clock::now();
-  const PictureSize size{
+  const scene::PictureSize size{
       std::max(16, static_cast<int>(std::lround(scale * state_.viewport.width))),
       std::max(16, static_cast<int>(std::lround(scale * state_.viewport.height)))};
-  View view = shown_view();
+  scene::View view = shown_view();
   view.size = size;
   view.camera = state_.orbit.settings();
   render::Frame frame = picture_frame(std::move(view));
@@ -103,18 +104,19 @@ void Viewer::paint_picture() {
 }
 
 /// The current view; inside a step its arrows are what the stage has just worked out.
-View Viewer::shown_view() const {
-  View view = current_view(state_);
-  const std::vector<View>& asked = state_.live->scene->views;
+scene::View Viewer::shown_view() const {
+  scene::View view = panels::current_view(state_);
+  const std::vector<scene::View>& asked = state_.live->scene->views;
   if (state_.live->stage && !asked.empty() && asked.front().name == view.name) {
     view.slice.field = asked.front().slice.field;
     // Forces differ by orders of magnitude from step to step: the longest arrow is the largest.
-    const std::string name =
-        view.slice.field == VectorField::velocity ? "v_old" : name_of(view.slice.field);
+    const std::string name = view.slice.field == scene::VectorField::velocity
+                                 ? "v_old"
+                                 : scene::name_of(view.slice.field);
     view.slice.range = asked.front().slice.range;
-    for (const QuantitySummary& quantity : state_.live->stage->quantities)
+    for (const session::QuantitySummary& quantity : state_.live->stage->quantities)
       if (quantity.name == name && quantity.max > 0)
-        view.slice.range = Range{0, round_up(quantity.max)};
+        view.slice.range = scene::Range{0, round_up(quantity.max)};
   }
   return view;
 }
@@ -124,13 +126,14 @@ void Viewer::keep_points(render::Points points) {
   points_key_ = state_key();
 }
 
-render::Frame Viewer::picture_frame(View view) {
-  const LiveFrame& live = *state_.live;
-  Scene scene = bench_.display_scene(live);
-  view.background = Background::gradient;
+render::Frame Viewer::picture_frame(scene::View view) {
+  const session::LiveFrame& live = *state_.live;
+  scene::Scene scene = bench_.display_scene(live);
+  view.background = scene::Background::gradient;
   scene.views = {view};
-  const FrameBuilder builder(scene, live.spacing, Quality::preview, bench_.overrides(),
-                             bench_.document().coarsening(), live.body_end);
+  const picture::FrameBuilder builder(scene, live.spacing, setup::Quality::preview,
+                                      bench_.overrides(), bench_.document().coarsening(),
+                                      live.body_end);
   std::optional<render::Points> points;
   if (points_key_ == state_key()) points = std::move(points_);
   points_key_.clear();
@@ -140,4 +143,4 @@ render::Frame Viewer::picture_frame(View view) {
   return builder.build(view, live.snapshot, std::move(points));
 }
 
-}  // namespace neve::app
+}  // namespace neve::app::view

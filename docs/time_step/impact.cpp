@@ -14,7 +14,7 @@
 #include <map>
 #include <string>
 
-#include "sim/seeding.h"
+#include "sim/seeding/seeding.h"
 #include "sim/simulation.h"
 
 using namespace neve::sim;

@@ -242,6 +242,16 @@ NEVE_INLINE V logarithm_lanes(V x) {
 
 template <int... I>
 struct Indices {};
+#if defined(__clang__)
+template <class Int, Int... I>
+using IndicesOf = Indices<I...>;
+/// Indices<0, 1 ... N - 1>.
+template <int N>
+using Counted = __make_integer_seq<IndicesOf, int, N>;
+#else
+template <int N>
+using Counted = Indices<__integer_pack(N)...>;
+#endif
 template <int I>
 struct Constant {
   constexpr operator int() const { return I; }
@@ -253,7 +263,7 @@ NEVE_INLINE void unrolled(const Body& body) {
   [&]<int... I>(Indices<I...>) NEVE_INLINE_BODY {
     (body(Constant<I>{}), ...);
   }
-  (Indices<__integer_pack(N)...>{});
+  (Counted<N>{});
 }
 
 /// Four quads of records in, four words in lanes out, and back: in every group of four lanes a 4x4
@@ -392,13 +402,13 @@ NEVE_INLINE FourWords<V> gather_words(const Read& quad) {
       out.w[t] =
           join_halves(join_halves(quad(t), quad(4 + t)), join_halves(quad(8 + t), quad(12 + t)));
   });
-  transpose_quads(out, Indices<__integer_pack(lane_count<V>)...>{});
+  transpose_quads(out, Counted<lane_count<V>>{});
   return out;
 }
 /// The inverse: write(l, quad) for every lane l.
 template <class V, class Write>
 NEVE_INLINE void scatter_words(FourWords<V> words, const Write& write) {
-  transpose_quads(words, Indices<__integer_pack(lane_count<V>)...>{});
+  transpose_quads(words, Counted<lane_count<V>>{});
   unrolled<4>([&](auto t) NEVE_INLINE_BODY {
     unrolled<lane_count<V> / 4>([&](auto g)
                                     NEVE_INLINE_BODY { write(4 * g + t, quad_of<g>(words.w[t])); });

@@ -70,7 +70,8 @@ TEST(SlidingBlock, AcceleratesByGravityLessFriction) {
 TEST(StickyFloor, BringsSnowToRest) {
   SolverSettings s;
   s.cell_size = 0.03;
-  Simulation simulation(s, {Material{}}, {plane({0, 0.003, 0}, {0, 1, 0}, 0, Contact::sticky)},
+  Simulation simulation(s, {Material{}},
+                        {plane({0, 0.003, 0}, {0, 1, 0}, 0, shapes::Contact::sticky)},
                         ball_of_snow({0, 0.14, 0}, 0.12, 0.02, {1, -3, 0}), 1);
   simulation.advance_to(1.2);
   const Summary end = simulation.summary();
@@ -85,7 +86,7 @@ TEST(StickyFloor, BringsSnowToRest) {
 TEST(SlipFloor, KeepsTangentialMomentumAndHoldsOnTo) {
   SolverSettings s;
   s.cell_size = 0.03;
-  const auto end_of = [&](Contact contact, double v_y) {
+  const auto end_of = [&](shapes::Contact contact, double v_y) {
     Material m;
     m.model = Model::corotated;
     Simulation simulation(s, {m}, {plane({0, 0.003, 0}, {0, 1, 0}, 0, contact)},
@@ -93,7 +94,8 @@ TEST(SlipFloor, KeepsTangentialMomentumAndHoldsOnTo) {
     simulation.advance_to(0.3);
     return simulation.summary();
   };
-  const Summary slip = end_of(Contact::slip, -1), separate = end_of(Contact::separate, -1);
+  const Summary slip = end_of(shapes::Contact::slip, -1),
+                separate = end_of(shapes::Contact::separate, -1);
   // Frictionless: float sums over 2000 steps.
   verify_near({"contact", "elastic ball on a slippery floor", "tangential velocity, m/s"}, 2,
               slip.momentum[0] / slip.mass, 1e-4);

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/checks/watch.h"
 #include "sim/staged.h"
-#include "sim/watch.h"
 #include "tests/support/elastic.h"
 #include "tests/support/meshes.h"
 #include "tests/support/snow.h"
@@ -23,8 +23,9 @@ using namespace neve::test;
 
 constexpr double cell = 0.02;
 
-Collider obstacle(const std::string& name, const Shape& shape, double friction = 0.5) {
-  Collider c;
+shapes::Collider obstacle(const std::string& name, const shapes::Shape& shape,
+                          double friction = 0.5) {
+  shapes::Collider c;
   c.name = name;
   c.shape = shape;
   c.friction = friction;
@@ -33,7 +34,7 @@ Collider obstacle(const std::string& name, const Shape& shape, double friction =
 
 struct DeepScene {
   std::string name;
-  std::vector<Collider> colliders;
+  std::vector<shapes::Collider> colliders;
   ParticleArrays particles;
   double seconds;
   Material snow{};
@@ -67,7 +68,7 @@ Deepest run_deep(const DeepScene& scene, SolverSettings s, bool push_out) {
 
 /// 8 m/s against a plate of two cells, the least that neve check does not warn about.
 DeepScene fast_ball() {
-  const Box plate{{0, -0.02, 0}, {0.6, 2 * cell, 0.6}};
+  const shapes::Box plate{{0, -0.02, 0}, {0.6, 2 * cell, 0.6}};
   return {"fast ball, thin plate",
           {obstacle("plate", {plate, {0, 0, 0}})},
           ball_of_snow({0, 0.085, 0}, 0.08, cell / 2, {1, -8, 0}),
@@ -77,13 +78,14 @@ DeepScene fast_ball() {
 DeepScene corner() {
   return {"ball into a corner",
           {plane({0, 0, 0}, {0, 1, 0}, 0.3), plane({0.1, 0, 0}, {-1, 0, 0}, 0.3),
-           obstacle("wall", {Box{{0, 0.2, 0.2}, {0.6, 0.6, 0.2}}, {0, 10, 0}})},
+           obstacle("wall", {shapes::Box{{0, 0.2, 0.2}, {0.6, 0.6, 0.2}}, {0, 10, 0}})},
           ball_of_snow({0, 0.1, 0}, 0.08, cell / 2, {4, -4, 4}),
           0.06};
 }
 
 DeepScene plough() {
-  Collider blade = obstacle("blade", {Box{{-0.2, 0.08, 0}, {0.04, 0.16, 0.4}}, {0, 25, -20}}, 0.2);
+  shapes::Collider blade =
+      obstacle("blade", {shapes::Box{{-0.2, 0.08, 0}, {0.04, 0.16, 0.4}}, {0, 25, -20}}, 0.2);
   blade.keyframes = {{0, std::nullopt, std::nullopt},
                      {0.15, Vec3d(0.1, 0.08, 0), Vec3d(0, 40, -20)}};
   return {"moving plough",
@@ -93,9 +95,11 @@ DeepScene plough() {
 }
 
 DeepScene press() {
-  Collider upper = obstacle("upper", {Cylinder{{0, 0.15, 0}, 0.2, 0.06}, {0, 0, 0}});
+  shapes::Collider upper =
+      obstacle("upper", {shapes::Cylinder{{0, 0.15, 0}, 0.2, 0.06}, {0, 0, 0}});
   upper.keyframes = {{0, Vec3d(0, 0.15, 0), std::nullopt}, {0.12, Vec3d(0, 0.10, 0), std::nullopt}};
-  Collider lower = obstacle("lower", {Box{{0, -0.03, 0}, {0.4, 0.06, 0.4}}, {0, 0, 0}});
+  shapes::Collider lower =
+      obstacle("lower", {shapes::Box{{0, -0.03, 0}, {0.4, 0.06, 0.4}}, {0, 0, 0}});
   lower.keyframes = {{0, Vec3d(0, -0.03, 0), std::nullopt},
                      {0.12, Vec3d(0, -0.01, 0), std::nullopt}};
   return {"closing press",
@@ -107,21 +111,24 @@ DeepScene press() {
 /// A drum with two paddles through its axis, snow falling on it, and a ring that snow gets through.
 DeepScene drum() {
   const Vec3d spin(0, 0, -12);
-  Collider drum = obstacle("drum", {Cylinder{{0, 0, 0}, 0.1, 0.3}, {90, 0, 0}}, 0.8);
-  Collider paddles = obstacle("paddles", {Box{{0, 0, 0}, {0.32, 0.045, 0.3}}, {0, 0, 0}}, 0.8);
+  shapes::Collider drum =
+      obstacle("drum", {shapes::Cylinder{{0, 0, 0}, 0.1, 0.3}, {90, 0, 0}}, 0.8);
+  shapes::Collider paddles =
+      obstacle("paddles", {shapes::Box{{0, 0, 0}, {0.32, 0.045, 0.3}}, {0, 0, 0}}, 0.8);
   drum.angular_velocity = paddles.angular_velocity = spin;
-  return {"spinning drum",
-          {drum, paddles, obstacle("ring", {Torus{{0, -0.2, 0}, 0.15, 0.04}, {0, 0, 0}}),
-           obstacle("cone", {Cone{{0.22, -0.1, 0}, 0.08, 0.2}, {0, 0, 20}}),
-           obstacle("bar", {Capsule{{-0.22, 0, -0.1}, {-0.18, 0.02, 0.1}, 0.04}, {0, 0, 0}})},
-          box_of_snow({-0.06, 0.17, -0.06}, {0.06, 0.27, 0.06}, cell / 2),
-          0.3};
+  return {
+      "spinning drum",
+      {drum, paddles, obstacle("ring", {shapes::Torus{{0, -0.2, 0}, 0.15, 0.04}, {0, 0, 0}}),
+       obstacle("cone", {shapes::Cone{{0.22, -0.1, 0}, 0.08, 0.2}, {0, 0, 20}}),
+       obstacle("bar", {shapes::Capsule{{-0.22, 0, -0.1}, {-0.18, 0.02, 0.1}, 0.04}, {0, 0, 0}})},
+      box_of_snow({-0.06, 0.17, -0.06}, {0.06, 0.27, 0.06}, cell / 2),
+      0.3};
 }
 
 /// No node is in the edge before particles are, and soft snow takes long steps: it gets in at full
 /// speed, a good part of a cell in one step.
 DeepScene quick_edge() {
-  Collider edge = obstacle("edge", {Box{{0, 0.2, 0}, {0.1, 0.1, 0.4}}, {0, 0, 45}});
+  shapes::Collider edge = obstacle("edge", {shapes::Box{{0, 0.2, 0}, {0.1, 0.1, 0.4}}, {0, 0, 45}});
   edge.velocity = {0, -30, 0};
   DeepScene scene{"edge at 30 m/s in soft snow",
                   {edge},
@@ -213,7 +220,7 @@ TEST(Depth, StagedAndFusedStepsPushAlike) {
 
 TEST(Depth, OfPlacedParticlesIsTheirDistance) {
   const TemporaryFolder folder;
-  const Mesh mesh{folder.write("box.obj", box_obj({0.4, 0.4, 0.4})).string(), 1, {2, 0, 0}};
+  const shapes::Mesh mesh{folder.write("box.obj", box_obj({0.4, 0.4, 0.4})).string(), 1, {2, 0, 0}};
   ParticleArrays p;
   for (const double x : {0.3, 0.45, 1.85}) {
     p.x.emplace_back(x, 0.013, 0.002);
@@ -223,8 +230,9 @@ TEST(Depth, OfPlacedParticlesIsTheirDistance) {
   }
   SolverSettings s;
   s.cell_size = cell;
-  const std::vector<Collider> both{obstacle("ball", {Sphere{{0, 0, 0}, 0.4}, {0, 0, 0}}),
-                                   obstacle("mesh", {mesh, {0, 0, 0}})};
+  const std::vector<shapes::Collider> both{
+      obstacle("ball", {shapes::Sphere{{0, 0, 0}, 0.4}, {0, 0, 0}}),
+      obstacle("mesh", {mesh, {0, 0, 0}})};
   const auto depth = [&](const ParticleArrays& particles) {
     return Simulation(s, {Material{}}, both, particles, 1).summary().max_depth;
   };
@@ -238,7 +246,8 @@ TEST(Depth, OfPlacedParticlesIsTheirDistance) {
 }
 
 /// A block on the level top of what has one, gravity leaning as in SlidingBlock, on other shapes.
-double acceleration_on(const Shape& shape, double degrees, double friction, Contact contact) {
+double acceleration_on(const shapes::Shape& shape, double degrees, double friction,
+                       shapes::Contact contact) {
   const double angle = degrees * M_PI / 180;
   SolverSettings s;
   s.cell_size = 0.05;
@@ -246,7 +255,7 @@ double acceleration_on(const Shape& shape, double degrees, double friction, Cont
   s.flip_reference_dt = 0;
   s.gravity = 9.81 * Vec3d(std::sin(angle), -std::cos(angle), 0);
   const ParticleArrays p = lattice({-0.1, 0, -0.1}, {0.1, 0.1, 0.1}, {8, 4, 8}, 400);
-  Collider c = obstacle("top", shape, friction);
+  shapes::Collider c = obstacle("top", shape, friction);
   c.contact = contact;
   Simulation simulation(s, {elastic(2e5, 0.2, 400)}, {c}, p, 1);
   double n = 0, t1 = 0, t2 = 0, v1 = 0, tv = 0;
@@ -267,21 +276,21 @@ TEST(SlidingBlock, HasTheSameFrictionOnEveryFlatTop) {
   // All end a little above y = 0, off the nodes: see SlidingBlock. Turned upside down, a cone's
   // base is up; a box lies on its side.
   const double top = 1e-9;
-  const std::vector<std::pair<std::string, Shape>> shapes{
-      {"box", {Box{{0, top - 2, 0}, {4, 3, 4}}, {0, 0, 90}}},
-      {"cylinder", {Cylinder{{0, top - 0.2, 0}, 2, 0.4}, {0, 33, 0}}},
-      {"cone", {Cone{{0, top - 1, 0}, 3, 2}, {180, 0, 0}}},
-      {"mesh", {Mesh{file, 1, {0, 1e-7 - 0.2, 0}}, {0, 0, 0}}}};
+  const std::vector<std::pair<std::string, shapes::Shape>> shapes{
+      {"box", {shapes::Box{{0, top - 2, 0}, {4, 3, 4}}, {0, 0, 90}}},
+      {"cylinder", {shapes::Cylinder{{0, top - 0.2, 0}, 2, 0.4}, {0, 33, 0}}},
+      {"cone", {shapes::Cone{{0, top - 1, 0}, 3, 2}, {180, 0, 0}}},
+      {"mesh", {shapes::Mesh{file, 1, {0, 1e-7 - 0.2, 0}}, {0, 0, 0}}}};
   const double degrees = 30, mu = 0.4, t = degrees * M_PI / 180;
   const double exact = 9.81 * (std::sin(t) - mu * std::cos(t));
   for (const auto& [name, shape] : shapes) {
     // As on planes: the bounce of the block on its own elasticity is what is left.
     verify_near({"incline", "30°, mu = 0.4, on a " + name + ", FLIP, double", "acceleration, m/s²"},
-                exact, acceleration_on(shape, degrees, mu, Contact::separate), 1e-3);
+                exact, acceleration_on(shape, degrees, mu, shapes::Contact::separate), 1e-3);
   }
-  EXPECT_NEAR(acceleration_on(shapes[1].second, degrees, 0.9, Contact::slip), 9.81 * std::sin(t),
-              1e-3);
-  EXPECT_NEAR(acceleration_on(shapes[1].second, degrees, 0, Contact::sticky), 0, 1e-3);
+  EXPECT_NEAR(acceleration_on(shapes[1].second, degrees, 0.9, shapes::Contact::slip),
+              9.81 * std::sin(t), 1e-3);
+  EXPECT_NEAR(acceleration_on(shapes[1].second, degrees, 0, shapes::Contact::sticky), 0, 1e-3);
 }
 
 }  // namespace

@@ -116,10 +116,10 @@ TEST(TwoBalls, CollideWithZeroMomentumAndLoseEnergy) {
 TEST(MovingCollider, CarriesSnowAtItsOwnVelocity) {
   SolverSettings s;
   s.cell_size = 0.04;
-  Collider sled;
+  shapes::Collider sled;
   sled.name = "sled";
-  sled.shape.form = Box{{0, -0.097, 0}, {0.6, 0.2, 0.6}};
-  sled.contact = Contact::sticky;
+  sled.shape.form = shapes::Box{{0, -0.097, 0}, {0.6, 0.2, 0.6}};
+  sled.contact = shapes::Contact::sticky;
   sled.velocity = {0.5, 0, 0};
   Simulation simulation(s, {Material{}}, {sled},
                         box_of_snow({-0.1, 0, -0.1}, {0.1, 0.1, 0.1}, 0.02), 1);

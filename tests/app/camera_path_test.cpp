@@ -1,6 +1,6 @@
 /// Cameras that move: keyframes, orbit, turntable, alone and around the automatic framing.
 
-#include "app/camera_path.h"
+#include "app/setup/camera_path.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/resolve.h"
-#include "app/scene/error.h"
 #include "app/scene/read.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/resolve.h"
 
 namespace neve::app {
 namespace {
@@ -23,19 +23,19 @@ constexpr double rounding = 1e-12;
 const char* const path_ball =
     "[[body]]\nshape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }\n";
 
-Scene scene_with_camera(const std::string& camera, const std::string& more = "") {
-  return read_scene_text(
+app::scene::Scene scene_with_camera(const std::string& camera, const std::string& more = "") {
+  return app::scene::read_scene_text(
       "frames = 24\nfps = 24\n" + std::string(path_ball) + "[camera]\n" + camera + more, "s.toml");
 }
 
-CameraPlace place(const Scene& scene, double time) {
-  return camera_at(*scene.camera, time, scene.frames / scene.fps);
+app::setup::CameraPlace place(const app::scene::Scene& scene, double time) {
+  return app::setup::camera_at(*scene.camera, time, scene.frames / scene.fps);
 }
 
 std::string camera_error(const std::string& camera) {
   try {
     scene_with_camera(camera);
-  } catch (const SceneError& error) {
+  } catch (const app::scene::toml::SceneError& error) {
     return error.what();
   }
   return "no error";
@@ -46,7 +46,7 @@ double distance(const Vec3d& a, const Vec3d& b) {
 }
 
 TEST(CameraPath, PassesThroughItsKeyframes) {
-  const Scene scene = scene_with_camera(R"(eye = [9, 9, 9]
+  const app::scene::Scene scene = scene_with_camera(R"(eye = [9, 9, 9]
 target = [0, 0, 0]
 keyframes = [
   { time = 0.25, eye = [1, 0, 0], fov = 20 },
@@ -64,7 +64,7 @@ keyframes = [
 }
 
 TEST(CameraPath, IsSmoothAndAtRestAtItsEnds) {
-  const Scene scene = scene_with_camera(R"(keyframes = [
+  const app::scene::Scene scene = scene_with_camera(R"(keyframes = [
   { time = 0, eye = [1, 0, 0], target = [0, 0, 0] }, { time = 0.3, eye = [2, 0, 3], target = [0, 0, 0] },
   { time = 1, eye = [6, 1, 4], target = [0, 0, 0] } ])");
   const double d = 1e-4;
@@ -83,7 +83,7 @@ TEST(CameraPath, IsSmoothAndAtRestAtItsEnds) {
 }
 
 TEST(CameraPath, NeverSwingsBeyondAKeyframeAndHoldsBetweenEqualOnes) {
-  const Scene scene = scene_with_camera(R"(keyframes = [
+  const app::scene::Scene scene = scene_with_camera(R"(keyframes = [
   { time = 0, eye = [0, 0, 9], target = [0, 0, 0], fov = 1 },
   { time = 0.2, eye = [5, 0, 9], target = [0, 0, 0], fov = 80 },
   { time = 0.6, eye = [5, 0, 9], target = [0, 0, 0], fov = 80 },
@@ -98,37 +98,39 @@ TEST(CameraPath, NeverSwingsBeyondAKeyframeAndHoldsBetweenEqualOnes) {
 }
 
 TEST(CameraPath, OneKeyframeIsAStillCamera) {
-  const Scene scene =
+  const app::scene::Scene scene =
       scene_with_camera("keyframes = [{ time = 0.5, eye = [1, 2, 3], target = [0, 0, 0] }]");
   for (const double t : {0.0, 0.5, 1.0}) EXPECT_EQ(place(scene, t).eye, Vec3d(1, 2, 3));
 }
 
 TEST(CameraPath, OrbitTurnsAboutUpFromRestToRest) {
-  const Scene scene = scene_with_camera("eye = [2, 1, 0]\ntarget = [0, 0.5, 0]\norbit = 90");
+  const app::scene::Scene scene =
+      scene_with_camera("eye = [2, 1, 0]\ntarget = [0, 0.5, 0]\norbit = 90");
   EXPECT_EQ(place(scene, 0).eye, Vec3d(2, 1, 0));
   EXPECT_LT(distance(place(scene, 1).eye, {0, 1, -2}), rounding);
   EXPECT_LT(distance(place(scene, 0.5).eye, {std::sqrt(2), 1, -std::sqrt(2)}), rounding);
   for (const double t : {0.1, 0.37, 0.9})
     EXPECT_NEAR(distance(place(scene, t).eye, {0, 1, 0}), 2, rounding);
-  EXPECT_LT(turned(*scene.camera, 0.01, 1), 0.01) << "starts at rest";
+  EXPECT_LT(app::setup::turned(*scene.camera, 0.01, 1), 0.01) << "starts at rest";
 }
 
 TEST(CameraPath, TurntableTurnsEvenlyOnceInItsTime) {
-  const Scene scene = scene_with_camera("eye = [2, 1, 0]\ntarget = [0, 0, 0]\nturntable = 4");
+  const app::scene::Scene scene =
+      scene_with_camera("eye = [2, 1, 0]\ntarget = [0, 0, 0]\nturntable = 4");
   EXPECT_LT(distance(place(scene, 1).eye, {0, 1, -2}), rounding);
   EXPECT_LT(distance(place(scene, 4).eye, {2, 1, 0}), rounding);
-  EXPECT_DOUBLE_EQ(turned(*scene.camera, 3, 1), 270);
+  EXPECT_DOUBLE_EQ(app::setup::turned(*scene.camera, 3, 1), 270);
 }
 
 TEST(CameraPath, OrbitTurnsWhatKeyframesGive) {
-  const Scene scene = scene_with_camera(
+  const app::scene::Scene scene = scene_with_camera(
       "orbit = 180\neye = [1, 0, 0]\ntarget = [0, 0, 0]\n"
       "keyframes = [{ time = 0 }, { time = 1, eye = [3, 0, 0] }]");
   EXPECT_LT(distance(place(scene, 1).eye, {-3, 0, 0}), rounding);
 }
 
 /// Larger of the coordinates of a point in the picture, 1 at its border.
-double reach_in_picture(const CameraPlace& camera, double aspect, const Vec3d& point) {
+double reach_in_picture(const app::setup::CameraPlace& camera, double aspect, const Vec3d& point) {
   const Vec3d forward = (camera.target - camera.eye).normalized();
   const Vec3d right = forward.cross(Vec3d(0, 1, 0)).normalized(), up = right.cross(forward);
   const Vec3d q = point - camera.eye;
@@ -148,8 +150,9 @@ velocity = [1.5, 0, 0]
 
 TEST(CameraPath, OrbitAroundTheAutomaticTargetKeepsTheSnowInThePicture) {
   for (const char* camera : {"orbit = 90", "orbit = -200", "turntable = 0.7"}) {
-    Scene scene = read_scene_text(std::string(thrown) + "[camera]\n" + camera, "s.toml");
-    resolve(scene, 1000);
+    app::scene::Scene scene =
+        app::scene::read_scene_text(std::string(thrown) + "[camera]\n" + camera, "s.toml");
+    app::setup::resolve(scene, 1000);
     double largest = 0;
     for (double t = 0; t <= 1; t += 0.05)
       for (const double x : {-1.3, -0.7, 0.2, 0.8})
@@ -160,7 +163,7 @@ TEST(CameraPath, OrbitAroundTheAutomaticTargetKeepsTheSnowInThePicture) {
 }
 
 TEST(CameraPath, OrbitNeverPassesThroughASlope) {
-  Scene scene = read_scene_text(R"(
+  app::scene::Scene scene = app::scene::read_scene_text(R"(
 frames = 12
 [[body]]
 shape = { box = { center = [0, 0.2, 0], size = [0.2, 0.2, 0.2] } }
@@ -169,19 +172,19 @@ shape = { plane = { normal = [0.5, 0.866, 0] } }
 [camera]
 orbit = 360
 )",
-                                "s.toml");
-  resolve(scene, 1000);
+                                                        "s.toml");
+  app::setup::resolve(scene, 1000);
   for (double t = 0; t <= 0.5; t += 0.02)
     EXPECT_GT(place(scene, t).eye.dot(Vec3d(0.5, 0.866, 0)), 0) << t;
 }
 
 TEST(CameraPath, KeyframesWithPlacesNeedNoFraming) {
-  Scene scene =
+  app::scene::Scene scene =
       scene_with_camera("keyframes = [{ time = 0, eye = [1, 1, 1], target = [0, 0, 0] }]");
-  resolve(scene, 1000);
+  app::setup::resolve(scene, 1000);
   EXPECT_FALSE(scene.camera->eye.has_value());
-  Scene zoom = scene_with_camera("keyframes = [{ time = 0 }, { time = 1, fov = 10 }]");
-  resolve(zoom, 1000);
+  app::scene::Scene zoom = scene_with_camera("keyframes = [{ time = 0 }, { time = 1, fov = 10 }]");
+  app::setup::resolve(zoom, 1000);
   ASSERT_TRUE(zoom.camera->eye.has_value());
   EXPECT_EQ(place(zoom, 1).eye, *zoom.camera->eye);
 }
@@ -208,12 +211,13 @@ TEST(CameraErrors, AreLocatedAndSayWhatToTry) {
 
 TEST(CameraErrors, KeyframesAreSetTogether) {
   const auto scene_set = [](const std::string& change) {
-    return read_scene_text(path_ball, "s.toml", {}, {parse_override(change)});
+    return app::scene::read_scene_text(path_ball, "s.toml", {},
+                                       {app::scene::parse_override(change)});
   };
   EXPECT_EQ(scene_set("camera.orbit=45").camera->orbit, 45);
   EXPECT_EQ(scene_set("camera.keyframes=[{time = 1}, {time = 2}]").camera->keyframes.size(), 2u);
-  EXPECT_THROW(scene_set("camera.keyframes[N].time=1"), UsageError);
-  EXPECT_THROW(scene_set("camera.keyframes[0].time=1"), UsageError);
+  EXPECT_THROW(scene_set("camera.keyframes[N].time=1"), app::scene::toml::UsageError);
+  EXPECT_THROW(scene_set("camera.keyframes[0].time=1"), app::scene::toml::UsageError);
 }
 
 }  // namespace

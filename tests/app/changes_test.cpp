@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "app/changes.h"
-#include "app/scene/error.h"
+#include "app/run/changes.h"
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
-#include "app/seed_scene.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/seed_scene.h"
 
 namespace neve::app {
 namespace {
@@ -28,24 +28,26 @@ shape = { sphere = { center = [0.2, 0, 0], radius = 0.08 } }
 velocity = [-1, 0, 0]
 )";
 
-Scene start(const std::string& more = {}) {
-  std::vector<Override> overrides;
-  if (!more.empty()) overrides.push_back(parse_override(more));
-  return read_scene_text(changed_scene, "s.toml", "", overrides);
+app::scene::Scene start(const std::string& more = {}) {
+  std::vector<app::scene::Override> overrides;
+  if (!more.empty()) overrides.push_back(app::scene::parse_override(more));
+  return app::scene::read_scene_text(changed_scene, "s.toml", "", overrides);
 }
 
-sim::Simulation simulate(const Scene& scene, bool is_empty = false) {
-  return sim::Simulation(scene.solver, scene.materials, sim_colliders(scene),
-                         is_empty ? sim::ParticleArrays{} : seed_scene(scene), 1);
+sim::Simulation simulate(const app::scene::Scene& scene, bool is_empty = false) {
+  return sim::Simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
+                         is_empty ? sim::ParticleArrays{} : app::setup::seed_scene(scene), 1);
 }
 
 TEST(LiveChanges, GoToJsonAndBack) {
-  const std::vector<LiveChange> changes{{0, "solver.cfl", "0.2"},
-                                        {17, "collider.floor.contact", "\"sticky\""},
-                                        {17, "camera", "none"}};
-  EXPECT_EQ(live_changes(parse_json(std::string_view(to_text(to_json(changes))))), changes);
-  EXPECT_EQ(text_of(changes[1]), "step 17: collider.floor.contact = \"sticky\"");
-  EXPECT_TRUE(live_changes(Json::array()).empty());
+  const std::vector<app::scene::LiveChange> changes{{0, "solver.cfl", "0.2"},
+                                                    {17, "collider.floor.contact", "\"sticky\""},
+                                                    {17, "camera", "none"}};
+  EXPECT_EQ(
+      app::scene::live_changes(parse_json(std::string_view(to_text(app::scene::to_json(changes))))),
+      changes);
+  EXPECT_EQ(app::scene::text_of(changes[1]), "step 17: collider.floor.contact = \"sticky\"");
+  EXPECT_TRUE(app::scene::live_changes(Json::array()).empty());
 }
 
 TEST(LiveChanges, ThatAreNoneAreRefused) {
@@ -56,56 +58,59 @@ TEST(LiveChanges, ThatAreNoneAreRefused) {
                           R"([{"step": 1, "address": "nonsense", "value": "1"}])",
                           R"([{"step": 2, "address": "solver.cfl", "value": "1"},
             {"step": 1, "address": "solver.cfl", "value": "1"}])"})
-    EXPECT_THROW(live_changes(parse_json(std::string_view(bad))), std::runtime_error) << bad;
+    EXPECT_THROW(app::scene::live_changes(parse_json(std::string_view(bad))), std::runtime_error)
+        << bad;
 }
 
 TEST(LiveChanges, OfOneStepAndAddressOnlyTheFirstAndTheLastAreKept) {
-  std::vector<LiveChange> changes;
-  for (const char* value : {"1", "2", "3", "4"}) note_change(changes, {5, "light.ambient", value});
-  note_change(changes, {5, "solver.cfl", "0.2"});
-  note_change(changes, {6, "solver.cfl", "0.3"});
-  const std::vector<LiveChange> expected{{5, "light.ambient", "1"},
-                                         {5, "light.ambient", "4"},
-                                         {5, "solver.cfl", "0.2"},
-                                         {6, "solver.cfl", "0.3"}};
+  std::vector<app::scene::LiveChange> changes;
+  for (const char* value : {"1", "2", "3", "4"})
+    app::scene::note_change(changes, {5, "light.ambient", value});
+  app::scene::note_change(changes, {5, "solver.cfl", "0.2"});
+  app::scene::note_change(changes, {6, "solver.cfl", "0.3"});
+  const std::vector<app::scene::LiveChange> expected{{5, "light.ambient", "1"},
+                                                     {5, "light.ambient", "4"},
+                                                     {5, "solver.cfl", "0.2"},
+                                                     {6, "solver.cfl", "0.3"}};
   EXPECT_EQ(changes, expected);
-  forget_changes_after(changes, 5);
+  app::scene::forget_changes_after(changes, 5);
   EXPECT_EQ(changes.size(), 3u);
 }
 
 TEST(LiveChanges, MakeTheSceneUpToAStep) {
-  const SceneSource source{changed_scene, "s.toml", "", {parse_override("solver.cfl=0.1")}};
-  const std::vector<LiveChange> changes{{3, "solver.cfl", "0.2"},
-                                        {5, "solver.cfl", "0.3"},
-                                        {5, "camera.fov", "20"},
-                                        {9, "camera", "none"}};
-  EXPECT_EQ(with_changes(source, changes, 2).solver.cfl, 0.1);
-  EXPECT_EQ(with_changes(source, changes, 3).solver.cfl, 0.2);
-  EXPECT_EQ(with_changes(source, changes, 8).solver.cfl, 0.3);
-  EXPECT_EQ(with_changes(source, changes, 8).camera->fov, 20);
-  EXPECT_FALSE(with_changes(source, changes).camera);
+  const app::run::SceneSource source{
+      changed_scene, "s.toml", "", {app::scene::parse_override("solver.cfl=0.1")}};
+  const std::vector<app::scene::LiveChange> changes{{3, "solver.cfl", "0.2"},
+                                                    {5, "solver.cfl", "0.3"},
+                                                    {5, "camera.fov", "20"},
+                                                    {9, "camera", "none"}};
+  EXPECT_EQ(app::run::with_changes(source, changes, 2).solver.cfl, 0.1);
+  EXPECT_EQ(app::run::with_changes(source, changes, 3).solver.cfl, 0.2);
+  EXPECT_EQ(app::run::with_changes(source, changes, 8).solver.cfl, 0.3);
+  EXPECT_EQ(app::run::with_changes(source, changes, 8).camera->fov, 20);
+  EXPECT_FALSE(app::run::with_changes(source, changes).camera);
   try {
-    with_changes(source, {{7, "solver.cfl", "-1"}});
+    app::run::with_changes(source, {{7, "solver.cfl", "-1"}});
     FAIL() << "a bad value was taken";
-  } catch (const UsageError& error) {
+  } catch (const app::scene::toml::UsageError& error) {
     EXPECT_NE(std::string(error.what()).find("change at step 7: solver.cfl=-1"), std::string::npos)
         << error.what();
   }
 }
 
 TEST(LiveChanges, ARecordedSceneStartsAsTheRunAndLooksAsItDoesNow) {
-  const Scene from = start();
-  Scene now = start("view.particles.particles.color_by=speed");
+  const app::scene::Scene from = start();
+  app::scene::Scene now = start("view.particles.particles.color_by=speed");
   now.solver.cfl = 0.1;
   now.colliders[0].friction = 0.9;
-  now.colliders[0].style = ColliderStyle::wire;
-  const Scene recorded = recorded_scene(from, now);
+  now.colliders[0].style = app::scene::ColliderStyle::wire;
+  const app::scene::Scene recorded = app::run::recorded_scene(from, now);
   EXPECT_EQ(recorded.solver.cfl, from.solver.cfl);
   EXPECT_EQ(recorded.colliders[0].friction, from.colliders[0].friction);
-  EXPECT_EQ(recorded.colliders[0].style, ColliderStyle::wire);
-  EXPECT_EQ(recorded.views[0].particles.color_by, ColorBy::speed);
-  for (const Difference& difference : differences(from, recorded))
-    EXPECT_FALSE(concerns_simulation(difference.address)) << difference.address;
+  EXPECT_EQ(recorded.colliders[0].style, app::scene::ColliderStyle::wire);
+  EXPECT_EQ(recorded.views[0].particles.color_by, app::scene::ColorBy::speed);
+  for (const app::scene::Difference& difference : app::scene::differences(from, recorded))
+    EXPECT_FALSE(app::scene::concerns_simulation(difference.address)) << difference.address;
 }
 
 /// A session as a person has it: frames, and in between, at any step, other parameters.
@@ -115,9 +120,10 @@ class Session {
       : scene_(start(more)), simulation(simulate(scene_)) {}
 
   void set(const std::string& address, const std::string& value) {
-    note_change(changes, {simulation.steps(), address, value});
-    scene_ = with_changes({write_scene(scene_), "now", "", {}}, {{0, address, value}});
-    apply_scene(scene_, simulation);
+    app::scene::note_change(changes, {simulation.steps(), address, value});
+    scene_ = app::run::with_changes({app::scene::write_scene(scene_), "now", "", {}},
+                                    {{0, address, value}});
+    app::run::apply_scene(scene_, simulation);
   }
   void steps(std::size_t count) {
     simulation.advance_to(end(), nullptr, simulation.steps() + count);
@@ -125,12 +131,12 @@ class Session {
   void finish() { simulation.advance_to(end()); }
   void frame() { ++frame_; }
 
-  std::vector<LiveChange> changes;
+  std::vector<app::scene::LiveChange> changes;
 
  private:
   double end() const { return frame_ / 24.0; }
   int frame_ = 1;
-  Scene scene_;
+  app::scene::Scene scene_;
 
  public:
   sim::Simulation simulation;
@@ -163,10 +169,11 @@ TEST(ChangePlayer, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
   Session session;
   play(session);
   ASSERT_FALSE(session.simulation.divergence());
-  const Scene scene = start();
+  const app::scene::Scene scene = start();
   sim::Simulation again = simulate(scene);
   int told = 0;
-  ChangePlayer player(scene, session.changes, again, [&](const Scene&) { ++told; });
+  app::run::ChangePlayer player(scene, session.changes, again,
+                                [&](const app::scene::Scene&) { ++told; });
   std::vector<sim::Retry> retries;
   player.begin();
   std::size_t steps = 0;
@@ -177,7 +184,7 @@ TEST(ChangePlayer, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
   EXPECT_EQ(steps, again.steps());
   EXPECT_EQ(again.choose_dt(1).dt, session.simulation.choose_dt(1).dt);
   EXPECT_GT(told, 5);
-  EXPECT_EQ(player.scene().views[0].particles.color_by, ColorBy::id);
+  EXPECT_EQ(player.scene().views[0].particles.color_by, app::scene::ColorBy::id);
   EXPECT_EQ(player.scene().solver.kernel, sim::Kernel::quadratic);
   // What it draws stands where it is.
   EXPECT_EQ(player.scene().colliders[1].travel.since, again.colliders()[1].travel.since);
@@ -191,17 +198,17 @@ TEST(ChangePlayer, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
 TEST(ChangePlayer, GoesOnFromAStateAtAnyStep) {
   Session session;
   play(session);
-  const Scene scene = start();
+  const app::scene::Scene scene = start();
   static std::size_t left = 0;
   const auto stop = [] { return --left == 0; };
   sim::Simulation whole = simulate(scene);
-  ChangePlayer at_once(scene, session.changes, whole);
+  app::run::ChangePlayer at_once(scene, session.changes, whole);
   std::vector<sim::Retry> none;
   at_once.begin();
   for (int frame = 1; frame <= 3; ++frame) at_once.advance_to(frame / 24.0, nullptr, none);
   for (const std::size_t length : {1u, 3u, 4u, 7u}) {
     auto simulation = std::make_unique<sim::Simulation>(simulate(scene));
-    auto player = std::make_unique<ChangePlayer>(scene, session.changes, *simulation);
+    auto player = std::make_unique<app::run::ChangePlayer>(scene, session.changes, *simulation);
     player->begin();
     std::vector<sim::Retry> retries;
     for (int frame = 1; frame <= 3; ++frame)
@@ -212,7 +219,7 @@ TEST(ChangePlayer, GoesOnFromAStateAtAnyStep) {
         const std::vector<std::uint8_t> bytes = simulation->save();
         const std::size_t steps = simulation->steps();
         auto next = std::make_unique<sim::Simulation>(simulate(scene));
-        player = std::make_unique<ChangePlayer>(scene, session.changes, *next);
+        player = std::make_unique<app::run::ChangePlayer>(scene, session.changes, *next);
         player->go_to(steps);
         next->restore(bytes);
         simulation = std::move(next);
@@ -226,9 +233,9 @@ TEST(ChangePlayer, GoesOnFromAStateAtAnyStep) {
 TEST(ChangePlayer, WithRetriesAHealthyFrameIsTheSame) {
   Session session("solver.on_divergence=retry");
   play(session);
-  const Scene scene = start("solver.on_divergence=retry");
+  const app::scene::Scene scene = start("solver.on_divergence=retry");
   sim::Simulation again = simulate(scene);
-  ChangePlayer player(scene, session.changes, again);
+  app::run::ChangePlayer player(scene, session.changes, again);
   std::vector<sim::Retry> retries;
   player.begin();
   for (int frame = 1; frame <= 3; ++frame) player.advance_to(frame / 24.0, nullptr, retries);
@@ -239,18 +246,18 @@ TEST(ChangePlayer, WithRetriesAHealthyFrameIsTheSame) {
 /// Where one breaks, its steps are final at its end: changes inside it wait until then, in the same
 /// way however the run got there.
 TEST(ChangePlayer, WithRetriesChangesInsideABrokenFrameWaitForItsEnd) {
-  Scene scene = start("solver.on_divergence=retry");
+  app::scene::Scene scene = start("solver.on_divergence=retry");
   scene.solver.time_step = sim::TimeStep::fixed;
   scene.solver.dt = 1 / 240.0;
   scene.materials[0].model = sim::Model::corotated;
   scene.materials[0].youngs_modulus = 3e6;
   scene.bodies[0].velocity = {0, -6, 0};
-  const std::vector<LiveChange> changes{{0, "solver.gravity", "[0, -20, 0]"},
-                                        {14, "material.snow.youngs_modulus", "2e5"}};
+  const std::vector<app::scene::LiveChange> changes{{0, "solver.gravity", "[0, -20, 0]"},
+                                                    {14, "material.snow.youngs_modulus", "2e5"}};
   std::size_t went_back = 0;
   const auto run = [&](bool resumes) {
     auto simulation = std::make_unique<sim::Simulation>(simulate(scene));
-    auto player = std::make_unique<ChangePlayer>(scene, changes, *simulation);
+    auto player = std::make_unique<app::run::ChangePlayer>(scene, changes, *simulation);
     player->begin();
     std::vector<sim::Retry> retries;
     for (int frame = 1; frame <= 3; ++frame) {
@@ -261,7 +268,7 @@ TEST(ChangePlayer, WithRetriesChangesInsideABrokenFrameWaitForItsEnd) {
       const std::vector<std::uint8_t> bytes = simulation->save();
       const std::size_t steps = simulation->steps();
       auto next = std::make_unique<sim::Simulation>(simulate(scene));
-      player = std::make_unique<ChangePlayer>(scene, changes, *next);
+      player = std::make_unique<app::run::ChangePlayer>(scene, changes, *next);
       player->go_to(steps);
       next->restore(bytes);
       simulation = std::move(next);
@@ -274,13 +281,13 @@ TEST(ChangePlayer, WithRetriesChangesInsideABrokenFrameWaitForItsEnd) {
 }
 
 TEST(ChangePlayer, PassesOverViewsThatAreNotDrawn) {
-  const Scene scene = start();
+  const app::scene::Scene scene = start();
   sim::Simulation simulation = simulate(scene);
-  ChangePlayer player(scene,
-                      {{0, "view.smoke.smoke.density_scale", "2"},
-                       {0, "mosaic.all.columns", "2"},
-                       {0, "solver.cfl", "0.2"}},
-                      simulation);
+  app::run::ChangePlayer player(scene,
+                                {{0, "view.smoke.smoke.density_scale", "2"},
+                                 {0, "mosaic.all.columns", "2"},
+                                 {0, "solver.cfl", "0.2"}},
+                                simulation);
   player.begin();
   EXPECT_EQ(player.scene().views.size(), 1u);
   EXPECT_EQ(player.scene().solver.cfl, 0.2);

@@ -6,35 +6,36 @@
 #include <cmath>
 #include <limits>
 
-#include "app/picture_record.h"
-#include "app/plan.h"
-#include "app/scene/error.h"
+#include "app/run/picture_record.h"
 #include "app/scene/read.h"
-#include "app/seed_scene.h"
-#include "sim/time_step.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/plan.h"
+#include "app/setup/seed_scene.h"
+#include "sim/engine/time_step.h"
 
 namespace neve::app {
 namespace {
 
-Scene coarse_ball(const std::string& solver = "") {
-  return read_scene_text("[solver]\ncell_size = 0.02\n" + solver +
-                             "[[body]]\nname = \"ball\"\n"
-                             "shape = { sphere = { center = [0, 0.3, 0], radius = 0.15 } }\n",
-                         "ball.toml");
+app::scene::Scene coarse_ball(const std::string& solver = "") {
+  return app::scene::read_scene_text(
+      "[solver]\ncell_size = 0.02\n" + solver +
+          "[[body]]\nname = \"ball\"\n"
+          "shape = { sphere = { center = [0, 0.3, 0], radius = 0.15 } }\n",
+      "ball.toml");
 }
 
-std::string message_of(Scene scene, double factor) {
+std::string message_of(app::scene::Scene scene, double factor) {
   try {
-    coarsen(scene, factor);
-  } catch (const UsageError& error) {
+    app::scene::coarsen(scene, factor);
+  } catch (const app::scene::toml::UsageError& error) {
     return error.what();
   }
   return "";
 }
 
 TEST(Coarsen, CellsAndLongestStepsGrowParticlesPerCellStay) {
-  Scene scene = coarse_ball("dt = 1e-4\n");
-  coarsen(scene, 2);
+  app::scene::Scene scene = coarse_ball("dt = 1e-4\n");
+  app::scene::coarsen(scene, 2);
   EXPECT_EQ(scene.solver.cell_size, 0.04);
   EXPECT_EQ(scene.solver.dt, 2e-4);
   EXPECT_EQ(scene.solver.max_dt, 2e-3);
@@ -43,9 +44,10 @@ TEST(Coarsen, CellsAndLongestStepsGrowParticlesPerCellStay) {
 }
 
 TEST(Coarsen, LeavesAnEighthOfTheParticlesAndAllOfTheMass) {
-  Scene coarse = coarse_ball();
-  coarsen(coarse, 2);
-  const sim::ParticleArrays all = seed_scene(coarse_ball()), few = seed_scene(coarse);
+  app::scene::Scene coarse = coarse_ball();
+  app::scene::coarsen(coarse, 2);
+  const sim::ParticleArrays all = app::setup::seed_scene(coarse_ball()),
+                            few = app::setup::seed_scene(coarse);
   // Cells on the surface are in or out by chance, about 6 h^2 of them per 10 h^2 of surface.
   EXPECT_NEAR(static_cast<double>(few.x.size()), static_cast<double>(all.x.size()) / 8,
               0.03 * static_cast<double>(all.x.size()) / 8);
@@ -59,35 +61,37 @@ TEST(Coarsen, LeavesAnEighthOfTheParticlesAndAllOfTheMass) {
 
 /// What FLIP keeps of a difference to the grid's velocity over the same time.
 double kept(const sim::SolverSettings& s, double dt, int steps) {
-  return std::pow(sim::flip_share(s, dt), steps);
+  return std::pow(sim::engine::flip_share(s, dt), steps);
 }
 
 TEST(Coarsen, DampsAsMuchPerSecondWhateverTheRatioRefersTo) {
   for (const char* reference : {"flip_reference_dt = 5e-4\n", "flip_reference_dt = 0\n"}) {
-    const Scene full = coarse_ball(reference);
-    Scene coarse = full;
-    coarsen(coarse, 3);
+    const app::scene::Scene full = coarse_ball(reference);
+    app::scene::Scene coarse = full;
+    app::scene::coarsen(coarse, 3);
     EXPECT_NEAR(kept(coarse.solver, 3e-4, 10), kept(full.solver, 1e-4, 30), 1e-11) << reference;
   }
 }
 
 TEST(Coarsen, OneChangesNothing) {
-  Scene scene = coarse_ball();
-  coarsen(scene, 1);
-  EXPECT_EQ(write_scene(scene), write_scene(coarse_ball()));
+  app::scene::Scene scene = coarse_ball();
+  app::scene::coarsen(scene, 1);
+  EXPECT_EQ(app::scene::write_scene(scene), app::scene::write_scene(coarse_ball()));
 }
 
 TEST(Coarsen, FractionsAreTidy) {
-  Scene scene = coarse_ball();
+  app::scene::Scene scene = coarse_ball();
   scene.solver.cell_size = 0.018;
-  coarsen(scene, 1.5);
+  app::scene::coarsen(scene, 1.5);
   EXPECT_EQ(scene.solver.cell_size, 0.027);
 }
 
 TEST(Coarsen, TheResultIsASceneThatReadsBack) {
-  Scene scene = coarse_ball("flip_reference_dt = 0\n");
-  coarsen(scene, 2.5);
-  EXPECT_EQ(write_scene(read_scene_text(write_scene(scene), "coarse.toml")), write_scene(scene));
+  app::scene::Scene scene = coarse_ball("flip_reference_dt = 0\n");
+  app::scene::coarsen(scene, 2.5);
+  EXPECT_EQ(app::scene::write_scene(
+                app::scene::read_scene_text(app::scene::write_scene(scene), "coarse.toml")),
+            app::scene::write_scene(scene));
 }
 
 TEST(Coarsen, RefusesWhatIsNoFactor) {
@@ -110,10 +114,10 @@ TEST(Coarsen, RefusesStepsOutOfRange) {
 }
 
 TEST(Coarsen, PicturesRememberItAndOldOnesNeedNot) {
-  PictureRecord record;
+  app::run::PictureRecord record;
   record.coarsening = 1.5;
-  EXPECT_EQ(to_png_text(record).at("neve:coarsen"), "1.5");
-  EXPECT_EQ(to_json(record)["coarsen"], 1.5);
+  EXPECT_EQ(app::run::to_png_text(record).at("neve:coarsen"), "1.5");
+  EXPECT_EQ(app::run::to_json(record)["coarsen"], 1.5);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 /// Colliders of every form as what is drawn.
 
-#include "app/collider_looks.h"
+#include "app/picture/collider_looks.h"
 
 #include <gtest/gtest.h>
 
@@ -27,8 +27,8 @@ class ColliderLooks : public testing::Test {
  protected:
   ColliderLooks() { folder_.write("box.obj", test::box_obj({1, 2, 1.5})); }
 
-  Scene scene_with(const std::string& form, const std::string& style) const {
-    return read_scene_text(
+  app::scene::Scene scene_with(const std::string& form, const std::string& style) const {
+    return app::scene::read_scene_text(
         "[[body]]\nshape = { sphere = {} }\n[[collider]]\nshape = { " + form + " }\nstyle = \"" +
             style +
             "\"\nkeyframes = [{ time = 0 }, { time = 1, position = [0.5, 0.2, 0.1], rotation = "
@@ -36,9 +36,9 @@ class ColliderLooks : public testing::Test {
         "s.toml", folder_.path().string());
   }
 
-  static render::Frame drawn(const Scene& scene, double time) {
+  static render::Frame drawn(const app::scene::Scene& scene, double time) {
     render::Frame frame;
-    add_colliders(scene, scene.views.front(), time, 0.1f, frame);
+    app::picture::add_colliders(scene, scene.views.front(), time, 0.1f, frame);
     return frame;
   }
 
@@ -52,7 +52,7 @@ sim::Vec3d place_of(Vec3f v) {
 TEST_F(ColliderLooks, SurfacesAreWhereContactIsAtEveryTime) {
   for (const std::string& form : drawn_forms) {
     SCOPED_TRACE(form);
-    const Scene scene = scene_with(form, "solid");
+    const app::scene::Scene scene = scene_with(form, "solid");
     for (const double time : {0.0, 0.4, 2.0}) {
       const render::Frame frame = drawn(scene, time);
       ASSERT_EQ(frame.meshes.size(), 1u);
@@ -62,17 +62,17 @@ TEST_F(ColliderLooks, SurfacesAreWhereContactIsAtEveryTime) {
       for (std::size_t k = 0; k < mesh.position.size(); ++k) {
         // Corners of the drawn mesh lie on the surface; floats of a few metres.
         const sim::Vec3d x = place_of(mesh.position[k]), n = place_of(mesh.normal[k]);
-        EXPECT_NEAR(sim::signed_distance(scene.colliders[0], time, x), 0, 2e-6);
+        EXPECT_NEAR(sim::shapes::signed_distance(scene.colliders[0], time, x), 0, 2e-6);
         EXPECT_NEAR(n.norm(), 1, 1e-5);
         // Outward: a little along it is outside, but on edges just not inside.
-        EXPECT_GT(sim::signed_distance(scene.colliders[0], time, x + 1e-3 * n), 5e-4);
+        EXPECT_GT(sim::shapes::signed_distance(scene.colliders[0], time, x + 1e-3 * n), 5e-4);
       }
       // The middles of triangles too, but for the sagitta of 96 segments around.
       for (std::size_t t = 0; t + 2 < mesh.index.size(); t += 3) {
         sim::Vec3d middle = sim::Vec3d::Zero();
         for (std::size_t c = 0; c < 3; ++c)
           middle += place_of(mesh.position[mesh.index[t + c]]) / 3;
-        EXPECT_NEAR(sim::signed_distance(scene.colliders[0], time, middle), 0, 2e-3);
+        EXPECT_NEAR(sim::shapes::signed_distance(scene.colliders[0], time, middle), 0, 2e-3);
       }
     }
   }
@@ -81,13 +81,13 @@ TEST_F(ColliderLooks, SurfacesAreWhereContactIsAtEveryTime) {
 TEST_F(ColliderLooks, WiresAndGhostsAreTheSameSurfaces) {
   for (const std::string& form : drawn_forms) {
     SCOPED_TRACE(form);
-    const Scene wire = scene_with(form, "wire"), ghost = scene_with(form, "ghost");
+    const app::scene::Scene wire = scene_with(form, "wire"), ghost = scene_with(form, "ghost");
     const render::Frame lines = drawn(wire, 0.4), see_through = drawn(ghost, 0.4);
     EXPECT_TRUE(lines.meshes.empty() && lines.ghosts.empty());
     ASSERT_EQ(lines.lines.size(), 1u);
     EXPECT_GE(lines.lines[0].ends.size(), 24u);  // a box has 12 edges
     for (const Vec3f& end : lines.lines[0].ends)
-      EXPECT_NEAR(sim::signed_distance(wire.colliders[0], 0.4, place_of(end)), 0, 2e-6);
+      EXPECT_NEAR(sim::shapes::signed_distance(wire.colliders[0], 0.4, place_of(end)), 0, 2e-6);
     EXPECT_TRUE(see_through.meshes.empty());
     ASSERT_EQ(see_through.ghosts.size(), 1u);
     EXPECT_EQ(see_through.ghosts[0].position.size(),

@@ -1,6 +1,6 @@
 /// Scenes that go wrong, each for one known reason, and whether the report names it.
 
-#include "app/diagnosis.h"
+#include "app/health/diagnosis.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include "app/incident.h"
-#include "app/resolve.h"
-#include "app/scene/error.h"
+#include "app/health/incident.h"
 #include "app/scene/read.h"
-#include "app/seed_scene.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/resolve.h"
+#include "app/setup/seed_scene.h"
 #include "sim/retry.h"
 
 namespace neve::app {
@@ -55,7 +55,7 @@ keyframes = [{ time = 0 }, { time = 0.001, position = [0, 1, 0] }]
 
 struct Fault {
   const char* what;
-  Cause cause;
+  app::health::Cause cause;
   std::vector<const char*> changes;  ///< as for --set
   const char* more = "";             ///< appended to the scene
   const char* proof = "";            ///< what the evidence has to mention
@@ -64,76 +64,88 @@ struct Fault {
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> all = {
       {"a step per frame",
-       Cause::time_step,
+       app::health::Cause::time_step,
        {"solver.time_step=\"fixed\"", "solver.dt=0.0416"},
        "",
        "cells in a step"},
       {"a body too quick for its fixed step",
-       Cause::time_step,
+       app::health::Cause::time_step,
        {"solver.time_step=\"fixed\"", "solver.dt=4e-4", "body.ball.velocity=[300,0,0]"},
        "",
        "300 m/s"},
       {"stiffness in kPa taken for Pa twice",
-       Cause::stiffness,
+       app::health::Cause::stiffness,
        {"solver.time_step=\"fixed\"", "solver.dt=1e-3", "material.snow.youngs_modulus=1.4e8"},
        "",
        "youngs_modulus is 1.4e+08"},
       {"density in g/cm3",
-       Cause::density,
+       app::health::Cause::density,
        {"solver.time_step=\"fixed\"", "solver.dt=1e-3", "material.snow.density=0.4"},
        "",
        "density is 0.4"},
       {"centimetres, adaptive steps",
-       Cause::units,
+       app::health::Cause::units,
        {"solver.cell_size=4", "solver.gravity=[0,-981,0]", "body.ball.shape.sphere.radius=16",
         "body.ball.shape.sphere.center=[0,60,0]", "body.ball.velocity=[0,0,0]"},
        "",
        "centimetres"},
       {"acoustic limit raised",
-       Cause::raised_limits,
+       app::health::Cause::raised_limits,
        {"solver.acoustic_cfl=8"},
        "",
        "solver.acoustic_cfl = 8"},
       {"speed limit raised",
-       Cause::raised_limits,
+       app::health::Cause::raised_limits,
        {"solver.cfl=20", "solver.acoustic_cfl=50", "body.ball.velocity=[0,-60,0]"},
        "",
        "allows more than holds"},
       {"snow that hardens too fast for a fixed step",
-       Cause::hardening,
+       app::health::Cause::hardening,
        {"solver.time_step=\"fixed\"", "solver.dt=1e-3", "material.snow.hardening=30"},
        "",
        "hardened"},
       {"the same with a longer step",
-       Cause::hardening,
+       app::health::Cause::hardening,
        {"solver.time_step=\"fixed\"", "solver.dt=1.1e-3", "material.snow.hardening=30"},
        "",
        "J_P"},
-      {"a press that leaves no room", Cause::colliders_closing, {}, press, "floor and press"},
+      {"a press that leaves no room",
+       app::health::Cause::colliders_closing,
+       {},
+       press,
+       "floor and press"},
       {"a press with fixed steps",
-       Cause::colliders_closing,
+       app::health::Cause::colliders_closing,
        {"solver.time_step=\"fixed\"", "solver.dt=2e-5", "material.snow.hardening=2"},
        press,
        "floor and press"},
-      {"a bullet", Cause::collider_speed, {}, bullet, "bullet hits the snow at 800 m/s"},
+      {"a bullet",
+       app::health::Cause::collider_speed,
+       {},
+       bullet,
+       "bullet hits the snow at 800 m/s"},
       {"a bullet with fixed steps",
-       Cause::collider_speed,
+       app::health::Cause::collider_speed,
        {"solver.time_step=\"fixed\"", "solver.dt=5e-4"},
        bullet,
        "bullet"},
-      {"a plate at the speed of a bullet", Cause::collider_speed, {}, flash, "collider flash hits"},
+      {"a plate at the speed of a bullet",
+       app::health::Cause::collider_speed,
+       {},
+       flash,
+       "collider flash hits"},
       {"an impact at twenty times the speed of sound",
-       Cause::shock,
+       app::health::Cause::shock,
        {"body.ball.velocity=[0,-400,0]"},
        "",
        "times the speed of its sound"},
       {"next to incompressible",
-       Cause::incompressible,
+       app::health::Cause::incompressible,
        {"material.snow.poisson_ratio=0.49999"},
        "",
        "poisson_ratio"},
       {"flight beyond the lattice",
-       Cause::far_flight,
+       app::health::Cause::far_flight,
        {"solver.cell_size=0.04", "body.ball.velocity=[-100,0,0]",
         "body.ball.shape.sphere.center=[-167770,0.3,0]"},
        "",
@@ -148,15 +160,16 @@ const Fault& fault(const std::string& what) {
   throw std::logic_error("there is no such fault: " + what);
 }
 
-Scene scene_of(const Fault& fault) {
-  std::vector<Override> changes;
-  for (const char* change : fault.changes) changes.push_back(parse_override(change));
-  return read_scene_text(std::string(base) + fault.more, "fault.toml", {}, changes);
+app::scene::Scene scene_of(const Fault& fault) {
+  std::vector<app::scene::Override> changes;
+  for (const char* change : fault.changes) changes.push_back(app::scene::parse_override(change));
+  return app::scene::read_scene_text(std::string(base) + fault.more, "fault.toml", {}, changes);
 }
 
 /// At most a second of the scene.
-sim::Simulation run(const Scene& scene, sim::ParticleArrays particles) {
-  sim::Simulation simulation(scene.solver, scene.materials, sim_colliders(scene), particles);
+sim::Simulation run(const app::scene::Scene& scene, sim::ParticleArrays particles) {
+  sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
+                             particles);
   for (int frame = 1; frame <= 24 && !simulation.divergence(); ++frame)
     simulation.advance_to(frame / 24.0);
   return simulation;
@@ -165,12 +178,12 @@ sim::Simulation run(const Scene& scene, sim::ParticleArrays particles) {
 TEST(Diagnosis, NamesTheCauseOfEachFault) {
   for (const Fault& fault : faults()) {
     SCOPED_TRACE(fault.what);
-    Scene scene = scene_of(fault);
-    const sim::Simulation simulation = run(scene, seed_scene(scene));
+    app::scene::Scene scene = scene_of(fault);
+    const sim::Simulation simulation = run(scene, app::setup::seed_scene(scene));
     ASSERT_TRUE(simulation.divergence());
-    const Diagnosis diagnosis = diagnose(scene, *simulation.divergence());
-    EXPECT_STREQ(name_of(diagnosis.cause), name_of(fault.cause))
-        << sentence(*simulation.divergence(), diagnosis);
+    const app::health::Diagnosis diagnosis = app::health::diagnose(scene, *simulation.divergence());
+    EXPECT_STREQ(app::scene::name_of(diagnosis.cause), app::scene::name_of(fault.cause))
+        << app::health::sentence(*simulation.divergence(), diagnosis);
     EXPECT_NE(diagnosis.evidence.find(fault.proof), std::string::npos) << diagnosis.evidence;
     EXPECT_FALSE(diagnosis.remedy.empty());
   }
@@ -178,47 +191,48 @@ TEST(Diagnosis, NamesTheCauseOfEachFault) {
 
 /// States that no scene can ask for, as from a damaged file.
 TEST(Diagnosis, NamesWhatWasWrongBeforeTheFirstStep) {
-  const Scene scene = read_scene_text(base, "fault.toml");
+  const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");
   const auto cause_with = [&](auto&& damage) {
-    sim::ParticleArrays particles = seed_scene(scene);
+    sim::ParticleArrays particles = app::setup::seed_scene(scene);
     particles.F_E.assign(particles.x.size(), sim::Mat3d::Identity());
     particles.J_P.assign(particles.x.size(), 1);
     damage(particles);
     const sim::Simulation simulation = run(scene, particles);
     EXPECT_TRUE(simulation.divergence());
-    return simulation.divergence() ? diagnose(scene, *simulation.divergence()) : Diagnosis{};
+    return simulation.divergence() ? app::health::diagnose(scene, *simulation.divergence())
+                                   : app::health::Diagnosis{};
   };
-  const Diagnosis zero_F = cause_with(
+  const app::health::Diagnosis zero_F = cause_with(
       [](sim::ParticleArrays& p) { p.F_E.assign(p.x.size(), 1e-3 * sim::Mat3d::Identity()); });
-  EXPECT_EQ(zero_F.cause, Cause::initial_state) << zero_F.evidence;
+  EXPECT_EQ(zero_F.cause, app::health::Cause::initial_state) << zero_F.evidence;
   EXPECT_NE(zero_F.evidence.find("det F_E"), std::string::npos);
-  const Diagnosis zero_J = cause_with([](sim::ParticleArrays& p) { p.J_P[7] = 0.05; });
-  EXPECT_EQ(zero_J.cause, Cause::initial_state) << zero_J.evidence;
+  const app::health::Diagnosis zero_J = cause_with([](sim::ParticleArrays& p) { p.J_P[7] = 0.05; });
+  EXPECT_EQ(zero_J.cause, app::health::Cause::initial_state) << zero_J.evidence;
   EXPECT_NE(zero_J.evidence.find("particle 7"), std::string::npos) << zero_J.evidence;
-  const Diagnosis nan = cause_with(
+  const app::health::Diagnosis nan = cause_with(
       [](sim::ParticleArrays& p) { p.v[9][1] = std::numeric_limits<double>::quiet_NaN(); });
-  EXPECT_EQ(nan.cause, Cause::initial_state) << nan.evidence;
+  EXPECT_EQ(nan.cause, app::health::Cause::initial_state) << nan.evidence;
   EXPECT_NE(nan.evidence.find("particle 9"), std::string::npos) << nan.evidence;
 }
 
 /// Adaptive steps shrink with hardening for hours before a rule breaks; the end is made up here.
 TEST(Diagnosis, NamesHardeningOfAdaptiveSteps) {
-  const Scene scene = read_scene_text(base, "fault.toml");
+  const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");
   sim::Divergence d;
   d.rule = "time_step";
   d.J_P = 0.4;
   d.start.max_speed = 3;
   d.start.max_sound_speed = 20;
-  const Diagnosis diagnosis = diagnose(scene, d);
-  EXPECT_EQ(diagnosis.cause, Cause::hardening) << diagnosis.evidence;
+  const app::health::Diagnosis diagnosis = app::health::diagnose(scene, d);
+  EXPECT_EQ(diagnosis.cause, app::health::Cause::hardening) << diagnosis.evidence;
   EXPECT_NE(diagnosis.evidence.find("403 times"), std::string::npos) << diagnosis.evidence;
   d.rule = "energy";
-  EXPECT_EQ(diagnose(scene, d).cause, Cause::unexplained);
+  EXPECT_EQ(app::health::diagnose(scene, d).cause, app::health::Cause::unexplained);
 }
 
 TEST(Diagnosis, KeepsTheLastStepsInOrder) {
-  const Scene scene = scene_of(fault("acoustic limit raised"));
-  const sim::Simulation simulation = run(scene, seed_scene(scene));
+  const app::scene::Scene scene = scene_of(fault("acoustic limit raised"));
+  const sim::Simulation simulation = run(scene, app::setup::seed_scene(scene));
   ASSERT_TRUE(simulation.divergence());
   const sim::Divergence& d = *simulation.divergence();
   ASSERT_GT(d.last_steps.size(), 10u);
@@ -228,7 +242,8 @@ TEST(Diagnosis, KeepsTheLastStepsInOrder) {
   EXPECT_DOUBLE_EQ(d.last_steps.back().dt, d.dt);
   EXPECT_GT(d.sound_speed, 0);
   EXPECT_GT(d.kirchhoff.norm(), 0);
-  const Json json = incident_json(d, diagnose(scene, d), "", scene.solver.cell_size);
+  const Json json =
+      app::health::incident_json(d, app::health::diagnose(scene, d), "", scene.solver.cell_size);
   EXPECT_EQ(json["cause"], "raised_limits");
   EXPECT_EQ(json["last_steps"].size(), d.last_steps.size());
   EXPECT_GT(json["last_steps"].back()["acoustic_cfl"].get<double>(), 1.5);
@@ -236,9 +251,10 @@ TEST(Diagnosis, KeepsTheLastStepsInOrder) {
 
 /// Half of a step that is just too long holds; the frames that follow may be as they were.
 TEST(Retry, GoesOnWithHalfTheStepWhereThatHolds) {
-  Scene scene = scene_of(fault("the same with a longer step"));
-  const sim::ParticleArrays particles = seed_scene(scene);
-  sim::Simulation simulation(scene.solver, scene.materials, sim_colliders(scene), particles);
+  app::scene::Scene scene = scene_of(fault("the same with a longer step"));
+  const sim::ParticleArrays particles = app::setup::seed_scene(scene);
+  sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
+                             particles);
   std::vector<sim::Retry> retries;
   int frames = 0;
   for (; frames < 4 && !simulation.divergence(); ++frames)
@@ -252,11 +268,12 @@ TEST(Retry, GoesOnWithHalfTheStepWhereThatHolds) {
 }
 
 TEST(Retry, GivesUpWhereNoStepHelps) {
-  const Scene scene = read_scene_text(base, "fault.toml");
-  sim::ParticleArrays particles = seed_scene(scene);
+  const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");
+  sim::ParticleArrays particles = app::setup::seed_scene(scene);
   particles.J_P.assign(particles.x.size(), 1);
   particles.J_P[7] = 0.05;
-  sim::Simulation simulation(scene.solver, scene.materials, sim_colliders(scene), particles);
+  sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
+                             particles);
   std::vector<sim::Retry> retries;
   sim::advance_retrying(simulation, 1 / 24.0, nullptr, retries);
   ASSERT_TRUE(simulation.divergence());
@@ -269,10 +286,11 @@ int polls = 0;
 
 /// What is saved of an interrupted frame is its beginning: going on takes the same way.
 TEST(Retry, AnInterruptedFrameStartsAgain) {
-  Scene scene = scene_of(fault("the same with a longer step"));
-  const sim::ParticleArrays particles = seed_scene(scene);
+  app::scene::Scene scene = scene_of(fault("the same with a longer step"));
+  const sim::ParticleArrays particles = app::setup::seed_scene(scene);
   const auto make = [&] {
-    return sim::Simulation(scene.solver, scene.materials, sim_colliders(scene), particles);
+    return sim::Simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
+                           particles);
   };
   std::vector<sim::Retry> whole, cut;
   sim::Simulation reference = make();

@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "app/scene/edit_text.h"
-#include "app/scene/error.h"
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
+#include "app/scene/toml/error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -46,9 +46,9 @@ fov = 30
 )";
 
 std::string edit(const std::vector<std::string>& sets, const std::string& text = edited_scene) {
-  std::vector<Override> overrides;
-  for (const std::string& set : sets) overrides.push_back(parse_override(set));
-  return edit_scene_text(text, overrides);
+  std::vector<app::scene::Override> overrides;
+  for (const std::string& set : sets) overrides.push_back(app::scene::parse_override(set));
+  return app::scene::edit_scene_text(text, overrides);
 }
 
 /// The text with one part replaced.
@@ -170,7 +170,7 @@ TEST(EditText, StringsAndCommentsThatLookLikeTomlAreLeftAlone) {
       "title = '''\n[solver]\ncfl = 1 # no\n'''\n# [camera]\n# fov = 3\n[[body]] # [camera]\n"
       "shape = { box = {} } # } ]\nname = \"a#b\\\"]\" \n";
   // A name must be a word: such a file is refused, not damaged.
-  EXPECT_THROW(edit({"frames=3"}, text), SceneError);
+  EXPECT_THROW(edit({"frames=3"}, text), app::scene::toml::SceneError);
   const std::string good = with("name = \"a#b\\\"]\" \n", "material = \"snow\"\n", text);
   EXPECT_EQ(edit({"solver.cfl=0.2", "camera.fov=20"}, good),
             good + "\n[solver]\ncfl = 0.2\n\n[camera]\nfov = 20\n");
@@ -186,27 +186,28 @@ TEST(EditText, AKeyOfTheSameNameElsewhereIsNotTakenForIt) {
 }
 
 TEST(EditText, BadChangesAndFilesAreRefused) {
-  EXPECT_THROW(edit({"solver.nonsense=1"}), UsageError);
-  EXPECT_THROW(edit({"solver.cfl=-1"}), UsageError);
-  EXPECT_THROW(edit({"frames=1"}, "[[body]"), SceneError);
-  EXPECT_THROW(edit({"frames=1"}, "frames = 1"), SceneError);
+  EXPECT_THROW(edit({"solver.nonsense=1"}), app::scene::toml::UsageError);
+  EXPECT_THROW(edit({"solver.cfl=-1"}), app::scene::toml::UsageError);
+  EXPECT_THROW(edit({"frames=1"}, "[[body]"), app::scene::toml::SceneError);
+  EXPECT_THROW(edit({"frames=1"}, "frames = 1"), app::scene::toml::SceneError);
   // Views as one array cannot be added to line by line.
   EXPECT_THROW(
       edit({"view.smoke.smoke.density_scale=2"}, "view = [{}]\n[[body]]\nshape = { box = {} }\n"),
-      UsageError);
+      app::scene::toml::UsageError);
 }
 
 /// Another value that is valid; nothing for what cannot be told.
-std::string other_value(const FlatParam& param) {
+std::string other_value(const app::scene::FlatParam& param) {
   if (param.type == "choice")
-    return toml_string(param.choices[param.text() == toml_string(param.choices[0]) ? 1 : 0]);
+    return app::scene::toml::toml_string(
+        param.choices[param.text() == app::scene::toml::toml_string(param.choices[0]) ? 1 : 0]);
   if (param.type == "integer" || param.type == "number") {
     const double x = param.value ? std::stod(param.text()) : 1;
     for (const double other : {x + 1, x - 1, 0.5 * x + 0.1, x / 2})
       if (param.valid.contains(other) && param.type == "number")
-        return number_text(other);
+        return app::scene::toml::number_text(other);
       else if (param.valid.contains(std::floor(other)))
-        return number_text(std::floor(other));
+        return app::scene::toml::number_text(std::floor(other));
   }
   if (param.type == "vector") return "[0.25, -0.5, 1]";
   if (param.type == "range") return "[0.5, 7]";
@@ -225,19 +226,19 @@ TEST(EditText, EveryParameterOfEverySceneCanBeSaved) {
   ASSERT_GE(files.size(), 7u);
   for (const fs::path& file : files) {
     const std::string text = test::read_text(file), folder = file.parent_path().string();
-    const Scene scene = read_scene_text(text, file.string(), folder);
-    std::vector<Override> all;
-    for (const FlatParam& param : flatten(scene)) {
+    const app::scene::Scene scene = app::scene::read_scene_text(text, file.string(), folder);
+    std::vector<app::scene::Override> all;
+    for (const app::scene::FlatParam& param : app::scene::flatten(scene)) {
       const std::string value = other_value(param);
       if (value.empty()) continue;
-      const Override change{param.address, value};
+      const app::scene::Override change{param.address, value};
       try {
-        read_scene_text(text, file.string(), folder, {change});
+        app::scene::read_scene_text(text, file.string(), folder, {change});
       } catch (const std::exception&) {
         continue;  // does not go together with the rest, as an eye without a target
       }
       std::string edited;
-      EXPECT_NO_THROW(edited = edit_scene_text(text, {change}, file.string(), folder))
+      EXPECT_NO_THROW(edited = app::scene::edit_scene_text(text, {change}, file.string(), folder))
           << file << " " << param.address << " = " << value;
       // Nothing is lost: without the part that differs, the old text is a part of the new one.
       std::size_t begin = 0, end = 0;
@@ -253,11 +254,11 @@ TEST(EditText, EveryParameterOfEverySceneCanBeSaved) {
       all.push_back(change);
     }
     try {
-      read_scene_text(text, file.string(), folder, all);
+      app::scene::read_scene_text(text, file.string(), folder, all);
     } catch (const std::exception&) {
       continue;
     }
-    EXPECT_NO_THROW(edit_scene_text(text, all, file.string(), folder)) << file;
+    EXPECT_NO_THROW(app::scene::edit_scene_text(text, all, file.string(), folder)) << file;
   }
   EXPECT_GT(edits, 500);
 }
@@ -271,9 +272,9 @@ TEST(EditText, HostileFilesAreRefusedOrEditedRightly) {
     try {
       edit({"frames=3", "solver.cfl=0.2", "camera.fov=20", "view.smoke.smoke.density_scale=3"},
            text);
-    } catch (const SceneError&) {
+    } catch (const app::scene::toml::SceneError&) {
       ++refused;
-    } catch (const UsageError&) {
+    } catch (const app::scene::toml::UsageError&) {
       ++refused;
     }
   }

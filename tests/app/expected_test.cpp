@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <string>
 
-#include "app/dump/expected.h"
+#include "app/health/expected.h"
 #include "app/scene/read.h"
-#include "app/seed_scene.h"
+#include "app/setup/seed_scene.h"
 
 namespace neve::app {
 namespace {
@@ -22,10 +22,10 @@ shape = { box = { center = [0, 0.2, 0], size = [0.3, 0.3, 0.3] } }
 
 // The sharp corners of a cube of three cells: the worst that the paper's estimate does.
 TEST(ExpectedVolume, HasRoomForEstimatesAtCornersAndNoMoreWhereVolumesAreGiven) {
-  const Scene scene = read_scene_text(coarse_cube, "cube.toml");
-  sim::Simulation simulation = make_simulation(scene, seed_scene(scene), 1);
+  const app::scene::Scene scene = app::scene::read_scene_text(coarse_cube, "cube.toml");
+  sim::Simulation simulation = app::setup::make_simulation(scene, app::setup::seed_scene(scene), 1);
   const sim::ParticleArrays state = simulation.particles();
-  const Range expected = Expected(scene, state, 1e-4).volume().range;
+  const app::scene::Range expected = app::health::Expected(scene, state, 1e-4).volume().range;
   const double share = state.m.front() / scene.materials[0].density;
   EXPECT_DOUBLE_EQ(expected.max, 8 * *std::max_element(state.m.begin(), state.m.end()) /
                                      scene.materials[0].density);
@@ -33,9 +33,10 @@ TEST(ExpectedVolume, HasRoomForEstimatesAtCornersAndNoMoreWhereVolumesAreGiven) 
   EXPECT_GT(*most, 2 * share) << "the corners are why there is room";
   EXPECT_LT(*most, expected.max);
   EXPECT_GT(*least, expected.min);
-  const Scene given =
-      read_scene_text(std::string(coarse_cube) + "volumes = \"given\"\n", "cube.toml");
-  EXPECT_DOUBLE_EQ(Expected(given, state, 1e-4).volume().range.max, 3 * expected.max / 8);
+  const app::scene::Scene given =
+      app::scene::read_scene_text(std::string(coarse_cube) + "volumes = \"given\"\n", "cube.toml");
+  EXPECT_DOUBLE_EQ(app::health::Expected(given, state, 1e-4).volume().range.max,
+                   3 * expected.max / 8);
 }
 
 }  // namespace

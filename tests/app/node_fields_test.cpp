@@ -1,20 +1,20 @@
 /// What pictures show of the grid: fields of nodes, planes through them, wires around them.
 
-#include "app/node_fields.h"
+#include "app/picture/node_fields.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "app/auto_ranges.h"
-#include "app/field_sampler.h"
-#include "app/legends.h"
-#include "app/resolve.h"
-#include "app/scene/error.h"
+#include "app/picture/field_sampler.h"
+#include "app/picture/legends.h"
+#include "app/picture/slice.h"
+#include "app/picture/wires.h"
 #include "app/scene/read.h"
-#include "app/seed_scene.h"
-#include "app/slice.h"
-#include "app/wires.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/auto_ranges.h"
+#include "app/setup/resolve.h"
+#include "app/setup/seed_scene.h"
 
 namespace neve::app {
 namespace {
@@ -31,22 +31,23 @@ shape = { sphere = { center = [0, 0.5, 0], radius = 0.15 } }
 velocity = [1, -2, 0.5]
 )";
 
-Scene read_thrown(const std::string& more, const std::vector<Override>& overrides = {}) {
-  return read_scene_text(thrown_ball + more, "ball.toml", {}, overrides);
+app::scene::Scene read_thrown(const std::string& more,
+                              const std::vector<app::scene::Override>& overrides = {}) {
+  return app::scene::read_scene_text(thrown_ball + more, "ball.toml", {}, overrides);
 }
 
 struct FieldMoment {
-  Scene scene;
-  Snapshot snapshot;
+  app::scene::Scene scene;
+  app::picture::Snapshot snapshot;
 };
 
 FieldMoment moment_of(const std::string& views) {
   FieldMoment moment{read_thrown(views), {}};
-  const sim::ParticleArrays particles = seed_scene(moment.scene);
-  resolve(moment.scene, particles.x.size());
+  const sim::ParticleArrays particles = app::setup::seed_scene(moment.scene);
+  app::setup::resolve(moment.scene, particles.x.size());
   const sim::Simulation simulation(moment.scene.solver, moment.scene.materials,
-                                   sim_colliders(moment.scene), particles, 1);
-  moment.snapshot = take_snapshot(moment.scene, simulation, 0);
+                                   app::scene::sim_colliders(moment.scene), particles, 1);
+  moment.snapshot = app::picture::take_snapshot(moment.scene, simulation, 0);
   return moment;
 }
 
@@ -66,17 +67,20 @@ slice = { field = "velocity", scalar = "speed" }
 )";
 
 TEST(NodeFields, AreSampledOnlyWhenAViewShowsThem) {
-  EXPECT_FALSE(field_needs(read_thrown("")).is_needed);
+  EXPECT_FALSE(app::picture::field_needs(read_thrown("")).is_needed);
   EXPECT_EQ(moment_of("").snapshot.fields.lattice, nullptr);
-  const FieldNeeds needs = field_needs(read_thrown(all_fields));
+  const app::picture::FieldNeeds needs = app::picture::field_needs(read_thrown(all_fields));
   EXPECT_EQ(needs.vectors,
-            (std::set{VectorField::force, VectorField::v_star, VectorField::velocity}));
-  EXPECT_EQ(needs.scalars, (std::set{ScalarField::J_P, ScalarField::pressure, ScalarField::speed}));
+            (std::set{app::scene::VectorField::force, app::scene::VectorField::v_star,
+                      app::scene::VectorField::velocity}));
+  EXPECT_EQ(needs.scalars,
+            (std::set{app::scene::ScalarField::J_P, app::scene::ScalarField::pressure,
+                      app::scene::ScalarField::speed}));
 }
 
 TEST(NodeFields, OfABallThatFliesAreThoseOfItsParticles) {
   const FieldMoment moment = moment_of(all_fields);
-  const NodeFields& fields = moment.snapshot.fields;
+  const app::picture::NodeFields& fields = moment.snapshot.fields;
   ASSERT_NE(fields.lattice, nullptr);
   ASSERT_EQ(fields.density.size(), 64 * fields.lattice->block.size());
   double mass = 0, largest = 0;
@@ -87,11 +91,11 @@ TEST(NodeFields, OfABallThatFliesAreThoseOfItsParticles) {
     largest = std::max(largest, static_cast<double>(fields.density[n]));
     if (!(fields.density[n] > 0)) continue;
     // All particles have one velocity, J_P 1 and no stress: so has every node.
-    EXPECT_NEAR(fields.scalars.at(ScalarField::speed)[n], std::sqrt(5.25), 1e-4);
-    EXPECT_NEAR(fields.scalars.at(ScalarField::J_P)[n], 1, 1e-5);
-    EXPECT_NEAR(fields.scalars.at(ScalarField::pressure)[n], 0, 1);
-    EXPECT_NEAR(fields.vectors.at(VectorField::velocity)[n].y, -2, 1e-4);
-    EXPECT_NEAR(fields.vectors.at(VectorField::v_star)[n].y, -2, 9.81 * dt + 1e-4);
+    EXPECT_NEAR(fields.scalars.at(app::scene::ScalarField::speed)[n], std::sqrt(5.25), 1e-4);
+    EXPECT_NEAR(fields.scalars.at(app::scene::ScalarField::J_P)[n], 1, 1e-5);
+    EXPECT_NEAR(fields.scalars.at(app::scene::ScalarField::pressure)[n], 0, 1);
+    EXPECT_NEAR(fields.vectors.at(app::scene::VectorField::velocity)[n].y, -2, 1e-4);
+    EXPECT_NEAR(fields.vectors.at(app::scene::VectorField::v_star)[n].y, -2, 9.81 * dt + 1e-4);
   }
   // Feather-light nodes hold less than 1e-4 of a cell's mass each: nothing to speak of.
   const double whole = 400 * 4.0 / 3 * 3.14159265 * 0.15 * 0.15 * 0.15;
@@ -101,9 +105,9 @@ TEST(NodeFields, OfABallThatFliesAreThoseOfItsParticles) {
 
 TEST(FieldSampler, ReproducesLinearFieldsInside) {
   FieldMoment moment = moment_of(all_fields);
-  NodeFields& fields = moment.snapshot.fields;
+  app::picture::NodeFields& fields = moment.snapshot.fields;
   const float h = fields.lattice->spacing;
-  std::vector<float>& values = fields.scalars.at(ScalarField::J_P);
+  std::vector<float>& values = fields.scalars.at(app::scene::ScalarField::J_P);
   const auto linear = [](const Vec3d& x) { return 3 + 2 * x.x() - x.y() + 5 * x.z(); };
   for (std::size_t n = 0; n < values.size(); ++n) {
     const Vec3i b = fields.lattice->block[n / 64];
@@ -111,27 +115,28 @@ TEST(FieldSampler, ReproducesLinearFieldsInside) {
     values[n] = static_cast<float>(linear(
         static_cast<double>(h) * Vec3d(4 * b.x + k / 16, 4 * b.y + k / 4 % 4, 4 * b.z + k % 4)));
   }
-  const FieldSampler sampler(fields);
+  const app::picture::FieldSampler sampler(fields);
   for (const Vec3d& x : {Vec3d(0.013, 0.51, -0.07), Vec3d(-0.061, 0.44, 0.033), Vec3d(0, 0.5, 0)}) {
     const auto stencil = sampler.at(x);
     ASSERT_TRUE(stencil);
     EXPECT_NEAR(stencil->cover, 1, 1e-5);
-    EXPECT_NEAR(FieldSampler::mean(*stencil, values), linear(x), 1e-4);
+    EXPECT_NEAR(app::picture::FieldSampler::mean(*stencil, values), linear(x), 1e-4);
   }
   EXPECT_FALSE(sampler.at({5, 5, 5}));
   EXPECT_FALSE(sampler.at({std::nan(""), 0, 0}));
 }
 
-render::Frame frame_of_slice(const FieldMoment& moment, std::size_t view, const SlicePlane& plane) {
+render::Frame frame_of_slice(const FieldMoment& moment, std::size_t view,
+                             const app::picture::SlicePlane& plane) {
   render::Frame frame;
-  add_slice(moment.scene.views[view], moment.snapshot.fields, plane, 1000, frame);
+  app::picture::add_slice(moment.scene.views[view], moment.snapshot.fields, plane, 1000, frame);
   return frame;
 }
 
 TEST(Slice, ArrowsStandOnNodesAndHaveTheirVelocity) {
   const FieldMoment moment = moment_of(all_fields);
-  const SliceStyle& slice = moment.scene.views[2].slice;
-  const SlicePlane plane = slice_plane(slice, 0, std::nullopt);
+  const app::scene::SliceStyle& slice = moment.scene.views[2].slice;
+  const app::picture::SlicePlane plane = app::picture::slice_plane(slice, 0, std::nullopt);
   EXPECT_TRUE(plane.across.isApprox(Vec3d(1, 0, 0)));
   EXPECT_TRUE(plane.up.isApprox(Vec3d(0, 1, 0)));
   const render::Frame frame = frame_of_slice(moment, 2, plane);
@@ -152,31 +157,34 @@ TEST(Slice, ArrowsStandOnNodesAndHaveTheirVelocity) {
 
 TEST(Slice, SaysWhereThereIsNoSnow) {
   const FieldMoment moment = moment_of(all_fields);
-  SliceStyle slice = moment.scene.views[2].slice;
+  app::scene::SliceStyle slice = moment.scene.views[2].slice;
   slice.point = Vec3d(0, 0, 5);
-  const render::Frame frame = frame_of_slice(moment, 2, slice_plane(slice, 0, std::nullopt));
+  const render::Frame frame =
+      frame_of_slice(moment, 2, app::picture::slice_plane(slice, 0, std::nullopt));
   EXPECT_TRUE(frame.heat_maps.empty());
   EXPECT_NE(frame.footnote.find("no snow here"), std::string::npos) << frame.footnote;
 }
 
 TEST(Legends, StandOnceForTwoLayersOfOneQuantity) {
-  View view;
-  view.layers = {Layer::particles, Layer::smoke, Layer::legend};
-  view.particles.color_by = ColorBy::J_P;
-  view.smoke.field = ScalarField::J_P;
-  view.particles.range = view.smoke.range = Range{0.8, 1.2};
+  app::scene::View view;
+  view.layers = {app::scene::Layer::particles, app::scene::Layer::smoke, app::scene::Layer::legend};
+  view.particles.color_by = app::scene::ColorBy::J_P;
+  view.smoke.field = app::scene::ScalarField::J_P;
+  view.particles.range = view.smoke.range = app::scene::Range{0.8, 1.2};
   view.smoke.colormap = view.particles.colormap;
-  EXPECT_EQ(legends_of(view).size(), 1u);
-  view.smoke.range = Range{0.5, 2};
-  EXPECT_EQ(legends_of(view).size(), 2u);
+  EXPECT_EQ(app::picture::legends_of(view).size(), 1u);
+  view.smoke.range = app::scene::Range{0.5, 2};
+  EXPECT_EQ(app::picture::legends_of(view).size(), 2u);
 }
 
 TEST(Slice, ArrowsStayApartOnThePicture) {
   const FieldMoment moment = moment_of(all_fields);
-  const SlicePlane plane = slice_plane(moment.scene.views[2].slice, 0, std::nullopt);
+  const app::picture::SlicePlane plane =
+      app::picture::slice_plane(moment.scene.views[2].slice, 0, std::nullopt);
   const auto distance = [&](double pixels_per_metre) {
     render::Frame frame;
-    add_slice(moment.scene.views[2], moment.snapshot.fields, plane, pixels_per_metre, frame);
+    app::picture::add_slice(moment.scene.views[2], moment.snapshot.fields, plane, pixels_per_metre,
+                            frame);
     const auto& p = frame.arrows.at(0).position;
     return static_cast<double>(length(p.at(1) - p.at(0))) * pixels_per_metre;
   };
@@ -188,9 +196,9 @@ TEST(Slice, ArrowsStayApartOnThePicture) {
 
 TEST(Slice, AnyPlaneAndOneThatMissesTheSnow) {
   const FieldMoment moment = moment_of(all_fields);
-  SliceStyle slice = moment.scene.views[2].slice;
+  app::scene::SliceStyle slice = moment.scene.views[2].slice;
   slice.normal = {1, 2, 3};
-  const SlicePlane tilted = slice_plane(slice, 0, std::nullopt);
+  const app::picture::SlicePlane tilted = app::picture::slice_plane(slice, 0, std::nullopt);
   EXPECT_NEAR(tilted.across.dot(tilted.normal), 0, 1e-12);
   EXPECT_NEAR(tilted.up.dot(tilted.normal), 0, 1e-12);
   EXPECT_GT(tilted.up.y(), 0);
@@ -199,48 +207,50 @@ TEST(Slice, AnyPlaneAndOneThatMissesTheSnow) {
   for (const Vec3f& p : frame.arrows[0].position)
     EXPECT_NEAR((Vec3d(p.x, p.y, p.z) - tilted.point).dot(tilted.normal), 0, 1e-5);
   slice.point = Vec3d(0, 50, 0);
-  const render::Frame missed = frame_of_slice(moment, 2, slice_plane(slice, 0, std::nullopt));
+  const render::Frame missed =
+      frame_of_slice(moment, 2, app::picture::slice_plane(slice, 0, std::nullopt));
   EXPECT_TRUE(missed.arrows.empty());
   EXPECT_TRUE(missed.lines.empty());
 }
 
 TEST(Slice, MovesAndFollows) {
-  SliceStyle slice;
+  app::scene::SliceStyle slice;
   slice.point = Vec3d(1, 2, 3);
   slice.motion = {0, 0, 2};
-  EXPECT_TRUE(slice_plane(slice, 0.5, std::nullopt).point.isApprox(Vec3d(1, 2, 4)));
-  EXPECT_TRUE(slice_plane(slice, 0, Vec3d(7, 8, 9)).point.isApprox(Vec3d(8, 10, 12)));
+  EXPECT_TRUE(app::picture::slice_plane(slice, 0.5, std::nullopt).point.isApprox(Vec3d(1, 2, 4)));
+  EXPECT_TRUE(app::picture::slice_plane(slice, 0, Vec3d(7, 8, 9)).point.isApprox(Vec3d(8, 10, 12)));
   slice.point.reset();
-  EXPECT_TRUE(slice_plane(slice, 0, Vec3d(7, 8, 9)).point.isApprox(Vec3d(7, 8, 9)));
+  EXPECT_TRUE(app::picture::slice_plane(slice, 0, Vec3d(7, 8, 9)).point.isApprox(Vec3d(7, 8, 9)));
   slice.normal = {0, -1, 0};
-  const SlicePlane level = slice_plane(slice, 0, std::nullopt);
+  const app::picture::SlicePlane level = app::picture::slice_plane(slice, 0, std::nullopt);
   EXPECT_NEAR(level.across.norm(), 1, 1e-12);
 }
 
 TEST(Slice, IsBuiltInAndSetByItsName) {
-  const Scene none = read_thrown("");
+  const app::scene::Scene none = read_thrown("");
   EXPECT_EQ(none.views.size(), 1u);
-  const View slice = find_view(none, "slice");
-  EXPECT_TRUE(has_layer(slice, Layer::arrows));
-  EXPECT_TRUE(has_layer(slice, Layer::heatmap)) << "arrows alone may all be too short to be seen";
-  EXPECT_FALSE(has_layer(slice, Layer::particles));
-  const Scene set = read_thrown("", {{"view.slice.slice.every", "3"}});
+  const app::scene::View slice = app::scene::find_view(none, "slice");
+  EXPECT_TRUE(app::scene::has_layer(slice, app::scene::Layer::arrows));
+  EXPECT_TRUE(app::scene::has_layer(slice, app::scene::Layer::heatmap))
+      << "arrows alone may all be too short to be seen";
+  EXPECT_FALSE(app::scene::has_layer(slice, app::scene::Layer::particles));
+  const app::scene::Scene set = read_thrown("", {{"view.slice.slice.every", "3"}});
   ASSERT_EQ(set.views.size(), 2u);
   EXPECT_EQ(set.views[1].slice.every, 3);
-  EXPECT_TRUE(has_layer(set.views[1], Layer::arrows));
-  const Scene named = read_thrown("[[view]]\nname = \"slice\"\n");
+  EXPECT_TRUE(app::scene::has_layer(set.views[1], app::scene::Layer::arrows));
+  const app::scene::Scene named = read_thrown("[[view]]\nname = \"slice\"\n");
   EXPECT_EQ(named.views.at(0).layers, slice.layers);
-  EXPECT_EQ(named.views.at(0).slice.scalar, ScalarField::density);
-  const Scene own =
+  EXPECT_EQ(named.views.at(0).slice.scalar, app::scene::ScalarField::density);
+  const app::scene::Scene own =
       read_thrown("[[view]]\nname = \"slice\"\nslice = { scalar = \"J_P\", isolines = 3 }\n");
-  EXPECT_EQ(own.views.at(0).slice.scalar, ScalarField::J_P);
+  EXPECT_EQ(own.views.at(0).slice.scalar, app::scene::ScalarField::J_P);
 }
 
 TEST(Slice, MistakesAreLocated) {
   const auto message = [](const std::string& slice) {
     try {
       read_thrown("[[view]]\nname = \"v\"\nlayers = [\"arrows\"]\nslice = { " + slice + " }\n");
-    } catch (const SceneError& error) {
+    } catch (const app::scene::toml::SceneError& error) {
       return std::string(error.what());
     }
     return std::string("no error");
@@ -256,16 +266,16 @@ TEST(Wires, SharedEdgesAreDrawnOnceAndJoined) {
   render::NodeLattice lattice;
   lattice.spacing = 0.25f;
   lattice.block = {{0, 0, 0}};
-  EXPECT_EQ(block_lines(lattice, std::vector<float>(64, 1)).ends.size(), 2u * 12);
+  EXPECT_EQ(app::picture::block_lines(lattice, std::vector<float>(64, 1)).ends.size(), 2u * 12);
   // Two blocks side by side: 4 long edges, and 8 across at three places minus the shared 4: 12.
   lattice.block = {{0, 0, 0}, {0, 0, 1}};
-  EXPECT_EQ(block_lines(lattice, std::vector<float>(128, 1)).ends.size(), 2u * 16);
+  EXPECT_EQ(app::picture::block_lines(lattice, std::vector<float>(128, 1)).ends.size(), 2u * 16);
   // A block without mass does not count.
   std::vector<float> density(128, 1);
   std::fill(density.begin() + 64, density.end(), 0.0f);
-  EXPECT_EQ(block_lines(lattice, density).ends.size(), 2u * 12);
+  EXPECT_EQ(app::picture::block_lines(lattice, density).ends.size(), 2u * 12);
   render::Lines box;
-  append_box({0, 0, 0}, {1, 2, 3}, box);
+  app::picture::append_box({0, 0, 0}, {1, 2, 3}, box);
   EXPECT_EQ(box.ends.size(), 24u);
 }
 

@@ -24,7 +24,7 @@ int run_with_file_limit(rlim_t bytes, const std::function<int()>& child) {
   if (pid == 0) {
     const rlimit limit{bytes, bytes};
     ::setrlimit(RLIMIT_FSIZE, &limit);
-    ignore_write_signals();
+    app::output::ignore_write_signals();
     ::_exit(child());
   }
   int status = 0;
@@ -34,18 +34,19 @@ int run_with_file_limit(rlim_t bytes, const std::function<int()>& child) {
 
 TEST(AtomicFile, ReplacesAFileAndLeavesNoTemporary) {
   const TemporaryFolder folder;
-  write_file(folder / "a.txt", std::string_view("old"));
-  write_file(folder / "a.txt", std::string_view("new"), Durability::synced);
+  app::output::write_file(folder / "a.txt", std::string_view("old"));
+  app::output::write_file(folder / "a.txt", std::string_view("new"),
+                          app::output::Durability::synced);
   EXPECT_EQ(read_text(folder / "a.txt"), "new");
   EXPECT_EQ(file_count(folder.path()), 1u);
 }
 
 TEST(AtomicFile, OnAFullDiskKeepsTheOldFileAndSaysWhy) {
   const TemporaryFolder folder;
-  write_file(folder / "a.bin", std::string_view("old"));
+  app::output::write_file(folder / "a.bin", std::string_view("old"));
   const int code = run_with_file_limit(64 * 1024, [&] {
     try {
-      write_file(folder / "a.bin", std::vector<std::uint8_t>(1 << 20));
+      app::output::write_file(folder / "a.bin", std::vector<std::uint8_t>(1 << 20));
     } catch (const IoError& error) {
       const std::string message = error.what();
       const bool is_complete = message.find("a.bin") != std::string::npos &&
@@ -63,16 +64,18 @@ TEST(AtomicFile, OnAFullDiskKeepsTheOldFileAndSaysWhy) {
 TEST(AtomicFile, FailsWhereNoFileCanBe) {
   const TemporaryFolder folder;
   folder.write("file", "x");
-  EXPECT_THROW(write_file(folder.path() / "file" / "a.txt", std::string_view("x")), IoError);
-  EXPECT_THROW(make_folder(folder.path() / "file" / "sub"), IoError);
-  EXPECT_THROW(write_file("/proc/neve-cannot-write-here", std::string_view("x")), IoError);
+  EXPECT_THROW(app::output::write_file(folder.path() / "file" / "a.txt", std::string_view("x")),
+               IoError);
+  EXPECT_THROW(app::output::make_folder(folder.path() / "file" / "sub"), IoError);
+  EXPECT_THROW(app::output::write_file("/proc/neve-cannot-write-here", std::string_view("x")),
+               IoError);
 }
 
 TEST(AtomicFile, OverwritesATemporaryThatAKilledProcessLeft) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder / "a.txt";
-  folder.write(temporary_name(file).filename().string(), "half");
-  write_file(file, std::string_view("whole"));
+  folder.write(app::output::temporary_name(file).filename().string(), "half");
+  app::output::write_file(file, std::string_view("whole"));
   EXPECT_EQ(read_text(file), "whole");
   EXPECT_EQ(file_count(folder.path()), 1u);
 }
@@ -80,10 +83,10 @@ TEST(AtomicFile, OverwritesATemporaryThatAKilledProcessLeft) {
 TEST(ReadFile, RefusesFoldersMissingFilesAndTooLargeOnes) {
   const TemporaryFolder folder;
   folder.write("a", "12345");
-  EXPECT_THROW(read_file(folder.path()), IoError);
-  EXPECT_THROW(read_file(folder / "missing"), IoError);
-  EXPECT_THROW(read_file(folder / "a", 4), IoError);
-  EXPECT_EQ(read_file(folder / "a", 5).size(), 5u);
+  EXPECT_THROW(app::output::read_file(folder.path()), IoError);
+  EXPECT_THROW(app::output::read_file(folder / "missing"), IoError);
+  EXPECT_THROW(app::output::read_file(folder / "a", 4), IoError);
+  EXPECT_EQ(app::output::read_file(folder / "a", 5).size(), 5u);
 }
 
 }  // namespace

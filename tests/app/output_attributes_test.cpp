@@ -5,16 +5,16 @@
 #include <cmath>
 #include <limits>
 
-#include "app/attributes.h"
-#include "app/frame_builder.h"
+#include "app/picture/attributes.h"
+#include "app/picture/frame_builder.h"
 #include "app/scene/read.h"
 
 namespace neve::app {
 namespace {
 
 /// One particle of 400 kg/m3 at rest, squeezed to J_E = 0.5 and J_P = 0.8, under a known stress.
-Snapshot squeezed() {
-  Snapshot s;
+app::picture::Snapshot squeezed() {
+  app::picture::Snapshot s;
   s.particles.x = {{0, 0.1, 0}};
   s.particles.v = {{3, 0, 4}};
   s.particles.m = {0.4};
@@ -29,40 +29,40 @@ Snapshot squeezed() {
 
 class Attributes : public testing::Test {
  protected:
-  double value(ColorBy color_by, const Snapshot& snapshot) {
-    return attribute_values(scene, color_by, snapshot).at(0);
+  double value(app::scene::ColorBy color_by, const app::picture::Snapshot& snapshot) {
+    return app::picture::attribute_values(scene, color_by, snapshot).at(0);
   }
-  Scene scene = read_scene_text(
+  app::scene::Scene scene = app::scene::read_scene_text(
       "[[body]]\nshape = { sphere = { radius = 0.1 } }\n[output]\nsize = [64, 64]\n", "a.toml");
 };
 
 TEST_F(Attributes, AreThoseOfTheCurrentConfiguration) {
-  const Snapshot s = squeezed();
-  EXPECT_DOUBLE_EQ(value(ColorBy::speed, s), 5);
-  EXPECT_DOUBLE_EQ(value(ColorBy::J_E, s), 0.5);
-  EXPECT_DOUBLE_EQ(value(ColorBy::J_P, s), 0.8);
-  EXPECT_DOUBLE_EQ(value(ColorBy::density, s), 1000);
-  EXPECT_DOUBLE_EQ(value(ColorBy::pressure, s), 100);
-  EXPECT_DOUBLE_EQ(value(ColorBy::von_mises, s), 300);
-  EXPECT_DOUBLE_EQ(value(ColorBy::id, s), 0);
-  EXPECT_TRUE(attribute_values(scene, ColorBy::snow, s).empty());
+  const app::picture::Snapshot s = squeezed();
+  EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::speed, s), 5);
+  EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::J_E, s), 0.5);
+  EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::J_P, s), 0.8);
+  EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::density, s), 1000);
+  EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::pressure, s), 100);
+  EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::von_mises, s), 300);
+  EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::id, s), 0);
+  EXPECT_TRUE(app::picture::attribute_values(scene, app::scene::ColorBy::snow, s).empty());
 }
 
 TEST_F(Attributes, TakeTheMaterialsDensityBeforeVolumesAreKnown) {
-  Snapshot s = squeezed();
+  app::picture::Snapshot s = squeezed();
   s.particles.V0 = {0};
-  EXPECT_DOUBLE_EQ(value(ColorBy::density, s), 1000);
+  EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::density, s), 1000);
 }
 
 TEST_F(Attributes, OfABrokenStateStillMakeAPicture) {
-  Snapshot s = squeezed();
+  app::picture::Snapshot s = squeezed();
   s.particles.x.push_back(sim::Vec3d::Constant(std::numeric_limits<double>::quiet_NaN()));
   s.particles.x.push_back(sim::Vec3d::Zero());
   s.particles.v.assign(3, sim::Vec3d::Constant(std::numeric_limits<double>::infinity()));
-  View view;
-  view.particles.color_by = ColorBy::speed;
-  view.particles.range = Range{0, 2};
-  const FrameBuilder builder(scene, 0.01, Quality::preview, {}, 1, {});
+  app::scene::View view;
+  view.particles.color_by = app::scene::ColorBy::speed;
+  view.particles.range = app::scene::Range{0, 2};
+  const app::picture::FrameBuilder builder(scene, 0.01, app::setup::Quality::preview, {}, 1, {});
   const render::Frame frame = builder.build(view, s);
   ASSERT_EQ(frame.points.position.size(), 2u);
   EXPECT_EQ(frame.points.id[1], 2u);
@@ -73,8 +73,9 @@ TEST_F(Attributes, OfABrokenStateStillMakeAPicture) {
 
 TEST_F(Attributes, CaptionsSayWhatWasCoarsened) {
   const auto last_line = [&](double coarsening) {
-    const FrameBuilder builder(scene, 0.01, Quality::preview, {}, coarsening, {});
-    return builder.build(View{}, squeezed()).caption.back();
+    const app::picture::FrameBuilder builder(scene, 0.01, app::setup::Quality::preview, {},
+                                             coarsening, {});
+    return builder.build(app::scene::View{}, squeezed()).caption.back();
   };
   EXPECT_EQ(last_line(1), "1 particle");
   EXPECT_EQ(last_line(1.5), "1 particle, coarsened 1.5x");

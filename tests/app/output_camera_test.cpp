@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/auto_ranges.h"
-#include "app/dry_run.h"
-#include "app/resolve.h"
 #include "app/scene/read.h"
+#include "app/setup/auto_ranges.h"
+#include "app/setup/dry_run.h"
+#include "app/setup/resolve.h"
 
 namespace neve::app {
 namespace {
@@ -23,7 +23,7 @@ shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
 )";
 
 /// Larger of the coordinates of a point in the picture, 1 at its border.
-double reach(const CameraSettings& camera, double aspect, const sim::Vec3d& point) {
+double reach(const app::scene::CameraSettings& camera, double aspect, const sim::Vec3d& point) {
   const sim::Vec3d forward = (*camera.target - *camera.eye).normalized();
   const sim::Vec3d right = forward.cross(camera.up).normalized();
   const sim::Vec3d up = right.cross(forward);
@@ -33,8 +33,8 @@ double reach(const CameraSettings& camera, double aspect, const sim::Vec3d& poin
 }
 
 TEST(AutomaticCamera, ShowsWhereTheSnowStartsAndLands) {
-  Scene scene = read_scene_text(drop, "drop.toml");
-  resolve(scene, 1000);
+  app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
+  app::setup::resolve(scene, 1000);
   ASSERT_TRUE(scene.camera && scene.camera->eye);
   EXPECT_GT(scene.camera->eye->y(), 0) << "the eye is below the floor";
   double largest = 0;
@@ -45,55 +45,55 @@ TEST(AutomaticCamera, ShowsWhereTheSnowStartsAndLands) {
 }
 
 /// Width of what may be seen of a plane through the target.
-double width_seen(const CameraSettings& camera, double aspect) {
+double width_seen(const app::scene::CameraSettings& camera, double aspect) {
   return 2 * aspect * std::tan(camera.fov * std::numbers::pi / 360) *
          (*camera.target - *camera.eye).norm();
 }
 
 TEST(AutomaticCamera, FramesUprightPicturesByThemselves) {
   const std::string upright = "[[view]]\nname = \"tall\"\nsize = [200, 600]\n";
-  Scene scene =
-      read_scene_text(std::string(drop) + "[[view]]\nname = \"wide\"\n" + upright, "d.toml");
-  Scene alone = read_scene_text(drop, "d.toml");
-  resolve(scene, 1000);
-  resolve(alone, 1000);
+  app::scene::Scene scene = app::scene::read_scene_text(
+      std::string(drop) + "[[view]]\nname = \"wide\"\n" + upright, "d.toml");
+  app::scene::Scene alone = app::scene::read_scene_text(drop, "d.toml");
+  app::setup::resolve(scene, 1000);
+  app::setup::resolve(alone, 1000);
   EXPECT_EQ(*scene.camera->eye, *alone.camera->eye);
   EXPECT_FALSE(scene.views[0].camera);
   ASSERT_TRUE(scene.views[1].camera);
-  const CameraSettings& tall = *scene.views[1].camera;
+  const app::scene::CameraSettings& tall = *scene.views[1].camera;
   for (const double x : {-0.1, 0.1}) EXPECT_LT(reach(tall, 1.0 / 3, {x, 0.5, 0}), 0.95);
   EXPECT_LT(width_seen(tall, 1.0 / 3), width_seen(*scene.camera, 16.0 / 9));
 }
 
 TEST(AutomaticCamera, IsTheSameEveryTime) {
-  Scene a = read_scene_text(drop, "drop.toml"), b = a;
-  resolve(a, 1000);
-  resolve(b, 1000);
-  EXPECT_EQ(write_scene(a), write_scene(b));
+  app::scene::Scene a = app::scene::read_scene_text(drop, "drop.toml"), b = a;
+  app::setup::resolve(a, 1000);
+  app::setup::resolve(b, 1000);
+  EXPECT_EQ(app::scene::write_scene(a), app::scene::write_scene(b));
 }
 
 TEST(AutomaticCamera, LeavesAGivenPlaceAlone) {
-  Scene scene = read_scene_text(
+  app::scene::Scene scene = app::scene::read_scene_text(
       std::string(drop) + "[camera]\neye = [3, 1, 0]\ntarget = [0, 0, 0]\n", "drop.toml");
-  resolve(scene, 1000);
+  app::setup::resolve(scene, 1000);
   EXPECT_EQ(*scene.camera->eye, sim::Vec3d(3, 1, 0));
 }
 
 TEST(AutomaticCamera, StaysOnTheOpenSideOfASlope) {
-  Scene scene = read_scene_text(R"(
+  app::scene::Scene scene = app::scene::read_scene_text(R"(
 frames = 12
 [[body]]
 shape = { box = { center = [0, 0.2, 0], size = [0.2, 0.2, 0.2], rotation = [0, 0, -30] } }
 [[collider]]
 shape = { plane = { point = [0, 0, 0], normal = [0.5, 0.866, 0] } }
 )",
-                                "slope.toml");
-  resolve(scene, 1000);
+                                                        "slope.toml");
+  app::setup::resolve(scene, 1000);
   EXPECT_GT(scene.camera->eye->dot(sim::Vec3d(0.5, 0.866, 0)), 0);
 }
 
 TEST(AutomaticCamera, StaysAboveGroundThatKeyframesTilt) {
-  Scene scene = read_scene_text(R"(
+  app::scene::Scene scene = app::scene::read_scene_text(R"(
 frames = 12
 [[body]]
 shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
@@ -101,40 +101,41 @@ shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
 shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
 keyframes = [{ time = 0 }, { time = 0.2, rotation = [0, 0, 40] }]
 )",
-                                "tilt.toml");
-  resolve(scene, 1000);
+                                                        "tilt.toml");
+  app::setup::resolve(scene, 1000);
   for (const double time : {0.0, 0.1, 0.2, 0.5}) {
-    const sim::Vec3d normal = sim::pose_at(scene.colliders[0], time).rotation * sim::Vec3d(0, 1, 0);
+    const sim::Vec3d normal =
+        sim::shapes::pose_at(scene.colliders[0], time).rotation * sim::Vec3d(0, 1, 0);
     EXPECT_GT(scene.camera->eye->dot(normal), 0) << time;
   }
 }
 
 TEST(DryRun, CoversTheWholeScene) {
-  const Scene scene = read_scene_text(drop, "drop.toml");
-  const std::vector<Moment> moments = dry_run(scene);
+  const app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
+  const std::vector<app::setup::Moment> moments = app::setup::dry_run(scene);
   ASSERT_GT(moments.size(), 2u);
   EXPECT_DOUBLE_EQ(moments.back().time, 0.5);
   EXPECT_LT(moments.front().x.size(), 2000u);
 }
 
 TEST(AutomaticRange, OfSpeedReachesTheImpact) {
-  const Scene scene = read_scene_text(drop, "drop.toml");
+  const app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
   // From rest through half a metre: sqrt(2 g 0.5) = 3.13 m/s, rounded up.
-  EXPECT_EQ(automatic_range(scene, ColorBy::speed, 10).max, 4);
-  EXPECT_EQ(automatic_range(scene, ColorBy::speed, 10).min, 0);
+  EXPECT_EQ(app::setup::automatic_range(scene, app::scene::ColorBy::speed, 10).max, 4);
+  EXPECT_EQ(app::setup::automatic_range(scene, app::scene::ColorBy::speed, 10).min, 0);
 }
 
 TEST(AutomaticRange, HoldsTheNeutralValue) {
-  const Scene scene = read_scene_text(drop, "drop.toml");
-  const auto holds = [&](ColorBy color_by, double value) {
-    const Range range = automatic_range(scene, color_by, 10);
+  const app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
+  const auto holds = [&](app::scene::ColorBy color_by, double value) {
+    const app::scene::Range range = app::setup::automatic_range(scene, color_by, 10);
     return range.min < value && value < range.max;
   };
-  EXPECT_TRUE(holds(ColorBy::J_E, 1));
-  EXPECT_TRUE(holds(ColorBy::J_P, 1));
-  EXPECT_TRUE(holds(ColorBy::density, 400));
-  EXPECT_TRUE(holds(ColorBy::pressure, 0));
-  EXPECT_EQ(automatic_range(scene, ColorBy::id, 10).max, 9);
+  EXPECT_TRUE(holds(app::scene::ColorBy::J_E, 1));
+  EXPECT_TRUE(holds(app::scene::ColorBy::J_P, 1));
+  EXPECT_TRUE(holds(app::scene::ColorBy::density, 400));
+  EXPECT_TRUE(holds(app::scene::ColorBy::pressure, 0));
+  EXPECT_EQ(app::setup::automatic_range(scene, app::scene::ColorBy::id, 10).max, 9);
 }
 
 }  // namespace

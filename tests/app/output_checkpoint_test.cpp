@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Checkpoint checkpoint(int frame, std::size_t steps) {
-  Checkpoint c;
+app::output::Checkpoint checkpoint(int frame, std::size_t steps) {
+  app::output::Checkpoint c;
   c.identity = "abc";
   c.simd = "avx2";
   c.frame = frame;
@@ -32,11 +32,11 @@ std::vector<fs::path> files(const test::TemporaryFolder& folder) {
 
 TEST(CheckpointFile, ComesBackWholeAndOnlyTwoAreKept) {
   const test::TemporaryFolder folder;
-  EXPECT_FALSE(find_checkpoint(folder.path()).checkpoint);
+  EXPECT_FALSE(app::output::find_checkpoint(folder.path()).checkpoint);
   for (const auto& [frame, steps] : {std::pair{1, 10u}, {2, 20u}, {10, 90u}, {10, 99u}})
-    write_checkpoint(folder.path(), checkpoint(frame, steps));
+    app::output::write_checkpoint(folder.path(), checkpoint(frame, steps));
   EXPECT_EQ(files(folder).size(), 2u);
-  const FoundCheckpoint found = find_checkpoint(folder.path());
+  const app::output::FoundCheckpoint found = app::output::find_checkpoint(folder.path());
   ASSERT_TRUE(found.checkpoint);
   EXPECT_TRUE(found.damaged.empty());
   EXPECT_EQ(found.checkpoint->frame, 10);
@@ -49,13 +49,13 @@ TEST(CheckpointFile, ComesBackWholeAndOnlyTwoAreKept) {
 
 TEST(CheckpointFile, ADamagedOneIsNamedAndTheOlderOneTaken) {
   const test::TemporaryFolder folder;
-  write_checkpoint(folder.path(), checkpoint(1, 10));
-  write_checkpoint(folder.path(), checkpoint(2, 20));
+  app::output::write_checkpoint(folder.path(), checkpoint(1, 10));
+  app::output::write_checkpoint(folder.path(), checkpoint(2, 20));
   const fs::path newest = files(folder).back();
-  const std::vector<std::uint8_t> good = read_file(newest);
+  const std::vector<std::uint8_t> good = app::output::read_file(newest);
   const auto expect_older = [&](const std::vector<std::uint8_t>& bytes) {
-    write_file(newest, bytes);
-    const FoundCheckpoint found = find_checkpoint(folder.path());
+    app::output::write_file(newest, bytes);
+    const app::output::FoundCheckpoint found = app::output::find_checkpoint(folder.path());
     ASSERT_TRUE(found.checkpoint);
     EXPECT_EQ(found.checkpoint->frame, 1);
     ASSERT_EQ(found.damaged.size(), 1u);
@@ -74,9 +74,9 @@ TEST(CheckpointFile, ADamagedOneIsNamedAndTheOlderOneTaken) {
 
 TEST(CheckpointFile, RemovalLeavesOtherFiles) {
   const test::TemporaryFolder folder;
-  write_checkpoint(folder.path(), checkpoint(1, 10));
+  app::output::write_checkpoint(folder.path(), checkpoint(1, 10));
   folder.write("checkpoint/notes.txt", "mine");
-  remove_checkpoints(folder.path());
+  app::output::remove_checkpoints(folder.path());
   EXPECT_EQ(files(folder), std::vector<fs::path>{folder / "checkpoint/notes.txt"});
 }
 

@@ -9,7 +9,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/process.h"
 #include "app/output/sequence.h"
-#include "render/image.h"
+#include "render/image/image.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -25,11 +25,11 @@ void write_pictures(const fs::path& folder, int first, int last) {
     render::Image image;
     image.width = 33, image.height = 17;
     image.pixels.assign(33 * 17 * 3, static_cast<std::uint8_t>(20 * (frame % 10)));
-    write_file(frame_path(folder, "v", frame), render::encode_png(image));
+    app::output::write_file(app::output::frame_path(folder, "v", frame), render::encode_png(image));
   }
 }
 
-MovieRequest request(const fs::path& folder, int first, int last) {
+app::output::MovieRequest request(const fs::path& folder, int first, int last) {
   return {folder / "v", folder / "v.mp4", first, last, 24};
 }
 
@@ -43,7 +43,7 @@ struct Fixture {
 class Movie : public testing::Test {
  protected:
   void SetUp() override {
-    if (!find_program("ffmpeg")) GTEST_SKIP() << "ffmpeg is not installed";
+    if (!app::output::find_program("ffmpeg")) GTEST_SKIP() << "ffmpeg is not installed";
   }
 };
 
@@ -54,18 +54,19 @@ TEST_F(Movie, OfTransparentPicturesHasAPlainBackground) {
     // White on the left, nothing on the right.
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
       if (i / 4 % 32 < 16) image.pixels[i] = 255;
-    write_file(frame_path(f.folder, "v", frame), render::encode_png(image));
+    app::output::write_file(app::output::frame_path(f.folder, "v", frame),
+                            render::encode_png(image));
   }
-  MovieRequest wanted = request(f.folder, 0, 1);
+  app::output::MovieRequest wanted = request(f.folder, 0, 1);
   wanted.has_alpha = true;
-  const MovieResult result = write_movie(wanted);
-  ASSERT_EQ(result.outcome, MovieOutcome::written) << result.reason;
+  const app::output::MovieResult result = app::output::write_movie(wanted);
+  ASSERT_EQ(result.outcome, app::output::MovieOutcome::written) << result.reason;
   const fs::path still = f.folder / "still.png";
-  const ProcessResult decoded =
-      run_process(*find_program("ffmpeg"),
-                  {"-v", "error", "-i", wanted.file.string(), "-frames:v", "1", "-update", "1",
-                   "-pix_fmt", "rgb24", "-y", still.string()},
-                  f.folder);
+  const app::output::ProcessResult decoded =
+      app::output::run_process(*app::output::find_program("ffmpeg"),
+                               {"-v", "error", "-i", wanted.file.string(), "-frames:v", "1",
+                                "-update", "1", "-pix_fmt", "rgb24", "-y", still.string()},
+                               f.folder);
   ASSERT_EQ(decoded.exit_code, 0) << decoded.errors;
   const std::string bytes = test::read_text(still);
   const render::Image image =
@@ -81,8 +82,8 @@ TEST_F(Movie, OfTransparentPicturesHasAPlainBackground) {
 TEST_F(Movie, HoldsEveryFrameOfOddSizeFromAStrangeFolder) {
   const Fixture f;
   write_pictures(f.folder, 3, 8);
-  const MovieResult result = write_movie(request(f.folder, 3, 8));
-  EXPECT_EQ(result.outcome, MovieOutcome::written) << result.reason;
+  const app::output::MovieResult result = app::output::write_movie(request(f.folder, 3, 8));
+  EXPECT_EQ(result.outcome, app::output::MovieOutcome::written) << result.reason;
   EXPECT_GT(fs::file_size(f.folder / "v.mp4"), 0u);
   EXPECT_EQ(file_count(f.folder), 2u) << "a temporary file is left";
 }
@@ -90,13 +91,15 @@ TEST_F(Movie, HoldsEveryFrameOfOddSizeFromAStrangeFolder) {
 TEST_F(Movie, GoesOnPastFrame9999) {
   const Fixture f;
   write_pictures(f.folder, 9998, 10001);
-  EXPECT_EQ(write_movie(request(f.folder, 9998, 10001)).outcome, MovieOutcome::written);
+  EXPECT_EQ(app::output::write_movie(request(f.folder, 9998, 10001)).outcome,
+            app::output::MovieOutcome::written);
 }
 
 TEST_F(Movie, IgnoresPicturesBehindTheLastFrame) {
   const Fixture f;
   write_pictures(f.folder, 0, 9);
-  EXPECT_EQ(write_movie(request(f.folder, 0, 4)).outcome, MovieOutcome::written);
+  EXPECT_EQ(app::output::write_movie(request(f.folder, 0, 4)).outcome,
+            app::output::MovieOutcome::written);
 }
 
 TEST_F(Movie, IsNotKeptWhenAPictureIsEmptyOrMissing) {
@@ -104,9 +107,9 @@ TEST_F(Movie, IsNotKeptWhenAPictureIsEmptyOrMissing) {
     const Fixture f;
     write_pictures(f.folder, 0, 7);
     fs::remove(f.folder / "v/0004.png");
-    if (!is_missing) write_file(f.folder / "v/0004.png", std::string_view());
-    const MovieResult result = write_movie(request(f.folder, 0, 7));
-    EXPECT_EQ(result.outcome, MovieOutcome::failed);
+    if (!is_missing) app::output::write_file(f.folder / "v/0004.png", std::string_view());
+    const app::output::MovieResult result = app::output::write_movie(request(f.folder, 0, 7));
+    EXPECT_EQ(result.outcome, app::output::MovieOutcome::failed);
     EXPECT_FALSE(result.reason.empty());
     EXPECT_EQ(file_count(f.folder), 1u) << "something else than the pictures is left";
   }
@@ -116,9 +119,9 @@ TEST(MovieWithoutFfmpeg, IsNoError) {
   const TemporaryFolder folder;
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", folder.path().c_str(), 1);
-  const MovieResult result = write_movie(request(folder.path(), 0, 1));
+  const app::output::MovieResult result = app::output::write_movie(request(folder.path(), 0, 1));
   ::setenv("PATH", path.c_str(), 1);
-  EXPECT_EQ(result.outcome, MovieOutcome::no_ffmpeg);
+  EXPECT_EQ(result.outcome, app::output::MovieOutcome::no_ffmpeg);
 }
 
 }  // namespace

@@ -1,16 +1,16 @@
 /// Progress lines, and the small texts around them.
 
-#include "app/progress.h"
+#include "app/support/progress.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "app/argument_text.h"
-#include "app/frame_builder.h"
-#include "app/round_number.h"
-#include "app/scene/error.h"
-#include "app/text.h"
+#include "app/picture/frame_builder.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/argument_text.h"
+#include "app/support/round_number.h"
+#include "app/support/text.h"
 
 namespace neve::app {
 namespace {
@@ -65,23 +65,23 @@ TEST(RoundNumber, IsOneThatPeopleWouldChoose) {
 }
 
 TEST(FrameArguments, AreRangesOrALastFrame) {
-  EXPECT_EQ(parse_frames("3-7").first, 3);
-  EXPECT_EQ(parse_frames("3-7").last, 7);
-  EXPECT_EQ(parse_frames("48").first, 0);
-  EXPECT_EQ(parse_frames("48").last, 48);
+  EXPECT_EQ(app::setup::parse_frames("3-7").first, 3);
+  EXPECT_EQ(app::setup::parse_frames("3-7").last, 7);
+  EXPECT_EQ(app::setup::parse_frames("48").first, 0);
+  EXPECT_EQ(app::setup::parse_frames("48").last, 48);
   for (const char* wrong : {"", "-", "5-", "-5", "7-3", "a", "1-b", "1 - 2", "99999999999"})
-    EXPECT_THROW(parse_frames(wrong), UsageError) << wrong;
+    EXPECT_THROW(app::setup::parse_frames(wrong), app::scene::toml::UsageError) << wrong;
 }
 
 TEST(SizeArguments, AreTwoSides) {
-  EXPECT_EQ(parse_size("1280x720").width, 1280);
-  EXPECT_EQ(parse_size("1280x720").height, 720);
+  EXPECT_EQ(app::setup::parse_size("1280x720").width, 1280);
+  EXPECT_EQ(app::setup::parse_size("1280x720").height, 720);
   for (const char* wrong : {"", "x", "1280", "1280x", "0x720", "-5x9", "1280X720", "99999999x9"})
-    EXPECT_THROW(parse_size(wrong), UsageError) << wrong;
+    EXPECT_THROW(app::setup::parse_size(wrong), app::scene::toml::UsageError) << wrong;
 }
 
 TEST(Caption, NamesOverridesOfTheSnowShortly) {
-  const std::vector<std::string> lines = override_lines(
+  const std::vector<std::string> lines = app::picture::override_lines(
       {"material.snow.hardening=5", "body.a.velocity=[0,1,0]", "body.b.velocity=[0,2,0]",
        "camera.fov=20", "material.snow.hardening=6", "view.particles.layers=[\"particles\"]"});
   const std::vector<std::string> expected{"hardening = 6", "a velocity = [0,1,0]",

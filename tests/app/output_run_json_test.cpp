@@ -1,6 +1,6 @@
 /// run.json: the names that scripts depend on.
 
-#include "app/output/run_json.h"
+#include "app/run/run_json.h"
 
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@ std::vector<std::string> keys(const Json& json) {
 }
 
 TEST(RunJson, HasTheFieldsOfTheContract) {
-  RunRecord run;
+  app::run::RunRecord run;
   run.frames.emplace_back();
-  const Json json = to_json(run);
+  const Json json = app::run::to_json(run);
   for (const char* key : {"version", "scene", "overrides", "backend", "gl_renderer", "threads",
                           "simd", "status", "warnings", "frames"})
     EXPECT_TRUE(json.contains(key)) << key;
@@ -57,7 +57,7 @@ TEST(RunJson, HasTheFieldsOfTheContract) {
 }
 
 TEST(RunJson, FrameZeroHasNoSteps) {
-  const Json json = to_json(FrameRecord{});
+  const Json json = app::run::to_json(app::run::FrameRecord{});
   EXPECT_EQ(json["steps"], 0);
   EXPECT_TRUE(json["dt_min"].is_null());
   EXPECT_TRUE(json["dt_max"].is_null());
@@ -65,33 +65,33 @@ TEST(RunJson, FrameZeroHasNoSteps) {
 }
 
 TEST(RunJson, NamesTheLimitThatRuledMostSteps) {
-  FrameRecord frame;
+  app::run::FrameRecord frame;
   frame.advance.steps = 5;
   frame.advance.ruled[static_cast<std::size_t>(sim::DtLimit::cfl)] = 4;
   frame.advance.ruled[static_cast<std::size_t>(sim::DtLimit::frame_end)] = 1;
-  EXPECT_EQ(to_json(frame)["dt_limit"], "cfl");
+  EXPECT_EQ(app::run::to_json(frame)["dt_limit"], "cfl");
 }
 
 TEST(RunJson, WritesNanAsNullAndHashesWithAllDigits) {
-  FrameRecord frame;
+  app::run::FrameRecord frame;
   frame.summary.max_speed = std::numeric_limits<double>::quiet_NaN();
   frame.summary.momentum.x() = std::numeric_limits<double>::infinity();
   frame.state_hash = 0xabc;
-  const Json json = to_json(frame);
+  const Json json = app::run::to_json(frame);
   EXPECT_TRUE(json["max_speed"].is_null());
   EXPECT_TRUE(json["momentum"][0].is_null());
   EXPECT_EQ(json["state_hash"], "0000000000000abc");
 }
 
 TEST(RunJson, SurvivesTextThatIsNoUtf8) {
-  RunRecord run;
+  app::run::RunRecord run;
   run.scene_file = "caf\xe9.toml";
-  EXPECT_NO_THROW(to_text(to_json(run)));
+  EXPECT_NO_THROW(to_text(app::run::to_json(run)));
 }
 
 /// A resumed run goes on with what the run before it wrote.
 TEST(RunJson, FramesComeBackAsTheyWereWritten) {
-  FrameRecord frame;
+  app::run::FrameRecord frame;
   frame.frame = 7;
   frame.time = 7.0 / 24;
   frame.advance.steps = 12;
@@ -104,12 +104,14 @@ TEST(RunJson, FramesComeBackAsTheyWereWritten) {
   frame.summary.kinetic_energy = std::numeric_limits<double>::quiet_NaN();
   frame.summary.momentum = {0.1, 0.2, 0.3};
   frame.state_hash = 0xfedcba9876543210ull;
-  const Json json = to_json(frame);
-  EXPECT_EQ(to_json(frame_record(parse_json(to_text(json)))), json);
-  EXPECT_EQ(to_json(frame_record(to_json(FrameRecord{}))), to_json(FrameRecord{}));
-  const Json advance = to_json(frame.advance);
-  EXPECT_EQ(to_json(advance_report(parse_json(to_text(advance)))), advance);
-  EXPECT_TRUE(read_frame_records("/nowhere").empty());
+  const Json json = app::run::to_json(frame);
+  EXPECT_EQ(app::run::to_json(app::run::frame_record(parse_json(to_text(json)))), json);
+  EXPECT_EQ(app::run::to_json(app::run::frame_record(app::run::to_json(app::run::FrameRecord{}))),
+            app::run::to_json(app::run::FrameRecord{}));
+  const Json advance = app::output::to_json(frame.advance);
+  EXPECT_EQ(app::output::to_json(app::output::advance_report(parse_json(to_text(advance)))),
+            advance);
+  EXPECT_TRUE(app::run::read_frame_records("/nowhere").empty());
 }
 
 }  // namespace

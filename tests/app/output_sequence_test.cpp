@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/errors.h"
 #include "app/output/picture_writer.h"
+#include "app/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -22,8 +22,8 @@ render::Image small_picture() {
 }
 
 TEST(Sequence, NamesFramesWithAtLeastFourDigits) {
-  EXPECT_EQ(frame_path("out", "smoke", 24), fs::path("out/smoke/0024.png"));
-  EXPECT_EQ(frame_path("out", "smoke", 12345), fs::path("out/smoke/12345.png"));
+  EXPECT_EQ(app::output::frame_path("out", "smoke", 24), fs::path("out/smoke/0024.png"));
+  EXPECT_EQ(app::output::frame_path("out", "smoke", 12345), fs::path("out/smoke/12345.png"));
 }
 
 TEST(Sequence, RemovesWhatTheEarlierRunListsAndNothingElse) {
@@ -32,7 +32,7 @@ TEST(Sequence, RemovesWhatTheEarlierRunListsAndNothingElse) {
   for (const char* name : {"particles/0000.png", "particles/0001.png", "particles/0002.png",
                            "particles/notes.txt", "particles.mp4", "smoke/0000.png", "mine.mp4"})
     folder.write(name, "x");
-  EXPECT_EQ(remove_earlier_run(folder.path()), 3u);
+  EXPECT_EQ(app::output::remove_earlier_run(folder.path()), 3u);
   EXPECT_FALSE(fs::exists(folder / "particles/0000.png"));
   EXPECT_FALSE(fs::exists(folder / "particles.mp4"));
   for (const char* name :
@@ -50,7 +50,7 @@ TEST(Sequence, IsNotLedOutOfItsFolder) {
               R"({"views": ["../victim", "/tmp", "", "..", ".", "link", 7, null, {"a": 1}],
                   "frames": [{"frame": 0}, {"frame": "0"}, {"frame": -1}, {"frame": 1e99}, 5]})");
   fs::create_directory_symlink(outer / "real", run / "link");
-  EXPECT_EQ(remove_earlier_run(run), 0u);
+  EXPECT_EQ(app::output::remove_earlier_run(run), 0u);
   EXPECT_TRUE(fs::exists(outer / "victim/0000.png"));
   EXPECT_TRUE(fs::exists(outer / "victim.mp4"));
   EXPECT_TRUE(fs::exists(outer / "real/0000.png"));
@@ -59,27 +59,27 @@ TEST(Sequence, IsNotLedOutOfItsFolder) {
 TEST(Sequence, RemovesNothingWhenRunJsonIsMissingOrBroken) {
   const TemporaryFolder folder;
   folder.write("particles/0000.png", "x");
-  EXPECT_EQ(remove_earlier_run(folder.path()), 0u);
+  EXPECT_EQ(app::output::remove_earlier_run(folder.path()), 0u);
   std::string deep(100'000, '[');
   for (const std::string& text :
        {std::string("{"), std::string("[]"), std::string("3"), deep,
         std::string(R"({"views": 3, "frames": "x"})"), std::string("\xff\xfe")}) {
     folder.write("run.json", text);
-    EXPECT_EQ(remove_earlier_run(folder.path()), 0u);
+    EXPECT_EQ(app::output::remove_earlier_run(folder.path()), 0u);
   }
   EXPECT_TRUE(fs::exists(folder / "particles/0000.png"));
 }
 
 TEST(PictureWriter, WritesEverythingInOrderOfArrival) {
   const TemporaryFolder folder;
-  PictureWriter writer;
+  app::output::PictureWriter writer;
   for (int frame = 0; frame < 12; ++frame)
-    writer.write({frame_path(folder.path(), ".", frame),
+    writer.write({app::output::frame_path(folder.path(), ".", frame),
                   small_picture(),
                   {{"neve:frame", std::to_string(frame)}}});
   writer.finish();
   for (int frame = 0; frame < 12; ++frame) {
-    const std::string bytes = test::read_text(frame_path(folder.path(), ".", frame));
+    const std::string bytes = test::read_text(app::output::frame_path(folder.path(), ".", frame));
     const render::PngText text =
         render::read_png_text({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
     EXPECT_EQ(text.at("neve:frame"), std::to_string(frame));
@@ -89,7 +89,7 @@ TEST(PictureWriter, WritesEverythingInOrderOfArrival) {
 TEST(PictureWriter, ReportsItsErrorsToTheCaller) {
   const TemporaryFolder folder;
   folder.write("file", "x");
-  PictureWriter writer;
+  app::output::PictureWriter writer;
   EXPECT_THROW(
       {
         for (int frame = 0; frame < 100; ++frame)

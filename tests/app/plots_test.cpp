@@ -1,27 +1,28 @@
 /// Plots of diagnostics: what they hold, and that their axes depend on the scene alone.
 
-#include "app/plots.h"
+#include "app/picture/plots.h"
 
 #include <gtest/gtest.h>
 
-#include "app/resolve.h"
 #include "app/scene/read.h"
+#include "app/setup/resolve.h"
 
 namespace neve::app {
 namespace {
 
-std::vector<PlotSample> history_of(int frames) {
-  std::vector<PlotSample> history;
+std::vector<app::picture::PlotSample> history_of(int frames) {
+  std::vector<app::picture::PlotSample> history;
   for (int k = 0; k <= frames; ++k)
     history.push_back({0.5 * k, 3.0 * k, 1.0 * k, 2.0, static_cast<std::size_t>(k) * 10,
                        k % 2 ? sim::DtLimit::acoustic : sim::DtLimit::cfl});
   return history;
 }
 
-const PlotRanges ranges{Range{0, 10}, Range{0, 4}, Range{0, 1e-3}};
+const app::scene::PlotRanges ranges{app::scene::Range{0, 10}, app::scene::Range{0, 4},
+                                    app::scene::Range{0, 1e-3}};
 
 TEST(Plots, HoldEnergiesSpeedAndStep) {
-  const auto plots = make_plots(ranges, history_of(4), 2, 0.5, 3);
+  const auto plots = app::picture::make_plots(ranges, history_of(4), 2, 0.5, 3);
   ASSERT_EQ(plots.size(), 3u);
   EXPECT_EQ(plots[0].unit, "J");
   ASSERT_EQ(plots[0].series.size(), 3u);
@@ -34,7 +35,7 @@ TEST(Plots, HoldEnergiesSpeedAndStep) {
 }
 
 TEST(Plots, StepsAreBarsUnderTheLimitThatRuledThem) {
-  const render::Plot plot = make_plots(ranges, history_of(4), 2, 0.5, 3)[2];
+  const render::Plot plot = app::picture::make_plots(ranges, history_of(4), 2, 0.5, 3)[2];
   EXPECT_EQ(plot.unit, "ms");
   EXPECT_EQ(plot.max, 1);
   ASSERT_EQ(plot.series.size(), 2u) << "limits that never ruled are not named";
@@ -46,13 +47,13 @@ TEST(Plots, StepsAreBarsUnderTheLimitThatRuledThem) {
 }
 
 TEST(Plots, LeaveOutWhatIsLaterThanTheFrame) {
-  const auto plots = make_plots(ranges, history_of(6), 1, 0.5, 3);
+  const auto plots = app::picture::make_plots(ranges, history_of(6), 1, 0.5, 3);
   EXPECT_EQ(plots[0].series[0].time, (std::vector<float>{0, 0.5, 1}));
-  EXPECT_TRUE(make_plots(ranges, {}, 1, 0.5, 3)[0].series[0].time.empty());
+  EXPECT_TRUE(app::picture::make_plots(ranges, {}, 1, 0.5, 3)[0].series[0].time.empty());
 }
 
 TEST(PlotRanges, ComeFromTheSceneAndHoldTheFall) {
-  Scene scene = read_scene_text(R"(
+  app::scene::Scene scene = app::scene::read_scene_text(R"(
 frames = 12
 [[body]]
 shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
@@ -66,9 +67,9 @@ name = "b"
 layers = ["plots"]
 plots = { dt_range = [0, 0.01] }
 )",
-                                "s.toml");
-  resolve(scene, 1000);
-  const PlotRanges& automatic = scene.views[0].plots;
+                                                        "s.toml");
+  app::setup::resolve(scene, 1000);
+  const app::scene::PlotRanges& automatic = scene.views[0].plots;
   // m g h = 400 kg/m3 * 4/3 pi (0.1 m)^3 * 9.81 m/s2 * 0.5 m = 8.2 J, rounded up.
   EXPECT_EQ(automatic.energy->max, 10);
   EXPECT_EQ(automatic.speed->max, 4);
@@ -76,7 +77,8 @@ plots = { dt_range = [0, 0.01] }
   EXPECT_GT(automatic.dt->max, 1e-4);
   EXPECT_LE(automatic.dt->max, 1.5e-3);
   EXPECT_EQ(scene.views[1].plots.dt->max, 0.01) << "a given range stays";
-  const Scene again = read_scene_text(write_scene(scene), "written");
+  const app::scene::Scene again =
+      app::scene::read_scene_text(app::scene::write_scene(scene), "written");
   EXPECT_EQ(again.views[0].plots.energy->max, 10);
 }
 
@@ -86,7 +88,7 @@ TEST(PlotSample, TakesTheLimitThatRuledMost) {
   advance.ruled[static_cast<std::size_t>(sim::DtLimit::strain)] = 4;
   sim::Summary summary;
   summary.kinetic_energy = 7;
-  const PlotSample sample = plot_sample(0.25, summary, advance);
+  const app::picture::PlotSample sample = app::picture::plot_sample(0.25, summary, advance);
   EXPECT_EQ(sample.limit, sim::DtLimit::strain);
   EXPECT_EQ(sample.steps, 5u);
   EXPECT_EQ(sample.kinetic_energy, 7);

@@ -9,22 +9,23 @@
 
 #include "app/scene/describe.h"
 #include "app/scene/edit_text.h"
-#include "app/scene/error.h"
 #include "app/scene/flat.h"
 #include "app/scene/leaf.h"
 #include "app/scene/names.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
+#include "app/scene/toml/error.h"
 
 namespace neve::app {
 namespace {
 
 const std::string body = "\n[[body]]\nshape = { box = {} }\n";
 
-Scene preset_scene(const std::string& material, const std::vector<std::string>& sets = {}) {
-  std::vector<Override> overrides;
-  for (const std::string& set : sets) overrides.push_back(parse_override(set));
-  return read_scene_text(material + body, "s.toml", "", overrides);
+app::scene::Scene preset_scene(const std::string& material,
+                               const std::vector<std::string>& sets = {}) {
+  std::vector<app::scene::Override> overrides;
+  for (const std::string& set : sets) overrides.push_back(app::scene::parse_override(set));
+  return app::scene::read_scene_text(material + body, "s.toml", "", overrides);
 }
 
 sim::Material preset_snow(const std::string& material, const std::vector<std::string>& sets = {}) {
@@ -34,42 +35,43 @@ sim::Material preset_snow(const std::string& material, const std::vector<std::st
 const std::string powder = "[material.snow]\npreset = \"powder\"\n";
 
 TEST(Preset, OfThePaperIsTheDefault) {
-  EXPECT_EQ(preset_of(sim::Material{}), Preset::paper);
+  EXPECT_EQ(app::scene::preset_of(sim::Material{}), app::scene::Preset::paper);
 }
 
 TEST(Preset, EachHasNumbersOfItsOwnThatASceneMayHave) {
   std::set<std::string> written;
-  for (const auto& name : names(Preset{})) {
-    const Scene scene =
+  for (const auto& name : app::scene::names(app::scene::Preset{})) {
+    const app::scene::Scene scene =
         preset_scene("[material.snow]\npreset = \"" + std::string(name.text) + "\"\n");
-    EXPECT_EQ(preset_of(scene.materials[0]), name.value) << name.text;
+    EXPECT_EQ(app::scene::preset_of(scene.materials[0]), name.value) << name.text;
     // Writing and reading back refuses what is out of range.
-    const std::string text = write_scene(scene);
-    EXPECT_EQ(write_scene(read_scene_text(text, "again", "")), text) << name.text;
+    const std::string text = app::scene::write_scene(scene);
+    EXPECT_EQ(app::scene::write_scene(app::scene::read_scene_text(text, "again", "")), text)
+        << name.text;
     EXPECT_TRUE(written.insert(text).second) << name.text << " is the same as another one";
   }
 }
 
 TEST(Preset, SetsEveryNumberOfTheSnowAndNothingElse) {
-  Scene before = preset_scene("");
+  app::scene::Scene before = preset_scene("");
   sim::Material& m = before.materials[0];
   m.density = m.youngs_modulus = m.hardening = 3;
   m.poisson_ratio = m.critical_compression = m.critical_stretch = 0.123;
   m.model = sim::Model::corotated;
-  Scene after = before;
-  use_preset(after.materials[0], Preset::icy);
+  app::scene::Scene after = before;
+  app::scene::use_preset(after.materials[0], app::scene::Preset::icy);
   std::vector<std::string> changed;
-  for (const Difference& difference : differences(before, after))
+  for (const app::scene::Difference& difference : app::scene::differences(before, after))
     changed.push_back(difference.address);
-  EXPECT_EQ(changed, addresses_set_by("material.snow.preset"));
+  EXPECT_EQ(changed, app::scene::addresses_set_by("material.snow.preset"));
   EXPECT_EQ(changed.size(), 6u);
 }
 
 TEST(Preset, GivesWayToNumbersBesideIt) {
   const sim::Material m = preset_snow("[material.snow]\nhardening = 3\npreset = \"powder\"\n");
   EXPECT_EQ(m.hardening, 3);
-  EXPECT_EQ(m.density, snow_of(Preset::powder).density);
-  EXPECT_EQ(m.critical_stretch, snow_of(Preset::powder).critical_stretch);
+  EXPECT_EQ(m.density, app::scene::snow_of(app::scene::Preset::powder).density);
+  EXPECT_EQ(m.critical_stretch, app::scene::snow_of(app::scene::Preset::powder).critical_stretch);
 }
 
 TEST(Preset, GivesWayToNumbersThatAreSet) {
@@ -78,19 +80,21 @@ TEST(Preset, GivesWayToNumbersThatAreSet) {
                            {"material.snow.hardening=3", "material.snow.preset=icy"}}) {
     const sim::Material m = preset_snow(powder, sets);
     EXPECT_EQ(m.hardening, 3);
-    EXPECT_EQ(m.density, snow_of(sets.size() == 1 ? Preset::powder : Preset::icy).density);
+    EXPECT_EQ(m.density, app::scene::snow_of(sets.size() == 1 ? app::scene::Preset::powder
+                                                              : app::scene::Preset::icy)
+                             .density);
   }
 }
 
 // The scene kept with a picture gives all its numbers; a preset set for it must not do nothing.
 TEST(Preset, ThatIsSetCountsMoreThanTheFile) {
-  EXPECT_EQ(
-      preset_of(preset_snow("[material.snow]\nhardening = 3\n", {"material.snow.preset=wet"})),
-      Preset::wet);
-  const std::string kept = write_scene(preset_scene(powder));
-  const Scene again =
-      read_scene_text(kept, "s.toml", "", {parse_override("material.snow.preset=\"packed\"")});
-  EXPECT_EQ(preset_of(again.materials[0]), Preset::packed);
+  EXPECT_EQ(app::scene::preset_of(
+                preset_snow("[material.snow]\nhardening = 3\n", {"material.snow.preset=wet"})),
+            app::scene::Preset::wet);
+  const std::string kept = app::scene::write_scene(preset_scene(powder));
+  const app::scene::Scene again = app::scene::read_scene_text(
+      kept, "s.toml", "", {app::scene::parse_override("material.snow.preset=\"packed\"")});
+  EXPECT_EQ(app::scene::preset_of(again.materials[0]), app::scene::Preset::packed);
 }
 
 TEST(Preset, TakenAwayLeavesTheNumbersOfTheFile) {
@@ -100,18 +104,18 @@ TEST(Preset, TakenAwayLeavesTheNumbersOfTheFile) {
 }
 
 TEST(Preset, IsWrittenAsNumbers) {
-  const std::string text = write_scene(preset_scene(powder + "hardening = 3\n"));
+  const std::string text = app::scene::write_scene(preset_scene(powder + "hardening = 3\n"));
   EXPECT_EQ(text.find("preset"), std::string::npos) << text;
-  const sim::Material m = read_scene_text(text, "again", "").materials[0];
+  const sim::Material m = app::scene::read_scene_text(text, "again", "").materials[0];
   EXPECT_EQ(m.hardening, 3);
-  EXPECT_EQ(m.youngs_modulus, snow_of(Preset::powder).youngs_modulus);
+  EXPECT_EQ(m.youngs_modulus, app::scene::snow_of(app::scene::Preset::powder).youngs_modulus);
 }
 
 TEST(Preset, OfAnUnknownNameIsRefusedWithTheNearest) {
   try {
     preset_snow("[material.snow]\npreset = \"powdr\"\n");
     ADD_FAILURE() << "was read";
-  } catch (const SceneError& error) {
+  } catch (const app::scene::toml::SceneError& error) {
     EXPECT_EQ(error.line, 2);
     EXPECT_NE(std::string(error.what()).find("did you mean \"powder\"?"), std::string::npos)
         << error.what();
@@ -119,19 +123,19 @@ TEST(Preset, OfAnUnknownNameIsRefusedWithTheNearest) {
   try {
     preset_snow("", {"material.snow.preset=ice"});
     ADD_FAILURE() << "was set";
-  } catch (const UsageError& error) {
+  } catch (const app::scene::toml::UsageError& error) {
     EXPECT_NE(std::string(error.what()).find("did you mean \"icy\"?"), std::string::npos)
         << error.what();
   }
-  EXPECT_THROW(preset_snow("[material.snow]\npreset = 3\n"), SceneError);
+  EXPECT_THROW(preset_snow("[material.snow]\npreset = 3\n"), app::scene::toml::SceneError);
 }
 
 TEST(Preset, IsListedWithItsChoices) {
-  const auto info = param_at("material.snow.preset");
+  const auto info = app::scene::param_at("material.snow.preset");
   ASSERT_TRUE(info);
-  EXPECT_EQ(info->choices, choices<Preset>());
+  EXPECT_EQ(info->choices, app::scene::choices<app::scene::Preset>());
   // Density needs a restart; kept changes of a running simulation are numbers.
-  EXPECT_FALSE(is_live("material.snow.preset"));
+  EXPECT_FALSE(app::scene::is_live("material.snow.preset"));
 }
 
 TEST(Preset, IsDocumentedWithItsNumbers) {
@@ -145,8 +149,8 @@ TEST(Preset, IsDocumentedWithItsNumbers) {
       if (word[0] >= '0' && word[0] <= '9')
         rows[name].push_back(std::strtod(word.c_str(), nullptr));
   }
-  for (const auto& name : names(Preset{})) {
-    const sim::Material m = snow_of(name.value);
+  for (const auto& name : app::scene::names(app::scene::Preset{})) {
+    const sim::Material m = app::scene::snow_of(name.value);
     EXPECT_EQ(rows[name.text],
               (std::vector<double>{m.density, m.youngs_modulus, m.poisson_ratio, m.hardening,
                                    m.critical_compression, m.critical_stretch}))
@@ -159,12 +163,14 @@ TEST(Preset, PutIntoAFileTakesThePlaceOfItsNumbers) {
       "[material.snow]   # mine\ndensity = 300   # heavy\nmodel = \"snow\"\nhardening = 4\n" + body;
   const std::string expected =
       "[material.snow]   # mine\nmodel = \"snow\"\npreset = \"wet\"\nhardening = 7\n" + body;
-  EXPECT_EQ(edit_scene_text(text, {parse_override("material.snow.hardening=7"),
-                                   parse_override("material.snow.preset=wet")}),
-            "[material.snow]   # mine\nmodel = \"snow\"\nhardening = 7\npreset = \"wet\"\n" + body);
-  EXPECT_EQ(edit_scene_text(text, {parse_override("material.snow.preset=wet"),
-                                   parse_override("material.snow.hardening=7")}),
-            expected);
+  EXPECT_EQ(
+      app::scene::edit_scene_text(text, {app::scene::parse_override("material.snow.hardening=7"),
+                                         app::scene::parse_override("material.snow.preset=wet")}),
+      "[material.snow]   # mine\nmodel = \"snow\"\nhardening = 7\npreset = \"wet\"\n" + body);
+  EXPECT_EQ(
+      app::scene::edit_scene_text(text, {app::scene::parse_override("material.snow.preset=wet"),
+                                         app::scene::parse_override("material.snow.hardening=7")}),
+      expected);
 }
 
 }  // namespace

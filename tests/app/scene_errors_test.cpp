@@ -12,8 +12,8 @@ namespace {
 
 std::string error_of(std::string_view text) {
   try {
-    read_scene_text(text, "s.toml");
-  } catch (const SceneError& error) {
+    app::scene::read_scene_text(text, "s.toml");
+  } catch (const app::scene::toml::SceneError& error) {
     return error.what();
   }
   return "no error";
@@ -21,8 +21,8 @@ std::string error_of(std::string_view text) {
 
 std::string file_error_of(const std::string& file) {
   try {
-    read_scene_file(file);
-  } catch (const SceneError& error) {
+    app::scene::read_scene_file(file);
+  } catch (const app::scene::toml::SceneError& error) {
     return error.what();
   }
   return "no error";
@@ -40,9 +40,9 @@ std::string in_body(const std::string& mistake) {
 
 TEST(SceneErrors, PartsOfAnErrorAreKept) {
   try {
-    read_scene_text("titel = 1", "s.toml");
+    app::scene::read_scene_text("titel = 1", "s.toml");
     FAIL();
-  } catch (const SceneError& error) {
+  } catch (const app::scene::toml::SceneError& error) {
     EXPECT_EQ(error.file, "s.toml");
     EXPECT_EQ(error.line, 1);
     EXPECT_EQ(error.column, 1);
@@ -315,9 +315,10 @@ TEST(SceneErrors, KeyframesOfCollidersAreLocated) {
 
 TEST(SceneErrors, MeshFilesExist) {
   try {
-    read_scene_text(in_body("shape = { mesh = { file = \"none.obj\" } }"), "s.toml", "/nowhere");
+    app::scene::read_scene_text(in_body("shape = { mesh = { file = \"none.obj\" } }"), "s.toml",
+                                "/nowhere");
     FAIL();
-  } catch (const SceneError& error) {
+  } catch (const app::scene::toml::SceneError& error) {
     EXPECT_STREQ(error.what(),
                  "s.toml:2:27: error: body.1.shape.mesh.file = \"none.obj\"; expected a file that "
                  "exists; looked for /nowhere/none.obj");

@@ -27,24 +27,26 @@ name = "close"
 camera = { fov = 20, keyframes = [{ time = 0, eye = [1, 2, 3], target = [0, 0, 0] }] }
 )";
 
-Scene read(const std::vector<std::string>& sets = {}, const std::string& text = flat_scene) {
-  std::vector<Override> overrides;
-  for (const std::string& set : sets) overrides.push_back(parse_override(set));
-  return read_scene_text(text, "s.toml", "", overrides);
+app::scene::Scene read(const std::vector<std::string>& sets = {},
+                       const std::string& text = flat_scene) {
+  std::vector<app::scene::Override> overrides;
+  for (const std::string& set : sets) overrides.push_back(app::scene::parse_override(set));
+  return app::scene::read_scene_text(text, "s.toml", "", overrides);
 }
 
-const FlatParam& find(const std::vector<FlatParam>& list, const std::string& address) {
-  for (const FlatParam& param : list)
+const app::scene::FlatParam& find(const std::vector<app::scene::FlatParam>& list,
+                                  const std::string& address) {
+  for (const app::scene::FlatParam& param : list)
     if (param.address == address) return param;
   throw std::runtime_error("nothing is called " + address);
 }
 
 TEST(Flat, HasEveryParameterOfTheSceneWithValueAndRange) {
-  const std::vector<FlatParam> list = flatten(read());
-  const FlatParam& cfl = find(list, "solver.cfl");
+  const std::vector<app::scene::FlatParam> list = app::scene::flatten(read());
+  const app::scene::FlatParam& cfl = find(list, "solver.cfl");
   EXPECT_EQ(cfl.text(), "0.3");
   EXPECT_EQ(cfl.type, "number");
-  EXPECT_EQ(toml_literal(*cfl.default_value), "0.4");
+  EXPECT_EQ(app::scene::toml::toml_literal(*cfl.default_value), "0.4");
   EXPECT_FALSE(cfl.is_default());
   EXPECT_TRUE(cfl.is_live);
   EXPECT_EQ(cfl.valid.max, 1e3);
@@ -91,21 +93,21 @@ name = "M"
 views = ["NAME"]
 )";
   std::vector<std::string> found;
-  for (const FlatParam& param : flatten(read({}, text))) {
+  for (const app::scene::FlatParam& param : app::scene::flatten(read({}, text))) {
     std::string address = param.address;
     if (address.starts_with("material.snow")) address.replace(9, 4, "NAME");
     if (address.starts_with("mosaic.M")) address.replace(7, 1, "NAME");
     if (param.type != "table" && param.type != "tables") found.push_back(address);
   }
   std::vector<std::string> expected;
-  for (const ParamInfo& info : params()) {
+  for (const app::scene::ParamInfo& info : app::scene::params()) {
     const bool is_other_form = info.address.find(".shape.") != std::string::npos &&
                                !info.address.starts_with("body.NAME.shape.sphere.") &&
                                !info.address.starts_with("emitter.NAME.shape.cone.") &&
                                !info.address.starts_with("sink.NAME.shape.torus.") &&
                                !info.address.starts_with("collider.NAME.shape.box.");
     // A preset is a way to write the numbers after it.
-    const bool is_shorthand = is_preset_address(info.address);
+    const bool is_shorthand = app::scene::is_preset_address(info.address);
     if (!is_other_form && !is_shorthand && info.address.find('[') == std::string::npos)
       expected.push_back(info.address);
   }
@@ -118,26 +120,26 @@ TEST(Flat, KnowsWhatMayChangeWhileASimulationRuns) {
         "collider.floor.velocity", "collider.1.shape", "collider.1.shape.sphere.center", "camera",
         "camera.keyframes", "collider.1.keyframes", "solver.push_out", "view.close.camera",
         "view.close.clip", "view.x.slice", "light"})
-    EXPECT_TRUE(is_live(live)) << live;
+    EXPECT_TRUE(app::scene::is_live(live)) << live;
   for (const char* restart :
        {"solver", "solver.cell_size", "solver.precision", "material.snow.density", "material.snow",
         "body.ball.velocity", "body.ball.shape", "seed", "fps", "collider.floor", "view.close",
         "nonsense", "solver.cf", "camera.keyframes[0].time.x", ""})
-    EXPECT_FALSE(is_live(restart)) << restart;
-  EXPECT_TRUE(concerns_simulation("collider.floor.friction"));
-  EXPECT_FALSE(concerns_simulation("collider.floor.style"));
-  EXPECT_FALSE(concerns_simulation("view.close.size"));
+    EXPECT_FALSE(app::scene::is_live(restart)) << restart;
+  EXPECT_TRUE(app::scene::concerns_simulation("collider.floor.friction"));
+  EXPECT_FALSE(app::scene::concerns_simulation("collider.floor.style"));
+  EXPECT_FALSE(app::scene::concerns_simulation("view.close.size"));
 }
 
-std::vector<std::string> addresses(const std::vector<Difference>& list) {
+std::vector<std::string> addresses(const std::vector<app::scene::Difference>& list) {
   std::vector<std::string> out;
-  for (const Difference& difference : list) out.push_back(difference.address);
+  for (const app::scene::Difference& difference : list) out.push_back(difference.address);
   return out;
 }
 
 TEST(Differences, AreSplitByWhatCanGoOnRunning) {
-  EXPECT_TRUE(differences(read(), read()).empty());
-  const SplitDifferences split = split_live(
+  EXPECT_TRUE(app::scene::differences(read(), read()).empty());
+  const app::scene::SplitDifferences split = app::scene::split_live(
       read(),
       read({"solver.cfl=0.2", "material.wet.density=300", "seed=5", "collider.1.friction=0.1",
             "body.ball.velocity=[1,0,0]", "view.close.camera.fov=25"}));
@@ -145,12 +147,12 @@ TEST(Differences, AreSplitByWhatCanGoOnRunning) {
                                                              "view.close.camera.fov"}));
   EXPECT_EQ(addresses(split.restart),
             (std::vector<std::string>{"seed", "material.wet.density", "body.ball.velocity"}));
-  EXPECT_EQ(toml_literal(*split.live[0].before), "0.3");
-  EXPECT_EQ(toml_literal(*split.live[0].after), "0.2");
+  EXPECT_EQ(app::scene::toml::toml_literal(*split.live[0].before), "0.3");
+  EXPECT_EQ(app::scene::toml::toml_literal(*split.live[0].after), "0.2");
 }
 
 TEST(Differences, OfTablesThatComeGoOrChangeKindAreWhole) {
-  const auto found = differences(
+  const auto found = app::scene::differences(
       read({"view.close.clip.normal=[1,0,0]"}),
       read({"camera.fov=40", "view.close.camera=none", "collider.1.shape={sphere={}}"}));
   EXPECT_EQ(addresses(found), (std::vector<std::string>{"collider.1.shape", "camera",
@@ -162,7 +164,7 @@ TEST(Differences, OfTablesThatComeGoOrChangeKindAreWhole) {
 
 TEST(Differences, OfItemsNeedARestart) {
   const std::string more = std::string(flat_scene) + "[[collider]]\nshape = { sphere = {} }\n";
-  const SplitDifferences split = split_live(read(), read({}, more));
+  const app::scene::SplitDifferences split = app::scene::split_live(read(), read({}, more));
   EXPECT_TRUE(split.live.empty());
   EXPECT_EQ(addresses(split.restart), std::vector<std::string>{"collider"});
 }
@@ -181,14 +183,17 @@ TEST(Differences, SetOneByOneMakeTheOtherScene) {
       "view.close.slice.point=[0, 1, 0]",
       "collider.1.shape={ box = { size = [1, 2, 3] } }",
       "material.wet.youngs_modulus=1e6"};
-  const Scene a = read(), b = read(sets);
+  const app::scene::Scene a = read(), b = read(sets);
   for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
-    std::vector<Override> overrides;
-    for (const Difference& difference : differences(from, to))
+    std::vector<app::scene::Override> overrides;
+    for (const app::scene::Difference& difference : app::scene::differences(from, to))
       overrides.push_back(
-          {difference.address, difference.after ? toml_literal(*difference.after) : "none"});
+          {difference.address,
+           difference.after ? app::scene::toml::toml_literal(*difference.after) : "none"});
     EXPECT_GE(overrides.size(), sets.size());
-    EXPECT_EQ(write_scene(read_scene_text(write_scene(from), "s", "", overrides)), write_scene(to));
+    EXPECT_EQ(app::scene::write_scene(
+                  app::scene::read_scene_text(app::scene::write_scene(from), "s", "", overrides)),
+              app::scene::write_scene(to));
   }
 }
 
@@ -199,9 +204,9 @@ TEST(SetNone, TakesAwayWhatMayBeAbsentAndNothingElse) {
   EXPECT_FALSE(read({"camera=none"}).camera);
   EXPECT_EQ(read({"solver=none"}).solver.cfl, 0.4);
   EXPECT_EQ(read({"title=none"}).title, "none");
-  EXPECT_THROW(read({"solver.cfl=none"}), UsageError);
+  EXPECT_THROW(read({"solver.cfl=none"}), app::scene::toml::UsageError);
   EXPECT_THROW(read({"body.ball.shape=none"}), std::runtime_error);
-  EXPECT_THROW(read({"body=none"}), UsageError);
+  EXPECT_THROW(read({"body=none"}), app::scene::toml::UsageError);
 }
 
 }  // namespace

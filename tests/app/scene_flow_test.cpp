@@ -2,18 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include "app/auto_ranges.h"
-#include "app/check/findings.h"
-#include "app/dry_run.h"
-#include "app/frame_builder.h"
-#include "app/metrics.h"
-#include "app/plan.h"
-#include "app/resolve.h"
-#include "app/scene/error.h"
+#include "app/health/findings.h"
+#include "app/picture/frame_builder.h"
+#include "app/run/metrics.h"
 #include "app/scene/override.h"
 #include "app/scene/read.h"
-#include "app/seed_scene.h"
-#include "app/snow_pieces.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/auto_ranges.h"
+#include "app/setup/dry_run.h"
+#include "app/setup/plan.h"
+#include "app/setup/resolve.h"
+#include "app/setup/seed_scene.h"
+#include "app/setup/snow_pieces.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -27,8 +27,9 @@ velocity = [0, -2, 0]
 rate = 20
 )";
 
-Scene flow_scene(const std::string& text, const std::vector<Override>& overrides = {}) {
-  return read_scene_text(text, "scene.toml", "", overrides);
+app::scene::Scene flow_scene(const std::string& text,
+                             const std::vector<app::scene::Override>& overrides = {}) {
+  return app::scene::read_scene_text(text, "scene.toml", "", overrides);
 }
 
 std::string flow_error(const std::string& text) {
@@ -41,15 +42,16 @@ std::string flow_error(const std::string& text) {
 }
 
 TEST(SceneFlow, AnEmitterIsEnoughOfAScene) {
-  const Scene scene = flow_scene(spout + "end = 0.5\n");
+  const app::scene::Scene scene = flow_scene(spout + "end = 0.5\n");
   ASSERT_EQ(scene.emitters.size(), 1u);
-  const sim::Emitter& e = scene.emitters[0];
+  const sim::seeding::Emitter& e = scene.emitters[0];
   EXPECT_EQ(e.name, "spout");
   EXPECT_EQ(e.material, "snow");
   EXPECT_EQ(e.rate, 20);
   EXPECT_EQ(e.end, 0.5);
-  EXPECT_EQ(flow_scene(spout, {parse_override("emitter.spout.end=none")}).emitters[0].end,
-            std::nullopt);
+  EXPECT_EQ(
+      flow_scene(spout, {app::scene::parse_override("emitter.spout.end=none")}).emitters[0].end,
+      std::nullopt);
 }
 
 TEST(SceneFlow, MistakesAreLocated) {
@@ -65,42 +67,43 @@ TEST(SceneFlow, MistakesAreLocated) {
 }
 
 TEST(SceneFlow, ThePlanCountsWhatWillCome) {
-  Scene scene = flow_scene(spout);
+  app::scene::Scene scene = flow_scene(spout);
   const double share = 400 * std::pow(scene.solver.cell_size, 3) / 8;
-  const Plan plan = make_plan(scene, {0, 12}, Quality::preview, 1);
+  const app::setup::Plan plan =
+      app::setup::make_plan(scene, {0, 12}, app::setup::Quality::preview, 1);
   EXPECT_NEAR(plan.emitted, 20 * 12 / scene.fps / share, 1);
   EXPECT_NEAR(plan.volume, 20 * 12 / scene.fps / 400, 1e-4);
   scene.limits.particles = 100;
-  EXPECT_THROW(check_limits(scene, plan), std::exception);
+  EXPECT_THROW(app::setup::check_limits(scene, plan), std::exception);
 }
 
 TEST(SceneFlow, CamerasAndRangesKnowWhereSnowWillBe) {
-  Scene scene = flow_scene(spout + "[[collider]]\nshape = { plane = {} }\n");
+  app::scene::Scene scene = flow_scene(spout + "[[collider]]\nshape = { plane = {} }\n");
   // Falls 1 m from 2 m/s.
-  EXPECT_NEAR(impact_speed(scene), std::sqrt(4 + 2 * 9.81), 1e-6);
-  const std::vector<Moment> moments = dry_run(scene);
+  EXPECT_NEAR(app::setup::impact_speed(scene), std::sqrt(4 + 2 * 9.81), 1e-6);
+  const std::vector<app::setup::Moment> moments = app::setup::dry_run(scene);
   ASSERT_FALSE(moments.empty());
   double lowest = 1;
-  for (const Moment& moment : moments)
+  for (const app::setup::Moment& moment : moments)
     for (const sim::Vec3d& x : moment.x) lowest = std::min(lowest, x.y());
   EXPECT_LT(lowest, 0.2) << "the coarse copy's snow reaches the floor";
-  resolve(scene, 1000);
+  app::setup::resolve(scene, 1000);
   ASSERT_TRUE(scene.camera && scene.camera->eye);
 }
 
 TEST(SceneFlow, AMomentWithoutParticlesIsDrawnAndMeasured) {
-  Scene scene = flow_scene(spout);
-  resolve(scene, 1000);
-  const sim::Simulation simulation = make_simulation(scene, {}, 1);
-  const Snapshot snapshot = take_snapshot(scene, simulation, 0);
-  const FrameBuilder builder(scene, 0.01, Quality::draft, {}, 1, {});
-  for (const View& view : scene.views)
+  app::scene::Scene scene = flow_scene(spout);
+  app::setup::resolve(scene, 1000);
+  const sim::Simulation simulation = app::setup::make_simulation(scene, {}, 1);
+  const app::picture::Snapshot snapshot = app::picture::take_snapshot(scene, simulation, 0);
+  const app::picture::FrameBuilder builder(scene, 0.01, app::setup::Quality::draft, {}, 1, {});
+  for (const app::scene::View& view : scene.views)
     EXPECT_TRUE(builder.build(view, snapshot).points.position.empty());
-  EXPECT_EQ(measure(snapshot.particles, 0.02).fragments, 0u);
+  EXPECT_EQ(app::run::measure(snapshot.particles, 0.02).fragments, 0u);
 }
 
 TEST(SceneFlow, IdsStayWhereParticlesWereRemoved) {
-  Scene scene = flow_scene(R"(
+  app::scene::Scene scene = flow_scene(R"(
 [[body]]
 name = "gone"
 shape = { box = { center = [0, 0.05, 0], size = [0.1, 0.1, 0.1] } }
@@ -113,14 +116,15 @@ shape = { sphere = { center = [0, 0, 0], radius = 0.5 } }
 name = "slice"
 layers = ["bounds"]
 )");
-  resolve(scene, 1000);
+  app::setup::resolve(scene, 1000);
   std::vector<std::size_t> body_end;
-  const sim::ParticleArrays seeded = seed_scene(scene, &body_end);
-  const sim::Simulation simulation = make_simulation(scene, seeded, 1);
+  const sim::ParticleArrays seeded = app::setup::seed_scene(scene, &body_end);
+  const sim::Simulation simulation = app::setup::make_simulation(scene, seeded, 1);
   EXPECT_EQ(simulation.particle_count(), body_end[1] - body_end[0]);
-  const Snapshot snapshot = take_snapshot(scene, simulation, 0);
+  const app::picture::Snapshot snapshot = app::picture::take_snapshot(scene, simulation, 0);
   EXPECT_EQ(snapshot.particles.id_of(0), body_end[0]);
-  const FrameBuilder builder(scene, 0.01, Quality::draft, {}, 1, body_end);
+  const app::picture::FrameBuilder builder(scene, 0.01, app::setup::Quality::draft, {}, 1,
+                                           body_end);
   const render::Frame frame = builder.build(scene.views[0], snapshot);
   ASSERT_EQ(frame.labels.size(), 1u);
   EXPECT_EQ(frame.labels[0].text, "kept");
@@ -134,14 +138,14 @@ variation = { density = 0.2, youngs_modulus = 0.5, thresholds = 0.3, size = 0.05
 shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
 volumes = "given"
 )";
-  const Scene scene = flow_scene(text);
-  const sim::ParticleArrays p = seed_scene(scene);
+  const app::scene::Scene scene = flow_scene(text);
+  const sim::ParticleArrays p = app::setup::seed_scene(scene);
   ASSERT_EQ(p.stiffness.size(), p.x.size());
   const auto [least, most] = std::minmax_element(p.stiffness.begin(), p.stiffness.end());
   EXPECT_LT(*least, 0.8);
   EXPECT_GT(*most, 1.3);
-  const sim::ParticleArrays moved =
-      seed_scene(flow_scene(text, {parse_override("body.1.shape.sphere.center=[3,1,2]")}));
+  const sim::ParticleArrays moved = app::setup::seed_scene(
+      flow_scene(text, {app::scene::parse_override("body.1.shape.sphere.center=[3,1,2]")}));
   ASSERT_EQ(moved.x.size(), p.x.size());
   for (std::size_t q = 0; q < p.x.size(); ++q) {
     // Places are rounded where they stand.
@@ -149,16 +153,18 @@ volumes = "given"
     EXPECT_NEAR(moved.m[q] / p.m[q], 1, 1e-9);
   }
   EXPECT_TRUE(
-      seed_scene(flow_scene(text, {parse_override("material.snow.variation.thresholds=0"),
-                                   parse_override("material.snow.variation.youngs_modulus=0")}))
+      app::setup::seed_scene(
+          flow_scene(text,
+                     {app::scene::parse_override("material.snow.variation.thresholds=0"),
+                      app::scene::parse_override("material.snow.variation.youngs_modulus=0")}))
           .stiffness.empty());
 }
 
 std::vector<std::string> findings_of(const std::string& text) {
-  std::vector<Finding> findings;
-  check_emitters(flow_scene(text), findings);
+  std::vector<app::health::Finding> findings;
+  app::health::check_emitters(flow_scene(text), findings);
   std::vector<std::string> addresses;
-  for (const Finding& finding : findings) addresses.push_back(finding.address);
+  for (const app::health::Finding& finding : findings) addresses.push_back(finding.address);
   return addresses;
 }
 
@@ -193,11 +199,11 @@ TEST(SceneFlow, SnowBornAtRestHasToFallOut) {
 
 TEST(SceneFlow, SinksThatSnowFliesThroughAreFound) {
   const auto found = [](double thick, double speed, const std::string& more) {
-    std::vector<Finding> findings;
-    check_sinks(flow_scene("[solver]\ncell_size = 0.02\n" + spout +
-                           "[[sink]]\nshape = { box = { size = [1, " + std::to_string(thick) +
-                           ", 1] } }\n" + more),
-                speed, findings);
+    std::vector<app::health::Finding> findings;
+    app::health::check_sinks(flow_scene("[solver]\ncell_size = 0.02\n" + spout +
+                                        "[[sink]]\nshape = { box = { size = [1, " +
+                                        std::to_string(thick) + ", 1] } }\n" + more),
+                             speed, findings);
     return findings.size();
   };
   EXPECT_EQ(found(0.025, 100, ""), 1u);

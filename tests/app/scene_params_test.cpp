@@ -4,23 +4,25 @@
 #include <algorithm>
 #include <set>
 
-#include "app/json.h"
 #include "app/scene/params.h"
-#include "sim/material.h"
+#include "app/support/json.h"
+#include "sim/types/material.h"
 
 namespace neve::app {
 namespace {
 
-const ParamInfo& param(const std::vector<ParamInfo>& list, const std::string& address) {
-  const auto found = std::find_if(list.begin(), list.end(),
-                                  [&](const ParamInfo& info) { return info.address == address; });
+const app::scene::ParamInfo& param(const std::vector<app::scene::ParamInfo>& list,
+                                   const std::string& address) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const app::scene::ParamInfo& info) {
+    return info.address == address;
+  });
   EXPECT_NE(found, list.end()) << address;
   return *found;
 }
 
 TEST(Params, EachIsDescribedOnceInOneSentence) {
   std::set<std::string> seen;
-  for (const ParamInfo& info : params()) {
+  for (const app::scene::ParamInfo& info : app::scene::params()) {
     EXPECT_TRUE(seen.insert(info.address).second) << info.address;
     EXPECT_TRUE(info.help.ends_with('.') && info.help.size() < 120) << info.address;
     EXPECT_FALSE(info.type.empty()) << info.address;
@@ -29,8 +31,8 @@ TEST(Params, EachIsDescribedOnceInOneSentence) {
 }
 
 TEST(Params, DefaultsComeFromTheStructs) {
-  const auto list = params();
-  const ParamInfo& hardening = param(list, "material.NAME.hardening");
+  const auto list = app::scene::params();
+  const app::scene::ParamInfo& hardening = param(list, "material.NAME.hardening");
   EXPECT_EQ(std::get<double>(hardening.default_value->data), sim::Material{}.hardening);
   EXPECT_TRUE(hardening.is_live);
   EXPECT_FALSE(param(list, "material.NAME.density").is_live);
@@ -42,7 +44,7 @@ TEST(Params, DefaultsComeFromTheStructs) {
 }
 
 TEST(Params, DefaultsAreInRange) {
-  for (const ParamInfo& info : params()) {
+  for (const app::scene::ParamInfo& info : app::scene::params()) {
     if (!info.default_value) continue;
     if (const auto* x = std::get_if<double>(&info.default_value->data)) {
       EXPECT_TRUE(info.valid.contains(*x)) << info.address;
@@ -51,8 +53,8 @@ TEST(Params, DefaultsAreInRange) {
 }
 
 TEST(Params, JsonHasTheKeysThatScriptsRelyOn) {
-  const Json list = parse_json(params_json());
-  ASSERT_EQ(list.size(), params().size());
+  const Json list = parse_json(app::scene::params_json());
+  ASSERT_EQ(list.size(), app::scene::params().size());
   for (const Json& item : list) {
     for (const char* key : {"address", "type", "unit", "min", "max", "default", "live", "help"}) {
       EXPECT_TRUE(item.contains(key)) << key;
@@ -68,9 +70,9 @@ TEST(Params, JsonHasTheKeysThatScriptsRelyOn) {
 }
 
 TEST(Params, TableHasALineEach) {
-  const std::string table = params_table();
+  const std::string table = app::scene::params_table();
   const auto lines = std::count(table.begin(), table.end(), '\n');
-  EXPECT_EQ(static_cast<std::size_t>(lines), params().size() + 1);
+  EXPECT_EQ(static_cast<std::size_t>(lines), app::scene::params().size() + 1);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Walker {
   void optional(const char* key, std::optional<T>& member, const char*) {
     if (!member) return;
     Self inner = self().inside(key);
-    describe(inner, *member);
+    app::scene::describe(inner, *member);
   }
   template <class T>
   void named(const char* key, std::vector<T>& items, const char*) {
@@ -42,28 +42,28 @@ class Walker {
   void list(const char* key, std::vector<T>& items, const char*) {
     for (T& item : items) {
       Self inner = self().inside(key + ("." + item.name));
-      describe(inner, item);
+      app::scene::describe(inner, item);
     }
   }
   template <class T>
   void sequence(const char* key, std::vector<T>& items, const char*) {
     for (std::size_t k = 0; k < items.size(); ++k) {
       Self inner = self().inside(key + ("." + std::to_string(k)));
-      describe(inner, items[k]);
+      app::scene::describe(inner, items[k]);
     }
   }
   template <class Describe>
-  void shape(const char* key, sim::Shape& shape, const char*, Describe describe_forms) {
+  void shape(const char* key, sim::shapes::Shape& shape, const char*, Describe describe_forms) {
     Self inner = self().inside(key);
     describe_forms(inner, shape);
   }
   template <class Form>
-  void form(const char* key, sim::Shape& shape, Change change, const char*) {
+  void form(const char* key, sim::shapes::Shape& shape, app::scene::Change change, const char*) {
     Form* form = std::get_if<Form>(&shape.form);
     if (!form) return;
     Self inner = self().inside(key);
-    describe(inner, *form, change);
-    describe_rotation(inner, shape, change);
+    app::scene::describe(inner, *form, change);
+    app::scene::describe_rotation(inner, shape, change);
   }
   /// Says nothing that is not written elsewhere.
   template <class... Rest>
@@ -83,59 +83,65 @@ class Perturb : public Walker<Perturb> {
   Perturb inside(const std::string& key) { return {prefix_ + key + ".", count_}; }
 
   template <class T>
-  void operator()(const char* key, T& member, const char*, const Valid& valid, Change,
-                  const char*) {
-    if (valid.text != Valid::Text::any) return;  // names and files hold the scene together
+  void operator()(const char* key, T& member, const char*, const app::scene::Valid& valid,
+                  app::scene::Change, const char*) {
+    if (valid.text != app::scene::Valid::Text::any)
+      return;  // names and files hold the scene together
     ++count_;
     change(member, valid, prefix_ + key);
   }
 
  private:
   /// Between the bounds, with digits that only an exact round trip keeps.
-  double fraction(const Valid& valid) {
+  double fraction(const app::scene::Valid& valid) {
     const double low = std::isfinite(valid.min) ? valid.min : 0;
     const double high = std::isfinite(valid.max) ? valid.max : low + 1;
     return low + (high - low) * std::fmod(0.6180339887498949 * (count_ + 1), 1.0);
   }
-  void change(bool& is_on, const Valid&, const std::string&) { is_on = !is_on; }
-  void change(double& x, const Valid& valid, const std::string&) { x = fraction(valid); }
-  void change(int& i, const Valid& valid, const std::string&) {
+  void change(bool& is_on, const app::scene::Valid&, const std::string&) { is_on = !is_on; }
+  void change(double& x, const app::scene::Valid& valid, const std::string&) {
+    x = fraction(valid);
+  }
+  void change(int& i, const app::scene::Valid& valid, const std::string&) {
     i = static_cast<int>(fraction(valid));
   }
-  void change(std::uint64_t& i, const Valid& valid, const std::string&) {
+  void change(std::uint64_t& i, const app::scene::Valid& valid, const std::string&) {
     i = static_cast<std::uint64_t>(fraction(valid));
   }
-  void change(std::string& s, const Valid&, const std::string&) {
+  void change(std::string& s, const app::scene::Valid&, const std::string&) {
     s = "\"névé\" \\ 😀\n\t\x01\x7f #'";
   }
-  void change(sim::Vec3d& v, const Valid& valid, const std::string& at) {
+  void change(sim::Vec3d& v, const app::scene::Valid& valid, const std::string& at) {
     for (double& x : {std::ref(v.x()), std::ref(v.y()), std::ref(v.z())}) {
       ++count_;
       change(x, valid, at);
     }
   }
-  void change(PictureSize& size, const Valid& valid, const std::string& at) {
+  void change(app::scene::PictureSize& size, const app::scene::Valid& valid,
+              const std::string& at) {
     change(size.width, valid, at);
     ++count_;
     change(size.height, valid, at);
   }
-  void change(std::vector<std::string>&, const Valid&, const std::string&) {}  // names of views
-  void change(std::optional<Range>& range, const Valid&, const std::string&) {
-    range = Range{-1.0 / 3, 1e30};
+  void change(std::vector<std::string>&, const app::scene::Valid&, const std::string&) {
+  }  // names of views
+  void change(std::optional<app::scene::Range>& range, const app::scene::Valid&,
+              const std::string&) {
+    range = app::scene::Range{-1.0 / 3, 1e30};
   }
   template <class T>
-  void change(std::optional<T>& member, const Valid& valid, const std::string& at) {
+  void change(std::optional<T>& member, const app::scene::Valid& valid, const std::string& at) {
     change(member.emplace(), valid, at);
   }
-  template <Choice E>
-  void change(E& e, const Valid&, const std::string& at) {
+  template <scene::Choice E>
+  void change(E& e, const app::scene::Valid&, const std::string& at) {
     const E before = e;
-    e = names(E{}).back().value;
+    e = app::scene::names(E{}).back().value;
     EXPECT_NE(e, before) << at;
   }
-  template <Choice E>
-  void change(std::vector<E>& list, const Valid&, const std::string&) {
-    list = {names(E{}).back().value, names(E{}).front().value};
+  template <scene::Choice E>
+  void change(std::vector<E>& list, const app::scene::Valid&, const std::string&) {
+    list = {app::scene::names(E{}).back().value, app::scene::names(E{}).front().value};
   }
 
   int& count_;
@@ -149,7 +155,8 @@ class Flatten : public Walker<Flatten> {
   Flatten inside(const std::string& key) { return {prefix_ + key + ".", values_}; }
 
   template <class T>
-  void operator()(const char* key, T& member, const char*, const Valid&, Change, const char*) {
+  void operator()(const char* key, T& member, const char*, const app::scene::Valid&,
+                  app::scene::Change, const char*) {
     add(values_[prefix_ + key], member);
   }
 
@@ -167,11 +174,11 @@ class Flatten : public Walker<Flatten> {
   static void add(Bits& bits, const std::vector<std::string>& list) {
     for (const std::string& item : list) add(bits, item);
   }
-  static void add(Bits& bits, const PictureSize& size) {
+  static void add(Bits& bits, const app::scene::PictureSize& size) {
     add(bits, size.width);
     add(bits, size.height);
   }
-  static void add(Bits& bits, const Range& range) {
+  static void add(Bits& bits, const app::scene::Range& range) {
     add(bits, range.min);
     add(bits, range.max);
   }
@@ -179,11 +186,11 @@ class Flatten : public Walker<Flatten> {
   static void add(Bits& bits, const std::optional<T>& member) {
     if (member) add(bits, *member);
   }
-  template <Choice E>
+  template <scene::Choice E>
   static void add(Bits& bits, const E& e) {
     bits.push_back(static_cast<std::uint64_t>(e));
   }
-  template <Choice E>
+  template <scene::Choice E>
   static void add(Bits& bits, const std::vector<E>& list) {
     for (const E& e : list) add(bits, e);
   }
@@ -191,15 +198,15 @@ class Flatten : public Walker<Flatten> {
   Values& values_;
 };
 
-Flatten::Values values_of(Scene scene) {
+Flatten::Values values_of(app::scene::Scene scene) {
   Flatten::Values values;
   Flatten flatten("", values);
-  describe(flatten, scene);
+  app::scene::describe(flatten, scene);
   return values;
 }
 
 /// A scene with every optional part and every form, named and unnamed things.
-Scene full_scene(const std::string& mesh_file) {
+app::scene::Scene full_scene(const std::string& mesh_file) {
   std::string text =
       "[camera]\neye = [0, 1, 2]\ntarget = [0, 0, 0]\nkeyframes = [{ time = 1 }, { time = 2 }]\n"
       "[material.ice]\n";
@@ -218,7 +225,8 @@ Scene full_scene(const std::string& mesh_file) {
   text +=
       "[[view]]\n[[view]]\nname = \"close\"\ncamera = { eye = [1,1,1], target = [0,0,0] }\n"
       "clip = { point = [1, 2, 3] }\n[[mosaic]]\nname = \"wall\"\nviews = [\"close\"]\n";
-  return read_scene_text(text, "full", std::filesystem::path(mesh_file).parent_path().string());
+  return app::scene::read_scene_text(text, "full",
+                                     std::filesystem::path(mesh_file).parent_path().string());
 }
 
 class RoundTrip : public testing::Test {
@@ -229,36 +237,36 @@ class RoundTrip : public testing::Test {
 };
 
 TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {
-  const Scene plain = full_scene(mesh_);
-  Scene scene = plain;
+  const app::scene::Scene plain = full_scene(mesh_);
+  app::scene::Scene scene = plain;
   int count = 0;
   Perturb perturb("", count);
-  describe(perturb, scene);
+  app::scene::describe(perturb, scene);
   EXPECT_GT(count, 150) << "the visitor did not get everywhere";
   // Put right what only holds together.
-  for (sim::Shape* shape :
+  for (sim::shapes::Shape* shape :
        {&scene.bodies[5].shape, &scene.colliders[6].shape, &scene.sinks[0].shape}) {
-    auto& torus = std::get<sim::Torus>(shape->form);
+    auto& torus = std::get<sim::shapes::Torus>(shape->form);
     torus.minor_radius = torus.major_radius / 3;
   }
   scene.emitters[0].end = scene.emitters[0].start + 1.0 / 3;
-  Collider& moved = scene.colliders.back();
+  app::scene::Collider& moved = scene.colliders.back();
   moved.velocity.setZero();
   moved.angular_velocity.setZero();
   moved.keyframes[1].time = moved.keyframes[0].time + 1.0 / 3;
   moved.keyframes[1].rotation = *moved.keyframes[0].rotation + sim::Vec3d(10.0 / 3, 20, 30);
   scene.solver.cell_size = 10.1;
-  for (View& view : scene.views) view.slice.follow = "mesh";
+  for (app::scene::View& view : scene.views) view.slice.follow = "mesh";
   scene.camera->turntable.reset();  // there is an orbit
   scene.views[1].camera->orbit.reset();
   scene.camera->keyframes[1].time = scene.camera->keyframes[0].time + 1.0 / 3;
 
-  const std::string text = write_scene(scene);
-  const Scene again = read_scene_text(text, "written");
+  const std::string text = app::scene::write_scene(scene);
+  const app::scene::Scene again = app::scene::read_scene_text(text, "written");
   const auto before = values_of(scene), after = values_of(again), unchanged = values_of(plain);
   EXPECT_EQ(before.size(), after.size());
   for (const auto& [address, bits] : before) EXPECT_EQ(after.at(address), bits) << address;
-  EXPECT_EQ(write_scene(again), text);
+  EXPECT_EQ(app::scene::write_scene(again), text);
 
   // And the test would notice a parameter that was left alone.
   int same = 0;
@@ -269,8 +277,10 @@ TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {
 }
 
 TEST_F(RoundTrip, KeepsAnAutomaticScene) {
-  const Scene scene = read_scene_text("[camera]\nfov = 20\n[[body]]\nshape = {box = {}}", "s");
-  const Scene again = read_scene_text(write_scene(scene), "written");
+  const app::scene::Scene scene =
+      app::scene::read_scene_text("[camera]\nfov = 20\n[[body]]\nshape = {box = {}}", "s");
+  const app::scene::Scene again =
+      app::scene::read_scene_text(app::scene::write_scene(scene), "written");
   EXPECT_EQ(values_of(scene), values_of(again));
   EXPECT_FALSE(again.camera->eye.has_value());
   EXPECT_FALSE(again.views.at(0).camera.has_value());
@@ -279,27 +289,29 @@ TEST_F(RoundTrip, KeepsAnAutomaticScene) {
 }
 
 TEST_F(RoundTrip, FindsMeshesFromAnywhere) {
-  const Scene scene = full_scene(mesh_);
-  const std::string file = std::get<sim::Mesh>(scene.bodies.back().shape.form).file;
+  const app::scene::Scene scene = full_scene(mesh_);
+  const std::string file = std::get<sim::shapes::Mesh>(scene.bodies.back().shape.form).file;
   EXPECT_TRUE(std::filesystem::path(file).is_absolute());
-  const Scene again = read_scene_text(write_scene(scene), "written", "/elsewhere");
-  EXPECT_EQ(std::get<sim::Mesh>(again.bodies.back().shape.form).file, file);
+  const app::scene::Scene again =
+      app::scene::read_scene_text(app::scene::write_scene(scene), "written", "/elsewhere");
+  EXPECT_EQ(std::get<sim::shapes::Mesh>(again.bodies.back().shape.form).file, file);
 }
 
 TEST(NumberText, ReadsBackExactly) {
-  EXPECT_EQ(number_text(5e-4), "5e-4");
-  EXPECT_EQ(number_text(0.001), "0.001");
-  EXPECT_EQ(number_text(1e30), "1e30");
-  EXPECT_EQ(number_text(100000), "100000");
-  EXPECT_EQ(number_text(-0.0), "-0.0");
-  EXPECT_EQ(number_text(1e-300), "1e-300");
-  EXPECT_EQ(number_text(12345678901234567890.0), "12345678901234567168.0");
-  EXPECT_EQ(number_text(0.1 + 0.2), "0.30000000000000004");
+  EXPECT_EQ(app::scene::toml::number_text(5e-4), "5e-4");
+  EXPECT_EQ(app::scene::toml::number_text(0.001), "0.001");
+  EXPECT_EQ(app::scene::toml::number_text(1e30), "1e30");
+  EXPECT_EQ(app::scene::toml::number_text(100000), "100000");
+  EXPECT_EQ(app::scene::toml::number_text(-0.0), "-0.0");
+  EXPECT_EQ(app::scene::toml::number_text(1e-300), "1e-300");
+  EXPECT_EQ(app::scene::toml::number_text(12345678901234567890.0), "12345678901234567168.0");
+  EXPECT_EQ(app::scene::toml::number_text(0.1 + 0.2), "0.30000000000000004");
 }
 
 TEST(SceneDefaults, AreThoseOfTheStructs) {
-  const Scene scene = read_scene_text("[[body]]\nshape = { box = {} }", "s");
-  EXPECT_EQ(scene.frames, Scene{}.frames);
+  const app::scene::Scene scene =
+      app::scene::read_scene_text("[[body]]\nshape = { box = {} }", "s");
+  EXPECT_EQ(scene.frames, app::scene::Scene{}.frames);
   ASSERT_EQ(scene.materials.size(), 1u);
   EXPECT_EQ(scene.materials[0].name, "snow");
   EXPECT_EQ(scene.materials[0].hardening, sim::Material{}.hardening);
@@ -311,7 +323,7 @@ TEST(SceneDefaults, AreThoseOfTheStructs) {
 }
 
 TEST(SceneReader, AcceptsWholeFloatsAsIntegersAndBack) {
-  const Scene scene = read_scene_text(
+  const app::scene::Scene scene = app::scene::read_scene_text(
       "frames = 12.0\nfps = 30\n[limits]\nmemory = \"1.5 kB\"\nparticles = 2e7\n[[body]]\nshape = "
       "{ sphere = { radius = 1 } }",
       "s");
@@ -322,8 +334,8 @@ TEST(SceneReader, AcceptsWholeFloatsAsIntegersAndBack) {
 }
 
 TEST(SceneReader, OverridesOnlyWhatAMaterialSays) {
-  const Scene scene =
-      read_scene_text("[material.snow]\nhardening = 7\n[[body]]\nshape = { sphere = {} }", "s");
+  const app::scene::Scene scene = app::scene::read_scene_text(
+      "[material.snow]\nhardening = 7\n[[body]]\nshape = { sphere = {} }", "s");
   EXPECT_EQ(scene.materials.at(0).hardening, 7);
   EXPECT_EQ(scene.materials.at(0).density, sim::Material{}.density);
 }

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/scene/read.h"
-#include "app/scene/toml_source.h"
+#include "app/scene/toml/toml_source.h"
 
 namespace neve::app {
 namespace {
@@ -24,16 +24,17 @@ name = "close"
 camera = { fov = 20 }
 )";
 
-Scene set(const std::vector<std::string>& arguments, const char* text = scene_text) {
-  std::vector<Override> overrides;
-  for (const std::string& argument : arguments) overrides.push_back(parse_override(argument));
-  return read_scene_text(text, "s.toml", "", overrides);
+app::scene::Scene set(const std::vector<std::string>& arguments, const char* text = scene_text) {
+  std::vector<app::scene::Override> overrides;
+  for (const std::string& argument : arguments)
+    overrides.push_back(app::scene::parse_override(argument));
+  return app::scene::read_scene_text(text, "s.toml", "", overrides);
 }
 
 std::string override_error(const std::string& argument) {
   try {
     set({argument});
-  } catch (const UsageError& error) {
+  } catch (const app::scene::toml::UsageError& error) {
     return error.what();
   }
   return "no usage error";
@@ -51,14 +52,14 @@ TEST(Set, ReachesEveryKindOfAddress) {
   EXPECT_EQ(set({"camera.fov=33"}).camera->fov, 33);
   EXPECT_EQ(set({"output.size=[64,48]"}).size.height, 48);
   EXPECT_EQ(set({"frames=3"}).frames, 3);
-  const Scene scene = set({"body.ball.shape.sphere.radius=0.3"});
-  EXPECT_EQ(std::get<sim::Sphere>(scene.bodies[0].shape.form).radius, 0.3);
+  const app::scene::Scene scene = set({"body.ball.shape.sphere.radius=0.3"});
+  EXPECT_EQ(std::get<sim::shapes::Sphere>(scene.bodies[0].shape.form).radius, 0.3);
 }
 
 TEST(Set, ReachesTheBuiltInView) {
   const char* text = "[[body]]\nshape = { box = {} }";
   EXPECT_EQ(set({"view.particles.particles.color_by=id"}, text).views[0].particles.color_by,
-            ColorBy::id);
+            app::scene::ColorBy::id);
 }
 
 TEST(Set, TakesTheLastOfTwo) {
@@ -66,9 +67,9 @@ TEST(Set, TakesTheLastOfTwo) {
 }
 
 TEST(Set, TakesWholeTables) {
-  const Scene scene = set(
+  const app::scene::Scene scene = set(
       {"body.ball.shape={ box = { size = [1, 1, 1] } }", "camera={eye=[0,0,2],target=[0,0,0]}"});
-  EXPECT_TRUE(std::holds_alternative<sim::Box>(scene.bodies[0].shape.form));
+  EXPECT_TRUE(std::holds_alternative<sim::shapes::Box>(scene.bodies[0].shape.form));
   EXPECT_EQ(scene.camera->eye->z(), 2);
 }
 
@@ -122,9 +123,9 @@ TEST(Set, UnknownAddressesNameTheNearest) {
 }
 
 TEST(Set, NeedsAnAddressAndAValue) {
-  EXPECT_THROW(parse_override("frames"), UsageError);
-  EXPECT_THROW(parse_override("=3"), UsageError);
-  EXPECT_THROW(parse_override(""), UsageError);
+  EXPECT_THROW(app::scene::parse_override("frames"), app::scene::toml::UsageError);
+  EXPECT_THROW(app::scene::parse_override("=3"), app::scene::toml::UsageError);
+  EXPECT_THROW(app::scene::parse_override(""), app::scene::toml::UsageError);
 }
 
 TEST(Set, HostileTextIsAUsageError) {
@@ -132,32 +133,34 @@ TEST(Set, HostileTextIsAUsageError) {
                                   "\xFF", "é", "[é]", "{é=1}", "nan", "-inf", "1e999", "\x1b"}) {
     for (const std::string address : {"frames", "solver.gravity", "camera", "body.ball.shape",
                                       "view.close.layers", "solver.kernel"}) {
-      EXPECT_THROW(set({address + "=" + value}), UsageError) << address << "=" << value;
+      EXPECT_THROW(set({address + "=" + value}), app::scene::toml::UsageError)
+          << address << "=" << value;
     }
   }
 }
 
 TEST(Set, MistakesOfTheFileStayWithTheFile) {
-  EXPECT_THROW(set({"solver.dt=1e-4"}, "solver = 3"), SceneError);
-  EXPECT_THROW(set({"camera.fov=3"}, "camera = [1]"), SceneError);
-  EXPECT_THROW(set({"material.snow.density=3"}, "material = {snow = 4}"), SceneError);
+  EXPECT_THROW(set({"solver.dt=1e-4"}, "solver = 3"), app::scene::toml::SceneError);
+  EXPECT_THROW(set({"camera.fov=3"}, "camera = [1]"), app::scene::toml::SceneError);
+  EXPECT_THROW(set({"material.snow.density=3"}, "material = {snow = 4}"),
+               app::scene::toml::SceneError);
 }
 
 TEST(FindView, KnowsTheBuiltInOne) {
-  const Scene scene = set({});
-  EXPECT_EQ(find_view(scene, "close").camera->fov, 20);
-  EXPECT_EQ(find_view(scene, "particles").name, "particles");
-  EXPECT_THROW(find_view(scene, "clos"), UsageError);
+  const app::scene::Scene scene = set({});
+  EXPECT_EQ(app::scene::find_view(scene, "close").camera->fov, 20);
+  EXPECT_EQ(app::scene::find_view(scene, "particles").name, "particles");
+  EXPECT_THROW(app::scene::find_view(scene, "clos"), app::scene::toml::UsageError);
 }
 
 TEST(ValueAt, FindsWhatAnAddressMeans) {
-  const Table root = parse_toml(
+  const app::scene::toml::Table root = app::scene::toml::parse_toml(
       "fps = 24\n[solver]\ncfl = 0.4\n[material.snow]\nhardening = 5\n[[body]]\nname = \"ball\"\n"
       "velocity = [0, 1, 2]\n[[body]]\nshape = { sphere = { radius = 0.1 } }\n",
       "s.toml");
   const auto text = [&](const char* address) {
-    const Value* value = value_at(root, address);
-    return value ? toml_literal(*value) : "";
+    const app::scene::toml::Value* value = app::scene::value_at(root, address);
+    return value ? app::scene::toml::toml_literal(*value) : "";
   };
   EXPECT_EQ(text("fps"), "24");
   EXPECT_EQ(text("solver.cfl"), "0.4");

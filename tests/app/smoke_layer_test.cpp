@@ -4,12 +4,12 @@
 
 #include <cmath>
 
-#include "app/auto_ranges.h"
-#include "app/frame_builder.h"
-#include "app/resolve.h"
-#include "app/scene/error.h"
+#include "app/picture/frame_builder.h"
 #include "app/scene/read.h"
-#include "app/seed_scene.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/auto_ranges.h"
+#include "app/setup/resolve.h"
+#include "app/setup/seed_scene.h"
 
 namespace neve::app {
 namespace {
@@ -25,19 +25,21 @@ shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
 velocity = [0, -2, 0]
 )";
 
-Scene read_powder(const std::string& more, const std::vector<Override>& overrides = {}) {
-  return read_scene_text(powder_ball + more, "ball.toml", {}, overrides);
+app::scene::Scene read_powder(const std::string& more,
+                              const std::vector<app::scene::Override>& overrides = {}) {
+  return app::scene::read_scene_text(powder_ball + more, "ball.toml", {}, overrides);
 }
 
 /// The first view of frame 0.
-render::Frame first_frame(Scene scene) {
+render::Frame first_frame(app::scene::Scene scene) {
   std::vector<std::size_t> body_end;
-  const sim::ParticleArrays particles = seed_scene(scene, &body_end);
-  resolve(scene, particles.x.size());
-  const sim::Simulation simulation(scene.solver, scene.materials, sim_colliders(scene), particles,
-                                   1);
-  const FrameBuilder builder(scene, 0.01, Quality::preview, {}, 1, body_end);
-  return builder.build(scene.views.front(), take_snapshot(scene, simulation, 0));
+  const sim::ParticleArrays particles = app::setup::seed_scene(scene, &body_end);
+  app::setup::resolve(scene, particles.x.size());
+  const sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
+                                   particles, 1);
+  const app::picture::FrameBuilder builder(scene, 0.01, app::setup::Quality::preview, {}, 1,
+                                           body_end);
+  return builder.build(scene.views.front(), app::picture::take_snapshot(scene, simulation, 0));
 }
 
 double mass_of(const render::Smoke& smoke) {
@@ -47,21 +49,22 @@ double mass_of(const render::Smoke& smoke) {
 }
 
 TEST(SmokeLayer, BuiltInViewTakesItsOwnLayers) {
-  const View view = find_view(read_powder(""), "smoke");
-  EXPECT_TRUE(has_layer(view, Layer::smoke));
-  EXPECT_TRUE(has_layer(view, Layer::ground));
-  EXPECT_FALSE(has_layer(view, Layer::particles));
-  EXPECT_EQ(view.smoke.field, ScalarField::mass);
-  const Scene named = read_powder("[[view]]\nname = \"smoke\"\nsmoke = { density_scale = 2 }");
-  EXPECT_TRUE(has_layer(named.views.front(), Layer::smoke));
+  const app::scene::View view = app::scene::find_view(read_powder(""), "smoke");
+  EXPECT_TRUE(app::scene::has_layer(view, app::scene::Layer::smoke));
+  EXPECT_TRUE(app::scene::has_layer(view, app::scene::Layer::ground));
+  EXPECT_FALSE(app::scene::has_layer(view, app::scene::Layer::particles));
+  EXPECT_EQ(view.smoke.field, app::scene::ScalarField::mass);
+  const app::scene::Scene named =
+      read_powder("[[view]]\nname = \"smoke\"\nsmoke = { density_scale = 2 }");
+  EXPECT_TRUE(app::scene::has_layer(named.views.front(), app::scene::Layer::smoke));
   EXPECT_EQ(named.views.front().smoke.density_scale, 2);
   EXPECT_EQ(read_powder("", {{"view.smoke.smoke.field", "J_P"}}).views.back().smoke.field,
-            ScalarField::J_P);
+            app::scene::ScalarField::J_P);
 }
 
 TEST(SmokeLayer, HoldsTheMassOfTheSnow) {
-  Scene scene = read_powder("");
-  scene.views = {find_view(scene, "smoke")};
+  app::scene::Scene scene = read_powder("");
+  scene.views = {app::scene::find_view(scene, "smoke")};
   const render::Frame frame = first_frame(scene);
   ASSERT_NE(frame.smoke.nodes, nullptr);
   ASSERT_EQ(frame.smoke.density.size(), 64 * frame.smoke.nodes->block.size());
@@ -74,20 +77,21 @@ TEST(SmokeLayer, HoldsTheMassOfTheSnow) {
 }
 
 TEST(SmokeLayer, PackedIsTheDensestSnowOfABodyNotOfAnUnusedMaterial) {
-  Scene scene = read_powder("", {{"body.ball.material", "powder"}});
-  scene.views = {find_view(scene, "smoke")};
+  app::scene::Scene scene = read_powder("", {{"body.ball.material", "powder"}});
+  scene.views = {app::scene::find_view(scene, "smoke")};
   EXPECT_EQ(first_frame(scene).smoke.full_density, 100);
 }
 
 TEST(SmokeLayer, AFieldColoursItWithALegendAndAnAutomaticRange) {
-  for (const ScalarField field :
-       {ScalarField::speed, ScalarField::J_P, ScalarField::pressure, ScalarField::density}) {
-    Scene scene = read_powder("");
-    scene.views = {find_view(scene, "smoke")};
+  for (const app::scene::ScalarField field :
+       {app::scene::ScalarField::speed, app::scene::ScalarField::J_P,
+        app::scene::ScalarField::pressure, app::scene::ScalarField::density}) {
+    app::scene::Scene scene = read_powder("");
+    scene.views = {app::scene::find_view(scene, "smoke")};
     scene.views.front().smoke.field = field;
     const render::Frame frame = first_frame(scene);
     ASSERT_EQ(frame.smoke.value.size(), frame.smoke.density.size());
-    const Range range = automatic_range(scene, field);
+    const app::scene::Range range = app::setup::automatic_range(scene, field);
     EXPECT_EQ(frame.smoke.range_min, static_cast<float>(range.min));
     EXPECT_EQ(frame.smoke.range_max, static_cast<float>(range.max));
     ASSERT_EQ(frame.legends.size(), 1u);
@@ -96,9 +100,9 @@ TEST(SmokeLayer, AFieldColoursItWithALegendAndAnAutomaticRange) {
 }
 
 TEST(SmokeLayer, ShowsTheSpeedOfTheBall) {
-  Scene scene = read_powder("");
-  scene.views = {find_view(scene, "smoke")};
-  scene.views.front().smoke.field = ScalarField::speed;
+  app::scene::Scene scene = read_powder("");
+  scene.views = {app::scene::find_view(scene, "smoke")};
+  scene.views.front().smoke.field = app::scene::ScalarField::speed;
   const render::Smoke smoke = first_frame(scene).smoke;
   for (std::size_t n = 0; n < smoke.density.size(); ++n) {
     if (!(smoke.density[n] > 0)) continue;
@@ -109,7 +113,7 @@ TEST(SmokeLayer, ShowsTheSpeedOfTheBall) {
 std::string smoke_error(const std::string& more) {
   try {
     read_powder(more);
-  } catch (const SceneError& error) {
+  } catch (const app::scene::toml::SceneError& error) {
     return error.what();
   }
   return "no error";

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "app/scene/error.h"
 #include "app/scene/read.h"
-#include "app/sweep/around.h"
-#include "app/sweep/expand.h"
-#include "app/sweep/read_sweep.h"
+#include "app/scene/toml/error.h"
+#include "app/sweep/plan/around.h"
+#include "app/sweep/plan/expand.h"
+#include "app/sweep/read/read_sweep.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -23,16 +23,18 @@ velocity = [0, -4, 0]
 shape = { plane = {} }
 )";
 
-FlatParam flat_param(const std::string& address, const std::string& value = {}) {
-  std::vector<Override> overrides;
+app::scene::FlatParam flat_param(const std::string& address, const std::string& value = {}) {
+  std::vector<app::scene::Override> overrides;
   if (!value.empty()) overrides.push_back({address, value});
-  for (FlatParam& found : flatten(read_scene_text(around_scene, "s.toml", "", overrides)))
+  for (app::scene::FlatParam& found :
+       app::scene::flatten(app::scene::read_scene_text(around_scene, "s.toml", "", overrides)))
     if (found.address == address) return found;
   throw std::runtime_error("nothing is called " + address);
 }
 
 std::string around(const std::string& address, const std::string& value = {}) {
-  return toml_literal({Array(values_around(flat_param(address, value)))});
+  return app::scene::toml::toml_literal(
+      {app::scene::toml::Array(app::sweep::plan::values_around(flat_param(address, value)))});
 }
 
 TEST(ValuesAround, SpanDecadesWhereRatiosMatter) {
@@ -57,29 +59,31 @@ TEST(ValuesAround, OfChoicesAreAllOfThemAndVectorsAreStretched) {
   EXPECT_EQ(around("solver.transfer"), "[\"flip\", \"apic\", \"mls\"]");
   EXPECT_EQ(around("body.ball.velocity"),
             "[[0, -2, 0], [0, -3, 0], [0, -4, 0], [0, -5, 0], [0, -6, 0]]");
-  EXPECT_THROW(around("body.ball.angular_velocity"), UsageError);
-  EXPECT_THROW(around("title"), UsageError);
-  EXPECT_THROW(around("body.ball.name"), UsageError);
-  EXPECT_THROW(around("camera"), UsageError);
+  EXPECT_THROW(around("body.ball.angular_velocity"), app::scene::toml::UsageError);
+  EXPECT_THROW(around("title"), app::scene::toml::UsageError);
+  EXPECT_THROW(around("body.ball.name"), app::scene::toml::UsageError);
+  EXPECT_THROW(around("camera"), app::scene::toml::UsageError);
 }
 
 /// All parameters that have values around them: each value is valid, the present one among them.
 TEST(ValuesAround, AreValidAndHaveThePresentOneAmongThem) {
   int count = 0;
-  for (const FlatParam& param : flatten(read_scene_text(around_scene, "s.toml"))) {
-    std::vector<Value> values;
+  for (const app::scene::FlatParam& param :
+       app::scene::flatten(app::scene::read_scene_text(around_scene, "s.toml"))) {
+    std::vector<app::scene::toml::Value> values;
     try {
-      values = values_around(param);
-    } catch (const UsageError&) {
+      values = app::sweep::plan::values_around(param);
+    } catch (const app::scene::toml::UsageError&) {
       continue;
     }
     ++count;
     EXPECT_GE(values.size(), 2u) << param.address;
     bool has_present = false;
-    for (const Value& value : values) {
-      has_present = has_present || same_value(value, param.value);
+    for (const app::scene::toml::Value& value : values) {
+      has_present = has_present || app::scene::same_value(value, param.value);
       try {
-        read_scene_text(around_scene, "s.toml", "", {{param.address, toml_literal(value)}});
+        app::scene::read_scene_text(around_scene, "s.toml", "",
+                                    {{param.address, app::scene::toml::toml_literal(value)}});
       } catch (const std::exception& error) {
         // Only what belongs together may object.
         EXPECT_EQ(std::string(error.what()).find("expected"), std::string::npos) << error.what();
@@ -94,29 +98,30 @@ TEST(SweepAround, IsAFileThatReadsAsTheSweep) {
   const test::TemporaryFolder folder;
   const auto scene = folder.write("scenes/a b.toml", around_scene);
   const auto file = folder / "sweeps/hardening.toml";
-  const std::vector<Override> set{parse_override("solver.cfl=0.3"),
-                                  parse_override("title=It « is »"),
-                                  parse_override("material.snow.hardening=8"),
-                                  parse_override("solver.cfl=0.2"),
-                                  parse_override("camera={ fov = 20 }"),
-                                  parse_override("camera.orbit=none")};
-  const std::string text =
-      sweep_around(scene.string(), file.string(), flat_param("material.snow.hardening", "8"), set);
+  const std::vector<app::scene::Override> set{
+      app::scene::parse_override("solver.cfl=0.3"),
+      app::scene::parse_override("title=It « is »"),
+      app::scene::parse_override("material.snow.hardening=8"),
+      app::scene::parse_override("solver.cfl=0.2"),
+      app::scene::parse_override("camera={ fov = 20 }"),
+      app::scene::parse_override("camera.orbit=none")};
+  const std::string text = app::sweep::plan::sweep_around(
+      scene.string(), file.string(), flat_param("material.snow.hardening", "8"), set);
   EXPECT_NE(text.find("scene = \"../scenes/a b.toml\""), std::string::npos) << text;
   folder.write("sweeps/hardening.toml", text);
-  const Sweep sweep = read_sweep(file.string(), {});
+  const app::sweep::read::Sweep sweep = app::sweep::read::read_sweep(file.string(), {});
   ASSERT_EQ(sweep.axes.size(), 1u);
   ASSERT_EQ(sweep.axes[0].parameters.size(), 1u);
   EXPECT_EQ(sweep.axes[0].parameters[0].address, "material.snow.hardening");
   EXPECT_EQ(sweep.axes[0].size(), 5u);
   EXPECT_EQ(sweep.fixed.size(), 4u);
   // The scene of each run is the one that --set would make.
-  for (const Override& value : sweep.axes[0].parameters[0].values) {
-    std::vector<Override> in_sweep = sweep.fixed, by_hand = set;
+  for (const app::scene::Override& value : sweep.axes[0].parameters[0].values) {
+    std::vector<app::scene::Override> in_sweep = sweep.fixed, by_hand = set;
     in_sweep.push_back(value);
     by_hand.push_back(value);
-    EXPECT_EQ(write_scene(read_scene_file(sweep.scene_file, in_sweep)),
-              write_scene(read_scene_file(scene.string(), by_hand)));
+    EXPECT_EQ(app::scene::write_scene(app::scene::read_scene_file(sweep.scene_file, in_sweep)),
+              app::scene::write_scene(app::scene::read_scene_file(scene.string(), by_hand)));
   }
 }
 

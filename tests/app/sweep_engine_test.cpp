@@ -9,12 +9,12 @@
 #include <fstream>
 #include <thread>
 
-#include "app/progress.h"
-#include "app/sweep/child.h"
-#include "app/sweep/engine.h"
-#include "app/sweep/order.h"
-#include "app/sweep/outcome.h"
-#include "app/sweep/store.h"
+#include "app/support/progress.h"
+#include "app/sweep/jobs/child.h"
+#include "app/sweep/jobs/engine.h"
+#include "app/sweep/jobs/outcome.h"
+#include "app/sweep/plan/order.h"
+#include "app/sweep/store/store.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -22,8 +22,10 @@ namespace {
 
 class ChildTest : public testing::Test {
  protected:
-  ChildResult run(const std::string& script, const ChildLimits& limits) {
-    Child child({"/bin/bash", {"-c", script}, folder_.path(), folder_ / "log"}, limits);
+  app::sweep::jobs::ChildResult run(const std::string& script,
+                                    const app::sweep::jobs::ChildLimits& limits) {
+    app::sweep::jobs::Child child({"/bin/bash", {"-c", script}, folder_.path(), folder_ / "log"},
+                                  limits);
     while (true) {
       if (const auto result = child.poll()) return *result;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -34,37 +36,37 @@ class ChildTest : public testing::Test {
 };
 
 TEST_F(ChildTest, TellsHowItEnded) {
-  const ChildResult good = run("echo hello; echo bad >&2; exit 5", {});
-  EXPECT_EQ(good.ending, Ending::exited);
+  const app::sweep::jobs::ChildResult good = run("echo hello; echo bad >&2; exit 5", {});
+  EXPECT_EQ(good.ending, app::sweep::jobs::Ending::exited);
   EXPECT_EQ(good.code, 5);
   EXPECT_EQ(test::read_text(folder_ / "log"), "hello\nbad\n");
-  const ChildResult crashed = run("kill -SEGV $$", {});
-  EXPECT_EQ(crashed.ending, Ending::signaled);
+  const app::sweep::jobs::ChildResult crashed = run("kill -SEGV $$", {});
+  EXPECT_EQ(crashed.ending, app::sweep::jobs::Ending::signaled);
   EXPECT_EQ(crashed.signal, SIGSEGV);
 }
 
 TEST_F(ChildTest, IsAskedToEndAfterItsTimeAndThenEnded) {
-  EXPECT_EQ(run("sleep 60", {.timeout = 0.1}).ending, Ending::timeout);
+  EXPECT_EQ(run("sleep 60", {.timeout = 0.1}).ending, app::sweep::jobs::Ending::timeout);
   // One that does not listen.
-  const ChildResult deaf = run("trap '' TERM; while true; do sleep 0.1; done",
-                               {.timeout = 0.1, .memory = 0, .grace = 0.2});
-  EXPECT_EQ(deaf.ending, Ending::timeout);
+  const app::sweep::jobs::ChildResult deaf = run("trap '' TERM; while true; do sleep 0.1; done",
+                                                 {.timeout = 0.1, .memory = 0, .grace = 0.2});
+  EXPECT_EQ(deaf.ending, app::sweep::jobs::Ending::timeout);
   EXPECT_EQ(deaf.signal, SIGKILL);
   EXPECT_LT(deaf.seconds, 20);
 }
 
 TEST_F(ChildTest, IsEndedWhenItTakesTooMuchMemory) {
   // Keeps the last 400 MB of an endless stream.
-  const ChildResult result =
+  const app::sweep::jobs::ChildResult result =
       run("exec tail -c 400000000 < <(cat /dev/zero)", {.timeout = 60, .memory = 100'000'000});
-  EXPECT_EQ(result.ending, Ending::out_of_memory);
+  EXPECT_EQ(result.ending, app::sweep::jobs::Ending::out_of_memory);
   EXPECT_GE(result.peak_memory, 100'000'000u);
 }
 
 TEST_F(ChildTest, DiesWithItsParent) {
   const pid_t parent = ::fork();
   if (parent == 0) {
-    Child child(
+    app::sweep::jobs::Child child(
         {"/bin/bash", {"-c", "echo $$ > pid; exec sleep 600"}, folder_.path(), folder_ / "log"},
         {});
     while (!std::filesystem::exists(folder_ / "pid") || test::read_text(folder_ / "pid").empty())
@@ -89,58 +91,60 @@ TEST_F(ChildTest, DiesWithItsParent) {
 
 TEST(SweepStore, RemembersReportsAndSurvivesBrokenOnes) {
   test::TemporaryFolder folder;
-  RunReport report;
-  report.state = RunState::out_of_memory;
+  app::sweep::store::RunReport report;
+  report.state = app::sweep::store::RunState::out_of_memory;
   report.key = "0123";
   report.reason = "too \"much\"";
   report.attempts = 2;
   report.seconds = 1.5;
-  write_report(folder.path(), report);
-  const RunReport same = read_report(folder.path());
+  app::sweep::store::write_report(folder.path(), report);
+  const app::sweep::store::RunReport same = app::sweep::store::read_report(folder.path());
   EXPECT_EQ(same.state, report.state);
   EXPECT_EQ(same.key, report.key);
   EXPECT_EQ(same.reason, report.reason);
   EXPECT_EQ(same.attempts, 2);
   for (const char* broken : {"", "{", "[]", "{\"state\": 3}", "{\"state\": \"ok\"}"}) {
     folder.write("status.json", broken);
-    EXPECT_EQ(read_report(folder.path()).state, RunState::pending) << broken;
+    EXPECT_EQ(app::sweep::store::read_report(folder.path()).state,
+              app::sweep::store::RunState::pending)
+        << broken;
   }
 }
 
 TEST(SweepStore, LocksAreHeldOnce) {
   test::TemporaryFolder folder;
   {
-    const RunLock first(folder.path());
+    const app::sweep::store::RunLock first(folder.path());
     EXPECT_TRUE(first.is_held());
-    EXPECT_FALSE(RunLock(folder.path()).is_held());
+    EXPECT_FALSE(app::sweep::store::RunLock(folder.path()).is_held());
   }
-  EXPECT_TRUE(RunLock(folder.path()).is_held());
+  EXPECT_TRUE(app::sweep::store::RunLock(folder.path()).is_held());
 }
 
 TEST(SweepOrder, CornersComeFirstThenMiddles) {
   std::vector<std::vector<int>> grid;
   for (int a = 0; a < 5; ++a)
     for (int b = 0; b < 5; ++b) grid.push_back({a, b});
-  const std::vector<std::size_t> order = coarse_first(grid, {5, 5});
+  const std::vector<std::size_t> order = app::sweep::plan::coarse_first(grid, {5, 5});
   EXPECT_EQ(std::vector(order.begin(), order.begin() + 4),
             (std::vector<std::size_t>{0, 4, 20, 24}));
   const std::vector<std::size_t> middles(order.begin() + 4, order.begin() + 9);
   EXPECT_EQ(middles, (std::vector<std::size_t>{2, 10, 12, 14, 22}));
   const std::vector<std::vector<int>> row(5);
-  EXPECT_EQ(coarse_first(row, {}), (std::vector<std::size_t>{0, 4, 2, 1, 3}));
+  EXPECT_EQ(app::sweep::plan::coarse_first(row, {}), (std::vector<std::size_t>{0, 4, 2, 1, 3}));
 }
 
 TEST(SweepThreads, FillTheCoresAndFitIntoMemory) {
-  ManifestRun small, large;
+  app::sweep::store::ManifestRun small, large;
   small.particles = 5000;
   small.memory = 5e7;
   large.particles = 1e6;
   large.memory = 4e9;
-  EXPECT_EQ(threads_for(small, 64, 8, 16e9), 1);  // many small ones side by side
-  EXPECT_EQ(threads_for(large, 64, 8, 16e9), 2);  // four fit into memory
-  EXPECT_EQ(threads_for(large, 64, 8, 1e9), 8);   // none does: one at a time
-  EXPECT_EQ(threads_for(large, 2, 8, 64e9), 4);   // only two are left
-  EXPECT_EQ(threads_for(small, 1, 8, 64e9), 1);   // too small to share
+  EXPECT_EQ(app::sweep::jobs::threads_for(small, 64, 8, 16e9), 1);  // many small ones side by side
+  EXPECT_EQ(app::sweep::jobs::threads_for(large, 64, 8, 16e9), 2);  // four fit into memory
+  EXPECT_EQ(app::sweep::jobs::threads_for(large, 64, 8, 1e9), 8);   // none does: one at a time
+  EXPECT_EQ(app::sweep::jobs::threads_for(large, 2, 8, 64e9), 4);   // only two are left
+  EXPECT_EQ(app::sweep::jobs::threads_for(small, 1, 8, 64e9), 1);   // too small to share
 }
 
 TEST(SweepProgress, EstimatesOverATrailingWindow) {

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <set>
 
-#include "app/commands.h"
-#include "app/errors.h"
-#include "app/scene/error.h"
-#include "app/sweep/expand.h"
-#include "app/sweep/labels.h"
-#include "app/sweep/read_sweep.h"
-#include "app/sweep/sweep_leaf.h"
-#include "app/sweep/sweep_plan.h"
+#include "app/cli/commands.h"
+#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
+#include "app/sweep/plan/expand.h"
+#include "app/sweep/plan/labels.h"
+#include "app/sweep/plan/sweep_plan.h"
+#include "app/sweep/read/read_sweep.h"
+#include "app/sweep/read/sweep_leaf.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -30,21 +30,24 @@ class SweepFileTest : public testing::Test {
  protected:
   SweepFileTest() { folder_.write("scene.toml", swept_scene); }
 
-  Sweep read(const std::string& text, const SweepChanges& changes = {}) {
+  app::sweep::read::Sweep read(const std::string& text,
+                               const app::sweep::read::SweepChanges& changes = {}) {
     folder_.write("sweep.toml", text);
-    return read_sweep((folder_ / "sweep.toml").string(), changes);
+    return app::sweep::read::read_sweep((folder_ / "sweep.toml").string(), changes);
   }
 
-  std::vector<PlannedRun> runs(const std::string& text) { return expand(read(text)); }
+  std::vector<app::sweep::read::PlannedRun> runs(const std::string& text) {
+    return app::sweep::plan::expand(read(text));
+  }
 
   /// "LINE:COLUMN MESSAGE; HINT" of the complaint about a sweep file and its scenes.
   std::string complaint(const std::string& text) {
     folder_.write("sweep.toml", text);
-    SweepOptions options;
+    app::sweep::plan::SweepOptions options;
     options.file = (folder_ / "sweep.toml").string();
     try {
-      plan_sweep(options);
-    } catch (const SceneError& error) {
+      app::sweep::plan::plan_sweep(options);
+    } catch (const app::scene::toml::SceneError& error) {
       EXPECT_EQ(error.file, options.file);
       return std::to_string(error.line) + ":" + std::to_string(error.column) + " " + error.message +
              (error.hint.empty() ? "" : "; " + error.hint);
@@ -57,9 +60,9 @@ class SweepFileTest : public testing::Test {
 
 const std::string head = "[sweep]\nscene = \"scene.toml\"\n";
 
-std::vector<std::string> values(const PlannedRun& run) {
+std::vector<std::string> values(const app::sweep::read::PlannedRun& run) {
   std::vector<std::string> list;
-  for (const Override& setting : run.settings) list.push_back(setting.value);
+  for (const app::scene::Override& setting : run.settings) list.push_back(setting.value);
   return list;
 }
 
@@ -75,10 +78,11 @@ TEST_F(SweepFileTest, GridsCombineAllAxesAndTheLastVariesFastest) {
 }
 
 TEST_F(SweepFileTest, NoValueOfTheCommandLineIsLost) {
-  const SweepChanges twice{{"seed=1,2", "fps=24,30", "seed=3"}, {}};
-  EXPECT_THROW(read(head + "[axis]\n\"seed\" = [1]\n", twice), UsageError);
-  const Sweep sweep = read(head + "[axis]\n\"fps\" = [24, 30, 24]\n", {{"seed=1,2,1"}, {}});
-  EXPECT_EQ(repeated_values(sweep), (Strings{"fps = 24", "seed = 1"}));
+  const app::sweep::read::SweepChanges twice{{"seed=1,2", "fps=24,30", "seed=3"}, {}};
+  EXPECT_THROW(read(head + "[axis]\n\"seed\" = [1]\n", twice), app::scene::toml::UsageError);
+  const app::sweep::read::Sweep sweep =
+      read(head + "[axis]\n\"fps\" = [24, 30, 24]\n", {{"seed=1,2,1"}, {}});
+  EXPECT_EQ(app::sweep::read::repeated_values(sweep), (Strings{"fps = 24", "seed = 1"}));
 }
 
 TEST_F(SweepFileTest, ZipGoesAlongAllAxesAtOnce) {
@@ -136,7 +140,7 @@ TEST_F(SweepFileTest, LatinHypercubesMeetEveryPartOfEveryAxisOnce) {
   ASSERT_EQ(list.size(), 20u);
   std::set<int> first, second;
   int flips = 0;
-  for (const PlannedRun& run : list) {
+  for (const app::sweep::read::PlannedRun& run : list) {
     first.insert(static_cast<int>(std::stod(run.settings[0].value) * 10));
     second.insert(static_cast<int>(std::stod(run.settings[1].value) * 20));
     flips += run.settings[2].value == "\"flip\"";
@@ -161,35 +165,39 @@ TEST_F(SweepFileTest, WhatIsDrawnDependsOnTheSeedAlone) {
 
 TEST(SweepQuantile, IsTheInverseOfTheNormalDistribution) {
   // Tables of the normal distribution, five digits.
-  EXPECT_NEAR(normal_quantile(0.5), 0, 1e-12);
-  EXPECT_NEAR(normal_quantile(0.975), 1.95996, 1e-5);
-  EXPECT_NEAR(normal_quantile(0.00135), -2.99998, 1e-4);
+  EXPECT_NEAR(app::sweep::plan::normal_quantile(0.5), 0, 1e-12);
+  EXPECT_NEAR(app::sweep::plan::normal_quantile(0.975), 1.95996, 1e-5);
+  EXPECT_NEAR(app::sweep::plan::normal_quantile(0.00135), -2.99998, 1e-4);
 }
 
 TEST_F(SweepFileTest, WholeNumbersAreDrawnWhole) {
-  for (const PlannedRun& run :
+  for (const app::sweep::read::PlannedRun& run :
        runs(head + "method = \"lhs\"\nsamples = 5\n[axis]\n\"seed\" = { uniform = [1, 99] }\n"))
     EXPECT_EQ(run.settings[0].value.find('.'), std::string::npos) << run.settings[0].value;
 }
 
 TEST_F(SweepFileTest, CommandLineAxesReplaceThoseOfTheFile) {
-  const SweepChanges changes{{"seed=5,6,7", "fps={ linspace = [10, 20], num = 2 }"}, {}};
-  const auto list = expand(read(head + "[axis]\n\"seed\" = [1, 2]\n", changes));
+  const app::sweep::read::SweepChanges changes{
+      {"seed=5,6,7", "fps={ linspace = [10, 20], num = 2 }"}, {}};
+  const auto list = app::sweep::plan::expand(read(head + "[axis]\n\"seed\" = [1, 2]\n", changes));
   ASSERT_EQ(list.size(), 6u);
   EXPECT_EQ(values(list[5]), (Strings{"7", "20"}));
 }
 
 TEST_F(SweepFileTest, ScenesAreVariedFromTheCommandLine) {
   const auto file = (folder_ / "scene.toml").string();
-  const auto list = expand(read_sweep(
+  const auto list = app::sweep::plan::expand(app::sweep::read::read_sweep(
       file, {{"body.ball.velocity=[0,-1,0],[0,-2,0]", "solver.transfer=flip,apic"}, {}}));
   ASSERT_EQ(list.size(), 4u);
   EXPECT_EQ(values(list[3]), (Strings{"[0,-2,0]", "apic"}));
-  EXPECT_THROW(read_sweep(file, {}), UsageError);
-  EXPECT_THROW(read_sweep(file, {{"seed"}, {}}), UsageError);
-  EXPECT_THROW(read_sweep(file, {{"seed=1,,2"}, {}}), UsageError);
-  EXPECT_THROW(read_sweep(file, {{"seed={ linspce = [1, 2] }"}, {}}), UsageError);
-  EXPECT_THROW(read_sweep(file, {{"seed=1,2"}, {"seed=3"}}), UsageError);
+  EXPECT_THROW(app::sweep::read::read_sweep(file, {}), app::scene::toml::UsageError);
+  EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed"}, {}}), app::scene::toml::UsageError);
+  EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed=1,,2"}, {}}),
+               app::scene::toml::UsageError);
+  EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed={ linspce = [1, 2] }"}, {}}),
+               app::scene::toml::UsageError);
+  EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed=1,2"}, {"seed=3"}}),
+               app::scene::toml::UsageError);
 }
 
 TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
@@ -250,29 +258,29 @@ TEST_F(SweepFileTest, FramesAreGivenForAllRunsOrVaried) {
             "3:10 sweep.frames is for all runs, and the sweep varies frames; remove one of them");
   EXPECT_EQ(complaint(head + "frames = \"0-2\"\n[[run]]\nframes = 1\n"),
             "3:10 sweep.frames is for all runs, and the sweep varies frames; remove one of them");
-  SweepOptions options;
+  app::sweep::plan::SweepOptions options;
   options.file = (folder_ / "scene.toml").string();
   options.axes = {"frames=1,2"};
-  const SweepPlan plan = plan_sweep(options);
+  const app::sweep::plan::SweepPlan plan = app::sweep::plan::plan_sweep(options);
   EXPECT_EQ(plan.runs[1].frames.last, 2);
-  options.frames = FrameRange{0, 3};
-  EXPECT_THROW(plan_sweep(options), UsageError);
+  options.frames = app::setup::FrameRange{0, 3};
+  EXPECT_THROW(app::sweep::plan::plan_sweep(options), app::scene::toml::UsageError);
 }
 
 TEST_F(SweepFileTest, RunsNeedTheMemoryOfTheirProcess) {
-  SweepOptions options;
+  app::sweep::plan::SweepOptions options;
   options.file = (folder_ / "scene.toml").string();
   options.axes = {"seed=1"};
-  const RunPlan run = plan_sweep(options).runs[0];
-  EXPECT_EQ(run.memory(), run.plan.memory + program_memory);
+  const app::sweep::plan::RunPlan run = app::sweep::plan::plan_sweep(options).runs[0];
+  EXPECT_EQ(run.memory(), run.plan.memory + app::sweep::plan::program_memory);
   EXPECT_GT(run.memory(), 80'000'000u);
 }
 
 TEST_F(SweepFileTest, RangesOfOtherProgramsAndComponentsAreExplained) {
   const auto hint = [&](const std::string& axis) -> std::string {
     try {
-      read_sweep((folder_ / "scene.toml").string(), {{axis}, {}});
-    } catch (const UsageError& error) {
+      app::sweep::read::read_sweep((folder_ / "scene.toml").string(), {{axis}, {}});
+    } catch (const app::scene::toml::UsageError& error) {
       return error.hint;
     }
     return "";
@@ -303,24 +311,25 @@ TEST_F(SweepFileTest, TooManyRunsAreRefusedBeforeTheyAreMade) {
 }
 
 TEST(SweepDuration, ReadsUnits) {
-  EXPECT_EQ(seconds_of("90"), 90);
-  EXPECT_EQ(seconds_of("20m"), 1200);
-  EXPECT_EQ(seconds_of("1h30m"), 5400);
-  EXPECT_EQ(seconds_of("1.5s"), 1.5);
+  EXPECT_EQ(app::sweep::read::seconds_of("90"), 90);
+  EXPECT_EQ(app::sweep::read::seconds_of("20m"), 1200);
+  EXPECT_EQ(app::sweep::read::seconds_of("1h30m"), 5400);
+  EXPECT_EQ(app::sweep::read::seconds_of("1.5s"), 1.5);
   for (const char* wrong : {"", "m", "20 m", "-3s", "1x", "nan", "inf"})
-    EXPECT_FALSE(seconds_of(wrong)) << wrong;
+    EXPECT_FALSE(app::sweep::read::seconds_of(wrong)) << wrong;
 }
 
 TEST(SweepLabels, AreAsShortAsTellsThemApart) {
-  EXPECT_EQ(short_names({"material.snow.hardening", "seed"}), (Strings{"hardening", "seed"}));
-  EXPECT_EQ(short_names({"material.snow.hardening", "material.ice.hardening"}),
+  EXPECT_EQ(app::sweep::plan::short_names({"material.snow.hardening", "seed"}),
+            (Strings{"hardening", "seed"}));
+  EXPECT_EQ(app::sweep::plan::short_names({"material.snow.hardening", "material.ice.hardening"}),
             (Strings{"snow.hardening", "ice.hardening"}));
-  EXPECT_EQ(value_text("0.10000000000000001"), "0.1");
-  EXPECT_EQ(value_text("48000"), "48000");
-  EXPECT_EQ(value_text("140000"), "1.4e5");
-  EXPECT_EQ(value_text("-1000000"), "-1e6");
-  EXPECT_EQ(value_text("\"flip\""), "flip");
-  EXPECT_EQ(value_text("[0, -5, 0]"), "[0, -5, 0]");
+  EXPECT_EQ(app::sweep::plan::value_text("0.10000000000000001"), "0.1");
+  EXPECT_EQ(app::sweep::plan::value_text("48000"), "48000");
+  EXPECT_EQ(app::sweep::plan::value_text("140000"), "1.4e5");
+  EXPECT_EQ(app::sweep::plan::value_text("-1000000"), "-1e6");
+  EXPECT_EQ(app::sweep::plan::value_text("\"flip\""), "flip");
+  EXPECT_EQ(app::sweep::plan::value_text("[0, -5, 0]"), "[0, -5, 0]");
 }
 
 }  // namespace

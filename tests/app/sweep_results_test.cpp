@@ -6,13 +6,13 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/metrics.h"
-#include "app/output/run_json.h"
-#include "app/sweep/data_csv.h"
-#include "app/sweep/metric_plots.h"
-#include "app/sweep/outcome.h"
-#include "app/sweep/report.h"
-#include "app/sweep/sheet_layout.h"
+#include "app/run/metrics.h"
+#include "app/run/run_json.h"
+#include "app/sweep/jobs/outcome.h"
+#include "app/sweep/sheet/data_csv.h"
+#include "app/sweep/sheet/metric_plots.h"
+#include "app/sweep/sheet/report.h"
+#include "app/sweep/sheet/sheet_layout.h"
 #include "tests/support/cinema.h"
 #include "tests/support/temporary_folder.h"
 
@@ -33,17 +33,17 @@ void add_cube(const sim::Vec3d& corner, int cells, sim::ParticleArrays& particle
 TEST(Metrics, CountFragmentsThatDoNotTouch) {
   sim::ParticleArrays particles;
   add_cube({0, 0, 0}, 4, particles);
-  EXPECT_EQ(measure(particles, 1).fragments, 1u);
+  EXPECT_EQ(app::run::measure(particles, 1).fragments, 1u);
   add_cube({4, 4, 4}, 2, particles);  // touches with a corner
-  EXPECT_EQ(measure(particles, 1).fragments, 1u);
+  EXPECT_EQ(app::run::measure(particles, 1).fragments, 1u);
   add_cube({-5, 0, 0}, 4, particles);  // a cell between them
-  EXPECT_EQ(measure(particles, 1).fragments, 2u);
+  EXPECT_EQ(app::run::measure(particles, 1).fragments, 2u);
   add_cube({0, 9, 0}, 1, particles);
-  const Metrics metrics = measure(particles, 1);
+  const app::run::Metrics metrics = app::run::measure(particles, 1);
   EXPECT_EQ(metrics.fragments, 3u);
   EXPECT_NEAR(metrics.largest_fragment, 72.0 / 137, 1e-12);  // cells of 8 particles each
   EXPECT_NEAR(metrics.mean_J_P, 0.9, 1e-12);
-  EXPECT_EQ(measure(particles, 2).fragments, 2u);  // larger cells bridge the gap of one
+  EXPECT_EQ(app::run::measure(particles, 2).fragments, 2u);  // larger cells bridge the gap of one
 }
 
 TEST(Metrics, SpreadAndHeightAreThoseOfABox) {
@@ -53,7 +53,7 @@ TEST(Metrics, SpreadAndHeightAreThoseOfABox) {
     particles.m.push_back(1);
     particles.J_P.push_back(1);
   }
-  const Metrics metrics = measure(particles, 0.1);
+  const app::run::Metrics metrics = app::run::measure(particles, 0.1);
   // A spiral of radius 1 about a centre that is the axis but for its last turn.
   EXPECT_NEAR(metrics.spread, 1, 0.02);
   EXPECT_NEAR(metrics.height, 9.6, 0.02);  // 96 % of 10
@@ -61,15 +61,15 @@ TEST(Metrics, SpreadAndHeightAreThoseOfABox) {
 
 TEST(Metrics, StatesThatExplodedCountWhatIsFinite) {
   sim::ParticleArrays particles;
-  EXPECT_EQ(measure(particles, 1).fragments, 0u);
+  EXPECT_EQ(app::run::measure(particles, 1).fragments, 0u);
   add_cube({0, 0, 0}, 1, particles);
   particles.x[0].setConstant(NAN);
   particles.x[1].setConstant(1e300);
-  EXPECT_EQ(measure(particles, 1).fragments, 1u);
+  EXPECT_EQ(app::run::measure(particles, 1).fragments, 1u);
 }
 
-Manifest manifest_of(const std::vector<int>& sizes) {
-  Manifest m;
+app::sweep::store::Manifest manifest_of(const std::vector<int>& sizes) {
+  app::sweep::store::Manifest m;
   m.version = "1";
   m.title = "Test </script> & \"quotes\"";
   m.view = "particles";
@@ -78,7 +78,7 @@ Manifest manifest_of(const std::vector<int>& sizes) {
   for (std::size_t a = 0; a < sizes.size(); ++a) {
     const std::string address = "a.b" + std::to_string(a);
     m.parameters.push_back({address, "b" + std::to_string(a), "Pa", "number"});
-    ManifestAxis axis{"b" + std::to_string(a), {}};
+    app::sweep::store::ManifestAxis axis{"b" + std::to_string(a), {}};
     std::vector<std::vector<int>> longer;
     for (int k = 0; k < sizes[a]; ++k) axis.values.push_back(std::to_string(k));
     for (const auto& place : places)
@@ -90,9 +90,9 @@ Manifest manifest_of(const std::vector<int>& sizes) {
     m.axes.push_back(axis);
   }
   for (const auto& place : places) {
-    ManifestRun run;
+    app::sweep::store::ManifestRun run;
     run.index = static_cast<int>(m.runs.size());
-    run.folder = run_folder_name(run.index);
+    run.folder = app::sweep::store::run_folder_name(run.index);
     run.coordinates = place;
     for (std::size_t a = 0; a < place.size(); ++a)
       run.settings.emplace_back("a.b" + std::to_string(a), std::to_string(place[a]));
@@ -104,13 +104,13 @@ Manifest manifest_of(const std::vector<int>& sizes) {
 TEST(SheetLayout, HasEveryRunOnceAndNoTileOverAnother) {
   for (const auto& sizes : std::vector<std::vector<int>>{
            {}, {1}, {3}, {20}, {2, 3}, {3, 2, 2}, {2, 2, 2, 2}, {2, 3, 2, 2, 2}, {12, 40}}) {
-    const Manifest m = manifest_of(sizes);
-    const SheetLayout layout = layout_sheet(m, true, 8192);
+    const app::sweep::store::Manifest m = manifest_of(sizes);
+    const app::sweep::sheet::SheetLayout layout = app::sweep::sheet::layout_sheet(m, true, 8192);
     ASSERT_EQ(layout.tiles.size(), m.runs.size());
     EXPECT_LE(layout.width, 8192);
     EXPECT_LE(layout.height, 8192);
     for (std::size_t a = 0; a < layout.tiles.size(); ++a) {
-      const SheetTile& tile = layout.tiles[a];
+      const app::sweep::sheet::SheetTile& tile = layout.tiles[a];
       EXPECT_GE(tile.x, 0);
       EXPECT_GE(tile.y, layout.header);
       EXPECT_LE(tile.x + layout.tile_width, layout.width);
@@ -124,9 +124,9 @@ TEST(SheetLayout, HasEveryRunOnceAndNoTileOverAnother) {
 }
 
 TEST(SheetLayout, LastAxisGoesAcrossUnlessAskedOtherwise) {
-  Manifest m = manifest_of({2, 3});
+  app::sweep::store::Manifest m = manifest_of({2, 3});
   const auto is_across = [&](std::size_t a, std::size_t b) {
-    const SheetLayout layout = layout_sheet(m, false, 8192);
+    const app::sweep::sheet::SheetLayout layout = app::sweep::sheet::layout_sheet(m, false, 8192);
     return layout.tiles[a].y == layout.tiles[b].y && layout.tiles[a].x < layout.tiles[b].x;
   };
   EXPECT_TRUE(is_across(0, 1));
@@ -140,11 +140,11 @@ TEST(SheetLayout, LastAxisGoesAcrossUnlessAskedOtherwise) {
 }
 
 TEST(SheetLayout, RowsSayNameAndValueInOneLineWhereBothFit) {
-  Manifest m = manifest_of({2, 3});
+  app::sweep::store::Manifest m = manifest_of({2, 3});
   m.axes[0].name = "rate";
   m.axes[0].values = {"5 kg/s", "10 kg/s"};
   const auto has = [&](const std::string& text) {
-    const SheetLayout layout = layout_sheet(m, false, 8192);
+    const app::sweep::sheet::SheetLayout layout = app::sweep::sheet::layout_sheet(m, false, 8192);
     return std::any_of(layout.labels.begin(), layout.labels.end(),
                        [&](const render::Note& label) { return label.text == text; });
   };
@@ -152,13 +152,13 @@ TEST(SheetLayout, RowsSayNameAndValueInOneLineWhereBothFit) {
   m.axes[0].name = "critical_compression, critical_stretch";
   EXPECT_TRUE(has("critical_compression, critical_stretch ="));
   EXPECT_TRUE(has("5 kg/s"));
-  EXPECT_TRUE(layout_sheet(m, false, 8192).has_edges);
-  EXPECT_FALSE(layout_sheet(manifest_of({20}), false, 8192).has_edges);
+  EXPECT_TRUE(app::sweep::sheet::layout_sheet(m, false, 8192).has_edges);
+  EXPECT_FALSE(app::sweep::sheet::layout_sheet(manifest_of({20}), false, 8192).has_edges);
 }
 
 TEST(SheetLayout, FurtherAxesAreSetApart) {
-  const Manifest m = manifest_of({2, 3, 3});
-  const SheetLayout layout = layout_sheet(m, false, 8192);
+  const app::sweep::store::Manifest m = manifest_of({2, 3, 3});
+  const app::sweep::sheet::SheetLayout layout = app::sweep::sheet::layout_sheet(m, false, 8192);
   const auto at = [&](std::size_t k) { return std::pair(layout.tiles[k].x, layout.tiles[k].y); };
   const int inside = at(1).first - at(0).first;
   // Blocks of nine beside or below each other, with more than the usual gap.
@@ -166,14 +166,15 @@ TEST(SheetLayout, FurtherAxesAreSetApart) {
   EXPECT_TRUE(across > inside || down > at(3).second - at(0).second);
 }
 
-std::vector<RunResult> results_of(const Manifest& m) {
-  std::vector<RunResult> results(m.runs.size());
+std::vector<app::sweep::store::RunResult> results_of(const app::sweep::store::Manifest& m) {
+  std::vector<app::sweep::store::RunResult> results(m.runs.size());
   for (std::size_t k = 0; k < results.size(); ++k) {
-    RunResult& r = results[k];
-    r.report.state = k % 3 == 1 ? RunState::diverged : RunState::ok;
+    app::sweep::store::RunResult& r = results[k];
+    r.report.state =
+        k % 3 == 1 ? app::sweep::store::RunState::diverged : app::sweep::store::RunState::ok;
     r.report.reason = k % 3 == 1 ? "diverged, \"badly\"" : "";
     r.report.short_reason = "frame 17: acoustic CFL 3.1";
-    for (std::size_t i = 0; i < metric_infos().size(); ++i)
+    for (std::size_t i = 0; i < app::sweep::store::metric_infos().size(); ++i)
       r.metrics.push_back(k % 4 == 2 ? std::nullopt
                                      : std::optional(static_cast<double>(k) * (k % 2 ? 0.5 : 1)));
   }
@@ -182,7 +183,7 @@ std::vector<RunResult> results_of(const Manifest& m) {
 
 TEST(DataCsv, KeepsTheRulesOfCinema) {
   test::TemporaryFolder folder;
-  Manifest m = manifest_of({2, 3});
+  app::sweep::store::Manifest m = manifest_of({2, 3});
   m.parameters.push_back({"body.ball.velocity", "velocity", "m/s", "vector"});
   m.parameters.push_back({"solver.transfer", "transfer", "", "choice"});
   m.parameters.push_back({"seed", "seed", "", "integer"});
@@ -190,7 +191,7 @@ TEST(DataCsv, KeepsTheRulesOfCinema) {
   m.parameters.push_back({"FILE.name", "name", "", "string"});
   const char* const titles[] = {"12", "nan", "a, \"b\"", "1e5", "", "x"};
   for (std::size_t k = 0; k < m.runs.size(); ++k) {
-    ManifestRun& run = m.runs[k];
+    app::sweep::store::ManifestRun& run = m.runs[k];
     run.settings.emplace_back("body.ball.velocity", "[0, -5, " + std::to_string(k) + "]");
     run.settings.emplace_back("solver.transfer", k % 2 ? "\"flip\"" : "apic");
     run.settings.emplace_back("seed", std::to_string(k));
@@ -199,10 +200,10 @@ TEST(DataCsv, KeepsTheRulesOfCinema) {
     run.label = k % 2 ? "7" : "";
     folder.write("runs/" + run.folder + "/scene.toml", "x");
   }
-  std::vector<RunResult> results = results_of(m);
+  std::vector<app::sweep::store::RunResult> results = results_of(m);
   results[0].frames = {0, 3};
   folder.write("runs/0000/particles/0003.png", "x");
-  const std::string csv = data_csv(m, results);
+  const std::string csv = app::sweep::sheet::data_csv(m, results);
   EXPECT_EQ(test::cinema_problem(csv, folder.path()), "") << csv;
   EXPECT_NE(csv.find("runs/0000/particles/0003.png,runs/0000/scene.toml\n"), std::string::npos);
   // The check itself finds what it is for.
@@ -218,16 +219,18 @@ TEST(DataCsv, KeepsTheRulesOfCinema) {
 }
 
 TEST(DataCsv, HasEveryColumnOnceWhenAnAxisIsCalledAsAMetric) {
-  Manifest m = manifest_of({2});
+  app::sweep::store::Manifest m = manifest_of({2});
   m.parameters = {{"frames", "frames", "", "integer"}, {"steps", "steps", "", "integer"}};
-  const std::vector<test::CsvRow> rows = test::parse_csv(data_csv(m, results_of(m)));
+  const std::vector<test::CsvRow> rows =
+      test::parse_csv(app::sweep::sheet::data_csv(m, results_of(m)));
   for (const char* name : {"frames", "frames_done", "steps", "steps_done"})
     EXPECT_EQ(std::count(rows[0].begin(), rows[0].end(), name), 1) << name;
 }
 
 TEST(DataCsv, HasNoMetricsOfRunsThatBrokeDownButWhatTheyCost) {
-  const Manifest m = manifest_of({2});
-  const std::vector<test::CsvRow> rows = test::parse_csv(data_csv(m, results_of(m)));
+  const app::sweep::store::Manifest m = manifest_of({2});
+  const std::vector<test::CsvRow> rows =
+      test::parse_csv(app::sweep::sheet::data_csv(m, results_of(m)));
   const auto cell = [&](std::size_t row, const char* name) {
     const auto at = std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin();
     return rows[row].at(static_cast<std::size_t>(at));
@@ -241,20 +244,22 @@ TEST(DataCsv, HasNoMetricsOfRunsThatBrokeDownButWhatTheyCost) {
 
 TEST(RunResults, CountTheStepsUntilARunDiverged) {
   const test::TemporaryFolder folder;
-  Manifest m = manifest_of({1});
+  app::sweep::store::Manifest m = manifest_of({1});
   m.runs[0].key = "k";
-  FrameRecord frame;
+  app::run::FrameRecord frame;
   frame.advance.steps = 5;
-  Json run = {{"frames", Json::array({to_json(frame)})}, {"divergence", {{"step", 17}}}};
+  Json run = {{"frames", Json::array({app::run::to_json(frame)})}, {"divergence", {{"step", 17}}}};
   folder.write("runs/0000/run.json", to_text(run));
-  RunReport report;
-  report.state = RunState::diverged;
+  app::sweep::store::RunReport report;
+  report.state = app::sweep::store::RunState::diverged;
   report.key = "k";
-  write_report(folder.path() / "runs/0000", report);
+  app::sweep::store::write_report(folder.path() / "runs/0000", report);
   const auto steps = [&] {
-    const RunResult result = read_result(folder.path(), m.runs[0]);
-    for (std::size_t k = 0; k < metric_infos().size(); ++k)
-      if (metric_infos()[k].name == std::string("steps")) return result.metrics[k];
+    const app::sweep::store::RunResult result =
+        app::sweep::store::read_result(folder.path(), m.runs[0]);
+    for (std::size_t k = 0; k < app::sweep::store::metric_infos().size(); ++k)
+      if (app::sweep::store::metric_infos()[k].name == std::string("steps"))
+        return result.metrics[k];
     return std::optional<double>();
   };
   EXPECT_EQ(steps(), 17);
@@ -264,28 +269,28 @@ TEST(RunResults, CountTheStepsUntilARunDiverged) {
 }
 
 TEST(RunText, HasTheFolderWhereItsNumberIsAnother) {
-  ManifestRun run;
+  app::sweep::store::ManifestRun run;
   run.index = 1;
   run.folder = "0001";
-  EXPECT_EQ(run_text(run), "run 1");
+  EXPECT_EQ(app::sweep::store::run_text(run), "run 1");
   run.folder = "0010";
-  EXPECT_EQ(run_text(run), "run 1 (runs/0010)");
+  EXPECT_EQ(app::sweep::store::run_text(run), "run 1 (runs/0010)");
 }
 
 TEST(DataCsv, LeavesOutTimesWhereTablesAreCompared) {
-  const Manifest m = manifest_of({2});
-  std::vector<RunResult> results = results_of(m);
-  const std::string without = data_csv(m, results, false);
+  const app::sweep::store::Manifest m = manifest_of({2});
+  std::vector<app::sweep::store::RunResult> results = results_of(m);
+  const std::string without = app::sweep::sheet::data_csv(m, results, false);
   results[0].metrics.back() = 1e6;
-  EXPECT_EQ(data_csv(m, results, false), without);
-  EXPECT_NE(data_csv(m, results), without);
+  EXPECT_EQ(app::sweep::sheet::data_csv(m, results, false), without);
+  EXPECT_NE(app::sweep::sheet::data_csv(m, results), without);
 }
 
 TEST(SweepReport, IsOneFileThatNamesNothingOutside) {
-  const Manifest m = manifest_of({2, 3});
-  const std::vector<RunResult> results = results_of(m);
-  const std::string html =
-      report_html("out/a b.cdb", m, results, layout_sheet(m, false, 8192), {1, 2, 3});
+  const app::sweep::store::Manifest m = manifest_of({2, 3});
+  const std::vector<app::sweep::store::RunResult> results = results_of(m);
+  const std::string html = app::sweep::sheet::report_html(
+      "out/a b.cdb", m, results, app::sweep::sheet::layout_sheet(m, false, 8192), {1, 2, 3});
   std::string rest = html;
   // The name of a namespace is an address that nobody opens.
   for (const std::string name : {"http://www.w3.org/2000/svg"})
@@ -303,100 +308,108 @@ TEST(SweepReport, IsOneFileThatNamesNothingOutside) {
 }
 
 TEST(SweepReport, KeepsParametersAsTheyWereWritten) {
-  Manifest m = manifest_of({2});
+  app::sweep::store::Manifest m = manifest_of({2});
   m.runs[0].settings[0].second = "0.123456789";
   m.runs[1].settings[0].second = "1.40e5";
-  const std::string html = report_html("out", m, results_of(m), layout_sheet(m, false, 8192), {});
+  const std::string html = app::sweep::sheet::report_html(
+      "out", m, results_of(m), app::sweep::sheet::layout_sheet(m, false, 8192), {});
   EXPECT_NE(html.find("\"texts\":{\"1\":\"0.123456789\"}"), std::string::npos);
   EXPECT_NE(html.find("\"texts\":{\"1\":\"1.40e5\"}"), std::string::npos);
 }
 
 TEST(MetricPlots, HaveAPointForEachRunThatHasTheMetric) {
-  const Manifest m = manifest_of({4});
-  const std::string svg = metric_plots_svg(m, results_of(m), true);
+  const app::sweep::store::Manifest m = manifest_of({4});
+  const std::string svg = app::sweep::sheet::metric_plots_svg(m, results_of(m), true);
   const auto count = [&](const std::string& what) {
     std::size_t found = 0;
     for (std::size_t at = 0; (at = svg.find(what, at)) != std::string::npos; ++at) ++found;
     return found;
   };
-  EXPECT_EQ(count("<circle"), 3 * metric_infos().size());
-  EXPECT_EQ(count("class=\"run failed\""), metric_infos().size());
+  EXPECT_EQ(count("<circle"), 3 * app::sweep::store::metric_infos().size());
+  EXPECT_EQ(count("class=\"run failed\""), app::sweep::store::metric_infos().size());
   EXPECT_EQ(
-      metric_plots_svg(m,
-                       std::vector<RunResult>(
-                           4, {{}, {}, std::vector<std::optional<double>>(metric_infos().size())}),
-                       true),
+      app::sweep::sheet::metric_plots_svg(
+          m,
+          std::vector<app::sweep::store::RunResult>(
+              4, {{},
+                  {},
+                  std::vector<std::optional<double>>(app::sweep::store::metric_infos().size())}),
+          true),
       "");
 }
 
 TEST(RunWarnings, AreReadFromRunJsonAndCountedInTableAndReport) {
   const test::TemporaryFolder folder;
-  Manifest m = manifest_of({3});
-  for (ManifestRun& run : m.runs) {
+  app::sweep::store::Manifest m = manifest_of({3});
+  for (app::sweep::store::ManifestRun& run : m.runs) {
     run.key = "k";
-    RunReport report;
-    report.state = RunState::ok;
+    app::sweep::store::RunReport report;
+    report.state = app::sweep::store::RunState::ok;
     report.key = "k";
     const auto run_folder = folder.path() / "runs" / run.folder;
     std::filesystem::create_directories(run_folder);
-    write_report(run_folder, report);
+    app::sweep::store::write_report(run_folder, report);
   }
   folder.write("runs/0000/run.json", R"({"frames": [], "warnings": ["CFL < 4", "odd"]})");
   folder.write("runs/0001/run.json", R"({"frames": []})");  // of an older version
   folder.write("runs/0002/run.json", R"({"frames": [], "warnings": 3})");
-  const std::vector<RunResult> results = read_results(folder.path(), m);
+  const std::vector<app::sweep::store::RunResult> results =
+      app::sweep::store::read_results(folder.path(), m);
   EXPECT_EQ(results[0].warnings, (std::vector<std::string>{"CFL < 4", "odd"}));
   EXPECT_TRUE(results[1].warnings.empty());
   EXPECT_TRUE(results[2].warnings.empty());
-  EXPECT_EQ(warning_lines(m, results), (std::vector<std::string>{"run 0: CFL < 4; odd"}));
-  const std::vector<test::CsvRow> rows = test::parse_csv(data_csv(m, results));
+  EXPECT_EQ(app::sweep::store::warning_lines(m, results),
+            (std::vector<std::string>{"run 0: CFL < 4; odd"}));
+  const std::vector<test::CsvRow> rows = test::parse_csv(app::sweep::sheet::data_csv(m, results));
   const auto column = static_cast<std::size_t>(
       std::find(rows[0].begin(), rows[0].end(), "warnings") - rows[0].begin());
   ASSERT_LT(column, rows[0].size());
   EXPECT_EQ(rows[1][column], "2");
   EXPECT_EQ(rows[2][column], "0");
-  const std::string html = report_html("out", m, results, layout_sheet(m, false, 8192), {});
+  const std::string html = app::sweep::sheet::report_html(
+      "out", m, results, app::sweep::sheet::layout_sheet(m, false, 8192), {});
   // As script_json writes "<".
   EXPECT_NE(html.find("\"warnings\":[\"CFL \\u003c 4\",\"odd\"]"), std::string::npos);
 }
 
 TEST(RunWarnings, NameFiveRunsAndCountTheOthers) {
-  const Manifest m = manifest_of({8});
-  std::vector<RunResult> results = results_of(m);
-  EXPECT_TRUE(warning_lines(m, results).empty());
-  for (RunResult& result : results) result.warnings = {"x"};
-  const std::vector<std::string> lines = warning_lines(m, results);
+  const app::sweep::store::Manifest m = manifest_of({8});
+  std::vector<app::sweep::store::RunResult> results = results_of(m);
+  EXPECT_TRUE(app::sweep::store::warning_lines(m, results).empty());
+  for (app::sweep::store::RunResult& result : results) result.warnings = {"x"};
+  const std::vector<std::string> lines = app::sweep::store::warning_lines(m, results);
   ASSERT_EQ(lines.size(), 6u);
   EXPECT_EQ(lines[4], "run 4: x");
   EXPECT_EQ(lines[5], "and 3 more runs with warnings, see report.html");
-  EXPECT_EQ(warning_count_text(1), "1 warning");
+  EXPECT_EQ(app::sweep::store::warning_count_text(1), "1 warning");
 }
 
 TEST(MetricPlots, LeaveTheAxesToRunsThatGotToTheirEnd) {
-  const Manifest m = manifest_of({4});
-  std::vector<RunResult> results = results_of(m);
-  const std::string svg = metric_plots_svg(m, results, true);
+  const app::sweep::store::Manifest m = manifest_of({4});
+  std::vector<app::sweep::store::RunResult> results = results_of(m);
+  const std::string svg = app::sweep::sheet::metric_plots_svg(m, results, true);
   // The second run diverged: wherever above the others it was, its ring is at the edge.
   for (std::optional<double>& value : results[1].metrics) value = 1e6;
-  const std::string far = metric_plots_svg(m, results, true);
+  const std::string far = app::sweep::sheet::metric_plots_svg(m, results, true);
   for (std::optional<double>& value : results[1].metrics) value = 1e9;
   const auto without_tooltips = [](std::string text) {
     for (std::size_t at; (at = text.find("<title>")) != std::string::npos;)
       text.erase(at, text.find("</title>", at) + 8 - at);
     return text;
   };
-  EXPECT_EQ(without_tooltips(metric_plots_svg(m, results, true)), without_tooltips(far));
+  EXPECT_EQ(without_tooltips(app::sweep::sheet::metric_plots_svg(m, results, true)),
+            without_tooltips(far));
   EXPECT_NE(without_tooltips(svg), without_tooltips(far));
 }
 
 TEST(TileText, SaysWhatHappenedInPlace) {
-  RunReport report;
-  report.state = RunState::diverged;
+  app::sweep::store::RunReport report;
+  report.state = app::sweep::store::RunState::diverged;
   report.short_reason = "frame 17: acoustic CFL 3.1";
-  EXPECT_EQ(tile_text(report), "DIVERGED frame 17: acoustic CFL 3.1");
-  report.state = RunState::out_of_memory;
+  EXPECT_EQ(app::sweep::jobs::tile_text(report), "DIVERGED frame 17: acoustic CFL 3.1");
+  report.state = app::sweep::store::RunState::out_of_memory;
   report.short_reason.clear();
-  EXPECT_EQ(tile_text(report), "OUT OF MEMORY");
+  EXPECT_EQ(app::sweep::jobs::tile_text(report), "OUT OF MEMORY");
 }
 
 }  // namespace

@@ -20,9 +20,9 @@ std::string bytes_of(const std::filesystem::path& file) {
 
 void expect_scene_error(const std::string& text, const std::string& name) {
   try {
-    read_scene_text(text, name);
+    app::scene::read_scene_text(text, name);
     ADD_FAILURE() << name << " was read";
-  } catch (const SceneError& error) {
+  } catch (const app::scene::toml::SceneError& error) {
     const std::string what = error.what();
     EXPECT_TRUE(what.starts_with(name + ":")) << what;
     EXPECT_LT(what.size(), 2000u) << name;
@@ -140,17 +140,17 @@ class Mutator {
 };
 
 TEST(TomlFuzz, MutatedScenesAreReadOrSceneErrors) {
-  ASSERT_NO_THROW(read_scene_text(seed_text, "seed"));
+  ASSERT_NO_THROW(app::scene::read_scene_text(seed_text, "seed"));
   Mutator mutate;
   int read = 0, refused = 0;
   for (int k = 0; k < 4000; ++k) {
     const std::string text = mutate(seed_text);
     try {
-      const Scene scene = read_scene_text(text, "mutant");
+      const app::scene::Scene scene = app::scene::read_scene_text(text, "mutant");
       // What was read can be written and read again.
-      EXPECT_NO_THROW(read_scene_text(write_scene(scene), "again")) << text;
+      EXPECT_NO_THROW(app::scene::read_scene_text(app::scene::write_scene(scene), "again")) << text;
       ++read;
-    } catch (const SceneError& error) {
+    } catch (const app::scene::toml::SceneError& error) {
       EXPECT_GE(error.line, 1) << text;
       EXPECT_GE(error.column, 1) << text;
       ++refused;

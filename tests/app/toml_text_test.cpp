@@ -1,33 +1,33 @@
 // The guard in front of the TOML parser: what it lets through, and where it says things are.
 #include <gtest/gtest.h>
 
-#include "app/scene/error.h"
-#include "app/scene/toml_source.h"
-#include "app/scene/toml_text.h"
+#include "app/scene/toml/error.h"
+#include "app/scene/toml/toml_source.h"
+#include "app/scene/toml/toml_text.h"
 
 namespace neve::app {
 namespace {
 
 std::string toml_error(std::string_view text) {
   try {
-    parse_toml(text, "f");
-  } catch (const SceneError& error) {
+    app::scene::toml::parse_toml(text, "f");
+  } catch (const app::scene::toml::SceneError& error) {
     return error.what();
   }
   return "no error";
 }
 
 std::string string_of(std::string_view text) {
-  return std::get<std::string>(parse_toml(text, "f").entries.at(0).value.data);
+  return std::get<std::string>(app::scene::toml::parse_toml(text, "f").entries.at(0).value.data);
 }
 
 TEST(TomlText, IsAsciiAfterwards) {
-  const AsciiToml toml = to_ascii_toml("a = \"é😀\" # ü\n", "f");
+  const app::scene::toml::AsciiToml toml = app::scene::toml::to_ascii_toml("a = \"é😀\" # ü\n", "f");
   EXPECT_EQ(toml.text, "a = \"\\u00E9\\U0001F600\" # ?\n");
 }
 
 TEST(TomlText, ColumnsAreThoseOfTheUser) {
-  const AsciiToml toml = to_ascii_toml("a = \"é😀\" x", "f");
+  const app::scene::toml::AsciiToml toml = app::scene::toml::to_ascii_toml("a = \"é😀\" x", "f");
   EXPECT_EQ(toml.original(1, 5).column, 5);    // the quote
   EXPECT_EQ(toml.original(1, 6).column, 6);    // é
   EXPECT_EQ(toml.original(1, 11).column, 6);   // still é
@@ -92,8 +92,9 @@ TEST(TomlText, BadBytesAreLocated) {
 }
 
 TEST(TomlText, SizeAndDepthAreBounded) {
-  EXPECT_EQ(toml_error(std::string(max_toml_bytes + 1, '#')), "f: error: larger than 1 MiB");
-  EXPECT_EQ(toml_error(std::string(max_toml_bytes, '#')), "no error");
+  EXPECT_EQ(toml_error(std::string(app::scene::toml::max_toml_bytes + 1, '#')),
+            "f: error: larger than 1 MiB");
+  EXPECT_EQ(toml_error(std::string(app::scene::toml::max_toml_bytes, '#')), "no error");
   EXPECT_EQ(toml_error("a" + std::string(65, '.')), "f:1:66: error: more than 64 dots in one line");
   EXPECT_EQ(toml_error("# " + std::string(65, '.')), "no error");
   EXPECT_EQ(toml_error("a = " + std::string(33, '[')), "f:1:37: error: nested more than 32 deep");
@@ -106,21 +107,25 @@ TEST(TomlText, AssertionsOfTheParserDoNotAbort) {
 }
 
 TEST(TomlSource, KeepsTheOrderOfTheFile) {
-  const Table root = parse_toml("z = 1\na = 2\n[m]\nb = 1\na = [{y = 1, x = 2}]", "f");
+  const app::scene::toml::Table root =
+      app::scene::toml::parse_toml("z = 1\na = 2\n[m]\nb = 1\na = [{y = 1, x = 2}]", "f");
   ASSERT_EQ(root.entries.size(), 3u);
   EXPECT_EQ(root.entries[0].key, "z");
   EXPECT_EQ(root.entries[1].key, "a");
   EXPECT_EQ(root.entries[2].key, "m");
-  EXPECT_EQ(toml_document(root), "z = 1\na = 2\n\n[m]\nb = 1\na = [{ y = 1, x = 2 }]\n");
+  EXPECT_EQ(app::scene::toml::toml_document(root),
+            "z = 1\na = 2\n\n[m]\nb = 1\na = [{ y = 1, x = 2 }]\n");
 }
 
 TEST(TomlSource, KnowsWhereEveryValueIs) {
-  const Table root = parse_toml("t = \"é\"\nlist = [\"é\", { \"é\" = 5 }]", "f");
-  const Array& list = std::get<Array>(root.entries[1].value.data);
+  const app::scene::toml::Table root =
+      app::scene::toml::parse_toml("t = \"é\"\nlist = [\"é\", { \"é\" = 5 }]", "f");
+  const app::scene::toml::Array& list =
+      std::get<app::scene::toml::Array>(root.entries[1].value.data);
   EXPECT_EQ(root.entries[1].where.line, 2);
   EXPECT_EQ(root.entries[1].value.where.column, 8);
   EXPECT_EQ(list[1].where.column, 14);
-  const Entry& inner = std::get<Table>(list[1].data).entries[0];
+  const app::scene::toml::Entry& inner = std::get<app::scene::toml::Table>(list[1].data).entries[0];
   EXPECT_EQ(inner.where.column, 16);
   EXPECT_EQ(inner.value.where.column, 22);
 }

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "app/collider_looks.h"
-#include "app/frame_builder.h"
-#include "app/mosaic.h"
-#include "app/scene/error.h"
+#include "app/picture/collider_looks.h"
+#include "app/picture/frame_builder.h"
+#include "app/picture/mosaic.h"
 #include "app/scene/read.h"
+#include "app/scene/toml/error.h"
 
 namespace neve::app {
 namespace {
@@ -19,29 +19,30 @@ using sim::Vec3d;
 const char* const looked_at =
     "[[body]]\nshape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }\n";
 
-Scene scene_with(const std::string& more) {
-  return read_scene_text(looked_at + more, "s.toml");
+app::scene::Scene scene_with(const std::string& more) {
+  return app::scene::read_scene_text(looked_at + more, "s.toml");
 }
 
 std::string view_error(const std::string& more) {
   try {
     scene_with(more);
-  } catch (const SceneError& error) {
+  } catch (const app::scene::toml::SceneError& error) {
     return error.what();
   }
   return "no error";
 }
 
-render::Frame build(const Scene& scene, const std::vector<Vec3d>& positions) {
-  Snapshot snapshot;
+render::Frame build(const app::scene::Scene& scene, const std::vector<Vec3d>& positions) {
+  app::picture::Snapshot snapshot;
   snapshot.particles.x = positions;
   snapshot.particles.v.assign(positions.size(), Vec3d(0, 0, 0));
-  return FrameBuilder(scene, 0.01, Quality::preview, {}, 1, {positions.size()})
+  return app::picture::FrameBuilder(scene, 0.01, app::setup::Quality::preview, {}, 1,
+                                    {positions.size()})
       .build(scene.views.front(), snapshot);
 }
 
 TEST(ColliderStyle, DecidesWhatIsDrawn) {
-  const Scene scene = scene_with(R"([[collider]]
+  const app::scene::Scene scene = scene_with(R"([[collider]]
 shape = { sphere = {} }
 [[collider]]
 shape = { sphere = {} }
@@ -57,7 +58,7 @@ shape = { plane = {} }
 style = "ghost"
 )");
   render::Frame frame;
-  add_colliders(scene, scene.views.front(), 0, 0.1f, frame);
+  app::picture::add_colliders(scene, scene.views.front(), 0, 0.1f, frame);
   EXPECT_EQ(frame.meshes.size(), 1u);
   EXPECT_EQ(frame.ghosts.size(), 1u);
   ASSERT_EQ(frame.lines.size(), 1u);
@@ -69,20 +70,20 @@ style = "ghost"
 }
 
 TEST(ColliderStyle, KeepsToTheLayersOfTheView) {
-  const Scene scene = scene_with(
+  const app::scene::Scene scene = scene_with(
       "[[collider]]\nshape = { sphere = {} }\nstyle = \"wire\"\n[[collider]]\nshape = { plane = {} "
       "}\n"
       "[[view]]\nlayers = [\"ground\"]\n");
   render::Frame frame;
-  add_colliders(scene, scene.views.front(), 0, 0.1f, frame);
+  app::picture::add_colliders(scene, scene.views.front(), 0, 0.1f, frame);
   EXPECT_TRUE(frame.lines.empty());
   EXPECT_EQ(frame.grounds.size(), 1u);
 }
 
 TEST(ColliderStyle, IsNothingToTheSimulation) {
-  const Scene scene =
+  const app::scene::Scene scene =
       scene_with("[[collider]]\nfriction = 0.3\nshape = { box = {} }\nstyle = \"ghost\"");
-  const std::vector<sim::Collider> colliders = sim_colliders(scene);
+  const std::vector<sim::shapes::Collider> colliders = app::scene::sim_colliders(scene);
   ASSERT_EQ(colliders.size(), 1u);
   EXPECT_EQ(colliders[0].friction, 0.3);
   EXPECT_EQ(view_error("[[collider]]\nshape = { box = {} }\nstyle = \"glass\""),
@@ -91,7 +92,8 @@ TEST(ColliderStyle, IsNothingToTheSimulation) {
 }
 
 TEST(Clip, RemovesTheParticlesOnItsSide) {
-  const Scene scene = scene_with("[[view]]\nclip = { normal = [0, 0, 5], point = [0, 0, 0.1] }\n");
+  const app::scene::Scene scene =
+      scene_with("[[view]]\nclip = { normal = [0, 0, 5], point = [0, 0, 0.1] }\n");
   const render::Frame frame = build(scene, {{0, 0, 0}, {0, 0, 0.09}, {0, 0, 0.11}, {5, 0, 9}});
   ASSERT_EQ(frame.points.position.size(), 2u);
   EXPECT_EQ(frame.points.id, (std::vector<std::uint32_t>{0, 1})) << "the others keep their looks";
@@ -99,7 +101,7 @@ TEST(Clip, RemovesTheParticlesOnItsSide) {
 
 TEST(Clip, AutomaticallyCutsTheMiddleOfTheSnow) {
   for (const char* point : {"", ", point = \"auto\""}) {
-    const Scene scene =
+    const app::scene::Scene scene =
         scene_with(std::string("[[view]]\nclip = { normal = [1, 0, 0]") + point + " }\n");
     EXPECT_FALSE(scene.views[0].clip->point.has_value());
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -117,10 +119,10 @@ TEST(Clip, NeedsADirection) {
 }
 
 TEST(Background, OfTheViewGoesBeforeThatOfTheOutput) {
-  const Scene scene = scene_with(
+  const app::scene::Scene scene = scene_with(
       "[[view]]\n[[view]]\nbackground = \"gradient\"\n[output]\nbackground = \"transparent\"\n");
-  EXPECT_EQ(background_of(scene, scene.views[0]), Background::transparent);
-  EXPECT_EQ(background_of(scene, scene.views[1]), Background::gradient);
+  EXPECT_EQ(app::scene::background_of(scene, scene.views[0]), app::scene::Background::transparent);
+  EXPECT_EQ(app::scene::background_of(scene, scene.views[1]), app::scene::Background::gradient);
   EXPECT_TRUE(build(scene, {{0, 0, 0}}).is_transparent);
 }
 
@@ -134,10 +136,11 @@ name = "c"
 )";
 
 TEST(Mosaic, TilesKeepTheShapeOfTheirViewsAndStandInRows) {
-  const Scene scene = scene_with(std::string(three_views) +
-                                 "[[mosaic]]\nname = \"all\"\nviews = [\"a\", \"b\", \"c\"]\n"
-                                 "columns = 2\nwidth = 802\n");
-  const MosaicLayout layout = layout_of(scene, scene.mosaics[0], 2);
+  const app::scene::Scene scene =
+      scene_with(std::string(three_views) +
+                 "[[mosaic]]\nname = \"all\"\nviews = [\"a\", \"b\", \"c\"]\n"
+                 "columns = 2\nwidth = 802\n");
+  const app::setup::MosaicLayout layout = app::setup::layout_of(scene, scene.mosaics[0], 2);
   ASSERT_EQ(layout.tiles.size(), 3u);
   EXPECT_EQ(layout.width, 802);
   EXPECT_EQ(layout.tiles[0].view.size->width, 400);
@@ -148,8 +151,9 @@ TEST(Mosaic, TilesKeepTheShapeOfTheirViewsAndStandInRows) {
   EXPECT_EQ(layout.tiles[2].x, 0);
   EXPECT_EQ(layout.tiles[2].y, layout.caption_height + 400 + 2) << "below the highest of its row";
   EXPECT_EQ(layout.height, layout.tiles[2].y + 225);
-  for (const MosaicTile& tile : layout.tiles)
-    EXPECT_FALSE(has_layer(tile.view, Layer::caption)) << "there is one caption";
+  for (const app::setup::MosaicTile& tile : layout.tiles)
+    EXPECT_FALSE(app::scene::has_layer(tile.view, app::scene::Layer::caption))
+        << "there is one caption";
 }
 
 TEST(Mosaic, LeavesFewGapsAndComesNearTheShapeOfTheOutput) {
@@ -160,10 +164,12 @@ TEST(Mosaic, LeavesFewGapsAndComesNearTheShapeOfTheOutput) {
       text += "[[view]]\nname = \"" + name + "\"\nsize = " + size + "\n";
       names += (k > 0 ? ", \"" : "\"") + name + "\"";
     }
-    const Scene scene = scene_with(text + "[[mosaic]]\nname = \"all\"\nviews = [" + names + "]\n");
-    const MosaicLayout layout = layout_of(scene, scene.mosaics[0], 2);
-    return std::count_if(layout.tiles.begin(), layout.tiles.end(),
-                         [&](const MosaicTile& tile) { return tile.y == layout.tiles[0].y; });
+    const app::scene::Scene scene =
+        scene_with(text + "[[mosaic]]\nname = \"all\"\nviews = [" + names + "]\n");
+    const app::setup::MosaicLayout layout = app::setup::layout_of(scene, scene.mosaics[0], 2);
+    return std::count_if(
+        layout.tiles.begin(), layout.tiles.end(),
+        [&](const app::setup::MosaicTile& tile) { return tile.y == layout.tiles[0].y; });
   };
   const int wide[] = {1, 2, 3, 2, 3, 3, 3, 4, 3};
   for (int views = 1; views <= 9; ++views)
@@ -172,17 +178,18 @@ TEST(Mosaic, LeavesFewGapsAndComesNearTheShapeOfTheOutput) {
 }
 
 TEST(Mosaic, IsAsWideAsTheOutput) {
-  const Scene scene = scene_with(std::string(three_views) + "[[mosaic]]\nviews = [\"c\", \"a\"]\n");
-  const MosaicLayout layout = layout_of(scene, scene.mosaics[0], 2);
+  const app::scene::Scene scene =
+      scene_with(std::string(three_views) + "[[mosaic]]\nviews = [\"c\", \"a\"]\n");
+  const app::setup::MosaicLayout layout = app::setup::layout_of(scene, scene.mosaics[0], 2);
   EXPECT_EQ(layout.width, 1280);
   EXPECT_EQ(layout.tiles[0].view.name, "c");
   EXPECT_EQ(layout.tiles[1].y, layout.tiles[0].y);
 }
 
 TEST(Mosaic, MayNameBuiltInViews) {
-  const Scene scene = scene_with("[[mosaic]]\nviews = [\"particles\", \"slice\"]\n");
+  const app::scene::Scene scene = scene_with("[[mosaic]]\nviews = [\"particles\", \"slice\"]\n");
   ASSERT_EQ(scene.views.size(), 2u);
-  EXPECT_EQ(layout_of(scene, scene.mosaics[0], 2).tiles[1].view.name, "slice");
+  EXPECT_EQ(app::setup::layout_of(scene, scene.mosaics[0], 2).tiles[1].view.name, "slice");
 }
 
 TEST(Mosaic, ErrorsAreLocated) {

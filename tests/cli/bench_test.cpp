@@ -135,7 +135,8 @@ TEST_F(Cli, BenchRefusesWhatDoesNotFitIntoMemory) {
 
 /// The gate: same snow, same steps, one thread each, in turns, in CPU time.
 TEST_F(Cli, OneThreadBeatsTheNaiveCode) {
-  if (!app::build_fault().empty()) GTEST_SKIP() << "cannot be measured: " << app::build_fault();
+  if (!app::bench::build_fault().empty())
+    GTEST_SKIP() << "cannot be measured: " << app::bench::build_fault();
   const auto result =
       neve({"bench", "sim", "--particles", "8000", "--rounds", "1", "--threads", "1", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;

@@ -1,13 +1,13 @@
 /// What was changed while a simulation ran is made again from its picture.
 
-#include "app/changes.h"
-#include "app/command_text.h"
+#include "app/run/changes.h"
 #include "app/output/atomic_file.h"
-#include "app/output/run_json.h"
-#include "app/picture_record.h"
+#include "app/run/picture_record.h"
+#include "app/run/run_json.h"
 #include "app/scene/read.h"
-#include "app/seed_scene.h"
-#include "app/sweep/around.h"
+#include "app/setup/command_text.h"
+#include "app/setup/seed_scene.h"
+#include "app/sweep/plan/around.h"
 #include "tests/support/resume.h"
 
 namespace neve::test {
@@ -21,15 +21,15 @@ class Changes : public Cli {
     if (!more.empty()) render.insert(render.end(), {"--set", more});
     ASSERT_EQ(neve(render).exit_code, 0);
     const std::string plain = (folder / "plain/particles/0004.png").string();
-    record = app::read_picture_record(plain);
+    record = app::run::read_picture_record(plain);
     plain_hash = record.state_hash;
-    const app::Scene scene = app::read_scene_text(record.scene, "plain");
-    sim::Simulation simulation(scene.solver, scene.materials, app::sim_colliders(scene),
-                               app::seed_scene(scene), 1);
+    const app::scene::Scene scene = app::scene::read_scene_text(record.scene, "plain");
+    sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
+                               app::setup::seed_scene(scene), 1);
     const auto set = [&](const std::string& address, const std::string& value) {
-      app::note_change(record.changes, {simulation.steps(), address, value});
-      app::Scene now = app::with_changes({record.scene, "now", "", {}}, record.changes);
-      app::apply_scene(now, simulation);
+      app::scene::note_change(record.changes, {simulation.steps(), address, value});
+      app::scene::Scene now = app::run::with_changes({record.scene, "now", "", {}}, record.changes);
+      app::run::apply_scene(now, simulation);
     };
     simulation.advance_to(1.0 / 24);
     simulation.advance_to(2.0 / 24, nullptr, simulation.steps() + 3);
@@ -42,10 +42,10 @@ class Changes : public Cli {
     set("solver.transfer", "mls");
     simulation.advance_to(4.0 / 24);
     ASSERT_FALSE(simulation.divergence());
-    record.state_hash = app::hash_text(simulation.state_hash());
-    app::write_file(
-        folder / "session.png",
-        render::encode_png(render::decode_png(app::read_file(plain)), app::to_png_text(record)));
+    record.state_hash = app::run::hash_text(simulation.state_hash());
+    app::output::write_file(folder / "session.png",
+                            render::encode_png(render::decode_png(app::output::read_file(plain)),
+                                               app::run::to_png_text(record)));
   }
 
   std::vector<std::string> hashes(const std::string& out) {
@@ -56,7 +56,7 @@ class Changes : public Cli {
     return all;
   }
 
-  app::PictureRecord record;
+  app::run::PictureRecord record;
   std::string plain_hash;
 };
 
@@ -67,14 +67,14 @@ TEST_F(Changes, APictureOfASessionIsMadeAgainWithTheSameState) {
   ASSERT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_EQ(hashes("again"), std::vector<std::string>{record.state_hash});
   const app::Json run = json_of("again/run.json");
-  EXPECT_EQ(app::live_changes(run["changes"]), record.changes);
+  EXPECT_EQ(app::scene::live_changes(run["changes"]), record.changes);
   // The picture made again is one that can be made again.
-  const auto made = app::read_picture_record(folder / "again/particles/0004.png");
+  const auto made = app::run::read_picture_record(folder / "again/particles/0004.png");
   EXPECT_EQ(made.changes, record.changes);
   EXPECT_EQ(made.scene, record.scene);
   ASSERT_EQ(neve({"render", "again/particles/0004.png", "--out", "third"}).exit_code, 0);
-  EXPECT_TRUE(app::read_file(folder / "third/particles/0004.png") ==
-              app::read_file(folder / "again/particles/0004.png"));
+  EXPECT_TRUE(app::output::read_file(folder / "third/particles/0004.png") ==
+              app::output::read_file(folder / "again/particles/0004.png"));
 }
 
 TEST_F(Changes, PicturesBeforeAChangeDoNotListIt) {
@@ -83,7 +83,7 @@ TEST_F(Changes, PicturesBeforeAChangeDoNotListIt) {
   std::size_t before = 0;
   for (const char* frame : {"0000", "0001", "0002", "0003", "0004"}) {
     const auto made =
-        app::read_picture_record(folder / ("all/particles/" + std::string(frame) + ".png"));
+        app::run::read_picture_record(folder / ("all/particles/" + std::string(frame) + ".png"));
     EXPECT_GE(made.changes.size(), before);
     before = made.changes.size();
     const bool is_first = std::string(frame) < "0002";
@@ -118,10 +118,11 @@ TEST_F(Changes, AResumedRunMakesTheRestOfThem) {
   EXPECT_EQ(hashes("killed"), std::vector<std::string>{record.state_hash});
   // A run with other changes is another run.
   record.changes.pop_back();
-  app::write_file(
+  app::output::write_file(
       folder / "session.png",
-      render::encode_png(render::decode_png(app::read_file(folder / "plain/particles/0004.png")),
-                         app::to_png_text(record)));
+      render::encode_png(
+          render::decode_png(app::output::read_file(folder / "plain/particles/0004.png")),
+          app::run::to_png_text(record)));
   EXPECT_EQ(render("0-4", "parts", true).exit_code, 2);
 }
 
@@ -132,7 +133,7 @@ TEST_F(Changes, AreShownByInfo) {
   EXPECT_TRUE(contains(info.output, ": material.snow.youngs_modulus = 4e5")) << info.output;
   const app::Json json =
       app::parse_json(std::string_view(neve({"info", "session.png", "--json"}).output));
-  EXPECT_EQ(app::live_changes(json["changes"]), record.changes);
+  EXPECT_EQ(app::scene::live_changes(json["changes"]), record.changes);
   EXPECT_EQ(json["changes"].size(), 4u);
   EXPECT_EQ(json["changes"][0]["address"], "material.snow.youngs_modulus");
   EXPECT_EQ(json["changes"][0]["value"], "4e5");
@@ -143,11 +144,12 @@ TEST_F(Changes, AreShownByInfo) {
 
 TEST_F(Changes, ThatAreNoneAreRefused) {
   ASSERT_NO_FATAL_FAILURE(play());
-  const auto image = render::decode_png(app::read_file(folder / "plain/particles/0004.png"));
+  const auto image =
+      render::decode_png(app::output::read_file(folder / "plain/particles/0004.png"));
   const auto render_with = [&](const std::string& changes) {
-    render::PngText text = app::to_png_text(record);
+    render::PngText text = app::run::to_png_text(record);
     text["neve:changes"] = changes;
-    app::write_file(folder / "bad.png", render::encode_png(image, text));
+    app::output::write_file(folder / "bad.png", render::encode_png(image, text));
     return neve({"render", "bad.png", "--out", "bad"});
   };
   const auto restart =
@@ -174,36 +176,36 @@ TEST_F(Changes, WithRetriesTheyAreMadeAgainToo) {
 
 /// What panels offer, through the program.
 TEST_F(Changes, ASweepAroundAValueRuns) {
-  const app::Scene scene = app::read_scene_file((folder / "scene.toml").string());
-  for (const app::FlatParam& param : app::flatten(scene))
+  const app::scene::Scene scene = app::scene::read_scene_file((folder / "scene.toml").string());
+  for (const app::scene::FlatParam& param : app::scene::flatten(scene))
     if (param.address == "material.snow.hardening")
       folder.write("sweeps/hardening.toml",
-                   app::sweep_around((folder / "scene.toml").string(),
-                                     (folder / "sweeps/hardening.toml").string(), param,
-                                     {app::parse_override("frames=1")}));
+                   app::sweep::plan::sweep_around((folder / "scene.toml").string(),
+                                                  (folder / "sweeps/hardening.toml").string(),
+                                                  param, {app::scene::parse_override("frames=1")}));
   const auto dry = neve({"sweep", "sweeps/hardening.toml", "--dry-run"});
   EXPECT_EQ(dry.exit_code, 0) << dry.errors;
   EXPECT_TRUE(contains(dry.output + dry.errors, "5 runs")) << dry.output << dry.errors;
 }
 
 TEST_F(Changes, ACopiedCommandMakesTheSamePicture) {
-  app::RenderCommand command;
+  app::setup::RenderCommand command;
   command.scene_file = "scene.toml";
-  command.overrides = {app::parse_override("title=It's « mine »"),
-                       app::parse_override("material.snow.hardening=5")};
-  command.frames = app::FrameRange{1, 1};
+  command.overrides = {app::scene::parse_override("title=It's « mine »"),
+                       app::scene::parse_override("material.snow.hardening=5")};
+  command.frames = app::setup::FrameRange{1, 1};
   command.out = "by hand";
-  std::string line = app::command_line(command);
+  std::string line = app::setup::command_line(command);
   ASSERT_TRUE(line.starts_with("neve "));
-  line = app::shell_word(NEVE_BINARY) + line.substr(4);
-  const auto shell = app::run_process("/bin/sh", {"-c", line}, folder.path());
+  line = app::setup::shell_word(NEVE_BINARY) + line.substr(4);
+  const auto shell = app::output::run_process("/bin/sh", {"-c", line}, folder.path());
   ASSERT_EQ(shell.exit_code, 0) << shell.errors;
   ASSERT_EQ(neve({"render", "scene.toml", "--set", "title=It's « mine »", "--set",
                   "material.snow.hardening=5", "--frames", "1-1", "--out", "plain"})
                 .exit_code,
             0);
-  EXPECT_TRUE(app::read_file(folder / "by hand/particles/0001.png") ==
-              app::read_file(folder / "plain/particles/0001.png"));
+  EXPECT_TRUE(app::output::read_file(folder / "by hand/particles/0001.png") ==
+              app::output::read_file(folder / "plain/particles/0001.png"));
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ TEST_F(Dump, VtkBlocksAreWhereTheHeaderSays) {
                   "nodes.vtp"})
                 .exit_code,
             0);
-  const auto bytes = app::read_file(folder / "nodes.vtp");
+  const auto bytes = app::output::read_file(folder / "nodes.vtp");
   const std::string text(bytes.begin(), bytes.end());
   const std::size_t data = text.find("encoding=\"raw\">\n_") + 17;
   std::size_t arrays = 0, next = 0, points = 0;

@@ -74,7 +74,7 @@ TEST_F(Cli, AScenesFileIsFoundByItsName) {
 /// neve dump ... | head
 TEST_F(Cli, NobodyHasToReadAllThatIsPrinted) {
   for (const std::string arguments : {"params", "dump scene.toml --quiet"}) {
-    const auto result = app::run_process(
+    const auto result = app::output::run_process(
         "/bin/bash",
         {"-c", "set -o pipefail; (sleep 0.2; " NEVE_BINARY " " + arguments + ") | true"},
         folder.path());
@@ -227,9 +227,9 @@ TEST_F(Cli, OutputThatCannotBeWrittenExitsWithSix) {
 
 TEST_F(Cli, AFullDiskExitsWithSixAndLeavesNoHalfPicture) {
   const std::string limited = "ulimit -f 2; exec \"$0\" render scene.toml --quiet";
-  const auto shell = app::find_program("bash");
+  const auto shell = app::output::find_program("bash");
   ASSERT_TRUE(shell);
-  const auto result = app::run_process(*shell, {"-c", limited, NEVE_BINARY}, folder.path());
+  const auto result = app::output::run_process(*shell, {"-c", limited, NEVE_BINARY}, folder.path());
   EXPECT_EQ(result.exit_code, 6) << result.errors;
   EXPECT_TRUE(contains(result.errors, "bytes")) << result.errors;
   EXPECT_FALSE(exists("out/scene/particles/0000.png"));
@@ -253,7 +253,7 @@ TEST_F(Cli, LimitsAreRefusedWithEightBeforeAnythingIsMade) {
 }
 
 TEST_F(Cli, TooLittleAddressSpaceIsRefusedBeforeADriverCrashes) {
-  const auto result = app::run_process(
+  const auto result = app::output::run_process(
       "/bin/sh", {"-c", "ulimit -v 400000; exec '" NEVE_BINARY "' render scene.toml"},
       folder.path());
   EXPECT_EQ(result.exit_code, 8) << result.errors;

@@ -28,7 +28,7 @@ TEST_F(Cli, AnInterruptKeepsEveryFrameAndAMovieOfThem) {
   EXPECT_EQ(run["status"], "interrupted");
   EXPECT_EQ(static_cast<int>(run["frames"].size()), frames);
   // The movie was counted when it was made; that it is there says that it is whole.
-  EXPECT_EQ(exists("out/particles.mp4"), app::find_program("ffmpeg").has_value());
+  EXPECT_EQ(exists("out/particles.mp4"), app::output::find_program("ffmpeg").has_value());
 }
 
 }  // namespace

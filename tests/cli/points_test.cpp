@@ -42,7 +42,7 @@ class PointFiles : public Cli {
     folder.write("points/block.csv", block_csv(3.2e-3));
   }
 
-  app::ProcessResult render(const std::vector<std::string>& more = {}) {
+  app::output::ProcessResult render(const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{"render", "scene.toml", "--out", "out"};
     words.insert(words.end(), more.begin(), more.end());
     return neve(words);

@@ -36,7 +36,7 @@ TEST_F(Cli, RenderMakesPicturesMovieAndRunJson) {
   for (const char* file : {"0000.png", "0004.png"})
     EXPECT_TRUE(exists(std::string("out/scene/particles/") + file));
   EXPECT_FALSE(exists("out/scene/particles/0005.png"));
-  EXPECT_EQ(exists("out/scene/particles.mp4"), app::find_program("ffmpeg").has_value());
+  EXPECT_EQ(exists("out/scene/particles.mp4"), app::output::find_program("ffmpeg").has_value());
   const app::Json run = json_of("out/scene/run.json");
   EXPECT_EQ(run["status"], "ok");
   ASSERT_EQ(run["frames"].size(), 5u);
@@ -71,7 +71,7 @@ TEST_F(Cli, AMosaicIsAFolderOfPicturesAndAMovieLikeAView) {
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   for (const char* file : {"a/snow/0002.png", "a/speed/0002.png", "a/both/0002.png"})
     EXPECT_TRUE(exists(file)) << file;
-  EXPECT_EQ(exists("a/both.mp4"), app::find_program("ffmpeg").has_value());
+  EXPECT_EQ(exists("a/both.mp4"), app::output::find_program("ffmpeg").has_value());
   EXPECT_EQ(json_of("a/run.json")["views"], (app::Json{"snow", "speed", "both"}));
 
   // Alone, and again from its picture: the same bytes.
@@ -92,7 +92,7 @@ TEST_F(Cli, TransparentPicturesHaveAlphaAndTheirMovieHasNot) {
   const std::string png = read_text(folder / "out/scene/particles/0002.png");
   ASSERT_GT(png.size(), 26u);
   EXPECT_EQ(png[25], 6) << "the colour type of RGBA";
-  EXPECT_EQ(exists("out/scene/particles.mp4"), app::find_program("ffmpeg").has_value())
+  EXPECT_EQ(exists("out/scene/particles.mp4"), app::output::find_program("ffmpeg").has_value())
       << result.errors;
 }
 
@@ -226,7 +226,7 @@ TEST_F(Cli, DrawingBesideTheSimulationChangesNoBit) {
                   .exit_code,
               0);
   const auto read = [&](const char* threads, int frame) {
-    return app::read_file(
+    return app::output::read_file(
         folder / (std::string(threads) + "/particles/000" + std::to_string(frame) + ".png"));
   };
   const app::Json one = json_of("1/run.json"), four = json_of("4/run.json");

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 class Resume : public Cli {
  protected:
-  app::ProcessResult render(const std::string& out, std::vector<std::string> more = {}) {
+  app::output::ProcessResult render(const std::string& out, std::vector<std::string> more = {}) {
     std::vector<std::string> words{"render", "scene.toml", "--out", out};
     words.insert(words.end(), more.begin(), more.end());
     return neve(words);
@@ -56,9 +56,9 @@ TEST_F(Resume, ADamagedCheckpointIsNamedAndTheOlderOneTaken) {
   ASSERT_EQ(render("parts", {"--frames", "0-3", "--checkpoint-every", "1"}).exit_code, 0);
   const auto files = checkpoints("parts");
   ASSERT_EQ(files.size(), 2u);
-  std::vector<std::uint8_t> bytes = app::read_file(files.back());
+  std::vector<std::uint8_t> bytes = app::output::read_file(files.back());
   bytes[bytes.size() / 2] ^= 1;
-  app::write_file(files.back(), bytes);
+  app::output::write_file(files.back(), bytes);
   const auto more = render("parts", {"--resume"});
   ASSERT_EQ(more.exit_code, 0) << more.errors;
   EXPECT_TRUE(contains(more.errors, "checksum")) << more.errors;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/json.h"
 #include "app/output/process.h"
+#include "app/support/json.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::test {
@@ -63,8 +63,8 @@ class Cli : public testing::Test {
  protected:
   Cli() { folder.write("scene.toml", tiny_scene); }
 
-  app::ProcessResult neve(const std::vector<std::string>& arguments) {
-    return app::run_process(NEVE_BINARY, arguments, folder.path());
+  app::output::ProcessResult neve(const std::vector<std::string>& arguments) {
+    return app::output::run_process(NEVE_BINARY, arguments, folder.path());
   }
 
   app::Json json_of(const std::string& file) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/image.h"
+#include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/cinema.h"
 
@@ -34,7 +34,7 @@ class SweepResults : public Cli {
     return read_text(folder / ("out/study.cdb/" + file));
   }
 
-  app::ProcessResult made;
+  app::output::ProcessResult made;
 };
 
 TEST_F(SweepResults, AreACinemaDatabaseWithSheetsAndCanBeMadeAgain) {
@@ -49,7 +49,7 @@ TEST_F(SweepResults, AreACinemaDatabaseWithSheetsAndCanBeMadeAgain) {
   for (const char* file : {"sheet/0000.png", "sheet/0002.png", "strips.png", "plots.svg",
                            "report.html", "sweep.toml", "look.toml"})
     EXPECT_TRUE(exists("out/study.cdb/" + std::string(file))) << file;
-  EXPECT_EQ(exists("out/study.cdb/sheet.mp4"), app::find_program("ffmpeg").has_value());
+  EXPECT_EQ(exists("out/study.cdb/sheet.mp4"), app::output::find_program("ffmpeg").has_value());
 
   const std::string sheet = text("sheet.png");
   EXPECT_EQ(sheet, text("sheet/0002.png"));
@@ -74,7 +74,7 @@ TEST_F(SweepResults, TellWhatIsNotThereYet) {
 /// A browser without a window, if there is one.
 std::optional<std::filesystem::path> browser() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
-    if (const auto program = app::find_program(name)) return program;
+    if (const auto program = app::output::find_program(name)) return program;
   return std::nullopt;
 }
 
@@ -90,7 +90,7 @@ TEST_F(SweepResults, AreShownByABrowserThatMayNotReachAnything) {
                                        "--virtual-time-budget=5000"};
   std::vector<std::string> words = quiet;
   words.insert(words.end(), {"--dump-dom", page});
-  const app::ProcessResult dom = app::run_process(*program, words, folder.path());
+  const app::output::ProcessResult dom = app::output::run_process(*program, words, folder.path());
   ASSERT_EQ(dom.exit_code, 0) << dom.errors;
   // The script ran to its end and filled table and axes.
   EXPECT_TRUE(contains(dom.output, "data-ready=\"yes\"")) << dom.output.substr(0, 2000);
@@ -106,7 +106,7 @@ TEST_F(SweepResults, AreShownByABrowserThatMayNotReachAnything) {
   words = quiet;
   words.insert(words.end(), {"--window-size=1400,1800", "--hide-scrollbars",
                              "--screenshot=" + (folder / "shot.png").string(), page});
-  ASSERT_EQ(app::run_process(*program, words, folder.path()).exit_code, 0);
+  ASSERT_EQ(app::output::run_process(*program, words, folder.path()).exit_code, 0);
   const std::string bytes = read_text(folder / "shot.png");
   const render::Image shot =
       render::decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});

@@ -183,7 +183,7 @@ TEST_F(SweepCli, AllRunsAreSeenAlike) {
 
 TEST_F(SweepCli, WhatGoesWrongBecomesAStateAndAReason) {
   folder.write("troubled.toml", troubled_sweep);
-  app::ProcessResult result;
+  app::output::ProcessResult result;
   {
     const Saboteur saboteur(folder / "out/troubled.cdb/runs",
                             {{"0004", SIGSEGV}, {"0005", SIGSTOP}});
@@ -232,7 +232,7 @@ TEST_F(SweepCli, EmittedCommandsMakeTheSweepAnywhere) {
   EXPECT_TRUE(contains(emitted.errors, "4 commands in commands.txt")) << emitted.errors;
   EXPECT_EQ(status("0003")["state"], "pending");
   // From another folder: nothing in them is relative.
-  const auto made = app::run_process(
+  const auto made = app::output::run_process(
       "/bin/sh", {"-c", "cd / && sh -e \"$0\"", (folder / "commands.txt").string()}, folder.path());
   ASSERT_EQ(made.exit_code, 0) << made.errors;
   for (const char* run : {"0000", "0001", "0002", "0003"}) EXPECT_EQ(status(run)["state"], "ok");
@@ -256,7 +256,8 @@ scene = "scene.toml"
       "for run in 0000 0002; do until [ -e out/endless.cdb/runs/$run/particles/0000.png ]; do "
       "sleep 0.05; done; done\n"
       "kill -INT $pid; wait $pid; echo code $?\n";
-  const auto result = app::run_process("/bin/bash", {"-c", script, NEVE_BINARY}, folder.path());
+  const auto result =
+      app::output::run_process("/bin/bash", {"-c", script, NEVE_BINARY}, folder.path());
   EXPECT_TRUE(contains(result.output, "code 75")) << result.output << result.errors;
   EXPECT_TRUE(contains(result.errors, "the same command goes on")) << result.errors;
   for (const char* run : {"0000", "0002"}) {

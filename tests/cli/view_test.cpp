@@ -7,7 +7,7 @@ namespace {
 
 class View : public Cli {
  protected:
-  app::ProcessResult view(const std::string& script, std::vector<std::string> more = {}) {
+  app::output::ProcessResult view(const std::string& script, std::vector<std::string> more = {}) {
     folder.write("script.json", script);
     std::vector<std::string> arguments{"view",  "scene.toml", "--replay", "script.json",
                                        "--out", "viewed",     "--size",   "1100x700"};

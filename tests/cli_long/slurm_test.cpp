@@ -76,7 +76,8 @@ TEST_F(Cli, CancelledSlurmSweepsGoOn) {
       "done\n"
       "kill -INT $pid; wait $pid; echo code $?\n"
       "for i in $(seq 100); do [ -z \"$(squeue -h)\" ] && break; sleep 0.2; done; squeue -h\n";
-  const auto result = app::run_process("/bin/bash", {"-c", script, NEVE_BINARY}, folder.path());
+  const auto result =
+      app::output::run_process("/bin/bash", {"-c", script, NEVE_BINARY}, folder.path());
   EXPECT_EQ(result.output, "code 75\n") << result.errors;
   EXPECT_EQ(json_of("array/runs/0000/status.json")["state"], "interrupted");
   EXPECT_TRUE(exists("array/runs/0000/checkpoint"));

@@ -43,7 +43,7 @@ std::string troubled_sweep() {
 
 TEST_F(Cli, ASweepOf64RunsEndsWithFiftyGoodAndFourteenMarkedTiles) {
   folder.write("troubled.toml", troubled_sweep());
-  app::ProcessResult result;
+  app::output::ProcessResult result;
   {
     const Saboteur saboteur(
         folder / "out/troubled.cdb/runs",
@@ -88,8 +88,9 @@ TEST_F(Cli, ADriverKilledTwentyTimesRunsNothingTwice) {
     // SIGKILL: the driver has no chance to say good-bye to its children.
     const std::string script = "\"$0\" sweep killed.toml --quiet & pid=$!; sleep " +
                                std::to_string(seconds) + "; kill -KILL $pid; wait $pid; true";
-    ASSERT_EQ(app::run_process("/bin/bash", {"-c", script, NEVE_BINARY}, folder.path()).exit_code,
-              0);
+    ASSERT_EQ(
+        app::output::run_process("/bin/bash", {"-c", script, NEVE_BINARY}, folder.path()).exit_code,
+        0);
     look();
   }
   const auto last = neve({"sweep", "killed.toml", "--json"});

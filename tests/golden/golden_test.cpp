@@ -7,7 +7,7 @@
 #include <map>
 
 #include "app/output/atomic_file.h"
-#include "render/image.h"
+#include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
@@ -36,7 +36,7 @@ std::vector<std::string> names() {
 }
 
 render::Image read(const fs::path& file) {
-  return render::decode_png(app::read_file(file));
+  return render::decode_png(app::output::read_file(file));
 }
 
 /// How pictures can come about: OpenGL by a backend, particles by OpenGL or on the CPU.
@@ -52,10 +52,10 @@ fs::path keep(const std::string& way, const std::string& name, const render::Ima
               const render::Image& golden) {
   const fs::path folder = fs::path(NEVE_BINARY).parent_path() / "golden" / way;
   fs::create_directories(folder);
-  app::write_file(folder / (name + ".png"), render::encode_png(picture));
-  app::write_file(folder / (name + "-golden.png"), render::encode_png(golden));
-  app::write_file(folder / (name + "-difference.png"),
-                  render::encode_png(render::difference_image(picture, golden)));
+  app::output::write_file(folder / (name + ".png"), render::encode_png(picture));
+  app::output::write_file(folder / (name + "-golden.png"), render::encode_png(golden));
+  app::output::write_file(folder / (name + "-difference.png"),
+                          render::encode_png(render::difference_image(picture, golden)));
   return folder;
 }
 

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/json.h"
 #include "app/output/process.h"
+#include "app/support/json.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::test {
@@ -26,7 +26,7 @@ struct Trouble : std::runtime_error {
 /// @throws Trouble unless it succeeds
 std::string run(const fs::path& program, const std::vector<std::string>& arguments,
                 const fs::path& folder) {
-  const app::ProcessResult result = app::run_process(program, arguments, folder);
+  const app::output::ProcessResult result = app::output::run_process(program, arguments, folder);
   if (result.exit_code != 0)
     throw Trouble(program.filename().string() + " ended with " + std::to_string(result.exit_code) +
                   ": " + result.errors.substr(0, 2000));

@@ -6,9 +6,9 @@ namespace neve::test {
 
 namespace {
 
-constexpr const char* stages = "sim/stages.h";
-constexpr const char* sweeps = "sim/sweeps.h";
-constexpr const char* splines = "sim/bspline.h";
+constexpr const char* stages = "sim/kernels/stages.h";
+constexpr const char* sweeps = "sim/kernels/sweeps.h";
+constexpr const char* splines = "sim/kernels/bspline.h";
 
 /// Replaces how the force takes its gradient; `factor` without V0.
 Edit force_factor(const std::string& factor) {
@@ -137,7 +137,8 @@ std::vector<Mistake> volume_mistakes() {
       {"volume_every_step",
        "V0 estimated again in every step",
        {{sweeps, "          if (!(record.flags() & needs_volume)) continue;\n", ""},
-        {"sim/engine.cpp", "  const SweepArgs<Real> a = args(dt, sweeps_->fused_channels);\n",
+        {"sim/engine/engine.cpp",
+         "  const SweepArgs<Real> a = args(dt, sweeps_->fused_channels);\n",
          "  {\n"
          "    SweepArgs<Real> again = args(dt, all_channels);\n"
          "    std::vector<StagedNodes<Real>> staged(partition_.node_blocks().size());\n"

@@ -6,8 +6,8 @@ namespace neve::test {
 
 namespace {
 
-constexpr const char* laws = "sim/constitutive.h";
-constexpr const char* engine = "sim/engine_state.cpp";
+constexpr const char* laws = "sim/kernels/constitutive.h";
+constexpr const char* engine = "sim/engine/engine_state.cpp";
 
 /// The stored stress is symmetric. For a stress that is not, forces are computed from nine numbers
 /// `s`, row by row, found where particles are read.
@@ -39,16 +39,16 @@ std::vector<Edit> stress_of(const std::string& code) {
       "        V P[9];  // tau F^-T\n"
       "        multiply(t, 3, 1, inverse, 3, 1, P);\n";
   return {
-      {"sim/sweeps.h", "load_for_scatter<has_affine, has_force>(p, group.record + q);",
+      {"sim/kernels/sweeps.h", "load_for_scatter<has_affine, has_force>(p, group.record + q);",
        "load_for_scatter<has_affine, has_force>(p, group.record + q);\n"
        "    RecordReader<V, I>(group.record + q, p).deformation();"},
-      {"sim/sweeps.h",
+      {"sim/kernels/sweeps.h",
        "      if constexpr (has_force)\n"
        "        keep(elastic_force<K, transfer>(p.V0, p.tau, c.inv_h, duration), force);",
        "      if constexpr (has_force) {\n" + prelude + code +
            "        keep(elastic_force<K, transfer>(p.V0, s, c.inv_h, duration), force);\n"
            "      }"},
-      {"sim/stages.h",
+      {"sim/kernels/stages.h",
        "  const V xx = tau[0], yy = tau[1], zz = tau[2], xy = tau[3], xz = tau[4], yz = tau[5];\n"
        "  return {{{{factor * xx, factor * xy, factor * xz, V{}}},\n"
        "           {{factor * xy, factor * yy, factor * yz, V{}}},\n"

@@ -5,11 +5,11 @@
 namespace neve::test {
 
 std::vector<Mistake> solve_mistakes() {
-  constexpr const char* differential = "sim/differential.h";
+  constexpr const char* differential = "sim/kernels/differential.h";
   return {
       {"hessian_sign",
        "semi-implicit: sign of the Hessian flipped",
-       {{"sim/implicit_sweeps.h", "change[n] * (a.beta_dt_squared * u[n][3])",
+       {{"sim/kernels/implicit_sweeps.h", "change[n] * (a.beta_dt_squared * u[n][3])",
          "change[n] * (-a.beta_dt_squared * u[n][3])"}},
        {},
        {},
@@ -25,7 +25,7 @@ std::vector<Mistake> solve_mistakes() {
          "e.V0_lambda * J * J * trace"}}},
       {"beta_dt",
        "semi-implicit: β dt instead of β dt²",
-       {{"sim/engine_implicit.cpp", "settings_.beta * dt * dt", "settings_.beta * dt"}}},
+       {{"sim/engine/engine_implicit.cpp", "settings_.beta * dt * dt", "settings_.beta * dt"}}},
   };
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "sim/self_test.h"
-#include "sim/watch.h"
+#include "sim/checks/self_test.h"
+#include "sim/checks/watch.h"
 
 namespace neve::test {
 
@@ -83,8 +83,8 @@ std::size_t count(const std::vector<Finding>& findings, const std::string& check
 }
 
 /// Run on nothing: names and what they test.
-std::vector<sim::SelfTestResult> list_of_self_tests() {
-  return sim::self_tests({});
+std::vector<sim::checks::SelfTestResult> list_of_self_tests() {
+  return sim::checks::self_tests({});
 }
 
 std::string limits(double in_double, double in_float) {
@@ -92,11 +92,11 @@ std::string limits(double in_double, double in_float) {
   return number(in_double) + (in_float == in_double ? "" : " (float " + number(in_float) + ")");
 }
 
-std::vector<sim::WatchRecord> records(sim::Precision precision) {
+std::vector<sim::checks::WatchRecord> records(sim::Precision precision) {
   sim::SolverSettings settings;
   settings.precision = precision;
   settings.time_step = sim::TimeStep::fixed;
-  return sim::Watch(settings, {sim::Material{}}).records();
+  return sim::checks::Watch(settings, {sim::Material{}}).records();
 }
 
 std::string watch_table(const std::vector<Finding>& findings) {
@@ -104,9 +104,10 @@ std::string watch_table(const std::vector<Finding>& findings) {
              in_float = records(sim::Precision::single);
   std::string text = about_watch;
   for (std::size_t k = 0; k < in_double.size(); ++k) {
-    const sim::WatchRecord& d = in_double[k];
-    const std::string name = sim::name(d.check), side = d.is_below ? "< " : "> ";
-    text += "| " + name + " | " + cell(quantity(d.check)) + ": " + meaning(d.check) + " | " + side +
+    const sim::checks::WatchRecord& d = in_double[k];
+    const std::string name = sim::checks::name(d.check), side = d.is_below ? "< " : "> ";
+    text += "| " + name + " | " + cell(sim::checks::quantity(d.check)) + ": " +
+            sim::checks::meaning(d.check) + " | " + side +
             limits(d.threshold, in_float[k].threshold) + " | " + (std::isinf(d.error) ? "" : side) +
             limits(d.error, in_float[k].error) + " | " +
             std::to_string(count(findings, name, false)) + " |\n";
@@ -140,8 +141,8 @@ std::vector<std::string> idle_checks(const std::vector<Finding>& findings) {
   std::vector<std::string> idle;
   for (const auto& test : list_of_self_tests())
     if (count(findings, test.name, true) == 0) idle.push_back(test.name);
-  for (const sim::WatchRecord& record : records(sim::Precision::real64))
-    if (const std::string name = sim::name(record.check); count(findings, name, false) == 0)
+  for (const sim::checks::WatchRecord& record : records(sim::Precision::real64))
+    if (const std::string name = sim::checks::name(record.check); count(findings, name, false) == 0)
       idle.push_back(name);
   return idle;
 }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/diagnostics.h"
+#include "sim/health/diagnostics.h"
 #include "tests/oracle/vectors.h"
 #include "tests/support/one_particle.h"
 #include "tests/support/stress_change.h"
@@ -19,14 +19,14 @@ const Json& unit() {
   return vectors;
 }
 
-Particle<double> particle(const Mat3d& F_E, double J_P, ModelKind model) {
-  Particle<double> p{};
+kernels::Particle<double> particle(const Mat3d& F_E, double J_P, kernels::ModelKind model) {
+  kernels::Particle<double> p{};
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) p.F_E[3 * a + b] = F_E(a, b);
   p.J_P = J_P;
   p.m = p.V0 = 1;
   p.stiffness = p.threshold = 1;
-  p.kind = kind_of<double>(0, model, 0);
+  p.kind = kernels::kind_of<double>(0, model, 0);
   return p;
 }
 
@@ -34,13 +34,13 @@ Mat3d rows(const double* m) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(m);
 }
 
-Mat3d tau_of(const Particle<double>& p) {
+Mat3d tau_of(const kernels::Particle<double>& p) {
   Mat3d tau;
   tau << p.tau[0], p.tau[3], p.tau[4], p.tau[3], p.tau[1], p.tau[5], p.tau[4], p.tau[5], p.tau[2];
   return tau;
 }
 
-MaterialConstants<double> constants(const Json& m) {
+kernels::MaterialConstants<double> constants(const Json& m) {
   const Lame l = lame(m["E"].get<double>(), m["nu"].get<double>());
   return {l.mu, l.lambda, m["xi"].get<double>(), m["theta_c"].get<double>(),
           m["theta_s"].get<double>()};
@@ -51,7 +51,7 @@ template <int K>
 void compare_weights(const Json& entry) {
   const double h = entry["h"].get<double>();
   const Vec3d origin = vec3(entry["origin"]) / h, in_cells = vec3(entry["x"]) / h;
-  Particle<double> p{};
+  kernels::Particle<double> p{};
   for (int a = 0; a < 3; ++a) {
     p.cell[a] = static_cast<int>(std::floor(in_cells[a]));
     p.offset[a] = in_cells[a] - static_cast<double>(p.cell[a]);
@@ -100,7 +100,7 @@ TEST(OracleUnit, SplinesAndTheirDerivativesAgree) {
       const double x = entry["x"][q].get<double>();
       // The kernels know a spline only through the stencil of a particle: node 0 seen from x.
       double w = 0, dw = 0;
-      Particle<double> p{};
+      kernels::Particle<double> p{};
       p.cell[0] = static_cast<int>(std::floor(x));
       p.offset[0] = x - static_cast<double>(p.cell[0]);
       const auto look = [&](const auto& s) {
@@ -110,9 +110,9 @@ TEST(OracleUnit, SplinesAndTheirDerivativesAgree) {
         dw = s.dw[0][k];
       };
       if (is_cubic)
-        look(weights_of<cubic_nodes>(p));
+        look(weights_of<kernels::cubic_nodes>(p));
       else
-        look(weights_of<quadratic_nodes>(p));
+        look(weights_of<kernels::quadratic_nodes>(p));
       N.add(entry["N"][q].get<double>(), w);
       dN.add(entry["dN"][q].get<double>(), dw);
     }
@@ -125,9 +125,9 @@ TEST(OracleUnit, WeightsAndGradientsAgree) {
   ASSERT_FALSE(unit()["weights"].empty());
   for (const Json& entry : unit()["weights"]) {
     if (entry["kernel"] == "cubic")
-      compare_weights<cubic_nodes>(entry);
+      compare_weights<kernels::cubic_nodes>(entry);
     else
-      compare_weights<quadratic_nodes>(entry);
+      compare_weights<kernels::quadratic_nodes>(entry);
   }
 }
 
@@ -146,8 +146,8 @@ TEST(OracleUnit, DecompositionsAgreeAlsoInvertedAndDegenerate) {
   for (const Json& entry : unit()["decomposition"]) {
     SCOPED_TRACE(entry["case"].get<std::string>());
     const Mat3d F = mat3(entry["F"]);
-    const Particle<double> p = particle(F, 1, ModelKind::snow);
-    const SignedSvd<double> svd = signed_svd(p.F_E);
+    const kernels::Particle<double> p = particle(F, 1, kernels::ModelKind::snow);
+    const kernels::SignedSvd<double> svd = kernels::signed_svd(p.F_E);
     const Mat3d U = rows(svd.U), V = rows(svd.V);
     Vec3d s(svd.s[0], svd.s[1], svd.s[2]);
     EXPECT_NEAR(U.determinant(), 1, 1e-12);
@@ -162,7 +162,8 @@ TEST(OracleUnit, DecompositionsAgreeAlsoInvertedAndDegenerate) {
     EXPECT_LE(values.value(), 1e-12);
     EXPECT_LE(S.value(), 1e-12);
     EXPECT_LE(R.value(), 1e-12 * std::max(1.0, entry["condition_R"].get<double>()));
-    EXPECT_NEAR(determinant(p.F_E), entry["det"].get<double>(), 1e-13 * s.cwiseAbs().maxCoeff());
+    EXPECT_NEAR(kernels::determinant(p.F_E), entry["det"].get<double>(),
+                1e-13 * s.cwiseAbs().maxCoeff());
   }
 }
 
@@ -179,12 +180,12 @@ TEST(OracleUnit, EnergyAndStressAgree) {
     const double J_P = mat3(entry["FP"]).determinant(), J = F_E.determinant() * J_P;
     // Weak strain: psi and P are differences of numbers of the size of mu.
     const double scale = std::max(1.0, mat3(entry["P"]).cwiseAbs().maxCoeff());
-    EXPECT_NEAR(energy_density(material, F_E, J_P), entry["psi"].get<double>(),
+    EXPECT_NEAR(health::energy_density(material, F_E, J_P), entry["psi"].get<double>(),
                 1e-10 * std::max(1.0, entry["psi"].get<double>()));
-    EXPECT_LE((first_piola(material, F_E, J_P) - mat3(entry["P"])).cwiseAbs().maxCoeff(),
+    EXPECT_LE((health::first_piola(material, F_E, J_P) - mat3(entry["P"])).cwiseAbs().maxCoeff(),
               1e-10 * scale);
-    Particle<double> p =
-        particle(F_E, J_P, is_neo_hookean ? ModelKind::neo_hookean : ModelKind::corotated);
+    kernels::Particle<double> p = particle(
+        F_E, J_P, is_neo_hookean ? kernels::ModelKind::neo_hookean : kernels::ModelKind::corotated);
     update_material(p, constants(m));
     EXPECT_LE((tau_of(p) - mat3(entry["kirchhoff"])).cwiseAbs().maxCoeff(), 1e-10 * scale);
     EXPECT_LE((tau_of(p) / J - mat3(entry["cauchy"])).cwiseAbs().maxCoeff(),
@@ -206,10 +207,10 @@ TEST(OracleUnit, EnergyAndStressAgree) {
 TEST(OracleUnit, PlasticProjectionAgreesAlsoInverted) {
   for (const Json& entry : unit()["plasticity"]) {
     const double theta_c = entry["theta_c"].get<double>(), theta_s = entry["theta_s"].get<double>();
-    Particle<double> p =
-        particle(mat3(entry["FE_trial"]), mat3(entry["FP"]).determinant(), ModelKind::snow);
+    kernels::Particle<double> p = particle(mat3(entry["FE_trial"]), mat3(entry["FP"]).determinant(),
+                                           kernels::ModelKind::snow);
     // xi = 0: some of these J_P are negative, which would only overflow the hardening.
-    update_material(p, MaterialConstants<double>{1, 1, 0, theta_c, theta_s});
+    update_material(p, kernels::MaterialConstants<double>{1, 1, 0, theta_c, theta_s});
     RelativeError F_E;
     F_E.add_all(mat3(entry["FE_out"]), rows(p.F_E));
     EXPECT_LE(F_E.value(), 1e-11);
@@ -223,7 +224,8 @@ TEST(OracleUnit, UniaxialCompressionAgrees) {
   for (const Json& entry : unit()["uniaxial"]) {
     const double s = entry["stretch"].get<double>();
     SCOPED_TRACE(s);
-    Particle<double> p = particle(Vec3d(1, s, 1).asDiagonal(), 1, ModelKind::snow);
+    kernels::Particle<double> p =
+        particle(Vec3d(1, s, 1).asDiagonal(), 1, kernels::ModelKind::snow);
     update_material(p, constants(m));
     const Mat3d sigma = tau_of(p) / s;
     EXPECT_NEAR(p.J_P, entry["JP"].get<double>(), 1e-12);
@@ -239,12 +241,13 @@ TEST(OracleUnit, ContactAgrees) {
   for (const Json& entry : unit()["colliders"]) {
     const Json& j = entry["collider"];
     SCOPED_TRACE(j["shape"].get<std::string>() + " " + j["mode"].get<std::string>());
-    ColliderPose pose{};
+    kernels::ColliderPose pose{};
     const bool is_plane = j["shape"] == "half_space", is_sphere = j["shape"] == "sphere";
-    pose.shape = is_plane    ? ColliderShape::plane
-                 : is_sphere ? ColliderShape::sphere
-                             : ColliderShape::box;
-    pose.contact = j["mode"] == "sticky" ? ContactLaw::sticky : ContactLaw::separate;
+    pose.shape = is_plane    ? kernels::ColliderShape::plane
+                 : is_sphere ? kernels::ColliderShape::sphere
+                             : kernels::ColliderShape::box;
+    pose.contact =
+        j["mode"] == "sticky" ? kernels::ContactLaw::sticky : kernels::ContactLaw::separate;
     pose.friction = j["friction"].get<double>();
     // Cells of 1 m: offsets are metres.
     for (std::size_t a = 0; a < 3; ++a) {
@@ -260,7 +263,7 @@ TEST(OracleUnit, ContactAgrees) {
     }
     if (is_sphere) pose.radius = j["radius"].get<double>();
     const int block[3] = {0, 0, 0};
-    const LocalCollider<double> local = localize<double>(pose, block, 1.0);
+    const kernels::LocalCollider<double> local = kernels::localize<double>(pose, block, 1.0);
     RelativeError v_out;
     for (std::size_t q = 0; q < entry["x"].size(); ++q) {
       const Vec3d x = vec3(entry["x"][q]), v = vec3(entry["v"][q]);
@@ -269,11 +272,11 @@ TEST(OracleUnit, ContactAgrees) {
         return neve::Vec3<V>{neve::all<V>(a[0]), neve::all<V>(a[1]), neve::all<V>(a[2])};
       };
       neve::Vec3<V> n;
-      EXPECT_EQ(touch(local, lanes(x), n)[0] != 0, entry["inside"][q].get<bool>());
+      EXPECT_EQ(kernels::touch(local, lanes(x), n)[0] != 0, entry["inside"][q].get<bool>());
       if (entry["inside"][q].get<bool>()) {
         EXPECT_LE((Vec3d(n.x[0], n.y[0], n.z[0]) - vec3(entry["normal"][q])).norm(), 1e-11);
       }
-      const neve::Vec3<V> out = respond(local, lanes(x), lanes(v));
+      const neve::Vec3<V> out = kernels::respond(local, lanes(x), lanes(v));
       v_out.add_all(vec3(entry["v_out"][q]), Vec3d(out.x[0], out.y[0], out.z[0]));
     }
     EXPECT_LE(v_out.value(), 1e-11);

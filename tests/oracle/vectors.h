@@ -62,21 +62,21 @@ auto list(const Json& j, Convert convert) {
   return out;
 }
 
-inline neve::sim::Collider collider(const Json& j) {
+inline neve::sim::shapes::Collider collider(const Json& j) {
   using namespace neve::sim;
-  Collider c;
+  shapes::Collider c;
   c.name = j["shape"].get<std::string>();
   const Vec3d point = vec3(j["point"]);
   if (c.name == "half_space") {
-    c.shape.form = Plane{point, vec3(j["normal"])};
+    c.shape.form = shapes::Plane{point, vec3(j["normal"])};
   } else if (c.name == "sphere") {
-    c.shape.form = Sphere{point, j["radius"].get<double>()};
+    c.shape.form = shapes::Sphere{point, j["radius"].get<double>()};
   } else {
-    c.shape.form = Box{point, 2 * vec3(j["half"])};
+    c.shape.form = shapes::Box{point, 2 * vec3(j["half"])};
     const Vec3d zyx = mat3(j["rotation"]).eulerAngles(2, 1, 0) * (180.0 / EIGEN_PI);
     c.shape.rotation = Vec3d(zyx[2], zyx[1], zyx[0]);
   }
-  c.contact = j["mode"] == "sticky" ? Contact::sticky : Contact::separate;
+  c.contact = j["mode"] == "sticky" ? shapes::Contact::sticky : shapes::Contact::separate;
   c.friction = j["friction"].get<double>();
   c.velocity = vec3(j["velocity"]);
   c.angular_velocity = vec3(j["omega"]);
@@ -87,7 +87,7 @@ inline neve::sim::Collider collider(const Json& j) {
 struct Setup {
   neve::sim::SolverSettings settings;
   neve::sim::Material material;
-  std::vector<neve::sim::Collider> colliders;
+  std::vector<neve::sim::shapes::Collider> colliders;
   Vec3i first_node;
   double dt = 0;
 };

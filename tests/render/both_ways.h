@@ -28,7 +28,8 @@ inline Frame rough_ball(int width, int height) {
 /// what 8-bit albedo, half normals and rounding of the depth leave: 1 or 2 of 255. On the edge of a
 /// sphere, and where two meet, rounding decides which one a sample shows, and a pixel may differ by
 /// anything; those may be one in two thousand.
-inline void expect_same_picture(Context& context, const Frame& frame, const std::string& what) {
+inline void expect_same_picture(render::gl::Context& context, const Frame& frame,
+                                const std::string& what) {
   Renderer gl(context, {}, nullptr, ParticlePath::gl), cpu(context, {}, nullptr, ParticlePath::cpu);
   const Image a = gl.draw(frame), b = cpu.draw(frame);
   int other = 0;

@@ -1,12 +1,12 @@
-#include "render/colormap.h"
+#include "render/frame/colormap.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
-#include "render/mesh_shapes.h"
-#include "render/ticks.h"
+#include "render/overlay/ticks.h"
+#include "render/shapes/mesh_shapes.h"
 
 namespace neve::render {
 namespace {
@@ -50,7 +50,8 @@ TEST(ColorMap, ClampsAndMarksWhatIsNotANumber) {
 
 std::string labels(double min, double max, int count = 5) {
   std::string out;
-  for (const Tick& tick : nice_ticks(min, max, count)) out += tick.label + " ";
+  for (const render::overlay::Tick& tick : render::overlay::nice_ticks(min, max, count))
+    out += tick.label + " ";
   return out;
 }
 
@@ -65,7 +66,7 @@ TEST(Ticks, AreRoundAndReadable) {
 TEST(Ticks, ExtremeRangesGiveFewDifferentLabels) {
   for (const auto& [min, max] :
        {std::pair{0.0, 1e-30}, {-3e38, 3e38}, {1e6, 1e6 + 10}, {-1e-5, 2e-5}}) {
-    const std::vector<Tick> ticks = nice_ticks(min, max, 5);
+    const std::vector<render::overlay::Tick> ticks = render::overlay::nice_ticks(min, max, 5);
     ASSERT_GE(ticks.size(), 2u) << min << " " << max;
     ASSERT_LE(ticks.size(), 7u) << min << " " << max;
     for (std::size_t i = 1; i < ticks.size(); ++i) {
@@ -94,9 +95,11 @@ float signed_volume(const TriangleMesh& mesh) {
 }
 
 TEST(MeshShapes, EncloseTheirVolumeWithOutwardFaces) {
-  EXPECT_NEAR(signed_volume(sphere_mesh({0, 0, 0}, 0.5f)), 4.18879f * 0.125f, 0.003f);
-  EXPECT_NEAR(signed_volume(box_mesh({1, 2, 3}, {1, 2, 0.5f})), 1, 1e-4f);
-  const TriangleMesh turned = box_mesh({0, 0, 0}, {2, 1, 1}, {0, -1, 0, 1, 0, 0, 0, 0, 1});
+  EXPECT_NEAR(signed_volume(render::shapes::sphere_mesh({0, 0, 0}, 0.5f)), 4.18879f * 0.125f,
+              0.003f);
+  EXPECT_NEAR(signed_volume(render::shapes::box_mesh({1, 2, 3}, {1, 2, 0.5f})), 1, 1e-4f);
+  const TriangleMesh turned =
+      render::shapes::box_mesh({0, 0, 0}, {2, 1, 1}, {0, -1, 0, 1, 0, 0, 0, 0, 1});
   EXPECT_NEAR(signed_volume(turned), 2, 1e-4f);
   float highest = 0;
   for (const Vec3f& p : turned.position) highest = std::max(highest, p.y);

@@ -1,4 +1,4 @@
-#include "render/context.h"
+#include "render/gl/context.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,12 +11,12 @@ namespace {
 
 TEST(Context, UnknownNameIsRefusedWithTheValidNames) {
   try {
-    open_context("vulkan");
+    render::gl::open_context("vulkan");
     FAIL() << "no exception";
   } catch (const std::invalid_argument& error) {
     const std::string message = error.what();
     EXPECT_NE(message.find("\"vulkan\""), std::string::npos) << message;
-    for (const std::string& name : backend_names())
+    for (const std::string& name : render::gl::backend_names())
       EXPECT_NE(message.find(name), std::string::npos) << message;
   }
 }
@@ -58,9 +58,9 @@ TEST(Context, WindowWithoutDisplayExplainsItself) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
   try {
-    open_context("window");
+    render::gl::open_context("window");
     ADD_FAILURE() << "a window without a display";
-  } catch (const ContextError& error) {
+  } catch (const render::gl::ContextError& error) {
     ASSERT_EQ(error.attempts.size(), 1u);
     EXPECT_EQ(error.attempts[0].backend, "window");
     EXPECT_FALSE(error.attempts[0].available);
@@ -71,9 +71,9 @@ TEST(Context, WindowWithoutDisplayExplainsItself) {
 }
 
 TEST(Context, EveryBackendWorksOrSaysWhyNot) {
-  const std::vector<Attempt> attempts = try_all_backends();
+  const std::vector<render::gl::Attempt> attempts = render::gl::try_all_backends();
   ASSERT_EQ(attempts.size(), 4u);
-  for (const Attempt& attempt : attempts)
+  for (const render::gl::Attempt& attempt : attempts)
     EXPECT_NE(attempt.available, !attempt.reason.empty()) << attempt.backend;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "gl_test.h"
-#include "render/mesh_shapes.h"
+#include "render/shapes/mesh_shapes.h"
 
 namespace neve::render {
 namespace {
@@ -16,7 +16,7 @@ Frame with_ball() {
 }
 
 const TriangleMesh& before() {
-  static const TriangleMesh mesh = sphere_mesh({0, 0, 0.6f}, 0.35f);
+  static const TriangleMesh mesh = render::shapes::sphere_mesh({0, 0, 0.6f}, 0.35f);
   return mesh;
 }
 
@@ -44,7 +44,7 @@ TEST(Ghosts, AreHiddenByTheSnowBeforeThem) {
   Renderer renderer(*context);
   Frame frame = with_ball();
   const int snow = middle_value(renderer.draw(frame));
-  frame.ghosts = {sphere_mesh({0, 0, -1}, 0.3f)};
+  frame.ghosts = {render::shapes::sphere_mesh({0, 0, -1}, 0.3f)};
   EXPECT_EQ(middle_value(renderer.draw(frame)), snow);
 }
 
@@ -53,7 +53,7 @@ TEST(Ghosts, AreBrightestAtTheirRim) {
   Renderer renderer(*context);
   Frame frame = small_frame(160, 120);
   const Image nothing = renderer.draw(frame);
-  frame.ghosts = {sphere_mesh({0, 0, 0}, 0.3f)};
+  frame.ghosts = {render::shapes::sphere_mesh({0, 0, 0}, 0.3f)};
   const Image image = renderer.draw(frame);
   int rim = 0;
   for (int x = 0; x < 80; ++x)
@@ -71,7 +71,7 @@ TEST(Ghosts, CastNoShadowAndNoTraceOutsideThemselves) {
   frame.light.direction = {0, 1, 0};
   frame.camera.eye = {0, 0.6f, 2};
   const Image nothing = renderer.draw(frame);
-  frame.ghosts = {sphere_mesh({0.7f, 0.2f, 0}, 0.1f)};
+  frame.ghosts = {render::shapes::sphere_mesh({0.7f, 0.2f, 0}, 0.1f)};
   const Image image = renderer.draw(frame);
   // The ghost is in the right upper quarter; its shadow would be below it.
   for (int y = 75; y < 120; ++y)
@@ -84,8 +84,8 @@ TEST(Ghosts, OrderInTheFrameDoesNotMatter) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = with_ball();
-  frame.ghosts = {before(), sphere_mesh({0.1f, 0, 0.2f}, 0.3f),
-                  box_mesh({0, 0.2f, -0.5f}, {1, 1, 1})};
+  frame.ghosts = {before(), render::shapes::sphere_mesh({0.1f, 0, 0.2f}, 0.3f),
+                  render::shapes::box_mesh({0, 0.2f, -0.5f}, {1, 1, 1})};
   const Image forward = renderer.draw(frame);
   std::reverse(frame.ghosts.begin(), frame.ghosts.end());
   EXPECT_EQ(renderer.draw(frame).pixels, forward.pixels);
@@ -115,11 +115,11 @@ TEST(GhostGrounds, AreSeenFromBothSidesAndWithoutFillOnlyAsLines) {
 }
 
 TEST(ShapeLines, LieOnTheShape) {
-  const Lines sphere = sphere_lines({1, 2, 3}, 0.5f);
+  const Lines sphere = render::shapes::sphere_lines({1, 2, 3}, 0.5f);
   ASSERT_FALSE(sphere.ends.empty());
   ASSERT_EQ(sphere.ends.size() % 2, 0u);
   for (const Vec3f& p : sphere.ends) EXPECT_NEAR(length(p - Vec3f{1, 2, 3}), 0.5f, 1e-5f);
-  const Lines box = box_lines({0, 0, 0}, {2, 4, 6});
+  const Lines box = render::shapes::box_lines({0, 0, 0}, {2, 4, 6});
   ASSERT_EQ(box.ends.size(), 24u);
   for (std::size_t k = 0; k < box.ends.size(); k += 2) {
     const Vec3f edge = box.ends[k + 1] - box.ends[k];

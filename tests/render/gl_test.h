@@ -22,10 +22,11 @@
 
 namespace neve::render {
 
-inline std::unique_ptr<Context> open_or_explain(const std::string& choice, std::string& reason) {
+inline std::unique_ptr<render::gl::Context> open_or_explain(const std::string& choice,
+                                                            std::string& reason) {
   try {
-    return open_context(choice);
-  } catch (const ContextError& error) {
+    return render::gl::open_context(choice);
+  } catch (const render::gl::ContextError& error) {
     reason = error.what();
     return nullptr;
   }

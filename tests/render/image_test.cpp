@@ -1,11 +1,11 @@
-#include "render/image.h"
+#include "render/image/image.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <random>
 
-#include "render/png_chunks.h"
+#include "render/image/png_chunks.h"
 
 namespace neve::render {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "gl_test.h"
-#include "render/lighting.h"
-#include "render/mesh_shapes.h"
+#include "render/light/lighting.h"
+#include "render/shapes/mesh_shapes.h"
 
 namespace neve::render {
 namespace {
@@ -16,7 +16,7 @@ struct Sample {
 };
 
 /// The cell that a place lies in.
-Sample sample(const LightVolume& volume, Vec3f place) {
+Sample sample(const render::light::LightVolume& volume, Vec3f place) {
   const Vec3f x = (place - volume.grid.origin) / volume.grid.cell;
   const auto index = [&](float v, int n) {
     return static_cast<std::size_t>(std::clamp(static_cast<int>(v), 0, n - 1));
@@ -43,7 +43,7 @@ TEST(LightVolume, LightComesFromTheLightAndNotThroughTheBody) {
                                 Vec3f{-0.6f, 0.6f, 0.5f}, Vec3f{0.3f, -1, 0.2f}}) {
     Frame frame = ball();
     frame.light.direction = direction;
-    const LightVolume volume = make_light_volume(frame, {}, nullptr);
+    const render::light::LightVolume volume = render::light::make_light_volume(frame, {}, nullptr);
     const Vec3f l = normalized(direction);
     EXPECT_GT(sample(volume, 0.34f * l).key, 0.9f);
     EXPECT_LT(sample(volume, -0.34f * l).key, 0.1f);
@@ -52,13 +52,13 @@ TEST(LightVolume, LightComesFromTheLightAndNotThroughTheBody) {
 }
 
 TEST(LightVolume, SkyIsOpenAboveAndClosedBelow) {
-  const LightVolume volume = make_light_volume(ball(), {}, nullptr);
+  const render::light::LightVolume volume = render::light::make_light_volume(ball(), {}, nullptr);
   EXPECT_GT(sample(volume, {0, 0.34f, 0}).sky, 0.9f);
   EXPECT_LT(sample(volume, {0, -0.33f, 0}).sky, 0.4f);
 }
 
 TEST(LightVolume, BodyNormalPointsOutward) {
-  const LightVolume volume = make_light_volume(ball(), {}, nullptr);
+  const render::light::LightVolume volume = render::light::make_light_volume(ball(), {}, nullptr);
   for (const Vec3f n : {Vec3f{1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, 0, -1}, Vec3f{0.6f, -0.8f, 0}}) {
     const Vec3f body = sample(volume, 0.3f * n).body;
     EXPECT_GT(length(body), 0.5f);
@@ -69,7 +69,7 @@ TEST(LightVolume, BodyNormalPointsOutward) {
 TEST(LightVolume, StrayHasHardlyABody) {
   Frame frame = ball();
   add_point(frame, {0.5f, 0.2f, 0});
-  const LightVolume volume = make_light_volume(frame, {}, nullptr);
+  const render::light::LightVolume volume = render::light::make_light_volume(frame, {}, nullptr);
   EXPECT_LT(length(sample(volume, {0.5f, 0.2f, 0}).body), 0.3f);
   EXPECT_GT(sample(volume, {0.5f, 0.25f, 0}).key, 0.9f);
 }
@@ -80,20 +80,20 @@ TEST(LightVolume, DependsNeitherOnOrderNorOnThreads) {
     frame.points.position.insert(frame.points.position.end(), frame.points.position.begin(),
                                  frame.points.position.begin() + 10000);
   ASSERT_GT(frame.points.position.size(), 40000u);
-  const LightVolume one = make_light_volume(frame, {}, nullptr);
+  const render::light::LightVolume one = render::light::make_light_volume(frame, {}, nullptr);
   for (const int threads : {2, 3, 5}) {
     ThreadPool pool(threads);
     std::reverse(frame.points.position.begin(), frame.points.position.end());
-    const LightVolume many = make_light_volume(frame, {}, &pool);
+    const render::light::LightVolume many = render::light::make_light_volume(frame, {}, &pool);
     EXPECT_EQ(one.body, many.body);
     EXPECT_EQ(one.light, many.light);
   }
 }
 
 TEST(Lighting, MakesAVolumeAnewOnlyWhenWhatItDependsOnHasChanged) {
-  Lighting lighting;
+  render::light::Lighting lighting;
   Frame frame = ball();
-  frame.meshes.push_back(box_mesh({0, 0.5f, 0}, {0.4f, 0.05f, 0.4f}));
+  frame.meshes.push_back(render::shapes::box_mesh({0, 0.5f, 0}, {0.4f, 0.05f, 0.4f}));
   const std::uint64_t first = lighting.volume(frame, {}, nullptr).serial;
   EXPECT_NE(first, 0u);
   // Another view of the same state.
@@ -104,10 +104,10 @@ TEST(Lighting, MakesAVolumeAnewOnlyWhenWhatItDependsOnHasChanged) {
 
   std::uint64_t last = first;
   const auto expect_new = [&](const char* what) {
-    const LightVolume& volume = lighting.volume(frame, {}, nullptr);
+    const render::light::LightVolume& volume = lighting.volume(frame, {}, nullptr);
     EXPECT_NE(volume.serial, last) << what;
     last = volume.serial;
-    const LightVolume fresh = make_light_volume(frame, {}, nullptr);
+    const render::light::LightVolume fresh = render::light::make_light_volume(frame, {}, nullptr);
     EXPECT_EQ(volume.body, fresh.body) << what;
     EXPECT_EQ(volume.light, fresh.light) << what;
     EXPECT_EQ(volume.grid.origin, fresh.grid.origin) << what;
@@ -130,12 +130,12 @@ TEST(Lighting, MakesAVolumeAnewOnlyWhenWhatItDependsOnHasChanged) {
 
 TEST(LightGrid, FarStrayDoesNotCoarsenIt) {
   Frame frame = ball();
-  const LightGrid without = fit_light_grid(frame.points, {});
+  const render::light::LightGrid without = render::light::fit_light_grid(frame.points, {});
   for (const Vec3f stray : {Vec3f{1e6f, 0, 0}, Vec3f{0, -1e30f, 3}, Vec3f{NAN, INFINITY, 0}})
     add_point(frame, stray);
-  const LightGrid with = fit_light_grid(frame.points, {});
+  const render::light::LightGrid with = render::light::fit_light_grid(frame.points, {});
   EXPECT_LE(with.cell, 1.3f * without.cell);
-  const LightVolume volume = make_light_volume(frame, {}, nullptr);
+  const render::light::LightVolume volume = render::light::make_light_volume(frame, {}, nullptr);
   EXPECT_LT(sample(volume, {0, 0, 0}).key, 0.2f);
 }
 
@@ -143,7 +143,7 @@ TEST(LightGrid, StaysWithin96CellsAndAroundThePoints) {
   Frame frame;
   for (const float extent : {1e-5f, 1.0f, 1e5f}) {
     frame.points.position = {{0, 0, 0}, {extent, 0.5f * extent, 0.1f * extent}};
-    const LightGrid grid = fit_light_grid(frame.points, {});
+    const render::light::LightGrid grid = render::light::fit_light_grid(frame.points, {});
     for (int axis = 0; axis < 3; ++axis) {
       EXPECT_LE(grid.size[axis], 96);
       EXPECT_LT(grid.origin[axis], 0);
@@ -152,20 +152,26 @@ TEST(LightGrid, StaysWithin96CellsAndAroundThePoints) {
     }
   }
   frame.points.position.clear();
-  EXPECT_EQ(fit_light_grid(frame.points, {}).count(), 1u);
+  EXPECT_EQ(render::light::fit_light_grid(frame.points, {}).count(), 1u);
 }
 
 TEST(LightVolume, MeshNearTheSnowThrowsAShadow) {
   Frame frame = ball();
-  frame.meshes.push_back(box_mesh({0, 0.5f, 0}, {0.4f, 0.05f, 0.4f}));
-  EXPECT_LT(sample(make_light_volume(frame, {}, nullptr), {0, 0.35f, 0}).key, 0.1f);
+  frame.meshes.push_back(render::shapes::box_mesh({0, 0.5f, 0}, {0.4f, 0.05f, 0.4f}));
+  EXPECT_LT(sample(render::light::make_light_volume(frame, {}, nullptr), {0, 0.35f, 0}).key, 0.1f);
 }
 
 TEST(LightGrid, FarOrHugeMeshDoesNotCoarsenIt) {
   const Frame frame = ball();
-  const float cell = fit_light_grid(frame.points, {}).cell;
-  EXPECT_EQ(fit_light_grid(frame.points, {box_mesh({50, 0, 0}, {1, 1, 1})}).cell, cell);
-  EXPECT_LE(fit_light_grid(frame.points, {box_mesh({0, -20, 0}, {40, 39, 40})}).cell, 3 * cell);
+  const float cell = render::light::fit_light_grid(frame.points, {}).cell;
+  EXPECT_EQ(
+      render::light::fit_light_grid(frame.points, {render::shapes::box_mesh({50, 0, 0}, {1, 1, 1})})
+          .cell,
+      cell);
+  EXPECT_LE(render::light::fit_light_grid(frame.points,
+                                          {render::shapes::box_mesh({0, -20, 0}, {40, 39, 40})})
+                .cell,
+            3 * cell);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 /// Notes and patches: words and rectangles at places of the finished picture; smaller pictures.
 
 #include "gl_test.h"
-#include "render/compose.h"
+#include "render/frame/compose.h"
 
 namespace neve::render {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "gl_test.h"
-#include "render/colormap.h"
+#include "render/frame/colormap.h"
 
 namespace neve::render {
 namespace {

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "gl_test.h"
-#include "render/colormap.h"
-#include "render/point_list.h"
-#include "render/view.h"
+#include "render/frame/colormap.h"
+#include "render/frame/point_list.h"
+#include "render/frame/view.h"
 
 namespace neve::render {
 namespace {

@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "gl_test.h"
-#include "render/mesh_shapes.h"
-#include "render/view.h"
+#include "render/frame/view.h"
+#include "render/shapes/mesh_shapes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::render {
@@ -152,7 +152,7 @@ TEST(MeshPass, MeshHidesWhatIsBehindAndIsHiddenByWhatIsInFront) {
   Renderer renderer(*context);
   Frame frame = small_frame();
   frame.points.radius = 0.05f;
-  frame.meshes.push_back(box_mesh({0, 0, 0}, {0.4f, 0.4f, 0.1f}));
+  frame.meshes.push_back(render::shapes::box_mesh({0, 0, 0}, {0.4f, 0.4f, 0.1f}));
   add_point(frame, {0.1f, 0, -0.3f});
   const int covered = pixel(renderer.draw(frame), 68, 45).brightness();
   frame.points.position[0] = {0.1f, 0, 0.3f};
@@ -166,7 +166,7 @@ TEST(MeshPass, MeshThrowsAShadowOnTheGround) {
   Renderer renderer(*context);
   Frame frame = ball_over_ground();
   frame.points = {};
-  frame.meshes.push_back(sphere_mesh({0, 0, 0}, 0.2f));
+  frame.meshes.push_back(render::shapes::sphere_mesh({0, 0, 0}, 0.2f));
   const Image image = renderer.draw(frame);
   EXPECT_LT(at(image, frame, {0.32f, -0.3f, 0}).brightness() + 20,
             at(image, frame, {-0.45f, -0.3f, 0}).brightness());
@@ -223,7 +223,7 @@ TEST(Renderer, InconsistentFramesAreRefused) {
   frame.points.value.resize(2);
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
   frame.points = {};
-  frame.meshes.push_back(box_mesh({}, {1, 1, 1}));
+  frame.meshes.push_back(render::shapes::box_mesh({}, {1, 1, 1}));
   frame.meshes[0].index.push_back(1000);
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
 }

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "gl_test.h"
-#include "render/colormap.h"
+#include "render/frame/colormap.h"
 
 namespace neve::render {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace neve::render {
 

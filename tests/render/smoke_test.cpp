@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "gl_test.h"
-#include "render/mesh_shapes.h"
-#include "render/smoke_volume.h"
+#include "render/light/smoke_volume.h"
+#include "render/shapes/mesh_shapes.h"
 #include "smoke_support.h"
 
 namespace neve::render {
@@ -77,7 +77,7 @@ TEST(Smoke, ThreeLayersOfPackedSnowReachSixtyPercentAndPowderShows) {
 /// How red the middle is with a red plate at a depth, seen through smoke between -0.3 and 0.3.
 int red_of_plate(Renderer& renderer, float z, bool has_smoke) {
   Frame frame = small_frame();
-  frame.meshes.push_back(box_mesh({0, 0, z}, {0.3f, 0.3f, 0.01f}));
+  frame.meshes.push_back(render::shapes::box_mesh({0, 0, z}, {0.3f, 0.3f, 0.01f}));
   frame.meshes[0].color = {0.6f, 0.02f, 0.02f};
   if (has_smoke)
     frame.smoke =
@@ -131,7 +131,7 @@ TEST(Smoke, SameFrameGivesTheSameBytes) {
   OPEN_OR_SKIP(context, "auto");
   Frame frame = ball_of_smoke();
   add_ball(frame, {0.2f, 0, 0.1f}, 0.1f, 0.02f);
-  frame.meshes.push_back(box_mesh({-0.2f, 0, 0.1f}, {0.2f, 0.2f, 0.2f}));
+  frame.meshes.push_back(render::shapes::box_mesh({-0.2f, 0, 0.1f}, {0.2f, 0.2f, 0.2f}));
   Renderer renderer(*context);
   const Image first = renderer.draw(frame);
   renderer.draw(small_frame(77, 41));
@@ -172,7 +172,7 @@ TEST(Smoke, ThrowsAShadowOnTheGroundAndLiesInThatOfMeshes) {
 
   const Vec3f top = {0.1f, 0.12f, 0.05f};
   const int lit = at(top);
-  frame.meshes.push_back(box_mesh({-0.35f, 0.5f, 0}, {0.05f, 0.5f, 0.5f}));
+  frame.meshes.push_back(render::shapes::box_mesh({-0.35f, 0.5f, 0}, {0.05f, 0.5f, 0.5f}));
   EXPECT_LT(at(top), lit - 15);
 }
 
@@ -183,7 +183,7 @@ TEST(Smoke, HalfResolutionIsCloseToFullAndKeepsEdges) {
   frame.smoke = make_smoke({-0.4f, -0.3f, -0.3f}, {0.4f, 0.3f, 0.3f}, 0.03f, [](Vec3f p) {
     return 0.15f + 0.1f * std::sin(9 * p.x) * std::cos(11 * p.y);
   });
-  frame.meshes.push_back(box_mesh({-0.2f, 0, 0}, {0.05f, 0.5f, 0.05f}));
+  frame.meshes.push_back(render::shapes::box_mesh({-0.2f, 0, 0}, {0.05f, 0.5f, 0.05f}));
   add_ball(frame, {0.2f, 0, 0}, 0.12f, 0.02f);
   frame.smoke.samples_per_ray = 1;
   const Image full = renderer.draw(frame);
@@ -285,14 +285,15 @@ TEST(Smoke, ThatFitsNoLatticeIsRefused) {
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
 }
 
-double total(const SmokeGrid& grid) {
+double total(const render::light::SmokeGrid& grid) {
   double sum = 0;
   for (const float opacity : grid.opacity) sum += double{opacity};
   return sum * std::pow(double{grid.spacing}, 3);
 }
 
 TEST(SmokeGrid, TexelsLieOnNodesAndTheOutermostAreEmpty) {
-  const SmokeGrid grid = make_smoke_grid(smoke_ball({0.3f, 0, 0}, 0.2f, 0.02f), nullptr);
+  const render::light::SmokeGrid grid =
+      render::light::make_smoke_grid(smoke_ball({0.3f, 0, 0}, 0.2f, 0.02f), nullptr);
   EXPECT_EQ(grid.spacing, 0.02f);
   for (int z = 0; z < grid.size.z; ++z) {
     for (int y = 0; y < grid.size.y; ++y) {
@@ -327,7 +328,7 @@ TEST(SmokeGrid, StraysNeitherEnlargeNorCoarsenIt) {
   std::vector<Vec3i> places = {{-500'000'000, 0, 0}};
   for (int i = 0; i < 1000; ++i) places.push_back({i / 100, i / 10 % 10, i % 10});
   places.push_back({400'000'000, 300'000'000, -7});
-  const SmokeGrid grid = make_smoke_grid(blocks_at(places), nullptr);
+  const render::light::SmokeGrid grid = render::light::make_smoke_grid(blocks_at(places), nullptr);
   EXPECT_EQ(grid.spacing, 0.01f);
   EXPECT_LE(grid.size.x, 90);
   EXPECT_NEAR(total(grid), 64'000e-6, 1e-6);
@@ -336,19 +337,19 @@ TEST(SmokeGrid, StraysNeitherEnlargeNorCoarsenIt) {
 TEST(SmokeGrid, WideSmokeLosesResolutionButNotItsSum) {
   std::vector<Vec3i> places;
   for (int i = 0; i < 300; ++i) places.push_back({i, i / 7, i % 5});
-  const SmokeGrid grid = make_smoke_grid(blocks_at(places), nullptr);
+  const render::light::SmokeGrid grid = render::light::make_smoke_grid(blocks_at(places), nullptr);
   EXPECT_GT(grid.spacing, 0.03f);
-  for (int axis = 0; axis < 3; ++axis) EXPECT_LE(grid.size[axis], max_smoke_side);
+  for (int axis = 0; axis < 3; ++axis) EXPECT_LE(grid.size[axis], render::light::max_smoke_side);
   EXPECT_NEAR(total(grid), 300 * 64e-6, 1e-6);
 }
 
 TEST(SmokeSpans, CoverWhatRaysMeetAndLittleElse) {
   const Frame frame = ball_of_smoke();
-  const SmokeGrid grid = make_smoke_grid(frame.smoke, nullptr);
-  const SmokeVolume volume =
-      make_smoke_volume(grid, make_light_volume(frame, grid, nullptr), {0, 1, 0}, nullptr);
+  const render::light::SmokeGrid grid = render::light::make_smoke_grid(frame.smoke, nullptr);
+  const render::light::SmokeVolume volume = render::light::make_smoke_volume(
+      grid, render::light::make_light_volume(frame, grid, nullptr), {0, 1, 0}, nullptr);
   const View view = make_view(frame.camera, 160, 120);
-  const SmokeSpans spans = make_smoke_spans(grid, volume, view, 8);
+  const render::light::SmokeSpans spans = render::light::make_smoke_spans(grid, volume, view, 8);
   ASSERT_EQ(spans.columns, 20);
   const auto span = [&](int x, int y) {
     return spans.near_far.data() + 2 * ((y / 8) * spans.columns + x / 8);

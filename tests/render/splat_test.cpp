@@ -1,6 +1,6 @@
 /// The CPU splatter: the picture of OpenGL, whatever the threads and the instruction set.
 
-#include "render/splat.h"
+#include "render/cpu/splat.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "both_ways.h"
 #include "gl_test.h"
-#include "render/light_fields.h"
-#include "render/mesh_shapes.h"
+#include "render/light/light_fields.h"
+#include "render/shapes/mesh_shapes.h"
 
 namespace neve::render {
 namespace {
@@ -25,7 +25,7 @@ TEST(Splat, DrawsThePictureOfOpenGl) {
   frame.supersampling = 2;
   expect_same_picture(*context, frame, "2x2 samples");
   frame.supersampling = 1;
-  frame.meshes.push_back(box_mesh({0.3f, 0, 0.3f}, {0.2f, 0.3f, 0.2f}));
+  frame.meshes.push_back(render::shapes::box_mesh({0.3f, 0, 0.3f}, {0.2f, 0.3f, 0.2f}));
   add_values(frame);
   expect_same_picture(*context, frame, "attributes behind and before a mesh");
   frame.camera.target = {-0.7f, 0.5f, 0.3f};
@@ -70,20 +70,22 @@ struct Samples {
   friend bool operator==(const Samples&, const Samples&) = default;
 };
 
-Samples splat(const Frame& frame, const DrawKernels& kernels, ThreadPool* pool) {
+Samples splat(const Frame& frame, const render::cpu::DrawKernels& kernels, ThreadPool* pool) {
   Samples all;
-  Splatter splatter(kernels);
+  render::cpu::Splatter splatter(kernels);
   splatter.prepare(frame.points, make_view(frame.camera, frame.width, frame.height), pool);
   const auto tiles = static_cast<std::size_t>(splatter.columns() * splatter.rows());
-  std::vector<GBufferTile> drawn(tiles);
-  for_each_task(static_cast<int>(tiles), pool,
-                [&](int tile) { splatter.draw_tile(tile, drawn[static_cast<std::size_t>(tile)]); });
+  std::vector<render::light::GBufferTile> drawn(tiles);
+  render::light::for_each_task(static_cast<int>(tiles), pool, [&](int tile) {
+    splatter.draw_tile(tile, drawn[static_cast<std::size_t>(tile)]);
+  });
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
-      const GBufferTile& tile =
-          drawn[static_cast<std::size_t>(y / tile_height * splatter.columns() + x / tile_width)];
-      const int at = y % tile_height * tile_width + x % tile_width;
-      const bool is_there = tile.kind[at] != kind_nothing;
+      const render::light::GBufferTile& tile = drawn[static_cast<std::size_t>(
+          y / render::light::tile_height * splatter.columns() + x / render::light::tile_width)];
+      const int at = y % render::light::tile_height * render::light::tile_width +
+                     x % render::light::tile_width;
+      const bool is_there = tile.kind[at] != render::light::kind_nothing;
       EXPECT_EQ(is_there, tile.inverse[at] > 0);
       all.inverse.push_back(tile.inverse[at]);
       all.kind.push_back(tile.kind[at]);
@@ -99,13 +101,14 @@ TEST(Splat, DependsNeitherOnThreadsNorOnTheInstructionSet) {
   for (const float fov : {2.0f, 40.0f, 120.0f}) {
     Frame frame = rough_ball(300, 170);  // no whole tiles
     frame.camera.fov = fov;
-    const Samples plain = splat(frame, draw_baseline, nullptr);
+    const Samples plain = splat(frame, render::cpu::draw_baseline, nullptr);
     for (const int threads : {2, 3, 7}) {
       ThreadPool pool(threads);
-      EXPECT_TRUE(splat(frame, draw_baseline, &pool) == plain) << threads << " threads";
+      EXPECT_TRUE(splat(frame, render::cpu::draw_baseline, &pool) == plain)
+          << threads << " threads";
     }
-    EXPECT_TRUE(splat(frame, chosen_draw_kernels(), nullptr) == plain)
-        << chosen_draw_kernels().simd;
+    EXPECT_TRUE(splat(frame, render::cpu::chosen_draw_kernels(), nullptr) == plain)
+        << render::cpu::chosen_draw_kernels().simd;
   }
 }
 
@@ -118,19 +121,19 @@ TEST(Splat, OrderOfPointsDoesNotMatterAndEqualsGoByTheirId) {
   });
   add_point(frame, nearest);  // in the same place, another colour
   frame.points.value.push_back(1);
-  const Samples one = splat(frame, chosen_draw_kernels(), nullptr);
+  const Samples one = splat(frame, render::cpu::chosen_draw_kernels(), nullptr);
   std::reverse(frame.points.position.begin(), frame.points.position.end());
   std::reverse(frame.points.id.begin(), frame.points.id.end());
   std::reverse(frame.points.value.begin(), frame.points.value.end());
-  EXPECT_TRUE(splat(frame, chosen_draw_kernels(), nullptr) == one);
+  EXPECT_TRUE(splat(frame, render::cpu::chosen_draw_kernels(), nullptr) == one);
   std::reverse(frame.points.id.begin(), frame.points.id.end());
-  EXPECT_FALSE(splat(frame, chosen_draw_kernels(), nullptr) == one) << "ids of others";
+  EXPECT_FALSE(splat(frame, render::cpu::chosen_draw_kernels(), nullptr) == one) << "ids of others";
 }
 
 TEST(Splat, HidingChangesNothing) {
   // Without what lies behind, which is what hiding leaves out, the front half is the same.
   Frame frame = rough_ball(300, 200);
-  const Samples all = splat(frame, chosen_draw_kernels(), nullptr);
+  const Samples all = splat(frame, render::cpu::chosen_draw_kernels(), nullptr);
   const Vec3f toward_eye = normalized(frame.camera.eye);
   Points shell = frame.points;
   shell.position.clear();
@@ -143,7 +146,7 @@ TEST(Splat, HidingChangesNothing) {
   }
   ASSERT_LT(shell.position.size(), frame.points.position.size() * 4 / 5);
   frame.points = shell;
-  EXPECT_TRUE(splat(frame, chosen_draw_kernels(), nullptr) == all);
+  EXPECT_TRUE(splat(frame, render::cpu::chosen_draw_kernels(), nullptr) == all);
 }
 
 /// In double, from the quadratic equation of the ray and the sphere.
@@ -154,7 +157,7 @@ TEST(Splat, DepthAndNormalAreThoseOfTheSphere) {
     frame.camera.fov = 70;
     frame.points.radius = 0.2f;
     add_point(frame, center);
-    const Samples drawn = splat(frame, chosen_draw_kernels(), nullptr);
+    const Samples drawn = splat(frame, render::cpu::chosen_draw_kernels(), nullptr);
     const View view = make_view(frame.camera, 160, 120);
     int hits = 0;
     for (int y = 0; y < 120; ++y) {
@@ -177,7 +180,7 @@ TEST(Splat, DepthAndNormalAreThoseOfTheSphere) {
         const double n[3] = {(z * sx - c[0]) / 0.2, (z * sy - c[1]) / 0.2, (c[2] - z) / 0.2};
         for (int k = 0; k < 3; ++k)
           EXPECT_NEAR(static_cast<double>(drawn.normal[at][k]), n[k], 1e-4) << x << " " << y;
-        EXPECT_EQ(drawn.kind[at], kind_snow);
+        EXPECT_EQ(drawn.kind[at], render::light::kind_snow);
       }
     }
     EXPECT_GT(hits, 30);

@@ -1,16 +1,16 @@
 /// Surfaces and smoke drawn and lit on the CPU: the picture of OpenGL, whatever the threads and the
 /// instruction set.
 
-#include "render/surfaces.h"
+#include "render/cpu/surfaces.h"
 
 #include <cmath>
 #include <cstring>
 
 #include "both_ways.h"
-#include "render/mesh_shapes.h"
-#include "render/smoke_cache.h"
-#include "render/smoke_march.h"
-#include "render/solid_cache.h"
+#include "render/cpu/smoke_march.h"
+#include "render/light/smoke_cache.h"
+#include "render/passes/solid_cache.h"
+#include "render/shapes/mesh_shapes.h"
 #include "smoke_support.h"
 
 namespace neve::render {
@@ -18,7 +18,7 @@ namespace {
 
 Frame ball_in_smoke() {
   Frame frame = rough_ball(320, 200);
-  frame.meshes.push_back(box_mesh({0.35f, -0.2f, 0.3f}, {0.2f, 0.4f, 0.2f}));
+  frame.meshes.push_back(render::shapes::box_mesh({0.35f, -0.2f, 0.3f}, {0.2f, 0.4f, 0.2f}));
   frame.smoke = make_smoke({-0.6f, -0.4f, -0.6f}, {0.6f, 0.5f, 0.6f}, 0.04f, [](Vec3f p) {
     return std::max(0.0f, 0.1f * std::exp(-8 * std::abs(length(p) - 0.5f)) - 0.02f);
   });
@@ -64,7 +64,7 @@ TEST(Surfaces, SlicesHideAndAreHiddenAsByOpenGl) {
 TEST(Surfaces, GhostsAndLinesAreHiddenAsByOpenGl) {
   OPEN_OR_SKIP(context, "auto");
   Frame frame = rough_ball(320, 200);
-  frame.ghosts.push_back(box_mesh({0.2f, 0, 0.1f}, {0.9f, 0.3f, 0.9f}));
+  frame.ghosts.push_back(render::shapes::box_mesh({0.2f, 0, 0.1f}, {0.9f, 0.3f, 0.9f}));
   frame.lines.push_back(
       {.ends = {{-0.6f, 0, -0.6f}, {0.6f, 0.2f, 0.6f}, {0, -0.5f, 0}, {0, 0.6f, 0}}});
   expect_same_picture(*context, frame, "lines through a ball in a ghost");
@@ -112,20 +112,21 @@ TEST(Surfaces, WithoutALightVolumeThereIsLight) {
 }
 
 /// The finished samples of a frame.
-std::vector<std::uint32_t> lit_samples(const Frame& frame, const DrawKernels& kernels,
+std::vector<std::uint32_t> lit_samples(const Frame& frame, const render::cpu::DrawKernels& kernels,
                                        ThreadPool* pool) {
   const View view = make_view(frame.camera, frame.width, frame.height);
-  const SmokeGrid grid = make_smoke_grid(frame.smoke, nullptr);
-  const LightVolume light = make_light_volume(frame, grid, nullptr);
-  Surfaces surfaces(pool, kernels);
+  const render::light::SmokeGrid grid = render::light::make_smoke_grid(frame.smoke, nullptr);
+  const render::light::LightVolume light = render::light::make_light_volume(frame, grid, nullptr);
+  render::cpu::Surfaces surfaces(pool, kernels);
   surfaces.prepare(frame, view);
-  std::optional<SmokeCover> cover;
-  SmokeMarch march(pool, kernels);
+  std::optional<render::light::SmokeCover> cover;
+  render::cpu::SmokeMarch march(pool, kernels);
   if (!grid.is_empty()) {
     surfaces.keep_points();
     surfaces.keep_grounds();
     cover = march.march(frame.smoke, grid,
-                        make_smoke_volume(grid, light, toward_light(frame.light), nullptr),
+                        render::light::make_smoke_volume(
+                            grid, light, render::light::toward_light(frame.light), nullptr),
                         frame.light, surfaces, view);
     EXPECT_TRUE(cover);
   }
@@ -148,21 +149,23 @@ TEST(Surfaces, DependNeitherOnThreadsNorOnTheInstructionSet) {
     Frame frame = what == 0 ? rough_ball(301, 173) : ball_in_smoke();  // no whole tiles
     if (what == 2) color_smoke(frame);
     if (what == 3) frame.is_transparent = true;
-    const std::vector<std::uint32_t> plain = lit_samples(frame, draw_baseline, nullptr);
+    const std::vector<std::uint32_t> plain =
+        lit_samples(frame, render::cpu::draw_baseline, nullptr);
     ThreadPool pool(3);
-    EXPECT_TRUE(lit_samples(frame, draw_baseline, &pool) == plain) << what;
-    EXPECT_TRUE(lit_samples(frame, chosen_draw_kernels(), nullptr) == plain)
-        << what << ", " << chosen_draw_kernels().simd;
+    EXPECT_TRUE(lit_samples(frame, render::cpu::draw_baseline, &pool) == plain) << what;
+    EXPECT_TRUE(lit_samples(frame, render::cpu::chosen_draw_kernels(), nullptr) == plain)
+        << what << ", " << render::cpu::chosen_draw_kernels().simd;
     frame.light.intensity *= 0.9f;
-    EXPECT_FALSE(lit_samples(frame, draw_baseline, nullptr) == plain) << "light counts";
+    EXPECT_FALSE(lit_samples(frame, render::cpu::draw_baseline, nullptr) == plain)
+        << "light counts";
   }
 }
 
 TEST(Surfaces, KeptTilesGiveTheSamePicture) {
   const Frame frame = rough_ball(301, 173);
   const View view = make_view(frame.camera, frame.width, frame.height);
-  const LightVolume light = make_light_volume(frame, {}, nullptr);
-  Surfaces kept(nullptr), tile_by_tile(nullptr);
+  const render::light::LightVolume light = render::light::make_light_volume(frame, {}, nullptr);
+  render::cpu::Surfaces kept(nullptr), tile_by_tile(nullptr);
   kept.prepare(frame, view);
   kept.keep_points();
   kept.keep_grounds();
@@ -178,9 +181,9 @@ TEST(Surfaces, KeptTilesGiveTheSamePicture) {
 
 TEST(SolidCache, HoldsOnlyWhatIsTheSame) {
   Frame frame = ball_in_slices();
-  frame.meshes.push_back(box_mesh({0, 0, 0}, {0.2f, 0.2f, 0.2f}));
+  frame.meshes.push_back(render::shapes::box_mesh({0, 0, 0}, {0.2f, 0.2f, 0.2f}));
   const auto view_of = [](const Frame& f) { return make_view(f.camera, f.width, f.height); };
-  SolidCache cache;
+  render::passes::SolidCache cache;
   EXPECT_FALSE(cache.holds(frame, view_of(frame)));
   cache.renew(frame, view_of(frame));
   Frame other = frame;
@@ -207,15 +210,15 @@ TEST(SolidCache, HoldsOnlyWhatIsTheSame) {
 
 TEST(SmokeCache, MakesAnewOnlyWhatHasChanged) {
   Frame frame = ball_in_smoke();
-  SmokeCache cache;
-  Lighting lighting;
+  render::light::SmokeCache cache;
+  render::light::Lighting lighting;
   const auto ask = [&] {
-    const SmokeGrid& grid = cache.grid(frame.smoke, nullptr);
-    const LightVolume& light = lighting.volume(frame, grid, nullptr);
-    const Vec3f toward = toward_light(frame.light);
-    const SmokeVolume& volume = cache.volume(light, toward, nullptr);
-    EXPECT_EQ(grid.opacity, make_smoke_grid(frame.smoke, nullptr).opacity);
-    EXPECT_EQ(volume.texels, make_smoke_volume(grid, light, toward, nullptr).texels);
+    const render::light::SmokeGrid& grid = cache.grid(frame.smoke, nullptr);
+    const render::light::LightVolume& light = lighting.volume(frame, grid, nullptr);
+    const Vec3f toward = render::light::toward_light(frame.light);
+    const render::light::SmokeVolume& volume = cache.volume(light, toward, nullptr);
+    EXPECT_EQ(grid.opacity, render::light::make_smoke_grid(frame.smoke, nullptr).opacity);
+    EXPECT_EQ(volume.texels, render::light::make_smoke_volume(grid, light, toward, nullptr).texels);
     return cache.renewals();
   };
   EXPECT_EQ(ask(), 2u);

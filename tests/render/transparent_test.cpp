@@ -4,7 +4,7 @@
 #include <set>
 
 #include "gl_test.h"
-#include "render/compose.h"
+#include "render/frame/compose.h"
 
 namespace neve::render {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "sim/watch.h"
+#include "sim/checks/watch.h"
 #include "tests/support/snow.h"
 
 namespace {
@@ -18,14 +18,14 @@ using namespace neve::test;
 struct World {
   SolverSettings settings;
   std::vector<Material> materials{Material{}, Material{}};
-  std::vector<Collider> colliders;
+  std::vector<shapes::Collider> colliders;
 
   World() {
     materials[1].name = "stiff";
     materials[1].model = Model::corotated;
-    Collider ball;
+    shapes::Collider ball;
     ball.name = "ball";
-    ball.shape.form = Sphere{{0.05, 0.02, 0.03}, 0.05};
+    ball.shape.form = shapes::Sphere{{0.05, 0.02, 0.03}, 0.05};
     ball.angular_velocity = {0, 3, 1};
     ball.velocity = {0.1, 0.2, 0};
     colliders = {plane({0, 0.013, 0}, {0, 1, 0}, 0.5), ball};
@@ -91,7 +91,7 @@ TEST(Apply, RefusesWhatNeedsARestartAndIsAsBefore) {
   refused([](World& w) { w.materials.pop_back(); });
   refused([](World& w) { w.materials.emplace_back(); });
   refused([](World& w) { w.colliders.resize(65, w.colliders[0]); });
-  refused([](World& w) { w.colliders[1].shape.form = Points{}; });
+  refused([](World& w) { w.colliders[1].shape.form = shapes::Points{}; });
   // Not even the dt of the next step has changed.
   const Simulation again = crushed(world);
   EXPECT_EQ(simulation.choose_dt(1).dt, again.choose_dt(1).dt);
@@ -392,8 +392,8 @@ TEST(Apply, AFrameStoppedAtAStepGoesOnAsIfNothingHadHappened) {
   EXPECT_EQ(stopped.save(), whole.save());
 }
 
-Pose pose_of(const Simulation& simulation, std::size_t k) {
-  return pose_at(simulation.colliders().at(k), simulation.time());
+shapes::Pose pose_of(const Simulation& simulation, std::size_t k) {
+  return shapes::pose_at(simulation.colliders().at(k), simulation.time());
 }
 
 TEST(AppliedCollider, GoesOnFromWhereItIsWithItsNewMotion) {
@@ -402,16 +402,16 @@ TEST(AppliedCollider, GoesOnFromWhereItIsWithItsNewMotion) {
     World world;
     Simulation simulation = world.simulate(particles);
     for (int k = 0; k < 10; ++k) simulation.step(1e-4);
-    const Pose before = pose_of(simulation, 1);
-    EXPECT_LT((before.point - pose_at(world.colliders[1], 1e-3).point).norm(), 1e-15);
+    const shapes::Pose before = pose_of(simulation, 1);
+    EXPECT_LT((before.point - shapes::pose_at(world.colliders[1], 1e-3).point).norm(), 1e-15);
     world.colliders[1].velocity = {-1, 0, 0.5};
     world.colliders[1].angular_velocity = {2, 0, 0};
     world.apply_to(simulation);
-    const Pose at = pose_of(simulation, 1);
+    const shapes::Pose at = pose_of(simulation, 1);
     EXPECT_LT((at.point - before.point).norm(), 1e-15);
     EXPECT_LT((at.rotation - before.rotation).norm(), 1e-15);
     simulation.step(1e-4);
-    const Pose after = pose_of(simulation, 1);
+    const shapes::Pose after = pose_of(simulation, 1);
     EXPECT_LT((after.point - at.point - 1e-4 * Vec3d(-1, 0, 0.5)).norm(), 1e-15);
     const Mat3d turn = rotation_from_vector(Vec3d(2e-4, 0, 0));
     EXPECT_LT((after.rotation - turn * at.rotation).norm(), 1e-14);
@@ -425,23 +425,23 @@ TEST(AppliedCollider, MovesByTheEditOfItsPlace) {
   world.colliders[1].velocity = {0, 0, 1};
   world.apply_to(simulation);
   advance(simulation, 10);
-  const Pose before = pose_of(simulation, 1);
-  std::get<Sphere>(world.colliders[1].shape.form).center += Vec3d(0.5, 0, 0);
-  std::get<Sphere>(world.colliders[1].shape.form).radius = 0.07;
+  const shapes::Pose before = pose_of(simulation, 1);
+  std::get<shapes::Sphere>(world.colliders[1].shape.form).center += Vec3d(0.5, 0, 0);
+  std::get<shapes::Sphere>(world.colliders[1].shape.form).radius = 0.07;
   world.colliders[1].friction = 0.1;
   world.apply_to(simulation);
   EXPECT_LT((pose_of(simulation, 1).point - before.point - Vec3d(0.5, 0, 0)).norm(), 1e-15);
-  EXPECT_EQ(std::get<Sphere>(simulation.colliders()[1].shape.form).radius, 0.07);
+  EXPECT_EQ(std::get<shapes::Sphere>(simulation.colliders()[1].shape.form).radius, 0.07);
 }
 
 TEST(AppliedCollider, IsKnownByItsNameAndANewOneStandsWhereItSays) {
   World world;
   Simulation simulation = world.simulate(ball_of_two_materials());
   advance(simulation, 10);
-  const Pose ball = pose_of(simulation, 1);
-  Collider box;
+  const shapes::Pose ball = pose_of(simulation, 1);
+  shapes::Collider box;
   box.name = "box";
-  box.shape.form = Box{{1, 2, 3}, {1, 1, 1}};
+  box.shape.form = shapes::Box{{1, 2, 3}, {1, 1, 1}};
   box.velocity = {1, 0, 0};
   world.colliders = {box, world.colliders[1]};
   world.apply_to(simulation);
@@ -456,7 +456,7 @@ TEST(AppliedCollider, WaitsWhileItsStageIsSkippedAndThenGoesOn) {
   world.colliders[1].velocity = {0, -5, 0};
   Simulation simulation = world.simulate(ball_of_two_materials());
   advance(simulation, 10);
-  const Pose before = pose_of(simulation, 1);
+  const shapes::Pose before = pose_of(simulation, 1);
   world.settings.bypass = {Stage::colliders};
   world.apply_to(simulation);
   advance(simulation, 10);

@@ -18,7 +18,7 @@ SolverSettings skipping(std::vector<Stage> stages) {
 
 struct BypassCase {
   ParticleArrays particles = ball_of_snow({0, 0.13, 0}, 0.12, 0.015, {0, -3, 0});
-  std::vector<Collider> colliders{plane({0, 0.043, 0}, {0, 1, 0}, 0.5)};
+  std::vector<shapes::Collider> colliders{plane({0, 0.043, 0}, {0, 1, 0}, 0.5)};
 
   Simulation run(const SolverSettings& s, double until = 0.02) const {
     Simulation simulation(s, {Material{}}, colliders, particles, 1);

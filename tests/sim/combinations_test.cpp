@@ -40,18 +40,18 @@ ParticleArrays disturbed_ball() {
   return p;
 }
 
-std::vector<Collider> three_colliders() {
-  Collider ball;
+std::vector<shapes::Collider> three_colliders() {
+  shapes::Collider ball;
   ball.name = "ball";
-  ball.shape.form = Sphere{{0.05, 0.08, 0.03}, 0.06};
-  ball.contact = Contact::sticky;
+  ball.shape.form = shapes::Sphere{{0.05, 0.08, 0.03}, 0.06};
+  ball.contact = shapes::Contact::sticky;
   ball.velocity = {0.1, 0, 0};
   ball.angular_velocity = {0, 3, 1};
-  Collider box;
+  shapes::Collider box;
   box.name = "box";
-  box.shape.form = Box{{-0.1, 0.12, 0}, {0.1, 0.06, 0.2}};
+  box.shape.form = shapes::Box{{-0.1, 0.12, 0}, {0.1, 0.06, 0.2}};
   box.shape.rotation = {10, 20, 30};
-  box.contact = Contact::slip;
+  box.contact = shapes::Contact::slip;
   box.angular_velocity = {2, 0, -1};
   return {plane({0, 0.03, 0}, {0.1, 1, 0}, 0.4), ball, box};
 }

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "sim/kernel_pose.h"
+#include "sim/engine/kernel_pose.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::sim {
@@ -24,12 +24,12 @@ const Vec3d place_of_block = h * Vec3d(-4, 8, 4);
 
 /// As the kernels of a precision see a place, in every lane the same.
 template <class Real>
-Seen seen_by_kernel(const ColliderPose& pose, const Vec3d& x) {
+Seen seen_by_kernel(const sim::kernels::ColliderPose& pose, const Vec3d& x) {
   using V = Quad<Real>;
-  const LocalCollider<Real> local = localize<Real>(pose, block, h);
+  const sim::kernels::LocalCollider<Real> local = sim::kernels::localize<Real>(pose, block, h);
   const Vec3d from = x - place_of_block;
   Vec3<V> normal;
-  const V distance = surface_distance(
+  const V distance = sim::kernels::surface_distance(
       local,
       Vec3<V>{all<V>(static_cast<Real>(from[0])), all<V>(static_cast<Real>(from[1])),
               all<V>(static_cast<Real>(from[2]))},
@@ -41,25 +41,25 @@ Seen seen_by_kernel(const ColliderPose& pose, const Vec3d& x) {
 
 const Vec3d middle_of_shapes(-0.1, 1.0, 0.6);
 
-std::vector<Shape> analytic_shapes() {
+std::vector<sim::shapes::Shape> analytic_shapes() {
   const Vec3d turn(20, -35, 50);
-  return {{Plane{middle_of_shapes, {1, 4, -2}}, turn},
-          {Sphere{middle_of_shapes, 0.4}, turn},
-          {Box{middle_of_shapes, {0.5, 0.9, 0.3}}, turn},
-          {Capsule{middle_of_shapes - Vec3d(0.2, 0.3, -0.1),
-                   middle_of_shapes + Vec3d(0.3, 0.2, 0.1), 0.2},
+  return {{sim::shapes::Plane{middle_of_shapes, {1, 4, -2}}, turn},
+          {sim::shapes::Sphere{middle_of_shapes, 0.4}, turn},
+          {sim::shapes::Box{middle_of_shapes, {0.5, 0.9, 0.3}}, turn},
+          {sim::shapes::Capsule{middle_of_shapes - Vec3d(0.2, 0.3, -0.1),
+                                middle_of_shapes + Vec3d(0.3, 0.2, 0.1), 0.2},
            turn},
-          {Capsule{middle_of_shapes, middle_of_shapes, 0.3}, turn},
-          {Cylinder{middle_of_shapes, 0.4, 0.5}, turn},
-          {Cylinder{middle_of_shapes, 0.15, 0.9}, turn},
-          {Cone{middle_of_shapes, 0.4, 0.8}, turn},
-          {Cone{middle_of_shapes, 0.5, 0.3}, turn},
-          {Torus{middle_of_shapes, 0.35, 0.15}, turn},
-          {Torus{middle_of_shapes, 0.2, 0.2}, turn}};
+          {sim::shapes::Capsule{middle_of_shapes, middle_of_shapes, 0.3}, turn},
+          {sim::shapes::Cylinder{middle_of_shapes, 0.4, 0.5}, turn},
+          {sim::shapes::Cylinder{middle_of_shapes, 0.15, 0.9}, turn},
+          {sim::shapes::Cone{middle_of_shapes, 0.4, 0.8}, turn},
+          {sim::shapes::Cone{middle_of_shapes, 0.5, 0.3}, turn},
+          {sim::shapes::Torus{middle_of_shapes, 0.35, 0.15}, turn},
+          {sim::shapes::Torus{middle_of_shapes, 0.2, 0.2}, turn}};
 }
 
-Collider moving_and_turned(const Shape& shape) {
-  Collider c;
+sim::shapes::Collider moving_and_turned(const sim::shapes::Shape& shape) {
+  sim::shapes::Collider c;
   c.shape = shape;
   c.velocity = {0.2, -0.1, 0.3};
   c.angular_velocity = {0.5, 1, -0.7};
@@ -76,14 +76,15 @@ std::vector<Vec3d> random_places(std::size_t count, double reach) {
 }
 
 TEST(ContactKernel, AgreesWithTheHostForEveryShape) {
-  for (const Shape& shape : analytic_shapes()) {
+  for (const sim::shapes::Shape& shape : analytic_shapes()) {
     SCOPED_TRACE(shape.form.index());
-    const Collider c = moving_and_turned(shape);
+    const sim::shapes::Collider c = moving_and_turned(shape);
     const double time = 0.3;
-    const ColliderPose pose = *kernel_pose(c, time, h, Vec3i::Zero(), nullptr);
+    const sim::kernels::ColliderPose pose =
+        *sim::engine::kernel_pose(c, time, h, Vec3i::Zero(), nullptr);
     int inside = 0;
     for (const Vec3d& x : random_places(4000, 0.6)) {
-      const Surface host = surface_at(c, time, x);
+      const sim::shapes::Surface host = sim::shapes::surface_at(c, time, x);
       const Seen lane = seen_by_kernel<double>(pose, x);
       // Rounding decides on the surface itself.
       if (std::abs(host.distance) > 1e-12) {
@@ -103,10 +104,10 @@ TEST(ContactKernel, AgreesWithTheHostForEveryShape) {
 }
 
 TEST(ContactKernel, NormalIsTheGradientOfTheDistanceInside) {
-  for (const Shape& shape : analytic_shapes()) {
+  for (const sim::shapes::Shape& shape : analytic_shapes()) {
     SCOPED_TRACE(shape.form.index());
-    const ColliderPose pose =
-        *kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
+    const sim::kernels::ColliderPose pose =
+        *sim::engine::kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
     for (const Vec3d& x : random_places(1000, 0.5)) {
       const Seen here = seen_by_kernel<double>(pose, x);
       EXPECT_NEAR(here.normal.norm(), 1, 1e-12);
@@ -126,45 +127,61 @@ TEST(ContactKernel, NormalIsTheGradientOfTheDistanceInside) {
 /// Where several places of the surface are as near, or a direction has no length.
 TEST(ContactKernel, TiesAndCentresAreAsDocumented) {
   struct Case {
-    Shape shape;
+    sim::shapes::Shape shape;
     Vec3d from_middle, normal;
     double distance;
   };
   const Vec3d none(0, 0, 0);
   const double slope = std::hypot(0.8, 0.4);
   const std::vector<Case> cases{
-      {{Sphere{middle_of_shapes, 0.4}, none}, {0, 0, 0}, {0, 1, 0}, -0.4},
-      {{Box{middle_of_shapes, {0.4, 0.4, 0.4}}, none}, {0, 0, 0}, {1, 0, 0}, -0.2},
-      {{Box{middle_of_shapes, {0.4, 0.4, 0.4}}, none}, {-0.1, 0.1, -0.1}, {-1, 0, 0}, -0.1},
+      {{sim::shapes::Sphere{middle_of_shapes, 0.4}, none}, {0, 0, 0}, {0, 1, 0}, -0.4},
+      {{sim::shapes::Box{middle_of_shapes, {0.4, 0.4, 0.4}}, none}, {0, 0, 0}, {1, 0, 0}, -0.2},
+      {{sim::shapes::Box{middle_of_shapes, {0.4, 0.4, 0.4}}, none},
+       {-0.1, 0.1, -0.1},
+       {-1, 0, 0},
+       -0.1},
       // Both ends of a capsule's axis, and along it.
-      {{Capsule{middle_of_shapes - Vec3d(0, 0.25, 0), middle_of_shapes + Vec3d(0, 0.25, 0), 0.1},
+      {{sim::shapes::Capsule{middle_of_shapes - Vec3d(0, 0.25, 0),
+                             middle_of_shapes + Vec3d(0, 0.25, 0), 0.1},
         none},
        {0, 0.25, 0},
        {1, 0, 0},
        -0.1},
-      {{Capsule{middle_of_shapes - Vec3d(0, 0.25, 0), middle_of_shapes + Vec3d(0, 0.25, 0), 0.1},
+      {{sim::shapes::Capsule{middle_of_shapes - Vec3d(0, 0.25, 0),
+                             middle_of_shapes + Vec3d(0, 0.25, 0), 0.1},
         none},
        {0, 0, 0},
        {1, 0, 0},
        -0.1},
-      {{Capsule{middle_of_shapes, middle_of_shapes, 0.1}, none}, {0, 0, 0}, {1, 0, 0}, -0.1},
-      {{Cylinder{middle_of_shapes, 0.2, 0.4}, none}, {0, 0, 0}, {1, 0, 0}, -0.2},
-      {{Cylinder{middle_of_shapes, 0.4, 0.2}, none}, {0, 0, 0}, {0, 1, 0}, -0.1},
+      {{sim::shapes::Capsule{middle_of_shapes, middle_of_shapes, 0.1}, none},
+       {0, 0, 0},
+       {1, 0, 0},
+       -0.1},
+      {{sim::shapes::Cylinder{middle_of_shapes, 0.2, 0.4}, none}, {0, 0, 0}, {1, 0, 0}, -0.2},
+      {{sim::shapes::Cylinder{middle_of_shapes, 0.4, 0.2}, none}, {0, 0, 0}, {0, 1, 0}, -0.1},
       // As near to the wall as to an end: the wall.
-      {{Cylinder{middle_of_shapes, 0.25, 0.5}, none}, {-0.125, -0.125, 0}, {-1, 0, 0}, -0.125},
-      {{Cone{middle_of_shapes, 0.4, 0.8}, none}, {0, 0.4, 0}, {0.8 / slope, 0.4 / slope, 0}, 0},
-      {{Cone{middle_of_shapes, 0.4, 0.8}, none}, {0, -0.4, 0}, {0, -1, 0}, 0},
-      {{Torus{middle_of_shapes, 0.35, 0.15}, none}, {0.35, 0, 0}, {0, 1, 0}, -0.15},
-      {{Torus{middle_of_shapes, 0.2, 0.2}, none}, {0, 0, 0}, {-1, 0, 0}, 0}};
+      {{sim::shapes::Cylinder{middle_of_shapes, 0.25, 0.5}, none},
+       {-0.125, -0.125, 0},
+       {-1, 0, 0},
+       -0.125},
+      {{sim::shapes::Cone{middle_of_shapes, 0.4, 0.8}, none},
+       {0, 0.4, 0},
+       {0.8 / slope, 0.4 / slope, 0},
+       0},
+      {{sim::shapes::Cone{middle_of_shapes, 0.4, 0.8}, none}, {0, -0.4, 0}, {0, -1, 0}, 0},
+      {{sim::shapes::Torus{middle_of_shapes, 0.35, 0.15}, none}, {0.35, 0, 0}, {0, 1, 0}, -0.15},
+      {{sim::shapes::Torus{middle_of_shapes, 0.2, 0.2}, none}, {0, 0, 0}, {-1, 0, 0}, 0}};
   for (const Case& c : cases) {
     SCOPED_TRACE(c.shape.form.index());
-    Collider collider;
+    sim::shapes::Collider collider;
     collider.shape = c.shape;
     // The middle_of_shapes is at cell -1, 10, 6 exactly, so that ties are exact in the kernels'
     // arithmetic too; what is left is the rounding of 0.1.
-    const ColliderPose pose = *kernel_pose(collider, 0, h, Vec3i::Zero(), nullptr);
+    const sim::kernels::ColliderPose pose =
+        *sim::engine::kernel_pose(collider, 0, h, Vec3i::Zero(), nullptr);
     const Seen lane = seen_by_kernel<double>(pose, middle_of_shapes + c.from_middle);
-    const Surface host = surface_at(collider, 0, middle_of_shapes + c.from_middle);
+    const sim::shapes::Surface host =
+        sim::shapes::surface_at(collider, 0, middle_of_shapes + c.from_middle);
     EXPECT_NEAR(host.distance, c.distance, 1e-12);
     EXPECT_NEAR(lane.distance, c.distance, 1e-12);
     EXPECT_NEAR(host.normal.norm(), 1, 1e-12);
@@ -174,42 +191,44 @@ TEST(ContactKernel, TiesAndCentresAreAsDocumented) {
     std::visit(
         [&](auto& form) {
           using Form = std::decay_t<decltype(form)>;
-          if constexpr (std::is_same_v<Form, Capsule>) {
+          if constexpr (std::is_same_v<Form, sim::shapes::Capsule>) {
             form.a -= middle_of_shapes, form.b -= middle_of_shapes;
-          } else if constexpr (!std::is_same_v<Form, Plane>) {
+          } else if constexpr (!std::is_same_v<Form, sim::shapes::Plane>) {
             form.center.setZero();
           }
         },
         collider.shape.form);
-    const ColliderPose at_origin = *kernel_pose(collider, 0, 0.125, Vec3i::Zero(), nullptr);
+    const sim::kernels::ColliderPose at_origin =
+        *sim::engine::kernel_pose(collider, 0, 0.125, Vec3i::Zero(), nullptr);
     const int origin[3] = {0, 0, 0};
     using V = Quad<double>;
     Vec3<V> normal;
     const Vec3d& r = c.from_middle;
-    surface_distance(localize<double>(at_origin, origin, 0.125),
-                     Vec3<V>{all<V>(r[0]), all<V>(r[1]), all<V>(r[2])}, normal);
+    sim::kernels::surface_distance(sim::kernels::localize<double>(at_origin, origin, 0.125),
+                                   Vec3<V>{all<V>(r[0]), all<V>(r[1]), all<V>(r[2])}, normal);
     EXPECT_LT((Vec3d(normal.x[0], normal.y[0], normal.z[0]) - c.normal).norm(), 1e-9);
-    EXPECT_LT((surface_at(collider, 0, r).normal - c.normal).norm(), 1e-9);
+    EXPECT_LT((sim::shapes::surface_at(collider, 0, r).normal - c.normal).norm(), 1e-9);
   }
 }
 
 TEST(ContactKernel, NothingInReachIsEverLeftOut) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
-  for (const Shape& shape : analytic_shapes()) {
+  for (const sim::shapes::Shape& shape : analytic_shapes()) {
     SCOPED_TRACE(shape.form.index());
-    const ColliderPose pose =
-        *kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
-    const LocalCollider<float> local = localize<float>(pose, block, h);
+    const sim::kernels::ColliderPose pose =
+        *sim::engine::kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
+    const sim::kernels::LocalCollider<float> local = sim::kernels::localize<float>(pose, block, h);
     int left_out = 0;
     for (int k = 0; k < 400; ++k) {
       const Vec3d centre = middle_of_shapes + Vec3d(unit(random), unit(random), unit(random));
       const double reach = 0.1 + 0.1 * unit(random);
       const Vec3d from = centre - place_of_block;
-      if (!is_out_of_reach(local,
-                           Vec3<float>{static_cast<float>(from[0]), static_cast<float>(from[1]),
-                                       static_cast<float>(from[2])},
-                           static_cast<float>(reach)))
+      if (!sim::kernels::is_out_of_reach(
+              local,
+              Vec3<float>{static_cast<float>(from[0]), static_cast<float>(from[1]),
+                          static_cast<float>(from[2])},
+              static_cast<float>(reach)))
         continue;
       ++left_out;
       for (int q = 0; q < 20; ++q) {
@@ -223,12 +242,13 @@ TEST(ContactKernel, NothingInReachIsEverLeftOut) {
 }
 
 /// The contact law of the paper's section 8, in double, from the host's surface.
-Vec3d after_contact(const Collider& c, const Surface& surface, const Vec3d& v) {
+Vec3d after_contact(const sim::shapes::Collider& c, const sim::shapes::Surface& surface,
+                    const Vec3d& v) {
   if (surface.distance > 0) return v;
-  if (c.contact == Contact::sticky) return surface.velocity;
+  if (c.contact == sim::shapes::Contact::sticky) return surface.velocity;
   const Vec3d relative = v - surface.velocity;
   const double v_n = relative.dot(surface.normal);
-  if (c.contact == Contact::slip) return v - v_n * surface.normal;
+  if (c.contact == sim::shapes::Contact::slip) return v - v_n * surface.normal;
   if (v_n >= 0) return v;
   const Vec3d v_t = relative - v_n * surface.normal;
   const double kept = v_t.norm() + c.friction * v_n;
@@ -238,14 +258,18 @@ Vec3d after_contact(const Collider& c, const Surface& surface, const Vec3d& v) {
 TEST(ContactKernel, EveryShapeHasFrictionSlipAndStickiness) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(-1, 1);
-  for (const Shape& shape : analytic_shapes())
-    for (const Contact contact : {Contact::separate, Contact::slip, Contact::sticky}) {
+  for (const sim::shapes::Shape& shape : analytic_shapes())
+    for (const sim::shapes::Contact contact :
+         {sim::shapes::Contact::separate, sim::shapes::Contact::slip,
+          sim::shapes::Contact::sticky}) {
       SCOPED_TRACE(shape.form.index());
-      Collider c = moving_and_turned(shape);
+      sim::shapes::Collider c = moving_and_turned(shape);
       c.contact = contact;
       c.friction = 0.4;
-      const ColliderPose pose = *kernel_pose(c, 0.3, h, Vec3i::Zero(), nullptr);
-      const LocalCollider<double> local = localize<double>(pose, block, h);
+      const sim::kernels::ColliderPose pose =
+          *sim::engine::kernel_pose(c, 0.3, h, Vec3i::Zero(), nullptr);
+      const sim::kernels::LocalCollider<double> local =
+          sim::kernels::localize<double>(pose, block, h);
       int changed = 0, stuck = 0;
       for (const Vec3d& x : random_places(1500, 0.5)) {
         const Vec3d v(unit(random), unit(random), unit(random)), r = x - place_of_block;
@@ -253,15 +277,15 @@ TEST(ContactKernel, EveryShapeHasFrictionSlipAndStickiness) {
         const auto lanes = [](const Vec3d& a) {
           return Vec3<V>{all<V>(a[0]), all<V>(a[1]), all<V>(a[2])};
         };
-        const Vec3<V> out = respond(local, lanes(r), lanes(v));
-        const Surface surface = surface_at(c, 0.3, x);
+        const Vec3<V> out = sim::kernels::respond(local, lanes(r), lanes(v));
+        const sim::shapes::Surface surface = sim::shapes::surface_at(c, 0.3, x);
         const Vec3d expected = after_contact(c, surface, v), found(out.x[3], out.y[3], out.z[3]);
         EXPECT_LT((found - expected).norm(), 1e-11);
         changed += expected != v;
         stuck += (expected - surface.velocity).norm() == 0;
       }
       EXPECT_GT(changed, 10);
-      if (contact == Contact::separate) {
+      if (contact == sim::shapes::Contact::separate) {
         EXPECT_GT(stuck, 1);
         EXPECT_LT(stuck, changed);
       }
@@ -269,24 +293,25 @@ TEST(ContactKernel, EveryShapeHasFrictionSlipAndStickiness) {
 }
 
 TEST(KernelPose, APlaneIsTakenByTheFootNearestToTheOrigin) {
-  Collider floor;
-  floor.shape = {Plane{{-1e6, 0.25, 3e6}, {0, 1, 0}}, {0, 0, 0}};
+  sim::shapes::Collider floor;
+  floor.shape = {sim::shapes::Plane{{-1e6, 0.25, 3e6}, {0, 1, 0}}, {0, 0, 0}};
   floor.angular_velocity = {0, 1e-6, 0};
-  const auto pose = kernel_pose(floor, 0, h, Vec3i::Zero(), nullptr);
+  const auto pose = sim::engine::kernel_pose(floor, 0, h, Vec3i::Zero(), nullptr);
   ASSERT_TRUE(pose);
   const Vec3d x(0.3, 0.5, -0.2);
-  EXPECT_NEAR(seen_by_kernel<double>(*pose, x).distance, surface_at(floor, 0, x).distance, 1e-9);
+  EXPECT_NEAR(seen_by_kernel<double>(*pose, x).distance,
+              sim::shapes::surface_at(floor, 0, x).distance, 1e-9);
   // Its surface turns about the point that was given.
   EXPECT_NEAR(pose->velocity[0], 1e-6 * -3e6, 1e-9);
   EXPECT_NEAR(pose->velocity[2], 1e-6 * -1e6, 1e-9);
 }
 
 TEST(KernelPose, AColliderThatLeftTheLatticeIsOutOfReach) {
-  Collider press;
-  press.shape.form = Box{};
+  sim::shapes::Collider press;
+  press.shape.form = sim::shapes::Box{};
   press.velocity = {0, 0, 1e6};
-  EXPECT_TRUE(kernel_pose(press, 0, 0.01, Vec3i::Zero(), nullptr));
-  EXPECT_FALSE(kernel_pose(press, 1, 0.01, Vec3i::Zero(), nullptr));
+  EXPECT_TRUE(sim::engine::kernel_pose(press, 0, 0.01, Vec3i::Zero(), nullptr));
+  EXPECT_FALSE(sim::engine::kernel_pose(press, 1, 0.01, Vec3i::Zero(), nullptr));
 }
 
 }  // namespace

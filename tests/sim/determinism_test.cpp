@@ -54,12 +54,12 @@ TEST(Determinism, SameBitsWithTheLatticeOriginOneKilometreAway) {
     const ParticleArrays p = ball_of_snow({0.01, 0.17, -0.02}, 0.15, 0.016, {0.3, -4, 0.1});
     // Blocks of 4 cells: 19531 of them are 999.99 m.
     const neve::sim::Vec3i far_away(19531, -19531, 19531);
-    Collider ball;
+    shapes::Collider ball;
     ball.name = "ball";
-    ball.shape.form = Sphere{{0.05, 0.02, 0.03}, 0.06};
+    ball.shape.form = shapes::Sphere{{0.05, 0.02, 0.03}, 0.06};
     ball.angular_velocity = {0, 3, 1};
     ball.velocity = {0.1, 0, 0};
-    const std::vector<Collider> colliders{plane({0, 0.013, 0}, {0.1, 1, 0}, 0.5), ball};
+    const std::vector<shapes::Collider> colliders{plane({0, 0.013, 0}, {0.1, 1, 0}, 0.5), ball};
     Simulation here(s, {Material{}}, colliders, p, 2),
         there(s, {Material{}}, colliders, p, 2, far_away);
     here.advance_to(0.012);

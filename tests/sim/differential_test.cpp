@@ -54,7 +54,7 @@ TEST(StressChange, IsTheDerivativeOfTheStress) {
       // Fourth order: (8 (f(e) - f(-e)) - (f(2e) - f(-2e))) / 12e, 1e-11 of the moduli here.
       constexpr double e = 1e-3;
       const auto P = [&](double by) {
-        return first_piola(material, (Mat3d::Identity() + by * G) * F_E, 0.97);
+        return health::first_piola(material, (Mat3d::Identity() + by * G) * F_E, 0.97);
       };
       const Mat3d dP = (8 * (P(e) - P(-e)) - (P(2 * e) - P(-2 * e))) / (12 * e);
       const Mat3d expected = dP * F_E.transpose();

@@ -1,4 +1,4 @@
-#include "sim/distance_field.h"
+#include "sim/shapes/distance_field.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cstring>
 #include <random>
 
-#include "sim/collider.h"
-#include "sim/kernel_pose.h"
-#include "sim/solid.h"
+#include "sim/engine/kernel_pose.h"
+#include "sim/shapes/collider.h"
+#include "sim/shapes/solid.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,7 +20,8 @@ using test::ball_obj;
 using test::box_obj;
 using test::TemporaryFolder;
 
-Mesh written_mesh(const TemporaryFolder& folder, const std::string& text, double scale = 1) {
+sim::shapes::Mesh written_mesh(const TemporaryFolder& folder, const std::string& text,
+                               double scale = 1) {
   return {folder.write("mesh.obj", text).string(), scale, {0, 0, 0}};
 }
 
@@ -34,10 +35,10 @@ Vec3d place_within(std::mt19937& random, double reach) {
   return {unit(random), unit(random), unit(random)};
 }
 
-std::string mesh_complaint(const Mesh& mesh, double cell_size) {
+std::string mesh_complaint(const sim::shapes::Mesh& mesh, double cell_size) {
   ThreadPool pool(1);
   try {
-    distance_field(mesh, cell_size, pool);
+    sim::shapes::distance_field(mesh, cell_size, pool);
   } catch (const ShapeError& error) {
     return error.what();
   }
@@ -47,7 +48,7 @@ std::string mesh_complaint(const Mesh& mesh, double cell_size) {
 TEST(MeshSurface, IsAsFarAsTheFormulaSays) {
   const TemporaryFolder folder;
   const Vec3d size(0.4, 0.8, 0.6);
-  const auto box = mesh_surface(written_mesh(folder, box_obj(size / 0.5), 0.5));
+  const auto box = sim::shapes::mesh_surface(written_mesh(folder, box_obj(size / 0.5), 0.5));
   std::mt19937 random(1);
   for (int k = 0; k < 2000; ++k) {
     const Vec3d x = place_within(random, 0.8);
@@ -61,19 +62,20 @@ TEST(MeshSurface, IsAsFarAsTheFormulaSays) {
 
 /// One place as kernels see it.
 template <class Real>
-std::pair<double, Vec3d> kernel_in_field(const DistanceField& field, const Vec3d& x) {
-  Collider collider;
-  collider.shape.form = Mesh{};
+std::pair<double, Vec3d> kernel_in_field(const sim::shapes::DistanceField& field, const Vec3d& x) {
+  sim::shapes::Collider collider;
+  collider.shape.form = sim::shapes::Mesh{};
   const double h = 0.125;
   const int block[3] = {0, 0, 0};
-  const ColliderPose pose = *kernel_pose(collider, 0, h, Vec3i::Zero(), &field);
+  const sim::kernels::ColliderPose pose =
+      *sim::engine::kernel_pose(collider, 0, h, Vec3i::Zero(), &field);
   using V = Quad<Real>;
   Vec3<V> n;
-  const V d =
-      surface_distance(localize<Real>(pose, block, h),
-                       Vec3<V>{all<V>(static_cast<Real>(x[0])), all<V>(static_cast<Real>(x[1])),
-                               all<V>(static_cast<Real>(x[2]))},
-                       n);
+  const V d = sim::kernels::surface_distance(
+      sim::kernels::localize<Real>(pose, block, h),
+      Vec3<V>{all<V>(static_cast<Real>(x[0])), all<V>(static_cast<Real>(x[1])),
+              all<V>(static_cast<Real>(x[2]))},
+      n);
   return {static_cast<double>(d[2]), Vec3d(static_cast<double>(n.x[2]), static_cast<double>(n.y[2]),
                                            static_cast<double>(n.z[2]))};
 }
@@ -83,8 +85,8 @@ TEST(DistanceField, OfABoxIsExactButAtEdges) {
   const Vec3d size(0.4, 0.8, 0.6);
   ThreadPool pool(2);
   const double spacing = 0.02;
-  const DistanceField field(*mesh_surface(written_mesh(folder, box_obj(size))), "box", spacing,
-                            pool);
+  const sim::shapes::DistanceField field(
+      *sim::shapes::mesh_surface(written_mesh(folder, box_obj(size))), "box", spacing, pool);
   std::mt19937 random(2);
   for (int k = 0; k < 20000; ++k) {
     const Vec3d x = place_within(random, 0.44);
@@ -112,8 +114,9 @@ TEST(DistanceField, OfABallIsWithinItsCurvature) {
   const double radius = 0.3, spacing = 0.02;
   const int rings = 96;
   ThreadPool pool(2);
-  const DistanceField field(*mesh_surface(written_mesh(folder, ball_obj(radius, rings))), "ball",
-                            spacing, pool);
+  const sim::shapes::DistanceField field(
+      *sim::shapes::mesh_surface(written_mesh(folder, ball_obj(radius, rings))), "ball", spacing,
+      pool);
   const double facets = 0.5 * radius * std::pow(M_PI / rings, 2);
   std::mt19937 random(3);
   for (int k = 0; k < 20000; ++k) {
@@ -133,7 +136,8 @@ TEST(DistanceField, BeyondItsLatticeStaysBelowTheDistanceAndAboveZero) {
   const TemporaryFolder folder;
   const Vec3d size(0.4, 0.8, 0.6);
   ThreadPool pool(1);
-  const DistanceField field(*mesh_surface(written_mesh(folder, box_obj(size))), "box", 0.05, pool);
+  const sim::shapes::DistanceField field(
+      *sim::shapes::mesh_surface(written_mesh(folder, box_obj(size))), "box", 0.05, pool);
   std::mt19937 random(4);
   for (int k = 0; k < 4000; ++k) {
     const Vec3d x = place_within(random, 3);
@@ -150,9 +154,9 @@ TEST(DistanceField, BeyondItsLatticeStaysBelowTheDistanceAndAboveZero) {
 
 TEST(DistanceField, HasTheSameBitsOnAnyNumberOfThreads) {
   const TemporaryFolder folder;
-  const auto surface = mesh_surface(written_mesh(folder, ball_obj(0.3, 24)));
+  const auto surface = sim::shapes::mesh_surface(written_mesh(folder, ball_obj(0.3, 24)));
   ThreadPool one(1), three(3);
-  const DistanceField a(*surface, "ball", 0.02, one), b(*surface, "ball", 0.02, three);
+  const sim::shapes::DistanceField a(*surface, "ball", 0.02, one), b(*surface, "ball", 0.02, three);
   ASSERT_EQ(a.bytes(), b.bytes());
   EXPECT_GT(a.bytes(), 100000u);
   EXPECT_EQ(std::memcmp(a.samples().distance, b.samples().distance, a.bytes()), 0);
@@ -161,24 +165,24 @@ TEST(DistanceField, HasTheSameBitsOnAnyNumberOfThreads) {
 TEST(DistanceField, IsMadeOnceAndAnewForANewFile) {
   const TemporaryFolder folder;
   ThreadPool pool(2);
-  const Mesh mesh = written_mesh(folder, box_obj({0.4, 0.4, 0.4}));
-  const auto first = distance_field(mesh, 0.05, pool);
-  EXPECT_EQ(first, distance_field(mesh, 0.05, pool));
-  EXPECT_NE(first, distance_field(mesh, 0.01, pool));
-  Mesh larger = mesh;
+  const sim::shapes::Mesh mesh = written_mesh(folder, box_obj({0.4, 0.4, 0.4}));
+  const auto first = sim::shapes::distance_field(mesh, 0.05, pool);
+  EXPECT_EQ(first, sim::shapes::distance_field(mesh, 0.05, pool));
+  EXPECT_NE(first, sim::shapes::distance_field(mesh, 0.01, pool));
+  sim::shapes::Mesh larger = mesh;
   larger.scale = 2;
-  EXPECT_NE(first, distance_field(larger, 0.05, pool));
+  EXPECT_NE(first, sim::shapes::distance_field(larger, 0.05, pool));
   written_mesh(folder, box_obj({0.4, 0.4, 0.45}));
-  EXPECT_NE(first, distance_field(mesh, 0.05, pool));
+  EXPECT_NE(first, sim::shapes::distance_field(mesh, 0.05, pool));
 }
 
 TEST(DistanceField, SpacingFollowsCellsAndThinParts) {
   const TemporaryFolder folder;
-  const auto thick = mesh_surface(written_mesh(folder, box_obj({0.8, 0.8, 0.8})));
-  EXPECT_DOUBLE_EQ(field_spacing(*thick, 0.02), 0.01);
-  const auto thin = mesh_surface(written_mesh(folder, box_obj({0.4, 0.04, 0.4})));
-  EXPECT_DOUBLE_EQ(field_spacing(*thin, 0.02), 0.005);
-  EXPECT_DOUBLE_EQ(field_spacing(*thick, 0.2), 0.0125);
+  const auto thick = sim::shapes::mesh_surface(written_mesh(folder, box_obj({0.8, 0.8, 0.8})));
+  EXPECT_DOUBLE_EQ(sim::shapes::field_spacing(*thick, 0.02), 0.01);
+  const auto thin = sim::shapes::mesh_surface(written_mesh(folder, box_obj({0.4, 0.04, 0.4})));
+  EXPECT_DOUBLE_EQ(sim::shapes::field_spacing(*thin, 0.02), 0.005);
+  EXPECT_DOUBLE_EQ(sim::shapes::field_spacing(*thick, 0.2), 0.0125);
 }
 
 TEST(DistanceField, SaysWhatIsWrongWithAMesh) {
@@ -210,7 +214,7 @@ TEST(DistanceField, RefusesScalesThatLeaveNoMesh) {
     const std::string said = mesh_complaint(written_mesh(folder, box, scale), 0.05);
     EXPECT_NE(said.find("mesh.obj: with scale = "), std::string::npos) << said;
     EXPECT_NE(said.find("metres per unit of the file"), std::string::npos) << said;
-    EXPECT_THROW(Solid({written_mesh(folder, box, scale)}), ShapeError);
+    EXPECT_THROW(sim::shapes::Solid({written_mesh(folder, box, scale)}), ShapeError);
   }
   // What is smaller than cells by far has a lattice of its own size.
   EXPECT_EQ(mesh_complaint(written_mesh(folder, box, 1e-8), 0.05), "");

@@ -13,7 +13,7 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-std::vector<Collider> floor_plane() {
+std::vector<shapes::Collider> floor_plane() {
   return {plane({0, 0.003, 0}, {0, 1, 0}, 0.5)};
 }
 
@@ -52,11 +52,11 @@ TEST(Divergence, SlowPressesAreHealthy) {
   SolverSettings s;
   s.cell_size = 0.03;
   s.gravity.setZero();
-  const Contact slip = Contact::slip;
+  const shapes::Contact slip = shapes::Contact::slip;
   for (const Model model : {Model::snow, Model::corotated}) {
     Material m;
     m.model = model;
-    std::vector<Collider> box = {
+    std::vector<shapes::Collider> box = {
         plane({0, 0, 0}, {0, 1, 0}, 0, slip),     plane({0, 0, 0}, {1, 0, 0}, 0, slip),
         plane({0.18, 0, 0}, {-1, 0, 0}, 0, slip), plane({0, 0, 0}, {0, 0, 1}, 0, slip),
         plane({0, 0, 0.18}, {0, 0, -1}, 0, slip), plane({0, 0.36, 0}, {0, -1, 0}, 0, slip)};

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/checks/watch.h"
 #include "sim/rasterize.h"
-#include "sim/solid.h"
+#include "sim/shapes/solid.h"
 #include "sim/staged.h"
-#include "sim/watch.h"
 #include "tests/support/snow.h"
 
 namespace {
@@ -20,20 +20,20 @@ using namespace neve::sim;
 using namespace neve::test;
 
 /// Box of 0.2 x 0.04 x 0.2 m that snow leaves downwards.
-Emitter spout(double rate) {
-  Emitter e;
+seeding::Emitter spout(double rate) {
+  seeding::Emitter e;
   e.name = "spout";
   e.material = "snow";
-  e.shape.form = Box{{0.1, 1.0, -0.2}, {0.2, 0.04, 0.2}};
+  e.shape.form = shapes::Box{{0.1, 1.0, -0.2}, {0.2, 0.04, 0.2}};
   e.velocity = {0, -2, 0};
   e.rate = rate;
   return e;
 }
 
-Sink pit(double top) {
-  Sink sink;
+seeding::Sink pit(double top) {
+  seeding::Sink sink;
   sink.name = "pit";
-  sink.shape.form = Box{{0, top - 5, 0}, {10, 10, 10}};
+  sink.shape.form = shapes::Box{{0, top - 5, 0}, {10, 10, 10}};
   return sink;
 }
 
@@ -44,48 +44,49 @@ SolverSettings without_gravity() {
 }
 
 Simulation flowing(const SolverSettings& settings, const ParticleArrays& particles,
-                   const Flow& flow, int threads = 1,
+                   const seeding::Flow& flow, int threads = 1,
                    const sim::Vec3i& origin = sim::Vec3i::Zero()) {
   return Simulation(settings, {Material{}}, {}, particles, threads, origin, flow);
 }
 
-std::vector<Birth> births_of(EmitterStream& stream, double time) {
-  std::vector<Birth> births;
+std::vector<seeding::Birth> births_of(seeding::EmitterStream& stream, double time) {
+  std::vector<seeding::Birth> births;
   stream.advance_to(time, births);
   return births;
 }
 
 TEST(Flow, TheRateIsKeptFromStartToEnd) {
-  Emitter e = spout(3);
+  seeding::Emitter e = spout(3);
   e.start = 0.1;
   e.end = 0.35;
   const Material snow;
   const double m = snow.density * std::pow(0.02, 3) / e.particles_per_cell;
-  EmitterStream stream(e, 0, snow, 1, 0.02);
+  seeding::EmitterStream stream(e, 0, snow, 1, 0.02);
   EXPECT_TRUE(births_of(stream, 0.1).empty());
   std::size_t count = 0;
   double mass = 0;
   for (double t = 0; t <= 1; t += 0.01) {
-    for (const Birth& b : births_of(stream, t)) {
+    for (const seeding::Birth& b : births_of(stream, t)) {
       ++count;
       mass += b.m;
       EXPECT_DOUBLE_EQ(b.V0 * snow.density, b.m);
     }
     // Half a particle: times of births are rounded to whole ones.
     EXPECT_NEAR(mass, 3 * std::clamp(t - 0.1, 0.0, 0.25), 0.5001 * m) << t;
-    EXPECT_EQ(count, count_emitted(e, snow, 0.02, t)) << t;
+    EXPECT_EQ(count, seeding::count_emitted(e, snow, 0.02, t)) << t;
   }
 }
 
 TEST(Flow, BirthsDoNotDependOnWhenTheyAreAskedFor) {
-  Emitter e = spout(3);
+  seeding::Emitter e = spout(3);
   e.angular_velocity = {0, 1, 0.5};
   const Material snow;
-  EmitterStream whole(e, 2, snow, 7, 0.02), parts(e, 2, snow, 7, 0.02), other(e, 3, snow, 7, 0.02);
-  const std::vector<Birth> once = births_of(whole, 0.25);
-  std::vector<Birth> piecewise;
+  seeding::EmitterStream whole(e, 2, snow, 7, 0.02), parts(e, 2, snow, 7, 0.02),
+      other(e, 3, snow, 7, 0.02);
+  const std::vector<seeding::Birth> once = births_of(whole, 0.25);
+  std::vector<seeding::Birth> piecewise;
   for (const double t : {0.013, 0.014, 0.1, 0.25})
-    for (Birth b : births_of(parts, t)) {
+    for (seeding::Birth b : births_of(parts, t)) {
       b.x += (0.25 - t) * b.v;
       piecewise.push_back(b);
     }
@@ -101,15 +102,15 @@ TEST(Flow, BirthsDoNotDependOnWhenTheyAreAskedFor) {
 /// At the rate that its velocity carries away, a jet is as dense as packed snow, everywhere.
 TEST(Flow, AJetHasTheDensityOfItsMaterial) {
   const Material snow;
-  Emitter e = spout(0.001);
-  EXPECT_NEAR(carried_rate(e, snow), 400 * 0.2 * 0.2 * 2, 1e-9);
-  Emitter turned = e;
+  seeding::Emitter e = spout(0.001);
+  EXPECT_NEAR(seeding::carried_rate(e, snow), 400 * 0.2 * 0.2 * 2, 1e-9);
+  seeding::Emitter turned = e;
   turned.shape.rotation = {0, 0, 30};
   turned.velocity = rotation_from_degrees(turned.shape.rotation) * e.velocity;
-  EXPECT_NEAR(carried_rate(turned, snow), 400 * 0.2 * 0.2 * 2, 1e-9);
-  e.rate = carried_rate(e, snow);
-  EmitterStream stream(e, 0, snow, 1, 0.01);
-  const std::vector<Birth> births = births_of(stream, 0.4);
+  EXPECT_NEAR(seeding::carried_rate(turned, snow), 400 * 0.2 * 0.2 * 2, 1e-9);
+  e.rate = seeding::carried_rate(e, snow);
+  seeding::EmitterStream stream(e, 0, snow, 1, 0.01);
+  const std::vector<seeding::Birth> births = births_of(stream, 0.4);
   // The jet reaches from the spout, at 1 m, to 0.8 m below; its ends are as long as the spout.
   const double cell = 0.04;
   double sum_of_squares = 0;
@@ -118,7 +119,7 @@ TEST(Flow, AJetHasTheDensityOfItsMaterial) {
     for (double x = 0; x + 1e-9 < 0.2; x += cell)
       for (double z = -0.3; z + 1e-9 < -0.1; z += cell) {
         double mass = 0;
-        for (const Birth& b : births)
+        for (const seeding::Birth& b : births)
           if (b.x.x() >= x && b.x.x() < x + cell && b.x.y() >= y && b.x.y() < y + cell &&
               b.x.z() >= z && b.x.z() < z + cell)
             mass += b.m;
@@ -131,14 +132,14 @@ TEST(Flow, AJetHasTheDensityOfItsMaterial) {
 }
 
 TEST(Flow, WithoutARateTheShapeIsFilledOnce) {
-  Emitter e = spout(0);
+  seeding::Emitter e = spout(0);
   e.start = 0.2;
   const Material snow;
-  EmitterStream stream(e, 0, snow, 1, 0.02);
+  seeding::EmitterStream stream(e, 0, snow, 1, 0.02);
   EXPECT_TRUE(births_of(stream, 0.1999).empty());
-  const std::vector<Birth> births = births_of(stream, 0.2);
+  const std::vector<seeding::Birth> births = births_of(stream, 0.2);
   double mass = 0;
-  for (const Birth& b : births) mass += b.m;
+  for (const seeding::Birth& b : births) mass += b.m;
   EXPECT_NEAR(mass, 400 * 0.2 * 0.04 * 0.2, 1e-9);
   EXPECT_TRUE(births_of(stream, 5).empty());
 }
@@ -148,7 +149,7 @@ TEST(Flow, ASceneMayBeginEmpty) {
   EXPECT_EQ(simulation.particle_count(), 0u);
   simulation.advance_to(0.1);
   EXPECT_FALSE(simulation.divergence());
-  EXPECT_EQ(simulation.particle_count(), count_emitted(spout(2), Material{}, 0.02, 0.1));
+  EXPECT_EQ(simulation.particle_count(), seeding::count_emitted(spout(2), Material{}, 0.02, 0.1));
   EXPECT_EQ(simulation.flow_totals().emitted, simulation.particle_count());
   // With snow there are steps that its sound allows: 0.5 h / c.
   EXPECT_LT(simulation.choose_dt(1).dt, 0.6 * 0.02 / sound_speed(Material{}));
@@ -185,7 +186,7 @@ TEST(Flow, WhatGoesIsGoneAndWhatStaysKeepsItsId) {
   simulation.advance_to(0.35);
   ASSERT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
   const ParticleArrays after = simulation.particles();
-  const FlowTotals totals = simulation.flow_totals();
+  const seeding::FlowTotals totals = simulation.flow_totals();
   EXPECT_GT(totals.removed, bodies / 2);
   EXPECT_EQ(after.x.size(), bodies + totals.emitted - totals.removed);
   EXPECT_NEAR(simulation.summary().mass,
@@ -207,13 +208,13 @@ TEST(Flow, WhatGoesIsGoneAndWhatStaysKeepsItsId) {
 }
 
 TEST(Flow, OutsideOfASinkTurnedInsideOut) {
-  Sink room;
-  room.shape.form = Sphere{{0.05, 0.35, 0.05}, 0.2};
+  seeding::Sink room;
+  room.shape.form = shapes::Sphere{{0.05, 0.35, 0.05}, 0.2};
   room.outside = true;
   const ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.01);
   Simulation inside = flowing(without_gravity(), block, {{}, {room}, 1});
   EXPECT_EQ(inside.flow_totals().removed, 0u);
-  room.shape.form = Sphere{{0.05, 0.35, 0.05}, 0.05};
+  room.shape.form = shapes::Sphere{{0.05, 0.35, 0.05}, 0.05};
   Simulation cut = flowing(without_gravity(), block, {{}, {room}, 1});
   std::size_t expected = 0;
   for (const Vec3d& x : block.x) expected += (x - Vec3d(0.05, 0.35, 0.05)).norm() <= 0.05;
@@ -237,7 +238,7 @@ TEST(Flow, ThreadsAndTheLatticeChangeNothing) {
 
 TEST(Flow, ARestoredRunGoesOnToTheBit) {
   const ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.01);
-  const Flow flow{{spout(5), spout(0)}, {pit(0.25)}, 3};
+  const seeding::Flow flow{{spout(5), spout(0)}, {pit(0.25)}, 3};
   for (const double moment : {0.0, 0.1, 0.2, 0.21}) {
     Simulation whole = flowing(SolverSettings{}, block, flow, 2);
     whole.advance_to(moment);
@@ -278,7 +279,7 @@ TEST(Flow, MeansAreOfTheParticlesThatAreLeft) {
 TEST(Flow, EnergyIsAccountedFor) {
   SolverSettings settings = without_gravity();
   settings.precision = Precision::real64;
-  const Flow flow{{spout(5)}, {pit(0.4)}, 1};
+  const seeding::Flow flow{{spout(5)}, {pit(0.4)}, 1};
   const auto gap = [](const Simulation& simulation) {
     const EnergyAccount account = energy_account(simulation);
     return (account.found - account.explained) / account.scale;
@@ -300,39 +301,41 @@ TEST(Flow, EnergyIsAccountedFor) {
 }
 
 TEST(Flow, RefusesWhatCannotBe) {
-  Emitter e = spout(1);
+  seeding::Emitter e = spout(1);
   e.material = "sand";
   EXPECT_THROW(flowing({}, {}, {{e}, {}, 1}), std::invalid_argument);
   e = spout(-1);
   EXPECT_THROW(flowing({}, {}, {{e}, {}, 1}), std::invalid_argument);
   e = spout(1);
-  e.shape.form = Box{{1e9, 0, 0}, {1, 1, 1}};
+  e.shape.form = shapes::Box{{1e9, 0, 0}, {1, 1, 1}};
   Simulation far = flowing({}, {}, {{e}, {}, 1});
   EXPECT_THROW(far.advance_to(0.1), std::invalid_argument);
   e = spout(0);
-  e.shape.form = Box{{0, 0, 0}, {1e3, 1e3, 1e3}};
+  e.shape.form = shapes::Box{{0, 0, 0}, {1e3, 1e3, 1e3}};
   e.particles_per_cell = 1000;
   EXPECT_THROW(flowing({}, {}, {{e}, {}, 1}), ShapeError);
 }
 
 /// Births at rest: where they are is where they were born.
-std::vector<Birth> births_at_rest(const Shape& shape, double cell_size, std::size_t count) {
-  Emitter e;
+std::vector<seeding::Birth> births_at_rest(const shapes::Shape& shape, double cell_size,
+                                           std::size_t count) {
+  seeding::Emitter e;
   e.name = "spring";
   e.material = "snow";
   e.shape = shape;
   const Material snow;
   e.rate =
       snow.density * std::pow(cell_size, 3) / e.particles_per_cell * static_cast<double>(count);
-  EmitterStream stream(e, 0, snow, 1, cell_size);
+  seeding::EmitterStream stream(e, 0, snow, 1, cell_size);
   return births_of(stream, 1);
 }
 
 TEST(Flow, SnowIsAsDenseAtTheFacesOfAnEmitter) {
   const Vec3d size(0.2, 0.04, 0.2), inner = size - Vec3d::Constant(0.005);
-  const std::vector<Birth> births = births_at_rest({Box{{0, 0, 0}, size}}, 0.02, 20000);
+  const std::vector<seeding::Birth> births =
+      births_at_rest({shapes::Box{{0, 0, 0}, size}}, 0.02, 20000);
   double outer = 0;
-  for (const Birth& b : births) outer += ((b.x.cwiseAbs() - 0.5 * inner).maxCoeff() > 0);
+  for (const seeding::Birth& b : births) outer += ((b.x.cwiseAbs() - 0.5 * inner).maxCoeff() > 0);
   const double expected = 1 - inner.prod() / size.prod();
   // A quarter of a spacing below the faces. Independent random places would scatter by 1.6 %; with
   // candidates lost at faces it would be 35 % less.
@@ -340,18 +343,18 @@ TEST(Flow, SnowIsAsDenseAtTheFacesOfAnEmitter) {
 }
 
 TEST(Flow, ShapesMuchSmallerThanASpacingAreFilled) {
-  const Shape shapes[] = {{Sphere{{0, 0, 0}, 1e-4}},
-                          {Box{{0, 0, 0}, {1, 1e-5, 1}}},
-                          {Torus{{0, 0, 0}, 0.5, 0.001}},
-                          {Torus{{0, 0, 0}, 0.5, 1e-5}}};
+  const shapes::Shape shapes[] = {{shapes::Sphere{{0, 0, 0}, 1e-4}},
+                                  {shapes::Box{{0, 0, 0}, {1, 1e-5, 1}}},
+                                  {shapes::Torus{{0, 0, 0}, 0.5, 0.001}},
+                                  {shapes::Torus{{0, 0, 0}, 0.5, 1e-5}}};
   const auto start = std::chrono::steady_clock::now();
-  for (const Shape& shape : shapes) {
-    const Solid solid(shape);
-    const Bounds box = solid.bounds();
-    const std::vector<Birth> births = births_at_rest(shape, 0.05, 4000);
+  for (const shapes::Shape& shape : shapes) {
+    const shapes::Solid solid(shape);
+    const shapes::Bounds box = solid.bounds();
+    const std::vector<seeding::Birth> births = births_at_rest(shape, 0.05, 4000);
     ASSERT_EQ(births.size(), 4000u);
     double right = 0, out = 0;
-    for (const Birth& b : births) {
+    for (const seeding::Birth& b : births) {
       EXPECT_TRUE(solid.contains(b.x));
       right += b.x.x() > 0;
       out += (b.x.cwiseQuotient(box.max)).cwiseAbs().maxCoeff() > 0.5;
@@ -366,16 +369,16 @@ TEST(Flow, ShapesMuchSmallerThanASpacingAreFilled) {
 }
 
 TEST(Flow, WhatNeverOpensCostsNothingAndWhatWasBornIsNotBornAgain) {
-  Emitter e = spout(0);
+  seeding::Emitter e = spout(0);
   const Material snow;
-  EmitterStream whole(e, 0, snow, 1, 0.02), again(e, 0, snow, 1, 0.02);
+  seeding::EmitterStream whole(e, 0, snow, 1, 0.02), again(e, 0, snow, 1, 0.02);
   EXPECT_FALSE(births_of(whole, 0.1).empty());
   again.restore(whole.state());
   EXPECT_TRUE(births_of(again, 0.2).empty());
   // 10^9 particles: 24 GB, if they were placed at once.
   e.start = 1e6;
-  e.shape.form = Box{{0, 0, 0}, {10, 10, 10}};
-  EmitterStream never(e, 0, snow, 1, 0.02);
+  e.shape.form = shapes::Box{{0, 0, 0}, {10, 10, 10}};
+  seeding::EmitterStream never(e, 0, snow, 1, 0.02);
   EXPECT_TRUE(births_of(never, 1).empty());
 }
 
@@ -383,8 +386,8 @@ TEST(Flow, FastSnowDoesNotFlyThroughASink) {
   ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.1, 0.1}, 0.01);
   for (Vec3d& v : block.v) v = {0, -15, 0};
   // Two cells thick: 8 steps at 0.4 cells would cross it.
-  Sink slab;
-  slab.shape.form = Box{{0.05, 0, 0.05}, {10, 0.04, 10}};
+  seeding::Sink slab;
+  slab.shape.form = shapes::Box{{0.05, 0, 0.05}, {10, 0.04, 10}};
   Simulation simulation = flowing(without_gravity(), block, {{}, {slab}, 1});
   simulation.advance_to(0.05);
   ASSERT_FALSE(simulation.divergence());
@@ -403,8 +406,8 @@ TEST(Flow, AParticleAtTheFarCornerOfItsBlockIsSeen) {
   one.m = {400 * std::pow(0.01, 3)};
   one.V0 = {std::pow(0.01, 3)};
   one.material = {0};
-  Sink dot;
-  dot.shape.form = Sphere{h * (Vec3d::Constant(4.95) + step), 0.2 * h};
+  seeding::Sink dot;
+  dot.shape.form = shapes::Sphere{h * (Vec3d::Constant(4.95) + step), 0.2 * h};
   Simulation simulation = flowing(settings, one, {{}, {dot}, 1});
   simulation.step(1e-3);
   EXPECT_EQ(simulation.particle_count(), 1u);

@@ -5,8 +5,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "sim/diagnostics.h"
-#include "sim/self_test_bodies.h"
+#include "sim/checks/self_test_bodies.h"
+#include "sim/health/diagnostics.h"
 #include "sim/staged.h"
 #include "tests/support/simd_levels.h"
 #include "tests/support/snow.h"
@@ -16,12 +16,12 @@ namespace {
 using namespace neve;
 using namespace neve::sim;
 using namespace neve::test;
-using self_test::cell_size;
-using self_test::weight_gradient;
+using sim::checks::self_test::cell_size;
+using sim::checks::self_test::weight_gradient;
 
 /// Snow in two materials, strained and moving.
 ParticleArrays strained(std::size_t count) {
-  ParticleArrays p = self_test::small_ball();
+  ParticleArrays p = sim::checks::self_test::small_ball();
   p.x.resize(count), p.v.resize(count), p.m.resize(count), p.V0.resize(count);
   disturb(p, 0.03, 1.0);
   for (std::size_t q = 0; q < count; ++q) p.material.push_back(static_cast<int>(q % 3));
@@ -36,8 +36,8 @@ std::vector<Material> three_models() {
   return materials;
 }
 
-SolverSettings implicit_settings(const SelfTestCase& test, double beta) {
-  SolverSettings s = self_test::settings_of(test);
+SolverSettings implicit_settings(const checks::SelfTestCase& test, double beta) {
+  SolverSettings s = sim::checks::self_test::settings_of(test);
   s.beta = beta;
   s.solve_tolerance = 1e-14;
   s.solve_iterations = 500;
@@ -46,7 +46,7 @@ SolverSettings implicit_settings(const SelfTestCase& test, double beta) {
 
 /// v_new of (I + beta dt^2 M^-1 H) v_new = v_star, with H put together column by column from
 /// differences of the stress and from weights by their definition.
-std::vector<Vec3d> solved_densely(const SelfTestCase& test, const StagedStep& step,
+std::vector<Vec3d> solved_densely(const checks::SelfTestCase& test, const StagedStep& step,
                                   const ParticleArrays& p, const std::vector<Material>& materials,
                                   double beta_dt_squared) {
   constexpr double e = 1e-5;
@@ -59,18 +59,18 @@ std::vector<Vec3d> solved_densely(const SelfTestCase& test, const StagedStep& st
     std::vector<std::size_t> reached;
     std::vector<Vec3d> gradient;
     for (std::size_t i = 0; i < nodes.mass.size(); ++i) {
-      const Vec3d d = self_test::place(nodes.node[i]) - p.x[q];
-      if (d.cwiseAbs().maxCoeff() >= 2 * cell_size) continue;
+      const Vec3d d = sim::checks::self_test::place(nodes.node[i]) - p.x[q];
+      if (d.cwiseAbs().maxCoeff() >= 2 * checks::self_test::cell_size) continue;
       reached.push_back(i);
-      gradient.push_back(weight_gradient(test.kernel, test.transfer, d));
+      gradient.push_back(checks::self_test::weight_gradient(test.kernel, test.transfer, d));
     }
     const auto P = [&](const Mat3d& G, double by) {
-      return first_piola(material, (Mat3d::Identity() + by * G) * p.F_E[q], p.J_P[q]);
+      return health::first_piola(material, (Mat3d::Identity() + by * G) * p.F_E[q], p.J_P[q]);
     };
     for (std::size_t j = 0; j < reached.size(); ++j)
       for (int c = 0; c < 3; ++c) {
-        const Mat3d G = cell_size * Vec3d::Unit(c) * gradient[j].transpose();
-        const Mat3d dP = (P(G, e) - P(G, -e)) / (2 * e * cell_size);
+        const Mat3d G = checks::self_test::cell_size * Vec3d::Unit(c) * gradient[j].transpose();
+        const Mat3d dP = (P(G, e) - P(G, -e)) / (2 * e * checks::self_test::cell_size);
         const Mat3d D = p.V0[q] * dP * p.F_E[q].transpose();
         for (std::size_t i = 0; i < reached.size(); ++i)
           A.block<3, 1>(static_cast<Eigen::Index>(3 * reached[i]),
@@ -101,7 +101,7 @@ TEST(ImplicitSolve, AgreesWithADenseSolve) {
   // dt is 4 times what explicit steps would take.
   constexpr double dt = 4e-3, beta = 1;
   const ParticleArrays p = strained(12);
-  for (const SelfTestCase& test : all_self_test_cases()) {
+  for (const checks::SelfTestCase& test : checks::all_self_test_cases()) {
     if (test.transfer == Transfer::apic && test.kernel == Kernel::quadratic) continue;  // as FLIP
     const Simulation simulation(implicit_settings(test, beta), three_models(), {}, p, 1);
     const StagedStep step = staged_step(simulation, dt);
@@ -119,7 +119,7 @@ TEST(ImplicitSolve, AgreesWithADenseSolve) {
 
 TEST(ImplicitSolve, KeepsMomentum) {
   // Forces cancel whatever moves: sum grad_w = 0.
-  for (const SelfTestCase& test : all_self_test_cases()) {
+  for (const checks::SelfTestCase& test : checks::all_self_test_cases()) {
     const Simulation simulation(implicit_settings(test, 1), three_models(), {}, strained(150), 1);
     const StagedStep step = staged_step(simulation, 5e-3);
     Vec3d change(0, 0, 0);
@@ -133,7 +133,7 @@ TEST(ImplicitSolve, KeepsMomentum) {
 }
 
 TEST(ImplicitSolve, OfSmallBetaIsTheExplicitStep) {
-  const SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::real64};
+  const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::real64};
   Simulation explicit_run(implicit_settings(test, 0), three_models(), {}, strained(150), 1);
   Simulation implicit_run(implicit_settings(test, 1e-12), three_models(), {}, strained(150), 1);
   explicit_run.step(1e-4);
@@ -143,7 +143,7 @@ TEST(ImplicitSolve, OfSmallBetaIsTheExplicitStep) {
 }
 
 TEST(ImplicitSolve, EndsWithinItsToleranceAndSaysSo) {
-  const SelfTestCase test{Kernel::cubic, Transfer::mls, Precision::single};
+  const checks::SelfTestCase test{Kernel::cubic, Transfer::mls, Precision::single};
   SolverSettings s = implicit_settings(test, 1);
   s.time_step = TimeStep::fixed;
   s.dt = 5e-3;
@@ -172,7 +172,7 @@ TEST(ImplicitSolve, EndsWithinItsToleranceAndSaysSo) {
 
 TEST(ImplicitSolve, ThatFailsIsReplacedByExplicitSteps) {
   // One iteration at fifty times the explicit step is worse than to stand still. c dt/h may be 0.5.
-  const SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
+  const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
   SolverSettings s = implicit_settings(test, 1);
   s.solve_iterations = 1;
   Simulation failing(s, three_models(), {}, strained(150), 1);
@@ -200,14 +200,14 @@ TEST(ImplicitSolve, OfCrushedBodiesLeavesNumbers) {
   for (const double crushed : {0.9, 0.5, 0.3})
     for (const Model model : {Model::snow, Model::corotated, Model::neo_hookean})
       for (const double dt : {1e-3, 8e-3, 5e-2}) {
-        const SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
+        const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
         SolverSettings s = implicit_settings(test, 1);
         s.solve_tolerance = 1e-4;
         s.solve_iterations = 50;
         std::vector<Material> materials(1);
         materials[0].model = model;
-        ParticleArrays p = self_test::small_ball();
-        self_test::Numbers number(3);
+        ParticleArrays p = sim::checks::self_test::small_ball();
+        sim::checks::self_test::Numbers number(3);
         for (Vec3d& v : p.v) {
           v = number.vector();
           p.F_E.push_back(crushed * Mat3d::Identity() + 0.05 * number.matrix());
@@ -315,12 +315,13 @@ TEST(ImplicitStep, SameBitsAtAnyNumberOfThreadsAndAfterARestart) {
 }
 
 TEST(ImplicitStep, DriversAgree) {
-  for (const SelfTestCase& test : all_self_test_cases()) {
+  for (const checks::SelfTestCase& test : checks::all_self_test_cases()) {
     SolverSettings s = implicit_settings(test, 0.8);
     s.solve_tolerance = 1e-6;
     s.collide_after_solve = true;
     s.gravity = {0, -9.81, 0};
-    const Collider floor = plane({0, -1.03 * cell_size, 0}, {0.1, 1, 0}, 0.3);
+    const shapes::Collider floor =
+        plane({0, -1.03 * checks::self_test::cell_size, 0}, {0.1, 1, 0}, 0.3);
     Simulation simulation(s, three_models(), {floor}, strained(160), 1);
     const StagedStep staged = staged_step(simulation, 3e-3);
     simulation.step(3e-3);
@@ -335,18 +336,19 @@ TEST(ImplicitStep, DriversAgree) {
 }
 
 TEST(CollideAfterSolve, KeepsNodesOutOfColliders) {
-  const SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::real64};
-  const double height = -0.53 * cell_size;
+  const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::real64};
+  const double height = -0.53 * checks::self_test::cell_size;
   const auto fastest_into = [&](bool collides) {
     SolverSettings s = implicit_settings(test, 1);
     s.collide_after_solve = collides;
-    ParticleArrays p = self_test::small_ball();
+    ParticleArrays p = sim::checks::self_test::small_ball();
     p.v.assign(p.x.size(), {0.5, -3, 0});
     const Simulation simulation(s, {Material{}}, {plane({0, height, 0}, {0, 1, 0}, 0)}, p, 1);
     const NodeFields nodes = staged_step(simulation, 4e-3).nodes;
     double fastest = 0;
     for (std::size_t i = 0; i < nodes.node.size(); ++i)
-      if (cell_size * nodes.node[i][1] <= height) fastest = std::max(fastest, -nodes.v_new[i][1]);
+      if (checks::self_test::cell_size * nodes.node[i][1] <= height)
+        fastest = std::max(fastest, -nodes.v_new[i][1]);
     return fastest;
   };
   // The solve mixes velocities of nodes again, as in the paper.
@@ -355,7 +357,7 @@ TEST(CollideAfterSolve, KeepsNodesOutOfColliders) {
 }
 
 TEST(ImplicitStep, SolveCanBeSkipped) {
-  const SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::real64};
+  const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::real64};
   SolverSettings s = implicit_settings(test, 1);
   s.bypass = {Stage::implicit_solve};
   Simulation skipped(s, three_models(), {}, strained(150), 1);

@@ -19,10 +19,10 @@ class KeyframedRun : public testing::Test {
     settings_.cell_size = 0.04;
     settings_.push_out = true;
     snow_.hardening = 1;  // fixed steps stay stable however it is packed
-    Collider ram;
+    sim::shapes::Collider ram;
     ram.name = "ram";
-    ram.shape.form =
-        Mesh{folder_.write("ram.obj", test::box_obj({0.4, 0.2, 0.4})).string(), 1, {0, 0.3, 0}};
+    ram.shape.form = sim::shapes::Mesh{
+        folder_.write("ram.obj", test::box_obj({0.4, 0.2, 0.4})).string(), 1, {0, 0.3, 0}};
     ram.keyframes = {{0, std::nullopt, std::nullopt},
                      {0.1, Vec3d(0.02, 0.2, 0), Vec3d(0, 30, 0)},
                      {0.2, std::nullopt, std::nullopt}};
@@ -40,7 +40,7 @@ class KeyframedRun : public testing::Test {
   test::TemporaryFolder folder_;
   SolverSettings settings_;
   Material snow_;
-  std::vector<Collider> colliders_;
+  std::vector<sim::shapes::Collider> colliders_;
 };
 
 TEST_F(KeyframedRun, GoesOnToTheBitFromASavedState) {
@@ -69,37 +69,38 @@ TEST_F(KeyframedRun, StepsThatDoNotMoveCollidersDelayThem) {
   waiting.bypass = {Stage::colliders};
   simulation.apply(waiting, {snow_}, colliders_);
   step(simulation, 40);
-  const Vec3d held = pose_at(simulation.colliders()[1], simulation.time()).point;
-  EXPECT_LT((held - pose_at(colliders_[1], 60 * 5e-4).point).norm(), 1e-12);
+  const Vec3d held = sim::shapes::pose_at(simulation.colliders()[1], simulation.time()).point;
+  EXPECT_LT((held - sim::shapes::pose_at(colliders_[1], 60 * 5e-4).point).norm(), 1e-12);
   simulation.apply(settings_, {snow_}, colliders_);
   step(simulation, 30);
-  const Vec3d moved = pose_at(simulation.colliders()[1], simulation.time()).point;
-  EXPECT_LT((moved - pose_at(colliders_[1], 90 * 5e-4).point).norm(), 1e-12);
+  const Vec3d moved = sim::shapes::pose_at(simulation.colliders()[1], simulation.time()).point;
+  EXPECT_LT((moved - sim::shapes::pose_at(colliders_[1], 90 * 5e-4).point).norm(), 1e-12);
   // And a saved state knows how long.
   Simulation again = made();
   again.restore(simulation.save());
-  EXPECT_EQ(pose_at(again.colliders()[1], again.time()).point, moved);
+  EXPECT_EQ(sim::shapes::pose_at(again.colliders()[1], again.time()).point, moved);
 }
 
 TEST_F(KeyframedRun, TakesOtherKeyframesShapesAndMeshesWhileItRuns) {
   Simulation simulation = made();
   step(simulation, 60);
-  std::vector<Collider> other = colliders_;
+  std::vector<sim::shapes::Collider> other = colliders_;
   other[1].keyframes = {{0, Vec3d(0.5, 0.5, 0), std::nullopt}};
   simulation.apply(settings_, {snow_}, other);
-  EXPECT_EQ(pose_at(simulation.colliders()[1], simulation.time()).point, Vec3d(0.5, 0.5, 0));
+  EXPECT_EQ(sim::shapes::pose_at(simulation.colliders()[1], simulation.time()).point,
+            Vec3d(0.5, 0.5, 0));
   step(simulation, 20);
-  other[1].shape.form = Torus{{0.5, 0.5, 0}, 0.2, 0.08};
+  other[1].shape.form = sim::shapes::Torus{{0.5, 0.5, 0}, 0.2, 0.08};
   simulation.apply(settings_, {snow_}, other);
   step(simulation, 20);
-  other[1].shape.form =
-      Mesh{folder_.write("slab.obj", test::box_obj({0.6, 0.2, 0.6})).string(), 1, {0, 0, 0}};
+  other[1].shape.form = sim::shapes::Mesh{
+      folder_.write("slab.obj", test::box_obj({0.6, 0.2, 0.6})).string(), 1, {0, 0, 0}};
   simulation.apply(settings_, {snow_}, other);
   step(simulation, 20);
   EXPECT_FALSE(simulation.divergence());
   // What cannot be read changes nothing.
   const std::uint64_t before = simulation.state_hash();
-  other[1].shape.form = Mesh{(folder_ / "none.obj").string(), 1, {0, 0, 0}};
+  other[1].shape.form = sim::shapes::Mesh{(folder_ / "none.obj").string(), 1, {0, 0, 0}};
   EXPECT_THROW(simulation.apply(settings_, {snow_}, other), ShapeError);
   EXPECT_EQ(simulation.state_hash(), before);
   step(simulation, 5);

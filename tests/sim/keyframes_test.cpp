@@ -1,4 +1,4 @@
-#include "sim/keyframes.h"
+#include "sim/shapes/keyframes.h"
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,12 @@
 #include <chrono>
 #include <cmath>
 
-#include "sim/collider.h"
+#include "sim/shapes/collider.h"
 
 namespace neve::sim {
 namespace {
 
-std::vector<PoseKeyframe> keyframe_path() {
+std::vector<sim::shapes::PoseKeyframe> keyframe_path() {
   return {{0.2, Vec3d(0, 1, 0), Vec3d(0, 0, 0)},
           {0.5, Vec3d(1, 0.5, -0.2), Vec3d(40, 0, -30)},
           {0.6, Vec3d(1.4, 0.7, -0.2), Vec3d(90, 20, -60)},
@@ -20,8 +20,8 @@ std::vector<PoseKeyframe> keyframe_path() {
 }
 const Vec3d own_place(0.3, 0.2, 0.1), own_rotation(10, 20, 30);
 
-RigidMotion motion_on_path(double time) {
-  return motion_at(keyframe_path(), own_place, own_rotation, time);
+sim::shapes::RigidMotion motion_on_path(double time) {
+  return sim::shapes::motion_at(keyframe_path(), own_place, own_rotation, time);
 }
 
 /// The rotation vector of what turns one attitude into the next.
@@ -31,8 +31,8 @@ Vec3d turn_between(const Mat3d& from, const Mat3d& to) {
 }
 
 TEST(Keyframes, PosePassesThroughThem) {
-  for (const PoseKeyframe& key : keyframe_path()) {
-    const RigidMotion now = motion_on_path(key.time);
+  for (const sim::shapes::PoseKeyframe& key : keyframe_path()) {
+    const sim::shapes::RigidMotion now = motion_on_path(key.time);
     EXPECT_LT((now.point - key.position.value_or(own_place)).norm(), 1e-14);
     const Mat3d expected = rotation_from_degrees(key.rotation.value_or(own_rotation));
     EXPECT_LT((now.rotation - expected).norm(), 1e-12);
@@ -43,8 +43,8 @@ TEST(Keyframes, PosePassesThroughThem) {
 TEST(Keyframes, VelocitiesAreTheDerivativesOfThePose) {
   const double e = 1e-5;
   for (double t = 0.003; t < 2; t += 0.011) {
-    const RigidMotion before = motion_on_path(t - e), now = motion_on_path(t),
-                      after = motion_on_path(t + e);
+    const sim::shapes::RigidMotion before = motion_on_path(t - e), now = motion_on_path(t),
+                                   after = motion_on_path(t + e);
     // Central differences are off by e^2 times third derivatives of some 1000.
     EXPECT_LT(((after.point - before.point) / (2 * e) - now.velocity).norm(), 1e-5) << t;
     EXPECT_LT(
@@ -55,9 +55,9 @@ TEST(Keyframes, VelocitiesAreTheDerivativesOfThePose) {
 }
 
 TEST(Keyframes, VelocitiesAreContinuousAndZeroAtBothEnds) {
-  for (const PoseKeyframe& key : keyframe_path()) {
-    const RigidMotion before = motion_on_path(key.time - 1e-9),
-                      after = motion_on_path(key.time + 1e-9);
+  for (const sim::shapes::PoseKeyframe& key : keyframe_path()) {
+    const sim::shapes::RigidMotion before = motion_on_path(key.time - 1e-9),
+                                   after = motion_on_path(key.time + 1e-9);
     EXPECT_LT((before.velocity - after.velocity).norm(), 1e-5);
     EXPECT_LT((before.angular_velocity - after.angular_velocity).norm(), 1e-5);
   }
@@ -69,13 +69,13 @@ TEST(Keyframes, VelocitiesAreContinuousAndZeroAtBothEnds) {
 }
 
 TEST(Keyframes, TwoEqualOnesHoldStillAndNothingSwingsBeyond) {
-  const std::vector<PoseKeyframe> press{{0, Vec3d(0, 1, 0), Vec3d(0, 0, 0)},
-                                        {1, Vec3d(0, 0.2, 0), Vec3d(0, 0, 170)},
-                                        {2, Vec3d(0, 0.2, 0), Vec3d(0, 0, 170)},
-                                        {3, Vec3d(0, 1, 0), Vec3d(0, 0, 0)}};
+  const std::vector<sim::shapes::PoseKeyframe> press{{0, Vec3d(0, 1, 0), Vec3d(0, 0, 0)},
+                                                     {1, Vec3d(0, 0.2, 0), Vec3d(0, 0, 170)},
+                                                     {2, Vec3d(0, 0.2, 0), Vec3d(0, 0, 170)},
+                                                     {3, Vec3d(0, 1, 0), Vec3d(0, 0, 0)}};
   double angle = 0;
   for (double t = 0; t <= 3; t += 0.01) {
-    const RigidMotion now = motion_at(press, own_place, own_rotation, t);
+    const sim::shapes::RigidMotion now = sim::shapes::motion_at(press, own_place, own_rotation, t);
     EXPECT_GE(now.point.y(), 0.2 - 1e-14);
     EXPECT_LE(now.point.y(), 1 + 1e-14);
     if (t > 1 && t < 2) {
@@ -92,76 +92,80 @@ TEST(Keyframes, TwoEqualOnesHoldStillAndNothingSwingsBeyond) {
 }
 
 TEST(Keyframes, OneAloneStandsStill) {
-  const RigidMotion now = motion_at({{1, Vec3d(1, 2, 3), Vec3d(0, 90, 0)}}, own_place, {}, 7);
+  const sim::shapes::RigidMotion now =
+      sim::shapes::motion_at({{1, Vec3d(1, 2, 3), Vec3d(0, 90, 0)}}, own_place, {}, 7);
   EXPECT_EQ(now.point, Vec3d(1, 2, 3));
   EXPECT_EQ(now.velocity, Vec3d(0, 0, 0));
   EXPECT_EQ(now.angular_velocity, Vec3d(0, 0, 0));
 }
 
 TEST(Keyframes, SurfaceOfACollidersMaterialPointMovesWithIt) {
-  Collider c;
-  c.shape = {Box{own_place, {0.4, 0.2, 0.6}}, own_rotation};
+  sim::shapes::Collider c;
+  c.shape = {sim::shapes::Box{own_place, {0.4, 0.2, 0.6}}, own_rotation};
   c.keyframes = keyframe_path();
   const double t = 0.77, e = 1e-5;
   const Vec3d mark(0.1, -0.05, 0.2);
   const auto place = [&](double time) {
-    const Pose pose = pose_at(c, time);
+    const sim::shapes::Pose pose = sim::shapes::pose_at(c, time);
     return Vec3d(pose.point + pose.rotation * mark);
   };
   const Vec3d difference = (place(t + e) - place(t - e)) / (2 * e);
-  EXPECT_LT((difference - surface_at(c, t, place(t)).velocity).norm(), 1e-5);
+  EXPECT_LT((difference - sim::shapes::surface_at(c, t, place(t)).velocity).norm(), 1e-5);
   EXPECT_GT(difference.norm(), 0.1);
 }
 
 TEST(Keyframes, TakenAwayTheColliderGoesOnFromWhereItIs) {
-  Collider before;
-  before.shape = {Box{own_place, {0.4, 0.2, 0.6}}, own_rotation};
+  sim::shapes::Collider before;
+  before.shape = {sim::shapes::Box{own_place, {0.4, 0.2, 0.6}}, own_rotation};
   before.keyframes = keyframe_path();
-  before.travel = waited({}, 0.25);
-  Collider after = before;
+  before.travel = sim::shapes::waited({}, 0.25);
+  sim::shapes::Collider after = before;
   after.keyframes.clear();
   after.velocity = {1, 0, 0};
-  after.travel = travel_after(before, after, 0.9);
-  const Pose was = pose_at(before, 0.9), is = pose_at(after, 0.9);
+  after.travel = sim::shapes::travel_after(before, after, 0.9);
+  const sim::shapes::Pose was = sim::shapes::pose_at(before, 0.9),
+                          is = sim::shapes::pose_at(after, 0.9);
   EXPECT_LT((was.point - is.point).norm(), 1e-14);
   EXPECT_LT((was.rotation - is.rotation).norm(), 1e-13);
-  EXPECT_LT((pose_at(after, 1.4).point - is.point - Vec3d(0.5, 0, 0)).norm(), 1e-14);
+  EXPECT_LT((sim::shapes::pose_at(after, 1.4).point - is.point - Vec3d(0.5, 0, 0)).norm(), 1e-14);
   // A collider that waited is where it would have been so much earlier.
-  Collider punctual = before;
+  sim::shapes::Collider punctual = before;
   punctual.travel = {};
-  EXPECT_LT((pose_at(punctual, 0.65).point - was.point).norm(), 1e-14);
+  EXPECT_LT((sim::shapes::pose_at(punctual, 0.65).point - was.point).norm(), 1e-14);
   // And back: keyframes say where it is.
-  Collider again = after;
+  sim::shapes::Collider again = after;
   again.keyframes = keyframe_path();
   again.velocity.setZero();
-  again.travel = travel_after(after, again, 1.2);
-  EXPECT_LT((pose_at(again, 1.25).point - pose_at(punctual, 1.0).point).norm(), 1e-14);
+  again.travel = sim::shapes::travel_after(after, again, 1.2);
+  EXPECT_LT(
+      (sim::shapes::pose_at(again, 1.25).point - sim::shapes::pose_at(punctual, 1.0).point).norm(),
+      1e-14);
 }
 
 TEST(Keyframes, TurnAPlaneItself) {
-  Collider c;
-  c.shape = {Plane{{0, 0, 0}, {0, 1, 0}}, {0, 0, 0}};
+  sim::shapes::Collider c;
+  c.shape = {sim::shapes::Plane{{0, 0, 0}, {0, 1, 0}}, {0, 0, 0}};
   c.keyframes = {{0, std::nullopt, Vec3d(0, 0, 0)}, {1, std::nullopt, Vec3d(0, 0, 90)}};
-  EXPECT_LT((surface_at(c, 0, {1, 1, 0}).normal - Vec3d(0, 1, 0)).norm(), 1e-14);
-  EXPECT_LT((surface_at(c, 1, {1, 1, 0}).normal - Vec3d(-1, 0, 0)).norm(), 1e-14);
+  EXPECT_LT((sim::shapes::surface_at(c, 0, {1, 1, 0}).normal - Vec3d(0, 1, 0)).norm(), 1e-14);
+  EXPECT_LT((sim::shapes::surface_at(c, 1, {1, 1, 0}).normal - Vec3d(-1, 0, 0)).norm(), 1e-14);
 }
 
 TEST(Keyframes, LargestSpeedIsFound) {
-  Collider c;
+  sim::shapes::Collider c;
   c.keyframes = {{0, Vec3d(0, 0, 0), std::nullopt}, {2, Vec3d(3, 0, 0), std::nullopt}};
   // From rest to rest the middle is 1.5 times as quick as the mean.
-  EXPECT_NEAR(largest_speed(c), 1.5 * 1.5, 1e-12);
+  EXPECT_NEAR(sim::shapes::largest_speed(c), 1.5 * 1.5, 1e-12);
   c.keyframes.clear();
   c.velocity = {0, 4, 3};
-  EXPECT_EQ(largest_speed(c), 5);
+  EXPECT_EQ(sim::shapes::largest_speed(c), 5);
 }
 
 TEST(Keyframes, ThousandsAreNoBurden) {
-  Collider c;
+  sim::shapes::Collider c;
   for (int k = 0; k < 8000; ++k)
     c.keyframes.push_back({0.01 * k, Vec3d(0.01 * (k % 7), 0, 0), Vec3d(0, 5.0 * (k % 2), 0)});
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_GT(largest_speed(c), 1);
+  EXPECT_GT(sim::shapes::largest_speed(c), 1);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   // A quarter of a million looks at a microsecond or two each; at all keyframes each they would
   // take a minute.
@@ -169,23 +173,23 @@ TEST(Keyframes, ThousandsAreNoBurden) {
 }
 
 TEST(Keyframes, SpinCountsWhereItMovesTheShape) {
-  Collider c;
-  c.shape.form = Box{{1, 1, 1}, {2, 4, 4}};
+  sim::shapes::Collider c;
+  c.shape.form = sim::shapes::Box{{1, 1, 1}, {2, 4, 4}};
   c.velocity = {1, 0, 0};
   c.angular_velocity = {0, 0, 10};
-  EXPECT_NEAR(largest_speed(c), 1 + 10 * 3, 1e-12);
-  c.shape.form = Cylinder{{0, 0, 0}, 0.3, 0.8};
-  EXPECT_NEAR(largest_speed(c), 1 + 10 * 0.5, 1e-12);
+  EXPECT_NEAR(sim::shapes::largest_speed(c), 1 + 10 * 3, 1e-12);
+  c.shape.form = sim::shapes::Cylinder{{0, 0, 0}, 0.3, 0.8};
+  EXPECT_NEAR(sim::shapes::largest_speed(c), 1 + 10 * 0.5, 1e-12);
   c.angular_velocity = {0, 10, 0};
-  EXPECT_NEAR(largest_speed(c), 1, 1e-12) << "about its own axis";
-  c.shape.form = Plane{};
+  EXPECT_NEAR(sim::shapes::largest_speed(c), 1, 1e-12) << "about its own axis";
+  c.shape.form = sim::shapes::Plane{};
   c.angular_velocity = {0, 0, 10};
-  EXPECT_NEAR(largest_speed(c), 1, 1e-12);
+  EXPECT_NEAR(sim::shapes::largest_speed(c), 1, 1e-12);
   c = {};
-  c.shape.form = Torus{{0, 0, 0}, 0.4, 0.1};
+  c.shape.form = sim::shapes::Torus{{0, 0, 0}, 0.4, 0.1};
   c.keyframes = {{0, std::nullopt, Vec3d(0, 0, 0)}, {1, std::nullopt, Vec3d(90, 0, 0)}};
   // From rest to rest, half as quick again in the middle.
-  EXPECT_NEAR(largest_speed(c), 0.5 * 1.5 * std::acos(0.0), 0.02);
+  EXPECT_NEAR(sim::shapes::largest_speed(c), 0.5 * 1.5 * std::acos(0.0), 0.02);
 }
 
 }  // namespace

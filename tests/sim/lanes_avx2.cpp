@@ -6,7 +6,7 @@
 
 namespace neve::test {
 
-NEVE_DEFINE_LANES_PROBES(sim::Avx2Set)
+NEVE_DEFINE_LANES_PROBES(sim::kernels::Avx2Set)
 
 }  // namespace neve::test
 

@@ -6,7 +6,7 @@
 
 namespace neve::test {
 
-NEVE_DEFINE_LANES_PROBES(sim::Avx512Set)
+NEVE_DEFINE_LANES_PROBES(sim::kernels::Avx512Set)
 
 }  // namespace neve::test
 

@@ -4,6 +4,6 @@
 
 namespace neve::test {
 
-NEVE_DEFINE_LANES_PROBES(sim::BaselineSet)
+NEVE_DEFINE_LANES_PROBES(sim::kernels::BaselineSet)
 
 }  // namespace neve::test

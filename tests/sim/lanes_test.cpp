@@ -8,29 +8,29 @@
 #include <random>
 #include <vector>
 
-#include "sim/simd.h"
+#include "sim/kernels/simd.h"
 #include "tests/support/lanes_probe.h"
 
 namespace neve::test {
 namespace {
 
-using sim::SimdLevel;
+using sim::kernels::SimdLevel;
 
 template <class Real>
 const LanesProbe<Real>& probe_of([[maybe_unused]] SimdLevel level) {
 #ifdef __x86_64__
-  if (level == SimdLevel::avx512) return LanesProbes<sim::Avx512Set>::probe(Real());
-  if (level == SimdLevel::avx2) return LanesProbes<sim::Avx2Set>::probe(Real());
+  if (level == SimdLevel::avx512) return LanesProbes<sim::kernels::Avx512Set>::probe(Real());
+  if (level == SimdLevel::avx2) return LanesProbes<sim::kernels::Avx2Set>::probe(Real());
 #endif
-  return LanesProbes<sim::BaselineSet>::probe(Real());
+  return LanesProbes<sim::kernels::BaselineSet>::probe(Real());
 }
 
 /// body(probe) for float and double of each level.
 template <class Body>
 void with_every_probe(const Body& body) {
   for (const SimdLevel level : {SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512}) {
-    if (!sim::is_available(level)) continue;
-    SCOPED_TRACE(sim::name(level));
+    if (!sim::kernels::is_available(level)) continue;
+    SCOPED_TRACE(sim::kernels::name(level));
     body(probe_of<float>(level), float());
     body(probe_of<double>(level), double());
   }

@@ -25,7 +25,7 @@ struct Bits {
 
 /// F_E, J_P and tau, so that not even a zero's sign gets away.
 template <class Real>
-Bits<Real> results_of(const sim::Particle<Real>& p) {
+Bits<Real> results_of(const sim::kernels::Particle<Real>& p) {
   Bits<Real> bits;
   std::copy_n(p.F_E, 9, bits.number);
   bits.number[9] = p.J_P;
@@ -34,11 +34,11 @@ Bits<Real> results_of(const sim::Particle<Real>& p) {
 }
 
 template <class Real>
-void check_independence(sim::SimdLevel level) {
-  SCOPED_TRACE(std::string(sim::name(level)) + (sizeof(Real) == 4 ? " float" : " double"));
+void check_independence(sim::kernels::SimdLevel level) {
+  SCOPED_TRACE(std::string(sim::kernels::name(level)) + (sizeof(Real) == 4 ? " float" : " double"));
   const auto table = nasty_materials<Real>();
   NastyParticles<Real> nasty(3);
-  std::vector<sim::Particle<Real>> particles;
+  std::vector<sim::kernels::Particle<Real>> particles;
   for (int q = 0; q < 1500; ++q) particles.push_back(nasty.make(nasty.pick(nasty_kind_count)));
   // Not even what is no number may reach a neighbour.
   particles[100].F_E[4] = std::numeric_limits<Real>::quiet_NaN();
@@ -48,14 +48,14 @@ void check_independence(sim::SimdLevel level) {
 
   std::vector<Bits<Real>> alone;
   for (const auto& p : particles) {
-    std::vector<sim::Particle<Real>> one{p};
+    std::vector<sim::kernels::Particle<Real>> one{p};
     update_materials(one, table, level);
     alone.push_back(results_of(one[0]));
   }
   std::vector<std::size_t> order(count);
   for (std::size_t q = 0; q < count; ++q) order[q] = q;
   const auto expect_the_same = [&](const char* what) {
-    std::vector<sim::Particle<Real>> shuffled;
+    std::vector<sim::kernels::Particle<Real>> shuffled;
     for (const std::size_t q : order) shuffled.push_back(particles[q]);
     update_materials(shuffled, table, level);
     int different = 0;
@@ -83,9 +83,10 @@ void check_independence(sim::SimdLevel level) {
 }
 
 TEST(MaterialLanes, DependNeitherOnNeighboursNorOnTheirPlace) {
-  for (const sim::SimdLevel level :
-       {sim::SimdLevel::baseline, sim::SimdLevel::avx2, sim::SimdLevel::avx512}) {
-    if (!sim::is_available(level)) continue;
+  for (const sim::kernels::SimdLevel level :
+       {sim::kernels::SimdLevel::baseline, sim::kernels::SimdLevel::avx2,
+        sim::kernels::SimdLevel::avx512}) {
+    if (!sim::kernels::is_available(level)) continue;
     check_independence<float>(level);
     check_independence<double>(level);
   }

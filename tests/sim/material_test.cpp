@@ -9,7 +9,7 @@
 #include <cstring>
 #include <random>
 
-#include "sim/diagnostics.h"
+#include "sim/health/diagnostics.h"
 #include "tests/support/one_particle.h"
 #include "tests/support/simd_levels.h"
 
@@ -38,18 +38,18 @@ class Random {
 };
 
 template <class Real>
-Particle<Real> particle(const Mat3d& F_E, double J_P, ModelKind model) {
-  Particle<Real> p{};
+kernels::Particle<Real> particle(const Mat3d& F_E, double J_P, kernels::ModelKind model) {
+  kernels::Particle<Real> p{};
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) p.F_E[3 * a + b] = static_cast<Real>(F_E(a, b));
   p.J_P = static_cast<Real>(J_P);
   p.m = p.V0 = p.stiffness = p.threshold = 1;
-  p.kind = kind_of<Real>(0, model, 0);
+  p.kind = kernels::kind_of<Real>(0, model, 0);
   return p;
 }
 
 template <class Real>
-Mat3d F_of(const Particle<Real>& p) {
+Mat3d F_of(const kernels::Particle<Real>& p) {
   Mat3d F;
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) F(a, b) = static_cast<double>(p.F_E[3 * a + b]);
@@ -57,7 +57,7 @@ Mat3d F_of(const Particle<Real>& p) {
 }
 
 template <class Real>
-Mat3d tau_of(const Particle<Real>& p) {
+Mat3d tau_of(const kernels::Particle<Real>& p) {
   const Real* t = p.tau;
   Mat3d tau;
   tau << t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2];
@@ -65,7 +65,7 @@ Mat3d tau_of(const Particle<Real>& p) {
 }
 
 template <class Real>
-MaterialConstants<Real> constants(const Material& m) {
+kernels::MaterialConstants<Real> constants(const Material& m) {
   const Lame l = lame(m.youngs_modulus, m.poisson_ratio);
   return {Real(l.mu), Real(l.lambda), Real(m.hardening), Real(m.critical_compression),
           Real(m.critical_stretch)};
@@ -82,13 +82,13 @@ TEST(Energy, StressIsItsDerivative) {
       const Mat3d F = random.rotation() * (Mat3d::Identity() + 0.2 * random.matrix());
       if (F.determinant() < 0.2) continue;
       const double J_P = 1 + 0.1 * random();
-      const Mat3d P = first_piola(m, F, J_P), dF = random.matrix();
+      const Mat3d P = health::first_piola(m, F, J_P), dF = random.matrix();
       // Central differences: the error is the third derivative (about mu) times epsilon^2 = 1e-10,
       // and rounding of psi (1e-16 mu) over epsilon, 1e-11: 1e-7 of mu leaves room for both.
       const double epsilon = 1e-5;
-      const double slope =
-          (energy_density(m, F + epsilon * dF, J_P) - energy_density(m, F - epsilon * dF, J_P)) /
-          (2 * epsilon);
+      const double slope = (health::energy_density(m, F + epsilon * dF, J_P) -
+                            health::energy_density(m, F - epsilon * dF, J_P)) /
+                           (2 * epsilon);
       const double scale = m.youngs_modulus * std::exp(m.hardening * (1 - J_P));
       EXPECT_NEAR(P.cwiseProduct(dF).sum(), slope, 1e-7 * scale);
     }
@@ -106,13 +106,13 @@ TEST(Stress, OfKernelsIsFirstPiolaTimesTransposedF) {
     for (const double strain : {1e-6, 1e-3, 0.02, 0.15, 0.3}) {
       const Mat3d F = random.rotation() * (Mat3d::Identity() + strain * random.matrix());
       const double J_P = 1 + 0.05 * random();
-      const Mat3d expected = first_piola(m, F, J_P) * F.transpose();
+      const Mat3d expected = health::first_piola(m, F, J_P) * F.transpose();
       const double scale = 2 * m.youngs_modulus;
-      auto p = particle<double>(F, J_P, static_cast<ModelKind>(static_cast<int>(model)));
+      auto p = particle<double>(F, J_P, static_cast<kernels::ModelKind>(static_cast<int>(model)));
       update_material(p, constants<double>(m));
       // Double: F - R cancels, 1e-13 of the moduli. Float: F itself is rounded to 6e-8.
       EXPECT_LE((tau_of(p) - expected).cwiseAbs().maxCoeff(), 1e-12 * scale) << strain;
-      auto q = particle<float>(F, J_P, static_cast<ModelKind>(static_cast<int>(model)));
+      auto q = particle<float>(F, J_P, static_cast<kernels::ModelKind>(static_cast<int>(model)));
       update_material(q, constants<float>(m));
       EXPECT_LE((tau_of(q) - expected).cwiseAbs().maxCoeff(), 2e-6 * scale) << strain;
     }
@@ -124,7 +124,7 @@ TEST(Stress, VanishesInRotationAndTurnsWithIt) {
   for (const Model model : models) {
     Material m;
     m.model = model;
-    const auto kind = static_cast<ModelKind>(static_cast<int>(model));
+    const auto kind = static_cast<kernels::ModelKind>(static_cast<int>(model));
     const Mat3d Q = random.rotation(), F = Mat3d::Identity() + 0.004 * random.matrix();
     auto turned = particle<double>(Q, 1, kind), at_rest = particle<double>(F, 1, kind),
          both = particle<double>(Q * F, 1, kind);
@@ -140,7 +140,7 @@ void expect_no_step_at(double border) {
   Material m;
   m.model = Model::corotated;
   const auto stress_at = [&](double stretch) {
-    auto p = particle<double>(Vec3d(stretch, 1, 1).asDiagonal(), 1, ModelKind::corotated);
+    auto p = particle<double>(Vec3d(stretch, 1, 1).asDiagonal(), 1, kernels::ModelKind::corotated);
     update_material(p, constants<double>(m));
     return tau_of(p);
   };
@@ -152,7 +152,8 @@ void expect_no_step_at(double border) {
 
 TEST(Stress, OfTwoPathsMeetsAtTheirBorders) {
   at_every_simd_level([] {
-    for (const double squared : {1 - series_radius, 1 + series_radius, eigen_lo, eigen_hi})
+    for (const double squared : {1 - kernels::series_radius, 1 + kernels::series_radius,
+                                 kernels::eigen_lo, kernels::eigen_hi})
       expect_no_step_at(std::sqrt(squared));
   });
 }
@@ -163,7 +164,7 @@ TEST(Snow, ProjectionClampsStretchesAndKeepsTheProduct) {
   for (int trial = 0; trial < 200; ++trial) {
     const Mat3d F = random.rotation() * (Mat3d::Identity() + 0.1 * random.matrix());
     const double J_P = 1 + 0.1 * random();
-    auto p = particle<double>(F, J_P, ModelKind::snow);
+    auto p = particle<double>(F, J_P, kernels::ModelKind::snow);
     update_material(p, constants<double>(m));
     const Vec3d s = F_of(p).jacobiSvd().singularValues();
     EXPECT_GE(s.minCoeff(), 1 - m.critical_compression - 1e-12);
@@ -177,7 +178,7 @@ TEST(Snow, InsideTheThresholdsNothingChangesABit) {
   const Material m;
   for (int trial = 0; trial < 200; ++trial) {
     const Mat3d F = random.rotation() * (Mat3d::Identity() + 0.002 * random.matrix());
-    auto p = particle<float>(F, 0.97, ModelKind::snow);
+    auto p = particle<float>(F, 0.97, kernels::ModelKind::snow);
     const auto before = p;
     update_material(p, constants<float>(m));
     EXPECT_EQ(0, std::memcmp(p.F_E, before.F_E, sizeof p.F_E));
@@ -187,8 +188,8 @@ TEST(Snow, InsideTheThresholdsNothingChangesABit) {
 
 TEST(Snow, HardeningGrowsUnderCompressionOnly) {
   const Material m;
-  auto pressed = particle<double>(Vec3d(1, 0.9, 1).asDiagonal(), 1, ModelKind::snow);
-  auto pulled = particle<double>(Vec3d(1, 1.1, 1).asDiagonal(), 1, ModelKind::snow);
+  auto pressed = particle<double>(Vec3d(1, 0.9, 1).asDiagonal(), 1, kernels::ModelKind::snow);
+  auto pulled = particle<double>(Vec3d(1, 1.1, 1).asDiagonal(), 1, kernels::ModelKind::snow);
   update_material(pressed, constants<double>(m));
   update_material(pulled, constants<double>(m));
   EXPECT_NEAR(pressed.J_P, 0.9 / 0.975, 1e-12);
@@ -207,8 +208,8 @@ TEST(Decomposition, RebuildsAnyMatrixInFloatAndDouble) {
     const double scale = std::max(F.cwiseAbs().maxCoeff(), 1e-300);
     const auto check = [&](auto real, double& worst) {
       using Real = decltype(real);
-      const auto p = particle<Real>(F, 1, ModelKind::snow);
-      const SignedSvd<Real> svd = signed_svd(p.F_E);
+      const auto p = particle<Real>(F, 1, kernels::ModelKind::snow);
+      const kernels::SignedSvd<Real> svd = kernels::signed_svd(p.F_E);
       Mat3d U, V;
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) {
@@ -257,8 +258,9 @@ TEST(Arithmetic, ExponentialAndLogarithmMatchTheLibrary) {
 TEST(WaveSpeed, OfPaperSnowAtRest) {
   // mu 58333.3, lambda 38888.9 Pa, rho 400: sqrt(155555.6 / 400) = 19.72 m/s.
   EXPECT_NEAR(sound_speed(Material{}), 19.7203, 1e-4);
-  EXPECT_NEAR(wave_speed(Material{}, Mat3d::Identity(), 1, 400), 19.7203, 1e-4);
-  EXPECT_NEAR(wave_speed(Material{}, Mat3d::Identity(), 0.8, 400), 19.7203 * std::exp(1.0), 1e-3);
+  EXPECT_NEAR(health::wave_speed(Material{}, Mat3d::Identity(), 1, 400), 19.7203, 1e-4);
+  EXPECT_NEAR(health::wave_speed(Material{}, Mat3d::Identity(), 0.8, 400), 19.7203 * std::exp(1.0),
+              1e-3);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "sim/mesh.h"
+#include "sim/shapes/mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +18,12 @@ const std::string cube_vertices =
 const std::string cube_faces = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 const std::string cube = cube_vertices + cube_faces;
 
-ClosedMesh closed(const std::string& text) {
-  return close_mesh(parse_obj(text, "m.obj"), "m.obj");
+sim::shapes::ClosedMesh closed(const std::string& text) {
+  return sim::shapes::close_mesh(sim::files::parse_obj(text, "m.obj"), "m.obj");
 }
 
-std::unique_ptr<const Form> solid(const std::string& text) {
-  return make_mesh_solid(closed(text));
+std::unique_ptr<const sim::shapes::Form> solid(const std::string& text) {
+  return sim::shapes::make_mesh_solid(closed(text));
 }
 
 std::string mesh_error(const std::string& text) {
@@ -65,7 +65,7 @@ Vec3d point_in_unit_cube(std::uint64_t k) {
 TEST(Mesh, CubeHasItsVolumeAndBounds) {
   const auto mesh = solid(cube);
   EXPECT_NEAR(mesh->volume(), 1, 1e-15);
-  const Bounds b = mesh->bounds_after(rotation_from_degrees({0, 0, 45}));
+  const sim::shapes::Bounds b = mesh->bounds_after(rotation_from_degrees({0, 0, 45}));
   EXPECT_NEAR(b.min.x(), -std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(b.max.y(), std::sqrt(2.0), 1e-15);
 }
@@ -88,10 +88,10 @@ TEST(Mesh, RaysThroughVerticesEdgesAndFacesDoNotLeak) {
 
 TEST(Mesh, RaysAlongRotatedVerticesDoNotLeak) {
   // A cube turned so that its coordinates are irrational and rays run through them all the same.
-  PolygonMesh polygons = parse_obj(cube, "m");
+  sim::files::PolygonMesh polygons = sim::files::parse_obj(cube, "m");
   const Mat3d rotation = rotation_from_degrees({30, 50, 70});
   for (Vec3d& v : polygons.vertices) v = rotation * (v - Vec3d::Constant(0.5));
-  const auto mesh = make_mesh_solid(close_mesh(polygons, "m"));
+  const auto mesh = sim::shapes::make_mesh_solid(sim::shapes::close_mesh(polygons, "m"));
   for (const Vec3d& a : polygons.vertices)
     for (const Vec3d& b : polygons.vertices)
       for (const double s : {0.0, 0.25, 0.5, 1.0})
@@ -136,7 +136,7 @@ TEST(Mesh, InwardMeshIsTurnedOutward) {
 
 TEST(Mesh, VerticesInOnePlaceAreWelded) {
   std::string text;  // every face with its own corners, as exporters with normals write them
-  const PolygonMesh shared = parse_obj(cube, "m");
+  const sim::files::PolygonMesh shared = sim::files::parse_obj(cube, "m");
   for (std::size_t p = 0; p < shared.polygons.size(); ++p) {
     for (std::size_t c = shared.polygons[p].first; c < shared.corner_end(p); ++c) {
       text += "v";
@@ -227,17 +227,19 @@ TEST(Mesh, ScaleAndPlaceComeFromTheShape) {
   const neve::test::TemporaryFolder folder;
   const std::string path = (folder / "cube.obj").string();
   std::ofstream(path) << cube;
-  const Shape shape{Mesh{path, 0.5, {3, 0, 0}}, {0, 0, 90}};
-  EXPECT_NEAR(volume(shape), 0.125, 1e-15);
-  const Bounds b = bounds(shape);  // x of the file points along y now
+  const sim::shapes::Shape shape{sim::shapes::Mesh{path, 0.5, {3, 0, 0}}, {0, 0, 90}};
+  EXPECT_NEAR(sim::shapes::volume(shape), 0.125, 1e-15);
+  const sim::shapes::Bounds b = sim::shapes::bounds(shape);  // x of the file points along y now
   EXPECT_NEAR((b.min - Vec3d(2.5, 0, 0)).norm(), 0, 1e-12);
   EXPECT_NEAR((b.max - Vec3d(3, 0.5, 0.5)).norm(), 0, 1e-12);
-  EXPECT_THROW(volume({Mesh{path, -1, {0, 0, 0}}, {0, 0, 0}}), ShapeError);
+  EXPECT_THROW(sim::shapes::volume({sim::shapes::Mesh{path, -1, {0, 0, 0}}, {0, 0, 0}}),
+               ShapeError);
 }
 
 TEST(Mesh, MeshesOfTheScenesAreClosed) {
-  const Shape rabbit{Mesh{NEVE_SOURCE_DIR "/scenes/meshes/rabbit.obj"}, {0, 0, 0}};
-  EXPECT_NEAR(volume(rabbit), 0.12, 0.02);
+  const sim::shapes::Shape rabbit{sim::shapes::Mesh{NEVE_SOURCE_DIR "/scenes/meshes/rabbit.obj"},
+                                  {0, 0, 0}};
+  EXPECT_NEAR(sim::shapes::volume(rabbit), 0.12, 0.02);
 }
 
 }  // namespace

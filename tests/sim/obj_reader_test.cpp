@@ -1,4 +1,4 @@
-#include "sim/obj_reader.h"
+#include "sim/files/obj_reader.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "sim/base/hash.h"
-#include "sim/mesh.h"
+#include "sim/shapes/mesh.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::sim {
@@ -18,7 +18,7 @@ constexpr const char* tetrahedron =
 
 std::string message_of(const std::string& text) {
   try {
-    parse_obj(text, "m.obj");
+    sim::files::parse_obj(text, "m.obj");
   } catch (const ShapeError& error) {
     return error.what();
   }
@@ -31,7 +31,7 @@ void expect_message(const std::string& text, const std::string& part) {
 }
 
 TEST(ObjReader, AcceptsAllFormsOfIndices) {
-  const PolygonMesh mesh = parse_obj(
+  const sim::files::PolygonMesh mesh = sim::files::parse_obj(
       "v 0 0 0 1\nvt 0 0\nvn 0 0 1\nv +1 .0 0\nv 0 1e0 0 0.5 0.5 0.5\nf 1/1 2/1/1 3//1\nf -3 -2 -1",
       "m");
   ASSERT_EQ(mesh.polygons.size(), 2u);
@@ -43,11 +43,11 @@ TEST(ObjReader, AcceptsAllFormsOfIndices) {
 TEST(ObjReader, IgnoresWhatItDoesNotKnow) {
   const std::string noise =
       "# v 1\nmtllib x\no a\ng b\ns off\nusemtl c\nvp 1\nl 1 2\np 1\n\n  \t\n";
-  EXPECT_EQ(parse_obj(noise + tetrahedron + noise, "m").polygons.size(), 4u);
+  EXPECT_EQ(sim::files::parse_obj(noise + tetrahedron + noise, "m").polygons.size(), 4u);
 }
 
 TEST(ObjReader, ReadsWindowsLinesAndContinuedLines) {
-  const PolygonMesh mesh = parse_obj(
+  const sim::files::PolygonMesh mesh = sim::files::parse_obj(
       "# a \\\r\nv x\r\nv 0 \\\r\n0 0\r\nv 1 0 0\nv 0 1 0\nf 1 \\\n 2\\\n 3\r\nf 1 2 9\n"
       "v 0 0 1\nv 0 0 1\nv 0 0 1\nv 0 0 1\nv 0 0 1\nv 0 0 1\n",
       "m");
@@ -58,7 +58,7 @@ TEST(ObjReader, ReadsWindowsLinesAndContinuedLines) {
 TEST(ObjReader, DoesNotDependOnTheLocale) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) std::setlocale(LC_ALL, name);
-  EXPECT_EQ(parse_obj("v 0.5 0 0\nf 1 1 1", "m").vertices[0].x(), 0.5);
+  EXPECT_EQ(sim::files::parse_obj("v 0.5 0 0\nf 1 1 1", "m").vertices[0].x(), 0.5);
   std::setlocale(LC_ALL, before.c_str());
 }
 
@@ -90,14 +90,14 @@ TEST(ObjReader, FilesWithoutFacesAreErrors) {
 
 TEST(ObjReader, FilesThatCannotBeReadAreErrors) {
   const neve::test::TemporaryFolder folder;
-  EXPECT_THROW(read_obj(folder.path().string()), ShapeError);
-  EXPECT_THROW(read_obj((folder / "neve no such file.obj").string()), ShapeError);
-  EXPECT_THROW(read_obj("/dev/zero"), ShapeError);
-  EXPECT_THROW(read_obj(""), ShapeError);
+  EXPECT_THROW(sim::files::read_obj(folder.path().string()), ShapeError);
+  EXPECT_THROW(sim::files::read_obj((folder / "neve no such file.obj").string()), ShapeError);
+  EXPECT_THROW(sim::files::read_obj("/dev/zero"), ShapeError);
+  EXPECT_THROW(sim::files::read_obj(""), ShapeError);
   const std::string large = (folder / "large.obj").string();
   std::ofstream(large).flush();
   std::filesystem::resize_file(large, (256u << 20) + 1);
-  EXPECT_THROW(read_obj(large), ShapeError);
+  EXPECT_THROW(sim::files::read_obj(large), ShapeError);
 }
 
 /// Breaks a text in a few places.
@@ -133,8 +133,8 @@ TEST(ObjReader, MutatedFilesAreReadOrRefused) {
   std::size_t closed = 0, refused = 0;
   for (int k = 0; k < 20000; ++k) {
     try {
-      const auto solid =
-          make_mesh_solid(close_mesh(parse_obj(mutated(tetrahedron, state), "m"), "m"));
+      const auto solid = sim::shapes::make_mesh_solid(
+          sim::shapes::close_mesh(sim::files::parse_obj(mutated(tetrahedron, state), "m"), "m"));
       EXPECT_GT(solid->volume(), 0);
       const Vec3d inner = solid->inner_point();
       EXPECT_TRUE(solid->contains(inner));

@@ -1,6 +1,6 @@
 /// Particles in block order and the blocks of nodes around them, against what the definition says.
 
-#include "sim/partition.h"
+#include "sim/engine/partition.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ struct Cloud {
     for (std::size_t q = 0; q < points.size(); ++q) {
       int cell[3];
       for (int a = 0; a < 3; ++a) cell[a] = static_cast<int>(std::floor(points[q].x[a]));
-      keys[q] = block_key(cell[0] >> 2, cell[1] >> 2, cell[2] >> 2);
+      keys[q] = kernels::block_key(cell[0] >> 2, cell[1] >> 2, cell[2] >> 2);
       locals[q] = static_cast<std::uint16_t>(points[q].model << 6 | (cell[0] & 3) << 4 |
                                              (cell[1] & 3) << 2 | (cell[2] & 3));
     }
@@ -56,13 +56,13 @@ struct Cloud {
 std::uint64_t key_at(std::uint64_t key, int o, const neve::sim::Vec3i& period) {
   int at[3];
   for (int a = 0; a < 3; ++a) {
-    at[a] = block_coordinate(key, a) + (o >> (2 - a) & 1);
+    at[a] = kernels::block_coordinate(key, a) + (o >> (2 - a) & 1);
     if (period[a] > 0) at[a] = (at[a] % period[a] + period[a]) % period[a];
   }
-  return block_key(at[0], at[1], at[2]);
+  return kernels::block_key(at[0], at[1], at[2]);
 }
 
-void expect_order(const Partition& p, const Cloud& c) {
+void expect_order(const engine::Partition& p, const Cloud& c) {
   std::vector<std::uint32_t> expected(c.points.size());
   std::iota(expected.begin(), expected.end(), 0u);
   std::sort(expected.begin(), expected.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -70,7 +70,7 @@ void expect_order(const Partition& p, const Cloud& c) {
   });
   ASSERT_EQ(p.order(), expected);
   std::uint32_t at = 0;
-  for (const ParticleBlock& block : p.blocks()) {
+  for (const kernels::ParticleBlock& block : p.blocks()) {
     ASSERT_EQ(block.begin, at);
     ASSERT_LT(block.begin, block.end);
     for (; at < block.end; ++at) {
@@ -81,12 +81,12 @@ void expect_order(const Partition& p, const Cloud& c) {
   ASSERT_EQ(at, c.points.size());
 }
 
-void expect_links(const Partition& p, const neve::sim::Vec3i& period) {
-  std::map<std::uint64_t, NodeBlock> expected;
+void expect_links(const engine::Partition& p, const neve::sim::Vec3i& period) {
+  std::map<std::uint64_t, kernels::NodeBlock> expected;
   for (std::size_t b = 0; b < p.blocks().size(); ++b) {
     for (int o = 0; o < 8; ++o) {
       const std::uint64_t key = key_at(p.blocks()[b].key, o, period);
-      const auto [at, is_new] = expected.try_emplace(key, NodeBlock{key, {}});
+      const auto [at, is_new] = expected.try_emplace(key, kernels::NodeBlock{key, {}});
       if (is_new) std::fill(std::begin(at->second.tile), std::end(at->second.tile), -1);
       at->second.tile[o] = static_cast<std::int32_t>(b);
       ASSERT_EQ(p.node_blocks()[p.blocks()[b].node_block[o]].key, key);
@@ -109,14 +109,14 @@ TEST(Partition, KeepsTheOrderOfADefinitionThatKnowsNoHistory) {
       for (const double distance : {0.02, 3.0}) {
         Cloud cloud;
         cloud.add(5000, size);
-        Partition partition;
+        engine::Partition partition;
         for (int step = 0; step < 12; ++step) {
           cloud.locate();
           partition.build(cloud.keys, cloud.locals, pool, threads);
           expect_order(partition, cloud);
           expect_links(partition, neve::sim::Vec3i::Zero());
           if (step % 5 == 4) {
-            Reordering<Point> reordering;
+            engine::Reordering<Point> reordering;
             partition.sort_storage(cloud.points, reordering, cloud.keys, cloud.locals, pool,
                                    threads);
             const Cloud before = cloud;
@@ -135,7 +135,7 @@ TEST(Partition, KeepsTheOrderOfADefinitionThatKnowsNoHistory) {
 TEST(Partition, TakesParticlesThatComeAndGo) {
   ThreadPool pool(2);
   Cloud cloud;
-  Partition partition;
+  engine::Partition partition;
   for (const int count : {0, 1, 2000, 2000, 2500, 1800, 0, 700}) {
     cloud.points.resize(
         std::min<std::size_t>(cloud.points.size(), static_cast<std::size_t>(count)));
@@ -154,7 +154,7 @@ TEST(Partition, LinksBlocksAroundAPeriod) {
        {neve::sim::Vec3i(1, 0, 2), neve::sim::Vec3i(3, 2, 5), neve::sim::Vec3i(0, 0, 4)}) {
     Cloud cloud;
     cloud.add(3000, 30);
-    Partition partition;
+    engine::Partition partition;
     partition.set_period(period);
     for (int step = 0; step < 5; ++step) {
       cloud.locate();
@@ -172,7 +172,7 @@ TEST(Partition, OneParticleFarAwayCostsOneBlock) {
   Cloud cloud;
   cloud.add(5000, 20);
   cloud.locate();
-  Partition near, both;
+  engine::Partition near, both;
   near.build(cloud.keys, cloud.locals, pool, 1);
   cloud.points.push_back({Vec3d(1e6, -1e6, 1e6), 0});
   cloud.locate();

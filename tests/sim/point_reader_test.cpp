@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <random>
 
-#include "sim/placed_points.h"
-#include "sim/point_reader.h"
-#include "sim/seeding.h"
+#include "sim/files/point_reader.h"
+#include "sim/seeding/seeding.h"
+#include "sim/shapes/placed_points.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::sim {
@@ -18,7 +18,7 @@ const std::string csv = "x,y,z,vx,vy,vz,mass,volume\n1,2,3,4,5,6,0.5,0.25\n-1,0,
 
 std::string point_error(const std::string& bytes) {
   try {
-    parse_points(bytes, "p");
+    sim::files::parse_points(bytes, "p");
   } catch (const ShapeError& error) {
     return error.what();
   }
@@ -48,7 +48,7 @@ std::string binary_ply(bool is_little) {
 }
 
 TEST(PointReader, ReadsEveryColumnOfACsv) {
-  const PointCloud cloud = parse_points(csv, "p");
+  const sim::files::PointCloud cloud = sim::files::parse_points(csv, "p");
   ASSERT_EQ(cloud.x.size(), 2u);
   EXPECT_EQ(cloud.x[1], Vec3d(-1, 0, 1e-3));
   EXPECT_EQ(cloud.v[0], Vec3d(4, 5, 6));
@@ -57,7 +57,7 @@ TEST(PointReader, ReadsEveryColumnOfACsv) {
 }
 
 TEST(PointReader, FindsColumnsByNameInAnyOrderAndPassesOverOthers) {
-  const PointCloud cloud = parse_points(
+  const sim::files::PointCloud cloud = sim::files::parse_points(
       "\xEF\xBB\xBF# from elsewhere\r\n\r\n\"Pz\"; color ;\"P.y\";Position_X\r\n"
       "3; red ;2;+1\r\n\r\n# half way\r\n6;;5;4",
       "p");
@@ -65,19 +65,20 @@ TEST(PointReader, FindsColumnsByNameInAnyOrderAndPassesOverOthers) {
   EXPECT_EQ(cloud.x[0], Vec3d(1, 2, 3));
   EXPECT_EQ(cloud.x[1], Vec3d(4, 5, 6));
   EXPECT_TRUE(cloud.v.empty() && cloud.m.empty() && cloud.V.empty());
-  EXPECT_EQ(parse_points("Points:0\tPoints:1\tPoints:2\n1\t2\t3\n", "p").x[0], Vec3d(1, 2, 3));
+  EXPECT_EQ(sim::files::parse_points("Points:0\tPoints:1\tPoints:2\n1\t2\t3\n", "p").x[0],
+            Vec3d(1, 2, 3));
 }
 
 TEST(PointReader, TakesQuotedFieldsOfACsvAsTheyAre) {
-  const PointCloud cloud =
-      parse_points("name;x;\"y\";z\n\"a;b \"\"c\"\"\";\"1\";2;3\n\"\";4;5;6\n", "p");
+  const sim::files::PointCloud cloud =
+      sim::files::parse_points("name;x;\"y\";z\n\"a;b \"\"c\"\"\";\"1\";2;3\n\"\";4;5;6\n", "p");
   ASSERT_EQ(cloud.x.size(), 2u);
   EXPECT_EQ(cloud.x[0], Vec3d(1, 2, 3));
   EXPECT_EQ(cloud.x[1], Vec3d(4, 5, 6));
 }
 
 TEST(PointReader, ReadsAsciiPly) {
-  const PointCloud cloud = parse_points(
+  const sim::files::PointCloud cloud = sim::files::parse_points(
       "ply\r\nformat ascii 1.0\r\nelement vertex 2\r\nproperty float x\r\nproperty float y\r\n"
       "property float z\r\nproperty float vol\r\nend_header\r\n1 2 3 0.5\r\n4 5 6 0.25",
       "p");
@@ -88,7 +89,7 @@ TEST(PointReader, ReadsAsciiPly) {
 
 TEST(PointReader, ReadsBinaryPlyOfBothByteOrders) {
   for (const bool is_little : {true, false}) {
-    const PointCloud cloud = parse_points(binary_ply(is_little), "p");
+    const sim::files::PointCloud cloud = sim::files::parse_points(binary_ply(is_little), "p");
     ASSERT_EQ(cloud.x.size(), 2u);
     EXPECT_EQ(cloud.x[0], Vec3d(0.1, static_cast<double>(0.3f), -4));
     EXPECT_EQ(cloud.x[1], Vec3d(-2.5, -7.5, -4));
@@ -108,7 +109,7 @@ TEST(PointReader, TellsWhereAndWhatIsWrong) {
   expect("x,y,z\n1,2\n", "p:2: 2 fields; the header has 3");
   expect("x,y,z\n1,2,3\n1,2,3,4\n", "p:3: more fields than the header's 3");
   expect("x y z\n1 2 3\n", "no column x among \"x y z\"");
-  EXPECT_THROW(parse_points("x,y,z\n1,2,3\n", "cloud.ply"), ShapeError);
+  EXPECT_THROW(sim::files::parse_points("x,y,z\n1,2,3\n", "cloud.ply"), ShapeError);
   expect("1,2,3\n4,5,6\n", "p:1: the first line has numbers");
   expect("x,y,z\n1,\"2,3\n", "p:2: 2 fields");
   expect("x,y,z\n1,snow,3\n", "p:2: \"snow\" is not a number, in column \"y\"");
@@ -169,7 +170,7 @@ TEST(PointReader, SurvivesTruncatedAndDamagedFiles) {
       "property float z\nproperty double mass\nend_header\n1 2 3 4\n5 6 7 8\n";
   const auto check = [](const std::string& bytes) {
     try {
-      const PointCloud cloud = parse_points(bytes, "p");
+      const sim::files::PointCloud cloud = sim::files::parse_points(bytes, "p");
       ASSERT_FALSE(cloud.x.empty());
       for (const Vec3d& x : cloud.x) ASSERT_TRUE(x.allFinite());
       for (const double m : cloud.m) ASSERT_GT(m, 0);
@@ -191,16 +192,17 @@ TEST(PointReader, SurvivesTruncatedAndDamagedFiles) {
 
 TEST(Points, StandTurnAndMoveWithTheirBody) {
   const test::TemporaryFolder folder;
-  Body body;
-  body.shape.form = Points{.file = folder.write("p.csv", csv).string(), .center = {10, 0, 0}};
+  sim::seeding::Body body;
+  body.shape.form =
+      sim::shapes::Points{.file = folder.write("p.csv", csv).string(), .center = {10, 0, 0}};
   body.shape.rotation = {0, 0, 90};  // x to y
-  const SeededBody seeded = seed_body(body, 0, 1, 0.1);
+  const sim::seeding::SeededBody seeded = sim::seeding::seed_body(body, 0, 1, 0.1);
   ASSERT_EQ(seeded.x.size(), 2u);
   // Rotations of 90 degrees are right to rounding.
   EXPECT_LT((seeded.x[0] - Vec3d(8, 1, 3)).norm(), 1e-14);
   EXPECT_LT((seeded.v[0] - Vec3d(-5, 4, 6)).norm(), 1e-14);
   EXPECT_EQ(seeded.volume, 1.25);
-  const SeedingPlan plan = plan_seeding(body, 0.1);
+  const sim::seeding::SeedingPlan plan = sim::seeding::plan_seeding(body, 0.1);
   EXPECT_DOUBLE_EQ(plan.max_speed, Vec3d(4, 5, 6).norm());
   EXPECT_EQ(plan.mass, 2.5);
   EXPECT_EQ(plan.particle_count, 2u);
@@ -210,25 +212,27 @@ TEST(Points, StandTurnAndMoveWithTheirBody) {
 
 TEST(Points, AreReadAgainWhenTheirFileHasChanged) {
   const test::TemporaryFolder folder;
-  Body body;
+  sim::seeding::Body body;
   const auto count = [&](const std::string& text) {
-    body.shape.form = Points{.file = folder.write("p.csv", text).string()};
-    return plan_seeding(body, 0.1).particle_count;
+    body.shape.form = sim::shapes::Points{.file = folder.write("p.csv", text).string()};
+    return sim::seeding::plan_seeding(body, 0.1).particle_count;
   };
   EXPECT_EQ(count(csv), 2u);
   EXPECT_EQ(count(csv + "5,5,5,0,0,0,1,1\n"), 3u);
   std::filesystem::remove(folder / "p.csv");
-  EXPECT_THROW(plan_seeding(body, 0.1), ShapeError);
+  EXPECT_THROW(sim::seeding::plan_seeding(body, 0.1), ShapeError);
 }
 
 TEST(Points, WithoutVolumesNeedASpacing) {
-  const PointCloud cloud = parse_points("x,y,z\n0,0,0\n0.1,0,0\n", "p");
-  EXPECT_THROW(PlacedPoints(cloud, Points{}, "p"), ShapeError);
-  EXPECT_NEAR(PlacedPoints(cloud, Points{.file = "", .spacing = 0.1}, "p").volume, 2e-3, 1e-18);
+  const sim::files::PointCloud cloud = sim::files::parse_points("x,y,z\n0,0,0\n0.1,0,0\n", "p");
+  EXPECT_THROW(sim::shapes::PlacedPoints(cloud, sim::shapes::Points{}, "p"), ShapeError);
+  EXPECT_NEAR(
+      sim::shapes::PlacedPoints(cloud, sim::shapes::Points{.file = "", .spacing = 0.1}, "p").volume,
+      2e-3, 1e-18);
 }
 
 TEST(Points, ThinnedKeepMassAndVolume) {
-  PointCloud cloud;
+  sim::files::PointCloud cloud;
   double mass = 0, volume = 0;
   for (int k = 1; k <= 1000; ++k) {
     cloud.x.emplace_back(k, 0, 0);
@@ -238,7 +242,8 @@ TEST(Points, ThinnedKeepMassAndVolume) {
     volume += 1e-3 * k;
   }
   for (const double thinning : {1.0, 2.0, 3.375, 8.0, 999.0, 1e9}) {
-    const PlacedPoints points(cloud, Points{.file = "", .thinning = thinning}, "p");
+    const sim::shapes::PlacedPoints points(
+        cloud, sim::shapes::Points{.file = "", .thinning = thinning}, "p");
     EXPECT_EQ(points.x.size(), std::max(1.0, std::floor(1000 / thinning)));
     double kept_mass = 0, kept_volume = 0;
     for (std::size_t p = 0; p < points.x.size(); ++p) {

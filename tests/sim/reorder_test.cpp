@@ -1,6 +1,6 @@
 /// Records in a new order, without a second copy.
 
-#include "sim/reorder.h"
+#include "sim/engine/reorder.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ void expect_reordered(std::size_t count, double distance, int threads) {
   std::vector<Wide> records(count), expected(count);
   for (std::uint32_t q = 0; q < count; ++q) records[q] = {{q, q + 1, q + 2, q + 3, q + 4}};
   for (std::size_t q = 0; q < count; ++q) expected[q] = records[order[q]];
-  Reordering<Wide> reordering;
+  engine::Reordering<Wide> reordering;
   reordering.run(records, order, pool, threads);
   EXPECT_EQ(order, iota);
   for (std::size_t q = 0; q < count; ++q)

@@ -17,9 +17,9 @@ struct SaveCase {
 };
 
 Simulation simulate(const SolverSettings& settings, const ParticleArrays& particles, int threads) {
-  Collider ball;
+  shapes::Collider ball;
   ball.name = "ball";
-  ball.shape.form = Sphere{{0.05, 0.02, 0.03}, 0.05};
+  ball.shape.form = shapes::Sphere{{0.05, 0.02, 0.03}, 0.05};
   ball.angular_velocity = {0, 3, 1};
   ball.velocity = {0.1, 0.2, 0};
   Material stiff;

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "sim/base/hash.h"
-#include "sim/solid.h"
+#include "sim/shapes/solid.h"
 
 namespace neve::sim {
 namespace {
 
 struct Case {
   const char* name;
-  Shape shape;
+  sim::shapes::Shape shape;
   double volume;
 };
 
@@ -22,21 +22,21 @@ constexpr double pi = std::numbers::pi;
 std::vector<Case> cases() {
   const Vec3d c(0.3, -1.2, 2.0), turn(25, -40, 70);
   return {
-      {"sphere", {Sphere{c, 0.4}, turn}, 4.0 / 3 * pi * 0.064},
-      {"box", {Box{c, {0.3, 0.8, 0.5}}, turn}, 0.12},
+      {"sphere", {sim::shapes::Sphere{c, 0.4}, turn}, 4.0 / 3 * pi * 0.064},
+      {"box", {sim::shapes::Box{c, {0.3, 0.8, 0.5}}, turn}, 0.12},
       {"capsule",
-       {Capsule{c, {1.0, -0.9, 1.5}, 0.2}, turn},
+       {sim::shapes::Capsule{c, {1.0, -0.9, 1.5}, 0.2}, turn},
        pi * 0.04 * (std::sqrt(0.49 + 0.09 + 0.25) + 4.0 / 3 * 0.2)},
-      {"cylinder", {Cylinder{c, 0.3, 0.7}, turn}, pi * 0.09 * 0.7},
-      {"cone", {Cone{c, 0.4, 0.9}, turn}, pi * 0.16 * 0.9 / 3},
-      {"torus", {Torus{c, 0.5, 0.15}, turn}, 2 * pi * pi * 0.5 * 0.0225},
+      {"cylinder", {sim::shapes::Cylinder{c, 0.3, 0.7}, turn}, pi * 0.09 * 0.7},
+      {"cone", {sim::shapes::Cone{c, 0.4, 0.9}, turn}, pi * 0.16 * 0.9 / 3},
+      {"torus", {sim::shapes::Torus{c, 0.5, 0.15}, turn}, 2 * pi * pi * 0.5 * 0.0225},
   };
 }
 
 /// Calls visit with points of a shifted regular grid in the box, which sums to a volume far more
 /// accurately than random points do. @return volume of a point's cell
 template <class Visit>
-double scan(const Bounds& box, int per_axis, const Visit& visit) {
+double scan(const sim::shapes::Bounds& box, int per_axis, const Visit& visit) {
   const Vec3d step = (box.max - box.min) / per_axis;
   for (int k = 0; k < per_axis; ++k)
     for (int j = 0; j < per_axis; ++j)
@@ -51,8 +51,8 @@ double scan(const Bounds& box, int per_axis, const Visit& visit) {
 
 /// Volume from the inside test. Of a million stratified points about 5 % are at the surface and
 /// random: the error is near 0.02 %.
-double filled(const Shape& shape) {
-  const Solid solid(shape);
+double filled(const sim::shapes::Shape& shape) {
+  const sim::shapes::Solid solid(shape);
   std::size_t inside = 0;
   const double cell =
       scan(solid.bounds(), 100, [&](const Vec3d& x) { inside += solid.contains(x) ? 1 : 0; });
@@ -60,26 +60,28 @@ double filled(const Shape& shape) {
 }
 
 TEST(Shape, VolumesAreThoseOfTheTextbook) {
-  for (const Case& c : cases()) EXPECT_NEAR(volume(c.shape), c.volume, 1e-14) << c.name;
+  for (const Case& c : cases())
+    EXPECT_NEAR(sim::shapes::volume(c.shape), c.volume, 1e-14) << c.name;
 }
 
 TEST(Shape, PointsInsideFillTheVolume) {
-  for (const Case& c : cases()) EXPECT_NEAR(filled(c.shape) / volume(c.shape), 1, 1.5e-3) << c.name;
+  for (const Case& c : cases())
+    EXPECT_NEAR(filled(c.shape) / sim::shapes::volume(c.shape), 1, 1.5e-3) << c.name;
 }
 
 TEST(Shape, SpindleTorusCountsItsOverlapOnce) {
-  const Shape spindle{Torus{{0, 0, 0}, 0.2, 0.5}, {10, 20, 30}};
-  EXPECT_NEAR(filled(spindle) / volume(spindle), 1, 1.5e-3);
-  const Shape ball{Torus{{0, 0, 0}, 0, 0.5}, {0, 0, 0}};
-  EXPECT_NEAR(volume(ball), pi / 6, 1e-15);
+  const sim::shapes::Shape spindle{sim::shapes::Torus{{0, 0, 0}, 0.2, 0.5}, {10, 20, 30}};
+  EXPECT_NEAR(filled(spindle) / sim::shapes::volume(spindle), 1, 1.5e-3);
+  const sim::shapes::Shape ball{sim::shapes::Torus{{0, 0, 0}, 0, 0.5}, {0, 0, 0}};
+  EXPECT_NEAR(sim::shapes::volume(ball), pi / 6, 1e-15);
 }
 
 TEST(Shape, BoundsAreTight) {
   for (const Case& c : cases()) {
-    const Solid solid(c.shape);
-    const Bounds b = solid.bounds();
-    const Bounds wide{b.min.array() - 0.1, b.max.array() + 0.1};
-    Bounds seen{wide.max, wide.min};
+    const sim::shapes::Solid solid(c.shape);
+    const sim::shapes::Bounds b = solid.bounds();
+    const sim::shapes::Bounds wide{b.min.array() - 0.1, b.max.array() + 0.1};
+    sim::shapes::Bounds seen{wide.max, wide.min};
     scan(wide, 120, [&](const Vec3d& x) {
       if (!solid.contains(x)) return;
       seen.min = seen.min.cwiseMin(x);
@@ -95,8 +97,8 @@ TEST(Shape, BoundsAreTight) {
 
 TEST(Shape, ClearanceNeverExceedsTheDistanceToTheSurface) {
   for (const Case& c : cases()) {
-    const Solid solid(c.shape);
-    const Bounds b = solid.local_bounds();
+    const sim::shapes::Solid solid(c.shape);
+    const sim::shapes::Bounds b = solid.local_bounds();
     std::vector<Vec3d> points;
     scan({b.min * 1.5, b.max * 1.5}, 9, [&](const Vec3d& y) { points.push_back(y); });
     for (const Vec3d& p : points) {
@@ -112,47 +114,52 @@ TEST(Shape, ClearanceNeverExceedsTheDistanceToTheSurface) {
 
 TEST(Shape, InnerPointIsInside) {
   for (const Case& c : cases()) {
-    const Solid solid(c.shape);
+    const sim::shapes::Solid solid(c.shape);
     EXPECT_TRUE(solid.contains_local(solid.inner_point())) << c.name;
   }
 }
 
 TEST(Shape, ConeStandsOnItsBase) {
-  const Shape cone{Cone{{0, 1, 0}, 0.5, 2.0}, {0, 0, 0}};
-  EXPECT_TRUE(contains(cone, {0, 1.99, 0}));
-  EXPECT_TRUE(contains(cone, {0.49, 0.01, 0}));
-  EXPECT_FALSE(contains(cone, {0.1, 1.9, 0}));
-  EXPECT_FALSE(contains(cone, {0, -0.01, 0}));
+  const sim::shapes::Shape cone{sim::shapes::Cone{{0, 1, 0}, 0.5, 2.0}, {0, 0, 0}};
+  EXPECT_TRUE(sim::shapes::contains(cone, {0, 1.99, 0}));
+  EXPECT_TRUE(sim::shapes::contains(cone, {0.49, 0.01, 0}));
+  EXPECT_FALSE(sim::shapes::contains(cone, {0.1, 1.9, 0}));
+  EXPECT_FALSE(sim::shapes::contains(cone, {0, -0.01, 0}));
 }
 
 TEST(Shape, RotationTurnsAboutXFirst) {
   // Rx(90) takes the axis y to z, Rz(90) then leaves it there.
-  const Bounds b = bounds({Cylinder{{0, 0, 0}, 0.1, 2.0}, {90, 0, 90}});
+  const sim::shapes::Bounds b =
+      sim::shapes::bounds({sim::shapes::Cylinder{{0, 0, 0}, 0.1, 2.0}, {90, 0, 90}});
   EXPECT_NEAR(b.max.z(), 1.0, 1e-12);
   EXPECT_NEAR(b.max.y(), 0.1, 1e-12);
 }
 
 TEST(Shape, CapsuleRunsFromAToB) {
-  const Capsule capsule{{1, 2, 3}, {-1, 1, 5}, 0.1};
+  const sim::shapes::Capsule capsule{{1, 2, 3}, {-1, 1, 5}, 0.1};
   for (const double s : {-0.01, 0.0, 0.5, 1.0, 1.01}) {
     const Vec3d on_axis = capsule.a + s * (capsule.b - capsule.a);
-    EXPECT_TRUE(contains({capsule, {0, 0, 0}}, on_axis)) << s;
+    EXPECT_TRUE(sim::shapes::contains({capsule, {0, 0, 0}}, on_axis)) << s;
   }
-  EXPECT_FALSE(contains({capsule, {0, 0, 0}}, {0, 1.5, 4.2}));
+  EXPECT_FALSE(sim::shapes::contains({capsule, {0, 0, 0}}, {0, 1.5, 4.2}));
   // Pointing straight down, where the smallest turn of y is not unique; and of no length.
-  EXPECT_TRUE(contains({Capsule{{0, 1, 0}, {0, -1, 0}, 0.1}, {0, 0, 0}}, {0, -1.05, 0}));
-  EXPECT_NEAR(volume({Capsule{{0, 1, 0}, {0, 1, 0}, 0.1}, {0, 0, 0}}), 4e-3 / 3 * pi, 1e-15);
+  EXPECT_TRUE(sim::shapes::contains({sim::shapes::Capsule{{0, 1, 0}, {0, -1, 0}, 0.1}, {0, 0, 0}},
+                                    {0, -1.05, 0}));
+  EXPECT_NEAR(sim::shapes::volume({sim::shapes::Capsule{{0, 1, 0}, {0, 1, 0}, 0.1}, {0, 0, 0}}),
+              4e-3 / 3 * pi, 1e-15);
 }
 
 TEST(Shape, PlanesHaveNoVolume) {
-  EXPECT_THROW(volume({Plane{}, {0, 0, 0}}), std::invalid_argument);
-  EXPECT_EQ(center({Plane{{1, 2, 3}, {0, 1, 0}}, {0, 0, 0}}), Vec3d(1, 2, 3));
+  EXPECT_THROW(sim::shapes::volume({sim::shapes::Plane{}, {0, 0, 0}}), std::invalid_argument);
+  EXPECT_EQ(sim::shapes::center({sim::shapes::Plane{{1, 2, 3}, {0, 1, 0}}, {0, 0, 0}}),
+            Vec3d(1, 2, 3));
 }
 
 TEST(Shape, EmptyAndOverflowingShapesAreErrors) {
-  EXPECT_THROW(volume({Box{{0, 0, 0}, {1, 0, 1}}, {0, 0, 0}}), ShapeError);
-  EXPECT_THROW(volume({Sphere{{0, 0, 0}, 1e200}, {0, 0, 0}}), ShapeError);
-  EXPECT_THROW(volume({Sphere{{0, 0, 0}, NAN}, {0, 0, 0}}), ShapeError);
+  EXPECT_THROW(sim::shapes::volume({sim::shapes::Box{{0, 0, 0}, {1, 0, 1}}, {0, 0, 0}}),
+               ShapeError);
+  EXPECT_THROW(sim::shapes::volume({sim::shapes::Sphere{{0, 0, 0}, 1e200}, {0, 0, 0}}), ShapeError);
+  EXPECT_THROW(sim::shapes::volume({sim::shapes::Sphere{{0, 0, 0}, NAN}, {0, 0, 0}}), ShapeError);
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ std::string complaint_about(const char* value) {
   const std::string saved = before ? before : "";
   setenv("NEVE_SIMD", value, 1);
   try {
-    chosen_simd_level();
-  } catch (const SimdError& error) {
+    kernels::chosen_simd_level();
+  } catch (const kernels::SimdError& error) {
     complaint = error.what();
   }
   if (before)
@@ -36,18 +36,20 @@ TEST(Simd, UnknownLevelsAreRefusedWithWhatThereIs) {
 }
 
 TEST(Simd, LevelsThatTheMachineLacksAreRefused) {
-  for (const SimdLevel level : {SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512}) {
-    const std::string complaint = complaint_about(name(level));
-    EXPECT_EQ(complaint.empty(), is_available(level)) << complaint;
+  for (const kernels::SimdLevel level :
+       {kernels::SimdLevel::baseline, kernels::SimdLevel::avx2, kernels::SimdLevel::avx512}) {
+    const std::string complaint = complaint_about(kernels::name(level));
+    EXPECT_EQ(complaint.empty(), kernels::is_available(level)) << complaint;
     // Another level's complaint lists exactly the levels that are here.
     const std::string list = complaint_about("foo").substr(std::string("NEVE_SIMD=foo").size());
-    EXPECT_EQ(list.find(name(level)) != std::string::npos, is_available(level)) << list;
+    EXPECT_EQ(list.find(kernels::name(level)) != std::string::npos, kernels::is_available(level))
+        << list;
   }
 }
 
 TEST(Simd, ChoiceIsTheWidestUnlessToldOtherwise) {
   test::at_every_simd_level(
-      [] { EXPECT_STREQ(name(chosen_simd_level()), std::getenv("NEVE_SIMD")); });
+      [] { EXPECT_STREQ(kernels::name(kernels::chosen_simd_level()), std::getenv("NEVE_SIMD")); });
   EXPECT_EQ(complaint_about(""), "");
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/time_step.h"
+#include "sim/engine/time_step.h"
 #include "tests/support/snow.h"
 
 namespace {
@@ -12,33 +12,33 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-StateLimits slow() {
+engine::StateLimits slow() {
   return {0.1, 1.0, 0.1, 10};
 }
 
 TEST(TimeStep, SmallestLimitRules) {
   SolverSettings s;  // h = 0.02
-  EXPECT_EQ(choose_dt(s, slow(), 1).limit, DtLimit::max_dt);
-  EXPECT_EQ(choose_dt(s, slow(), 1).dt, s.max_dt);
-  StateLimits fast = slow();
+  EXPECT_EQ(engine::choose_dt(s, slow(), 1).limit, DtLimit::max_dt);
+  EXPECT_EQ(engine::choose_dt(s, slow(), 1).dt, s.max_dt);
+  engine::StateLimits fast = slow();
   fast.max_speed = 100;
   fast.max_hardening = 0;
-  EXPECT_EQ(choose_dt(s, fast, 1).limit, DtLimit::cfl);
-  EXPECT_NEAR(choose_dt(s, fast, 1).dt, 0.4 * 0.02 / 100, 1e-15);
-  StateLimits stiff = slow();
+  EXPECT_EQ(engine::choose_dt(s, fast, 1).limit, DtLimit::cfl);
+  EXPECT_NEAR(engine::choose_dt(s, fast, 1).dt, 0.4 * 0.02 / 100, 1e-15);
+  engine::StateLimits stiff = slow();
   stiff.max_sound_speed = 40;
-  EXPECT_EQ(choose_dt(s, stiff, 1).limit, DtLimit::acoustic);
-  EXPECT_NEAR(choose_dt(s, stiff, 1).dt, 0.5 * 0.02 / 40, 1e-15);
-  StateLimits strained = slow();
+  EXPECT_EQ(engine::choose_dt(s, stiff, 1).limit, DtLimit::acoustic);
+  EXPECT_NEAR(engine::choose_dt(s, stiff, 1).dt, 0.5 * 0.02 / 40, 1e-15);
+  engine::StateLimits strained = slow();
   strained.max_strain_rate = 3000;
-  EXPECT_EQ(choose_dt(s, strained, 1).limit, DtLimit::strain);
-  EXPECT_NEAR(choose_dt(s, strained, 1).dt, 0.3 / 3000, 1e-15);
+  EXPECT_EQ(engine::choose_dt(s, strained, 1).limit, DtLimit::strain);
+  EXPECT_NEAR(engine::choose_dt(s, strained, 1).dt, 0.3 / 3000, 1e-15);
 }
 
 TEST(TimeStep, FastSnowTakesStepsThatItsHardeningCannotOutrun) {
   SolverSettings s;
-  StateLimits impact{20, 19.7, 0, 10};
-  const double dt = choose_dt(s, impact, 1).dt;
+  engine::StateLimits impact{20, 19.7, 0, 10};
+  const double dt = engine::choose_dt(s, impact, 1).dt;
   const double c_after = 19.7 * std::exp(0.5 * 10 * 0.7 * 20 * dt / s.cell_size);
   EXPECT_LE(c_after * dt, 1.0 * s.cell_size);
 }
@@ -47,16 +47,16 @@ TEST(TimeStep, FixedIsTakenAsItIs) {
   SolverSettings s;
   s.time_step = TimeStep::fixed;
   s.dt = 7e-3;
-  StateLimits impact{20, 190, 900, 10};
-  EXPECT_EQ(choose_dt(s, impact, 1).dt, 7e-3);
-  EXPECT_EQ(choose_dt(s, impact, 1).limit, DtLimit::fixed);
-  EXPECT_EQ(choose_dt(s, impact, 2e-3).dt, 2e-3);
-  EXPECT_EQ(choose_dt(s, impact, 2e-3).limit, DtLimit::frame_end);
+  engine::StateLimits impact{20, 190, 900, 10};
+  EXPECT_EQ(engine::choose_dt(s, impact, 1).dt, 7e-3);
+  EXPECT_EQ(engine::choose_dt(s, impact, 1).limit, DtLimit::fixed);
+  EXPECT_EQ(engine::choose_dt(s, impact, 2e-3).dt, 2e-3);
+  EXPECT_EQ(engine::choose_dt(s, impact, 2e-3).limit, DtLimit::frame_end);
 }
 
 TEST(TimeStep, LastStepsOfAFrameShareWhatIsLeft) {
   SolverSettings s;
-  const Simulation::Choice choice = choose_dt(s, slow(), 1.5e-3);
+  const DtChoice choice = engine::choose_dt(s, slow(), 1.5e-3);
   EXPECT_EQ(choice.limit, DtLimit::frame_end);
   EXPECT_NEAR(choice.dt, 0.75e-3, 1e-15);
 }
@@ -88,10 +88,10 @@ TEST(TimeStep, FramesEndExactlyAndCountTheirSteps) {
 
 TEST(FlipShare, DampsByTimeNotBySteps) {
   SolverSettings s;
-  EXPECT_NEAR(flip_share(s, 5e-4), 0.95, 1e-15);
-  EXPECT_NEAR(std::pow(flip_share(s, 1e-4), 5), 0.95, 1e-14);
+  EXPECT_NEAR(engine::flip_share(s, 5e-4), 0.95, 1e-15);
+  EXPECT_NEAR(std::pow(engine::flip_share(s, 1e-4), 5), 0.95, 1e-14);
   s.flip_reference_dt = 0;
-  EXPECT_EQ(flip_share(s, 1e-5), 0.95);
+  EXPECT_EQ(engine::flip_share(s, 1e-5), 0.95);
 }
 
 TEST(Interruption, EndsAfterAStep) {

@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-#include "sim/diagnostics.h"
+#include "sim/health/diagnostics.h"
 #include "sim/staged.h"
 #include "tests/support/one_particle.h"
 #include "tests/support/snow.h"
@@ -23,7 +23,7 @@ void check_weights(double tolerance) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int trial = 0; trial < 1000; ++trial) {
-    Particle<Real> p{};
+    kernels::Particle<Real> p{};
     for (int a = 0; a < 3; ++a) {
       p.cell[a] = trial * (a - 1);
       p.offset[a] = static_cast<Real>(trial == 0 ? 0 : unit(random));
@@ -43,18 +43,18 @@ void check_weights(double tolerance) {
       }
       EXPECT_NEAR(sum, 1, tolerance);
       EXPECT_NEAR(slope, 0, tolerance);
-      EXPECT_NEAR(arm, 0, tolerance);                    // sum w (x_i - x_p) = 0
-      EXPECT_NEAR(moment, 1, tolerance);                 // sum x_i grad_w = 1
-      EXPECT_NEAR(inertia, apic_inertia<K>, tolerance);  // D / h^2
+      EXPECT_NEAR(arm, 0, tolerance);                             // sum w (x_i - x_p) = 0
+      EXPECT_NEAR(moment, 1, tolerance);                          // sum x_i grad_w = 1
+      EXPECT_NEAR(inertia, kernels::apic_inertia<K>, tolerance);  // D / h^2
     }
   }
 }
 
 TEST(Stencil, WeightsSumToOneAndGradientsToZero) {
-  check_weights<double, cubic_nodes>(1e-14);
-  check_weights<double, quadratic_nodes>(1e-14);
-  check_weights<float, cubic_nodes>(1e-6);
-  check_weights<float, quadratic_nodes>(1e-6);
+  check_weights<double, kernels::cubic_nodes>(1e-14);
+  check_weights<double, kernels::quadratic_nodes>(1e-14);
+  check_weights<float, kernels::cubic_nodes>(1e-6);
+  check_weights<float, kernels::quadratic_nodes>(1e-6);
 }
 
 struct TransferCase {
@@ -151,21 +151,21 @@ TEST(Transfer, NodeForceIsMinusTheDerivativeOfEnergy) {
                   g = Vec3d(s.arm[0][i] * s.w[1][j] * s.w[2][k],
                             s.w[0][i] * s.arm[1][j] * s.w[2][k],
                             s.w[0][i] * s.w[1][j] * s.arm[2][k]) /
-                      apic_inertia<K>;
+                      kernels::apic_inertia<K>;
                 grad += u.at({s.base[0] + i, s.base[1] + j, s.base[2] + k}) * (g / h).transpose();
               }
         };
-        Particle<double> record{};
+        kernels::Particle<double> record{};
         for (int a = 0; a < 3; ++a) {
           record.cell[a] = static_cast<int>(std::floor(p.x[q][a] / h));
           record.offset[a] = p.x[q][a] / h - static_cast<double>(record.cell[a]);
         }
         if (settings.kernel == Kernel::cubic)
-          add(weights_of<cubic_nodes>(record));
+          add(weights_of<kernels::cubic_nodes>(record));
         else
-          add(weights_of<quadratic_nodes>(record));
-        sum += p.V0[q] * energy_density(Material{}, (Mat3d::Identity() + epsilon * grad) * p.F_E[q],
-                                        p.J_P[q]);
+          add(weights_of<kernels::quadratic_nodes>(record));
+        sum += p.V0[q] * health::energy_density(
+                             Material{}, (Mat3d::Identity() + epsilon * grad) * p.F_E[q], p.J_P[q]);
       }
       return sum;
     };

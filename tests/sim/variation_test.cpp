@@ -1,14 +1,14 @@
 /// Noise on density, stiffness and thresholds: its size and smoothness, and that all laws of a step
 /// hold with it.
 
-#include "sim/variation.h"
+#include "sim/shapes/variation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim/diagnostics.h"
-#include "sim/watch.h"
+#include "sim/checks/watch.h"
+#include "sim/health/diagnostics.h"
 #include "tests/support/snow.h"
 
 namespace {
@@ -28,7 +28,7 @@ Spread spread(const Variation& variation, const Value& value) {
   for (int k = 0; k < n; ++k) {
     // Places far from each other: independent lumps.
     const Vec3d y(0.37 * (k % 34), 0.41 * (k / 34 % 34), 0.43 * (k / 34 / 34));
-    const double x = value(vary(variation, 5, static_cast<std::uint64_t>(k), y));
+    const double x = value(shapes::vary(variation, 5, static_cast<std::uint64_t>(k), y));
     sum += x;
     squares += x * x;
   }
@@ -39,9 +39,9 @@ Spread spread(const Variation& variation, const Value& value) {
 TEST(Variation, FactorsHaveTheDeviationsThatAreAskedFor) {
   for (const double size : {0.0, 0.05}) {
     const Variation variation{0.1, 0.4, 0.25, size};
-    const Spread density = spread(variation, [](const Factors&f) { return f.density; }),
-                 stiffness = spread(variation, [](const Factors&f) { return f.stiffness; }),
-                 threshold = spread(variation, [](const Factors&f) { return f.threshold; });
+    const Spread density = spread(variation, [](const shapes::Factors&f) { return f.density; }),
+                 stiffness = spread(variation, [](const shapes::Factors&f) { return f.stiffness; }),
+                 threshold = spread(variation, [](const shapes::Factors&f) { return f.threshold; });
     // 40 000 samples: the mean is known to 0.4 / 200, the deviation to 1 %; cutting at three
     // deviations takes another percent from it.
     EXPECT_NEAR(density.mean, 1, 0.003);
@@ -54,7 +54,7 @@ TEST(Variation, FactorsHaveTheDeviationsThatAreAskedFor) {
 }
 
 TEST(Variation, WithoutAnyFactorsAreOne) {
-  const Factors f = vary(Variation{}, 5, 3, {0.1, 0.2, 0.3});
+  const shapes::Factors f = shapes::vary(Variation{}, 5, 3, {0.1, 0.2, 0.3});
   EXPECT_EQ(f.density, 1);
   EXPECT_EQ(f.stiffness, 1);
   EXPECT_EQ(f.threshold, 1);
@@ -62,7 +62,9 @@ TEST(Variation, WithoutAnyFactorsAreOne) {
 
 TEST(Variation, LumpsAreSmoothAndAsLargeAsAskedFor) {
   const Variation variation{0, 0.4, 0, 0.05};
-  const auto at = [&](double x) { return vary(variation, 5, 0, {x, 0.01, 0.02}).stiffness; };
+  const auto at = [&](double x) {
+    return shapes::vary(variation, 5, 0, {x, 0.01, 0.02}).stiffness;
+  };
   double largest_step = 0, near = 0, far = 0, variance = 0;
   constexpr int n = 4000;
   for (int k = 0; k < n; ++k) {
@@ -117,12 +119,12 @@ TEST(Variation, EveryLawOfAStepHolds) {
     disturb(p, 0.02, 1);
     const Variation variation{0, 0.5, 0.3, 0.03};
     for (std::size_t q = 0; q < p.x.size(); ++q) {
-      const Factors f = vary(variation, 1, q, p.x[q]);
+      const shapes::Factors f = shapes::vary(variation, 1, q, p.x[q]);
       p.stiffness.push_back(f.stiffness);
       p.threshold.push_back(f.threshold);
     }
     Simulation simulation(settings, {Material{}}, {}, p, 1);
-    Watch watch(settings, {Material{}});
+    checks::Watch watch(settings, {Material{}});
     for (int k = 0; k < 10; ++k) {
       for (const std::string& broken : watch.look(simulation)) ADD_FAILURE() << broken;
       simulation.step(simulation.choose_dt(1).dt);
@@ -142,7 +144,7 @@ TEST(Variation, RefusesFactorsThatAreNotPositive) {
 
 TEST(Variation, LumpsOfNoSizeAreStillNumbers) {
   for (const double size : {1e-310, 1e-30}) {
-    const Factors factors = vary({0.1, 0.2, 0.3, size}, 5, 1, {0.3, -0.2, 0});
+    const shapes::Factors factors = shapes::vary({0.1, 0.2, 0.3, size}, 5, 1, {0.3, -0.2, 0});
     EXPECT_TRUE(factors.density > 0 && factors.density < 2) << factors.density;
     EXPECT_TRUE(factors.stiffness > 0 && factors.stiffness < 4) << factors.stiffness;
   }

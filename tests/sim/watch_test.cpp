@@ -1,6 +1,6 @@
 /// The run-time watch: silent in right runs, changes nothing, names what is wrong.
 
-#include "sim/watch.h"
+#include "sim/checks/watch.h"
 
 #include <gtest/gtest.h>
 
@@ -19,17 +19,17 @@ struct Drop {
   SolverSettings settings;
   std::vector<Material> materials{Material{}};
   ParticleArrays particles = ball_of_snow({0, 0.16, 0}, 0.14, 0.03, {0.5, -5, 0});
-  std::vector<Collider> floor{plane({0, 0, 0}, {0, 1, 0}, 0.5, Contact::sticky)};
+  std::vector<shapes::Collider> floor{plane({0, 0, 0}, {0, 1, 0}, 0.5, shapes::Contact::sticky)};
 
   explicit Drop(Precision precision = Precision::single) {
     settings.cell_size = 0.05;
     settings.precision = precision;
   }
   Simulation simulation() const { return {settings, materials, floor, particles, 1}; }
-  Watch watch() const { return {settings, materials}; }
+  checks::Watch watch() const { return {settings, materials}; }
 };
 
-const WatchRecord& record_of(const Watch& watch, WatchCheck check) {
+const checks::WatchRecord& record_of(const checks::Watch& watch, checks::WatchCheck check) {
   return watch.records()[static_cast<std::size_t>(check)];
 }
 
@@ -47,7 +47,7 @@ TEST(Watch, IsSilentInARightRun) {
         drop.settings.kernel = kernel;
         drop.settings.transfer = transfer;
         Simulation simulation = drop.simulation();
-        Watch watch = drop.watch();
+        checks::Watch watch = drop.watch();
         for (int frame = 0; frame <= 20; ++frame) {
           if (frame > 0) simulation.advance_to(0.005 * frame);
           for (const std::string& sentence : watch.look(simulation)) ADD_FAILURE() << sentence;
@@ -60,7 +60,7 @@ TEST(Watch, IsSilentInARightRun) {
 TEST(Watch, ChangesNoBitOfTheRun) {
   const Drop drop;
   Simulation watched = drop.simulation(), alone = drop.simulation();
-  Watch watch = drop.watch();
+  checks::Watch watch = drop.watch();
   for (int step = 0; step < 60; ++step) {
     const std::uint64_t before = watched.state_hash();
     watch.look(watched);
@@ -76,15 +76,15 @@ TEST(Watch, SeesAStepThatIsTooLongBeforeItIsTaken) {
   Drop drop;
   drop.settings.time_step = TimeStep::fixed;
   drop.settings.dt = 1.0 / 240;
-  Watch watch = drop.watch();
+  checks::Watch watch = drop.watch();
   const auto sentences = watch.look(drop.simulation());
   EXPECT_TRUE(watch.has_errors());
   EXPECT_TRUE(has(sentences, "step 0: the acoustic CFL c dt/h is 1.")) << sentences.size();
   EXPECT_TRUE(has(sentences, "at most 0.5 is expected"));
   // 0.5 h / c with c = 19.7 m/s, the sound speed of the paper's snow.
   EXPECT_TRUE(has(sentences, "dt = 0.00127 s would do"));
-  EXPECT_EQ(record_of(watch, WatchCheck::acoustic_cfl).times, 1u);
-  EXPECT_EQ(record_of(watch, WatchCheck::acoustic_cfl).first_step, 0u);
+  EXPECT_EQ(record_of(watch, checks::WatchCheck::acoustic_cfl).times, 1u);
+  EXPECT_EQ(record_of(watch, checks::WatchCheck::acoustic_cfl).first_step, 0u);
 }
 
 TEST(Watch, SaysAThingOnceAndCountsIt) {
@@ -92,15 +92,15 @@ TEST(Watch, SaysAThingOnceAndCountsIt) {
   drop.settings.time_step = TimeStep::fixed;
   drop.settings.dt = 1.0 / 1200;
   Simulation simulation = drop.simulation();
-  Watch watch = drop.watch();
+  checks::Watch watch = drop.watch();
   std::size_t said = 0;
   double worst = 0;
   for (int step = 0; step < 40; ++step) {
     if (has(watch.look(simulation), "acoustic CFL")) ++said;
-    worst = std::max(worst, watch.measure(simulation)[WatchCheck::acoustic_cfl]);
+    worst = std::max(worst, watch.measure(simulation)[checks::WatchCheck::acoustic_cfl]);
     simulation.step(drop.settings.dt);
   }
-  const WatchRecord& record = record_of(watch, WatchCheck::acoustic_cfl);
+  const checks::WatchRecord& record = record_of(watch, checks::WatchCheck::acoustic_cfl);
   EXPECT_EQ(said, 1u);
   EXPECT_GT(record.times, 1u);
   EXPECT_GT(record.first_step, 0u);
@@ -109,7 +109,7 @@ TEST(Watch, SaysAThingOnceAndCountsIt) {
 
 /// A state with one particle spoilt.
 std::vector<std::string> look_at(const Drop& drop) {
-  Watch watch = drop.watch();
+  checks::Watch watch = drop.watch();
   return watch.look(drop.simulation());
 }
 
@@ -151,7 +151,7 @@ TEST(Watch, DoesNotBlameTheSolverForStagesThatWereLeftOut) {
 TEST(Watch, LooksAtTheFirstStepsAndThenRarely) {
   std::vector<std::size_t> due;
   for (std::size_t step = 0; step < 1000; ++step)
-    if (is_watch_due(step)) due.push_back(step);
+    if (checks::is_watch_due(step)) due.push_back(step);
   EXPECT_EQ(due, (std::vector<std::size_t>{0, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 768}));
 }
 

@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/json.h"
-#include "render/image.h"
+#include "app/support/json.h"
+#include "render/image/image.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/web_client.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/settings.h"
+#include "sim/types/settings.h"
 
 namespace neve::test {
 

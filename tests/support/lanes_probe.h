@@ -3,7 +3,7 @@
 /// standard library, as kernels do.
 
 #include "sim/base/lanes.h"
-#include "sim/row.h"
+#include "sim/kernels/row.h"
 
 namespace neve::test {
 
@@ -38,7 +38,7 @@ template <class Set, class Real>
 struct LanesProbeOf {
   static constexpr int W = Set::template lanes<Real>;
   using V = Lanes<Real, W>;
-  using Row = sim::Row<Real, Set>;
+  using Row = sim::kernels::Row<Real, Set>;
 
   template <class Function>
   NEVE_INLINE static void each(const Real* x, Real* y, int N, const Function& f) {

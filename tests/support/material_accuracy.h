@@ -14,7 +14,7 @@
 namespace neve::test {
 
 template <class Real>
-Mat3d F_of(const sim::Particle<Real>& p) {
+Mat3d F_of(const sim::kernels::Particle<Real>& p) {
   Mat3d F;
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) F(a, b) = static_cast<double>(p.F_E[3 * a + b]);
@@ -22,7 +22,7 @@ Mat3d F_of(const sim::Particle<Real>& p) {
 }
 
 template <class Real>
-Mat3d tau_of(const sim::Particle<Real>& p) {
+Mat3d tau_of(const sim::kernels::Particle<Real>& p) {
   const Real* t = p.tau;
   Mat3d tau;
   tau << t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2];
@@ -39,7 +39,7 @@ template <class Real>
 class MaterialAccuracy {
  public:
   using Wide = std::conditional_t<sizeof(Real) == 4, double, long double>;
-  using Particle = sim::Particle<Real>;
+  using Particle = sim::kernels::Particle<Real>;
 
   /// Adds `count` particles of all kinds.
   void check(unsigned seed, int count) {
@@ -51,9 +51,10 @@ class MaterialAccuracy {
       const auto material = static_cast<std::size_t>(before[q].material());
       expected[q] = material_reference<Wide>(before[q], table_[material]);
     }
-    for (const sim::SimdLevel level :
-         {sim::SimdLevel::baseline, sim::SimdLevel::avx2, sim::SimdLevel::avx512}) {
-      if (!sim::is_available(level)) continue;
+    for (const sim::kernels::SimdLevel level :
+         {sim::kernels::SimdLevel::baseline, sim::kernels::SimdLevel::avx2,
+          sim::kernels::SimdLevel::avx512}) {
+      if (!sim::kernels::is_available(level)) continue;
       std::vector<Particle> after = before;
       update_materials(after, table_, level);
       for (std::size_t q = 0; q < before.size(); ++q)
@@ -62,7 +63,7 @@ class MaterialAccuracy {
     }
   }
 
-  const MaterialErrors& errors(sim::SimdLevel level, int kind) const {
+  const MaterialErrors& errors(sim::kernels::SimdLevel level, int kind) const {
     return errors_[static_cast<int>(level)][kind];
   }
 
@@ -112,7 +113,7 @@ class MaterialAccuracy {
          expected.tau_unit);
   }
 
-  std::vector<sim::MaterialConstants<Real>> table_ = nasty_materials<Real>();
+  std::vector<sim::kernels::MaterialConstants<Real>> table_ = nasty_materials<Real>();
   MaterialErrors errors_[3][nasty_kind_count];
 };
 
@@ -125,13 +126,14 @@ inline constexpr double material_error_limit = sizeof(Real) == 4 ? 120 : 60;
 /// Prints what was found where `is_printed`, and compares it with the limit, in units.
 template <class Real>
 void expect_accurate(const MaterialAccuracy<Real>& accuracy, double limit, bool is_printed) {
-  for (const sim::SimdLevel level :
-       {sim::SimdLevel::baseline, sim::SimdLevel::avx2, sim::SimdLevel::avx512}) {
-    if (!sim::is_available(level)) continue;
+  for (const sim::kernels::SimdLevel level :
+       {sim::kernels::SimdLevel::baseline, sim::kernels::SimdLevel::avx2,
+        sim::kernels::SimdLevel::avx512}) {
+    if (!sim::kernels::is_available(level)) continue;
     for (int kind = 0; kind < nasty_kind_count; ++kind) {
       const MaterialErrors& e = accuracy.errors(level, kind);
       const std::string where = std::string(sizeof(Real) == 4 ? "float " : "double ") +
-                                sim::name(level) + ", " + nasty_kinds[kind];
+                                sim::kernels::name(level) + ", " + nasty_kinds[kind];
       EXPECT_LE(std::max({e.F_E, e.stretches, e.J_P, e.tau}), limit) << where;
       EXPECT_EQ(e.broken, 0) << where;
       if (is_printed)

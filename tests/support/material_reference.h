@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/constitutive.h"
-#include "sim/math.h"
+#include "sim/kernels/constitutive.h"
+#include "sim/types/math.h"
 
 namespace neve::test {
 
@@ -81,12 +81,12 @@ struct Slopes {
 };
 
 template <class Wide, class Real>
-MaterialReference<Wide> material_reference(const sim::Particle<Real>& p,
-                                           const sim::MaterialConstants<Real>& k) {
+MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p,
+                                           const sim::kernels::MaterialConstants<Real>& k) {
   using Reference = MaterialReference<Wide>;
   using Vec = typename Reference::Vec;
   constexpr double epsilon = std::numeric_limits<Real>::epsilon() / 2;
-  const auto model = static_cast<sim::ModelKind>(p.model());
+  const auto model = static_cast<sim::kernels::ModelKind>(p.model());
   Reference out{};
   double permanent = 0;
   for (int a = 0; a < 3; ++a)
@@ -108,7 +108,7 @@ MaterialReference<Wide> material_reference(const sim::Particle<Real>& p,
   Wide cut = 1;
   double cut_bound = 1;
   out.is_untouched = true;
-  if (model == sim::ModelKind::snow) {
+  if (model == sim::kernels::ModelKind::snow) {
     const auto margin = static_cast<Wide>(100 * epsilon * std::max(1.0, largest));
     for (int i = 0; i < 3; ++i) {
       c[i] = std::clamp(s[i], lo, hi);
@@ -144,7 +144,7 @@ MaterialReference<Wide> material_reference(const sim::Particle<Real>& p,
   const auto m = static_cast<double>(mu), l = static_cast<double>(lambda);
   const Wide J = c.prod();
   const double J_abs = std::abs(static_cast<double>(J));
-  if (model == sim::ModelKind::neo_hookean) {
+  if (model == sim::kernels::ModelKind::neo_hookean) {
     const double J_unit = epsilon * permanent;
     const double J_E = static_cast<double>(out.F_E.determinant());
     const Wide log_J = std::log(std::max(out.F_E.determinant(), Wide(Real(1e-6))));
@@ -163,11 +163,11 @@ MaterialReference<Wide> material_reference(const sim::Particle<Real>& p,
   const double top = static_cast<double>(c.cwiseAbs().maxCoeff());
   const Slopes<Vec> slope(s, c, d, 2 * m * (2 * top + 1), 100 * epsilon * std::max(1.0, largest));
   // Also a stretch inside the thresholds follows an error of F.
-  bool is_any_free = model != sim::ModelKind::snow;
+  bool is_any_free = model != sim::kernels::ModelKind::snow;
   for (int i = 0; i < 3; ++i)
     is_any_free |= std::abs(static_cast<double>(c[i] - s[i])) < 100 * epsilon * largest;
   // Where the eigenvalues of b are taken, F' is F and a correction as large as F.
-  const bool is_correction = largest * largest < 1.01 * sim::eigen_hi;
+  const bool is_correction = largest * largest < 1.01 * sim::kernels::eigen_hi;
   out.stretch_unit = epsilon * (top + (is_any_free || is_correction ? largest : 0));
   out.F_unit = epsilon * (top + std::max(slope.strain, is_any_free ? largest : 0) + slope.turn);
   double J_unit = epsilon * J_abs;

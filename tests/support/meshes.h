@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "sim/math.h"
+#include "sim/types/math.h"
 
 namespace neve::test {
 

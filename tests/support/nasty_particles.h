@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "sim/constitutive.h"
-#include "sim/math.h"
+#include "sim/kernels/constitutive.h"
+#include "sim/types/math.h"
 
 namespace neve::test {
 
@@ -24,7 +24,7 @@ inline constexpr int nasty_kind_count = static_cast<int>(std::size(nasty_kinds))
 /// Materials of all sorts: the paper's; thresholds that the series does not cover; none at all; of
 /// one side only; without hardening; much of it.
 template <class Real>
-std::vector<sim::MaterialConstants<Real>> nasty_materials() {
+std::vector<sim::kernels::MaterialConstants<Real>> nasty_materials() {
   return {{Real(58333.3), Real(38888.9), 10, Real(0.025), Real(0.0075)},
           {Real(2e4), Real(1e5), 3, Real(0.3), Real(0.3)},
           {Real(1e6), Real(3e5), 1, 0, 0},
@@ -41,17 +41,18 @@ class NastyParticles {
   explicit NastyParticles(unsigned seed) : engine_(seed), materials_(nasty_materials<Real>()) {}
 
   /// @param kind  index into nasty_kinds
-  sim::Particle<Real> make(int kind) {
-    sim::Particle<Real> p{};
+  sim::kernels::Particle<Real> make(int kind) {
+    sim::kernels::Particle<Real> p{};
     const auto material = static_cast<std::uint16_t>(pick(static_cast<int>(materials_.size())));
-    const auto model = static_cast<sim::ModelKind>(std::max(0, pick(5) - 2));  // mostly snow
+    const auto model =
+        static_cast<sim::kernels::ModelKind>(std::max(0, pick(5) - 2));  // mostly snow
     const Real one = 1;
-    p.kind = sim::kind_of<Real>(material, model, 0);
+    p.kind = sim::kernels::kind_of<Real>(material, model, 0);
     p.stiffness = pick(2) ? one : static_cast<Real>(between(0.2, 5));
     p.threshold = pick(2) ? one : static_cast<Real>(between(0, 1.05));
     p.J_P = pick(4) == 0 ? one : static_cast<Real>(pick(4) ? between(0.8, 1.2) : between(0.05, 20));
     p.m = p.V0 = 1;
-    const sim::MaterialConstants<Real>& k = materials_[material];
+    const sim::kernels::MaterialConstants<Real>& k = materials_[material];
     lo_ = Real(1) - k.theta_c * p.threshold;
     hi_ = Real(1) + k.theta_s * p.threshold;
     const Mat3d F = matrix(kind);
@@ -123,8 +124,9 @@ class NastyParticles {
       case 5:
         return three([this] { return pick(3) ? on_threshold() : 1.0; }).asDiagonal();
       case 6: {
-        static constexpr double border[] = {1 - sim::series_radius, 1 + sim::series_radius,
-                                            sim::eigen_lo, sim::eigen_hi, 1};
+        static constexpr double border[] = {1 - sim::kernels::series_radius,
+                                            1 + sim::kernels::series_radius, sim::kernels::eigen_lo,
+                                            sim::kernels::eigen_hi, 1};
         return stretched(three([this] { return std::sqrt(around(border[pick(5)])); }));
       }
       case 7: {
@@ -152,8 +154,8 @@ class NastyParticles {
         return F;
       }
       case 15:
-        return stretched(
-            three([this] { return std::sqrt(between(sim::eigen_lo, sim::eigen_hi)); }));
+        return stretched(three(
+            [this] { return std::sqrt(between(sim::kernels::eigen_lo, sim::kernels::eigen_hi)); }));
       default: {
         // Equal entries make the first rotations of Jacobi's sweeps as bad as they can be.
         const double off = sign() * power(-6, 0), diagonal = between(0.2, 1.5);
@@ -204,7 +206,7 @@ class NastyParticles {
 
   std::mt19937 engine_;
   std::normal_distribution<double> normal_;
-  std::vector<sim::MaterialConstants<Real>> materials_;
+  std::vector<sim::kernels::MaterialConstants<Real>> materials_;
   Real lo_ = 1, hi_ = 1;
 };
 

@@ -3,34 +3,36 @@
 
 #include <vector>
 
-#include "sim/simd.h"
-#include "sim/stages.h"
+#include "sim/kernels/simd.h"
+#include "sim/kernels/stages.h"
 
 namespace neve::test {
 
 /// Step 7's projection and stress of any particles through the kernels of a SIMD level. Their
 /// materials are rows of the table.
 template <class Real>
-void update_materials(std::vector<sim::Particle<Real>>& particles,
-                      const std::vector<sim::MaterialConstants<Real>>& table,
-                      sim::SimdLevel level) {
+void update_materials(std::vector<sim::kernels::Particle<Real>>& particles,
+                      const std::vector<sim::kernels::MaterialConstants<Real>>& table,
+                      sim::kernels::SimdLevel level) {
   std::vector<std::uint64_t> keys(particles.size());
   std::vector<std::uint16_t> locals(particles.size());
-  sim::SweepArgs<Real> a{};
+  sim::kernels::SweepArgs<Real> a{};
   a.constants.materials = table.data();
   a.particles = particles.data();
   a.keys = keys.data();
   a.locals = locals.data();
-  sim::BlockReport<Real> report;
-  const auto& sweeps = sim::sweeps_for(level, sim::cubic_nodes, sim::TransferKind::flip, Real());
+  sim::kernels::BlockReport<Real> report;
+  const auto& sweeps = sim::kernels::sweeps_for(level, sim::kernels::cubic_nodes,
+                                                sim::kernels::TransferKind::flip, Real());
   sweeps.refresh(a, 0, static_cast<std::uint32_t>(particles.size()), true, report);
 }
 
 /// One particle, whose material is `k`, at the chosen level.
 template <class Real>
-void update_material(sim::Particle<Real>& p, const sim::MaterialConstants<Real>& k) {
-  std::vector<sim::Particle<Real>> one{p};
-  update_materials(one, {k}, sim::chosen_simd_level());
+void update_material(sim::kernels::Particle<Real>& p,
+                     const sim::kernels::MaterialConstants<Real>& k) {
+  std::vector<sim::kernels::Particle<Real>> one{p};
+  update_materials(one, {k}, sim::kernels::chosen_simd_level());
   p = one[0];
 }
 
@@ -42,9 +44,9 @@ struct Weights {
 };
 
 template <int K, class Real>
-Weights<Real, K> weights_of(const sim::Particle<Real>& p) {
+Weights<Real, K> weights_of(const sim::kernels::Particle<Real>& p) {
   using V = Quad<Real>;
-  sim::Stencils<Real, K, 4> s;
+  sim::kernels::Stencils<Real, K, 4> s;
   V offset[3];
   Lanes<Integer<Real>, 4> cell[3];
   for (int a = 0; a < 3; ++a) {
@@ -54,7 +56,7 @@ Weights<Real, K> weights_of(const sim::Particle<Real>& p) {
   s.template set<true, true>(0, offset, cell);
   Weights<Real, K> out;
   for (int a = 0; a < 3; ++a) {
-    out.base[a] = static_cast<int>(sim::stencil_base<K, Real>(p.cell[a], p.offset[a]));
+    out.base[a] = static_cast<int>(sim::kernels::stencil_base<K, Real>(p.cell[a], p.offset[a]));
     for (int k = 0; k < K; ++k) {
       out.w[a][k] = s.w[a][k][0];
       out.dw[a][k] = s.dw[a][k][0];

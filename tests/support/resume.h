@@ -21,7 +21,7 @@ inline RunFiles files_of(const std::filesystem::path& out) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
     if (entry.path().extension() == ".png")
       files.pictures[std::filesystem::relative(entry.path(), out).string()] =
-          app::read_file(entry.path());
+          app::output::read_file(entry.path());
   const app::Json run = app::parse_json(std::string_view(read_text(out / "run.json")));
   for (const app::Json& frame : run["frames"])
     files.hashes.push_back(frame["state_hash"].get<std::string>());

@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "app/json.h"
+#include "app/support/json.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::test {

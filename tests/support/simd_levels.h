@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "sim/simd.h"
+#include "sim/kernels/simd.h"
 
 namespace neve::test {
 
@@ -15,11 +15,12 @@ template <class Body>
 void at_every_simd_level(const Body& body) {
   const char* before = std::getenv("NEVE_SIMD");
   const std::string saved = before ? before : "";
-  for (const sim::SimdLevel level :
-       {sim::SimdLevel::baseline, sim::SimdLevel::avx2, sim::SimdLevel::avx512}) {
-    if (!sim::is_available(level)) continue;
-    SCOPED_TRACE(sim::name(level));
-    setenv("NEVE_SIMD", sim::name(level), 1);
+  for (const sim::kernels::SimdLevel level :
+       {sim::kernels::SimdLevel::baseline, sim::kernels::SimdLevel::avx2,
+        sim::kernels::SimdLevel::avx512}) {
+    if (!sim::kernels::is_available(level)) continue;
+    SCOPED_TRACE(sim::kernels::name(level));
+    setenv("NEVE_SIMD", sim::kernels::name(level), 1);
     body();
   }
   if (before)

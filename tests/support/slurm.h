@@ -22,7 +22,7 @@ class Slurm {
     if (::geteuid() != 0) return "not root";
     ::setenv("PATH", (std::string(std::getenv("PATH")) + ":/usr/sbin:/sbin").c_str(), 1);
     for (const char* name : {"slurmctld", "slurmd", "sbatch", "squeue", "scancel", "munged"})
-      if (!app::find_program(name)) return std::string(name) + " is not installed";
+      if (!app::output::find_program(name)) return std::string(name) + " is not installed";
     return "";
   }
 
@@ -59,7 +59,8 @@ class Slurm {
  private:
   bool shell(const std::string& script) {
     // Daemons keep what they inherit open; nobody shall wait for them.
-    return app::run_process("/bin/bash", {"-c", "exec >/dev/null 2>&1\n" + script}, folder_.path())
+    return app::output::run_process("/bin/bash", {"-c", "exec >/dev/null 2>&1\n" + script},
+                                    folder_.path())
                .exit_code == 0;
   }
 

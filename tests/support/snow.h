@@ -61,11 +61,11 @@ inline void disturb(ParticleArrays& p, double strain, double speed, unsigned see
   }
 }
 
-inline sim::Collider plane(const Vec3d& point, const Vec3d& normal, double friction,
-                           sim::Contact contact = sim::Contact::separate) {
-  sim::Collider c;
+inline sim::shapes::Collider plane(const Vec3d& point, const Vec3d& normal, double friction,
+                                   sim::shapes::Contact contact = sim::shapes::Contact::separate) {
+  sim::shapes::Collider c;
   c.name = "plane";
-  c.shape.form = sim::Plane{point, normal};
+  c.shape.form = sim::shapes::Plane{point, normal};
   c.friction = friction;
   c.contact = contact;
   return c;

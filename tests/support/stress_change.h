@@ -1,8 +1,8 @@
 #pragma once
 /// The lane kernel for the change of stress, asked about one particle.
 
-#include "sim/diagnostics.h"
-#include "sim/differential.h"
+#include "sim/health/diagnostics.h"
+#include "sim/kernels/differential.h"
 #include "tests/support/elastic.h"
 
 namespace neve::test {
@@ -13,13 +13,13 @@ Mat3d stress_change_of(const sim::Material& material, const Mat3d& F_E, double J
                        const Mat3d& G) {
   using V = Quad<Real>;
   const sim::Lame rest = sim::lame(material.youngs_modulus, material.poisson_ratio);
-  const sim::MaterialConstants<Real> table[] = {{static_cast<Real>(rest.mu),
-                                                 static_cast<Real>(rest.lambda),
-                                                 static_cast<Real>(material.hardening), 0, 0}};
-  const sim::ModelKind model = material.model == sim::Model::neo_hookean
-                                   ? sim::ModelKind::neo_hookean
-                                   : sim::ModelKind::corotated;
-  sim::Record<V, Lanes<Integer<Real>, 4>> p{};
+  const sim::kernels::MaterialConstants<Real> table[] = {
+      {static_cast<Real>(rest.mu), static_cast<Real>(rest.lambda),
+       static_cast<Real>(material.hardening), 0, 0}};
+  const sim::kernels::ModelKind model = material.model == sim::Model::neo_hookean
+                                            ? sim::kernels::ModelKind::neo_hookean
+                                            : sim::kernels::ModelKind::corotated;
+  sim::kernels::Record<V, Lanes<Integer<Real>, 4>> p{};
   V G_lanes[9], D[9];
   for (int q = 0; q < 9; ++q)
     for (int l = 0; l < 4; ++l) {
@@ -29,7 +29,7 @@ Mat3d stress_change_of(const sim::Material& material, const Mat3d& F_E, double J
     }
   p.J_P = all<V>(static_cast<Real>(J_P));
   p.V0 = p.stiffness = p.threshold = all<V>(1);
-  sim::stress_change(sim::elasticity(p, model, table), model, G_lanes, D);
+  sim::kernels::stress_change(sim::kernels::elasticity(p, model, table), model, G_lanes, D);
   Mat3d out;
   for (int q = 0; q < 9; ++q) out(q / 3, q % 3) = static_cast<double>(D[q][0]);
   return out;

@@ -7,7 +7,7 @@
 namespace neve::test {
 namespace {
 
-using app::InputEvent;
+using app::view::front::InputEvent;
 using Kind = InputEvent::Kind;
 
 /// Each quarter has its colour: red, green, blue, and grey at the lower right.
@@ -110,7 +110,7 @@ TEST_F(Browser, SeesThePictureAndHidesTheToken) {
   EXPECT_EQ(browser->evaluate("location.href"), "http://" + host + "/");
   front->set_title("snow \"ball\"");
   EXPECT_TRUE(wait_until([&] { return browser->evaluate("document.title") == "snow \"ball\""; }));
-  front->set_cursor(app::Cursor::resize_horizontal);
+  front->set_cursor(app::view::web::Cursor::resize_horizontal);
   EXPECT_TRUE(wait_until([&] { return is_true("picture.style.cursor === 'ew-resize'"); }));
 }
 
@@ -233,10 +233,10 @@ TEST_F(Browser, KeysAreThoseOfTheProgramButNotOfTheBrowser) {
   EXPECT_TRUE(wait_for_key('A', false));
   EXPECT_TRUE(wait_for_text("a"));
   press("Tab", "Tab", 9);
-  EXPECT_TRUE(wait_for_key(app::key::tab, false));
+  EXPECT_TRUE(wait_for_key(app::view::front::key::tab, false));
   EXPECT_TRUE(is_true("document.activeElement === typing")) << "Tab stays inside";
   press("ArrowLeft", "ArrowLeft", 37);
-  EXPECT_TRUE(wait_for_key(app::key::left, false));
+  EXPECT_TRUE(wait_for_key(app::view::front::key::left, false));
   press(" ", "Space", 32);
   EXPECT_TRUE(wait_for_key(' ', false));
   press("?", "Slash", 191, 8);
@@ -248,7 +248,7 @@ TEST_F(Browser, KeysAreThoseOfTheProgramButNotOfTheBrowser) {
   EXPECT_TRUE(wait_for([](const InputEvent& event) {
     return event.kind == Kind::key && event.key == 'Z' && event.is_down && event.held.ctrl;
   }));
-  EXPECT_TRUE(wait_for_key(app::key::ctrl, false));
+  EXPECT_TRUE(wait_for_key(app::view::front::key::ctrl, false));
   events.clear();
   press("F12", "F12", 123);
   press("l", "KeyL", 76, 2);
@@ -328,7 +328,7 @@ TEST_F(Browser, EndAndReplacementAreTold) {
   auto other = connect();
   EXPECT_TRUE(wait_until([&] { return note().find("somewhere else") != std::string::npos; }));
   browser->evaluate("note.querySelector('button').click()");
-  EXPECT_EQ(other->close_code(3), app::close_code::taken);
+  EXPECT_EQ(other->close_code(3), app::view::web::close_code::taken);
   ASSERT_TRUE(wait_until([&] { return front->is_picture_wanted(); }));
   front->show_image(quarters(640, 400));
   EXPECT_TRUE(wait_until([&] { return note().empty(); }));

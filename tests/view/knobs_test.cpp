@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/view/imgui_input.h"
-#include "app/view/widgets.h"
+#include "app/view/front/imgui_input.h"
+#include "app/view/panels/widgets.h"
 #include "tests/view/panels.h"
 
 namespace neve::app {
@@ -18,24 +18,24 @@ template <class T>
 struct Field {
   ClipboardFront front;
   Panels panels;
-  ImGuiInput input{front};
+  app::view::front::ImGuiInput input{front};
   T value;
-  Valid valid;
-  std::vector<Edit> edits;
+  app::scene::Valid valid;
+  std::vector<app::view::session::Edit> edits;
   ImVec2 middle;
 
-  Field(T start, const Valid& allowed) : value(start), valid(allowed) { play({}); }
+  Field(T start, const app::scene::Valid& allowed) : value(start), valid(allowed) { play({}); }
 
   void draw() {
-    KnobPanel panel("", {});
-    Knobs knobs(panel, "test");
+    app::view::panels::KnobPanel panel("", {});
+    app::view::panels::Knobs knobs(panel, "test");
     const ImVec2 at = ImGui::GetCursorScreenPos();
     middle = ImVec2(at.x + 40, at.y + 0.5f * ImGui::GetFrameHeight());
-    knobs("stiffness", value, "Pa", valid, Change::live, "How stiff it is.");
-    for (const Edit& edit : panel.edits()) edits.push_back(edit);
+    knobs("stiffness", value, "Pa", valid, app::scene::Change::live, "How stiff it is.");
+    for (const app::view::session::Edit& edit : panel.edits()) edits.push_back(edit);
   }
 
-  void play(std::vector<InputEvent> events) {
+  void play(std::vector<app::view::front::InputEvent> events) {
     input.push(std::move(events));
     for (bool is_more = true; is_more;) {
       is_more = input.feed();
@@ -45,32 +45,35 @@ struct Field {
   }
 
   /// With ctrl and a click into the field; what was there is selected.
-  void type(const std::string& typed, int last_key = key::enter) {
-    const Modifiers ctrl{.ctrl = true};
+  void type(const std::string& typed, int last_key = app::view::front::key::enter) {
+    const app::view::front::Modifiers ctrl{.ctrl = true};
     edits.clear();
-    const InputEvent down{.kind = InputEvent::Kind::button, .is_down = true, .held = ctrl};
-    const InputEvent up{.kind = InputEvent::Kind::button, .held = ctrl};
-    play({move_to(middle.x, middle.y), press(key::ctrl, ctrl), down, up, release(key::ctrl)});
+    const app::view::front::InputEvent down{
+        .kind = app::view::front::InputEvent::Kind::button, .is_down = true, .held = ctrl};
+    const app::view::front::InputEvent up{.kind = app::view::front::InputEvent::Kind::button,
+                                          .held = ctrl};
+    play({move_to(middle.x, middle.y), press(app::view::front::key::ctrl, ctrl), down, up,
+          release(app::view::front::key::ctrl)});
     for (const char c : typed) play({text(std::string(1, c))});
     play({press(last_key), release(last_key)});
   }
 };
 
 TEST(TypedNumber, CountsWhenItIsComplete) {
-  Field<double> field(140000, between(0.001, 1e12));
+  Field<double> field(140000, app::scene::between(0.001, 1e12));
   field.type("30000");
   ASSERT_EQ(field.edits.size(), 1u);
-  EXPECT_EQ(field.edits[0].kind, Edit::Kind::set);
+  EXPECT_EQ(field.edits[0].kind, app::view::session::Edit::Kind::set);
   EXPECT_EQ(field.edits[0].address, "test.stiffness");
   EXPECT_EQ(std::stod(field.edits[0].value), 30000);
 }
 
 TEST(TypedNumber, OutOfRangeIsRefusedWithTheRange) {
-  Field<double> field(140000, between(0.001, 1e12));
+  Field<double> field(140000, app::scene::between(0.001, 1e12));
   for (const char* typed : {"-5", "0", "2e13"}) {
     field.type(typed);
     ASSERT_EQ(field.edits.size(), 1u) << typed;
-    EXPECT_EQ(field.edits[0].kind, Edit::Kind::refused) << typed;
+    EXPECT_EQ(field.edits[0].kind, app::view::session::Edit::Kind::refused) << typed;
     EXPECT_EQ(field.edits[0].address, "test.stiffness") << typed;
     EXPECT_NE(field.edits[0].value.find("expected 0.001 <= value <= "), std::string::npos)
         << field.edits[0].value;
@@ -79,30 +82,30 @@ TEST(TypedNumber, OutOfRangeIsRefusedWithTheRange) {
 }
 
 TEST(TypedNumber, WithLettersIsRefused) {
-  Field<double> field(140000, between(0.001, 1e12));
+  Field<double> field(140000, app::scene::between(0.001, 1e12));
   for (const char* typed : {"banana", "30 kPa", "0,5"}) {
     field.type(typed);
     ASSERT_EQ(field.edits.size(), 1u) << typed;
-    EXPECT_EQ(field.edits[0].kind, Edit::Kind::refused) << typed;
+    EXPECT_EQ(field.edits[0].kind, app::view::session::Edit::Kind::refused) << typed;
   }
 }
 
 TEST(TypedNumber, IsForgottenWithEscape) {
-  Field<double> field(140000, between(0.001, 1e12));
-  field.type("30000", key::escape);
+  Field<double> field(140000, app::scene::between(0.001, 1e12));
+  field.type("30000", app::view::front::key::escape);
   EXPECT_TRUE(field.edits.empty());
-  field.type("-5", key::escape);
+  field.type("-5", app::view::front::key::escape);
   EXPECT_TRUE(field.edits.empty());
 }
 
 TEST(TypedNumber, OfAWholeNumberIsHeldToItsRangeToo) {
-  Field<int> field(5, between(1, 100));
+  Field<int> field(5, app::scene::between(1, 100));
   field.type("101");
   ASSERT_EQ(field.edits.size(), 1u);
-  EXPECT_EQ(field.edits[0].kind, Edit::Kind::refused);
+  EXPECT_EQ(field.edits[0].kind, app::view::session::Edit::Kind::refused);
   field.type("100");
   ASSERT_EQ(field.edits.size(), 1u);
-  EXPECT_EQ(field.edits[0].kind, Edit::Kind::set);
+  EXPECT_EQ(field.edits[0].kind, app::view::session::Edit::Kind::set);
   EXPECT_EQ(field.edits[0].value, "100");
 }
 

@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "app/view/front.h"
+#include "app/view/front/front.h"
 
 namespace neve::app {
 
 /// Nobody looks; the clipboard is a string.
-class ClipboardFront : public Front {
+class ClipboardFront : public app::view::front::Front {
  public:
   std::string where() const override { return "nowhere"; }
-  ScreenSize size() const override { return {800, 600, 1}; }
-  std::vector<InputEvent> wait(double) override { return {}; }
+  app::view::front::ScreenSize size() const override { return {800, 600, 1}; }
+  std::vector<app::view::front::InputEvent> wait(double) override { return {}; }
   void wake() override {}
   bool is_ready() const override { return true; }
   bool is_picture_wanted() const override { return false; }
@@ -61,23 +61,24 @@ class Panels {
 };
 
 // What somebody does.
-inline InputEvent move_to(float x, float y) {
-  return {.kind = InputEvent::Kind::move, .x = x, .y = y};
+inline app::view::front::InputEvent move_to(float x, float y) {
+  return {.kind = app::view::front::InputEvent::Kind::move, .x = x, .y = y};
 }
-inline InputEvent button(bool is_down, int which = 0) {
-  return {.kind = InputEvent::Kind::button, .button = which, .is_down = is_down};
+inline app::view::front::InputEvent button(bool is_down, int which = 0) {
+  return {.kind = app::view::front::InputEvent::Kind::button, .button = which, .is_down = is_down};
 }
-inline InputEvent press(int key, Modifiers held = {}) {
-  return {.kind = InputEvent::Kind::key, .key = key, .is_down = true, .held = held};
+inline app::view::front::InputEvent press(int key, app::view::front::Modifiers held = {}) {
+  return {
+      .kind = app::view::front::InputEvent::Kind::key, .key = key, .is_down = true, .held = held};
 }
-inline InputEvent release(int key, Modifiers held = {}) {
-  return {.kind = InputEvent::Kind::key, .key = key, .held = held};
+inline app::view::front::InputEvent release(int key, app::view::front::Modifiers held = {}) {
+  return {.kind = app::view::front::InputEvent::Kind::key, .key = key, .held = held};
 }
-inline InputEvent text(const std::string& typed) {
-  return {.kind = InputEvent::Kind::text, .text = typed};
+inline app::view::front::InputEvent text(const std::string& typed) {
+  return {.kind = app::view::front::InputEvent::Kind::text, .text = typed};
 }
-inline InputEvent wheel(float x, float y) {
-  return {.kind = InputEvent::Kind::wheel, .x = x, .y = y};
+inline app::view::front::InputEvent wheel(float x, float y) {
+  return {.kind = app::view::front::InputEvent::Kind::wheel, .x = x, .y = y};
 }
 
 }  // namespace neve::app

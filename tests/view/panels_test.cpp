@@ -6,24 +6,24 @@
 
 #include "app/scene/params.h"
 #include "app/scene/read.h"
-#include "app/text.h"
-#include "app/view/labels.h"
-#include "app/view/slider_scale.h"
-#include "app/view/tip.h"
-#include "app/view/viewport.h"
-#include "app/view/widgets.h"
+#include "app/support/text.h"
+#include "app/view/panels/labels.h"
+#include "app/view/panels/slider_scale.h"
+#include "app/view/panels/tip.h"
+#include "app/view/panels/viewport.h"
+#include "app/view/panels/widgets.h"
 #include "tests/cli/run_neve.h"
 #include "tests/view/panels.h"
 
 namespace neve::app {
 namespace {
 
-using TurnedAs = SliderScale::Kind;
+using TurnedAs = app::view::panels::SliderScale::Kind;
 
-SliderScale scale_of(const std::string& address) {
-  const auto info = param_at(address);
-  const auto usual = usual_number(address);
-  return slider_scale(info->valid, usual, usual.value_or(0));
+app::view::panels::SliderScale scale_of(const std::string& address) {
+  const auto info = app::scene::param_at(address);
+  const auto usual = app::view::panels::usual_number(address);
+  return app::view::panels::slider_scale(info->valid, usual, usual.value_or(0));
 }
 
 TEST(SliderScale, IsLogarithmicWhereAValueSpansDecades) {
@@ -31,8 +31,8 @@ TEST(SliderScale, IsLogarithmicWhereAValueSpansDecades) {
        {"material.snow.critical_compression", "material.snow.critical_stretch",
         "material.snow.youngs_modulus", "material.snow.density", "solver.cell_size",
         "solver.max_dt", "solver.dt", "solver.cfl", "collider.floor.friction"}) {
-    const SliderScale scale = scale_of(address);
-    const double usual = *usual_number(address);
+    const app::view::panels::SliderScale scale = scale_of(address);
+    const double usual = *app::view::panels::usual_number(address);
     EXPECT_EQ(scale.kind, TurnedAs::logarithmic) << address;
     EXPECT_GT(scale.low, 0) << address;
     EXPECT_LE(scale.low, usual / 30) << address;
@@ -44,27 +44,29 @@ TEST(SliderScale, IsLinearBetweenNearEndsAndOpenWithoutAny) {
   for (const char* address : {"material.snow.poisson_ratio", "solver.flip_ratio", "solver.beta",
                               "material.snow.hardening", "camera.fov"})
     EXPECT_EQ(scale_of(address).kind, TurnedAs::linear) << address;
-  EXPECT_EQ(slider_scale(above(0), 1.0, 1).kind, TurnedAs::drag);
-  EXPECT_EQ(slider_scale(within(1e6), 1.0, 1).kind, TurnedAs::drag);
-  EXPECT_FALSE(usual_number("body.ball.velocity"));
-  EXPECT_FALSE(usual_number("no.such.thing"));
+  EXPECT_EQ(app::view::panels::slider_scale(app::scene::above(0), 1.0, 1).kind, TurnedAs::drag);
+  EXPECT_EQ(app::view::panels::slider_scale(app::scene::within(1e6), 1.0, 1).kind, TurnedAs::drag);
+  EXPECT_FALSE(app::view::panels::usual_number("body.ball.velocity"));
+  EXPECT_FALSE(app::view::panels::usual_number("no.such.thing"));
 }
 
 TEST(SliderScale, ReachesThePresentValueAndZeroWhereItIsAllowed) {
-  const Valid valid = between(0, 1e6);
-  EXPECT_TRUE(slider_scale(valid, 1.0, 1).is_zero_at_low);
-  EXPECT_FALSE(slider_scale(above(0).at_most(1e6), 1.0, 1).is_zero_at_low);
-  EXPECT_EQ(slider_scale(valid, 1.0, 5000).high, 5000);
-  EXPECT_EQ(slider_scale(valid, 1.0, 1e-4).low, 1e-4);
-  EXPECT_GT(slider_scale(valid, 1.0, 0).low, 0);
+  const app::scene::Valid valid = app::scene::between(0, 1e6);
+  EXPECT_TRUE(app::view::panels::slider_scale(valid, 1.0, 1).is_zero_at_low);
+  EXPECT_FALSE(
+      app::view::panels::slider_scale(app::scene::above(0).at_most(1e6), 1.0, 1).is_zero_at_low);
+  EXPECT_EQ(app::view::panels::slider_scale(valid, 1.0, 5000).high, 5000);
+  EXPECT_EQ(app::view::panels::slider_scale(valid, 1.0, 1e-4).low, 1e-4);
+  EXPECT_GT(app::view::panels::slider_scale(valid, 1.0, 0).low, 0);
 }
 
 // A drag over a slider gives a value that the scene may have, whatever its kind.
 TEST(SliderScale, GivesOnlyValidValues) {
-  for (const ParamInfo& info : params()) {
+  for (const app::scene::ParamInfo& info : app::scene::params()) {
     if (info.type != "number") continue;
-    const SliderScale scale = slider_scale(info.valid, usual_number(info.address),
-                                           usual_number(info.address).value_or(0));
+    const app::view::panels::SliderScale scale =
+        app::view::panels::slider_scale(info.valid, app::view::panels::usual_number(info.address),
+                                        app::view::panels::usual_number(info.address).value_or(0));
     if (scale.kind == TurnedAs::drag) continue;
     EXPECT_LT(scale.low, scale.high) << info.address;
     EXPECT_TRUE(info.valid.contains(scale.low)) << info.address;
@@ -77,10 +79,10 @@ TEST(SliderScale, GivesOnlyValidValues) {
 
 TEST(Tip, StandsBesideItsWidgetAndOnTheScreen) {
   const ImVec2 screen(800, 600), size(200, 80);
-  const ImVec2 below = tip_place({100, 10}, {160, 30}, size, screen);
+  const ImVec2 below = app::view::panels::tip_place({100, 10}, {160, 30}, size, screen);
   EXPECT_EQ(below.x, 100);
   EXPECT_GE(below.y, 30);
-  const ImVec2 above = tip_place({700, 560}, {780, 580}, size, screen);
+  const ImVec2 above = app::view::panels::tip_place({700, 560}, {780, 580}, size, screen);
   EXPECT_EQ(above.x, 600);
   EXPECT_LE(above.y + size.y, 560);
 }
@@ -93,9 +95,9 @@ TEST(Tip, WaitsUntilTheMouseRests) {
     io.MousePos = ImVec2(30, 20);
     panels.frame([&] {
       ImGui::Button("a button that is wide");
-      if (wants_tip()) shown_at = k;
+      if (app::view::panels::wants_tip()) shown_at = k;
       if (k == 5) {
-        EXPECT_TRUE(is_tip_coming());
+        EXPECT_TRUE(app::view::panels::is_tip_coming());
       }
     });
   }
@@ -104,29 +106,29 @@ TEST(Tip, WaitsUntilTheMouseRests) {
   io.MousePos = ImVec2(500, 500);
   panels.frame([&] {
     ImGui::Button("a button that is wide");
-    EXPECT_FALSE(wants_tip());
+    EXPECT_FALSE(app::view::panels::wants_tip());
   });
-  EXPECT_FALSE(is_tip_coming());
+  EXPECT_FALSE(app::view::panels::is_tip_coming());
 }
 
 /// The labels that a scene's parameters leave with a filter, and whether something was shown.
 std::pair<std::vector<std::string>, bool> filtered(const std::string& filter) {
   Panels panels;
-  Scene scene = read_scene_text(test::tiny_scene, "scene.toml");
+  app::scene::Scene scene = app::scene::read_scene_text(test::tiny_scene, "scene.toml");
   bool has_shown = false;
   float height = 0;
   for (int k = 0; k < 2; ++k)
     panels.frame([&] {
-      Labels::of_panels().clear();
-      KnobPanel panel(filter, {});
-      Knobs knobs(panel, "");
+      app::view::panels::Labels::of_panels().clear();
+      app::view::panels::KnobPanel panel(filter, {});
+      app::view::panels::Knobs knobs(panel, "");
       const float top = ImGui::GetCursorPosY();
       describe(knobs, scene);
       has_shown = panel.has_shown();
       height = ImGui::GetCursorPosY() - top;
     });
   // A title and a row each at most: no titles of groups without rows.
-  const std::vector<std::string> names = Labels::of_panels().names();
+  const std::vector<std::string> names = app::view::panels::Labels::of_panels().names();
   EXPECT_LE(height, static_cast<float>(2 * names.size()) * ImGui::GetFrameHeightWithSpacing());
   return {names, has_shown};
 }
@@ -141,7 +143,7 @@ TEST(Filter, LeavesNoEmptyGroups) {
 }
 
 TEST(Columns, ShareTheRoomOfANarrowWindow) {
-  PanelSwitches panels;
+  app::view::panels::PanelSwitches panels;
   EXPECT_TRUE(panels.shows_left() && panels.shows_right());
   panels.is_narrow = true;
   EXPECT_TRUE(panels.shows_left() && !panels.shows_right());
@@ -152,34 +154,37 @@ TEST(Columns, ShareTheRoomOfANarrowWindow) {
 }
 
 TEST(ProbeText, HasTheSizeOfTheQuantityAndSaysWhatIsCutAway) {
-  ProbeReading probe;
-  EXPECT_EQ(probe_text(probe, "", true), "cut away");
-  EXPECT_EQ(probe_text(probe, "", false), "");
-  ProbeRow row;
+  app::view::session::ProbeReading probe;
+  EXPECT_EQ(app::view::panels::probe_text(probe, "", true), "cut away");
+  EXPECT_EQ(app::view::panels::probe_text(probe, "", false), "");
+  app::view::session::ProbeRow row;
   row.name = "v";
   row.unit = "m/s";
   row.magnitude = 2;
   probe.rows = {row};
-  EXPECT_EQ(probe_text(probe, "id", false), "|v| = " + rough_text(2) + " m/s");
-  EXPECT_EQ(probe_text(probe, "v", true), "|v| = " + rough_text(2) + " m/s, cut away");
+  EXPECT_EQ(app::view::panels::probe_text(probe, "id", false), "|v| = " + rough_text(2) + " m/s");
+  EXPECT_EQ(app::view::panels::probe_text(probe, "v", true),
+            "|v| = " + rough_text(2) + " m/s, cut away");
 }
 
 TEST(Slice, TellsWhyThereAreNoArrows) {
-  View view;
-  view.layers = {Layer::arrows};
-  view.slice.field = VectorField::velocity;
-  view.slice.range = Range{0, 2};
-  NodeFields fields;
-  EXPECT_EQ(reason_for_no_arrows(view, fields), "");  // not worked out yet
-  fields.vectors[VectorField::velocity] = {{0, 0, 0}, {0, 0, 0}};
-  EXPECT_EQ(reason_for_no_arrows(view, fields), "no arrows: velocity is 0 everywhere");
-  fields.vectors[VectorField::velocity] = {{0, 0.001f, 0}};
-  EXPECT_NE(reason_for_no_arrows(view, fields).find("no arrows to be seen"), std::string::npos);
-  fields.vectors[VectorField::velocity] = {{0, 1, 0}};
-  EXPECT_EQ(reason_for_no_arrows(view, fields), "");
-  view.layers = {Layer::particles};
-  fields.vectors[VectorField::velocity] = {{0, 0, 0}};
-  EXPECT_EQ(reason_for_no_arrows(view, fields), "");
+  app::scene::View view;
+  view.layers = {app::scene::Layer::arrows};
+  view.slice.field = app::scene::VectorField::velocity;
+  view.slice.range = app::scene::Range{0, 2};
+  app::picture::NodeFields fields;
+  EXPECT_EQ(app::view::panels::reason_for_no_arrows(view, fields), "");  // not worked out yet
+  fields.vectors[app::scene::VectorField::velocity] = {{0, 0, 0}, {0, 0, 0}};
+  EXPECT_EQ(app::view::panels::reason_for_no_arrows(view, fields),
+            "no arrows: velocity is 0 everywhere");
+  fields.vectors[app::scene::VectorField::velocity] = {{0, 0.001f, 0}};
+  EXPECT_NE(app::view::panels::reason_for_no_arrows(view, fields).find("no arrows to be seen"),
+            std::string::npos);
+  fields.vectors[app::scene::VectorField::velocity] = {{0, 1, 0}};
+  EXPECT_EQ(app::view::panels::reason_for_no_arrows(view, fields), "");
+  view.layers = {app::scene::Layer::particles};
+  fields.vectors[app::scene::VectorField::velocity] = {{0, 0, 0}};
+  EXPECT_EQ(app::view::panels::reason_for_no_arrows(view, fields), "");
 }
 
 }  // namespace

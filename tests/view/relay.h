@@ -5,14 +5,14 @@
 #include <thread>
 #include <vector>
 
-#include "app/view/web_listen.h"
+#include "app/view/web/web_listen.h"
 #include "tests/support/web_client.h"
 
 namespace neve::test {
 
 class Relay {
  public:
-  explicit Relay(int to) : to_(to), socket_(app::listen_at("127.0.0.1", 0)) {
+  explicit Relay(int to) : to_(to), socket_(app::view::web::listen_at("127.0.0.1", 0)) {
     thread_ = std::thread([this] { run(); });
   }
   ~Relay() {
@@ -20,7 +20,7 @@ class Relay {
     thread_.join();
     ::close(socket_);
   }
-  int port() const { return app::port_of(socket_); }
+  int port() const { return app::view::web::port_of(socket_); }
 
   /// Ends all connections and refuses new ones, until they are let through again.
   void cut(bool is_cut) { is_cut_ = is_cut; }

@@ -1,17 +1,17 @@
-#include "app/view/replay_front.h"
+#include "app/view/replay/replay_front.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>
 
-#include "app/errors.h"
 #include "app/output/atomic_file.h"
-#include "app/view/imgui_input.h"
-#include "app/view/labels.h"
-#include "app/view/recording_front.h"
+#include "app/support/errors.h"
+#include "app/view/front/imgui_input.h"
+#include "app/view/panels/labels.h"
+#include "app/view/replay/recording_front.h"
 #include "panels.h"
-#include "render/image.h"
+#include "render/image/image.h"
 #include "render/renderer.h"
 #include "render/screen.h"
 #include "tests/render/gl_test.h"
@@ -29,48 +29,49 @@ struct SmallViewer {
   float hardening = 10;
   char name[64] = "";
   std::vector<std::string> dropped;
-  std::vector<ScreenSize> sizes;
+  std::vector<app::view::front::ScreenSize> sizes;
   float wheel = 0;
   int space_pressed = 0;
 
   void widgets() {
     if (ImGui::Button("Run##transport", ImVec2(100, 30))) ++runs, is_running = true;
-    note_label("Run##transport");
+    app::view::panels::note_label("Run##transport");
     for (int k = 0; k < 2; ++k) {
       ImGui::PushID(k);
       if (ImGui::Button("Reset")) resets += k == 0 ? 1 : 10;
-      note_label("Reset");
+      app::view::panels::note_label("Reset");
       ImGui::PopID();
     }
     ImGui::SetNextItemWidth(200);
     ImGui::SliderFloat("hardening", &hardening, 0, 20);
-    note_label("hardening");
+    app::view::panels::note_label("hardening");
     ImGui::InputText("name", name, sizeof name);
-    note_label("name");
+    app::view::panels::note_label("name");
     // Behind the end of a panel that scrolls.
     ImGui::BeginChild("list", ImVec2(300, 100));
     for (int k = 0; k < 60; ++k) {
       const std::string label = "item " + std::to_string(k);
       if (ImGui::Button(label.c_str())) clicked = k;
-      note_label(label.c_str());
+      app::view::panels::note_label(label.c_str());
     }
     ImGui::EndChild();
     wheel += ImGui::GetIO().MouseWheel;
-    space_pressed += is_key_pressed(' ');
+    space_pressed += app::view::front::is_key_pressed(' ');
   }
   int clicked = -1;
 
   /// @return how many frames it ran, until the front closed
-  void run(Front& front) {
-    ImGuiInput input(front);
+  void run(app::view::front::Front& front) {
+    app::view::front::ImGuiInput input(front);
     for (frames = 0; frames < 100'000; ++frames) {
-      const std::vector<InputEvent> events = front.wait(0.01);
-      for (const InputEvent& event : events) {
-        if (event.kind == InputEvent::Kind::close) return;
-        if (event.kind == InputEvent::Kind::drop) dropped.push_back(event.text);
-        if (event.kind == InputEvent::Kind::resize) sizes.push_back(front.size());
+      const std::vector<app::view::front::InputEvent> events = front.wait(0.01);
+      for (const app::view::front::InputEvent& event : events) {
+        if (event.kind == app::view::front::InputEvent::Kind::close) return;
+        if (event.kind == app::view::front::InputEvent::Kind::drop) dropped.push_back(event.text);
+        if (event.kind == app::view::front::InputEvent::Kind::resize) sizes.push_back(front.size());
       }
-      const bool is_paste = !events.empty() && events[0].kind == InputEvent::Kind::paste;
+      const bool is_paste =
+          !events.empty() && events[0].kind == app::view::front::InputEvent::Kind::paste;
       input.push(events);
       EXPECT_EQ(input.feed(), is_paste) << "a script brings one thing a frame";
       panels.frame([&] { widgets(); });
@@ -80,12 +81,14 @@ struct SmallViewer {
     FAIL() << "it never closed";
   }
 
-  void run(const std::string& script, ReplayFront::Options options = {}) {
-    ReplayFront front(parse_replay(script, "clicks.json"), "clicks.json", std::move(options));
+  void run(const std::string& script, app::view::replay::ReplayFront::Options options = {}) {
+    app::view::replay::ReplayFront front(app::view::replay::parse_replay(script, "clicks.json"),
+                                         "clicks.json", std::move(options));
     run(front);
   }
 
-  std::string failure(const std::string& script, ReplayFront::Options options = {}) {
+  std::string failure(const std::string& script,
+                      app::view::replay::ReplayFront::Options options = {}) {
     try {
       run(script, std::move(options));
     } catch (const Error& error) {
@@ -143,7 +146,7 @@ TEST(Replay, WaitsForFramesAndForTheSimulation) {
 
 TEST(Replay, ResizesDropsAndTurnsTheWheel) {
   SmallViewer viewer;
-  ReplayFront::Options options;
+  app::view::replay::ReplayFront::Options options;
   options.folder = "/somewhere";
   viewer.run(R"([{"resize": [1920, 1080, 2]}, {"drop": "a.toml"}, {"wheel": 2.5, "at": [700, 500]},
                  {"quit": true}, {"click": "no such thing"}])",
@@ -181,7 +184,7 @@ TEST(Replay, SimulationThatDoesNotGetThereIsGivenUp) {
 
 TEST(Replay, FramesEndItAndTooFewAreSaid) {
   SmallViewer viewer;
-  ReplayFront::Options options;
+  app::view::replay::ReplayFront::Options options;
   options.frames = 30;
   viewer.run(R"([{"click": "Run"}])", options);
   EXPECT_EQ(viewer.frames, 30);
@@ -192,7 +195,8 @@ TEST(Replay, FramesEndItAndTooFewAreSaid) {
 }
 
 TEST(Replay, WakeEndsTheWaitOfAScriptThatWaits) {
-  ReplayFront front(parse_replay(R"([{"wait_for": "simulation frame 9"}])", "a"), "a", {});
+  app::view::replay::ReplayFront front(
+      app::view::replay::parse_replay(R"([{"wait_for": "simulation frame 9"}])", "a"), "a", {});
   front.wait(1);
   front.wake();
   const auto start = std::chrono::steady_clock::now();
@@ -204,14 +208,15 @@ TEST(Replay, WakeEndsTheWaitOfAScriptThatWaits) {
 TEST(Replay, ScreenshotsAreTheScreenOrAPartOfIt) {
   OPEN_OR_SKIP(context, "egl");
   const test::TemporaryFolder folder;
-  ReplayFront::Options options;
+  app::view::replay::ReplayFront::Options options;
   options.folder = folder.path();
   options.size = {640, 400, 1};
   const std::string script =
       R"([{"screenshot": "all.png"}, {"screenshot": "a/run.png", "crop": "Run"},
                                  {"screenshot": "corner.png", "crop": [0, 0, 20, 10]},
                                  {"screenshot": "beyond.png", "crop": [600, 0, 80, 10]}])";
-  ReplayFront front(parse_replay(script, "clicks.json"), "clicks.json", options);
+  app::view::replay::ReplayFront front(app::view::replay::parse_replay(script, "clicks.json"),
+                                       "clicks.json", options);
   render::Renderer renderer(*context);
   render::Screen screen(*context);
   const auto run = [&] {
@@ -221,7 +226,7 @@ TEST(Replay, ScreenshotsAreTheScreenOrAPartOfIt) {
       ImGui::SetNextWindowPos(ImVec2(0, 0));
       ImGui::Begin("panel");
       ImGui::Button("Run", ImVec2(100, 30));
-      note_label("Run");
+      app::view::panels::note_label("Run");
       ImGui::End();
       screen.end(renderer, {320, 0, 320, 400});
       front.show(screen);
@@ -234,7 +239,7 @@ TEST(Replay, ScreenshotsAreTheScreenOrAPartOfIt) {
     EXPECT_NE(std::string(error.what()).find("640x400"), std::string::npos) << error.what();
   }
   const auto picture = [&](const char* name) {
-    return render::decode_png(read_file(folder / name));
+    return render::decode_png(app::output::read_file(folder / name));
   };
   EXPECT_EQ(picture("all.png").width, 640);
   EXPECT_EQ(picture("all.png").height, 400);
@@ -260,8 +265,9 @@ TEST(Recording, WhatWasRecordedDoesTheSameAgain) {
     {"wheel": -3, "at": [100, 150]}, {"resize": [700, 500]}, {"drop": "/x/a.toml"}])";
   SmallViewer first;
   {
-    ReplayFront hand(parse_replay(script, "hand.json"), "hand.json", {});
-    RecordingFront recording(hand, folder / "recorded.json");
+    app::view::replay::ReplayFront hand(app::view::replay::parse_replay(script, "hand.json"),
+                                        "hand.json", {});
+    app::view::replay::RecordingFront recording(hand, folder / "recorded.json");
     first.run(recording);
   }
   const std::string recorded = test::read_text(folder / "recorded.json");
@@ -279,11 +285,11 @@ TEST(Recording, WhatWasRecordedDoesTheSameAgain) {
 
 TEST(Recording, UnwritableFileIsAnErrorAtOnce) {
   ClipboardFront front;
-  EXPECT_THROW(RecordingFront(front, "/proc/no/such.json"), IoError);
+  EXPECT_THROW(app::view::replay::RecordingFront(front, "/proc/no/such.json"), IoError);
 }
 
 TEST(Labels, SmallestWidgetAroundAPlaceNamesIt) {
-  Labels labels;
+  app::view::panels::Labels labels;
   labels.note("picture", {0, 0, 800, 600}, 1);
   labels.note("Run", {10, 10, 50, 20}, 1);
   labels.note("hidden", {12, 12, 5, 5, false}, 1);

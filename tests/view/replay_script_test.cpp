@@ -1,19 +1,19 @@
-#include "app/view/replay_script.h"
+#include "app/view/replay/replay_script.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "app/scene/error.h"
-#include "app/view/key_names.h"
+#include "app/scene/toml/error.h"
+#include "app/view/front/key_names.h"
 
 namespace neve::app {
 namespace {
 
 std::string complaint(const std::string& text) {
   try {
-    parse_replay(text, "clicks.json");
-  } catch (const SceneError& error) {
+    app::view::replay::parse_replay(text, "clicks.json");
+  } catch (const app::scene::toml::SceneError& error) {
     return error.what();
   }
   return "no complaint";
@@ -44,11 +44,13 @@ constexpr const char* every_step = R"([
 )";
 
 TEST(ReplayScript, EveryStepIsReadAndWrittenAlike) {
-  const std::vector<ReplayStep> steps = parse_replay(every_step, "clicks.json");
+  const std::vector<app::view::replay::ReplayStep> steps =
+      app::view::replay::parse_replay(every_step, "clicks.json");
   ASSERT_EQ(steps.size(), 20u);
   // The order of the keys in a step is the writer's.
-  const std::string written = replay_text(steps);
-  EXPECT_EQ(replay_text(parse_replay(written, "written")), written);
+  const std::string written = app::view::replay::replay_text(steps);
+  EXPECT_EQ(app::view::replay::replay_text(app::view::replay::parse_replay(written, "written")),
+            written);
   EXPECT_EQ(std::count(written.begin(), written.end(), '\n'), 22);
   EXPECT_EQ(steps[1].at_frame, 3);
   EXPECT_EQ(steps[1].button, 1);
@@ -147,16 +149,16 @@ TEST(ReplayScript, DeepNestingIsNoTrouble) {
 
 TEST(KeyNames, EveryNamedKeyIsFoundByItsName) {
   int named = 0;
-  for (int key = 0; key <= key::last; ++key) {
-    const std::string name = key_name(key);
+  for (int key = 0; key <= app::view::front::key::last; ++key) {
+    const std::string name = app::view::front::key_name(key);
     if (name.empty()) continue;
     ++named;
-    EXPECT_EQ(key_named(name), key) << name;
+    EXPECT_EQ(app::view::front::key_named(name), key) << name;
   }
   // Letters, digits, signs, twelve function keys, and those listed by name.
-  EXPECT_EQ(named, 26 + 10 + 16 + static_cast<int>(key_names().size()));
-  EXPECT_EQ(key_named("Z"), 'Z');
-  EXPECT_EQ(key_named("f13"), std::nullopt);
+  EXPECT_EQ(named, 26 + 10 + 16 + static_cast<int>(app::view::front::key_names().size()));
+  EXPECT_EQ(app::view::front::key_named("Z"), 'Z');
+  EXPECT_EQ(app::view::front::key_named("f13"), std::nullopt);
 }
 
 }  // namespace

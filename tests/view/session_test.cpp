@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "app/changes.h"
-#include "app/seed_scene.h"
-#include "app/view/session.h"
+#include "app/run/changes.h"
+#include "app/setup/seed_scene.h"
+#include "app/view/session/session.h"
 #include "tests/view/view_support.h"
 
 namespace {
@@ -13,22 +13,22 @@ using namespace neve;
 using namespace neve::app;
 using namespace neve::test;
 
-std::shared_ptr<const Scene> scene_of(const std::string& text) {
-  const Document document("scene.toml", text, {}, 1);
+std::shared_ptr<const scene::Scene> scene_of(const std::string& text) {
+  const view::session::Document document("scene.toml", text, {}, 1);
   return document.scene();
 }
 
 /// Hash of the state at a frame of a run that nobody looks at.
-std::uint64_t undisturbed(const Scene& scene, int frame) {
-  sim::Simulation simulation(scene.solver, scene.materials, sim_colliders(scene),
-                             seed_scene(scene));
+std::uint64_t undisturbed(const scene::Scene& scene, int frame) {
+  sim::Simulation simulation(scene.solver, scene.materials, scene::sim_colliders(scene),
+                             setup::seed_scene(scene));
   for (int f = 1; f <= frame; ++f) simulation.advance_to(f / scene.fps);
   return simulation.state_hash();
 }
 
 TEST(Session, RunsToTheEndAndKeepsEveryFrame) {
   const auto scene = scene_of(tiny_scene);
-  Session session(scene, {}, {});
+  view::session::Session session(scene, {}, {});
   session.run();
   const auto live = rest_at(session, 4);
   EXPECT_EQ(live->state_hash, undisturbed(*scene, 4));
@@ -39,39 +39,42 @@ TEST(Session, RunsToTheEndAndKeepsEveryFrame) {
 
 TEST(Session, LookingChangesNothing) {
   const auto scene = scene_of(tiny_scene);
-  Session session(scene, {}, {});
-  session.set_probe(ProbeTarget(std::size_t{7}));
+  view::session::Session session(scene, {}, {});
+  session.set_probe(view::session::ProbeTarget(std::size_t{7}));
   session.next_frame();
   rest_at(session, 1);
   // Two stages of a step, an older frame, and back.
   session.next_stage();
   session.next_stage();
-  const auto inside = wait_for(session, [](const LiveFrame& live) {
+  const auto inside = wait_for(session, [](const view::session::LiveFrame& live) {
     return live.stage && live.stage->stage == sim::Stage::volumes;
   });
   EXPECT_GT(inside->stage->rows, 0u);
   ASSERT_TRUE(inside->probe);
   EXPECT_EQ(std::get<std::size_t>(inside->probe->target), 7u);
   session.show_frame(0);
-  const auto older = wait_for(session, [](const LiveFrame& live) { return live.is_older; });
+  const auto older =
+      wait_for(session, [](const view::session::LiveFrame& live) { return live.is_older; });
   EXPECT_EQ(older->frame, 0);
   EXPECT_EQ(older->head, 1);
   EXPECT_EQ(older->state_hash, undisturbed(*scene, 0));
   session.show_head();
-  wait_for(session, [](const LiveFrame& live) { return !live.is_older; });
+  wait_for(session, [](const view::session::LiveFrame& live) { return !live.is_older; });
   session.next_step();
-  wait_for(session, [](const LiveFrame& live) { return !live.is_running && !live.is_frame_end; });
+  wait_for(session, [](const view::session::LiveFrame& live) {
+    return !live.is_running && !live.is_frame_end;
+  });
   session.run();
   EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
 }
 
 TEST(Session, ShowsAnyStageOfAStepAndWhatEachTook) {
   const auto scene = scene_of(tiny_scene);
-  Session session(scene, {}, {});
+  view::session::Session session(scene, {}, {});
   session.next_frame();
   rest_at(session, 1);
   session.show_stage(sim::Stage::deformation);
-  const auto inside = wait_for(session, [](const LiveFrame& live) {
+  const auto inside = wait_for(session, [](const view::session::LiveFrame& live) {
     return live.stage && live.stage->stage == sim::Stage::deformation;
   });
   using enum sim::Stage;
@@ -85,43 +88,47 @@ TEST(Session, ShowsAnyStageOfAStepAndWhatEachTook) {
   EXPECT_EQ(seconds(colliders), 0);
   EXPECT_LT(all, 10);  // s, of 300 particles: not a moment of some clock
   session.show_stage(rasterize);
-  wait_for(session,
-           [](const LiveFrame& live) { return live.stage && live.stage->stage == rasterize; });
+  wait_for(session, [](const view::session::LiveFrame& live) {
+    return live.stage && live.stage->stage == rasterize;
+  });
   session.leave_stage();
-  wait_for(session, [](const LiveFrame& live) { return !live.stage; });
+  wait_for(session, [](const view::session::LiveFrame& live) { return !live.stage; });
   session.run();
   EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
 }
 
 TEST(Session, GoesThroughAllStagesOfAStepAndTakesItThen) {
-  Session session(scene_of(tiny_scene), {}, {});
+  view::session::Session session(scene_of(tiny_scene), {}, {});
   for (const char* const stage : sim::stage_names) {
     session.next_stage();
-    const auto live = wait_for(session, [&](const LiveFrame& frame) {
+    const auto live = wait_for(session, [&](const view::session::LiveFrame& frame) {
       return frame.stage && std::string(sim::name(frame.stage->stage)) == stage;
     });
     EXPECT_EQ(live->steps, 0u) << stage;
     const bool leaves_numbers =
         std::string(stage) != "implicit_solve" && std::string(stage) != "colliders";
     EXPECT_TRUE(!leaves_numbers || !live->stage->quantities.empty()) << stage;
-    for (const QuantitySummary& quantity : live->stage->quantities)
+    for (const view::session::QuantitySummary& quantity : live->stage->quantities)
       // Volumes at the rim of a ball of two cells are too large: the paper's estimate.
       EXPECT_LE(20 * quantity.strange, live->stage->rows) << stage << " " << quantity.name;
   }
   session.next_stage();
-  const auto live = wait_for(session, [](const LiveFrame& frame) { return frame.steps == 1; });
+  const auto live =
+      wait_for(session, [](const view::session::LiveFrame& frame) { return frame.steps == 1; });
   EXPECT_FALSE(live->stage);
 }
 
 TEST(Session, GoesOnFromAnOlderFrameAsIfTheRestHadNotBeen) {
   const auto scene = scene_of(tiny_scene);
-  Session session(scene, {}, {});
+  view::session::Session session(scene, {}, {});
   session.run();
   rest_at(session, 4);
   session.show_frame(2);
-  wait_for(session, [](const LiveFrame& live) { return live.is_older && live.frame == 2; });
+  wait_for(session,
+           [](const view::session::LiveFrame& live) { return live.is_older && live.frame == 2; });
   session.continue_from_here();
-  const auto here = wait_for(session, [](const LiveFrame& live) { return !live.is_older; });
+  const auto here =
+      wait_for(session, [](const view::session::LiveFrame& live) { return !live.is_older; });
   EXPECT_EQ(here->kept, (std::vector<int>{0, 1, 2}));
   EXPECT_EQ(here->history.size(), 3u);
   session.run();
@@ -129,37 +136,40 @@ TEST(Session, GoesOnFromAnOlderFrameAsIfTheRestHadNotBeen) {
 }
 
 TEST(Session, SaysWhyARunBrokeAndIsGoodForAnother) {
-  Session session(scene_of(exploding_scene), {}, {});
+  view::session::Session session(scene_of(exploding_scene), {}, {});
   session.run();
-  const auto live = wait_for(session, [](const LiveFrame& frame) {
+  const auto live = wait_for(session, [](const view::session::LiveFrame& frame) {
     return frame.divergence.has_value() && !frame.is_running;
   });
   ASSERT_TRUE(live->diagnosis);
   EXPECT_FALSE(live->diagnosis->evidence.empty());
   session.run();  // a broken state does not go on
   session.reset(scene_of(tiny_scene));
-  wait_for(session, [](const LiveFrame& frame) { return !frame.divergence && frame.steps == 0; });
+  wait_for(session, [](const view::session::LiveFrame& frame) {
+    return !frame.divergence && frame.steps == 0;
+  });
   session.next_frame();
   EXPECT_FALSE(rest_at(session, 1)->divergence);
 }
 
 TEST(Session, TellsWhatItRefusesAndGoesOn) {
-  Session session(scene_of(tiny_scene), {}, {});
-  Scene huge = *scene_of(tiny_scene);
+  view::session::Session session(scene_of(tiny_scene), {}, {});
+  scene::Scene huge = *scene_of(tiny_scene);
   huge.limits.particles = 10;
-  session.reset(std::make_shared<const Scene>(huge));
-  const auto live = wait_for(session, [](const LiveFrame& frame) { return frame.errors == 1; });
+  session.reset(std::make_shared<const scene::Scene>(huge));
+  const auto live =
+      wait_for(session, [](const view::session::LiveFrame& frame) { return frame.errors == 1; });
   EXPECT_TRUE(contains(live->error, "particles")) << live->error;
   session.next_frame();
   EXPECT_EQ(rest_at(session, 1)->frame, 1);
 }
 
 TEST(Session, RecordsEveryFrameOnce) {
-  Session session(scene_of(tiny_scene), {}, {});
+  view::session::Session session(scene_of(tiny_scene), {}, {});
   session.set_recording(true);
   session.run();
   std::vector<int> seen;
-  wait_for(session, [&](const LiveFrame& live) {
+  wait_for(session, [&](const view::session::LiveFrame& live) {
     if (live.is_frame_end && live.steps > 0 && (seen.empty() || seen.back() != live.frame))
       seen.push_back(live.frame);
     return live.frame == 4;
@@ -168,9 +178,9 @@ TEST(Session, RecordsEveryFrameOnce) {
 }
 
 TEST(KeptFrames, StayWithinTheirMemoryOldestThinnedFirst) {
-  KeptFrames kept(1000);
+  view::session::KeptFrames kept(1000);
   for (int frame = 0; frame <= 40; ++frame) {
-    KeptFrame one;
+    view::session::KeptFrame one;
     one.frame = frame;
     one.state.resize(100);
     kept.add(std::move(one));

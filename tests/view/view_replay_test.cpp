@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "app/errors.h"
 #include "app/output/atomic_file.h"
-#include "render/image.h"
+#include "app/support/errors.h"
+#include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
@@ -12,7 +12,8 @@ namespace {
 
 class ViewByScript : public Cli {
  protected:
-  app::ProcessResult view(const std::string& script, const std::vector<std::string>& more = {}) {
+  app::output::ProcessResult view(const std::string& script,
+                                  const std::vector<std::string>& more = {}) {
     folder.write("clicks.json", script);
     std::vector<std::string> words{"view",  "scene.toml", "--replay", "clicks.json",
                                    "--out", "out",        "--quiet"};
@@ -45,9 +46,11 @@ TEST_F(ViewByScript, AParameterIsFoundChangedSimulatedWithAndSaved) {
     {"screenshot": "window.png"}, {"screenshot": "picture.png", "crop": "picture"}])");
   SKIP_WITHOUT_GL(result);
   ASSERT_EQ(result.exit_code, 0) << result.errors;
-  const render::Image window = render::decode_png(app::read_file(folder / "out" / "window.png"));
+  const render::Image window =
+      render::decode_png(app::output::read_file(folder / "out" / "window.png"));
   EXPECT_EQ(window.width, 1280);
-  const render::Image picture = render::decode_png(app::read_file(folder / "out" / "picture.png"));
+  const render::Image picture =
+      render::decode_png(app::output::read_file(folder / "out" / "picture.png"));
   // Snow is bright, panels and background are not.
   const auto bright = std::count_if(picture.pixels.begin(), picture.pixels.end(),
                                     [](std::uint8_t value) { return value > 200; });
@@ -117,7 +120,7 @@ std::size_t changed_bytes(const render::Image& a, const render::Image& b) {
 
 TEST_F(ViewByScript, APictureOfAFrameShowsNoStage) {
   const auto picture = [&](const char* name) {
-    return render::decode_png(app::read_file(folder / "out" / name));
+    return render::decode_png(app::output::read_file(folder / "out" / name));
   };
   const char* const saved = "slice_0000_step0.png";
   const auto result = view(R"([
@@ -145,7 +148,7 @@ TEST_F(ViewByScript, AClickBesideTheSnowIsAnsweredForAMoment) {
   SKIP_WITHOUT_GL(result);
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const auto image = [&](const char* name) {
-    return render::decode_png(app::read_file(folder / "out" / name));
+    return render::decode_png(app::output::read_file(folder / "out" / name));
   };
   const render::Image before = image("before.png");
   // A box of three words.

@@ -5,16 +5,17 @@
 #include <functional>
 #include <thread>
 
-#include "app/view/workbench.h"
+#include "app/view/session/workbench.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
 
 /// Waits for a frame that is as wanted, and takes every one on the way.
-inline std::shared_ptr<const app::LiveFrame> wait_for(
-    app::Session& session, const std::function<bool(const app::LiveFrame&)>& is_wanted) {
+inline std::shared_ptr<const app::view::session::LiveFrame> wait_for(
+    app::view::session::Session& session,
+    const std::function<bool(const app::view::session::LiveFrame&)>& is_wanted) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  std::shared_ptr<const app::LiveFrame> live = session.latest();
+  std::shared_ptr<const app::view::session::LiveFrame> live = session.latest();
   while (std::chrono::steady_clock::now() < end) {
     live = session.latest();
     if (is_wanted(*live)) return live;
@@ -26,19 +27,21 @@ inline std::shared_ptr<const app::LiveFrame> wait_for(
   return live;
 }
 
-inline std::shared_ptr<const app::LiveFrame> rest_at(app::Session& session, int frame) {
-  return wait_for(session, [&](const app::LiveFrame& live) {
+inline std::shared_ptr<const app::view::session::LiveFrame> rest_at(
+    app::view::session::Session& session, int frame) {
+  return wait_for(session, [&](const app::view::session::LiveFrame& live) {
     return !live.is_running && live.frame == frame && live.is_frame_end;
   });
 }
 
 /// A workbench for a scene file in a folder.
-inline app::Workbench bench_for(const TemporaryFolder& folder, const std::string& text,
-                                double coarsening = 1) {
-  app::WorkbenchOptions options;
+inline app::view::session::Workbench bench_for(const TemporaryFolder& folder,
+                                               const std::string& text, double coarsening = 1) {
+  app::view::session::WorkbenchOptions options;
   options.folder = folder / "out";
-  return app::Workbench(app::open_document(folder.write("scene.toml", text), {}, coarsening),
-                        options, {});
+  return app::view::session::Workbench(
+      app::view::session::open_document(folder.write("scene.toml", text), {}, coarsening), options,
+      {});
 }
 
 }  // namespace neve::test

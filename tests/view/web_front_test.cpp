@@ -2,14 +2,14 @@
 
 #include <thread>
 
-#include "render/jpeg.h"
+#include "render/image/jpeg.h"
 #include "tests/view/web_support.h"
 
 namespace neve::test {
 namespace {
 
-using app::FramePacing;
-using app::InputEvent;
+using app::view::front::InputEvent;
+using app::view::web::FramePacing;
 
 TEST(Jpeg, KeepsThePicture) {
   ASSERT_TRUE(render::can_encode_jpeg());
@@ -198,7 +198,7 @@ TEST_F(Web, TitleAndCursorAreToldToEveryViewerAndOnlyWhenTheyChange) {
   auto page = connect();
   ASSERT_TRUE(wait_until([&] { return front->is_ready(); }));
   for (int k = 0; k < 5; ++k) {
-    front->set_cursor(app::Cursor::resize_rising);
+    front->set_cursor(app::view::web::Cursor::resize_rising);
     front->set_title("snowball");
   }
   std::string all;
@@ -216,7 +216,7 @@ TEST_F(Web, NewViewerTakesThePlaceOfTheOneBefore) {
   front->show_image(image);
   auto second = connect();
   EXPECT_TRUE(wait_for_key('A', false)) << "held by somebody who is gone";
-  EXPECT_EQ(first->close_code(3), app::close_code::taken);
+  EXPECT_EQ(first->close_code(3), app::view::web::close_code::taken);
   // The same picture, but for someone who has not seen it.
   ASSERT_TRUE(wait_until([&] { return front->is_picture_wanted(); }));
   front->show_image(image);
@@ -243,7 +243,7 @@ TEST_F(Web, EndOfTheProgramIsTold) {
   EXPECT_LT(seconds_now() - begin, 1);
   reader.join();
   EXPECT_NE(all.find(R"({"end":"ended"})"), std::string::npos) << all;
-  EXPECT_EQ(code, app::close_code::going_away);
+  EXPECT_EQ(code, app::view::web::close_code::going_away);
 }
 
 }  // namespace

@@ -1,45 +1,48 @@
-#include "app/view/web_protocol.h"
+#include "app/view/web/web_protocol.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "app/view/event_queue.h"
-#include "app/view/frame_pacing.h"
+#include "app/view/front/event_queue.h"
+#include "app/view/web/frame_pacing.h"
 
 namespace neve::app {
 namespace {
 
-using PageKind = PageMessage::Kind;
+using PageKind = app::view::web::PageMessage::Kind;
 
 TEST(PageMessage, TellsWhatAPersonDid) {
-  const InputEvent move = read_page_message("m 12.5 -3 3").event;
-  EXPECT_EQ(move.kind, InputEvent::Kind::move);
+  const app::view::front::InputEvent move = app::view::web::read_page_message("m 12.5 -3 3").event;
+  EXPECT_EQ(move.kind, app::view::front::InputEvent::Kind::move);
   EXPECT_EQ(move.x, 12.5f);
   EXPECT_EQ(move.y, -3.0f);
   EXPECT_TRUE(move.held.ctrl && move.held.shift && !move.held.alt && !move.held.super);
 
-  const InputEvent button = read_page_message("b 2 1 7 8 4").event;
-  EXPECT_EQ(button.kind, InputEvent::Kind::button);
+  const app::view::front::InputEvent button =
+      app::view::web::read_page_message("b 2 1 7 8 4").event;
+  EXPECT_EQ(button.kind, app::view::front::InputEvent::Kind::button);
   EXPECT_EQ(button.button, 2);
   EXPECT_TRUE(button.is_down && button.held.alt);
   EXPECT_EQ(button.y, 8.0f);
 
-  const InputEvent wheel = read_page_message("w 0 -500 0").event;
-  EXPECT_EQ(wheel.kind, InputEvent::Kind::wheel);
+  const app::view::front::InputEvent wheel = app::view::web::read_page_message("w 0 -500 0").event;
+  EXPECT_EQ(wheel.kind, app::view::front::InputEvent::Kind::wheel);
   EXPECT_EQ(wheel.y, -20.0f);  // nobody turns it further in one event
 
-  const InputEvent key = read_page_message("k 265 1 8").event;
-  EXPECT_EQ(key.kind, InputEvent::Kind::key);
-  EXPECT_EQ(key.key, key::up);
+  const app::view::front::InputEvent key = app::view::web::read_page_message("k 265 1 8").event;
+  EXPECT_EQ(key.kind, app::view::front::InputEvent::Kind::key);
+  EXPECT_EQ(key.key, app::view::front::key::up);
   EXPECT_TRUE(key.is_down && key.held.super);
 
-  EXPECT_EQ(read_page_message("t n\xC3\xA9v\xC3\xA9").event.text, "n\xC3\xA9v\xC3\xA9");
-  EXPECT_EQ(read_page_message("p two\nlines").event.kind, InputEvent::Kind::paste);
-  EXPECT_EQ(read_page_message("p two\nlines").event.text, "two\nlines");
-  EXPECT_EQ(read_page_message("a 4294967295").number, 4294967295u);
-  EXPECT_FALSE(read_page_message("v 0").is_visible);
+  EXPECT_EQ(app::view::web::read_page_message("t n\xC3\xA9v\xC3\xA9").event.text,
+            "n\xC3\xA9v\xC3\xA9");
+  EXPECT_EQ(app::view::web::read_page_message("p two\nlines").event.kind,
+            app::view::front::InputEvent::Kind::paste);
+  EXPECT_EQ(app::view::web::read_page_message("p two\nlines").event.text, "two\nlines");
+  EXPECT_EQ(app::view::web::read_page_message("a 4294967295").number, 4294967295u);
+  EXPECT_FALSE(app::view::web::read_page_message("v 0").is_visible);
 }
 
 TEST(PageMessage, ThatMakesNoSenseIsNothing) {
@@ -53,7 +56,7 @@ TEST(PageMessage, ThatMakesNoSenseIsNothing) {
                            "s nan 1 1", "a -1",        "a 4294967296", "a 1.5",
                            "v 2",       "v",           "x 1 2 3",      "M 1 2 3",
                            "\n"})
-    EXPECT_EQ(read_page_message(text).kind, PageKind::none) << text;
+    EXPECT_EQ(app::view::web::read_page_message(text).kind, PageKind::none) << text;
 }
 
 TEST(PageMessage, SurvivesRandomText) {
@@ -62,44 +65,46 @@ TEST(PageMessage, SurvivesRandomText) {
   for (int run = 0; run < 50000; ++run) {
     std::string text(random() % 24, ' ');
     for (char& c : text) c = alphabet[random() % alphabet.size()];
-    const PageMessage message = read_page_message(text);
+    const app::view::web::PageMessage message = app::view::web::read_page_message(text);
     EXPECT_TRUE(std::isfinite(message.event.x) && std::isfinite(message.event.y)) << text;
-    EXPECT_LE(double(message.size.width) * message.size.height, max_web_pixels) << text;
+    EXPECT_LE(double(message.size.width) * message.size.height, app::view::web::max_web_pixels)
+        << text;
   }
 }
 
 TEST(PageSize, StaysInItsLimits) {
-  const ScreenSize usual = read_page_message("s 1280 800 1.5").size;
+  const app::view::front::ScreenSize usual =
+      app::view::web::read_page_message("s 1280 800 1.5").size;
   EXPECT_EQ(usual.width, 1280);
   EXPECT_EQ(usual.height, 800);
   EXPECT_EQ(usual.scale, 1.5f);
   // A screen of 8K keeps its shape with a quarter of its pixels, and its panels keep their size.
-  const ScreenSize huge = read_page_message("s 7680 4320 2").size;
-  EXPECT_LE(double(huge.width) * huge.height, max_web_pixels);
-  EXPECT_GT(double(huge.width) * huge.height, 0.99 * max_web_pixels);
+  const app::view::front::ScreenSize huge = app::view::web::read_page_message("s 7680 4320 2").size;
+  EXPECT_LE(double(huge.width) * huge.height, app::view::web::max_web_pixels);
+  EXPECT_GT(double(huge.width) * huge.height, 0.99 * app::view::web::max_web_pixels);
   EXPECT_NEAR(double(huge.width) / huge.height, 16.0 / 9, 0.01);
   EXPECT_NEAR(huge.scale, 1.0, 0.01);
   for (const char* text : {"s -5 0 0", "s 1e30 1e30 1e30", "s 1 1e9 -1", "s 32768 64 1"}) {
-    const ScreenSize size = read_page_message(text).size;
+    const app::view::front::ScreenSize size = app::view::web::read_page_message(text).size;
     EXPECT_GE(size.width, 64) << text;
     EXPECT_GE(size.height, 64) << text;
-    EXPECT_LE(double(size.width) * size.height, max_web_pixels) << text;
+    EXPECT_LE(double(size.width) * size.height, app::view::web::max_web_pixels) << text;
     EXPECT_GE(size.scale, 0.25f) << text;
   }
 }
 
 TEST(PageText, IsJsonWhateverTheText) {
-  EXPECT_EQ(page_text("title", "a \"b\"\n"), R"({"title":"a \"b\"\n"})");
-  EXPECT_EQ(page_text("title", "\xFF"), "{\"title\":\"\xEF\xBF\xBD\"}");
-  EXPECT_EQ(page_picture(0x01020304, "jpeg"), "\x04\x03\x02\x01jpeg");
+  EXPECT_EQ(app::view::web::page_text("title", "a \"b\"\n"), R"({"title":"a \"b\"\n"})");
+  EXPECT_EQ(app::view::web::page_text("title", "\xFF"), "{\"title\":\"\xEF\xBF\xBD\"}");
+  EXPECT_EQ(app::view::web::page_picture(0x01020304, "jpeg"), "\x04\x03\x02\x01jpeg");
 }
 
-InputEvent event_of(const char* text) {
-  return read_page_message(text).event;
+app::view::front::InputEvent event_of(const char* text) {
+  return app::view::web::read_page_message(text).event;
 }
 
 TEST(EventQueue, JoinsMovesAndWheels) {
-  EventQueue queue;
+  app::view::front::EventQueue queue;
   for (const char* text : {"m 1 1 0", "m 2 2 0", "m 3 3 1", "w 0 1 0", "w 0 2 0", "b 0 1 3 3 0",
                            "m 4 4 0", "m 5 5 0", "t a", "t b"})
     EXPECT_TRUE(queue.push(event_of(text)));
@@ -112,22 +117,22 @@ TEST(EventQueue, JoinsMovesAndWheels) {
 }
 
 TEST(EventQueue, RefusesMoreThanItHolds) {
-  EventQueue queue;
+  app::view::front::EventQueue queue;
   std::size_t taken = 0;
   while (queue.push(event_of(taken % 2 ? "k 65 0 0" : "k 65 1 0"))) ++taken;
-  EXPECT_EQ(taken, EventQueue::limit);
-  EXPECT_EQ(queue.take().size(), EventQueue::limit);
+  EXPECT_EQ(taken, app::view::front::EventQueue::limit);
+  EXPECT_EQ(queue.take().size(), app::view::front::EventQueue::limit);
 
   const std::string pasted = "p " + std::string(200000, 'x');
   for (taken = 0; queue.push(event_of(pasted.c_str())); ++taken)
     ;
-  EXPECT_EQ(taken, EventQueue::text_limit / 200000);
+  EXPECT_EQ(taken, app::view::front::EventQueue::text_limit / 200000);
   queue.take();
   EXPECT_TRUE(queue.push(event_of(pasted.c_str())));
 }
 
 TEST(EventQueue, ReleasesWhatIsHeld) {
-  EventQueue queue;
+  app::view::front::EventQueue queue;
   for (const char* text : {"k 65 1 0", "k 66 1 0", "k 65 0 0", "b 0 1 7 8 0", "k 341 1 1"})
     queue.push(event_of(text));
   queue.take();
@@ -135,16 +140,16 @@ TEST(EventQueue, ReleasesWhatIsHeld) {
   queue.release_all();
   const auto events = queue.take();
   ASSERT_EQ(events.size(), 3u);
-  EXPECT_EQ(events[0].kind, InputEvent::Kind::button);
+  EXPECT_EQ(events[0].kind, app::view::front::InputEvent::Kind::button);
   EXPECT_EQ(events[0].x, 7);  // where it was, so that a drag ends there
   EXPECT_EQ(events[1].key, 66);
-  EXPECT_EQ(events[2].key, key::ctrl);
-  for (const InputEvent& event : events) EXPECT_FALSE(event.is_down);
+  EXPECT_EQ(events[2].key, app::view::front::key::ctrl);
+  for (const app::view::front::InputEvent& event : events) EXPECT_FALSE(event.is_down);
 }
 
 /// Sends and shows pictures one after the other. @return the quality after them
 int quality_after(int pictures, double seconds_each) {
-  FramePacing pacing;
+  app::view::web::FramePacing pacing;
   double now = 100;
   for (int k = 0; k < pictures; ++k) {
     const std::uint32_t number = pacing.sent(now);
@@ -155,14 +160,14 @@ int quality_after(int pictures, double seconds_each) {
 }
 
 TEST(FramePacing, AdaptsQualityToTheNetwork) {
-  EXPECT_EQ(quality_after(100, 0.01), FramePacing::max_quality);
-  EXPECT_EQ(quality_after(100, 0.3), FramePacing::min_quality);
+  EXPECT_EQ(quality_after(100, 0.01), app::view::web::FramePacing::max_quality);
+  EXPECT_EQ(quality_after(100, 0.3), app::view::web::FramePacing::min_quality);
   // Between the two it stays as it is.
-  EXPECT_EQ(quality_after(100, 0.09), FramePacing().quality());
+  EXPECT_EQ(quality_after(100, 0.09), app::view::web::FramePacing().quality());
 }
 
 TEST(FramePacing, LetsTwoPicturesOnTheirWay) {
-  FramePacing pacing;
+  app::view::web::FramePacing pacing;
   const std::uint32_t first = pacing.sent(1), second = pacing.sent(1);
   EXPECT_FALSE(pacing.can_send());
   EXPECT_FALSE(pacing.shown(second + 1, 2));

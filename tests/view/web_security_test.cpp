@@ -5,13 +5,13 @@
 #include <random>
 #include <thread>
 
-#include "app/errors.h"
+#include "app/support/errors.h"
 #include "tests/view/web_support.h"
 
 namespace neve::test {
 namespace {
 
-using app::InputEvent;
+using app::view::front::InputEvent;
 
 /// More than an honest server keeps for a viewer, less than one bad message would need if it were
 /// kept: tests below send hundreds of megabytes.
@@ -195,7 +195,7 @@ TEST_F(Web, SurvivesRandomConnections) {
 }
 
 TEST_F(Web, EndsSlowAndSilentConnections) {
-  app::WebOptions options;
+  app::view::web::WebOptions options;
   options.limits.head_seconds = 0.4;
   options.limits.message_seconds = 0.4;
   options.limits.ping_seconds = 0.3;
@@ -275,7 +275,7 @@ TEST_F(Web, FloodNeitherGrowsNorStops) {
     count += events_now;
     EXPECT_LT(seconds_now() - begin, 1);
   }
-  EXPECT_LE(most, app::EventQueue::limit);
+  EXPECT_LE(most, app::view::front::EventQueue::limit);
   // 512 KiB a second of messages of at least 13 bytes, a second's worth of them at once.
   EXPECT_LT(count, 3 * 512 * 1024 / 13);
   EXPECT_GT(count, 1000u);
@@ -289,7 +289,7 @@ TEST_F(Web, FloodNeitherGrowsNorStops) {
 }
 
 TEST_F(Web, ViewerThatReadsNothingCostsTwoPictures) {
-  app::WebOptions options;
+  app::view::web::WebOptions options;
   options.limits.stall_seconds = 1;
   start(options);
   auto page = connect(true, 4096);
@@ -347,32 +347,32 @@ TEST_F(Web, FiftyReconnectsLeaveNothingBehind) {
 }
 
 TEST(WebFront, ListensElsewhereOnlyWhenToldThatItIsRisky) {
-  app::WebOptions options;
+  app::view::web::WebOptions options;
   options.address = "0.0.0.0";
   try {
-    app::WebFront front(options);
+    app::view::web::WebFront front(options);
     FAIL() << "listens at every network";
   } catch (const app::Error& error) {
     EXPECT_EQ(error.code, app::exit_usage);
     EXPECT_NE(std::string(error.what()).find("whoever can reach it"), std::string::npos);
   }
   options.is_risk_taken = true;
-  const app::WebFront front(options);
+  const app::view::web::WebFront front(options);
   EXPECT_EQ(front.where().find("0.0.0.0"), std::string::npos) << front.where();
 }
 
 TEST(WebFront, SaysWhyItCannotListen) {
-  app::WebOptions options;
-  const app::WebFront first(options);
+  app::view::web::WebOptions options;
+  const app::view::web::WebFront first(options);
   options.port = first.port();
-  EXPECT_THROW(app::WebFront second(options), app::IoError);
+  EXPECT_THROW(app::view::web::WebFront second(options), app::IoError);
   options.port = 70000;
-  EXPECT_THROW(app::WebFront third(options), app::IoError);
+  EXPECT_THROW(app::view::web::WebFront third(options), app::IoError);
   options.port = 0;
   options.is_risk_taken = true;
   for (const char* address : {"192.0.2.77", "nowhere.example", "", "127.0.0.1:80"}) {
     options.address = address;
-    EXPECT_THROW(app::WebFront fourth(options), app::IoError) << address;
+    EXPECT_THROW(app::view::web::WebFront fourth(options), app::IoError) << address;
   }
 }
 

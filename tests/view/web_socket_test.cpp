@@ -1,13 +1,13 @@
 /// Frames, heads and names as bytes: nothing here opens a connection.
 
-#include "app/view/web_socket.h"
+#include "app/view/web/web_socket.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "app/view/http.h"
-#include "app/view/web_guard.h"
+#include "app/view/web/http.h"
+#include "app/view/web/web_guard.h"
 #include "tests/support/web_client.h"
 
 namespace neve::app {
@@ -17,7 +17,7 @@ using test::client_frame;
 
 /// Close code for these bytes, 0 when nothing is wrong with them.
 int error_of(const std::string& bytes, std::size_t limit = 1000) {
-  FrameReader reader(limit);
+  app::view::web::FrameReader reader(limit);
   reader.feed(bytes);
   while (reader.next()) {
   }
@@ -26,21 +26,22 @@ int error_of(const std::string& bytes, std::size_t limit = 1000) {
 
 TEST(WebSocketKey, IsAnsweredAsInTheStandard) {
   // RFC 6455, section 1.3.
-  EXPECT_EQ(web_socket_accept("dGhlIHNhbXBsZSBub25jZQ=="), "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
-  EXPECT_TRUE(is_web_socket_key("dGhlIHNhbXBsZSBub25jZQ=="));
-  EXPECT_FALSE(is_web_socket_key("dGhlIHNhbXBsZSBub25jZQ="));
-  EXPECT_FALSE(is_web_socket_key("dGhlIHNhbXBsZSBub25j=Q=="));
-  EXPECT_FALSE(is_web_socket_key(""));
+  EXPECT_EQ(app::view::web::web_socket_accept("dGhlIHNhbXBsZSBub25jZQ=="),
+            "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
+  EXPECT_TRUE(app::view::web::is_web_socket_key("dGhlIHNhbXBsZSBub25jZQ=="));
+  EXPECT_FALSE(app::view::web::is_web_socket_key("dGhlIHNhbXBsZSBub25jZQ="));
+  EXPECT_FALSE(app::view::web::is_web_socket_key("dGhlIHNhbXBsZSBub25j=Q=="));
+  EXPECT_FALSE(app::view::web::is_web_socket_key(""));
 }
 
 TEST(Utf8, IsWhatTheStandardAllows) {
   for (const char* good : {"", "snow", "n\xC3\xA9v\xC3\xA9", "\xE2\x9D\x84", "\xF0\x9F\x8C\xA8",
                            "\xED\x9F\xBF", "\xEE\x80\x80", "\xF4\x8F\xBF\xBF"})
-    EXPECT_TRUE(is_utf8(good)) << good;
+    EXPECT_TRUE(app::view::web::is_utf8(good)) << good;
   for (const char* bad :
        {"\x80", "\xC3", "\xC0\xAF", "\xC1\xBF", "\xE0\x9F\xBF", "\xED\xA0\x80", "\xF0\x8F\xBF\xBF",
         "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xE2\x9D", "\xE2\x28\xA1", "\xFF"})
-    EXPECT_FALSE(is_utf8(bad)) << bad;
+    EXPECT_FALSE(app::view::web::is_utf8(bad)) << bad;
 }
 
 TEST(FrameReader, FindsMessagesInPiecesOfAnySize) {
@@ -48,7 +49,7 @@ TEST(FrameReader, FindsMessagesInPiecesOfAnySize) {
                             client_frame(0x89, "ping") + client_frame(0x00, "") +
                             client_frame(0x80, "ond") + client_frame(0x82, std::string(300, 'x'));
   for (std::size_t piece = 1; piece <= bytes.size(); piece += 3) {
-    FrameReader reader(1000);
+    app::view::web::FrameReader reader(1000);
     std::string found;
     for (std::size_t k = 0; k < bytes.size(); k += piece) {
       reader.feed(bytes.substr(k, piece));
@@ -63,7 +64,7 @@ TEST(FrameReader, FindsMessagesInPiecesOfAnySize) {
 
 TEST(FrameReader, ReadsLengthsInAllThreeForms) {
   for (const std::size_t length : {0u, 1u, 125u, 126u, 127u, 65535u, 65536u, 100000u}) {
-    FrameReader reader(100000);
+    app::view::web::FrameReader reader(100000);
     reader.feed(client_frame(0x82, std::string(length, 'a')));
     const auto message = reader.next();
     ASSERT_TRUE(message) << length;
@@ -105,7 +106,7 @@ TEST(FrameReader, SurvivesRandomBytes) {
     // Half of them begin like something sensible.
     if (!bytes.empty() && run % 2) bytes[0] = char(0x80 | (random() % 3));
     if (bytes.size() > 1 && run % 2) bytes[1] = char(bytes[1] | 0x80);
-    FrameReader reader(64);
+    app::view::web::FrameReader reader(64);
     reader.feed(bytes);
     int messages = 0;
     while (reader.next()) ++messages;
@@ -114,20 +115,24 @@ TEST(FrameReader, SurvivesRandomBytes) {
 }
 
 TEST(ServerFrame, IsReadBackByAClient) {
-  EXPECT_EQ(web_socket_frame(Opcode::text, "hello"), "\x81\x05hello");
-  EXPECT_EQ(web_socket_frame(Opcode::binary, std::string(126, 'x')).substr(0, 4),
+  EXPECT_EQ(app::view::web::web_socket_frame(app::view::web::Opcode::text, "hello"),
+            "\x81\x05hello");
+  EXPECT_EQ(app::view::web::web_socket_frame(app::view::web::Opcode::binary, std::string(126, 'x'))
+                .substr(0, 4),
             std::string("\x82\x7E\x00\x7E", 4));
-  EXPECT_EQ(web_socket_frame(Opcode::binary, std::string(65536, 'x')).substr(0, 10),
-            std::string("\x82\x7F\0\0\0\0\0\x01\0\0", 10));
-  EXPECT_EQ(close_payload(1002, "why"), "\x03\xEAwhy");
+  EXPECT_EQ(
+      app::view::web::web_socket_frame(app::view::web::Opcode::binary, std::string(65536, 'x'))
+          .substr(0, 10),
+      std::string("\x82\x7F\0\0\0\0\0\x01\0\0", 10));
+  EXPECT_EQ(app::view::web::close_payload(1002, "why"), "\x03\xEAwhy");
 }
 
 int status_of(const std::string& head) {
-  return read_http_head(head).status;
+  return app::view::web::read_http_head(head).status;
 }
 
 TEST(HttpHead, IsReadStrictly) {
-  const HttpHead head = read_http_head(
+  const app::view::web::HttpHead head = app::view::web::read_http_head(
       "GET /ws?a=1&token=abc HTTP/1.1\r\nHost: localhost:80\r\nConnection: keep-alive, "
       "Upgrade\r\n\r\nmore");
   ASSERT_EQ(head.status, 200);
@@ -160,13 +165,14 @@ TEST(HttpHead, IsLimitedWhileItComes) {
   EXPECT_EQ(status_of("GET /" + long_target), 414);
   EXPECT_EQ(status_of(long_target), 414);
   const std::string start = "GET / HTTP/1.1\r\nHost: a\r\n";
-  EXPECT_EQ(status_of(start + "X: " + std::string(max_http_head, 'a')), 431);
-  EXPECT_EQ(status_of(start + "X: " + std::string(max_http_head, 'a') + "\r\n\r\n"), 431);
+  EXPECT_EQ(status_of(start + "X: " + std::string(app::view::web::max_http_head, 'a')), 431);
+  EXPECT_EQ(status_of(start + "X: " + std::string(app::view::web::max_http_head, 'a') + "\r\n\r\n"),
+            431);
   EXPECT_EQ(status_of(start + "X: " + std::string(4000, 'a') + "\r\n\r\n"), 200);
 }
 
 TEST(WebGuard, KnowsItsOwnNames) {
-  const WebGuard local("127.0.0.1", "secret");
+  const app::view::web::WebGuard local("127.0.0.1", "secret");
   for (const char* own : {"127.0.0.1:8080", "localhost", "LocalHost:1", "[::1]:9", "127.0.0.2:3"})
     EXPECT_TRUE(local.is_own_host(own)) << own;
   for (const char* foreign :
@@ -175,7 +181,7 @@ TEST(WebGuard, KnowsItsOwnNames) {
         "localhost.", "127.0.0.1@evil.example", "127.1", "2130706433", "0.0.0.0"})
     EXPECT_FALSE(local.is_own_host(foreign)) << foreign;
 
-  const WebGuard open("0.0.0.0", "secret");
+  const app::view::web::WebGuard open("0.0.0.0", "secret");
   EXPECT_TRUE(open.is_own_host("10.0.0.5:80"));
   EXPECT_TRUE(open.is_own_host("[2001:db8::1]:80"));
   EXPECT_TRUE(open.is_own_host(open.machine()));
@@ -184,21 +190,21 @@ TEST(WebGuard, KnowsItsOwnNames) {
 
 TEST(WebGuard, TellsTheRiskOfOtherAddresses) {
   for (const char* safe : {"127.0.0.1", "127.3.2.1", "::1", "localhost"})
-    EXPECT_EQ(risk_of(safe), "") << safe;
+    EXPECT_EQ(app::view::web::risk_of(safe), "") << safe;
   for (const char* open : {"0.0.0.0", "::", "10.0.0.5", "127.0.0.1.example", "example.com"})
-    EXPECT_NE(risk_of(open), "") << open;
+    EXPECT_NE(app::view::web::risk_of(open), "") << open;
 }
 
 TEST(Token, HasManyRandomBits) {
-  const std::string a = make_token(), b = make_token();
+  const std::string a = app::view::web::make_token(), b = app::view::web::make_token();
   EXPECT_EQ(a.size(), 32u);
   EXPECT_EQ(a.find_first_not_of("0123456789abcdef"), std::string::npos);
   EXPECT_NE(a, b);
-  EXPECT_TRUE(is_same_secret(a, a));
-  EXPECT_FALSE(is_same_secret(a, b));
-  EXPECT_FALSE(is_same_secret(a, a.substr(0, 31)));
-  EXPECT_FALSE(is_same_secret(a, a + "0"));
-  EXPECT_FALSE(is_same_secret(a, ""));
+  EXPECT_TRUE(app::view::web::is_same_secret(a, a));
+  EXPECT_FALSE(app::view::web::is_same_secret(a, b));
+  EXPECT_FALSE(app::view::web::is_same_secret(a, a.substr(0, 31)));
+  EXPECT_FALSE(app::view::web::is_same_secret(a, a + "0"));
+  EXPECT_FALSE(app::view::web::is_same_secret(a, ""));
 }
 
 }  // namespace

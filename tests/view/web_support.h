@@ -9,7 +9,7 @@
 #include <functional>
 #include <memory>
 
-#include "app/view/web_front.h"
+#include "app/view/web/web_front.h"
 #include "tests/support/web_client.h"
 
 namespace neve::test {
@@ -60,8 +60,8 @@ inline Received read_picture(const std::string& payload) {
 
 class Web : public testing::Test {
  protected:
-  void start(app::WebOptions options = {}) {
-    front = std::make_unique<app::WebFront>(options);
+  void start(app::view::web::WebOptions options = {}) {
+    front = std::make_unique<app::view::web::WebFront>(options);
     host = "127.0.0.1:" + std::to_string(front->port());
   }
 
@@ -101,7 +101,8 @@ class Web : public testing::Test {
     }
     return is_content();
   }
-  bool wait_for(const std::function<bool(const app::InputEvent&)>& is_it, double seconds = 5) {
+  bool wait_for(const std::function<bool(const app::view::front::InputEvent&)>& is_it,
+                double seconds = 5) {
     return wait_until(
         [&] {
           for (const auto& event : events)
@@ -111,8 +112,8 @@ class Web : public testing::Test {
         seconds);
   }
   bool wait_for_key(int key, bool is_down) {
-    return wait_for([&](const app::InputEvent& event) {
-      return event.kind == app::InputEvent::Kind::key && event.key == key &&
+    return wait_for([&](const app::view::front::InputEvent& event) {
+      return event.kind == app::view::front::InputEvent::Kind::key && event.key == key &&
              event.is_down == is_down;
     });
   }
@@ -132,9 +133,9 @@ class Web : public testing::Test {
     wait_until([&] { return !front->is_ready(); });
   }
 
-  std::unique_ptr<app::WebFront> front;
+  std::unique_ptr<app::view::web::WebFront> front;
   std::string host;
-  std::vector<app::InputEvent> events;
+  std::vector<app::view::front::InputEvent> events;
 };
 
 }  // namespace neve::test

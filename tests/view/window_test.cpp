@@ -1,4 +1,4 @@
-#include "app/view/window_front.h"
+#include "app/view/front/window_front.h"
 
 #include <gtest/gtest.h>
 
@@ -8,15 +8,15 @@
 #include <memory>
 #include <thread>
 
-#include "app/view/imgui_input.h"
-#include "render/context.h"
-#include "render/gl.h"
+#include "app/view/front/imgui_input.h"
+#include "render/gl/context.h"
+#include "render/gl/gl.h"
 #include "tests/support/xvfb.h"
 
 namespace neve::app {
 namespace {
 
-using Kind = InputEvent::Kind;
+using Kind = app::view::front::InputEvent::Kind;
 
 /// One display for all tests of this file, and a window on it for each.
 class InWindow : public testing::Test {
@@ -29,8 +29,9 @@ class InWindow : public testing::Test {
     hand = std::make_unique<test::XHand>();
     if (!hand->reason().empty()) GTEST_SKIP() << hand->reason();
     try {
-      front = std::make_unique<WindowFront>("neve test", ScreenSize{640, 480, 1});
-    } catch (const render::ContextError& error) {
+      front = std::make_unique<app::view::front::WindowFront>(
+          "neve test", app::view::front::ScreenSize{640, 480, 1});
+    } catch (const render::gl::ContextError& error) {
       const std::string reason = error.what();
       if (reason.find("built without") == std::string::npos) FAIL() << reason;
       GTEST_SKIP() << reason;
@@ -42,30 +43,32 @@ class InWindow : public testing::Test {
   /// Collects events until it is true, ten seconds at most.
   void wait_until(const std::function<bool()>& is_true) {
     for (int k = 0; k < 1000 && !is_true(); ++k)
-      for (InputEvent& event : front->wait(0.01)) events.push_back(std::move(event));
+      for (app::view::front::InputEvent& event : front->wait(0.01))
+        events.push_back(std::move(event));
     EXPECT_TRUE(is_true());
   }
 
-  const InputEvent* last(Kind kind) const {
+  const app::view::front::InputEvent* last(Kind kind) const {
     for (auto at = events.rbegin(); at != events.rend(); ++at)
       if (at->kind == kind) return &*at;
     return nullptr;
   }
   bool saw(Kind kind) const { return last(kind) != nullptr; }
   std::size_t count(Kind kind) const {
-    return static_cast<std::size_t>(std::count_if(
-        events.begin(), events.end(), [&](const InputEvent& e) { return e.kind == kind; }));
+    return static_cast<std::size_t>(
+        std::count_if(events.begin(), events.end(),
+                      [&](const app::view::front::InputEvent& e) { return e.kind == kind; }));
   }
 
   static std::unique_ptr<test::Xvfb> display;
   std::unique_ptr<test::XHand> hand;
-  std::unique_ptr<WindowFront> front;
-  std::vector<InputEvent> events;
+  std::unique_ptr<app::view::front::WindowFront> front;
+  std::vector<app::view::front::InputEvent> events;
 };
 std::unique_ptr<test::Xvfb> InWindow::display;
 
 TEST_F(InWindow, HasAnOpenGlContextThatDraws) {
-  render::Context& context = front->context();
+  render::gl::Context& context = front->context();
   EXPECT_EQ(context.backend, "window");
   EXPECT_GE(std::atof(context.version.c_str()), 3.3);
   EXPECT_EQ(front->size().width, 640);
@@ -100,7 +103,7 @@ TEST_F(InWindow, FastClicksKeepTheirPlaces) {
   wait_until([&] { return count(Kind::button) == 4 && last(Kind::move)->x == 600; });
   std::vector<float> pressed;
   float x = -1;
-  for (const InputEvent& event : events) {
+  for (const app::view::front::InputEvent& event : events) {
     if (event.kind == Kind::move) x = event.x;
     if (event.kind == Kind::button && event.is_down) pressed.push_back(x);
   }
@@ -114,8 +117,9 @@ TEST_F(InWindow, WheelCountsRightAndUp) {
   }
   wait_until([&] { return count(Kind::wheel) == 2; });
   EXPECT_EQ(last(Kind::wheel)->x, 1);
-  const auto first = std::find_if(events.begin(), events.end(),
-                                  [](const InputEvent& e) { return e.kind == Kind::wheel; });
+  const auto first =
+      std::find_if(events.begin(), events.end(),
+                   [](const app::view::front::InputEvent& e) { return e.kind == Kind::wheel; });
   EXPECT_EQ(first->y, 1);
 }
 
@@ -129,35 +133,35 @@ TEST_F(InWindow, KeysTextAndModifiers) {
   hand->key(0xffe4, false);
   wait_until([&] { return count(Kind::key) == 6; });
   EXPECT_EQ(count(Kind::text), 1u) << "ctrl+Z types nothing";
-  std::vector<InputEvent> keys;
-  for (const InputEvent& event : events)
+  std::vector<app::view::front::InputEvent> keys;
+  for (const app::view::front::InputEvent& event : events)
     if (event.kind == Kind::key) keys.push_back(event);
-  EXPECT_EQ(keys[2].key, key::ctrl);
+  EXPECT_EQ(keys[2].key, app::view::front::key::ctrl);
   EXPECT_TRUE(keys[2].held.ctrl) << "from its own press on";
   EXPECT_EQ(keys[3].key, 'Z');
   EXPECT_TRUE(keys[3].held.ctrl);
-  EXPECT_EQ(keys[5].key, key::ctrl);
+  EXPECT_EQ(keys[5].key, app::view::front::key::ctrl);
   EXPECT_FALSE(keys[5].held.ctrl);
 }
 
 TEST_F(InWindow, KeysWithoutLettersHaveTheCodesOfTheSeam) {
-  const std::pair<unsigned long, int> all[] = {{0xff1b, key::escape},
-                                               {0xff0d, key::enter},
-                                               {0xff09, key::tab},
-                                               {0xff08, key::backspace},
-                                               {0xffff, key::del},
-                                               {0xff51, key::left},
-                                               {0xff53, key::right},
-                                               {0xff52, key::up},
-                                               {0xff54, key::down},
-                                               {0xff55, key::page_up},
-                                               {0xff50, key::home},
-                                               {0xff57, key::end},
-                                               {0xffbe, key::f1},
-                                               {0xffc9, key::f1 + 11},
+  const std::pair<unsigned long, int> all[] = {{0xff1b, app::view::front::key::escape},
+                                               {0xff0d, app::view::front::key::enter},
+                                               {0xff09, app::view::front::key::tab},
+                                               {0xff08, app::view::front::key::backspace},
+                                               {0xffff, app::view::front::key::del},
+                                               {0xff51, app::view::front::key::left},
+                                               {0xff53, app::view::front::key::right},
+                                               {0xff52, app::view::front::key::up},
+                                               {0xff54, app::view::front::key::down},
+                                               {0xff55, app::view::front::key::page_up},
+                                               {0xff50, app::view::front::key::home},
+                                               {0xff57, app::view::front::key::end},
+                                               {0xffbe, app::view::front::key::f1},
+                                               {0xffc9, app::view::front::key::f1 + 11},
                                                {' ', ' '},
                                                {'5', '5'},
-                                               {0xff8d, key::enter},
+                                               {0xff8d, app::view::front::key::enter},
                                                {'/', '/'}};
   for (const auto& [symbol, code] : all) {
     events.clear();
@@ -201,7 +205,8 @@ TEST_F(InWindow, PointerThatLeavesIsNowhere) {
   hand->move(200, 200);
   events.clear();
   hand->move(1000, 900);
-  wait_until([&] { return saw(Kind::move) && last(Kind::move)->x == off_picture; });
+  wait_until(
+      [&] { return saw(Kind::move) && last(Kind::move)->x == app::view::front::off_picture; });
 }
 
 TEST(WindowWithoutDisplay, SaysWhatIsMissing) {
@@ -212,9 +217,9 @@ TEST(WindowWithoutDisplay, SaysWhatIsMissing) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
   try {
-    WindowFront front("neve");
+    app::view::front::WindowFront front("neve");
     ADD_FAILURE() << "a window on nothing";
-  } catch (const render::ContextError& error) {
+  } catch (const render::gl::ContextError& error) {
     const std::string message = error.what();
     EXPECT_TRUE(message.starts_with("no window: ")) << message;
     ASSERT_EQ(error.attempts.size(), 1u);

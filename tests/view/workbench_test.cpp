@@ -2,16 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include "app/changes.h"
-#include "app/scene/error.h"
+#include "app/run/changes.h"
 #include "app/scene/flat.h"
 #include "app/scene/params.h"
 #include "app/scene/presets.h"
 #include "app/scene/read.h"
-#include "app/seed_scene.h"
-#include "app/sweep/read_sweep.h"
-#include "app/view/orbit.h"
-#include "app/view/pick.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/seed_scene.h"
+#include "app/sweep/read/read_sweep.h"
+#include "app/view/panels/orbit.h"
+#include "app/view/panels/pick.h"
 #include "tests/view/view_support.h"
 
 namespace {
@@ -21,11 +21,11 @@ using namespace neve::app;
 using namespace neve::test;
 
 /// The state that neve render gets for a picture.
-std::uint64_t hash_of_replay(const PictureRecord& record) {
-  const Scene start = read_scene_text(record.scene, "record");
-  sim::Simulation simulation(start.solver, start.materials, sim_colliders(start),
-                             seed_scene(start));
-  ChangePlayer player(start, record.changes, simulation);
+std::uint64_t hash_of_replay(const run::PictureRecord& record) {
+  const scene::Scene start = scene::read_scene_text(record.scene, "record");
+  sim::Simulation simulation(start.solver, start.materials, scene::sim_colliders(start),
+                             setup::seed_scene(start));
+  run::ChangePlayer player(start, record.changes, simulation);
   std::vector<sim::Retry> retries;
   player.begin();
   for (int frame = 1; frame <= record.frame; ++frame)
@@ -38,21 +38,21 @@ struct Working {
   explicit Working(const std::string& text = tiny_scene, double coarsening = 1)
       : bench(bench_for(folder, text, coarsening)) {}
 
-  Session& session() { return bench.session(); }
+  view::session::Session& session() { return bench.session(); }
   void go_to(int frame) {
     session().next_frame();
     rest_at(session(), frame);
   }
-  PictureRecord picture(const LiveFrame& live) {
+  run::PictureRecord picture(const view::session::LiveFrame& live) {
     return bench.picture_record(live, live.scene->views.front());
   }
 
   const TemporaryFolder folder;
-  Workbench bench;
+  view::session::Workbench bench;
 };
 
 TEST(Document, TakesBackAndDoesAgain) {
-  Document document("scene.toml", tiny_scene, {}, 1);
+  view::session::Document document("scene.toml", tiny_scene, {}, 1);
   document.set("material.snow.hardening", "5");
   document.set("solver.cfl", "0.3");
   EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 5);
@@ -71,7 +71,7 @@ TEST(Document, TakesBackAndDoesAgain) {
 }
 
 TEST(Document, OneDragIsOneUndo) {
-  Document document("scene.toml", tiny_scene, {}, 1);
+  view::session::Document document("scene.toml", tiny_scene, {}, 1);
   for (const char* value : {"9", "8", "7"}) document.set("material.snow.hardening", value, 42);
   document.set("material.snow.hardening", "3", 43);
   document.undo();
@@ -81,16 +81,16 @@ TEST(Document, OneDragIsOneUndo) {
 }
 
 TEST(Document, RefusesWhatIsInvalidAndStaysAsItWas) {
-  Document document("scene.toml", tiny_scene, {}, 1);
+  view::session::Document document("scene.toml", tiny_scene, {}, 1);
   document.set("material.snow.hardening", "5");
-  EXPECT_THROW(document.set("material.snow.poisson_ratio", "0.7"), UsageError);
-  EXPECT_THROW(document.set("material.snow.poison_ratio", "0.1"), UsageError);
+  EXPECT_THROW(document.set("material.snow.poisson_ratio", "0.7"), scene::toml::UsageError);
+  EXPECT_THROW(document.set("material.snow.poison_ratio", "0.1"), scene::toml::UsageError);
   EXPECT_EQ(document.changes().size(), 1u);
   EXPECT_DOUBLE_EQ(document.scene()->materials[0].poisson_ratio, 0.2);
 }
 
 TEST(Document, KeepsTheCameraWhileKnobsAreTurned) {
-  Document document("scene.toml", tiny_scene, {}, 1);
+  view::session::Document document("scene.toml", tiny_scene, {}, 1);
   const sim::Vec3d eye = *document.scene()->camera->eye;
   document.set("body.ball.velocity", "[3, -2, 0]");
   EXPECT_EQ(*document.scene()->camera->eye, eye);
@@ -98,17 +98,19 @@ TEST(Document, KeepsTheCameraWhileKnobsAreTurned) {
 
 // What a change waits for and what a picture lists of it come from one list of concerns.
 TEST(Document, KnowsWhatEveryParameterConcerns) {
-  for (const ParamInfo& info : params()) {
-    const bool is_drawn = concern_of(info.address) == Concern::pictures;
-    EXPECT_EQ(effect_of(info.address) == Effect::display, is_drawn) << info.address;
+  for (const scene::ParamInfo& info : scene::params()) {
+    const bool is_drawn = scene::concern_of(info.address) == scene::Concern::pictures;
+    EXPECT_EQ(view::session::effect_of(info.address) == view::session::Effect::display, is_drawn)
+        << info.address;
     if (!is_drawn && info.address.find('[') == std::string::npos) {
-      EXPECT_EQ(effect_of(info.address) == Effect::live, info.is_live) << info.address;
+      EXPECT_EQ(view::session::effect_of(info.address) == view::session::Effect::live, info.is_live)
+          << info.address;
     }
   }
-  EXPECT_EQ(effect_of("frames"), Effect::live);
-  EXPECT_FALSE(concerns_simulation("frames"));
-  EXPECT_EQ(effect_of("limits.particles"), Effect::restart);
-  EXPECT_FALSE(concerns_simulation("limits.particles"));
+  EXPECT_EQ(view::session::effect_of("frames"), view::session::Effect::live);
+  EXPECT_FALSE(scene::concerns_simulation("frames"));
+  EXPECT_EQ(view::session::effect_of("limits.particles"), view::session::Effect::restart);
+  EXPECT_FALSE(scene::concerns_simulation("limits.particles"));
 }
 
 TEST(Workbench, ChangesAreReplayedToTheBit) {
@@ -116,15 +118,17 @@ TEST(Workbench, ChangesAreReplayedToTheBit) {
   work.go_to(1);
   work.bench.set("material.snow.youngs_modulus", "30000");
   work.session().next_step();
-  wait_for(work.session(),
-           [](const LiveFrame& live) { return !live.is_running && !live.is_frame_end; });
+  wait_for(work.session(), [](const view::session::LiveFrame& live) {
+    return !live.is_running && !live.is_frame_end;
+  });
   work.bench.set("solver.gravity", "[2, -9.81, 0]");
   work.bench.set("material.snow.youngs_modulus", "50000");
   work.session().run();
   const auto live = rest_at(work.session(), 4);
-  const PictureRecord record = work.picture(*live);
+  const run::PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 3u);
-  EXPECT_DOUBLE_EQ(read_scene_text(record.scene, "record").materials[0].youngs_modulus, 1.4e5);
+  EXPECT_DOUBLE_EQ(scene::read_scene_text(record.scene, "record").materials[0].youngs_modulus,
+                   1.4e5);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
 }
 
@@ -140,13 +144,14 @@ TEST(Workbench, ARunContinuedFromAnOlderFrameIsReplayedToTheBit) {
   work.bench.undo();
   work.bench.set("solver.gravity", "[2, -9.81, 0]");
   work.session().show_frame(2);
-  wait_for(work.session(), [](const LiveFrame& live) { return live.is_older && live.frame == 2; });
+  wait_for(work.session(),
+           [](const view::session::LiveFrame& live) { return live.is_older && live.frame == 2; });
   work.bench.continue_from_here();
   work.session().run();
   const auto live = rest_at(work.session(), 4);
-  const PictureRecord record = work.picture(*live);
+  const run::PictureRecord record = work.picture(*live);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
-  const Scene last = with_changes({record.scene, "record", "", {}}, record.changes);
+  const scene::Scene last = run::with_changes({record.scene, "record", "", {}}, record.changes);
   EXPECT_DOUBLE_EQ(last.materials[0].youngs_modulus, 1.4e5);
   EXPECT_DOUBLE_EQ(last.solver.gravity.x(), 2);
 }
@@ -160,7 +165,7 @@ TEST(Workbench, ChangesOfACoarsenedRunAreReplayedToTheBit) {
   work.bench.undo();
   work.session().run();
   const auto live = rest_at(work.session(), 4);
-  const PictureRecord record = work.picture(*live);
+  const run::PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 2u);
   EXPECT_NEAR(std::stod(record.changes[0].value), 3e-4, 1e-15);
   EXPECT_NEAR(std::stod(record.changes[1].value), 1.5e-3, 1e-15);
@@ -174,38 +179,39 @@ TEST(Workbench, APausedChangeBelongsToThePicture) {
   work.bench.set("solver.transfer", "apic");
   work.go_to(2);
   work.bench.set("solver.transfer", "flip");
-  const auto live = wait_for(work.session(), [](const LiveFrame& now) {
+  const auto live = wait_for(work.session(), [](const view::session::LiveFrame& now) {
     return now.is_frame_end && now.scene->solver.transfer == sim::Transfer::flip;
   });
-  const PictureRecord record = work.picture(*live);
+  const run::PictureRecord record = work.picture(*live);
   EXPECT_EQ(record.changes.size(), 2u);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
 }
 
 TEST(Document, KeepsAPresetAsTheNumbersThatItChanges) {
-  Document document("scene.toml", tiny_scene, {}, 1);
+  view::session::Document document("scene.toml", tiny_scene, {}, 1);
   document.set("material.snow.preset", "\"lower_hardening\"");
   ASSERT_EQ(document.changes().size(), 1u);
   EXPECT_EQ(document.changes()[0].address, "material.snow.hardening");
   document.set("material.snow.hardening", "3");
   document.set("material.snow.preset", "icy");
-  EXPECT_EQ(preset_of(document.scene()->materials[0]), Preset::icy);
+  EXPECT_EQ(scene::preset_of(document.scene()->materials[0]), scene::Preset::icy);
   document.undo();
   EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 3);
   EXPECT_DOUBLE_EQ(document.scene()->materials[0].density, 400);
   document.redo();
   document.forget("material.snow.preset");
   EXPECT_TRUE(document.changes().empty());
-  EXPECT_THROW(document.set("material.snow.preset", "icey"), UsageError);
-  EXPECT_THROW(document.set("material.ice.preset", "icy"), UsageError);
+  EXPECT_THROW(document.set("material.snow.preset", "icey"), scene::toml::UsageError);
+  EXPECT_THROW(document.set("material.ice.preset", "icy"), scene::toml::UsageError);
 }
 
 TEST(Document, KnowsTheNumbersOfAPresetInTheFile) {
   const std::string text = std::string(tiny_scene) + "[material.snow]\npreset = \"wet\"\n";
-  Document document("scene.toml", text, {}, 1);
+  view::session::Document document("scene.toml", text, {}, 1);
   EXPECT_EQ(document.in_file("material.snow.hardening"), "5");
   EXPECT_EQ(document.in_file("material.snow.model"), "\"snow\"");
-  Document set("scene.toml", text, {parse_override("material.snow.preset=icy")}, 1);
+  view::session::Document set("scene.toml", text,
+                              {scene::parse_override("material.snow.preset=icy")}, 1);
   EXPECT_EQ(set.in_file("material.snow.hardening"), "20");
 }
 
@@ -220,9 +226,10 @@ TEST(Workbench, APresetChosenWhileItRunsIsReplayedToTheBit) {
   const auto live = rest_at(work.session(), 4);
   EXPECT_DOUBLE_EQ(live->scene->materials[0].density, 500);
   EXPECT_DOUBLE_EQ(live->scene->materials[0].hardening, 5);
-  const PictureRecord record = work.picture(*live);
+  const run::PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 6u);
-  EXPECT_EQ(preset_of(read_scene_text(record.scene, "record").materials[0]), Preset::wet);
+  EXPECT_EQ(scene::preset_of(scene::read_scene_text(record.scene, "record").materials[0]),
+            scene::Preset::wet);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
 }
 
@@ -230,9 +237,9 @@ TEST(Workbench, WhatNeedsARestartWaitsForItUnlessNothingIsLost) {
   Working work;
   work.bench.set("body.ball.shape.sphere.radius", "0.1");
   EXPECT_TRUE(work.bench.waiting_for_reset().empty());
-  const auto grown = wait_for(work.session(), [](const LiveFrame& live) {
+  const auto grown = wait_for(work.session(), [](const view::session::LiveFrame& live) {
     return live.scene->bodies[0].shape.form.index() == 0 &&
-           std::get<sim::Sphere>(live.scene->bodies[0].shape.form).radius > 0.09;
+           std::get<sim::shapes::Sphere>(live.scene->bodies[0].shape.form).radius > 0.09;
   });
   work.session().next_frame();
   const auto later = rest_at(work.session(), 1);
@@ -240,13 +247,14 @@ TEST(Workbench, WhatNeedsARestartWaitsForItUnlessNothingIsLost) {
   work.bench.set("material.snow.density", "200");
   work.bench.set("material.snow.hardening", "5");
   EXPECT_EQ(work.bench.waiting_for_reset(), (std::vector<std::string>{"material.snow.density"}));
-  const auto applied = wait_for(work.session(), [](const LiveFrame& live) {
+  const auto applied = wait_for(work.session(), [](const view::session::LiveFrame& live) {
     return live.scene->materials[0].hardening == 5;
   });
   EXPECT_EQ(applied->frame, 1);
   EXPECT_DOUBLE_EQ(applied->scene->materials[0].density, 400);
   work.bench.reset();
-  const auto anew = wait_for(work.session(), [](const LiveFrame& live) { return live.steps == 0; });
+  const auto anew = wait_for(work.session(),
+                             [](const view::session::LiveFrame& live) { return live.steps == 0; });
   EXPECT_DOUBLE_EQ(anew->scene->materials[0].density, 200);
   EXPECT_TRUE(work.bench.waiting_for_reset().empty());
   EXPECT_TRUE(anew->snapshot.changes.empty());
@@ -259,8 +267,8 @@ TEST(Workbench, SavesTheSceneWithItsComments) {
   const std::string text = read_text(work.folder / "saved.toml");
   EXPECT_TRUE(text.starts_with("# mine\n"));
   EXPECT_TRUE(text.ends_with("# the end\n"));
-  EXPECT_DOUBLE_EQ(read_scene_text(text, "saved").solver.cell_size, 0.05);
-  EXPECT_EQ(work.bench.messages().back().kind, Message::Kind::note);
+  EXPECT_DOUBLE_EQ(scene::read_scene_text(text, "saved").solver.cell_size, 0.05);
+  EXPECT_EQ(work.bench.messages().back().kind, view::session::Message::Kind::note);
 }
 
 TEST(Workbench, WritesASweepAroundAValue) {
@@ -328,7 +336,7 @@ TEST(Workbench, AFailedReloadSaysWhereAndLeavesTheFileChanged) {
   work.bench.reload();
   EXPECT_TRUE(work.bench.has_file_changed());
   EXPECT_TRUE(contains(work.bench.reload_error(), "scene.toml:")) << work.bench.reload_error();
-  EXPECT_EQ(work.bench.messages().back().kind, Message::Kind::error);
+  EXPECT_EQ(work.bench.messages().back().kind, view::session::Message::Kind::error);
   EXPECT_EQ(work.bench.errors_said(), before + 1);
   work.bench.reload();
   EXPECT_EQ(work.bench.errors_said(), before + 2) << "the same error is one to be seen again";
@@ -338,14 +346,15 @@ TEST(Workbench, AFailedReloadSaysWhereAndLeavesTheFileChanged) {
   work.bench.reload();
   EXPECT_FALSE(work.bench.has_file_changed());
   EXPECT_EQ(work.bench.reload_error(), "");
-  EXPECT_EQ(work.bench.messages().back().kind, Message::Kind::note);
+  EXPECT_EQ(work.bench.messages().back().kind, view::session::Message::Kind::note);
 }
 
 TEST(Workbench, TellsWhatAFieldRefused) {
   Working work;
-  work.bench.edit({Edit::Kind::refused, "solver.cfl", "not taken; expected 0 < value", 0});
+  work.bench.edit(
+      {view::session::Edit::Kind::refused, "solver.cfl", "not taken; expected 0 < value", 0});
   EXPECT_EQ(work.bench.messages().back().text, "solver.cfl: not taken; expected 0 < value");
-  EXPECT_EQ(work.bench.messages().back().kind, Message::Kind::error);
+  EXPECT_EQ(work.bench.messages().back().kind, view::session::Message::Kind::error);
   EXPECT_TRUE(work.bench.document().changes().empty());
 }
 
@@ -361,12 +370,12 @@ TEST(Workbench, WhatFailsIsAnErrorToBeSeen) {
 
 TEST(Orbit, StartsWhereTheCameraIs) {
   const sim::Vec3d eye(1.5, 0.9, 2.0), target(0.1, 0.2, -0.3);
-  const Orbit orbit(eye, target, {0, 1, 0}, 30);
+  const view::panels::Orbit orbit(eye, target, {0, 1, 0}, 30);
   EXPECT_LT((orbit.eye() - eye).norm(), 1e-12);
 }
 
 TEST(Orbit, ZoomsTowardsTheMouse) {
-  Orbit orbit({1.5, 0.9, 2.0}, {0, 0, 0}, {0, 1, 0}, 30);
+  view::panels::Orbit orbit({1.5, 0.9, 2.0}, {0, 0, 0}, {0, 1, 0}, 30);
   // A point at the target's distance under the mouse stays under it.
   const sim::Vec3d ray = orbit.ray(0.3, -0.2);
   const sim::Vec3d point = orbit.eye() + ray * (orbit.distance() / ray.dot(orbit.forward()));
@@ -377,7 +386,7 @@ TEST(Orbit, ZoomsTowardsTheMouse) {
 }
 
 TEST(Orbit, FramesABoxAndLooksAlongAxes) {
-  Orbit orbit;
+  view::panels::Orbit orbit;
   orbit.frame({{-1, 0, -1}, {1, 2, 1}}, 1.5);
   for (int corner = 0; corner < 8; ++corner) {
     const sim::Vec3d p =
@@ -392,14 +401,15 @@ TEST(Orbit, FramesABoxAndLooksAlongAxes) {
 }
 
 TEST(Pick, FindsTheNearestParticleUnderTheMouse) {
-  const Orbit orbit({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30);
-  LiveFrame live;
+  const view::panels::Orbit orbit({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30);
+  view::session::LiveFrame live;
   live.spacing = 0.1;
   live.snapshot.particles.x = {{0, 0, -1}, {0, 0, 1}, {0.5, 0, 2}};
-  EXPECT_EQ(pick_particle(orbit, 0, 0, live), std::optional<std::size_t>(1));
+  EXPECT_EQ(view::panels::pick_particle(orbit, 0, 0, live), std::optional<std::size_t>(1));
   const sim::Vec3d third = orbit.project({0.5, 0, 2});
-  EXPECT_EQ(pick_particle(orbit, third.x(), third.y(), live), std::optional<std::size_t>(2));
-  EXPECT_FALSE(pick_particle(orbit, -0.4, 0.3, live));
+  EXPECT_EQ(view::panels::pick_particle(orbit, third.x(), third.y(), live),
+            std::optional<std::size_t>(2));
+  EXPECT_FALSE(view::panels::pick_particle(orbit, -0.4, 0.3, live));
 }
 
 }  // namespace

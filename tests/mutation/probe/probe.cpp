@@ -9,9 +9,9 @@
 #include <set>
 #include <string>
 
-#include "sim/self_test.h"
-#include "sim/self_test_bodies.h"
-#include "sim/watch.h"
+#include "sim/checks/self_test.h"
+#include "sim/checks/self_test_bodies.h"
+#include "sim/checks/watch.h"
 
 namespace {
 
@@ -20,7 +20,7 @@ using namespace neve::sim;
 struct Scene {
   SolverSettings settings;
   Material material;
-  std::vector<Collider> colliders;
+  std::vector<shapes::Collider> colliders;
   ParticleArrays particles;
   int steps = 0;
 };
@@ -46,11 +46,11 @@ Scene drop(double dt) {
   Scene scene;
   scene.settings = settings(dt);
   scene.steps = 400;
-  Collider floor;
-  floor.shape.form = Plane{{0, 0, 0}, {0, 1, 0}};
-  floor.contact = Contact::sticky;
+  shapes::Collider floor;
+  floor.shape.form = shapes::Plane{{0, 0, 0}, {0, 1, 0}};
+  floor.contact = shapes::Contact::sticky;
   scene.colliders.push_back(floor);
-  self_test::Numbers number(7);
+  checks::self_test::Numbers number(7);
   while (scene.particles.x.size() < count) {
     const Vec3d x = number.vector();
     if (x.norm() < 1)
@@ -69,7 +69,7 @@ Scene spin() {
   scene.steps = 600;
   scene.material.model = Model::corotated;
   scene.material.youngs_modulus = 2e4;
-  self_test::Numbers number(8);
+  checks::self_test::Numbers number(8);
   for (int p = 0; p < count; ++p) {
     const Vec3d x = number.vector().cwiseProduct(half);
     const Vec3d v(omega[1] * x[2] - omega[2] * x[1], omega[2] * x[0] - omega[0] * x[2],
@@ -83,7 +83,7 @@ Scene spin() {
 std::vector<std::string> watch(const Scene& scene) {
   std::vector<std::string> fired;
   bool has_stopped = false;
-  Watch watch(scene.settings, {scene.material});
+  checks::Watch watch(scene.settings, {scene.material});
   try {
     Simulation simulation(scene.settings, {scene.material}, scene.colliders, scene.particles, 1);
     for (int step = 0; step < scene.steps && !has_stopped; ++step) {
@@ -96,8 +96,8 @@ std::vector<std::string> watch(const Scene& scene) {
     has_stopped = true;
     std::cerr << error.what() << "\n";
   }
-  for (const WatchRecord& record : watch.records())
-    if (record.times > 0) fired.push_back(name(record.check));
+  for (const checks::WatchRecord& record : watch.records())
+    if (record.times > 0) fired.push_back(checks::name(record.check));
   if (has_stopped) fired.push_back("stopped");
   return fired;
 }
@@ -109,9 +109,9 @@ std::string list(const std::vector<std::string>& names) {
 }
 
 std::vector<std::string> failed_self_tests() {
-  const SelfTestCase one[] = {{Kernel::cubic, Transfer::flip, Precision::real64}};
+  const checks::SelfTestCase one[] = {{Kernel::cubic, Transfer::flip, Precision::real64}};
   std::vector<std::string> failed;
-  for (const SelfTestResult& result : self_tests(one)) {
+  for (const checks::SelfTestResult& result : checks::self_tests(one)) {
     if (result.passed) continue;
     failed.push_back(result.name);
     std::cerr << result.name << ": " << result.detail << "\n";

@@ -1,9 +1,9 @@
 /// The kernels that the probe needs, and no more: double, cubic spline, FLIP, the baseline
 /// instruction set. Compiled in seconds, where all of them take minutes. Takes the place of
-/// sim/simd.cpp and sim/kernels_*.cpp when it is linked before the library.
+/// sim/kernels/simd.cpp and sim/kernels_*.cpp when it is linked before the library.
 
-#include "sim/implicit_sweeps.h"
-#include "sim/sweeps.h"
+#include "sim/kernels/implicit_sweeps.h"
+#include "sim/kernels/sweeps.h"
 
 namespace neve::sim {
 
@@ -29,5 +29,5 @@ const SolveSweeps<float>& SolveKernelSet<BaselineSet>::sweeps(int, bool, float) 
 
 }  // namespace neve::sim
 
-#include "sim/implicit_simd.cpp"
-#include "sim/simd.cpp"
+#include "sim/kernels/implicit_simd.cpp"
+#include "sim/kernels/simd.cpp"

@@ -1,0 +1,19 @@
+#pragma once
+/// What the command line says of a measurement.
+
+#include <string>
+
+namespace neve::app::bench {
+
+struct BenchOptions {
+  int rounds = 0;        ///< 0: as many as are usual
+  double particles = 0;  ///< 0: the common case, or the end of the curve
+  bool is_curve = false;
+  int threads = 0;  ///< 0: one per core
+  std::string backend = "auto";
+  bool is_quick = false;
+  bool is_json = false;
+  bool is_markdown = false;
+};
+
+}  // namespace neve::app::bench

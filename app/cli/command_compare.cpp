@@ -1,0 +1,137 @@
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
+#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
+#include "app/support/json.h"
+#include "app/support/text.h"
+#include "render/image/image.h"
+
+namespace neve::app::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+render::Image read_picture(const std::string& file) {
+  const std::vector<std::uint8_t> bytes = output::read_file(file);
+  try {
+    return render::decode_png(bytes);
+  } catch (const render::ImageError& error) {
+    throw Error(exit_invalid_scene, file + ": error: " + error.what(), file);
+  }
+}
+
+int compare_pictures(const CompareOptions& options) {
+  const render::Image a = read_picture(options.a), b = read_picture(options.b);
+  if (a.width != b.width || a.height != b.height || a.channels != b.channels)
+    throw Error(exit_check_failed,
+                "the pictures have different sizes: " + std::to_string(a.width) + "x" +
+                    std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +
+                    std::to_string(b.height),
+                options.b);
+  const render::Difference difference = render::compare(a, b);
+  const bool is_same =
+      difference.mean <= options.threshold && difference.local <= options.local_threshold;
+  if (options.is_json) {
+    std::cout << to_text({{"same", is_same},
+                          {"max", difference.max},
+                          {"mean", difference.mean},
+                          {"local", difference.local},
+                          {"threshold", options.threshold},
+                          {"local_threshold", options.local_threshold}})
+              << "\n";
+  } else {
+    std::cout << "max " << fixed_text(difference.max, 0) << "  mean "
+              << fixed_text(difference.mean, 4) << "  local " << fixed_text(difference.local, 2)
+              << "  of 255\n";
+  }
+  return is_same ? exit_ok : exit_check_failed;
+}
+
+/// Frame number to state hash.
+std::map<int, std::string> read_hashes(const fs::path& folder) {
+  const fs::path file = output::run_json_path(folder);
+  std::map<int, std::string> hashes;
+  try {
+    const Json run = parse_json(output::read_file(file));
+    for (const Json& frame : run.at("frames"))
+      hashes[frame.at("frame").get<int>()] = frame.at("state_hash").get<std::string>();
+  } catch (const nlohmann::json::exception&) {
+    throw Error(exit_invalid_scene, file.string() + ": error: is no run.json of neve",
+                file.string());
+  }
+  return hashes;
+}
+
+int compare_runs(const CompareOptions& options) {
+  const auto a = read_hashes(options.a), b = read_hashes(options.b);
+  int compared = 0, first_different = -1;
+  for (const auto& [frame, hash] : a) {
+    const auto other = b.find(frame);
+    if (other == b.end()) continue;
+    ++compared;
+    if (first_different < 0 && other->second != hash) first_different = frame;
+  }
+  const bool is_same = first_different < 0 && compared > 0 && a.size() == b.size() &&
+                       compared == static_cast<int>(a.size());
+  if (options.is_json) {
+    std::cout << to_text({{"same", is_same},
+                          {"frames_compared", compared},
+                          {"frames_a", a.size()},
+                          {"frames_b", b.size()},
+                          {"first_different_frame",
+                           first_different < 0 ? Json() : Json(first_different)}})
+              << "\n";
+  } else if (first_different >= 0) {
+    std::cout << "the states differ from frame " << first_different << "\n";
+  } else if (!is_same) {
+    std::cout << "the runs have different frames: " << a.size() << " and " << b.size() << ", "
+              << compared << " in common with the same states\n";
+  } else {
+    std::cout << "the same states in " << compared << " frames\n";
+  }
+  return is_same ? exit_ok : exit_check_failed;
+}
+
+/// @throws UsageError when it has no run.json; where the folder around it has one, that is named
+void check_run_folder(fs::path folder) {
+  std::error_code error;
+  if (fs::exists(output::run_json_path(folder), error)) return;
+  const std::string name = folder.string();
+  if (!folder.has_filename()) folder = folder.parent_path();  // of "a/particles/"
+  const fs::path around = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+  throw scene::toml::UsageError("", name + " is not the folder of a run: it has no run.json",
+                                fs::exists(output::run_json_path(around), error)
+                                    ? around.string() + " is one; compare that, or two pictures"
+                                    : "compare two pictures or two run folders");
+}
+
+}  // namespace
+
+int run_compare(const CompareOptions& options) {
+  std::error_code error;
+  for (const std::string& path : {options.a, options.b})
+    if (!fs::exists(path, error))
+      throw IoError(path + ": error: does not exist", path,
+                    "compare two pictures or two run folders");
+  const bool is_a_run = fs::is_directory(options.a, error);
+  const bool is_b_run = fs::is_directory(options.b, error);
+  if (is_a_run != is_b_run)
+    throw scene::toml::UsageError("", "one is a folder and the other is not",
+                                  "compare two pictures or two run folders");
+  if (!is_a_run) return compare_pictures(options);
+  check_run_folder(options.a);
+  check_run_folder(options.b);
+  return compare_runs(options);
+}
+
+}  // namespace neve::app::cli

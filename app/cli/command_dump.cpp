@@ -1,0 +1,189 @@
+#include <unistd.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "app/cli/commands.h"
+#include "app/cli/report_error.h"
+#include "app/dump/quantities.h"
+#include "app/dump/write.h"
+#include "app/output/atomic_file.h"
+#include "app/run/render_job.h"
+#include "app/run/run_json.h"
+#include "app/scene/names.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/seed_scene.h"
+#include "app/support/errors.h"
+#include "app/support/interrupt.h"
+#include "app/support/text.h"
+
+namespace neve::app::cli {
+
+namespace {
+
+/// The poll of a simulation has no argument.
+struct Stop {
+  const sim::Simulation* simulation = nullptr;
+  Progress* progress = nullptr;
+  double at = 0, frame_end = 0;
+};
+Stop stop;
+
+/// Stops before the step that contains the time.
+bool next_step_is_asked_for() {
+  stop.progress->step();
+  const double now = stop.simulation->time();
+  return is_interrupted() ||
+         now + stop.simulation->choose_dt(stop.frame_end - now).dt > stop.at * (1 + 1e-12);
+}
+
+bool is_broken(const sim::Simulation& simulation) {
+  return simulation.divergence() || is_interrupted();
+}
+
+/// Takes the run's own steps: the state is one that the run passes through.
+void run_to(double at, double fps, sim::Simulation& simulation, Progress& progress) {
+  const int last = static_cast<int>(std::floor(at * fps * (1 + 1e-12)));
+  progress.start(last);
+  stop = {&simulation, &progress, at, 0};
+  for (int frame = 1; frame <= last && !is_broken(simulation); ++frame) {
+    simulation.advance_to(frame / fps, [] {
+      stop.progress->step();
+      return is_interrupted();
+    });
+    progress.frame(frame, frame / fps);
+  }
+  stop.frame_end = (last + 1) / fps;
+  const bool is_between = at > simulation.time() * (1 + 1e-12);
+  if (is_between && !is_broken(simulation) &&
+      simulation.time() + simulation.choose_dt(stop.frame_end - simulation.time()).dt <= at)
+    simulation.advance_to(stop.frame_end, next_step_is_asked_for);
+  progress.clear();
+}
+
+std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOptions& options,
+                                 const dump::Inside& inside, const dump::Listing& listing) {
+  return {job.scene_file + (job.scene.title.empty() ? "" : ": " + job.scene.title),
+          "t = " + rough_text(inside.simulation.time()) + " s after " +
+              std::to_string(inside.simulation.steps()) + " steps; the next has dt = " +
+              rough_text(inside.dt) + " s, ruled by " + sim::name(inside.limit),
+          (options.stage ? std::string("after the stage ") + sim::name(*options.stage)
+                         : std::string("before the step")) +
+              ": " + std::to_string(listing.place.size()) +
+              (listing.is_of_nodes
+                   ? " nodes with mass, of which " + std::to_string(listing.feathers()) +
+                         " are too light (below 1e-4 rho h^3) to be summed up"
+                   : std::string(" particles")),
+          "state " + run::hash_text(inside.simulation.state_hash())};
+}
+
+std::size_t nearest_row(const dump::Listing& listing, const sim::Vec3d& place) {
+  std::size_t nearest = 0;
+  for (std::size_t row = 1; row < listing.place.size(); ++row)
+    if ((listing.place[row] - place).squaredNorm() < (listing.place[nearest] - place).squaredNorm())
+      nearest = row;
+  return nearest;
+}
+
+/// @throws UsageError when no such particle or node is there
+std::size_t probed_row(const dump::Inside& inside, const dump::Listing& listing,
+                       const dump::Probe& probe) {
+  if (const auto* place = std::get_if<sim::Vec3d>(&probe)) {
+    if (listing.place.empty())
+      throw scene::toml::UsageError("--probe", "there is nothing", "there is no snow at this time");
+    return nearest_row(listing, *place);
+  }
+  const std::size_t id = std::get<std::size_t>(probe);
+  if (listing.is_of_nodes)
+    throw scene::toml::UsageError("--probe", "nodes have no number " + std::to_string(id),
+                                  "expected a place, as in --probe 0,0.5,0");
+  const std::optional<std::size_t> row = inside.step.after.index_of(id);
+  if (row) return *row;
+  const std::string particle = "particle " + std::to_string(id);
+  const std::size_t ids = inside.before.x.size() + inside.simulation.flow_totals().removed;
+  if (id < ids)
+    throw scene::toml::UsageError("--probe", particle + " was removed",
+                                  "a sink took it before this time");
+  throw scene::toml::UsageError(
+      "--probe",
+      inside.scene.emitters.empty() ? "there is no " + particle : particle + " is not emitted yet",
+      ids == 0 ? "there were none so far" : "expected 0 to " + std::to_string(ids - 1));
+}
+
+Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
+               const dump::Inside& inside, const dump::Listing& listing,
+               const std::vector<std::size_t>& probed) {
+  Json json;
+  json["scene"] = job.scene_file;
+  json["time"] = inside.simulation.time();
+  json["steps"] = inside.simulation.steps();
+  json["dt"] = inside.dt;
+  json["dt_limit"] = sim::name(inside.limit);
+  json["stage"] = options.stage ? Json(sim::name(*options.stage)) : Json();
+  json["state_hash"] = run::hash_text(inside.simulation.state_hash());
+  json[listing.is_of_nodes ? "nodes" : "particles"] = listing.place.size();
+  json["quantities"] = dump::summary_json(listing);
+  json["probes"] = Json::array();
+  for (const std::size_t row : probed) json["probes"].push_back(dump::probe_json(listing, row));
+  return json;
+}
+
+void print_dump(const run::RenderJob& job, const dump::DumpOptions& options,
+                const dump::Inside& inside, const dump::Listing& listing) {
+  std::vector<std::size_t> probed;
+  for (const dump::Probe& probe : options.probes)
+    probed.push_back(probed_row(inside, listing, probe));
+  const std::vector<std::string> head = heading(job, options, inside, listing);
+  std::string text;
+  if (options.run.is_json) {
+    text = to_text(dump_json(job, options, inside, listing, probed)) + "\n";
+  } else if (!probed.empty()) {
+    for (const std::string& line : head) text += line + "\n";
+    for (const std::size_t row : probed) {
+      text += "\n";
+      for (const std::string& line : dump::probe_lines(listing, row)) text += line + "\n";
+    }
+  } else {
+    text = options.format == dump::DumpFormat::vtk ? dump::to_vtk(listing)
+                                                   : dump::to_table(listing, head);
+  }
+  if (options.file.empty()) {
+    std::cout << text;
+    finish_output();
+    return;
+  }
+  output::write_file(options.file, text);
+}
+
+}  // namespace
+
+int run_dump(const dump::DumpOptions& options) {
+  const run::RenderJob job = run::make_job(options.run);
+  const setup::Plan plan =
+      setup::make_plan(job.scene, job.frames, job.quality, options.run.threads);
+  setup::check_limits(job.scene, plan);
+  if (options.format == dump::DumpFormat::vtk && options.file.empty() && ::isatty(STDOUT_FILENO))
+    throw scene::toml::UsageError("--format", "vtk is binary and standard output is a terminal",
+                                  "give a file with --out, as in --out fields.vtp");
+  catch_interrupts();
+  Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO));
+  sim::Simulation simulation =
+      setup::make_simulation(job.scene, setup::seed_scene(job.scene), options.run.threads);
+  if (const double end = job.scene.frames / job.scene.fps; options.at > end * (1 + 1e-12))
+    progress.warning("--at " + rough_text(options.at) + " s is after the end of the scene, " +
+                     rough_text(end) + " s; Ctrl-C stops");
+  run_to(options.at, job.scene.fps, simulation, progress);
+  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the time asked for");
+  if (simulation.divergence())
+    progress.warning(simulation.divergence()->sentence + "; this is the state it left");
+  const double left = stop.frame_end - simulation.time();
+  const dump::Inside inside =
+      dump::look_inside(job.scene, simulation, left > 0 ? left : 1 / job.scene.fps);
+  dump::Listing listing =
+      options.stage ? dump::list_stage(inside, *options.stage) : dump::list_state(inside);
+  dump::keep_only(listing, options.fields);
+  print_dump(job, options, inside, listing);
+  return simulation.divergence() ? exit_diverged : exit_ok;
+}
+
+}  // namespace neve::app::cli

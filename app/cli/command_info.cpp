@@ -1,0 +1,94 @@
+#include <iostream>
+
+#include "app/cli/commands.h"
+#include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
+#include "app/run/picture_record.h"
+#include "app/scene/coarsen.h"
+#include "app/support/errors.h"
+
+namespace neve::app::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void print_picture(const run::PictureRecord& record) {
+  std::cout << "neve        " << record.version << "\n"
+            << "view        " << record.view << "\n"
+            << "frame       " << record.frame << "\n"
+            << "quality     " << record.quality << "\n"
+            << "seed        " << record.seed << "\n"
+            << "state hash  " << record.state_hash << "\n";
+  for (const std::string& change : record.overrides) std::cout << "override    " << change << "\n";
+  for (const scene::LiveChange& change : record.changes)
+    std::cout << "changed     " << scene::text_of(change) << "\n";
+  if (record.coarsening > 1)
+    std::cout << "coarsened   " << scene::coarsening_text(record.coarsening) << "\n";
+  for (const auto& [path, hash] : record.files)
+    std::cout << "file        " << path << " (" << hash << ")\n";
+  std::cout << "\n" << record.scene;
+}
+
+Json read_run(const fs::path& file) {
+  const std::vector<std::uint8_t> bytes = output::read_file(file);
+  try {
+    Json run = parse_json(bytes);
+    if (run.is_object() && run.contains("status") && run["status"].is_string()) return run;
+  } catch (const nlohmann::json::exception&) {
+  }
+  throw Error(exit_invalid_scene, file.string() + ": error: is no run.json of neve", file.string());
+}
+
+void print_changes(const Json& run) {
+  try {
+    for (const scene::LiveChange& change : scene::live_changes(run.value("changes", Json::array())))
+      std::cout << "changed     " << scene::text_of(change) << "\n";
+  } catch (const std::runtime_error& error) {
+    std::cout << "changed     " << error.what() << "\n";
+  }
+}
+
+void print_run(const Json& run) {
+  const auto text = [&](const char* key) {
+    return run.contains(key) && run[key].is_string() ? run[key].get<std::string>() : std::string();
+  };
+  std::cout << "neve        " << text("version") << "\n"
+            << "scene       " << text("scene_file") << "\n"
+            << "status      " << text("status") << "\n"
+            << "backend     " << text("backend") << ", " << text("gl_renderer") << "\n";
+  print_changes(run);
+  if (!run.contains("frames") || !run["frames"].is_array()) return;
+  const Json& frames = run["frames"];
+  std::cout << "frames      " << frames.size() << "\n";
+  if (frames.empty() || !frames.back().is_object()) return;
+  for (const char* key :
+       {"frame", "time", "particles", "kinetic_energy", "max_speed", "state_hash"})
+    if (frames.back().contains(key))
+      std::cout << "last " << key << "  " << to_text(frames.back()[key], -1) << "\n";
+}
+
+}  // namespace
+
+int run_info(const std::string& path, bool is_json) {
+  std::error_code error;
+  if (fs::is_directory(path, error) || fs::path(path).extension() == ".json") {
+    const Json run =
+        read_run(fs::is_directory(path, error) ? output::run_json_path(path) : fs::path(path));
+    if (is_json) {
+      std::cout << to_text(run) << "\n";
+    } else {
+      print_run(run);
+    }
+    return exit_ok;
+  }
+  const run::PictureRecord record = run::read_picture_record(path);
+  if (is_json) {
+    std::cout << to_text(run::to_json(record)) << "\n";
+  } else {
+    print_picture(record);
+  }
+  return exit_ok;
+}
+
+}  // namespace neve::app::cli

@@ -1,0 +1,13 @@
+#pragma once
+/// The command line: subcommands, flags, help.
+
+namespace neve::app::cli {
+
+/// Parses and runs. @return the exit code
+/// @throws UsageError and whatever the subcommand throws
+int run_command_line(int argc, char** argv);
+
+/// Whether errors are wanted as JSON too; works on lines that do not parse.
+bool wants_json(int argc, char** argv);
+
+}  // namespace neve::app::cli

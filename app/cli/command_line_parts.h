@@ -1,0 +1,47 @@
+#pragma once
+/// What the files that build the command line share.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.h"
+
+namespace neve::app::cli {
+
+/// What parsing leaves to run.
+using Action = std::function<int()>;
+
+/// A repeatable option that takes one value each time, so that it does not swallow the scene.
+CLI::Option* add_repeatable(CLI::App& command, const char* flag, std::vector<std::string>& values,
+                            const char* type, const char* help);
+
+/// @throws UsageError
+void check_threads(int threads);
+/// @throws UsageError with the names there are
+void check_backend(const std::string& name);
+
+/// The file with ".toml" behind it where there is none of the name as it is, but one of that.
+std::string with_toml_suffix(const std::string& file);
+
+/// Values that CLI11 hands over as text; turned into options when parsing is done.
+struct RenderTexts {
+  std::optional<std::string> frames, size, quality, coarsening;
+  bool is_quiet = false, is_verbose = false;
+};
+
+/// @throws UsageError
+run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts);
+
+/// Which scene, and how it is changed: what all commands take that read one.
+void add_scene(CLI::App& command, const std::shared_ptr<run::RenderOptions>& options,
+               const std::shared_ptr<RenderTexts>& texts);
+
+void add_sweep(CLI::App& app, Action& action);
+void add_dump(CLI::App& app, Action& action);
+void add_view(CLI::App& app, Action& action);
+
+}  // namespace neve::app::cli

@@ -1,0 +1,160 @@
+/// The command line of `neve sweep`.
+
+#include <memory>
+#include <optional>
+
+#include "app/cli/command_line_parts.h"
+#include "app/cli/commands.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/argument_text.h"
+
+namespace neve::app::cli {
+
+namespace {
+
+/// Values that CLI11 hands over as text.
+struct SweepTexts {
+  std::optional<std::string> frames, size, coarsening, shard;
+  bool is_quiet = false, is_verbose = false;
+};
+
+sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
+                                         const SweepTexts& texts) {
+  if (options.file.empty())
+    throw scene::toml::UsageError("sweep", "which sweep?",
+                                  "give a sweep file, or a scene and -p ADDRESS=LIST");
+  options.file = with_toml_suffix(options.file);
+  if (texts.frames) options.frames = setup::parse_frames(*texts.frames);
+  if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);
+  if (texts.size) options.size = setup::parse_size(*texts.size);
+  if (texts.is_quiet) options.verbosity = Verbosity::quiet;
+  if (texts.is_verbose) options.verbosity = Verbosity::verbose;
+  if (texts.shard) options.shard = sweep::plan::parse_shard(*texts.shard);
+  if (options.engine != "local" && options.engine != "slurm")
+    throw scene::toml::UsageError(
+        "--engine", "unknown engine \"" + options.engine + "\"",
+        "expected local or slurm; --shard and --emit work with any scheduler");
+  if (!options.sbatch.empty() && options.engine != "slurm")
+    throw scene::toml::UsageError("--sbatch", "is for --engine slurm",
+                                  "add it, or leave --sbatch out");
+  check_threads(options.threads);
+  check_backend(options.backend);
+  if (options.jobs < 0 || options.jobs > 1024)
+    throw scene::toml::UsageError("--jobs", "cannot use " + std::to_string(options.jobs),
+                                  "expected 0 (as many as keep the cores busy) to 1024");
+  return options;
+}
+
+void add_what(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts& texts) {
+  command
+      .add_option("FILE", options.file,
+                  "A sweep file (TOML with a table [sweep]), or a scene and -p")
+      ->type_name("");
+  add_repeatable(command, "-p,--parameter", options.axes, "ADDRESS=LIST",
+                 "Vary a parameter, as in material.snow.hardening=5,10,20 or solver.cell_size={ "
+                 "logspace = [0.01, 0.04], num = 3 } (repeatable: all combinations)");
+  add_repeatable(command, "--set", options.overrides, "ADDRESS=VALUE",
+                 "Change a parameter of all runs (repeatable)");
+  command
+      .add_option("--frames", texts.frames,
+                  "Frames of each run: A-B, or N for 0-N; instead of the file's")
+      ->type_name("A-B");
+  command.add_option("--size", texts.size, "Size of a tile, 480 wide without it")->type_name("WxH");
+  command.add_option("--coarsen", texts.coarsening, "Cells N times as large in all runs")
+      ->type_name("N");
+  command.add_option("--out", options.out, "Output folder instead of out/<name of the file>.cdb")
+      ->type_name("DIR");
+}
+
+/// Where runs are made, and which.
+void add_where(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts& texts) {
+  command.add_option("--only", options.only, "Only these runs, as in 3,7-12")->type_name("LIST");
+  command
+      .add_option("--shard", texts.shard,
+                  "Only the I-th of N shares; each on another machine that sees the same folder")
+      ->type_name("I/N");
+  command
+      .add_option("--engine", options.engine,
+                  "local: on this machine; slurm: as a job array, waited for; Ctrl-C cancels it")
+      ->type_name("NAME")
+      ->capture_default_str();
+  add_repeatable(command, "--sbatch", options.sbatch, "OPTION",
+                 "With slurm: a further option of sbatch, as in --sbatch=--partition=long "
+                 "(repeatable)");
+  command
+      .add_option("--emit", options.emit,
+                  "Start nothing; write the command of each run to a file, one a line, for GNU "
+                  "parallel and render farms")
+      ->type_name("FILE");
+}
+
+/// What the parts of sweep take that work on one on disk.
+template <class Options>
+void add_folder(CLI::App& command, Action& action, const std::shared_ptr<Options>& options,
+                int (*run)(const Options&)) {
+  const auto is_quiet = std::make_shared<bool>(false);
+  command.add_option("DIR", options->folder, "Output folder of a sweep")->required()->type_name("");
+  command.add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
+  command.add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
+      ->type_name("NAME");
+  command.add_flag("--quiet,-q", *is_quiet, "Only errors and warnings");
+  command.final_callback([=, &action] {
+    check_threads(options->threads);
+    check_backend(options->backend);
+    action = [=] {
+      if (*is_quiet) options->verbosity = Verbosity::quiet;
+      return run(*options);
+    };
+  });
+}
+
+void add_run(CLI::App& sweep, Action& action) {
+  CLI::App* command = sweep.add_subcommand(
+      "run", "Make one run of a sweep that is on disk: what --emit and --engine slurm call");
+  const auto options = std::make_shared<sweep::plan::SweepRunOptions>();
+  command->add_option("--index", options->index, "Number of the run")->required()->type_name("N");
+  command->add_flag("--retry-failed", options->is_failed_again, "Also when it failed before");
+  add_folder(*command, action, options, run_sweep_run);
+}
+
+void add_collect(CLI::App& sweep, Action& action) {
+  CLI::App* command = sweep.add_subcommand(
+      "collect", "Put together table, sheets and report of what a sweep has made so far");
+  add_folder(*command, action, std::make_shared<sweep::plan::CollectOptions>(), run_sweep_collect);
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "sweep", "Run a scene with many parameters; a labelled contact sheet of the results");
+  const auto options = std::make_shared<sweep::plan::SweepOptions>();
+  const auto texts = std::make_shared<SweepTexts>();
+  add_what(*command, *options, *texts);
+  command->add_option("--threads", options->threads, "Cores that are used; 0: all")->type_name("N");
+  command
+      ->add_option("--jobs", options->jobs,
+                   "Runs side by side; without it as many as keep the cores busy and fit into "
+                   "memory")
+      ->type_name("N");
+  command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
+      ->type_name("NAME");
+  command->add_flag("--retry-failed", options->is_failed_again,
+                    "Run those once more that failed, timed out, crashed or took too much memory");
+  command->add_flag("--dry-run", options->is_dry_run,
+                    "Print the runs, their cost and memory; start nothing");
+  command->add_flag("--json", options->is_json, "Print the result, or the error, as JSON");
+  CLI::Option* quiet = command->add_flag("--quiet,-q", texts->is_quiet, "Only errors and warnings");
+  command->add_flag("--verbose,-v", texts->is_verbose, "A line for each run")->excludes(quiet);
+  add_where(*command, *options, *texts);
+  add_run(*command, action);
+  add_collect(*command, action);
+  command->final_callback([=, &action] {
+    if (!command->get_subcommands().empty()) return;
+    if (command->count("--out") > 0 && options->out.empty())
+      throw scene::toml::UsageError("--out", "names no folder", "expected the path of one");
+    action = [=] { return run_sweep(finished_sweep(*options, *texts)); };
+  });
+}
+
+}  // namespace neve::app::cli

@@ -1,0 +1,226 @@
+#include <unistd.h>
+#include <cmath>
+#include <iostream>
+
+#include "app/cli/commands.h"
+#include "app/health/findings.h"
+#include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
+#include "app/picture/mosaic.h"
+#include "app/run/render_job.h"
+#include "app/run/render_run.h"
+#include "app/run/step_warnings.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/toml/value.h"
+#include "app/setup/resolve.h"
+#include "app/setup/seed_scene.h"
+#include "app/setup/snow_pieces.h"
+#include "app/support/errors.h"
+#include "app/support/interrupt.h"
+#include "app/support/text.h"
+#include "render/gl/context.h"
+
+namespace neve::app::cli {
+
+namespace {
+
+render::Image read_reference(const std::string& file) {
+  try {
+    return render::decode_png(output::read_file(file));
+  } catch (const render::ImageError& error) {
+    throw Error(exit_invalid_scene, file + ": error: " + error.what(), file);
+  }
+}
+
+void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json) {
+  if (is_json) {
+    Json json = setup::to_json(plan);
+    json["cell_size"] = job.scene.solver.cell_size;
+    json["coarsen"] = job.coarsening;
+    json["out"] = job.folder.string();
+    json["views"] = Json::array();
+    for (const scene::View& view : job.scene.views) json["views"].push_back(view.name);
+    json["mosaics"] = Json::array();
+    for (const scene::Mosaic& mosaic : job.scene.mosaics) json["mosaics"].push_back(mosaic.name);
+    std::cout << to_text(json) << "\n";
+    return;
+  }
+  std::cout << "particles  about " << fixed_text(plan.particles, 0) << "\n"
+            << "cells      " << scene::toml::number_text(job.scene.solver.cell_size) << " m"
+            << (job.coarsening > 1 ? ", coarsened " + scene::coarsening_text(job.coarsening) : "")
+            << "\n"
+            << "memory     about " << bytes_text(plan.memory) << " of "
+            << bytes_text(plan.memory_limit) << " allowed\n"
+            << "frames     " << plan.frames.first << " to " << plan.frames.last << "\n";
+  for (const scene::View& view : job.scene.views) {
+    const scene::PictureSize size = setup::size_of(job.scene, view);
+    std::cout << "view       " << view.name << ", " << size.width << "x" << size.height << "\n";
+  }
+  for (const scene::Mosaic& mosaic : job.scene.mosaics) {
+    const scene::PictureSize size = setup::size_of(job.scene, mosaic);
+    std::cout << "mosaic     " << mosaic.name << ", " << size.width << "x" << size.height << "\n";
+  }
+  std::cout << "out        " << job.folder.string() << "\n";
+}
+
+void check_picture_sizes(const scene::Scene& scene, setup::Quality quality, int largest) {
+  for (const scene::View& view : scene.views) {
+    const scene::PictureSize size = setup::size_of(scene, view);
+    if (std::max(size.width, size.height) * setup::supersampling(quality) > largest)
+      throw LimitError("refused: the view " + view.name + " is larger than the " +
+                           std::to_string(largest) + " samples a side that this backend draws",
+                       "view." + view.name + ".size", "draw smaller pictures with --size");
+  }
+  for (const scene::Mosaic& mosaic : scene.mosaics) {
+    const scene::PictureSize size = setup::size_of(scene, mosaic);
+    if (std::max(size.width, size.height) > largest)
+      throw LimitError("refused: the mosaic " + mosaic.name + " is larger than the " +
+                           std::to_string(largest) + " pixels a side that this backend draws",
+                       "mosaic." + mosaic.name + ".width", "make it narrower");
+  }
+}
+
+/// @return the exit code; leaves DIR/difference.png when the pictures differ
+int compare_with_reference(const run::RenderOptions& options, const run::RenderJob& job,
+                           const render::Image& picture, const render::Image& reference) {
+  if (picture.width != reference.width || picture.height != reference.height)
+    throw Error(exit_check_failed,
+                "the picture is " + std::to_string(picture.width) + "x" +
+                    std::to_string(picture.height) + " and " + options.reference + " is " +
+                    std::to_string(reference.width) + "x" + std::to_string(reference.height),
+                options.reference, "give the size of the reference with --size");
+  if (picture.channels != reference.channels)
+    throw Error(exit_check_failed,
+                "the picture has " + std::to_string(picture.channels) + " channels and " +
+                    options.reference + " has " + std::to_string(reference.channels),
+                options.reference, "set output.background to what the reference has");
+  const render::Difference difference = render::compare(picture, reference);
+  const std::string found = "mean difference " + fixed_text(difference.mean, 3) +
+                            ", of 8x8 pixels " + fixed_text(difference.local, 2) + ", largest " +
+                            fixed_text(difference.max, 0) + " of 255";
+  const bool is_mean_right = difference.mean <= options.reference_threshold;
+  if (is_mean_right && difference.local <= options.reference_local_threshold) {
+    if (options.verbosity != Verbosity::quiet) std::cerr << "as the reference: " << found << "\n";
+    return exit_ok;
+  }
+  const std::filesystem::path file = job.folder / "difference.png";
+  output::write_file(file, render::encode_png(render::difference_image(picture, reference)));
+  throw Error(
+      exit_check_failed,
+      "the picture differs from " + options.reference + ": " + found + "; see " + file.string(),
+      options.reference,
+      std::string(is_mean_right ? "raise --reference-local-threshold"
+                                : "raise --reference-threshold") +
+          " if this is expected");
+}
+
+void print_result(const run::RenderJob& job, const run::RenderRun& run,
+                  const run::RenderResult& result) {
+  Json json;
+  json["status"] = run::name(result.status);
+  json["out"] = job.folder.string();
+  json["frames"] = run.record().frames.size();
+  json["movies"] = Json::array();
+  for (const auto& movie : result.movies) json["movies"].push_back(movie.string());
+  if (!run.record().frames.empty())
+    json["state_hash"] = run::hash_text(run.record().frames.back().state_hash);
+  std::cout << to_text(json) << "\n";
+}
+
+/// Snow that starts inside colliders: nothing else about the run would show it.
+void warn_about_start(run::RenderJob& job, const sim::ParticleArrays& particles,
+                      const std::vector<std::size_t>& body_end, Progress& progress) {
+  std::vector<health::Finding> findings;
+  health::check_collider_overlaps(job.scene, particles, body_end, findings);
+  for (const health::Finding& finding : findings) {
+    job.warnings.push_back(finding.what);
+    progress.warning(finding.address + ": " + finding.what + "; " + finding.hint);
+  }
+}
+
+void report_validation(const run::Validation& validation, Progress& progress) {
+  if (validation.has_held())
+    progress.note(validation.summary());
+  else if (!validation.has_errors())  // those become the error that the run ends with
+    progress.warning(validation.summary());
+}
+
+int finish(const run::RenderOptions& options, const run::RenderJob& job, const run::RenderRun& run,
+           const run::RenderResult& result, Progress& progress) {
+  progress.clear();
+  if (result.status == run::RunStatus::diverged)
+    throw Error(exit_diverged, health::sentence(*run.record().divergence, *result.diagnosis),
+                job.scene_file, "incident.json and diverged_*.png are in " + job.folder.string());
+  if (options.is_json) print_result(job, run, result);
+  if (result.status == run::RunStatus::interrupted) {
+    std::cerr << "neve: interrupted; " << run.record().frames.size() << " frames are in "
+              << job.folder.string() << std::endl;
+    if (!result.has_checkpoint) return exit_interrupted;
+    std::cerr << "neve: --resume goes on from here" << std::endl;
+    return exit_resumable;
+  }
+  progress.note(std::to_string(run.record().frames.size()) +
+                (run.record().frames.size() == 1 ? " frame" : " frames") + " in " +
+                job.folder.string());
+  return exit_ok;
+}
+
+}  // namespace
+
+int run_render(const run::RenderOptions& options) {
+  run::RenderJob job = run::make_job(options);
+  const setup::Plan plan = setup::make_plan(job.scene, job.frames, job.quality, options.threads);
+  if (options.is_dry_run) {
+    print_plan(job, plan, options.is_json);
+    setup::check_limits(job.scene, plan);
+    return exit_ok;
+  }
+  setup::check_limits(job.scene, plan);
+  std::optional<render::Image> reference;
+  if (!options.reference.empty()) reference = read_reference(options.reference);
+
+  catch_interrupts();
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  const auto context = render::gl::open_context(options.backend);
+  progress.note("OpenGL: " + context->backend + ", " + context->renderer + ", " + context->version);
+  ThreadPool pool(options.threads);
+  render::Renderer renderer(*context, options.shader_dir, &pool);
+  check_picture_sizes(job.scene, job.quality, renderer.max_size());
+
+  std::vector<std::size_t> body_end;
+  const sim::ParticleArrays particles = setup::seed_scene(job.scene, &body_end);
+  warn_about_start(job, particles, body_end, progress);
+  const setup::SnowCount snow = setup::count_snow(job.scene, particles.x.size());
+  setup::resolve(job.scene, snow.particles);
+  // A framing that was cut short is another one: nothing may be written with it.
+  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first frame");
+  sim::Simulation simulation = setup::make_simulation(job.scene, particles, options.threads);
+  progress.note(
+      job.scene_file + ": " + std::to_string(particles.x.size()) + " particles" +
+      (plan.emitted > 0 ? " and " + fixed_text(plan.emitted, 0) + " to come" : "") + ", about " +
+      bytes_text(plan.memory) + " of memory" +
+      (job.coarsening > 1 ? ", coarsened " + scene::coarsening_text(job.coarsening) : ""));
+
+  run::RenderRun run(job, simulation, *context, renderer, snow.spacing, body_end, progress);
+  const run::RenderResult result = run.run();
+  for (const std::string& warning : run::step_warnings(job.scene.solver, simulation.warnings()))
+    progress.warning(warning);
+  if (const std::size_t trials = simulation.warnings().inverted_trials; trials > 0)
+    progress.detail(std::to_string(trials) + " trial deformations were inverted and repaired");
+  if (run.validation()) report_validation(*run.validation(), progress);
+  const int code = finish(options, job, run, result, progress);
+  if (code == exit_ok && run.validation() && run.validation()->has_errors())
+    throw Error(exit_check_failed, run.validation()->summary(), job.scene_file,
+                "the pictures are in " + job.folder.string());
+  if (code == exit_ok && reference && !run.record().frames.empty()) {
+    // A resumed run that was complete has drawn nothing.
+    const auto file = output::frame_path(job.folder, run.record().views.front(),
+                                         run.record().frames.back().frame);
+    const render::Image picture =
+        result.last_picture ? *result.last_picture : render::decode_png(output::read_file(file));
+    return compare_with_reference(options, job, picture, *reference);
+  }
+  return code;
+}
+
+}  // namespace neve::app::cli

@@ -1,0 +1,199 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/output/atomic_file.h"
+#include "app/scene/read.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/command_text.h"
+#include "app/support/errors.h"
+#include "app/support/interrupt.h"
+#include "app/support/machine.h"
+#include "app/support/text.h"
+#include "app/sweep/jobs/engine.h"
+#include "app/sweep/jobs/slurm.h"
+#include "app/sweep/plan/dry_run_report.h"
+#include "app/sweep/plan/labels.h"
+#include "app/sweep/plan/look.h"
+#include "app/sweep/plan/sweep_plan.h"
+#include "app/sweep/read/read_sweep.h"
+#include "app/sweep/sheet/collect.h"
+#include "app/sweep/sheet/report.h"
+#include "app/sweep/store/prepare.h"
+#include "app/sweep/store/store.h"
+
+namespace neve::app::cli {
+
+namespace {
+
+int core_count(int threads) {
+  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// Those of --only and --shard, otherwise all.
+std::vector<int> chosen_runs(const sweep::plan::SweepOptions& options,
+                             const sweep::store::Manifest& manifest) {
+  std::vector<int> indices;
+  if (options.only.empty())
+    for (const sweep::store::ManifestRun& run : manifest.runs) indices.push_back(run.index);
+  else
+    indices = sweep::plan::parse_selection(options.only, manifest.runs.back().index);
+  if (options.shard)
+    std::erase_if(indices, [&](int index) {
+      return index % options.shard->count != options.shard->index - 1;
+    });
+  return indices;
+}
+
+/// One command a line, each makes one run that is not finished.
+void emit_commands(const sweep::plan::SweepOptions& options, const std::filesystem::path& folder,
+                   const sweep::store::Manifest& manifest, Progress& progress) {
+  const std::string program = setup::shell_word(this_program().string()),
+                    where = setup::shell_word(std::filesystem::absolute(folder).string());
+  std::string text;
+  int count = 0;
+  for (const int index : chosen_runs(options, manifest)) {
+    const sweep::store::ManifestRun& run = manifest.runs[static_cast<std::size_t>(index)];
+    const sweep::store::RunState state =
+        sweep::store::read_report(sweep::store::runs_folder(folder) / run.folder).state;
+    if (sweep::store::is_finished(state) &&
+        !(options.is_failed_again && sweep::store::has_failed(state)))
+      continue;
+    text += program + " sweep run " + where + " --index " + std::to_string(index) +
+            " --threads 1 --quiet" + (options.is_failed_again ? " --retry-failed" : "") + "\n";
+    ++count;
+  }
+  output::write_file(options.emit, text);
+  progress.note(std::to_string(count) + (count == 1 ? " command in " : " commands in ") +
+                options.emit + "; then: neve sweep collect " + folder.string());
+}
+
+sweep::jobs::EngineResult run_engine(const sweep::plan::SweepOptions& options,
+                                     const std::filesystem::path& folder,
+                                     const sweep::store::Manifest& manifest, Progress& progress) {
+  const std::vector<int> indices = chosen_runs(options, manifest);
+  if (options.engine == "slurm") {
+    const sweep::jobs::SlurmOptions slurm{this_program(), options.backend, options.jobs,
+                                          std::max(1, options.threads), options.sbatch};
+    return sweep::jobs::run_slurm(folder, manifest, indices, slurm, options.is_failed_again,
+                                  progress);
+  }
+  sweep::jobs::EngineOptions engine;
+  engine.cores = core_count(options.threads);
+  engine.jobs = options.jobs;
+  engine.backend = options.backend;
+  engine.is_failed_again = options.is_failed_again;
+  engine.program = this_program();
+  return sweep::jobs::run_local(folder, manifest, indices, engine, progress);
+}
+
+void print_sweep_result(const sweep::plan::SweepOptions& options,
+                        const std::filesystem::path& folder,
+                        const sweep::jobs::EngineResult& result, Progress& progress) {
+  if (options.is_json) {
+    Json json;
+    json["out"] = folder.string();
+    json["ok"] = result.ok;
+    json["failed"] = result.failed;
+    json["started"] = result.started;
+    json["interrupted"] = result.is_interrupted;
+    json["seconds"] = result.seconds;
+    std::cout << to_text(json) << "\n";
+  }
+  progress.note(std::to_string(result.ok) + (result.ok == 1 ? " run" : " runs") + " ok" +
+                (result.failed > 0 ? ", " + std::to_string(result.failed) + " failed" : "") +
+                ", in " + folder.string());
+}
+
+/// Runs whose scenes are equal although their settings are not, at most five.
+void warn_of_equal_runs(const sweep::plan::SweepPlan& plan, Progress& progress) {
+  int warnings = 0;
+  std::map<std::string, const sweep::plan::RunPlan*> seen;
+  for (const sweep::plan::RunPlan& item : plan.runs) {
+    const std::string text = scene::write_scene(item.scene) + std::to_string(item.frames.first) +
+                             "-" + std::to_string(item.frames.last);
+    const auto [first, is_new] = seen.emplace(text, &item);
+    if (is_new) continue;
+    std::string differing;
+    for (const scene::Override& setting : item.run.settings)
+      if (sweep::plan::value_of(first->second->run, setting.address) != setting.value)
+        differing += (differing.empty() ? "" : ", ") + setting.address;
+    // One that is given twice is told already.
+    if (differing.empty() || ++warnings > 5) continue;
+    progress.warning("runs " + std::to_string(first->second->run.index) + " and " +
+                     std::to_string(item.run.index) + " are the same: " +
+                     (differing == "output.size" ? "the sweep sets output.size itself, see --size"
+                                                 : differing + " changes nothing here"));
+  }
+}
+
+}  // namespace
+
+int run_sweep(const sweep::plan::SweepOptions& options) {
+  sweep::plan::SweepPlan plan = sweep::plan::plan_sweep(options);
+  const int cores = core_count(options.threads);
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  for (const std::string& value : sweep::read::repeated_values(plan.sweep))
+    progress.warning(value + " is twice in its list: that run is made once and shown twice");
+  warn_of_equal_runs(plan, progress);
+  if (options.is_dry_run) {
+    sweep::plan::print_sweep_plan(plan, cores, options.is_json);
+    return exit_ok;
+  }
+  sweep::store::check_folder(plan);
+  catch_interrupts();
+  sweep::plan::share_look(plan, cores);
+  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first run");
+  const sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan);
+  if (!options.emit.empty()) {
+    emit_commands(options, plan.folder, manifest, progress);
+    return exit_ok;
+  }
+  const sweep::jobs::EngineResult result = run_engine(options, plan.folder, manifest, progress);
+  sweep::sheet::collect_sweep(plan.folder, options.backend, cores, progress);
+  print_sweep_result(options, plan.folder, result, progress);
+  if (result.is_interrupted || is_interrupted()) {
+    std::cerr << "neve: interrupted; the same command goes on from here" << std::endl;
+    return exit_resumable;
+  }
+  return result.failed > 0 ? exit_runs_failed : exit_ok;
+}
+
+int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
+  catch_interrupts();
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  const sweep::store::Manifest manifest = sweep::store::read_manifest(options.folder);
+  if (options.index < 0 || options.index >= static_cast<int>(manifest.runs.size()))
+    throw scene::toml::UsageError(
+        "--index", "there is no run " + std::to_string(options.index),
+        "expected a number from 0 to " + std::to_string(manifest.runs.size() - 1));
+  sweep::jobs::EngineOptions engine;
+  engine.cores = core_count(options.threads);
+  engine.jobs = 1;
+  engine.backend = options.backend;
+  engine.is_failed_again = options.is_failed_again;
+  engine.program = this_program();
+  const sweep::jobs::EngineResult result =
+      sweep::jobs::run_local(options.folder, manifest, {options.index}, engine, progress);
+  if (result.is_interrupted) return exit_resumable;
+  return result.failed > 0 ? exit_runs_failed : exit_ok;
+}
+
+int run_sweep_collect(const sweep::plan::CollectOptions& options) {
+  catch_interrupts();
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  sweep::sheet::collect_sweep(options.folder, options.backend, core_count(options.threads),
+                              progress);
+  if (is_interrupted()) return exit_interrupted;
+  progress.note("collected in " + options.folder);
+  return exit_ok;
+}
+
+}  // namespace neve::app::cli

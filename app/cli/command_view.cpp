@@ -1,0 +1,161 @@
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "app/cli/commands.h"
+#include "app/scene/read.h"
+#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
+#include "app/support/interrupt.h"
+#include "app/support/machine.h"
+#include "app/view/front/window_front.h"
+#include "app/view/replay/recording_front.h"
+#include "app/view/replay/replay_front.h"
+#include "app/view/viewer.h"
+#include "app/view/web/web_front.h"
+#include "app/view/web/web_guard.h"
+#include "render/gl/context.h"
+
+namespace neve::app::cli {
+
+namespace {
+
+/// Where it is looked at, with what draws it.
+struct Place {
+  std::unique_ptr<view::front::Front> front;
+  std::unique_ptr<render::gl::Context> own_context;  ///< none where the window has one
+  render::gl::Context* context = nullptr;
+  view::front::WindowFront* window = nullptr;
+  view::web::WebFront* web = nullptr;
+};
+
+bool has_display() {
+  return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
+}
+
+Place open_replay(const view::ViewOptions& options) {
+  Place place;
+  const std::string text = scene::read_toml_file(options.replay);
+  view::replay::ReplayFront::Options replay;
+  replay.folder = options.run.out.empty() ? "." : options.run.out;
+  replay.frames = options.pictures;
+  if (options.run.size) replay.size = {options.run.size->width, options.run.size->height, 1};
+  place.front = std::make_unique<view::replay::ReplayFront>(
+      view::replay::parse_replay(text, options.replay), options.replay, replay);
+  place.own_context = render::gl::open_context(options.run.backend);
+  place.context = place.own_context.get();
+  return place;
+}
+
+Place open_web(const view::ViewOptions& options) {
+  view::web::WebOptions web;
+  if (!options.listen.empty()) {
+    web.address = options.listen;
+    web.is_risk_taken = true;
+    if (const std::string risk = view::web::risk_of(web.address); !risk.empty())
+      std::cerr << "neve: warning: " << risk << std::endl;
+  }
+  web.port = options.port;
+  if (options.run.size) web.size = {options.run.size->width, options.run.size->height, 1};
+  Place place;
+  auto front = std::make_unique<view::web::WebFront>(web);
+  place.web = front.get();
+  place.front = std::move(front);
+  place.own_context = render::gl::open_context(options.run.backend);
+  place.context = place.own_context.get();
+  return place;
+}
+
+Place open_window(const view::ViewOptions& options) {
+  view::front::ScreenSize size{1440, 860, 1};
+  if (options.run.size) size = {options.run.size->width, options.run.size->height, 1};
+  Place place;
+  auto front = std::make_unique<view::front::WindowFront>("neve", size);
+  place.window = front.get();
+  place.context = &front->context();
+  place.front = std::move(front);
+  return place;
+}
+
+/// A window where there is a display and nobody wants a page.
+Place open_place(const view::ViewOptions& options) {
+  if (!options.replay.empty()) return open_replay(options);
+  if (options.is_window) return open_window(options);
+  if (options.is_web || !has_display()) return open_web(options);
+  try {
+    return open_window(options);
+  } catch (const render::gl::ContextError& error) {
+    std::cerr << "neve: no window: " << error.what() << "; a page instead" << std::endl;
+    return open_web(options);
+  }
+}
+
+void announce(const Place& place, bool is_quiet) {
+  if (!place.web) return;
+  std::cout << place.front->where() << std::endl;
+  if (is_quiet) return;
+  std::cerr << "neve: open the address above in a browser; Ctrl-C ends\n"
+            << "neve: from another machine: ssh -L " << place.web->port()
+            << ":127.0.0.1:" << place.web->port() << " THIS_MACHINE, then the same address there"
+            << std::endl;
+}
+
+/// @return the scene to go on with, if there is one
+std::optional<view::session::Document> look_at(view::session::Document document,
+                                               const std::vector<std::string>& overrides,
+                                               const view::ViewOptions& options, Place& place,
+                                               view::front::Front& front) {
+  const std::string file = document.file();
+  view::session::WorkbenchOptions bench_options;
+  bench_options.session.threads = options.run.threads;
+  bench_options.session.kept_budget = options.kept_memory;
+  bench_options.overrides = overrides;
+  bench_options.folder =
+      options.run.out.empty()
+          ? std::filesystem::path("out") / (std::filesystem::path(file).stem().string() + "-view")
+          : std::filesystem::path(options.run.out);
+  view::session::Workbench bench(std::move(document), std::move(bench_options),
+                                 [&place] { place.front->wake(); });
+  ThreadPool pool(options.run.threads);
+  render::Renderer renderer(*place.context, options.run.shader_dir, &pool);
+  render::Screen screen(*place.context, options.run.shader_dir);
+  const std::string title = std::filesystem::path(file).filename().string() + " - neve";
+  if (place.window) place.window->set_title(title);
+  if (place.web) place.web->set_title(title);
+  view::ViewerOptions viewer_options;
+  viewer_options.most_pictures = options.replay.empty() ? options.pictures : 0;
+  viewer_options.is_running = options.is_running;
+  viewer_options.has_own_clock = !options.replay.empty();
+  if (!options.run.views.empty()) {
+    viewer_options.view = options.run.views.front();
+    scene::find_view(*bench.document().scene(), *viewer_options.view);
+  }
+  view::Viewer viewer(bench, front, screen, renderer, viewer_options);
+  viewer.run();
+  return std::move(viewer.state().dropped);
+}
+
+}  // namespace
+
+int run_view(const view::ViewOptions& options) {
+  catch_interrupts();
+  const std::string file = options.run.scene.empty() ? default_scene().string() : options.run.scene;
+  // A scene that cannot be read is told before a window opens.
+  std::optional<view::session::Document> document =
+      view::session::open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
+  Place place = open_place(options);
+  announce(place, options.run.verbosity == Verbosity::quiet);
+  std::unique_ptr<view::replay::RecordingFront> recording;
+  if (!options.record.empty())
+    recording = std::make_unique<view::replay::RecordingFront>(*place.front, options.record);
+  view::front::Front& front = recording ? *recording : *place.front;
+  document = look_at(*std::move(document), options.run.overrides, options, place, front);
+  // What was set for the first scene is not meant for another one; how coarse it is, is.
+  while (document) document = look_at(*std::move(document), {}, options, place, front);
+  if (recording) recording->save();
+  return exit_ok;
+}
+
+}  // namespace neve::app::cli

@@ -1,0 +1,41 @@
+#pragma once
+/// One function per subcommand. Each returns an exit code.
+
+#include <string>
+
+#include "app/bench/bench_options.h"
+#include "app/dump/dump_options.h"
+#include "app/run/render_options.h"
+#include "app/sweep/plan/sweep_options.h"
+#include "app/view/view_options.h"
+
+namespace neve::app::cli {
+
+struct CompareOptions {
+  std::string a, b;
+  double threshold = 0;          ///< of the mean difference, 0 to 255
+  double local_threshold = 255;  ///< of the mean over any 8x8 pixels
+  bool is_json = false;
+};
+
+int run_render(const run::RenderOptions& options);
+/// Reads only what says which scene: scene, overrides, coarsening, threads.
+int run_check(const run::RenderOptions& options);
+int run_dump(const dump::DumpOptions& options);
+int run_view(const view::ViewOptions& options);
+int run_compare(const CompareOptions& options);
+int run_bench_sim(const bench::BenchOptions& options);
+int run_bench_frame(const bench::BenchOptions& options);
+int run_bench_render(const bench::BenchOptions& options);
+int run_bench_sweep(const bench::BenchOptions& options);
+int run_bench_view(const bench::BenchOptions& options);
+int run_info(const std::string& path, bool is_json);
+int run_doctor(bool is_json);
+/// @param filter  only addresses with this in them; "" for all
+/// @throws UsageError when there is none
+int run_params(const std::string& filter, bool is_sweep, bool is_json);
+int run_sweep(const sweep::plan::SweepOptions& options);
+int run_sweep_run(const sweep::plan::SweepRunOptions& options);
+int run_sweep_collect(const sweep::plan::CollectOptions& options);
+
+}  // namespace neve::app::cli

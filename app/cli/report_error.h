@@ -1,0 +1,14 @@
+#pragma once
+/// The one place where exceptions become messages and exit codes.
+
+namespace neve::app::cli {
+
+/// Call it while an exception is handled. Prints one message on stderr and, if wanted, a JSON
+/// object on stdout. @return the exit code
+int report_current_error(bool is_json);
+
+/// Writes out what std::cout holds. Whoever reads it may have seen enough: `neve dump ... | head`.
+/// @throws IoError when it cannot be written for another reason
+void finish_output();
+
+}  // namespace neve::app::cli

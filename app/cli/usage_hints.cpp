@@ -1,0 +1,138 @@
+#include "app/cli/usage_hints.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/scene/toml/error.h"
+#include "app/support/text.h"
+
+namespace neve::app::cli {
+
+namespace {
+
+std::string suggestion(const std::string& wrong, const std::vector<std::string>& names,
+                       const std::string& otherwise) {
+  const std::string nearest = nearest_name(wrong, names);
+  return nearest.empty() ? otherwise : "did you mean " + nearest + "?";
+}
+
+/// What other programs call it: the first that is an option here.
+constexpr std::pair<const char*, const char*> names_elsewhere[] = {
+    {"-o", "--out"},           {"--output", "--out"},    {"--output-dir", "--out"},
+    {"-j", "--jobs"},          {"-j", "--threads"},      {"--jobs", "--threads"},
+    {"-t", "--threads"},       {"--cores", "--threads"}, {"-f", "--frames"},
+    {"-s", "--set"},           {"-n", "--dry-run"},      {"-V", "--version"},
+    {"--resolution", "--size"}};
+
+std::string hint_for(const std::string& word, const std::vector<std::string>& flags,
+                     const std::string& otherwise) {
+  const auto is_flag = [&](const std::string& name) {
+    return std::find(flags.begin(), flags.end(), name) != flags.end();
+  };
+  for (const auto& [other, ours] : names_elsewhere)
+    if (word == other && is_flag(ours)) return std::string("did you mean ") + ours + "?";
+  const std::string nearest = nearest_name(word, flags);
+  if (!nearest.empty()) return "did you mean " + nearest + "?";
+  // The beginning of exactly one.
+  std::vector<std::string> longer;
+  for (const std::string& flag : flags)
+    if (word.size() > 3 && flag.starts_with(word)) longer.push_back(flag);
+  return longer.size() == 1 ? "did you mean " + longer.front() + "?" : otherwise;
+}
+
+/// The innermost command that was called, with those above it in its name.
+std::pair<const CLI::App*, std::string> called(const CLI::App& app) {
+  std::pair<const CLI::App*, std::string> inner{&app, app.get_name()};
+  while (!inner.first->get_subcommands().empty()) {
+    const CLI::App* next = inner.first->get_subcommands().front();
+    inner = {next, inner.second + " " + next->get_name()};
+  }
+  return inner;
+}
+
+/// @param name of the command with those above it
+void check_leftovers_of(const CLI::App& command, const std::string& name) {
+  for (const CLI::App* inner : command.get_subcommands())
+    check_leftovers_of(*inner, name + " " + inner->get_name());
+  const std::vector<std::string> leftovers = command.remaining();
+  if (leftovers.empty()) return;
+  const std::string help = name + " --help lists what it takes";
+  std::string word = leftovers.front();
+  if (!word.starts_with("-"))
+    throw scene::toml::UsageError("", "unexpected argument \"" + word + "\"", help);
+  word = word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& flag : option->get_lnames()) flags.push_back("--" + flag);
+  throw scene::toml::UsageError("", "unknown option " + word, hint_for(word, flags, help));
+}
+
+}  // namespace
+
+std::vector<std::string> subcommand_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(inner->get_name());
+  return names;
+}
+
+void check_subcommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2) return;
+  const std::string word = argv[1];
+  const std::vector<std::string> names = subcommand_names(app);
+  if (word.starts_with("-")) return;
+  if (std::find(names.begin(), names.end(), word) == names.end())
+    throw scene::toml::UsageError("", "unknown subcommand \"" + word + "\"",
+                                  suggestion(word, names, "neve --help lists them"));
+  const CLI::App& command = *app.get_subcommand(word);
+  const std::vector<std::string> parts = subcommand_names(command);
+  if (command.get_require_subcommand_min() == 0) return;
+  const std::string known = joined(parts, ", ");
+  const std::string part = argc < 3 ? "" : argv[2];
+  if (part == "-h" || part == "--help" ||
+      std::find(parts.begin(), parts.end(), part) != parts.end())
+    return;
+  if (part.empty() || part.starts_with("-"))
+    throw scene::toml::UsageError(word, "which part?", "expected one of " + known);
+  throw scene::toml::UsageError(word + " " + part, "there is no such part",
+                                "expected one of " + known);
+}
+
+void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
+  const auto [command, name] = called(app);
+  const std::string help = "see " + name + " --help", conversion = "Could not convert: ";
+  std::string text = error.what();
+  if (!text.starts_with(conversion)) throw scene::toml::UsageError("", text, help);
+  // "Could not convert: --threads = x"
+  text.erase(0, conversion.size());
+  const std::size_t equals = text.find(" = ");
+  const std::string option = text.substr(0, equals);
+  const std::string value = equals == std::string::npos ? "" : text.substr(equals + 3);
+  const CLI::Option* found = command->get_option_no_throw(option);
+  // MEAN is the only one that stands for a fraction.
+  const bool is_fraction = found && found->get_type_name() == "MEAN";
+  throw scene::toml::UsageError(
+      option, "cannot use \"" + value + "\"",
+      std::string(is_fraction ? "expected a number" : "expected a whole number") + "; " + help);
+}
+
+void check_leftovers(const CLI::App& app) {
+  check_leftovers_of(app, app.get_name());
+}
+
+std::string help_of(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* command = &app;
+  std::string name;
+  for (const std::string& word : words) {
+    if (word.starts_with("-")) continue;  // neve help --help
+    const std::vector<std::string> names = subcommand_names(*command);
+    name += (name.empty() ? "" : " ") + command->get_name();
+    if (std::find(names.begin(), names.end(), word) == names.end())
+      throw scene::toml::UsageError("help", "there is no " + name + " " + word,
+                                    suggestion(word, names, name + " --help lists what there is"));
+    command = command->get_subcommand(word);
+  }
+  return command->help(name);
+}
+
+}  // namespace neve::app::cli

@@ -1,0 +1,44 @@
+#include "app/dump/dump_options.h"
+
+#include <algorithm>
+
+#include "app/scene/names.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/argument_text.h"
+#include "app/support/text.h"
+
+namespace neve::app::dump {
+
+sim::Stage parse_stage(const std::string& text) {
+  if (const auto stage = scene::value_named<sim::Stage>(text)) return *stage;
+  throw scene::toml::UsageError(
+      "--stage", "there is no stage \"" + text + "\"",
+      names_advice(text, {sim::stage_names.begin(), sim::stage_names.end()}));
+}
+
+Probe parse_probe(const std::string& text) {
+  if (const auto id = setup::whole_number(text); id && *id >= 0)
+    return static_cast<std::size_t>(*id);
+  std::vector<double> numbers;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const auto value = setup::finite_number(text.substr(begin, comma - begin));
+    if (!value) break;
+    numbers.push_back(*value);
+    begin = comma + 1;
+  }
+  if (begin <= text.size() || numbers.size() != 3)
+    throw scene::toml::UsageError(
+        "--probe", "cannot use \"" + text + "\"",
+        "expected the id of a particle, or a place as in --probe 0,0.5,0");
+  return sim::Vec3d(numbers[0], numbers[1], numbers[2]);
+}
+
+DumpFormat parse_format(const std::string& text) {
+  if (text == "table") return DumpFormat::table;
+  if (text == "vtk") return DumpFormat::vtk;
+  throw scene::toml::UsageError("--format", "cannot use \"" + text + "\"", "expected table or vtk");
+}
+
+}  // namespace neve::app::dump

@@ -1,0 +1,40 @@
+#pragma once
+/// What the command line says of a dump.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/run/render_options.h"
+#include "sim/types/math.h"
+#include "sim/types/stage.h"
+
+namespace neve::app::dump {
+
+enum class DumpFormat { table, vtk };
+
+/// A particle by its id, or what is nearest to a place.
+using Probe = std::variant<std::size_t, sim::Vec3d>;
+
+struct DumpOptions {
+  run::RenderOptions run;           ///< scene, overrides, coarsening, threads, verbosity, is_json
+  double at = 0;                    ///< s
+  std::optional<sim::Stage> stage;  ///< without: the state before the step
+  std::vector<std::string> fields;  ///< empty: all
+  std::vector<Probe> probes;
+  DumpFormat format = DumpFormat::table;
+  std::string file;  ///< empty: standard output
+};
+
+/// A stage of the step by its name. @throws UsageError with the nearest
+sim::Stage parse_stage(const std::string& text);
+
+/// "17": a particle; "0.1,0.5,0": a place in metres. @throws UsageError
+Probe parse_probe(const std::string& text);
+
+/// "table" or "vtk". @throws UsageError
+DumpFormat parse_format(const std::string& text);
+
+}  // namespace neve::app::dump

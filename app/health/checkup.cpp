@@ -1,0 +1,202 @@
+#include "app/health/checkup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/health/findings.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/auto_ranges.h"
+#include "app/setup/seed_scene.h"
+#include "app/setup/snow_pieces.h"
+#include "app/support/clock.h"
+#include "app/support/interrupt.h"
+#include "app/support/text.h"
+
+namespace neve::app::health {
+
+namespace {
+
+/// A coarse copy large enough to yield as the scene does.
+constexpr double coarse_particles_wanted = 1500;
+constexpr double coarse_seconds = 2;
+constexpr double calibration_seconds = 1;
+constexpr int calibration_steps = 40;
+/// Above this many particles seeding alone takes too long for a look.
+constexpr double most_seeded = 3e6;
+
+/// The median of some steps, after two that warm caches up.
+/// @param solve  the worst of them
+double measure_step(sim::Simulation& simulation, double frame, sim::SolveReport& solve) {
+  std::vector<double> seconds;
+  const auto start = Clock::now();
+  for (int k = 0; k < calibration_steps && seconds_since(start) < calibration_seconds; ++k) {
+    const auto before = Clock::now();
+    simulation.step(simulation.choose_dt(frame).dt);
+    solve.add(simulation.last_solve());
+    if (k >= 2) seconds.push_back(seconds_since(before));
+    if (simulation.divergence() || is_interrupted()) break;
+  }
+  if (seconds.empty()) return 0;
+  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
+  std::nth_element(seconds.begin(), middle, seconds.end());
+  return *middle;
+}
+
+/// What limits steps of a scene, or of a copy with other cells, in a state that a copy had.
+sim::DtChoice allowed(const scene::Scene& scene, const sim::StepLimits& state,
+                      double cell_of_state) {
+  sim::engine::StateLimits limits;
+  limits.max_speed = state.max_speed;
+  limits.max_sound_speed = state.max_sound_speed;
+  // The same difference of velocity over smaller cells.
+  limits.max_strain_rate = state.max_strain_rate * cell_of_state / scene.solver.cell_size;
+  for (const sim::Material& m : scene.materials)
+    limits.max_hardening = std::max(limits.max_hardening, m.hardening);
+  return sim::engine::choose_dt(scene.solver, limits, 1e9);
+}
+
+/// The steps of a frame at the scene's resolution: those that the coarse copy took, in proportion
+/// to what both may take in the worst state that the copy had at the frame's ends. That state alone
+/// says little of the frame: it may last a single step.
+FrameForecast foresee(const scene::Scene& scene, const scene::Scene& coarse, int frame,
+                      const sim::StepLimits& worst, const sim::AdvanceReport& ran) {
+  // A frame that the copy does in a step or two does not tell how long these might have been.
+  constexpr std::size_t telling = 3;
+  const double duration = 1 / scene.fps, cell = coarse.solver.cell_size;
+  const sim::DtChoice own = allowed(scene, worst, cell);
+  FrameForecast forecast{frame, own.dt, std::max(1.0, std::ceil(duration / own.dt)), own.limit};
+  if (ran.steps >= telling) {
+    const double ratio = allowed(coarse, worst, cell).dt / own.dt;
+    forecast.steps = std::ceil(static_cast<double>(ran.steps) * ratio);
+    forecast.dt = duration / forecast.steps;
+    if (ran.limit() != sim::DtLimit::frame_end) forecast.limit = ran.limit();
+  }
+  if (forecast.steps == 1) forecast.limit = sim::DtLimit::frame_end;
+  return forecast;
+}
+
+/// Of a scene that starts empty: what its first snow will allow.
+sim::DtChoice first_emission(const scene::Scene& scene, sim::StepLimits& start) {
+  sim::engine::StateLimits limits;
+  for (const setup::SnowPiece& piece : setup::snow_places(scene)) {
+    limits.max_speed = std::max(limits.max_speed, piece.velocity.norm());
+    limits.max_sound_speed = std::max(limits.max_sound_speed, sim::sound_speed(*piece.material));
+    limits.max_hardening = std::max(limits.max_hardening, piece.material->hardening);
+  }
+  start = {sim::engine::limits_on_dt(scene.solver, limits), limits.max_speed,
+           limits.max_sound_speed, 0};
+  return sim::engine::choose_dt(scene.solver, limits, 1 / scene.fps);
+}
+
+/// A copy of the scene that runs in a moment; the largest factor that leaves every body something.
+std::optional<scene::Scene> coarse_copy(const scene::Scene& scene, double particles) {
+  double factor = std::max(1.0, std::cbrt(particles / coarse_particles_wanted));
+  while (true) {
+    scene::Scene copy = scene;
+    try {
+      scene::coarsen(copy, factor);
+      return copy;
+    } catch (const scene::toml::UsageError&) {
+      if (factor == 1) return std::nullopt;
+      factor = std::max(1.0, 0.7 * factor);
+    }
+  }
+}
+
+/// @return s per step and particle, on one thread
+double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
+  const std::optional<scene::Scene> coarse = coarse_copy(scene, checkup.plan.particles);
+  if (!coarse) return 0;
+  const sim::ParticleArrays particles = setup::seed_scene(*coarse);
+  checkup.coarse_particles = static_cast<double>(particles.x.size()) +
+                             setup::planned_emission(*coarse, scene.frames / scene.fps);
+  sim::Simulation simulation = setup::make_simulation(*coarse, particles, 1);
+  const auto start = Clock::now();
+  FrameForecast forecast = foresee(scene, *coarse, 1, simulation.step_limits(), {});
+  double particle_steps = 0, seconds = 0;
+  for (int frame = 1; frame <= scene.frames; ++frame) {
+    // The frame's start and end both count; where time runs out the last frames are as the one
+    // before.
+    if (seconds_since(start) < coarse_seconds && !is_interrupted()) {
+      const sim::StepLimits before = simulation.step_limits();
+      const auto before_frame = Clock::now();
+      const sim::AdvanceReport report = simulation.advance_to(frame / scene.fps, is_interrupted);
+      seconds += seconds_since(before_frame);
+      particle_steps +=
+          static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());
+      if (simulation.divergence()) break;  // a broken state foretells nothing
+      sim::StepLimits worst = simulation.step_limits();
+      worst.max_speed = std::max(worst.max_speed, before.max_speed);
+      worst.max_sound_speed = std::max(worst.max_sound_speed, before.max_sound_speed);
+      worst.max_strain_rate = std::max(worst.max_strain_rate, before.max_strain_rate);
+      forecast = foresee(scene, *coarse, frame, worst, report);
+    }
+    forecast.frame = frame;
+    checkup.forecast.push_back(forecast);
+  }
+  if (simulation.divergence())
+    checkup.findings.push_back({Severity::warning, "",
+                                "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) +
+                                    " m diverges: " + simulation.divergence()->sentence,
+                                "run the scene itself to see whether it does too"});
+  return particle_steps > 0 ? seconds / particle_steps : 0;
+}
+
+}  // namespace
+
+double Checkup::steps() const {
+  double sum = 0;
+  for (const FrameForecast& frame : forecast) sum += frame.steps;
+  return sum;
+}
+
+double Checkup::seconds() const {
+  return steps() * seconds_per_step;
+}
+
+Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
+                double coarsening) {
+  Checkup checkup;
+  checkup.plan = plan;
+  checkup.cells = plan.volume / std::pow(scene.solver.cell_size, 3);
+  checkup.impact_speed = setup::impact_speed(scene);
+  int used_threads = 1;
+  check_units(scene, checkup.findings);
+  check_resolution(scene, checkup.findings);
+  check_emitters(scene, checkup.findings);
+  check_sinks(scene, checkup.impact_speed, checkup.findings);
+  check_unused(scene, coarsening, checkup.findings);
+  if (plan.particles <= most_seeded && plan.memory <= plan.memory_limit) {
+    std::vector<std::size_t> body_end;
+    const sim::ParticleArrays particles = setup::seed_scene(scene, &body_end);
+    checkup.plan.particles = static_cast<double>(particles.x.size()) + plan.emitted;
+    check_overlaps(scene, particles, body_end, checkup.findings);
+    sim::Simulation simulation = setup::make_simulation(scene, particles, threads);
+    used_threads = simulation.threads();
+    checkup.start = simulation.step_limits();
+    sim::DtChoice choice = simulation.choose_dt(1 / scene.fps);
+    if (particles.x.empty()) choice = first_emission(scene, checkup.start);
+    checkup.dt_start = choice.dt;
+    checkup.limit_start = choice.limit;
+    checkup.seconds_per_step = measure_step(simulation, 1 / scene.fps, checkup.solve);
+    check_steps(scene, checkup, checkup.findings);
+    check_motion(scene, checkup, checkup.findings);
+  } else {
+    checkup.findings.push_back({Severity::note, "",
+                                "too large to be seeded for a look: overlaps, dt and time per step "
+                                "are not known",
+                                "neve check with --coarsen 2 tells more"});
+  }
+  const double particle_step = foresee_frames(scene, checkup);
+  // What emitters will add cannot be timed at the start: half of it, as the coarse copy ran.
+  if (plan.emitted > 0 && checkup.seconds_per_step > 0)
+    checkup.seconds_per_step =
+        particle_step / used_threads * (checkup.plan.particles - 0.5 * plan.emitted);
+  check_cameras(scene, setup::dry_run(scene), checkup.findings);
+  std::stable_sort(checkup.findings.begin(), checkup.findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+  return checkup;
+}
+
+}  // namespace neve::app::health

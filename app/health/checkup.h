@@ -1,0 +1,51 @@
+#pragma once
+/// What a scene will cost and whether its numbers make sense, before it is run.
+
+#include <string>
+#include <vector>
+
+#include "app/setup/plan.h"
+#include "sim/engine/time_step.h"
+
+namespace neve::app::health {
+
+enum class Severity { note, warning, error };
+
+/// Something a person should know; `address` names the parameter, or is empty.
+struct Finding {
+  Severity severity = Severity::warning;
+  std::string address, what, hint;
+};
+
+/// The steps of one frame, foreseen.
+struct FrameForecast {
+  int frame = 0;
+  double dt = 0;     ///< s
+  double steps = 0;  ///< in this frame
+  sim::DtLimit limit = sim::DtLimit::max_dt;
+};
+
+struct Checkup {
+  setup::Plan plan;
+  double cells = 0;         ///< that the bodies fill
+  double impact_speed = 0;  ///< m/s, see auto_ranges
+  sim::StepLimits start;    ///< of the initial state
+  double dt_start = 0;      ///< s, what the first step would take
+  sim::DtLimit limit_start = sim::DtLimit::max_dt;
+  std::vector<FrameForecast> forecast;  ///< frames that a coarse run reached; may be empty
+  double coarse_particles = 0;          ///< of the run behind the forecast
+  double seconds_per_step = 0;          ///< measured on this machine; 0: not measured
+  sim::SolveReport solve;               ///< of these steps; zero where they are explicit
+  std::vector<Finding> findings;
+
+  double steps() const;    ///< of the whole run, foreseen
+  double seconds() const;  ///< of simulation, foreseen
+};
+
+/// Seeds the scene, takes some steps, and runs a coarse copy: about three seconds.
+/// @param scene resolved is not needed
+/// @param coarsening  what --coarsen did to it
+Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
+                double coarsening = 1);
+
+}  // namespace neve::app::health

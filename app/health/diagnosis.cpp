@@ -1,0 +1,335 @@
+#include "app/health/diagnosis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "app/health/findings.h"
+#include "app/scene/toml/value.h"
+#include "app/setup/auto_ranges.h"
+#include "app/support/text.h"
+#include "sim/engine/time_step.h"
+#include "sim/health/diagnostics.h"
+
+namespace neve::app::health {
+
+namespace {
+
+using sim::Vec3d;
+
+/// Sound in snow of the paper, m/s: what other numbers are compared with.
+double usual_sound_speed() {
+  return sim::sound_speed(sim::Material{});
+}
+
+/// What all hypotheses look at.
+struct Case {
+  const scene::Scene& scene;
+  const sim::Divergence& d;
+  double h;
+  bool is_fixed;
+  double dt;       ///< of the steps before the end of the frame shortened one
+  double stretch;  ///< what semi-implicit steps make of the limits that sound sets; infinite: none
+  const sim::Material& material;
+
+  Case(const scene::Scene& s, const sim::Divergence& divergence)
+      : scene(s),
+        d(divergence),
+        h(s.solver.cell_size),
+        is_fixed(s.solver.time_step == sim::TimeStep::fixed),
+        dt(longest_step()),
+        stretch(sim::engine::acoustic_stretch(s.solver)),
+        material(s.materials[static_cast<std::size_t>(divergence.material)]) {}
+
+  double longest_step() const {
+    double longest = d.dt;
+    for (const sim::StepRecord& step : d.last_steps) longest = std::max(longest, step.dt);
+    return longest;
+  }
+  std::string at(const char* key) const { return "material." + material.name + "." + key; }
+  /// The first remembered step at which sound crossed so many cells; null if none did.
+  const sim::StepRecord* sound_beyond(double cells) const {
+    for (const sim::StepRecord& step : d.last_steps)
+      if (step.max_sound_speed * step.dt > stretch * cells * h) return &step;
+    return nullptr;
+  }
+  /// Speed of the snow before trouble began, m/s.
+  double honest_speed() const { return std::max(d.start.max_speed, setup::impact_speed(scene)); }
+  /// Of snow at rest, m/s.
+  double start_sound() const { return d.start.max_sound_speed; }
+};
+
+using Hypothesis = std::optional<Diagnosis>;
+
+Hypothesis bypass(const Case& c) {
+  const std::vector<sim::Stage>& skipped = c.scene.solver.bypass;
+  if (skipped.empty()) return std::nullopt;
+  std::vector<std::string> stages;
+  for (const sim::Stage stage : skipped) stages.emplace_back(name(stage));
+  return Diagnosis{Cause::bypass, "solver.bypass skips " + joined(stages, ", "),
+                   "nothing can be said of a step that is not whole; solver.bypass = []",
+                   "solver.bypass"};
+}
+
+Hypothesis initial_state(const Case& c) {
+  const sim::StartState& s = c.d.start;
+  const bool is_strange =
+      s.strangest >= 0 && (s.min_J_E < 0.5 || s.max_J_E > 2 || s.min_J_P < 0.5 || s.max_J_P > 2);
+  // NaN leaves no mark on the extremes; a particle that is named and breaks the first steps does.
+  const bool is_no_number = s.strangest >= 0 && c.d.rule == "not_finite" && c.d.step <= 2;
+  if (!is_strange && !is_no_number) return std::nullopt;
+  const std::string who = "particle " + std::to_string(s.strangest);
+  return Diagnosis{Cause::initial_state,
+                   is_strange
+                       ? who + " did not start at rest: det F_E from " + rough_text(s.min_J_E) +
+                             " to " + rough_text(s.max_J_E) + ", J_P from " +
+                             rough_text(s.min_J_P) + " to " + rough_text(s.max_J_P)
+                       : who + " started with something that is no number",
+                   "start with F_E = I and J_P = 1", ""};
+}
+
+Hypothesis units(const Case& c) {
+  const double g = c.scene.solver.gravity.norm(), largest = largest_extent(c.scene);
+  if (g <= most_gravity && largest <= most_extent) return std::nullopt;
+  return Diagnosis{Cause::units,
+                   "gravity of " + rough_text(g) + " m/s2 and a body " + rough_text(largest) +
+                       " m across look like centimetres; snow meets something at " +
+                       rough_text(setup::impact_speed(c.scene)) + " m/s, its sound runs at " +
+                       rough_text(c.start_sound()) + " m/s",
+                   "write lengths in metres, gravity as 9.81 m/s2", "solver.gravity"};
+}
+
+Hypothesis raised_limits(const Case& c) {
+  const sim::SolverSettings& s = c.scene.solver;
+  if (c.is_fixed) return std::nullopt;
+  struct Limit {
+    const char* key;
+    double value, holds;
+    sim::DtLimit ruling;
+  };
+  for (const Limit& limit : {Limit{"acoustic_cfl", s.acoustic_cfl, 1, sim::DtLimit::acoustic},
+                             Limit{"cfl", s.cfl, 0.9, sim::DtLimit::cfl},
+                             Limit{"strain_limit", s.strain_limit, 1, sim::DtLimit::strain}}) {
+    const bool has_ruled =
+        std::any_of(c.d.last_steps.begin(), c.d.last_steps.end(),
+                    [&](const sim::StepRecord& step) { return step.limit == limit.ruling; });
+    // One that is far too high never rules: another one does, or max_dt.
+    if (limit.ruling == sim::DtLimit::acoustic && !(c.stretch < 1e9)) continue;
+    if (limit.value <= limit.holds || !(has_ruled || limit.value > 2 * limit.holds)) continue;
+    const sim::SolverSettings usual;
+    const double default_value = limit.ruling == sim::DtLimit::acoustic ? usual.acoustic_cfl
+                                 : limit.ruling == sim::DtLimit::cfl    ? usual.cfl
+                                                                        : usual.strain_limit;
+    return Diagnosis{Cause::raised_limits,
+                     std::string("solver.") + limit.key + " = " + rough_text(limit.value) +
+                         " allows more than holds, which is " + rough_text(limit.holds),
+                     std::string("solver.") + limit.key + " = " + rough_text(default_value),
+                     std::string("solver.") + limit.key};
+  }
+  return std::nullopt;
+}
+
+/// A fixed dt that does not even hold for snow at rest, and whose fault that is.
+Hypothesis too_long_at_rest(const Case& c) {
+  if (!c.is_fixed) return std::nullopt;
+  const double sound = c.start_sound() / c.stretch * c.dt / c.h;
+  const double speed = c.d.start.max_speed * c.dt / c.h;
+  if (sound < 0.9 && speed < 0.9) return std::nullopt;
+  const double holds =
+      0.5 * c.h / std::max(c.start_sound() / c.stretch, 1.25 * c.d.start.max_speed);
+  const std::string remedy = "solver.dt = " + rough_text(holds) + " or time_step = \"adaptive\"";
+  if (sound >= speed) {
+    const std::string crossed = "sound runs at " + rough_text(c.start_sound()) +
+                                " m/s and crosses " + rough_text(sound) + " cells in a step of " +
+                                rough_text(c.dt) + " s";
+    const double without = usual_sound_speed() * c.dt / c.h;
+    if (without < 0.9 && c.material.density < 20)
+      return Diagnosis{Cause::density,
+                       "density is " + rough_text(c.material.density) + " kg/m3, so " + crossed,
+                       "in g/cm3 it would be " + rough_text(1000 * c.material.density) +
+                           " kg/m3; snow has 50 to 917. Otherwise " + remedy,
+                       c.at("density")};
+    if (without < 0.9 && c.material.youngs_modulus > 1e6)
+      return Diagnosis{
+          Cause::stiffness,
+          "youngs_modulus is " + rough_text(c.material.youngs_modulus) + " Pa, so " + crossed,
+          "the paper's snow has 1.4e5 Pa. Otherwise " + remedy, c.at("youngs_modulus")};
+    return Diagnosis{Cause::time_step, crossed, remedy, "solver.dt"};
+  }
+  return Diagnosis{Cause::time_step,
+                   "snow at " + rough_text(c.d.start.max_speed) + " m/s crosses " +
+                       rough_text(speed) + " cells in a step of " + rough_text(c.dt) + " s",
+                   remedy, "solver.dt"};
+}
+
+/// The surface of a collider where it is nearest to the culprit. NaN counts as far.
+struct NearSurface {
+  const scene::Collider* collider;
+  sim::shapes::Surface surface;
+};
+
+std::vector<NearSurface> surfaces_near(const Case& c, double cells) {
+  std::vector<NearSurface> near;
+  if (!c.d.x.allFinite()) return near;
+  for (const scene::Collider& collider : c.scene.colliders) {
+    const sim::shapes::Surface surface = sim::shapes::surface_at(collider, c.d.time, c.d.x);
+    if (surface.distance < cells * c.h) near.push_back({&collider, surface});
+  }
+  return near;
+}
+
+std::string motion_address(const scene::Collider& collider) {
+  return "collider." + collider.name + (collider.keyframes.empty() ? ".velocity" : ".keyframes");
+}
+
+/// The largest speed at which a collider came by the culprit in the last steps, in m/s: one that is
+/// fast is beyond it, or at rest at its last keyframe, when the snow breaks.
+double speed_beside_culprit(const Case& c, const scene::Collider& collider) {
+  double fastest = 0;
+  const auto look = [&](double time, double dt) {
+    const sim::shapes::Surface surface = sim::shapes::surface_at(collider, time, c.d.x);
+    const double speed = surface.velocity.norm();
+    if (surface.distance < 6 * c.h + speed * dt) fastest = std::max(fastest, speed);
+  };
+  if (!c.d.x.allFinite()) return 0;
+  look(c.d.time, c.dt);
+  for (const sim::StepRecord& step : c.d.last_steps)
+    for (const double part : {0.0, 0.5, 1.0}) look(step.time - part * step.dt, step.dt);
+  return fastest;
+}
+
+Hypothesis collider_speed(const Case& c) {
+  for (const scene::Collider& collider : c.scene.colliders) {
+    const double speed = speed_beside_culprit(c, collider);
+    const double mach = speed / std::max(1e-9, c.start_sound());
+    if (mach < 1 && speed * c.dt < 0.5 * c.h) continue;
+    if (speed < 2 * c.d.start.max_speed) continue;
+    return Diagnosis{Cause::collider_speed,
+                     "collider " + collider.name + " hits the snow at " + rough_text(speed) +
+                         " m/s, " + rough_text(mach) + " times the speed of its sound, and " +
+                         rough_text(speed * c.dt / c.h) + " cells in a step",
+                     "move it slower than " + rough_text(0.5 * c.start_sound()) +
+                         " m/s, or let it speed up gently",
+                     motion_address(collider)};
+  }
+  return std::nullopt;
+}
+
+Hypothesis colliders_closing(const Case& c) {
+  const std::vector<NearSurface> near = surfaces_near(c, 4);
+  for (const NearSurface& a : near)
+    for (const NearSurface& b : near) {
+      if (a.collider == b.collider || a.surface.normal.dot(b.surface.normal) > -0.3) continue;
+      const double closing = (b.surface.velocity - a.surface.velocity).dot(b.surface.normal);
+      if (closing <= 0) continue;
+      const double gap = std::max(0.0, a.surface.distance) + std::max(0.0, b.surface.distance);
+      return Diagnosis{
+          Cause::colliders_closing,
+          "colliders " + a.collider->name + " and " + b.collider->name + " close on the snow at " +
+              rough_text(closing) + " m/s and leave it about " + rough_text(gap) + " m, " +
+              rough_text(gap / c.h) + " cells",
+          "stop before the snow is as dense as ice: packed to " +
+              rough_text(c.material.density / std::max(0.02, c.d.J_P)) + " kg/m3 it has no room",
+          motion_address(*b.collider)};
+    }
+  return std::nullopt;
+}
+
+Hypothesis hardened_beyond_fixed_step(const Case& c) {
+  if (!c.is_fixed) return std::nullopt;
+  const sim::StepRecord* step = c.sound_beyond(1);
+  if (!step) return std::nullopt;
+  const double factor = std::exp(c.material.hardening * (1 - step->min_J_P));
+  return Diagnosis{
+      Cause::hardening,
+      "snow was packed to J_P = " + rough_text(step->min_J_P) + " and hardened " +
+          rough_text(factor) + " times (hardening = " + rough_text(c.material.hardening) +
+          "): sound, " + rough_text(c.start_sound()) + " m/s at the start, reached " +
+          rough_text(step->max_sound_speed) + " m/s and crossed " +
+          rough_text(step->max_sound_speed * step->dt / c.h) + " cells in a step",
+      "time_step = \"adaptive\", or solver.dt = " + rough_text(0.5 * c.h / step->max_sound_speed) +
+          ", or a smaller hardening",
+      "solver.dt"};
+}
+
+Hypothesis incompressible(const Case& c) {
+  if (c.material.poisson_ratio < 0.45) return std::nullopt;
+  return Diagnosis{
+      Cause::incompressible,
+      "poisson_ratio is " + scene::toml::number_text(c.material.poisson_ratio) + ": lambda is " +
+          rough_text(2 * c.material.poisson_ratio / (1 - 2 * c.material.poisson_ratio)) +
+          " times mu, and what compresses locks",
+      "0.2 is snow, 0.3 to 0.4 is rubber enough", c.at("poisson_ratio")};
+}
+
+Hypothesis shock(const Case& c) {
+  const double speed = c.honest_speed(), mach = speed / std::max(1e-9, c.start_sound());
+  const bool is_crushed = c.d.rule == "J_P" || c.d.rule == "acoustic_cfl" ||
+                          c.d.rule == "time_step" || c.d.rule == "not_finite";
+  if (!is_crushed || mach < 1.5) return std::nullopt;
+  return Diagnosis{
+      Cause::shock,
+      "snow meets something at " + rough_text(speed) + " m/s, " + rough_text(mach) +
+          " times the speed of its sound, and is crushed to J_P = " + rough_text(c.d.J_P),
+      "stay below " + rough_text(c.start_sound()) +
+          " m/s, or make the snow stiffer (youngs_modulus) or denser",
+      c.at("youngs_modulus")};
+}
+
+Hypothesis hardening(const Case& c) {
+  const double factor = std::exp(c.material.hardening * (1 - c.d.J_P));
+  const bool is_sound = c.d.rule == "J_P" || c.d.rule == "acoustic_cfl" ||
+                        c.d.rule == "time_step" || c.d.rule == "not_finite";
+  if (!is_sound || !(factor > 100)) return std::nullopt;
+  return Diagnosis{Cause::hardening,
+                   "snow was packed to J_P = " + rough_text(c.d.J_P) + " and hardened " +
+                       rough_text(factor) +
+                       " times: hardening = " + rough_text(c.material.hardening) +
+                       ", critical_compression = " + rough_text(c.material.critical_compression),
+                   "a smaller hardening (the paper: 5 to 10) or a larger critical_compression "
+                   "(0.019 to 0.025)",
+                   c.at("hardening")};
+}
+
+Hypothesis far_flight(const Case& c) {
+  if (c.d.rule != "overflow") return std::nullopt;
+  return Diagnosis{Cause::far_flight,
+                   "particle " + std::to_string(c.d.particle) + " flew to " +
+                       rough_text(c.d.x.norm()) +
+                       " m from the origin, where the lattice ends, at " +
+                       rough_text(c.d.v.norm()) + " m/s and in good health",
+                   "put a collider in its way, end the scene earlier, or place it nearer to the "
+                   "origin",
+                   "frames"};
+}
+
+Diagnosis unexplained(const Case& c) {
+  double sound = 0;
+  for (const sim::StepRecord& step : c.d.last_steps)
+    sound = std::max(sound, step.max_sound_speed * step.dt / c.h);
+  return {Cause::unexplained,
+          "no known cause: in the last " + std::to_string(c.d.last_steps.size()) +
+              " steps sound crossed at most " + rough_text(sound) + " cells in a step",
+          "neve check looks at the numbers of the scene; neve render --validate watches every step",
+          ""};
+}
+
+}  // namespace
+
+Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence) {
+  const Case c(scene, divergence);
+  for (const auto hypothesis : {bypass, initial_state, units, raised_limits, too_long_at_rest,
+                                collider_speed, colliders_closing, incompressible,
+                                hardened_beyond_fixed_step, shock, hardening, far_flight})
+    if (Hypothesis found = hypothesis(c)) return *found;
+  return unexplained(c);
+}
+
+std::string sentence(const sim::Divergence& d, const Diagnosis& diagnosis) {
+  // One advice on dt is enough; that of the cause looks at where trouble began.
+  return (diagnosis.cause == Cause::unexplained ? d.sentence : d.what) +
+         ". Cause: " + diagnosis.evidence + ". Try: " + diagnosis.remedy;
+}
+
+}  // namespace neve::app::health

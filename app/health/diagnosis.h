@@ -1,0 +1,62 @@
+#pragma once
+/// Why a run went wrong: one cause, what shows it, what to do.
+
+#include <string>
+#include <vector>
+
+#include "app/scene/names.h"
+#include "app/scene/scene.h"
+#include "sim/simulation.h"
+
+namespace neve::app::health {
+
+enum class Cause {
+  bypass,             ///< stages are skipped
+  initial_state,      ///< particles that do not start at rest
+  units,              ///< lengths and gravity in centimetres
+  raised_limits,      ///< cfl, acoustic_cfl or strain_limit beyond what holds
+  density,            ///< so light that sound outruns the step
+  stiffness,          ///< so stiff that sound outruns the step
+  time_step,          ///< a fixed dt above the limits of snow at rest
+  hardening,          ///< packed snow became too stiff
+  collider_speed,     ///< an obstacle that hits like a bullet
+  colliders_closing,  ///< obstacles leave the snow no room
+  incompressible,     ///< Poisson's ratio next to 0.5
+  shock,              ///< an impact faster than sound
+  far_flight,         ///< out of the lattice, in good health
+  unexplained
+};
+
+constexpr auto names(Cause) {
+  using enum Cause;
+  return std::array{scene::Name{bypass, "bypass"},
+                    scene::Name{initial_state, "initial_state"},
+                    scene::Name{units, "units"},
+                    scene::Name{raised_limits, "raised_limits"},
+                    scene::Name{density, "density"},
+                    scene::Name{stiffness, "stiffness"},
+                    scene::Name{time_step, "time_step"},
+                    scene::Name{hardening, "hardening"},
+                    scene::Name{collider_speed, "collider_speed"},
+                    scene::Name{colliders_closing, "colliders_closing"},
+                    scene::Name{incompressible, "incompressible"},
+                    scene::Name{shock, "shock"},
+                    scene::Name{far_flight, "far_flight"},
+                    scene::Name{unexplained, "unexplained"}};
+}
+
+struct Diagnosis {
+  Cause cause = Cause::unexplained;
+  std::string evidence;  ///< numbers of this run, a clause
+  std::string remedy;    ///< what to change, a clause
+  std::string address;   ///< of the parameter to change, may be empty
+};
+
+/// The first cause whose evidence this run shows, from what was wrong before the first step to what
+/// only happened on the way: later trouble is mostly a symptom of earlier one.
+Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence);
+
+/// For people: step, what the rule saw, evidence and remedy.
+std::string sentence(const sim::Divergence& divergence, const Diagnosis& diagnosis);
+
+}  // namespace neve::app::health

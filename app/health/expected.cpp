@@ -1,0 +1,128 @@
+#include "app/health/expected.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "app/setup/auto_ranges.h"
+#include "app/support/text.h"
+
+namespace neve::app::health {
+
+namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+/// Sampling, and the bias of volumes estimated at surfaces, put numbers apart from the mean.
+constexpr double scatter = 2;
+/// The paper's step 2 takes for snow what the nodes around a particle hold: at a coarse corner a
+/// particle gets about 6 times its share.
+constexpr double estimated_scatter = 8, given_scatter = 3;
+
+}  // namespace
+
+Expected::Expected(const scene::Scene& scene, const sim::ParticleArrays& state, double dt)
+    : scene_(scene), dt_(dt), h_(scene.solver.cell_size) {
+  lightest_ = no_limit;
+  lightest_density_ = no_limit;
+  std::vector<bool> is_used(scene.materials.size(), false);
+  for (std::size_t p = 0; p < state.x.size(); ++p) {
+    is_used[static_cast<std::size_t>(state.material[p])] = true;
+    lightest_ = std::min(lightest_, state.m[p]);
+    heaviest_ = std::max(heaviest_, state.m[p]);
+    if (std::isfinite(state.J_P[p])) min_J_P_ = std::min(min_J_P_, state.J_P[p]);
+  }
+  for (std::size_t k = 0; k < scene.materials.size(); ++k) {
+    if (!is_used[k]) continue;
+    const sim::Material& m = scene.materials[k];
+    const sim::Lame lame = sim::lame(m.youngs_modulus, m.poisson_ratio);
+    density_ = std::max(density_, m.density);
+    lightest_density_ = std::min(lightest_density_, m.density);
+    compression_ = std::max(compression_, m.critical_compression);
+    stretch_ = std::max(stretch_, m.critical_stretch);
+    stiffest_ = std::max(stiffest_, 2 * lame.mu + 3 * lame.lambda);
+    hardening_ = std::max(hardening_, m.hardening);
+    is_bounded_ = is_bounded_ && m.model == sim::Model::snow;
+  }
+}
+
+double Expected::feather_mass() const {
+  return 1e-4 * lightest_density_ * h_ * h_ * h_;
+}
+
+Expectation Expected::node_mass() const {
+  const double full = density_ * h_ * h_ * h_;
+  return {{0, scatter * full / min_J_P_},
+          "rho h^3 = " + rough_text(full) + " kg inside snow, more where it is packed"};
+}
+
+Expectation Expected::speed() const {
+  double most = setup::impact_speed(scene_);
+  for (const scene::Collider& collider : scene_.colliders)
+    most = std::max(most, sim::shapes::largest_speed(collider));
+  return {{0, 1.5 * most}, "the quickest body or collider has " + rough_text(most) + " m/s"};
+}
+
+Expectation Expected::momentum() const {
+  return {{0, node_mass().range.max * speed().range.max}, "mass times speed"};
+}
+
+double Expected::stress_limit() const {
+  if (!is_bounded_) return no_limit;
+  const double strain = std::max(compression_, stretch_) * (1 + stretch_);
+  return std::sqrt(3.0) * stiffest_ * strain * std::exp(hardening_ * (1 - min_J_P_));
+}
+
+Expectation Expected::stress() const {
+  return {{0, stress_limit()},
+          is_bounded_ ? "thresholds and moduli, hardened to J_P = " + rough_text(min_J_P_)
+                      : "elastic models have no limit"};
+}
+
+Expectation Expected::force() const {
+  return {{0, scatter * stress_limit() * h_ * h_}, "stress on a face of a cell"};
+}
+
+Expectation Expected::velocity_change() const {
+  const double gravity = scene_.solver.gravity.norm() * dt_;
+  return {{0, gravity + scatter * dt_ * stress_limit() / (lightest_density_ * h_)},
+          "g dt = " + rough_text(gravity) + " m/s in free flight"};
+}
+
+Expectation Expected::strain_rate() const {
+  // A norm of nine entries, each below the limit.
+  return {{0, 3 * scene_.solver.strain_limit / dt_},
+          "strain_limit / dt = " + rough_text(scene_.solver.strain_limit / dt_) + " 1/s an entry"};
+}
+
+Expectation Expected::stretch() const {
+  if (!is_bounded_) return {{0, no_limit}, "elastic models have no limit"};
+  // Singular values in the arithmetic of the solver.
+  constexpr double rounding = 1e-5;
+  return {{1 - compression_ - rounding, 1 + stretch_ + rounding},
+          "1 - critical_compression to 1 + critical_stretch"};
+}
+
+Expectation Expected::J_E() const {
+  const scene::Range s = stretch().range;
+  return {{std::pow(s.min, 3), std::pow(s.max, 3)}, "product of three stretches"};
+}
+
+Expectation Expected::J_P() const {
+  return {{0.2, 5}, "packed to five times the density, or torn as far"};
+}
+
+Expectation Expected::volume() const {
+  const bool is_estimated =
+      std::any_of(scene_.bodies.begin(), scene_.bodies.end(), [](const sim::seeding::Body& body) {
+        return body.volumes == sim::seeding::Volumes::estimated;
+      });
+  const double most = is_estimated ? estimated_scatter : given_scatter;
+  return {{0.3 * lightest_ / density_, most * heaviest_ / lightest_density_},
+          is_estimated ? "mass / density; up to " + rough_text(most) +
+                             " times that at surfaces, where it is estimated"
+                       : "mass / density"};
+}
+
+}  // namespace neve::app::health

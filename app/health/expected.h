@@ -1,0 +1,49 @@
+#pragma once
+/// The size of numbers in a healthy step, from the scene alone and the state that it starts from.
+
+#include <string>
+
+#include "app/scene/scene.h"
+#include "sim/simulation.h"
+
+namespace neve::app::health {
+
+struct Expectation {
+  scene::Range range;
+  std::string why;
+};
+
+class Expected {
+ public:
+  Expected(const scene::Scene& scene, const sim::ParticleArrays& state, double dt);
+
+  double feather_mass() const;          ///< kg, of nodes that are not to be believed
+  Expectation node_mass() const;        ///< kg
+  Expectation speed() const;            ///< m/s
+  Expectation momentum() const;         ///< kg m/s, of a node
+  Expectation force() const;            ///< N, of a node
+  Expectation velocity_change() const;  ///< m/s, v_free - v_old
+  Expectation strain_rate() const;      ///< 1/s
+  Expectation stress() const;           ///< Pa, Frobenius norm of tau; unlimited for elastic models
+  Expectation stretch() const;          ///< singular values of F_E
+  Expectation J_E() const;
+  Expectation J_P() const;
+  Expectation volume() const;  ///< m3, V0
+
+ private:
+  double stress_limit() const;
+
+  const scene::Scene& scene_;
+  double dt_, h_;
+  double density_ = 0;   ///< kg/m3, of the heaviest material in use
+  double lightest_ = 0;  ///< kg, of a particle
+  double heaviest_ = 0;  ///< kg
+  double min_J_P_ = 1;
+  double compression_ = 0, stretch_ = 0;  ///< largest theta_c, theta_s of materials in use
+  double stiffest_ = 0;                   ///< Pa, largest mu and lambda together
+  double hardening_ = 0;                  ///< largest xi
+  double lightest_density_ = 0;           ///< kg/m3
+  bool is_bounded_ = true;                ///< all snow: elastic models have no limit
+};
+
+}  // namespace neve::app::health

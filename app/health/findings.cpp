@@ -1,0 +1,344 @@
+#include "app/health/findings.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/health/point_findings.h"
+#include "app/scene/toml/value.h"
+#include "app/setup/seed_scene.h"
+#include "app/setup/snow_pieces.h"
+#include "app/support/text.h"
+#include "sim/engine/time_step.h"
+#include "sim/shapes/solid.h"
+
+namespace neve::app::health {
+
+namespace {
+
+using sim::Vec3d;
+
+constexpr double ice = 917;  // kg/m3
+
+Vec3d extent(const sim::shapes::Shape& shape) {
+  const sim::shapes::Bounds box = sim::shapes::bounds(shape);
+  return box.max - box.min;
+}
+
+bool is_plane(const sim::shapes::Shape& shape) {
+  return std::holds_alternative<sim::shapes::Plane>(shape.form);
+}
+
+/// A shape that the cells do not resolve.
+struct Thin {
+  std::string address, name;
+  double cells;  ///< across its thinnest part
+};
+
+/// All of a kind in one finding, of the thinnest.
+/// @param size_per_cell  m, of the cells that would do, for each cell that it is thick
+void report_thin(const std::vector<Thin>& thin, const std::string& bound, const std::string& remedy,
+                 double size_per_cell, std::vector<Finding>& findings) {
+  if (thin.empty()) return;
+  const auto worst = std::min_element(
+      thin.begin(), thin.end(), [](const Thin& a, const Thin& b) { return a.cells < b.cells; });
+  constexpr std::size_t most_named = 5;
+  std::vector<std::string> others;
+  for (auto other = thin.begin(); other != thin.end(); ++other)
+    if (other != worst && others.size() < most_named) others.push_back(other->name);
+  const std::size_t left = thin.size() - 1 - others.size();
+  std::string what = worst->name + " is " + rough_text(worst->cells) + " cells thick";
+  if (!others.empty())
+    what += " (also under " + bound + ": " + joined(others, ", ") +
+            (left > 0 ? " and " + std::to_string(left) + " more)" : ")");
+  findings.push_back({Severity::warning, worst->address + ".shape", what,
+                      remedy + "; solver.cell_size = " + rough_text(worst->cells * size_per_cell)});
+}
+
+void check_material_units(const sim::Material& m, std::vector<Finding>& findings) {
+  const std::string at = "material." + m.name + ".";
+  if (m.density > 0.03 && m.density < 2)
+    findings.push_back({Severity::warning, at + "density",
+                        "density " + rough_text(m.density) + " kg/m3 is lighter than foam",
+                        "in g/cm3 it would be " + rough_text(1000 * m.density) + " kg/m3"});
+  else if (m.density < 20 || m.density > 1.3 * ice)
+    findings.push_back({Severity::warning, at + "density",
+                        "density " + rough_text(m.density) + " kg/m3 is no snow: 50 to 917",
+                        "powder has 50 to 200, packed snow 300 to 550"});
+  if (m.youngs_modulus < 2000)
+    findings.push_back(
+        {Severity::warning, at + "youngs_modulus",
+         "youngs_modulus " + rough_text(m.youngs_modulus) + " Pa is softer than jelly",
+         "in kPa it would be " + rough_text(1000 * m.youngs_modulus) +
+             " Pa; the paper's snow has 1.4e5"});
+  else if (m.youngs_modulus > 1e8)
+    findings.push_back({Severity::warning, at + "youngs_modulus",
+                        "youngs_modulus " + rough_text(m.youngs_modulus) +
+                            " Pa makes sound run at " + rough_text(sim::sound_speed(m)) + " m/s",
+                        "steps shorten with its root; the paper's snow has 1.4e5"});
+}
+
+/// Nothing to find where the speed of every cell is its own: bodies share cells when they overlap.
+using CellIndex = std::array<long, 3>;
+
+std::map<CellIndex, std::map<std::size_t, int>> bodies_in_cells(
+    const scene::Scene& scene, const sim::ParticleArrays& particles,
+    const std::vector<std::size_t>& body_end) {
+  const double h = scene.solver.cell_size;
+  std::map<CellIndex, std::map<std::size_t, int>> cells;
+  std::size_t first = 0;
+  for (std::size_t body = 0; body < body_end.size(); ++body) {
+    for (std::size_t p = first; p < body_end[body]; ++p) {
+      const Vec3d& x = particles.x[p];
+      ++cells[{std::lround(std::floor(x.x() / h)), std::lround(std::floor(x.y() / h)),
+               std::lround(std::floor(x.z() / h))}][body];
+    }
+    first = body_end[body];
+  }
+  return cells;
+}
+
+bool boxes_touch(const sim::shapes::Shape& a, const sim::shapes::Shape& b) {
+  const sim::shapes::Bounds p = sim::shapes::bounds(a), q = sim::shapes::bounds(b);
+  return (p.min.array() < q.max.array()).all() && (q.min.array() < p.max.array()).all();
+}
+
+void check_body_overlaps(const scene::Scene& scene, const sim::ParticleArrays& particles,
+                         const std::vector<std::size_t>& body_end, std::vector<Finding>& findings) {
+  bool may_overlap = false;
+  for (std::size_t a = 0; a < scene.bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < scene.bodies.size(); ++b)
+      may_overlap = may_overlap || boxes_touch(scene.bodies[a].shape, scene.bodies[b].shape);
+  if (!may_overlap) return;
+  std::vector<double> per_cell;
+  for (const sim::seeding::Body& body : scene.bodies)
+    per_cell.push_back(particles_in_cell(body, scene.solver.cell_size));
+  // In a cell that both fill, each has most of the particles that it has where it is alone.
+  std::map<std::pair<std::size_t, std::size_t>, double> shared;
+  for (const auto& [cell, counts] : bodies_in_cells(scene, particles, body_end))
+    for (auto a = counts.begin(); a != counts.end(); ++a)
+      for (auto b = std::next(a); b != counts.end(); ++b) {
+        const double in_a = a->second / per_cell[a->first];
+        const double in_b = b->second / per_cell[b->first];
+        if (in_a + in_b > 1.5) shared[{a->first, b->first}] += std::min(in_a, in_b);
+      }
+  for (const auto& [pair, cells] : shared) {
+    if (cells < 1) continue;
+    findings.push_back({Severity::warning, "body." + scene.bodies[pair.second].name + ".shape",
+                        called("body", scene.bodies[pair.first].name) + " and " +
+                            called("body", scene.bodies[pair.second].name) + " overlap in about " +
+                            rough_text(cells) +
+                            " cells: twice the mass there, and one velocity for both",
+                        "move them apart"});
+  }
+}
+
+void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
+                       std::vector<Finding>& findings) {
+  const double h = s.cell_size;
+  const auto report = [&](Severity severity, double cfl, const char* what, double holds) {
+    findings.push_back(
+        {severity, "solver.dt",
+         "fixed steps of " + rough_text(s.dt) + " s: " + what + " crosses " + rough_text(cfl) +
+             " cells in a step" + (severity == Severity::error ? ", the run will explode" : ""),
+         "solver.dt = " + rough_text(holds) + " holds, or time_step = \"adaptive\""});
+  };
+  // As an explicit step would feel it.
+  const double sound_speed = checkup.start.max_sound_speed / sim::engine::acoustic_stretch(s);
+  const double sound = sound_speed * s.dt / h;
+  const double speed = checkup.impact_speed * s.dt / h;
+  if (sound > 0.5)
+    report(sound > 1.5 ? Severity::error : Severity::warning, sound, "sound",
+           0.5 * h / sound_speed);
+  if (speed > 0.5)
+    report(speed > 1 ? Severity::error : Severity::warning, speed, "snow at impact",
+           s.cfl * h / checkup.impact_speed);
+}
+
+/// What semi-implicit steps damp: a wave loses beta w^2 dt of its energy per second.
+void check_implicit_steps(const sim::SolverSettings& s, const Checkup& checkup,
+                          std::vector<Finding>& findings) {
+  if (!s.is_implicit() || checkup.start.max_sound_speed <= 0) return;
+  const double dt = checkup.dt_start, pi = 3.14159265358979323846;
+  const double w = 2 * pi * checkup.start.max_sound_speed / (10 * s.cell_size);
+  findings.push_back({Severity::note, "solver.beta",
+                      "semi-implicit steps: of a wave 10 cells long " +
+                          percent_text(std::exp(-s.beta * w * w * dt * 2 * pi / w)) +
+                          " of the energy is left after a period; the first steps took " +
+                          std::to_string(checkup.solve.iterations) +
+                          " iterations to a residual of " + rough_text(checkup.solve.residual),
+                      ""});
+  if (checkup.solve.residual > s.solve_tolerance)
+    findings.push_back(
+        {Severity::warning, "solver.solve_iterations",
+         "the solve ends above solve_tolerance = " + scene::toml::number_text(s.solve_tolerance),
+         "more iterations, or a smaller dt"});
+}
+
+void check_damping(const scene::Scene& scene, const Checkup& checkup,
+                   std::vector<Finding>& findings) {
+  const sim::SolverSettings& s = scene.solver;
+  if (s.transfer != sim::Transfer::flip) return;
+  const double frame = 1 / scene.fps;
+  const double steps = std::max(1.0, frame / std::max(checkup.dt_start, 1e-12));
+  const double kept = std::pow(sim::engine::flip_share(s, frame / steps), steps);
+  if (s.flip_reference_dt == 0)
+    findings.push_back({Severity::warning, "solver.flip_reference_dt",
+                        "flip_ratio acts per step: with about " + rough_text(steps) +
+                            " steps a frame " + percent_text(kept) +
+                            " of the finest motion is left, and less with smaller steps",
+                        "flip_reference_dt = 5e-4 makes damping independent of dt"});
+  // The defaults are no news.
+  const sim::SolverSettings usual;
+  const bool is_usual =
+      s.flip_ratio == usual.flip_ratio && s.flip_reference_dt == usual.flip_reference_dt;
+  if (s.flip_reference_dt != 0 && !is_usual)
+    findings.push_back({Severity::note, "solver.flip_ratio",
+                        percent_text(kept) +
+                            " of the finest motion (a cell or less) is left after a "
+                            "frame; motion of the whole body is not damped",
+                        ""});
+}
+
+/// Share of a moment's particles that a camera does not see.
+double share_outside(const scene::CameraSettings& camera, double aspect,
+                     const setup::Moment& moment) {
+  const Vec3d forward = (*camera.target - *camera.eye).normalized();
+  const Vec3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);
+  const double half = std::tan(0.5 * camera.fov * 3.14159265358979323846 / 180);
+  std::size_t outside = 0;
+  for (const Vec3d& x : moment.x) {
+    const Vec3d d = x - *camera.eye;
+    const double z = d.dot(forward);
+    const bool is_seen =
+        z > 0 && std::abs(d.dot(up)) < half * z && std::abs(d.dot(right)) < half * aspect * z;
+    outside += !is_seen;
+  }
+  return moment.x.empty() ? 0 : static_cast<double>(outside) / static_cast<double>(moment.x.size());
+}
+
+}  // namespace
+
+std::string called(const std::string& kind, const std::string& name) {
+  const bool is_number =
+      std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return is_number ? kind + " " + name : name;
+}
+
+std::string percent_text(double share) {
+  return fixed_text(100 * share, share < 0.1 ? 1 : 0) + " %";
+}
+
+double thickness(const sim::shapes::Shape& shape) {
+  if (const auto* box = std::get_if<sim::shapes::Box>(&shape.form)) return box->size.minCoeff();
+  if (const auto* torus = std::get_if<sim::shapes::Torus>(&shape.form))
+    return 2 * torus->minor_radius;
+  if (const auto* capsule = std::get_if<sim::shapes::Capsule>(&shape.form))
+    return 2 * capsule->radius;
+  if (const auto* c = std::get_if<sim::shapes::Cylinder>(&shape.form))
+    return std::min(2 * c->radius, c->height);
+  if (const auto* c = std::get_if<sim::shapes::Cone>(&shape.form))
+    return std::min(2 * c->radius, c->height);
+  sim::shapes::Shape level = shape;
+  level.rotation.setZero();
+  return extent(level).minCoeff();
+}
+
+double largest_extent(const scene::Scene& scene) {
+  double largest = 0;
+  for (const setup::SnowPiece& piece : setup::snow_places(scene))
+    largest = std::max(largest, extent(*piece.shape).maxCoeff());
+  return largest;
+}
+
+void check_units(const scene::Scene& scene, std::vector<Finding>& findings) {
+  const std::vector<setup::SnowPiece> pieces = setup::snow_places(scene);
+  for (const sim::Material& material : scene.materials) {
+    const bool is_used =
+        std::any_of(pieces.begin(), pieces.end(),
+                    [&](const setup::SnowPiece& piece) { return piece.material == &material; });
+    if (is_used) check_material_units(material, findings);
+  }
+  const double g = scene.solver.gravity.norm();
+  if (g > most_gravity)
+    findings.push_back({Severity::warning, "solver.gravity",
+                        "gravity of " + rough_text(g) + " m/s2 is " + rough_text(g / 9.81) +
+                            " times that of the earth",
+                        "981 would be cm/s2; lengths are in metres"});
+  const double largest = largest_extent(scene);
+  if (largest > most_extent)
+    findings.push_back({Severity::warning, pieces.front().address + ".shape",
+                        "the largest piece of snow is " + rough_text(largest) + " m across",
+                        "lengths are in metres: in centimetres it would be " +
+                            rough_text(0.01 * largest) + " m, with solver.cell_size = " +
+                            scene::toml::number_text(0.01 * scene.solver.cell_size)});
+}
+
+void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings) {
+  const double h = scene.solver.cell_size;
+  std::vector<Thin> bodies, colliders;
+  for (const sim::seeding::Body& body : scene.bodies) {
+    if (thickness(body.shape) < 4 * h)
+      bodies.push_back({"body." + body.name, called("body", body.name), thickness(body.shape) / h});
+    if (is_from_points(body)) {
+      check_point_distance(body, h, findings);
+    } else if (body.particles_per_cell < 4) {
+      findings.push_back({Severity::warning, "body." + body.name + ".particles_per_cell",
+                          rough_text(body.particles_per_cell) +
+                              " particles per cell leave gaps: snow breaks where none should",
+                          "8 is usual"});
+    }
+  }
+  for (const sim::shapes::Collider& collider : scene.colliders)
+    if (!is_plane(collider.shape) && thickness(collider.shape) < 2 * h)
+      colliders.push_back({"collider." + collider.name, called("collider", collider.name),
+                           thickness(collider.shape) / h});
+  report_thin(bodies, "4", "weights reach 2 cells: 6 and more show its shape", h / 6, findings);
+  report_thin(colliders, "2", "snow leaks through less than 2; make it thicker", h / 2, findings);
+}
+
+void check_overlaps(const scene::Scene& scene, const sim::ParticleArrays& particles,
+                    const std::vector<std::size_t>& body_end, std::vector<Finding>& findings) {
+  check_body_overlaps(scene, particles, body_end, findings);
+  check_collider_overlaps(scene, particles, body_end, findings);
+  check_point_masses(scene, particles, body_end, findings);
+}
+
+void check_steps(const scene::Scene& scene, const Checkup& checkup,
+                 std::vector<Finding>& findings) {
+  if (scene.solver.time_step == sim::TimeStep::fixed)
+    check_fixed_steps(scene.solver, checkup, findings);
+  check_implicit_steps(scene.solver, checkup, findings);
+  check_damping(scene, checkup, findings);
+  const double c = checkup.start.max_sound_speed;
+  if (c > 0 && checkup.impact_speed > c)
+    findings.push_back({Severity::warning, "",
+                        "snow meets something at " + rough_text(checkup.impact_speed) +
+                            " m/s, faster than its sound of " + rough_text(c) +
+                            " m/s: it will be crushed in a shock",
+                        "slower, or a larger youngs_modulus"});
+}
+
+void check_cameras(const scene::Scene& scene, const std::vector<setup::Moment>& moments,
+                   std::vector<Finding>& findings) {
+  for (const scene::View& view : scene.views) {
+    const scene::CameraSettings camera =
+        view.camera ? *view.camera : scene.camera.value_or(scene::CameraSettings{});
+    if (!camera.eye || !camera.target) continue;
+    const scene::PictureSize size = setup::size_of(scene, view);
+    const double aspect = static_cast<double>(size.width) / size.height;
+    double worst = 0, when = 0;
+    for (const setup::Moment& moment : moments) {
+      const double share = share_outside(camera, aspect, moment);
+      if (share > worst) worst = share, when = moment.time;
+    }
+    if (worst < 0.05) continue;
+    findings.push_back({Severity::warning, view.camera ? "view." + view.name + ".camera" : "camera",
+                        "view " + view.name + ": " + percent_text(worst) +
+                            " of the snow is outside of the picture at " + rough_text(when) + " s",
+                        "leave out eye and target to frame all of it"});
+  }
+}
+
+}  // namespace neve::app::health

@@ -1,0 +1,64 @@
+#pragma once
+/// The questions that an examination asks; each adds what it finds.
+
+#include "app/health/checkup.h"
+#include "app/setup/dry_run.h"
+
+namespace neve::app::health {
+
+/// Beyond these, numbers look like centimetres.
+inline constexpr double most_gravity = 60;  ///< m/s2
+inline constexpr double most_extent = 20;   ///< m, of a body
+
+/// "0.7 %", "31 %".
+std::string percent_text(double share);
+
+/// "ball", or "body 1" of a body that has a number for a name.
+std::string called(const std::string& kind, const std::string& name);
+
+/// The longest edge of the boxes around bodies and emitters, m.
+double largest_extent(const scene::Scene& scene);
+
+/// The thinnest part of a shape, m.
+double thickness(const sim::shapes::Shape& shape);
+
+/// Numbers that look like centimetres, grams or kilopascals.
+void check_units(const scene::Scene& scene, std::vector<Finding>& findings);
+
+/// Bodies and colliders a few cells thick, too few particles in a cell.
+void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings);
+
+/// Emitters that never open, are thinner than particles are apart, or pack more snow than their
+/// velocity, or gravity, carries away.
+void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings);
+
+/// Sinks that fast snow crosses between two looks. @param speed  m/s, of the fastest snow
+void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& findings);
+
+/// What the scene says without effect: bodies and emitters in sinks, keyframes after the last
+/// frame, slices that no layer shows, a dt that adaptive steps do not use.
+/// @param coarsening  what --coarsen did to the scene
+void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings);
+
+/// Bodies in one another and in colliders, points that weigh too much.
+/// @param body_end see seed_scene
+void check_overlaps(const scene::Scene& scene, const sim::ParticleArrays& particles,
+                    const std::vector<std::size_t>& body_end, std::vector<Finding>& findings);
+
+/// Bodies and emitters in colliders.
+void check_collider_overlaps(const scene::Scene& scene, const sim::ParticleArrays& particles,
+                             const std::vector<std::size_t>& body_end,
+                             std::vector<Finding>& findings);
+
+/// Colliders that cross too much of a cell in a step, or outrun sound in the snow.
+void check_motion(const scene::Scene& scene, const Checkup& checkup,
+                  std::vector<Finding>& findings);
+
+/// Fixed steps against the limits, what the transfer damps per frame, speed against sound.
+void check_steps(const scene::Scene& scene, const Checkup& checkup, std::vector<Finding>& findings);
+
+/// Snow that cameras named by the scene do not see. @param scene resolved
+void check_cameras(const scene::Scene& scene, const std::vector<setup::Moment>& moments,
+                   std::vector<Finding>& findings);
+
+}  // namespace neve::app::health

@@ -1,0 +1,138 @@
+/// What can be found about colliders before a run.
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "app/health/findings.h"
+#include "app/support/text.h"
+#include "sim/shapes/solid.h"
+
+namespace neve::app::health {
+
+namespace {
+
+using sim::Vec3d;
+
+constexpr const char* why_move_it =
+    "move it out: contact stops snow at surfaces, it does not push it out "
+    "(solver.push_out does, and leaves it crushed)";
+
+/// Particles of a body: a share needs no more.
+constexpr std::size_t most_looked_at = 20000;
+
+/// Whether a place is in a collider at a time.
+class Inside {
+ public:
+  Inside(const sim::shapes::Collider& collider, double time)
+      : pose_(sim::shapes::pose_at(collider, time)),
+        start_(sim::rotation_from_degrees(collider.shape.rotation)),
+        center_(sim::shapes::center(collider.shape)) {
+    if (const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form))
+      normal_ = pose_.rotation * plane->normal;
+    else
+      solid_ = std::make_unique<sim::shapes::Solid>(collider.shape);
+  }
+
+  bool operator()(const Vec3d& x) const {
+    if (!solid_) return (x - pose_.point).dot(normal_) < 0;
+    // Keyframes may have moved it: where the place is from the shape as it is written.
+    return solid_->contains(center_ + start_ * (pose_.rotation.transpose() * (x - pose_.point)));
+  }
+
+ private:
+  sim::shapes::Pose pose_;
+  sim::Mat3d start_;
+  Vec3d center_, normal_{0, 1, 0};
+  std::unique_ptr<sim::shapes::Solid> solid_;
+};
+
+/// Some hundred places in a shape, regularly.
+std::vector<Vec3d> places_in(const sim::shapes::Shape& shape) {
+  constexpr int parts = 11;
+  std::vector<Vec3d> places;
+  const sim::shapes::Solid solid(shape);
+  const sim::shapes::Bounds box = solid.bounds();
+  for (int i = 0; i < parts; ++i)
+    for (int j = 0; j < parts; ++j)
+      for (int k = 0; k < parts; ++k) {
+        const Vec3d part = (Vec3d(i, j, k) + Vec3d::Constant(0.5)) / parts;
+        const Vec3d x = box.min + part.cwiseProduct(box.max - box.min);
+        if (solid.contains(x)) places.push_back(x);
+      }
+  return places;
+}
+
+void check_emitter_overlaps(const scene::Scene& scene, std::vector<Finding>& findings) {
+  constexpr double much = 0.02;  // a nozzle that ends in a wall is none
+  for (const sim::seeding::Emitter& emitter : scene.emitters) {
+    const std::vector<Vec3d> places = places_in(emitter.shape);
+    if (places.empty()) continue;
+    for (const sim::shapes::Collider& collider : scene.colliders) {
+      const Inside is_inside(collider, emitter.start);
+      const auto inside =
+          std::count_if(places.begin(), places.end(), [&](const Vec3d& x) { return is_inside(x); });
+      const double share = static_cast<double>(inside) / static_cast<double>(places.size());
+      if (share < much) continue;
+      findings.push_back({Severity::warning, "emitter." + emitter.name + ".shape",
+                          percent_text(share) + " of " + called("emitter", emitter.name) +
+                              " is inside collider " + collider.name + " when it starts",
+                          why_move_it});
+    }
+  }
+}
+
+}  // namespace
+
+void check_collider_overlaps(const scene::Scene& scene, const sim::ParticleArrays& particles,
+                             const std::vector<std::size_t>& body_end,
+                             std::vector<Finding>& findings) {
+  check_emitter_overlaps(scene, findings);
+  for (const sim::shapes::Collider& collider : scene.colliders) {
+    const Inside is_inside(collider, 0);
+    std::size_t first = 0;
+    for (std::size_t body = 0; body < body_end.size(); ++body) {
+      const std::size_t stride = (body_end[body] - first) / most_looked_at + 1;
+      std::size_t inside = 0, count = 0;
+      for (std::size_t p = first; p < body_end[body]; p += stride, ++count)
+        inside += is_inside(particles.x[p]);
+      first = body_end[body];
+      if (inside == 0) continue;
+      findings.push_back({Severity::warning, "body." + scene.bodies[body].name + ".shape",
+                          percent_text(static_cast<double>(inside) / static_cast<double>(count)) +
+                              " of " + called("body", scene.bodies[body].name) + " starts inside " +
+                              "collider " + collider.name,
+                          why_move_it});
+    }
+  }
+}
+
+void check_motion(const scene::Scene& scene, const Checkup& checkup,
+                  std::vector<Finding>& findings) {
+  const sim::SolverSettings& s = scene.solver;
+  const double dt = s.time_step == sim::TimeStep::fixed ? s.dt : s.max_dt;
+  for (const sim::shapes::Collider& collider : scene.colliders) {
+    const double speed = sim::shapes::largest_speed(collider), cells = speed * dt / s.cell_size;
+    const double c = checkup.start.max_sound_speed;
+    const bool spins = collider.velocity.norm() < 0.5 * speed;
+    const std::string at = "collider." + collider.name +
+                           (!collider.keyframes.empty() ? ".keyframes"
+                            : spins                     ? ".angular_velocity"
+                                                        : ".velocity");
+    if (cells > 0.5)
+      findings.push_back(
+          {Severity::warning, at,
+           called("collider", collider.name) + " moves up to " + rough_text(speed) +
+               " m/s: " + rough_text(cells) + " cells in a step, it runs over snow at rest",
+           std::string(s.time_step == sim::TimeStep::fixed ? "solver.dt" : "solver.max_dt") +
+               " = " + rough_text(0.4 * s.cell_size / speed)});
+    else if (c > 0 && speed > c)
+      findings.push_back({Severity::warning, at,
+                          called("collider", collider.name) + " moves up to " + rough_text(speed) +
+                              " m/s, faster than sound in the snow (" + rough_text(c) +
+                              " m/s): it crushes what it hits",
+                          "slower, or a larger youngs_modulus"});
+  }
+}
+
+}  // namespace neve::app::health

@@ -1,0 +1,99 @@
+/// What can be found about emitters and sinks before a run.
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/health/findings.h"
+#include "app/setup/seed_scene.h"
+#include "app/support/text.h"
+#include "sim/seeding/sampling.h"
+#include "sim/shapes/solid.h"
+
+namespace neve::app::health {
+
+namespace {
+
+/// Of what an emitter's velocity carries away: spheres and cones are not as wide everywhere.
+constexpr double most_packing = 1.3;
+
+/// kg/s that fall out of a shape in which snow is born at rest, at most at packed density; 0
+/// without gravity. With the same rate everywhere, momentum asks for v^2 = g y / 1.5 at a depth y
+/// and for the density rate / V sqrt(1.5 y / g).
+double falling_rate(const sim::seeding::Emitter& emitter, const sim::Material& material,
+                    const sim::Vec3d& gravity) {
+  const double g = gravity.norm();
+  if (!(g > 0)) return 0;
+  const sim::shapes::Solid solid(emitter.shape);
+  return material.density * solid.volume() * std::sqrt(g / (1.5 * solid.extent(gravity)));
+}
+
+void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitter, double end,
+                   std::vector<Finding>& findings) {
+  const sim::Material& material = scene.materials[setup::material_index(scene, emitter.material)];
+  const std::string at = "emitter." + emitter.name;
+  const double h = scene.solver.cell_size;
+  const double spacing = sim::seeding::particle_spacing(emitter.particles_per_cell, h);
+  const double thick = thickness(emitter.shape);
+  if (thick < spacing)
+    findings.push_back(
+        {Severity::warning, at + ".shape",
+         emitter.name + " is " + rough_text(thick) + " m thick, thinner than the " +
+             rough_text(spacing) + " m between particles: they come one by one, and fall apart",
+         "make it thicker, or solver.cell_size = " + rough_text(0.25 * thick / spacing * h)});
+  if (emitter.rate == 0) return;
+  const double carried = sim::seeding::carried_rate(emitter, material);
+  const double falling = falling_rate(emitter, material, scene.solver.gravity);
+  if (carried > 0 && emitter.rate > most_packing * std::max(carried, falling))
+    findings.push_back({Severity::warning, at + ".rate",
+                        "its velocity carries about " + rough_text(carried) +
+                            " kg/s away at the density of " + material.name +
+                            "; snow will be born inside of snow",
+                        "at most that rate, a faster velocity or a larger shape"});
+  const double last = std::min(end, emitter.end.value_or(end));
+  const double mass = emitter.rate * (last - emitter.start);
+  const bool is_filled = mass > material.density * sim::shapes::volume(emitter.shape);
+  if (carried == 0 && is_filled && emitter.rate > most_packing * falling)
+    findings.push_back({Severity::warning, at + ".rate",
+                        "snow is born at rest: " +
+                            (falling > 0 ? "about " + rough_text(falling) + " kg/s fall out of it"
+                                         : std::string("nothing carries it away")) +
+                            "; the rest will be born inside of snow",
+                        "give it a velocity, a lower rate or a larger shape"});
+}
+
+}  // namespace
+
+void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings) {
+  const double end = scene.frames / scene.fps;
+  for (const sim::seeding::Emitter& emitter : scene.emitters) {
+    if (emitter.start >= end && end > 0)
+      findings.push_back({Severity::warning, "emitter." + emitter.name + ".start",
+                          called("emitter", emitter.name) + " opens at " +
+                              rough_text(emitter.start) + " s, the scene ends at " +
+                              rough_text(end) + " s",
+                          "an earlier start, or more frames"});
+    else
+      check_opening(scene, emitter, end, findings);
+  }
+}
+
+void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& findings) {
+  const sim::SolverSettings& s = scene.solver;
+  // Snow is looked for when the fastest has gone a cell, and the step that does it ends beyond.
+  const double step = s.time_step == sim::TimeStep::fixed
+                          ? speed * s.dt
+                          : std::min(speed * s.max_dt, s.cfl * s.cell_size);
+  const double way = s.cell_size + step;
+  for (const sim::seeding::Sink& sink : scene.sinks) {
+    if (sink.outside) continue;
+    const double thick = thickness(sink.shape);
+    if (thick >= way) continue;
+    findings.push_back({Severity::warning, "sink." + sink.name + ".shape",
+                        sink.name + " is " + rough_text(thick) + " m thick; snow at " +
+                            rough_text(speed) + " m/s goes up to " + rough_text(way) +
+                            " m between two looks: some will fly through",
+                        "make it thicker than that"});
+  }
+}
+
+}  // namespace neve::app::health

@@ -1,0 +1,101 @@
+/// What a scene says and a run never shows.
+
+#include <algorithm>
+
+#include "app/health/findings.h"
+#include "app/scene/toml/value.h"
+#include "app/support/text.h"
+#include "sim/shapes/solid.h"
+
+namespace neve::app::health {
+
+namespace {
+
+using sim::Vec3d;
+
+/// The share of a solid, mesh or not, that a sink removes: of its points on a lattice.
+double share_removed(const sim::shapes::Solid& solid, const sim::shapes::Solid& sink,
+                     bool outside) {
+  constexpr int side = 14;
+  const sim::shapes::Bounds box = solid.local_bounds();
+  std::size_t inside = 0, removed = 0;
+  for (int k = 0; k < side * side * side; ++k) {
+    const Vec3d part((k % side + 0.5) / side, (k / side % side + 0.5) / side,
+                     (k / side / side + 0.5) / side);
+    const Vec3d y = box.min + part.cwiseProduct(box.max - box.min);
+    if (!solid.contains_local(y)) continue;
+    ++inside;
+    removed += sink.contains(solid.center() + solid.rotation() * y) != outside;
+  }
+  return inside == 0 ? 0 : static_cast<double>(removed) / static_cast<double>(inside);
+}
+
+/// Snow that is removed before anything happens to it.
+void check_removed(const scene::Scene& scene, const std::string& kind, const std::string& name,
+                   const sim::shapes::Shape& shape, double least, std::vector<Finding>& findings) {
+  if (scene.sinks.empty() || std::holds_alternative<sim::shapes::Points>(shape.form)) return;
+  const sim::shapes::Solid solid(shape);
+  for (const sim::seeding::Sink& sink : scene.sinks) {
+    const double share = share_removed(solid, sim::shapes::Solid(sink.shape), sink.outside);
+    if (share < least) continue;
+    findings.push_back({Severity::warning, kind + "." + name + ".shape",
+                        percent_text(share) + " of " + called(kind, name) +
+                            (sink.outside ? " is outside of " : " is inside of ") +
+                            called("sink", sink.name) + ", which removes it at once",
+                        sink.outside ? "a larger sink, or snow inside of it" : "move one of them"});
+  }
+}
+
+void check_keyframes(const scene::Scene& scene, std::vector<Finding>& findings) {
+  const double end = scene.frames / scene.fps;
+  for (const scene::Collider& collider : scene.colliders) {
+    if (collider.keyframes.size() < 2 || end <= 0) continue;
+    const double last = collider.keyframes.back().time;
+    if (last <= end * (1 + 1e-9)) continue;
+    findings.push_back({Severity::warning, "collider." + collider.name + ".keyframes",
+                        "the last keyframe of " + called("collider", collider.name) + " is at " +
+                            rough_text(last) + " s, the scene ends at " + rough_text(end) + " s",
+                        "more frames, or earlier keyframes"});
+  }
+}
+
+/// Whether a view asks for something of a slice, other than where automatic values put it.
+bool asks_for_slice(const scene::SliceStyle& s) {
+  const scene::SliceStyle usual;
+  return s.field != usual.field || s.scalar != usual.scalar || s.normal != usual.normal ||
+         s.point || !s.follow.empty() || s.motion != usual.motion || s.every != usual.every ||
+         s.arrow_scale != usual.arrow_scale || s.isolines != usual.isolines || s.range ||
+         s.scalar_range || s.colormap != usual.colormap ||
+         s.scalar_colormap != usual.scalar_colormap;
+}
+
+void check_slices(const scene::Scene& scene, std::vector<Finding>& findings) {
+  for (const scene::View& view : scene.views)
+    if (!scene::has_layer(view, scene::Layer::arrows) &&
+        !scene::has_layer(view, scene::Layer::heatmap) && asks_for_slice(view.slice))
+      findings.push_back({Severity::warning, "view." + view.name + ".slice",
+                          "no layer of view " + view.name + " shows a slice",
+                          "add \"arrows\" or \"heatmap\" to view." + view.name + ".layers"});
+}
+
+}  // namespace
+
+void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings) {
+  // Of an emitter that only touches a sink most snow gets away; a third is a mistake.
+  constexpr double whole = 0.999, much = 0.3;
+  for (const sim::seeding::Body& body : scene.bodies)
+    check_removed(scene, "body", body.name, body.shape, whole, findings);
+  for (const sim::seeding::Emitter& emitter : scene.emitters)
+    check_removed(scene, "emitter", emitter.name, emitter.shape, much, findings);
+  check_keyframes(scene, findings);
+  check_slices(scene, findings);
+  const double usual_dt = sim::SolverSettings{}.dt * coarsening, dt = scene.solver.dt;
+  if (scene.solver.time_step == sim::TimeStep::adaptive &&
+      !(dt > 0.999 * usual_dt && dt < 1.001 * usual_dt))
+    findings.push_back(
+        {Severity::warning, "solver.dt",
+         "adaptive steps do not use dt = " + scene::toml::number_text(dt / coarsening) + " s",
+         "time_step = \"fixed\" does; solver.max_dt bounds adaptive ones"});
+}
+
+}  // namespace neve::app::health

@@ -1,0 +1,26 @@
+#pragma once
+/// What is left of a run that broke a rule: a report, and a look at the place where it happened.
+
+#include <optional>
+
+#include "app/health/diagnosis.h"
+#include "app/scene/scene.h"
+#include "app/support/json.h"
+#include "sim/simulation.h"
+
+namespace neve::app::health {
+
+/// Speed and velocity on the plane through the culprit that the camera of a view faces most, a few
+/// cells around it; nothing where the culprit's place is no number.
+/// @param scene resolved
+std::optional<scene::View> culprit_slice(const scene::Scene& scene,
+                                         const sim::Divergence& divergence,
+                                         const sim::ParticleArrays& particles);
+
+/// Everything about the step, the culprit, the last steps and the cause. Where a number is none,
+/// null.
+/// @param scene resolved, TOML
+Json incident_json(const sim::Divergence& divergence, const Diagnosis& diagnosis,
+                   const std::string& scene, double cell_size);
+
+}  // namespace neve::app::health

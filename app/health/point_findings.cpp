@@ -1,0 +1,90 @@
+#include "app/health/point_findings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "app/health/findings.h"
+#include "app/setup/seed_scene.h"
+#include "app/support/text.h"
+
+namespace neve::app::health {
+
+bool is_from_points(const sim::seeding::Body& body) {
+  return std::holds_alternative<sim::shapes::Points>(body.shape.form);
+}
+
+double particles_in_cell(const sim::seeding::Body& body, double cell_size) {
+  if (!is_from_points(body)) return body.particles_per_cell;
+  const sim::seeding::SeedingPlan plan = sim::seeding::plan_seeding(body, cell_size);
+  return static_cast<double>(plan.particle_count) * std::pow(cell_size, 3) / plan.volume;
+}
+
+void check_point_distance(const sim::seeding::Body& body, double cell_size,
+                          std::vector<Finding>& findings) {
+  const double per_cell = particles_in_cell(body, cell_size);
+  if (per_cell >= 4 && per_cell <= 40) return;
+  const std::string eight = rough_text(cell_size * std::cbrt(8 / per_cell));
+  findings.push_back({per_cell < 4 ? Severity::warning : Severity::note,
+                      "body." + body.name + ".shape.points",
+                      "the points of " + called("body", body.name) + " are " +
+                          rough_text(per_cell) + " in a cell, going by their volumes" +
+                          (per_cell < 4 ? ": they leave gaps, and snow breaks where none should"
+                                        : ": more than the grid can tell apart"),
+                      "solver.cell_size = " + eight + " has 8" +
+                          (per_cell < 4 ? "" : ", or thinning = " + rough_text(per_cell / 8))});
+}
+
+namespace {
+
+/// Fewer have too few neighbours to go by.
+constexpr std::size_t fewest_points = 27;
+
+/// kg/m3, the mean over the particles of what the others weigh in their cell: 0 where each is
+/// alone.
+double density_where_they_lie(const sim::ParticleArrays& particles, std::size_t first,
+                              std::size_t end, double h) {
+  std::map<std::array<double, 3>, double> cells;
+  double mass = 0, weighted = 0, alone = 0;
+  for (std::size_t p = first; p < end; ++p) {
+    const sim::Vec3d& x = particles.x[p];
+    cells[{std::floor(x.x() / h), std::floor(x.y() / h), std::floor(x.z() / h)}] += particles.m[p];
+    mass += particles.m[p];
+    alone += particles.m[p] * particles.m[p];
+  }
+  for (const auto& [cell, in_cell] : cells) weighted += in_cell * in_cell;
+  return (weighted - alone) / mass / (h * h * h);
+}
+
+}  // namespace
+
+void check_point_masses(const scene::Scene& scene, const sim::ParticleArrays& particles,
+                        const std::vector<std::size_t>& body_end, std::vector<Finding>& findings) {
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < body_end.size(); ++k) {
+    const sim::seeding::Body& body = scene.bodies[k];
+    const std::size_t begin = first;
+    first = body_end[k];
+    if (!is_from_points(body) || body_end[k] - begin < fewest_points) continue;
+    // Large enough for some points: what one of them weighs itself is left out.
+    const double h = scene.solver.cell_size;
+    const double edge = h * std::max(1.0, std::cbrt(8 / particles_in_cell(body, h)));
+    const double found = density_where_they_lie(particles, begin, body_end[k], edge);
+    const double wanted = scene.materials[setup::material_index(scene, body.material)].density;
+    // Thin bodies fill a part of their cells; a tenth is a mistake of units.
+    if (found < 2.5 * wanted && found > 0.1 * wanted) continue;
+    const std::string points = "the points of " + called("body", body.name);
+    const std::string of_material =
+        " kg/m3 where they lie, material " + body.material + " has " + rough_text(wanted);
+    findings.push_back(
+        {Severity::warning, "body." + body.name + ".shape.points",
+         found < wanted
+             ? points + " are too far apart: they weigh " + rough_text(found) + of_material
+             : points + " weigh " + rough_text(found) + of_material,
+         "positions are in m, masses in kg, volumes in m3; spacing is the distance between "
+         "neighbours in m"});
+  }
+}
+
+}  // namespace neve::app::health

@@ -1,0 +1,25 @@
+#pragma once
+/// What an examination asks of bodies from point files, whose distances and masses nobody chose
+/// for this scene.
+
+#include <vector>
+
+#include "app/health/checkup.h"
+
+namespace neve::app::health {
+
+bool is_from_points(const sim::seeding::Body& body);
+
+/// How many particles a full cell of edge `cell_size` (m) has.
+double particles_in_cell(const sim::seeding::Body& body, double cell_size);
+
+/// Points that are too far apart for the cells, or needlessly close.
+void check_point_distance(const sim::seeding::Body& body, double cell_size,
+                          std::vector<Finding>& findings);
+
+/// Points that weigh where they lie something else than their material says: masses, volumes and
+/// positions are not of the same units. @param body_end see seed_scene
+void check_point_masses(const scene::Scene& scene, const sim::ParticleArrays& particles,
+                        const std::vector<std::size_t>& body_end, std::vector<Finding>& findings);
+
+}  // namespace neve::app::health

@@ -1,0 +1,151 @@
+#include "app/picture/collider_looks.h"
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "app/picture/to_float.h"
+#include "app/scene/toml/value.h"
+#include "render/shapes/mesh_shapes.h"
+#include "sim/shapes/mesh_surface.h"
+
+namespace neve::app::picture {
+
+namespace {
+
+constexpr Vec3f wire_color{0.62f, 0.70f, 0.80f};
+
+render::shapes::Rotation to_rotation(const sim::Mat3d& matrix) {
+  render::shapes::Rotation rotation;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      rotation[static_cast<std::size_t>(3 * row + column)] =
+          static_cast<float>(matrix(row, column));
+  return rotation;
+}
+
+void add_plane(const sim::shapes::Plane& plane, const sim::shapes::Pose& pose,
+               scene::ColliderStyle style, float line_spacing, render::Frame& frame) {
+  render::GroundPlane ground;
+  ground.point = to_float(pose.point);
+  ground.normal = to_float((pose.rotation * plane.normal).normalized());
+  ground.line_spacing = line_spacing;
+  if (style == scene::ColliderStyle::wire) ground.fill = 0;
+  (style == scene::ColliderStyle::solid ? frame.grounds : frame.ghost_grounds).push_back(ground);
+}
+
+void add_lines(render::Lines lines, float opacity, render::Frame& frame) {
+  lines.color = wire_color;
+  lines.opacity = opacity;
+  frame.lines.push_back(std::move(lines));
+}
+
+void add_sphere(const sim::shapes::Sphere& sphere, const sim::shapes::Pose& pose,
+                scene::ColliderStyle style, render::Frame& frame) {
+  const Vec3f center = to_float(pose.point);
+  const auto radius = static_cast<float>(sphere.radius);
+  if (style == scene::ColliderStyle::wire)
+    return add_lines(render::shapes::sphere_lines(center, radius, to_rotation(pose.rotation)), 0.7f,
+                     frame);
+  (style == scene::ColliderStyle::ghost ? frame.ghosts : frame.meshes)
+      .push_back(render::shapes::sphere_mesh(center, radius));
+}
+
+/// Flat faces have no rim: a ghost shows its edges instead.
+void add_box(const sim::shapes::Box& box, const sim::shapes::Pose& pose, scene::ColliderStyle style,
+             render::Frame& frame) {
+  const Vec3f center = to_float(pose.point), size = to_float(box.size);
+  const render::shapes::Rotation rotation = to_rotation(pose.rotation);
+  if (style != scene::ColliderStyle::solid)
+    add_lines(render::shapes::box_lines(center, size, rotation),
+              style == scene::ColliderStyle::wire ? 0.8f : 0.5f, frame);
+  if (style == scene::ColliderStyle::wire) return;
+  (style == scene::ColliderStyle::ghost ? frame.ghosts : frame.meshes)
+      .push_back(render::shapes::box_mesh(center, size, rotation));
+}
+
+/// Of any other form, placed: solid or ghost as triangles, otherwise as lines. Edges show where a
+/// ghost would have no rim.
+void add_form(render::TriangleMesh mesh, render::Lines lines, scene::ColliderStyle style,
+              bool has_rim, render::Frame& frame) {
+  if (style == scene::ColliderStyle::wire) return add_lines(std::move(lines), 0.7f, frame);
+  if (style == scene::ColliderStyle::ghost && !has_rim) add_lines(std::move(lines), 0.35f, frame);
+  (style == scene::ColliderStyle::ghost ? frame.ghosts : frame.meshes).push_back(std::move(mesh));
+}
+
+std::optional<render::shapes::Profile> profile_of(const sim::shapes::Shape& shape) {
+  const auto real = [](double x) { return static_cast<float>(x); };
+  if (const auto* s = std::get_if<sim::shapes::Capsule>(&shape.form))
+    return render::shapes::capsule_profile(real(0.5 * (s->b - s->a).norm()), real(s->radius));
+  if (const auto* s = std::get_if<sim::shapes::Cylinder>(&shape.form))
+    return render::shapes::cylinder_profile(real(0.5 * s->height), real(s->radius));
+  if (const auto* s = std::get_if<sim::shapes::Cone>(&shape.form))
+    return render::shapes::cone_profile(real(0.5 * s->height), real(s->radius));
+  if (const auto* s = std::get_if<sim::shapes::Torus>(&shape.form))
+    return render::shapes::torus_profile(real(s->major_radius), real(s->minor_radius));
+  return std::nullopt;
+}
+
+/// Of a mesh, about the origin of its file.
+struct MeshLook {
+  render::TriangleMesh mesh;
+  render::Lines lines;
+};
+
+/// Made once for all frames.
+std::shared_ptr<const MeshLook> look_of(const sim::shapes::Mesh& mesh) {
+  static sim::shapes::Recent<MeshLook> recent;
+  return recent.get(sim::shapes::file_stamp(mesh.file) + "|" + scene::toml::number_text(mesh.scale),
+                    [&] {
+                      const std::shared_ptr<const sim::shapes::MeshSurface> surface =
+                          sim::shapes::mesh_surface(mesh);
+                      std::vector<Vec3f> position;
+                      std::vector<std::uint32_t> index;
+                      for (const sim::Vec3d& x : surface->mesh().vertices)
+                        position.push_back(to_float(x));
+                      for (const auto& t : surface->mesh().triangles)
+                        index.insert(index.end(), t.begin(), t.end());
+                      return std::make_shared<const MeshLook>(
+                          MeshLook{render::shapes::creased_mesh(position, index),
+                                   render::shapes::mesh_lines(position, index)});
+                    });
+}
+
+void add_other(const sim::shapes::Shape& shape, const sim::shapes::Pose& pose,
+               scene::ColliderStyle style, render::Frame& frame) {
+  const Vec3f center = to_float(pose.point);
+  const render::shapes::Rotation rotation =
+      to_rotation(pose.rotation * sim::shapes::form_axes(shape));
+  if (const std::optional<render::shapes::Profile> profile = profile_of(shape)) {
+    const bool has_rim = std::holds_alternative<sim::shapes::Capsule>(shape.form) ||
+                         std::holds_alternative<sim::shapes::Torus>(shape.form);
+    return add_form(render::shapes::round_mesh(*profile, center, rotation),
+                    render::shapes::round_lines(*profile, center, rotation,
+                                                style == scene::ColliderStyle::ghost),
+                    style, has_rim, frame);
+  }
+  const std::shared_ptr<const MeshLook> look = look_of(std::get<sim::shapes::Mesh>(shape.form));
+  add_form(render::shapes::moved_mesh(look->mesh, center, rotation),
+           render::shapes::moved_lines(look->lines, center, rotation), style, false, frame);
+}
+
+}  // namespace
+
+void add_colliders(const scene::Scene& scene, const scene::View& view, double time,
+                   float line_spacing, render::Frame& frame) {
+  for (const scene::Collider& collider : scene.colliders) {
+    const sim::shapes::Pose pose = sim::shapes::pose_at(collider, time);
+    const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form);
+    if (!scene::has_layer(view, plane ? scene::Layer::ground : scene::Layer::colliders)) continue;
+    if (plane)
+      add_plane(*plane, pose, collider.style, line_spacing, frame);
+    else if (const auto* sphere = std::get_if<sim::shapes::Sphere>(&collider.shape.form))
+      add_sphere(*sphere, pose, collider.style, frame);
+    else if (const auto* box = std::get_if<sim::shapes::Box>(&collider.shape.form))
+      add_box(*box, pose, collider.style, frame);
+    else
+      add_other(collider.shape, pose, collider.style, frame);
+  }
+}
+
+}  // namespace neve::app::picture

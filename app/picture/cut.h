@@ -1,0 +1,21 @@
+#pragma once
+/// Which particles a clip plane leaves out.
+
+#include <optional>
+#include <vector>
+
+#include "app/scene/scene.h"
+
+namespace neve::app::picture {
+
+class Cut {
+ public:
+  /// @param positions of all particles, for a plane without a point of its own
+  Cut(const std::optional<scene::ClipPlane>& clip, const std::vector<sim::Vec3d>& positions);
+  bool removes(const sim::Vec3d& x) const { return normal_.dot(x - point_) > 0; }
+
+ private:
+  sim::Vec3d normal_{0, 0, 0}, point_{0, 0, 0};
+};
+
+}  // namespace neve::app::picture

@@ -1,0 +1,43 @@
+#pragma once
+/// Fields of nodes between the nodes.
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "app/picture/node_fields.h"
+
+namespace neve::app::picture {
+
+/// Where the arrays of a field have a node's value; nothing where its block is not there.
+std::optional<std::size_t> node_index(const render::NodeLattice& lattice, const Vec3i& node);
+
+/// Trilinear weights of the nodes around a point; those that carry no mass do not count.
+class FieldSampler {
+ public:
+  explicit FieldSampler(const NodeFields& fields) : fields_(fields) {}
+
+  struct Stencil {
+    std::array<std::size_t, 8> node;
+    std::array<float, 8> weight{};  ///< sum 1
+    int count = 0;
+    float cover = 0;  ///< sum of the trilinear weights of nodes with mass: 1 inside of the snow
+  };
+  /// Nothing where all eight nodes are empty.
+  std::optional<Stencil> at(const sim::Vec3d& point) const;
+
+  template <class Value>
+  static Value mean(const Stencil& stencil, const std::vector<Value>& values) {
+    Value sum{};
+    for (int n = 0; n < stencil.count; ++n) {
+      const auto k = static_cast<std::size_t>(n);
+      sum = sum + stencil.weight[k] * values[stencil.node[k]];
+    }
+    return sum;
+  }
+
+ private:
+  const NodeFields& fields_;
+};
+
+}  // namespace neve::app::picture

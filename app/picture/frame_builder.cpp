@@ -1,0 +1,290 @@
+#include "app/picture/frame_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "app/picture/attributes.h"
+#include "app/picture/collider_looks.h"
+#include "app/picture/cut.h"
+#include "app/picture/legends.h"
+#include "app/picture/slice.h"
+#include "app/picture/smoke_layer.h"
+#include "app/picture/to_float.h"
+#include "app/picture/wires.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/flat.h"
+#include "app/setup/camera_path.h"
+#include "app/support/round_number.h"
+#include "app/support/text.h"
+
+namespace neve::app::picture {
+
+namespace {
+
+/// Radius of a drawn particle over the mean distance of packed ones: neighbours overlap, so that
+/// snow has a surface.
+constexpr double radius_share = 0.6;
+constexpr std::size_t max_override_lines = 6;
+/// Rings around more particles than these hide what they point out.
+constexpr std::size_t max_marks = 16;
+
+/// The view's camera or the scene's at a time.
+render::Camera camera_of(const scene::Scene& scene, const scene::View& view, double time) {
+  const scene::CameraSettings& settings =
+      view.camera ? *view.camera : scene.camera.value_or(scene::CameraSettings{});
+  const setup::CameraPlace place = setup::camera_at(settings, time, scene.frames / scene.fps);
+  return {to_float(place.eye), to_float(place.target), to_float(settings.up),
+          static_cast<float>(place.fov)};
+}
+
+/// Pixels of a picture 720 high that a metre has around a point.
+double pixels_per_metre(const render::Camera& camera, Vec3f point) {
+  const double distance = std::max(1e-6, static_cast<double>(length(point - camera.eye)));
+  constexpr double radians = 3.14159265358979323846 / 180;
+  return 360 / std::tan(0.5 * static_cast<double>(camera.fov) * radians) / distance;
+}
+
+std::string grouped(std::size_t count) {
+  std::string digits = std::to_string(count);
+  for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
+    digits.insert(static_cast<std::size_t>(place), 1, ' ');
+  return digits;
+}
+
+/// "347 steps, dt 0.00012 s (acoustic)": the smallest dt and the limit that ruled most; and how far
+/// semi-implicit steps were solved at worst.
+std::string steps_text(const sim::AdvanceReport& advance) {
+  std::string text = grouped(advance.steps) + (advance.steps == 1 ? " step" : " steps") + ", dt " +
+                     rough_text(advance.dt_min) + " s (" + sim::name(advance.limit()) + ")";
+  if (advance.solve)
+    text += ", solved in " + std::to_string(advance.solve->iterations) + " to " +
+            rough_text(advance.solve->residual);
+  return text;
+}
+
+/// "hardening = 5 since step 120".
+std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& changes) {
+  std::vector<std::string> texts;
+  for (const scene::LiveChange& change : changes)
+    texts.push_back(change.address + "=" + change.value + " since step " +
+                    std::to_string(change.step));
+  return override_lines(texts);
+}
+
+}  // namespace
+
+FrameBuilder::FrameBuilder(const scene::Scene& scene, double spacing, setup::Quality quality,
+                           const std::vector<std::string>& overrides, double coarsening,
+                           const std::vector<std::size_t>& body_end)
+    : scene_(scene),
+      spacing_(spacing),
+      quality_(quality),
+      override_lines_(picture::override_lines(overrides)),
+      coarsening_(coarsening),
+      body_end_(body_end) {}
+
+render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snapshot,
+                                  std::optional<render::Points> points) const {
+  render::Frame frame;
+  const scene::PictureSize size = setup::size_of(scene_, view);
+  frame.width = size.width;
+  frame.height = size.height;
+  frame.supersampling = setup::supersampling(quality_);
+  frame.is_transparent = scene::background_of(scene_, view) == scene::Background::transparent;
+  frame.camera = camera_of(scene_, view, snapshot.time);
+  frame.light = {to_float(scene_.light.direction), static_cast<float>(scene_.light.intensity),
+                 static_cast<float>(scene_.light.ambient)};
+  // Of the start: grid lines do not change while the camera moves.
+  const render::Camera first = camera_of(scene_, view, 0);
+  const double spacing = round_down(0.1 * static_cast<double>(length(first.eye - first.target)));
+  add_colliders(scene_, view, snapshot.time, static_cast<float>(spacing), frame);
+  if (points)
+    frame.points = std::move(*points);
+  else if (scene::has_layer(view, scene::Layer::particles))
+    add_points(view, snapshot, frame);
+  add_grid(view, snapshot, frame);
+  if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(view);
+  if (scene::has_layer(view, scene::Layer::bounds)) add_bounds(snapshot, frame);
+  if (scene::has_layer(view, scene::Layer::plots))
+    frame.plots = make_plots(view.plots, snapshot.history, snapshot.time, 1 / scene_.fps,
+                             scene_.frames / scene_.fps);
+  if (scene::has_layer(view, scene::Layer::caption)) frame.caption = caption(snapshot);
+  return frame;
+}
+
+std::vector<std::string> FrameBuilder::incident_lines(const sim::Divergence& divergence,
+                                                      const health::Diagnosis& diagnosis) {
+  return {"diverged at step " + std::to_string(divergence.step) + ", rule " + divergence.rule,
+          "cause: " + std::string(scene::name_of(diagnosis.cause)), diagnosis.evidence,
+          "try: " + diagnosis.remedy};
+}
+
+render::Frame FrameBuilder::build_incident(const scene::View& view, const Snapshot& snapshot,
+                                           const sim::Divergence& divergence,
+                                           const health::Diagnosis& diagnosis,
+                                           std::optional<render::Points> points) const {
+  render::Frame frame = build(view, snapshot, std::move(points));
+  // Where only a plane is drawn, rings around what is before or behind it point at nothing.
+  const bool is_plane = !scene::has_layer(view, scene::Layer::particles) &&
+                        !scene::has_layer(view, scene::Layer::smoke);
+  const auto is_shown = [&](const sim::Vec3d& x) {
+    return !is_plane ||
+           std::abs((x - view.slice.point.value_or(x)).dot(view.slice.normal.normalized())) <=
+               scene_.solver.cell_size;
+  };
+  for (const std::uint32_t p : divergence.culprits) {
+    if (frame.marks.size() == max_marks) break;
+    const auto index = snapshot.particles.index_of(p);
+    if (!index) continue;
+    const sim::Vec3d& x = snapshot.particles.x[*index];
+    if (x.allFinite() && is_shown(x)) frame.marks.push_back(to_float(x));
+  }
+  if (!frame.caption.empty())
+    for (std::string& line : incident_lines(divergence, diagnosis))
+      frame.caption.push_back(std::move(line));
+  return frame;
+}
+
+void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
+                              render::Frame& frame) const {
+  const scene::ParticleStyle& style = view.particles;
+  const scene::Range range = style.range.value_or(scene::Range{});
+  const std::vector<double> values = attribute_values(scene_, style.color_by, snapshot);
+  render::Points& points = frame.points;
+  points.spacing = static_cast<float>(spacing_);
+  points.radius = static_cast<float>(radius_share * spacing_);
+  points.colormap = style.colormap;
+  points.range_min = static_cast<float>(range.min);
+  points.range_max = static_cast<float>(range.max);
+  points.position.reserve(snapshot.particles.x.size());
+  points.id.reserve(snapshot.particles.x.size());
+  points.value.reserve(values.size());
+  // What is cut away casts no shadow either: the cut is lit like a surface, and its colours read.
+  const Cut cut(view.clip, snapshot.particles.x);
+  for (std::size_t p = 0; p < snapshot.particles.x.size(); ++p) {
+    // A diverged state is drawn too, as far as it can be.
+    if (!snapshot.particles.x[p].allFinite() || cut.removes(snapshot.particles.x[p])) continue;
+    points.position.push_back(to_float(snapshot.particles.x[p]));
+    points.id.push_back(snapshot.particles.id_of(p));
+    if (!values.empty())
+      points.value.push_back(static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
+  }
+}
+
+void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
+                            render::Frame& frame) const {
+  const NodeFields& fields = snapshot.fields;
+  if (fields.lattice && scene::has_layer(view, scene::Layer::blocks))
+    frame.lines.push_back(block_lines(*fields.lattice, fields.density));
+  if (scene::has_layer(view, scene::Layer::smoke)) add_smoke(scene_, view, fields, frame);
+  const SlicePlane plane =
+      slice_plane(view.slice, snapshot.time, centre_of_mass(view.slice.follow, snapshot));
+  add_slice(view, fields, plane, pixels_per_metre(frame.camera, to_float(plane.point)), frame);
+}
+
+/// A box around each body, with its name where there are several.
+void FrameBuilder::add_bounds(const Snapshot& snapshot, render::Frame& frame) const {
+  render::Lines lines;
+  lines.opacity = 0.6f;
+  for (std::size_t body = 0; body < body_end_.size(); ++body) {
+    const auto [first, end] = particles_of(body, snapshot);
+    sim::shapes::Bounds box{sim::Vec3d::Constant(1e300), sim::Vec3d::Constant(-1e300)};
+    for (std::size_t p = first; p < end; ++p) {
+      if (!snapshot.particles.x[p].allFinite()) continue;
+      box.min = box.min.cwiseMin(snapshot.particles.x[p]);
+      box.max = box.max.cwiseMax(snapshot.particles.x[p]);
+    }
+    if (!(box.min.x() <= box.max.x())) continue;
+    append_box(box.min, box.max, lines);
+    if (body_end_.size() > 1)
+      frame.labels.push_back(
+          {to_float(sim::Vec3d(box.min.x(), box.max.y(), box.max.z())), scene_.bodies[body].name});
+  }
+  frame.lines.push_back(std::move(lines));
+}
+
+std::pair<std::size_t, std::size_t> FrameBuilder::particles_of(std::size_t body,
+                                                               const Snapshot& snapshot) const {
+  const sim::ParticleArrays& p = snapshot.particles;
+  return {body == 0 ? 0 : p.first_from(body_end_[body - 1]), p.first_from(body_end_[body])};
+}
+
+std::optional<sim::Vec3d> FrameBuilder::centre_of_mass(const std::string& name,
+                                                       const Snapshot& snapshot) const {
+  for (std::size_t body = 0; body < body_end_.size(); ++body) {
+    if (scene_.bodies[body].name != name) continue;
+    const auto [first, end] = particles_of(body, snapshot);
+    sim::Vec3d moment = sim::Vec3d::Zero();
+    double mass = 0;
+    for (std::size_t p = first; p < end; ++p) {
+      if (!snapshot.particles.x[p].allFinite()) continue;
+      moment += snapshot.particles.m[p] * snapshot.particles.x[p];
+      mass += snapshot.particles.m[p];
+    }
+    if (mass > 0) return sim::Vec3d(moment / mass);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
+  std::vector<std::string> lines;
+  if (!scene_.title.empty()) lines.push_back(scene_.title);
+  lines.push_back("frame " + std::to_string(snapshot.frame) +
+                  "   t = " + fixed_text(snapshot.time, 3) + " s");
+  const std::size_t count = snapshot.particles.x.size();
+  lines.push_back(grouped(count) + (count == 1 ? " particle" : " particles") +
+                  (coarsening_ > 1 ? ", coarsened " + scene::coarsening_text(coarsening_) : "") +
+                  (snapshot.advance.steps > 0 ? "   " + steps_text(snapshot.advance) : ""));
+  std::vector<std::string> different = override_lines_;
+  for (std::string& line : change_lines(snapshot.changes)) different.push_back(std::move(line));
+  const std::size_t shown = std::min(different.size(), max_override_lines);
+  lines.insert(lines.end(), different.begin(),
+               different.begin() + static_cast<std::ptrdiff_t>(shown));
+  if (shown < different.size())
+    lines.push_back("and " + std::to_string(different.size() - shown) + " more changes");
+  return lines;
+}
+
+namespace {
+
+/// "hardening" of material.snow.hardening, "post center" of collider.post.shape.sphere.center.
+std::string short_name(const std::string& address) {
+  const std::size_t first = address.find('.'), last = address.rfind('.');
+  if (first == std::string::npos) return address;
+  const std::string kind = address.substr(0, first), word = address.substr(last + 1);
+  const bool is_of_one = kind == "body" || kind == "collider" || kind == "emitter" ||
+                         kind == "sink" || kind == "material";
+  const std::size_t second = address.find('.', first + 1);
+  if (!is_of_one || second == std::string::npos) return word;
+  const std::string name = address.substr(first + 1, second - first - 1);
+  return name == "snow" && kind == "material" ? word : name + " " + word;
+}
+
+}  // namespace
+
+std::vector<std::string> override_lines(const std::vector<std::string>& overrides) {
+  std::map<std::string, std::string> by_address;  // the last value of an address counts
+  std::map<std::string, int> named_alike;
+  std::vector<std::string> order;
+  for (const std::string& text : overrides) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string address = text.substr(0, equals);
+    if (!scene::concerns_simulation(address)) continue;
+    if (!by_address.contains(address)) {
+      order.push_back(address);
+      ++named_alike[short_name(address)];
+    }
+    by_address[address] = text.substr(equals + 1);
+  }
+  std::vector<std::string> lines;
+  for (const std::string& address : order) {
+    const std::string name = short_name(address);
+    lines.push_back((named_alike[name] > 1 ? address : name) + " = " + by_address[address]);
+  }
+  return lines;
+}
+
+}  // namespace neve::app::picture

@@ -1,0 +1,68 @@
+#pragma once
+/// The only place where simulation data becomes what the renderer draws, and double becomes float.
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/health/diagnosis.h"
+#include "app/picture/snapshot.h"
+#include "app/setup/plan.h"
+#include "render/frame/frame.h"
+#include "sim/simulation.h"
+
+namespace neve::app::picture {
+
+class FrameBuilder {
+ public:
+  /// @param scene resolved: cameras and ranges are there; must outlive the builder
+  /// @param spacing mean distance of particles in packed snow, m
+  /// @param overrides "material.snow.hardening=5", for the caption
+  /// @param coarsening what --coarsen did to the scene, for the caption; 1: nothing
+  /// @param body_end for each body the id after its last particle, see seed_scene
+  FrameBuilder(const scene::Scene& scene, double spacing, setup::Quality quality,
+               const std::vector<std::string>& overrides, double coarsening,
+               const std::vector<std::size_t>& body_end);
+
+  /// @param points of a frame that was built before from the same snapshot and view, except for
+  /// the camera and the size: taken as they are, since they cost most to make
+  render::Frame build(const scene::View& view, const Snapshot& snapshot,
+                      std::optional<render::Points> points = std::nullopt) const;
+
+  /// What the caption of such a picture adds: rule, cause, evidence, remedy.
+  static std::vector<std::string> incident_lines(const sim::Divergence& divergence,
+                                                 const health::Diagnosis& diagnosis);
+
+  /// The same picture with rings around the particles that broke a rule.
+  render::Frame build_incident(const scene::View& view, const Snapshot& snapshot,
+                               const sim::Divergence& divergence,
+                               const health::Diagnosis& diagnosis,
+                               std::optional<render::Points> points = std::nullopt) const;
+
+  /// Title, frame and time, particles and steps, and what was overridden; one line each.
+  std::vector<std::string> caption(const Snapshot& snapshot) const;
+
+ private:
+  void add_points(const scene::View& view, const Snapshot& snapshot, render::Frame& frame) const;
+  void add_grid(const scene::View& view, const Snapshot& snapshot, render::Frame& frame) const;
+  void add_bounds(const Snapshot& snapshot, render::Frame& frame) const;
+  /// Particles of a body: the first and the one after the last.
+  std::pair<std::size_t, std::size_t> particles_of(std::size_t body,
+                                                   const Snapshot& snapshot) const;
+  std::optional<sim::Vec3d> centre_of_mass(const std::string& body, const Snapshot& snapshot) const;
+
+  const scene::Scene& scene_;
+  double spacing_;
+  setup::Quality quality_;
+  std::vector<std::string> override_lines_;
+  double coarsening_;
+  std::vector<std::size_t> body_end_;
+};
+
+/// "hardening = 5" for "material.snow.hardening=5", "post center = ..." for what is a collider's;
+/// the whole address where two are named alike. None for other cameras, views and colours: these
+/// are seen.
+std::vector<std::string> override_lines(const std::vector<std::string>& overrides);
+
+}  // namespace neve::app::picture

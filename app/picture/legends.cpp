@@ -1,0 +1,47 @@
+#include "app/picture/legends.h"
+
+#include <algorithm>
+
+#include "app/picture/attributes.h"
+
+namespace neve::app::picture {
+
+namespace {
+
+render::Legend legend(const AttributeName& name, render::ColorMap colormap,
+                      const std::optional<scene::Range>& range) {
+  const scene::Range ends = range.value_or(scene::Range{});
+  return {name.title, name.unit, colormap, static_cast<float>(ends.min),
+          static_cast<float>(ends.max)};
+}
+
+bool is_same(const render::Legend& a, const render::Legend& b) {
+  return a.title == b.title && a.unit == b.unit && a.colormap == b.colormap && a.min == b.min &&
+         a.max == b.max;
+}
+
+}  // namespace
+
+std::vector<render::Legend> legends_of(const scene::View& view) {
+  std::vector<render::Legend> legends;
+  const scene::ParticleStyle& particles = view.particles;
+  const scene::SmokeStyle& smoke = view.smoke;
+  const scene::SliceStyle& slice = view.slice;
+  const auto add = [&](const render::Legend& another) {
+    // Two layers of one quantity in the same colours need one.
+    if (std::none_of(legends.begin(), legends.end(),
+                     [&](const render::Legend& other) { return is_same(other, another); }))
+      legends.push_back(another);
+  };
+  if (scene::has_layer(view, scene::Layer::particles) && particles.color_by != scene::ColorBy::snow)
+    add(legend(attribute_name(particles.color_by), particles.colormap, particles.range));
+  if (scene::has_layer(view, scene::Layer::smoke) && smoke.field != scene::ScalarField::mass)
+    add(legend(attribute_name(smoke.field), smoke.colormap, smoke.range));
+  if (scene::has_layer(view, scene::Layer::heatmap))
+    add(legend(attribute_name(slice.scalar), slice.scalar_colormap, slice.scalar_range));
+  if (scene::has_layer(view, scene::Layer::arrows))
+    add(legend(attribute_name(slice.field), slice.colormap, slice.range));
+  return legends;
+}
+
+}  // namespace neve::app::picture

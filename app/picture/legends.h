@@ -1,0 +1,14 @@
+#pragma once
+/// Which colour bars a view needs.
+
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "render/frame/frame.h"
+
+namespace neve::app::picture {
+
+/// One for each thing that the view colours by a value. @param view resolved: ranges are there
+std::vector<render::Legend> legends_of(const scene::View& view);
+
+}  // namespace neve::app::picture

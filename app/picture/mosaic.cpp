@@ -1,0 +1,63 @@
+#include "app/picture/mosaic.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/setup/mosaic_layout.h"
+#include "render/frame/compose.h"
+
+namespace neve::app::picture {
+
+namespace {
+
+constexpr std::array<std::uint8_t, 3> strip_color{38, 42, 49};
+
+/// A title, what was measured, and the overrides on a line of their own.
+std::vector<std::string> strip_caption(const std::vector<std::string>& lines, bool has_title) {
+  const auto joined = [&](std::size_t first, std::size_t end) {
+    std::string text;
+    for (std::size_t k = first; k < std::min(end, lines.size()); ++k)
+      text += (text.empty() ? "" : "   \u00b7   ") + lines[k];
+    return text;
+  };
+  std::vector<std::string> strip;
+  const std::size_t facts = has_title ? 1 : 0;
+  if (has_title && !lines.empty()) strip.push_back(lines.front());
+  strip.push_back(joined(facts, facts + 2));
+  if (lines.size() > facts + 2) strip.push_back(joined(facts + 2, lines.size()));
+  return strip;
+}
+
+}  // namespace
+
+render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
+                          const FrameBuilder& builder, const Snapshot& snapshot,
+                          render::Renderer& renderer) {
+  return draw_mosaic(
+      scene, mosaic, [&](const scene::View& view) { return builder.build(view, snapshot); },
+      builder.caption(snapshot), renderer);
+}
+
+render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
+                          const BuildFrame& build, const std::vector<std::string>& lines,
+                          render::Renderer& renderer) {
+  const std::vector<std::string> caption = strip_caption(lines, !scene.title.empty());
+  const setup::MosaicLayout layout =
+      setup::layout_of(scene, mosaic, static_cast<int>(caption.size()));
+  std::vector<render::Tile> tiles;
+  for (const setup::MosaicTile& tile : layout.tiles) {
+    render::Frame frame = build(tile.view);
+    frame.caption = {tile.view.name};
+    tiles.push_back({tile.x, tile.y, renderer.draw(frame)});
+  }
+  render::Frame strip;
+  strip.width = layout.width;
+  strip.height = layout.height;
+  strip.caption = caption;
+  strip.caption_height = layout.caption_height;
+  strip.font_size = layout.font_size;
+  return renderer.draw_over(render::compose(layout.width, layout.height, strip_color, tiles),
+                            strip);
+}
+
+}  // namespace neve::app::picture

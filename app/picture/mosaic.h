@@ -1,0 +1,27 @@
+#pragma once
+/// Several views in one picture, under one caption.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/picture/frame_builder.h"
+#include "app/scene/scene.h"
+#include "app/setup/mosaic_layout.h"
+#include "render/renderer.h"
+
+namespace neve::app::picture {
+
+/// What a view shows; with rings, cause and remedy where a run diverged.
+using BuildFrame = std::function<render::Frame(const scene::View& view)>;
+
+render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
+                          const FrameBuilder& builder, const Snapshot& snapshot,
+                          render::Renderer& renderer);
+
+/// The same with other frames and another caption.
+render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
+                          const BuildFrame& build, const std::vector<std::string>& caption,
+                          render::Renderer& renderer);
+
+}  // namespace neve::app::picture

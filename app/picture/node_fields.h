@@ -1,0 +1,39 @@
+#pragma once
+/// Fields on the nodes of the grid at one moment, as pictures show them.
+
+#include <map>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "sim/simulation.h"
+
+namespace neve::app::picture {
+
+struct Snapshot;
+
+/// What views want to see of the nodes; `is_needed` also where the nodes' places are enough.
+struct FieldNeeds {
+  bool is_needed = false;
+  std::set<scene::ScalarField> scalars;
+  std::set<scene::VectorField> vectors;
+};
+FieldNeeds field_needs(const scene::Scene& scene);
+
+/// Values are at 64 b + 16 i + 4 j + k, see render::NodeLattice. Nodes lighter than 1e-4 rho h^3,
+/// which carry absurd values, count as empty: zero everywhere.
+struct NodeFields {
+  std::shared_ptr<const render::NodeLattice> lattice;
+  std::vector<float> density;  ///< kg/m3, the node's mass over h^3
+  std::map<scene::ScalarField, std::vector<float>> scalars;
+  std::map<scene::VectorField, std::vector<Vec3f>> vectors;
+};
+
+/// Rasterises the particles as they are. What belongs to a step (force, v_free, v_star, v_new) is
+/// that of the step which follows, done on a copy.
+/// @param particles of the same moment, with stress where a field wants it
+NodeFields sample_fields(const scene::Scene& scene, const sim::Simulation& simulation,
+                         const Snapshot& particles, const FieldNeeds& needs);
+
+}  // namespace neve::app::picture

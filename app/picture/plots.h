@@ -1,0 +1,32 @@
+#pragma once
+/// Diagnostics over time as plots: energies, largest speed, time step and what limited it.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "render/frame/frame.h"
+#include "sim/simulation.h"
+
+namespace neve::app::picture {
+
+/// What the plots need to know of one frame.
+struct PlotSample {
+  double time = 0;                                ///< s
+  double kinetic_energy = 0, elastic_energy = 0;  ///< J
+  double max_speed = 0;                           ///< m/s
+  std::size_t steps = 0;                          ///< since the frame before
+  sim::DtLimit limit = sim::DtLimit::max_dt;      ///< the one that ruled most of them
+};
+
+PlotSample plot_sample(double time, const sim::Summary& summary, const sim::AdvanceReport& advance);
+
+/// @param history one sample per frame, in order; those later than `now` are left out
+/// @param interval s, between frames
+/// @param duration s, of the whole scene
+std::vector<render::Plot> make_plots(const scene::PlotRanges& ranges,
+                                     std::span<const PlotSample> history, double now,
+                                     double interval, double duration);
+
+}  // namespace neve::app::picture

@@ -1,0 +1,32 @@
+#pragma once
+/// State of a simulation at one frame, as far as its views want to see it.
+
+#include <span>
+#include <vector>
+
+#include "app/picture/node_fields.h"
+#include "app/picture/plots.h"
+#include "app/scene/live_change.h"
+#include "app/scene/scene.h"
+#include "sim/simulation.h"
+
+namespace neve::app::picture {
+
+/// Shared by all views of a frame.
+struct Snapshot {
+  int frame = 0;
+  double time = 0;                         ///< s
+  sim::ParticleArrays particles;           ///< id order
+  std::vector<sim::Mat3d> kirchhoff;       ///< Pa; empty unless a view shows stress
+  NodeFields fields;                       ///< empty unless a view shows the grid
+  sim::AdvanceReport advance;              ///< steps since the frame before; the caller fills it in
+  std::span<const PlotSample> history;     ///< of the frames up to this one; the caller keeps it
+  std::vector<scene::LiveChange> changes;  ///< made while it ran, for the caption; the caller's too
+};
+
+/// Whether a view of the scene shows stress.
+bool needs_stress(const scene::Scene& scene);
+
+Snapshot take_snapshot(const scene::Scene& scene, const sim::Simulation& simulation, int frame);
+
+}  // namespace neve::app::picture

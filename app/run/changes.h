@@ -1,0 +1,97 @@
+#pragma once
+/// What was changed while a simulation ran: kept with its pictures, made again by `neve render`.
+///
+/// A change belongs to the step after which it was made. Everything that happens to a run in these
+/// terms is a function of the scene it started from and the list of its changes, which is why the
+/// list alone makes the run again, bit for bit.
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/scene/live_change.h"
+#include "app/scene/override.h"
+#include "app/scene/scene.h"
+#include "sim/retry.h"
+#include "sim/simulation.h"
+
+namespace neve::app::run {
+
+/// A scene before its changes.
+struct SceneSource {
+  std::string text;      ///< TOML
+  std::string name;      ///< of the file, in messages
+  std::string base_dir;  ///< see read_scene_text
+  std::vector<scene::Override> overrides;
+};
+
+/// The scene as it is after the changes made at steps up to this one, read the one way that scenes
+/// are read. What scenes leave to the program ("auto") is not filled in.
+/// @throws SceneError for the text, UsageError for overrides and changes
+scene::Scene with_changes(const SceneSource& source, const std::vector<scene::LiveChange>& changes,
+                          std::size_t up_to_step = static_cast<std::size_t>(-1));
+
+/// The changes that concern what a scene has: those of views and mosaics that it lacks, since
+/// pictures are made again one view at a time, are left out.
+std::vector<scene::LiveChange> changes_of(const scene::Scene& scene,
+                                          std::vector<scene::LiveChange> changes);
+
+/// The scene to keep with a picture: what the simulation started from, drawn as it is drawn now.
+/// Changes of views, cameras, light and output then need not be kept as changes.
+scene::Scene recorded_scene(const scene::Scene& start, const scene::Scene& now);
+
+/// The colliders of the scene where those of the simulation are, for what draws or measures them.
+void follow_colliders(const sim::Simulation& simulation, scene::Scene& scene);
+
+/// Gives a simulation what it can take of a scene while it runs, and the scene the places of its
+/// colliders. @throws std::invalid_argument, see sim::Simulation::apply
+void apply_scene(scene::Scene& scene, sim::Simulation& simulation);
+
+/// Advances a simulation and makes the changes again on the way.
+///
+/// Whenever it returns, all changes with a step up to simulation.steps() have been made: which ones
+/// have follows from the number of steps alone, also for a state that was saved and restored. With
+/// on_divergence = "retry" a frame that breaks a rule, or still takes shorter steps for an earlier
+/// one, is simulated as a whole: its steps are not final before its end, and changes that fall
+/// inside are made there.
+class ChangePlayer {
+ public:
+  /// @param start       resolved, what the simulation was built from; its views decide which are
+  ///                    drawn: changes of others are passed over
+  /// @param changes     in the order they were made
+  /// @param after_each  is told the scene after each change, in the thread that advances; may be
+  ///                    empty
+  ChangePlayer(const scene::Scene& start, std::vector<scene::LiveChange> changes,
+               sim::Simulation& simulation,
+               std::function<void(const scene::Scene&)> after_each = {});
+
+  /// The scene as it is now.
+  const scene::Scene& scene() const { return scene_; }
+  const std::vector<scene::LiveChange>& changes() const { return changes_; }
+
+  /// Makes the changes that are due before the first step.
+  void begin() { make_due(); }
+
+  /// Before a state after so many steps is restored into the simulation.
+  void go_to(std::size_t steps);
+
+  /// sim::Simulation::advance_to or sim::advance_retrying, as the settings want it by then.
+  sim::AdvanceReport advance_to(double time, bool (*interrupted)(),
+                                std::vector<sim::Retry>& retries);
+
+ private:
+  void make_due();
+  void make(std::size_t end);
+  sim::AdvanceReport advance(double time, bool (*interrupted)(), std::size_t last_step,
+                             std::vector<sim::Retry>& retries);
+
+  SceneSource source_;
+  std::vector<scene::LiveChange> changes_;
+  std::size_t made_ = 0;  ///< how many of them
+  sim::Simulation& simulation_;
+  std::function<void(const scene::Scene&)> after_each_;
+  scene::Scene scene_;
+};
+
+}  // namespace neve::app::run

@@ -1,0 +1,166 @@
+#include "app/run/picture_record.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+
+#include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
+#include "app/run/run_json.h"
+#include "app/scene/toml/error.h"
+#include "app/scene/toml/value.h"
+#include "app/support/errors.h"
+#include "sim/base/hash.h"
+
+namespace neve::app::run {
+
+namespace {
+
+/// Reads the texts of one PNG and says which one is wrong.
+class TextReader {
+ public:
+  TextReader(std::string file, const render::PngText& text) : file_(std::move(file)), text_(text) {}
+
+  std::string text(const char* key) const {
+    const auto found = text_.find(key);
+    if (found == text_.end()) fail(std::string("it holds no text ") + key);
+    return found->second;
+  }
+
+  template <class Number>
+  Number number(const char* key) const {
+    const std::string digits = text(key);
+    Number value{};
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (result.ec != std::errc() || result.ptr != digits.data() + digits.size())
+      fail(std::string("its text ") + key + " is no number");
+    return value;
+  }
+
+  Json json(const char* key) const {
+    try {
+      return parse_json(std::string_view(text(key)));
+    } catch (const nlohmann::json::exception&) {
+      fail(std::string("its text ") + key + " is no JSON");
+    }
+  }
+
+  std::vector<scene::LiveChange> changes(const char* key) const {
+    try {
+      return scene::live_changes(json(key));
+    } catch (const std::runtime_error& error) {
+      fail(error.what());
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw Error(exit_invalid_scene, file_ + ": error: not a picture made by neve: " + reason, file_,
+                "name a picture that neve render wrote");
+  }
+
+ private:
+  std::string file_;
+  const render::PngText& text_;
+};
+
+}  // namespace
+
+render::PngText to_png_text(const PictureRecord& record) {
+  return {{"neve:scene", record.scene},
+          {"neve:overrides", to_text(Json(record.overrides), -1)},
+          {"neve:coarsen", scene::toml::number_text(record.coarsening)},
+          {"neve:changes", to_text(scene::to_json(record.changes), -1)},
+          {"neve:seed", std::to_string(record.seed)},
+          {"neve:version", record.version},
+          {"neve:state_hash", record.state_hash},
+          {"neve:frame", std::to_string(record.frame)},
+          {"neve:view", record.view},
+          {"neve:quality", record.quality},
+          {"neve:files", to_text(Json(record.files), -1)}};
+}
+
+Json to_json(const PictureRecord& record) {
+  Json json;
+  json["scene"] = record.scene;
+  json["overrides"] = record.overrides;
+  json["coarsen"] = record.coarsening;
+  json["changes"] = scene::to_json(record.changes);
+  json["seed"] = record.seed;
+  json["version"] = record.version;
+  json["state_hash"] = record.state_hash;
+  json["frame"] = record.frame;
+  json["view"] = record.view;
+  json["quality"] = record.quality;
+  json["files"] = record.files;
+  return json;
+}
+
+PictureRecord read_picture_record(const std::filesystem::path& file) {
+  const std::vector<std::uint8_t> bytes = output::read_file(file);
+  render::PngText text;
+  try {
+    text = render::read_png_text(bytes);
+  } catch (const render::ImageError& error) {
+    throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string());
+  }
+  const TextReader reader(file.string(), text);
+  PictureRecord record;
+  record.scene = reader.text("neve:scene");
+  for (const Json& item : reader.json("neve:overrides"))
+    if (item.is_string()) record.overrides.push_back(item.get<std::string>());
+  if (text.contains("neve:changes")) record.changes = reader.changes("neve:changes");
+  // Pictures of earlier versions do not say.
+  if (text.contains("neve:coarsen")) record.coarsening = reader.number<double>("neve:coarsen");
+  if (!(record.coarsening >= 1)) reader.fail("its coarsening is less than 1");
+  record.seed = reader.number<std::uint64_t>("neve:seed");
+  record.version = reader.text("neve:version");
+  record.state_hash = reader.text("neve:state_hash");
+  record.frame = reader.number<int>("neve:frame");
+  record.view = reader.text("neve:view");
+  record.quality = reader.text("neve:quality");
+  const Json files = reader.json("neve:files");
+  for (const auto& [path, hash] : files.items())
+    if (hash.is_string()) record.files[path] = hash.get<std::string>();
+  if (record.frame < 0) reader.fail("its frame is negative");
+  if (!output::is_plain_name(record.view)) reader.fail("the name of its view is none");
+  return record;
+}
+
+std::map<std::string, std::string> hash_files(const scene::Scene& scene) {
+  std::map<std::string, std::string> files;
+  const auto hash = [&](const std::string& file) {
+    if (files.contains(file)) return;
+    const std::vector<std::uint8_t> bytes = output::read_file(file);
+    files[file] = hash_text(hash_bytes(bytes.data(), bytes.size()));
+  };
+  const auto add = [&](const sim::shapes::Shape& shape) {
+    if (const auto* mesh = std::get_if<sim::shapes::Mesh>(&shape.form)) hash(mesh->file);
+    if (const auto* points = std::get_if<sim::shapes::Points>(&shape.form)) hash(points->file);
+  };
+  for (const sim::seeding::Body& body : scene.bodies) add(body.shape);
+  for (const scene::Collider& collider : scene.colliders) add(collider.shape);
+  for (const sim::seeding::Emitter& emitter : scene.emitters) add(emitter.shape);
+  for (const sim::seeding::Sink& sink : scene.sinks) add(sink.shape);
+  return files;
+}
+
+void check_files(const PictureRecord& record) {
+  for (const auto& [path, hash] : record.files) {
+    const std::vector<std::uint8_t> bytes = output::read_file(path);
+    if (hash_text(hash_bytes(bytes.data(), bytes.size())) != hash)
+      throw Error(
+          exit_invalid_scene,
+          path + ": error: has changed since the picture was made; the picture used " + hash, path,
+          "put the old file back, or render the scene file instead");
+  }
+}
+
+bool is_png(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, 4> start{};
+  in.read(start.data(), start.size());
+  return in && start == std::array<char, 4>{'\x89', 'P', 'N', 'G'};
+}
+
+}  // namespace neve::app::run

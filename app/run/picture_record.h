@@ -1,0 +1,47 @@
+#pragma once
+/// What a picture knows of its own making, as text in the PNG.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/run/changes.h"
+#include "app/scene/scene.h"
+#include "app/setup/plan.h"
+#include "app/support/json.h"
+#include "render/image/image.h"
+
+namespace neve::app::run {
+
+struct PictureRecord {
+  std::string scene;  ///< resolved, TOML
+  std::vector<std::string> overrides;
+  std::vector<scene::LiveChange> changes;  ///< made while the simulation ran, up to this picture
+  double coarsening = 1;                   ///< what --coarsen did to the scene
+  std::uint64_t seed = 0;
+  std::string version;
+  std::string state_hash;  ///< 16 hexadecimal digits
+  int frame = 0;
+  std::string view;
+  std::string quality;                       ///< draft, preview, final
+  std::map<std::string, std::string> files;  ///< of the scene: path to content hash
+};
+
+render::PngText to_png_text(const PictureRecord& record);
+Json to_json(const PictureRecord& record);
+
+/// @throws Error with exit_invalid_scene when the file is no PNG, or holds no or broken records
+PictureRecord read_picture_record(const std::filesystem::path& file);
+
+/// The files that a scene names, each with the hash of its content. @throws IoError
+std::map<std::string, std::string> hash_files(const scene::Scene& scene);
+
+/// @throws Error naming the file that is missing or has changed since the picture was made
+void check_files(const PictureRecord& record);
+
+/// Whether the file starts like a PNG.
+bool is_png(const std::filesystem::path& file);
+
+}  // namespace neve::app::run

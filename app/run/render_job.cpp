@@ -1,0 +1,136 @@
+#include "app/run/render_job.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "app/run/picture_record.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/read.h"
+#include "app/support/errors.h"
+#include "app/support/machine.h"
+
+namespace neve::app::run {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<scene::Override> parse_overrides(const std::vector<std::string>& arguments) {
+  std::vector<scene::Override> overrides;
+  for (const std::string& argument : arguments)
+    overrides.push_back(scene::parse_override(argument));
+  return overrides;
+}
+
+RenderJob job_from_scene(const RenderOptions& options) {
+  RenderJob job;
+  job.scene_file = options.scene.empty() ? default_scene().string() : options.scene;
+  job.scene = scene::read_scene_file(job.scene_file, parse_overrides(options.overrides));
+  job.folder = fs::path("out") / fs::path(job.scene_file).stem();
+  job.frames = {0, job.scene.frames};
+  return job;
+}
+
+const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& name) {
+  for (const scene::Mosaic& mosaic : scene.mosaics)
+    if (mosaic.name == name) return &mosaic;
+  return nullptr;
+}
+
+/// Keeps the views and mosaics of these names, and the views that the mosaics need.
+void choose_views(const std::vector<std::string>& names, RenderJob& job) {
+  std::vector<scene::View> views;
+  std::vector<scene::Mosaic> mosaics;
+  const auto add_view = [&](const std::string& name) {
+    const auto has_name = [&](const scene::View& view) { return view.name == name; };
+    if (std::any_of(views.begin(), views.end(), has_name)) return false;
+    views.push_back(scene::find_view(job.scene, name));
+    return true;
+  };
+  const std::set<std::string> chosen(names.begin(), names.end());
+  for (const std::string& name : names)
+    if (!find_mosaic(job.scene, name)) add_view(name);
+  for (const std::string& name : chosen)
+    if (const scene::Mosaic* mosaic = find_mosaic(job.scene, name)) {
+      mosaics.push_back(*mosaic);
+      for (const std::string& tile : mosaic->views)
+        if (add_view(tile)) job.only_tiles.push_back(tile);
+    }
+  job.scene.views = views;
+  job.scene.mosaics = mosaics;
+}
+
+/// What was changed last, at least, has to be something that can be set.
+void check_changes(const RenderJob& job) {
+  try {
+    with_changes({scene::write_scene(job.scene), job.scene_file, {}, {}},
+                 changes_of(job.scene, job.changes));
+  } catch (const scene::toml::UsageError& error) {
+    throw Error(exit_invalid_scene, job.scene_file + ": error: " + error.what(), job.scene_file,
+                "its text neve:changes was not written by this program");
+  }
+}
+
+/// The frame and view of a picture, from the scene inside it.
+RenderJob job_from_picture(const RenderOptions& options) {
+  const PictureRecord record = read_picture_record(options.scene);
+  check_files(record);
+  RenderJob job;
+  job.scene_file = options.scene;
+  job.scene = scene::read_scene_text(record.scene, options.scene + " (its scene)", {},
+                                     parse_overrides(options.overrides));
+  char name[32];
+  std::snprintf(name, sizeof name, "%04d-again", record.frame);
+  job.folder = fs::path("out") / name;
+  job.frames = {record.frame, record.frame};
+  job.quality = setup::quality_named(record.quality);
+  job.overrides = record.overrides;
+  job.changes = record.changes;
+  job.coarsening = record.coarsening;
+  choose_views({record.view}, job);
+  check_changes(job);
+  return job;
+}
+
+void set_sizes(const RenderOptions& options, scene::Scene& scene) {
+  if (options.size) {
+    scene.size = *options.size;
+    for (scene::View& view : scene.views) view.size.reset();
+    for (scene::Mosaic& mosaic : scene.mosaics) mosaic.width.reset();
+  }
+  if (options.quality != setup::Quality::draft) return;
+  // The size of a draft is part of its scene, so that the picture can be made again.
+  const auto halve = [](scene::PictureSize& size) {
+    size = {std::max(16, size.width / 2), std::max(16, size.height / 2)};
+  };
+  halve(scene.size);
+  for (scene::View& view : scene.views)
+    if (view.size) halve(*view.size);
+  for (scene::Mosaic& mosaic : scene.mosaics)
+    if (mosaic.width) mosaic.width = std::max(64, *mosaic.width / 2);
+}
+
+}  // namespace
+
+RenderJob make_job(const RenderOptions& options) {
+  const bool is_picture = !options.scene.empty() && is_png(options.scene);
+  RenderJob job = is_picture ? job_from_picture(options) : job_from_scene(options);
+  job.overrides.insert(job.overrides.end(), options.overrides.begin(), options.overrides.end());
+  if (options.coarsening) {
+    scene::coarsen(job.scene, *options.coarsening);
+    job.coarsening *= *options.coarsening;
+  }
+  if (!options.views.empty()) choose_views(options.views, job);
+  set_sizes(options, job.scene);
+  if (options.frames) job.frames = *options.frames;
+  if (options.quality) job.quality = *options.quality;
+  if (!options.out.empty()) job.folder = options.out;
+  job.is_validated = options.is_validated;
+  job.is_resumed = options.is_resumed;
+  job.checkpoint_every = options.checkpoint_every;
+  job.has_movies = options.has_movies;
+  return job;
+}
+
+}  // namespace neve::app::run

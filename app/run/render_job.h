@@ -1,0 +1,34 @@
+#pragma once
+/// What `neve render` is asked to make, put together from the scene, the flags, or a picture.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/run/changes.h"
+#include "app/run/render_options.h"
+#include "app/scene/scene.h"
+
+namespace neve::app::run {
+
+struct RenderJob {
+  scene::Scene scene;      ///< with the chosen views and sizes; cameras and ranges not yet resolved
+  std::string scene_file;  ///< as named by the user
+  std::filesystem::path folder;
+  setup::FrameRange frames;
+  setup::Quality quality = setup::Quality::preview;
+  std::vector<std::string> overrides;      ///< for the caption; those of a picture come first
+  std::vector<scene::LiveChange> changes;  ///< to be made while it runs, as they were in a picture
+  std::vector<std::string> only_tiles;  ///< views that are drawn in a mosaic and not by themselves
+  bool is_validated = false;            ///< with the watch of sim/checks/watch.h beside it
+  bool is_resumed = false;              ///< goes on from the checkpoint in the folder
+  int checkpoint_every = 10;            ///< frames; 0: none
+  bool has_movies = true;
+  std::vector<std::string> warnings;  ///< of the start, for run.json
+  double coarsening = 1;              ///< done to the scene, a picture's included
+};
+
+/// @throws SceneError, UsageError, IoError, Error
+RenderJob make_job(const RenderOptions& options);
+
+}  // namespace neve::app::run

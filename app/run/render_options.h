@@ -1,0 +1,39 @@
+#pragma once
+/// What the command line says of a run.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/setup/plan.h"
+#include "app/support/progress.h"
+
+namespace neve::app::run {
+
+struct RenderOptions {
+  std::string scene;  ///< a scene file or a picture; empty: the default scene
+  std::vector<std::string> overrides;
+  std::optional<double> coarsening;
+  std::optional<setup::FrameRange> frames;
+  std::vector<std::string> views;
+  std::optional<scene::PictureSize> size;
+  std::string out;
+  int threads = 0;  ///< 0: one per core
+  std::string backend = "auto";
+  std::optional<setup::Quality> quality;
+  std::string reference;
+  double reference_threshold = 0.5;  ///< of the mean difference, 0 to 255
+  /// Of the mean over any 8x8 pixels: small snow that is somewhere else changes the picture's mean
+  /// by little. Rounding of other drivers stays far below it.
+  double reference_local_threshold = 8;
+  std::string shader_dir;
+  bool is_validated = false;
+  bool is_resumed = false;
+  int checkpoint_every = 10;  ///< frames; 0: none
+  bool has_movies = true;
+  Verbosity verbosity = Verbosity::normal;
+  bool is_dry_run = false;
+  bool is_json = false;
+};
+
+}  // namespace neve::app::run

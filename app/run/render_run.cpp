@@ -1,0 +1,395 @@
+#include "app/run/render_run.h"
+
+#include <algorithm>
+#include <atomic>
+#include <system_error>
+
+#include "app/health/incident.h"
+#include "app/output/atomic_file.h"
+#include "app/output/checkpoint.h"
+#include "app/output/movie.h"
+#include "app/output/sequence.h"
+#include "app/picture/mosaic.h"
+#include "app/run/step_warnings.h"
+#include "app/scene/read.h"
+#include "app/support/clock.h"
+#include "app/support/interrupt.h"
+#include "app/support/text.h"
+#include "app/support/version.h"
+#include "render/gl/context.h"
+
+namespace neve::app::run {
+
+namespace {
+
+/// The poll of a simulation has no argument; a process renders one scene at a time.
+Progress* stepping = nullptr;
+Validation* validating = nullptr;
+
+bool has_alpha(const scene::Scene& scene, const std::string& name) {
+  return std::any_of(scene.views.begin(), scene.views.end(), [&](const scene::View& view) {
+    return view.name == name && scene::background_of(scene, view) == scene::Background::transparent;
+  });
+}
+
+/// Nobody waits for the frame being simulated any more.
+std::atomic<bool> is_abandoned = false;
+
+bool after_step() {
+  if (stepping) stepping->step();
+  if (validating) validating->after_step();
+  return is_interrupted() || is_abandoned;
+}
+
+/// Two pools of threads on fewer cores would only take turns.
+constexpr int threads_for_overlap = 4;
+
+}  // namespace
+
+namespace {
+
+RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation,
+                     const render::gl::Context& context) {
+  RunRecord record;
+  record.scene = scene::write_scene(job.scene);
+  record.scene_file = job.scene_file;
+  record.overrides = job.overrides;
+  record.changes = job.changes;
+  record.coarsening = job.coarsening;
+  record.backend = context.backend;
+  record.gl_renderer = context.renderer;
+  record.threads = simulation.threads();
+  record.simd = simulation.simd();
+  return record;
+}
+
+PictureRecord picture_record(const RenderJob& job, const std::string& scene) {
+  PictureRecord record;
+  record.scene = scene;
+  record.overrides = job.overrides;
+  record.changes = job.changes;
+  record.coarsening = job.coarsening;
+  record.seed = job.scene.seed;
+  record.version = version;
+  record.quality = setup::name(job.quality);
+  record.files = hash_files(job.scene);
+  return record;
+}
+
+}  // namespace
+
+RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
+                     const render::gl::Context& context, render::Renderer& renderer, double spacing,
+                     const std::vector<std::size_t>& body_end, Progress& progress)
+    : job_(job),
+      simulation_(simulation),
+      renderer_(renderer),
+      progress_(progress),
+      scene_(job.scene),
+      player_(job.scene, job.changes, simulation,
+              [this](const scene::Scene& scene) {
+                if (validation_) validation_->use(scene.solver, scene.materials);
+              }),
+      builder_(scene_, spacing, job.quality, job.overrides, job.coarsening, body_end),
+      record_(run_record(job, simulation, context)),
+      picture_record_(picture_record(job, record_.scene)),
+      checkpoints_(job.folder, picture_record_, simulation, player_, progress) {
+  if (job.is_validated)
+    validation_.emplace(job.scene.solver, job.scene.materials, simulation, progress);
+  for (const scene::View& view : job.scene.views)
+    if (is_drawn(view)) record_.views.push_back(view.name);
+  for (const scene::Mosaic& mosaic : job.scene.mosaics) record_.views.push_back(mosaic.name);
+}
+
+/// Frames of the run before stay listed until they are made again: whenever the process is killed,
+/// run.json knows every picture that is there.
+int RenderRun::begin() {
+  output::make_folder(job_.folder);
+  std::optional<ResumedRun> resumed;
+  if (job_.is_resumed) resumed = checkpoints_.resume();
+  if (resumed) {
+    record_.frames = std::move(resumed->frames);
+    history_ = std::move(resumed->history);
+    advance_ = resumed->advance;
+    record_.retries = std::move(resumed->retries);
+    result_.has_checkpoint = true;
+  } else {
+    player_.begin();
+    output::remove_earlier_run(job_.folder);
+    output::remove_checkpoints(job_.folder);
+  }
+  scene_ = player_.scene();
+  note_warnings();
+  for (const std::string& view : record_.views) output::make_folder(job_.folder / view);
+  write_run_json(job_.folder, record_);
+  return resumed ? resumed->frame + 1 : 0;
+}
+
+RenderResult RenderRun::run() {
+  const int first = begin();
+  try {
+    is_abandoned = false;
+    make_frames(first);
+    writer_.finish();
+    write_movies();
+    record_.status = result_.status;
+    write_run_json(job_.folder, record_);
+  } catch (const std::exception& error) {
+    is_abandoned = true;
+    if (next_.valid()) next_.wait();
+    record_.status = RunStatus::failed;
+    record_.error = error.what();
+    forget_unwritten_frames();
+    try {
+      write_run_json(job_.folder, record_);
+    } catch (const IoError&) {
+      // The first error is the one to report; the disk may be full for this file too.
+    }
+    throw;
+  }
+  return result_;
+}
+
+void RenderRun::make_frames(int first) {
+  progress_.start(job_.frames.last);
+  if (validation_ && simulation_.steps() == 0) {
+    validation_->after_step();
+    record_.validation = validation_->records();
+  }
+  for (int frame = first; frame <= job_.frames.last; ++frame) {
+    seconds_sim_ = 0;
+    if (frame > 0 && !advance_to_frame(frame)) {
+      if (result_.status == RunStatus::interrupted) write_checkpoint(frame - 1);
+      return;
+    }
+    summary_ = simulation_.summary();
+    history_.push_back(picture::plot_sample(frame / job_.scene.fps, summary_, advance_));
+    if (frame >= job_.frames.first) draw_frame(frame);
+    advance_ = {};
+    progress_.frame(frame, frame / job_.scene.fps);
+    // A frame that was begun is picked up first: its steps belong to the checkpoint.
+    if (is_interrupted() && frame < job_.frames.last && !next_.valid()) {
+      result_.status = RunStatus::interrupted;
+      write_checkpoint(frame);
+      return;
+    }
+    if (checkpoint_is_due(frame)) write_checkpoint(frame);
+  }
+}
+
+bool RenderRun::checkpoint_is_due(int frame) const {
+  const int every = job_.checkpoint_every;
+  return every > 0 && (frame == job_.frames.last || (frame > 0 && frame % every == 0));
+}
+
+/// Pictures first: what a checkpoint says was reached is on disk.
+void RenderRun::write_checkpoint(int frame) {
+  if (job_.checkpoint_every == 0) return;
+  writer_.finish();
+  checkpoints_.write(frame, advance_, history_, record_.retries);
+  result_.has_checkpoint = true;
+}
+
+RenderRun::Advanced RenderRun::simulate_to(int frame) {
+  const auto start = Clock::now();
+  Advanced advanced;
+  stepping = &progress_;
+  validating = validation_ ? &*validation_ : nullptr;
+  const double time = frame / job_.scene.fps;
+  advanced.report = player_.advance_to(time, after_step, advanced.retries);
+  advanced.scene = player_.scene();
+  follow_colliders(simulation_, advanced.scene);
+  stepping = nullptr;
+  validating = nullptr;
+  advanced.seconds = seconds_since(start);
+  return advanced;
+}
+
+void RenderRun::begin_next(int frame) {
+  // A checkpoint of this frame needs the simulation as it is.
+  if (simulation_.threads() < threads_for_overlap || frame >= job_.frames.last ||
+      checkpoint_is_due(frame) || is_interrupted())
+    return;
+  next_ = std::async(std::launch::async, [this, frame] { return simulate_to(frame + 1); });
+}
+
+/// @return whether the frame was reached in good health
+bool RenderRun::advance_to_frame(int frame) {
+  Advanced advanced = next_.valid() ? next_.get() : simulate_to(frame);
+  scene_ = std::move(advanced.scene);
+  advance_.append(advanced.report);
+  note_retries(advanced.retries);
+  seconds_sim_ = advanced.seconds;
+  if (validation_) record_.validation = validation_->records();
+  note_warnings();
+  if (simulation_.divergence()) {
+    record_.divergence = simulation_.divergence();
+    result_.status = RunStatus::diverged;
+    report_incident();
+    return false;
+  }
+  if (is_interrupted()) {
+    result_.status = RunStatus::interrupted;
+    return false;
+  }
+  return true;
+}
+
+void RenderRun::draw_frame(int frame) {
+  const auto start = Clock::now();
+  picture::Snapshot snapshot = picture::take_snapshot(scene_, simulation_, frame);
+  snapshot.history = history_;
+  snapshot.advance = advance_;
+  const std::uint64_t state_hash = simulation_.state_hash();
+  note_state(state_hash);
+  snapshot.changes = picture_record_.changes;
+  begin_next(frame);
+  std::vector<output::Picture> pictures;
+  const auto add = [&](const std::string& name, render::Image image) {
+    if (pictures.empty()) result_.last_picture = image;
+    pictures.push_back(
+        {output::frame_path(job_.folder, name, frame), std::move(image), png_text(name, frame)});
+  };
+  // A GPU draws one view while the next is put together.
+  std::vector<std::string> waiting;
+  const auto fetch_down_to = [&](std::size_t left) {
+    for (; waiting.size() > left; waiting.erase(waiting.begin()))
+      add(waiting.front(), renderer_.fetch());
+  };
+  for (const scene::View& view : scene_.views) {
+    if (!is_drawn(view)) continue;
+    renderer_.submit(builder_.build(view, snapshot));
+    waiting.push_back(view.name);
+    fetch_down_to(1);
+  }
+  fetch_down_to(0);
+  for (const scene::Mosaic& mosaic : scene_.mosaics)
+    add(mosaic.name, picture::draw_mosaic(scene_, mosaic, builder_, snapshot, renderer_));
+  Metrics metrics = measure(snapshot.particles, job_.scene.solver.cell_size);
+  metrics.max_depth_cells = summary_.max_depth / job_.scene.solver.cell_size;
+  add_frame_record({frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start),
+                    summary_, state_hash, metrics});
+  // Listed first and written then: whenever the process is killed, the next run knows every picture
+  // that it has to remove.
+  write_run_json(job_.folder, record_);
+  for (output::Picture& picture : pictures) writer_.write(std::move(picture));
+  progress_.detail("frame " + std::to_string(frame) + ": " + std::to_string(advance_.steps) +
+                   " steps, simulated in " + fixed_text(seconds_sim_, 2) + " s, drawn in " +
+                   fixed_text(seconds_since(start), 2) + " s, deepest in a collider " +
+                   rough_text(metrics.max_depth_cells) + " cells");
+}
+
+/// In the place of the one that a run before this one made.
+void RenderRun::add_frame_record(const FrameRecord& frame) {
+  const auto place =
+      std::lower_bound(record_.frames.begin(), record_.frames.end(), frame.frame,
+                       [](const FrameRecord& other, int number) { return other.frame < number; });
+  if (place != record_.frames.end() && place->frame == frame.frame)
+    *place = frame;
+  else
+    record_.frames.insert(place, frame);
+}
+
+/// Those of a run that is resumed are in its state.
+void RenderRun::note_warnings() {
+  record_.warnings = job_.warnings;
+  for (std::string& warning : step_warnings(scene_.solver, simulation_.warnings()))
+    record_.warnings.push_back(std::move(warning));
+}
+
+void RenderRun::note_retries(const std::vector<sim::Retry>& retries) {
+  for (const sim::Retry& retry : retries)
+    progress_.warning(retry.sentence + ". Back to " + fixed_text(retry.back_to, 3) +
+                      " s with dt times " + rough_text(retry.dt_scale));
+  record_.retries.insert(record_.retries.end(), retries.begin(), retries.end());
+}
+
+/// The state that broke a rule, with the culprits marked, and the slice through them; pictures, but
+/// no frames. The report first: pictures of a broken state are the more delicate part.
+void RenderRun::report_incident() {
+  const sim::Divergence& divergence = *record_.divergence;
+  const health::Diagnosis diagnosis = health::diagnose(scene_, divergence);
+  result_.diagnosis = diagnosis;
+  record_.cause = scene::name_of(diagnosis.cause);
+  const Json incident =
+      health::incident_json(divergence, diagnosis, record_.scene, job_.scene.solver.cell_size);
+  output::write_file(output::incident_path(job_.folder), to_text(incident) + "\n");
+  const int frame = static_cast<int>(divergence.time * job_.scene.fps);
+  scene::Scene scene = scene_;
+  if (const auto slice = health::culprit_slice(scene, divergence, simulation_.particles()))
+    scene.views.push_back(*slice);
+  picture::Snapshot snapshot = picture::take_snapshot(scene, simulation_, frame);
+  snapshot.time = divergence.time;
+  snapshot.advance = advance_;
+  snapshot.history = history_;
+  note_state(simulation_.state_hash());
+  snapshot.changes = picture_record_.changes;
+  for (const scene::View& view : scene.views)
+    writer_.write({output::diverged_path(job_.folder, view.name),
+                   renderer_.draw(builder_.build_incident(view, snapshot, divergence, diagnosis)),
+                   png_text(view.name, frame)});
+  std::vector<std::string> caption = builder_.caption(snapshot);
+  for (std::string& line : picture::FrameBuilder::incident_lines(divergence, diagnosis))
+    caption.push_back(std::move(line));
+  const auto build = [&](const scene::View& view) {
+    return builder_.build_incident(view, snapshot, divergence, diagnosis);
+  };
+  for (const scene::Mosaic& mosaic : scene_.mosaics)
+    writer_.write({output::diverged_path(job_.folder, mosaic.name),
+                   picture::draw_mosaic(scene, mosaic, build, caption, renderer_),
+                   png_text(mosaic.name, frame)});
+}
+
+void RenderRun::write_movies() {
+  // One picture is no movie.
+  if (!job_.has_movies || record_.frames.size() < 2) return;
+  for (const std::string& view : record_.views) {
+    const output::MovieRequest request{job_.folder / view,
+                                       output::movie_path(job_.folder, view),
+                                       record_.frames.front().frame,
+                                       record_.frames.back().frame,
+                                       job_.scene.fps,
+                                       has_alpha(job_.scene, view)};
+    const output::MovieResult movie = output::write_movie(request);
+    if (movie.outcome == output::MovieOutcome::no_ffmpeg) {
+      progress_.note("no movie: ffmpeg is not installed; the pictures are in " +
+                     job_.folder.string());
+      return;
+    }
+    if (movie.outcome == output::MovieOutcome::written)
+      result_.movies.push_back(request.file);
+    else
+      progress_.warning("no movie " + request.file.string() + ": " + movie.reason);
+  }
+}
+
+void RenderRun::forget_unwritten_frames() {
+  std::erase_if(record_.frames, [&](const FrameRecord& frame) {
+    std::error_code error;
+    for (const std::string& view : record_.views)
+      if (!std::filesystem::exists(output::frame_path(job_.folder, view, frame.frame), error))
+        return true;
+    return false;
+  });
+}
+
+bool RenderRun::is_drawn(const scene::View& view) const {
+  const std::vector<std::string>& tiles = job_.only_tiles;
+  return std::find(tiles.begin(), tiles.end(), view.name) == tiles.end();
+}
+
+void RenderRun::note_state(std::uint64_t state_hash) {
+  picture_record_.state_hash = hash_text(state_hash);
+  picture_record_.changes = job_.changes;
+  std::erase_if(picture_record_.changes,
+                [&](const scene::LiveChange& change) { return change.step > simulation_.steps(); });
+}
+
+render::PngText RenderRun::png_text(const std::string& view, int frame) const {
+  PictureRecord record = picture_record_;
+  record.view = view;
+  record.frame = frame;
+  return to_png_text(record);
+}
+
+}  // namespace neve::app::run

@@ -1,0 +1,99 @@
+#pragma once
+/// The frame loop of `neve render`: simulate, draw, write, record.
+
+#include <filesystem>
+#include <future>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/health/diagnosis.h"
+#include "app/output/picture_writer.h"
+#include "app/picture/frame_builder.h"
+#include "app/run/changes.h"
+#include "app/run/picture_record.h"
+#include "app/run/render_job.h"
+#include "app/run/resume.h"
+#include "app/run/run_json.h"
+#include "app/run/validation.h"
+#include "app/support/progress.h"
+#include "render/renderer.h"
+#include "sim/simulation.h"
+
+namespace neve::app::run {
+
+struct RenderResult {
+  bool has_checkpoint = false;  ///< the run can go on from where it stopped
+  RunStatus status = RunStatus::ok;
+  std::vector<std::filesystem::path> movies;
+  std::optional<render::Image> last_picture;   ///< of the first view
+  std::optional<health::Diagnosis> diagnosis;  ///< of a run that diverged
+};
+
+class RenderRun {
+ public:
+  /// @param job with a resolved scene; must outlive the run, like the others
+  /// @param spacing, body_end see FrameBuilder
+  RenderRun(const RenderJob& job, sim::Simulation& simulation, const render::gl::Context& context,
+            render::Renderer& renderer, double spacing, const std::vector<std::size_t>& body_end,
+            Progress& progress);
+
+  /// Removes what an earlier run left, or goes on with it, then makes all frames and movies.
+  /// run.json says at every moment how far it got, also when this throws.
+  RenderResult run();
+
+  const RunRecord& record() const { return record_; }
+  /// What --validate found; null without it.
+  const Validation* validation() const { return validation_ ? &*validation_ : nullptr; }
+
+ private:
+  /// @return the first frame to make
+  int begin();
+  void make_frames(int first);
+  bool checkpoint_is_due(int frame) const;
+  void write_checkpoint(int frame);
+  /// Steps towards a frame, and the seconds that they took.
+  struct Advanced {
+    sim::AdvanceReport report;
+    std::vector<sim::Retry> retries;
+    scene::Scene scene;  ///< as it is then
+    double seconds = 0;
+  };
+  Advanced simulate_to(int frame);
+  bool advance_to_frame(int frame);
+  /// Lets the next frame be simulated while this one is drawn, where there are cores for both.
+  void begin_next(int frame);
+  void draw_frame(int frame);
+  void add_frame_record(const FrameRecord& frame);
+  void note_warnings();
+  void note_retries(const std::vector<sim::Retry>& retries);
+  void report_incident();
+  void write_movies();
+  void forget_unwritten_frames();
+  /// By itself, not only in a mosaic.
+  bool is_drawn(const scene::View& view) const;
+  /// What pictures say of the simulation as it is now.
+  void note_state(std::uint64_t state_hash);
+  render::PngText png_text(const std::string& view, int frame) const;
+
+  const RenderJob& job_;
+  sim::Simulation& simulation_;
+  render::Renderer& renderer_;
+  Progress& progress_;
+  scene::Scene scene_;  ///< the job's with the changes made so far
+  ChangePlayer player_;
+  picture::FrameBuilder builder_;
+  RunRecord record_;
+  PictureRecord picture_record_;
+  Checkpoints checkpoints_;
+  std::optional<Validation> validation_;
+  RenderResult result_;
+  sim::AdvanceReport advance_;                ///< of the frame being made
+  sim::Summary summary_;                      ///< of the frame being made
+  std::vector<picture::PlotSample> history_;  ///< of all frames simulated
+  double seconds_sim_ = 0;
+  std::future<Advanced> next_;    ///< the frame after the one being drawn, if it was begun
+  output::PictureWriter writer_;  ///< last: stops before what it was given goes away
+};
+
+}  // namespace neve::app::run

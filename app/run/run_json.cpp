@@ -1,0 +1,183 @@
+#include "app/run/run_json.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
+#include "app/support/version.h"
+
+namespace neve::app::run {
+
+namespace {
+
+sim::DtLimit limit_named(const std::string& text) {
+  for (int k = 0; k < sim::dt_limit_count; ++k)
+    if (const auto limit = static_cast<sim::DtLimit>(k); text == sim::name(limit)) return limit;
+  return sim::DtLimit::max_dt;
+}
+
+}  // namespace
+
+const char* name(RunStatus status) {
+  switch (status) {
+    case RunStatus::running:
+      return "running";
+    case RunStatus::ok:
+      return "ok";
+    case RunStatus::diverged:
+      return "diverged";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::failed:
+      return "failed";
+  }
+  return "failed";
+}
+
+std::string hash_text(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+Json to_json(const FrameRecord& frame) {
+  const bool has_steps = frame.advance.steps > 0;
+  const sim::Summary& s = frame.summary;
+  Json json;
+  json["frame"] = frame.frame;
+  json["time"] = number_or_null(frame.time);
+  json["steps"] = frame.advance.steps;
+  json["dt_min"] = has_steps ? number_or_null(frame.advance.dt_min) : Json();
+  json["dt_max"] = has_steps ? number_or_null(frame.advance.dt_max) : Json();
+  json["dt_limit"] = has_steps ? Json(sim::name(frame.advance.limit())) : Json();
+  const std::optional<sim::SolveReport>& solve = frame.advance.solve;
+  json["solve_iterations"] = solve ? Json(solve->iterations) : Json();
+  json["solve_residual"] = solve ? number_or_null(solve->residual) : Json();
+  json["solves_cut_short"] = solve ? Json(solve->cut_short) : Json();
+  json["solves_given_up"] = solve ? Json(solve->given_up) : Json();
+  json["seconds_sim"] = number_or_null(frame.seconds_sim);
+  json["seconds_render"] = number_or_null(frame.seconds_render);
+  json["particles"] = s.particles;
+  json["emitted"] = s.emitted;
+  json["removed"] = s.removed;
+  json["mass"] = number_or_null(s.mass);
+  json["kinetic_energy"] = number_or_null(s.kinetic_energy);
+  json["elastic_energy"] = number_or_null(s.elastic_energy);
+  json["momentum"] = output::vector_json(s.momentum);
+  json["centre_of_mass"] = output::vector_json(s.centre_of_mass);
+  json["max_speed"] = number_or_null(s.max_speed);
+  json["min_J_P"] = number_or_null(s.min_J_P);
+  json["max_J_P"] = number_or_null(s.max_J_P);
+  json["max_depth"] = number_or_null(s.max_depth);
+  json["max_depth_cells"] = number_or_null(frame.metrics.max_depth_cells);
+  json["spread"] = number_or_null(frame.metrics.spread);
+  json["height"] = number_or_null(frame.metrics.height);
+  json["mean_J_P"] = number_or_null(frame.metrics.mean_J_P);
+  json["fragments"] = frame.metrics.fragments;
+  json["largest_fragment"] = number_or_null(frame.metrics.largest_fragment);
+  json["state_hash"] = hash_text(frame.state_hash);
+  return json;
+}
+
+FrameRecord frame_record(const Json& json) {
+  FrameRecord frame;
+  frame.frame = json.at("frame").get<int>();
+  frame.time = output::number_or_nan(json.at("time"));
+  frame.advance.steps = json.at("steps").get<std::size_t>();
+  if (frame.advance.steps > 0) {
+    frame.advance.dt_min = output::number_or_nan(json.at("dt_min"));
+    frame.advance.dt_max = output::number_or_nan(json.at("dt_max"));
+    const sim::DtLimit limit = limit_named(json.at("dt_limit").get<std::string>());
+    frame.advance.ruled[static_cast<std::size_t>(limit)] = frame.advance.steps;
+  }
+  // Runs of earlier versions have none, explicit steps neither.
+  if (json.contains("solve_iterations") && !json.at("solve_iterations").is_null())
+    frame.advance.solve = {json.at("solve_iterations").get<int>(),
+                           output::number_or_nan(json.at("solve_residual")),
+                           json.value("solves_cut_short", std::size_t(0)),
+                           json.value("solves_given_up", std::size_t(0))};
+  frame.seconds_sim = output::number_or_nan(json.at("seconds_sim"));
+  frame.seconds_render = output::number_or_nan(json.at("seconds_render"));
+  sim::Summary& s = frame.summary;
+  s.time = frame.time;
+  s.particles = json.at("particles").get<std::size_t>();
+  // Runs of earlier versions knew no emitters.
+  s.emitted = json.value("emitted", std::uint64_t(0));
+  s.removed = json.value("removed", std::uint64_t(0));
+  s.mass = json.contains("mass") ? output::number_or_nan(json.at("mass")) : std::nan("");
+  s.kinetic_energy = output::number_or_nan(json.at("kinetic_energy"));
+  s.elastic_energy = output::number_or_nan(json.at("elastic_energy"));
+  s.momentum = output::vector_of(json.at("momentum"));
+  s.centre_of_mass = output::vector_of(json.at("centre_of_mass"));
+  s.max_speed = output::number_or_nan(json.at("max_speed"));
+  s.min_J_P = output::number_or_nan(json.at("min_J_P"));
+  s.max_J_P = output::number_or_nan(json.at("max_J_P"));
+  frame.state_hash = std::stoull(json.at("state_hash").get<std::string>(), nullptr, 16);
+  // Runs of earlier versions have none.
+  if (!json.contains("spread")) return frame;
+  frame.metrics = {
+      output::number_or_nan(json.at("spread")), output::number_or_nan(json.at("height")),
+      output::number_or_nan(json.at("mean_J_P")), json.at("fragments").get<std::size_t>(),
+      output::number_or_nan(json.at("largest_fragment"))};
+  if (!json.contains("max_depth")) return frame;
+  s.max_depth = output::number_or_nan(json.at("max_depth"));
+  frame.metrics.max_depth_cells = output::number_or_nan(json.at("max_depth_cells"));
+  return frame;
+}
+
+Json read_run_json(const std::filesystem::path& folder) {
+  try {
+    return parse_json(output::read_file(output::run_json_path(folder)));
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+std::vector<FrameRecord> frame_records(const Json& run) {
+  std::vector<FrameRecord> frames;
+  try {
+    for (const Json& frame : run.at("frames")) frames.push_back(frame_record(frame));
+  } catch (const std::exception&) {
+    frames.clear();
+  }
+  return frames;
+}
+
+std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder) {
+  return frame_records(read_run_json(folder));
+}
+
+Json to_json(const RunRecord& run) {
+  Json json;
+  json["version"] = version;
+  json["scene"] = run.scene;
+  json["scene_file"] = run.scene_file;
+  json["overrides"] = run.overrides;
+  json["changes"] = scene::to_json(run.changes);
+  json["coarsen"] = run.coarsening;
+  json["views"] = run.views;
+  json["backend"] = run.backend;
+  json["gl_renderer"] = run.gl_renderer;
+  json["threads"] = run.threads;
+  json["simd"] = run.simd;
+  json["status"] = name(run.status);
+  if (!run.error.empty()) json["error"] = run.error;
+  json["frames"] = Json::array();
+  for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
+  json["warnings"] = run.warnings;
+  if (!run.validation.empty()) json["validation"] = output::to_json(run.validation);
+  if (!run.retries.empty()) json["retries"] = Json::array();
+  for (const sim::Retry& retry : run.retries) json["retries"].push_back(output::to_json(retry));
+  if (run.divergence) {
+    json["divergence"] = output::to_json(*run.divergence);
+    json["divergence"]["cause"] = run.cause;
+  }
+  return json;
+}
+
+void write_run_json(const std::filesystem::path& folder, const RunRecord& run) {
+  output::write_file(output::run_json_path(folder), to_text(to_json(run)) + "\n");
+}
+
+}  // namespace neve::app::run

@@ -1,0 +1,75 @@
+#pragma once
+/// run.json: what a run did so far, in names that scripts depend on.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/output/report_json.h"
+#include "app/run/changes.h"
+#include "app/run/metrics.h"
+#include "app/support/json.h"
+#include "sim/checks/watch.h"
+#include "sim/retry.h"
+#include "sim/simulation.h"
+
+namespace neve::app::run {
+
+enum class RunStatus { running, ok, diverged, interrupted, failed };
+const char* name(RunStatus status);
+
+struct FrameRecord {
+  int frame = 0;
+  double time = 0;  ///< s, frame / fps
+  sim::AdvanceReport advance;
+  double seconds_sim = 0, seconds_render = 0;
+  sim::Summary summary;
+  std::uint64_t state_hash = 0;
+  Metrics metrics;
+};
+
+struct RunRecord {
+  std::string scene;  ///< resolved, TOML
+  std::string scene_file;
+  std::vector<std::string> overrides;
+  std::vector<scene::LiveChange> changes;  ///< made while it ran
+  double coarsening = 1;                   ///< what --coarsen did to the scene
+  std::vector<std::string> views;
+  std::string backend, gl_renderer;
+  int threads = 0;
+  std::string simd;
+  RunStatus status = RunStatus::running;
+  std::string error;  ///< of a run that failed
+  std::vector<FrameRecord> frames;
+  std::vector<std::string> warnings;                 ///< of the start and of the steps so far
+  std::vector<sim::checks::WatchRecord> validation;  ///< of --validate; empty without it
+  std::vector<sim::Retry> retries;                   ///< times that it went back
+  std::optional<sim::Divergence> divergence;
+  std::string cause;  ///< of the divergence, see diagnosis.h
+};
+
+/// 16 hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
+
+Json to_json(const FrameRecord& frame);
+/// Of what to_json writes; the rest of advance and summary has its defaults.
+/// @throws nlohmann::json::exception
+FrameRecord frame_record(const Json& json);
+
+/// DIR/run.json; null where there is no such file or it cannot be read.
+Json read_run_json(const std::filesystem::path& folder);
+
+/// The frames that it lists; none where they cannot be read.
+std::vector<FrameRecord> frame_records(const Json& run);
+
+/// Both at once.
+std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder);
+
+Json to_json(const RunRecord& run);
+
+/// @throws IoError
+void write_run_json(const std::filesystem::path& folder, const RunRecord& run);
+
+}  // namespace neve::app::run

@@ -1,0 +1,35 @@
+#include "app/run/step_warnings.h"
+
+#include "app/support/text.h"
+
+namespace neve::app::run {
+
+namespace {
+
+std::string semi_implicit_steps(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " semi-implicit step " : " semi-implicit steps ");
+}
+
+}  // namespace
+
+std::vector<std::string> step_warnings(const sim::SolverSettings& settings,
+                                       const sim::Warnings& warnings) {
+  std::vector<std::string> list;
+  if (settings.time_step == sim::TimeStep::fixed && warnings.worst_acoustic_cfl > 1.5)
+    list.push_back("fixed steps: the acoustic CFL reached " +
+                   fixed_text(warnings.worst_acoustic_cfl, 1) +
+                   "; above 1.5 steps are unstable, make solver.dt smaller");
+  if (warnings.solves_cut_short > 0)
+    list.push_back(
+        semi_implicit_steps(warnings.solves_cut_short) +
+        "ended after solver.solve_iterations = " + std::to_string(settings.solve_iterations) +
+        " above solve_tolerance, and were taken as they were: more iterations, or a "
+        "smaller dt (solver.max_dt, solver.dt)");
+  if (warnings.solves_given_up > 0)
+    list.push_back(semi_implicit_steps(warnings.solves_given_up) +
+                   "could not be solved, explicit ones took their place: a smaller dt "
+                   "(solver.max_dt, solver.dt) helps");
+  return list;
+}
+
+}  // namespace neve::app::run

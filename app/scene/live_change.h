@@ -1,0 +1,36 @@
+#pragma once
+/// A parameter that was changed while a simulation ran.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "app/support/json.h"
+
+namespace neve::app::scene {
+
+struct LiveChange {
+  std::size_t step = 0;  ///< steps that had been taken
+  std::string address;
+  std::string value;  ///< as --set takes it: TOML, a word, or "none"
+
+  bool operator==(const LiveChange&) const = default;
+};
+
+Json to_json(const std::vector<LiveChange>& changes);
+/// @throws std::runtime_error that says what is wrong with the list: no list of step, address and
+///         value, steps that go back, or addresses that cannot change while a simulation runs
+std::vector<LiveChange> live_changes(const Json& json);
+
+/// "step 120: material.snow.hardening = 5"
+std::string text_of(const LiveChange& change);
+
+/// Adds a change that was made now. Of many at one step to one address, as a slider makes them
+/// while a run is paused, the first and the last are kept: what comes in between leaves no trace in
+/// the state. (Both, since a value that came back leaves one: last bits of the stress.)
+void note_change(std::vector<LiveChange>& changes, LiveChange change);
+
+/// Forgets the changes made after a step: a run that goes on from an earlier state.
+void forget_changes_after(std::vector<LiveChange>& changes, std::size_t step);
+
+}  // namespace neve::app::scene

@@ -1,0 +1,38 @@
+#include "app/scene/toml/error.h"
+
+namespace neve::app::scene::toml {
+namespace {
+
+std::string place_text(const std::string& file, int line, int column) {
+  std::string place = file;
+  if (line > 0) place.append(":").append(std::to_string(line));
+  if (line > 0) place.append(":").append(std::to_string(column));
+  return place;
+}
+
+std::string sentence(const std::string& place, const std::string& text, const std::string& advice) {
+  std::string line = place;
+  if (!place.empty()) line.append(": error: ");
+  line.append(text);
+  if (!advice.empty()) line.append("; ").append(advice);
+  return line;
+}
+
+}  // namespace
+
+SceneError::SceneError(std::string file_name, int at_line, int at_column, std::string text,
+                       std::string advice)
+    : std::runtime_error(sentence(place_text(file_name, at_line, at_column), text, advice)),
+      file(std::move(file_name)),
+      line(at_line),
+      column(at_column),
+      message(std::move(text)),
+      hint(std::move(advice)) {}
+
+UsageError::UsageError(std::string argument, std::string text, std::string advice)
+    : std::runtime_error(sentence(argument, text, advice)),
+      where(std::move(argument)),
+      message(std::move(text)),
+      hint(std::move(advice)) {}
+
+}  // namespace neve::app::scene::toml

@@ -1,0 +1,28 @@
+#pragma once
+/// What is wrong with a scene, and where. what() is the finished line for stderr.
+
+#include <stdexcept>
+#include <string>
+
+namespace neve::app::scene::toml {
+
+/// "FILE:LINE:COLUMN: error: MESSAGE; HINT", without the position where line is 0.
+class SceneError : public std::runtime_error {
+ public:
+  SceneError(std::string file_name, int at_line, int at_column, std::string text,
+             std::string advice = {});
+
+  std::string file;
+  int line, column;  ///< from 1; the column counts code points
+  std::string message, hint;
+};
+
+/// A mistake on the command line: "WHERE: error: MESSAGE; HINT", where WHERE is the argument.
+class UsageError : public std::runtime_error {
+ public:
+  UsageError(std::string argument, std::string text, std::string advice = {});
+
+  std::string where, message, hint;
+};
+
+}  // namespace neve::app::scene::toml

@@ -1,0 +1,84 @@
+#include "app/scene/toml/toml_source.h"
+
+#include <algorithm>
+
+#include "app/scene/toml/error.h"
+#include "app/scene/toml/toml_text.h"
+
+// The only file that sees toml++. Its assertions abort on input such as "[\"; without them it
+// reports an error. NDEBUG would turn them into promises to the optimiser, so it goes as well.
+// Header-only: a compiled library would bring its own assertions.
+#undef NDEBUG
+#define TOML_HEADER_ONLY 1
+#define TOML_ASSERT(x) ((void)0)
+#define TOML_ENABLE_FORMATTERS 0
+#include <toml++/toml.h>
+
+namespace neve::app::scene::toml {
+namespace {
+
+class Converter {
+ public:
+  explicit Converter(const AsciiToml& source) : source_(source) {}
+
+  Table table(const ::toml::table& from) const {
+    Table to;
+    for (const auto& [key, node] : from) {
+      to.entries.push_back({std::string(key.str()), where(key.source()), value(node)});
+    }
+    // toml++ sorts by key; errors should come in the order of the file.
+    std::stable_sort(to.entries.begin(), to.entries.end(), [](const Entry& a, const Entry& b) {
+      return a.where.line != b.where.line ? a.where.line < b.where.line
+                                          : a.where.column < b.where.column;
+    });
+    return to;
+  }
+
+  Location where(const ::toml::source_region& region) const {
+    return source_.original(static_cast<int>(region.begin.line),
+                            static_cast<int>(region.begin.column));
+  }
+
+ private:
+  Value value(const ::toml::node& node) const { return {data(node), where(node.source())}; }
+
+  decltype(Value::data) data(const ::toml::node& node) const {
+    if (const auto* t = node.as_table()) return table(*t);
+    if (const auto* a = node.as_array()) return array(*a);
+    if (const auto* s = node.as_string()) return s->get();
+    if (const auto* b = node.as_boolean()) return b->get();
+    if (const auto* i = node.as_integer()) return i->get();
+    if (const auto* f = node.as_floating_point()) return f->get();
+    return Date{};
+  }
+
+  Array array(const ::toml::array& from) const {
+    Array to;
+    for (const ::toml::node& node : from) to.push_back(value(node));
+    return to;
+  }
+
+  const AsciiToml& source_;
+};
+
+/// The parser's own words, without saying error twice.
+std::string message_of(const ::toml::parse_error& error) {
+  const std::string text(error.description());
+  const std::string prefix = "Error while parsing ";
+  return text.starts_with(prefix) ? "cannot parse " + text.substr(prefix.size()) : text;
+}
+
+}  // namespace
+
+Table parse_toml(std::string_view text, const std::string& file) {
+  const AsciiToml source = to_ascii_toml(text, file);
+  const Converter convert(source);
+  try {
+    return convert.table(::toml::parse(source.text));
+  } catch (const ::toml::parse_error& error) {
+    const Location at = convert.where(error.source());
+    throw SceneError(file, at.line, at.column, message_of(error));
+  }
+}
+
+}  // namespace neve::app::scene::toml

@@ -1,0 +1,236 @@
+#include "app/scene/toml/toml_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "app/scene/toml/error.h"
+
+namespace neve::app::scene::toml {
+namespace {
+
+constexpr int max_dots_per_line = 64;  // dotted keys nest, and toml++ recurses over them
+constexpr int max_nesting = 32;        // of brackets and braces
+
+/// One code point: its bytes and value; length 0 when they are not valid UTF-8.
+struct CodePoint {
+  char32_t value;
+  std::size_t length;
+};
+
+CodePoint decode(std::string_view s) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(s[k]); };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return {lead, 1};
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || s.size() < length) return {0, 0};
+  char32_t value = lead & (0x7Fu >> length);
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((byte(k) & 0xC0u) != 0x80u) return {0, 0};
+    value = (value << 6) | (byte(k) & 0x3Fu);
+  }
+  const char32_t least = length == 2 ? 0x80 : length == 3 ? 0x800 : 0x10000;
+  const bool is_surrogate = value >= 0xD800 && value <= 0xDFFF;
+  if (value < least || value > 0x10FFFF || is_surrogate) return {0, 0};
+  return {value, length};
+}
+
+bool is_control(char32_t c) {
+  return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
+}
+
+enum class State { plain, comment, basic, basic_block, literal, literal_block };
+
+/// Copies the text code point by code point and follows which kind of token it is in.
+class Rewriter {
+ public:
+  Rewriter(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+  AsciiToml run() {
+    while (at_ < text_.size()) {
+      const CodePoint c = decode(text_.substr(at_));
+      if (c.length == 0) fail("invalid UTF-8");
+      if (is_control(c.value)) fail("control character " + code_name(c.value));
+      if (c.value == '\r' && !starts("\r\n")) fail("carriage return without line feed");
+      if (c.value == '\n') {
+        line_feed();
+      } else if (c.value < 0x80) {
+        ascii(static_cast<char>(c.value));
+      } else {
+        wide(c);
+      }
+    }
+    if (state_ != State::plain && state_ != State::comment) fail_unclosed();
+    return std::move(out_);
+  }
+
+ private:
+  bool starts(std::string_view what) const { return text_.substr(at_).starts_with(what); }
+
+  [[noreturn]] void fail(const std::string& message, const std::string& hint = {}) const {
+    throw SceneError(file_, line_, column_, message, hint);
+  }
+
+  [[noreturn]] void fail_unclosed() const {
+    throw SceneError(file_, opened_.line, opened_.column, "string is never closed");
+  }
+
+  static std::string code_name(char32_t c) {
+    std::array<char, 16> name{};
+    std::snprintf(name.data(), name.size(), "U+%04X", static_cast<unsigned>(c));
+    return name.data();
+  }
+
+  /// Copies ASCII bytes as they are.
+  void copy(std::size_t count) {
+    out_.text += text_.substr(at_, count);
+    at_ += count;
+    column_ += static_cast<int>(count);
+    out_column_ += static_cast<int>(count);
+  }
+
+  void line_feed() {
+    if (state_ == State::basic || state_ == State::literal) fail_unclosed();
+    if (state_ == State::comment) state_ = State::plain;
+    copy(1);
+    ++line_;
+    column_ = out_column_ = 1;
+    dots_ = 0;
+    is_escaped_ = false;
+  }
+
+  void ascii(char c) {
+    switch (state_) {
+      case State::plain:
+        return plain(c);
+      case State::comment:
+        return copy(1);
+      case State::basic:
+        return basic(c);
+      case State::basic_block:
+        return basic_block(c);
+      case State::literal:
+        return literal(c);
+      case State::literal_block:
+        return literal_block(c);
+    }
+  }
+
+  void plain(char c) {
+    if (c == '"' || c == '\'') return open(c);
+    if (c == '#') state_ = State::comment;
+    if (c == '.' && ++dots_ > max_dots_per_line) fail("more than 64 dots in one line");
+    if ((c == '[' || c == '{') && ++depth_ > max_nesting) fail("nested more than 32 deep");
+    if ((c == ']' || c == '}') && depth_ > 0) --depth_;
+    copy(1);
+  }
+
+  void open(char quote) {
+    const std::string block(3, quote);
+    opened_ = {line_, column_};
+    if (starts(block)) {
+      state_ = quote == '"' ? State::basic_block : State::literal_block;
+      return copy(3);
+    }
+    const bool is_empty = starts(std::string(2, quote));
+    if (!is_empty) state_ = quote == '"' ? State::basic : State::literal;
+    copy(is_empty ? 2 : 1);
+  }
+
+  void basic(char c) {
+    if (c == '"' && !is_escaped_) state_ = State::plain;
+    is_escaped_ = c == '\\' && !is_escaped_;
+    copy(1);
+  }
+
+  void basic_block(char c) {
+    if (c == '"' && !is_escaped_) return quotes(c);
+    is_escaped_ = c == '\\' && !is_escaped_;
+    copy(1);
+  }
+
+  void literal(char c) {
+    if (c == '\'') state_ = State::plain;
+    copy(1);
+  }
+
+  void literal_block(char c) {
+    if (c == '\'') return quotes(c);
+    copy(1);
+  }
+
+  /// A run of quotes in a block closes it from three on; up to two more before belong to it.
+  void quotes(char quote) {
+    std::size_t count = 1;
+    while (count < 5 && at_ + count < text_.size() && text_[at_ + count] == quote) ++count;
+    if (count >= 3) state_ = State::plain;
+    copy(count);
+  }
+
+  void wide(const CodePoint& c) {
+    if (state_ == State::comment) return replace(c, "?");
+    if (state_ == State::basic || state_ == State::basic_block) {
+      if (is_escaped_) fail("a backslash cannot escape " + code_name(c.value));
+      return replace(c, escape(c.value));
+    }
+    const bool in_literal = state_ != State::plain;
+    fail(code_name(c.value) + (in_literal ? " in a literal string" : " outside a string"),
+         "only comments and strings in \"double quotes\" may hold more than ASCII");
+  }
+
+  static std::string escape(char32_t c) {
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), c > 0xFFFF ? "\\U%08X" : "\\u%04X",
+                  static_cast<unsigned>(c));
+    return text.data();
+  }
+
+  void replace(const CodePoint& c, const std::string& ascii_text) {
+    const int length = static_cast<int>(ascii_text.size());
+    if (length > 1) out_.escapes.push_back({line_, out_column_, length});
+    out_.text += ascii_text;
+    out_column_ += length;
+    at_ += c.length;
+    ++column_;
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  AsciiToml out_;
+  std::size_t at_ = 0;
+  int line_ = 1, column_ = 1, out_column_ = 1;
+  int dots_ = 0, depth_ = 0;
+  State state_ = State::plain;
+  Location opened_{};        // where the string we are in began
+  bool is_escaped_ = false;  // the previous character was a backslash that escapes
+};
+
+}  // namespace
+
+Location AsciiToml::original(int line, int column) const {
+  const auto first = std::lower_bound(escapes.begin(), escapes.end(), line,
+                                      [](const Escape& e, int l) { return e.line < l; });
+  int shift = 0;
+  for (auto e = first; e != escapes.end() && e->line == line && e->column < column; ++e) {
+    // Inside an escape every column is the one code point.
+    shift += std::min(e->length - 1, column - e->column);
+  }
+  return {line, column - shift};
+}
+
+AsciiToml to_ascii_toml(std::string_view text, const std::string& file) {
+  if (text.size() > max_toml_bytes) throw SceneError(file, 0, 0, "larger than 1 MiB");
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return Rewriter(text, file).run();
+}
+
+bool is_clean_text(std::string_view text) {
+  while (!text.empty()) {
+    const CodePoint c = decode(text);
+    if (c.length == 0 || is_control(c.value)) return false;
+    text.remove_prefix(c.length);
+  }
+  return true;
+}
+
+}  // namespace neve::app::scene::toml

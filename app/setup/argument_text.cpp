@@ -1,0 +1,71 @@
+#include "app/setup/argument_text.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "app/scene/toml/error.h"
+#include "app/support/text.h"
+
+namespace neve::app::setup {
+
+std::optional<int> whole_number(const std::string& text) {
+  int value = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (text.empty() || result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return value;
+}
+
+std::optional<double> finite_number(const std::string& text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (text.empty() || result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+FrameRange parse_frames(const std::string& text) {
+  constexpr int last_possible = 100'000;
+  const std::size_t dash = text.find('-');
+  const auto first = dash == std::string::npos ? 0 : whole_number(text.substr(0, dash));
+  const auto last = whole_number(dash == std::string::npos ? text : text.substr(dash + 1));
+  if (!first || !last || *first < 0 || *last < *first || *last > last_possible)
+    throw scene::toml::UsageError("--frames", "cannot use \"" + text + "\"",
+                                  "expected A-B with 0 <= A <= B <= 100000, or N for 0-N");
+  return {*first, *last};
+}
+
+double parse_coarsening(const std::string& text) {
+  const auto value = finite_number(text);
+  if (!value)
+    throw scene::toml::UsageError("--coarsen", "cannot use \"" + text + "\"",
+                                  "expected a number of at least 1, as in --coarsen 2");
+  return *value;
+}
+
+scene::PictureSize parse_size(const std::string& text) {
+  constexpr int smallest = 16, largest = 1000000;
+  const std::size_t cross = text.find('x');
+  const auto width =
+      cross == std::string::npos ? std::nullopt : whole_number(text.substr(0, cross));
+  const auto height =
+      cross == std::string::npos ? std::nullopt : whole_number(text.substr(cross + 1));
+  if (!width || !height || *width < smallest || *height < smallest || *width > largest ||
+      *height > largest)
+    throw scene::toml::UsageError("--size", "cannot use \"" + text + "\"",
+                                  "expected WIDTHxHEIGHT, each 16 to 1000000, as in 1280x720");
+  return {*width, *height};
+}
+
+double parse_time(const std::string& text) {
+  constexpr double longest = 1e6;
+  const bool has_unit = text.size() > 1 && text.back() == 's';
+  const auto value = finite_number(has_unit ? text.substr(0, text.size() - 1) : text);
+  if (!value || *value < 0 || *value > longest)
+    throw scene::toml::UsageError("--at", "cannot use \"" + text + "\"",
+                                  "expected seconds from 0 to 1000000, as in --at 0.25s");
+  return *value;
+}
+
+}  // namespace neve::app::setup

@@ -1,0 +1,295 @@
+#include "app/setup/auto_camera.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "app/setup/camera_path.h"
+#include "app/setup/snow_pieces.h"
+#include "app/support/round_number.h"
+
+namespace neve::app::setup {
+
+namespace {
+
+using sim::Vec3d;
+
+constexpr double filled = 0.62;    // share of the picture that the subject takes
+constexpr double spread = 1.7;     // snow of many small cells scatters wider than its coarse copy
+constexpr double outliers = 0.02;  // share of particles that may leave the picture
+constexpr double largest_growth = 16;  // of the subject's size: what falls for ever is let go
+
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
+
+struct Box {
+  Vec3d min = Vec3d::Constant(1e300), max = Vec3d::Constant(-1e300);
+  void add(const Vec3d& x) {
+    min = min.cwiseMin(x);
+    max = max.cwiseMax(x);
+  }
+  Vec3d center() const { return 0.5 * (min + max); }
+  double diagonal() const { return (max - min).norm(); }
+};
+
+Box box_of(const std::vector<Vec3d>& points) {
+  Box box;
+  for (const Vec3d& x : points) box.add(x);
+  return box;
+}
+
+Vec3d median(const std::vector<Vec3d>& points) {
+  Vec3d result;
+  std::vector<double> values(points.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(points.begin(), points.end(), values.begin(),
+                   [&](const Vec3d& x) { return x[axis]; });
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    result[axis] = *middle;
+  }
+  return result;
+}
+
+/// The points without the share that is farthest from the median: splinters do not set the frame.
+std::vector<Vec3d> without_outliers(std::vector<Vec3d> points) {
+  std::erase_if(points, [](const Vec3d& x) { return !x.allFinite(); });
+  if (points.empty()) return points;
+  const Vec3d middle = median(points);
+  const auto kept =
+      static_cast<std::ptrdiff_t>(static_cast<double>(points.size()) * (1 - outliers));
+  std::nth_element(points.begin(), points.begin() + kept, points.end(),
+                   [&](const Vec3d& a, const Vec3d& b) {
+                     return (a - middle).squaredNorm() < (b - middle).squaredNorm();
+                   });
+  points.resize(static_cast<std::size_t>(std::max<std::ptrdiff_t>(kept, 1)));
+  return points;
+}
+
+/// The points farther from their middle, sideways.
+std::vector<Vec3d> scattered(std::vector<Vec3d> points) {
+  if (points.empty()) return points;
+  const Vec3d middle = median(points);
+  for (Vec3d& x : points)
+    for (const int axis : {0, 2}) x[axis] = middle[axis] + spread * (x[axis] - middle[axis]);
+  return points;
+}
+
+/// Everything that should be seen at some time.
+std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<Moment>& moments) {
+  std::vector<Vec3d> points;
+  for (const SnowPiece& piece : snow_places(scene)) {
+    const sim::shapes::Bounds bounds = sim::shapes::bounds(*piece.shape);
+    points.push_back(bounds.min);
+    points.push_back(bounds.max);
+  }
+  const double first_size = std::max(box_of(points).diagonal(), 1e-6);
+  Box seen;
+  for (const Moment& moment : moments) {
+    const std::vector<Vec3d> kept =
+        moment.time > 0 ? scattered(without_outliers(moment.x)) : moment.x;
+    Box grown = seen;
+    for (const Vec3d& x : kept) grown.add(x);
+    if (moment.time > 0 && grown.diagonal() > largest_growth * first_size) break;
+    seen = grown;
+    points.insert(points.end(), kept.begin(), kept.end());
+  }
+  return points;
+}
+
+std::array<Vec3d, 8> corners(const Vec3d& min, const Vec3d& max) {
+  std::array<Vec3d, 8> result;
+  for (unsigned k = 0; k < 8; ++k)
+    result[k] = {k & 1 ? max.x() : min.x(), k & 2 ? max.y() : min.y(), k & 4 ? max.z() : min.z()};
+  return result;
+}
+
+/// Obstacles that the snow meets belong in the picture unless they would dwarf it.
+void add_small_colliders(const scene::Scene& scene, std::vector<Vec3d>& points) {
+  const Box snow = box_of(points);
+  const Vec3d margin = Vec3d::Constant(0.25 * snow.diagonal());
+  for (const sim::shapes::Collider& collider : scene.colliders) {
+    if (std::holds_alternative<sim::shapes::Plane>(collider.shape.form)) continue;
+    const sim::shapes::Bounds bounds = sim::shapes::bounds_at(collider, 0);
+    const bool is_near = ((bounds.min - margin).array() <= snow.max.array()).all() &&
+                         ((bounds.max + margin).array() >= snow.min.array()).all();
+    if (!is_near || (bounds.max - bounds.min).norm() > 1.5 * snow.diagonal()) continue;
+    // Half way to the corners: about what a sphere in the box fills.
+    const Vec3d center = 0.5 * (bounds.min + bounds.max), half = 0.4 * (bounds.max - bounds.min);
+    for (const Vec3d& corner : corners(center - half, center + half)) points.push_back(corner);
+  }
+}
+
+/// Degrees about y, from +z towards +x, that look across the longer horizontal side.
+double best_azimuth(const std::vector<Vec3d>& points) {
+  Vec3d mean = Vec3d::Zero();
+  for (const Vec3d& x : points) mean += x / static_cast<double>(points.size());
+  double xx = 0, zz = 0, xz = 0;
+  for (const Vec3d& point : points) {
+    const Vec3d q = point - mean;
+    xx += q.x() * q.x(), zz += q.z() * q.z(), xz += q.x() * q.z();
+  }
+  const double root = std::hypot(xx - zz, 2 * xz);
+  const bool is_long = xx + zz + root > 2 * (xx + zz - root);
+  if (!is_long) return 30;
+  // The axis makes this angle with +x; the camera looks across it, turned a little for depth.
+  const double axis = 0.5 * std::atan2(2 * xz, xx - zz) * 180 / std::numbers::pi;
+  double azimuth = -axis;
+  if (azimuth > 90) azimuth -= 180;
+  if (azimuth < -90) azimuth += 180;
+  return azimuth + 20;
+}
+
+Vec3d direction(double azimuth, double elevation) {
+  const double a = radians(azimuth), e = radians(elevation);
+  return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
+}
+
+struct Framing {
+  Vec3d target;
+  double distance;
+};
+
+/// Degrees; arrows seen exactly from the front have no depth.
+constexpr double askew = 14;
+
+double azimuth_of(const Vec3d& normal) {
+  return std::atan2(normal.x(), normal.z()) * 180 / std::numbers::pi;
+}
+
+/// What the picture's sides and the angle of view make of directions.
+struct Lens {
+  Vec3d up;
+  double slope;               ///< tan(fov / 2)
+  double aspect;              ///< width / height
+  std::vector<double> turns;  ///< degrees about up that the camera passes; only 0 when it is still
+  bool is_turning() const { return turns.size() > 1; }
+};
+
+/// What the camera turns by, in steps so small that nothing leaves the picture between them.
+std::vector<double> turns_of(const scene::CameraSettings& settings, double duration) {
+  constexpr double step = 20;
+  const double all = std::clamp(turned(settings, duration, duration), -360.0, 360.0);
+  const int count = static_cast<int>(std::ceil(std::abs(all) / step));
+  std::vector<double> turns{0};
+  for (int k = 1; k <= count; ++k) turns.push_back(all * k / count);
+  return turns;
+}
+
+/// What a camera that turns about the middle of the points sees, as if they turned instead.
+std::vector<Vec3d> turned_backwards(const std::vector<Vec3d>& points, const Lens& lens) {
+  const Vec3d middle = box_of(points).center();
+  std::vector<Vec3d> seen;
+  seen.reserve(points.size() * lens.turns.size());
+  for (const double turn : lens.turns)
+    for (const Vec3d& x : points) seen.push_back(middle + turn_about(lens.up, -turn, x - middle));
+  return seen;
+}
+
+/// Moves the target to the middle of what is seen and the eye back until it fits. While the camera
+/// turns, the target stays above or below the middle of the points.
+Framing fit(const std::vector<Vec3d>& points, const Vec3d& middle, const Vec3d& towards_eye,
+            const Lens& lens) {
+  Vec3d right = lens.up.cross(towards_eye);
+  if (right.norm() < 1e-6) right = towards_eye.unitOrthogonal();
+  right.normalize();
+  const Vec3d up = towards_eye.cross(right);
+  const double t = lens.slope, aspect = lens.aspect;
+  Framing framing{middle, std::max(2 * box_of(points).diagonal() / t, 1e-3)};
+  for (int round = 0; round < 30; ++round) {
+    double left = 1e300, bottom = 1e300, rightmost = -1e300, top = -1e300;
+    for (const Vec3d& point : points) {
+      const Vec3d q = point - framing.target;
+      const double depth = std::max(framing.distance - q.dot(towards_eye), 0.1 * framing.distance);
+      const double x = q.dot(right) / (depth * t * aspect), y = q.dot(up) / (depth * t);
+      left = std::min(left, x), rightmost = std::max(rightmost, x);
+      bottom = std::min(bottom, y), top = std::max(top, y);
+    }
+    const double reach = t * framing.distance;
+    if (lens.is_turning()) {
+      framing.target += 0.5 * (bottom + top) * reach * lens.up;
+      rightmost = std::max(rightmost, -left), left = -rightmost;
+    } else {
+      framing.target +=
+          0.5 * ((left + rightmost) * aspect * reach * right + (bottom + top) * reach * up);
+    }
+    const double share = 0.5 * std::max(rightmost - left, top - bottom);
+    framing.distance *= std::clamp(share / filled, 0.5, 2.0);
+  }
+  return framing;
+}
+
+/// When to look where planes are: keyframes may move and tilt them.
+std::vector<double> times_of(const sim::shapes::Collider& collider, double duration) {
+  constexpr int parts = 12;
+  if (collider.keyframes.empty()) return {0};
+  std::vector<double> times;
+  for (int k = 0; k <= parts; ++k) times.push_back(duration * k / parts);
+  return times;
+}
+
+/// No plane between the eye and what it looks at.
+bool is_clear_at(const scene::Scene& scene, const Framing& framing, const Vec3d& towards_eye) {
+  const Vec3d eye = framing.target + framing.distance * towards_eye;
+  return std::all_of(scene.colliders.begin(), scene.colliders.end(), [&](const auto& collider) {
+    const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form);
+    if (!plane) return true;
+    const std::vector<double> times = times_of(collider, scene.frames / scene.fps);
+    return std::all_of(times.begin(), times.end(), [&](double time) {
+      const sim::shapes::Pose pose = sim::shapes::pose_at(collider, time);
+      const Vec3d normal = (pose.rotation * plane->normal).normalized();
+      return (eye - pose.point).dot(normal) > 0.08 * framing.distance;
+    });
+  });
+}
+
+bool is_clear(const scene::Scene& scene, const Framing& framing, const Vec3d& towards_eye,
+              const Lens& lens) {
+  return std::all_of(lens.turns.begin(), lens.turns.end(), [&](double turn) {
+    return is_clear_at(scene, framing, turn_about(lens.up, turn, towards_eye));
+  });
+}
+
+}  // namespace
+
+scene::CameraSettings automatic_camera(const scene::Scene& scene,
+                                       const std::vector<Moment>& moments,
+                                       const scene::CameraSettings& settings, double aspect,
+                                       const std::optional<Vec3d>& normal) {
+  std::vector<Vec3d> points = subject(scene, moments);
+  add_small_colliders(scene, points);
+  const Lens lens{settings.up.normalized(), std::tan(radians(settings.fov / 2)), aspect,
+                  turns_of(settings, scene.frames / scene.fps)};
+
+  const double preferred = normal ? azimuth_of(*normal) + askew : best_azimuth(points);
+  const Vec3d middle = box_of(points).center();
+  if (lens.is_turning()) points = turned_backwards(points, lens);
+  // A level plane is looked at from well above it.
+  const bool is_level = normal && std::abs(normal->normalized().y()) > 0.7;
+  Vec3d towards_eye = direction(preferred, is_level ? 60 : 14);
+  Framing framing = fit(points, middle, towards_eye, lens);
+  bool is_found = is_clear(scene, framing, towards_eye, lens);
+  for (const double elevation : {14.0, 30.0, 50.0, -14.0})
+    for (const double turn : {0.0, -40.0, 150.0, 180.0, 70.0, -110.0}) {
+      if (is_found) break;
+      const Vec3d candidate = direction(preferred + turn, elevation);
+      const Framing fitted = fit(points, middle, candidate, lens);
+      if (!is_clear(scene, fitted, candidate, lens)) continue;
+      towards_eye = candidate, framing = fitted, is_found = true;
+    }
+
+  scene::CameraSettings camera = settings;
+  Vec3d target = framing.target, eye = framing.target + framing.distance * towards_eye;
+  for (int axis = 0; axis < 3; ++axis) {
+    target[axis] = round_to(target[axis], framing.distance, 3);
+    eye[axis] = round_to(eye[axis], framing.distance, 3);
+  }
+  camera.eye = eye;
+  camera.target = target;
+  return camera;
+}
+
+}  // namespace neve::app::setup

@@ -1,0 +1,223 @@
+#include "app/setup/auto_ranges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/setup/snow_pieces.h"
+#include "app/support/round_number.h"
+#include "sim/engine/time_step.h"
+#include "sim/shapes/placed_points.h"
+
+namespace neve::app::setup {
+
+namespace {
+
+using sim::Vec3d;
+
+/// How far a point moves along a unit direction until it meets a collider; negative: never.
+double distance_to(const sim::shapes::Collider& collider, const Vec3d& point,
+                   const Vec3d& direction) {
+  if (const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form)) {
+    const sim::shapes::Pose pose = sim::shapes::pose_at(collider, 0);
+    const Vec3d normal = pose.rotation * plane->normal;
+    const double approach = -direction.dot(normal);
+    const double height = (point - pose.point).dot(normal);
+    return approach > 1e-9 && height > 0 ? height / approach : -1;
+  }
+  // Any other shape by the box around it: an estimate is all that is needed.
+  const sim::shapes::Bounds box = sim::shapes::bounds_at(collider, 0);
+  double enter = 0, leave = 1e300;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(direction[axis]) < 1e-9) {
+      if (point[axis] < box.min[axis] || point[axis] > box.max[axis]) return -1;
+      continue;
+    }
+    const double a = (box.min[axis] - point[axis]) / direction[axis];
+    const double b = (box.max[axis] - point[axis]) / direction[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave ? enter : -1;
+}
+
+/// Of points that have velocities in their file.
+double own_speed(const sim::shapes::Shape& shape) {
+  const auto* points = std::get_if<sim::shapes::Points>(&shape.form);
+  if (!points) return 0;
+  return sim::shapes::summary_of(*points, sim::rotation_from_degrees(shape.rotation)).max_speed;
+}
+
+/// Speed of snow when it meets what is below it, or at the end of the scene when nothing is.
+double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
+  const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
+  const double radius = 0.5 * (box.max - box.min).norm();
+  const double start =
+      piece.velocity.norm() + piece.angular_velocity.norm() * radius + own_speed(*piece.shape);
+  const double g = scene.solver.gravity.norm();
+  if (g == 0) return start;
+  const Vec3d down = scene.solver.gravity / g;
+  double fall = -1;
+  for (const sim::shapes::Collider& collider : scene.colliders) {
+    const double distance = distance_to(collider, sim::shapes::center(*piece.shape), down);
+    if (distance >= 0 && (fall < 0 || distance < fall)) fall = distance;
+  }
+  const double duration = scene.frames / scene.fps;
+  const double free_fall = 0.5 * g * duration * duration;
+  // Snow at rest still slumps by about its own size.
+  fall = std::max(fall < 0 ? free_fall : fall, radius);
+  return std::sqrt(start * start + 2 * g * fall);
+}
+
+double largest(const std::vector<sim::Material>& materials, double (*of)(const sim::Material&)) {
+  double value = 0;
+  for (const sim::Material& material : materials) value = std::max(value, of(material));
+  return value;
+}
+
+/// Compression by theta_c in each direction, the elastic limit of undeformed snow.
+double yield_pressure(const sim::Material& m) {
+  const sim::Lame l = sim::lame(m.youngs_modulus, m.poisson_ratio);
+  const double theta = std::clamp(m.critical_compression, 0.001, 0.5);
+  return (3 * l.lambda + 2 * l.mu) * theta;
+}
+
+double yield_shear(const sim::Material& m) {
+  const sim::Lame l = sim::lame(m.youngs_modulus, m.poisson_ratio);
+  const double theta = std::clamp(m.critical_compression + m.critical_stretch, 0.001, 0.5);
+  return 2 * l.mu * theta;
+}
+
+/// Of snow that meets something, rho v^2: below the elastic limit, and well above its own weight.
+double stagnation_pressure(const scene::Scene& scene) {
+  const double speed = setup::impact_speed(scene);
+  const double density = largest(scene.materials, [](const sim::Material& m) { return m.density; });
+  return speed > 0 ? density * speed * speed : std::numeric_limits<double>::infinity();
+}
+
+scene::Range density_range(const scene::Scene& scene) {
+  double low = 1e300, high = 0;
+  for (const sim::Material& m : scene.materials) {
+    low = std::min(low, m.density);
+    high = std::max(high, m.density);
+  }
+  return {round_down(0.5 * low), round_up(1.5 * high)};
+}
+
+/// Longest step that the limits allow snow at rest.
+double step_at_rest(const sim::SolverSettings& solver,
+                    const std::vector<sim::Material>& materials) {
+  if (solver.time_step == sim::TimeStep::fixed) return solver.dt;
+  double step = solver.max_dt;
+  for (const sim::Material& material : materials)
+    step = std::min(step, sim::engine::acoustic_stretch(solver) * solver.acoustic_cfl *
+                              solver.cell_size / sim::sound_speed(material));
+  return step;
+}
+
+}  // namespace
+
+double impact_speed(const scene::Scene& scene) {
+  double speed = 0;
+  for (const SnowPiece& piece : snow_places(scene))
+    speed = std::max(speed, impact_speed(scene, piece));
+  return speed;
+}
+
+double energy_of_impact(const scene::Scene& scene) {
+  double energy = 0;
+  for (const SnowPiece& piece : snow_pieces(scene)) {
+    const double speed = impact_speed(scene, piece);
+    energy += 0.5 * piece.mass * speed * speed;
+  }
+  return energy;
+}
+
+scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
+                             std::size_t particle_count) {
+  // Packed snow is stiffer than the rest by about this factor.
+  constexpr double hardened = 2;
+  switch (color_by) {
+    case scene::ColorBy::snow:
+      break;
+    case scene::ColorBy::speed: {
+      const double speed = impact_speed(scene);
+      return {0, speed > 0 ? round_up(speed) : 1};
+    }
+    case scene::ColorBy::density:
+      return density_range(scene);
+    case scene::ColorBy::J_E: {
+      // Three directions at the threshold, as in J = (1 + theta)^3.
+      const double compression = 3 * largest(scene.materials, [](const sim::Material& m) {
+                                   return m.critical_compression;
+                                 });
+      const double stretch =
+          3 * largest(scene.materials, [](const sim::Material& m) { return m.critical_stretch; });
+      const double reach = std::clamp(round_up(std::max(compression, stretch)), 0.01, 0.8);
+      return {1 - reach, 1 + reach};
+    }
+    case scene::ColorBy::J_P:
+      return {0.8, 1.2};  // about 1, so that diverging maps have their middle there
+    case scene::ColorBy::pressure: {
+      const double yield = hardened * largest(scene.materials, yield_pressure);
+      const double pressure = round_up(std::min(yield, stagnation_pressure(scene)));
+      return {-pressure, pressure};
+    }
+    case scene::ColorBy::von_mises:
+      return {0, round_up(std::min(hardened * largest(scene.materials, yield_shear),
+                                   stagnation_pressure(scene)))};
+    case scene::ColorBy::id:
+      return {0, static_cast<double>(std::max<std::size_t>(particle_count, 2) - 1)};
+  }
+  return {0, 1};
+}
+
+scene::Range automatic_range(const scene::Scene& scene, scene::ScalarField field) {
+  if (field == scene::ScalarField::mass) return {0, density_range(scene).max};
+  return automatic_range(scene, attribute_of(field), 0);
+}
+
+scene::Range automatic_range(const scene::Scene& scene, scene::VectorField field) {
+  const double h = scene.solver.cell_size;
+  const scene::Range speeds = automatic_range(scene, scene::ColorBy::speed, 0);
+  switch (field) {
+    case scene::VectorField::momentum:
+      // A node of packed snow has the mass of a cell.
+      return {0, round_up(density_range(scene).max * h * h * h * speeds.max)};
+    case scene::VectorField::force:
+      // Stress on the face of a cell.
+      return {0, round_up(automatic_range(scene, scene::ColorBy::pressure, 0).max * h * h)};
+    default:
+      return speeds;
+  }
+}
+
+scene::ColorBy attribute_of(scene::ScalarField field) {
+  switch (field) {
+    case scene::ScalarField::mass:
+    case scene::ScalarField::density:
+      return scene::ColorBy::density;
+    case scene::ScalarField::speed:
+      return scene::ColorBy::speed;
+    case scene::ScalarField::J_E:
+      return scene::ColorBy::J_E;
+    case scene::ScalarField::J_P:
+      return scene::ColorBy::J_P;
+    case scene::ScalarField::pressure:
+      return scene::ColorBy::pressure;
+    case scene::ScalarField::von_mises:
+      return scene::ColorBy::von_mises;
+  }
+  return scene::ColorBy::density;
+}
+
+void resolve_plot_ranges(const scene::Scene& scene, scene::PlotRanges& ranges) {
+  const auto from_zero = [](double largest) {
+    return scene::Range{0, largest > 0 ? round_up(largest) : 1};
+  };
+  if (!ranges.energy) ranges.energy = from_zero(energy_of_impact(scene));
+  if (!ranges.speed) ranges.speed = automatic_range(scene, scene::ColorBy::speed, 0);
+  if (!ranges.dt) ranges.dt = from_zero(1.05 * step_at_rest(scene.solver, scene.materials));
+}
+
+}  // namespace neve::app::setup

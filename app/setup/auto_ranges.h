@@ -1,0 +1,30 @@
+#pragma once
+/// Colour ranges from constants of the scene, so that they mean the same in every frame.
+
+#include "app/scene/scene.h"
+
+namespace neve::app::setup {
+
+/// Round numbers that hold what the attribute usually does in this scene; never what was drawn.
+/// @param particle_count of the whole scene
+scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
+                             std::size_t particle_count);
+
+/// m/s: speed of the quickest body when it meets what is below it, or at the end of the scene.
+double impact_speed(const scene::Scene& scene);
+
+/// Of a field on nodes.
+scene::Range automatic_range(const scene::Scene& scene, scene::ScalarField field);
+scene::Range automatic_range(const scene::Scene& scene,
+                             scene::VectorField field);  ///< of its magnitude
+
+/// Kinetic energy of all bodies when they meet what is below them, J.
+double energy_of_impact(const scene::Scene& scene);
+
+/// What particles carry that makes a field of nodes.
+scene::ColorBy attribute_of(scene::ScalarField field);
+
+/// Fills in the ranges of plots that are absent, from constants of the scene, as round numbers.
+void resolve_plot_ranges(const scene::Scene& scene, scene::PlotRanges& ranges);
+
+}  // namespace neve::app::setup

@@ -1,0 +1,132 @@
+#include "app/setup/dry_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/setup/seed_scene.h"
+#include "app/setup/snow_pieces.h"
+#include "app/support/interrupt.h"
+
+namespace neve::app::setup {
+
+namespace {
+
+constexpr double particles_wanted = 250;
+constexpr double work_budget = 1.6e6;  // steps x particles, a fraction of a second
+constexpr int moments = 24;
+constexpr double most_sound_speed =
+    45;  // m/s at rest: what is stiffer moves the same, in more steps
+
+/// The poll of a simulation has no argument; each thread runs at most one dry run.
+thread_local long steps_left = 0;
+
+bool is_out_of_steps() {
+  return --steps_left <= 0 || is_interrupted();
+}
+
+/// What a dry run makes of the scene's snow.
+enum class Substitute {
+  same,      ///< the scene's own, but for a bound on its stiffness
+  uncrushed  ///< no compaction: for scenes whose coarse snow is crushed out of bounds
+};
+
+/// The scene with few and large cells, and steps as long as are stable.
+scene::Scene coarsened(const scene::Scene& scene, Substitute substitute) {
+  scene::Scene coarse = scene;
+  coarse.solver.precision = sim::Precision::single;
+  coarse.solver.time_step = sim::TimeStep::adaptive;
+  coarse.solver.max_dt = std::max(scene.solver.max_dt, 2e-3);
+  coarse.solver.acoustic_cfl = 0.9;
+  coarse.solver.beta = 0;  // softened as it is below, explicit steps do it
+  const double growth = std::max(1.0, planned_particles(scene) / particles_wanted);
+  coarse.solver.cell_size *= std::cbrt(growth);
+  for (sim::seeding::Body& body : coarse.bodies)
+    if (auto* points = std::get_if<sim::shapes::Points>(&body.shape.form))
+      points->thinning *= growth;
+  for (sim::Material& material : coarse.materials) {
+    const double c = sim::sound_speed(material);
+    if (c > most_sound_speed)
+      material.youngs_modulus *= most_sound_speed * most_sound_speed / (c * c);
+    if (substitute == Substitute::uncrushed) {
+      material.hardening = 0;
+      material.critical_compression = 0.9;
+    }
+  }
+  // Snow that is not crushed would bounce like rubber: pure PIC takes that energy out.
+  if (substitute == Substitute::uncrushed) coarse.solver.flip_ratio = 0;
+  return coarse;
+}
+
+/// Bodies too thin for the coarse cells are left out of the motion.
+sim::ParticleArrays seed_what_fits(const scene::Scene& coarse) {
+  sim::ParticleArrays particles;
+  for (std::size_t index = 0; index < coarse.bodies.size(); ++index) {
+    try {
+      append_body(coarse, index, particles);
+    } catch (const sim::ShapeError&) {
+    }
+  }
+  return particles;
+}
+
+/// Meshes too thin for the coarse cells stand in nobody's way.
+sim::Simulation coarse_simulation(const scene::Scene& coarse,
+                                  const sim::ParticleArrays& particles) {
+  try {
+    return make_simulation(coarse, particles, 1);
+  } catch (const sim::ShapeError&) {
+    scene::Scene clear = coarse;
+    std::erase_if(clear.colliders, [](const scene::Collider& collider) {
+      return std::holds_alternative<sim::shapes::Mesh>(collider.shape.form);
+    });
+    return make_simulation(clear, particles, 1);
+  }
+}
+
+/// A run as far as the budget lasts, or the coarse snow holds together.
+struct Run {
+  std::vector<Moment> seen;
+  bool is_whole = false;  ///< not cut short by a divergence
+};
+
+Run run_coarse(const scene::Scene& coarse) {
+  const sim::ParticleArrays particles = seed_what_fits(coarse);
+  Run result;
+  result.is_whole = true;
+  const double emitted = planned_emission(coarse, coarse.frames / coarse.fps);
+  if (particles.x.empty() && emitted == 0) return result;
+  const auto note = [&](double time, const std::vector<sim::Vec3d>& x) {
+    if (!x.empty()) result.seen.push_back({time, x});
+  };
+  note(0, particles.x);
+
+  sim::Simulation simulation = coarse_simulation(coarse, particles);
+  steps_left = std::lround(work_budget / (static_cast<double>(particles.x.size()) + emitted));
+  const double duration = coarse.frames / coarse.fps;
+  for (int k = 1; k <= moments && duration > 0; ++k) {
+    simulation.advance_to(duration * k / moments, is_out_of_steps);
+    result.is_whole = !simulation.divergence();
+    if (!result.is_whole) break;
+    note(simulation.time(), simulation.particles().x);
+    if (steps_left <= 0) break;
+  }
+  return result;
+}
+
+}  // namespace
+
+double planned_particles(const scene::Scene& scene) {
+  double count = 0;
+  for (const SnowPiece& piece : snow_pieces(scene)) count += piece.particles;
+  return count;
+}
+
+std::vector<Moment> dry_run(const scene::Scene& scene) {
+  Run first = run_coarse(coarsened(scene, Substitute::same));
+  if (first.is_whole || is_interrupted()) return first.seen;
+  Run second = run_coarse(coarsened(scene, Substitute::uncrushed));
+  const bool is_longer = second.seen.size() > first.seen.size();
+  return is_longer ? second.seen : first.seen;
+}
+
+}  // namespace neve::app::setup

@@ -1,0 +1,23 @@
+#pragma once
+/// A short, strongly coarsened run of a scene: where its snow goes, roughly.
+
+#include <vector>
+
+#include "app/scene/scene.h"
+
+namespace neve::app::setup {
+
+/// Positions of the coarse particles at one time.
+struct Moment {
+  double time = 0;
+  std::vector<sim::Vec3d> x;
+};
+
+/// How many particles the bodies will have, roughly.
+double planned_particles(const scene::Scene& scene);
+
+/// Some hundred particles over the whole scene, or as long as a fixed budget of steps times
+/// particles lasts: what comes out depends on the scene alone, never on the machine.
+std::vector<Moment> dry_run(const scene::Scene& scene);
+
+}  // namespace neve::app::setup

@@ -1,0 +1,31 @@
+#pragma once
+/// Where the views of a mosaic go.
+
+#include <vector>
+
+#include "app/scene/scene.h"
+
+namespace neve::app::setup {
+
+struct MosaicTile {
+  scene::View view;  ///< as it is drawn: its own size here, no caption
+  int x = 0, y = 0;  ///< px, of its upper left corner
+};
+
+/// Where everything goes; the same in every frame.
+struct MosaicLayout {
+  int width = 0, height = 0;  ///< px
+  int caption_height = 0;     ///< px, of the strip at the top
+  int font_size = 0;          ///< px, of the strip
+  std::vector<MosaicTile> tiles;
+};
+
+/// The width is shared evenly; each tile keeps the shape of its view, each row is as high as its
+/// highest tile.
+/// @param caption_lines how many lines the caption will have
+MosaicLayout layout_of(const scene::Scene& scene, const scene::Mosaic& mosaic, int caption_lines);
+
+/// Size of the picture with the caption that a run without overrides has.
+scene::PictureSize size_of(const scene::Scene& scene, const scene::Mosaic& mosaic);
+
+}  // namespace neve::app::setup

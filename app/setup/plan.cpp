@@ -1,0 +1,167 @@
+#include "app/setup/plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "app/output/picture_writer.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/mosaic_layout.h"
+#include "app/setup/seed_scene.h"
+#include "app/support/errors.h"
+#include "app/support/machine.h"
+#include "app/support/text.h"
+#include "sim/simulation.h"
+#include "sim/types/number_text.h"
+
+namespace neve::app::setup {
+
+namespace {
+
+constexpr std::array quality_names{"draft", "preview", "final"};
+
+/// What a software rasteriser maps; with less some drivers crash instead of saying so.
+constexpr std::uint64_t driver_address_space = 1'000'000'000;
+
+/// Of a sample while it is drawn: colour, normal, depth and their copies on both sides.
+constexpr double bytes_per_sample = 64;
+constexpr double bytes_per_pixel = 4;
+
+std::vector<scene::PictureSize> picture_sizes(const scene::Scene& scene) {
+  std::vector<scene::PictureSize> sizes;
+  for (const scene::View& view : scene.views) sizes.push_back(size_of(scene, view));
+  for (const scene::Mosaic& mosaic : scene.mosaics) sizes.push_back(size_of(scene, mosaic));
+  return sizes;
+}
+
+/// Pictures while they are drawn and while they wait for the encoder.
+double picture_memory(const scene::Scene& scene, Quality quality) {
+  double drawn = 0, waiting = 0;
+  const double samples = supersampling(quality) * supersampling(quality);
+  for (const scene::PictureSize& size : picture_sizes(scene)) {
+    const double pixels = static_cast<double>(size.width) * size.height;
+    drawn = std::max(drawn, pixels * samples * bytes_per_sample);
+    waiting = std::max(waiting, pixels * bytes_per_pixel * (output::picture_queue_capacity + 2));
+  }
+  return drawn + waiting;
+}
+
+std::uint64_t whole_bytes(double bytes) {
+  return bytes < 9e18 ? static_cast<std::uint64_t>(bytes)
+                      : std::numeric_limits<std::uint64_t>::max();
+}
+
+std::string count_text(double count) {
+  return count < 1e15 ? fixed_text(count, 0) : sim::number_text(count);
+}
+
+}  // namespace
+
+const char* name(Quality quality) {
+  return quality_names[static_cast<std::size_t>(quality)];
+}
+
+Quality quality_named(const std::string& name) {
+  const auto found = std::find(quality_names.begin(), quality_names.end(), name);
+  if (found == quality_names.end())
+    throw scene::toml::UsageError("--quality", "unknown quality \"" + name + "\"",
+                                  "expected draft, preview or final");
+  return static_cast<Quality>(found - quality_names.begin());
+}
+
+int supersampling(Quality quality) {
+  return quality == Quality::final ? 2 : 1;
+}
+
+scene::PictureSize size_of(const scene::Scene& scene, const scene::View& view) {
+  return view.size.value_or(scene.size);
+}
+
+Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality quality, int threads) {
+  Plan plan;
+  plan.frames = frames;
+  const double h = scene.solver.cell_size;
+  double cells = 0;
+  for (const sim::seeding::Body& body : scene.bodies) {
+    const sim::seeding::SeedingPlan seeding = sim::seeding::plan_seeding(body, h);
+    const double filled = seeding.volume / (h * h * h);
+    plan.volume += seeding.volume;
+    cells += filled;
+    const bool is_listed = std::holds_alternative<sim::shapes::Points>(body.shape.form);
+    plan.particles += std::max(static_cast<double>(seeding.particle_count),
+                               is_listed ? 0.0 : std::floor(filled * body.particles_per_cell));
+  }
+  const double time = frames.last / scene.fps;
+  for (const sim::seeding::Emitter& emitter : scene.emitters) {
+    const sim::Material& material = scene.materials[material_index(scene, emitter.material)];
+    const auto count = static_cast<double>(sim::seeding::count_emitted(emitter, material, h, time));
+    plan.emitted += count;
+    cells += count / emitter.particles_per_cell;
+    plan.volume += count / emitter.particles_per_cell * (h * h * h);
+  }
+  plan.particles += plan.emitted;
+  const double per_cell = cells > 0 ? std::max(1.0, plan.particles / cells) : 8.0;
+  // Beyond any machine's memory the exact figure does not matter; this keeps it a whole number.
+  const double counted = std::min(plan.particles, 1e15);
+  const auto simulated = static_cast<double>(
+      sim::estimate_memory(static_cast<std::size_t>(counted), per_cell, scene.solver, threads));
+  // The plain arrays that go in at the start and come out for every picture.
+  const double arrays =
+      counted * static_cast<double>(sizeof(sim::Mat3d) * 3 + sizeof(sim::Vec3d) * 3);
+  plan.memory = whole_bytes(simulated + arrays + picture_memory(scene, quality));
+  plan.memory_limit = scene.limits.memory > 0 ? scene.limits.memory : available_memory() / 10 * 8;
+  for (const scene::PictureSize& size : picture_sizes(scene)) {
+    const double samples = supersampling(quality) * supersampling(quality);
+    plan.largest_picture =
+        std::max(plan.largest_picture, static_cast<double>(size.width) * size.height * samples);
+  }
+  return plan;
+}
+
+void check_limits(const scene::Scene& scene, const Plan& plan) {
+  const auto refuse = [](const std::string& what, const char* address, const std::string& hint) {
+    throw LimitError("refused: " + what + "; " + hint, address, hint);
+  };
+  if (plan.particles > static_cast<double>(scene.limits.particles))
+    refuse("about " + count_text(plan.particles) + " particles are more than limits.particles = " +
+               std::to_string(scene.limits.particles),
+           "limits.particles",
+           (plan.particles < 1e12 ? "raise it with --set limits.particles=" +
+                                        count_text(std::ceil(plan.particles * 1.1)) + ", or "
+                                  : std::string()) +
+               "make solver.cell_size larger");
+  if (plan.largest_picture > static_cast<double>(scene.limits.pixels))
+    refuse("a picture of " + count_text(plan.largest_picture) +
+               " pixels (supersamples included) is more than limits.pixels = " +
+               std::to_string(scene.limits.pixels),
+           "limits.pixels",
+           "raise it with --set limits.pixels=" + count_text(plan.largest_picture) +
+               ", or draw smaller pictures with --size");
+  if (plan.memory > plan.memory_limit)
+    refuse("about " + bytes_text(plan.memory) +
+               " of memory are more than limits.memory = " + bytes_text(plan.memory_limit) +
+               (scene.limits.memory > 0 ? "" : ", 80 % of what is available"),
+           "limits.memory",
+           "raise it with --set limits.memory=" + std::to_string(plan.memory) +
+               ", or make solver.cell_size larger");
+  if (address_space_limit() < plan.memory + driver_address_space)
+    refuse("about " + bytes_text(plan.memory + driver_address_space) +
+               " of address space are needed, drivers included; ulimit -v allows " +
+               bytes_text(address_space_limit()),
+           "", "raise it with ulimit -v unlimited");
+}
+
+Json to_json(const Plan& plan) {
+  Json json;
+  json["particles"] = plan.particles;
+  json["emitted_particles"] = plan.emitted;
+  json["memory_bytes"] = plan.memory;
+  json["memory_limit_bytes"] = plan.memory_limit;
+  json["largest_picture_pixels"] = plan.largest_picture;
+  json["first_frame"] = plan.frames.first;
+  json["last_frame"] = plan.frames.last;
+  return json;
+}
+
+}  // namespace neve::app::setup

@@ -1,0 +1,46 @@
+#pragma once
+/// What a run will need, worked out before anything is allocated, and the limits it has to keep.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "app/support/json.h"
+
+namespace neve::app::setup {
+
+enum class Quality { draft, preview, final };
+const char* name(Quality quality);
+/// @throws UsageError for a name that is none
+Quality quality_named(const std::string& name);
+
+/// The first and the last frame drawn; those before are simulated only.
+struct FrameRange {
+  int first = 0, last = 0;
+  int count() const { return last - first + 1; }
+};
+
+struct Plan {
+  double particles = 0;      ///< an estimate; a double, so that absurd scenes do not overflow it
+  double emitted = 0;        ///< of those, particles that emitters make until the last frame
+  std::uint64_t memory = 0;  ///< bytes, particles, grid and pictures
+  std::uint64_t memory_limit = 0;  ///< bytes
+  double largest_picture = 0;      ///< pixels, supersamples included
+  FrameRange frames;
+  double volume = 0;  ///< m3 of all bodies and of what is emitted
+};
+
+int supersampling(Quality quality);
+
+scene::PictureSize size_of(const scene::Scene& scene, const scene::View& view);
+
+/// @throws sim::ShapeError for meshes that cannot be read
+Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality quality, int threads);
+
+/// @throws LimitError naming the limit and how to raise it
+void check_limits(const scene::Scene& scene, const Plan& plan);
+
+Json to_json(const Plan& plan);
+
+}  // namespace neve::app::setup

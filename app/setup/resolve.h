@@ -1,0 +1,22 @@
+#pragma once
+/// Fills in what a scene leaves to the program, so that the scene alone makes the picture again.
+
+#include "app/scene/scene.h"
+#include "app/setup/dry_run.h"
+#include "app/setup/plan.h"
+
+namespace neve::app::setup {
+
+/// Cameras without a place and ranges that are "auto". They depend on the scene alone.
+/// @param particle_count of the whole scene
+void resolve(scene::Scene& scene, std::size_t particle_count);
+
+/// Whether a camera of the scene has no place yet.
+bool needs_framing(const scene::Scene& scene);
+
+/// Places those cameras for what dry runs saw, in order of time.
+void resolve_cameras(scene::Scene& scene, const std::vector<Moment>& moments);
+
+void resolve_ranges(scene::Scene& scene, std::size_t particle_count);
+
+}  // namespace neve::app::setup

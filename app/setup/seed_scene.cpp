@@ -1,0 +1,120 @@
+#include "app/setup/seed_scene.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <stdexcept>
+
+#include "app/scene/toml/value.h"
+#include "app/setup/snow_pieces.h"
+#include "sim/base/hash.h"
+#include "sim/kernels/blocks.h"
+#include "sim/shapes/variation.h"
+
+namespace neve::app::setup {
+
+namespace {
+
+/// Apart from the keys of places.
+constexpr std::uint64_t variation_key = 0x76617279;
+
+}  // namespace
+
+std::size_t material_index(const scene::Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                  [&](const sim::Material& m) { return m.name == name; });
+  if (found == scene.materials.end()) throw std::logic_error("no material is called " + name);
+  return static_cast<std::size_t>(found - scene.materials.begin());
+}
+
+namespace {
+
+/// Factors of the particles that were appended last. They are left out while all are 1.
+void vary_body(const scene::Scene& scene, std::size_t index, const sim::seeding::SeededBody& seeded,
+               sim::ParticleArrays& particles) {
+  const std::size_t material = material_index(scene, scene.bodies[index].material);
+  const sim::Variation& variation = scene.materials[material].variation;
+  const bool is_varied = variation.youngs_modulus > 0 || variation.thresholds > 0;
+  const std::size_t end = particles.x.size(), first = end - seeded.x.size();
+  if (is_varied || !particles.stiffness.empty()) {
+    particles.stiffness.resize(end, 1.0);
+    particles.threshold.resize(end, 1.0);
+  }
+  if (!is_varied && variation.density == 0) return;
+  const std::uint64_t key = mix64(mix64(scene.seed, variation_key), index);
+  for (std::size_t p = first; p < end; ++p) {
+    const sim::shapes::Factors factors =
+        sim::shapes::vary(variation, key, p - first, particles.x[p] - seeded.center);
+    particles.m[p] *= factors.density;
+    if (!is_varied) continue;
+    particles.stiffness[p] = factors.stiffness;
+    particles.threshold[p] = factors.threshold;
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// Particles of a body, within the lattice. @throws sim::ShapeError that names the body
+sim::seeding::SeededBody seed_checked(const scene::Scene& scene, std::size_t index) {
+  const sim::seeding::Body& body = scene.bodies[index];
+  const std::string at = "body." + body.name + ".shape: ";
+  const double h = scene.solver.cell_size, limit = h * (4.0 * sim::kernels::block_limit - 8);
+  sim::seeding::SeededBody seeded;
+  try {
+    seeded = sim::seeding::seed_body(body, index, scene.seed, h);
+  } catch (const sim::ShapeError& error) {
+    throw sim::ShapeError(at + error.what());
+  }
+  for (const sim::Vec3d& x : seeded.x)
+    if (!(x.cwiseAbs().maxCoeff() <= limit))
+      throw sim::ShapeError(at + "a particle is more than " + scene::toml::number_text(limit) +
+                            " m from the origin, where the lattice ends; move it closer or enlarge "
+                            "solver.cell_size");
+  return seeded;
+}
+
+}  // namespace
+
+void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArrays& particles) {
+  const sim::seeding::Body& body = scene.bodies[index];
+  const sim::seeding::SeededBody seeded = seed_checked(scene, index);
+  const std::size_t material = material_index(scene, body.material);
+  const double share = seeded.volume / static_cast<double>(seeded.x.size());
+  const bool is_given = body.volumes == sim::seeding::Volumes::given;
+  for (std::size_t p = 0; p < seeded.x.size(); ++p) {
+    const sim::Vec3d& x_p = seeded.x[p];
+    const double volume = seeded.V.empty() ? share : seeded.V[p];
+    sim::Vec3d v_p = body.velocity + body.angular_velocity.cross(x_p - seeded.center);
+    if (!seeded.v.empty()) v_p += seeded.v[p];
+    particles.x.push_back(x_p);
+    particles.v.push_back(v_p);
+    particles.m.push_back(seeded.m.empty() ? scene.materials[material].density * volume
+                                           : seeded.m[p]);
+    particles.V0.push_back(is_given ? volume : 0.0);
+    particles.material.push_back(static_cast<int>(material));
+  }
+  vary_body(scene, index, seeded, particles);
+}
+
+sim::Simulation make_simulation(const scene::Scene& scene, const sim::ParticleArrays& particles,
+                                int threads, const std::vector<sim::shapes::Collider>& colliders) {
+  return sim::Simulation(scene.solver, scene.materials, colliders, particles, threads,
+                         sim::Vec3i::Zero(), flow_of(scene));
+}
+
+sim::Simulation make_simulation(const scene::Scene& scene, const sim::ParticleArrays& particles,
+                                int threads) {
+  return make_simulation(scene, particles, threads, scene::sim_colliders(scene));
+}
+
+sim::ParticleArrays seed_scene(const scene::Scene& scene, std::vector<std::size_t>* body_end) {
+  sim::ParticleArrays particles;
+  for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
+    append_body(scene, index, particles);
+    if (body_end) body_end->push_back(particles.x.size());
+  }
+  return particles;
+}
+
+}  // namespace neve::app::setup

@@ -1,0 +1,75 @@
+#include "app/setup/snow_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/setup/seed_scene.h"
+#include "sim/shapes/solid.h"
+
+namespace neve::app::setup {
+
+namespace {
+
+const sim::Material& material_of(const scene::Scene& scene, const std::string& name) {
+  return scene.materials[material_index(scene, name)];
+}
+
+double emission(const scene::Scene& scene, const sim::seeding::Emitter& emitter, double time) {
+  return static_cast<double>(sim::seeding::count_emitted(
+      emitter, material_of(scene, emitter.material), scene.solver.cell_size, time));
+}
+
+}  // namespace
+
+std::vector<SnowPiece> snow_places(const scene::Scene& scene) {
+  std::vector<SnowPiece> pieces;
+  for (const sim::seeding::Body& body : scene.bodies)
+    pieces.push_back({"body." + body.name, &body.shape, &material_of(scene, body.material),
+                      body.velocity, body.angular_velocity});
+  for (const sim::seeding::Emitter& emitter : scene.emitters)
+    pieces.push_back({"emitter." + emitter.name, &emitter.shape,
+                      &material_of(scene, emitter.material), emitter.velocity,
+                      emitter.angular_velocity});
+  return pieces;
+}
+
+std::vector<SnowPiece> snow_pieces(const scene::Scene& scene) {
+  const double h = scene.solver.cell_size, cell = h * h * h;
+  std::vector<SnowPiece> pieces = snow_places(scene);
+  auto piece = pieces.begin();
+  for (const sim::seeding::Body& body : scene.bodies) {
+    const sim::seeding::SeedingPlan plan = sim::seeding::plan_seeding(body, h);
+    piece->volume = plan.volume;
+    piece->mass = plan.mass > 0 ? plan.mass : piece->material->density * plan.volume;
+    piece->particles = sim::seeding::expected_particles(body, h);
+    ++piece;
+  }
+  for (const sim::seeding::Emitter& emitter : scene.emitters) {
+    piece->particles = emission(scene, emitter, scene.frames / scene.fps);
+    piece->volume = piece->particles * cell / emitter.particles_per_cell;
+    piece->mass = piece->material->density * piece->volume;
+    ++piece;
+  }
+  return pieces;
+}
+
+double planned_emission(const scene::Scene& scene, double time) {
+  double count = 0;
+  for (const sim::seeding::Emitter& emitter : scene.emitters)
+    count += emission(scene, emitter, time);
+  return count;
+}
+
+SnowCount count_snow(const scene::Scene& scene, std::size_t seeded) {
+  double volume = 0;
+  for (const SnowPiece& piece : snow_pieces(scene)) volume += piece.volume;
+  const double count =
+      static_cast<double>(seeded) + planned_emission(scene, scene.frames / scene.fps);
+  return {static_cast<std::size_t>(count), std::cbrt(volume / std::max(1.0, count))};
+}
+
+sim::seeding::Flow flow_of(const scene::Scene& scene) {
+  return {scene.emitters, scene.sinks, scene.seed};
+}
+
+}  // namespace neve::app::setup

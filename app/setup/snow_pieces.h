@@ -1,0 +1,43 @@
+#pragma once
+/// Where the snow of a scene comes from: bodies at the start, emitters while it runs.
+
+#include <string>
+#include <vector>
+
+#include "app/scene/scene.h"
+
+namespace neve::app::setup {
+
+struct SnowPiece {
+  std::string address;  ///< "body.ball"
+  const sim::shapes::Shape* shape;
+  const sim::Material* material;
+  sim::Vec3d velocity, angular_velocity;
+  double volume = 0;     ///< m3; of an emitter all that it emits
+  double particles = 0;  ///< roughly
+  double mass = 0;       ///< kg, of all
+};
+
+/// Bodies, then emitters; until the scene ends. Points into the scene.
+/// @throws sim::ShapeError for files that cannot be read
+std::vector<SnowPiece> snow_pieces(const scene::Scene& scene);
+
+/// The same without what a file has to be read for: volume, particles and mass stay 0.
+std::vector<SnowPiece> snow_places(const scene::Scene& scene);
+
+/// Particles of all emitters until a time, s.
+double planned_emission(const scene::Scene& scene, double time);
+
+/// All particles until the scene ends, and how far they are apart in packed snow: the same for any
+/// part of its frames.
+struct SnowCount {
+  std::size_t particles = 0;
+  double spacing = 0;  ///< m
+};
+/// @param seeded  particles that the bodies got
+SnowCount count_snow(const scene::Scene& scene, std::size_t seeded);
+
+/// What comes and goes, for the simulation.
+sim::seeding::Flow flow_of(const scene::Scene& scene);
+
+}  // namespace neve::app::setup

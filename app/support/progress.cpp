@@ -1,0 +1,155 @@
+#include "app/support/progress.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "app/support/text.h"
+
+namespace neve::app {
+
+namespace {
+
+constexpr std::size_t window = 8;  // frames; an average since the start would mislead
+constexpr auto update_interval = std::chrono::milliseconds(200);
+constexpr auto line_interval = std::chrono::seconds(10);
+constexpr auto work_window = std::chrono::seconds(120);
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  char text[64];
+  if (whole < 60) {
+    std::snprintf(text, sizeof text, "%ld s", whole);
+  } else if (whole < 3600) {
+    std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole / 60 % 60);
+  }
+  return text;
+}
+
+std::string progress_text(const ProgressState& state) {
+  std::string text = "frame " + std::to_string(state.frame) + "/" +
+                     std::to_string(state.last_frame) + "  t = " + fixed_text(state.time, 3) +
+                     " s  " + std::to_string(state.steps) + " steps";
+  if (state.seconds_per_frame >= 0) {
+    const int left = state.last_frame - state.frame;
+    text += "  " + fixed_text(state.seconds_per_frame, 2) + " s/frame  " +
+            duration_text(left * state.seconds_per_frame) + " left";
+  }
+  return text;
+}
+
+std::string runs_text(const RunsState& state) {
+  std::string text = std::to_string(state.finished) + "/" + std::to_string(state.all) + " runs";
+  if (state.failed > 0) text += "  " + std::to_string(state.failed) + " failed";
+  if (state.running > 0) text += "  " + std::to_string(state.running) + " running";
+  if (state.seconds_left >= 0) text += "  " + duration_text(state.seconds_left) + " left";
+  return text;
+}
+
+void WorkClock::note(double done, Clock::time_point now) {
+  seen_.emplace_back(now, done);
+  while (seen_.size() > 2 && now - seen_[1].first > work_window) seen_.pop_front();
+}
+
+double WorkClock::seconds_for(double left) const {
+  if (seen_.size() < 2) return -1;
+  const std::chrono::duration<double> span = seen_.back().first - seen_.front().first;
+  const double done = seen_.back().second - seen_.front().second;
+  return done > 0 && span.count() > 1 ? left * span.count() / done : -1;
+}
+
+bool can_update_lines(int fd) {
+  const char* terminal = std::getenv("TERM");
+  const char* no_color = std::getenv("NO_COLOR");
+  if (no_color && *no_color) return false;
+  return ::isatty(fd) == 1 && terminal && std::strcmp(terminal, "dumb") != 0;
+}
+
+Progress::Progress(std::ostream& out, Verbosity verbosity, bool updates)
+    : out_(out), verbosity_(verbosity), updates_(updates), shown_at_(Clock::now()) {}
+
+Progress::~Progress() {
+  clear();
+}
+
+void Progress::start(int last_frame) {
+  const std::lock_guard lock(mutex_);
+  state_ = {};
+  state_.last_frame = last_frame;
+  finished_at_.assign(1, Clock::now());
+}
+
+void Progress::step() {
+  const std::lock_guard lock(mutex_);
+  ++state_.steps;
+  const auto now = Clock::now();
+  if (now - shown_at_ >= (updates_ ? Clock::duration(update_interval) : line_interval))
+    show(now, progress_text(state_));
+}
+
+void Progress::line(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  if (now - shown_at_ >= (updates_ ? Clock::duration(update_interval) : line_interval))
+    show(now, text);
+}
+
+void Progress::frame(int frame, double time) {
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  state_.frame = frame;
+  state_.time = time;
+  finished_at_.push_back(now);
+  if (finished_at_.size() > window + 1) finished_at_.pop_front();
+  const std::chrono::duration<double> span = finished_at_.back() - finished_at_.front();
+  state_.seconds_per_frame = span.count() / static_cast<double>(finished_at_.size() - 1);
+  if (updates_ || now - shown_at_ >= line_interval) show(now, progress_text(state_));
+}
+
+void Progress::show(Clock::time_point now, const std::string& text) {
+  shown_at_ = now;
+  if (verbosity_ == Verbosity::quiet) return;
+  if (updates_) {
+    out_ << "\r\033[K" << text << std::flush;
+    has_line_ = true;
+  } else {
+    out_ << text << std::endl;
+  }
+}
+
+void Progress::clear_line() {
+  if (has_line_) out_ << "\r\033[K" << std::flush;
+  has_line_ = false;
+}
+
+void Progress::print(const std::string& message) {
+  clear_line();
+  out_ << message << std::endl;
+}
+
+void Progress::clear() {
+  const std::lock_guard lock(mutex_);
+  clear_line();
+}
+
+void Progress::note(const std::string& message) {
+  const std::lock_guard lock(mutex_);
+  if (verbosity_ != Verbosity::quiet) print(message);
+}
+
+void Progress::detail(const std::string& message) {
+  if (verbosity_ == Verbosity::verbose) note(message);
+}
+
+void Progress::warning(const std::string& message) {
+  const std::lock_guard lock(mutex_);
+  print("neve: warning: " + message);
+}
+
+}  // namespace neve::app

@@ -1,0 +1,75 @@
+#include "app/support/text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+
+namespace neve::app {
+
+namespace {
+
+/// Letters inserted, dropped, replaced, or swapped with their neighbour.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1), above, above2;
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    above2 = std::move(above);
+    above = row;
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      row[j + 1] = std::min({above[j] + (a[i] != b[j]), row[j] + 1, above[j + 1] + 1});
+      const bool is_swap = i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j];
+      if (is_swap) row[j + 1] = std::min(row[j + 1], above2[j - 1] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string fixed_text(double value, int digits) {
+  char buffer[400];
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, digits);
+  return {buffer, end.ptr};
+}
+
+std::string rough_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  static const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+  auto value = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; value >= 1024 && unit + 1 < std::size(units); ++unit) value /= 1024;
+  return fixed_text(value, unit == 0 || value >= 100 ? 0 : 1) + " " + units[unit];
+}
+
+std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names) {
+  std::string nearest;
+  // A third of the letters wrong is still a typing error; more is another word.
+  std::size_t best = std::max<std::size_t>(1, wrong.size() / 3) + 1;
+  if (wrong.size() > 64) return nearest;
+  for (const std::string& name : names) {
+    const std::size_t distance = edit_distance(wrong, name);
+    if (distance < best) best = distance, nearest = name;
+  }
+  return nearest;
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+std::string names_advice(const std::string& wrong, const std::vector<std::string>& names) {
+  const std::string nearest = nearest_name(wrong, names);
+  return (nearest.empty() ? "" : "did you mean " + nearest + "? ") + "expected " +
+         joined(names, ", ");
+}
+
+}  // namespace neve::app

@@ -1,0 +1,41 @@
+#pragma once
+/// Runs of a sweep side by side on this machine.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/support/progress.h"
+#include "app/sweep/store/manifest.h"
+
+namespace neve::app::sweep::jobs {
+
+struct EngineOptions {
+  int cores = 1;
+  int jobs = 0;  ///< runs side by side; 0: as many as keep the cores busy and fit into memory
+  std::string backend = "auto";
+  bool is_failed_again = false;   ///< runs those that failed before once more
+  double grace = 20;              ///< s that a run has to end when it is asked to
+  std::filesystem::path program;  ///< whose `render` makes the runs
+};
+
+struct EngineResult {
+  int ok = 0, failed = 0;               ///< of all that were asked for, earlier ones included
+  int started = 0;                      ///< now
+  bool is_interrupted = false;          ///< some run waits for the next time
+  double seconds = 0, cpu_seconds = 0;  ///< of the whole; of all children
+  double core_seconds = 0;              ///< time of the children times their threads
+};
+
+/// Runs what is not finished yet of the runs of these indices; each ends as a state and a reason in
+/// its status.json and never ends the sweep. A run that somebody else is at is left to them. A
+/// Ctrl-C asks all children to end and waits for them.
+/// @throws IoError
+EngineResult run_local(const std::filesystem::path& folder, const store::Manifest& manifest,
+                       const std::vector<int>& indices, const EngineOptions& options,
+                       Progress& progress);
+
+/// How many threads a run gets when so many are left to start. @param memory bytes that are free
+int threads_for(const store::ManifestRun& run, int left, int cores, double memory);
+
+}  // namespace neve::app::sweep::jobs

@@ -1,0 +1,21 @@
+#pragma once
+/// How a run ended, in words for a tile and for a person.
+
+#include <filesystem>
+
+#include "app/sweep/jobs/child.h"
+#include "app/sweep/store/manifest.h"
+#include "app/sweep/store/store.h"
+
+namespace neve::app::sweep::jobs {
+
+/// Fills in state, reason and the like from how the process ended and what it left: its log and, of
+/// a diverged run, incident.json.
+void judge(const ChildResult& result, const store::Manifest& manifest,
+           const store::ManifestRun& run, const std::filesystem::path& run_folder,
+           store::RunReport& report);
+
+/// "DIVERGED frame 17: acoustic CFL 3.1", "TIMEOUT after 20 min 00 s", "CRASHED signal 11"
+std::string tile_text(const store::RunReport& report);
+
+}  // namespace neve::app::sweep::jobs

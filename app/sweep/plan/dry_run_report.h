@@ -1,0 +1,11 @@
+#pragma once
+/// `neve sweep --dry-run`: what would run, how long and in how much memory.
+
+#include "app/sweep/plan/sweep_plan.h"
+
+namespace neve::app::sweep::plan {
+
+/// On stdout; measures some steps of the costliest run to foresee seconds.
+void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json);
+
+}  // namespace neve::app::sweep::plan

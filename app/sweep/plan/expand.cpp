@@ -1,0 +1,181 @@
+#include "app/sweep/plan/expand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+
+#include "app/scene/params.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
+#include "sim/base/hash.h"
+
+namespace neve::app::sweep::plan {
+
+namespace {
+
+double six_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return std::strtod(text, nullptr);
+}
+
+/// The value at a place between 0 and 1 of a distribution.
+double drawn_value(const read::AxisSpec& spec, double u) {
+  if (spec.uniform) return spec.uniform->first + u * (spec.uniform->last - spec.uniform->first);
+  if (spec.log_uniform)
+    return spec.log_uniform->first * std::pow(spec.log_uniform->last / spec.log_uniform->first, u);
+  return spec.normal->first + spec.normal->last * normal_quantile(std::clamp(u, 1e-9, 1 - 1e-9));
+}
+
+void append_value(read::PlannedRun& run, const read::Axis& axis, std::size_t value) {
+  for (const read::Axis::Parameter& parameter : axis.parameters)
+    run.settings.push_back(parameter.values[value]);
+  if (axis.value_labels.empty()) return;
+  run.label += (run.label.empty() ? "" : ", ") + axis.value_labels[value];
+}
+
+/// @param u place on the axis, 0 to 1
+void append_at(read::PlannedRun& run, const read::Axis& axis, double u) {
+  const read::Axis::Parameter& parameter = axis.parameters.front();
+  if (!parameter.drawn) {
+    const auto count = static_cast<double>(axis.size());
+    return append_value(run, axis, static_cast<std::size_t>(std::min(u * count, count - 1)));
+  }
+  const std::optional<scene::ParamInfo> info = scene::param_at(parameter.address);
+  const double x = drawn_value(*parameter.drawn, u);
+  scene::Override setting = parameter.values.front();
+  setting.value =
+      scene::toml::number_text(info && info->type == "integer" ? std::round(x) : six_digits(x));
+  run.settings.push_back(setting);
+}
+
+/// Samples in a random order, the same for the same seed and axis.
+std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return mix64(seed, a) < mix64(seed, b); });
+  return order;
+}
+
+std::vector<read::PlannedRun> drawn(const read::Sweep& sweep) {
+  const auto count = static_cast<std::size_t>(sweep.settings.samples);
+  std::vector<read::PlannedRun> runs(count);
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
+    const std::uint64_t seed = mix64(sweep.settings.seed, a);
+    const std::vector<std::size_t> stratum = shuffled(count, seed);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double u = unit_double(mix64(seed + 1, k));
+      const bool is_stratified = sweep.settings.method == read::Method::lhs;
+      append_at(
+          runs[k], sweep.axes[a],
+          is_stratified ? (static_cast<double>(stratum[k]) + u) / static_cast<double>(count) : u);
+    }
+  }
+  return runs;
+}
+
+std::vector<read::PlannedRun> zipped(const read::Sweep& sweep) {
+  std::vector<read::PlannedRun> runs(sweep.axes.empty() ? 0 : sweep.axes.front().size());
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    for (const read::Axis& axis : sweep.axes) append_value(runs[k], axis, k);
+  return runs;
+}
+
+std::vector<read::PlannedRun> combined(const read::Sweep& sweep) {
+  std::vector<read::PlannedRun> runs;
+  if (sweep.axes.empty()) return runs;
+  std::vector<int> at(sweep.axes.size(), 0);
+  while (true) {
+    read::PlannedRun& run = runs.emplace_back();
+    run.coordinates = at;
+    for (std::size_t a = 0; a < at.size(); ++a)
+      append_value(run, sweep.axes[a], static_cast<std::size_t>(at[a]));
+    std::size_t a = at.size();
+    while (a > 0 && ++at[a - 1] == static_cast<int>(sweep.axes[a - 1].size())) at[--a] = 0;
+    if (a == 0) return runs;
+  }
+}
+
+/// Before anything is made; a double, so that absurd grids do not overflow it.
+double count_of(const read::Sweep& sweep) {
+  const auto rows = static_cast<double>(sweep.rows.size());
+  double count = 0;
+  switch (sweep.settings.method) {
+    case read::Method::grid:
+      count = sweep.axes.empty() ? 0 : 1;
+      for (const read::Axis& axis : sweep.axes) count *= static_cast<double>(axis.size());
+      break;
+    case read::Method::zip:
+      count = sweep.axes.empty() ? 0 : static_cast<double>(sweep.axes.front().size());
+      break;
+    case read::Method::random:
+    case read::Method::lhs:
+      count = sweep.settings.samples;
+      break;
+    case read::Method::list:
+      break;
+  }
+  return count + rows;
+}
+
+/// Axes of the command line come after the file was checked.
+void check_axes(const read::Sweep& sweep) {
+  const bool draws =
+      sweep.settings.method == read::Method::random || sweep.settings.method == read::Method::lhs;
+  for (const read::Axis& axis : sweep.axes) {
+    const scene::Override& first = axis.parameters.front().values.front();
+    if (axis.parameters.front().drawn && !draws)
+      first.fail(first.place, axis.parameters.front().address + " is drawn",
+                 "that needs a sweep file with method \"random\" or \"lhs\"");
+    if (sweep.settings.method == read::Method::list)
+      first.fail(first.key, "method \"list\" has no axes, only [[run]]s");
+    if (sweep.settings.method == read::Method::zip && axis.size() != sweep.axes.front().size())
+      first.fail(first.place, axis.parameters.front().address + " has another number of values",
+                 "method \"zip\" needs equally many on all axes");
+  }
+}
+
+}  // namespace
+
+double normal_quantile(double p) {
+  double low = -8, high = 8;
+  for (int k = 0; k < 64; ++k) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(-middle / std::sqrt(2.0)) < p ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+std::vector<read::PlannedRun> expand(const read::Sweep& sweep) {
+  check_axes(sweep);
+  const double count = count_of(sweep);
+  if (count > sweep.limits.runs)
+    throw LimitError(
+        "refused: " + (count < 1e15 ? fixed_text(count, 0) : scene::toml::number_text(count)) +
+            " runs are more than limits.runs = " + std::to_string(sweep.limits.runs) +
+            "; raise it in the sweep file, or use method \"lhs\" with samples",
+        "limits.runs", "raise limits.runs, or use method \"lhs\" with samples");
+  std::vector<read::PlannedRun> runs;
+  switch (sweep.settings.method) {
+    case read::Method::grid:
+      runs = combined(sweep);
+      break;
+    case read::Method::zip:
+      runs = zipped(sweep);
+      break;
+    case read::Method::random:
+    case read::Method::lhs:
+      runs = drawn(sweep);
+      break;
+    case read::Method::list:
+      break;
+  }
+  for (const read::ExplicitRun& row : sweep.rows) runs.push_back({0, row.label, row.settings, {}});
+  for (std::size_t k = 0; k < runs.size(); ++k) runs[k].index = static_cast<int>(k);
+  return runs;
+}
+
+}  // namespace neve::app::sweep::plan

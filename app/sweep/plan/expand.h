@@ -1,0 +1,20 @@
+#pragma once
+/// A sweep to the list of its runs.
+
+#include <vector>
+
+#include "app/sweep/read/sweep.h"
+
+namespace neve::app::sweep::plan {
+
+/// In the order of the file; the last axis varies fastest, [[run]]s come last. What is drawn
+/// depends on the sweep's seed, the axis and the sample alone.
+/// @throws LimitError when there are more than limits.runs; SceneError or UsageError when axes do
+///         not fit together
+std::vector<read::PlannedRun> expand(const read::Sweep& sweep);
+
+/// The value below which a share p of a normal distribution lies, in standard deviations.
+/// @param p 0 < p < 1
+double normal_quantile(double p);
+
+}  // namespace neve::app::sweep::plan

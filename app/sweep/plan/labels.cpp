@@ -1,0 +1,98 @@
+#include "app/sweep/plan/labels.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "app/scene/params.h"
+#include "app/scene/toml/value.h"
+
+namespace neve::app::sweep::plan {
+
+namespace {
+
+/// The last `words` words of an address.
+std::string tail(const std::string& address, int words) {
+  std::size_t from = address.size();
+  for (int k = 0; k < words && from != std::string::npos; ++k)
+    from = from == 0 ? std::string::npos : address.rfind('.', from - 1);
+  return from == std::string::npos ? address : address.substr(from + 1);
+}
+
+}  // namespace
+
+std::vector<std::string> short_names(const std::vector<std::string>& addresses) {
+  std::vector<std::string> names;
+  for (const std::string& address : addresses) {
+    std::string name;
+    for (int words = 1; words <= 8; ++words) {
+      name = tail(address, words);
+      const auto alike = std::count_if(addresses.begin(), addresses.end(), [&](const auto& other) {
+        return other != address && tail(other, words) == name;
+      });
+      if (alike == 0) break;
+    }
+    names.push_back(name);
+  }
+  return names;
+}
+
+std::string value_text(const std::string& value) {
+  double x = 0;
+  const char* end = value.data() + value.size();
+  const auto result = std::from_chars(value.data(), end, x);
+  if (value.size() >= 2 && value.front() == '"' && value.back() == '"')
+    return value.substr(1, value.size() - 2);
+  if (result.ec != std::errc{} || result.ptr != end) return value;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  const std::string plain = scene::toml::number_text(std::strtod(text, nullptr));
+  // 1.4e5, not 140000.
+  if (plain.size() < 6 || std::abs(x) < 1e5) return plain;
+  const int power = static_cast<int>(std::floor(std::log10(std::abs(x))));
+  std::snprintf(text, sizeof text, "%.6g", x / std::pow(10, power));
+  return std::string(text) + "e" + std::to_string(power);
+}
+
+std::vector<Varied> varied_parameters(const SweepPlan& plan) {
+  std::vector<std::string> addresses;
+  for (const RunPlan& item : plan.runs)
+    for (const scene::Override& setting : item.run.settings)
+      if (std::find(addresses.begin(), addresses.end(), setting.address) == addresses.end())
+        addresses.push_back(setting.address);
+  std::vector<std::string> names = short_names(addresses);
+  for (const read::Axis& axis : plan.sweep.axes)
+    for (const read::Axis::Parameter& parameter : axis.parameters)
+      for (std::size_t k = 0; k < addresses.size(); ++k)
+        if (addresses[k] == parameter.address && !parameter.label.empty())
+          names[k] = parameter.label;
+  std::vector<Varied> varied;
+  for (std::size_t k = 0; k < addresses.size(); ++k) {
+    const std::optional<scene::ParamInfo> info = scene::param_at(addresses[k]);
+    varied.push_back(
+        {addresses[k], names[k], info ? info->unit : "", info ? info->type : "string"});
+  }
+  return varied;
+}
+
+std::string value_of(const read::PlannedRun& run, const std::string& address) {
+  // A later setting of the same address wins.
+  for (auto setting = run.settings.rbegin(); setting != run.settings.rend(); ++setting)
+    if (setting->address == address) return setting->value;
+  return {};
+}
+
+std::string settings_text(const SweepPlan& plan, const read::PlannedRun& run) {
+  std::string text;
+  for (const Varied& parameter : varied_parameters(plan)) {
+    const std::string value = value_of(run, parameter.address);
+    if (value.empty()) continue;
+    text += (text.empty() ? "" : ", ") + parameter.name + " = " + value_text(value);
+    if (!parameter.unit.empty()) text += " " + parameter.unit;
+  }
+  return text;
+}
+
+}  // namespace neve::app::sweep::plan

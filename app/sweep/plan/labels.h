@@ -1,0 +1,31 @@
+#pragma once
+/// What runs and axes are called for people.
+
+#include <string>
+#include <vector>
+
+#include "app/sweep/plan/sweep_plan.h"
+
+namespace neve::app::sweep::plan {
+
+/// Last words of addresses, with as many before them as tell them apart.
+std::vector<std::string> short_names(const std::vector<std::string>& addresses);
+
+/// "1.4e5", "[0, -5, 0]", "flip": a value as it is given, numbers with at most six digits.
+std::string value_text(const std::string& value);
+
+/// A parameter that some run sets.
+struct Varied {
+  std::string address, name, unit, type;
+};
+
+/// All parameters that differ between runs, in the order of the file.
+std::vector<Varied> varied_parameters(const SweepPlan& plan);
+
+/// The value that a run has for an address; "" where it leaves it to the scene.
+std::string value_of(const read::PlannedRun& run, const std::string& address);
+
+/// "hardening = 5, youngs_modulus = 48000 Pa" without those of the sweep's fixed settings.
+std::string settings_text(const SweepPlan& plan, const read::PlannedRun& run);
+
+}  // namespace neve::app::sweep::plan

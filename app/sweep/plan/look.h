@@ -1,0 +1,18 @@
+#pragma once
+/// What makes the pictures of all runs comparable: one camera and one range for each field.
+
+#include "app/sweep/plan/sweep_plan.h"
+
+namespace neve::app::sweep::plan {
+
+std::filesystem::path look_path(const std::filesystem::path& folder);
+
+/// Fills in the cameras and ranges of all runs, from DIR/look.toml where it belongs to the same
+/// scene, otherwise from dry runs of the corners of the sweep and the ranges of all runs together;
+/// then it is written there. So runs that are added later look like those before, and whoever wants
+/// another camera writes it into that file. What a run sets itself stays as it is.
+/// @param cores for dry runs side by side
+/// @throws SceneError for a broken look.toml, IoError
+void share_look(SweepPlan& plan, int cores);
+
+}  // namespace neve::app::sweep::plan

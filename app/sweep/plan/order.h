@@ -1,0 +1,16 @@
+#pragma once
+/// Which runs start first.
+
+#include <cstddef>
+#include <vector>
+
+namespace neve::app::sweep::plan {
+
+/// Ends of all axes first, then middles, then middles of what is left: a sheet tells something
+/// when a tenth of the runs is done. Runs on no axis count as one row.
+/// @param coordinates of each run on the axes; empty where it is on none
+/// @param sizes of the axes
+std::vector<std::size_t> coarse_first(const std::vector<std::vector<int>>& coordinates,
+                                      const std::vector<int>& sizes);
+
+}  // namespace neve::app::sweep::plan

@@ -1,0 +1,53 @@
+#pragma once
+/// What the command line says of a sweep.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/setup/plan.h"
+#include "app/support/progress.h"
+#include "app/sweep/plan/selection.h"
+
+namespace neve::app::sweep::plan {
+
+struct SweepOptions {
+  std::string file;                    ///< a sweep file or a scene
+  std::vector<std::string> axes;       ///< -p
+  std::vector<std::string> overrides;  ///< --set
+  std::optional<setup::FrameRange> frames;
+  std::optional<scene::PictureSize> size;  ///< of a tile
+  std::optional<double> coarsening;
+  std::string out;
+  int threads = 0;  ///< cores in all; 0: as many as there are
+  int jobs = 0;     ///< runs side by side; 0: as many as keep the cores busy
+  std::string backend = "auto";
+  bool is_failed_again = false;
+  std::optional<Shard> shard;
+  std::string only;                 ///< "3,7-12"; "": all
+  std::string engine = "local";     ///< local | slurm
+  std::vector<std::string> sbatch;  ///< further options of sbatch
+  std::string emit;                 ///< file for the commands of the runs; nothing is started
+  Verbosity verbosity = Verbosity::normal;
+  bool is_dry_run = false;
+  bool is_json = false;
+};
+
+/// Of one run of a sweep that is on disk already.
+struct SweepRunOptions {
+  std::string folder;  ///< of the sweep
+  int index = 0;
+  int threads = 0;  ///< 0: as many as there are
+  std::string backend = "auto";
+  bool is_failed_again = false;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+struct CollectOptions {
+  std::string folder;  ///< of a sweep
+  std::string backend = "auto";
+  int threads = 0;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+}  // namespace neve::app::sweep::plan

@@ -1,0 +1,154 @@
+#include "app/sweep/plan/sweep_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scene/coarsen.h"
+#include "app/scene/read.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/argument_text.h"
+#include "app/setup/auto_ranges.h"
+#include "app/sweep/plan/expand.h"
+#include "app/sweep/plan/sweep_options.h"
+#include "app/sweep/read/read_sweep.h"
+#include "sim/engine/time_step.h"
+#include "sim/types/material.h"
+
+namespace neve::app::sweep::plan {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int tile_width = 480;
+
+/// A tile in the shape of the scene's pictures.
+scene::PictureSize tile_size(const SweepOptions& options, const read::Sweep& sweep,
+                             const scene::Scene& scene, const scene::View& view) {
+  if (options.size) return *options.size;
+  if (sweep.sheet.tile) return *sweep.sheet.tile;
+  const scene::PictureSize own = setup::size_of(scene, view);
+  const auto height = std::lround(static_cast<double>(tile_width) * own.height / own.width / 2) * 2;
+  return {tile_width, std::clamp(static_cast<int>(height), 64, 4096)};
+}
+
+scene::View chosen_view(const read::Sweep& sweep, const scene::Scene& scene) {
+  if (sweep.sheet.view.empty()) return scene.views.front();
+  try {
+    return scene::find_view(scene, sweep.sheet.view);
+  } catch (const scene::toml::UsageError& error) {
+    sweep.fail("sheet.view", "sheet.view = \"" + sweep.sheet.view + "\": " + error.message,
+               error.hint);
+  }
+}
+
+/// One view, as large as a tile, without the words that the sheet has once.
+void prepare_view(const SweepOptions& options, const read::Sweep& sweep, scene::Scene& scene) {
+  scene::View view = chosen_view(sweep, scene);
+  scene.size = tile_size(options, sweep, scene, view);
+  view.size.reset();
+  std::erase(view.layers, scene::Layer::legend);
+  std::erase(view.layers, scene::Layer::caption);
+  scene.views = {view};
+  scene.mosaics.clear();
+}
+
+class SceneMaker {
+ public:
+  SceneMaker(const SweepOptions& options, const read::Sweep& sweep)
+      : options_(options),
+        sweep_(sweep),
+        text_(scene::read_toml_file(sweep.scene_file)),
+        base_dir_(fs::path(sweep.scene_file).parent_path().string()) {}
+
+  scene::Scene make(const std::vector<scene::Override>& settings) const {
+    std::vector<scene::Override> all = sweep_.fixed;
+    all.insert(all.end(), settings.begin(), settings.end());
+    scene::Scene scene = scene::read_scene_text(text_, sweep_.scene_file, base_dir_, all);
+    if (options_.coarsening) scene::coarsen(scene, *options_.coarsening);
+    prepare_view(options_, sweep_, scene);
+    return scene;
+  }
+
+ private:
+  const SweepOptions& options_;
+  const read::Sweep& sweep_;
+  std::string text_, base_dir_;
+};
+
+setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& sweep,
+                            const scene::Scene& scene) {
+  if (options.frames) return *options.frames;
+  if (!sweep.settings.frames.empty()) return setup::parse_frames(sweep.settings.frames);
+  return {0, scene.frames};
+}
+
+/// A setting of a run that says how many frames there are; null where none does.
+const scene::Override* frames_setting(const read::Sweep& sweep) {
+  for (const read::Axis& axis : sweep.axes)
+    for (const read::Axis::Parameter& parameter : axis.parameters)
+      if (parameter.address == "frames") return &parameter.values.front();
+  for (const read::ExplicitRun& row : sweep.rows)
+    for (const scene::Override& setting : row.settings)
+      if (setting.address == "frames") return &setting;
+  return nullptr;
+}
+
+/// Frames that are the same for all runs would hide those that differ.
+void refuse_two_frames(const SweepOptions& options, const read::Sweep& sweep) {
+  const scene::Override* setting = frames_setting(sweep);
+  if (!setting) return;
+  if (options.frames)
+    throw scene::toml::UsageError("--frames", "the sweep varies frames",
+                                  "leave out --frames, or take frames out of the axes and runs");
+  if (!sweep.settings.frames.empty())
+    sweep.fail("sweep.frames", "sweep.frames is for all runs, and the sweep varies frames",
+               "remove one of them");
+}
+
+}  // namespace
+
+SweepPlan plan_sweep(const SweepOptions& options) {
+  SweepPlan plan;
+  plan.sweep = read::read_sweep(options.file, {options.axes, options.overrides});
+  refuse_two_frames(options, plan.sweep);
+  plan.folder =
+      options.out.empty() ? fs::path("out") / (plan.sweep.name + ".cdb") : fs::path(options.out);
+  const SceneMaker maker(options, plan.sweep);
+  plan.base = maker.make({});
+  plan.view = plan.base.views.front().name;
+  plan.title = plan.sweep.settings.title;
+  if (plan.title.empty()) plan.title = plan.base.title;
+  if (plan.title.empty()) plan.title = plan.sweep.name;
+  for (const read::PlannedRun& run : expand(plan.sweep)) {
+    RunPlan& item = plan.runs.emplace_back();
+    item.run = run;
+    item.scene = maker.make(run.settings);
+    item.frames = frames_of(options, plan.sweep, item.scene);
+    item.plan = setup::make_plan(item.scene, item.frames, setup::Quality::preview, 1);
+    item.work = foreseen_work(item.scene, item.plan);
+  }
+  return plan;
+}
+
+double foreseen_work(const scene::Scene& scene, const setup::Plan& plan) {
+  const sim::SolverSettings& s = scene.solver;
+  const double duration = plan.frames.last / scene.fps;
+  double dt = s.time_step == sim::TimeStep::fixed ? s.dt : s.max_dt;
+  if (s.time_step == sim::TimeStep::adaptive) {
+    // Snow that is packed conducts sound about three times as fast as at rest.
+    constexpr double packed = 3;
+    for (const sim::Material& material : scene.materials)
+      dt = std::min(dt, sim::engine::acoustic_stretch(s) * s.acoustic_cfl * s.cell_size /
+                            (packed * sim::sound_speed(material)));
+    const double speed = setup::impact_speed(scene);
+    if (speed > 0) dt = std::min(dt, s.cfl * s.cell_size / speed);
+  }
+  // What a run costs before its first step counts as some steps of few particles.
+  constexpr double start = 1e5;
+  // A solve takes about as long as some explicit steps.
+  const double step = s.is_implicit() ? 8 : 1;
+  return start + step * plan.particles * std::ceil(duration / dt);
+}
+
+}  // namespace neve::app::sweep::plan

@@ -1,0 +1,49 @@
+#pragma once
+/// What a sweep will do: the scene of every run, what it costs, and in which order they start.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/setup/plan.h"
+#include "app/sweep/read/sweep.h"
+
+namespace neve::app::sweep::plan {
+
+struct SweepOptions;
+
+/// Bytes that the process of a run takes before it has a particle: program, GL driver, shaders.
+/// Measured with a software renderer: a run that was planned with 22 MiB peaked at 93 MiB; others
+/// took 75 to 100 MiB.
+constexpr std::uint64_t program_memory = std::uint64_t{80} << 20;
+
+struct RunPlan {
+  read::PlannedRun run;
+  scene::Scene scene;  ///< with the shared camera and ranges once these were found
+  setup::FrameRange frames;
+  setup::Plan plan;
+  double work = 0;  ///< particles times foreseen steps: costs in proportion
+
+  /// Bytes of the run's process.
+  std::uint64_t memory() const { return plan.memory + program_memory; }
+};
+
+struct SweepPlan {
+  read::Sweep sweep;
+  std::filesystem::path folder;
+  std::string title;
+  std::string view;   ///< that the tiles show
+  scene::Scene base;  ///< with the fixed settings alone
+  std::vector<RunPlan> runs;
+};
+
+/// Reads the scene of every run; starts nothing.
+/// @throws SceneError, UsageError, LimitError, sim::ShapeError
+SweepPlan plan_sweep(const SweepOptions& options);
+
+/// Particles times steps that the limits on dt allow snow at rest that then meets the ground.
+double foreseen_work(const scene::Scene& scene, const setup::Plan& plan);
+
+}  // namespace neve::app::sweep::plan

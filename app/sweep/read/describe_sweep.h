@@ -1,0 +1,95 @@
+#pragma once
+/// Every key of a sweep file, once; see app/scene/describe.h for what a visitor has.
+
+#include "app/scene/describe.h"
+#include "app/sweep/read/sweep.h"
+
+namespace neve::app::sweep::read {
+
+template <class V>
+void describe(V& visit, AxisSpec& a) {
+  using enum scene::Change;
+  visit("values", a.values, scene::unit::none, scene::anything, restart, "The values, as a list.");
+  visit("linspace", a.linspace, scene::unit::none, scene::within(1e30), restart,
+        "num values at equal distances from the first number to the second.");
+  visit("logspace", a.logspace, scene::unit::none, scene::above(0).at_most(1e30), restart,
+        "num values in equal ratios from the first number to the second.");
+  visit("range", a.range, scene::unit::none, scene::within(1e15), restart,
+        "Whole numbers [first, last] or [first, last, step], both ends included.");
+  visit("uniform", a.uniform, scene::unit::none, scene::within(1e30), restart,
+        "Drawn between the two numbers; for the methods random and lhs.");
+  visit("log_uniform", a.log_uniform, scene::unit::none, scene::above(0).at_most(1e30), restart,
+        "Drawn between the two numbers so that all ratios are alike; for random and lhs.");
+  visit("normal", a.normal, scene::unit::none, scene::within(1e30), restart,
+        "Drawn about the first number, the second is the standard deviation; for random and lhs.");
+  visit("num", a.num, scene::unit::none, scene::between(1, 100000), restart,
+        "How many values linspace and logspace make.");
+  visit("label", a.label, scene::unit::none, scene::anything, restart,
+        "What the axis is called on the sheet; without it the parameter's name.");
+}
+
+template <class V>
+void describe(V& visit, SweepSettings& s) {
+  using enum scene::Change;
+  visit("scene", s.scene, scene::unit::none, scene::anything, restart,
+        "The scene that is varied; relative to this file.");
+  visit("method", s.method, scene::unit::none, scene::anything, restart,
+        "grid: all combinations; zip: the axes in step; random, lhs: samples are drawn; list: only "
+        "the [[run]]s.");
+  visit("samples", s.samples, scene::unit::none, scene::between(1, 100000), restart,
+        "How many runs random and lhs draw.");
+  visit("seed", s.seed, scene::unit::none, scene::between(0, scene::max_count), restart,
+        "Of what is drawn.");
+  visit("frames", s.frames, scene::unit::none, scene::anything, restart,
+        "Frames to draw, \"A-B\" or \"N\" for 0-N; without it the scene's.");
+  visit("title", s.title, scene::unit::none, scene::anything, restart,
+        "Title of the sheet; without it the scene's.");
+}
+
+template <class V>
+void describe(V& visit, SweepLimits& l) {
+  using enum scene::Change;
+  visit("timeout", l.timeout, scene::unit::second, scene::between(0, 1e9), restart,
+        "Longest time of a run, in seconds or as \"20m\", \"1h30m\"; 0: none.");
+  visit("memory", l.memory, scene::unit::bytes, scene::between(0, scene::max_count), restart,
+        "Memory of a run, in bytes or as \"6GiB\"; 0: only the scene's own limit.");
+  visit("runs", l.runs, scene::unit::none, scene::between(1, 1e6), restart,
+        "Runs that a sweep may have before it is refused.");
+}
+
+template <class V>
+void describe(V& visit, SheetSettings& s) {
+  using enum scene::Change;
+  visit("columns", s.columns, scene::unit::none, scene::anything, restart,
+        "Address or label of the axis that goes across; without it the last one.");
+  visit("rows", s.rows, scene::unit::none, scene::anything, restart,
+        "Address or label of the axis that goes down; without it the one before the last.");
+  visit("wrap", s.wrap, scene::unit::none, scene::between(0, 64), restart,
+        "Tiles side by side where there is one axis or none; 0: chosen by their number.");
+  visit("tile", s.tile, scene::unit::pixels, scene::between(64, 4096), restart,
+        "Width and height of a tile; without it 480 wide in the shape of the scene's pictures.");
+  visit("view", s.view, scene::unit::none, scene::anything, restart,
+        "The view that the tiles show; without it the scene's first.");
+  visit("label", s.label, scene::unit::none, scene::anything, restart,
+        "What stands on the tiles: differences: the name and the parameters that differ; name: the "
+        "name of the run; none: nothing.");
+}
+
+template <class V>
+void describe(V& visit, SweepFile& s) {
+  visit.section("sweep", "What is varied and how.", [&](auto& v) { describe(v, s.sweep); });
+  visit.addresses("set", s.set, "A parameter of the scene that is the same in all runs.");
+  visit.addresses("axis", s.axis,
+                  "A parameter that varies: a list of values, or a table with one of linspace, "
+                  "logspace, range, uniform, log_uniform, normal.");
+  visit.address_lists("link", s.links,
+                      "Parameters that vary together and count as one axis; with labels = [...] "
+                      "its values are called so.");
+  visit.address_lists("run", s.runs,
+                      "Parameters of one run; label = \"...\" is what it is called.");
+  visit.section("limits", "What a run may use before it is stopped.",
+                [&](auto& v) { describe(v, s.limits); });
+  visit.section("sheet", "The contact sheet.", [&](auto& v) { describe(v, s.sheet); });
+}
+
+}  // namespace neve::app::sweep::read

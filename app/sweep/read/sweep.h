@@ -1,0 +1,132 @@
+#pragma once
+/// A parameter study as the user wrote it. Data only; describe_sweep.h has every key.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/override.h"
+#include "app/scene/scene.h"
+
+namespace neve::app::sweep::read {
+
+/// How the values of the axes are put together.
+enum class Method {
+  grid,    ///< all combinations
+  zip,     ///< the first values of all axes, the second ones, ...
+  random,  ///< drawn independently
+  lhs,     ///< Latin hypercube: every part of every axis is met
+  list     ///< only the explicit runs
+};
+
+enum class TileLabel { differences, name, none };
+
+struct Duration {
+  double seconds = 0;
+};
+/// The two ends of an axis, or mean and standard deviation.
+struct Ends {
+  double first = 0, last = 0;
+};
+struct WholeRange {
+  std::int64_t first = 0, last = 0, step = 1;  ///< both ends included
+};
+/// Values as they were written.
+struct Values {
+  scene::toml::Array items;
+};
+
+/// What stands for the values of an axis; exactly one of the first seven is there.
+struct AxisSpec {
+  std::optional<Values> values;
+  std::optional<Ends> linspace, logspace;
+  std::optional<WholeRange> range;
+  std::optional<Ends> uniform, log_uniform, normal;
+  int num = 0;
+  std::string label;
+};
+
+struct SweepSettings {
+  std::string scene;  ///< relative to the sweep file
+  Method method = Method::grid;
+  int samples = 0;
+  std::uint64_t seed = 1;
+  std::string frames;
+  std::string title;
+};
+
+struct SweepLimits {
+  Duration timeout;          ///< of a run; 0: none
+  std::uint64_t memory = 0;  ///< bytes, of a run; 0: only the scene's limit
+  int runs = 1000;
+};
+
+struct SheetSettings {
+  std::string columns, rows;  ///< address or label of an axis; "" automatic
+  int wrap = 0;               ///< tiles side by side where there is one axis; 0: automatic
+  std::optional<scene::PictureSize> tile;
+  std::string view;
+  TileLabel label = TileLabel::differences;
+};
+
+/// A sweep file before its addresses and values are looked at.
+struct SweepFile {
+  SweepSettings sweep;
+  scene::toml::Table set, axis;
+  std::vector<scene::toml::Table> links, runs;
+  SweepLimits limits;
+  SheetSettings sheet;
+};
+
+/// Values of one or more parameters that change together.
+struct Axis {
+  struct Parameter {
+    std::string address;
+    std::string label;  ///< "" for its name
+    /// One override per value; or, where values are drawn, a single one that tells the place.
+    std::vector<scene::Override> values;
+    std::optional<AxisSpec> drawn;  ///< uniform, log_uniform or normal
+  };
+  std::vector<Parameter> parameters;
+  std::vector<std::string> value_labels;  ///< as many as values, or none
+
+  /// 0 where values are drawn.
+  std::size_t size() const {
+    return parameters.front().drawn ? 0 : parameters.front().values.size();
+  }
+};
+
+/// One [[run]].
+struct ExplicitRun {
+  std::string label;
+  std::vector<scene::Override> settings;
+};
+
+struct Sweep {
+  std::string name;        ///< stem of the sweep's or scene's file
+  std::string file;        ///< the sweep file; "" without one
+  std::string scene_file;  ///< to be opened as it is
+  SweepSettings settings;
+  SweepLimits limits;
+  SheetSettings sheet;
+  std::vector<scene::Override> fixed;
+  std::vector<Axis> axes;
+  std::vector<ExplicitRun> rows;
+  std::map<std::string, scene::toml::Location> places;  ///< of the keys in the sweep file
+
+  /// Throws a SceneError at a key of the sweep file, or a UsageError where there is none.
+  [[noreturn]] void fail(const std::string& key, const std::string& message,
+                         const std::string& hint) const;
+};
+
+/// One run of a sweep before its scene is read.
+struct PlannedRun {
+  int index = 0;
+  std::string label;                      ///< of a [[run]] or a labelled value
+  std::vector<scene::Override> settings;  ///< without the fixed ones
+  std::vector<int> coordinates;           ///< place on each axis of a grid; -1: on none
+};
+
+}  // namespace neve::app::sweep::read

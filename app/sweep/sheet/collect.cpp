@@ -1,0 +1,97 @@
+#include "app/sweep/sheet/collect.h"
+
+#include <system_error>
+
+#include "app/output/atomic_file.h"
+#include "app/output/movie.h"
+#include "app/output/picture_writer.h"
+#include "app/output/sequence.h"
+#include "app/picture/legends.h"
+#include "app/scene/read.h"
+#include "app/support/interrupt.h"
+#include "app/sweep/plan/look.h"
+#include "app/sweep/sheet/data_csv.h"
+#include "app/sweep/sheet/metric_plots.h"
+#include "app/sweep/sheet/report.h"
+#include "app/sweep/sheet/sheet.h"
+#include "render/gl/context.h"
+
+namespace neve::app::sweep::sheet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Colour bars of the view, with the ranges that all runs share.
+std::vector<render::Legend> shared_legends(const fs::path& folder,
+                                           const store::Manifest& manifest) {
+  std::error_code error;
+  const fs::path file = plan::look_path(folder);
+  if (!fs::exists(file, error)) return {};
+  const scene::Scene look = scene::read_scene_file(file.string());
+  for (const scene::View& view : look.views)
+    if (view.name == manifest.view) return picture::legends_of(view);
+  return {};
+}
+
+bool has_pictures(const std::vector<store::RunResult>& results) {
+  for (const store::RunResult& result : results)
+    if (!result.frames.empty()) return true;
+  return false;
+}
+
+void write_sheets(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
+                  Progress& progress) {
+  const int first = manifest.first_frame(), last = manifest.last_frame();
+  output::make_folder(folder / "sheet");
+  output::PictureWriter writer;
+  for (int frame = first; frame <= last && !is_interrupted(); ++frame) {
+    render::Image image = maker.sheet(frame);
+    if (frame == last) writer.write({folder / "sheet.png", image, {}});
+    writer.write({output::frame_path(folder, "sheet", frame), std::move(image), {}});
+    progress.line("sheet " + std::to_string(frame) + "/" + std::to_string(last));
+  }
+  if (!is_interrupted() && last > first) writer.write({folder / "strips.png", maker.strips(), {}});
+  writer.finish();
+  if (is_interrupted() || last == first) return;
+  const output::MovieRequest request{
+      folder / "sheet", folder / "sheet.mp4", first, last, manifest.fps, false};
+  const output::MovieResult movie = output::write_movie(request);
+  if (movie.outcome == output::MovieOutcome::no_ffmpeg)
+    progress.note("no sheet.mp4: ffmpeg is not installed");
+  if (movie.outcome == output::MovieOutcome::failed)
+    progress.warning("no movie " + request.file.string() + ": " + movie.reason);
+}
+
+}  // namespace
+
+void collect_sweep(const fs::path& folder, const std::string& backend, int threads,
+                   Progress& progress) {
+  const store::Manifest manifest = store::read_manifest(folder);
+  const std::vector<store::RunResult> results = store::read_results(folder, manifest);
+  output::write_file(folder / "data.csv", data_csv(manifest, results));
+  if (const std::string plots = metric_plots_svg(manifest, results, true); !plots.empty())
+    output::write_file(folder / "plots.svg", plots);
+
+  progress.clear();
+  for (const std::string& line : store::warning_lines(manifest, results)) progress.warning(line);
+
+  // Whoever interrupts a sweep does not wait for pictures of it.
+  if (is_interrupted()) return;
+  const std::vector<render::Legend> legends = shared_legends(folder, manifest);
+  const auto context = render::gl::open_context(backend);
+  ThreadPool pool(threads);
+  render::Renderer renderer(*context, {}, &pool);
+  SheetMaker maker(folder, manifest, results, legends, renderer);
+  std::vector<std::uint8_t> sheet;
+  if (has_pictures(results)) {
+    write_sheets(folder, manifest, maker, progress);
+    if (is_interrupted()) return;
+    sheet = output::read_file(folder / "sheet.png");
+  }
+  output::write_file(folder / "report.html",
+                     report_html(folder.string(), manifest, results, maker.layout(), sheet));
+  progress.clear();
+}
+
+}  // namespace neve::app::sweep::sheet

@@ -1,0 +1,17 @@
+#pragma once
+/// Puts together what the runs of a sweep have left so far.
+
+#include <filesystem>
+
+#include "app/support/progress.h"
+
+namespace neve::app::sweep::sheet {
+
+/// DIR/data.csv, DIR/plots.svg, DIR/sheet/0000.png ..., DIR/sheet.png, DIR/strips.png,
+/// DIR/sheet.mp4 where ffmpeg is there, and DIR/report.html. Changes nothing of the runs. Says
+/// which runs have warnings.
+/// @throws IoError, render::ContextError, Error for a folder that is no sweep
+void collect_sweep(const std::filesystem::path& folder, const std::string& backend, int threads,
+                   Progress& progress);
+
+}  // namespace neve::app::sweep::sheet

@@ -1,0 +1,186 @@
+#include "app/sweep/sheet/data_csv.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "app/output/sequence.h"
+
+namespace neve::app::sweep::sheet {
+
+namespace {
+
+/// RFC 4180.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of("\",\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + '"';
+}
+
+std::string float_text(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", x);
+  std::string result = text;
+  if (result.find_first_of(".eE") == std::string::npos) result += ".0";
+  return result;
+}
+
+std::string whole_text(double x) {
+  return std::to_string(std::llround(x));
+}
+
+std::optional<double> trimmed_number(std::string text) {
+  std::erase(text, ' ');
+  if (text.starts_with("+")) text.erase(0, 1);
+  double x = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
+  const bool is_whole = result.ec == std::errc{} && result.ptr == text.data() + text.size();
+  return is_whole && std::isfinite(x) ? std::optional(x) : std::nullopt;
+}
+
+/// Readers of the table take it for a number, not-a-number and infinities included.
+bool looks_like_number(const std::string& text) {
+  double x = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
+  return !text.empty() && result.ec != std::errc::invalid_argument &&
+         result.ptr == text.data() + text.size();
+}
+
+/// "[0, -5, 0]": its three numbers, or none.
+std::vector<std::string> components(const std::string& value) {
+  std::vector<std::string> parts(1);
+  for (const char c : value) {
+    if (c == '[' || c == ']' || c == ' ') continue;
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts.size() == 3 ? parts : std::vector<std::string>(3);
+}
+
+/// "material.snow.hardening" -> "material_snow_hardening"; no column but those of files may begin
+/// with FILE.
+std::string column_name(const std::string& address) {
+  std::string name = address;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name.starts_with("FILE") ? "_" + name : name;
+}
+
+/// TOML text as a cell of a column of this type.
+std::string cell(const std::string& value, const std::string& type) {
+  if (value.empty()) return "";
+  if (type == "number" || type == "integer") {
+    const std::optional<double> x = trimmed_number(value);
+    if (!x) return "";
+    return type == "number" ? float_text(*x) : whole_text(*x);
+  }
+  // A string that looks like a number would give its column another type.
+  const std::string text = plan::value_text(value);
+  return looks_like_number(text) || text.empty() ? "'" + text + "'" : text;
+}
+
+/// Names of columns, each of which is there once.
+class ColumnNames {
+ public:
+  /// @param suffix  follows a name that is taken
+  std::string unique(std::string name, const std::string& suffix) {
+    while (!taken_.insert(name).second) name += suffix;
+    return name;
+  }
+
+ private:
+  std::set<std::string> taken_;
+};
+
+class Rows {
+ public:
+  void add(const std::string& text) {
+    line_ += (is_first_ ? "" : ",") + quoted(text);
+    is_first_ = false;
+  }
+  void end() {
+    text_ += line_ + "\n";
+    line_.clear();
+    is_first_ = true;
+  }
+  std::string text() const { return text_; }
+
+ private:
+  std::string text_, line_;
+  bool is_first_ = true;
+};
+
+void add_header(const store::Manifest& manifest, bool with_times, Rows& rows) {
+  ColumnNames names;
+  for (const char* name : {"run", "label"}) rows.add(names.unique(name, "_"));
+  for (const plan::Varied& parameter : manifest.parameters) {
+    const std::string name = column_name(parameter.address);
+    if (parameter.type != "vector") {
+      rows.add(names.unique(name, "_set"));
+      continue;
+    }
+    for (const char* axis : {"_x", "_y", "_z"}) rows.add(names.unique(name + axis, "_set"));
+  }
+  // What runs came to gives way to what they were given: frames, frames_done.
+  for (const char* name : {"state", "reason", "warnings", "frames"})
+    rows.add(names.unique(name, "_done"));
+  for (const store::MetricInfo& metric : store::metric_infos())
+    if (with_times || !metric.is_time) rows.add(names.unique(metric.name, "_done"));
+  for (const char* name : {"FILE", "FILE_scene"}) rows.add(name);
+  rows.end();
+}
+
+void add_parameters(const store::Manifest& manifest, const store::ManifestRun& run, Rows& rows) {
+  for (const plan::Varied& parameter : manifest.parameters) {
+    const std::string value = run.value(parameter.address);
+    if (parameter.type != "vector") {
+      rows.add(cell(value, parameter.type));
+      continue;
+    }
+    for (const std::string& part : components(value)) rows.add(cell(part, "number"));
+  }
+}
+
+void add_row(const store::Manifest& manifest, const store::ManifestRun& run,
+             const store::RunResult& result, bool with_times, Rows& rows) {
+  rows.add(std::to_string(run.index));
+  rows.add(cell(run.label.empty() ? "run " + std::to_string(run.index) : run.label, "string"));
+  add_parameters(manifest, run, rows);
+  rows.add(store::name(result.report.state));
+  rows.add(result.report.reason.empty() ? "-" : cell(result.report.reason, "string"));
+  rows.add(std::to_string(result.warnings.size()));
+  rows.add(std::to_string(result.frames.size()));
+  for (std::size_t k = 0; k < store::metric_infos().size(); ++k) {
+    const store::MetricInfo& metric = store::metric_infos()[k];
+    if (!with_times && metric.is_time) continue;
+    // The moment at which a run broke down is none to compare with.
+    const bool is_told = metric.is_cost || store::is_whole(run, result);
+    const std::optional<double> value = is_told ? result.metrics[k] : std::nullopt;
+    rows.add(!value ? "" : metric.is_whole ? whole_text(*value) : float_text(*value));
+  }
+  const std::string folder = "runs/" + run.folder;
+  rows.add(result.frames.empty()
+               ? ""
+               : output::frame_path(folder, manifest.view, result.frames.back()).generic_string());
+  rows.add(folder + "/scene.toml");
+  rows.end();
+}
+
+}  // namespace
+
+std::string data_csv(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
+                     bool with_times) {
+  Rows rows;
+  add_header(manifest, with_times, rows);
+  for (std::size_t k = 0; k < manifest.runs.size(); ++k)
+    add_row(manifest, manifest.runs[k], results[k], with_times, rows);
+  return rows.text();
+}
+
+}  // namespace neve::app::sweep::sheet

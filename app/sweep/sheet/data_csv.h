@@ -1,0 +1,19 @@
+#pragma once
+/// data.csv of a Cinema database, specification D: one row per run.
+
+#include <string>
+#include <vector>
+
+#include "app/sweep/store/results.h"
+
+namespace neve::app::sweep::sheet {
+
+/// Columns: run, label, one per parameter (three for vectors), state, reason, warnings (how many),
+/// frames, metrics, and the FILE columns last. A column's type comes from the parameter, never from
+/// its values: floats always have a point or an exponent, whole numbers never. Metrics of runs that
+/// did not get to their last frame are empty, but for steps and seconds.
+/// @param with_times false leaves out what differs from one machine to the next
+std::string data_csv(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
+                     bool with_times = true);
+
+}  // namespace neve::app::sweep::sheet

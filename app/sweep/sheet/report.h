@@ -1,0 +1,21 @@
+#pragma once
+/// report.html: everything about a sweep in one file without links to anywhere else.
+
+#include <string>
+#include <vector>
+
+#include "app/sweep/sheet/sheet_layout.h"
+#include "app/sweep/store/results.h"
+
+namespace neve::app::sweep::sheet {
+
+/// @param folder as the commands that repeat runs name it
+/// @param sheet_png the sheet of the last frame; empty: none
+std::string report_html(const std::string& folder, const store::Manifest& manifest,
+                        const std::vector<store::RunResult>& results, const SheetLayout& layout,
+                        const std::vector<std::uint8_t>& sheet_png);
+
+/// The command that makes a run's pictures again.
+std::string repeat_command(const std::string& folder, const store::ManifestRun& run);
+
+}  // namespace neve::app::sweep::sheet

@@ -1,0 +1,299 @@
+#include "app/sweep/sheet/sheet.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
+#include "app/support/text.h"
+#include "app/sweep/jobs/outcome.h"
+#include "app/sweep/plan/labels.h"
+#include "render/frame/compose.h"
+
+namespace neve::app::sweep::sheet {
+
+namespace {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+constexpr Rgb paper{30, 33, 39}, empty_tile{44, 48, 56};
+constexpr Rgb bright{240, 244, 250}, soft{190, 199, 212}, alarm{255, 138, 76},
+    caution{255, 205, 96};
+constexpr double darkness = 0.42;  // of a tile whose run got less far
+constexpr std::size_t most_moments = 6;
+const char* const dot = "   \u00b7   ";
+
+render::Image plain_image(int width, int height, const Rgb& color) {
+  return render::compose(width, height, color, {});
+}
+
+void darken(render::Image& image) {
+  for (std::uint8_t& value : image.pixels)
+    value = static_cast<std::uint8_t>(std::lround(darkness * value));
+}
+
+/// The newest picture that a run has at a frame or before it.
+std::optional<int> newest_frame(const store::RunResult& result, int frame) {
+  std::optional<int> newest;
+  for (const int other : result.frames)
+    if (other <= frame) newest = other;
+  return newest;
+}
+
+/// Whether the run has stopped before this frame, or not got there yet.
+bool is_late(const store::ManifestRun& run, const store::RunResult& result, int frame) {
+  const bool has_frame = std::binary_search(result.frames.begin(), result.frames.end(), frame);
+  // One whose last frame is an earlier one by its plan stands still.
+  const bool is_over = result.report.state == store::RunState::ok && frame > run.last_frame;
+  return !has_frame && !is_over;
+}
+
+render::Image read_tile(const std::filesystem::path& file, int width, int height,
+                        const Rgb& background) {
+  try {
+    render::Image image = render::decode_png(output::read_file(file));
+    if (image.channels == 4)
+      image = render::compose(image.width, image.height, background, {{0, 0, std::move(image)}});
+    if (image.width == width && image.height == height) return image;
+    if (image.width >= width && image.height >= height) return render::shrink(image, width, height);
+    return render::compose(width, height, background,
+                           {{(width - image.width) / 2, (height - image.height) / 2, image}});
+  } catch (const std::exception&) {
+    // A picture that is not there or is being replaced is no reason to have no sheet.
+    return plain_image(width, height, background);
+  }
+}
+
+/// "hardening = 5" and so on, or the name of the run.
+/// @param has_edges  what the sheet's edges say is left out
+std::vector<std::string> tile_lines(const store::Manifest& manifest, const store::ManifestRun& run,
+                                    bool has_edges) {
+  std::vector<std::string> lines;
+  if (manifest.tile_label == "none") return lines;
+  if (!run.label.empty()) lines.push_back(run.label);
+  if (manifest.tile_label == "name") {
+    if (lines.empty()) lines.push_back(store::run_text(run));
+    return lines;
+  }
+  const bool is_at_edges = has_edges && run.coordinates.size() == manifest.axes.size();
+  const auto is_at_edge = [&](const std::string& address) {
+    return is_at_edges &&
+           std::any_of(manifest.axes.begin(), manifest.axes.end(), [&](const auto& a) {
+             return std::find(a.addresses.begin(), a.addresses.end(), address) != a.addresses.end();
+           });
+  };
+  std::string settings;
+  for (const plan::Varied& parameter : manifest.parameters) {
+    const std::string value = run.setting(parameter.address);
+    if (value.empty() || is_at_edge(parameter.address)) continue;
+    settings += (settings.empty() ? "" : ", ") + parameter.name + " = " + plan::value_text(value);
+    if (!parameter.unit.empty()) settings += " " + parameter.unit;
+  }
+  if (!settings.empty()) lines.push_back(settings);
+  return lines;
+}
+
+/// The name of a run, or what it sets, a line each.
+std::string strip_name(const store::Manifest& manifest, const store::ManifestRun& run) {
+  constexpr int most_lines = 5;
+  if (!run.label.empty()) return run.label;
+  std::string text;
+  int lines = 0;
+  for (const plan::Varied& parameter : manifest.parameters) {
+    const std::string value = run.setting(parameter.address);
+    if (value.empty() || ++lines > most_lines) continue;
+    text += (text.empty() ? "" : "\n") + parameter.name + " = " + plan::value_text(value) +
+            (parameter.unit.empty() ? "" : " " + parameter.unit);
+  }
+  return text.empty() ? store::run_text(run) : text;
+}
+
+/// The word in capitals, and what follows it.
+std::pair<std::string, std::string> split_state(const std::string& text) {
+  std::size_t end = 0;
+  for (std::size_t k = 0; k < text.size() && !(text[k] >= 'a' && text[k] <= 'z') &&
+                          !(text[k] >= '0' && text[k] <= '9');
+       ++k)
+    if (text[k] == ' ' || k + 1 == text.size()) end = k + (text[k] == ' ' ? 0 : 1);
+  if (end == 0) return {"", text};
+  return {text.substr(0, end), end < text.size() ? text.substr(end + 1) : ""};
+}
+
+std::string run_count_text(const std::vector<store::RunResult>& results) {
+  int ok = 0, failed = 0;
+  for (const store::RunResult& result : results) {
+    ok += result.report.state == store::RunState::ok;
+    failed += store::has_failed(result.report.state);
+  }
+  const int open = static_cast<int>(results.size()) - ok - failed;
+  std::string text = std::to_string(results.size()) + (results.size() == 1 ? " run" : " runs");
+  if (failed > 0) text += ", " + std::to_string(failed) + " failed";
+  if (open > 0) text += ", " + std::to_string(open) + " not finished";
+  return text;
+}
+
+}  // namespace
+
+SheetMaker::SheetMaker(std::filesystem::path folder, const store::Manifest& manifest,
+                       const std::vector<store::RunResult>& results,
+                       const std::vector<render::Legend>& legends, render::Renderer& renderer)
+    : folder_(std::move(folder)),
+      manifest_(manifest),
+      results_(results),
+      legends_(legends),
+      renderer_(renderer),
+      layout_(layout_sheet(manifest, !legends.empty(), renderer.max_size())) {}
+
+render::Image SheetMaker::tile_picture(const Tile& tile, int width, int height,
+                                       bool is_dark) const {
+  const std::filesystem::path run = store::runs_folder(folder_) / tile.run->folder;
+  std::filesystem::path file;
+  std::error_code error;
+  const std::optional<int> frame = newest_frame(*tile.result, tile.frame);
+  // The picture of what went wrong has rings around the culprits.
+  const std::filesystem::path incident = output::diverged_path(run, manifest_.view);
+  if (is_dark && tile.result->report.state == store::RunState::diverged &&
+      std::filesystem::exists(incident, error))
+    file = incident;
+  else if (frame)
+    file = output::frame_path(run, manifest_.view, *frame);
+  if (file.empty()) return plain_image(width, height, empty_tile);
+  render::Image picture = read_tile(file, width, height, empty_tile);
+  if (is_dark) darken(picture);
+  return picture;
+}
+
+void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, bool is_dark,
+                                render::Frame& words) const {
+  const auto size = static_cast<float>(layout.font_size);
+  const float left = static_cast<float>(tile.x) + 0.6f * size,
+              top = static_cast<float>(tile.y) + 0.45f * size;
+  const float room = static_cast<float>(layout.tile_width) - 1.2f * size;
+  const std::vector<std::string> lines = tile_lines(manifest_, *tile.run, layout.has_edges);
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    words.notes.push_back({left, top + 1.25f * size * static_cast<float>(k), lines[k],
+                           render::Note::Anchor::left, room, false,
+                           k == 0 && !tile.run->label.empty() ? bright : soft});
+  if (!tile.result->warnings.empty())
+    words.notes.push_back({left, top + 1.25f * size * static_cast<float>(lines.size()),
+                           "! " + store::warning_count_text(tile.result->warnings.size()),
+                           render::Note::Anchor::left, room, false, caution});
+  if (!is_dark) return;
+  const auto [state, reason] = split_state(jobs::tile_text(tile.result->report));
+  const bool is_alarm = store::has_failed(tile.result->report.state);
+  const float middle = static_cast<float>(tile.x) + 0.5f * static_cast<float>(layout.tile_width);
+  const float height = static_cast<float>(layout.tile_height);
+  const float y =
+      static_cast<float>(tile.y) + 0.5f * height - (reason.empty() ? 0.6f : 1.2f) * size;
+  const std::string first = state.empty() ? reason : state;
+  words.notes.push_back(
+      {middle, y, first, render::Note::Anchor::middle, room, is_alarm, is_alarm ? alarm : soft});
+  if (!state.empty() && !reason.empty())
+    words.notes.push_back(
+        {middle, y + 1.6f * size, reason, render::Note::Anchor::middle, room, false, bright});
+}
+
+render::Frame SheetMaker::frame_of(const SheetLayout& layout, const std::string& line) const {
+  render::Frame words;
+  words.width = layout.width;
+  words.height = layout.height;
+  words.font_size = layout.font_size;
+  words.legends = legends_;
+  words.notes = layout.labels;
+  words.patches = layout.brackets;
+  const auto size = static_cast<float>(layout.font_size);
+  const float room = static_cast<float>(layout.width) - 2 * size;
+  words.notes.push_back(
+      {size, 0.7f * size, manifest_.title, render::Note::Anchor::left, room, true, bright});
+  words.notes.push_back({size, 2.3f * size, line, render::Note::Anchor::left, room, false, soft});
+  return words;
+}
+
+render::Image SheetMaker::compose(const SheetLayout& layout, const std::vector<Tile>& tiles,
+                                  render::Frame& words) const {
+  std::vector<render::Tile> pictures;
+  for (const Tile& tile : tiles) {
+    const bool is_dark = is_late(*tile.run, *tile.result, tile.frame);
+    add_tile_words(layout, tile, is_dark, words);
+    pictures.push_back(
+        {tile.x, tile.y, tile_picture(tile, layout.tile_width, layout.tile_height, is_dark)});
+  }
+  return renderer_.draw_over(render::compose(layout.width, layout.height, paper, pictures), words);
+}
+
+render::Image SheetMaker::sheet(int frame) {
+  std::vector<Tile> tiles;
+  for (const SheetTile& place : layout_.tiles)
+    tiles.push_back({&manifest_.runs[place.run], &results_[place.run], frame, place.x, place.y});
+  const std::string line = "frame " + std::to_string(frame) +
+                           "   t = " + fixed_text(frame / manifest_.fps, 3) + " s" + dot +
+                           run_count_text(results_);
+  render::Frame words = frame_of(layout_, line);
+  return compose(layout_, tiles, words);
+}
+
+render::Image SheetMaker::strips() {
+  const std::vector<int> frames = moments();
+  const SheetLayout layout =
+      layout_sheet(strip_grid(frames), !legends_.empty(), renderer_.max_size());
+  render::Frame words =
+      frame_of(layout, "moments of every run" + std::string(dot) + run_count_text(results_));
+  std::vector<render::Tile> pictures;
+  for (const SheetTile& place : layout.tiles) {
+    const std::size_t run = place.run / frames.size();
+    const Tile tile{&manifest_.runs[run], &results_[run], frames[place.run % frames.size()],
+                    place.x, place.y};
+    const bool is_dark = is_late(*tile.run, *tile.result, tile.frame);
+    pictures.push_back(
+        {tile.x, tile.y, tile_picture(tile, layout.tile_width, layout.tile_height, is_dark)});
+    if (is_dark) add_state(layout, tile, words);
+  }
+  return renderer_.draw_over(render::compose(layout.width, layout.height, paper, pictures), words);
+}
+
+std::vector<int> SheetMaker::moments() const {
+  const int first = manifest_.first_frame(), last = manifest_.last_frame();
+  const std::size_t count = std::min(most_moments, static_cast<std::size_t>(last - first + 1));
+  std::vector<int> frames;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double part = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 1;
+    frames.push_back(first + static_cast<int>(std::lround(part * (last - first))));
+  }
+  return frames;
+}
+
+/// Runs as rows and moments as columns: a sheet of two axes.
+store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames) const {
+  store::Manifest grid = manifest_;
+  grid.columns = 1;
+  grid.rows = 0;
+  grid.tile_width = std::max(160, manifest_.tile_width * 2 / 3);
+  grid.tile_height =
+      std::max(1, static_cast<int>(std::lround(1.0 * grid.tile_width * manifest_.tile_height /
+                                               manifest_.tile_width)));
+  store::ManifestAxis names{"", {}}, times{"t", {}};
+  for (const int frame : frames)
+    times.values.push_back(fixed_text(frame / manifest_.fps, 3) + " s");
+  grid.runs.clear();
+  for (std::size_t r = 0; r < manifest_.runs.size(); ++r) {
+    names.values.push_back(strip_name(manifest_, manifest_.runs[r]));
+    for (std::size_t k = 0; k < frames.size(); ++k)
+      grid.runs.emplace_back().coordinates = {static_cast<int>(r), static_cast<int>(k)};
+  }
+  grid.axes = {names, times};
+  return grid;
+}
+
+/// Why a run stands still, in few words.
+void SheetMaker::add_state(const SheetLayout& layout, const Tile& tile,
+                           render::Frame& words) const {
+  const auto [state, reason] = split_state(jobs::tile_text(tile.result->report));
+  const auto width = static_cast<float>(layout.tile_width);
+  words.notes.push_back({static_cast<float>(tile.x) + 0.5f * width,
+                         static_cast<float>(tile.y) +
+                             0.5f * static_cast<float>(layout.tile_height - layout.font_size),
+                         state.empty() ? reason : state, render::Note::Anchor::middle, width, false,
+                         store::has_failed(tile.result->report.state) ? alarm : soft});
+}
+
+}  // namespace neve::app::sweep::sheet

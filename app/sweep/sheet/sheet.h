@@ -1,0 +1,58 @@
+#pragma once
+/// Contact sheets: all runs in one picture, with the words that tell them apart.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/sweep/sheet/sheet_layout.h"
+#include "app/sweep/store/results.h"
+#include "render/renderer.h"
+
+namespace neve::app::sweep::sheet {
+
+class SheetMaker {
+ public:
+  /// @param legends shared by all tiles
+  /// All but the path must outlive it.
+  SheetMaker(std::filesystem::path folder, const store::Manifest& manifest,
+             const std::vector<store::RunResult>& results,
+             const std::vector<render::Legend>& legends, render::Renderer& renderer);
+
+  /// Every run at a frame. A run that got less far shows where it stopped, dark, and says why.
+  render::Image sheet(int frame);
+
+  const SheetLayout& layout() const { return layout_; }
+
+  /// Some moments of every run side by side, one run below the other.
+  render::Image strips();
+
+ private:
+  struct Tile {
+    const store::ManifestRun* run;
+    const store::RunResult* result;
+    int frame;
+    int x, y;  ///< px
+  };
+
+  render::Image compose(const SheetLayout& layout, const std::vector<Tile>& tiles,
+                        render::Frame& words) const;
+  render::Image tile_picture(const Tile& tile, int width, int height, bool is_late) const;
+  void add_tile_words(const SheetLayout& layout, const Tile& tile, bool is_late,
+                      render::Frame& words) const;
+  void add_state(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
+  /// Frames that strips show.
+  std::vector<int> moments() const;
+  store::Manifest strip_grid(const std::vector<int>& frames) const;
+  render::Frame frame_of(const SheetLayout& layout, const std::string& line) const;
+
+  std::filesystem::path folder_;
+  const store::Manifest& manifest_;
+  const std::vector<store::RunResult>& results_;
+  const std::vector<render::Legend>& legends_;
+  render::Renderer& renderer_;
+  SheetLayout layout_;
+};
+
+}  // namespace neve::app::sweep::sheet

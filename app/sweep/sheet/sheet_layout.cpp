@@ -1,0 +1,299 @@
+#include "app/sweep/sheet/sheet_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neve::app::sweep::sheet {
+
+namespace {
+
+using Anchor = render::Note::Anchor;
+
+constexpr std::array<std::uint8_t, 3> bright_ink{240, 244, 250}, soft_ink{172, 182, 196},
+    bracket{96, 106, 122};
+constexpr double letter = 0.56;  // width of a letter, as a share of the height of its line
+constexpr std::size_t longest_row = 6;
+
+/// One side of the sheet: axes from the outermost to the innermost.
+struct Side {
+  std::vector<std::size_t> axes;
+
+  int count(const store::Manifest& m) const {
+    int product = 1;
+    for (const std::size_t a : axes) product *= static_cast<int>(m.axes[a].values.size());
+    return product;
+  }
+  /// Place of a run along this side.
+  int index(const store::Manifest& m, const std::vector<int>& at) const {
+    int place = 0;
+    for (const std::size_t a : axes)
+      place = place * static_cast<int>(m.axes[a].values.size()) + at[a];
+    return place;
+  }
+  /// The value of each axis at a place, outermost first.
+  std::vector<int> values(const store::Manifest& m, int place) const {
+    std::vector<int> at(axes.size());
+    for (std::size_t k = axes.size(); k-- > 0;) {
+      const int size = static_cast<int>(m.axes[axes[k]].values.size());
+      at[k] = place % size;
+      place /= size;
+    }
+    return at;
+  }
+  /// How many levels around the innermost begin anew at a place: gaps grow with it.
+  int level(const store::Manifest& m, int place) const {
+    int level = 0, block = 1;
+    for (std::size_t k = axes.size(); k-- > 1;) {
+      block *= static_cast<int>(m.axes[axes[k]].values.size());
+      if (place > 0 && place % block == 0) ++level;
+    }
+    return level;
+  }
+};
+
+struct Sides {
+  Side columns, rows;
+};
+
+/// Which axis goes where.
+Sides choose_sides(const store::Manifest& m, double tile_aspect) {
+  Sides sides;
+  const auto count = static_cast<int>(m.axes.size());
+  const int across = m.columns >= 0 && m.columns != m.rows ? m.columns
+                     : m.rows == count - 1                 ? count - 2
+                                                           : count - 1;
+  int down = m.rows >= 0 ? m.rows : (across == count - 1 ? count - 2 : count - 1);
+  if (across >= 0) sides.columns.axes = {static_cast<std::size_t>(across)};
+  if (down >= 0) sides.rows.axes = {static_cast<std::size_t>(down)};
+  for (int a = count - 1; a >= 0; --a) {
+    if (a == across || a == down) continue;
+    const double width = tile_aspect * sides.columns.count(m), height = sides.rows.count(m);
+    // A little wider than high is how screens and pages are.
+    Side& side = width < 1.6 * height ? sides.columns : sides.rows;
+    side.axes.insert(side.axes.begin(), static_cast<std::size_t>(a));
+  }
+  return sides;
+}
+
+std::string label_text(const store::Manifest& m, std::size_t axis, int value) {
+  const store::ManifestAxis& a = m.axes[axis];
+  return a.name + " = " + a.values[static_cast<std::size_t>(value)];
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines(1);
+  for (const char c : text) {
+    if (c == '\n')
+      lines.emplace_back();
+    else
+      lines.back() += c;
+  }
+  return lines;
+}
+
+bool is_wrapped(const store::Manifest& m) {
+  if (m.axes.empty()) return true;
+  return m.axes.size() == 1 && (m.wrap > 0 || m.axes[0].values.size() > longest_row) && m.rows < 0;
+}
+
+/// Tiles side by side so that the sheet is about as wide as a screen.
+int wrap_count(const store::Manifest& m, std::size_t count, double tile_aspect) {
+  if (m.wrap > 0) return std::min(m.wrap, static_cast<int>(count));
+  const double wanted = std::sqrt(static_cast<double>(count) * 1.6 / tile_aspect);
+  return std::clamp(static_cast<int>(std::lround(wanted)), 1, static_cast<int>(count));
+}
+
+class Layouter {
+ public:
+  Layouter(const store::Manifest& m, bool has_legend, int tile_width)
+      : m_(m), has_legend_(has_legend) {
+    out_.tile_width = tile_width;
+    out_.tile_height =
+        std::max(1, static_cast<int>(std::lround(1.0 * tile_width * m.tile_height / m.tile_width)));
+    out_.font_size = std::clamp(static_cast<int>(std::lround(tile_width / 28.0)), 11, 28);
+    gap_ = std::max(3, out_.font_size / 4);
+  }
+
+  SheetLayout make() {
+    sides_ = choose_sides(m_, 1.0 * out_.tile_width / out_.tile_height);
+    is_wrapped_ = is_wrapped(m_);
+    const double aspect = 1.0 * out_.tile_width / out_.tile_height;
+    columns_ = is_wrapped_ ? wrap_count(m_, m_.runs.size(), aspect) : sides_.columns.count(m_);
+    left_ = margin() + (is_wrapped_ ? 0 : row_label_width());
+    top_ = static_cast<int>(3.6 * line()) + (is_wrapped_ ? 0 : column_label_height());
+    out_.header = static_cast<int>(3.3 * line());
+    place_tiles();
+    out_.has_edges = !is_wrapped_;
+    if (!is_wrapped_) add_labels();
+    const int legend = has_legend_ ? static_cast<int>(9.5 * out_.font_size) : 0;
+    out_.width = column_x(columns_ - 1) + out_.tile_width + margin() + legend;
+    // A title needs room too.
+    out_.width = std::max(out_.width, 26 * out_.font_size);
+    out_.height = bottom_ + margin();
+    return out_;
+  }
+
+ private:
+  double line() const { return 1.3 * out_.font_size; }
+  int margin() const { return out_.font_size; }
+  int wide_gap() const { return 3 * gap_ + out_.font_size / 2; }
+
+  int column_x(int column) const {
+    int x = left_ + column * (out_.tile_width + gap_);
+    for (int k = 1; k <= column && !is_wrapped_; ++k) x += sides_.columns.level(m_, k) * wide_gap();
+    return x;
+  }
+  int row_y(int row) const {
+    int y = top_ + row * (out_.tile_height + gap_);
+    for (int k = 1; k <= row && !is_wrapped_; ++k) y += sides_.rows.level(m_, k) * wide_gap();
+    return y;
+  }
+
+  void put(std::size_t run, int column, int row) {
+    out_.tiles.push_back({run, column_x(column), row_y(row)});
+    bottom_ = std::max(bottom_, row_y(row) + out_.tile_height);
+  }
+
+  void place_tiles() {
+    int next = is_wrapped_ ? 0 : sides_.rows.count(m_) * columns_;
+    for (std::size_t k = 0; k < m_.runs.size(); ++k) {
+      const std::vector<int>& at = m_.runs[k].coordinates;
+      if (!is_wrapped_ && at.size() == m_.axes.size()) {
+        put(k, sides_.columns.index(m_, at), sides_.rows.index(m_, at));
+      } else {
+        put(k, next % columns_, next / columns_);
+        ++next;
+      }
+    }
+  }
+
+  int column_label_height() const {
+    return static_cast<int>(
+        std::lround(line() * static_cast<double>(sides_.columns.axes.size()) + 0.2 * line()));
+  }
+
+  double most_level_width() const { return 14.0 * out_.font_size; }
+  double width_of(std::size_t letters) const {
+    return letter * out_.font_size * static_cast<double>(letters + 1);
+  }
+
+  /// Whether "name = value" fits side by side for all values of an axis.
+  bool is_joined(std::size_t axis) const {
+    const store::ManifestAxis& a = m_.axes[axis];
+    std::size_t longest = 0;
+    for (const std::string& value : a.values) {
+      if (value.find('\n') != std::string::npos) return false;
+      longest = std::max(longest, value.size());
+    }
+    return !a.name.empty() && width_of(a.name.size() + 3 + longest) <= most_level_width();
+  }
+
+  /// Of a row: name above value where both do not fit side by side.
+  std::vector<std::string> row_lines(std::size_t axis, int value) const {
+    if (is_joined(axis)) return {label_text(m_, axis, value)};
+    std::vector<std::string> lines =
+        lines_of(m_.axes[axis].values[static_cast<std::size_t>(value)]);
+    if (!m_.axes[axis].name.empty()) lines.insert(lines.begin(), m_.axes[axis].name + " =");
+    return lines;
+  }
+
+  int level_width(std::size_t axis) const {
+    std::size_t longest = 0;
+    for (int value = 0; value < static_cast<int>(m_.axes[axis].values.size()); ++value)
+      for (const std::string& text : row_lines(axis, value))
+        longest = std::max(longest, text.size());
+    return static_cast<int>(std::min(width_of(longest), most_level_width()));
+  }
+  int row_label_width() const {
+    int width = 0;
+    for (const std::size_t a : sides_.rows.axes) width += level_width(a) + out_.font_size / 2;
+    return width;
+  }
+
+  void add_labels() {
+    add_column_labels();
+    add_row_labels();
+  }
+
+  /// One line for each level, over the middle of what it holds.
+  void add_column_labels() {
+    const auto levels = sides_.columns.axes.size();
+    for (std::size_t k = 0; k < levels; ++k) {
+      int block = 1;
+      for (std::size_t j = k + 1; j < levels; ++j)
+        block *= static_cast<int>(m_.axes[sides_.columns.axes[j]].values.size());
+      for (int first = 0; first < columns_; first += block) {
+        const int value = sides_.columns.values(m_, first)[k];
+        const int left = column_x(first), right = column_x(first + block - 1) + out_.tile_width;
+        const double y = top_ - line() * static_cast<double>(levels - k) - 0.1 * line();
+        out_.labels.push_back({0.5f * static_cast<float>(left + right), static_cast<float>(y),
+                               label_text(m_, sides_.columns.axes[k], value), Anchor::middle,
+                               static_cast<float>(right - left), false,
+                               k + 1 == levels ? bright_ink : soft_ink});
+      }
+    }
+  }
+
+  void add_row_labels() {
+    const auto levels = sides_.rows.axes.size();
+    int x = margin();
+    for (std::size_t k = 0; k < levels; ++k) {
+      const std::size_t axis = sides_.rows.axes[k];
+      int block = 1;
+      for (std::size_t j = k + 1; j < levels; ++j)
+        block *= static_cast<int>(m_.axes[sides_.rows.axes[j]].values.size());
+      for (int first = 0; first < sides_.rows.count(m_); first += block) {
+        const int value = sides_.rows.values(m_, first)[k];
+        const double middle = 0.5 * (row_y(first) + row_y(first + block - 1) + out_.tile_height);
+        const auto room = static_cast<float>(level_width(axis));
+        const std::vector<std::string> lines = row_lines(axis, value);
+        const bool has_name = !m_.axes[axis].name.empty() && !is_joined(axis);
+        for (std::size_t n = 0; n < lines.size(); ++n) {
+          const double at =
+              middle + line() * (static_cast<double>(n) - 0.5 * static_cast<double>(lines.size()));
+          const bool is_soft = has_name ? n == 0 : n > 0;
+          out_.labels.push_back({static_cast<float>(x), static_cast<float>(at), lines[n],
+                                 Anchor::left, room, false, is_soft ? soft_ink : bright_ink});
+        }
+        if (k + 1 < levels) add_bracket(x + level_width(axis), first, first + block - 1);
+      }
+      x += level_width(axis) + out_.font_size / 2;
+    }
+  }
+
+  /// A line along the rows that an outer value holds for.
+  void add_bracket(int x, int first, int last) {
+    const auto top = static_cast<float>(row_y(first)),
+               bottom = static_cast<float>(row_y(last) + out_.tile_height);
+    out_.brackets.push_back({static_cast<float>(x),
+                             top,
+                             std::max(1.0f, 0.1f * static_cast<float>(out_.font_size)),
+                             bottom - top,
+                             {bracket[0], bracket[1], bracket[2], 255}});
+  }
+
+  const store::Manifest& m_;
+  bool has_legend_;
+  Sides sides_;
+  bool is_wrapped_ = false;
+  int columns_ = 1, left_ = 0, top_ = 0, bottom_ = 0, gap_ = 4;
+  SheetLayout out_;
+};
+
+}  // namespace
+
+SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest) {
+  constexpr double most_pixels = 48e6;
+  constexpr int smallest_tile = 64;
+  int tile = manifest.tile_width;
+  while (true) {
+    SheetLayout layout = Layouter(manifest, has_legend, tile).make();
+    const double pixels = 1.0 * layout.width * layout.height;
+    if ((layout.width <= largest && layout.height <= largest && pixels <= most_pixels) ||
+        tile <= smallest_tile)
+      return layout;
+    tile = std::max(smallest_tile, tile * 9 / 10);
+  }
+}
+
+}  // namespace neve::app::sweep::sheet

@@ -1,0 +1,35 @@
+#pragma once
+/// Where the tiles and words of a contact sheet go; the same in every frame.
+
+#include <string>
+#include <vector>
+
+#include "app/sweep/store/manifest.h"
+#include "render/frame/frame.h"
+
+namespace neve::app::sweep::sheet {
+
+struct SheetTile {
+  std::size_t run = 0;
+  int x = 0, y = 0;  ///< px, of its upper left corner
+};
+
+struct SheetLayout {
+  int width = 0, height = 0;            ///< px
+  int tile_width = 0, tile_height = 0;  ///< px
+  int font_size = 16;                   ///< px
+  int header = 0;                       ///< px, above the labels
+  bool has_edges = false;               ///< the axes are along the edges
+  std::vector<SheetTile> tiles;
+  std::vector<render::Note> labels;     ///< along the edges
+  std::vector<render::Patch> brackets;  ///< beside rows that share an outer value
+};
+
+/// Two axes go down and across; further ones are put around them, outermost first, on whichever
+/// side is shorter, and set apart by wider gaps. Sheets of one axis with many values and of runs
+/// without axes are wrapped. Tiles shrink until the sheet fits.
+/// @param has_legend keeps room for it on the right
+/// @param largest side of a picture, px
+SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest);
+
+}  // namespace neve::app::sweep::sheet

@@ -1,0 +1,318 @@
+#include "app/sweep/store/manifest.h"
+
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+#include <system_error>
+
+#include "app/output/atomic_file.h"
+#include "app/scene/read.h"
+#include "app/scene/toml/error.h"
+#include "app/scene/toml/toml_source.h"
+#include "app/support/errors.h"
+#include "app/support/version.h"
+#include "app/sweep/read/sweep_leaf.h"
+#include "app/sweep/store/store.h"
+
+namespace neve::app::sweep::store {
+
+namespace {
+
+std::filesystem::path manifest_path(const std::filesystem::path& folder) {
+  return folder / "manifest.json";
+}
+
+/// Which axis an address or label means; -1: none is named.
+int axis_called(const plan::SweepPlan& plan, const char* key, const std::string& wanted) {
+  if (wanted.empty()) return -1;
+  std::vector<std::string> known;
+  for (std::size_t a = 0; a < plan.sweep.axes.size(); ++a)
+    for (const read::Axis::Parameter& parameter : plan.sweep.axes[a].parameters) {
+      if (parameter.address == wanted || parameter.label == wanted) return static_cast<int>(a);
+      known.push_back(parameter.address);
+    }
+  plan.sweep.fail(key, std::string(key) + " = \"" + wanted + "\": there is no such axis",
+                  known.empty() ? "the sweep has no axes" : "expected " + scene::list_of(known));
+}
+
+std::string with_unit(const std::string& value, const std::string& unit) {
+  return plan::value_text(value) + (unit.empty() ? "" : " " + unit);
+}
+
+ManifestAxis manifest_axis(const read::Axis& axis, const std::vector<plan::Varied>& parameters) {
+  ManifestAxis result;
+  const auto varied = [&](const std::string& address) {
+    return *std::find_if(parameters.begin(), parameters.end(),
+                         [&](const plan::Varied& v) { return v.address == address; });
+  };
+  for (const read::Axis::Parameter& parameter : axis.parameters) {
+    result.addresses.push_back(parameter.address);
+    result.name += (result.name.empty() ? "" : ", ") +
+                   (parameter.label.empty() ? varied(parameter.address).name : parameter.label);
+  }
+  for (std::size_t k = 0; k < axis.size(); ++k) {
+    std::string text = axis.value_labels.empty() ? "" : axis.value_labels[k];
+    for (const read::Axis::Parameter& parameter : axis.parameters) {
+      if (!axis.value_labels.empty()) break;
+      text += (text.empty() ? "" : ", ") +
+              with_unit(parameter.values[k].value, varied(parameter.address).unit);
+    }
+    result.values.push_back(text);
+  }
+  return result;
+}
+
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+Json pairs_json(const Pairs& pairs) {
+  Json list = Json::array();
+  for (const auto& [address, value] : pairs) list.push_back({address, value});
+  return list;
+}
+
+Pairs pairs_of(const Json& list) {
+  Pairs pairs;
+  for (const Json& pair : list)
+    pairs.emplace_back(pair.at(0).get<std::string>(), pair.at(1).get<std::string>());
+  return pairs;
+}
+
+/// What the run's scene has for the parameters that it does not set.
+Pairs unset_values(const plan::RunPlan& item, const std::vector<plan::Varied>& parameters) {
+  Pairs pairs;
+  const scene::toml::Table root = scene::toml::parse_toml(scene::write_scene(item.scene), "scene");
+  for (const plan::Varied& parameter : parameters) {
+    if (!plan::value_of(item.run, parameter.address).empty()) continue;
+    if (const scene::toml::Value* value = scene::value_at(root, parameter.address))
+      pairs.emplace_back(parameter.address, scene::toml::toml_literal(*value));
+  }
+  return pairs;
+}
+
+Json run_json(const ManifestRun& run) {
+  return {{"run", run.index},
+          {"folder", run.folder},
+          {"key", run.key},
+          {"label", run.label},
+          {"settings", pairs_json(run.settings)},
+          {"unset", pairs_json(run.unset)},
+          {"coordinates", run.coordinates},
+          {"first_frame", run.first_frame},
+          {"last_frame", run.last_frame},
+          {"particles", run.particles},
+          {"memory_bytes", run.memory},
+          {"work", run.work}};
+}
+
+ManifestRun run_of(const Json& json) {
+  ManifestRun run;
+  run.index = json.at("run").get<int>();
+  run.folder = json.at("folder").get<std::string>();
+  run.key = json.at("key").get<std::string>();
+  run.label = json.at("label").get<std::string>();
+  run.settings = pairs_of(json.at("settings"));
+  run.unset = pairs_of(json.at("unset"));
+  run.coordinates = json.at("coordinates").get<std::vector<int>>();
+  run.first_frame = json.at("first_frame").get<int>();
+  run.last_frame = json.at("last_frame").get<int>();
+  run.particles = json.at("particles").get<double>();
+  run.memory = json.at("memory_bytes").get<double>();
+  run.work = json.at("work").get<double>();
+  const bool is_plain =
+      !run.folder.empty() && std::all_of(run.folder.begin(), run.folder.end(),
+                                         [](char c) { return c >= '0' && c <= '9'; });
+  if (!is_plain) throw std::runtime_error("the folder of a run is no number");
+  return run;
+}
+
+std::vector<std::string> axis_addresses(const read::Sweep& sweep) {
+  std::vector<std::string> addresses;
+  for (const read::Axis& axis : sweep.axes)
+    for (const read::Axis::Parameter& parameter : axis.parameters)
+      addresses.push_back(parameter.address);
+  std::sort(addresses.begin(), addresses.end());
+  return addresses;
+}
+
+/// Of an earlier sweep; nothing where they are not known.
+std::optional<std::vector<std::string>> axis_addresses(const Manifest& manifest) {
+  if (manifest.varied || manifest.axes.empty()) return manifest.varied;
+  std::vector<std::string> addresses;
+  for (const ManifestAxis& axis : manifest.axes)
+    addresses.insert(addresses.end(), axis.addresses.begin(), axis.addresses.end());
+  std::sort(addresses.begin(), addresses.end());
+  return addresses;
+}
+
+std::string axes_text(const std::vector<std::string>& addresses) {
+  std::string text;
+  for (const std::string& address : addresses) text += (text.empty() ? "" : ", ") + address;
+  return text.empty() ? "nothing but its [[run]]s" : text;
+}
+
+/// That the folder has; nothing where there is none that can be read.
+std::optional<Manifest> earlier_manifest(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(manifest_path(folder), error)) return std::nullopt;
+  try {
+    return read_manifest(folder);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::string ManifestRun::setting(const std::string& address) const {
+  for (auto given = settings.rbegin(); given != settings.rend(); ++given)
+    if (given->first == address) return given->second;
+  return {};
+}
+
+std::string ManifestRun::value(const std::string& address) const {
+  const std::string own = setting(address);
+  for (const auto& [name, text] : unset)
+    if (own.empty() && name == address) return text;
+  return own;
+}
+
+std::string run_text(const ManifestRun& run) {
+  const std::string text = "run " + std::to_string(run.index);
+  return run.folder == run_folder_name(run.index) ? text : text + " (runs/" + run.folder + ")";
+}
+
+int Manifest::first_frame() const {
+  int first = runs.empty() ? 0 : runs.front().first_frame;
+  for (const ManifestRun& run : runs) first = std::min(first, run.first_frame);
+  return first;
+}
+
+int Manifest::last_frame() const {
+  int last = 0;
+  for (const ManifestRun& run : runs) last = std::max(last, run.last_frame);
+  return last;
+}
+
+Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::string>& keys,
+                       const std::vector<std::string>& folders) {
+  Manifest m;
+  m.version = version;
+  m.name = plan.sweep.name;
+  m.title = plan.title;
+  m.sweep_file = plan.sweep.file;
+  m.scene_file = plan.sweep.scene_file;
+  m.view = plan.view;
+  m.tile_width = plan.base.size.width;
+  m.tile_height = plan.base.size.height;
+  m.fps = plan.base.fps;
+  m.columns = axis_called(plan, "sheet.columns", plan.sweep.sheet.columns);
+  m.rows = axis_called(plan, "sheet.rows", plan.sweep.sheet.rows);
+  m.wrap = plan.sweep.sheet.wrap;
+  m.tile_label = scene::name_of(plan.sweep.sheet.label);
+  m.timeout = plan.sweep.limits.timeout.seconds;
+  m.memory = static_cast<double>(plan.sweep.limits.memory);
+  m.parameters = plan::varied_parameters(plan);
+  m.varied = axis_addresses(plan.sweep);
+  if (plan.sweep.settings.method == read::Method::grid)
+    for (const read::Axis& axis : plan.sweep.axes)
+      m.axes.push_back(manifest_axis(axis, m.parameters));
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const plan::RunPlan& item = plan.runs[k];
+    ManifestRun& run = m.runs.emplace_back();
+    run.index = item.run.index;
+    run.folder = folders[k];
+    run.key = keys[k];
+    run.label = item.run.label;
+    for (const scene::Override& setting : item.run.settings)
+      run.settings.emplace_back(setting.address, setting.value);
+    run.unset = unset_values(item, m.parameters);
+    run.coordinates = item.run.coordinates;
+    run.first_frame = item.frames.first;
+    run.last_frame = item.frames.last;
+    run.particles = item.plan.particles;
+    run.memory = static_cast<double>(item.memory());
+    run.work = item.work;
+  }
+  return m;
+}
+
+void check_folder(const plan::SweepPlan& plan) {
+  const std::optional<Manifest> earlier = earlier_manifest(plan.folder);
+  if (!earlier) return;
+  const std::optional<std::vector<std::string>> before = axis_addresses(*earlier);
+  const std::vector<std::string> now = axis_addresses(plan.sweep);
+  if (!before || *before == now) return;
+  throw scene::toml::UsageError(
+      plan.folder.string(),
+      "has a sweep of " + axes_text(*before) + "; this one varies " + axes_text(now),
+      "give --out another folder, or remove the old one");
+}
+
+void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
+  Json json;
+  json["version"] = m.version;
+  json["name"] = m.name;
+  json["title"] = m.title;
+  json["sweep_file"] = m.sweep_file;
+  json["scene_file"] = m.scene_file;
+  json["view"] = m.view;
+  json["tile"] = {m.tile_width, m.tile_height};
+  json["fps"] = m.fps;
+  json["columns"] = m.columns;
+  json["rows"] = m.rows;
+  json["wrap"] = m.wrap;
+  json["tile_label"] = m.tile_label;
+  json["timeout"] = m.timeout;
+  json["memory"] = m.memory;
+  json["parameters"] = Json::array();
+  for (const plan::Varied& p : m.parameters)
+    json["parameters"].push_back(
+        {{"address", p.address}, {"name", p.name}, {"unit", p.unit}, {"type", p.type}});
+  json["axes"] = Json::array();
+  for (const ManifestAxis& axis : m.axes)
+    json["axes"].push_back(
+        {{"name", axis.name}, {"values", axis.values}, {"addresses", axis.addresses}});
+  if (m.varied) json["varied"] = *m.varied;
+  json["runs"] = Json::array();
+  for (const ManifestRun& run : m.runs) json["runs"].push_back(run_json(run));
+  output::write_file(manifest_path(folder), to_text(json) + "\n");
+}
+
+Manifest read_manifest(const std::filesystem::path& folder) {
+  const std::string file = manifest_path(folder).string();
+  const std::vector<std::uint8_t> bytes = output::read_file(file);
+  try {
+    const Json json = parse_json(bytes);
+    Manifest m;
+    m.version = json.at("version").get<std::string>();
+    m.name = json.at("name").get<std::string>();
+    m.title = json.at("title").get<std::string>();
+    m.sweep_file = json.at("sweep_file").get<std::string>();
+    m.scene_file = json.at("scene_file").get<std::string>();
+    m.view = json.at("view").get<std::string>();
+    m.tile_width = json.at("tile").at(0).get<int>();
+    m.tile_height = json.at("tile").at(1).get<int>();
+    m.fps = json.at("fps").get<double>();
+    m.columns = json.at("columns").get<int>();
+    m.rows = json.at("rows").get<int>();
+    m.wrap = json.at("wrap").get<int>();
+    m.tile_label = json.at("tile_label").get<std::string>();
+    m.timeout = json.at("timeout").get<double>();
+    m.memory = json.at("memory").get<double>();
+    for (const Json& p : json.at("parameters"))
+      m.parameters.push_back({p.at("address").get<std::string>(), p.at("name").get<std::string>(),
+                              p.at("unit").get<std::string>(), p.at("type").get<std::string>()});
+    for (const Json& axis : json.at("axes"))
+      m.axes.push_back({axis.at("name").get<std::string>(),
+                        axis.at("values").get<std::vector<std::string>>(),
+                        axis.value("addresses", std::vector<std::string>{})});
+    if (json.contains("varied")) m.varied = json.at("varied").get<std::vector<std::string>>();
+    for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
+    return m;
+  } catch (const std::exception& error) {
+    throw Error(exit_invalid_scene, file + ": error: is no list of runs: " + error.what(), file,
+                "run the sweep again to write it anew; finished runs are kept");
+  }
+}
+
+}  // namespace neve::app::sweep::store

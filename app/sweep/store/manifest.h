@@ -1,0 +1,73 @@
+#pragma once
+/// DIR/manifest.json: the sweep as it was expanded. All that results are put together from, besides
+/// the folders of the runs.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/support/json.h"
+#include "app/sweep/plan/labels.h"
+
+namespace neve::app::sweep::store {
+
+struct ManifestRun {
+  int index = 0;
+  std::string folder;  ///< "0007", under DIR/runs
+  std::string key, label;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< address and value, TOML
+  /// The same of parameters that only other runs set.
+  std::vector<std::pair<std::string, std::string>> unset;
+  std::vector<int> coordinates;
+  int first_frame = 0, last_frame = 0;
+  double particles = 0, memory = 0, work = 0;  ///< foreseen; memory in bytes, of the process
+
+  /// "" where the run leaves it to the scene.
+  std::string setting(const std::string& address) const;
+  /// The run's own or the scene's; "" where neither has one.
+  std::string value(const std::string& address) const;
+};
+
+/// "run 1", which --only and --index mean, with its folder where that has another number:
+/// "run 1 (runs/0010)"
+std::string run_text(const ManifestRun& run);
+
+struct ManifestAxis {
+  std::string name;                      ///< for the edge of the sheet; may be empty
+  std::vector<std::string> values;       ///< texts for the edge, with units
+  std::vector<std::string> addresses{};  ///< of the parameters that it sets
+};
+
+struct Manifest {
+  std::string version, name, title, sweep_file, scene_file, view;
+  int tile_width = 480, tile_height = 270;
+  double fps = 24;
+  int columns = -1, rows = -1;  ///< axes asked for; -1: automatic
+  int wrap = 0;
+  std::string tile_label;  ///< differences, name, none
+  double timeout = 0, memory = 0;
+  std::vector<plan::Varied> parameters;
+  std::vector<ManifestAxis> axes;  ///< of a grid
+  /// Addresses of all axes, whatever the method; sorted. Nothing in files of before they had it.
+  std::optional<std::vector<std::string>> varied;
+  std::vector<ManifestRun> runs;
+
+  int first_frame() const;
+  int last_frame() const;
+};
+
+/// @param keys of the runs @param folders theirs
+Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::string>& keys,
+                       const std::vector<std::string>& folders);
+
+void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
+/// One sweep in a folder: its table, sheet and report replace those of another.
+/// @throws UsageError when the folder has a sweep with axes of other addresses
+void check_folder(const plan::SweepPlan& plan);
+
+/// @throws Error when there is none, or a broken one
+Manifest read_manifest(const std::filesystem::path& folder);
+
+}  // namespace neve::app::sweep::store

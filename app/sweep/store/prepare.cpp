@@ -1,0 +1,74 @@
+#include "app/sweep/store/prepare.h"
+
+#include <map>
+#include <set>
+#include <system_error>
+
+#include "app/output/atomic_file.h"
+#include "app/run/picture_record.h"
+#include "app/run/run_json.h"
+#include "app/scene/read.h"
+#include "app/support/version.h"
+#include "app/sweep/store/store.h"
+#include "sim/base/hash.h"
+
+namespace neve::app::sweep::store {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Each run's folder: the one that has its key, or that of its number, or a new number.
+std::vector<std::string> assign_folders(const plan::SweepPlan& plan,
+                                        const std::vector<std::string>& keys) {
+  std::map<std::string, std::string> folder_of = known_runs(plan.folder);
+  std::set<std::string> taken;
+  for (const auto& [key, folder] : folder_of) taken.insert(folder);
+  std::vector<std::string> folders;
+  int next = 0;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    if (!folder_of.contains(keys[k])) {
+      std::string folder = run_folder_name(static_cast<int>(k));
+      while (taken.contains(folder)) folder = run_folder_name(next++);
+      taken.insert(folder);
+      folder_of[keys[k]] = folder;
+    }
+    folders.push_back(folder_of[keys[k]]);
+  }
+  return folders;
+}
+
+void write_run(const fs::path& folder, const plan::RunPlan& item, const std::string& key) {
+  output::make_folder(folder);
+  std::error_code error;
+  if (read_report(folder).key == key && fs::exists(folder / "scene.toml", error)) return;
+  output::write_file(folder / "scene.toml", scene::write_scene(item.scene));
+  RunReport report;
+  report.key = key;
+  write_report(folder, report);
+}
+
+}  // namespace
+
+std::string key_of(const plan::RunPlan& run) {
+  std::string text = scene::write_scene(run.scene) + "\nversion " + version + "\nframes " +
+                     std::to_string(run.frames.first) + "-" + std::to_string(run.frames.last);
+  for (const auto& [file, hash] : run::hash_files(run.scene)) text += "\n" + file + " " + hash;
+  return run::hash_text(hash_bytes(text.data(), text.size()));
+}
+
+Manifest prepare_sweep(const plan::SweepPlan& plan) {
+  output::make_folder(runs_folder(plan.folder));
+  std::vector<std::string> keys;
+  for (const plan::RunPlan& item : plan.runs) keys.push_back(key_of(item));
+  const std::vector<std::string> folders = assign_folders(plan, keys);
+  const Manifest manifest = make_manifest(plan, keys, folders);
+  for (std::size_t k = 0; k < plan.runs.size(); ++k)
+    write_run(runs_folder(plan.folder) / folders[k], plan.runs[k], keys[k]);
+  if (!plan.sweep.file.empty())
+    output::write_file(plan.folder / "sweep.toml", scene::read_toml_file(plan.sweep.file));
+  write_manifest(plan.folder, manifest);
+  return manifest;
+}
+
+}  // namespace neve::app::sweep::store

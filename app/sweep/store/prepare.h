@@ -1,0 +1,17 @@
+#pragma once
+/// Puts a sweep on disk, ready to be run by anybody who can see the folder.
+
+#include "app/sweep/store/manifest.h"
+
+namespace neve::app::sweep::store {
+
+/// DIR/manifest.json, DIR/sweep.toml, and for each run a folder with scene.toml and status.json.
+/// A run that the folder knows by its key keeps its folder and its state.
+/// @param plan with shared looks
+/// @throws IoError
+Manifest prepare_sweep(const plan::SweepPlan& plan);
+
+/// Of the resolved scene, the files it names, the version and the frames.
+std::string key_of(const plan::RunPlan& run);
+
+}  // namespace neve::app::sweep::store

@@ -1,0 +1,137 @@
+#include "app/sweep/store/results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+
+#include "app/run/run_json.h"
+
+namespace neve::app::sweep::store {
+
+namespace {
+
+std::optional<double> finite(double x) {
+  return std::isfinite(x) ? std::optional(x) : std::nullopt;
+}
+
+/// In the order of metric_infos().
+std::vector<std::optional<double>> metrics_of(const std::vector<run::FrameRecord>& frames,
+                                              const RunReport& report,
+                                              std::optional<double> diverged_at) {
+  if (frames.empty()) return std::vector<std::optional<double>>(metric_infos().size());
+  const run::FrameRecord& last = frames.back();
+  double steps = 0, max_speed = 0;
+  for (const run::FrameRecord& frame : frames) {
+    steps += static_cast<double>(frame.advance.steps);
+    max_speed = std::max(max_speed, frame.summary.max_speed);
+  }
+  // Steps after the last frame count too.
+  if (diverged_at) steps = std::max(steps, *diverged_at);
+  return {finite(last.metrics.spread),
+          finite(last.metrics.height),
+          static_cast<double>(last.metrics.fragments),
+          finite(last.metrics.largest_fragment),
+          finite(last.summary.kinetic_energy),
+          finite(last.summary.elastic_energy),
+          finite(last.metrics.mean_J_P),
+          finite(last.summary.min_J_P),
+          finite(last.summary.max_J_P),
+          finite(max_speed),
+          steps,
+          finite(report.seconds)};
+}
+
+/// What DIR/run.json says besides its frames; what it does not have, or had not yet when it was
+/// written, is left out.
+struct RunNotes {
+  std::vector<std::string> warnings;
+  std::optional<double> diverged_at;  ///< step
+};
+
+RunNotes notes_of(const Json& run) {
+  RunNotes notes;
+  try {
+    if (run.contains("divergence")) notes.diverged_at = run["divergence"].at("step").get<double>();
+    notes.warnings = run.value("warnings", notes.warnings);
+  } catch (const std::exception&) {
+    return notes;
+  }
+  return notes;
+}
+
+}  // namespace
+
+const std::vector<MetricInfo>& metric_infos() {
+  static const std::vector<MetricInfo> infos{
+      {"spread", "m", "spread", false, false},
+      {"height", "m", "height", false, false},
+      {"fragments", "", "fragments", true, false},
+      {"largest_fragment", "", "largest fragment", false, false},
+      {"kinetic_energy", "J", "kinetic energy", false, false},
+      {"elastic_energy", "J", "elastic energy", false, false},
+      {"mean_J_P", "", "mean J_P", false, false},
+      {"min_J_P", "", "least J_P", false, false},
+      {"max_J_P", "", "greatest J_P", false, false},
+      {"max_speed", "m/s", "top speed", false, false},
+      {"steps", "", "steps", true, false, true},
+      {"seconds", "s", "time", false, true, true}};
+  return infos;
+}
+
+bool is_whole(const ManifestRun& run, const RunResult& result) {
+  return result.report.state == RunState::ok ||
+         (!result.frames.empty() && result.frames.back() >= run.last_frame);
+}
+
+RunResult read_result(const std::filesystem::path& folder, const ManifestRun& run) {
+  RunResult result;
+  const std::filesystem::path run_folder = runs_folder(folder) / run.folder;
+  result.report = read_report(run_folder);
+  // A folder that was given to another run in the meantime tells nothing about this one.
+  if (result.report.key != run.key) result.report = RunReport{};
+  std::vector<run::FrameRecord> frames;
+  RunNotes notes;
+  if (result.report.key == run.key) {
+    const Json record = run::read_run_json(run_folder);
+    frames = run::frame_records(record);
+    notes = notes_of(record);
+    result.warnings = notes.warnings;
+  }
+  for (const run::FrameRecord& frame : frames) result.frames.push_back(frame.frame);
+  result.metrics = metrics_of(frames, result.report, notes.diverged_at);
+  return result;
+}
+
+std::vector<RunResult> read_results(const std::filesystem::path& folder, const Manifest& manifest) {
+  std::vector<RunResult> results;
+  for (const ManifestRun& run : manifest.runs) results.push_back(read_result(folder, run));
+  return results;
+}
+
+std::string warning_count_text(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " warning" : " warnings");
+}
+
+std::vector<std::string> warning_lines(const Manifest& manifest,
+                                       const std::vector<RunResult>& results) {
+  constexpr std::size_t most_lines = 5;
+  std::vector<std::string> lines;
+  std::size_t further = 0;
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    if (results[k].warnings.empty()) continue;
+    if (lines.size() >= most_lines) {
+      ++further;
+      continue;
+    }
+    std::string line = run_text(manifest.runs[k]) + ": ";
+    for (const std::string& warning : results[k].warnings)
+      line += (&warning == &results[k].warnings.front() ? "" : "; ") + warning;
+    lines.push_back(line);
+  }
+  if (further > 0)
+    lines.push_back("and " + std::to_string(further) + " more runs with warnings, see report.html");
+  return lines;
+}
+
+}  // namespace neve::app::sweep::store

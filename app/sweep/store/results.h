@@ -1,0 +1,50 @@
+#pragma once
+/// What the runs of a sweep came to, read from their folders.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/sweep/store/manifest.h"
+#include "app/sweep/store/store.h"
+
+namespace neve::app::sweep::store {
+
+/// A number that tells runs apart.
+struct MetricInfo {
+  const char *name, *unit, *title;
+  bool is_whole;
+  bool is_time;          ///< differs from machine to machine
+  bool is_cost = false;  ///< says something of a run that did not get to its end as well
+};
+/// In the order in which they are listed everywhere.
+const std::vector<MetricInfo>& metric_infos();
+
+struct RunResult {
+  RunReport report;
+  std::vector<int> frames;  ///< that have a picture, in order
+  /// One per metric_infos(), of the last frame; nothing where there is no frame.
+  std::vector<std::optional<double>> metrics;
+  /// That the run ended with: its numbers may not be what they seem.
+  std::vector<std::string> warnings{};
+
+  std::optional<int> last_frame() const {
+    return frames.empty() ? std::nullopt : std::optional(frames.back());
+  }
+};
+
+/// Whether the metrics are those of the moment that all runs are compared at: its last frame.
+bool is_whole(const ManifestRun& run, const RunResult& result);
+
+/// @param folder of the sweep
+RunResult read_result(const std::filesystem::path& folder, const ManifestRun& run);
+std::vector<RunResult> read_results(const std::filesystem::path& folder, const Manifest& manifest);
+
+/// "1 warning", "2 warnings"
+std::string warning_count_text(std::size_t count);
+
+/// "run 3: WARNING; WARNING" for each of the first five runs that have some, then how many more.
+std::vector<std::string> warning_lines(const Manifest& manifest,
+                                       const std::vector<RunResult>& results);
+
+}  // namespace neve::app::sweep::store

@@ -1,0 +1,123 @@
+#include "app/sweep/store/store.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <system_error>
+
+#include "app/output/atomic_file.h"
+
+namespace neve::app::sweep::store {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array states{"pending", "running", "ok",      "diverged",      "failed",
+                            "refused", "timeout", "crashed", "out_of_memory", "interrupted"};
+
+fs::path report_path(const fs::path& run_folder) {
+  return run_folder / "status.json";
+}
+
+bool is_run_folder(const std::string& name) {
+  return name.size() >= 4 && name.size() <= 8 &&
+         std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
+const char* name(RunState state) {
+  return states[static_cast<std::size_t>(state)];
+}
+
+std::string run_folder_name(int number) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%04d", number);
+  return text;
+}
+
+fs::path runs_folder(const fs::path& sweep) {
+  return sweep / "runs";
+}
+
+bool is_finished(RunState state) {
+  return state == RunState::ok || has_failed(state);
+}
+
+bool has_failed(RunState state) {
+  return state != RunState::pending && state != RunState::running && state != RunState::ok &&
+         state != RunState::interrupted;
+}
+
+RunReport read_report(const fs::path& run_folder) {
+  RunReport report;
+  try {
+    const Json json = parse_json(output::read_file(report_path(run_folder), 1 << 20));
+    const auto found = std::find(states.begin(), states.end(), json.at("state").get<std::string>());
+    report.key = json.at("key").get<std::string>();
+    report.reason = json.value("reason", "");
+    report.short_reason = json.value("short_reason", "");
+    report.exit_code = json.value("exit_code", 0);
+    report.signal = json.value("signal", 0);
+    report.attempts = json.value("attempts", 0);
+    report.seconds = json.value("seconds", 0.0);
+    report.peak_memory = json.value("peak_memory_bytes", std::uint64_t{0});
+    report.pid = json.value("pid", 0L);
+    report.host = json.value("host", "");
+    if (found != states.end()) report.state = static_cast<RunState>(found - states.begin());
+  } catch (const std::exception&) {
+    return {};
+  }
+  return report;
+}
+
+void write_report(const fs::path& run_folder, const RunReport& report) {
+  Json json;
+  json["state"] = name(report.state);
+  json["key"] = report.key;
+  json["reason"] = report.reason;
+  json["short_reason"] = report.short_reason;
+  json["exit_code"] = report.exit_code;
+  json["signal"] = report.signal;
+  json["attempts"] = report.attempts;
+  json["seconds"] = report.seconds;
+  json["peak_memory_bytes"] = report.peak_memory;
+  json["pid"] = report.pid;
+  json["host"] = report.host;
+  output::write_file(report_path(run_folder), to_text(json) + "\n");
+}
+
+std::map<std::string, std::string> known_runs(const fs::path& sweep) {
+  std::map<std::string, std::string> known;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(runs_folder(sweep), error)) {
+    const std::string folder = entry.path().filename().string();
+    if (!is_run_folder(folder)) continue;
+    const RunReport report = read_report(entry.path());
+    if (!report.key.empty()) known.emplace(report.key, folder);
+  }
+  return known;
+}
+
+RunLock::RunLock(const fs::path& run_folder) {
+  file_ = ::open((run_folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    ::close(file_);
+    file_ = -1;
+  }
+}
+
+RunLock::RunLock(RunLock&& other) noexcept : file_(other.file_) {
+  other.file_ = -1;
+}
+
+RunLock::~RunLock() {
+  if (file_ >= 0) ::close(file_);
+}
+
+}  // namespace neve::app::sweep::store

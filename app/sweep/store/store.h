@@ -1,0 +1,69 @@
+#pragma once
+/// What is on disk about each run: DIR/runs/0000/status.json, small and atomic, no database.
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "app/support/json.h"
+
+namespace neve::app::sweep::store {
+
+enum class RunState {
+  pending,
+  running,
+  ok,
+  diverged,       ///< a rule of a healthy run broke
+  failed,         ///< it ended with an error
+  refused,        ///< more than a limit of its scene allows
+  timeout,        ///< longer than [limits] timeout
+  crashed,        ///< ended by a signal
+  out_of_memory,  ///< more than [limits] memory, or than there was
+  interrupted     ///< stopped with us; goes on next time
+};
+const char* name(RunState state);
+
+struct RunReport {
+  RunState state = RunState::pending;
+  std::string key;           ///< of what was run: scene, version, frames
+  std::string reason;        ///< one line; "" for ok
+  std::string short_reason;  ///< for a tile
+  int exit_code = 0, signal = 0;
+  int attempts = 0;               ///< how often it was started
+  double seconds = 0;             ///< of all attempts
+  std::uint64_t peak_memory = 0;  ///< bytes
+  long pid = 0;                   ///< while it runs
+  std::string host;
+};
+
+/// "0007"
+std::string run_folder_name(int number);
+std::filesystem::path runs_folder(const std::filesystem::path& sweep);
+
+/// Pending where there is no file or a broken one.
+RunReport read_report(const std::filesystem::path& run_folder);
+/// @throws IoError
+void write_report(const std::filesystem::path& run_folder, const RunReport& report);
+
+/// Nothing is left to do, unless failed ones are to be run again.
+bool is_finished(RunState state);
+/// Ended otherwise than ok.
+bool has_failed(RunState state);
+
+/// Keys of all runs that the folder has, with the names of their folders.
+std::map<std::string, std::string> known_runs(const std::filesystem::path& sweep);
+
+/// Held by whoever runs it; gone with the process, however that ends.
+class RunLock {
+ public:
+  explicit RunLock(const std::filesystem::path& run_folder);
+  ~RunLock();
+  RunLock(RunLock&& other) noexcept;
+  RunLock& operator=(RunLock&&) = delete;
+  bool is_held() const { return file_ >= 0; }
+
+ private:
+  int file_ = -1;
+};
+
+}  // namespace neve::app::sweep::store

@@ -1,0 +1,37 @@
+#pragma once
+/// What a person did and the program has not seen yet. Never grows beyond its limit.
+
+#include <cstddef>
+#include <vector>
+
+#include "app/view/front/front.h"
+
+namespace neve::app::view::front {
+
+/// Not protected against threads.
+class EventQueue {
+ public:
+  static constexpr std::size_t limit = 256;
+  static constexpr std::size_t text_limit = 1 << 20;  ///< bytes of all texts together
+
+  /// Joins what only counts together: of moves and resizes the last is kept, wheels are added.
+  /// @return false when it is full and the event was not taken
+  bool push(const InputEvent& event);
+
+  /// Releases every key and every button that is held, even if the queue is full.
+  void release_all();
+
+  bool empty() const { return events_.empty(); }
+  std::vector<InputEvent> take();
+
+ private:
+  bool join(const InputEvent& event);
+  void note_held(const InputEvent& event);
+
+  std::vector<InputEvent> events_;
+  std::size_t text_size_ = 0;
+  std::vector<int> keys_, buttons_;  ///< held
+  float x_ = 0, y_ = 0;              ///< last place of the pointer
+};
+
+}  // namespace neve::app::view::front

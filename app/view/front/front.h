@@ -1,0 +1,80 @@
+#pragma once
+/// Where `neve view` is looked at and worked with: a window, a web page, or a script.
+
+#include <string>
+#include <vector>
+
+namespace neve::render {
+class Screen;
+}
+
+namespace neve::app::view::front {
+
+struct Modifiers {
+  bool ctrl = false, shift = false, alt = false, super = false;
+
+  bool operator==(const Modifiers&) const = default;
+};
+
+/// Keys are their capital letter, digit or sign in ASCII, or one of these.
+namespace key {
+inline constexpr int escape = 256, enter = 257, tab = 258, backspace = 259, insert = 260, del = 261,
+                     right = 262, left = 263, down = 264, up = 265, page_up = 266, page_down = 267,
+                     home = 268, end = 269, f1 = 290, shift = 340, ctrl = 341, alt = 342,
+                     super = 343, last = 348;
+}
+
+/// What a person did. Places are pixels of the picture from its upper left corner.
+struct InputEvent {
+  enum class Kind { move, button, wheel, key, text, resize, drop, paste, close };
+
+  Kind kind = Kind::move;
+  float x = 0, y = 0;    ///< place; of a wheel notches to the right and up
+  int button = 0;        ///< 0 left, 1 right, 2 middle
+  int key = 0;           ///< see namespace key
+  bool is_down = false;  ///< of button and key
+  Modifiers held{};
+  std::string text{};  ///< UTF-8: what was typed, the clipboard that is pasted, the file dropped
+};
+
+struct ScreenSize {
+  int width = 1280, height = 720;  ///< px
+  float scale = 1;                 ///< px per point: 2 on a screen with high resolution
+};
+
+class Front {
+ public:
+  virtual ~Front() = default;
+
+  /// What to call the place: "http://127.0.0.1:40123/?token=..." or "window".
+  virtual std::string where() const = 0;
+
+  virtual ScreenSize size() const = 0;
+
+  /// Waits until something happened, wake() is called, is_ready() turned true, or so many seconds
+  /// have passed. @return what happened, in order
+  virtual std::vector<InputEvent> wait(double seconds) = 0;
+
+  /// Ends wait(), from any thread.
+  virtual void wake() = 0;
+
+  /// Whether a picture that is shown now is seen soon: nobody looks, or the ones before are still
+  /// on their way, otherwise.
+  virtual bool is_ready() const = 0;
+
+  /// Somebody looks again and has nothing: the present picture is wanted although nothing changed.
+  virtual bool is_picture_wanted() const = 0;
+
+  /// Shows the present picture of the screen.
+  virtual void show(render::Screen& screen) = 0;
+
+  /// Tells what the simulation has reached: scripts wait for it.
+  virtual void set_progress(int /*frame*/, bool /*is_running*/) {}
+
+  /// Text to the clipboard of whoever looks.
+  virtual void set_clipboard(const std::string& text) = 0;
+  /// The last text known to be in it.
+  virtual std::string clipboard() const = 0;
+};
+
+}  // namespace neve::app::view::front

@@ -1,0 +1,67 @@
+#pragma once
+/// Hands what a person did to Dear ImGui, in portions that it understands.
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "app/view/front/front.h"
+
+struct ImGuiIO;
+
+namespace neve::app::view::front {
+
+/// Where the mouse is when it is nowhere on the picture: events of kind `move` may say so.
+inline constexpr float off_picture = -100000;
+
+/// Dear ImGui looks at its input once per frame. Of one key or button it notices one change, and it
+/// cannot tell what came first among the rest: a click that starts and ends between two frames
+/// would be lost, one before a move would land behind it. So events wait here and every frame gets
+/// as many as keep their meaning. Newer versions of Dear ImGui do the same by themselves.
+class ImGuiInput {
+ public:
+  /// The ImGui context that is current now gets its clipboard from the front, which must live
+  /// longer than this; this must live longer than the context is used.
+  explicit ImGuiInput(Front& front);
+  ImGuiInput(const ImGuiInput&) = delete;
+  ImGuiInput& operator=(const ImGuiInput&) = delete;
+
+  /// Events of the kinds resize, drop and close are left out; impossible places, buttons and keys
+  /// are too. A paste becomes ctrl+V with that text in the clipboard: who sends pastes sends no
+  /// ctrl+V for them.
+  void push(std::vector<InputEvent> events);
+
+  /// Hands over what fits into one frame, to the current ImGui context, just before it starts.
+  /// @return whether more is waiting for the next
+  bool feed();
+
+  /// Lets go of every key and button, after what is waiting: for when somebody stops looking.
+  void release_all();
+
+ private:
+  struct Waiting {
+    InputEvent event{};
+    bool ends_paste = false;  ///< the next one finds the next text
+  };
+  struct Portion;
+  static bool fits(const InputEvent& event, const Portion& portion);
+  bool is_news(const Waiting& waiting) const;
+  void apply(const InputEvent& event, ImGuiIO& io);
+  void set_modifiers(const Modifiers& held, ImGuiIO& io);
+  void push_paste(const InputEvent& event);
+  const char* clipboard_text();
+
+  Front& front_;
+  std::deque<Waiting> waiting_;
+  std::vector<std::string> pasted_;  ///< texts of pastes that are waiting, oldest first
+  std::string clipboard_;            ///< keeps what was handed out last
+  std::vector<bool> is_key_down_, is_button_down_;
+  Modifiers held_{};
+};
+
+/// Whether a key (see namespace key) went down in this frame of the current ImGui context, again
+/// and again while it is held if it repeats.
+bool is_key_pressed(int key, bool is_repeating = false);
+bool is_key_down(int key);
+
+}  // namespace neve::app::view::front

@@ -1,0 +1,35 @@
+#pragma once
+/// `neve view` in a window on the desktop.
+
+#include <string>
+
+#include "app/view/front/front.h"
+#include "render/window.h"
+
+namespace neve::app::view::front {
+
+class WindowFront : public Front {
+ public:
+  /// Opens the window. @throws render::ContextError
+  explicit WindowFront(const std::string& title, const ScreenSize& size = {});
+
+  /// What renderer and screen have to draw with; as long as this lives.
+  render::gl::Context& context() { return window_.context(); }
+
+  void set_title(const std::string& title) { window_.set_title(title); }
+
+  std::string where() const override { return "window"; }
+  ScreenSize size() const override;
+  std::vector<InputEvent> wait(double seconds) override;
+  void wake() override { render::Window::wake(); }
+  bool is_ready() const override { return window_.is_shown(); }
+  bool is_picture_wanted() const override { return window_.is_damaged() && window_.is_shown(); }
+  void show(render::Screen& screen) override;
+  void set_clipboard(const std::string& text) override { window_.set_clipboard(text); }
+  std::string clipboard() const override { return window_.clipboard(); }
+
+ private:
+  render::Window window_;
+};
+
+}  // namespace neve::app::view::front

@@ -1,0 +1,91 @@
+/// The columns beside the picture, and questions above it.
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "app/view/panels/labels.h"
+#include "app/view/panels/viewer_state.h"
+
+namespace neve::app::view::panels {
+
+namespace {
+
+template <class Draw>
+void add_tab(const char* name, Draw draw, ImGuiTabItemFlags flags = 0,
+             const char* label = nullptr) {
+  const bool is_open = ImGui::BeginTabItem(name, nullptr, flags);
+  note_label(label ? label : name);
+  if (!is_open) return;
+  ImGui::BeginChild("content");
+  draw();
+  ImGui::EndChild();
+  ImGui::EndTabItem();
+}
+
+}  // namespace
+
+void draw_left_column(ViewerState& state) {
+  if (!ImGui::BeginTabBar("left")) return;
+  add_tab("Parameters", [&] { draw_parameters(state); });
+  add_tab("Objects", [&] { draw_objects(state); });
+  const std::size_t count = state.bench.document().edits().size();
+  const std::string changed =
+      count > 0 ? "Changed (" + std::to_string(count) + ")###Changed" : "Changed###Changed";
+  add_tab(
+      changed.c_str(), [&] { draw_changes(state); }, 0, "Changed");
+  ImGui::EndTabBar();
+}
+
+void draw_right_column(ViewerState& state) {
+  if (!ImGui::BeginTabBar("right")) return;
+  const auto flags = [&](std::size_t tab) {
+    return state.go_to_tab == tab ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+  };
+  const std::optional<std::size_t> wanted = state.go_to_tab;
+  add_tab(
+      "View", [&] { draw_view_panel(state); }, flags(tab::view));
+  add_tab(
+      "Inspect", [&] { draw_inspector(state); }, flags(tab::inspect));
+  add_tab(
+      "Plots", [&] { draw_plots_panel(state); }, flags(tab::plots));
+  add_tab(
+      "Messages", [&] { draw_messages(state); }, flags(tab::messages));
+  if (wanted == state.go_to_tab) state.go_to_tab.reset();
+  ImGui::EndTabBar();
+}
+
+void draw_offer(ViewerState& state) {
+  if (!state.is_reload_offered) return;
+  const render::PicturePlace& p = state.viewport;
+  ImGui::SetNextWindowPos(ImVec2(static_cast<float>(p.x) + 0.5f * static_cast<float>(p.width),
+                                 static_cast<float>(p.y) + em()),
+                          ImGuiCond_Always, ImVec2(0.5f, 0));
+  if (ImGui::Begin("offer", nullptr,
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
+                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
+    ImGui::PushTextWrapPos(std::min(30 * em(), static_cast<float>(p.width)));
+    ImGui::TextUnformatted((state.bench.document().file() + " was changed on disk.").c_str());
+    const std::string error = state.bench.reload_error();
+    if (!error.empty()) {
+      ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.42f, 0.32f, 1));
+      ImGui::TextUnformatted(error.c_str());
+      ImGui::PopStyleColor();
+    }
+    ImGui::PopTextWrapPos();
+    const bool is_reload = ImGui::Button("Reload and start anew");
+    note_label("Reload and start anew");
+    ImGui::SameLine();
+    const bool is_kept = ImGui::Button("Keep what is here");
+    note_label("Keep what is here");
+    if (is_reload) state.bench.reload();
+    if (is_kept) state.bench.keep_file();
+    if (is_reload || is_kept) state.is_reload_offered = state.bench.has_file_changed();
+  }
+  ImGui::End();
+}
+
+}  // namespace neve::app::view::panels

@@ -1,0 +1,54 @@
+#pragma once
+/// Where the widgets with names are on the picture: so that scripts, tests and documentation click
+/// "Run" and not (212, 48), and survive a new layout.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace neve::app::view::panels {
+
+/// The part of a widget that can be seen, px of the picture from its upper left corner.
+struct LabelPlace {
+  float x = 0, y = 0, width = 0, height = 0;
+  /// False for what is scrolled out of sight: the place is the whole widget's then.
+  bool is_visible = true;
+};
+
+/// The labelled widgets of the last frame. There is one, as there is one current ImGui context;
+/// only the thread that draws the panels uses it.
+class Labels {
+ public:
+  static Labels& of_panels();
+
+  /// Starts anew with the first label of another frame.
+  /// @param name what a person reads on the widget; a second one in the frame becomes "Run#2"
+  /// @return whether somebody wants it scrolled into sight
+  bool note(const std::string& name, const LabelPlace& place, int frame);
+
+  std::optional<LabelPlace> find(const std::string& name) const;
+  /// In the order in which they were drawn.
+  const std::vector<std::string>& names() const { return names_; }
+  /// The smallest visible widget around a place, or empty.
+  std::string name_at(float x, float y) const;
+
+  /// When this one is drawn next and out of sight, its panel scrolls to it.
+  void scroll_to(const std::string& name) { wanted_ = name; }
+
+  void clear();
+
+ private:
+  std::map<std::string, LabelPlace> places_;
+  std::vector<std::string> names_;
+  std::string wanted_;
+  int frame_ = -1;
+};
+
+/// Notes the widget that ImGui drew last; what follows "##" in a name is left out, as on the
+/// widget.
+void note_label(const char* name);
+/// Notes any rectangle, such as that of the 3D picture.
+void note_label(const char* name, const LabelPlace& place);
+
+}  // namespace neve::app::view::panels

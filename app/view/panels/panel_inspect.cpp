@@ -1,0 +1,269 @@
+/// Inside the step: stages with their bypass switches, and what was clicked on.
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "app/scene/leaf.h"
+#include "app/scene/names.h"
+#include "app/support/text.h"
+#include "app/view/panels/labels.h"
+#include "app/view/panels/tip.h"
+#include "app/view/panels/viewer_state.h"
+
+namespace neve::app::view::panels {
+
+namespace {
+
+const ImVec4 strange_color{1.0f, 0.42f, 0.32f, 1};
+const ImVec4 done_color{0.55f, 0.8f, 1.0f, 1};
+
+std::string expected_text(const std::optional<scene::Range>& expected) {
+  if (!expected) return "";
+  const auto number = [](double x) {
+    return std::isfinite(x) ? rough_text(x) : std::string(x > 0 ? "any" : "-any");
+  };
+  return number(expected->min) + " to " + number(expected->max);
+}
+
+/// The range that is expected, beside the value where there is room, otherwise below it.
+void draw_expected(const std::optional<scene::Range>& expected) {
+  if (!expected) return;
+  const std::string text = "expected " + expected_text(expected);
+  const float gap = em(), width = ImGui::CalcTextSize(text.c_str()).x;
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + gap + width < end) ImGui::SameLine(0, gap);
+  ImGui::TextDisabled("%s", text.c_str());
+}
+
+/// The second column of a row, red where something is outside of what is expected.
+void draw_value(const std::string& text, bool is_strange,
+                const std::optional<scene::Range>& expected) {
+  ImGui::TableNextColumn();
+  if (is_strange)
+    ImGui::TextColored(strange_color, "%s", text.c_str());
+  else
+    ImGui::TextUnformatted(text.c_str());
+  draw_expected(expected);
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return name + (unit.empty() ? "" : " (" + unit + ")");
+}
+
+bool begin_quantities(const char* name) {
+  if (!ImGui::BeginTable(name, 2, ImGuiTableFlags_RowBg)) return false;
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+  return true;
+}
+
+void draw_stage_table(const session::StageLook& look) {
+  const std::string rows =
+      std::to_string(look.rows) + (look.is_of_nodes ? " nodes, " + std::to_string(look.feathers) +
+                                                          " of them feather-light and left out"
+                                                    : " particles");
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled("after %s of a step of %s s: magnitudes of %s", sim::name(look.stage),
+                      rough_text(look.dt).c_str(), rows.c_str());
+  ImGui::PopTextWrapPos();
+  if (!begin_quantities("stage")) return;
+  for (const session::QuantitySummary& quantity : look.quantities) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(with_unit(quantity.name, quantity.unit).c_str());
+    if (!quantity.why.empty() && wants_tip())
+      show_tip(
+          {{std::to_string(quantity.strange) + " outside of what is expected: " + quantity.why}});
+    draw_value(rough_text(quantity.min) + " to " + rough_text(quantity.max), quantity.strange > 0,
+               quantity.expected);
+  }
+  ImGui::EndTable();
+}
+
+/// The phase of the fast driver that a stage is a part of, and what it took.
+struct StagePhase {
+  const char* name;
+  sim::Stage first;
+  double seconds;
+};
+
+StagePhase phase_of(sim::Stage stage, const sim::PhaseSeconds& p) {
+  using enum sim::Stage;
+  if (stage <= elastic_forces) return {"particles to grid", rasterize, p.particles_to_grid};
+  if (stage <= grid_collisions) return {"grid update", grid_velocities, p.grid_update};
+  if (stage == implicit_solve) return {"solve", implicit_solve, p.solve};
+  if (stage <= advection) return {"grid to particles", deformation, p.grid_to_particles};
+  return {"", colliders, 0};
+}
+
+/// What a stage took: its own time where a step was taken stage by stage, else that of its phase.
+std::string stage_time_text(const session::LiveFrame& live, sim::Stage stage) {
+  if (live.stage) {
+    const auto& seconds = live.stage->seconds;
+    const double own = seconds[static_cast<std::size_t>(stage)];
+    const double all = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+    if (!(own > 0)) return "";
+    return fixed_text(1e3 * own, own < 0.01 ? 2 : 0) + " ms, " + fixed_text(100 * own / all, 0) +
+           " %";
+  }
+  const sim::PhaseSeconds& p = live.phases;
+  const double all =
+      p.partition + p.particles_to_grid + p.grid_update + p.solve + p.grid_to_particles + p.checks;
+  const StagePhase phase = phase_of(stage, p);
+  if (!(phase.seconds > 0)) return "";
+  if (stage != phase.first) return "|";
+  return fixed_text(100 * phase.seconds / all, 0) + " %, " + phase.name;
+}
+
+/// A row: the switch that skips the stage, its name, its time.
+void draw_stage(ViewerState& state, sim::Stage stage, const char* name) {
+  const session::LiveFrame& live = *state.live;
+  std::vector<sim::Stage> bypass = state.bench.document().scene()->solver.bypass;
+  const auto at = std::find(bypass.begin(), bypass.end(), stage);
+  bool is_done = at == bypass.end();
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::PushID(name);
+  if (ImGui::Checkbox("##bypass", &is_done)) {
+    if (is_done)
+      bypass.erase(at);
+    else
+      bypass.push_back(stage);
+    state.bench.set("solver.bypass", scene::toml::toml_literal(scene::to_value(bypass)));
+  }
+  note_label((std::string("switch ") + name).c_str());
+  tip("untick: the stage is skipped, like a bypassed node");
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  const bool is_past = live.stage && stage <= live.stage->stage;
+  if (is_past) ImGui::PushStyleColor(ImGuiCol_Text, done_color);
+  const bool is_shown = live.stage && stage == live.stage->stage;
+  if (ImGui::Selectable(name, is_shown)) {
+    session::Session& session = state.bench.session();
+    is_shown ? session.leave_stage() : session.show_stage(stage);
+  }
+  if (is_past) ImGui::PopStyleColor();
+  note_label(name);
+  tip("click: a step on a copy, up to the end of this stage; again: back to the frame");
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", is_done ? stage_time_text(live, stage).c_str() : "skipped");
+  ImGui::PopID();
+}
+
+/// Each stage of a step with a switch that skips it, like the bypass flag of a node.
+void draw_stages(ViewerState& state) {
+  const session::LiveFrame& live = *state.live;
+  if (ImGui::BeginTable("stages", 3, ImGuiTableFlags_NoPadOuterX)) {
+    ImGui::TableSetupColumn("switch", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthStretch);
+    for (const auto& named : scene::names(sim::Stage{})) draw_stage(state, named.value, named.text);
+    ImGui::EndTable();
+  }
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled(
+      "%s", live.stage       ? "Time: of each stage of this one step, taken stage by "
+                               "stage on a copy; the run itself is faster."
+            : live.steps > 0 ? "Time: of the run so far, by phase; it does the stages of a phase "
+                               "together. Click a stage for its own time."
+                             : "Click a stage to look inside of a step, on a copy.");
+  ImGui::PopTextWrapPos();
+  if (live.stage) draw_stage_table(*live.stage);
+}
+
+/// Tensors have a line for each row.
+std::string values_text(const session::ProbeRow& row) {
+  std::string text;
+  for (std::size_t k = 0; k < row.values.size(); ++k) {
+    text += (k == 0 ? "" : row.values.size() == 9 && k % 3 == 0 ? "\n" : "  ");
+    text += row.name == "id" || row.name == "node" ? fixed_text(row.values[k], 0)
+                                                   : rough_text(row.values[k]);
+  }
+  return text;
+}
+
+void draw_trace(ViewerState& state) {
+  if (state.trace.points.size() < 2) return;
+  std::vector<float> values;
+  float low = 1e30f, high = -1e30f;
+  for (const auto& [time, value] : state.trace.points) {
+    values.push_back(static_cast<float>(value));
+    low = std::min(low, values.back());
+    high = std::max(high, values.back());
+  }
+  const std::string text = "|" + state.trace.quantity + "| from " +
+                           rough_text(static_cast<double>(low)) + " to " +
+                           rough_text(static_cast<double>(high)) +
+                           ", t = " + fixed_text(state.trace.points.front().first, 3) + " to " +
+                           fixed_text(state.trace.points.back().first, 3) + " s";
+  ImGui::PlotLines("##trace", values.data(), static_cast<int>(values.size()), 0, nullptr, low, high,
+                   ImVec2(-FLT_MIN, 5 * em()));
+  ImGui::TextDisabled("%s", text.c_str());
+}
+
+void draw_probe(ViewerState& state) {
+  const session::LiveFrame& live = *state.live;
+  if (!state.probe) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextDisabled(
+        "Click a particle in the picture, or with ctrl the nearest node of the "
+        "grid, to read all that it carries.");
+    ImGui::PopTextWrapPos();
+    return;
+  }
+  if (ImGui::Button("Let go")) {
+    set_probe(state, std::nullopt);
+    return;
+  }
+  note_label("Let go");
+  ImGui::SameLine();
+  ImGui::Checkbox("follow it", &state.follows_probe);
+  note_label("follow it");
+  if (!live.probe) {
+    ImGui::TextDisabled(live.probed == state.probe ? "it is not there" : "reading ...");
+    return;
+  }
+  const session::ProbeReading& probe = *live.probe;
+  const std::string title =
+      (probe.is_node ? "node" : "particle " + std::to_string(std::get<std::size_t>(probe.target))) +
+      " at " + rough_text(probe.place.x()) + ", " + rough_text(probe.place.y()) + ", " +
+      rough_text(probe.place.z()) + " m" + (probe.after.empty() ? "" : ", after " + probe.after);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(title.c_str());
+  ImGui::PopTextWrapPos();
+  draw_trace(state);
+  if (!begin_quantities("probe")) return;
+  for (const session::ProbeRow& row : probe.rows) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    if (ImGui::Selectable(with_unit(row.name, row.unit).c_str(),
+                          state.trace.quantity == row.name)) {
+      state.trace.quantity = row.name;
+      state.trace.points.clear();
+    }
+    note_label(("probe " + row.name).c_str());
+    if (wants_tip()) {
+      std::vector<TipLine> lines;
+      if (!row.why.empty()) lines.push_back({row.why});
+      lines.push_back({"click: plotted over time"});
+      show_tip(lines);
+    }
+    draw_value(values_text(row), row.is_strange, row.expected);
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void draw_inspector(ViewerState& state) {
+  if (ImGui::CollapsingHeader("Stages", ImGuiTreeNodeFlags_DefaultOpen)) draw_stages(state);
+  note_label("Stages");
+  if (ImGui::CollapsingHeader("Probe", ImGuiTreeNodeFlags_DefaultOpen)) draw_probe(state);
+  note_label("Probe");
+}
+
+}  // namespace neve::app::view::panels

@@ -1,0 +1,175 @@
+/// Messages and incidents, the time line of kept frames, help.
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+
+#include "app/health/incident.h"
+#include "app/support/text.h"
+#include "app/view/panels/labels.h"
+#include "app/view/panels/tip.h"
+#include "app/view/panels/viewer_state.h"
+
+namespace neve::app::view::panels {
+
+namespace {
+
+ImVec4 message_color(session::Message::Kind kind) {
+  switch (kind) {
+    case session::Message::Kind::note:
+      return {0.80f, 0.84f, 0.90f, 1};
+    case session::Message::Kind::warning:
+      return {1.0f, 0.80f, 0.35f, 1};
+    case session::Message::Kind::error:
+      return {1.0f, 0.42f, 0.32f, 1};
+  }
+  return {1, 1, 1, 1};
+}
+
+void draw_incident(ViewerState& state) {
+  const session::LiveFrame& live = *state.live;
+  if (!live.divergence || !live.diagnosis) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, message_color(session::Message::Kind::error));
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(health::sentence(*live.divergence, *live.diagnosis).c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  if (ImGui::Button("Show me")) show_incident(state);
+  note_label("Show me");
+  ImGui::SameLine();
+  if (!live.diagnosis->address.empty()) {
+    if (ImGui::Button("Find the parameter")) state.filter = live.diagnosis->address;
+    note_label("Find the parameter");
+  }
+  ImGui::Separator();
+}
+
+void draw_keys(const char* keys, const char* what) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(keys);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(what);
+}
+
+void show_frame(ViewerState& state, int frame) {
+  if (frame >= state.live->head)
+    state.bench.session().show_head();
+  else
+    state.bench.session().show_frame(frame);
+}
+
+/// A tick for every kept frame, on the bar of the slider that was drawn last.
+void draw_ticks(const session::LiveFrame& live, int last) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float margin = 0.5f * ImGui::GetStyle().GrabMinSize + 2;
+  for (const int frame : live.kept) {
+    const float part = last > 0 ? static_cast<float>(frame) / static_cast<float>(last) : 0;
+    const float x = low.x + margin + part * (high.x - low.x - 2 * margin);
+    list.AddLine(ImVec2(x, high.y - 3), ImVec2(x, high.y), IM_COL32(120, 190, 255, 200));
+  }
+}
+
+}  // namespace
+
+void draw_messages(ViewerState& state) {
+  draw_incident(state);
+  const std::deque<session::Message>& messages = state.bench.messages();
+  if (messages.empty()) ImGui::TextDisabled("Nothing to report.");
+  ImGui::PushTextWrapPos(0);
+  for (auto message = messages.rbegin(); message != messages.rend(); ++message) {
+    ImGui::PushStyleColor(ImGuiCol_Text, message_color(message->kind));
+    ImGui::TextUnformatted(message->text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::Spacing();
+  }
+  ImGui::PopTextWrapPos();
+}
+
+void draw_time_line(ViewerState& state) {
+  const session::LiveFrame& live = *state.live;
+  const int last = std::max(live.scene->frames, live.head);
+  if (ImGui::Button(state.is_playing ? "Stop" : "Play")) {
+    state.is_playing = !state.is_playing;
+    state.play_clock = 0;
+    if (state.is_playing) {
+      state.bench.session().pause();
+      if (!live.is_older) show_frame(state, 0);
+    }
+  }
+  note_label(state.is_playing ? "Stop" : "Play");
+  tip("kept frames, one after the other, without simulating");
+  ImGui::SameLine();
+  // Beside the bar, where the grab cannot cover it, and as wide for every frame.
+  ImGui::AlignTextToFramePadding();
+  ImGui::Text("frame %d", live.frame);
+  ImGui::SameLine(ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x +
+                  ImGui::CalcTextSize(("frame " + std::to_string(last)).c_str()).x + 0.6f * em());
+  const bool is_short = ImGui::GetContentRegionAvail().x < 26 * em();
+  const float right = live.is_older ? (is_short ? 9 : 18.5f) * em() : 11 * em();
+  ImGui::SetNextItemWidth(std::max(4 * em(), ImGui::GetContentRegionAvail().x - right));
+  int frame = live.frame;
+  const bool is_typed = ImGui::TempInputIsActive(ImGui::GetID("##time"));
+  if (!is_typed) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_BLACK_TRANS);
+  const bool is_moved = ImGui::SliderInt("##time", &frame, 0, last);
+  if (!is_typed) ImGui::PopStyleColor();
+  if (is_moved) {
+    state.is_playing = false;
+    show_frame(state, std::clamp(frame, 0, live.head));
+  }
+  note_label("time line");
+  draw_ticks(live, last);
+  ImGui::SameLine();
+  if (live.is_older) {
+    if (ImGui::Button(is_short ? "Go on" : "Go on from here")) state.bench.continue_from_here();
+    note_label("Go on from here");
+    tip("simulate from this frame with the values as they are now;\nwhat came after it is "
+        "forgotten");
+    ImGui::SameLine();
+    if (ImGui::Button(is_short ? "Back" : "Back to the run")) state.bench.session().show_head();
+    note_label("Back to the run");
+    tip("the newest frame");
+  } else {
+    ImGui::TextDisabled("%zu kept, %s", live.kept.size(), bytes_text(live.kept_bytes).c_str());
+    tip(("up to " + bytes_text(live.kept_budget) + "; then older ones are thinned out").c_str());
+  }
+}
+
+void draw_help(ViewerState& state) {
+  if (!state.is_help_open) return;
+  ImGui::SetNextWindowPos(
+      ImVec2(0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y),
+      ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+  if (!ImGui::Begin("Keys and mouse", &state.is_help_open,
+                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
+                        ImGuiWindowFlags_NoMove)) {
+    ImGui::End();
+    return;
+  }
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
+    draw_keys("left drag", "orbit");
+    draw_keys("middle drag, shift + left drag", "pan");
+    draw_keys("wheel, right drag", "zoom, towards the mouse");
+    draw_keys("click", "read out the particle");
+    draw_keys("ctrl + click", "read out the node of the grid");
+    draw_keys("space", "run and pause");
+    draw_keys(".   ,   ;", "next frame, step, stage");
+    draw_keys("R", "reset to frame 0");
+    draw_keys("left, right, home, end", "kept frames");
+    draw_keys("1 to 9", "the first nine views");
+    draw_keys("F   shift + F", "frame the selection; everything");
+    draw_keys("X   Y   Z", "look along an axis; again: from the other side");
+    draw_keys("P", "save a picture");
+    draw_keys("ctrl + S", "save the scene with its changes");
+    draw_keys("ctrl + Z   ctrl + Y", "undo, redo");
+    draw_keys("tab", "panels on and off");
+    draw_keys("ctrl + click on a slider", "type a number");
+    draw_keys("right click on a parameter", "default, file's value, sweep around it");
+    draw_keys("?   escape", "this list; close it, let go");
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+}  // namespace neve::app::view::panels

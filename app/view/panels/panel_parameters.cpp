@@ -1,0 +1,261 @@
+/// The left column: every parameter, what was changed, bodies and obstacles.
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "app/picture/attributes.h"
+#include "app/support/round_number.h"
+#include "app/support/text.h"
+#include "app/view/panels/labels.h"
+#include "app/view/panels/tip.h"
+#include "app/view/panels/viewer_state.h"
+#include "app/view/panels/widgets.h"
+
+namespace neve::app::view::panels {
+
+namespace {
+
+std::vector<std::string> changed_addresses(const session::Document& document) {
+  std::vector<std::string> addresses;
+  for (const scene::Override& edit : document.edits()) addresses.push_back(edit.address);
+  return addresses;
+}
+
+void take_edits(ViewerState& state, const KnobPanel& panel) {
+  for (const session::Edit& edit : panel.edits()) {
+    if (edit.kind == session::Edit::Kind::copy_address)
+      state.copy(edit.address);
+    else
+      state.bench.edit(edit);
+  }
+  if (!panel.edits().empty()) announce_view(state);
+}
+
+void draw_waiting(ViewerState& state) {
+  const std::vector<std::string> waiting = state.bench.waiting_for_reset();
+  if (waiting.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, ImVec4(0.30f, 0.20f, 0.05f, 0.9f));
+  ImGui::BeginChild("waiting", ImVec2(0, 4.3f * em()), true);
+  ImGui::PushTextWrapPos(0);
+  std::string list;
+  for (const std::string& address : waiting) list += (list.empty() ? "" : ", ") + address;
+  ImGui::TextUnformatted(("waits for Reset: " + list).c_str());
+  ImGui::PopTextWrapPos();
+  if (ImGui::SmallButton("Reset now")) state.bench.reset();
+  note_label("Reset now");
+  ImGui::EndChild();
+  ImGui::PopStyleColor();
+}
+
+/// The range of colours that the selected body, or all snow, fills now.
+void fit_range(ViewerState& state, const scene::View& view) {
+  const session::LiveFrame& live = *state.live;
+  const std::vector<double> values =
+      picture::attribute_values(*live.scene, view.particles.color_by, live.snapshot);
+  std::size_t first = 0, end = values.size();
+  for (std::size_t b = 0; b < live.body_end.size(); ++b)
+    if (state.selected == "body." + live.scene->bodies[b].name) {
+      const sim::ParticleArrays& p = live.snapshot.particles;
+      first = b == 0 ? 0 : p.first_from(live.body_end[b - 1]);
+      end = std::min(end, p.first_from(live.body_end[b]));
+    }
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (std::size_t p = first; p < end; ++p) {
+    if (!std::isfinite(values[p])) continue;
+    low = std::min(low, values[p]);
+    high = std::max(high, values[p]);
+  }
+  if (!(low < high)) {
+    state.bench.say(session::Message::Kind::note, "there is no range: all values are the same");
+    return;
+  }
+  const double scale = high - low;
+  state.bench.set("view." + view.name + ".particles.range",
+                  "[" + scene::toml::number_text(round_to(low, scale, 2)) + ", " +
+                      scene::toml::number_text(round_to(high, scale, 2)) + "]");
+}
+
+constexpr std::size_t most_view_buttons = 8;
+
+void note_view(const scene::View& view, std::size_t index) {
+  note_label(("view " + view.name).c_str());
+  if (index < 9) tip(("key " + std::to_string(index + 1)).c_str());
+}
+
+/// In as many rows as their names need.
+void draw_view_buttons(ViewerState& state, const std::vector<scene::View>& views) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const std::string& name = views[k].name;
+    const float width =
+        ImGui::GetFrameHeight() + style.ItemInnerSpacing.x + ImGui::CalcTextSize(name.c_str()).x;
+    if (k > 0 && ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= end) ImGui::SameLine();
+    if (ImGui::RadioButton(name.c_str(), name == state.view)) choose_view(state, name);
+    note_view(views[k], k);
+  }
+}
+
+void draw_view_list(ViewerState& state, const std::vector<scene::View>& views) {
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::BeginCombo("##views", current_view(state).name.c_str(), ImGuiComboFlags_HeightLarge)) {
+    std::string chosen;
+    for (std::size_t k = 0; k < views.size(); ++k) {
+      if (ImGui::Selectable(views[k].name.c_str(), views[k].name == state.view))
+        chosen = views[k].name;
+      note_view(views[k], k);
+    }
+    ImGui::EndCombo();
+    if (!chosen.empty()) choose_view(state, chosen);
+  }
+  note_label("views");
+}
+
+}  // namespace
+
+void draw_parameters(ViewerState& state) {
+  draw_waiting(state);
+  char text[128];
+  std::snprintf(text, sizeof text, "%s", state.filter.c_str());
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::InputTextWithHint("##filter", "find a parameter", text, sizeof text))
+    state.filter = text;
+  note_label("find a parameter");
+  ImGui::BeginChild("list");
+  scene::Scene scene =
+      *state.bench.document().scene();  // visitors take members that they could change
+  KnobPanel panel(state.filter, changed_addresses(state.bench.document()));
+  Knobs knobs(panel, "");
+  scene::describe(knobs, scene);
+  if (!panel.has_shown()) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextDisabled("Nothing here has \"%s\" in its name or its sentence.",
+                        state.filter.c_str());
+    ImGui::PopTextWrapPos();
+  }
+  ImGui::EndChild();
+  take_edits(state, panel);
+}
+
+void draw_changes(ViewerState& state) {
+  const std::vector<session::ChangedValue> changes = state.bench.document().changes();
+  if (changes.empty()) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextDisabled("Nothing differs from %s.", state.bench.document().file().c_str());
+    ImGui::PopTextWrapPos();
+    return;
+  }
+  if (ImGui::Button("Take all back")) state.bench.forget("");
+  note_label("Take all back");
+  ImGui::SameLine();
+  if (ImGui::Button("Copy the command")) state.copy(state.bench.command());
+  note_label("Copy the command");
+  ImGui::BeginChild("changes");
+  for (const session::ChangedValue& change : changes) {
+    ImGui::PushID(change.address.c_str());
+    if (ImGui::SmallButton("x")) state.bench.forget(change.address);
+    tip("back to what the file says");
+    ImGui::SameLine();
+    ImGui::TextUnformatted(change.address.c_str());
+    ImGui::Indent(1.6f * em());
+    ImGui::TextColored(ImVec4(1.0f, 0.72f, 0.35f, 1), "%s", change.value.c_str());
+    ImGui::SameLine();
+    ImGui::TextDisabled(
+        "%s", change.in_file.empty() ? "(not in the file)" : ("was " + change.in_file).c_str());
+    ImGui::Unindent(1.6f * em());
+    ImGui::PopID();
+  }
+  ImGui::EndChild();
+}
+
+void draw_objects(ViewerState& state) {
+  scene::Scene scene = *state.bench.document().scene();
+  const auto entry = [&](const std::string& address, const sim::shapes::Shape& shape) {
+    const bool is_selected = state.selected == address;
+    if (ImGui::Selectable(address.c_str(), is_selected))
+      state.selected = is_selected ? "" : address;
+    note_label(address.c_str());
+    if (wants_tip()) {
+      const sim::Vec3d place = sim::shapes::center(shape);
+      show_tip({{"at " + rough_text(place.x()) + ", " + rough_text(place.y()) + ", " +
+                 rough_text(place.z()) + " m; drag its arrows in the picture"}});
+    }
+  };
+  for (const sim::seeding::Body& body : scene.bodies) entry("body." + body.name, body.shape);
+  for (const sim::seeding::Emitter& emitter : scene.emitters)
+    entry("emitter." + emitter.name, emitter.shape);
+  for (const sim::seeding::Sink& sink : scene.sinks) entry("sink." + sink.name, sink.shape);
+  for (const scene::Collider& collider : scene.colliders)
+    entry("collider." + collider.name, collider.shape);
+  ImGui::Separator();
+  ImGui::BeginChild("object");
+  KnobPanel panel("", changed_addresses(state.bench.document()));
+  const auto knobs_of = [&](const char* list, auto& items) {
+    for (auto& item : items)
+      if (state.selected == list + item.name) {
+        Knobs knobs(panel, state.selected);
+        scene::describe(knobs, item);
+      }
+  };
+  knobs_of("body.", scene.bodies);
+  knobs_of("emitter.", scene.emitters);
+  knobs_of("sink.", scene.sinks);
+  knobs_of("collider.", scene.colliders);
+  if (state.selected.empty()) ImGui::TextDisabled("Choose one to move it and to change it.");
+  ImGui::EndChild();
+  take_edits(state, panel);
+}
+
+void draw_view_panel(ViewerState& state) {
+  const scene::Scene& scene = *state.bench.document().scene();
+  if (scene.views.size() <= most_view_buttons)
+    draw_view_buttons(state, scene.views);
+  else
+    draw_view_list(state, scene.views);
+  if (ImGui::Button("Frame all")) frame_all(state);
+  note_label("Frame all");
+  ImGui::SameLine();
+  if (ImGui::Button("Scene's camera")) state.is_camera_of_scene = true;
+  note_label("Scene's camera");
+  if (current_view(state).particles.color_by != scene::ColorBy::snow &&
+      scene::has_layer(current_view(state), scene::Layer::particles)) {
+    ImGui::SameLine();
+    if (ImGui::Button("Fit the range")) fit_range(state, current_view(state));
+    note_label("Fit the range");
+    tip("colours from the least to the greatest value of the selected body,\nor of all snow, at "
+        "this moment");
+  }
+  ImGui::Separator();
+  ImGui::BeginChild("view");
+  scene::View view = current_view(state);
+  KnobPanel panel("", changed_addresses(state.bench.document()));
+  bool is_cut = view.clip.has_value();
+  if (ImGui::Checkbox("cut by a plane", &is_cut)) {
+    const std::string clip = "view." + view.name + ".clip";
+    if (is_cut)
+      panel.note({session::Edit::Kind::set, clip + ".normal", "[0, 0, 1]", 0});
+    else
+      panel.note({session::Edit::Kind::as_in_file, clip + ".", "", 0});
+  }
+  note_label("cut by a plane");
+  ImGui::SetNextItemOpen(true, ImGuiCond_Once);
+  Knobs knobs(panel, "view." + view.name);
+  scene::describe(knobs, view);
+  scene::Scene lit = scene;
+  if (ImGui::TreeNode("light")) {
+    Knobs light(panel, "light");
+    scene::describe(light, lit.light);
+    ImGui::TreePop();
+  }
+  ImGui::EndChild();
+  take_edits(state, panel);
+}
+
+}  // namespace neve::app::view::panels

@@ -1,0 +1,23 @@
+#pragma once
+/// What is under the mouse.
+
+#include <optional>
+
+#include "app/picture/slice.h"
+#include "app/view/panels/orbit.h"
+#include "app/view/session/live_frame.h"
+
+namespace neve::app::view::panels {
+
+/// The index of the nearest drawn particle. @param x, y share of the picture's height from its
+/// middle, y up
+/// @param clip what is cut away lets look through
+std::optional<std::size_t> pick_particle(const Orbit& orbit, double x, double y,
+                                         const session::LiveFrame& live,
+                                         const std::optional<scene::ClipPlane>& clip = {});
+
+/// Where the ray meets the plane, before the eye.
+std::optional<sim::Vec3d> pick_plane(const Orbit& orbit, double x, double y,
+                                     const picture::SlicePlane& plane);
+
+}  // namespace neve::app::view::panels

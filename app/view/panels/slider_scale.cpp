@@ -1,0 +1,60 @@
+#include "app/view/panels/slider_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/scene/params.h"
+
+namespace neve::app::view::panels {
+
+namespace {
+
+/// A range this many times the usual value is one of decades.
+constexpr double decades_from = 30;
+/// So many times less and more than usual are on a slider.
+constexpr double slider_reach = 100;
+/// Wider ranges have too much on a pixel.
+constexpr double widest_linear = 200;
+
+}  // namespace
+
+double least(const scene::Valid& valid) {
+  return valid.is_min_open ? std::nextafter(valid.min, HUGE_VAL) : valid.min;
+}
+
+double greatest(const scene::Valid& valid) {
+  return valid.is_max_open ? std::nextafter(valid.max, -HUGE_VAL) : valid.max;
+}
+
+SliderScale slider_scale(const scene::Valid& valid, const std::optional<double>& usual,
+                         double value) {
+  const bool is_bounded = std::isfinite(valid.min) && std::isfinite(valid.max);
+  if (!is_bounded) return {};
+  const double min = least(valid), max = greatest(valid);
+  const bool has_decades = usual && *usual > 0 && valid.min >= 0 && max >= decades_from * *usual &&
+                           *usual >= decades_from * valid.min;
+  if (has_decades) {
+    double low = std::max(min, *usual / slider_reach), high = std::min(max, *usual * slider_reach);
+    if (value > 0) low = std::min(low, value);
+    high = std::max(high, value);
+    return {SliderScale::Kind::logarithmic, low, high, min == 0};
+  }
+  if (max - min <= widest_linear) return {SliderScale::Kind::linear, min, max, false};
+  return {};
+}
+
+std::optional<double> usual_number(const std::string& address) {
+  // Listing all parameters takes too long for every frame of the panels.
+  static std::map<std::string, std::optional<double>> known;
+  if (const auto found = known.find(address); found != known.end()) return found->second;
+  std::optional<double> usual;
+  if (const auto info = scene::param_at(address); info && info->default_value) {
+    if (const auto* number = std::get_if<double>(&info->default_value->data)) usual = *number;
+    if (const auto* whole = std::get_if<std::int64_t>(&info->default_value->data))
+      usual = static_cast<double>(*whole);
+  }
+  return known[address] = usual;
+}
+
+}  // namespace neve::app::view::panels

@@ -1,0 +1,34 @@
+#pragma once
+/// How a number is turned, from what is known of it: the only place that decides it.
+
+#include <optional>
+#include <string>
+
+#include "app/scene/valid.h"
+
+namespace neve::app::view::panels {
+
+struct SliderScale {
+  enum class Kind {
+    drag,        ///< no ends: changes by a share of itself
+    linear,      ///< from end to end
+    logarithmic  ///< decades around the usual value; where 0 is allowed it is the lower end
+  };
+  Kind kind = Kind::drag;
+  double low = 0, high = 0;     ///< ends of the slider
+  bool is_zero_at_low = false;  ///< the lower end means 0
+};
+
+/// @param usual  the default; without one there are no decades to choose
+/// @param value  present; a slider reaches so far in any case
+SliderScale slider_scale(const scene::Valid& valid, const std::optional<double>& usual,
+                         double value);
+
+/// The smallest and the largest value that is allowed.
+double least(const scene::Valid& valid);
+double greatest(const scene::Valid& valid);
+
+/// The default of a parameter that is a number; of what has no such address nothing.
+std::optional<double> usual_number(const std::string& address);
+
+}  // namespace neve::app::view::panels

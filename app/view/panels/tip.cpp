@@ -1,0 +1,77 @@
+#include "app/view/panels/tip.h"
+
+#include <algorithm>
+
+namespace neve::app::view::panels {
+
+namespace {
+
+constexpr float rest_before_tip = 0.4f;  // s
+constexpr float tip_gap = 3;             // px between widget and tip
+
+/// On which widget the mouse rests. There is one mouse, as there is one current ImGui context.
+struct Rest {
+  ImVec2 widget{-1, -1};
+  int frame = -1;
+  float seconds = 0;
+};
+Rest rest;
+
+float wrap_width() {
+  return 26 * ImGui::GetFontSize();
+}
+
+ImVec2 size_of_tip(const std::vector<TipLine>& lines) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImVec2 size(0, -style.ItemSpacing.y);
+  for (const TipLine& line : lines) {
+    const ImVec2 text = ImGui::CalcTextSize(line.text.c_str(), nullptr, false, wrap_width());
+    size.x = std::max(size.x, text.x);
+    size.y += text.y + style.ItemSpacing.y;
+  }
+  return {size.x + 2 * style.WindowPadding.x, size.y + 2 * style.WindowPadding.y};
+}
+
+}  // namespace
+
+bool wants_tip() {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
+  const ImVec2 widget = ImGui::GetItemRectMin();
+  const int frame = ImGui::GetFrameCount();
+  const bool is_same = widget.x == rest.widget.x && widget.y == rest.widget.y &&
+                       (frame == rest.frame || frame == rest.frame + 1) && !ImGui::IsAnyMouseDown();
+  rest = {widget, frame, is_same ? rest.seconds + ImGui::GetIO().DeltaTime : 0};
+  return rest.seconds >= rest_before_tip;
+}
+
+bool is_tip_coming() {
+  return rest.frame == ImGui::GetFrameCount() && rest.seconds < rest_before_tip &&
+         !ImGui::IsAnyMouseDown();
+}
+
+ImVec2 tip_place(ImVec2 from, ImVec2 to, ImVec2 size, ImVec2 screen) {
+  const float below = to.y + tip_gap, above = from.y - tip_gap - size.y;
+  const bool has_room = below + size.y <= screen.y || above < 0;
+  return {std::max(0.0f, std::min(from.x, screen.x - size.x)), has_room ? below : above};
+}
+
+void show_tip(const std::vector<TipLine>& lines) {
+  ImGui::SetNextWindowPos(tip_place(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                                    size_of_tip(lines), ImGui::GetIO().DisplaySize));
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(wrap_width());
+  for (const TipLine& line : lines) {
+    if (line.is_dim)
+      ImGui::TextDisabled("%s", line.text.c_str());
+    else
+      ImGui::TextUnformatted(line.text.c_str());
+  }
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void tip(const char* text) {
+  if (wants_tip()) show_tip({{text}});
+}
+
+}  // namespace neve::app::view::panels

@@ -1,0 +1,125 @@
+#include "app/view/panels/viewer_state.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/health/incident.h"
+
+namespace neve::app::view::panels {
+
+namespace {
+
+sim::shapes::Bounds bounds_of(const std::vector<sim::Vec3d>& places, std::size_t first,
+                              std::size_t end) {
+  sim::shapes::Bounds box{sim::Vec3d::Constant(1e300), sim::Vec3d::Constant(-1e300)};
+  for (std::size_t p = first; p < end; ++p) {
+    if (!places[p].allFinite()) continue;
+    box.min = box.min.cwiseMin(places[p]);
+    box.max = box.max.cwiseMax(places[p]);
+  }
+  return box;
+}
+
+void frame_box(ViewerState& state, const sim::shapes::Bounds& box) {
+  if (!(box.min.x() <= box.max.x())) return;
+  const double aspect =
+      static_cast<double>(state.viewport.width) / std::max(1, state.viewport.height);
+  state.orbit.frame(box, aspect);
+  state.is_camera_of_scene = false;
+}
+
+}  // namespace
+
+float em() {
+  return ImGui::GetFontSize();
+}
+
+const scene::View& current_view(const ViewerState& state) {
+  const std::vector<scene::View>& views = state.bench.document().scene()->views;
+  const auto found = std::find_if(views.begin(), views.end(),
+                                  [&](const scene::View& view) { return view.name == state.view; });
+  return found == views.end() ? views.front() : *found;
+}
+
+void choose_view(ViewerState& state, const std::string& name) {
+  state.view = name;
+  announce_view(state);
+}
+
+void announce_view(ViewerState& state) {
+  state.bench.session().set_views({current_view(state)});
+}
+
+void set_probe(ViewerState& state, std::optional<session::ProbeTarget> probe) {
+  state.probe = probe;
+  state.trace = {state.trace.quantity, {}, probe};
+  state.last_followed.reset();
+  state.bench.session().set_probe(std::move(probe));
+}
+
+void toggle_run(ViewerState& state) {
+  state.is_playing = false;
+  if (!state.live) return;
+  if (state.live->is_running)
+    state.bench.session().pause();
+  else
+    state.bench.session().run();
+}
+
+void frame_all(ViewerState& state) {
+  if (!state.live) return;
+  const std::vector<sim::Vec3d>& x = state.live->snapshot.particles.x;
+  frame_box(state, bounds_of(x, 0, x.size()));
+}
+
+void frame_selection(ViewerState& state) {
+  if (!state.live) return;
+  if (state.live->probe) {
+    const sim::Vec3d half = sim::Vec3d::Constant(4 * state.live->scene->solver.cell_size);
+    frame_box(state, {state.live->probe->place - half, state.live->probe->place + half});
+    return;
+  }
+  const std::vector<sim::seeding::Body>& bodies = state.live->scene->bodies;
+  for (std::size_t b = 0; b < std::min(bodies.size(), state.live->body_end.size()); ++b) {
+    if (state.selected != "body." + bodies[b].name) continue;
+    const sim::ParticleArrays& p = state.live->snapshot.particles;
+    const std::size_t first = b == 0 ? 0 : p.first_from(state.live->body_end[b - 1]);
+    frame_box(state, bounds_of(p.x, first, p.first_from(state.live->body_end[b])));
+    return;
+  }
+  const auto frame_shape = [&](const char* list, const auto& items) {
+    for (const auto& item : items)
+      if (state.selected == list + item.name) {
+        frame_box(state, sim::shapes::bounds(item.shape));
+        return true;
+      }
+    return false;
+  };
+  if (frame_shape("emitter.", state.live->scene->emitters) ||
+      frame_shape("sink.", state.live->scene->sinks))
+    return;
+  for (const scene::Collider& collider : state.live->scene->colliders) {
+    if (state.selected != "collider." + collider.name) continue;
+    if (std::holds_alternative<sim::shapes::Plane>(collider.shape.form)) {
+      state.orbit.move_target(sim::shapes::pose_at(collider, state.live->snapshot.time).point);
+    } else {
+      frame_box(state, sim::shapes::bounds_at(collider, state.live->snapshot.time));
+    }
+    return;
+  }
+  frame_all(state);
+}
+
+void show_incident(ViewerState& state) {
+  if (!state.live || !state.live->divergence) return;
+  const sim::Divergence& divergence = *state.live->divergence;
+  state.shows_incident = true;
+  if (!divergence.x.allFinite()) return;
+  const sim::Vec3d half = sim::Vec3d::Constant(6 * state.live->scene->solver.cell_size);
+  frame_box(state, {divergence.x - half, divergence.x + half});
+  if (divergence.particle >= 0)
+    set_probe(state, session::ProbeTarget(static_cast<std::size_t>(divergence.particle)));
+}
+
+}  // namespace neve::app::view::panels

@@ -1,0 +1,128 @@
+#pragma once
+/// What the panels of `neve view` show and change.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/view/panels/orbit.h"
+#include "app/view/session/live_frame.h"
+#include "app/view/session/workbench.h"
+#include "render/screen.h"
+
+namespace neve::app::view::panels {
+
+/// A quantity of what is probed over simulated time.
+struct ProbeTrace {
+  std::string quantity;                           ///< empty: the first one
+  std::vector<std::pair<double, double>> points;  ///< s, magnitude; times increase
+  std::optional<session::ProbeTarget> target;
+};
+
+/// Which columns stand beside the picture.
+struct PanelSwitches {
+  bool left = true, right = true;
+  bool is_narrow = false;      ///< there is room for one
+  bool prefers_right = false;  ///< of both this one
+
+  bool is_one_of_two() const { return is_narrow && left && right; }
+  bool shows_left() const { return left && !(is_one_of_two() && prefers_right); }
+  bool shows_right() const { return right && !(is_one_of_two() && !prefers_right); }
+};
+
+/// A few words at a place of the picture, for a moment.
+struct Hint {
+  std::string text;
+  float x = 0, y = 0;  ///< px
+  double seconds = 0;  ///< that it stays
+};
+
+struct ViewerState {
+  session::Workbench& bench;
+  std::shared_ptr<const session::LiveFrame> live{};
+
+  Orbit orbit{};
+  bool is_camera_of_scene = true;  ///< nobody moved the camera yet: it moves as the scene says
+  std::string view = "particles";
+  render::PicturePlace viewport{};  ///< px
+  PanelSwitches panels{};
+  bool is_help_open = false;
+  int bar_rows = 1;  ///< of buttons at the top, in the last picture
+
+  std::string filter{};    ///< of the parameters
+  std::string selected{};  ///< "body.ball", "collider.floor" or ""
+  std::optional<session::ProbeTarget> probe{};
+  bool follows_probe = false;
+  ProbeTrace trace{};
+  std::optional<sim::Vec3d> last_followed{};
+
+  bool is_playing = false;  ///< kept frames, one after the other
+  double play_clock = 0;    ///< s since the last one
+  bool is_recording = false;
+  int recorded = 0;  ///< frames of the sequence so far
+  bool wants_picture = false;
+  std::size_t tab = 0;                     ///< of the right column
+  std::optional<std::size_t> go_to_tab{};  ///< opens this one
+  std::uint64_t errors_seen = 0;           ///< of the session
+  std::uint64_t errors_told = 0;           ///< of the messages: their tab was opened for these
+  bool is_divergence_told = false;
+  bool is_reload_offered = false;              ///< the scene file was changed by another program
+  std::optional<session::Document> dropped{};  ///< that somebody wants to look at instead
+  Hint hint{};
+  bool shows_incident = false;  ///< rings around the culprits
+
+  double frames_per_second = 0;  ///< of the pictures
+  double picture_ms = 0;
+  std::function<void(const std::string&)> copy{};
+};
+
+/// The tabs of the right column.
+namespace tab {
+inline constexpr std::size_t view = 0, inspect = 1, plots = 2, messages = 3;
+}
+
+const scene::View& current_view(const ViewerState& state);
+/// The picture of another view from now on.
+void choose_view(ViewerState& state, const std::string& name);
+/// The session works out what the current view shows.
+void announce_view(ViewerState& state);
+void set_probe(ViewerState& state, std::optional<session::ProbeTarget> probe);
+
+void toggle_run(ViewerState& state);
+/// All snow and small obstacles.
+void frame_all(ViewerState& state);
+/// What is probed or selected; all where nothing is.
+void frame_selection(ViewerState& state);
+/// Brings what broke the rule into the picture.
+void show_incident(ViewerState& state);
+
+/// Panels; each draws into the current ImGui window.
+void draw_transport(ViewerState& state);
+void draw_parameters(ViewerState& state);
+void draw_objects(ViewerState& state);
+void draw_changes(ViewerState& state);
+void draw_view_panel(ViewerState& state);
+void draw_inspector(ViewerState& state);
+void draw_plots_panel(ViewerState& state);
+void draw_messages(ViewerState& state);
+void draw_time_line(ViewerState& state);
+void draw_help(ViewerState& state);
+/// What has to be decided: a file that changed.
+void draw_offer(ViewerState& state);
+void draw_left_column(ViewerState& state);
+void draw_right_column(ViewerState& state);
+
+/// Mouse over the picture, and what is drawn over it: handles, the probed place.
+void use_viewport(ViewerState& state);
+/// Keys that are not for a text field.
+void use_keys(ViewerState& state);
+
+/// The current ImGui text size.
+float em();
+
+}  // namespace neve::app::view::panels

@@ -1,0 +1,72 @@
+/// Keys that are not for a text field.
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+
+#include "app/view/front/front.h"
+#include "app/view/front/imgui_input.h"
+#include "app/view/panels/viewer_state.h"
+
+namespace neve::app::view::panels {
+
+void use_keys(ViewerState& state) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput) return;
+  const session::LiveFrame& live = *state.live;
+  session::Session& session = state.bench.session();
+  const auto pressed = [](int key) { return front::is_key_pressed(key); };
+  if (io.KeyCtrl) {
+    if (pressed('Z')) io.KeyShift ? state.bench.redo() : state.bench.undo();
+    if (pressed('Y')) state.bench.redo();
+    if (pressed('S')) state.bench.save_scene(state.bench.folder() / "scene.toml");
+    return;
+  }
+  if (pressed(' ')) toggle_run(state);
+  if (pressed('.')) session.next_frame();
+  if (pressed(',')) session.next_step();
+  if (pressed(';')) {
+    session.next_stage();
+    state.go_to_tab = tab::inspect;
+  }
+  if (pressed('R')) state.bench.reset();
+  if (pressed('P')) state.wants_picture = true;
+  if (pressed('F')) io.KeyShift ? frame_all(state) : frame_selection(state);
+  for (int axis = 0; axis < 3; ++axis)
+    if (pressed('X' + axis)) {
+      state.orbit.look_along(axis);
+      state.is_camera_of_scene = false;
+    }
+  const std::vector<scene::View>& views = state.bench.document().scene()->views;
+  for (std::size_t k = 0; k < std::min<std::size_t>(9, views.size()); ++k)
+    if (pressed('1' + static_cast<int>(k))) choose_view(state, views[k].name);
+  if (pressed('/') && io.KeyShift) state.is_help_open = !state.is_help_open;
+  if (pressed('?') || pressed(front::key::f1)) state.is_help_open = !state.is_help_open;
+  if (pressed(front::key::escape)) {
+    if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
+      ImGui::ClosePopupToLevel(0, true);
+    else if (state.is_help_open)
+      state.is_help_open = false;
+    else if (state.probe)
+      set_probe(state, std::nullopt);
+    else
+      state.selected.clear();
+  }
+  if (pressed(front::key::tab)) {
+    const bool is_on = state.panels.left || state.panels.right;
+    state.panels = {!is_on, !is_on};
+  }
+  if (front::is_key_pressed(front::key::left, true))
+    session.show_frame(std::max(0, live.frame - 1));
+  if (front::is_key_pressed(front::key::right, true)) {
+    const auto next = std::upper_bound(live.kept.begin(), live.kept.end(), live.frame);
+    if (next == live.kept.end() || *next >= live.head)
+      session.show_head();
+    else
+      session.show_frame(*next);
+  }
+  if (pressed(front::key::home)) session.show_frame(0);
+  if (pressed(front::key::end)) session.show_head();
+}
+
+}  // namespace neve::app::view::panels

@@ -1,0 +1,396 @@
+#include "app/view/panels/widgets.h"
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cfloat>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "app/support/text.h"
+#include "app/view/front/imgui_input.h"
+#include "app/view/panels/labels.h"
+#include "app/view/panels/slider_scale.h"
+
+namespace neve::app::view::panels {
+
+namespace {
+
+const ImVec4 changed_color{1.0f, 0.72f, 0.35f, 1.0f};
+/// Share of a row that the widget takes; its name takes the rest.
+constexpr float widget_share = 0.48f;
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// A pixel of dragging changes a value by this much.
+float speed_of(double value) {
+  return static_cast<float>(std::max(1e-5, 0.005 * std::abs(value)));
+}
+
+std::string format_of(const char* unit) {
+  return std::string("%.4g") + (unit[0] ? std::string(" ") + unit : "");
+}
+
+/// What was typed so far into a field with a value of this type.
+template <class T>
+struct Typing {
+  T value{};
+  bool has_strange_letters = false;  ///< that are no part of a number; ImGui leaves them out
+};
+
+/// Of the field that is active, by its address, and of one that was left in this frame.
+template <class T>
+std::map<std::string, Typing<T>>& typings() {
+  static std::map<std::string, Typing<T>> typings;
+  return typings;
+}
+
+/// Whether a key was typed in this frame that no number has: of "30 kPa" 30 would be left.
+bool has_strange_letters(bool is_whole) {
+  const std::string_view allowed = is_whole ? "0123456789+-*/ " : "0123456789+-*/.eE ";
+  const ImVector<ImWchar>& typed = ImGui::GetIO().InputQueueCharacters;
+  return std::any_of(typed.begin(), typed.end(), [&](ImWchar c) {
+    return c >= 32 && (c > 126 || allowed.find(static_cast<char>(c)) == std::string_view::npos);
+  });
+}
+
+/// Called before the widget: it goes on with what was typed so far.
+/// @return the value that counts meanwhile
+template <class T>
+T resume_typing(const Knob& knob, T& value, bool is_whole = false) {
+  const T before = value;
+  const auto typing = typings<T>().find(knob.address);
+  if (typing == typings<T>().end()) return before;
+  value = typing->second.value;
+  typing->second.has_strange_letters |= has_strange_letters(is_whole);
+  return before;
+}
+
+std::string refusal_text(const Knob& knob) {
+  const std::string bounds = knob.valid.text_of_bounds();
+  return "not taken; expected " + (bounds == "value" ? std::string("a plain number") : bounds) +
+         (knob.unit[0] ? std::string(" ") + knob.unit : "");
+}
+
+/// Called after the widget. Digits that are being typed into it count when they are complete: 30000
+/// is never 3. What is no valid value then is refused; a drag stops at the ends.
+/// @param bound moves a value between the ends
+/// @return whether the value is a new one now
+template <class T, class IsValid, class Bound>
+bool settle(const Knob& knob, const T& before, T& value, IsValid is_valid, Bound bound) {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  if (context.TempInputId != 0 && context.ActiveId == context.TempInputId &&
+      ImGui::IsItemActive()) {
+    typings<T>()[knob.address].value = value;
+    value = before;
+    return false;
+  }
+  const auto found = typings<T>().find(knob.address);
+  if (found == typings<T>().end()) {
+    value = bound(value);
+    return !(value == before);
+  }
+  const Typing<T> typed = found->second;
+  typings<T>().erase(found);
+  value = before;
+  if (front::is_key_pressed(front::key::escape)) return false;
+  if (typed.has_strange_letters || (!(typed.value == before) && !is_valid(typed.value))) {
+    knob.refusal = refusal_text(knob);
+    return false;
+  }
+  value = typed.value;
+  return !(value == before);
+}
+
+/// A turning arrow: what stands beside it waits for Reset.
+void draw_reset_mark() {
+  const float size = ImGui::GetFontSize(), r = 0.30f * size;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 middle(at.x + 0.4f * size, at.y + 0.5f * ImGui::GetFrameHeight());
+  const ImU32 color = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PathArcTo(middle, r, -0.6f, 4.2f, 16);
+  list.PathStroke(color, 0, 0.1f * size);
+  const ImVec2 tip_at(middle.x + r * std::cos(-0.6f), middle.y + r * std::sin(-0.6f));
+  const float a = 0.26f * size;
+  list.AddTriangleFilled(ImVec2(tip_at.x - a, tip_at.y), ImVec2(tip_at.x + 0.6f * a, tip_at.y),
+                         ImVec2(tip_at.x, tip_at.y - 1.1f * a), color);
+  ImGui::Dummy(ImVec2(0.8f * size, ImGui::GetFrameHeight()));
+}
+
+double clamped(double value, const scene::Valid& valid) {
+  if (!std::isfinite(value)) return std::isfinite(valid.min) ? least(valid) : 0.0;
+  return std::clamp(value, least(valid), greatest(valid));
+}
+
+}  // namespace
+
+bool edit_value(const Knob&, bool& value) {
+  return ImGui::Checkbox("##value", &value);
+}
+
+bool edit_value(const Knob& knob, double& value) {
+  const std::string format = format_of(knob.unit);
+  const SliderScale scale = slider_scale(knob.valid, usual_number(knob.address), value);
+  const double before = resume_typing(knob, value);
+  if (scale.kind == SliderScale::Kind::drag) {
+    const double low = least(knob.valid), high = greatest(knob.valid);
+    ImGui::DragScalar("##value", ImGuiDataType_Double, &value, speed_of(value), &low, &high,
+                      format.c_str());
+  } else {
+    const bool is_log = scale.kind == SliderScale::Kind::logarithmic;
+    ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &scale.low, &scale.high,
+                        format.c_str(), is_log ? ImGuiSliderFlags_Logarithmic : 0);
+  }
+  return settle(
+      knob, before, value, [&](double x) { return knob.valid.contains(x); },
+      [&](double x) {
+        if (scale.is_zero_at_low && x == scale.low && x != before) return 0.0;
+        return clamped(x, knob.valid);
+      });
+}
+
+bool edit_value(const Knob& knob, int& value) {
+  const auto bound = [](double x, int otherwise) {
+    return std::abs(x) < 2e9 ? static_cast<int>(x) : otherwise;
+  };
+  const int low = bound(knob.valid.min, -2000000000), high = bound(knob.valid.max, 2000000000);
+  const int before = resume_typing(knob, value, true);
+  ImGui::DragInt("##value", &value, std::max(0.1f, 0.005f * static_cast<float>(value)), low, high,
+                 knob.unit[0] ? (std::string("%d ") + knob.unit).c_str() : "%d");
+  return settle(
+      knob, before, value, [&](int x) { return low <= x && x <= high; },
+      [&](int x) { return std::clamp(x, low, high); });
+}
+
+bool edit_value(const Knob& knob, std::uint64_t& value) {
+  const auto low = static_cast<std::uint64_t>(std::max(0.0, knob.valid.min));
+  const auto high = static_cast<std::uint64_t>(std::min(9e15, knob.valid.max));
+  const std::uint64_t before = resume_typing(knob, value, true);
+  ImGui::DragScalar("##value", ImGuiDataType_U64, &value,
+                    std::max(0.1f, 0.005f * static_cast<float>(value)), &low, &high);
+  return settle(
+      knob, before, value, [&](std::uint64_t x) { return low <= x && x <= high; },
+      [&](std::uint64_t x) { return std::clamp(x, low, high); });
+}
+
+bool edit_value(const Knob&, std::string& value) {
+  char text[512];
+  std::snprintf(text, sizeof text, "%s", value.c_str());
+  if (!ImGui::InputText("##value", text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue))
+    return false;
+  if (value == text) return false;
+  value = text;
+  return true;
+}
+
+bool edit_value(const Knob& knob, sim::Vec3d& value) {
+  const double low = least(knob.valid), high = greatest(knob.valid);
+  std::array numbers{value.x(), value.y(), value.z()};
+  const auto before = resume_typing(knob, numbers);
+  ImGui::DragScalarN("##value", ImGuiDataType_Double, numbers.data(), 3,
+                     std::max(0.002f, speed_of(value.cwiseAbs().maxCoeff())), &low, &high, "%.4g");
+  const auto is_valid = [&](const auto& all) {
+    return std::all_of(all.begin(), all.end(), [&](double x) { return knob.valid.contains(x); });
+  };
+  const auto bound = [&](auto all) {
+    for (double& x : all) x = clamped(x, knob.valid);
+    return all;
+  };
+  if (!settle(knob, before, numbers, is_valid, bound)) return false;
+  value = {numbers[0], numbers[1], numbers[2]};
+  return true;
+}
+
+bool edit_value(const Knob&, std::vector<std::string>& value) {
+  std::string all;
+  for (const std::string& item : value) all += (all.empty() ? "" : ", ") + item;
+  ImGui::TextDisabled("%s", all.c_str());
+  return false;
+}
+
+bool edit_value(const Knob& knob, scene::PictureSize& value) {
+  std::array size{value.width, value.height};
+  const auto before = resume_typing(knob, size, true);
+  const int low = static_cast<int>(knob.valid.min), high = 16384;
+  ImGui::DragInt2("##value", size.data(), 1, low, high, "%d");
+  const auto is_valid = [&](const auto& all) {
+    return std::all_of(all.begin(), all.end(), [&](int x) { return low <= x && x <= high; });
+  };
+  const auto bound = [&](auto all) {
+    for (int& x : all) x = std::clamp(x, low, high);
+    return all;
+  };
+  if (!settle(knob, before, size, is_valid, bound)) return false;
+  value = {size[0], size[1]};
+  return true;
+}
+
+bool edit_value(const Knob& knob, scene::Range& value) {
+  std::array numbers{value.min, value.max};
+  const double low = knob.valid.min, high = knob.valid.max;
+  const float drag = speed_of(std::max(std::abs(value.min), std::abs(value.max)));
+  const auto before = resume_typing(knob, numbers);
+  ImGui::DragScalarN("##value", ImGuiDataType_Double, numbers.data(), 2, drag, &low, &high, "%.4g");
+  const auto is_valid = [&](const auto& ends) {
+    return knob.valid.contains(ends[0]) && knob.valid.contains(ends[1]) && ends[0] < ends[1];
+  };
+  // In a drag, on their way past each other, they stay as they were.
+  const auto bound = [&](const auto& ends) { return ends[0] < ends[1] ? ends : before; };
+  if (!settle(knob, before, numbers, is_valid, bound)) {
+    if (!knob.refusal.empty()) knob.refusal += ", the first number below the second";
+    return false;
+  }
+  value = {numbers[0], numbers[1]};
+  return true;
+}
+
+bool edit_choice(const Knob&, const std::vector<std::string>& choices, int& index) {
+  const int before = index;
+  const char* shown =
+      index < 0 ? "(own numbers)" : choices[static_cast<std::size_t>(index)].c_str();
+  if (!ImGui::BeginCombo("##value", shown)) return false;
+  for (std::size_t k = 0; k < choices.size(); ++k) {
+    if (ImGui::Selectable(choices[k].c_str(), static_cast<int>(k) == index))
+      index = static_cast<int>(k);
+    note_label(choices[k].c_str());
+  }
+  ImGui::EndCombo();
+  return index != before;
+}
+
+bool edit_choices(const Knob&, const std::vector<std::string>& choices, std::vector<bool>& chosen) {
+  std::string all;
+  for (std::size_t k = 0; k < choices.size(); ++k)
+    if (chosen[k]) all += (all.empty() ? "" : ", ") + choices[k];
+  if (!ImGui::BeginCombo("##value", all.empty() ? "none" : all.c_str())) return false;
+  bool is_set = false;
+  for (std::size_t k = 0; k < choices.size(); ++k) {
+    bool is_on = chosen[k];
+    if (ImGui::Checkbox(choices[k].c_str(), &is_on)) {
+      chosen[k] = is_on;
+      is_set = true;
+    }
+    note_label(choices[k].c_str());
+  }
+  ImGui::EndCombo();
+  return is_set;
+}
+
+bool KnobPanel::shows(const std::string& address, const char* help) const {
+  if (filter_.empty()) return true;
+  const std::string wanted = lower(filter_);
+  return lower(address).find(wanted) != std::string::npos ||
+         lower(help).find(wanted) != std::string::npos;
+}
+
+bool KnobPanel::is_changed(const std::string& address) const {
+  return std::find(changed_.begin(), changed_.end(), address) != changed_.end();
+}
+
+bool KnobPanel::has_changes_below(const std::string& prefix) const {
+  return std::any_of(changed_.begin(), changed_.end(),
+                     [&](const std::string& address) { return address.starts_with(prefix + "."); });
+}
+
+void KnobPanel::begin(const Knob& knob) {
+  for (const std::string& title : titles_) ImGui::TextDisabled("%s", title.c_str());
+  titles_.clear();
+  has_shown_ = true;
+  ImGui::PushID(knob.address.c_str());
+  ImGui::SetNextItemWidth(widget_share * ImGui::GetContentRegionAvail().x);
+}
+
+void KnobPanel::open_title(const std::string& title) {
+  titles_.push_back(title);
+}
+
+void KnobPanel::close_title() {
+  if (!titles_.empty()) titles_.pop_back();
+}
+
+void KnobPanel::end(const Knob& knob, const std::string& value) {
+  note_label(knob.address.c_str());
+  if (!knob.refusal.empty()) note({session::Edit::Kind::refused, knob.address, knob.refusal, 0});
+  const auto menu = [&](const char* label, session::Edit::Kind kind) {
+    if (ImGui::MenuItem(label)) note({kind, knob.address, value, 0});
+    note_label(label);
+  };
+  const auto context = [&](const char* id) {
+    if (!ImGui::BeginPopupContextItem(id)) return;
+    ImGui::TextDisabled("%s", knob.address.c_str());
+    menu("Back to the file's value", session::Edit::Kind::as_in_file);
+    menu("Set to the default", session::Edit::Kind::to_default);
+    menu("Sweep around this value", session::Edit::Kind::sweep);
+    menu("Copy the address", session::Edit::Kind::copy_address);
+    ImGui::EndPopup();
+  };
+  const auto explain = [&] {
+    if (!wants_tip()) return;
+    std::vector<TipLine> lines{{knob.address}, {knob.help}};
+    const std::string bounds = knob.valid.text_of_bounds();
+    if (!bounds.empty()) lines.push_back({bounds + " " + knob.unit, true});
+    lines.push_back(
+        {knob.is_live ? "live: from the next step on" : "takes effect with Reset", true});
+    show_tip(lines);
+  };
+  context("menu");
+  explain();
+  ImGui::SameLine(0, 0.5f * ImGui::GetFontSize());
+  if (!knob.is_live) {
+    draw_reset_mark();
+    explain();
+    ImGui::SameLine(0, 0.3f * ImGui::GetFontSize());
+  }
+  if (is_changed(knob.address))
+    ImGui::TextColored(changed_color, "%s", knob.label.c_str());
+  else
+    ImGui::TextUnformatted(knob.label.c_str());
+  context("label menu");
+  explain();
+  ImGui::PopID();
+}
+
+std::uint64_t KnobPanel::gesture() const {
+  return ImGui::GetActiveID();
+}
+
+bool Knobs::open(const std::string& address, const std::string& title, const char* help) {
+  ImGui::PushID(address.c_str());
+  // With a filter everything is open, and the title waits for something that matches.
+  if (panel_.is_filtered()) {
+    panel_.open_title(title);
+    return true;
+  }
+  const bool is_changed = panel_.has_changes_below(address);
+  if (is_changed) ImGui::PushStyleColor(ImGuiCol_Text, changed_color);
+  // What is turned most is open from the start.
+  if (address.starts_with("material.")) ImGui::SetNextItemOpen(true, ImGuiCond_Once);
+  const bool is_open = ImGui::TreeNode(title.c_str());
+  if (is_changed) ImGui::PopStyleColor();
+  note_label(address.c_str());
+  tip(help);
+  if (!is_open) ImGui::PopID();
+  return is_open;
+}
+
+void Knobs::close() {
+  if (panel_.is_filtered())
+    panel_.close_title();
+  else
+    ImGui::TreePop();
+  ImGui::PopID();
+}
+
+}  // namespace neve::app::view::panels

@@ -1,0 +1,58 @@
+#pragma once
+/// Turns what a person does into a script of input.
+
+#include <vector>
+
+#include "app/view/front/front.h"
+#include "app/view/replay/replay_script.h"
+
+namespace neve::app::view::replay {
+
+/// Places are written by the label of the widget there, where one is, so that the script still
+/// works when the panels are laid out anew; a press, moves and a release become a click or a drag.
+class InputRecorder {
+ public:
+  /// @param events of one frame of the panels
+  /// @param seconds since the first one
+  void note(const std::vector<front::InputEvent>& events, double seconds);
+
+  /// What the simulation has reached; steps that follow wait for it.
+  void set_progress(int frame, bool is_running);
+  void set_size(const front::ScreenSize& size);
+
+  /// What is finished.
+  const std::vector<ReplayStep>& steps() const { return steps_; }
+
+ private:
+  void note(const front::InputEvent& event);
+  void note_rest();
+  void note_move(const front::InputEvent& event);
+  void press(const front::InputEvent& event);
+  void release();
+  void note_key(const front::InputEvent& event);
+  void note_text(const std::string& text);
+  void note_wheel(const front::InputEvent& event);
+  /// Adds a step that began at `start`, after what it has to wait for.
+  void add(ReplayStep step, double start);
+  /// The last step, when it is of this kind and ended less than so long ago.
+  ReplayStep* last(ReplayStep::Kind kind, double seconds);
+
+  std::vector<ReplayStep> steps_;
+  double now_ = 0;         ///< s
+  double last_step_ = 0;   ///< s, when the last step ended
+  double last_move_ = -1;  ///< s; < 0: none since the last step
+  float x_ = 0, y_ = 0;    ///< of the mouse, px
+  front::ScreenSize size_{};
+
+  int button_ = -1;  ///< that is down, or -1
+  double pressed_at_ = 0;
+  front::Modifiers pressed_held_{};
+  std::vector<ReplayPlace> path_;  ///< of the mouse since the press, px
+  double path_end_ = 0;            ///< s
+  ReplayPlace pressed_on_;
+
+  int simulation_frame_ = -1, awaited_frame_ = 0;
+  bool is_running_ = false;
+};
+
+}  // namespace neve::app::view::replay

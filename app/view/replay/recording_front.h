@@ -1,0 +1,43 @@
+#pragma once
+/// Writes down what is done at another front, as a script that `neve view --replay` plays.
+
+#include <chrono>
+#include <filesystem>
+
+#include "app/view/front/front.h"
+#include "app/view/replay/input_recorder.h"
+
+namespace neve::app::view::replay {
+
+class RecordingFront : public front::Front {
+ public:
+  /// @param front must live longer
+  /// @param file of the script; written anew while it grows, so that it is there whatever happens
+  /// @throws IoError when it cannot be written
+  RecordingFront(front::Front& front, std::filesystem::path file);
+  ~RecordingFront() override;
+
+  std::string where() const override { return front_.where(); }
+  front::ScreenSize size() const override { return front_.size(); }
+  /// @throws IoError when the script cannot be written any more
+  std::vector<front::InputEvent> wait(double seconds) override;
+  void wake() override { front_.wake(); }
+  bool is_ready() const override { return front_.is_ready(); }
+  bool is_picture_wanted() const override { return front_.is_picture_wanted(); }
+  void show(render::Screen& screen) override { front_.show(screen); }
+  void set_progress(int frame, bool is_running) override;
+  void set_clipboard(const std::string& text) override { front_.set_clipboard(text); }
+  std::string clipboard() const override { return front_.clipboard(); }
+
+  /// Writes all of it. @throws IoError
+  void save();
+
+ private:
+  front::Front& front_;
+  std::filesystem::path file_;
+  InputRecorder recorder_;
+  std::chrono::steady_clock::time_point start_, saved_;
+  std::size_t saved_steps_ = 0;
+};
+
+}  // namespace neve::app::view::replay

@@ -1,0 +1,239 @@
+#include "app/view/replay/replay_front.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "app/output/atomic_file.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
+#include "render/frame/compose.h"
+#include "render/image/image.h"
+#include "render/screen.h"
+
+namespace neve::app::view::replay {
+
+namespace {
+
+using Step = ReplayStep::Kind;
+
+/// Panels need some frames for what they open; more is a label that does not come.
+constexpr int patience = 120;
+constexpr double frame_seconds = 1.0 / 60;
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+bool is_near(const panels::LabelPlace& a, const panels::LabelPlace& b) {
+  return std::abs(a.x - b.x) < 1 && std::abs(a.y - b.y) < 1 && std::abs(a.width - b.width) < 1 &&
+         std::abs(a.height - b.height) < 1;
+}
+
+render::Image cut(const render::Image& picture, int x, int y, int width, int height) {
+  return render::compose(width, height, {0, 0, 0}, {{-x, -y, picture}});
+}
+
+std::array<int, 4> whole_pixels(const panels::LabelPlace& place) {
+  return {static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)),
+          static_cast<int>(std::ceil(place.width)), static_cast<int>(std::ceil(place.height))};
+}
+
+}  // namespace
+
+ReplayFront::ReplayFront(std::vector<ReplayStep> steps, std::string file, Options options)
+    : steps_(std::move(steps)), file_(std::move(file)), options_(std::move(options)) {
+  panels::Labels::of_panels().clear();
+}
+
+void ReplayFront::give_up(const ReplayStep& step, const std::string& message,
+                          const std::string& hint) const {
+  const std::string where =
+      file_ + ":" + std::to_string(step.line) + ":" + std::to_string(step.column);
+  const std::size_t number = static_cast<std::size_t>(&step - steps_.data()) + 1;
+  throw Error(exit_check_failed,
+              where + ": error: step " + std::to_string(number) + " (" + name_of(step.kind) +
+                  "): " + message + (hint.empty() ? "" : "; " + hint),
+              where, hint);
+}
+
+void ReplayFront::give_up_label(const ReplayStep& step, const std::string& label) const {
+  const panels::Labels& labels = panels::Labels::of_panels();
+  const std::string nearest = nearest_name(label, labels.names());
+  std::string all;
+  for (const std::string& name : labels.names()) all += (all.empty() ? "" : ", ") + name;
+  const std::string hint = !nearest.empty() ? "did you mean \"" + nearest + "\"?"
+                           : all.empty()    ? "there are no labels at all"
+                                            : "there are: " + all;
+  const auto place = labels.find(label);
+  const std::string what = !place              ? " is not on the picture"
+                           : place->is_visible ? " does not come to rest"
+                                               : " cannot be scrolled into sight";
+  give_up(step, "\"" + label + "\"" + what, hint);
+}
+
+bool ReplayFront::is_picture_wanted() const {
+  if (screenshot_) return true;
+  if (frames_waited_ == 0) return false;
+  const ReplayStep& step = steps_[next_];
+  return step.kind != Step::wait_for || parse_goal(step.text)->kind == ReplayGoal::Kind::label;
+}
+
+std::vector<front::InputEvent> ReplayFront::wait(double seconds) {
+  if (is_idle_) {
+    std::unique_lock lock(mutex_);
+    const auto longest = std::chrono::duration<double>(std::clamp(seconds, 0.0, frame_seconds));
+    woken_.wait_for(lock, longest, [&] { return is_woken_; });
+    is_woken_ = false;
+  }
+  ++frame_;
+  if (options_.frames > 0 && frame_ > options_.frames) return closing();
+  while (frames_.empty() && next_ < steps_.size() && begin(steps_[next_])) {
+    ++next_;
+    frames_waited_ = 0;
+    seen_.clear();
+  }
+  is_idle_ = frames_.empty() || frames_.front().events.empty();
+  if (frames_.empty()) {
+    if (next_ == steps_.size() && options_.frames == 0) return closing();
+    return {};
+  }
+  NextFrame next = std::move(frames_.front());
+  frames_.pop_front();
+  if (next.screenshot) screenshot_ = next.screenshot;
+  return std::move(next.events);
+}
+
+std::vector<front::InputEvent> ReplayFront::closing() const {
+  if (next_ < steps_.size())
+    give_up(steps_[next_],
+            "not reached after " + std::to_string(options_.frames) + " frames of the panels",
+            "give it more with --frames");
+  return {{.kind = front::InputEvent::Kind::close}};
+}
+
+bool ReplayFront::begin(const ReplayStep& step) {
+  if (frame_ < step.at_frame) return false;
+  switch (step.kind) {
+    case Step::wait_for: {
+      if (is_reached(*parse_goal(step.text))) return true;
+      if (!is_in_time(step))
+        give_up(step, "no " + step.text + " within " + rough_text(step.seconds) + " s", {});
+      ++frames_waited_;
+      return false;
+    }
+    case Step::screenshot:
+      frames_ = {{}, {{}, &step}};
+      return true;
+    case Step::resize:
+      options_.size = step.size;
+      frames_.push_back({{{.kind = front::InputEvent::Kind::resize,
+                           .x = static_cast<float>(step.size.width),
+                           .y = static_cast<float>(step.size.height)}}});
+      return true;
+    case Step::drop: {
+      const std::string path = (options_.folder / step.text).lexically_normal().string();
+      frames_.push_back({{{.kind = front::InputEvent::Kind::drop, .text = path}}});
+      return true;
+    }
+    case Step::quit:
+      frames_.push_back({{{.kind = front::InputEvent::Kind::close}}});
+      next_ = steps_.size() - 1;  // what comes after it is left out
+      return true;
+    default:
+      return begin_on_places(step);
+  }
+}
+
+bool ReplayFront::begin_on_places(const ReplayStep& step) {
+  std::vector<ReplayPoint> points;
+  bool is_found = true;
+  std::string missing;
+  for (const ReplayPlace& place : step.places) {
+    panels::LabelPlace label;
+    if (place.label.empty()) {
+      points.push_back({place.x, place.y});
+    } else if (find(place.label, label)) {
+      points.push_back({label.x + place.x * label.width, label.y + place.y * label.height});
+    } else {
+      is_found = false;
+      missing = place.label;
+    }
+  }
+  if (!is_found && ++frames_waited_ > patience) give_up_label(step, missing);
+  if (!is_found) return false;
+  for (std::vector<front::InputEvent>& events : events_of(step, points))
+    frames_.push_back({std::move(events)});
+  return true;
+}
+
+/// In sight and where it was a frame ago: panels that open move at first.
+bool ReplayFront::find(const std::string& label, panels::LabelPlace& place) {
+  const std::optional<panels::LabelPlace> found = panels::Labels::of_panels().find(label);
+  if (!found) return false;
+  if (!found->is_visible) {
+    panels::Labels::of_panels().scroll_to(label);
+    return false;
+  }
+  const auto before = seen_.find(label);
+  const bool is_at_rest = before != seen_.end() && is_near(before->second, *found);
+  seen_[label] = place = *found;
+  return is_at_rest;
+}
+
+bool ReplayFront::is_reached(const ReplayGoal& goal) const {
+  switch (goal.kind) {
+    case ReplayGoal::Kind::frame:
+      return simulation_frame_ >= goal.frame;
+    case ReplayGoal::Kind::running:
+      return is_simulation_running_;
+    case ReplayGoal::Kind::paused:
+      return simulation_frame_ >= 0 && !is_simulation_running_;
+    case ReplayGoal::Kind::label:
+      return panels::Labels::of_panels().find(goal.label).has_value();
+  }
+  return false;
+}
+
+bool ReplayFront::is_in_time(const ReplayStep& step) {
+  if (frames_waited_ == 0) waiting_since_ = now();
+  return now() - waiting_since_ < step.seconds;
+}
+
+void ReplayFront::wake() {
+  const std::lock_guard lock(mutex_);
+  is_woken_ = true;
+  woken_.notify_all();
+}
+
+void ReplayFront::set_progress(int frame, bool is_running) {
+  simulation_frame_ = frame;
+  is_simulation_running_ = is_running;
+}
+
+void ReplayFront::show(render::Screen& screen) {
+  if (!screenshot_) return;
+  const ReplayStep& step = *std::exchange(screenshot_, nullptr);
+  render::Image picture = screen.pixels();
+  std::optional<std::array<int, 4>> crop = step.crop;
+  if (!step.crop_label.empty()) {
+    const auto place = panels::Labels::of_panels().find(step.crop_label);
+    if (!place || !place->is_visible) give_up_label(step, step.crop_label);
+    crop = whole_pixels(*place);
+  }
+  if (crop) {
+    const auto [x, y, width, height] = *crop;
+    if (x + width > picture.width || y + height > picture.height)
+      give_up(step,
+              "the part reaches beyond the picture of " + std::to_string(picture.width) + "x" +
+                  std::to_string(picture.height) + " px",
+              {});
+    picture = cut(picture, x, y, width, height);
+  }
+  const std::filesystem::path path = options_.folder / step.text;
+  output::make_folder(path.has_parent_path() ? path.parent_path() : ".");
+  output::write_file(path, render::encode_png(picture));
+}
+
+}  // namespace neve::app::view::replay

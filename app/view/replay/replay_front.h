@@ -1,0 +1,85 @@
+#pragma once
+/// Works `neve view` from a script, without a display: the same every time, in tests and for the
+/// pictures of the documentation.
+
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <mutex>
+
+#include "app/view/front/front.h"
+#include "app/view/panels/labels.h"
+#include "app/view/replay/replay_events.h"
+#include "app/view/replay/replay_script.h"
+
+namespace neve::app::view::replay {
+
+/// Each wait() is one frame of the panels and brings what happens in it; for the panels it should
+/// be 1/60 s long however long it takes. Where nothing happens it lets that time pass, unless
+/// wait() is not to take any, so that others get on with what they do.
+class ReplayFront : public front::Front {
+ public:
+  struct Options {
+    std::filesystem::path folder = ".";  ///< of screenshots and dropped files
+    int frames = 0;                      ///< so many, then close; 0: until the script ends
+    front::ScreenSize size{};
+  };
+
+  /// @param file of the script, for messages
+  ReplayFront(std::vector<ReplayStep> steps, std::string file, Options options);
+
+  std::string where() const override { return "replay of " + file_; }
+  front::ScreenSize size() const override { return options_.size; }
+  /// @throws Error of exit code 9 at a step that cannot be done: no such label, or the simulation
+  /// does not get there in time, or the frames end before the script does
+  std::vector<front::InputEvent> wait(double seconds) override;
+  void wake() override;
+  bool is_ready() const override { return true; }
+  /// For a screenshot, and where labels are waited for.
+  bool is_picture_wanted() const override;
+  /// @throws IoError when a screenshot cannot be written
+  void show(render::Screen& screen) override;
+  void set_progress(int frame, bool is_running) override;
+  void set_clipboard(const std::string& text) override { clipboard_ = text; }
+  std::string clipboard() const override { return clipboard_; }
+
+ private:
+  struct NextFrame {
+    std::vector<front::InputEvent> events{};
+    const ReplayStep* screenshot = nullptr;  ///< that the picture of this frame is for
+  };
+
+  bool begin(const ReplayStep& step);
+  bool begin_on_places(const ReplayStep& step);
+  bool is_in_time(const ReplayStep& step);
+  bool is_reached(const ReplayGoal& goal) const;
+  bool find(const std::string& label, panels::LabelPlace& place);
+  [[noreturn]] void give_up(const ReplayStep& step, const std::string& message,
+                            const std::string& hint) const;
+  [[noreturn]] void give_up_label(const ReplayStep& step, const std::string& label) const;
+  std::vector<front::InputEvent> closing() const;
+
+  std::vector<ReplayStep> steps_;
+  std::string file_;
+  Options options_;
+  std::size_t next_ = 0;  ///< step
+  int frame_ = 0;
+  std::deque<NextFrame> frames_;
+  const ReplayStep* screenshot_ = nullptr;  ///< that the next picture is for
+
+  int frames_waited_ = 0;                           ///< for the step that cannot begin yet
+  double waiting_since_ = 0;                        ///< s
+  bool is_idle_ = false;                            ///< nothing happens in this frame
+  std::map<std::string, panels::LabelPlace> seen_;  ///< labels of the step, a frame ago
+
+  std::string clipboard_;
+  int simulation_frame_ = -1;
+  bool is_simulation_running_ = false;
+
+  std::mutex mutex_;
+  std::condition_variable woken_;
+  bool is_woken_ = false;
+};
+
+}  // namespace neve::app::view::replay

@@ -1,0 +1,106 @@
+#pragma once
+/// The scene that a person works on: the file, what was changed since, and how to take it back.
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/scene/override.h"
+#include "app/scene/scene.h"
+
+namespace neve::app::view::session {
+
+/// When a change takes effect.
+enum class Effect {
+  display,  ///< what is drawn; the simulation knows nothing of it
+  live,     ///< from the next step on
+  restart   ///< from frame 0 on
+};
+Effect effect_of(const std::string& address);
+
+/// A value that is not the file's.
+struct ChangedValue {
+  std::string address;
+  std::string value;    ///< TOML
+  std::string in_file;  ///< TOML; empty: the file has none, and a default counts
+};
+
+class Document {
+ public:
+  /// Every view that the scene has or could have has a camera and ranges.
+  /// @param overrides of the command line
+  /// @throws what read_scene_text throws
+  Document(std::string file, std::string text, std::vector<scene::Override> overrides,
+           double coarsening);
+
+  const std::string& file() const { return file_; }
+  const std::string& text() const { return text_; }
+  const std::shared_ptr<const scene::Scene>& scene() const { return scene_; }
+  const std::vector<scene::Override>& command_line() const { return overrides_; }
+  double coarsening() const { return coarsening_; }
+  /// Those of the command line, then the edits.
+  std::vector<scene::Override> all_overrides() const { return with(edits_); }
+
+  /// A material's preset is remembered as the numbers that it changes.
+  /// @param value TOML
+  /// @param gesture changes with the same number, not 0, are taken back together
+  /// @throws SceneError, UsageError, and then nothing has changed
+  void set(const std::string& address, const std::string& value, std::uint64_t gesture = 0);
+  /// Back to what the file and the command line say: of one address, or with a '.' at its end of
+  /// all below it, or with "" of all.
+  void forget(const std::string& address);
+
+  bool can_undo() const { return !done_.empty(); }
+  bool can_redo() const { return !undone_.empty(); }
+  /// @return the address that changed, or that of one of several
+  std::string undo();
+  std::string redo();
+
+  /// In the order in which they were first changed.
+  std::vector<ChangedValue> changes() const;
+  bool is_changed(const std::string& address) const;
+  const std::vector<scene::Override>& edits() const { return edits_; }
+
+  /// Addresses that differ between two moments of the document.
+  static std::vector<std::string> difference(const std::vector<scene::Override>& before,
+                                             const std::vector<scene::Override>& after);
+
+  /// The value that an address has without edits, TOML; nothing where the file has none.
+  std::optional<std::string> in_file(const std::string& address) const;
+  std::optional<std::string> default_of(const std::string& address) const;
+
+  /// The scene with other edits than the document's. @throws SceneError, UsageError
+  std::shared_ptr<const scene::Scene> scene_with(const std::vector<scene::Override>& edits) const {
+    return read(text_, edits);
+  }
+
+  /// The same edits on another text: the file was changed meanwhile.
+  /// @throws SceneError, UsageError when they do not fit, and then nothing has changed
+  void reload(std::string text);
+
+ private:
+  std::vector<scene::Override> with(const std::vector<scene::Override>& edits) const;
+  std::shared_ptr<const scene::Scene> read(const std::string& text,
+                                           const std::vector<scene::Override>& edits) const;
+  std::optional<std::string> in_preset(const scene::toml::Table& root,
+                                       const std::string& address) const;
+  void become(std::vector<scene::Override> edits);
+
+  std::string file_, text_;
+  std::vector<scene::Override> overrides_;
+  double coarsening_;
+  std::vector<scene::Override> edits_;
+  std::vector<std::vector<scene::Override>> done_, undone_;
+  std::uint64_t gesture_ = 0;
+  std::shared_ptr<const scene::Scene> scene_;
+  // Found once, by a dry run: pictures must not jump while somebody turns a knob.
+  std::optional<scene::CameraSettings> camera_;
+  std::map<std::string, scene::CameraSettings> view_cameras_;
+};
+
+}  // namespace neve::app::view::session

@@ -1,0 +1,20 @@
+#pragma once
+/// What panels hand on.
+
+#include <cstdint>
+#include <string>
+
+namespace neve::app::view::session {
+
+/// What a person did to a parameter.
+struct Edit {
+  enum class Kind { set, as_in_file, to_default, sweep, copy_address, refused };
+
+  Kind kind = Kind::set;
+  std::string address;
+  /// TOML: of set, and the present one of sweep. Of refused: why nothing was changed.
+  std::string value;
+  std::uint64_t gesture = 0;  ///< the same while one widget is held
+};
+
+}  // namespace neve::app::view::session

@@ -1,0 +1,103 @@
+#pragma once
+/// What a session shows of its simulation at one moment: immutable, shared between threads.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/health/diagnosis.h"
+#include "app/picture/snapshot.h"
+#include "sim/types/stage.h"
+
+namespace neve::app::view::session {
+
+/// One moment of a run, for plots that are finer than frames.
+struct RunSample {
+  double time = 0;                                ///< s
+  double kinetic_energy = 0, elastic_energy = 0;  ///< J
+  sim::Vec3d momentum{0, 0, 0};                   ///< kg m/s
+  double max_speed = 0;                           ///< m/s
+  double min_J_P = 1, max_J_P = 1;
+  double dt = 0;                              ///< s, that the settings choose next
+  sim::DtLimit limit = sim::DtLimit::max_dt;  ///< that rules it
+  double max_depth = 0;                       ///< m, of the particle deepest in a collider
+};
+
+/// A quantity of many nodes or particles in a few numbers.
+struct QuantitySummary {
+  std::string name, unit;
+  double min = 0, mean = 0, max = 0;  ///< of magnitudes
+  std::size_t strange = 0;            ///< how many are outside of what is expected
+  std::optional<scene::Range> expected;
+  std::string why;
+};
+
+/// A step that is looked at stage by stage, on a copy.
+struct StageLook {
+  sim::Stage stage = sim::Stage::rasterize;  ///< the last that was done
+  double dt = 0;                             ///< s, of the step
+  bool is_of_nodes = false;
+  std::size_t rows = 0, feathers = 0;
+  std::vector<QuantitySummary> quantities;
+  std::array<double, sim::stage_names.size()> seconds{};  ///< of every stage of the step
+};
+
+/// What is read out: a particle by its id, or the node that is nearest to a place.
+using ProbeTarget = std::variant<std::size_t, sim::Vec3d>;
+
+struct ProbeRow {
+  std::string name, unit;
+  std::vector<double> values;  ///< 1, 3 or 9
+  double magnitude = 0;
+  std::optional<scene::Range> expected;
+  std::string why;
+  bool is_strange = false;
+};
+
+struct ProbeReading {
+  ProbeTarget target;
+  sim::Vec3d place{0, 0, 0};  ///< m
+  bool is_node = false;
+  std::string after;  ///< the stage that was done last, or ""
+  std::vector<ProbeRow> rows;
+};
+
+struct LiveFrame {
+  std::uint64_t number = 0;                   ///< counts what was published
+  std::shared_ptr<const scene::Scene> scene;  ///< that is simulated, colliders where they are
+  picture::Snapshot snapshot;
+  std::vector<picture::PlotSample> history;  ///< one per frame; snapshot.history shows these
+  std::shared_ptr<const std::vector<RunSample>> samples;
+  std::vector<std::size_t> body_end;
+  double spacing = 0.01;  ///< m, between packed particles
+
+  int frame = 0;  ///< the last one that was passed
+  bool is_frame_end = true;
+  std::size_t steps = 0;  ///< since the start
+  bool is_running = false;
+  bool is_older = false;  ///< not where the run is: a kept frame
+  int head = 0;           ///< frame where the run is
+  std::vector<int> kept;
+  std::uint64_t kept_bytes = 0, kept_budget = 0;
+
+  std::uint64_t state_hash = 0;  ///< at the end of a frame
+  sim::PhaseSeconds phases;      ///< of the steps since the start
+  double speed = 0;              ///< simulated over wall seconds while it ran last
+  std::uint64_t memory = 0;      ///< bytes of the simulation
+  int threads = 1;
+  std::string simd;
+
+  std::optional<sim::Divergence> divergence;
+  std::optional<health::Diagnosis> diagnosis;
+  std::optional<StageLook> stage;
+  std::optional<ProbeReading> probe;
+  std::optional<ProbeTarget> probed;  ///< what was looked for
+  std::string error;                  ///< why the last thing asked for was not done; empty: it was
+  std::uint64_t errors = 0;           ///< how many there were, to tell a new one from the same
+};
+
+}  // namespace neve::app::view::session

@@ -1,0 +1,120 @@
+#include "app/view/session/look.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/setup/auto_ranges.h"
+
+namespace neve::app::view::session {
+
+namespace {
+
+QuantitySummary summary_of(const dump::Listing& listing, const dump::Quantity& quantity) {
+  QuantitySummary summary{quantity.name,     quantity.unit, 0, 0, 0, 0,
+                          quantity.expected, quantity.why};
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < quantity.rows(); ++row) {
+    if (row < listing.is_feather.size() && listing.is_feather[row]) continue;
+    const double value = quantity.magnitude(row);
+    if (quantity.is_strange(row)) ++summary.strange;
+    if (!std::isfinite(value)) continue;
+    summary.min = count == 0 ? value : std::min(summary.min, value);
+    summary.max = count == 0 ? value : std::max(summary.max, value);
+    sum += value;
+    ++count;
+  }
+  if (count > 0) summary.mean = sum / static_cast<double>(count);
+  return summary;
+}
+
+std::optional<std::size_t> nearest_row(const dump::Listing& listing, const sim::Vec3d& place) {
+  std::optional<std::size_t> nearest;
+  for (std::size_t row = 0; row < listing.place.size(); ++row)
+    if (!nearest || (listing.place[row] - place).squaredNorm() <
+                        (listing.place[*nearest] - place).squaredNorm())
+      nearest = row;
+  return nearest;
+}
+
+bool has_nodes(sim::Stage stage) {
+  using enum sim::Stage;
+  return stage == rasterize || (stage >= elastic_forces && stage <= implicit_solve);
+}
+
+}  // namespace
+
+scene::View view_of_stage(const scene::Scene& scene, scene::View view, sim::Stage stage) {
+  using enum sim::Stage;
+  std::optional<scene::VectorField> field;
+  if (stage == rasterize) field = scene::VectorField::velocity;
+  if (stage == elastic_forces) field = scene::VectorField::force;
+  if (stage == grid_velocities) field = scene::VectorField::v_free;
+  if (stage == grid_collisions) field = scene::VectorField::v_star;
+  if (stage == implicit_solve) field = scene::VectorField::v_new;
+  if (!field) return view;
+  view.slice.field = *field;
+  view.slice.range = setup::automatic_range(scene, *field);
+  return view;
+}
+
+StageLook stage_look(const dump::Inside& inside, sim::Stage stage) {
+  const dump::Listing listing = dump::list_stage(inside, stage);
+  StageLook look;
+  look.stage = stage;
+  look.dt = inside.dt;
+  look.is_of_nodes = listing.is_of_nodes;
+  look.rows = listing.place.size();
+  look.feathers = listing.feathers();
+  look.seconds = inside.step.seconds;
+  for (const dump::Quantity& quantity : listing.quantities)
+    if (quantity.name != "node" && quantity.name != "id")  // which they are
+      look.quantities.push_back(summary_of(listing, quantity));
+  return look;
+}
+
+void show_after_stage(const dump::Inside& inside, sim::Stage stage, picture::Snapshot& snapshot) {
+  using enum sim::Stage;
+  const sim::StagedStep& step = inside.step;
+  if (stage >= deformation) {
+    snapshot.particles.F_E = step.after.F_E;
+    snapshot.particles.J_P = step.after.J_P;
+  }
+  if (stage >= particle_velocities) snapshot.particles.v = step.v_before_collision;
+  if (stage >= particle_collisions) snapshot.particles.v = step.after.v;
+  if (stage >= advection) snapshot.particles.x = step.after.x;
+}
+
+std::optional<ProbeReading> read_probe(const dump::Inside& inside, const ProbeTarget& target,
+                                       const std::optional<sim::Stage>& stage) {
+  const bool is_node = std::holds_alternative<sim::Vec3d>(target);
+  // Of a node before the step there is what the step rasterises.
+  const std::optional<sim::Stage> after =
+      is_node ? std::optional(stage.value_or(sim::Stage::implicit_solve)) : stage;
+  const dump::Listing listing = after && has_nodes(*after) == is_node
+                                    ? dump::list_stage(inside, *after)
+                                : is_node ? dump::list_stage(inside, sim::Stage::implicit_solve)
+                                          : dump::list_state(inside);
+  std::optional<std::size_t> row;
+  if (is_node)
+    row = nearest_row(listing, std::get<sim::Vec3d>(target));
+  else
+    row = inside.step.after.index_of(std::get<std::size_t>(target));
+  if (!row) return std::nullopt;
+  ProbeReading reading{target, listing.place[*row], is_node, after ? name(*after) : "", {}};
+  for (const dump::Quantity& quantity : listing.quantities) {
+    const auto width = static_cast<std::size_t>(quantity.components);
+    ProbeRow out{quantity.name,
+                 quantity.unit,
+                 {quantity.values.begin() + static_cast<std::ptrdiff_t>(*row * width),
+                  quantity.values.begin() + static_cast<std::ptrdiff_t>((*row + 1) * width)},
+                 quantity.magnitude(*row),
+                 quantity.expected,
+                 quantity.why,
+                 quantity.is_strange(*row)};
+    reading.rows.push_back(std::move(out));
+  }
+  return reading;
+}
+
+}  // namespace neve::app::view::session

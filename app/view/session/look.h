@@ -1,0 +1,24 @@
+#pragma once
+/// The inside of a step in a few numbers, for panels.
+
+#include <optional>
+
+#include "app/dump/quantities.h"
+#include "app/view/session/live_frame.h"
+
+namespace neve::app::view::session {
+
+StageLook stage_look(const dump::Inside& inside, sim::Stage stage);
+
+/// The view with arrows of what a stage works out, where it works out a field of arrows.
+scene::View view_of_stage(const scene::Scene& scene, scene::View view, sim::Stage stage);
+
+/// The particles as a stage leaves them; stress stays that of the step's beginning.
+void show_after_stage(const dump::Inside& inside, sim::Stage stage, picture::Snapshot& snapshot);
+
+/// @param stage the last one that was done; nothing: before the step
+/// @return nothing where there is no such particle, or no node
+std::optional<ProbeReading> read_probe(const dump::Inside& inside, const ProbeTarget& target,
+                                       const std::optional<sim::Stage>& stage);
+
+}  // namespace neve::app::view::session

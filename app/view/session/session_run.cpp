@@ -1,0 +1,178 @@
+/// The part of a session that simulates: frame by frame, and on from kept states.
+
+#include "app/setup/plan.h"
+#include "app/setup/seed_scene.h"
+#include "app/setup/snow_pieces.h"
+#include "app/support/clock.h"
+#include "app/view/session/session.h"
+#include "sim/retry.h"
+
+namespace neve::app::view::session {
+
+namespace {
+
+/// Sampling takes at most one part in so many of the time.
+constexpr int sampling_share = 20;
+
+/// The poll of a simulation has no argument.
+thread_local Session* stepping = nullptr;
+
+}  // namespace
+
+void Session::start(std::shared_ptr<const scene::Scene> scene) {
+  const setup::Plan plan =
+      setup::make_plan(*scene, {0, scene->frames}, setup::Quality::preview, options_.threads);
+  setup::check_limits(*scene, plan);
+  std::vector<std::size_t> body_end;
+  sim::ParticleArrays particles = setup::seed_scene(*scene, &body_end);
+  auto simulation = std::make_unique<sim::Simulation>(
+      setup::make_simulation(*scene, particles, options_.threads));
+  // From here on nothing fails: the old run may go.
+  simulation_ = std::move(simulation);
+  seeded_ = std::move(particles);
+  scene_ = std::move(scene);
+  colliders_ = simulation_->colliders();
+  body_end_ = std::move(body_end);
+  spacing_ = setup::count_snow(*scene_, seeded_.x.size()).spacing;
+  frame_ = 0;
+  advance_ = {};
+  advance_is_new_ = true;
+  steps_of_frame_ = 0;
+  changes_.clear();
+  history_.clear();
+  samples_ = std::make_shared<std::vector<RunSample>>();
+  kept_.clear();
+  head_.reset();
+  stage_.reset();
+  diagnosis_.reset();
+  error_.clear();
+  speed_ = 0;
+  history_.push_back(picture::plot_sample(0, note_sample(), {}));
+  keep();
+}
+
+void Session::set_goal(Goal goal) {
+  if (goal != Goal::none) {
+    leave_older();
+    stop_looking_inside();
+    if (simulation_->divergence()) return;
+    if (goal == Goal::end && frame_ >= scene_->frames) return;
+    measured_at_ = Clock::now();
+    measured_time_ = simulation_->time();
+  }
+  goal_ = goal;
+}
+
+void Session::stop_looking_inside() {
+  stage_.reset();
+}
+
+void Session::leave_older() {
+  if (!head_) return;
+  const KeptFrame head = std::move(*head_);
+  head_.reset();
+  load(head);
+}
+
+/// The simulation as it was then. With other parameters since, it is made anew: a state goes on
+/// only with those that it had.
+void Session::load(const KeptFrame& kept) {
+  if (kept.scene != scene_) {
+    auto simulation = std::make_unique<sim::Simulation>(
+        setup::make_simulation(*kept.scene, seeded_, options_.threads, kept.colliders));
+    simulation->restore(kept.state);
+    simulation_ = std::move(simulation);
+  } else {
+    simulation_->restore(kept.state);
+  }
+  scene_ = kept.scene;
+  colliders_ = kept.colliders;
+  frame_ = kept.frame;
+  advance_ = kept.advance;
+  steps_of_frame_ = kept.steps_of_frame;
+  advance_is_new_ = kept.steps == kept.steps_of_frame;
+  diagnosis_.reset();
+}
+
+void Session::keep() {
+  kept_.add(state_now());
+}
+
+KeptFrame Session::state_now() const {
+  return {frame_, simulation_->steps(), steps_of_frame_, simulation_->save(),
+          scene_, colliders_,           advance_};
+}
+
+bool Session::poll() {
+  stepping->after_step();
+  return stepping->goal_ == Goal::step || stepping->has_commands_ || stepping->is_ending_;
+}
+
+void Session::after_step() {
+  if (is_publication_due()) {
+    const Clock::time_point now = Clock::now();
+    if (const double wall = seconds_since(measured_at_); wall > 0.25) {
+      speed_ = (simulation_->time() - measured_time_) / wall;
+      measured_at_ = now;
+      measured_time_ = simulation_->time();
+    }
+    if (now - sampled_at_ > sampling_share * sampling_took_) note_sample();
+    publish();
+  }
+}
+
+void Session::advance() {
+  const double time = (frame_ + 1) / scene_->fps;
+  if (advance_is_new_) advance_ = {};
+  advance_is_new_ = false;
+  stepping = this;
+  const bool may_go_back =
+      scene_->solver.on_divergence == sim::OnDivergence::retry && goal_ != Goal::step;
+  sim::AdvanceReport report;
+  std::vector<sim::Retry> retries;
+  if (may_go_back) {
+    // What may go back to the beginning of its frame is not stopped inside of it.
+    report = sim::advance_retrying(
+        *simulation_, time,
+        [] {
+          stepping->after_step();
+          return stepping->is_ending_.load();
+        },
+        retries);
+  } else {
+    report = simulation_->advance_to(time, poll);
+  }
+  stepping = nullptr;
+  advance_.append(report);
+  if (simulation_->divergence()) {
+    note_sample();
+    diagnosis_ = health::diagnose(*scene_, *simulation_->divergence());
+    goal_ = Goal::none;
+    return;
+  }
+  if (simulation_->time() >= time * (1 - 1e-12)) reach_frame();
+  if (goal_ == Goal::step) {
+    note_sample();
+    goal_ = Goal::none;
+  }
+}
+
+void Session::reach_frame() {
+  ++frame_;
+  history_.resize(static_cast<std::size_t>(frame_));
+  const sim::Summary summary = note_sample();
+  history_.push_back(picture::plot_sample(frame_ / scene_->fps, summary, advance_));
+  advance_is_new_ = true;
+  steps_of_frame_ = simulation_->steps();
+  keep();
+  if (goal_ == Goal::frame || frame_ == scene_->frames) goal_ = Goal::none;
+  if (is_recording_) publish();
+}
+
+/// Until the end of the frame.
+double Session::seconds_left() const {
+  const double left = (frame_ + 1) / scene_->fps - simulation_->time();
+  return left > 0 ? left : 1 / scene_->fps;
+}
+
+}  // namespace neve::app::view::session

@@ -1,0 +1,289 @@
+#include "app/view/session/workbench.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "app/output/atomic_file.h"
+#include "app/run/run_json.h"
+#include "app/scene/edit_text.h"
+#include "app/scene/flat.h"
+#include "app/scene/read.h"
+#include "app/scene/toml/error.h"
+#include "app/support/version.h"
+#include "app/sweep/plan/around.h"
+#include "app/view/session/production.h"
+
+namespace neve::app::view::session {
+
+namespace {
+
+constexpr std::size_t most_messages = 100;
+
+std::string text_of(const std::exception& error) {
+  if (const auto* usage = dynamic_cast<const scene::toml::UsageError*>(&error))
+    return usage->message + (usage->hint.empty() ? "" : "; " + usage->hint);
+  return error.what();
+}
+
+void put(std::vector<scene::Override>& edits, const std::string& address,
+         const std::vector<scene::Override>& from) {
+  std::erase_if(edits, [&](const scene::Override& edit) { return edit.address == address; });
+  for (const scene::Override& edit : from)
+    if (edit.address == address) edits.push_back(edit);
+}
+
+std::filesystem::file_time_type time_of(const std::string& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  return error ? std::filesystem::file_time_type{} : time;
+}
+
+}  // namespace
+
+Document open_document(const std::string& file, const std::vector<std::string>& overrides,
+                       double coarsening) {
+  std::vector<scene::Override> parsed;
+  for (const std::string& argument : overrides) parsed.push_back(scene::parse_override(argument));
+  return Document(file, scene::read_toml_file(file), std::move(parsed), coarsening);
+}
+
+Workbench::Workbench(Document document, WorkbenchOptions options, std::function<void()> wake)
+    : document_(std::move(document)),
+      options_(std::move(options)),
+      file_time_(time_of(document_.file())),
+      session_(std::make_unique<Session>(document_.scene(), options_.session, std::move(wake))) {}
+
+std::vector<std::string> Workbench::overrides() const {
+  std::vector<std::string> all = options_.overrides;
+  for (const scene::Override& edit : at_start_)
+    if (effect_of(edit.address) != Effect::display) all.push_back(edit.address + "=" + edit.value);
+  return all;
+}
+
+/// A mistake is a message, never the end.
+template <class Act>
+void Workbench::attempt(Act act) {
+  const std::vector<scene::Override> before = document_.edits();
+  try {
+    act();
+  } catch (const std::exception& error) {
+    say(Message::Kind::error, text_of(error));
+    return;
+  }
+  take_over(before);
+}
+
+void Workbench::edit(const Edit& edit) {
+  switch (edit.kind) {
+    case Edit::Kind::set:
+      set(edit.address, edit.value, edit.gesture);
+      return;
+    case Edit::Kind::as_in_file:
+      forget(edit.address);
+      return;
+    case Edit::Kind::to_default:
+      if (const auto value = document_.default_of(edit.address))
+        set(edit.address, *value);
+      else
+        say(Message::Kind::note, edit.address + " has no default; it is automatic or required");
+      return;
+    case Edit::Kind::sweep:
+      sweep_around(edit.address);
+      return;
+    case Edit::Kind::refused:
+      say(Message::Kind::error, edit.address + ": " + edit.value);
+      return;
+    case Edit::Kind::copy_address:
+      return;  // the clipboard belongs to whoever looks
+  }
+}
+
+void Workbench::set(const std::string& address, const std::string& value, std::uint64_t gesture) {
+  attempt([&] { document_.set(address, value, gesture); });
+}
+
+void Workbench::undo() {
+  attempt([&] { document_.undo(); });
+}
+
+void Workbench::redo() {
+  attempt([&] { document_.redo(); });
+}
+
+void Workbench::forget(const std::string& address) {
+  attempt([&] { document_.forget(address); });
+}
+
+/// The simulation learns what it can of the difference.
+void Workbench::take_over(const std::vector<scene::Override>& before) {
+  bool needs_restart = false, is_live = false;
+  for (const std::string& address : Document::difference(before, document_.edits())) {
+    const Effect effect = effect_of(address);
+    needs_restart = needs_restart || effect == Effect::restart;
+    if (effect != Effect::live) continue;
+    put(running_, address, document_.edits());
+    is_live = true;
+  }
+  const std::shared_ptr<const LiveFrame> frame = session_->latest();
+  if (needs_restart && frame && frame->steps == 0 && !frame->is_older && frame->head == 0) {
+    reset();
+    return;
+  }
+  if (is_live) apply_running();
+}
+
+void Workbench::apply_running() {
+  try {
+    session_->apply(document_.scene_with(running_));
+  } catch (const std::exception& error) {
+    say(Message::Kind::warning,
+        "waits for Reset, together with what it belongs to: " + text_of(error));
+  }
+}
+
+std::vector<std::string> Workbench::waiting_for_reset() const {
+  std::vector<std::string> waiting;
+  for (const std::string& address : Document::difference(running_, document_.edits()))
+    if (effect_of(address) != Effect::display) waiting.push_back(address);
+  return waiting;
+}
+
+void Workbench::reset() {
+  running_ = at_start_ = document_.edits();
+  session_->reset(document_.scene());
+}
+
+void Workbench::continue_from_here() {
+  session_->continue_from_here();
+  apply_running();
+}
+
+scene::Scene Workbench::display_scene(const LiveFrame& live) const {
+  scene::Scene scene = *live.scene;
+  const scene::Scene& mine = *document_.scene();
+  scene.title = mine.title;
+  scene.light = mine.light;
+  scene.background = scene::Background::gradient;
+  for (std::size_t k = 0; k < std::min(scene.colliders.size(), mine.colliders.size()); ++k)
+    scene.colliders[k].style = mine.colliders[k].style;
+  return scene;
+}
+
+bool Workbench::has_file_changed() const {
+  const auto now = time_of(document_.file());
+  return now != std::filesystem::file_time_type{} && now != file_time_;
+}
+
+void Workbench::reload() {
+  const auto time = time_of(document_.file());  // before it is read: a later change is another one
+  reload_error_.clear();
+  try {
+    document_.reload(scene::read_toml_file(document_.file()));
+  } catch (const std::exception& error) {
+    reload_error_ = text_of(error);
+    failed_time_ = time;
+    say(Message::Kind::error, "not read again: " + reload_error_);
+    return;
+  }
+  file_time_ = time;
+  reset();
+  say(Message::Kind::note, "read " + document_.file() + " again; the run starts anew");
+}
+
+std::string Workbench::reload_error() const {
+  return failed_time_ == time_of(document_.file()) ? reload_error_ : "";
+}
+
+void Workbench::keep_file() {
+  file_time_ = time_of(document_.file());
+}
+
+void Workbench::save_scene(const std::filesystem::path& file) {
+  try {
+    const std::string text =
+        scene::edit_scene_text(document_.text(), document_.all_overrides(), document_.file(),
+                               std::filesystem::path(document_.file()).parent_path().string());
+    output::make_folder(file.parent_path());
+    output::write_file(file, text);
+    std::error_code error;
+    if (std::filesystem::equivalent(file, document_.file(), error))
+      file_time_ = time_of(document_.file());
+    say(Message::Kind::note, "saved the scene with its changes as " + file.string());
+  } catch (const std::exception& error) {
+    say(Message::Kind::error, "the scene was not saved: " + text_of(error));
+  }
+}
+
+/// What the simulation was told after its first step.
+std::vector<std::string> Workbench::changed_while_running() const {
+  std::vector<std::string> changed = Document::difference(at_start_, running_);
+  const std::shared_ptr<const LiveFrame> live = session_->latest();
+  const auto was_before_the_first_step = [&](const std::string& address) {
+    bool is_told = false, is_later = false;
+    for (const scene::LiveChange& change : live->snapshot.changes) {
+      if (change.address != address) continue;
+      is_told = true;
+      is_later = is_later || change.step > 0;
+    }
+    return is_told && !is_later;
+  };
+  std::erase_if(changed, [&](const std::string& address) {
+    return !scene::concerns_simulation(address) || was_before_the_first_step(address);
+  });
+  return changed;
+}
+
+std::filesystem::path Workbench::sweep_around(const std::string& address) {
+  try {
+    const std::filesystem::path file =
+        options_.folder / ("sweep_" + plain_file_name(address) + ".toml");
+    const std::vector<std::string> later = changed_while_running();
+    write_sweep_around(file, document_, address, later);
+    std::string text = "wrote " + file.string() + "; " +
+                       sweep::plan::sweep_command(file.string(), document_.coarsening()) +
+                       " makes its runs";
+    for (const std::string& changed : later)
+      text += (&changed == &later.front() ? "; changed while it ran, start values of all of them: "
+                                          : ", ") +
+              changed;
+    say(Message::Kind::note, text);
+    return file;
+  } catch (const std::exception& error) {
+    say(Message::Kind::error, "no sweep: " + text_of(error));
+    return {};
+  }
+}
+
+std::string Workbench::command() const {
+  return render_command(document_);
+}
+
+run::PictureRecord Workbench::picture_record(const LiveFrame& live, const scene::View& view) const {
+  std::vector<scene::Override> edits = at_start_;
+  for (const scene::Override& edit : document_.edits())
+    if (effect_of(edit.address) == Effect::display) put(edits, edit.address, document_.edits());
+  scene::Scene scene = *document_.scene_with(edits);
+  scene.views = {view};
+  scene.mosaics.clear();
+  run::PictureRecord record;
+  record.scene = scene::write_scene(scene);
+  record.overrides = overrides();
+  record.coarsening = document_.coarsening();
+  record.seed = scene.seed;
+  record.version = version;
+  record.frame = live.frame;
+  record.view = view.name;
+  record.quality = setup::name(options_.quality);
+  record.files = run::hash_files(scene);
+  record.changes = live.snapshot.changes;
+  return record;
+}
+
+void Workbench::say(Message::Kind kind, std::string text) {
+  if (kind == Message::Kind::error) ++errors_said_;
+  if (!messages_.empty() && messages_.back().text == text) return;
+  messages_.push_back({kind, std::move(text)});
+  if (messages_.size() > most_messages) messages_.pop_front();
+}
+
+}  // namespace neve::app::view::session

@@ -1,0 +1,107 @@
+#pragma once
+/// What a person does to a scene while it runs, whatever it is done with: mouse, keys or a script.
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/run/picture_record.h"
+#include "app/view/session/document.h"
+#include "app/view/session/edit.h"
+#include "app/view/session/session.h"
+
+namespace neve::app::view::session {
+
+struct WorkbenchOptions {
+  SessionOptions session;
+  std::vector<std::string> overrides;  ///< of the command line, as they were given
+  setup::Quality quality = setup::Quality::preview;
+  std::filesystem::path folder;  ///< for pictures, sequences, scenes and sweeps
+};
+
+struct Message {
+  enum class Kind { note, warning, error };
+  Kind kind = Kind::note;
+  std::string text;
+};
+
+class Workbench {
+ public:
+  /// @param wake called from other threads when there is something new to see
+  Workbench(Document document, WorkbenchOptions options, std::function<void()> wake);
+
+  const Document& document() const { return document_; }
+  Session& session() { return *session_; }
+  const std::filesystem::path& folder() const { return options_.folder; }
+  setup::Quality quality() const { return options_.quality; }
+  /// That the run started with: of the command line and the document. Captions list them.
+  std::vector<std::string> overrides() const;
+
+  /// Does it at once where that is possible; what needs a restart waits for reset(), but at the
+  /// very beginning of a run, where nothing is lost. Errors become messages.
+  void edit(const Edit& edit);
+  void set(const std::string& address, const std::string& value, std::uint64_t gesture = 0);
+  void undo();
+  void redo();
+  void forget(const std::string& address);
+  /// Whether values were changed that only count from frame 0 on.
+  std::vector<std::string> waiting_for_reset() const;
+  void reset();
+  /// The run goes on from the older frame that is shown, with the parameters as they are now.
+  void continue_from_here();
+
+  /// The scene as a picture shows it: the one that runs, with the views and the light of the
+  /// document.
+  scene::Scene display_scene(const LiveFrame& live) const;
+
+  /// Whether it is another one on disk than what was read or kept last.
+  bool has_file_changed() const;
+  /// Reads the file again and starts anew. Where it is no scene, all stays as it was, and the file
+  /// still counts as changed.
+  void reload();
+  /// Why the last reload failed; empty where it did not, or where the file has changed since.
+  std::string reload_error() const;
+  /// The change on disk is nothing to us.
+  void keep_file();
+
+  // Out of the workbench. What they wrote, or why not, becomes a message.
+  void save_scene(const std::filesystem::path& file);
+  std::filesystem::path sweep_around(const std::string& address);
+  std::string command() const;
+  /// What a picture of this moment has to know to be made again.
+  run::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
+
+  void say(Message::Kind kind, std::string text);
+  const std::deque<Message>& messages() const { return messages_; }
+  /// Errors that were said so far, repeated ones too: a higher number is one to be seen.
+  std::uint64_t errors_said() const { return errors_said_; }
+
+ private:
+  void take_over(const std::vector<scene::Override>& before);
+  std::vector<std::string> changed_while_running() const;
+  void apply_running();
+  template <class Act>
+  void attempt(Act act);
+
+  Document document_;
+  WorkbenchOptions options_;
+  /// The edits that the running simulation knows: all of its start, live ones since.
+  std::vector<scene::Override> running_, at_start_;
+  std::deque<Message> messages_;
+  std::uint64_t errors_said_ = 0;
+  std::filesystem::file_time_type file_time_{};
+  std::filesystem::file_time_type failed_time_{};  ///< of the file that reload_error_ is about
+  std::string reload_error_;
+  std::unique_ptr<Session> session_;  ///< last: its thread calls back
+};
+
+/// The scene in a file, the views in it, as `neve view` starts with it.
+Document open_document(const std::string& file, const std::vector<std::string>& overrides,
+                       double coarsening);
+
+}  // namespace neve::app::view::session

@@ -1,0 +1,22 @@
+#pragma once
+/// What the command line says of neve view.
+
+#include <cstdint>
+#include <string>
+
+#include "app/run/render_options.h"
+
+namespace neve::app::view {
+
+struct ViewOptions {
+  run::RenderOptions run;  ///< scene, overrides, coarsening, threads, views, size, out, backend
+  bool is_web = false, is_window = false;  ///< neither: whichever fits
+  std::string listen;                      ///< address of the page; empty: this machine alone
+  int port = 0;                            ///< of the page; 0: a free one
+  bool is_running = false;                 ///< from the start
+  std::string replay, record;              ///< files of scripts
+  int pictures = 0;                        ///< ends after so many; 0: never
+  std::uint64_t kept_memory = 0;           ///< bytes for kept frames; 0: a quarter of what is free
+};
+
+}  // namespace neve::app::view

@@ -1,0 +1,12 @@
+/// Apart, so that what only shows images needs no OpenGL.
+
+#include "app/view/web/web_front.h"
+#include "render/screen.h"
+
+namespace neve::app::view::web {
+
+void WebFront::show(render::Screen& screen) {
+  show_image(screen.pixels());
+}
+
+}  // namespace neve::app::view::web

@@ -1,0 +1,49 @@
+#pragma once
+/// Who may look: whoever knows the token, from a page of ours. Any page a browser shows can send
+/// requests to this machine, so that an address nobody else reaches is not enough.
+
+#include <string>
+#include <string_view>
+
+#include "app/view/web/http.h"
+
+namespace neve::app::view::web {
+
+/// 128 random bits of the operating system as 32 hex digits. @throws IoError
+std::string make_token();
+
+/// Takes the same time wherever the two differ.
+bool is_same_secret(std::string_view secret, std::string_view given);
+
+/// Whether only this machine reaches it: 127.x.x.x, ::1 or localhost.
+bool is_loopback(const std::string& address);
+
+/// What a person should know before listening at the address; "" for loopback.
+std::string risk_of(const std::string& address);
+
+class WebGuard {
+ public:
+  /// @param address where the server listens
+  WebGuard(std::string address, std::string token);
+
+  /// Whether a Host line names this server. A foreign name means that somebody's name server
+  /// pointed it here (DNS rebinding). The port may be any: a tunnel has its own.
+  bool is_own_host(std::string_view host) const;
+
+  /// @return whether the page that asks came from this server
+  bool is_own_origin(const HttpRequest& request) const;
+
+  bool has_token(const HttpRequest& request) const {
+    return is_same_secret(token_, request.query_value("token"));
+  }
+
+  const std::string& token() const { return token_; }
+  /// Name of this machine, or localhost.
+  const std::string& machine() const { return machine_; }
+
+ private:
+  std::string address_, token_, machine_;
+  bool is_local_ = true;
+};
+
+}  // namespace neve::app::view::web

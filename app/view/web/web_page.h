@@ -1,0 +1,20 @@
+#pragma once
+/// The one page that a viewer's browser shows.
+
+#include <string>
+#include <string_view>
+
+namespace neve::app::view::web {
+
+/// The answer with the page. Its script and its style carry a number of this answer only, so that
+/// nothing else can run in it, and it may talk to nobody but this host.
+/// @param host as the browser named it, checked
+std::string page_answer(std::string_view host);
+
+/// The answer to whoever has no token. A tab that had one, and was reloaded, finds it again.
+std::string no_token_answer();
+
+/// Files of this folder that are compiled in; see cmake/EmbedFiles.cmake.
+std::string_view find_embedded_page(std::string_view file_name);
+
+}  // namespace neve::app::view::web

@@ -1,0 +1,26 @@
+#pragma once
+/// The drawing kernels of one instruction set, for the files that are compiled for it.
+
+#include "render/cpu/draw_kernels.h"
+#include "render/cpu/ground_kernel.h"
+#include "render/cpu/shade_kernel.h"
+#include "render/cpu/smoke_kernel.h"
+#include "render/cpu/splat_kernel.h"
+
+namespace neve::render::cpu {
+
+/// @tparam V lanes of float; another type for each instruction set
+template <class V>
+constexpr DrawKernels draw_kernel_table(const char* name) {
+  return {name,
+          [](const ProjectJob& job) { project_discs<V>(job); },
+          [](const TileJob& job) { draw_tile_lanes<V>(job); },
+          [](const GroundJob& job, light::GBufferTile& tile, int x, int y) {
+            ground_tile_lanes<V>(job, tile, x, y);
+          },
+          [](const SolidJob& job, light::GBufferTile& tile) { solid_tile_lanes<V>(job, tile); },
+          [](const light::SmokeJob& job) { march_rays<V>(job); },
+          [](const ShadeJob& job) { shade_tile_lanes<V>(job); }};
+}
+
+}  // namespace neve::render::cpu

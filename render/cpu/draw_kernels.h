@@ -1,0 +1,31 @@
+#pragma once
+/// The kernels that draw on the CPU, compiled once for each instruction set.
+
+#include "render/cpu/splat_job.h"
+#include "render/cpu/surface_job.h"
+#include "render/light/smoke_job.h"
+
+namespace neve::render::cpu {
+
+/// All instruction sets give the same bits.
+struct DrawKernels {
+  const char* simd;
+  void (*project)(const ProjectJob&);
+  /// The first in a tile: clears it.
+  void (*splat_tile)(const TileJob&);
+  /// @param x, y lower left sample of the tile
+  void (*ground_tile)(const GroundJob&, light::GBufferTile&, int x, int y);
+  void (*solid_tile)(const SolidJob&, light::GBufferTile&);
+  void (*march)(const light::SmokeJob&);
+  void (*shade_tile)(const ShadeJob&);
+};
+
+extern const DrawKernels draw_baseline;
+#ifdef NEVE_X86_DRAW
+extern const DrawKernels draw_avx2;
+#endif
+
+/// The fastest that this machine can run; NEVE_SIMD=baseline takes the plain ones.
+const DrawKernels& chosen_draw_kernels();
+
+}  // namespace neve::render::cpu

@@ -1,0 +1,160 @@
+#include "render/cpu/surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "render/frame/ground_place.h"
+#include "render/light/light_fields.h"
+
+namespace neve::render::cpu {
+namespace {
+
+/// Memory that nobody has to clear; grows only.
+template <class T>
+void make_room(std::unique_ptr<T[]>& memory, std::size_t& size, std::size_t wanted) {
+  if (size >= wanted) return;
+  memory.reset();
+  memory = std::make_unique_for_overwrite<T[]>(wanted);
+  size = wanted;
+}
+
+GroundJob ground_job(const GroundPlane& ground, const Frame& frame, const View& view) {
+  const GroundPlace place = place_ground(ground, frame, view);
+  const auto root = [](float x) { return std::sqrt(std::max(x, 0.0f)); };
+  return {lane_view(view),     place.point,
+          place.normal,        place.tangent,
+          place.bitangent,     {place.eye_on_grid[0], place.eye_on_grid[1]},
+          place.line_spacing,  place.fade_center,
+          place.fade_distance, {root(ground.color.x), root(ground.color.y), root(ground.color.z)},
+          place.line_width};
+}
+
+light::LightCells light_cells(const light::LightVolume& volume, Vec3f eye) {
+  // Four bytes of a cell are read at once.
+  return {volume.grid.origin - eye, volume.grid.cell, volume.grid.size,
+          reinterpret_cast<const unsigned*>(volume.body.data()),
+          reinterpret_cast<const unsigned*>(volume.light.data())};
+}
+
+}  // namespace
+
+light::LaneView lane_view(const View& view) {
+  return {view.right,         view.up,    view.forward, view.pixels_per_slope,
+          view.near_distance, view.width, view.height};
+}
+
+void SolidSamples::resize(int new_width, int new_height) {
+  constexpr std::size_t past_the_end = 16;
+  width = new_width;
+  height = new_height;
+  const std::size_t count =
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + past_the_end;
+  depth.resize(count);
+  normal_kind.resize(4 * count);
+  albedo.resize(count);
+}
+
+void Surfaces::prepare(const Frame& frame, const View& view) {
+  frame_ = &frame;
+  view_ = lane_view(view);
+  eye_ = view.eye;
+  solids_ = nullptr;
+  has_kept_ = false;
+  splatter_.prepare(frame.points, view, pool_);
+  grounds_.clear();
+  for (const GroundPlane& ground : frame.grounds)
+    if (is_seen_from_above(ground, view)) grounds_.push_back(ground_job(ground, frame, view));
+  pitch_ = splatter_.columns() * light::tile_width;
+}
+
+void Surfaces::add_grounds(int tile, light::GBufferTile& out) const {
+  const int columns = splatter_.columns();
+  for (const GroundJob& job : grounds_)
+    kernels_.ground_tile(job, out, tile % columns * light::tile_width,
+                         tile / columns * light::tile_height);
+}
+
+void Surfaces::add_solids(int tile, light::GBufferTile& out) const {
+  if (!solids_ || solids_->width == 0) return;
+  const int columns = splatter_.columns();
+  const int x = tile % columns * light::tile_width, y = tile / columns * light::tile_height;
+  const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(solids_->width) +
+                         static_cast<std::size_t>(x);
+  kernels_.solid_tile(
+      {view_.near_distance, solids_->depth.data() + at, solids_->normal_kind.data() + 4 * at,
+       solids_->albedo.data() + at, solids_->width, std::min(light::tile_width, solids_->width - x),
+       std::min(light::tile_height, solids_->height - y)},
+      out);
+}
+
+void Surfaces::keep_points() {
+  const int count = splatter_.columns() * splatter_.rows();
+  make_room(kept_, kept_size_, static_cast<std::size_t>(count));
+  light::for_each_task(count, pool_,
+                       [&](int tile) { add_points(tile, kept_[static_cast<std::size_t>(tile)]); });
+  has_kept_ = true;
+}
+
+void Surfaces::keep_grounds() {
+  light::for_each_task(splatter_.columns() * splatter_.rows(), pool_,
+                       [&](int tile) { add_grounds(tile, kept_[static_cast<std::size_t>(tile)]); });
+}
+
+void Surfaces::keep_solids() {
+  light::for_each_task(splatter_.columns() * splatter_.rows(), pool_,
+                       [&](int tile) { add_solids(tile, kept_[static_cast<std::size_t>(tile)]); });
+}
+
+/// Of its lower left sample in the picture.
+std::size_t Surfaces::corner_of(int tile) const {
+  const int columns = splatter_.columns();
+  return static_cast<std::size_t>(tile / columns * light::tile_height) *
+             static_cast<std::size_t>(pitch_) +
+         static_cast<std::size_t>(tile % columns * light::tile_width);
+}
+
+void Surfaces::write_depth(int tile, const light::GBufferTile& from) {
+  float* to = depth_.get() + corner_of(tile);
+  for (int y = 0; y < light::tile_height; ++y, to += pitch_) {
+    const float* row = from.inverse + y * light::tile_width;
+    for (int x = 0; x < light::tile_width; ++x)
+      to[x] = std::max(1 - view_.near_distance * row[x], 0.0f);
+  }
+}
+
+void Surfaces::shade(const light::LightVolume& light, const light::SmokeCover* smoke,
+                     bool wants_depth) {
+  const int columns = splatter_.columns(), count = columns * splatter_.rows();
+  const std::size_t samples = static_cast<std::size_t>(count) * light::tile_samples;
+  make_room(picture_, picture_size_, samples);
+  if (wants_depth) make_room(depth_, depth_size_, samples);
+  ShadeJob job{};
+  job.view = view_;
+  job.light = light_cells(light, eye_);
+  job.toward_light = light::toward_light(frame_->light);
+  job.key_intensity = frame_->light.intensity;
+  job.ambient_intensity = frame_->light.ambient;
+  job.is_transparent = frame_->is_transparent ? 1 : 0;
+  job.smoke = smoke;
+  job.pitch = pitch_;
+  light::for_each_task(count, pool_, [&](int tile) {
+    light::GBufferTile drawn;
+    ShadeJob mine = job;
+    mine.tile = &drawn;
+    if (has_kept_) {
+      mine.tile = &kept_[static_cast<std::size_t>(tile)];
+    } else {
+      add_points(tile, drawn);
+      add_grounds(tile, drawn);
+      add_solids(tile, drawn);
+    }
+    mine.x = tile % columns * light::tile_width;
+    mine.y = tile / columns * light::tile_height;
+    mine.out = picture_.get() + corner_of(tile);
+    kernels_.shade_tile(mine);
+    if (wants_depth) write_depth(tile, *mine.tile);
+  });
+}
+
+}  // namespace neve::render::cpu

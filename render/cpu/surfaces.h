@@ -1,0 +1,86 @@
+#pragma once
+/// Draws and lights what is solid on the CPU, tile by tile: the picture of ParticlePass, GroundPass
+/// and ShadePass, where OpenGL runs on the CPU too and is slower at it. A tile is drawn, finished
+/// and lit while it is in the cache. Depends neither on the number of threads nor on the
+/// instruction set.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/cpu/splat.h"
+#include "render/frame/frame.h"
+#include "render/frame/view.h"
+#include "render/light/lighting.h"
+#include "sim/base/thread_pool.h"
+
+namespace neve::render::cpu {
+
+/// What OpenGL has drawn into its G-buffer, rows from the bottom up; see shaders/gbuffer.glsl.
+struct SolidSamples {
+  int width = 0, height = 0;  ///< 0: nothing
+  std::vector<float> depth;
+  std::vector<std::uint16_t> normal_kind;  ///< four half floats each
+  std::vector<std::uint32_t> albedo;       ///< four bytes each
+
+  /// With room behind the last row, as lanes read past its end.
+  void resize(int new_width, int new_height);
+};
+
+class Surfaces {
+ public:
+  /// @param pool may be null
+  explicit Surfaces(ThreadPool* pool, const DrawKernels& kernels = chosen_draw_kernels())
+      : kernels_(kernels), pool_(pool), splatter_(kernels) {}
+
+  /// The frame has to stay until its picture is there.
+  void prepare(const Frame& frame, const View& view);
+  /// What OpenGL has drawn of it. Without this call: nothing.
+  void set_solids(const SolidSamples* solids) { solids_ = solids; }
+
+  /// Draws all tiles and keeps them, in three steps, for who has to know depths before the light or
+  /// wants to know what each step takes. Without: tile by tile while lighting.
+  void keep_points();
+  void keep_grounds();
+  void keep_solids();
+  /// Tile after tile, row by row from the lower left one.
+  const light::GBufferTile* kept() const { return kept_.get(); }
+  int columns() const { return splatter_.columns(); }
+
+  /// @param smoke may be null
+  /// @param wants_depth whether to make depth() too
+  void shade(const light::LightVolume& light, const light::SmokeCover* smoke, bool wants_depth);
+
+  /// sRGB and alpha, rows from the bottom up.
+  const std::uint32_t* picture() const { return picture_.get(); }
+  int pitch() const { return pitch_; }  ///< samples from one row to the next
+  /// As OpenGL has it, for each sample; same pitch.
+  const float* depth() const { return depth_.get(); }
+
+ private:
+  void add_points(int tile, light::GBufferTile& out) { splatter_.draw_tile(tile, out); }
+  void add_grounds(int tile, light::GBufferTile& out) const;
+  void add_solids(int tile, light::GBufferTile& out) const;
+  void write_depth(int tile, const light::GBufferTile& from);
+  std::size_t corner_of(int tile) const;
+
+  const DrawKernels& kernels_;
+  ThreadPool* pool_;
+  Splatter splatter_;
+  light::LaneView view_{};
+  const Frame* frame_ = nullptr;
+  Vec3f eye_;
+  std::vector<GroundJob> grounds_;
+  const SolidSamples* solids_ = nullptr;
+  bool has_kept_ = false;
+  std::size_t kept_size_ = 0, picture_size_ = 0, depth_size_ = 0;
+  std::unique_ptr<light::GBufferTile[]> kept_;
+  std::unique_ptr<std::uint32_t[]> picture_;
+  std::unique_ptr<float[]> depth_;
+  int pitch_ = 0;
+};
+
+/// The camera as kernels take it.
+light::LaneView lane_view(const View& view);
+
+}  // namespace neve::render::cpu

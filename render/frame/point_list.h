@@ -1,0 +1,52 @@
+#pragma once
+/// Turns the points of a frame into what the particle pass uploads.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/frame/colormap.h"
+#include "render/frame/frame.h"
+#include "render/frame/view.h"
+
+namespace neve::render {
+
+/// One sphere for the shaders: centre relative to the eye and albedo in sRGB.
+struct PointVertex {
+  Vec3f center;
+  std::uint8_t color[4];
+};
+
+struct PointList {
+  std::vector<PointVertex> small;  ///< drawn as points, front to back, ties in the order of ids
+  std::vector<PointVertex> large;  ///< drawn as quads, same order
+};
+
+/// Smallest radius on the picture, in samples, at which a sphere cannot fall between samples.
+inline constexpr float min_radius_pixels = 0.75f;
+
+/// Indices of points in the order of ids; empty where they come in that order, as they nearly
+/// always do.
+std::vector<std::uint32_t> order_by_id(const Points& points);
+
+/// What colour each point has: its value on the colour map, or one of many shades of snow.
+class PointColors {
+ public:
+  explicit PointColors(const Points& points) : points_(points) {}
+  /// sRGB
+  Rgb8 of(std::uint32_t point) const;
+  /// As the G-buffer has it: the square root of linear light in bytes, opaque, red lowest.
+  std::uint32_t root_albedo(std::uint32_t point) const;
+
+ private:
+  const Points& points_;
+};
+
+/// Leaves out what lies outside the picture, behind the eye, or is not a finite position.
+/// @param max_point_size largest point of the driver, pixels
+/// @param leave_out_hidden also leaves out what nearer spheres cover: the picture stays the same;
+/// pays where fragments are drawn on the CPU
+PointList list_points(const Points& points, const View& view, float max_point_size,
+                      bool leave_out_hidden);
+
+}  // namespace neve::render

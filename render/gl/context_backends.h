@@ -1,0 +1,23 @@
+#pragma once
+/// What each backend file offers to context.cpp.
+
+#include <memory>
+#include <string>
+
+#include "render/gl/context.h"
+
+namespace neve::render::gl {
+
+/// A context, or why there is none.
+struct Opened {
+  std::unique_ptr<Context> context;
+  std::string reason;   ///< set when context is null
+  std::string install;  ///< what would help
+};
+
+Opened open_egl_device();
+Opened open_egl_surfaceless();
+Opened open_osmesa();
+Opened open_window();
+
+}  // namespace neve::render::gl

@@ -1,0 +1,207 @@
+#include "render/image/image.h"
+
+#include <libdeflate.h>
+
+#include <algorithm>
+#include <climits>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+#include "render/image/png_chunks.h"
+
+namespace neve::render {
+namespace {
+
+/// libdeflate's fastest level instead of stb's own compressor: half of the time that zlib's fastest
+/// takes, and smaller files (docs/performance.md).
+unsigned char* compress_for_stb(unsigned char* data, int length, int* out_length, int) {
+  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+      libdeflate_alloc_compressor(1), libdeflate_free_compressor);
+  if (!compressor) return nullptr;
+  const auto count = static_cast<std::size_t>(length);
+  const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), count);
+  auto* out = static_cast<unsigned char*>(std::malloc(bound));
+  const std::size_t size =
+      out ? libdeflate_zlib_compress(compressor.get(), data, count, out, bound) : 0;
+  if (size > 0 && size <= INT_MAX) {
+    *out_length = static_cast<int>(size);
+    return out;
+  }
+  std::free(out);
+  return nullptr;
+}
+
+}  // namespace
+}  // namespace neve::render
+
+#define STBIW_ZLIB_COMPRESS neve::render::compress_for_stb
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#include <stb/stb_image_write.h>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#define STBI_MAX_DIMENSIONS 16384
+#include <stb/stb_image.h>
+
+namespace neve::render {
+namespace {
+
+constexpr std::size_t ihdr_end = 33;  // signature and the IHDR chunk
+
+void check_pixels(const Image& image) {
+  if (image.width < 1 || image.height < 1 || image.channels < 1 || image.channels > 4)
+    throw ImageError("picture of " + std::to_string(image.width) + "x" +
+                     std::to_string(image.height) + " pixels and " +
+                     std::to_string(image.channels) + " channels");
+  const std::size_t row = static_cast<std::size_t>(image.width) * image.channels;
+  if (image.pixels.size() != row * image.height)
+    throw ImageError("picture has " + std::to_string(image.pixels.size()) + " bytes, expected " +
+                     std::to_string(row * image.height));
+  // The encoder counts bytes in an int.
+  if ((row + 1) * image.height > INT_MAX / 2) throw ImageError("picture is too large for a PNG");
+}
+
+std::string latin1_to_utf8(std::span<const std::uint8_t> bytes) {
+  std::string text;
+  for (const std::uint8_t c : bytes) {
+    if (c < 0x80) {
+      text += static_cast<char>(c);
+    } else {
+      text += static_cast<char>(0xc0 | c >> 6);
+      text += static_cast<char>(0x80 | (c & 0x3f));
+    }
+  }
+  return text;
+}
+
+/// Cuts the bytes before the next zero off the front of rest, and the zero with them.
+std::span<const std::uint8_t> take_field(std::span<const std::uint8_t>& rest, const char* chunk) {
+  const auto zero = std::find(rest.begin(), rest.end(), std::uint8_t{0});
+  if (zero == rest.end())
+    throw ImageError(std::string("PNG is damaged: ") + chunk + " without end of field");
+  const auto length = static_cast<std::size_t>(zero - rest.begin());
+  const auto field = rest.first(length);
+  rest = rest.subspan(length + 1);
+  return field;
+}
+
+void read_itxt(std::span<const std::uint8_t> rest, PngText& text) {
+  const auto keyword = take_field(rest, "iTXt");
+  if (rest.size() < 2) throw ImageError("PNG is damaged: iTXt without compression flag");
+  const bool is_compressed = rest[0] != 0;
+  rest = rest.subspan(2);
+  take_field(rest, "iTXt");   // language
+  take_field(rest, "iTXt");   // translated keyword
+  if (is_compressed) return;  // never written by us
+  text[std::string(keyword.begin(), keyword.end())] = std::string(rest.begin(), rest.end());
+}
+
+void check_comparable(const Image& a, const Image& b) {
+  check_pixels(a);
+  check_pixels(b);
+  if (a.width != b.width || a.height != b.height || a.channels != b.channels)
+    throw ImageError("pictures differ in size: " + std::to_string(a.width) + "x" +
+                     std::to_string(a.height) + "x" + std::to_string(a.channels) + " and " +
+                     std::to_string(b.width) + "x" + std::to_string(b.height) + "x" +
+                     std::to_string(b.channels));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text) {
+  check_pixels(image);
+  stbi_write_force_png_filter = 1;  // sub: mostly smaller than any other, and none is tried
+  int length = 0;
+  const std::unique_ptr<unsigned char, void (*)(void*)> png(
+      stbi_write_png_to_mem(image.pixels.data(), image.width * image.channels, image.width,
+                            image.height, image.channels, &length),
+      std::free);
+  if (!png || length < static_cast<int>(ihdr_end)) throw ImageError("PNG encoder: out of memory");
+
+  std::vector<std::uint8_t> bytes(png.get(), png.get() + ihdr_end);
+  for (const auto& [keyword, value] : text) {
+    const std::vector<std::uint8_t> chunk = make_itxt_chunk(keyword, value);
+    bytes.insert(bytes.end(), chunk.begin(), chunk.end());
+  }
+  bytes.insert(bytes.end(), png.get() + ihdr_end, png.get() + length);
+  return bytes;
+}
+
+Image decode_png(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() > INT_MAX) throw ImageError("PNG is too large");
+  read_png_chunks(bytes);  // stb checks no checksums and forgives missing ends
+  Image image;
+  const std::unique_ptr<unsigned char, void (*)(void*)> pixels(
+      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &image.width,
+                            &image.height, &image.channels, 0),
+      stbi_image_free);
+  if (!pixels) throw ImageError(std::string("PNG is damaged: ") + stbi_failure_reason());
+  const std::size_t count = static_cast<std::size_t>(image.width) * image.height * image.channels;
+  image.pixels.assign(pixels.get(), pixels.get() + count);
+  return image;
+}
+
+PngText read_png_text(std::span<const std::uint8_t> bytes) {
+  PngText text;
+  for (const PngChunk& chunk : read_png_chunks(bytes)) {
+    if (chunk.type == "iTXt") read_itxt(chunk.data, text);
+    if (chunk.type == "tEXt") {
+      std::span<const std::uint8_t> rest = chunk.data;
+      const auto keyword = take_field(rest, "tEXt");
+      text[std::string(keyword.begin(), keyword.end())] = latin1_to_utf8(rest);
+    }
+  }
+  return text;
+}
+
+Difference compare(const Image& a, const Image& b) {
+  check_comparable(a, b);
+  constexpr int square = 8;
+  const int across = (a.width + square - 1) / square, down = (a.height + square - 1) / square;
+  std::vector<std::uint64_t> sums(static_cast<std::size_t>(across) *
+                                  static_cast<std::size_t>(down));
+  std::uint64_t sum = 0;
+  int largest = 0;
+  std::size_t i = 0;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x) {
+      std::uint64_t of_pixel = 0;
+      for (int c = 0; c < a.channels; ++c, ++i) {
+        const int difference = std::abs(int{a.pixels[i]} - int{b.pixels[i]});
+        largest = std::max(largest, difference);
+        of_pixel += static_cast<std::uint64_t>(difference);
+      }
+      sums[static_cast<std::size_t>(y / square * across + x / square)] += of_pixel;
+      sum += of_pixel;
+    }
+  Difference out;
+  out.max = static_cast<double>(largest);
+  out.mean = static_cast<double>(sum) / static_cast<double>(a.pixels.size());
+  for (int row = 0; row < down; ++row)
+    for (int column = 0; column < across; ++column) {
+      const int width = std::min(square, a.width - column * square);
+      const int height = std::min(square, a.height - row * square);
+      out.local = std::max(
+          out.local, static_cast<double>(sums[static_cast<std::size_t>(row * across + column)]) /
+                         (width * height * a.channels));
+    }
+  return out;
+}
+
+Image difference_image(const Image& a, const Image& b) {
+  check_comparable(a, b);
+  constexpr int gain = 8;
+  Image out{a.width, a.height, a.channels, std::vector<std::uint8_t>(a.pixels.size())};
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    const int difference = std::abs(int{a.pixels[i]} - int{b.pixels[i]});
+    out.pixels[i] = static_cast<std::uint8_t>(std::min(255, gain * difference));
+  }
+  return out;
+}
+
+}  // namespace neve::render

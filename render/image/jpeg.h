@@ -1,0 +1,24 @@
+#pragma once
+/// Pictures as JPEG bytes, for looking at them over a network.
+
+#include <cstdint>
+#include <vector>
+
+#include "render/image/image.h"
+
+namespace neve::render {
+
+/// Whether this build has libturbojpeg; without it encode_jpeg throws.
+bool can_encode_jpeg();
+
+/// What to install and to configure for a build that can.
+extern const char* const jpeg_advice;
+
+/// @param image three or four channels; the fourth is ignored
+/// @param quality 1 to 100
+/// @param has_full_colour 4:4:4: thin coloured lines and small text stay sharp, a third more bytes.
+///        Otherwise colour at half the resolution (4:2:0).
+/// @throws ImageError
+std::vector<std::uint8_t> encode_jpeg(const Image& image, int quality, bool has_full_colour);
+
+}  // namespace neve::render

@@ -1,0 +1,43 @@
+#pragma once
+/// The opacity of smoke on one box of texels: what the blocks of a node lattice become before light
+/// falls on them and rays march through them. A function of the smoke alone.
+
+#include <vector>
+
+#include "render/frame/frame.h"
+#include "sim/base/thread_pool.h"
+
+namespace neve::render::light {
+
+/// Texels lie on nodes, or on cubes of nodes where the smoke is too wide for that; the outermost
+/// ones are empty. Index = (z * size.y + y) * size.x + x.
+struct SmokeGrid {
+  Vec3f origin;       ///< m, where texel (0, 0, 0) lies
+  float spacing = 1;  ///< m between texels
+  Vec3i size{0, 0, 0};
+  float node_spacing = 1;      ///< m
+  std::vector<float> opacity;  ///< 0 and more
+  std::vector<float> value;    ///< place in the range, [0, 1], times opacity; empty without values
+
+  /// Of opacity 1: packed snow at density_scale 1. Three nodes of it let 40 % of the light through.
+  float extinction() const { return 0.3054f / node_spacing; }  // 1/m; -ln(0.4) / 3
+  bool is_empty() const { return opacity.empty(); }
+  std::size_t index(int x, int y, int z) const {
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y) +
+            static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(size.x) +
+           static_cast<std::size_t>(x);
+  }
+};
+
+/// Boxes of more texels, or longer than this, first lose strays and then resolution.
+inline constexpr int max_smoke_texels = 1 << 22, max_smoke_side = 256;
+
+/// Opacity that a density is drawn with: less than proportional, so that powder shows.
+/// @param share density over that of packed snow; what is not positive and finite has none
+float smoke_opacity(float share);
+
+/// Empty where there is nothing to see. @param pool may be null
+SmokeGrid make_smoke_grid(const Smoke& smoke, ThreadPool* pool);
+
+}  // namespace neve::render::light

@@ -1,0 +1,236 @@
+#include "render/overlay/pass_overlay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/frame/colormap.h"
+#include "render/overlay/overlay_text.h"
+#include "render/overlay/plots.h"
+#include "render/overlay/text_layout.h"
+#include "render/overlay/ticks.h"
+
+namespace neve::render::overlay {
+namespace {
+
+constexpr ImU32 mark_color = IM_COL32(255, 122, 40, 255);
+constexpr ImU32 label_plate = IM_COL32(18, 21, 26, 150);
+
+/// Height of text: 16 pixels at 1280x720, in proportion elsewhere, but never too small to read.
+int font_size_for(int width, int height) {
+  const float scale = std::min(static_cast<float>(height) / 720, static_cast<float>(width) / 1120);
+  return std::clamp(static_cast<int>(std::lround(16 * scale)), 10, 160);
+}
+
+std::string title_of(const Legend& legend) {
+  return legend.unit.empty() ? legend.title : legend.title + " (" + legend.unit + ")";
+}
+
+std::vector<std::string> all_texts(const Frame& frame) {
+  std::vector<std::string> texts = frame.caption;
+  texts.push_back(frame.footnote);
+  for (const Legend& legend : frame.legends) texts.push_back(title_of(legend));
+  for (const Label& label : frame.labels) texts.push_back(label.text);
+  for (const Note& note : frame.notes) texts.push_back(note.text);
+  for (const Plot& plot : frame.plots) {
+    texts.push_back(plot.title + plot.unit);
+    for (const PlotSeries& series : plot.series) texts.push_back(series.name);
+  }
+  return texts;
+}
+
+struct LegendText {
+  std::string title;
+  std::vector<Tick> ticks;
+  float width = 0;  ///< of all of it, pixels
+};
+
+float bar_width(const ImFont& font) {
+  return std::max(6.0f, std::round(14 * unit_of(font)));
+}
+
+float tick_gap(const ImFont& font) {
+  return std::round(7 * unit_of(font));
+}
+
+LegendText text_of(const Legend& legend, const ImFont& font, float height, float max_width) {
+  const int tick_count = std::clamp(static_cast<int>(height / (1.6f * font.FontSize)), 1, 5);
+  LegendText text{elide(font, title_of(legend), max_width),
+                  nice_ticks(legend.min, legend.max, tick_count)};
+  float label_width = 0;
+  for (const Tick& tick : text.ticks)
+    label_width = std::max(label_width, text_width(font, tick.label));
+  text.width =
+      std::max(text_width(font, text.title), bar_width(font) + tick_gap(font) + label_width);
+  return text;
+}
+
+/// A colour bar standing on `bottom`, with its title above and its numbers to the right.
+void draw_legend(const Legend& legend, const LegendText& text, const ImFont& font, float left,
+                 float bottom, float height) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float unit = unit_of(font), gap = tick_gap(font), right = left + bar_width(font);
+  const float top = std::round(bottom - height);
+  draw_text(font, ImVec2(left, top - 1.7f * font.FontSize), bright_text, text.title);
+  for (float y = top; y < bottom; y += 1) {
+    const Rgb8 c = map_color(legend.colormap, (bottom - y - 0.5f) / (bottom - top));
+    list.AddRectFilled(ImVec2(left, y), ImVec2(right, y + 1), IM_COL32(c.r, c.g, c.b, 255));
+  }
+  list.AddRect(ImVec2(left, top), ImVec2(right, bottom), IM_COL32(0, 0, 0, 110));
+  const double range = static_cast<double>(legend.max) - static_cast<double>(legend.min);
+  for (const Tick& tick : text.ticks) {
+    const double part =
+        text.ticks.size() == 1 ? 0.5 : (tick.value - static_cast<double>(legend.min)) / range;
+    const float y = bottom - static_cast<float>(part) * (bottom - top);
+    list.AddLine(ImVec2(right, y), ImVec2(right + 0.6f * gap, y), soft_text, std::max(1.0f, unit));
+    draw_text(font, ImVec2(right + gap, y - 0.5f * font.FontSize), soft_text, tick.label);
+  }
+}
+
+}  // namespace
+
+float OverlayPass::draw_legends(const Frame& frame) const {
+  const ImFont& font = *imgui_.text_font();
+  const float unit = unit_of(font), size = font.FontSize;
+  const float width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
+  const float margin = std::round(24 * unit), right = width - margin;
+  // A picture too small for a bar, its title and two ticks gets none.
+  if (frame.legends.empty() || height < 7 * size || width < 12 * size) return right;
+  // One above the other: side by side they would reach into the snow. Those without room are left
+  // out.
+  const float above = 2.7f * size, least = 4 * size, room = 0.5f * height;
+  const auto count = std::min(frame.legends.size(),
+                              static_cast<std::size_t>(std::max(1.0f, std::floor(room / least))));
+  const float bar_height = std::round(std::min(210 * unit, room / static_cast<float>(count)));
+  std::vector<LegendText> texts;
+  float widest = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    texts.push_back(text_of(frame.legends[k], font, bar_height, 0.35f * width));
+    widest = std::max(widest, texts.back().width);
+  }
+  const float left = std::round(right - widest);
+  for (std::size_t k = 0; k < count; ++k) {
+    const float below = static_cast<float>(count - 1 - k) * (bar_height + above);
+    draw_legend(frame.legends[k], texts[k], font, left, std::round(height - margin - below),
+                bar_height);
+  }
+  return left - margin;
+}
+
+void OverlayPass::draw_footnote(const Frame& frame, float left, float right) const {
+  if (frame.footnote.empty()) return;
+  const ImFont& font = *imgui_.text_font();
+  const float margin = std::round(20 * unit_of(font)), line = 1.25f * font.FontSize;
+  const float from = left > 0 ? left + 1.5f * margin : margin;
+  // The snow is in the middle: no higher than a fifth of the picture.
+  const float room = 0.18f * static_cast<float>(frame.height);
+  const auto most = static_cast<std::size_t>(std::min(2.0f, std::floor(room / line)));
+  if (right - from < 8 * font.FontSize || most == 0) return;
+  const std::vector<std::string> lines = wrap(font, frame.footnote, right - from, most);
+  const float top =
+      static_cast<float>(frame.height) - margin - line * static_cast<float>(lines.size());
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    draw_text(font, ImVec2(from, top + line * static_cast<float>(k)), soft_text, lines[k]);
+}
+
+void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
+  const float unit = unit_of(*imgui_.text_font());
+  const float height = static_cast<float>(frame.height);
+  const float margin = std::round(20 * unit);
+  const bool has_strip = frame.caption_height > 0;
+  if (!has_strip && height < 4 * imgui_.text_font()->FontSize) return;  // it would be all text
+  const float width = has_strip
+                          ? static_cast<float>(frame.width) - 2 * margin
+                          : std::min(right_limit, 0.66f * static_cast<float>(frame.width)) - margin;
+  // The snow is in the middle: text keeps to the upper third.
+  const float bottom = has_strip ? static_cast<float>(frame.caption_height) : 0.36f * height;
+  float y = std::round((has_strip ? 10 : 16) * unit);
+  for (std::size_t i = 0; i < frame.caption.size(); ++i) {
+    const ImFont& font = i == 0 ? *imgui_.title_font() : *imgui_.text_font();
+    const float line_height = std::round(1.25f * font.FontSize);
+    const int room = static_cast<int>((bottom - y) / line_height);
+    const int max_lines = i == 0 ? (room >= 6 ? 2 : 1) : std::max(room, 0);
+    for (const std::string& line :
+         wrap(font, frame.caption[i], width, static_cast<std::size_t>(max_lines))) {
+      draw_text(font, ImVec2(margin, y), i == 0 ? bright_text : soft_text, line);
+      y += line_height;
+    }
+    if (i == 0) y += std::round(3 * unit);
+  }
+}
+
+void OverlayPass::draw_labels(const Frame& frame, const View& view) const {
+  const ImFont& font = *imgui_.text_font();
+  const float unit = unit_of(font), margin = 6 * unit;
+  for (const Label& label : frame.labels) {
+    const Vec3f p = view.project(label.position);
+    if (!(p.z > 0)) continue;
+    const float height = static_cast<float>(view.height), width = static_cast<float>(view.width);
+    const std::string text = elide(font, label.text, width - 2 * margin);
+    const float text_size = text_width(font, text);
+    // Above its place, and kept on the picture as long as the place itself is.
+    if (p.x < 0 || p.x > width || p.y < 0 || p.y > height) continue;
+    const float left = std::clamp(p.x, margin, std::max(margin, width - text_size - margin));
+    const float top = std::max(margin, height - p.y - 1.35f * font.FontSize);
+    const float rim = 3 * unit;
+    ImGui::GetBackgroundDrawList()->AddRectFilled(
+        ImVec2(left - rim, top - 0.5f * rim),
+        ImVec2(left + text_size + rim, top + font.FontSize + 0.5f * rim), label_plate, rim);
+    draw_text(font, ImVec2(left, top), soft_text, text);
+  }
+}
+
+void OverlayPass::draw_notes(const Frame& frame) const {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (const Patch& patch : frame.patches)
+    list.AddRectFilled(ImVec2(patch.x, patch.y),
+                       ImVec2(patch.x + patch.width, patch.y + patch.height),
+                       IM_COL32(patch.color[0], patch.color[1], patch.color[2], patch.color[3]));
+  for (const Note& note : frame.notes) {
+    const ImFont& font = note.is_title ? *imgui_.title_font() : *imgui_.text_font();
+    const std::string text = note.room > 0 ? elide(font, note.text, note.room) : note.text;
+    const float width = text_width(font, text);
+    const float shift = note.anchor == Note::Anchor::left     ? 0
+                        : note.anchor == Note::Anchor::middle ? 0.5f * width
+                                                              : width;
+    draw_text(font, ImVec2(note.x - shift, note.y),
+              IM_COL32(note.color[0], note.color[1], note.color[2], 255), text);
+  }
+}
+
+void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float unit = unit_of(*imgui_.text_font());
+  for (const Vec3f& mark : frame.marks) {
+    const Vec3f p = view.project(mark);
+    if (!(p.z > 0)) continue;
+    const ImVec2 center(p.x, static_cast<float>(view.height) - p.y);
+    const float on_picture = frame.points.radius * view.pixels_per_slope / p.z;
+    const float radius = std::clamp(2 * on_picture, 8 * unit, 40 * unit);
+    const float d = 0.7071f;
+    const ImVec2 start(center.x + d * radius, center.y - d * radius);
+    const ImVec2 end(center.x + d * (radius + 22 * unit), center.y - d * (radius + 22 * unit));
+    for (const auto& [color, width] : {std::pair{text_shadow, 4.0f}, std::pair{mark_color, 2.0f}}) {
+      list.AddCircle(center, radius, color, 32, width * unit);
+      list.AddLine(start, end, color, width * unit);
+    }
+  }
+}
+
+void OverlayPass::draw(const Frame& frame, const View& view) {
+  if (frame.caption.empty() && frame.legends.empty() && frame.marks.empty() &&
+      frame.labels.empty() && frame.plots.empty() && frame.patches.empty() && frame.notes.empty() &&
+      frame.footnote.empty())
+    return;
+  const int font_size =
+      frame.font_size > 0 ? frame.font_size : font_size_for(frame.width, frame.height);
+  imgui_.begin(frame.width, frame.height, font_size, all_texts(frame));
+  draw_labels(frame, view);
+  draw_marks(frame, view);
+  const float legends = draw_legends(frame);
+  draw_caption(frame, legends);
+  draw_footnote(frame, draw_plots(frame, *imgui_.text_font(), legends), legends);
+  draw_notes(frame);
+  imgui_.end();
+}
+
+}  // namespace neve::render::overlay

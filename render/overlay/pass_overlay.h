@@ -1,0 +1,30 @@
+#pragma once
+/// Text and signs over the finished picture: caption in the upper left corner, legends one above
+/// the other in the lower right one, labels beside their places, rings around marked ones, plots in
+/// the lower left one, a footnote beside them; patches and notes wherever they say.
+
+#include "render/frame/frame.h"
+#include "render/frame/view.h"
+#include "render/overlay/imgui_draw.h"
+
+namespace neve::render::overlay {
+
+class OverlayPass {
+ public:
+  OverlayPass(const gl::Gl& gl, const gl::ShaderLibrary& library) : imgui_(gl, library) {}
+  /// @param view of the finished picture, not of its samples
+  void draw(const Frame& frame, const View& view);
+
+ private:
+  /// @return left edge of what was drawn, pixels
+  float draw_legends(const Frame& frame) const;
+  void draw_caption(const Frame& frame, float right_limit) const;
+  void draw_footnote(const Frame& frame, float left, float right) const;
+  void draw_labels(const Frame& frame, const View& view) const;
+  void draw_notes(const Frame& frame) const;
+  void draw_marks(const Frame& frame, const View& view) const;
+
+  ImGuiDraw imgui_;
+};
+
+}  // namespace neve::render::overlay

@@ -1,0 +1,60 @@
+#include "render/overlay/text_layout.h"
+
+#include <cfloat>
+
+namespace neve::render::overlay {
+namespace {
+
+/// Steps to the start of the next or previous UTF-8 character.
+bool is_continuation(char c) {
+  return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
+}
+
+std::size_t next_character(const std::string& text, std::size_t at) {
+  do ++at;
+  while (at < text.size() && is_continuation(text[at]));
+  return at;
+}
+
+/// End of the longest beginning of text that is no wider than width; at least one character.
+std::size_t fitting(const ImFont& font, const std::string& text, float width) {
+  std::size_t end = next_character(text, 0);
+  while (end < text.size()) {
+    const std::size_t next = next_character(text, end);
+    if (text_width(font, text.substr(0, next)) > width) break;
+    end = next;
+  }
+  return end;
+}
+
+}  // namespace
+
+float text_width(const ImFont& font, const std::string& text) {
+  return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, text.c_str(), text.c_str() + text.size()).x;
+}
+
+std::string elide(const ImFont& font, const std::string& text, float width) {
+  if (text.empty() || text_width(font, text) <= width) return text;
+  const std::string ellipsis = "\u2026";
+  return text.substr(0, fitting(font, text, width - text_width(font, ellipsis))) + ellipsis;
+}
+
+std::vector<std::string> wrap(const ImFont& font, const std::string& text, float width,
+                              std::size_t max_lines) {
+  std::vector<std::string> lines;
+  std::string rest = text;
+  while (!rest.empty() && lines.size() < max_lines) {
+    if (lines.size() + 1 == max_lines || text_width(font, rest) <= width) {
+      lines.push_back(elide(font, rest, width));
+      break;
+    }
+    std::size_t end = fitting(font, rest, width);
+    const std::size_t space = rest.rfind(' ', end);
+    if (space != std::string::npos && space > 0) end = space;
+    lines.push_back(rest.substr(0, end));
+    rest.erase(0, rest.find_first_not_of(' ', end));
+  }
+  return lines;
+}
+
+}  // namespace neve::render::overlay

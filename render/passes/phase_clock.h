@@ -1,0 +1,37 @@
+#pragma once
+/// How long the phases of a picture take.
+
+#include <chrono>
+#include <vector>
+
+#include "render/frame/phase_time.h"
+#include "render/gl/gl.h"
+
+namespace neve::render::passes {
+
+/// Asks the driver to finish before it looks at the clock, but only where somebody wants to know:
+/// otherwise it does nothing.
+class PhaseClock {
+ public:
+  /// @param times may be null
+  PhaseClock(const gl::Gl& gl, std::vector<PhaseTime>* times) : gl_(gl), times_(times) {
+    if (times_) times_->clear();
+  }
+  bool is_wanted() const { return times_ != nullptr; }
+  /// What was done since the last phase ended was this one.
+  void end(const char* phase) {
+    if (!times_) return;
+    gl_.Finish();
+    const auto now = Clock::now();
+    times_->push_back({phase, std::chrono::duration<double>(now - last_).count()});
+    last_ = now;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const gl::Gl& gl_;
+  std::vector<PhaseTime>* times_;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace neve::render::passes

@@ -1,0 +1,34 @@
+#pragma once
+/// Meshes, heat maps and arrows as OpenGL has drawn them, kept in memory for as long as neither
+/// they nor the camera change: colliders that stand still are drawn once for a whole sequence.
+
+#include <cstdint>
+#include <memory>
+
+#include "render/cpu/surfaces.h"
+#include "render/frame/frame.h"
+#include "render/frame/view.h"
+
+namespace neve::render::passes {
+
+class SolidCache {
+ public:
+  SolidCache();
+  ~SolidCache();
+  /// Whether the samples are those of this frame.
+  bool holds(const Frame& frame, const View& view) const;
+  /// To be filled with those of this frame.
+  cpu::SolidSamples& renew(const Frame& frame, const View& view);
+  const cpu::SolidSamples& samples() const { return samples_; }
+  /// How often they were made anew.
+  std::uint64_t renewals() const { return renewals_; }
+
+ private:
+  /// All that they depend on, to be compared byte by byte.
+  struct Key;
+  std::unique_ptr<Key> key_;
+  cpu::SolidSamples samples_;
+  std::uint64_t renewals_ = 0;
+};
+
+}  // namespace neve::render::passes

@@ -1,0 +1,71 @@
+/// Meshes from files: smooth but for their sharp edges.
+
+#include <algorithm>
+#include <map>
+
+#include "render/shapes/mesh_shapes.h"
+
+namespace neve::render::shapes {
+namespace {
+
+constexpr float cos_crease = 0.766f;  // 40 degrees
+/// Meshes of at most so many triangles show all of their edges.
+constexpr std::size_t few = 600;
+
+/// Twice the area long.
+Vec3f face_normal(const std::vector<Vec3f>& position, const std::uint32_t* corner) {
+  return cross(position[corner[1]] - position[corner[0]],
+               position[corner[2]] - position[corner[0]]);
+}
+
+/// The triangles around each vertex.
+std::vector<std::vector<std::uint32_t>> faces_around(const std::vector<Vec3f>& position,
+                                                     const std::vector<std::uint32_t>& index) {
+  std::vector<std::vector<std::uint32_t>> faces(position.size());
+  for (std::size_t k = 0; k < index.size(); ++k)
+    faces[index[k]].push_back(static_cast<std::uint32_t>(k / 3));
+  return faces;
+}
+
+}  // namespace
+
+TriangleMesh creased_mesh(const std::vector<Vec3f>& position,
+                          const std::vector<std::uint32_t>& index) {
+  const auto around = faces_around(position, index);
+  std::vector<Vec3f> normal(index.size() / 3);
+  for (std::size_t t = 0; t < normal.size(); ++t)
+    normal[t] = face_normal(position, index.data() + 3 * t);
+  TriangleMesh mesh;
+  for (std::size_t k = 0; k < index.size(); ++k) {
+    const Vec3f own = normalized(normal[k / 3]);
+    Vec3f sum;
+    for (const std::uint32_t t : around[index[k]])
+      if (dot(own, normalized(normal[t])) > cos_crease) sum = sum + normal[t];
+    mesh.position.push_back(position[index[k]]);
+    mesh.normal.push_back(length(sum) > 0 ? normalized(sum) : own);
+    mesh.index.push_back(static_cast<std::uint32_t>(k));
+  }
+  return mesh;
+}
+
+Lines mesh_lines(const std::vector<Vec3f>& position, const std::vector<std::uint32_t>& index) {
+  // The first face of each edge; at the second the line is known to be needed or not.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3f> first;
+  Lines lines;
+  const bool shows_all = index.size() / 3 <= few;
+  for (std::size_t t = 0; t + 2 < index.size(); t += 3) {
+    const Vec3f normal = normalized(face_normal(position, index.data() + t));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = index[t + k], b = index[t + (k + 1) % 3];
+      const auto [other, is_new] = first.try_emplace(std::minmax(a, b), normal);
+      if (is_new) continue;
+      const float together = dot(normal, other->second);
+      // The diagonals of flat polygons are no edges.
+      if (together > 0.9999f || (!shows_all && together > cos_crease)) continue;
+      lines.ends.insert(lines.ends.end(), {position[a], position[b]});
+    }
+  }
+  return lines;
+}
+
+}  // namespace neve::render::shapes

@@ -1,0 +1,66 @@
+#include "sim/checks/self_test.h"
+
+#include <exception>
+
+#include "sim/checks/self_test_tests.h"
+
+namespace neve::sim::checks {
+
+namespace {
+
+using self_test::Measure;
+
+struct Test {
+  const char* name;
+  const char* what;
+  void (*run)(const SelfTestCase&, Measure&);
+};
+constexpr Test tests[] = {
+    {"weights", "sums of w, of its moments and of its gradient", self_test::weights},
+    {"affine_field", "a linear velocity deforms by exactly I + dt A and comes back",
+     self_test::affine_field},
+    {"stress", "none in a rotation, turns with the body, symmetric", self_test::stress},
+    {"force", "is minus the derivative of the elastic energy", self_test::force},
+    {"solve", "semi-implicit velocities fulfil their equation", self_test::solve},
+    {"projection", "keeps the identity and det F, clamps the stretches", self_test::projection},
+    {"hardening", "is 1 at J_P = 1 and grows as it should", self_test::hardening},
+    {"initial_state", "F_E = I, J_P = 1, no stress", self_test::initial_state},
+    {"free_fall", "three steps are exact, nothing deforms", self_test::free_fall},
+    {"volumes", "estimated ones are right inside and bounded in all", self_test::volumes},
+    {"drivers", "a fast step ends where the step by stages does", self_test::drivers}};
+
+}  // namespace
+
+std::vector<SelfTestCase> all_self_test_cases() {
+  std::vector<SelfTestCase> cases;
+  for (const Precision precision : {Precision::single, Precision::real64})
+    for (const Kernel kernel : {Kernel::cubic, Kernel::quadratic})
+      for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls})
+        cases.push_back({kernel, transfer, precision});
+  return cases;
+}
+
+std::vector<SelfTestResult> self_tests(std::span<const SelfTestCase> cases) {
+  std::vector<SelfTestResult> results;
+  for (const Test& test : tests) {
+    SelfTestResult result{test.name, test.what, true, ""};
+    double worst = -1;
+    for (const SelfTestCase& one : cases) {
+      Measure measure(one);
+      try {
+        test.run(one, measure);
+        if (measure.worst() < 0) measure.failure("nothing was measured");
+      } catch (const std::exception& error) {
+        measure.failure(error.what());
+      }
+      if (!(measure.worst() > worst)) continue;
+      worst = measure.worst();
+      result.detail = measure.detail();
+    }
+    result.passed = worst >= 0 && worst <= 1;
+    results.push_back(result);
+  }
+  return results;
+}
+
+}  // namespace neve::sim::checks

@@ -1,0 +1,71 @@
+#pragma once
+/// Bodies that the self-tests use, and weights computed once more and differently.
+
+#include <vector>
+
+#include "sim/checks/self_test.h"
+#include "sim/staged.h"
+
+namespace neve::sim::checks::self_test {
+
+/// Cell size of every self-test, m. Not a power of two, so that rounding takes part.
+inline constexpr double cell_size = 0.05;
+/// Density of the bodies, kg/m3.
+inline constexpr double density = 400;
+
+/// Without gravity, and with a FLIP ratio that acts per step.
+SolverSettings settings_of(const SelfTestCase& test);
+
+/// Always the same numbers in [-1, 1).
+class Numbers {
+ public:
+  explicit Numbers(unsigned seed) : state_(seed * 0x9e3779b97f4a7c15ull + 1) {}
+  double operator()();
+  Vec3d vector() {
+    return Vec3d::NullaryExpr([this] { return (*this)(); });
+  }
+  Mat3d matrix() {
+    return Mat3d::NullaryExpr([this] { return (*this)(); });
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// Particles so far apart that none shares a node with another: what a node has is of one particle.
+/// At rest, with given volumes and F_E = I.
+ParticleArrays isolated_particles(int count);
+
+/// The isolated particle that a node belongs to.
+std::size_t owner(const Vec3i& node);
+
+/// Two interleaved lattices of spacing h around the origin. B-splines on such a lattice reproduce
+/// linear functions, so that in its middle the grid's velocity is exactly what the particles have.
+ParticleArrays even_lattice();
+/// Whether every node around x is surrounded by the lattice.
+bool is_deep_inside(const Vec3d& x);
+
+/// A ball of snow with some particles per cell, at rest, with its true volumes.
+ParticleArrays small_ball();
+
+/// w_ip, from the definition of the splines: cubic and quadratic hats by distance.
+double weight(Kernel kernel, const Vec3d& node_minus_particle);
+/// What forces and velocity gradients use in the place of grad_w_ip, 1/m: for MLS
+/// w_ip (x_i - x_p) / D (Hu et al. 2018).
+Vec3d weight_gradient(Kernel kernel, Transfer transfer, const Vec3d& node_minus_particle);
+
+/// D of APIC, h^2/3 or h^2/4 (Jiang et al. 2015), m2.
+double inertia(Kernel kernel);
+
+/// Position of a node, m.
+inline Vec3d place(const Vec3i& node) {
+  return node.cast<double>() * self_test::cell_size;
+}
+
+/// Force on each node as it is felt: what changed the grid's velocity, without gravity, N.
+std::vector<Vec3d> felt_forces(const StagedStep& step, double dt);
+
+/// Kirchhoff stress of isolated particles as nodes feel it: -sum f_i (x_i - x_p)^T / V0, Pa.
+std::vector<Mat3d> felt_stress(const ParticleArrays& particles, const StagedStep& step, double dt);
+
+}  // namespace neve::sim::checks::self_test

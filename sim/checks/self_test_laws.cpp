@@ -1,0 +1,216 @@
+/// Self-tests of the laws that one step keeps, as nodes and particles feel them.
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "sim/checks/self_test_bodies.h"
+#include "sim/checks/self_test_tests.h"
+#include "sim/health/diagnostics.h"
+
+namespace neve::sim::checks::self_test {
+
+namespace {
+
+/// Feels no strain: what happens to F alone is then seen.
+Material without_stiffness() {
+  Material m;
+  m.youngs_modulus = 0;
+  return m;
+}
+
+}  // namespace
+
+/// sum w = 1, sum w (x_i - x_p) = 0, sum w (x_i - x_p)(x_i - x_p)^T = D I, and for the gradients
+/// that forces use sum grad_w = 0, sum (x_i - x_p) grad_w^T = I: isolated particles, so that a
+/// node's mass is m_p w_ip and its force -V0 tau grad_w_ip with tau a known pressure.
+void weights(const SelfTestCase& test, self_test::Measure& measure) {
+  constexpr double dt = 1e-4;
+  const Material material = Material{};
+  ParticleArrays p = self_test::isolated_particles(12);
+  p.F_E.assign(p.x.size(), 0.99 * Mat3d::Identity());
+  const Simulation simulation(self_test::settings_of(test), {material}, {}, p, 1);
+  p = simulation.particles();
+  const StagedStep step = staged_step(simulation, dt);
+  const std::size_t count = p.x.size();
+  std::vector<double> sum(count);
+  std::vector<Vec3d> arm(count, Vec3d::Zero()), force(count, Vec3d::Zero());
+  std::vector<Mat3d> moment(count, Mat3d::Zero());
+  const std::vector<Vec3d> forces = self_test::felt_forces(step, dt);
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const std::size_t q = self_test::owner(step.nodes.node[i]);
+    if (q >= count) continue;
+    const double w = step.nodes.mass[i] / p.m[q];
+    const Vec3d d = self_test::place(step.nodes.node[i]) - p.x[q];
+    sum[q] += w;
+    arm[q] += w * d;
+    moment[q] += w * d * d.transpose();
+    force[q] += forces[i];
+  }
+  const std::vector<Mat3d> stress = self_test::felt_stress(p, step, dt);
+  for (std::size_t q = 0; q < count; ++q) {
+    const Mat3d tau = health::first_piola(material, p.F_E[q], p.J_P[q]) * p.F_E[q].transpose();
+    const double pressure = tau(0, 0), D = self_test::inertia(test.kernel);
+    measure.zero("sum of w", sum[q] - 1, self_test::rounding);
+    measure.zero("sum of w (x_i - x_p)", arm[q].norm() / self_test::cell_size, self_test::rounding);
+    measure.zero("sum of w (x_i - x_p)(x_i - x_p)^T",
+                 self_test::largest(moment[q] - D * Mat3d::Identity()) / D, self_test::rounding);
+    measure.zero("sum of grad_w", force[q].norm() * self_test::cell_size / (p.V0[q] * pressure),
+                 self_test::rounding);
+    measure.zero("sum of (x_i - x_p) grad_w^T",
+                 self_test::largest(stress[q] / pressure - Mat3d::Identity()), self_test::rounding);
+  }
+}
+
+/// Node velocities A x with A not symmetric: grad v must be A, F_E must become (I + dt A) F_E, and
+/// particles must get A x back. The only test that notices a transposed grad v.
+void affine_field(const SelfTestCase& test, self_test::Measure& measure) {
+  constexpr double dt = 0.05;
+  Mat3d A;
+  A << 0.1, 0.9, -0.4, -0.3, 0.2, 0.5, 0.7, -0.6, -0.2;
+  self_test::Numbers number(3);
+  ParticleArrays p = self_test::even_lattice();
+  for (const Vec3d& x : p.x) {
+    p.F_E.push_back(Mat3d::Identity() + 0.1 * number.matrix());
+    p.C.push_back(A);
+    p.v[p.F_E.size() - 1] = A * x;
+  }
+  const Simulation simulation(self_test::settings_of(test), {without_stiffness()}, {}, p, 1);
+  p = simulation.particles();
+  const StagedStep step = staged_step(simulation, dt);
+  for (std::size_t q = 0; q < p.x.size(); ++q) {
+    if (!self_test::is_deep_inside(p.x[q])) continue;
+    const Mat3d expected = (Mat3d::Identity() + dt * A) * p.F_E[q];
+    measure.zero("grad v", self_test::largest(step.grad_v[q] - A), self_test::rounding);
+    measure.zero("(I + dt A) F_E", self_test::largest(step.F_E_trial[q] - expected),
+                 self_test::rounding);
+    measure.zero("the particle's velocity", (step.after.v[q] - A * p.x[q]).norm(),
+                 self_test::rounding);
+    measure.zero("the particle's way",
+                 (step.after.x[q] - p.x[q] - dt * A * p.x[q]).norm() / self_test::cell_size,
+                 self_test::rounding);
+  }
+}
+
+/// A rotation leaves no stress, tau(Q F) = Q tau(F) Q^T, and tau is symmetric; as nodes feel it.
+void stress(const SelfTestCase& test, self_test::Measure& measure) {
+  constexpr double dt = 1e-4;
+  const Mat3d Q = rotation_from_vector({0.5, -0.8, 0.3});
+  for (const Model model : {Model::snow, Model::neo_hookean}) {
+    Material material = Material{};
+    material.model = model;
+    self_test::Numbers number(4);
+    ParticleArrays p = self_test::isolated_particles(13);
+    p.F_E[0] = Q;
+    for (std::size_t q = 1; q < p.x.size(); q += 2) {
+      p.F_E[q] = Mat3d::Identity() + 0.1 * number.matrix();
+      p.F_E[q + 1] = Q * p.F_E[q];
+    }
+    const Simulation simulation(self_test::settings_of(test), {material}, {}, p, 1);
+    p = simulation.particles();
+    const std::vector<Mat3d> tau = self_test::felt_stress(p, staged_step(simulation, dt), dt);
+    const double unit = 0.1 * material.youngs_modulus;
+    measure.zero("stress of a rotation", self_test::largest(tau[0]) / unit, self_test::rounding);
+    for (std::size_t q = 1; q < tau.size(); q += 2) {
+      measure.zero("stress of a rotated body",
+                   self_test::largest(tau[q + 1] - Q * tau[q] * Q.transpose()) / unit,
+                   self_test::rounding);
+      measure.zero("symmetry of the stress", self_test::largest(tau[q] - tau[q].transpose()) / unit,
+                   self_test::rounding);
+    }
+  }
+}
+
+/// f . u = -dE/du for any displacement u of the nodes: sign, volumes, J, powers of h, hardening.
+void force(const SelfTestCase& test, self_test::Measure& measure) {
+  constexpr double dt = 1e-5, epsilon = 1e-5;
+  self_test::Numbers number(5);
+  std::vector<Material> materials(2, Material{});
+  materials[1].model = Model::neo_hookean;
+  ParticleArrays p = self_test::small_ball();
+  p.x.resize(60), p.v.resize(60), p.m.resize(60), p.V0.resize(60);
+  for (std::size_t q = 0; q < p.x.size(); ++q) {
+    p.F_E.push_back(Mat3d::Identity() + 0.1 * number.matrix());
+    p.J_P.push_back(1 + 0.05 * number());
+    p.material.push_back(static_cast<int>(q % 2));
+  }
+  const Simulation simulation(self_test::settings_of(test), materials, {}, p, 1);
+  p = simulation.particles();
+  const StagedStep step = staged_step(simulation, dt);
+  const std::vector<Vec3d> forces = self_test::felt_forces(step, dt);
+  std::vector<Mat3d> strain(p.x.size(), Mat3d::Zero());
+  double work = 0, size = 0;
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const Vec3d u = self_test::cell_size * number.vector();
+    work += forces[i].dot(u);
+    size += std::abs(forces[i].dot(u));
+    for (std::size_t q = 0; q < p.x.size(); ++q) {
+      const Vec3d d = self_test::place(step.nodes.node[i]) - p.x[q];
+      if (d.cwiseAbs().maxCoeff() < 2 * self_test::cell_size)
+        strain[q] += u * self_test::weight_gradient(test.kernel, test.transfer, d).transpose();
+    }
+  }
+  const auto energy = [&](double by) {
+    double sum = 0;
+    for (std::size_t q = 0; q < p.x.size(); ++q)
+      sum += p.V0[q] * health::energy_density(materials[q % 2],
+                                              (Mat3d::Identity() + by * strain[q]) * p.F_E[q],
+                                              p.J_P[q]);
+    return sum;
+  };
+  const double slope = (energy(epsilon) - energy(-epsilon)) / (2 * epsilon);
+  measure.zero("f . u + dE/du", (work + slope) / size, self_test::differences);
+}
+
+/// Projection keeps F_E = I, det F_E times J_P, and the axes; it clamps the stretches. Hardening is
+/// 1 at J_P = 1 and e^xi(1 - J_P) elsewhere.
+void projection(const SelfTestCase& test, self_test::Measure& measure) {
+  constexpr double dt = 1e-5;
+  const Material soft = without_stiffness();
+  self_test::Numbers number(6);
+  ParticleArrays p = self_test::isolated_particles(24);
+  for (std::size_t q = 1; q < p.x.size(); ++q) {
+    p.F_E[q] = Mat3d::Identity() + 0.05 * number.matrix();
+    p.J_P[q] = 1 + 0.1 * number();
+  }
+  const Simulation simulation(self_test::settings_of(test), {soft}, {}, p, 1);
+  p = simulation.particles();
+  const ParticleArrays after = staged_step(simulation, dt).after;
+  measure.zero("the identity, projected", self_test::largest(after.F_E[0] - Mat3d::Identity()),
+               self_test::rounding);
+  for (std::size_t q = 0; q < p.x.size(); ++q) {
+    // F = U s V^T without U: F V s'/s V^T is U s' V^T.
+    const Eigen::SelfAdjointEigenSolver<Mat3d> eigen(p.F_E[q].transpose() * p.F_E[q]);
+    const Mat3d V = eigen.eigenvectors();
+    Vec3d factor;
+    for (int a = 0; a < 3; ++a) {
+      const double s = std::sqrt(eigen.eigenvalues()[a]);
+      factor[a] = std::clamp(s, 1 - soft.critical_compression, 1 + soft.critical_stretch) / s;
+    }
+    measure.zero(
+        "F_E, clamped",
+        self_test::largest(after.F_E[q] - p.F_E[q] * V * factor.asDiagonal() * V.transpose()),
+        self_test::rounding);
+    measure.zero("det F_E J_P",
+                 after.F_E[q].determinant() * after.J_P[q] - p.F_E[q].determinant() * p.J_P[q],
+                 self_test::rounding);
+  }
+}
+
+void hardening(const SelfTestCase& test, self_test::Measure& measure) {
+  constexpr double dt = 1e-5;
+  std::vector<Material> materials(2, Material{});
+  materials[1].hardening = 0;
+  ParticleArrays p = self_test::isolated_particles(3);
+  p.F_E.assign(3, Vec3d(0.99, 0.98, 1.005).asDiagonal());
+  p.J_P[2] = 0.9;
+  p.material = {1, 0, 0};
+  const Simulation simulation(self_test::settings_of(test), materials, {}, p, 1);
+  p = simulation.particles();
+  const std::vector<Mat3d> tau = self_test::felt_stress(p, staged_step(simulation, dt), dt);
+  const double plain = tau[0].norm(), grown = std::exp(materials[0].hardening * (1 - p.J_P[2]));
+  measure.zero("hardening at J_P = 1", tau[1].norm() / plain - 1, self_test::rounding);
+  measure.zero("hardening at J_P = 0.9", tau[2].norm() / plain / grown - 1, self_test::rounding);
+}
+}  // namespace neve::sim::checks::self_test

@@ -1,0 +1,51 @@
+#pragma once
+/// How a self-test says what it found and what is allowed.
+
+#include <string>
+
+#include "sim/checks/self_test.h"
+#include "sim/types/math.h"
+
+namespace neve::sim::checks::self_test {
+
+/// What rounding may do, by precision. The states are of order one in their units (weights,
+/// strains, speeds in m/s), sums have at most a few hundred terms, and the errors found are 3e-15
+/// in double and 1e-6 in float: so only mistakes fail, also on other machines.
+struct Tolerance {
+  double real64, single;
+};
+inline constexpr self_test::Tolerance rounding{1e-11, 2e-5};
+/// Differences of energies with a step of 1e-5 are good to 1e-10 in double. In float the forces are
+/// good to 1e-6, and random ones cancel in part.
+inline constexpr self_test::Tolerance differences{1e-6, 2e-4};
+
+/// The largest entry, whatever its sign.
+inline double largest(const Mat3d& m) {
+  return m.cwiseAbs().maxCoeff();
+}
+
+/// The worst of what one test measured, relative to what it allows.
+class Measure {
+ public:
+  explicit Measure(const SelfTestCase& test) : test_(test) {}
+
+  /// Something that has to be 0.
+  void zero(const char* what, double value, const self_test::Tolerance& tolerance);
+  /// Something that has to lie in a range.
+  void between(const char* what, double value, double least, double most);
+  /// Something that could not be computed.
+  void failure(const std::string& message);
+
+  /// Ratio to what is allowed; negative where nothing was measured.
+  double worst() const { return worst_; }
+  const std::string& detail() const { return detail_; }
+
+ private:
+  bool is_worse(double ratio);
+
+  SelfTestCase test_;
+  double worst_ = -1;
+  std::string detail_;
+};
+
+}  // namespace neve::sim::checks::self_test

@@ -1,0 +1,25 @@
+#pragma once
+/// The self-tests one by one; self_test.cpp has the list.
+
+#include "sim/checks/self_test_measure.h"
+
+namespace neve::sim::checks::self_test {
+
+// Laws of the step, on states made for them: self_test_laws.cpp.
+void weights(const SelfTestCase& test, self_test::Measure& measure);
+void affine_field(const SelfTestCase& test, self_test::Measure& measure);
+void stress(const SelfTestCase& test, self_test::Measure& measure);
+void force(const SelfTestCase& test, self_test::Measure& measure);
+void projection(const SelfTestCase& test, self_test::Measure& measure);
+void hardening(const SelfTestCase& test, self_test::Measure& measure);
+
+// The semi-implicit step: self_test_implicit.cpp.
+void solve(const SelfTestCase& test, self_test::Measure& measure);
+
+// Bodies as a run has them: self_test_states.cpp.
+void initial_state(const SelfTestCase& test, self_test::Measure& measure);
+void free_fall(const SelfTestCase& test, self_test::Measure& measure);
+void volumes(const SelfTestCase& test, self_test::Measure& measure);
+void drivers(const SelfTestCase& test, self_test::Measure& measure);
+
+}  // namespace neve::sim::checks::self_test

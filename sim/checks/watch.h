@@ -1,0 +1,103 @@
+#pragma once
+/// The run-time watch: laws that every right step keeps, looked at between steps. Looking takes a
+/// staged step of a copy, so it never changes the run.
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sim/simulation.h"
+#include "sim/types/energy_account.h"
+#include "sim/types/settings.h"
+
+namespace neve::sim::checks {
+
+/// What is watched. The first group concerns the user's choices, the second the solver itself.
+enum class WatchCheck {
+  acoustic_cfl,  ///< c dt/h with the hardened c
+  speed_cfl,     ///< |v| dt/h
+  strain_step,   ///< |dt grad v|, largest entry
+  inverted,      ///< det F_E
+  not_finite,    ///< particles whose state is no number
+  compaction,    ///< smallest J_P
+  dilation,      ///< largest J_P
+  hardening,     ///< e^(xi (1 - J_P))
+  mach,          ///< |v| over the speed of sound
+  energy,        ///< EnergyAccount::ratio
+  force_sum,     ///< |sum f| / sum |f|
+  torque,        ///< |sum x x f| / sum |x x f|
+  newton,        ///< m dv against dt (f + m g) on nodes
+  power,         ///< power of the forces against the stress power of the particles
+  work,          ///< elastic energy of the trial state against trapezoidal work
+  mass,          ///< mass on the grid against that of the particles
+  p2g_momentum,  ///< particles to grid
+  g2p_momentum,  ///< grid to particles
+};
+inline constexpr int watch_check_count = 18;
+const char* name(WatchCheck check);
+/// What is looked at, and what it means when it is out of bounds; for people.
+const char* quantity(WatchCheck check);
+const char* meaning(WatchCheck check);
+
+/// What one look found, by check; 0 where a check had nothing to look at.
+struct WatchValues {
+  std::array<double, watch_check_count> value{};
+  double& operator[](WatchCheck check) { return value[static_cast<std::size_t>(check)]; }
+  double operator[](WatchCheck check) const { return value[static_cast<std::size_t>(check)]; }
+};
+
+/// The history of one check.
+struct WatchRecord {
+  WatchCheck check;
+  bool is_below = false;       ///< broken below its thresholds, not above
+  double threshold = 0;        ///< worth a warning
+  double error = 0;            ///< wrong; infinite for checks that only warn
+  double worst = 0;            ///< found so far
+  std::size_t times = 0;       ///< looks that broke the threshold
+  std::size_t errors = 0;      ///< looks that broke the error level
+  std::size_t first_step = 0;  ///< where it was broken first, with times > 0
+  double first_time = 0;       ///< s
+
+  bool breaks(double value, double limit) const;
+};
+
+/// One line for people: step, value, threshold, what it means, what to do.
+std::string sentence(const WatchRecord& record, double value, double dt);
+
+/// Steps between two looks of a long run. A look costs about as much as 25 steps on one thread (a
+/// staged step, copies, stress and energy in double), and is not shared among threads: so this
+/// keeps it near a tenth of the run, a fifth on two threads.
+inline constexpr std::size_t watch_interval = 256;
+
+/// Whether the state after `steps` steps is to be looked at: the first ones, where wrong numbers
+/// show at once, then ever rarer down to the interval.
+bool is_watch_due(std::size_t steps);
+
+class Watch {
+ public:
+  Watch(const SolverSettings& settings, const std::vector<Material>& materials);
+
+  /// Goes on with what Simulation::apply changed. What was found so far stays.
+  void use(const SolverSettings& settings, const std::vector<Material>& materials);
+
+  /// Looks at the state as it is and at the step that would come next.
+  /// @return one sentence for each check that was broken for the first time
+  std::vector<std::string> look(const Simulation& simulation);
+
+  /// What look() would find, not recorded.
+  WatchValues measure(const Simulation& simulation) const;
+
+  std::size_t looks() const { return looks_; }
+  const std::vector<WatchRecord>& records() const { return records_; }
+  /// Whether something was wrong, not only worth a warning.
+  bool has_errors() const;
+
+ private:
+  SolverSettings settings_;
+  std::vector<Material> materials_;
+  std::vector<WatchRecord> records_;
+  std::size_t looks_ = 0;
+};
+
+}  // namespace neve::sim::checks

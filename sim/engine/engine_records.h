@@ -1,0 +1,59 @@
+#pragma once
+/// Between particle records and Eigen's types, for the files that implement Engine.
+
+#include <cmath>
+#include <cstddef>
+
+#include "sim/kernels/particles.h"
+#include "sim/types/material.h"
+#include "sim/types/math.h"
+
+namespace neve::sim::engine {
+
+/// Storage is put into block order this often: sorting costs more than it gains every step.
+inline constexpr std::size_t steps_between_sorts = 32;
+
+inline kernels::ModelKind model_kind(Model model) {
+  switch (model) {
+    case Model::corotated:
+      return kernels::ModelKind::corotated;
+    case Model::neo_hookean:
+      return kernels::ModelKind::neo_hookean;
+    default:
+      return kernels::ModelKind::snow;
+  }
+}
+
+/// Splits a coordinate in cells into the cell and the offset in it; the offset is below 1 also
+/// after rounding to Real.
+template <class Real>
+void split(double in_cells, int& cell, Real& offset) {
+  const double whole = std::floor(in_cells);
+  cell = static_cast<int>(whole);
+  offset = static_cast<Real>(in_cells - whole);
+  if (offset >= Real(1)) {
+    ++cell;
+    offset = 0;
+  }
+}
+
+template <class Real>
+Vec3d vector(const Real* xyz) {
+  return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2])};
+}
+
+template <class Real>
+Mat3d matrix(const Real* row_by_row) {
+  Mat3d m;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) m(a, b) = static_cast<double>(row_by_row[3 * a + b]);
+  return m;
+}
+
+template <class Real>
+void store_matrix(const Mat3d& m, Real* row_by_row) {
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) row_by_row[3 * a + b] = static_cast<Real>(m(a, b));
+}
+
+}  // namespace neve::sim::engine

@@ -1,0 +1,109 @@
+#pragma once
+/// Which particle belongs to which block: brought up to date every step from the particles' keys.
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/base/thread_pool.h"
+#include "sim/engine/reorder.h"
+#include "sim/kernels/blocks.h"
+#include "sim/types/math.h"
+
+namespace neve::sim::engine {
+
+/// Particles in block order, and the blocks of nodes around them. The order is that of block key,
+/// then model and cell, then storage; it depends neither on the number of threads nor on the order
+/// before. Most particles are where they were a step ago, so only those that changed cell or block
+/// are sorted.
+class Partition {
+ public:
+  /// In blocks per axis, 0: open. One block is enough: a stencil is no wider.
+  void set_period(const Vec3i& period) { period_ = period; }
+
+  /// Brings keys of particles into the first period.
+  void wrap(std::vector<std::uint64_t>& keys, ThreadPool& pool, int threads) const;
+
+  /// Particles may have been added at the end since the last call; if there are fewer, all is done
+  /// anew. After any other change of the storage forget() has to be called.
+  /// @param keys, locals  per storage index, see SweepArgs
+  void build(const std::vector<std::uint64_t>& keys, const std::vector<std::uint16_t>& locals,
+             ThreadPool& pool, int threads);
+
+  /// The storage is another one: the next build starts anew.
+  void forget();
+
+  /// Brings storage into the order found; keys and locals follow.
+  template <class Record>
+  void sort_storage(std::vector<Record>& records, Reordering<Record>& reordering,
+                    std::vector<std::uint64_t>& keys, std::vector<std::uint16_t>& locals,
+                    ThreadPool& pool, int threads) {
+    reordering.run(records, order_, pool, threads);
+    storage_was_sorted(keys, locals, pool, threads);
+  }
+
+  const std::vector<std::uint32_t>& order() const { return order_; }
+  const std::vector<std::uint16_t>& sorted_locals() const { return locals_; }
+  const std::vector<kernels::ParticleBlock>& blocks() const { return blocks_; }
+  const std::vector<kernels::NodeBlock>& node_blocks() const { return node_blocks_; }
+
+  std::size_t memory_bytes() const;
+
+  /// First block of a part of the particles, cut by their count; part = parts gives the end.
+  std::uint32_t first_block(int part, int parts) const;
+
+ private:
+  /// A particle on its way to a block; place is local << 32 | storage index.
+  struct Arrival {
+    std::uint64_t key, place;
+  };
+  /// Arrivals of one part that go to the same block.
+  struct Flock {
+    std::uint64_t key;
+    std::uint32_t begin, count;
+  };
+  /// Where a block of the step before has those that stay in their cell, [begin, stay), and those
+  /// that changed cell, [moved, end). Between them were those that left.
+  struct Kept {
+    std::uint32_t begin = 0, stay = 0, moved = 0, end = 0;
+  };
+  /// What one thread works with.
+  struct Part {
+    std::vector<Arrival> arrivals;
+    std::vector<Flock> flocks;
+    std::vector<std::size_t> next;
+    std::vector<std::uint64_t> places, scattered;
+  };
+  /// Of a list of keys and the same moved one block up an axis, in order. Index in the list, or -1.
+  struct Union {
+    std::vector<std::uint64_t> keys;
+    std::vector<std::int32_t> here, below;
+  };
+
+  void storage_was_sorted(std::vector<std::uint64_t>& keys, std::vector<std::uint16_t>& locals,
+                          ThreadPool& pool, int threads) const;
+  void find_changes(const std::vector<std::uint64_t>& keys,
+                    const std::vector<std::uint16_t>& locals, std::size_t known, ThreadPool& pool);
+  void keep(std::size_t block, const std::vector<std::uint64_t>& keys,
+            const std::vector<std::uint16_t>& locals, Part& part);
+  static void gather_flocks(Part& part, std::size_t begin);
+  bool list_blocks();
+  void place_particles(ThreadPool& pool);
+  void fill(const kernels::ParticleBlock& block, const Kept& kept, Part& part);
+  void link_node_blocks(ThreadPool& pool, int threads);
+  void unite(const std::vector<std::uint64_t>& keys, int axis, Union& out) const;
+  std::uint64_t wrapped(std::uint64_t key) const;
+
+  Vec3i period_{0, 0, 0};
+
+  std::vector<std::uint32_t> order_, next_order_;    ///< sorted position -> storage index
+  std::vector<std::uint16_t> locals_, next_locals_;  ///< per sorted position
+  std::vector<kernels::ParticleBlock> blocks_, next_blocks_;
+  std::vector<Kept> kept_;            ///< per block of the step before
+  std::vector<std::int32_t> source_;  ///< per block: which it was in the step before, -1: none
+  std::vector<kernels::NodeBlock> node_blocks_;
+  std::vector<Part> parts_;
+  std::vector<Flock> flocks_;
+  Union unions_[3];
+};
+
+}  // namespace neve::sim::engine

@@ -1,0 +1,36 @@
+#pragma once
+/// Text and tables that users bring along: how they are read, and how their parts are shown.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace neve::sim::files {
+
+/// The bytes of a regular file, not allocated before its size is known to be allowed.
+/// @param most_mebibytes  larger files are refused
+/// @param whats  what messages call files of this kind: "meshes"
+/// @throws ShapeError with the path in front
+std::string read_input_file(const std::string& path, std::uintmax_t most_mebibytes,
+                            const std::string& whats);
+
+/// @throws ShapeError WHERE: WHAT
+[[noreturn]] void refuse_input(const std::string& where, const std::string& what);
+
+/// Text from a file as it may be shown in a message: short and printable.
+std::string quoted_input(std::string_view word);
+
+/// Blank, but not the end of a line.
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
+
+/// Without blanks at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// All of a word, blanks around it aside, as a number, which may be infinite or not a number;
+/// nothing if it is none. Independent of the locale.
+std::optional<double> number_in(std::string_view word);
+
+}  // namespace neve::sim::files

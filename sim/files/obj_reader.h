@@ -1,0 +1,39 @@
+#pragma once
+/// Vertices and polygons of a Wavefront OBJ file.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/types/math.h"
+
+namespace neve::sim::files {
+
+/// Polygons over shared vertices, as they stand in the file.
+struct PolygonMesh {
+  /// Corners first to first of the next polygon; line in the file, from 1.
+  struct Polygon {
+    std::size_t first;
+    std::size_t line;
+  };
+  std::vector<Vec3d> vertices;
+  std::vector<std::uint32_t> corners;  ///< indices of vertices, valid
+  std::vector<Polygon> polygons;       ///< 3 corners or more each
+
+  std::size_t corner_end(std::size_t polygon) const {
+    return polygon + 1 < polygons.size() ? polygons[polygon + 1].first : corners.size();
+  }
+};
+
+/// Reads `v` and `f` (index forms v, v/vt, v//vn, v/vt/vn, negative ones count back from the last
+/// vertex), lines continued by a backslash; everything else is ignored. Independent of the locale.
+/// @param name what messages call the text: name:line: ...
+/// @throws ShapeError for malformed numbers, bad indices, polygons of less than three corners and
+///         files without any
+PolygonMesh parse_obj(std::string_view text, const std::string& name);
+
+/// @throws ShapeError also when the file cannot be read or is larger than 256 MiB
+PolygonMesh read_obj(const std::string& path);
+
+}  // namespace neve::sim::files

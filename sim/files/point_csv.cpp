@@ -1,0 +1,116 @@
+// An own reader rather than libcsv (Debian): that hands over every field of every column by
+// call-back, knows no line numbers, and finding the columns and reading numbers would remain.
+#include <algorithm>
+
+#include "sim/files/input_file.h"
+#include "sim/files/point_table.h"
+
+namespace neve::sim::files {
+namespace {
+
+/// The length of a field, up to its separator or the end of the line. Separators between quotes are
+/// part of it; two quotes there are one.
+std::size_t field_length(std::string_view line, char separator) {
+  std::size_t at = 0;
+  while (at < line.size() && is_blank(line[at]) && line[at] != separator) ++at;
+  if (!line.substr(at).starts_with('"')) return std::min(line.find(separator, at), line.size());
+  at = line.find('"', at + 1);
+  while (at != std::string_view::npos && line.substr(at + 1).starts_with('"'))
+    at = line.find('"', at + 2);
+  return std::min(line.find(separator, at), line.size());
+}
+
+/// The fields of a line; those beyond `most` are counted only up to one more.
+void split_fields(std::string_view line, char separator, std::size_t most,
+                  std::vector<std::string_view>& fields) {
+  fields.clear();
+  while (fields.size() <= most) {
+    const std::size_t length = field_length(line, separator);
+    std::string_view field = trimmed(line.substr(0, length));
+    if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
+      field = field.substr(1, field.size() - 2);
+    fields.push_back(field);
+    if (length == line.size()) break;
+    line.remove_prefix(length + 1);
+  }
+}
+
+bool says_nothing(std::string_view line) {
+  line = trimmed(line);
+  return line.empty() || line.front() == '#';
+}
+
+/// The most frequent; a comma where there are as many of others, or none.
+char separator_of(std::string_view header) {
+  char found = ',';
+  for (const char c : {';', '\t'})
+    if (std::count(header.begin(), header.end(), c) >
+        std::count(header.begin(), header.end(), found))
+      found = c;
+  return found;
+}
+
+class PointCsv {
+ public:
+  PointCsv(std::string_view text, const std::string& name) : lines_(text), name_(name) {}
+
+  PointCloud read() {
+    PointTable points = read_header();
+    std::vector<double> row(columns_.size());
+    while (!lines_.at_end()) {
+      const std::string_view line = lines_.next();
+      if (says_nothing(line)) continue;
+      read_row(line, points, row);
+      points.add(row, [&] { return here(); });
+    }
+    return points.take(name_);
+  }
+
+ private:
+  std::string here() const { return name_ + ":" + std::to_string(lines_.number()); }
+
+  PointTable read_header() {
+    std::string_view header;
+    while (!lines_.at_end() && says_nothing(header)) header = lines_.next();
+    if (says_nothing(header)) refuse_input(name_, "it has no header line; expected x, y, z");
+    separator_ = separator_of(header);
+    split_fields(header, separator_, max_columns, fields_);
+    if (fields_.size() > max_columns) refuse_input(here(), "more than 256 columns");
+    if (number_in(fields_.front()))
+      refuse_input(here(), "the first line has numbers; expected names of columns, as in x,y,z");
+    columns_.assign(fields_.begin(), fields_.end());
+    return PointTable(columns_, here());
+  }
+
+  void read_row(std::string_view line, const PointTable& points, std::vector<double>& row) {
+    split_fields(line, separator_, columns_.size(), fields_);
+    if (fields_.size() > columns_.size())
+      refuse_input(here(), "more fields than the header's " + std::to_string(columns_.size()));
+    if (fields_.size() < columns_.size())
+      refuse_input(here(), std::to_string(fields_.size()) + " fields; the header has " +
+                               std::to_string(columns_.size()));
+    for (std::size_t k = 0; k < fields_.size(); ++k) {
+      if (!points.uses(k)) continue;
+      const std::optional<double> value = number_in(fields_[k]);
+      if (!value)
+        refuse_input(here(), quoted_input(fields_[k]) + " is not a number, in column " +
+                                 quoted_input(columns_[k]));
+      row[k] = *value;
+    }
+  }
+
+  TableLines lines_;
+  const std::string& name_;
+  char separator_ = ',';
+  std::vector<std::string> columns_;
+  std::vector<std::string_view> fields_;  ///< of the present line
+};
+
+}  // namespace
+
+PointCloud parse_csv_points(std::string_view text, const std::string& name) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // as spreadsheets write it
+  return PointCsv(text, name).read();
+}
+
+}  // namespace neve::sim::files

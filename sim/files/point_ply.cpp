@@ -1,0 +1,274 @@
+// An own reader rather than RPly (Debian's librply), which reads numbers of ascii files by the
+// locale, tells neither the line nor the file of what is wrong, and takes values that are missing
+// from the next line; happly and miniply are no packages. Only a table of single numbers is read.
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <system_error>
+
+#include "sim/files/input_file.h"
+#include "sim/files/point_table.h"
+
+namespace neve::sim::files {
+namespace {
+
+struct PlyType {
+  std::size_t size;  ///< bytes
+  enum Kind { is_signed, is_unsigned, is_float } kind;
+};
+
+std::optional<PlyType> type_called(std::string_view name) {
+  if (name == "char" || name == "int8") return PlyType{1, PlyType::is_signed};
+  if (name == "uchar" || name == "uint8") return PlyType{1, PlyType::is_unsigned};
+  if (name == "short" || name == "int16") return PlyType{2, PlyType::is_signed};
+  if (name == "ushort" || name == "uint16") return PlyType{2, PlyType::is_unsigned};
+  if (name == "int" || name == "int32") return PlyType{4, PlyType::is_signed};
+  if (name == "uint" || name == "uint32") return PlyType{4, PlyType::is_unsigned};
+  if (name == "float" || name == "float32") return PlyType{4, PlyType::is_float};
+  if (name == "double" || name == "float64") return PlyType{8, PlyType::is_float};
+  return std::nullopt;
+}
+
+/// Up to 8 bytes, the least significant first.
+double number_of(std::uint64_t bits, PlyType type) {
+  if (type.kind == PlyType::is_unsigned) return static_cast<double>(bits);
+  if (type.kind == PlyType::is_float && type.size == 4)
+    return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+  if (type.kind == PlyType::is_float) return std::bit_cast<double>(bits);
+  const auto unused = static_cast<unsigned>(64 - 8 * type.size);
+  return static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused);
+}
+
+std::string_view next_ply_word(std::string_view& line) {
+  line = trimmed(line);
+  std::size_t end = 0;
+  while (end < line.size() && !is_blank(line[end])) ++end;
+  const std::string_view word = line.substr(0, end);
+  line.remove_prefix(end);
+  return word;
+}
+
+/// A table of the file: vertex, face and so on.
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;  ///< as the header claims
+  std::string where;        ///< of its line in the header
+  std::string list;         ///< place of a list among its properties, ""
+  std::vector<PlyType> types;
+  std::vector<std::string> columns;  ///< names of the properties
+
+  std::size_t row_size() const {
+    std::size_t bytes = 0;
+    for (const PlyType& type : types) bytes += type.size;
+    return bytes;
+  }
+};
+
+struct PlyHeader {
+  enum class Format { none, ascii, little, big } format = Format::none;
+  std::vector<PlyElement> elements;  ///< up to the points, which are the last
+};
+
+class PlyHeaderReader {
+ public:
+  PlyHeaderReader(TableLines& lines, const std::string& name) : lines_(lines), name_(name) {}
+
+  PlyHeader read() {
+    while (read_line()) {
+    }
+    if (header_.format == PlyHeader::Format::none)
+      refuse_input(name_, "the header of the PLY names no format");
+    keep_up_to_points();
+    return std::move(header_);
+  }
+
+ private:
+  std::string here() const { return name_ + ":" + std::to_string(lines_.number()); }
+
+  /// @return whether more follows
+  bool read_line() {
+    if (lines_.at_end()) refuse_input(name_, "the header of the PLY ends without end_header");
+    std::string_view line = lines_.next();
+    const std::string_view keyword = next_ply_word(line);
+    if (keyword == "end_header") return false;
+    if (keyword == "ply" || keyword == "comment" || keyword == "obj_info") return true;
+    if (keyword == "format")
+      read_format(line);
+    else if (keyword == "element")
+      read_element(line);
+    else if (keyword == "property")
+      read_property(line);
+    else
+      refuse_input(here(), quoted_input(keyword) + " is no keyword of a PLY header");
+    return true;
+  }
+
+  void read_format(std::string_view line) {
+    using enum PlyHeader::Format;
+    const std::string_view word = next_ply_word(line);
+    if (word == "ascii")
+      header_.format = ascii;
+    else if (word == "binary_little_endian")
+      header_.format = little;
+    else if (word == "binary_big_endian")
+      header_.format = big;
+    else
+      refuse_input(here(), "the format " + quoted_input(word) +
+                               "; expected ascii, binary_little_endian or binary_big_endian");
+  }
+
+  void read_element(std::string_view line) {
+    const std::string_view name = next_ply_word(line);
+    const std::string_view count = next_ply_word(line);
+    for (const PlyElement& other : header_.elements)
+      if (other.name == name) refuse_input(here(), "a second element " + quoted_input(name));
+    if (header_.elements.size() == max_columns) refuse_input(here(), "more than 256 elements");
+    PlyElement& element = header_.elements.emplace_back();
+    element.name = name;
+    element.where = here();
+    const char* end = count.data() + count.size();
+    const auto [stop, error] = std::from_chars(count.data(), end, element.count);
+    if (count.empty() || error != std::errc{} || stop != end)
+      refuse_input(here(), quoted_input(count) + " is no number of elements");
+  }
+
+  void read_property(std::string_view line) {
+    if (header_.elements.empty()) refuse_input(here(), "a property before the first element");
+    PlyElement& element = header_.elements.back();
+    const std::string_view type_name = next_ply_word(line);
+    if (type_name == "list") {
+      element.list = here();
+      return;
+    }
+    const std::optional<PlyType> type = type_called(type_name);
+    if (!type) refuse_input(here(), quoted_input(type_name) + " is no type of a PLY");
+    if (element.types.size() == max_columns) refuse_input(here(), "more than 256 properties");
+    element.types.push_back(*type);
+    element.columns.emplace_back(next_ply_word(line));
+  }
+
+  /// What comes after the points need not be understood.
+  void keep_up_to_points() {
+    std::vector<PlyElement>& elements = header_.elements;
+    const auto points =
+        std::find_if(elements.begin(), elements.end(),
+                     [](const PlyElement& element) { return element.name == "vertex"; });
+    if (points == elements.end()) refuse_input(name_, "the PLY has no element vertex");
+    elements.erase(points + 1, elements.end());
+    for (const PlyElement& element : elements)
+      if (!element.list.empty())
+        refuse_input(element.list,
+                     "a list in element " + quoted_input(element.name) +
+                         "; the points, and what comes before them, must have single numbers");
+  }
+
+  TableLines& lines_;
+  const std::string& name_;
+  PlyHeader header_;
+};
+
+class PointPly {
+ public:
+  PointPly(std::string_view bytes, const std::string& name)
+      : lines_(bytes), name_(name), header_(PlyHeaderReader(lines_, name).read()) {}
+
+  PointCloud read() {
+    PointTable points(header_.elements.back().columns, header_.elements.back().where);
+    if (header_.format == PlyHeader::Format::ascii)
+      read_text(points);
+    else
+      read_binary(points);
+    return points.take(name_);
+  }
+
+ private:
+  std::string here() const { return name_ + ":" + std::to_string(lines_.number()); }
+
+  /// Whatever the header claims, a row has so many bytes at least, and the file has those it has.
+  static void check_count(const PlyElement& element, std::size_t row_size, std::size_t left) {
+    if (row_size > 0 && element.count > left / row_size)
+      refuse_input(element.where, "truncated: the header promises " +
+                                      std::to_string(element.count) + " of " +
+                                      quoted_input(element.name) + ", which the " +
+                                      std::to_string(left) + " bytes after it cannot hold");
+  }
+
+  void read_text(PointTable& points) {
+    std::vector<double> row;
+    for (const PlyElement& element : header_.elements) {
+      // A digit and what ends it for every number; the last may end with the file.
+      check_count(element, 2 * element.types.size(), lines_.rest().size() + 1);
+      const bool is_points = &element == &header_.elements.back();
+      if (is_points) points.reserve(element.count);
+      for (std::uint64_t k = 0; k < element.count; ++k) {
+        if (lines_.at_end())
+          refuse_input(name_, "truncated: it ends after " + std::to_string(k) + " of " +
+                                  std::to_string(element.count) + " of " +
+                                  quoted_input(element.name));
+        const std::string_view line = lines_.next();
+        if (!is_points) continue;
+        read_text_row(line, element.columns, row);
+        points.add(row, [&] { return here(); });
+      }
+    }
+  }
+
+  void read_text_row(std::string_view line, const std::vector<std::string>& columns,
+                     std::vector<double>& row) const {
+    row.clear();
+    for (std::string_view word = next_ply_word(line); !word.empty(); word = next_ply_word(line)) {
+      if (row.size() == columns.size())
+        refuse_input(
+            here(), "more numbers than the header's " + std::to_string(row.size()) + " properties");
+      const std::optional<double> value = number_in(word);
+      if (!value)
+        refuse_input(here(), quoted_input(word) + " is not a number, in property " +
+                                 quoted_input(columns[row.size()]));
+      row.push_back(*value);
+    }
+    if (row.size() < columns.size())
+      refuse_input(here(), std::to_string(row.size()) + " numbers; the header has " +
+                               std::to_string(columns.size()) + " properties");
+  }
+
+  void read_binary(PointTable& points) {
+    std::string_view bytes = lines_.rest();
+    for (const PlyElement& element : header_.elements) {
+      check_count(element, element.row_size(), bytes.size());
+      if (&element != &header_.elements.back())
+        bytes.remove_prefix(element.row_size() * element.count);
+    }
+    const PlyElement& element = header_.elements.back();
+    points.reserve(element.count);
+    std::vector<double> row(element.types.size());
+    for (std::uint64_t p = 0; p < element.count; ++p) {
+      for (std::size_t k = 0; k < element.types.size(); ++k) {
+        row[k] = number_of(bits(bytes, element.types[k].size), element.types[k]);
+        bytes.remove_prefix(element.types[k].size);
+      }
+      points.add(row, [&] { return name_ + ": point " + std::to_string(p + 1); });
+    }
+  }
+
+  std::uint64_t bits(std::string_view bytes, std::size_t size) const {
+    std::uint64_t value = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+      const bool is_little = header_.format == PlyHeader::Format::little;
+      const std::size_t place = is_little ? k : size - 1 - k;
+      value |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[k])) << (8 * place);
+    }
+    return value;
+  }
+
+  TableLines lines_;
+  const std::string& name_;
+  PlyHeader header_;
+};
+
+}  // namespace
+
+PointCloud parse_ply_points(std::string_view bytes, const std::string& name) {
+  return PointPly(bytes, name).read();
+}
+
+}  // namespace neve::sim::files

@@ -1,0 +1,64 @@
+#pragma once
+/// A table of numbers in a file as points: which columns are what, and what values they may have.
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/files/point_reader.h"
+
+namespace neve::sim::files {
+
+/// Lines of a text, with their numbers.
+class TableLines {
+ public:
+  explicit TableLines(std::string_view text) : rest_(text) {}
+
+  bool at_end() const { return rest_.empty(); }
+  std::string_view rest() const { return rest_; }
+  std::size_t number() const { return number_; }  ///< of the line that next() gave, from 1
+  std::string_view next();
+
+ private:
+  std::string_view rest_;
+  std::size_t number_ = 0;
+};
+
+inline constexpr std::size_t max_columns = 256;
+
+/// What the rows of a table become.
+class PointTable {
+ public:
+  /// @param where  of the header, for messages
+  /// @throws ShapeError without x, y or z, with a part of a velocity, with one quantity twice
+  PointTable(const std::vector<std::string>& columns, const std::string& where);
+
+  bool uses(std::size_t column) const;
+  void reserve(std::size_t count);
+
+  /// @param row    a number for each column that is used
+  /// @param where  tells the place of the row
+  /// @throws ShapeError for numbers out of range
+  void add(const std::vector<double>& row, const std::function<std::string()>& where);
+
+  /// @throws ShapeError if there are none
+  PointCloud take(const std::string& name);
+
+ private:
+  static constexpr std::size_t quantity_count = 8;  ///< x y z, vx vy vz, mass, volume
+
+  void require(std::size_t first, const std::vector<std::string>& columns, const std::string& where,
+               const std::string& what) const;
+  double value(const std::vector<double>& row, std::size_t quantity,
+               const std::function<std::string()>& where) const;
+  Vec3d vector(const std::vector<double>& row, std::size_t first,
+               const std::function<std::string()>& where) const;
+
+  std::array<std::optional<std::size_t>, quantity_count> column_{};
+  PointCloud cloud_;
+};
+
+}  // namespace neve::sim::files

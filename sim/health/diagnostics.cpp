@@ -1,0 +1,182 @@
+#include "sim/health/diagnostics.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "sim/kernels/decompose.h"
+#include "sim/types/number_text.h"
+
+namespace neve::sim::health {
+
+namespace {
+
+struct Principal {
+  Mat3d U, V;
+  Vec3d s;
+};
+
+Principal decompose(const Mat3d& F) {
+  double rows[9];
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) rows[3 * a + b] = F(a, b);
+  const kernels::SignedSvd<double> svd = kernels::signed_svd(rows);
+  Principal p;
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) {
+      p.U(a, b) = svd.U[3 * a + b];
+      p.V(a, b) = svd.V[3 * a + b];
+    }
+    p.s[a] = svd.s[a];
+  }
+  return p;
+}
+
+Lame hardened(const Material& m, double J_P) {
+  Lame l = lame(m.youngs_modulus, m.poisson_ratio);
+  const double factor = std::exp(m.hardening * (1 - J_P));
+  return {l.mu * factor, l.lambda * factor};
+}
+
+double corotated_energy(const Lame& l, const Principal& F_E) {
+  const double J = F_E.s.prod();
+  return l.mu * (F_E.s.array() - 1).square().sum() + 0.5 * l.lambda * (J - 1) * (J - 1);
+}
+
+Mat3d corotated_piola(const Lame& l, const Mat3d& F_E, const Principal& p) {
+  const double J = p.s.prod();
+  // J F^-T by cross products of columns: also right where F is singular.
+  Mat3d cofactor;
+  cofactor.col(0) = F_E.col(1).cross(F_E.col(2));
+  cofactor.col(1) = F_E.col(2).cross(F_E.col(0));
+  cofactor.col(2) = F_E.col(0).cross(F_E.col(1));
+  return 2 * l.mu * (F_E - p.U * p.V.transpose()) + l.lambda * (J - 1) * cofactor;
+}
+
+/// How badly a particle breaks the rule: the larger the worse.
+double badness(const std::string& rule, const ParticleArrays& p, std::size_t id,
+               const std::vector<Material>& materials) {
+  constexpr double worst = std::numeric_limits<double>::infinity();
+  const bool is_finite = p.x[id].allFinite() && p.v[id].allFinite() && p.F_E[id].allFinite() &&
+                         std::isfinite(p.J_P[id]);
+  if (!is_finite) return worst;
+  if (rule == "J_P") return -p.J_P[id];
+  if (rule == "inverted") return -p.F_E[id].determinant();
+  if (rule == "acoustic_cfl" || rule == "time_step")
+    return p.V0[id] > 0
+               ? wave_speed(p.material_of(id, materials), p.F_E[id], p.J_P[id], p.m[id] / p.V0[id])
+               : 0;
+  return p.v[id].norm();
+}
+
+/// What happened, without advice.
+std::string what(const Divergence& d, double acoustic_cfl) {
+  std::string text =
+      "diverged at step " + std::to_string(d.step) + " (t = " + number_text(d.time) + " s): ";
+  const std::string who = d.particle < 0 ? "a particle" : "particle " + std::to_string(d.particle);
+  if (d.rule == "not_finite")
+    text += "the state of " + who + " is not finite";
+  else if (d.rule == "overflow")
+    text += who + " left the lattice at " + number_text(d.v.norm()) + " m/s";
+  else if (d.rule == "speed_cfl")
+    text += who + " crossed " + number_text(d.value) + " cells in one step at " +
+            number_text(d.v.norm()) + " m/s";
+  else if (d.rule == "inverted")
+    text += "the elastic deformation of " + who + " turned inside out";
+  else if (d.rule == "J_P")
+    text +=
+        "J_P of " + who + " fell to " + number_text(d.value) + ", below " + number_text(d.limit);
+  else if (d.rule == "acoustic_cfl")
+    text += "sound crossed " + number_text(d.value) + " cells in one step at " + who;
+  else if (d.rule == "time_step")
+    text += "the time step collapsed to " + number_text(d.value) + " s at the hardening of " + who;
+  else
+    text += "energy rose to " + number_text(d.value) + " J, " + number_text(d.limit) +
+            " J can be explained";
+  if (d.rule != "acoustic_cfl" && acoustic_cfl > 0.7)
+    text += "; acoustic CFL was " + number_text(acoustic_cfl);
+  return text;
+}
+
+}  // namespace
+
+double energy_density(const Material& material, const Mat3d& F_E, double J_P) {
+  const Lame l = hardened(material, J_P);
+  if (material.model == Model::neo_hookean) {
+    const double J = F_E.determinant();
+    if (!(J > 0)) return std::numeric_limits<double>::infinity();
+    const double log_J = std::log(J);
+    return 0.5 * l.mu * (F_E.squaredNorm() - 3) - l.mu * log_J + 0.5 * l.lambda * log_J * log_J;
+  }
+  return corotated_energy(l, decompose(F_E));
+}
+
+Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P) {
+  const Lame l = hardened(material, J_P);
+  if (material.model == Model::neo_hookean) {
+    const Mat3d inverse_transposed = F_E.inverse().transpose();
+    return l.mu * (F_E - inverse_transposed) +
+           l.lambda * std::log(F_E.determinant()) * inverse_transposed;
+  }
+  return corotated_piola(l, F_E, decompose(F_E));
+}
+
+ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P) {
+  if (material.model == Model::neo_hookean)
+    return {energy_density(material, F_E, J_P), first_piola(material, F_E, J_P)};
+  const Lame l = hardened(material, J_P);
+  const Principal p = decompose(F_E);
+  return {corotated_energy(l, p), corotated_piola(l, F_E, p)};
+}
+
+double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0) {
+  const Lame l = hardened(material, J_P);
+  const double stretch = F_E.jacobiSvd().singularValues()[0], J = F_E.determinant();
+  return std::sqrt((2 * l.mu * stretch * stretch + l.lambda * J * J) / rho0);
+}
+
+void find_culprits(const ParticleArrays& particles, const SolverSettings& settings,
+                   const std::vector<Material>& materials, Divergence& d) {
+  constexpr std::size_t most = 1000;
+  const std::size_t count = particles.x.size();
+  std::vector<double> bad(count);
+  for (std::size_t id = 0; id < count; ++id) bad[id] = badness(d.rule, particles, id, materials);
+  std::vector<std::uint32_t> ids(count);
+  std::iota(ids.begin(), ids.end(), 0u);
+  const std::size_t kept = std::min(count, most);
+  std::partial_sort(
+      ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(kept), ids.end(),
+      [&](std::uint32_t a, std::uint32_t b) { return bad[a] != bad[b] ? bad[a] > bad[b] : a < b; });
+  // The ones that stand out with the worst; a threshold of half its badness keeps marks few.
+  if (kept > 0) {
+    const std::size_t worst = ids[0];
+    d.particle = particles.id_of(worst);
+    d.x = particles.x[worst];
+    d.v = particles.v[worst];
+    d.material = particles.material[worst];
+    d.F_E = particles.F_E[worst];
+    d.J_E = d.F_E.determinant();
+    d.J_P = particles.J_P[worst];
+    const double bar = bad[worst] > 0 ? 0.5 * bad[worst] : bad[worst];
+    for (std::size_t k = 0; k < kept && bad[ids[k]] >= bar; ++k)
+      d.culprits.push_back(particles.id_of(ids[k]));
+    const Material material = particles.material_of(worst, materials);
+    if (d.F_E.allFinite()) {
+      d.stretches = decompose(d.F_E).s;
+      d.kirchhoff = first_piola(material, d.F_E, d.J_P) * d.F_E.transpose();
+      if (particles.V0[worst] > 0)
+        d.sound_speed =
+            wave_speed(material, d.F_E, d.J_P, particles.m[worst] / particles.V0[worst]);
+    }
+  }
+  d.what = what(d, d.dt * d.sound_speed / settings.cell_size);
+  d.sentence = d.what;
+  if (d.dt > d.dt_that_holds)
+    d.sentence += ". dt = " + number_text(d.dt_that_holds) + " would have held";
+}
+
+}  // namespace neve::sim::health

@@ -1,0 +1,35 @@
+#pragma once
+/// Energy and stress in double for people, sums and tests; the search for what broke a run.
+
+#include "sim/types/particle_arrays.h"
+#include "sim/types/reports.h"
+#include "sim/types/settings.h"
+
+namespace neve::sim::health {
+
+/// Elastic energy per initial volume, J/m3 (the paper, equation 1, hardened by equation 2).
+/// @param F_E elastic deformation gradient, any determinant; neo-Hookean needs det F_E > 0
+/// @param J_P det of the plastic part, dimensionless
+/// Check: Energy.StressIsItsDerivative
+double energy_density(const Material& material, const Mat3d& F_E, double J_P);
+
+/// First Piola-Kirchhoff stress dPsi/dF_E, Pa.
+/// Source: technical report of the paper; P = 2 mu (F_E - R_E) + lambda (J_E - 1) J_E F_E^-T.
+Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P);
+
+/// Both at once, for the price of one decomposition.
+struct ElasticResponse {
+  double energy_density;  ///< J/m3
+  Mat3d first_piola;      ///< Pa
+};
+ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P);
+
+/// sqrt((2 mu s_max^2 + lambda J_E^2) e^(xi(1 - J_P)) / rho0): speed of the fastest elastic wave,
+/// as the acoustic limit sees it, m/s. @param rho0 mass / initial volume, kg/m3
+double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0);
+
+/// Fills in who broke the rule that d names, in what state, and the sentence for people.
+void find_culprits(const ParticleArrays& particles, const SolverSettings& settings,
+                   const std::vector<Material>& materials, Divergence& d);
+
+}  // namespace neve::sim::health

@@ -1,0 +1,308 @@
+#pragma once
+/// Collider response on nodes and particles, for kernels.
+/// Source: the paper, section 8 (collisions with friction and stickiness).
+
+#include "sim/base/lanes.h"
+#include "sim/base/vec.h"
+#include "sim/shapes/distance_samples.h"
+
+namespace neve::sim::kernels {
+
+/// A simulation with more colliders is refused when it is built.
+inline constexpr int max_colliders = 64;
+
+enum class ColliderShape : int { plane, sphere, box, capsule, cylinder, cone, torus, field };
+enum class ContactLaw : int { separate, slip, sticky };
+
+/// A collider at one time. The point is cell and offset, like a particle's position. What is round
+/// is so about the second of its axes.
+struct ColliderPose {
+  ColliderShape shape;
+  ContactLaw contact;
+  double friction;
+  int cell[3];
+  double offset[3];
+  double axes[9];    ///< columns are the shape's axes
+  double normal[3];  ///< of a plane
+  double half[3];    ///< m, of a box; [1]: half the axis of a capsule, cylinder or cone
+  double radius;     ///< m: of a sphere, capsule, cylinder, a cone's base, a torus's tube
+  double ring;       ///< m, of a torus: from its centre to the middle of the tube
+  shapes::DistanceSamples samples;  ///< of a field
+  double velocity[3], omega[3];
+};
+
+/// The same, seen from a block: distances inside the block keep full precision wherever it is.
+template <class Real>
+struct LocalCollider {
+  ColliderShape shape;
+  ContactLaw contact;
+  Real friction;
+  Vec3<Real> to_block;  ///< from the collider's point to the block's first node, m
+  Real plane_distance;  ///< of the block's first node, m
+  Vec3<Real> axis[3], normal, half, velocity, omega;
+  Real radius, ring;
+  Real slope_out, slope_up;  ///< of a cone: the normal of its wall, outward and along the axis
+  const float* samples;
+  int size[3];
+  Real spacing;
+  Vec3<Real> first;
+};
+
+template <class Real>
+NEVE_INLINE LocalCollider<Real> localize(const ColliderPose& c, const int* block_cell, double h) {
+  LocalCollider<Real> out;
+  out.shape = c.shape;
+  out.contact = c.contact;
+  out.friction = static_cast<Real>(c.friction);
+  double plane_distance = 0;
+  for (int a = 0; a < 3; ++a) {
+    const double d = ((static_cast<double>(block_cell[a]) - c.cell[a]) - c.offset[a]) * h;
+    plane_distance += d * c.normal[a];
+    out.to_block[a] = static_cast<Real>(d);
+    out.normal[a] = static_cast<Real>(c.normal[a]);
+    out.half[a] = static_cast<Real>(c.half[a]);
+    out.velocity[a] = static_cast<Real>(c.velocity[a]);
+    out.omega[a] = static_cast<Real>(c.omega[a]);
+    for (int b = 0; b < 3; ++b) out.axis[a][b] = static_cast<Real>(c.axes[3 * b + a]);
+    out.size[a] = c.samples.size[a];
+    out.first[a] = static_cast<Real>(c.samples.first[a]);
+  }
+  out.plane_distance = static_cast<Real>(plane_distance);
+  out.radius = static_cast<Real>(c.radius);
+  out.ring = static_cast<Real>(c.ring);
+  // A wall falls from the apex by the height over the radius.
+  const double height = 2 * c.half[1], slant = square_root(height * height + c.radius * c.radius);
+  out.slope_out = static_cast<Real>(slant > 0 ? height / slant : 0);
+  out.slope_up = static_cast<Real>(slant > 0 ? c.radius / slant : 0);
+  out.samples = c.samples.distance;
+  out.spacing = static_cast<Real>(c.samples.spacing);
+  return out;
+}
+
+template <class V, class Real>
+NEVE_INLINE Vec3<V> widened(const Vec3<Real>& a) {
+  return {all<V>(a.x), all<V>(a.y), all<V>(a.z)};
+}
+template <class V>
+NEVE_INLINE Vec3<V> select(MaskOf<V> mask, const Vec3<V>& a, const Vec3<V>& b) {
+  return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
+}
+
+// ---- one function per shape ---------------------------------------------------------------------
+//
+// @param d  from the shape's point, m
+// @return signed distance in m: exact inside and on the surface; outside a bound from below that
+//         is above 0, and falls by no more than what a place moves
+// @param normal  outward unit vector of the surface that the distance is to; where several are as
+//         near, the first of them in the order below
+
+/// The middle looks up.
+template <class V, class Real>
+NEVE_INLINE V sphere_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const V zero{};
+  const V distance = square_root_lanes(dot(d, d));
+  const Vec3<V> up{zero, all<V>(1), zero};
+  normal = select(distance > zero, d / distance, up);
+  return distance - all<V>(c.radius);
+}
+
+/// The nearest face is the one of largest signed distance, the lowest axis on a tie.
+template <class V, class Real>
+NEVE_INLINE V box_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const V zero{};
+  V deepest{};
+  for (int a = 0; a < 3; ++a) {
+    const Vec3<V> axis = widened<V>(c.axis[a]);
+    const V along = dot(d, axis);
+    const V q = absolute_lanes(along) - c.half[a];
+    const MaskOf<V> is_nearest = a == 0 ? zero <= zero : q > deepest;
+    normal = select(is_nearest, select(along >= zero, axis, -axis), normal);
+    deepest = is_nearest ? q : deepest;
+  }
+  return deepest;
+}
+
+/// A place beside the axis of a round shape.
+template <class V>
+struct Meridian {
+  V along, out;           ///< m: along the axis, and away from it
+  Vec3<V> axis, outward;  ///< unit vectors; on the axis itself outward is the shape's first axis
+};
+template <class V, class Real>
+NEVE_INLINE Meridian<V> meridian(const LocalCollider<Real>& c, const Vec3<V>& d) {
+  Meridian<V> m;
+  m.axis = widened<V>(c.axis[1]);
+  m.along = dot(d, m.axis);
+  const Vec3<V> away = d - m.axis * m.along;
+  m.out = square_root_lanes(dot(away, away));
+  m.outward = select(m.out > V{}, away / m.out, widened<V>(c.axis[0]));
+  return m;
+}
+
+template <class V, class Real>
+NEVE_INLINE V capsule_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const Meridian<V> m = meridian(c, d);
+  const V end = all<V>(c.half.y);
+  const Vec3<V> away = d - m.axis * larger_lanes(smaller_lanes(m.along, end), -end);
+  const V distance = square_root_lanes(dot(away, away));
+  normal = select(distance > V{}, away / distance, widened<V>(c.axis[0]));
+  return distance - all<V>(c.radius);
+}
+
+/// The wall, then the ends.
+template <class V, class Real>
+NEVE_INLINE V cylinder_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const Meridian<V> m = meridian(c, d);
+  const V wall = m.out - c.radius, end = absolute_lanes(m.along) - c.half.y;
+  const MaskOf<V> is_wall = wall >= end;
+  normal = select(is_wall, m.outward, select(m.along >= V{}, m.axis, -m.axis));
+  return is_wall ? wall : end;
+}
+
+/// The wall, then the base.
+template <class V, class Real>
+NEVE_INLINE V cone_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const Meridian<V> m = meridian(c, d);
+  const V wall = m.out * c.slope_out + (m.along - c.half.y) * c.slope_up;
+  const V base = -(m.along + c.half.y);
+  const MaskOf<V> is_wall = wall >= base;
+  normal = select(is_wall, m.outward * all<V>(c.slope_out) + m.axis * all<V>(c.slope_up), -m.axis);
+  return is_wall ? wall : base;
+}
+
+/// The middle of the tube looks along the axis.
+template <class V, class Real>
+NEVE_INLINE V torus_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const Meridian<V> m = meridian(c, d);
+  const V out = m.out - c.ring;
+  const V distance = square_root_lanes(out * out + m.along * m.along);
+  normal =
+      select(distance > V{}, m.outward * (out / distance) + m.axis * (m.along / distance), m.axis);
+  return distance - all<V>(c.radius);
+}
+
+/// Between eight samples; the normal is the gradient of the same interpolation. Beyond the lattice,
+/// the nearest place in it and the way there.
+template <class V, class Real>
+NEVE_INLINE V field_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  using I = MaskOf<V>;
+  constexpr int W = lane_count<V>;
+  const V zero{};
+  V part[3], beyond{};
+  I index{};
+  for (int a = 0; a < 3; ++a) {
+    const V place = (dot(d, widened<V>(c.axis[a])) - c.first[a]) / c.spacing;
+    const V last = all<V>(static_cast<Real>(c.size[a] - 1));
+    // What is no number is held at 0.
+    V held = place > zero ? place : zero;
+    held = held < last ? held : last;
+    beyond += (place - held) * (place - held);
+    I cell = __builtin_convertvector(held, I);
+    const I before_last = all<I>(c.size[a] - 2);
+    cell = cell < before_last ? cell : before_last;
+    part[a] = held - __builtin_convertvector(cell, V);
+    index = index * c.size[a] + cell;
+  }
+  Real corner[8][W];
+  const int row = c.size[2], slab = c.size[1] * c.size[2];
+  for (int l = 0; l < W; ++l) {
+    const float* at = c.samples + index[l];
+    for (int k = 0; k < 8; ++k)
+      corner[k][l] = static_cast<Real>(at[(k >> 2) * slab + (k >> 1 & 1) * row + (k & 1)]);
+  }
+  V value[4], along_z[4];
+  for (int k = 0; k < 4; ++k) {
+    const V low = load_lanes<V>(corner[2 * k]);
+    along_z[k] = load_lanes<V>(corner[2 * k + 1]) - low;
+    value[k] = low + part[2] * along_z[k];
+  }
+  V along_y[2];
+  for (int k = 0; k < 2; ++k) {
+    along_y[k] = value[2 * k + 1] - value[2 * k];
+    value[k] = value[2 * k] + part[1] * along_y[k];
+    along_z[k] = along_z[2 * k] + part[1] * (along_z[2 * k + 1] - along_z[2 * k]);
+  }
+  const V along_x = value[1] - value[0];
+  const V distance = value[0] + part[0] * along_x;
+  const Vec3<V> gradient =
+      widened<V>(c.axis[0]) * along_x +
+      widened<V>(c.axis[1]) * (along_y[0] + part[0] * (along_y[1] - along_y[0])) +
+      widened<V>(c.axis[2]) * (along_z[0] + part[0] * (along_z[1] - along_z[0]));
+  const V steepness = square_root_lanes(dot(gradient, gradient));
+  normal = select(steepness > zero, gradient / steepness, widened<V>(c.axis[1]));
+  const V way = larger_lanes(distance, zero);
+  const V outside = square_root_lanes(beyond * (c.spacing * c.spacing) + way * way);
+  return beyond > zero ? outside : distance;
+}
+
+/// Of the collider's shape, as the functions above. @param r from the block's first node, m
+template <class V, class Real>
+NEVE_INLINE V surface_distance(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal) {
+  if (c.shape == ColliderShape::plane) {
+    normal = widened<V>(c.normal);
+    return c.plane_distance + dot(r, normal);
+  }
+  const Vec3<V> d = widened<V>(c.to_block) + r;
+  switch (c.shape) {
+    case ColliderShape::sphere:
+      return sphere_distance(c, d, normal);
+    case ColliderShape::capsule:
+      return capsule_distance(c, d, normal);
+    case ColliderShape::cylinder:
+      return cylinder_distance(c, d, normal);
+    case ColliderShape::cone:
+      return cone_distance(c, d, normal);
+    case ColliderShape::torus:
+      return torus_distance(c, d, normal);
+    case ColliderShape::field:
+      return field_distance(c, d, normal);
+    default:
+      return box_distance(c, d, normal);
+  }
+}
+
+/// Nothing within `reach` metres of the place `centre` in the block can touch the collider.
+template <class Real>
+NEVE_INLINE bool is_out_of_reach(const LocalCollider<Real>& c, const Vec3<Real>& centre,
+                                 Real reach) {
+  using V = Quad<Real>;
+  Vec3<V> normal;
+  // Between samples a field is off by less than the diagonal of their cell, here and there.
+  return surface_distance(c, widened<V>(centre), normal)[0] > reach + 2 * c.spacing;
+}
+
+/// The lanes inside (phi <= 0, the surface counts as inside), and the outward normal there.
+/// @param r from the block's first node, m
+template <class V, class Real>
+NEVE_INLINE MaskOf<V> touch(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal) {
+  return surface_distance(c, r, normal) <= V{};
+}
+
+/// Velocity of the collider's surface at a place.
+template <class V, class Real>
+NEVE_INLINE Vec3<V> surface_velocity(const LocalCollider<Real>& c, const Vec3<V>& r) {
+  return widened<V>(c.velocity) + cross(widened<V>(c.omega), widened<V>(c.to_block) + r);
+}
+
+/// Velocity after contact.
+/// sticky: v_co. slip: no motion along the normal, free sliding. separate: leaves freely, otherwise
+/// slides with Coulomb friction, v_t (1 + mu v_n / |v_t|), or sticks where friction would reverse
+/// it.
+template <class V, class Real>
+NEVE_INLINE Vec3<V> respond(const LocalCollider<Real>& c, const Vec3<V>& r, const Vec3<V>& v) {
+  Vec3<V> n;
+  const MaskOf<V> is_inside = touch(c, r, n);
+  if (!any_lane(is_inside)) return v;
+  const Vec3<V> v_co = surface_velocity(c, r);
+  if (c.contact == ContactLaw::sticky) return select(is_inside, v_co, v);
+  const Vec3<V> v_rel = v - v_co;
+  const V v_n = dot(v_rel, n);
+  if (c.contact == ContactLaw::slip) return select(is_inside, v - n * v_n, v);
+  const Vec3<V> v_t = v_rel - n * v_n;
+  const V speed_t = square_root_lanes(dot(v_t, v_t));
+  const MaskOf<V> sticks = speed_t <= -c.friction * v_n;
+  const Vec3<V> slides = v_t * (Real(1) + c.friction * v_n / speed_t) + v_co;
+  return select(is_inside & (v_n < V{}), select(sticks, v_co, slides), v);
+}
+
+}  // namespace neve::sim::kernels

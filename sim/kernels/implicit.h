@@ -1,0 +1,58 @@
+#pragma once
+/// The semi-implicit step's solve for v_new, and the sweeps that it is made of:
+///   (I + beta dt^2 M^-1 H) v_new = v_star                                  (the paper, equation 9)
+/// with H the Hessian of the elastic energy at the start of the step, never put together. Solved
+/// for y = M^1/2 v_new, where the system is symmetric:
+///   A y = M^1/2 v_star,  A = I + beta dt^2 M^-1/2 H M^-1/2.
+/// Plain data, as in kernels.h.
+
+#include "sim/kernels/kernels.h"
+
+namespace neve::sim::kernels {
+
+/// What a node has during a solve. u is the displacement that particles gather next, M^-1/2 times
+/// the vector that A is applied to; its fourth number is m^-1/2, 0 where there is no mass.
+enum SolveVector { solve_y, solve_r, solve_q, solve_Ar, solve_Aq, solve_u, solve_vectors };
+
+/// Quads that a particle keeps, in the order of the blocks: Elasticity.
+inline constexpr int elasticity_quads = 2;
+
+template <class Real>
+struct SolveArgs {
+  SweepArgs<Real> step;    ///< nodes have v_star and get v_new
+  Real beta_dt_squared;    ///< s2
+  Real along, turn;        ///< the step's length and the share of the last direction
+  bool collides;           ///< nodes meet colliders again
+  Quad<Real>* elasticity;  ///< per sorted position
+  Quad<Real>* vectors;     ///< per node block: solve_vectors x 64
+  double* products;        ///< per node block: its part of the sum that a sweep asks for
+};
+
+template <class Real>
+using SolveSweep = void (*)(const SolveArgs<Real>&, std::uint32_t begin, std::uint32_t end);
+
+/// Over blocks of particles: keep_elasticity, and apply: H u into the tiles. Over blocks of nodes:
+template <class Real>
+struct SolveSweeps {
+  SolveSweep<Real> keep_elasticity, apply;
+  SolveSweep<Real> start;     ///< y = M^1/2 v_star; |y|^2
+  SolveSweep<Real> residual;  ///< r = y - A y; |r|^2
+  SolveSweep<Real> image;     ///< A r; r . A r
+  SolveSweep<Real> direct;    ///< q = r + turn q, A q likewise; |A q|^2
+  SolveSweep<Real> advance;   ///< y += along q, r -= along A q; |r|^2
+  SolveSweep<Real> size;      ///< |y|^2, no number where a velocity is none
+  SolveSweep<Real> finish;    ///< v_new = M^-1/2 y, collisions, and what FLIP wants of them
+};
+
+/// The sweeps of an instruction set. MLS has its own gradient, FLIP and APIC share one.
+const SolveSweeps<float>& solve_sweeps_for(SimdLevel level, int nodes, bool is_mls, float);
+const SolveSweeps<double>& solve_sweeps_for(SimdLevel level, int nodes, bool is_mls, double);
+
+/// One file per instruction set defines its own.
+template <class Set>
+struct SolveKernelSet {
+  static const SolveSweeps<float>& sweeps(int nodes, bool is_mls, float);
+  static const SolveSweeps<double>& sweeps(int nodes, bool is_mls, double);
+};
+
+}  // namespace neve::sim::kernels

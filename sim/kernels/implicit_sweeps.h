@@ -1,0 +1,263 @@
+#pragma once
+/// The sweeps of the solve for v_new; instantiated once per instruction set. An application of the
+/// Hessian takes particles once: gather the gradient of the nodes' displacements, change of stress,
+/// scatter of the forces.
+
+#include "sim/kernels/differential.h"
+#include "sim/kernels/implicit.h"
+#include "sim/kernels/sweeps.h"
+
+namespace neve::sim::kernels {
+
+template <class Real, int K, bool is_mls, class Set>
+struct SolveSweepsFor {
+  using Args = SolveArgs<Real>;
+  using Base = SweepsFor<Real, K, is_mls ? TransferKind::mls : TransferKind::flip, Set>;
+  using Index = typename Base::Index;
+  using V = typename Base::V;
+  using I = typename Base::I;
+  using Batch = typename Base::Batch;
+  using Rows = typename Base::ScatterRows;
+  using Products = Lanes<double, 4>;
+  static constexpr int W = Base::W;
+  /// Of a gradient: 1/h, and 1/D of MLS in units of h.
+  static constexpr Real gradient_scale = is_mls ? Real(1 / apic_inertia<K>) : Real(1);
+
+  NEVE_INLINE static Quad<Real>* vector(const Args& a, Index block, SolveVector which) {
+    return a.vectors +
+           (static_cast<std::size_t>(block) * solve_vectors + static_cast<std::size_t>(which)) *
+               block_nodes;
+  }
+
+  // ---- particles --------------------------------------------------------------------------------
+
+  template <class Group>
+  NEVE_INLINE static Quad<Real>* elasticity_of(const Args& a, const Group& group, int q) {
+    return a.elasticity + elasticity_quads * (group.storage - a.step.order + q);
+  }
+
+  static void keep_elasticity(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b)
+      Base::each_batch(a.step, a.step.blocks[b], [&](const auto& group, int q, const Batch& p) {
+        const auto model = static_cast<ModelKind>(group.record[0]->model());
+        const Elasticity<V> e = elasticity(p, model, a.step.constants.materials);
+        Quad<Real>* to = elasticity_of(a, group, q);
+        const int count = group.count - q;
+        const auto put = [&](int word, V x, V y, V z, V w) NEVE_INLINE_BODY {
+          scatter_words(FourWords<V>{{x, y, z, w}}, [&](int l, Quad<Real> quad) NEVE_INLINE_BODY {
+            if (l < count) to[elasticity_quads * l + word] = quad;
+          });
+        };
+        put(0, e.shape.xx, e.shape.yy, e.shape.zz, e.shape.xy);
+        put(1, e.shape.xz, e.shape.yz, e.V0_mu, e.V0_lambda);
+      });
+  }
+
+  /// Lanes without a particle repeat the last.
+  NEVE_INLINE static Elasticity<V> load_elasticity(const Quad<Real>* from, int last) {
+    FourWords<V> part[elasticity_quads];
+    unrolled<elasticity_quads>([&](auto word) NEVE_INLINE_BODY {
+      part[word] = gather_words<V>(
+          [&](int l) NEVE_INLINE_BODY { return from[elasticity_quads * smaller(l, last) + word]; });
+    });
+    const V *a = part[0].w, *b = part[1].w;
+    return {{a[0], a[1], a[2], a[3], b[0], b[1]}, b[2], b[3]};
+  }
+
+  static void apply(const Args& a, Index begin, Index end) {
+    Quad<Real> u[Tile<K>::nodes];
+    Rows rows;
+    auto& s = rows.s;
+    for (Index b = begin; b < end; ++b) {
+      const ParticleBlock& block = a.step.blocks[b];
+      load_tile<Real, K, Set>(
+          block, [&](Index n) { return vector(a, n, solve_u); }, u);
+      Quad<Real>* tile = tile_of<Real, K>(a.step, b, 0);
+      Base::clear(tile);
+      Base::template each_group<scatter_group>(a.step, block, [&](const auto& group) {
+        for (int q = 0; q < group.count; q += W) apply_to(a, group, q, u, rows);
+        each_cell(s, group.count, [&](int first, int last) {
+          scatter_tensor<Real, K, scatter_group, Set>(s, is_mls ? s.arm : s.dw, rows.force, first,
+                                                      last, tile);
+        });
+      });
+    }
+  }
+
+  /// Rows of the forces of particles [q, q + W) of a group.
+  template <class Group>
+  NEVE_INLINE static void apply_to(const Args& a, const Group& group, int q, const Quad<Real>* u,
+                                   Rows& rows) {
+    auto& s = rows.s;
+    const int count = smaller(W, group.count - q);
+    Batch p;
+    RecordReader<V, I>(group.record + q, p).place();
+    s.template set<!is_mls, is_mls>(q, p.offset, p.cell);
+    const Real scale = a.step.constants.inv_h * gradient_scale;
+    V G[9], D[9];
+    gather_gradient(s, q, count, scale, u, G);
+    const auto model = static_cast<ModelKind>(group.record[0]->model());
+    stress_change(load_elasticity(elasticity_of(a, group, q), count - 1), model, G, D);
+    Quad<Real> column[3][W];
+    unrolled<3>([&](auto k) NEVE_INLINE_BODY {
+      store_quads(FourWords<V>{{D[k] * scale, D[3 + k] * scale, D[6 + k] * scale, V{}}}, column[k]);
+    });
+    for (int l = 0; l < count; ++l)
+      rows.force[q + l] = Base::tensor_rows(column, l, Row<Real, Set>::spread(s.z[q + l]),
+                                            is_mls ? s.arm_z[q + l] : s.dz[q + l]);
+  }
+
+  NEVE_INLINE static void gather_gradient(const decltype(Rows::s)& s, int q, int count, Real scale,
+                                          const Quad<Real>* u, V* G) {
+    Quad<Real> sums[4 * W];
+    for (int l = 0; l < W; ++l)
+      gather_tensor<Set>(s, is_mls ? s.arm : s.dw, is_mls ? s.arm_z : s.dz,
+                         q + smaller(l, count - 1), u, sums + 4 * l);
+    for (int c = 0; c < 3; ++c) {
+      const FourWords<V> words =
+          gather_words<V>([&](int l) NEVE_INLINE_BODY { return sums[4 * l + 1 + c]; });
+      for (int r = 0; r < 3; ++r) G[3 * r + c] = words.w[r] * scale;
+    }
+  }
+
+  // ---- nodes ------------------------------------------------------------------------------------
+
+  /// Sums are taken in double: thousands of nodes, and differences of products decide.
+  NEVE_INLINE static Products product(Quad<Real> x, Quad<Real> y) {
+    return __builtin_convertvector(x, Products) * __builtin_convertvector(y, Products);
+  }
+  NEVE_INLINE static Quad<Real> with_fourth(Quad<Real> x, Real fourth) {
+    x[3] = fourth;
+    return x;
+  }
+
+  /// body(n, sum) for the nodes of each block; the sums become its products.
+  template <class Body>
+  NEVE_INLINE static void each_node(const Args& a, Index block, const Body& body) {
+    Products sum{};
+    for (int n = 0; n < block_nodes; ++n) body(n, sum);
+    a.products[block] = (sum[0] + sum[1]) + sum[2];
+  }
+
+  static void start(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      const Quad<Real>* v_star = nodes_of(a.step, b, channel_v_new);
+      Quad<Real>*y = vector(a, b, solve_y), *u = vector(a, b, solve_u);
+      Quad<Real>*q = vector(a, b, solve_q), *Aq = vector(a, b, solve_Aq);
+      each_node(a, b, [&](int n, Products& sum) {
+        const Real mass = v_star[n][3];
+        const Real root = mass > Real(0) ? square_root(mass) : Real(0);
+        y[n] = with_fourth(v_star[n] * root, 0);
+        u[n] = with_fourth(v_star[n], mass > Real(0) ? Real(1) / root : Real(0));
+        q[n] = Aq[n] = Quad<Real>{};
+        sum += product(y[n], y[n]);
+      });
+    }
+  }
+
+  /// beta dt^2 M^-1/2 H u of a block's nodes, from the tiles.
+  NEVE_INLINE static void collect_change(const Args& a, Index block, const Quad<Real>* u,
+                                         Quad<Real>* change) {
+    collect<Real, K, Set>(a.step, block, 0, change);
+    for (int n = 0; n < block_nodes; ++n)
+      change[n] = with_fourth(change[n] * (a.beta_dt_squared * u[n][3]), 0);
+  }
+
+  static void residual(const Args& a, Index begin, Index end) {
+    Quad<Real> change[block_nodes];
+    for (Index b = begin; b < end; ++b) {
+      Quad<Real>*r = vector(a, b, solve_r), *u = vector(a, b, solve_u);
+      collect_change(a, b, u, change);
+      each_node(a, b, [&](int n, Products& sum) {
+        r[n] = -change[n];
+        u[n] = with_fourth(r[n] * u[n][3], u[n][3]);
+        sum += product(r[n], r[n]);
+      });
+    }
+  }
+
+  static void image(const Args& a, Index begin, Index end) {
+    Quad<Real> change[block_nodes];
+    for (Index b = begin; b < end; ++b) {
+      const Quad<Real>*r = vector(a, b, solve_r), *u = vector(a, b, solve_u);
+      Quad<Real>* Ar = vector(a, b, solve_Ar);
+      collect_change(a, b, u, change);
+      each_node(a, b, [&](int n, Products& sum) {
+        Ar[n] = r[n] + change[n];
+        sum += product(r[n], Ar[n]);
+      });
+    }
+  }
+
+  static void direct(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      const Quad<Real>*r = vector(a, b, solve_r), *Ar = vector(a, b, solve_Ar);
+      Quad<Real>*q = vector(a, b, solve_q), *Aq = vector(a, b, solve_Aq);
+      each_node(a, b, [&](int n, Products& sum) {
+        q[n] = r[n] + q[n] * a.turn;
+        Aq[n] = Ar[n] + Aq[n] * a.turn;
+        sum += product(Aq[n], Aq[n]);
+      });
+    }
+  }
+
+  static void advance(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      const Quad<Real>*q = vector(a, b, solve_q), *Aq = vector(a, b, solve_Aq);
+      Quad<Real>*y = vector(a, b, solve_y), *r = vector(a, b, solve_r);
+      Quad<Real>* u = vector(a, b, solve_u);
+      each_node(a, b, [&](int n, Products& sum) {
+        y[n] += q[n] * a.along;
+        r[n] -= Aq[n] * a.along;
+        u[n] = with_fourth(r[n] * u[n][3], u[n][3]);
+        sum += product(r[n], r[n]);
+      });
+    }
+  }
+
+  static void size(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      const Quad<Real>*y = vector(a, b, solve_y), *u = vector(a, b, solve_u);
+      each_node(a, b, [&](int n, Products& sum) {
+        const Quad<Real> v = y[n] * u[n][3];
+        sum += product(y[n], y[n]) + __builtin_convertvector(v - v, Products);
+      });
+    }
+  }
+
+  static void finish(const Args& a, Index begin, Index end) {
+    const StepConstants<Real>& c = a.step.constants;
+    Quad<Real> v[block_nodes];
+    for (Index b = begin; b < end; ++b) {
+      const Quad<Real>*y = vector(a, b, solve_y), *u = vector(a, b, solve_u);
+      Quad<Real>* v_new = nodes_of(a.step, b, channel_v_new);
+      for (int n = 0; n < block_nodes; ++n) v[n] = with_fourth(y[n] * u[n][3], v_new[n][3]);
+      double work = 0;
+      if (a.collides) {
+        NearColliders<Real> near;
+        find_near_nodes<Set>(near, c, a.step.node_blocks[b].key);
+        collide_nodes<Set>(v, c, near, work);
+      }
+      a.step.node_contact_work[b] += work;
+      if (a.step.channels > channel_change) {
+        Quad<Real>* change = nodes_of(a.step, b, channel_change);
+        for (int n = 0; n < block_nodes; ++n) change[n] += v[n] - v_new[n];
+      }
+      for (int n = 0; n < block_nodes; ++n) v_new[n] = v[n];
+    }
+  }
+
+  static constexpr SolveSweeps<Real> table{keep_elasticity, apply,   start, residual, image,
+                                           direct,          advance, size,  finish};
+};
+
+template <class Real, class Set>
+const SolveSweeps<Real>& choose_solve_sweeps(int nodes, bool is_mls) {
+  if (nodes == cubic_nodes)
+    return is_mls ? SolveSweepsFor<Real, cubic_nodes, true, Set>::table
+                  : SolveSweepsFor<Real, cubic_nodes, false, Set>::table;
+  return is_mls ? SolveSweepsFor<Real, quadratic_nodes, true, Set>::table
+                : SolveSweepsFor<Real, quadratic_nodes, false, Set>::table;
+}
+
+}  // namespace neve::sim::kernels

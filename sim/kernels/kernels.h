@@ -1,0 +1,139 @@
+#pragma once
+/// The table of sweeps that one instruction set provides, and what they read and write. Plain data:
+/// the files that implement the sweeps are compiled for their instruction set and include no
+/// standard library beyond <cstdint>.
+
+#include <cstdint>
+
+#include "sim/kernels/blocks.h"
+#include "sim/kernels/constitutive.h"
+#include "sim/kernels/contact.h"
+#include "sim/kernels/particles.h"
+
+namespace neve::sim::kernels {
+
+/// Channels of a tile: one Quad per node and channel.
+enum TileChannel { channel_momentum = 0, channel_force = 1 };
+inline constexpr int all_channels = 2;
+
+/// Particles that are taken through steps 7 to 10 together, so that materials work on full lanes,
+/// and through steps 1 to 3, so that those of a cell reach its nodes together.
+inline constexpr int gather_group = 64, scatter_group = 32;
+
+enum class TransferKind : int { flip, apic, mls };
+
+/// Everything a step needs besides particles and nodes.
+template <class Real>
+struct StepConstants {
+  Real h, inv_h;  ///< m, 1/m
+  Real dt;        ///< s
+  Real dt_over_h;
+  Real alpha;  ///< FLIP share of this step
+  Real gravity[3];
+  bool moves_with_grid;  ///< advect = pic
+  double h_double;       ///< for placing colliders exactly
+  const MaterialConstants<Real>* materials;
+  const ColliderPose* colliders;
+  int collider_count;
+};
+
+/// What one block of particles found out while it was updated. All combine by max, min and sums of
+/// integers, or are added in block order, so threads cannot change them.
+template <class Real>
+struct BlockReport {
+  Real max_speed_squared = 0;  ///< m2/s2
+  Real max_sound_squared = 0;  ///< m2/s2, hardened
+  Real max_strain_rate = 0;    ///< 1/s, largest |entry| of grad v
+  Real min_J_P = 1, max_J_P = 1;
+  double contact_work = 0;                 ///< J, energy that contacts added
+  std::uint32_t inverted = 0;              ///< trial det F_E <= 0
+  std::uint32_t inverted_unprojected = 0;  ///< of those, in models that cannot repair it
+  std::uint32_t not_finite = 0;
+  std::uint32_t overflowed = 0;  ///< cells outside the lattice
+};
+
+/// What the fused driver keeps of a node: what particles gather.
+enum NodeChannel { channel_v_new = 0, channel_change = 1 };
+
+/// What the staged driver keeps of a node block, 64 nodes each. The alignment is said, since that
+/// of a Quad depends on the instruction set that a file is compiled for.
+template <class Real>
+struct alignas(64) StagedNodes {
+  Quad<Real> momentum[block_nodes];  ///< x y z and mass
+  Quad<Real> force[block_nodes];
+  Quad<Real> v_old[block_nodes], v_free[block_nodes], v_star[block_nodes], v_new[block_nodes];
+};
+
+/// What a particle gathers from the grid; a number or lanes.
+template <class R>
+struct Gathered {
+  R v[3];       ///< sum w v_new (PIC)
+  R change[3];  ///< sum w (v_new - v_old); FLIP
+  R grad_v[9];  ///< 1/s, row by row
+  R C[9];       ///< 1/s, affine velocity (APIC, MLS), row by row
+};
+
+/// One state of the world, seen by a sweep.
+template <class Real>
+struct SweepArgs {
+  StepConstants<Real> constants;
+  Particle<Real>* particles;
+  std::uint32_t particle_count;
+  const std::uint32_t* order;  ///< sorted position -> storage index
+  std::uint64_t* keys;         ///< storage index -> block key
+  std::uint16_t* locals;       ///< storage index -> model and cell in the block
+  const ParticleBlock* blocks;
+  const NodeBlock* node_blocks;
+  int channels;                ///< of tiles and nodes: 2, or what the fused driver needs
+  Quad<Real>* tiles;           ///< per particle block: `channels` tiles
+  Quad<Real>* nodes;           ///< per node block: `channels` x 64
+  BlockReport<Real>* reports;  ///< per particle block
+  double* node_contact_work;   ///< per node block, J
+  // Staged driver only.
+  StagedNodes<Real>* staged;  ///< per node block
+  Gathered<Real>* gathered;   ///< per storage index
+  Real* F_trial;              ///< 9 per storage index, before projection
+  Real* v_before_collision;   ///< 3 per storage index
+};
+
+/// A sweep over blocks [begin, end).
+template <class Real>
+using Sweep = void (*)(const SweepArgs<Real>&, std::uint32_t begin, std::uint32_t end);
+
+/// The sweeps for one kernel and transfer.
+template <class Real>
+struct Sweeps {
+  // Fused: two particle sweeps and a grid sweep. FLIP keeps momentum and force apart, since
+  // particles want to know how much the velocity changed; the others add dt f to the momentum.
+  int fused_channels;
+  Sweep<Real> particles_to_grid, grid_update, grid_to_particles;
+  // First step of a body: masses to the nodes (channel_momentum), then back to volumes.
+  Sweep<Real> rasterize, collect_momentum, volumes;
+  // Staged, one stage each.
+  Sweep<Real> elastic_forces, collect_force, grid_velocities, grid_collisions, keep_velocities;
+  Sweep<Real> gather, deformation, particle_velocities, particle_collisions, advection;
+  // After either, where settings ask for it.
+  Sweep<Real> push_out;
+  // Without a grid: stress, keys and limits of the state as it is; `is_projected` projects as
+  // step 7 does. Blocks are ranges of storage.
+  void (*refresh)(const SweepArgs<Real>&, std::uint32_t begin, std::uint32_t end, bool is_projected,
+                  BlockReport<Real>& report);
+};
+
+/// Instruction sets that kernels are built for, from the one that every machine of the architecture
+/// has.
+enum class SimdLevel { baseline, avx2, avx512 };
+
+/// The sweeps of an instruction set that this build and this machine have.
+/// @param nodes cubic_nodes or quadratic_nodes
+const Sweeps<float>& sweeps_for(SimdLevel level, int nodes, TransferKind transfer, float);
+const Sweeps<double>& sweeps_for(SimdLevel level, int nodes, TransferKind transfer, double);
+
+/// One file per instruction set defines its own.
+template <class Set>
+struct KernelSet {
+  static const Sweeps<float>& sweeps(int nodes, TransferKind transfer, float);
+  static const Sweeps<double>& sweeps(int nodes, TransferKind transfer, double);
+};
+
+}  // namespace neve::sim::kernels

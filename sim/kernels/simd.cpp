@@ -1,0 +1,65 @@
+#include "sim/kernels/simd.h"
+
+#include <cstdlib>
+
+#include "sim/base/cpu.h"
+#include "sim/kernels/row.h"
+
+namespace neve::sim::kernels {
+
+namespace {
+
+constexpr SimdLevel levels[] = {SimdLevel::avx512, SimdLevel::avx2, SimdLevel::baseline};
+
+template <class Real>
+const Sweeps<Real>& choose(SimdLevel level, int nodes, TransferKind transfer) {
+#ifdef NEVE_X86_KERNELS
+  if (level == SimdLevel::avx512) return KernelSet<Avx512Set>::sweeps(nodes, transfer, Real());
+  if (level == SimdLevel::avx2) return KernelSet<Avx2Set>::sweeps(nodes, transfer, Real());
+#endif
+  (void)level;
+  return KernelSet<BaselineSet>::sweeps(nodes, transfer, Real());
+}
+
+}  // namespace
+
+const Sweeps<float>& sweeps_for(SimdLevel level, int nodes, TransferKind transfer, float) {
+  return choose<float>(level, nodes, transfer);
+}
+const Sweeps<double>& sweeps_for(SimdLevel level, int nodes, TransferKind transfer, double) {
+  return choose<double>(level, nodes, transfer);
+}
+
+const char* name(SimdLevel level) {
+  switch (level) {
+    case SimdLevel::avx512:
+      return "avx512";
+    case SimdLevel::avx2:
+      return "avx2";
+    default:
+      return "baseline";
+  }
+}
+
+bool is_available(SimdLevel level) {
+#ifdef NEVE_X86_KERNELS
+  if (level == SimdLevel::avx2) return runs_x86_64_v3();
+  if (level == SimdLevel::avx512) return runs_x86_64_v4();
+#endif
+  return level == SimdLevel::baseline;
+}
+
+SimdLevel chosen_simd_level() {
+  const char* wanted = std::getenv("NEVE_SIMD");
+  const bool is_free = wanted == nullptr || *wanted == '\0';
+  std::string available;
+  for (const SimdLevel level : levels) {
+    const bool is_here = is_available(level);
+    if (is_here && (is_free || std::string(wanted) == name(level))) return level;
+    if (is_here) available = available.empty() ? name(level) : name(level) + (", " + available);
+  }
+  throw SimdError("NEVE_SIMD=" + std::string(wanted) + " cannot be had; this machine has " +
+                  available);
+}
+
+}  // namespace neve::sim::kernels

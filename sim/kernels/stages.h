@@ -1,0 +1,501 @@
+#pragma once
+/// Each stage of the step once, as an inline kernel over lanes or rows. Both drivers call these, so
+/// a stage cannot differ between them. Numbers are the paper's steps (section 4).
+
+#include "sim/kernels/kernels.h"
+#include "sim/kernels/particle_lanes.h"
+#include "sim/kernels/row.h"
+
+namespace neve::sim::kernels {
+
+// ---- stencils -----------------------------------------------------------------------------------
+
+/// Weights of up to G particles of one block, laid out for row kernels: numbers to multiply a row
+/// with along x and y, quads along z. w_ip is the product over the axes.
+template <class Real, int K, int G>
+struct Stencils {
+  Real w[3][K][G];    ///< N
+  Real dw[3][K][G];   ///< N' in grid units: times 1/h is the derivative by x_p
+  Real arm[3][K][G];  ///< N (x_i - x_p)/h
+  Quad<Real> z[G], dz[G], arm_z[G];
+  Integer<Real> first[G];  ///< node of the tile that the stencil starts at
+
+  /// Particles [q, q + W). @param offset, cell  x, y, z of the records
+  template <bool needs_dw, bool needs_arm, class V, class I>
+  NEVE_INLINE void set(int q, const V* offset, const I* cell) {
+    I base[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      base[axis] = stencil_base<K, Real>(cell[axis], offset[axis]);
+      const V place = offset[axis] + __builtin_convertvector(cell[axis] - base[axis], V);
+      V N[K], dN[K], N_arm[K];
+      spline<Real>(place, N, dN);
+      for (int k = 0; k < K; ++k) {
+        N_arm[k] = N[k] * (static_cast<Real>(k) - place);
+        store_lanes(N[k], w[axis][k] + q);
+        if constexpr (needs_dw) store_lanes(dN[k], dw[axis][k] + q);
+        if constexpr (needs_arm) store_lanes(N_arm[k], arm[axis][k] + q);
+      }
+      if (axis < 2) continue;
+      store_quads(along_z(N), z + q);
+      if constexpr (needs_dw) store_quads(along_z(dN), dz + q);
+      if constexpr (needs_arm) store_quads(along_z(N_arm), arm_z + q);
+    }
+    const I node =
+        ((base[0] & 3) * Tile<K>::side + (base[1] & 3)) * Tile<K>::side_z + (base[2] & 3);
+    __builtin_memcpy(first + q, &node, sizeof node);
+  }
+
+ private:
+  template <class V>
+  NEVE_INLINE static FourWords<V> along_z(const V (&weights)[K]) {
+    FourWords<V> out{};
+    for (int k = 0; k < K; ++k) out.w[k] = weights[k];
+    return out;
+  }
+};
+
+/// body(begin, end) for every run of particles that share a cell.
+template <class Real, int K, int G, class Body>
+NEVE_INLINE void each_cell(const Stencils<Real, K, G>& s, int count, const Body& body) {
+  for (int begin = 0; begin < count;) {
+    int end = begin + 1;
+    while (end < count && s.first[end] == s.first[begin]) ++end;
+    body(begin, end);
+    begin = end;
+  }
+}
+
+// ---- transfers: reusable scatter and gather -----------------------------------------------------
+
+/// How many slabs of a stencil (nodes of the same x) are accumulated at once: as many as there are
+/// registers for.
+template <class Real, int K, class Set>
+inline constexpr int slabs_at_once = Set::template lanes<Real> == 16 ? K : 1;
+
+/// tile += what add(i, q, rows) adds to the K rows of slab i, over the particles [begin, end) of
+/// one cell: kept in registers until the cell is done.
+template <class Set, class Real, int K, int G, class Add>
+NEVE_INLINE void scatter_slabs(const Stencils<Real, K, G>& s, int begin, int end, Quad<Real>* tile,
+                               const Add& add) {
+  using R = Row<Real, Set>;
+  constexpr int slabs = slabs_at_once<Real, K, Set>;
+  for (int i0 = 0; i0 < K; i0 += slabs) {
+    R sum[slabs][K];
+    unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
+      unrolled<K>([&](auto j) NEVE_INLINE_BODY { sum[i][j] = R::zero(); });
+    });
+    for (int q = begin; q < end; ++q)
+      unrolled<slabs>([&](auto i) NEVE_INLINE_BODY { add(i0 + i, q, sum[i]); });
+    unrolled<slabs>([&](auto i) NEVE_INLINE_BODY {
+      unrolled<K>([&](auto j) NEVE_INLINE_BODY {
+        sum[i][j].add_to(tile + s.first[begin] + Tile<K>::node(i0 + i, j, 0));
+      });
+    });
+  }
+}
+
+/// tile += sum over the particles [begin, end) of one cell of w_ip value_p.
+/// @param along  per particle: its value times the weights along z
+template <class Real, int K, int G, class Set>
+NEVE_INLINE void scatter_value(const Stencils<Real, K, G>& s, const Row<Real, Set>* along,
+                               int begin, int end, Quad<Real>* tile) {
+  using R = Row<Real, Set>;
+  scatter_slabs<Set>(s, begin, end, tile, [&](int i, int q, R(&sum)[K]) NEVE_INLINE_BODY {
+    const R across = along[q] * s.w[0][i][q];
+    unrolled<K>([&](auto j) NEVE_INLINE_BODY { sum[j] = fused(across, s.w[1][j][q], sum[j]); });
+  });
+}
+
+/// A tensor A of one particle, by columns, as rows: A_x and A_y times the weights along z, and A_z
+/// times g along z. A value times the weights along z may be added to `z`.
+template <class Real, class Set>
+struct TensorRows {
+  Row<Real, Set> x, y, z;
+};
+
+/// tile += sum over the particles [begin, end) of one cell of A_p g_ip, with g_ip the product
+/// weights in which one axis takes g instead of w: the gradient of w_ip (g = dw) or w_ip (x_i -
+/// x_p) (arm).
+template <class Real, int K, int G, class Set>
+NEVE_INLINE void scatter_tensor(const Stencils<Real, K, G>& s, const Real (&g)[3][K][G],
+                                const TensorRows<Real, Set>* A, int begin, int end,
+                                Quad<Real>* tile) {
+  using R = Row<Real, Set>;
+  scatter_slabs<Set>(s, begin, end, tile, [&](int i, int q, R(&sum)[K]) NEVE_INLINE_BODY {
+    const R with_w = fused(A[q].x, g[0][i][q], A[q].z * s.w[0][i][q]);
+    const R with_g = A[q].y * s.w[0][i][q];
+    unrolled<K>([&](auto j) NEVE_INLINE_BODY {
+      sum[j] = fused(with_w, s.w[1][j][q], fused(with_g, g[1][j][q], sum[j]));
+    });
+  });
+}
+
+/// sum w_ip value_i, then the columns of sum value_i g_ip^T, over the stencil of particle q.
+template <class Set, class Real, int K, int G>
+NEVE_INLINE void gather_tensor(const Stencils<Real, K, G>& s, const Real (&g)[3][K][G],
+                               const Quad<Real>* g_z, int q, const Quad<Real>* tile,
+                               Quad<Real>* value_and_columns) {
+  using R = Row<Real, Set>;
+  R sum = R::zero(), sum_x = R::zero(), sum_y = R::zero();
+  unrolled<K>([&](auto i) NEVE_INLINE_BODY {
+    R plane = R::zero(), plane_y = R::zero();
+    unrolled<K>([&](auto j) NEVE_INLINE_BODY {
+      const R row = R::load(tile + s.first[q] + Tile<K>::node(i, j, 0));
+      plane = fused(row, s.w[1][j][q], plane);
+      plane_y = fused(row, g[1][j][q], plane_y);
+    });
+    sum = fused(plane, s.w[0][i][q], sum);
+    sum_x = fused(plane, g[0][i][q], sum_x);
+    sum_y = fused(plane_y, s.w[0][i][q], sum_y);
+  });
+  const R z = R::spread(s.z[q]), with_g = R::spread(g_z[q]);
+  sums_of(sum * z, sum_x * z, sum_y * z, sum * with_g, value_and_columns);
+}
+
+/// sum w_ip value_i over the stencil of particle q.
+template <class Set, class Real, int K, int G>
+NEVE_INLINE Quad<Real> gather_value(const Stencils<Real, K, G>& s, int q, const Quad<Real>* tile) {
+  using R = Row<Real, Set>;
+  R sum = R::zero();
+  unrolled<K>([&](auto i) NEVE_INLINE_BODY {
+    R plane = R::zero();
+    unrolled<K>([&](auto j) NEVE_INLINE_BODY {
+      plane = fused(R::load(tile + s.first[q] + Tile<K>::node(i, j, 0)), s.w[1][j][q], plane);
+    });
+    sum = fused(plane, s.w[0][i][q], sum);
+  });
+  return (sum * R::spread(s.z[q])).sum();
+}
+
+// ---- particle to node ---------------------------------------------------------------------------
+
+/// Columns of a tensor, four channels each; the fourth is 0.
+template <class V>
+struct Columns {
+  FourWords<V> column[3];
+};
+
+/// Step 3: f_i = -sum V0 tau grad_w_ip (the paper, equation 6, with J cancelled). MLS replaces
+/// grad_w_ip by w_ip (x_i - x_p) / D (Hu et al. 2018).
+/// @param scale  1, or dt for the change of momentum
+template <int K, TransferKind transfer, class V>
+NEVE_INLINE Columns<V> elastic_force(V V0, const V* tau, ElementOf<V> inv_h, ElementOf<V> scale) {
+  using Real = ElementOf<V>;
+  constexpr Real inertia = transfer == TransferKind::mls ? Real(1 / apic_inertia<K>) : Real(1);
+  const V factor = V0 * (-inv_h * inertia * scale);
+  const V xx = tau[0], yy = tau[1], zz = tau[2], xy = tau[3], xz = tau[4], yz = tau[5];
+  return {{{{factor * xx, factor * xy, factor * xz, V{}}},
+           {{factor * xy, factor * yy, factor * yz, V{}}},
+           {{factor * xz, factor * yz, factor * zz, V{}}}}};
+}
+
+/// Step 1, APIC and MLS: the momentum of v_p + C (x_i - x_p) besides that of v_p.
+template <class V>
+NEVE_INLINE Columns<V> affine_momentum(V m, const V* C, ElementOf<V> h) {
+  const V factor = m * h;
+  return {{{{factor * C[0], factor * C[3], factor * C[6], V{}}},
+           {{factor * C[1], factor * C[4], factor * C[7], V{}}},
+           {{factor * C[2], factor * C[5], factor * C[8], V{}}}}};
+}
+
+template <class V>
+NEVE_INLINE Columns<V> operator+(const Columns<V>& a, const Columns<V>& b) {
+  Columns<V> sum;
+  for (int c = 0; c < 3; ++c)
+    for (int w = 0; w < 4; ++w) sum.column[c].w[w] = a.column[c].w[w] + b.column[c].w[w];
+  return sum;
+}
+
+/// Step 2, once per body: rho_p = sum m_i w_ip / h^3, V0 = m_p / rho_p.
+template <class Set, class Real, int K, int G>
+NEVE_INLINE Real estimated_volume(Real m, const Stencils<Real, K, G>& s, int q, Real h,
+                                  const Quad<Real>* momentum) {
+  return m * (h * h * h) / gather_value<Set>(s, q, momentum)[3];
+}
+
+// ---- nodes --------------------------------------------------------------------------------------
+
+/// v_old = momentum / mass; 0 where no mass arrived. The fourth lane keeps the mass.
+template <class Real>
+NEVE_INLINE Quad<Real> node_v_old(Quad<Real> momentum) {
+  const Real mass = momentum[3];
+  if (!(mass > Real(0))) return Quad<Real>{};
+  Quad<Real> v = momentum / mass;
+  v[3] = mass;
+  return v;
+}
+
+/// Step 4: v_free = v_old + dt (f / m + g).
+template <class Real>
+NEVE_INLINE Quad<Real> node_v_free(Quad<Real> v_old, Quad<Real> force,
+                                   const StepConstants<Real>& c) {
+  const Real mass = v_old[3];
+  if (!(mass > Real(0))) return Quad<Real>{};
+  const Quad<Real> gravity{c.gravity[0], c.gravity[1], c.gravity[2], Real(0)};
+  Quad<Real> v = v_old + (force / mass + gravity) * c.dt;
+  v[3] = mass;
+  return v;
+}
+
+// ---- contact ------------------------------------------------------------------------------------
+
+/// Steps 5 and 9: contact at places r in the block, collider after collider.
+/// @param is_used  lanes that count
+/// @param work     what colliders do, impulse times the speed of their surface, J; only what is
+/// added
+template <class Set, class V, class Real>
+NEVE_APART void collide(Vec3<V>& v, const V& mass, const Vec3<V>& r, const MaskOf<V>& is_used,
+                        const LocalCollider<Real>* colliders, int count, double& work) {
+  V done{};
+  for (int k = 0; k < count; ++k) {
+    const Vec3<V> before = v;
+    v = respond(colliders[k], r, v);
+    done += mass * dot(v - before, surface_velocity(colliders[k], r));
+  }
+  const MaskOf<V> counts = is_used & (done > V{});
+  if (!any_lane(counts)) return;
+  for (int l = 0; l < lane_count<V>; ++l)
+    if (counts[l]) work += static_cast<double>(done[l]);
+}
+
+/// Colliders that a block can touch, placed relative to it.
+template <class Real>
+struct NearColliders {
+  union {
+    LocalCollider<Real> local[max_colliders];  ///< only the first `count` are there
+  };
+  int count = 0;
+  NEVE_INLINE NearColliders() {}
+};
+
+/// @param centre, reach  places in the block lie within `reach` cells of (centre, centre, centre)
+template <class Set, class Real>
+NEVE_APART void find_near(NearColliders<Real>& near, const StepConstants<Real>& c,
+                          std::uint64_t key, Real centre, Real reach) {
+  int cell[3];
+  for (int a = 0; a < 3; ++a) cell[a] = block_coordinate(key, a) * block_side;
+  const Vec3<Real> middle{centre * c.h, centre * c.h, centre * c.h};
+  for (int k = 0; k < c.collider_count; ++k) {
+    const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
+    if (!is_out_of_reach(candidate, middle, reach * c.h)) near.local[near.count++] = candidate;
+  }
+}
+
+/// Nodes lie in [0, 3] cells from the block's first node, particles of the block in [0.5, 5), and
+/// after a step less than a cell further.
+template <class Set, class Real>
+NEVE_INLINE void find_near_nodes(NearColliders<Real>& near, const StepConstants<Real>& c,
+                                 std::uint64_t key) {
+  if (c.collider_count > 0) find_near<Set>(near, c, key, Real(1.5), Real(2.7));
+}
+template <class Set, class Real>
+NEVE_INLINE void find_near_particles(NearColliders<Real>& near, const StepConstants<Real>& c,
+                                     std::uint64_t key) {
+  if (c.collider_count > 0) find_near<Set>(near, c, key, Real(2.75), Real(4));
+}
+template <class Set, class Real>
+NEVE_INLINE void find_near_moved(NearColliders<Real>& near, const StepConstants<Real>& c,
+                                 std::uint64_t key) {
+  if (c.collider_count > 0) find_near<Set>(near, c, key, Real(2.75), Real(5.7));
+}
+
+/// Step 5 on the nodes of a block: v_star from v_free.
+template <class Set, class Real>
+NEVE_INLINE void collide_nodes(Quad<Real>* v, const StepConstants<Real>& c,
+                               const NearColliders<Real>& near, double& work) {
+  constexpr int W = Set::template lanes<Real>;
+  using V = Lanes<Real, W>;
+  if (near.count == 0) return;
+  for (int n = 0; n < block_nodes; n += W) {
+    FourWords<V> words = load_quads<V>(v + n);
+    Vec3<V> velocity{words.w[0], words.w[1], words.w[2]};
+    Real place[3][W];
+    for (int l = 0; l < W; ++l) {
+      place[0][l] = static_cast<Real>((n + l) >> 4);
+      place[1][l] = static_cast<Real>((n + l) >> 2 & 3);
+      place[2][l] = static_cast<Real>((n + l) & 3);
+    }
+    const Vec3<V> r{load_lanes<V>(place[0]), load_lanes<V>(place[1]), load_lanes<V>(place[2])};
+    const MaskOf<V> has_mass = words.w[3] > V{};
+    collide<Set>(velocity, words.w[3], r * all<V>(c.h), has_mass, near.local, near.count, work);
+    for (int a = 0; a < 3; ++a) words.w[a] = has_mass ? velocity[a] : V{};
+    store_quads(words, v + n);
+  }
+}
+
+// ---- node to particle ---------------------------------------------------------------------------
+
+/// What steps 7 and 8 need from the grid, for particles [q, q + W) of the stencils.
+/// @param change  v_new - v_old on the tile; FLIP only
+template <class Set, TransferKind transfer, class V, class Real, int K, int G>
+NEVE_INLINE void gather(const Stencils<Real, K, G>& s, int q, int count, Real inv_h,
+                        const Quad<Real>* v_new, const Quad<Real>* change, Gathered<V>& out) {
+  constexpr int W = lane_count<V>;
+  constexpr bool is_mls = transfer == TransferKind::mls, is_flip = transfer == TransferKind::flip;
+  constexpr Real arm_scale = Real(1 / apic_inertia<K>);
+  Quad<Real> gradient[4 * W], affine[4 * W], moved[W];
+  for (int l = 0; l < W; ++l) {
+    const int p = q + smaller(l, count - 1);
+    if constexpr (is_mls)
+      gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, gradient + 4 * l);
+    else
+      gather_tensor<Set>(s, s.dw, s.dz, p, v_new, gradient + 4 * l);
+    if constexpr (is_flip) moved[l] = gather_value<Set>(s, p, change);
+    if constexpr (transfer == TransferKind::apic)
+      gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, affine + 4 * l);
+  }
+  const auto take = [](const Quad<Real>* from, Real scale, V* to, int stride) NEVE_INLINE_BODY {
+    const FourWords<V> words = gather_words<V>([&](int l) NEVE_INLINE_BODY { return from[4 * l]; });
+    for (int a = 0; a < 3; ++a) to[stride * a] = words.w[a] * scale;
+  };
+  take(gradient, Real(1), out.v, 1);
+  if constexpr (is_flip) {
+    const FourWords<V> words = load_quads<V>(moved);
+    for (int a = 0; a < 3; ++a) out.change[a] = words.w[a];
+  }
+  for (int c = 0; c < 3; ++c) {
+    take(gradient + 1 + c, is_mls ? inv_h * arm_scale : inv_h, out.grad_v + c, 3);
+    if constexpr (transfer == TransferKind::apic)
+      take(affine + 1 + c, inv_h * arm_scale, out.C + c, 3);
+    if constexpr (is_mls)
+      for (int a = 0; a < 3; ++a) out.C[3 * a + c] = out.grad_v[3 * a + c];
+  }
+}
+
+/// Step 7, first half: trial F_E = (I + dt grad_v) F_E.
+template <class V>
+NEVE_INLINE void strain(V* F_E, const V* grad_v, ElementOf<V> dt) {
+  V F[9];
+  const V step = all<V>(dt);
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) {
+      const V* g = grad_v + 3 * a;
+      const V rate = fused(g[0], F_E[b], fused(g[1], F_E[3 + b], g[2] * F_E[6 + b]));
+      F[3 * a + b] = fused(step, rate, F_E[3 * a + b]);
+    }
+  for (int q = 0; q < 9; ++q) F_E[q] = F[q];
+}
+
+/// Step 8: FLIP v_p = (1 - alpha) PIC + alpha (v_p + change); APIC and MLS take v and C.
+template <TransferKind transfer, class V, class I>
+NEVE_INLINE Vec3<V> particle_velocity(Record<V, I>& p, const Gathered<V>& g, ElementOf<V> alpha) {
+  using Real = ElementOf<V>;
+  Vec3<V> v;
+  for (int a = 0; a < 3; ++a) {
+    v[a] = g.v[a];
+    if constexpr (transfer == TransferKind::flip)
+      v[a] = g.v[a] * (Real(1) - alpha) + (p.v[a] + g.change[a]) * alpha;
+  }
+  if constexpr (transfer != TransferKind::flip)
+    for (int q = 0; q < 9; ++q) p.C[q] = g.C[q];
+  return v;
+}
+
+/// Places of particles from the first node of a block, m.
+template <class V, class I, class Real>
+NEVE_INLINE Vec3<V> places_in_block(const Record<V, I>& p, std::uint64_t key, Real h) {
+  Vec3<V> r;
+  for (int a = 0; a < 3; ++a) {
+    const auto cell = p.cell[a] - block_coordinate(key, a) * block_side;
+    r[a] = (__builtin_convertvector(cell, V) + p.offset[a]) * h;
+  }
+  return r;
+}
+
+/// Step 9 on particles of a block, where they are before they move.
+template <class Set, class V, class I, class Real>
+NEVE_INLINE void collide_particles(const Record<V, I>& p, Vec3<V>& v, MaskOf<V> is_used,
+                                   std::uint64_t key, const StepConstants<Real>& c,
+                                   const NearColliders<Real>& near, double& work) {
+  if (near.count == 0) return;
+  const Vec3<V> r = places_in_block(p, key, c.h);
+  collide<Set>(v, p.m, r, is_used, near.local, near.count, work);
+}
+
+/// Where the option is on, what is deeper in a collider than this is brought out to it, cells. A
+/// hair less than the tenth that is promised, so that rounding does not break it.
+inline constexpr double depth_left = 0.0999;
+/// Out of one collider may be into another: as often as a corner of three needs with room to spare.
+inline constexpr int push_rounds = 8;
+
+/// Moves places that are too deep out along the normal, collider after collider.
+/// @param deepest  m
+/// @return what was moved
+template <class Set, class V, class Real>
+NEVE_APART MaskOf<V> push_out(Vec3<V>& r, Real deepest, const LocalCollider<Real>* colliders,
+                              int count) {
+  MaskOf<V> moved{};
+  for (int round = 0; round < push_rounds; ++round) {
+    MaskOf<V> found{};
+    for (int k = 0; k < count; ++k) {
+      Vec3<V> normal;
+      const V missing = -deepest - surface_distance(colliders[k], r, normal);
+      const MaskOf<V> is_deep = missing > all<V>(Real(1e-5) * deepest);
+      r = r + select(is_deep, normal * missing, Vec3<V>{});
+      found = found | is_deep;
+    }
+    if (!any_lane(found)) break;
+    moved = moved | found;
+  }
+  return moved;
+}
+
+/// The block that a stencil starts in and the code of its cell and the particle's model.
+template <class I>
+struct Location {
+  I block[3], local;
+};
+/// @return the lanes inside the lattice
+template <int K, class V, class I>
+NEVE_INLINE I locate(const Record<V, I>& p, Location<I>& at) {
+  using Real = ElementOf<V>;
+  I is_inside = I{} == I{}, cell{};
+  for (int a = 0; a < 3; ++a) {
+    const I base = stencil_base<K, Real>(p.cell[a], p.offset[a]);
+    at.block[a] = base >> 2;
+    is_inside = is_inside & (at.block[a] > -block_limit) & (at.block[a] < block_limit);
+    cell = cell << 2 | (base & 3);
+  }
+  at.local = p.model() << 6 | cell;
+  return is_inside;
+}
+
+/// Step 10: x_p += dt v, in cells and offsets. A particle that would leave the lattice or whose
+/// velocity is no number stays where it is and is reported.
+template <int K, class V, class I, class Real>
+NEVE_INLINE void move(Record<V, I>& p, const Vec3<V>& v, Real dt_over_h, unsigned used,
+                      BlockReport<Real>& report, Location<I>& at) {
+  const V farthest = all<V>(Real(1 << 20));
+  V x[3];
+  I is_near = I{} == I{};
+  for (int a = 0; a < 3; ++a) {
+    x[a] = p.offset[a] + v[a] * dt_over_h;
+    is_near = is_near & (absolute_lanes(x[a]) < farthest);
+  }
+  Record<V, I> moved;
+  moved.kind = p.kind;
+  for (int a = 0; a < 3; ++a) {
+    const V safe = is_near ? x[a] : V{};
+    I whole = __builtin_convertvector(safe, I);
+    whole += __builtin_convertvector(whole, V) > safe;  // a mask is -1 where true
+    V rest = safe - __builtin_convertvector(whole, V);
+    const I is_carried = rest >= all<V>(1);  // a tiny negative x rounds up to the next cell
+    whole -= is_carried;
+    rest = is_carried ? V{} : rest;
+    moved.cell[a] = p.cell[a] + whole;
+    moved.offset[a] = rest;
+  }
+  const I is_inside = is_near & locate<K>(moved, at);
+  for (int a = 0; a < 3; ++a) {
+    p.cell[a] = is_inside ? moved.cell[a] : p.cell[a];
+    p.offset[a] = is_inside ? moved.offset[a] : p.offset[a];
+  }
+  if ((used & ~lane_bits(is_inside)) == 0) return;
+  const V sum = x[0] + x[1] + x[2];
+  const unsigned numbers = lane_bits(sum - sum == V{});
+  report.overflowed +=
+      static_cast<std::uint32_t>(__builtin_popcount(used & ~lane_bits(is_inside) & numbers));
+  locate<K>(p, at);
+}
+
+}  // namespace neve::sim::kernels

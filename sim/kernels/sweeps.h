@@ -1,0 +1,678 @@
+#pragma once
+/// The sweeps over blocks that the drivers are made of; instantiated once per instruction set.
+
+#include "sim/kernels/stages.h"
+
+namespace neve::sim::kernels {
+
+template <class Real, int K>
+NEVE_INLINE Quad<Real>* tile_of(const SweepArgs<Real>& a, std::uint32_t block, int channel) {
+  const std::size_t tile = static_cast<std::size_t>(block) * static_cast<std::size_t>(a.channels);
+  return a.tiles + (tile + static_cast<std::size_t>(channel)) * Tile<K>::nodes;
+}
+template <class Real>
+NEVE_INLINE Quad<Real>* nodes_of(const SweepArgs<Real>& a, std::uint32_t block, int channel) {
+  const std::size_t first = static_cast<std::size_t>(block) * static_cast<std::size_t>(a.channels);
+  return a.nodes + (first + static_cast<std::size_t>(channel)) * block_nodes;
+}
+
+/// Adds the tiles that reach a node block, always in the order of NodeBlock::tile. Rows go beyond
+/// the tile's overlap along z; what stands there is 0.
+template <class Real, int K, class Set>
+NEVE_INLINE void collect(const SweepArgs<Real>& a, std::uint32_t block, int channel,
+                         Quad<Real>* sum) {
+  using R = Row<Real, Set>;
+  bool is_first = true;
+  for (int o = 0; o < 8; ++o) {
+    const std::int32_t source = a.node_blocks[block].tile[o];
+    if (source < 0) continue;
+    const int ox = o >> 2, oy = o >> 1 & 1, oz = o & 1;
+    const int nx = ox ? Tile<K>::overlap : block_side, ny = oy ? Tile<K>::overlap : block_side;
+    const Quad<Real>* tile = tile_of<Real, K>(a, static_cast<std::uint32_t>(source), channel) +
+                             Tile<K>::node(4 * ox, 4 * oy, 4 * oz);
+    if (is_first && (ox || oy))
+      for (int n = 0; n < block_nodes; ++n) sum[n] = Quad<Real>{};
+    for (int i = 0; i < nx; ++i)
+      for (int j = 0; j < ny; ++j) {
+        Quad<Real>* to = sum + (i * block_side + j) * block_side;
+        const R row = R::load(tile + Tile<K>::node(i, j, 0));
+        (is_first && !(ox || oy) ? row : row + R::load(to)).store(to);
+      }
+    is_first = false;
+  }
+}
+
+/// The inverse: a particle block's tile, filled from the node blocks around it.
+template <class Real, int K, class Set, class Source>
+NEVE_INLINE void load_tile(const ParticleBlock& block, const Source& source, Quad<Real>* tile) {
+  for (int o = 0; o < 8; ++o) {
+    const Quad<Real>* nodes = source(block.node_block[o]);
+    const int ox = o >> 2, oy = o >> 1 & 1, oz = o & 1;
+    const int nx = ox ? Tile<K>::overlap : block_side, ny = oy ? Tile<K>::overlap : block_side;
+    Quad<Real>* to = tile + Tile<K>::node(4 * ox, 4 * oy, 4 * oz);
+    for (int i = 0; i < nx; ++i)
+      for (int j = 0; j < ny; ++j)
+        Row<Real, Set>::load(nodes + (i * block_side + j) * block_side)
+            .store(to + Tile<K>::node(i, j, 0));
+  }
+}
+
+template <class Real, int K, TransferKind transfer, class Set>
+struct SweepsFor {
+  using Args = SweepArgs<Real>;
+  using Index = std::uint32_t;
+  static constexpr int W = Set::template lanes<Real>;
+  using V = Lanes<Real, W>;
+  using I = Lanes<Integer<Real>, W>;
+  using R = Row<Real, Set>;
+  using Batch = ParticleLanes<Real, W>;
+  static constexpr bool is_flip = transfer == TransferKind::flip;
+  static constexpr bool is_mls = transfer == TransferKind::mls;
+  static constexpr int fused_channels = is_flip ? 2 : 1;
+
+  /// Some particles of a block, in its order; records beyond the last repeat it, so that batches
+  /// are always full.
+  template <int G>
+  struct Group {
+    Particle<Real>* record[G];
+    const Index* storage;
+    int count;
+
+    NEVE_INLINE unsigned used(int q) const { return lane_bits(used_lanes(q)); }
+    NEVE_INLINE I used_lanes(int q) const { return first_lanes<I>(count - q); }
+  };
+
+  /// Asks for the records that come a group after particles [q, q + W) of this one. Blocks stand
+  /// one after the other in the order, so this also looks into the next one.
+  template <int G>
+  NEVE_INLINE static void fetch_ahead(const Args& a, const Group<G>& group, int q) {
+    const Index at = static_cast<Index>(group.storage - a.order) + static_cast<Index>(q + G);
+    for (Index l = 0; l < W && at + l < a.particle_count; ++l) {
+      const char* record = reinterpret_cast<const char*>(a.particles + a.order[at + l]);
+      for (std::size_t byte = 0; byte < sizeof(Particle<Real>); byte += 64)
+        __builtin_prefetch(record + byte);
+    }
+  }
+
+  /// body(group) for groups of at most G particles, all of one model.
+  template <int G, class Body>
+  NEVE_INLINE static void each_group(const Args& a, const ParticleBlock& block, const Body& body) {
+    Group<G> group;
+    for (Index begin = block.begin; begin < block.end;) {
+      group.storage = a.order + begin;
+      Index count = smaller<Index>(G, block.end - begin);
+      for (Index q = 0; q < count; ++q) group.record[q] = a.particles + group.storage[q];
+      // The block is sorted by model.
+      while (group.record[count - 1]->model() != group.record[0]->model()) --count;
+      group.count = static_cast<int>(count);
+      for (Index q = count; q % W != 0; ++q) group.record[q] = group.record[count - 1];
+      body(static_cast<const Group<G>&>(group));
+      begin += count;
+    }
+  }
+
+  /// body(q, batch, stencils) for every batch of the block's particles.
+  template <class Body>
+  NEVE_INLINE static void each_batch(const Args& a, const ParticleBlock& block, const Body& body) {
+    each_group<gather_group>(a, block, [&](const Group<gather_group>& group) {
+      for (int q = 0; q < group.count; q += W) {
+        Batch batch;
+        load(batch, group.record + q);
+        body(group, q, batch);
+      }
+    });
+  }
+
+  NEVE_INLINE static void clear(Quad<Real>* tile) {
+    for (int n = 0; n < Tile<K>::nodes; n += 4) R::zero().store(tile + n);
+  }
+
+  // ---- particles to tiles -----------------------------------------------------------------------
+
+  /// The group's values and tensors as rows.
+  struct ScatterRows {
+    Stencils<Real, K, scatter_group> s;
+    R value[scatter_group];
+    TensorRows<Real, Set> affine[scatter_group], force[scatter_group];
+  };
+
+  enum Job { momentum_job = 1, force_job = 2 };
+
+  /// Steps 1 and 3 for the particles of a block. Jobs that share a tile are added in the order of
+  /// the steps.
+  template <int jobs>
+  NEVE_INLINE static void scatter(const Args& a, const ParticleBlock& block, Quad<Real>* momentum,
+                                  Quad<Real>* force) {
+    // MLS carries both tensors on the same weights: one row for both, where both go to one tile.
+    constexpr bool is_joined = is_mls && jobs == (momentum_job | force_job);
+    constexpr bool has_affine = !is_flip && (jobs & momentum_job) != 0;
+    constexpr bool has_force = (jobs & force_job) != 0 && !is_joined;
+    ScatterRows rows;
+    auto& s = rows.s;
+    each_group<scatter_group>(a, block, [&](const Group<scatter_group>& group) {
+      for (int q = 0; q < group.count; q += W) prepare<jobs>(a, group, q, rows);
+      each_cell(s, group.count, [&](int begin, int end) {
+        if constexpr (has_affine)
+          scatter_tensor<Real, K, scatter_group, Set>(s, s.arm, rows.affine, begin, end, momentum);
+        else if constexpr ((jobs & momentum_job) != 0)
+          scatter_value<Real, K, scatter_group, Set>(s, rows.value, begin, end, momentum);
+        if constexpr (has_force)
+          scatter_tensor<Real, K, scatter_group, Set>(s, is_mls ? s.arm : s.dw, rows.force, begin,
+                                                      end, force);
+      });
+    });
+  }
+
+  template <int jobs>
+  NEVE_INLINE static void prepare(const Args& a, const Group<scatter_group>& group, int q,
+                                  ScatterRows& rows) {
+    const StepConstants<Real>& c = a.constants;
+    constexpr bool both = jobs == (momentum_job | force_job);
+    constexpr bool has_affine = !is_flip && (jobs & momentum_job) != 0;
+    constexpr bool has_force = (jobs & force_job) != 0;
+    constexpr bool is_joined = is_mls && both;
+    auto& s = rows.s;
+    Batch p;
+    fetch_ahead(a, group, q);
+    load_for_scatter<has_affine, has_force>(p, group.record + q);
+    s.template set<!is_mls, !is_flip>(q, p.offset, p.cell);
+    Quad<Real> value[W], affine[3][W], force[3][W];
+    if constexpr ((jobs & momentum_job) != 0)
+      store_quads(FourWords<V>{{p.v[0] * p.m, p.v[1] * p.m, p.v[2] * p.m, p.m}}, value);
+    const auto keep = [](const Columns<V>& A, Quad<Real>(&to)[3][W]) NEVE_INLINE_BODY {
+      unrolled<3>([&](auto k) NEVE_INLINE_BODY { store_quads(A.column[k], to[k]); });
+    };
+    // Added to the momentum, a force acts for dt.
+    const Real duration = both && !is_flip ? c.dt : Real(1);
+    if constexpr (is_joined) {
+      keep(affine_momentum(p.m, p.C, c.h) +
+               elastic_force<K, transfer>(p.V0, p.tau, c.inv_h, duration),
+           affine);
+    } else {
+      if constexpr (has_affine) keep(affine_momentum(p.m, p.C, c.h), affine);
+      if constexpr (has_force)
+        keep(elastic_force<K, transfer>(p.V0, p.tau, c.inv_h, duration), force);
+    }
+    const int last = smaller(W, group.count - q);
+    for (int l = 0; l < last; ++l) {
+      const R z = R::spread(s.z[q + l]);
+      if constexpr ((jobs & momentum_job) != 0) rows.value[q + l] = R::repeat(value[l]) * z;
+      if constexpr (has_affine) {
+        rows.affine[q + l] = tensor_rows(affine, l, z, s.arm_z[q + l]);
+        rows.affine[q + l].z = rows.affine[q + l].z + rows.value[q + l];
+      }
+      if constexpr (has_force && !is_joined)
+        rows.force[q + l] = tensor_rows(force, l, z, is_mls ? s.arm_z[q + l] : s.dz[q + l]);
+    }
+  }
+
+  NEVE_INLINE static TensorRows<Real, Set> tensor_rows(const Quad<Real> (&column)[3][W], int l,
+                                                       const R& z, Quad<Real> g_z) {
+    return {R::repeat(column[0][l]) * z, R::repeat(column[1][l]) * z,
+            R::repeat(column[2][l]) * R::spread(g_z)};
+  }
+
+  // ---- fused driver -----------------------------------------------------------------------------
+
+  static void particles_to_grid(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      Quad<Real>* momentum = tile_of<Real, K>(a, b, channel_momentum);
+      Quad<Real>* force = is_flip ? tile_of<Real, K>(a, b, channel_force) : momentum;
+      clear(momentum);
+      if constexpr (is_flip) clear(force);
+      scatter<momentum_job | force_job>(a, a.blocks[b], momentum, force);
+    }
+  }
+
+  static void grid_update(const Args& a, Index begin, Index end) {
+    const StepConstants<Real>& c = a.constants;
+    Quad<Real> momentum[block_nodes], force[block_nodes];
+    for (int n = 0; n < block_nodes; ++n) force[n] = Quad<Real>{};
+    for (Index b = begin; b < end; ++b) {
+      collect<Real, K, Set>(a, b, channel_momentum, momentum);
+      if constexpr (is_flip) collect<Real, K, Set>(a, b, channel_force, force);
+      Quad<Real>* v_new = nodes_of(a, b, channel_v_new);
+      for (int n = 0; n < block_nodes; ++n) {
+        momentum[n] = node_v_old<Real>(momentum[n]);
+        v_new[n] = node_v_free(momentum[n], force[n], c);
+      }
+      double work = 0;
+      NearColliders<Real> near;
+      find_near_nodes<Set>(near, c, a.node_blocks[b].key);
+      collide_nodes<Set>(v_new, c, near, work);
+      if constexpr (is_flip) {
+        Quad<Real>* change = nodes_of(a, b, channel_change);
+        for (int n = 0; n < block_nodes; ++n) change[n] = v_new[n] - momentum[n];
+      }
+      a.node_contact_work[b] = work;
+    }
+  }
+
+  static void grid_to_particles(const Args& a, Index begin, Index end) {
+    const StepConstants<Real>& c = a.constants;
+    Quad<Real> v_new[Tile<K>::nodes], change[is_flip ? Tile<K>::nodes : 1];
+    MaterialUpdate<Real, Set, gather_group / W> update;
+    Stencils<Real, K, W> s;
+    Batch batch[gather_group / W];
+    Gathered<V> gathered[gather_group / W];
+    for (Index b = begin; b < end; ++b) {
+      const ParticleBlock& block = a.blocks[b];
+      load_tile<Real, K, Set>(block, channel_source(a, channel_v_new), v_new);
+      if constexpr (is_flip)
+        load_tile<Real, K, Set>(block, channel_source(a, channel_change), change);
+      NearColliders<Real> near;
+      find_near_particles<Set>(near, c, block.key);
+      ReportLanes report;
+      each_group<gather_group>(a, block, [&](const Group<gather_group>& group) {
+        for (int q = 0; q < group.count; q += W) {
+          Batch& p = batch[q / W];
+          Gathered<V>& g = gathered[q / W];
+          fetch_ahead(a, group, q);
+          load(p, group.record + q);
+          s.template set<!is_mls, !is_flip>(0, p.offset, p.cell);
+          kernels::gather<Set, transfer>(s, 0, smaller(W, group.count - q), c.inv_h, v_new, change,
+                                         g);
+          report.note_strain_rate(g);
+          strain(p.F_E, g.grad_v, c.dt);
+        }
+        project(group, batch, c, update, report);
+        for (int q = 0; q < group.count; q += W) {
+          Batch& p = batch[q / W];
+          const Gathered<V>& g = gathered[q / W];
+          Vec3<V> v = particle_velocity<transfer>(p, g, c.alpha);
+          collide_particles<Set>(p, v, group.used_lanes(q), block.key, c, near,
+                                 report.sum.contact_work);
+          finish(a, group, q, p, v, g, block.key, report);
+        }
+      });
+      a.reports[b] = report.reduced();
+    }
+  }
+
+  // ---- one stage at a time ----------------------------------------------------------------------
+
+  static void rasterize(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      Quad<Real>* tile = tile_of<Real, K>(a, b, channel_momentum);
+      clear(tile);
+      scatter<momentum_job>(a, a.blocks[b], tile, nullptr);
+    }
+  }
+
+  static void collect_momentum(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      StagedNodes<Real>& nodes = a.staged[b];
+      collect<Real, K, Set>(a, b, channel_momentum, nodes.momentum);
+      for (int n = 0; n < block_nodes; ++n) nodes.v_old[n] = node_v_old<Real>(nodes.momentum[n]);
+    }
+  }
+
+  static void volumes(const Args& a, Index begin, Index end) {
+    Quad<Real> momentum[Tile<K>::nodes];
+    Stencils<Real, K, W> s;
+    for (Index b = begin; b < end; ++b) {
+      load_tile<Real, K, Set>(
+          a.blocks[b], [&](Index n) { return a.staged[n].momentum; }, momentum);
+      each_batch(a, a.blocks[b], [&](const auto& group, int q, const Batch& p) {
+        s.template set<false, false>(0, p.offset, p.cell);
+        for (int l = 0; l < W && q + l < group.count; ++l) {
+          Particle<Real>& record = *group.record[q + l];
+          if (!(record.flags() & needs_volume)) continue;
+          record.V0 = estimated_volume<Set>(record.m, s, l, a.constants.h, momentum);
+          record.kind &= ~(Integer<Real>(needs_volume) << 24);
+        }
+      });
+    }
+  }
+
+  static void elastic_forces(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      Quad<Real>* tile = tile_of<Real, K>(a, b, channel_force);
+      clear(tile);
+      scatter<force_job>(a, a.blocks[b], nullptr, tile);
+    }
+  }
+
+  static void collect_force(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b)
+      collect<Real, K, Set>(a, b, channel_force, a.staged[b].force);
+  }
+
+  static void grid_velocities(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      StagedNodes<Real>& nodes = a.staged[b];
+      for (int n = 0; n < block_nodes; ++n)
+        nodes.v_free[n] = node_v_free(nodes.v_old[n], nodes.force[n], a.constants);
+    }
+  }
+
+  static void grid_collisions(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      StagedNodes<Real>& nodes = a.staged[b];
+      double work = 0;
+      for (int n = 0; n < block_nodes; ++n) nodes.v_star[n] = nodes.v_free[n];
+      NearColliders<Real> near;
+      find_near_nodes<Set>(near, a.constants, a.node_blocks[b].key);
+      collide_nodes<Set>(nodes.v_star, a.constants, near, work);
+      a.node_contact_work[b] = work;
+    }
+  }
+
+  /// Explicit steps take v_new = v_star; what particles gather is laid out as the fused driver
+  /// does.
+  static void keep_velocities(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      StagedNodes<Real>& nodes = a.staged[b];
+      for (int n = 0; n < block_nodes; ++n) {
+        nodes.v_new[n] = nodes.v_star[n];
+        nodes_of(a, b, channel_v_new)[n] = nodes.v_new[n];
+        nodes_of(a, b, channel_change)[n] = nodes.v_new[n] - nodes.v_old[n];
+      }
+    }
+  }
+
+  static void gather(const Args& a, Index begin, Index end) {
+    Quad<Real> v_new[Tile<K>::nodes], change[Tile<K>::nodes];
+    Stencils<Real, K, W> s;
+    for (Index b = begin; b < end; ++b) {
+      load_tile<Real, K, Set>(a.blocks[b], channel_source(a, channel_v_new), v_new);
+      load_tile<Real, K, Set>(a.blocks[b], channel_source(a, channel_change), change);
+      each_batch(a, a.blocks[b], [&](const auto& group, int q, const Batch& p) {
+        s.template set<!is_mls, !is_flip>(0, p.offset, p.cell);
+        Gathered<V> g{};
+        kernels::gather<Set, transfer>(s, 0, smaller(W, group.count - q), a.constants.inv_h, v_new,
+                                       change, g);
+        each_lane(group, q, [&](int l, Index storage) {
+          Gathered<Real>& to = a.gathered[storage];
+          for (int x = 0; x < 3; ++x) to.v[x] = g.v[x][l], to.change[x] = g.change[x][l];
+          for (int x = 0; x < 9; ++x) to.grad_v[x] = g.grad_v[x][l], to.C[x] = g.C[x][l];
+        });
+      });
+    }
+  }
+
+  static void deformation(const Args& a, Index begin, Index end) {
+    MaterialUpdate<Real, Set, gather_group / W> update;
+    Batch batch[gather_group / W];
+    for (Index b = begin; b < end; ++b) {
+      ReportLanes report;
+      each_group<gather_group>(a, a.blocks[b], [&](const Group<gather_group>& group) {
+        for (int q = 0; q < group.count; q += W) {
+          Batch& p = batch[q / W];
+          load_whole(p, group.record + q);
+          const Gathered<V> g = gathered_lanes(a, group, q);
+          report.note_strain_rate(g);
+          strain(p.F_E, g.grad_v, a.constants.dt);
+          each_lane(group, q, [&](int l, Index storage) {
+            for (int k = 0; k < 9; ++k)
+              a.F_trial[9 * static_cast<std::size_t>(storage) + static_cast<std::size_t>(k)] =
+                  p.F_E[k][l];
+          });
+        }
+        project(group, batch, a.constants, update, report);
+        for (int q = 0; q < group.count; q += W) keep(batch[q / W], group, q);
+      });
+      a.reports[b] = report.reduced();
+    }
+  }
+
+  static void particle_velocities(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b)
+      each_batch(a, a.blocks[b], [&](const auto& group, int q, Batch& p) {
+        load_whole(p, group.record + q);
+        const Vec3<V> v =
+            particle_velocity<transfer>(p, gathered_lanes(a, group, q), a.constants.alpha);
+        for (int axis = 0; axis < 3; ++axis) p.v[axis] = v[axis];
+        each_lane(group, q, [&](int l, Index storage) {
+          for (int axis = 0; axis < 3; ++axis)
+            a.v_before_collision[3 * static_cast<std::size_t>(storage) +
+                                 static_cast<std::size_t>(axis)] = v[axis][l];
+        });
+        keep(p, group, q);
+      });
+  }
+
+  static void particle_collisions(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      const std::uint64_t key = a.blocks[b].key;
+      NearColliders<Real> near;
+      find_near_particles<Set>(near, a.constants, key);
+      each_batch(a, a.blocks[b], [&](const auto& group, int q, Batch& p) {
+        load_whole(p, group.record + q);
+        Vec3<V> v{p.v[0], p.v[1], p.v[2]};
+        collide_particles<Set>(p, v, group.used_lanes(q), key, a.constants, near,
+                               a.reports[b].contact_work);
+        for (int axis = 0; axis < 3; ++axis) p.v[axis] = v[axis];
+        keep(p, group, q);
+      });
+    }
+  }
+
+  static void advection(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      ReportLanes report;
+      report.sum = a.reports[b];
+      each_batch(a, a.blocks[b], [&](const auto& group, int q, Batch& p) {
+        load_whole(p, group.record + q);
+        finish(a, group, q, p, Vec3<V>{p.v[0], p.v[1], p.v[2]}, gathered_lanes(a, group, q),
+               a.blocks[b].key, report);
+      });
+      a.reports[b] = report.reduced();
+    }
+  }
+
+  // ---- both -------------------------------------------------------------------------------------
+
+  /// After the step, with colliders where they are then: particles of blocks as they were before
+  /// it. Their velocities stay; what lifting them takes is work of the colliders.
+  static void push_out(const Args& a, Index begin, Index end) {
+    const StepConstants<Real>& c = a.constants;
+    const Vec3<V> gravity{all<V>(c.gravity[0]), all<V>(c.gravity[1]), all<V>(c.gravity[2])};
+    for (Index b = begin; b < end; ++b) {
+      const std::uint64_t key = a.blocks[b].key;
+      NearColliders<Real> near;
+      find_near_moved<Set>(near, c, key);
+      if (near.count == 0) continue;
+      each_batch(a, a.blocks[b], [&](const auto& group, int q, Batch& p) {
+        const Vec3<V> before = places_in_block(p, key, c.h);
+        Vec3<V> r = before;
+        const auto is_moved =
+            kernels::push_out<Set>(r, static_cast<Real>(depth_left) * c.h, near.local, near.count);
+        if ((lane_bits(is_moved) & group.used(q)) == 0) return;
+        load_whole(p, group.record + q);
+        const Vec3<V> shift = r - before;
+        const V work = -(p.m * dot(gravity, shift));
+        Location<I> at;
+        move<K>(p, shift, c.inv_h, group.used(q), a.reports[b], at);
+        keep(p, group, q);
+        each_lane(group, q, [&](int l, Index storage) {
+          if (work[l] > Real(0)) a.reports[b].contact_work += static_cast<double>(work[l]);
+          write_location(a, storage, at, l);
+        });
+      });
+    }
+  }
+
+  static void refresh(const Args& a, Index begin, Index end, bool is_projected,
+                      BlockReport<Real>& sums) {
+    MaterialUpdate<Real, Set, gather_group / W> update;
+    Batch batch[gather_group / W];
+    ReportLanes report;
+    report.sum = sums;
+    Group<gather_group> group;
+    for (Index first = begin; first < end; first += static_cast<Index>(group.count)) {
+      group.count = 0;
+      const auto model = a.particles[first].model();
+      while (group.count < gather_group && first + static_cast<Index>(group.count) < end &&
+             a.particles[first + static_cast<Index>(group.count)].model() == model) {
+        group.record[group.count] = a.particles + first + group.count;
+        ++group.count;
+      }
+      for (int q = group.count; q % W != 0; ++q) group.record[q] = group.record[group.count - 1];
+      for (int q = 0; q < group.count; q += W) load_whole(batch[q / W], group.record + q);
+      project(group, batch, a.constants, update, report, is_projected);
+      for (int q = 0; q < group.count; q += W) {
+        Batch& p = batch[q / W];
+        keep(p, group, q);
+        report.note_speed(Vec3<V>{p.v[0], p.v[1], p.v[2]});
+        Location<I> at;
+        const unsigned outside = group.used(q) & ~lane_bits(locate<K>(p, at));
+        report.sum.overflowed += static_cast<std::uint32_t>(__builtin_popcount(outside));
+        for (int l = 0; l < W && q + l < group.count; ++l)
+          if (!(outside >> l & 1)) write_location(a, first + static_cast<Index>(q + l), at, l);
+      }
+    }
+    sums = report.reduced();
+  }
+
+  static constexpr Sweeps<Real> table{fused_channels,
+                                      particles_to_grid,
+                                      grid_update,
+                                      grid_to_particles,
+                                      rasterize,
+                                      collect_momentum,
+                                      volumes,
+                                      elastic_forces,
+                                      collect_force,
+                                      grid_velocities,
+                                      grid_collisions,
+                                      keep_velocities,
+                                      gather,
+                                      deformation,
+                                      particle_velocities,
+                                      particle_collisions,
+                                      advection,
+                                      push_out,
+                                      refresh};
+
+ private:
+  /// A block's report while it is being written.
+  struct ReportLanes {
+    BlockReport<Real> sum;
+    V speed_squared{}, sound_squared{}, strain_rate{}, min_J_P = all<V>(1), max_J_P = all<V>(1);
+
+    NEVE_INLINE void note_strain_rate(const Gathered<V>& g) {
+      for (int q = 0; q < 9; ++q)
+        strain_rate = larger_lanes(strain_rate, absolute_lanes(g.grad_v[q]));
+    }
+    NEVE_INLINE void note_speed(const Vec3<V>& v) {
+      speed_squared = larger_lanes(speed_squared, dot(v, v));
+    }
+    NEVE_INLINE BlockReport<Real> reduced() const {
+      BlockReport<Real> out = sum;
+      out.max_speed_squared = larger(out.max_speed_squared, largest_lane(speed_squared));
+      out.max_sound_squared = larger(out.max_sound_squared, largest_lane(sound_squared));
+      out.max_strain_rate = larger(out.max_strain_rate, largest_lane(strain_rate));
+      out.min_J_P = smaller(out.min_J_P, smallest_lane(min_J_P));
+      out.max_J_P = larger(out.max_J_P, largest_lane(max_J_P));
+      return out;
+    }
+  };
+
+  NEVE_INLINE static auto channel_source(const Args& a, int channel) {
+    return [&a, channel](Index n) { return nodes_of(a, n, channel); };
+  }
+
+  /// body(lane, storage) for the lanes in use.
+  template <class G, class Body>
+  NEVE_INLINE static void each_lane(const G& group, int q, const Body& body) {
+    for (int l = 0; l < W && q + l < group.count; ++l) body(l, group.storage[q + l]);
+  }
+
+  template <class G>
+  NEVE_INLINE static Gathered<V> gathered_lanes(const Args& a, const G& group, int q) {
+    Gathered<V> g{};
+    each_lane(group, q, [&](int l, Index storage) {
+      const Gathered<Real>& from = a.gathered[storage];
+      for (int x = 0; x < 3; ++x) g.v[x][l] = from.v[x], g.change[x][l] = from.change[x];
+      for (int x = 0; x < 9; ++x) g.grad_v[x][l] = from.grad_v[x], g.C[x][l] = from.C[x];
+    });
+    return g;
+  }
+
+  template <class G>
+  NEVE_INLINE static void keep(const Batch& p, const G& group, int q) {
+    store<true>(p, group.record + q, group.count - q);
+  }
+
+  /// Step 7, second half: projection and stress of a group, and what the report wants to know of
+  /// them.
+  NEVE_INLINE static void project(const Group<gather_group>& group, Batch* batch,
+                                  const StepConstants<Real>& c,
+                                  MaterialUpdate<Real, Set, gather_group / W>& update,
+                                  ReportLanes& report, bool is_projected = true) {
+    V wave_modulus[gather_group / W];
+    unsigned inverted[gather_group / W];
+    const auto model = static_cast<ModelKind>(group.record[0]->model());
+    update(batch, group.count, model, c.materials, is_projected, wave_modulus, inverted);
+    for (int k = 0; k * W < group.count; ++k) {
+      const Batch& p = batch[k];
+      report.sound_squared = larger_lanes(report.sound_squared, wave_modulus[k] * p.V0 / p.m);
+      report.min_J_P = smaller_lanes(report.min_J_P, p.J_P);
+      report.max_J_P = larger_lanes(report.max_J_P, p.J_P);
+      if (inverted[k] == 0) continue;
+      const auto count = static_cast<std::uint32_t>(__builtin_popcount(inverted[k]));
+      report.sum.inverted += count;
+      if (model != ModelKind::snow) report.sum.inverted_unprojected += count;
+    }
+  }
+
+  NEVE_INLINE static void write_location(const Args& a, Index storage, const Location<I>& at,
+                                         int l) {
+    a.keys[storage] = block_key(static_cast<int>(at.block[0][l]), static_cast<int>(at.block[1][l]),
+                                static_cast<int>(at.block[2][l]));
+    a.locals[storage] = static_cast<std::uint16_t>(at.local[l]);
+  }
+
+  /// Step 10 and the checks of finished particles, and the records written.
+  template <class G>
+  NEVE_INLINE static void finish(const Args& a, const G& group, int q, Batch& p, const Vec3<V>& v,
+                                 const Gathered<V>& g, std::uint64_t key, ReportLanes& report) {
+    for (int axis = 0; axis < 3; ++axis) p.v[axis] = v[axis];
+    report.note_speed(v);
+    // NaN passes through neither max nor min, so it is looked for by itself.
+    V sum = dot(v, v) + p.J_P;
+    for (int k = 0; k < 6; ++k) sum += p.tau[k];
+    for (int k = 0; k < 9; ++k) sum += p.F_E[k];
+    const unsigned used = group.used(q);
+    const unsigned lost = used & ~lane_bits(sum - sum == V{});
+    report.sum.not_finite += static_cast<std::uint32_t>(__builtin_popcount(lost));
+    const bool with_grid = a.constants.moves_with_grid;
+    const Vec3<V> carrier = with_grid ? Vec3<V>{g.v[0], g.v[1], g.v[2]} : v;
+    Location<I> at;
+    move<K>(p, carrier, a.constants.dt_over_h, used, report.sum, at);
+    store<!is_flip>(p, group.record + q, group.count - q);
+    // Most particles stay in their block.
+    I has_left{};
+    for (int axis = 0; axis < 3; ++axis)
+      has_left = has_left | (at.block[axis] != block_coordinate(key, axis));
+    const unsigned left = lane_bits(has_left);
+    Integer<Real> local[W];
+    __builtin_memcpy(local, &at.local, sizeof local);
+    each_lane(group, q, [&](int l, Index storage) {
+      a.keys[storage] = key;
+      a.locals[storage] = static_cast<std::uint16_t>(local[l]);
+    });
+    if ((left & used) == 0) return;
+    each_lane(group, q, [&](int l, Index storage) {
+      if (left >> l & 1) write_location(a, storage, at, l);
+    });
+  }
+};
+
+/// The table of a kernel and a transfer, for the files that instantiate them.
+template <class Real, class Set>
+const Sweeps<Real>& choose_sweeps(int nodes, TransferKind transfer) {
+  constexpr int cubic = cubic_nodes, quadratic = quadratic_nodes;
+  using enum TransferKind;
+  if (nodes == cubic) {
+    if (transfer == flip) return SweepsFor<Real, cubic, flip, Set>::table;
+    if (transfer == apic) return SweepsFor<Real, cubic, apic, Set>::table;
+    return SweepsFor<Real, cubic, mls, Set>::table;
+  }
+  if (transfer == flip) return SweepsFor<Real, quadratic, flip, Set>::table;
+  if (transfer == apic) return SweepsFor<Real, quadratic, apic, Set>::table;
+  return SweepsFor<Real, quadratic, mls, Set>::table;
+}
+
+}  // namespace neve::sim::kernels

@@ -1,0 +1,179 @@
+#include "sim/seeding/flow.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "sim/base/hash.h"
+#include "sim/seeding/sampling.h"
+#include "sim/seeding/sampling_blocks.h"
+#include "sim/shapes/variation.h"
+
+namespace neve::sim::seeding {
+
+namespace {
+
+/// Apart from the keys of bodies.
+constexpr std::uint64_t emitter_key = 0x656d6974;
+
+/// Candidates for one place. Of a shape that fills this share of its box one of 64 is inside: that
+/// none of so many is, does not happen.
+constexpr int most_candidates = 8192;
+constexpr double least_share = 1.0 / 64;
+
+/// Of a shape that fills less, places are looked for once and used in turn: a tenth of a second, a
+/// second for a mesh.
+constexpr std::uint64_t pool_candidates = 1 << 20;
+constexpr std::size_t pool_places = 1 << 14;
+
+constexpr double most_particles = 4294967296.0;  // ids have 32 bits
+
+double share_of(const Emitter& emitter, double cell_size) {
+  return cell_size * cell_size * cell_size / emitter.particles_per_cell;
+}
+
+/// Births until a time: the k-th, from 0, is half a period after the k-th period began, so that the
+/// first and the last are inside start to end.
+double births_until(const Emitter& emitter, double mass, double time) {
+  const double until = emitter.end ? std::min(time, *emitter.end) : time;
+  if (!(until > emitter.start)) return 0;
+  return std::floor(emitter.rate / mass * (until - emitter.start) + 0.5);
+}
+
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
+bool fills(const shapes::Bounds& box, double volume) {
+  return volume >= least_share * (box.max - box.min).prod();
+}
+
+/// The c-th point of a sequence that fills the unit cube evenly, however long it is: multiples of
+/// the powers of 1/g, where g^4 = g + 1. Source: Roberts, The Unreasonable Effectiveness of
+/// Quasirandom Sequences (2018).
+Vec3d even_point(std::uint64_t key, std::uint64_t c) {
+  constexpr double g = 1.2207440846057594754;
+  const auto n = static_cast<double>(c);
+  Vec3d point;
+  double step = 1;
+  for (std::uint64_t a = 0; a < 3; ++a) {
+    step /= g;
+    point[static_cast<Eigen::Index>(a)] = fraction(unit_double(mix64(key, a)) + n * step);
+  }
+  return point;
+}
+
+}  // namespace
+
+double carried_rate(const Emitter& emitter, const Material& material) {
+  if (emitter.rate == 0) return std::numeric_limits<double>::infinity();
+  const double speed = emitter.velocity.norm();
+  if (!(speed > 0)) return 0;
+  const shapes::Solid solid(emitter.shape);
+  return material.density * solid.volume() / solid.extent(emitter.velocity) * speed;
+}
+
+std::uint64_t count_emitted(const Emitter& emitter, const Material& material, double cell_size,
+                            double time) {
+  const double share = share_of(emitter, cell_size);
+  double count = 0;
+  if (emitter.rate > 0)
+    count = births_until(emitter, material.density * share, time);
+  else if (time >= emitter.start)
+    count = std::max(1.0, std::ceil(shapes::Solid(emitter.shape).volume() / share));
+  return static_cast<std::uint64_t>(std::min(count, most_particles));
+}
+
+EmitterStream::EmitterStream(const Emitter& emitter, std::size_t number, const Material& material,
+                             std::uint64_t seed, double cell_size)
+    : emitter_(emitter),
+      material_(material),
+      key_(mix64(mix64(mix64(seed), emitter_key), number)),
+      solid_(emitter.shape),
+      box_(solid_.local_bounds()),
+      V0_(share_of(emitter, cell_size)) {
+  if (emitter.rate > 0) return;
+  if (!(solid_.volume() / V0_ < most_particles))
+    throw ShapeError("emitter " + emitter.name + ": more than 2^32 particles fit into it");
+  require_few_blocks(solid_, Vec3d::Zero(), std::cbrt(V0_));
+}
+
+void EmitterStream::advance_to(double time, std::vector<Birth>& births) {
+  if (emitter_.rate == 0) {
+    if (time >= emitter_.start && state_.born == 0) fill_whole(time - emitter_.start, births);
+    return;
+  }
+  const double mass = material_.density * V0_, period = mass / emitter_.rate;
+  const auto until =
+      static_cast<std::uint64_t>(std::min(births_until(emitter_, mass, time), most_particles));
+  for (; state_.born < until; ++state_.born) {
+    const double birth = emitter_.start + (static_cast<double>(state_.born) + 0.5) * period;
+    births.push_back(born_at(next_place(), std::max(0.0, time - birth)));
+  }
+}
+
+/// Not before its time: what never opens costs nothing, and what was born is not kept.
+void EmitterStream::fill_whole(double age, std::vector<Birth>& births) {
+  const double spacing = std::cbrt(V0_);
+  std::vector<Vec3d> places = sample_jittered(solid_, spacing, key_);
+  if (places.empty()) places.push_back(solid_.inner_point());
+  V0_ = solid_.volume() / static_cast<double>(places.size());
+  for (; state_.born < places.size(); ++state_.born)
+    births.push_back(born_at(places[state_.born], age));
+}
+
+/// In the box around the shape, evenly spread and shaken by up to half a spacing, so that no rows
+/// are seen. What is shaken out on one side comes in on the other: all of the box is as dense.
+Vec3d EmitterStream::next_candidate() {
+  const Vec3d size = box_.max - box_.min;
+  const double spacing = std::cbrt(V0_);
+  const std::uint64_t c = state_.candidate++, shake = mix64(key_, c);
+  const Vec3d even = even_point(key_, c);
+  Vec3d y;
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const double moved = unit_double(mix64(shake, static_cast<std::uint64_t>(a))) - 0.5;
+    y[a] = box_.min[a] + size[a] * fraction(even[a] + moved * std::min(1.0, spacing / size[a]));
+  }
+  return y;
+}
+
+Vec3d EmitterStream::next_place() {
+  if (!fills(box_, solid_.volume())) {
+    if (pool_.empty()) fill_pool();
+    return pool_[state_.candidate++ % pool_.size()];
+  }
+  for (int tries = 0; tries < most_candidates; ++tries)
+    if (const Vec3d y = next_candidate(); solid_.contains_local(y)) return y;
+  return solid_.inner_point();
+}
+
+/// The same whenever it is made: a run that goes on makes it anew.
+void EmitterStream::fill_pool() {
+  const std::uint64_t places_so_far = std::exchange(state_.candidate, 0);
+  while (state_.candidate < pool_candidates && pool_.size() < pool_places)
+    if (const Vec3d y = next_candidate(); solid_.contains_local(y)) pool_.push_back(y);
+  if (pool_.empty()) pool_.push_back(solid_.inner_point());
+  state_.candidate = places_so_far;
+}
+
+Birth EmitterStream::born_at(const Vec3d& local, double age) const {
+  const Vec3d arm = solid_.rotation() * local;
+  Birth birth;
+  birth.v = emitter_.velocity + emitter_.angular_velocity.cross(arm);
+  birth.x = solid_.center() + arm + age * birth.v;
+  // The pattern comes out with the snow: what was born earlier has moved on by the velocity.
+  const double time = emitter_.rate == 0 ? 0
+                                         : static_cast<double>(state_.born) * material_.density *
+                                               V0_ / emitter_.rate;
+  const shapes::Factors factors =
+      shapes::vary(material_.variation, key_, state_.born, arm - time * emitter_.velocity);
+  birth.V0 = V0_;
+  birth.m = material_.density * V0_ * factors.density;
+  birth.stiffness = factors.stiffness;
+  birth.threshold = factors.threshold;
+  return birth;
+}
+
+}  // namespace neve::sim::seeding

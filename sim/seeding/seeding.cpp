@@ -1,0 +1,97 @@
+#include "sim/seeding/seeding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/base/hash.h"
+#include "sim/seeding/sampling.h"
+#include "sim/shapes/placed_points.h"
+#include "sim/shapes/solid.h"
+
+namespace neve::sim::seeding {
+namespace {
+
+constexpr double max_particles = 4294967296.0;  // ids have 32 bits
+
+double expected_count(const Body& body, const shapes::Solid& solid, double spacing) {
+  const double by_volume = solid.volume() / (spacing * spacing * spacing);
+  if (body.sampling != Sampling::lattice) return by_volume;
+  // Of a sheet thinner than the spacing the grid has a whole layer.
+  const shapes::Bounds b = solid.local_bounds();
+  const Vec3d size = b.max - b.min;
+  return lattice_size(size, spacing).prod() * (solid.volume() / size.prod());
+}
+
+std::size_t saturated(double count) {
+  constexpr auto max = std::numeric_limits<std::size_t>::max();
+  return count < static_cast<double>(max) ? static_cast<std::size_t>(count) : max;
+}
+
+SeededBody seed_points(const Body& body, const shapes::Points& points) {
+  shapes::PlacedPoints placed(points);
+  const Mat3d R = rotation_from_degrees(body.shape.rotation);
+  SeededBody seeded{std::move(placed.x), points.center,       placed.volume,
+                    std::move(placed.v), std::move(placed.m), std::move(placed.V)};
+  for (Vec3d& x : seeded.x) x = seeded.center + R * x;
+  for (Vec3d& v : seeded.v) v = R * v;
+  return seeded;
+}
+
+}  // namespace
+
+double expected_particles(const Body& body, double cell_size) {
+  if (const auto* points = std::get_if<shapes::Points>(&body.shape.form))
+    return shapes::summary_of(*points, rotation_from_degrees(body.shape.rotation)).expected_count;
+  return shapes::Solid(body.shape).volume() /
+         std::pow(particle_spacing(body.particles_per_cell, cell_size), 3);
+}
+
+SeedingPlan plan_seeding(const Body& body, double cell_size) {
+  if (const auto* points = std::get_if<shapes::Points>(&body.shape.form)) {
+    const shapes::PointsSummary p =
+        shapes::summary_of(*points, rotation_from_degrees(body.shape.rotation));
+    return {p.volume,
+            p.count,
+            {points->center + p.bounds.min, points->center + p.bounds.max},
+            p.max_speed,
+            p.mass};
+  }
+  const shapes::Solid solid(body.shape);
+  const double count =
+      expected_count(body, solid, particle_spacing(body.particles_per_cell, cell_size));
+  return {solid.volume(), saturated(std::max(1.0, std::ceil(count))), solid.bounds(), 0, 0};
+}
+
+double poisson_distance(double particles_per_cell, double cell_size) {
+  return poisson_distance_in_spacings * particle_spacing(particles_per_cell, cell_size);
+}
+
+SeededBody seed_body(const Body& body, std::uint64_t body_index, std::uint64_t seed,
+                     double cell_size) {
+  if (const auto* points = std::get_if<shapes::Points>(&body.shape.form))
+    return seed_points(body, *points);
+  const shapes::Solid solid(body.shape);
+  const double spacing = particle_spacing(body.particles_per_cell, cell_size);
+  if (!(expected_count(body, solid, spacing) < max_particles))
+    throw ShapeError("body " + body.name + ": more than 2^32 particles fit into it");
+
+  const std::uint64_t key = mix64(mix64(seed), body_index);
+  SeededBody seeded{{}, solid.center(), solid.volume(), {}, {}, {}};
+  switch (body.sampling) {
+    case Sampling::jittered:
+      seeded.x = sample_jittered(solid, spacing, key);
+      break;
+    case Sampling::poisson:
+      seeded.x = sample_poisson(solid, spacing, key);
+      break;
+    case Sampling::lattice:
+      seeded.x = sample_lattice(solid, spacing);
+      break;
+  }
+  if (seeded.x.empty()) seeded.x.push_back(solid.inner_point());
+  for (Vec3d& x : seeded.x) x = seeded.center + solid.rotation() * x;
+  return seeded;
+}
+
+}  // namespace neve::sim::seeding

@@ -1,0 +1,74 @@
+#pragma once
+/// Rigid obstacles: signed distance, normal and velocity at a time, and the contact law.
+
+#include <string>
+#include <vector>
+
+#include "sim/shapes/keyframes.h"
+#include "sim/shapes/shape.h"
+
+namespace neve::sim::shapes {
+
+enum class Contact { separate, slip, sticky };
+
+/// How a collider came to be elsewhere than its shape and motion say: a run that went on with
+/// another velocity, or with a collider that was not there before.
+struct Travel {
+  double since = 0;                  ///< s; from then on it moves with its present velocity
+  Vec3d moved{0, 0, 0};              ///< m, until then
+  Mat3d turned = Mat3d::Identity();  ///< until then, after the rotation of the shape
+  double waited = 0;                 ///< s that steps did not move it: keyframes are so much later
+};
+
+struct Collider {
+  std::string name;
+  Shape shape;
+  Contact contact = Contact::separate;
+  double friction = 0.5;    ///< Coulomb, of separate contact
+  Vec3d velocity{0, 0, 0};  ///< m/s
+  Vec3d angular_velocity{
+      0, 0, 0};  ///< rad/s about the shape's centre; a plane's only adds surface velocity
+  std::vector<PoseKeyframe> keyframes;  ///< times increase; the velocities above are 0 then
+  Travel travel{};
+};
+
+/// Where a collider is at a time, and how it moves: from its place in the scene at t = 0 with
+/// constant velocities, or as its travel says; through its keyframes if it has any. Point: centre,
+/// or the point of a plane.
+using Pose = RigidMotion;
+Pose pose_at(const Collider& collider, double time);
+
+/// The travel of a collider that is changed at a time: with another velocity or spin, or without
+/// its keyframes, it goes on from where it is; one whose place, shape or contact was edited moves
+/// by the edit alone. Keyframes say themselves where it is.
+Travel travel_after(const Collider& before, const Collider& after, double time);
+
+/// The travel of a collider that steps did not move for a while.
+Travel waited(Travel travel, double seconds);
+
+/// Axis-aligned bounds at a time. @throws std::invalid_argument for a plane, ShapeError
+Bounds bounds_at(const Collider& collider, double time);
+
+/// A bound of how fast places of the collider move, over all of its keyframes, m/s. Its spin counts
+/// where it changes what space the collider fills: not of spheres, about the axis of round shapes,
+/// and of planes, which have no furthest place.
+/// @throws ShapeError when a mesh that turns cannot be read
+double largest_speed(const Collider& collider);
+
+/// A collider as seen from a point.
+struct Surface {
+  double distance;  ///< m; Euclidean outside, to the nearest face inside; < 0 inside
+  Vec3d normal;  ///< outward unit vector of the nearest face; of a box, cylinder or cone, outside:
+                 ///< of the face that is furthest below the point. On a tie the lowest axis,
+                 ///< wall before ends; (0, 1, 0) in the middle of a sphere, the first axis of
+                 ///< the shape on the axis of a round one, its second in the middle of a tube
+  Vec3d velocity;  ///< m/s, of the rigid motion at the point
+};
+
+/// For the host: tests, warnings, planning. The solver's kernels have their own; of a mesh this is
+/// exact, theirs is interpolated (sim/shapes/distance_field.h).
+/// @throws ShapeError when a mesh cannot be read or is open
+Surface surface_at(const Collider& collider, double time, const Vec3d& x);
+double signed_distance(const Collider& collider, double time, const Vec3d& x);
+
+}  // namespace neve::sim::shapes

@@ -1,0 +1,102 @@
+#include "sim/shapes/distance_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "sim/types/number_text.h"
+
+namespace neve::sim::shapes {
+namespace {
+
+/// Around the mesh, so that the lattice ends where all is outside.
+constexpr double samples_around = 2;
+
+/// What making the lattice finer than half a cell may cost: 8 MiB, a second.
+constexpr double most_refined = 128.0 * 128.0 * 128.0;
+
+/// Along each axis, as doubles: a mesh may be absurdly large.
+Eigen::Array3d counts(const Bounds& bounds, double spacing) {
+  return ((bounds.max - bounds.min).array() / spacing).ceil() + (1 + 2 * samples_around);
+}
+
+}  // namespace
+
+double field_spacing(const MeshSurface& surface, double cell_size) {
+  const Bounds& bounds = surface.bounds();
+  const Vec3d extent = bounds.max - bounds.min;
+  const double coarse = 0.5 * cell_size;
+  // A row of so many samples is too many by itself: no need to begin below, where a flat mesh
+  // would.
+  const double least = extent.maxCoeff() / most_refined;
+  double fine = std::max(std::min({coarse, extent.minCoeff() / 8, extent.maxCoeff() / 64}), least);
+  while (fine < coarse && counts(bounds, fine).prod() > most_refined) fine *= 1.1;
+  return std::min(fine, coarse);
+}
+
+DistanceField::DistanceField(const MeshSurface& surface, const std::string& name, double spacing,
+                             ThreadPool& pool)
+    : spacing_(spacing) {
+  const Bounds& bounds = surface.bounds();
+  const Eigen::Array3d count = counts(bounds, spacing);
+  if (!(count.prod() <= most_samples))
+    throw ShapeError(
+        name + ": the distances of this collider are kept every " + number_text(spacing) +
+        " m (half a cell), which makes " + number_text(count[0]) + " x " + number_text(count[1]) +
+        " x " + number_text(count[2]) + " numbers; at most 256^3 are. Make it smaller, split " +
+        "it into several colliders, or make solver.cell_size larger");
+  size_ = count.cast<int>();
+  const Vec3d lattice = spacing * (count - 1).matrix();
+  first_ = 0.5 * (bounds.min + bounds.max - lattice);
+  values_.resize(static_cast<std::size_t>(count.prod()));
+  fill(surface, pool);
+  if (std::none_of(values_.begin(), values_.end(), [](float d) { return d < 0; }))
+    throw ShapeError(name + ": the mesh is thinner than the " + number_text(spacing) +
+                     " m between the places where its distance is kept, and snow would pass "
+                     "through. Make it thicker, or smaller as a whole, or take a box");
+}
+
+void DistanceField::fill(const MeshSurface& surface, ThreadPool& pool) {
+  const auto nz = static_cast<std::size_t>(size_[2]);
+  const std::size_t rows = static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]);
+  pool.ranges(rows, pool.thread_count(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      const auto ny = static_cast<std::size_t>(size_[1]);
+      double before = INFINITY;
+      for (std::size_t k = 0; k < nz; ++k) {
+        const Vec3d y =
+            first_ + spacing_ * Vec3d(static_cast<double>(row / ny), static_cast<double>(row % ny),
+                                      static_cast<double>(k));
+        // No further than from the sample before and then here; a hair more, for its rounding.
+        before = surface.distance(y, (before + spacing_) * (1 + 1e-12));
+        values_[row * nz + k] = static_cast<float>(surface.contains(y) ? -before : before);
+      }
+    }
+  });
+}
+
+DistanceSamples DistanceField::samples() const {
+  DistanceSamples out;
+  out.distance = values_.data();
+  out.spacing = spacing_;
+  for (int a = 0; a < 3; ++a) {
+    out.size[a] = size_[a];
+    out.first[a] = first_[a];
+  }
+  return out;
+}
+
+std::shared_ptr<const DistanceField> distance_field(const Mesh& mesh, double cell_size,
+                                                    ThreadPool& pool) {
+  static Recent<DistanceField> recent;
+  const std::shared_ptr<const MeshSurface> surface = mesh_surface(mesh);
+  const double spacing = field_spacing(*surface, cell_size);
+  std::ostringstream name;
+  name.precision(17);
+  name << file_stamp(mesh.file) << "|" << mesh.scale << "|" << spacing;
+  return recent.get(name.str(), [&] {
+    return std::make_shared<const DistanceField>(*surface, mesh.file, spacing, pool);
+  });
+}
+
+}  // namespace neve::sim::shapes

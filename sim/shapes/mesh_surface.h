@@ -1,0 +1,74 @@
+#pragma once
+/// A closed mesh ready for distances to its surface.
+
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/shapes/mesh.h"
+
+namespace neve::sim::shapes {
+
+class MeshSurface {
+ public:
+  /// @param mesh with an inside, faces of its own that overlap nowhere
+  explicit MeshSurface(ClosedMesh mesh);
+  ~MeshSurface();
+
+  const ClosedMesh& mesh() const { return mesh_; }
+  const Bounds& bounds() const { return bounds_; }  ///< tight
+
+  /// Exact, m; at most `most` where that is given: what is further is `most`.
+  double distance(const Vec3d& y, double most = INFINITY) const;
+  /// By the winding number, as bodies are filled.
+  bool contains(const Vec3d& y) const { return solid_->contains(y); }
+  double signed_distance(const Vec3d& y) const;
+  /// Outward: away from the nearest place of the surface, or that of its triangle on the surface.
+  Vec3d normal(const Vec3d& y) const;
+
+ private:
+  struct Tree;
+  struct Nearest;
+  Nearest nearest(const Vec3d& y, double most) const;
+
+  ClosedMesh mesh_;
+  Bounds bounds_;
+  std::unique_ptr<const Form> solid_;
+  std::unique_ptr<const Tree> tree_;
+};
+
+/// The surface of a mesh in metres about the origin of its file. Read and prepared once: whoever
+/// asks again while it is in use or was lately, has the same one. A file that was written since is
+/// read again. Threads may ask at the same time.
+/// @throws ShapeError when the file cannot be read, the mesh is open, or a face is concave (what
+///         stands for it would reach beyond it)
+std::shared_ptr<const MeshSurface> mesh_surface(const Mesh& mesh);
+
+/// Tells one content of a file from another: path, size and time of the last change.
+std::string file_stamp(const std::string& path);
+
+/// The last few things that were made, by name. Making happens under a lock: nothing is made twice.
+template <class Thing>
+class Recent {
+ public:
+  template <class Make>
+  std::shared_ptr<const Thing> get(const std::string& name, const Make& make) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [key, thing] : things_)
+      if (key == name) return thing;
+    std::shared_ptr<const Thing> made = make();
+    if (things_.size() >= most) things_.erase(things_.begin());
+    things_.emplace_back(name, made);
+    return made;
+  }
+
+ private:
+  static constexpr std::size_t most = 8;
+  std::mutex mutex_;
+  std::vector<std::pair<std::string, std::shared_ptr<const Thing>>> things_;
+};
+
+}  // namespace neve::sim::shapes

@@ -1,0 +1,149 @@
+#include "sim/shapes/placed_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace neve::sim::shapes {
+namespace {
+
+/// One of every `thinning` in a list, evenly, at least one. Neighbours in a file tend to be
+/// neighbours in space, so what is left is spread evenly there too.
+template <class T>
+void thin(std::vector<T>& list, double thinning) {
+  if (list.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    const double before = std::floor(static_cast<double>(p) / thinning);
+    if (std::floor(static_cast<double>(p + 1) / thinning) > before) list[kept++] = list[p];
+  }
+  list.resize(std::max<std::size_t>(1, kept));
+}
+
+double sum(const std::vector<double>& list) {
+  return std::accumulate(list.begin(), list.end(), 0.0);
+}
+
+void scale_to(double total, std::vector<double>& list) {
+  const double factor = list.empty() ? 1 : total / sum(list);
+  for (double& value : list) value *= factor;
+}
+
+class PointsSolid final : public Form {
+ public:
+  explicit PointsSolid(const Points& points) : points_(points) {}
+
+  double volume() const override { return summary().volume; }
+  Bounds bounds_after(const Mat3d& rotation) const override {
+    return summary_of(points_, rotation).bounds;
+  }
+  /// Points have no surface; their bounds are as much as can be said.
+  bool contains(const Vec3d& y) const override {
+    const Bounds b = summary().bounds;
+    return (y.array() >= b.min.array()).all() && (y.array() <= b.max.array()).all();
+  }
+  double clearance(const Vec3d&) const override { return 0; }
+  Vec3d inner_point() const override { return summary().first; }
+
+ private:
+  PointsSummary summary() const { return summary_of(points_, Mat3d::Identity()); }
+
+  Points points_;
+};
+
+PointsSummary summarize(const PlacedPoints& placed, const Mat3d& rotation) {
+  PointsSummary summary{
+      placed.x.size(),  placed.expected_count,        placed.volume, sum(placed.m), 0,
+      placed.x.front(), placed.bounds_after(rotation)};
+  for (const Vec3d& v : placed.v) summary.max_speed = std::max(summary.max_speed, v.norm());
+  return summary;
+}
+
+/// What a summary depends on. Files are told apart by their size and when they were written.
+struct SummaryKey {
+  std::string file;
+  std::uintmax_t size = 0;
+  std::filesystem::file_time_type written{};
+  std::array<double, 11> numbers{};  ///< spacing, thinning, rotation
+  auto operator<=>(const SummaryKey&) const = default;
+};
+
+/// @return nothing where the file cannot be told apart from what it may become
+std::optional<SummaryKey> key_of(const Points& points, const Mat3d& rotation) {
+  std::error_code no_size, no_time;
+  SummaryKey key{points.file,
+                 std::filesystem::file_size(points.file, no_size),
+                 std::filesystem::last_write_time(points.file, no_time),
+                 {points.spacing, points.thinning}};
+  if (no_size || no_time) return std::nullopt;
+  std::copy_n(rotation.data(), 9, key.numbers.begin() + 2);
+  return key;
+}
+
+}  // namespace
+
+PlacedPoints::PlacedPoints(const Points& points)
+    : PlacedPoints(files::read_points(points.file), points, points.file) {}
+
+PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const std::string& name)
+    : x(std::move(cloud.x)), v(std::move(cloud.v)), m(std::move(cloud.m)), V(std::move(cloud.V)) {
+  const auto count = static_cast<double>(x.size());
+  if (V.empty() && !(points.spacing > 0))
+    throw ShapeError(name +
+                     ": it has no column volume; give spacing beside file, the distance between "
+                     "neighbouring points in metres");
+  volume = V.empty() ? count * std::pow(points.spacing, 3) : sum(V);
+  expected_count = count / points.thinning;
+  if (points.thinning == 1) return;
+  // What is left stands for all: mass and volume stay what they were.
+  const double mass = sum(m);
+  thin(x, points.thinning);
+  thin(v, points.thinning);
+  thin(m, points.thinning);
+  thin(V, points.thinning);
+  scale_to(mass, m);
+  scale_to(volume, V);
+}
+
+Bounds PlacedPoints::bounds_after(const Mat3d& rotation) const {
+  Vec3d min = rotation * x.front(), max = min;
+  for (const Vec3d& point : x) {
+    const Vec3d turned = rotation * point;
+    min = min.cwiseMin(turned);
+    max = max.cwiseMax(turned);
+  }
+  const double half = 0.5 * std::cbrt(volume / static_cast<double>(x.size()));
+  return {min.array() - half, max.array() + half};
+}
+
+PointsSummary summary_of(const Points& points, const Mat3d& rotation) {
+  constexpr std::size_t most_remembered = 256;
+  static std::mutex mutex;
+  static std::map<SummaryKey, PointsSummary> remembered;
+  const std::optional<SummaryKey> key = key_of(points, rotation);
+  if (key) {
+    const std::lock_guard lock(mutex);
+    if (const auto found = remembered.find(*key); found != remembered.end()) return found->second;
+  }
+  const PointsSummary summary = summarize(PlacedPoints(points), rotation);
+  if (key) {
+    const std::lock_guard lock(mutex);
+    if (remembered.size() >= most_remembered) remembered.clear();
+    remembered.emplace(*key, summary);
+  }
+  return summary;
+}
+
+std::unique_ptr<const Form> make_points_solid(const Points& points) {
+  return std::make_unique<PointsSolid>(points);
+}
+
+}  // namespace neve::sim::shapes

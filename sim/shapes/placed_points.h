@@ -1,0 +1,46 @@
+#pragma once
+/// The points of a body as it uses them: thinned, each with its volume.
+
+#include <memory>
+
+#include "sim/files/point_reader.h"
+#include "sim/shapes/solid.h"
+
+namespace neve::sim::shapes {
+
+struct PlacedPoints {
+  /// @throws ShapeError as read_points, and for a file that leaves volumes open
+  explicit PlacedPoints(const Points& points);
+  /// The same of a cloud that was read already. @param name of its file, in messages
+  PlacedPoints(files::PointCloud cloud, const Points& points, const std::string& name);
+
+  /// Tight, but for half the edge of a cube that an average point fills.
+  Bounds bounds_after(const Mat3d& rotation) const;
+
+  std::vector<Vec3d> x;       ///< m, about the file's origin; at least one
+  std::vector<Vec3d> v;       ///< m/s; empty: the file has none
+  std::vector<double> m;      ///< kg; empty: the file has none
+  std::vector<double> V;      ///< m3; empty: all have the same share of the volume
+  double volume = 0;          ///< m3, of all
+  double expected_count = 0;  ///< points over thinning, which may be less than the one there is
+};
+
+/// What is known of a body's points without having them.
+struct PointsSummary {
+  std::size_t count = 0;
+  double expected_count = 0;                    ///< see PlacedPoints
+  double volume = 0;                            ///< m3, of all
+  double mass = 0;                              ///< kg, of all; 0: the file has none
+  double max_speed = 0;                         ///< m/s
+  Vec3d first{0, 0, 0};                         ///< m, the first point, not turned
+  Bounds bounds{Vec3d::Zero(), Vec3d::Zero()};  ///< m, turned about the file's origin
+};
+
+/// Remembered until the file changes, for scenes ask often while somebody turns knobs. Any thread.
+/// @throws ShapeError as PlacedPoints
+PointsSummary summary_of(const Points& points, const Mat3d& rotation);
+
+/// Its file is read when something is asked.
+std::unique_ptr<const Form> make_points_solid(const Points& points);
+
+}  // namespace neve::sim::shapes

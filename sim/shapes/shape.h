@@ -1,0 +1,83 @@
+#pragma once
+/// Shapes that bodies fill and colliders keep clear.
+
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include "sim/types/errors.h"
+#include "sim/types/math.h"
+
+namespace neve::sim::shapes {
+
+struct Sphere {
+  Vec3d center{0, 0, 0};
+  double radius = 0.1;
+};
+struct Box {
+  Vec3d center{0, 0, 0};
+  Vec3d size{0.2, 0.2, 0.2};
+};
+struct Capsule {
+  Vec3d a{0, 0, 0}, b{0, 0.2, 0};
+  double radius = 0.1;
+};
+/// Axis y, center in the middle of the axis; so are cone (apex up) and torus.
+struct Cylinder {
+  Vec3d center{0, 0, 0};
+  double radius = 0.1, height = 0.2;
+};
+struct Cone {
+  Vec3d center{0, 0, 0};
+  double radius = 0.1, height = 0.2;
+};
+struct Torus {
+  Vec3d center{0, 0, 0};
+  double major_radius = 0.15, minor_radius = 0.05;
+};
+/// Solid where (x - point) . normal <= 0.
+struct Plane {
+  Vec3d point{0, 0, 0};
+  Vec3d normal{0, 1, 0};
+};
+/// A closed mesh in an OBJ file, scaled about the file's origin, which goes to center.
+struct Mesh {
+  std::string file;  ///< resolved path
+  double scale = 1.0;
+  Vec3d center{0, 0, 0};
+};
+/// Particles in a PLY or CSV file, see sim/files/point_reader.h.
+struct Points {
+  std::string file;       ///< resolved path
+  double spacing = 0;     ///< m; of a file without volumes each point has spacing^3; 0: not given
+  double thinning = 1;    ///< one point in so many is used, and stands for all of them
+  Vec3d center{0, 0, 0};  ///< where the origin of the file goes
+};
+
+struct Shape {
+  std::variant<Sphere, Box, Capsule, Cylinder, Cone, Torus, Plane, Mesh, Points> form;
+  Vec3d rotation{0, 0, 0};  ///< degrees, R = Rz Ry Rx, about the shape's centre
+};
+
+/// Axis-aligned bounds in metres.
+struct Bounds {
+  Vec3d min, max;
+};
+
+/// What rotation and angular velocity turn about: the middle of a capsule, the point of a plane,
+/// where the file's origin of a mesh or of points goes.
+Vec3d center(const Shape& shape);
+
+/// Axes that the form of a shape is described in, before its rotation: of a capsule y points from a
+/// to b, of all others they are those of the world.
+Mat3d form_axes(const Shape& shape);
+
+/// Of solid shapes only. Each call prepares the shape, which reads the file of a mesh or of points;
+/// class Solid (sim/shapes/solid.h) prepares it once for many questions.
+/// @throws ShapeError when a mesh cannot be read or is open, or the shape has no finite volume > 0;
+///         std::invalid_argument for a plane
+double volume(const Shape& shape);  ///< m3, exact for analytic shapes, of the polyhedron for meshes
+Bounds bounds(const Shape& shape);  ///< tight
+bool contains(const Shape& shape, const Vec3d& x);
+
+}  // namespace neve::sim::shapes

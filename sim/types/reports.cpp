@@ -1,0 +1,35 @@
+#include "sim/types/reports.h"
+
+#include <algorithm>
+
+namespace neve::sim {
+
+const char* name(DtLimit limit) {
+  static constexpr const char* names[dt_limit_count] = {"max_dt", "cfl",   "acoustic",
+                                                        "strain", "fixed", "frame_end"};
+  return names[static_cast<int>(limit)];
+}
+
+DtLimit AdvanceReport::limit() const {
+  return static_cast<DtLimit>(std::max_element(ruled.begin(), ruled.end()) - ruled.begin());
+}
+
+void SolveReport::add(const SolveReport& other) {
+  iterations = std::max(iterations, other.iterations);
+  residual = std::max(residual, other.residual);
+  cut_short += other.cut_short;
+  given_up += other.given_up;
+}
+
+void AdvanceReport::append(const AdvanceReport& later) {
+  if (later.steps == 0) return;
+  dt_min = steps == 0 ? later.dt_min : std::min(dt_min, later.dt_min);
+  dt_max = std::max(dt_max, later.dt_max);
+  steps += later.steps;
+  for (std::size_t k = 0; k < ruled.size(); ++k) ruled[k] += later.ruled[k];
+  if (!later.solve) return;
+  if (!solve) solve.emplace();
+  solve->add(*later.solve);
+}
+
+}  // namespace neve::sim

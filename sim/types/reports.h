@@ -1,0 +1,128 @@
+#pragma once
+/// What a simulation tells about its steps and its state.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/types/math.h"
+
+namespace neve::sim {
+
+/// What limited a time step.
+enum class DtLimit { max_dt, cfl, acoustic, strain, fixed, frame_end };
+inline constexpr int dt_limit_count = 6;
+const char* name(DtLimit limit);
+
+/// The dt that the settings would choose now, and which limit rules it.
+struct DtChoice {
+  double dt;
+  DtLimit limit;
+};
+
+/// What each limit would allow now, whatever the settings say about fixed steps, and why.
+struct StepLimits {
+  std::array<double, dt_limit_count> dt{};  ///< s; infinite where a limit says nothing
+  double max_speed = 0;                     ///< m/s
+  double max_sound_speed = 0;               ///< m/s, of the stiffest particle, hardened
+  double max_strain_rate = 0;               ///< 1/s
+};
+
+/// Sums and extremes over all particles at one time.
+struct Summary {
+  double time = 0;
+  std::size_t particles = 0;
+  std::uint64_t emitted = 0, removed = 0;  ///< particles that came and went since the start
+  double mass = 0;
+  double kinetic_energy = 0, elastic_energy = 0;  ///< J
+  Vec3d momentum{0, 0, 0}, centre_of_mass{0, 0, 0};
+  Vec3d angular_momentum{0, 0, 0};  ///< about the lattice origin
+  double max_speed = 0, min_J_P = 1, max_J_P = 1;
+  double max_depth = 0;  ///< m, of the particle that is deepest in a collider
+};
+
+/// How well the velocities of semi-implicit steps were found.
+struct SolveReport {
+  int iterations = 0;   ///< of conjugate residuals
+  double residual = 0;  ///< |v_star - (I + beta dt^2 M^-1 H) v_new| / |v_star|, weighted by mass
+  std::size_t cut_short = 0;  ///< solves taken as they were after solve_iterations
+  std::size_t given_up = 0;   ///< solves of no use: explicit steps in their place
+  /// The worst of both, and how many of both ended early.
+  void add(const SolveReport& other);
+};
+
+/// Steps taken by one call of advance_to.
+struct AdvanceReport {
+  std::size_t steps = 0;
+  double dt_min = 0, dt_max = 0;
+  std::array<std::size_t, dt_limit_count> ruled{};  ///< steps that each limit ruled
+  DtLimit limit() const;                            ///< the one that ruled most
+  std::optional<SolveReport> solve;                 ///< the worst; none of explicit steps
+  /// Adds the steps that followed in the same frame.
+  void append(const AdvanceReport& later);
+};
+
+/// One of the last steps before something went wrong; extremes are those at its end.
+struct StepRecord {
+  std::size_t step = 0;
+  double time = 0, dt = 0;  ///< s; time is that of the end
+  DtLimit limit = DtLimit::fixed;
+  double max_speed = 0, max_sound_speed = 0;  ///< m/s
+  double max_strain_rate = 0;                 ///< 1/s
+  double min_J_P = 1, max_J_P = 1;
+  std::size_t inverted = 0;  ///< trial det F_E <= 0
+};
+
+/// Extremes of the particles that a simulation was given.
+struct StartState {
+  double max_speed = 0, max_sound_speed = 0;  ///< m/s
+  double min_J_E = 1, max_J_E = 1, min_J_P = 1, max_J_P = 1;
+  std::int64_t strangest = -1;  ///< id of the particle whose F_E or J_P is furthest from rest, or
+                                ///< is no number; -1: all are at rest
+};
+
+/// Why a run had to stop. Numerical trouble is data, not an exception.
+struct Divergence {
+  std::size_t step = 0;
+  double time = 0;
+  std::string stage;  ///< name of the stage that broke the rule
+  std::string rule;   ///< energy, speed_cfl, acoustic_cfl, J_P, inverted, not_finite, overflow
+  std::int64_t particle = -1;  ///< id of a culprit, -1 if none stands out
+  int material = 0;            ///< of the culprit, like what follows
+  Vec3d x{0, 0, 0}, v{0, 0, 0};
+  Mat3d F_E = Mat3d::Identity();
+  Mat3d kirchhoff = Mat3d::Zero();  ///< tau = P F_E^T, Pa
+  Vec3d stretches{1, 1, 1};         ///< singular values of F_E
+  double J_E = 1, J_P = 1;
+  double sound_speed = 0;       ///< m/s, hardened
+  double value = 0, limit = 0;  ///< what was found and what the rule allows
+  double dt = 0, dt_that_holds = 0;
+  std::vector<std::uint32_t> culprits;  ///< ids, at most 1000
+  std::vector<StepRecord> last_steps;   ///< oldest first, the broken one last
+  StartState start;
+  std::string what;      ///< one line for people
+  std::string sentence;  ///< with the dt that would have held
+};
+
+/// What was noticed but did not stop the run.
+struct Warnings {
+  std::size_t inverted_trials = 0;   ///< trial det F_E <= 0, repaired by the projection
+  double worst_acoustic_cfl = 0;     ///< of fixed steps
+  std::size_t solves_cut_short = 0;  ///< taken as they were after solve_iterations
+  std::size_t solves_given_up = 0;   ///< of no use: explicit steps in their place
+};
+
+/// Seconds spent in each phase of the steps so far.
+struct PhaseSeconds {
+  double partition = 0;          ///< particles to blocks
+  double particles_to_grid = 0;  ///< rasterize, elastic_forces
+  double grid_update = 0;        ///< grid_velocities, grid_collisions
+  double solve = 0;              ///< implicit_solve
+  double grid_to_particles = 0;  ///< deformation to advection
+  double checks = 0;             ///< limits of the next dt, rules of a healthy run
+};
+
+}  // namespace neve::sim

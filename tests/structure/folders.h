@@ -1,0 +1,107 @@
+#pragma once
+/// The floor plan: every folder of sources, from the foundation up, and what it may include.
+///
+/// A folder may always include itself. What is not listed is forbidden, so that a new arrow is a
+/// decision and shows in the change that makes it.
+
+#include <string_view>
+
+namespace neve::test {
+
+struct Folder {
+  std::string_view path;
+  std::string_view may_include;  ///< folders above in this table
+  /// Where it is not the path: the vocabulary that everything around uses has the name of the
+  /// folder around it.
+  std::string_view name_space = "";
+};
+
+inline constexpr Folder folders[] = {
+    {"sim/base", "", "neve"},
+    {"sim/types", "sim/base", "neve::sim"},
+    {"sim/files", "sim/base sim/types"},
+    {"sim/shapes", "sim/base sim/types sim/files"},
+    {"sim/seeding", "sim/base sim/types sim/shapes"},
+    {"sim/kernels", "sim/base sim/types sim/shapes"},
+    {"sim/kernels/instruction_sets", "sim/base sim/kernels", "neve::sim::kernels"},
+    {"sim/health", "sim/base sim/types sim/kernels"},
+    {"sim/engine", "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health"},
+    {"sim", "sim/base sim/types sim/shapes sim/seeding sim/engine", "neve::sim"},
+    {"sim/checks", "sim/base sim/types sim/shapes sim/seeding sim/health sim/engine sim"},
+
+    {"render/image", "sim/base", "neve::render"},
+    {"render/frame", "sim/base render/image", "neve::render"},
+    {"render/shapes", "sim/base render/frame"},
+    {"render/light", "sim/base render/frame"},
+    {"render/gl", "sim/base render/image render/frame"},
+    {"render/cpu", "sim/base render/frame render/light"},
+    {"render/cpu/instruction_sets", "sim/base render/cpu", "neve::render::cpu"},
+    {"render/overlay", "sim/base render/frame render/gl"},
+    {"render/passes", "sim/base render/frame render/light render/gl render/cpu"},
+    {"render",
+     "sim/base render/image render/frame render/light render/gl render/cpu render/overlay "
+     "render/passes",
+     "neve::render"},
+
+    {"app/support", "", "neve::app"},
+    {"app/scene/toml", "app/support"},
+    {"app/scene",
+     "sim/base sim/types sim/shapes sim/seeding sim/kernels render/frame app/support "
+     "app/scene/toml"},
+    {"app/output", "sim/base sim/types sim sim/checks render/image app/support"},
+    {"app/setup",
+     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/engine sim app/support "
+     "app/scene/toml app/scene app/output"},
+    {"app/health",
+     "sim/base sim/types sim/shapes sim/seeding sim/health sim/engine sim app/support "
+     "app/scene/toml app/scene app/output app/setup"},
+    {"app/picture",
+     "sim/base sim/types sim/shapes sim/engine sim render/frame render/shapes render app/support "
+     "app/scene/toml app/scene app/setup app/health"},
+    {"app/run",
+     "sim/base sim/types sim sim/checks render/image render/frame render/gl render app/support "
+     "app/scene/toml app/scene app/output app/setup app/health app/picture"},
+    {"app/dump",
+     "sim/base sim/types sim/health sim app/support app/scene/toml app/scene app/setup "
+     "app/health app/run"},
+    {"app/sweep/read", "app/support app/scene/toml app/scene app/setup"},
+    {"app/sweep/plan",
+     "sim/base sim/types sim/engine app/support app/scene/toml app/scene app/output app/setup "
+     "app/health app/run app/sweep/read"},
+    {"app/sweep/store",
+     "sim/base app/support app/scene/toml app/scene app/output app/run app/sweep/read "
+     "app/sweep/plan"},
+    {"app/sweep/jobs", "app/support app/output app/setup app/sweep/plan app/sweep/store"},
+    {"app/sweep/sheet",
+     "render/image render/frame render/gl render/overlay render app/support app/scene app/output "
+     "app/setup app/picture app/sweep/plan app/sweep/store app/sweep/jobs"},
+    {"app/view/session",
+     "sim/types sim app/support app/scene/toml app/scene app/output app/setup app/health "
+     "app/picture app/run app/dump app/sweep/plan"},
+    {"app/view/front", "render/image render"},
+    {"app/view/web", "render/image render app/support app/view/front"},
+    {"app/view/panels",
+     "render/frame render/overlay render app/support app/scene/toml app/scene app/health "
+     "app/picture app/run app/view/session app/view/front"},
+    {"app/view/replay",
+     "render/image render/frame render app/support app/scene/toml app/output app/view/front "
+     "app/view/panels"},
+    {"app/view",
+     "render/image render/frame render app/support app/scene app/output app/setup app/picture "
+     "app/run app/view/session app/view/front app/view/panels"},
+    {"app/bench",
+     "sim/base sim/types sim/kernels sim render/image render/frame render/shapes render/gl "
+     "render/cpu render app/support app/scene/toml app/scene app/output app/setup app/picture "
+     "app/run app/sweep/plan app/sweep/store app/sweep/jobs app/view"},
+    {"app/cli",
+     "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
+     "app/scene/toml app/scene app/output app/setup app/health app/picture app/run app/dump "
+     "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet "
+     "app/view/front app/view/web app/view/replay app/view app/bench"},
+    {"app", "app/output app/cli", "neve::app"},
+};
+
+/// Units (a header, a source or both) that a folder may hold before it wants a cut.
+inline constexpr int most_units = 30;
+
+}  // namespace neve::test

@@ -1,0 +1,70 @@
+/// What files of kernels include and share, read from the sources and the objects.
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What kernels are made of includes neither Eigen nor the standard library, so that no copy of a
+/// shared inline function compiled for one instruction set can serve another.
+TEST(Structure, KernelsIncludeOnlyEachOther) {
+  const std::set<std::string> allowed{"cstdint", "cstddef", "immintrin.h"};
+  std::set<std::string> seen;
+  std::vector<std::string> open{"sim/kernels/instruction_sets/baseline.cpp",
+                                "sim/kernels/instruction_sets/implicit_baseline.cpp"};
+  while (!open.empty()) {
+    const std::string file = open.back();
+    open.pop_back();
+    if (!seen.insert(file).second) continue;
+    std::ifstream text(fs::path(NEVE_SOURCE_DIR) / file);
+    ASSERT_TRUE(text) << file;
+    for (std::string line; std::getline(text, line);) {
+      if (!line.starts_with("#include")) continue;
+      const std::size_t begin = line.find_first_of("<\"") + 1;
+      const std::string name = line.substr(begin, line.find_first_of(">\"", begin) - begin);
+      if (name.starts_with("sim/"))
+        open.push_back(name);
+      else
+        EXPECT_TRUE(allowed.contains(name)) << file << " includes " << name;
+    }
+  }
+  EXPECT_GT(seen.size(), 8u);
+}
+
+/// Functions that a linker would merge with those of another file must name their instruction set.
+TEST(Structure, KernelFilesShareNoFunction) {
+  std::stringstream objects(NEVE_KERNEL_OBJECTS);
+  int files = 0;
+  for (std::string object; std::getline(objects, object, ':'); ++files) {
+    const std::string set = object.find("avx512") != std::string::npos ? "Avx512Set" : "Avx2Set";
+    FILE* symbols = popen(("nm -C --defined-only '" + object + "'").c_str(), "r");
+    ASSERT_TRUE(symbols);
+    int shared = 0;
+    char line[4096];
+    while (std::fgets(line, sizeof line, symbols)) {
+      const std::string symbol = line;
+      // After the address: the kind. W, V and u are what linkers merge.
+      const std::size_t kind = symbol.find_first_of("WVu", 16);
+      if (kind != 17) continue;
+      ++shared;
+      EXPECT_NE(symbol.find(set), std::string::npos) << object << ": " << symbol;
+    }
+    EXPECT_EQ(pclose(symbols), 0) << "nm failed";
+    EXPECT_GT(shared, 20) << object;
+  }
+#if defined(__x86_64__) && \
+    !defined(__SANITIZE_ADDRESS__)  // sanitized builds have the baseline only
+  EXPECT_EQ(files, 4);
+#endif
+}
+
+}  // namespace
