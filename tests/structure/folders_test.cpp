@@ -135,18 +135,20 @@ TEST(Structure, NamespacesAreCalledLikeTheirFolders) {
 
 TEST(Structure, SimulationIncludesNoGraphicsLibrary) {
   for (const Line& line : lines_starting_with("#include"))
-    if (line.file.starts_with("sim/"))
+    if (line.file.starts_with("sim/")) {
       for (const char* forbidden : {"GL/", "EGL/", "GLFW/", "imgui", "stb"})
         EXPECT_FALSE(included_name(line.text).starts_with(forbidden))
             << line.file << ":" << line.number << ": " << line.text;
+    }
 }
 
 TEST(Structure, ApplicationDrawsThroughTheRendererOnly) {
   for (const Line& line : lines_starting_with("#include"))
-    if (line.file.starts_with("app/"))
+    if (line.file.starts_with("app/")) {
       for (const char* forbidden : {"GL/", "EGL/", "GLFW/", "render/gl/gl"})
         EXPECT_FALSE(included_name(line.text).starts_with(forbidden))
             << line.file << ":" << line.number << ": " << line.text;
+    }
 }
 
 }  // namespace
