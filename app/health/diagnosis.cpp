@@ -11,16 +11,28 @@
 #include "app/support/text.h"
 #include "sim/engine/time_step.h"
 #include "sim/health/diagnostics.h"
+#include "sim/health/limits.h"
 
 namespace neve::app::health {
 
 namespace {
 
 using sim::Vec3d;
+using sim::health::Law;
+using sim::health::limits_of;
 
 /// Sound in snow of the paper, m/s: what other numbers are compared with.
 double usual_sound_speed() {
   return sim::sound_speed(sim::Material{});
+}
+
+/// Beyond these a diagnosis sees a cause: in the last steps and the settings, and in the state that
+/// the run started from.
+double cause(Law law) {
+  return limits_of(law).cause;
+}
+double at_start(Law law) {
+  return limits_of(law).at_start;
 }
 
 /// What all hypotheses look at.
@@ -75,7 +87,9 @@ Hypothesis bypass(const Case& c) {
 Hypothesis initial_state(const Case& c) {
   const sim::StartState& s = c.d.start;
   const bool is_strange =
-      s.strangest >= 0 && (s.min_J_E < 0.5 || s.max_J_E > 2 || s.min_J_P < 0.5 || s.max_J_P > 2);
+      s.strangest >= 0 &&
+      (s.min_J_E < at_start(Law::small_J_E) || s.max_J_E > at_start(Law::large_J_E) ||
+       s.min_J_P < at_start(Law::compaction) || s.max_J_P > at_start(Law::dilation));
   // NaN leaves no mark on the extremes; a particle that is named and breaks the first steps does.
   const bool is_no_number = s.strangest >= 0 && c.d.rule == "not_finite" && c.d.step <= 2;
   if (!is_strange && !is_no_number) return std::nullopt;
@@ -91,7 +105,7 @@ Hypothesis initial_state(const Case& c) {
 
 Hypothesis units(const Case& c) {
   const double g = c.scene.solver.gravity.norm(), largest = largest_extent(c.scene);
-  if (g <= most_gravity && largest <= most_extent) return std::nullopt;
+  if (g <= cause(Law::gravity) && largest <= cause(Law::extent)) return std::nullopt;
   return Diagnosis{Cause::units,
                    "gravity of " + rough_text(g) + " m/s2 and a body " + rough_text(largest) +
                        " m across look like centimetres; snow meets something at " +
@@ -108,9 +122,10 @@ Hypothesis raised_limits(const Case& c) {
     double value, holds;
     sim::DtLimit ruling;
   };
-  for (const Limit& limit : {Limit{"acoustic_cfl", s.acoustic_cfl, 1, sim::DtLimit::acoustic},
-                             Limit{"cfl", s.cfl, 0.9, sim::DtLimit::cfl},
-                             Limit{"strain_limit", s.strain_limit, 1, sim::DtLimit::strain}}) {
+  for (const Limit& limit :
+       {Limit{"acoustic_cfl", s.acoustic_cfl, cause(Law::acoustic_cfl), sim::DtLimit::acoustic},
+        Limit{"cfl", s.cfl, cause(Law::speed_cfl), sim::DtLimit::cfl},
+        Limit{"strain_limit", s.strain_limit, cause(Law::strain_step), sim::DtLimit::strain}}) {
     const bool has_ruled =
         std::any_of(c.d.last_steps.begin(), c.d.last_steps.end(),
                     [&](const sim::StepRecord& step) { return step.limit == limit.ruling; });
@@ -135,7 +150,7 @@ Hypothesis too_long_at_rest(const Case& c) {
   if (!c.is_fixed) return std::nullopt;
   const double sound = c.start_sound() / c.stretch * c.dt / c.h;
   const double speed = c.d.start.max_speed * c.dt / c.h;
-  if (sound < 0.9 && speed < 0.9) return std::nullopt;
+  if (sound < at_start(Law::acoustic_cfl) && speed < at_start(Law::speed_cfl)) return std::nullopt;
   const double holds =
       0.5 * c.h / std::max(c.start_sound() / c.stretch, 1.25 * c.d.start.max_speed);
   const std::string remedy = "solver.dt = " + rough_text(holds) + " or time_step = \"adaptive\"";
@@ -144,13 +159,14 @@ Hypothesis too_long_at_rest(const Case& c) {
                                 " m/s and crosses " + rough_text(sound) + " cells in a step of " +
                                 rough_text(c.dt) + " s";
     const double without = usual_sound_speed() * c.dt / c.h;
-    if (without < 0.9 && c.material.density < 20)
+    if (without < at_start(Law::acoustic_cfl) && c.material.density < cause(Law::low_density))
       return Diagnosis{Cause::density,
                        "density is " + rough_text(c.material.density) + " kg/m3, so " + crossed,
                        "in g/cm3 it would be " + rough_text(1000 * c.material.density) +
                            " kg/m3; snow has 50 to 917. Otherwise " + remedy,
                        c.at("density")};
-    if (without < 0.9 && c.material.youngs_modulus > 1e6)
+    if (without < at_start(Law::acoustic_cfl) &&
+        c.material.youngs_modulus > cause(Law::high_stiffness))
       return Diagnosis{
           Cause::stiffness,
           "youngs_modulus is " + rough_text(c.material.youngs_modulus) + " Pa, so " + crossed,
@@ -203,7 +219,7 @@ Hypothesis collider_speed(const Case& c) {
   for (const scene::Collider& collider : c.scene.colliders) {
     const double speed = speed_beside_culprit(c, collider);
     const double mach = speed / std::max(1e-9, c.start_sound());
-    if (mach < 1 && speed * c.dt < 0.5 * c.h) continue;
+    if (mach < cause(Law::collider_mach) && speed * c.dt < cause(Law::collider_cfl) * c.h) continue;
     if (speed < 2 * c.d.start.max_speed) continue;
     return Diagnosis{Cause::collider_speed,
                      "collider " + collider.name + " hits the snow at " + rough_text(speed) +
@@ -238,7 +254,7 @@ Hypothesis colliders_closing(const Case& c) {
 
 Hypothesis hardened_beyond_fixed_step(const Case& c) {
   if (!c.is_fixed) return std::nullopt;
-  const sim::StepRecord* step = c.sound_beyond(1);
+  const sim::StepRecord* step = c.sound_beyond(cause(Law::acoustic_cfl));
   if (!step) return std::nullopt;
   const double factor = std::exp(c.material.hardening * (1 - step->min_J_P));
   return Diagnosis{
@@ -254,7 +270,7 @@ Hypothesis hardened_beyond_fixed_step(const Case& c) {
 }
 
 Hypothesis incompressible(const Case& c) {
-  if (c.material.poisson_ratio < 0.45) return std::nullopt;
+  if (c.material.poisson_ratio < cause(Law::poisson_ratio)) return std::nullopt;
   return Diagnosis{
       Cause::incompressible,
       "poisson_ratio is " + scene::toml::number_text(c.material.poisson_ratio) + ": lambda is " +
@@ -267,7 +283,7 @@ Hypothesis shock(const Case& c) {
   const double speed = c.honest_speed(), mach = speed / std::max(1e-9, c.start_sound());
   const bool is_crushed = c.d.rule == "J_P" || c.d.rule == "acoustic_cfl" ||
                           c.d.rule == "time_step" || c.d.rule == "not_finite";
-  if (!is_crushed || mach < 1.5) return std::nullopt;
+  if (!is_crushed || mach < cause(Law::impact_mach)) return std::nullopt;
   return Diagnosis{
       Cause::shock,
       "snow meets something at " + rough_text(speed) + " m/s, " + rough_text(mach) +
@@ -281,7 +297,7 @@ Hypothesis hardening(const Case& c) {
   const double factor = std::exp(c.material.hardening * (1 - c.d.J_P));
   const bool is_sound = c.d.rule == "J_P" || c.d.rule == "acoustic_cfl" ||
                         c.d.rule == "time_step" || c.d.rule == "not_finite";
-  if (!is_sound || !(factor > 100)) return std::nullopt;
+  if (!is_sound || !(factor > cause(Law::hardening))) return std::nullopt;
   return Diagnosis{Cause::hardening,
                    "snow was packed to J_P = " + rough_text(c.d.J_P) + " and hardened " +
                        rough_text(factor) +

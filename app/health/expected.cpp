@@ -7,10 +7,13 @@
 
 #include "app/setup/auto_ranges.h"
 #include "app/support/text.h"
+#include "sim/health/limits.h"
 
 namespace neve::app::health {
 
 namespace {
+
+using sim::health::Law;
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
@@ -48,7 +51,7 @@ Expected::Expected(const scene::Scene& scene, const sim::ParticleArrays& state, 
 }
 
 double Expected::feather_mass() const {
-  return 1e-4 * lightest_density_ * h_ * h_ * h_;
+  return sim::health::limits_of(Law::light_node).expected * lightest_density_ * h_ * h_ * h_;
 }
 
 Expectation Expected::node_mass() const {
@@ -110,7 +113,9 @@ Expectation Expected::J_E() const {
 }
 
 Expectation Expected::J_P() const {
-  return {{0.2, 5}, "packed to five times the density, or torn as far"};
+  return {{sim::health::limits_of(Law::compaction).expected,
+           sim::health::limits_of(Law::dilation).expected},
+          "packed to five times the density, or torn as far"};
 }
 
 Expectation Expected::volume() const {

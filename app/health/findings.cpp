@@ -18,8 +18,13 @@ namespace neve::app::health {
 namespace {
 
 using sim::Vec3d;
+using sim::health::Law;
+using sim::health::limits_of;
 
-constexpr double ice = 917;  // kg/m3
+/// Beyond it, the check warns.
+double line(Law law) {
+  return limits_of(law).check_warning;
+}
 
 Vec3d extent(const sim::shapes::Shape& shape) {
   const sim::shapes::Bounds box = sim::shapes::bounds(shape);
@@ -62,17 +67,17 @@ void check_material_units(const sim::Material& m, std::vector<Finding>& findings
     findings.push_back({Severity::warning, at + "density",
                         "density " + rough_text(m.density) + " kg/m3 is lighter than foam",
                         "in g/cm3 it would be " + rough_text(1000 * m.density) + " kg/m3"});
-  else if (m.density < 20 || m.density > 1.3 * ice)
+  else if (m.density < line(Law::low_density) || m.density > line(Law::high_density))
     findings.push_back({Severity::warning, at + "density",
                         "density " + rough_text(m.density) + " kg/m3 is no snow: 50 to 917",
                         "powder has 50 to 200, packed snow 300 to 550"});
-  if (m.youngs_modulus < 2000)
+  if (m.youngs_modulus < line(Law::low_stiffness))
     findings.push_back(
         {Severity::warning, at + "youngs_modulus",
          "youngs_modulus " + rough_text(m.youngs_modulus) + " Pa is softer than jelly",
          "in kPa it would be " + rough_text(1000 * m.youngs_modulus) +
              " Pa; the paper's snow has 1.4e5"});
-  else if (m.youngs_modulus > 1e8)
+  else if (m.youngs_modulus > line(Law::high_stiffness))
     findings.push_back({Severity::warning, at + "youngs_modulus",
                         "youngs_modulus " + rough_text(m.youngs_modulus) +
                             " Pa makes sound run at " + rough_text(sim::sound_speed(m)) + " m/s",
@@ -148,12 +153,12 @@ void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
   const double sound_speed = checkup.start.max_sound_speed / sim::engine::acoustic_stretch(s);
   const double sound = sound_speed * s.dt / h;
   const double speed = checkup.impact_speed * s.dt / h;
-  if (sound > 0.5)
-    report(sound > 1.5 ? Severity::error : Severity::warning, sound, "sound",
-           0.5 * h / sound_speed);
-  if (speed > 0.5)
-    report(speed > 1 ? Severity::error : Severity::warning, speed, "snow at impact",
-           s.cfl * h / checkup.impact_speed);
+  if (sound > line(Law::acoustic_cfl))
+    report(sound > limits_of(Law::acoustic_cfl).check_error ? Severity::error : Severity::warning,
+           sound, "sound", line(Law::acoustic_cfl) * h / sound_speed);
+  if (speed > line(Law::speed_cfl))
+    report(speed > limits_of(Law::speed_cfl).check_error ? Severity::error : Severity::warning,
+           speed, "snow at impact", s.cfl * h / checkup.impact_speed);
 }
 
 /// What semi-implicit steps damp: a wave loses beta w^2 dt of its energy per second.
@@ -261,13 +266,13 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings) {
     if (is_used) check_material_units(material, findings);
   }
   const double g = scene.solver.gravity.norm();
-  if (g > most_gravity)
+  if (g > line(Law::gravity))
     findings.push_back({Severity::warning, "solver.gravity",
                         "gravity of " + rough_text(g) + " m/s2 is " + rough_text(g / 9.81) +
                             " times that of the earth",
                         "981 would be cm/s2; lengths are in metres"});
   const double largest = largest_extent(scene);
-  if (largest > most_extent)
+  if (largest > line(Law::extent))
     findings.push_back({Severity::warning, pieces.front().address + ".shape",
                         "the largest piece of snow is " + rough_text(largest) + " m across",
                         "lengths are in metres: in centimetres it would be " +
@@ -283,7 +288,7 @@ void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings)
       bodies.push_back({"body." + body.name, called("body", body.name), thickness(body.shape) / h});
     if (is_from_points(body)) {
       check_point_distance(body, h, findings);
-    } else if (body.particles_per_cell < 4) {
+    } else if (body.particles_per_cell < line(Law::particles_per_cell)) {
       findings.push_back({Severity::warning, "body." + body.name + ".particles_per_cell",
                           rough_text(body.particles_per_cell) +
                               " particles per cell leave gaps: snow breaks where none should",
@@ -312,7 +317,7 @@ void check_steps(const scene::Scene& scene, const Checkup& checkup,
   check_implicit_steps(scene.solver, checkup, findings);
   check_damping(scene, checkup, findings);
   const double c = checkup.start.max_sound_speed;
-  if (c > 0 && checkup.impact_speed > c)
+  if (c > 0 && checkup.impact_speed > line(Law::impact_mach) * c)
     findings.push_back({Severity::warning, "",
                         "snow meets something at " + rough_text(checkup.impact_speed) +
                             " m/s, faster than its sound of " + rough_text(c) +

@@ -3,12 +3,9 @@
 
 #include "app/health/checkup.h"
 #include "app/setup/dry_run.h"
+#include "sim/health/limits.h"
 
 namespace neve::app::health {
-
-/// Beyond these, numbers look like centimetres.
-inline constexpr double most_gravity = 60;  ///< m/s2
-inline constexpr double most_extent = 20;   ///< m, of a body
 
 /// "0.7 %", "31 %".
 std::string percent_text(double share);

@@ -119,14 +119,15 @@ void check_motion(const scene::Scene& scene, const Checkup& checkup,
                            (!collider.keyframes.empty() ? ".keyframes"
                             : spins                     ? ".angular_velocity"
                                                         : ".velocity");
-    if (cells > 0.5)
+    if (cells > sim::health::limits_of(sim::health::Law::collider_cfl).check_warning)
       findings.push_back(
           {Severity::warning, at,
            called("collider", collider.name) + " moves up to " + rough_text(speed) +
                " m/s: " + rough_text(cells) + " cells in a step, it runs over snow at rest",
            std::string(s.time_step == sim::TimeStep::fixed ? "solver.dt" : "solver.max_dt") +
                " = " + rough_text(0.4 * s.cell_size / speed)});
-    else if (c > 0 && speed > c)
+    else if (c > 0 &&
+             speed > sim::health::limits_of(sim::health::Law::collider_mach).check_warning * c)
       findings.push_back({Severity::warning, at,
                           called("collider", collider.name) + " moves up to " + rough_text(speed) +
                               " m/s, faster than sound in the snow (" + rough_text(c) +

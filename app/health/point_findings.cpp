@@ -11,6 +11,15 @@
 
 namespace neve::app::health {
 
+namespace {
+
+using sim::health::Law;
+
+/// Particles per cell: the grid cannot tell more of them apart.
+constexpr double most_useful = 40;
+
+}  // namespace
+
 bool is_from_points(const sim::seeding::Body& body) {
   return std::holds_alternative<sim::shapes::Points>(body.shape.form);
 }
@@ -24,16 +33,17 @@ double particles_in_cell(const sim::seeding::Body& body, double cell_size) {
 void check_point_distance(const sim::seeding::Body& body, double cell_size,
                           std::vector<Finding>& findings) {
   const double per_cell = particles_in_cell(body, cell_size);
-  if (per_cell >= 4 && per_cell <= 40) return;
+  const bool is_too_few = per_cell < sim::health::limits_of(Law::particles_per_cell).check_warning;
+  if (!is_too_few && per_cell <= most_useful) return;
   const std::string eight = rough_text(cell_size * std::cbrt(8 / per_cell));
-  findings.push_back({per_cell < 4 ? Severity::warning : Severity::note,
+  findings.push_back({is_too_few ? Severity::warning : Severity::note,
                       "body." + body.name + ".shape.points",
                       "the points of " + called("body", body.name) + " are " +
                           rough_text(per_cell) + " in a cell, going by their volumes" +
-                          (per_cell < 4 ? ": they leave gaps, and snow breaks where none should"
-                                        : ": more than the grid can tell apart"),
+                          (is_too_few ? ": they leave gaps, and snow breaks where none should"
+                                      : ": more than the grid can tell apart"),
                       "solver.cell_size = " + eight + " has 8" +
-                          (per_cell < 4 ? "" : ", or thinning = " + rough_text(per_cell / 8))});
+                          (is_too_few ? "" : ", or thinning = " + rough_text(per_cell / 8))});
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #include "app/picture/snapshot.h"
 #include "app/picture/to_float.h"
 #include "app/setup/auto_ranges.h"
+#include "sim/health/limits.h"
 #include "sim/rasterize.h"
 #include "sim/staged.h"
 
@@ -17,9 +18,6 @@ namespace neve::app::picture {
 namespace {
 
 using sim::Vec3d;
-
-/// Nodes lighter than this share of rho h^3 are not shown.
-constexpr double feather_share = 1e-4;
 
 double lightest_density(const scene::Scene& scene) {
   double density = std::numeric_limits<double>::infinity();
@@ -125,10 +123,11 @@ NodeFields sample_fields(const scene::Scene& scene, const sim::Simulation& simul
       sim::rasterize(simulation, particle_values(scene, snapshot, needs));
   out.lattice = lattice_of(nodes);
   const double volume = std::pow(nodes.spacing, 3);
-  const double feather = feather_share * lightest_density(scene);
+  const double lightest =
+      sim::health::limits_of(sim::health::Law::light_node).expected * lightest_density(scene);
   out.density.resize(nodes.mass.size());
   for (std::size_t n = 0; n < nodes.mass.size(); ++n)
-    if (const double density = nodes.mass[n] / volume; density > feather)
+    if (const double density = nodes.mass[n] / volume; density > lightest)
       out.density[n] = static_cast<float>(density);
 
   std::size_t mean = 0;

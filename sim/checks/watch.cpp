@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/engine/time_step.h"
 #include "sim/health/diagnostics.h"
@@ -15,74 +14,7 @@ namespace neve::sim::checks {
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
-/// A check in words; thresholds of the first group are those of the step limits and of experience
-/// with runs that went wrong, those of the second are rounding.
-struct Rule {
-  const char* name;
-  const char* quantity;
-  bool is_below;
-  double threshold, error;  ///< in double
-  double in_float;          ///< threshold and error in float; 0: as in double
-  const char* meaning;
-  const char* remedy;
-};
-
-constexpr Rule rules[watch_check_count] = {
-    {"acoustic_cfl", "the acoustic CFL c dt/h", false, 0.5, 1, 0,
-     "sound crosses too much of a cell in a step, hardened snow is the stiffest",
-     "dt = %dt would do; or adaptive steps"},
-    {"speed_cfl", "the CFL number |v| dt/h", false, 0.5, 1, 0,
-     "particles cross too much of a cell in a step", "dt = %dt would do; or adaptive steps"},
-    {"strain_step", "|dt grad v|", false, 0.4, never, 0,
-     "the deformation of a step is beyond linear, inversion comes next",
-     "dt = %dt would do; or adaptive steps"},
-    {"inverted", "the smallest det F_E", true, 0, 0, 0, "a particle is turned inside out",
-     "a smaller dt, or softer material"},
-    {"not_finite", "the number of particles that are no numbers", false, 0, 0, 0,
-     "the run has exploded", "a smaller dt; neve check names the limits"},
-    {"compaction", "the smallest J_P", true, 0.2, never, 0,
-     "snow is packed to a fifth of its volume, hardening runs away",
-     "less hardening, a smaller critical_compression, or a smaller dt"},
-    {"dilation", "the largest J_P", false, 1000, never, 0,
-     "snow is drawn out to a thousand times its volume: particles fly apart",
-     "a larger critical_stretch, or a smaller dt"},
-    {"hardening", "the hardening e^(xi (1 - J_P))", false, 1000, never, 0,
-     "snow has become a thousand times as stiff, steps become short",
-     "less hardening (xi), or a smaller critical_compression"},
-    {"mach", "the speed over that of sound", false, 1, never, 0,
-     "snow moves faster than sound in it: a shock, or a particle blown off",
-     "look at the fastest particles; a stiffer material or a slower start"},
-    {"energy", "the energy over what start, gravity and colliders explain", false,
-     energy_ratio_allowed, energy_ratio_allowed, 0, "snow can only lose energy, the steps make it",
-     "a smaller dt"},
-    {"force_sum", "|sum f| / sum |f|", false, 1e-9, 1e-9, 1e-4,
-     "internal forces do not cancel: gradients of the weights are wrong",
-     "this is a fault of neve: please report it"},
-    {"torque", "|sum x x f| / sum |x x f|", false, 1e-7, 1e-7, 1e-4,
-     "internal forces turn the body: the stress is not symmetric",
-     "this is a fault of neve: please report it"},
-    {"newton", "m dv - dt (f + m g) on nodes", false, 1e-9, 1e-9, 1e-5,
-     "the grid's velocity does not follow from its forces",
-     "this is a fault of neve: please report it"},
-    {"power", "power of the forces against stress power", false, 1e-6, 1e-6, 1e-2,
-     "forces and the update of F_E do not belong together: a side, a sign, 1/h, J or V0",
-     "this is a fault of neve: please report it"},
-    {"work", "change of the elastic energy against work", false, 0.05, never, 0,
-     "the energy of a step is not what its forces did: dt is too large for the stiffness",
-     "a smaller dt"},
-    {"mass", "mass on the grid against that of the particles", false, 1e-9, 1e-9, 1e-5,
-     "nodes or particles are lost", "this is a fault of neve: please report it"},
-    {"p2g_momentum", "momentum, particles to grid", false, 1e-9, 1e-9, 1e-5,
-     "the transfer loses momentum", "this is a fault of neve: please report it"},
-    {"g2p_momentum", "momentum, grid to particles", false, 1e-9, 1e-9, 1e-5,
-     "the transfer loses momentum, or FLIP takes the wrong difference",
-     "this is a fault of neve: please report it"}};
-
-const Rule& rule(WatchCheck check) {
-  return rules[static_cast<std::size_t>(check)];
-}
+using health::never;
 
 double share(double a, double b) {
   return b > 0 ? a / b : 0;
@@ -196,16 +128,6 @@ void measure_work(const std::vector<Material>& materials, bool is_float, const P
 
 }  // namespace
 
-const char* name(WatchCheck check) {
-  return rule(check).name;
-}
-const char* quantity(WatchCheck check) {
-  return rule(check).quantity;
-}
-const char* meaning(WatchCheck check) {
-  return rule(check).meaning;
-}
-
 bool WatchRecord::breaks(double value, double limit) const {
   // NaN breaks everything.
   if (is_below) return check == WatchCheck::inverted ? !(value > limit) : !(value >= limit);
@@ -213,13 +135,13 @@ bool WatchRecord::breaks(double value, double limit) const {
 }
 
 std::string sentence(const WatchRecord& record, double value, double dt) {
-  const Rule& r = rule(record.check);
-  std::string remedy = r.remedy;
+  const health::Limits& law = health::limits_of(record.check);
+  std::string remedy = law.remedy;
   if (const std::size_t at = remedy.find("%dt"); at != std::string::npos)
     remedy.replace(at, 3, number_text(dt * record.threshold / value) + " s");
-  return "step " + std::to_string(record.first_step) + ": " + r.quantity + " is " +
+  return "step " + std::to_string(record.first_step) + ": " + law.quantity + " is " +
          number_text(value) + (record.is_below ? ", at least " : ", at most ") +
-         number_text(record.threshold) + " is expected; " + r.meaning + "; " + remedy;
+         number_text(record.threshold) + " is expected; " + law.meaning + "; " + remedy;
 }
 
 bool is_watch_due(std::size_t steps) {
@@ -231,10 +153,10 @@ Watch::Watch(const SolverSettings& settings, const std::vector<Material>& materi
     : settings_(settings), materials_(materials) {
   const bool is_float = settings.precision == Precision::single;
   for (int k = 0; k < watch_check_count; ++k) {
-    const Rule& r = rules[k];
-    const bool is_own = is_float && r.in_float > 0;
-    records_.push_back({static_cast<WatchCheck>(k), r.is_below, is_own ? r.in_float : r.threshold,
-                        is_own && r.error < never ? r.in_float : r.error});
+    const health::Limits& law = health::laws[static_cast<std::size_t>(k)];
+    const bool is_own = is_float && law.watch_single > 0;
+    records_.push_back({law.law, law.is_below, is_own ? law.watch_single : law.watch_warning,
+                        is_own && law.watch_error < never ? law.watch_single : law.watch_error});
   }
   // Steps with stages left out keep no law but those of the numbers themselves.
   if (!settings.bypass.empty())

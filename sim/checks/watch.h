@@ -7,38 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "sim/health/limits.h"
 #include "sim/simulation.h"
 #include "sim/types/energy_account.h"
 #include "sim/types/settings.h"
 
 namespace neve::sim::checks {
 
-/// What is watched. The first group concerns the user's choices, the second the solver itself.
-enum class WatchCheck {
-  acoustic_cfl,  ///< c dt/h with the hardened c
-  speed_cfl,     ///< |v| dt/h
-  strain_step,   ///< |dt grad v|, largest entry
-  inverted,      ///< det F_E
-  not_finite,    ///< particles whose state is no number
-  compaction,    ///< smallest J_P
-  dilation,      ///< largest J_P
-  hardening,     ///< e^(xi (1 - J_P))
-  mach,          ///< |v| over the speed of sound
-  energy,        ///< EnergyAccount::ratio
-  force_sum,     ///< |sum f| / sum |f|
-  torque,        ///< |sum x x f| / sum |x x f|
-  newton,        ///< m dv against dt (f + m g) on nodes
-  power,         ///< power of the forces against the stress power of the particles
-  work,          ///< elastic energy of the trial state against trapezoidal work
-  mass,          ///< mass on the grid against that of the particles
-  p2g_momentum,  ///< particles to grid
-  g2p_momentum,  ///< grid to particles
-};
-inline constexpr int watch_check_count = 18;
-const char* name(WatchCheck check);
-/// What is looked at, and what it means when it is out of bounds; for people.
-const char* quantity(WatchCheck check);
-const char* meaning(WatchCheck check);
+/// The laws that are watched, the first ones of the table.
+using WatchCheck = health::Law;
+inline constexpr int watch_check_count = health::watched_laws;
+using health::meaning;
+using health::name;
+using health::quantity;
 
 /// What one look found, by check; 0 where a check had nothing to look at.
 struct WatchValues {

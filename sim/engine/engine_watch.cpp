@@ -5,10 +5,13 @@
 
 #include "sim/engine/engine.h"
 #include "sim/health/diagnostics.h"
+#include "sim/health/limits.h"
 
 namespace neve::sim::engine {
 
 namespace {
+
+using health::Law;
 
 /// Energy is added up this often, and whenever a frame ends.
 constexpr std::size_t steps_between_energy_checks = 256;
@@ -79,22 +82,25 @@ void Engine<Real>::check(double dt, const StateLimits& before,
   const double acoustic_cfl = limits_.max_sound_speed * dt / h / acoustic_stretch(settings_);
   warnings_.worst_acoustic_cfl = std::max(warnings_.worst_acoustic_cfl, acoustic_cfl);
   const double holds = stable_dt(settings_, before);
+  const auto stop = [](Law law) { return health::limits_of(law).stop; };
   const bool is_adaptive = settings_.time_step == TimeStep::adaptive;
-  if (report.not_finite > 0) {
-    diverge("not_finite", "deformation", {dt, holds}, report.not_finite, 0);
-  } else if (report.overflowed > 0) {
-    diverge("overflow", "advection", {dt, holds}, report.overflowed, 0);
-  } else if (speed_cfl > 1) {
-    diverge("speed_cfl", "particle_velocities", {dt, holds}, speed_cfl, 1);
-  } else if (report.inverted_unprojected > 0) {
-    diverge("inverted", "deformation", {dt, holds}, report.inverted_unprojected, 0);
-  } else if (report.min_J_P < Real(0.1)) {
-    diverge("J_P", "deformation", {dt, holds}, static_cast<double>(report.min_J_P), 0.1);
-  } else if (is_adaptive && acoustic_cfl > 1.5) {
-    diverge("acoustic_cfl", "deformation", {dt, holds}, acoustic_cfl, 1.5);
-  } else if (is_adaptive && choose_dt(1).dt < 1e-4 * rest_dt_) {
-    // Not a rule of stability: without it a run that hardens without end would never end.
-    diverge("time_step", "deformation", {dt, holds}, choose_dt(1).dt, 1e-4 * rest_dt_);
+  if (report.not_finite > stop(Law::not_finite)) {
+    diverge("not_finite", "deformation", {dt, holds}, report.not_finite, stop(Law::not_finite));
+  } else if (report.overflowed > stop(Law::overflow)) {
+    diverge("overflow", "advection", {dt, holds}, report.overflowed, stop(Law::overflow));
+  } else if (speed_cfl > stop(Law::speed_cfl)) {
+    diverge("speed_cfl", "particle_velocities", {dt, holds}, speed_cfl, stop(Law::speed_cfl));
+  } else if (report.inverted_unprojected > stop(Law::inverted)) {
+    diverge("inverted", "deformation", {dt, holds}, report.inverted_unprojected,
+            stop(Law::inverted));
+  } else if (report.min_J_P < Real(stop(Law::compaction))) {
+    diverge("J_P", "deformation", {dt, holds}, static_cast<double>(report.min_J_P),
+            stop(Law::compaction));
+  } else if (is_adaptive && acoustic_cfl > stop(Law::acoustic_cfl)) {
+    diverge("acoustic_cfl", "deformation", {dt, holds}, acoustic_cfl, stop(Law::acoustic_cfl));
+  } else if (is_adaptive && choose_dt(1).dt < stop(Law::time_step) * rest_dt_) {
+    diverge("time_step", "deformation", {dt, holds}, choose_dt(1).dt,
+            stop(Law::time_step) * rest_dt_);
   }
 }
 
@@ -111,14 +117,15 @@ EnergyAccount Engine<Real>::energy_account() const {
   return account;
 }
 
-/// Kinetic plus elastic energy may not exceed by more than 10 % what the run started with plus the
-/// work of gravity and colliders.
+/// Kinetic plus elastic energy may exceed what the run started with plus the work of gravity and
+/// colliders only by the share that the law of energy allows.
 template <class Real>
 void Engine<Real>::check_energy() {
   if (particles_.empty() || !settings_.bypass.empty()) return;
   const EnergyAccount account = energy_account();
   energy_.largest = std::max(energy_.largest, account.explained);
-  const double allowed = account.explained + (energy_ratio_allowed - 1) * account.scale;
+  const double allowed =
+      account.explained + (health::limits_of(Law::energy).stop - 1) * account.scale;
   if (account.found <= allowed) return;
   diverge("energy", "particle_velocities", {last_dt_, stable_dt(settings_, limits_)}, account.found,
           allowed);

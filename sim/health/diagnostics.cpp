@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "sim/health/limits.h"
 #include "sim/kernels/decompose.h"
 #include "sim/types/number_text.h"
 
@@ -97,7 +98,7 @@ std::string what(const Divergence& d, double acoustic_cfl) {
   else
     text += "energy rose to " + number_text(d.value) + " J, " + number_text(d.limit) +
             " J can be explained";
-  if (d.rule != "acoustic_cfl" && acoustic_cfl > 0.7)
+  if (d.rule != "acoustic_cfl" && acoustic_cfl > limits_of(Law::acoustic_cfl).mention)
     text += "; acoustic CFL was " + number_text(acoustic_cfl);
   return text;
 }

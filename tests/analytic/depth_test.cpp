@@ -159,7 +159,7 @@ TEST(Depth, OfAQuickEdgeIsATenthOfACellWithPushOut) {
                  paper.cells);
   EXPECT_GT(paper.cells, 0.15);
   // Nothing is gained: the watch allows 1.1.
-  EXPECT_LT(pushed.energy_ratio, energy_ratio_allowed);
+  EXPECT_LT(pushed.energy_ratio, health::limits_of(health::Law::energy).stop);
 }
 
 TEST(Depth, NothingPassesTheThinPlate) {

@@ -56,8 +56,8 @@ inline constexpr Folder folders[] = {
      "sim/base sim/types sim/shapes sim/seeding sim/health sim/engine sim app/support "
      "app/scene/toml app/scene app/output app/setup"},
     {"app/picture",
-     "sim/base sim/types sim/shapes sim/engine sim render/frame render/shapes render app/support "
-     "app/scene/toml app/scene app/setup app/health"},
+     "sim/base sim/types sim/shapes sim/health sim/engine sim render/frame render/shapes render "
+     "app/support app/scene/toml app/scene app/setup app/health"},
     {"app/run",
      "sim/base sim/types sim sim/checks render/image render/frame render/gl render app/support "
      "app/scene/toml app/scene app/output app/setup app/health app/picture"},
