@@ -16,18 +16,18 @@ struct Test {
   void (*run)(const SelfTestCase&, Measure&);
 };
 constexpr Test tests[] = {
-    {"weights", "sums of w, of its moments and of its gradient", self_test::weights},
-    {"affine_field", "a linear velocity deforms by exactly I + dt A and comes back",
+    {"weights", "the sums of w, its moments and its gradient are exact", self_test::weights},
+    {"affine_field", "a linear velocity field deforms by exactly I + dt A and returns",
      self_test::affine_field},
-    {"stress", "none in a rotation, turns with the body, symmetric", self_test::stress},
+    {"stress", "is zero in a rotation, turns with the body, is symmetric", self_test::stress},
     {"force", "is minus the derivative of the elastic energy", self_test::force},
-    {"solve", "semi-implicit velocities fulfil their equation", self_test::solve},
+    {"solve", "semi-implicit velocities satisfy their equation", self_test::solve},
     {"projection", "keeps the identity and det F, clamps the stretches", self_test::projection},
-    {"hardening", "is 1 at J_P = 1 and grows as it should", self_test::hardening},
-    {"initial_state", "F_E = I, J_P = 1, no stress", self_test::initial_state},
-    {"free_fall", "three steps are exact, nothing deforms", self_test::free_fall},
-    {"volumes", "estimated ones are right inside and bounded in all", self_test::volumes},
-    {"drivers", "a fast step ends where the step by stages does", self_test::drivers}};
+    {"hardening", "is 1 at J_P = 1 and grows by the law", self_test::hardening},
+    {"initial_state", "has F_E = I, J_P = 1, no stress", self_test::initial_state},
+    {"free_fall", "three steps are exact and deform nothing", self_test::free_fall},
+    {"volumes", "estimated volumes are right inside and bounded everywhere", self_test::volumes},
+    {"drivers", "the fused and the staged driver give the same step", self_test::drivers}};
 
 }  // namespace
 

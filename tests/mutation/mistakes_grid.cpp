@@ -172,12 +172,12 @@ std::vector<Mistake> transfer_mistakes() {
        {},
        true},
       {"fast_force_forgotten",
-       "force forgotten in the fast driver only",
+       "force forgotten in the fused driver only",
        {{sweeps, "v_new[n] = node_v_free(momentum[n], force[n], c);",
          "v_new[n] = node_v_free(momentum[n], Quad<Real>{}, c);"}},
        {},
-       "not a classic: a mistake of the driver that runs, where self-tests and watch look into the "
-       "other one"},
+       "not a classic: a mistake of the fused driver, while self-tests and `--validate` use the "
+       "staged driver"},
       {"half_a_cell_between_transfers",
        "half a cell between P2G and G2P",
        {{sweeps,
@@ -189,7 +189,7 @@ std::vector<Mistake> transfer_mistakes() {
          "        Gathered<V> g{};",
          std::string(aside) + "        Gathered<V> g{};"}},
        {},
-       "the shift stays in the particle's cell: half a cell up or down, whichever does",
+       "the shift stays in the particle's cell: half a cell up or down",
        true},
   };
 }

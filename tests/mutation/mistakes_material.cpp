@@ -81,7 +81,7 @@ std::vector<Edit> rotation_replaced(const std::string& x) {
 }
 
 constexpr const char* added =
-    "added to the right stress where forces read it, with R and S from a decomposition of F_E";
+    "added to the correct stress where forces read it, with R and S from a decomposition of F_E";
 
 constexpr const char* keep_tau =
     "tau[0] = t.xx, tau[1] = t.yy, tau[2] = t.zz, tau[3] = t.xy, tau[4] = t.xz, tau[5] = t.yz;";
@@ -108,7 +108,7 @@ std::vector<Edit> hardening_by(const std::string& exponent) {
 
 std::vector<Mistake> stress_mistakes() {
   const std::string stored =
-      "the stored stress is symmetric: P is found from it where forces read it";
+      "the stored stress is symmetric, so P is computed from it where forces read it";
   return {
       {"stress_P_F",
        "stress P F (F not transposed)",

@@ -11,42 +11,42 @@ namespace neve::test {
 
 namespace {
 
-constexpr const char* introduction = R"(# Mistakes, and what notices them
+constexpr const char* introduction = R"(# Classic mistakes and the checks that notice them
 
-The classic mistakes of a snow solver, each built into a copy of this one's sources and run: first the
-self-tests of `neve doctor`, then two scenes under the watch of `neve render --validate`, a snowball
-thrown on a sticky floor and an elastic box that spins in free flight. The table says which checks
-notice each mistake; "stopped" is a rule that ends any run, watched or not. Without a mistake none of
-them fires. Some mistakes no run betrays: they make snow too soft, or turn what hardly turns, and all
-energies and momenta add up; only a state whose answer is known shows them. Others look right in a
-straight drop and explode when something turns. A test builds all mistakes again and compares this
-page with what it finds (`./neve test --all`, label `mutation`); it also fails when a mistake goes
-unnoticed, or when a check notices nothing.
+A test builds each classic mistake of a snow solver into a copy of the sources and runs it: first the
+self-tests of `neve doctor`, then two scenes with `neve render --validate`, a snowball thrown on a sticky
+floor and an elastic box that spins in free flight. The table lists the checks that notice each mistake;
+"stopped" is a rule that ends any run, with or without `--validate`. In correct code no check fires. Some
+mistakes show in no run: they make snow too soft, or affect rotations where little rotates, and all
+energies and momenta add up. Only a state with a known answer reveals them. Other mistakes look right in
+a straight drop and explode in a rotation. `./neve test --all` (label `mutation`) builds all mistakes
+again and compares this page with the result. The test also fails if a mistake goes unnoticed, or if a
+check notices no mistake.
 
 )";
 
 constexpr const char* about_self_tests = R"(
 ## The self-tests
 
-`neve doctor` runs them with every kernel, transfer and precision through the kernels of the
-instruction set in use, and says the worst value found and what is allowed. They take a tenth of a
-second. A failure is exit code 9.
+`neve doctor` runs them with every kernel, transfer and precision through the kernels of the instruction
+set in use. It prints the worst value and the tolerance. The self-tests take a tenth of a second. A
+failure gives exit code 9.
 
-| self-test | what | notices |
+| self-test | claim | mistakes noticed |
 | --- | --- | --- |
 )";
 
 constexpr const char* about_watch = R"(
-## The watch
+## The checks of --validate
 
-`neve render --validate` looks at the first steps, then ever more rarely down to every 256th. A look
-takes a step of a copy, so the run stays as it is to the bit; on one thread it costs what 25 steps
-cost. What is out of bounds is a warning once, with step, value, meaning and remedy, and is counted in
-run.json (`validation`; of a resumed run, what came after). Where it is wrong and not only remarkable,
-the run ends with exit code 9; its pictures are kept. Of adaptive steps, the first two checks warn
-above the limits that the scene gives.
+`neve render --validate` measures the first steps, then fewer and fewer, down to every 256th. It takes a
+step of a copy, so the run keeps its bits; on one thread this costs as much as 25 steps. The first value
+out of bounds gives a warning with step, value, meaning and remedy. All are counted in run.json
+(`validation`; in a resumed run, those after the resume). A value beyond the error level ends the run
+with exit code 9; its pictures are kept. In adaptive steps, the first two checks warn above the limits of
+the scene.
 
-| watched | what | warns | wrong | notices |
+| check | quantity and meaning | warning | error | mistakes noticed |
 | --- | --- | --- | --- | --- |
 )";
 
@@ -127,7 +127,7 @@ std::string page(const std::vector<Mistake>& mistakes, const std::vector<Finding
   text +=
       "| mistake | self-tests that fail | snowball | spinning box |\n| --- | --- | --- | --- |\n";
   for (std::size_t k = 0; k < mistakes.size(); ++k) text += row(mistakes[k], findings[k]) + "\n";
-  text += "\nNot to the letter:\n\n";
+  text += "\nDifferences from the classic form:\n\n";
   for (const Mistake& mistake : mistakes)
     if (!mistake.note.empty()) text += "- " + mistake.title + ": " + mistake.note + ".\n";
   text += about_self_tests;
