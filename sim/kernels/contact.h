@@ -271,11 +271,17 @@ NEVE_INLINE bool is_out_of_reach(const LocalCollider<Real>& c, const Vec3<Real>&
   return surface_distance(c, widened<V>(centre), normal)[0] > reach + 2 * c.spacing;
 }
 
-/// The lanes inside (phi <= 0, the surface counts as inside), and the outward normal there.
+/// A node this far inside is held, in cells. The nodes of a floor that lies on a plane of nodes are
+/// on its surface and not in it, however the distance is rounded.
+inline constexpr double node_depth = 1e-6;
+
+/// The lanes at least `depth` metres inside (of 0, the surface counts as inside), and the outward
+/// normal there.
 /// @param r from the block's first node, m
 template <class V, class Real>
-NEVE_INLINE MaskOf<V> touch(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal) {
-  return surface_distance(c, r, normal) <= V{};
+NEVE_INLINE MaskOf<V> touch(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal,
+                            Real depth = 0) {
+  return surface_distance(c, r, normal) <= all<V>(-depth);
 }
 
 /// Velocity of the collider's surface at a place.
@@ -288,10 +294,12 @@ NEVE_INLINE Vec3<V> surface_velocity(const LocalCollider<Real>& c, const Vec3<V>
 /// sticky: v_co. slip: no motion along the normal, free sliding. separate: leaves freely, otherwise
 /// slides with Coulomb friction, v_t (1 + mu v_n / |v_t|), or sticks where friction would reverse
 /// it.
+/// @param depth  from which contact acts, m
 template <class V, class Real>
-NEVE_INLINE Vec3<V> respond(const LocalCollider<Real>& c, const Vec3<V>& r, const Vec3<V>& v) {
+NEVE_INLINE Vec3<V> respond(const LocalCollider<Real>& c, const Vec3<V>& r, const Vec3<V>& v,
+                            Real depth = 0) {
   Vec3<V> n;
-  const MaskOf<V> is_inside = touch(c, r, n);
+  const MaskOf<V> is_inside = touch(c, r, n, depth);
   if (!any_lane(is_inside)) return v;
   const Vec3<V> v_co = surface_velocity(c, r);
   if (c.contact == ContactLaw::sticky) return select(is_inside, v_co, v);

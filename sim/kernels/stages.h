@@ -241,15 +241,16 @@ NEVE_INLINE Quad<Real> node_v_free(Quad<Real> v_old, Quad<Real> force,
 
 /// Steps 5 and 9: contact at places r in the block, collider after collider.
 /// @param is_used  lanes that count
+/// @param depth    from which contact acts, m
 /// @param work     what colliders do, impulse times the speed of their surface, J; only what is
 /// added
 template <class Set, class V, class Real>
 NEVE_APART void collide(Vec3<V>& v, const V& mass, const Vec3<V>& r, const MaskOf<V>& is_used,
-                        const LocalCollider<Real>* colliders, int count, double& work) {
+                        const LocalCollider<Real>* colliders, int count, Real depth, double& work) {
   V done{};
   for (int k = 0; k < count; ++k) {
     const Vec3<V> before = v;
-    v = respond(colliders[k], r, v);
+    v = respond(colliders[k], r, v, depth);
     done += mass * dot(v - before, surface_velocity(colliders[k], r));
   }
   const MaskOf<V> counts = is_used & (done > V{});
@@ -317,7 +318,8 @@ NEVE_INLINE void collide_nodes(Quad<Real>* v, const StepConstants<Real>& c,
     }
     const Vec3<V> r{load_lanes<V>(place[0]), load_lanes<V>(place[1]), load_lanes<V>(place[2])};
     const MaskOf<V> has_mass = words.w[3] > V{};
-    collide<Set>(velocity, words.w[3], r * all<V>(c.h), has_mass, near.local, near.count, work);
+    collide<Set>(velocity, words.w[3], r * all<V>(c.h), has_mass, near.local, near.count,
+                 static_cast<Real>(node_depth) * c.h, work);
     for (int a = 0; a < 3; ++a) words.w[a] = has_mass ? velocity[a] : V{};
     store_quads(words, v + n);
   }
@@ -409,7 +411,7 @@ NEVE_INLINE void collide_particles(const Record<V, I>& p, Vec3<V>& v, MaskOf<V> 
                                    const NearColliders<Real>& near, double& work) {
   if (near.count == 0) return;
   const Vec3<V> r = places_in_block(p, key, c.h);
-  collide<Set>(v, p.m, r, is_used, near.local, near.count, work);
+  collide<Set>(v, p.m, r, is_used, near.local, near.count, Real(0), work);
 }
 
 /// Where the option is on, what is deeper in a collider than this is brought out to it, cells. A

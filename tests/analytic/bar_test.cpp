@@ -30,7 +30,7 @@ double bar_period(int cells, bool is_held, Precision precision = Precision::real
     p.v[q][0] = 1e-3 * bar_c * shape[q];
   }
   std::vector<shapes::Collider> wall;
-  if (is_held) wall.push_back(plane({1e-9, 0, 0}, {1, 0, 0}, 0, shapes::Contact::sticky));
+  if (is_held) wall.push_back(plane({1e-6, 0, 0}, {1, 0, 0}, 0, shapes::Contact::sticky));
   Simulation simulation(s, {elastic(bar_modulus, 0, bar_density)}, wall, p, 1);
   const double dt = 0.2 * s.cell_size / bar_c, about_omega = k * bar_c;
   std::vector<double> samples;

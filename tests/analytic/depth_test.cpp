@@ -275,7 +275,7 @@ TEST(SlidingBlock, HasTheSameFrictionOnEveryFlatTop) {
   const std::string file = folder.write("box.obj", box_obj({4, 0.4, 4})).string();
   // All end a little above y = 0, off the nodes: see SlidingBlock. Turned upside down, a cone's
   // base is up; a box lies on its side.
-  const double top = 1e-9;
+  const double top = 1e-6;
   const std::vector<std::pair<std::string, shapes::Shape>> shapes{
       {"box", {shapes::Box{{0, top - 2, 0}, {4, 3, 4}}, {0, 0, 90}}},
       {"cylinder", {shapes::Cylinder{{0, top - 0.2, 0}, 2, 0.4}, {0, 33, 0}}},

@@ -20,8 +20,8 @@ TEST(CompressedColumnLong, FollowsTheStressStrainCurve) {
   s.period = {1, 0, 1};
   const double height = cells * s.cell_size, width = 4 * s.cell_size;
   const ParticleArrays start = lattice({0, 0, 0}, {width, height, width}, {4, 2 * cells, 4}, 400);
-  const shapes::Collider floor = plane({0, 1e-9, 0}, {0, 1, 0}, 0, shapes::Contact::slip);
-  shapes::Collider plate = plane({0, height - 1e-9, 0}, {0, -1, 0}, 0, shapes::Contact::slip);
+  const shapes::Collider floor = plane({0, 1e-6, 0}, {0, 1, 0}, 0, shapes::Contact::slip);
+  shapes::Collider plate = plane({0, height - 1e-6, 0}, {0, -1, 0}, 0, shapes::Contact::slip);
   plate.velocity = {0, -speed, 0};
   Simulation simulation(s, {Material{}}, {floor, plate}, start, 1);
   Curve curve("uniaxial_column",

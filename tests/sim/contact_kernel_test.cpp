@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "sim/engine/kernel_pose.h"
+#include "sim/simulation.h"
+#include "sim/staged.h"
+#include "tests/support/snow.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::sim {
@@ -289,6 +292,30 @@ TEST(ContactKernel, EveryShapeHasFrictionSlipAndStickiness) {
         EXPECT_GT(stuck, 1);
         EXPECT_LT(stuck, changed);
       }
+    }
+}
+
+/// A floor on a plane of nodes: these are free, those below are held, in both precisions.
+TEST(ContactKernel, ASurfaceDoesNotHoldTheNodesOnIt) {
+  for (const Precision precision : {Precision::single, Precision::real64})
+    for (const double height : {0.0, 0.3}) {
+      SolverSettings s;
+      s.cell_size = h;
+      s.precision = precision;
+      const Vec3d low(0, height, 0), high(0.4, height + 0.4, 0.4);
+      Simulation simulation(s, {Material{}}, {test::plane(low, {0, 1, 0}, 0.5)},
+                            test::box_of_snow(low, high, 0.05), 1);
+      const NodeFields nodes = staged_step(simulation, 1e-4).nodes;
+      const int on_floor = static_cast<int>(std::lround(height / h));
+      int free = 0, held = 0;
+      for (std::size_t n = 0; n < nodes.node.size(); ++n) {
+        if (nodes.node[n][1] > on_floor) continue;
+        const bool is_free = nodes.v_star[n] == nodes.v_free[n];
+        EXPECT_EQ(is_free, nodes.node[n][1] == on_floor) << nodes.node[n].transpose();
+        ++(is_free ? free : held);
+      }
+      EXPECT_GT(free, 20);
+      EXPECT_GT(held, 20);
     }
 }
 
