@@ -63,7 +63,7 @@ std::string check_ball(const Image& image, const Frame& frame) {
     return "the lit side of the snow is not brighter than the other";
   if (brightness_at(image, frame, {0.5f, -0.5f, 0}) + 12 >
       brightness_at(image, frame, {-0.6f, -0.5f, 0}))
-    return "the snow throws no shadow on the ground";
+    return "the snow casts no shadow on the ground";
   return {};
 }
 
@@ -83,7 +83,7 @@ std::string self_test(gl::Context& context) try {
   const Frame frame = ball_over_ground();
   const Image image = renderer.draw(frame);
   if (std::string wrong = check_ball(image, frame); !wrong.empty()) return wrong;
-  if (renderer.draw(frame).pixels != image.pixels) return "the same picture came out differently";
+  if (renderer.draw(frame).pixels != image.pixels) return "the same picture was drawn differently";
   return check_text(renderer, image, frame);
 } catch (const std::exception& error) {
   return error.what();

@@ -86,8 +86,8 @@ NaiveSnow::NaiveSnow(const sim::SolverSettings& settings, const sim::Material& m
       settings.transfer == sim::Transfer::mls && settings.kernel == sim::Kernel::quadratic;
   if (!(is_flip || is_mls) || settings.advect != sim::Advect::particle ||
       material.model != sim::Model::snow)
-    throw std::invalid_argument("the naive code knows FLIP cubic and MLS quadratic snow only");
-  if (in.V0.size() != in.x.size()) throw std::invalid_argument("the naive code wants volumes");
+    throw std::invalid_argument("the naive code has only FLIP cubic and MLS quadratic snow");
+  if (in.V0.size() != in.x.size()) throw std::invalid_argument("the naive code needs volumes");
   for (std::size_t q = 0; q < in.x.size(); ++q)
     particles_.push_back(
         {in.x[q], in.v[q], in.m[q], in.V0[q], Mat3::Identity(), Mat3::Identity(), Mat3::Zero()});

@@ -94,7 +94,7 @@ void Race::check_agreement(const Runner& runner) const {
                   fixed_text(a.mean_J_P, 6) + " and " + fixed_text(b.mean_J_P, 6) +
                   ", mean speed " + fixed_text(a.mean_speed, 6) + " and " +
                   fixed_text(b.mean_speed, 6) + " m/s; their times cannot be compared",
-              name_, "this is a fault of the program: please report it");
+              name_, "this is an error in neve: please report it");
 }
 
 }  // namespace neve::app::bench

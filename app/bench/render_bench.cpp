@@ -196,10 +196,10 @@ void RenderBench::compare_with_targets(const std::vector<BenchRow>& rows) {
     const auto row = std::find_if(rows.begin(), rows.end(),
                                   [&](const BenchRow& r) { return r.name == target.row; });
     if (row == rows.end()) continue;
-    progress_.note(std::string(target.row) + ": " + fixed_text(row->value.median, 1) +
-                   " ms; at most " + std::to_string(target.must) +
-                   " are wanted on two quiet cores" +
-                   (target.aim < target.must ? ", better " + std::to_string(target.aim) : ""));
+    progress_.note(
+        std::string(target.row) + ": " + fixed_text(row->value.median, 1) +
+        " ms; the target on two quiet cores is at most " + std::to_string(target.must) + " ms" +
+        (target.aim < target.must ? ", better " + std::to_string(target.aim) + " ms" : ""));
   }
 }
 

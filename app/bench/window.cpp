@@ -49,8 +49,8 @@ void check_health(const sim::Simulation& simulation, const std::string& name) {
   if (!simulation.divergence()) return;
   throw Error(exit_diverged,
               "the bench case " + name + " " + simulation.divergence()->sentence +
-                  "; its time would mean nothing",
-              name, "this is a fault of the program: please report it");
+                  "; its time would be meaningless",
+              name, "this is an error in neve: please report it");
 }
 
 Window time_window(const BenchCase& bench_case, int threads, const std::string& name) {

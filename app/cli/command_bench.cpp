@@ -36,15 +36,16 @@ int run_bench(const bench::BenchOptions& options, const Bench& bench) {
   progress.note(machine_text());
   if (!bench::build_fault().empty())
     progress.warning(bench::build_fault() +
-                     "; its figures mean nothing. Build with -DCMAKE_BUILD_TYPE=Release");
+                     "; its figures are meaningless. Build with -DCMAKE_BUILD_TYPE=Release");
   const bench::OtherLoad others;
   const std::vector<bench::BenchRow> rows = bench(options, progress);
   const double share = others.share();
   if (share > 0.05)
-    progress.warning("other processes used " + fixed_text(100 * share, 0) +
-                     " % of the machine meanwhile; trust ratios and the best of the rounds");
+    progress.warning(
+        "other processes used " + fixed_text(100 * share, 0) +
+        " % of the machine during the measurement; trust only ratios and the best of the rounds");
   if (options.is_quick)
-    progress.note("neve: --quick looks whether it works; its figures mean little");
+    progress.note("neve: --quick only tests the benchmark; its figures mean little");
   print_rows(rows, options);
   return exit_ok;
 }

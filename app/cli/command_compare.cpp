@@ -66,7 +66,7 @@ std::map<int, std::string> read_hashes(const fs::path& folder) {
     for (const Json& frame : run.at("frames"))
       hashes[frame.at("frame").get<int>()] = frame.at("state_hash").get<std::string>();
   } catch (const nlohmann::json::exception&) {
-    throw Error(exit_invalid_scene, file.string() + ": error: is no run.json of neve",
+    throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
                 file.string());
   }
   return hashes;

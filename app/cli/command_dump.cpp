@@ -72,7 +72,7 @@ std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOpti
               ": " + std::to_string(listing.place.size()) +
               (listing.is_of_nodes
                    ? " nodes with mass, of which " + std::to_string(listing.feathers()) +
-                         " are too light (below 1e-4 rho h^3) to be summed up"
+                         " are left out of the summary, lighter than 1e-4 rho h^3"
                    : std::string(" particles")),
           "state " + run::hash_text(inside.simulation.state_hash())};
 }
@@ -95,7 +95,7 @@ std::size_t probed_row(const dump::Inside& inside, const dump::Listing& listing,
   }
   const std::size_t id = std::get<std::size_t>(probe);
   if (listing.is_of_nodes)
-    throw scene::toml::UsageError("--probe", "nodes have no number " + std::to_string(id),
+    throw scene::toml::UsageError("--probe", "nodes have no id " + std::to_string(id),
                                   "expected a place, as in --probe 0,0.5,0");
   const std::optional<std::size_t> row = inside.step.after.index_of(id);
   if (row) return *row;
@@ -103,7 +103,7 @@ std::size_t probed_row(const dump::Inside& inside, const dump::Listing& listing,
   const std::size_t ids = inside.before.x.size() + inside.simulation.flow_totals().removed;
   if (id < ids)
     throw scene::toml::UsageError("--probe", particle + " was removed",
-                                  "a sink took it before this time");
+                                  "a sink removed it before this time");
   throw scene::toml::UsageError(
       "--probe",
       inside.scene.emitters.empty() ? "there is no " + particle : particle + " is not emitted yet",
@@ -173,9 +173,9 @@ int run_dump(const dump::DumpOptions& options) {
     progress.warning("--at " + rough_text(options.at) + " s is after the end of the scene, " +
                      rough_text(end) + " s; Ctrl-C stops");
   run_to(options.at, job.scene.fps, simulation, progress);
-  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the time asked for");
+  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the requested time");
   if (simulation.divergence())
-    progress.warning(simulation.divergence()->sentence + "; this is the state it left");
+    progress.warning(simulation.divergence()->sentence + "; this is its last state");
   const double left = stop.frame_end - simulation.time();
   const dump::Inside inside =
       dump::look_inside(job.scene, simulation, left > 0 ? left : 1 / job.scene.fps);

@@ -37,7 +37,8 @@ Json read_run(const fs::path& file) {
     if (run.is_object() && run.contains("status") && run["status"].is_string()) return run;
   } catch (const nlohmann::json::exception&) {
   }
-  throw Error(exit_invalid_scene, file.string() + ": error: is no run.json of neve", file.string());
+  throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
+              file.string());
 }
 
 void print_changes(const Json& run) {

@@ -76,26 +76,27 @@ void add_scene(CLI::App& command, const std::shared_ptr<run::RenderOptions>& opt
                const std::shared_ptr<RenderTexts>& texts) {
   command
       .add_option("SCENE", options->scene,
-                  "Scene file (TOML), or a picture made by neve: that frame and view again; "
-                  "without it the default scene, a falling snowball")
+                  "Scene file (TOML), or a picture made by neve, to make that frame and view "
+                  "again; default: a falling snowball")
       ->type_name("");
   add_repeatable(command, "--set", options->overrides, "ADDRESS=VALUE",
                  "Change a parameter, as in material.snow.hardening=5 (repeatable; neve params "
                  "lists addresses)");
   command
       .add_option("--coarsen", texts->coarsening,
-                  "Cells N times as large, for looking and tuning: 1/N^3 of the particles and "
-                  "longer steps, about N^4 times cheaper")
+                  "Make cells N times as large, for previews: 1/N^3 of the particles and longer "
+                  "steps, about N^4 times cheaper")
       ->type_name("N");
-  command.add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
+  command.add_option("--threads", options->threads, "Number of threads; 0: one per core")
+      ->type_name("N");
 }
 
 namespace {
 
 constexpr const char* footer =
-    "Exit codes: 0 ok, 1 internal, 2 usage, 3 scene invalid or not there, 4 no GL backend,\n"
-    "5 diverged, 6 input or output failed, 7 runs of a sweep failed, 8 refused by a limit,\n"
-    "9 a check failed, 75 interrupted and can go on, 130 interrupted.";
+    "Exit codes: 0 ok, 1 internal, 2 usage, 3 scene invalid or not there, 4 no GL backend,\n5 "
+    "diverged, 6 input or output failed, 7 runs of a sweep failed, 8 refused by a limit,\n9 a "
+    "check failed, 75 interrupted with a checkpoint, 130 interrupted.";
 
 bench::BenchOptions finished_bench(const CLI::App& command, bench::BenchOptions options) {
   check_threads(options.threads);
@@ -104,7 +105,8 @@ bench::BenchOptions finished_bench(const CLI::App& command, bench::BenchOptions 
     throw scene::toml::UsageError("--rounds", "cannot use " + std::to_string(options.rounds),
                                   "expected 1 to 1000");
   if (options.is_json && options.is_markdown)
-    throw scene::toml::UsageError("--markdown", "cannot go with --json", "give one of them");
+    throw scene::toml::UsageError("--markdown", "cannot be combined with --json",
+                                  "give one of the two");
   const bool has_particles = command.get_option_no_throw("--particles") != nullptr;
   if (has_particles && command.count("--particles") > 0 &&
       !(options.particles >= 1 && options.particles <= 1e9))
@@ -113,10 +115,10 @@ bench::BenchOptions finished_bench(const CLI::App& command, bench::BenchOptions 
 }
 
 void add_check(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
-      "check",
-      "What a scene will cost, which limits rule its steps, what looks wrong; runs nothing "
-      "but a few steps and a coarse copy");
+  CLI::App* command =
+      app.add_subcommand("check",
+                         "Forecast the cost of a scene and the limits of its steps, and warn of "
+                         "likely mistakes; takes a few steps and runs a coarse copy");
   const auto options = std::make_shared<run::RenderOptions>();
   const auto texts = std::make_shared<RenderTexts>();
   add_scene(*command, options, texts);
@@ -141,47 +143,48 @@ void add_render(CLI::App& app, Action& action) {
       ->type_name("NAME");
   command
       ->add_option("--quality", texts->quality,
-                   "draft: half the width and height; preview: as the scene says (default); "
-                   "final: four samples per pixel")
+                   "draft: half the width and height; preview: as in the scene (default); final: "
+                   "four samples per pixel")
       ->type_name("NAME");
   command
       ->add_option("--reference", options->reference,
-                   "Compare the last frame of the first view with this picture; exit 9 when it "
-                   "differs, and leave DIR/difference.png")
+                   "Compare the last frame of the first view with this picture; if it differs, "
+                   "write DIR/difference.png and exit with 9")
       ->type_name("PNG");
   command
       ->add_option("--reference-threshold", options->reference_threshold,
-                   "Mean difference allowed, 0 to 255")
+                   "Largest mean difference allowed, 0 to 255")
       ->type_name("MEAN")
       ->capture_default_str();
   command
       ->add_option("--reference-local-threshold", options->reference_local_threshold,
-                   "The same of every square of 8x8 pixels: finds small snow that is elsewhere")
+                   "Largest mean difference allowed in any 8x8 block; catches small local changes")
       ->type_name("MEAN")
       ->capture_default_str();
-  command->add_flag(
-      "--validate", options->is_validated,
-      "Watch the laws that every right step keeps, at the first steps and every 256th; "
-      "warn of what breaks, exit 9 when it is wrong");
+  command->add_flag("--validate", options->is_validated,
+                    "Check the laws of the method in the first steps and every 256th; warn if one "
+                    "is broken, exit with 9 if the error is large");
   command->add_flag("--resume", options->is_resumed,
-                    "Go on where the run in the output folder stopped, with the same bits; a "
-                    "finished one goes on with more --frames");
+                    "Continue the run in the output folder from its last checkpoint, bit for bit; "
+                    "a finished run continues with more --frames");
   command
       ->add_option("--checkpoint-every", options->checkpoint_every,
                    "Frames between checkpoints in DIR/checkpoint; 0: none")
       ->type_name("FRAMES")
       ->capture_default_str();
-  command->add_flag("!--no-movie", options->has_movies, "Only pictures, no movie of them");
-  command->add_option("--shader-dir", options->shader_dir, "Read shaders from a folder")
+  command->add_flag("!--no-movie", options->has_movies, "Write pictures only, no movie");
+  command->add_option("--shader-dir", options->shader_dir, "Read shaders from this folder")
       ->type_name("DIR");
   command->add_flag("--dry-run", options->is_dry_run,
-                    "Print particles, memory, pixels and frames; make nothing");
+                    "Print particles, memory, pixels and frames, without a run");
   command->add_flag("--json", options->is_json, "Print the result, or the error, as JSON");
-  CLI::Option* quiet = command->add_flag("--quiet,-q", texts->is_quiet, "Only errors and warnings");
-  command->add_flag("--verbose,-v", texts->is_verbose, "More about each frame")->excludes(quiet);
+  CLI::Option* quiet =
+      command->add_flag("--quiet,-q", texts->is_quiet, "Print only errors and warnings");
+  command->add_flag("--verbose,-v", texts->is_verbose, "Print more about each frame")
+      ->excludes(quiet);
   command->final_callback([=, &action] {
     if (command->count("--out") > 0 && options->out.empty())
-      throw scene::toml::UsageError("--out", "names no folder", "expected the path of one");
+      throw scene::toml::UsageError("--out", "names no folder", "expected the path of a folder");
     action = [options, texts] { return run_render(finished(*options, *texts)); };
   });
 }
@@ -191,15 +194,15 @@ void add_compare(CLI::App& app, Action& action) {
       "compare", "Compare two pictures, or the states of two runs frame by frame");
   const auto options = std::make_shared<CompareOptions>();
   command->add_option("A", options->a, "A PNG, or the folder of a run")->required()->type_name("");
-  command->add_option("B", options->b, "The other one")->required()->type_name("");
+  command->add_option("B", options->b, "The other PNG or folder")->required()->type_name("");
   command
       ->add_option("--threshold", options->threshold,
-                   "Mean difference of pictures that is allowed, 0 to 255")
+                   "Largest mean difference of pictures allowed, 0 to 255")
       ->type_name("MEAN")
       ->capture_default_str();
   command
       ->add_option("--local-threshold", options->local_threshold,
-                   "The same of every square of 8x8 pixels: finds the part that is another one")
+                   "Largest mean difference allowed in any 8x8 block; catches small local changes")
       ->type_name("MEAN")
       ->capture_default_str();
   command->add_flag("--json", options->is_json, "Print the result as JSON");
@@ -213,11 +216,12 @@ CLI::App* add_bench_part(CLI::App& bench, Action& action, const char* name, cons
   CLI::App* command = bench.add_subcommand(name, help);
   command
       ->add_option("--rounds", options->rounds,
-                   "How often each thing is measured; the table shows median, min and max")
+                   "Repetitions of each measurement; the table shows median, min and max")
       ->type_name("N");
-  command->add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
+  command->add_option("--threads", options->threads, "Number of threads; 0: one per core")
+      ->type_name("N");
   command->add_flag("--quick", options->is_quick,
-                    "Few particles, few rounds: whether it works, not how fast it is");
+                    "Use few particles and rounds, to test the benchmark itself");
   command->add_flag("--markdown", options->is_markdown,
                     "Print Markdown tables, as in docs/performance.md");
   command->add_flag("--json", options->is_json, "Print a JSON list, one object per row");
@@ -235,36 +239,37 @@ void add_bench(CLI::App& app, Action& action) {
              render = std::make_shared<bench::BenchOptions>(),
              sweep = std::make_shared<bench::BenchOptions>(),
              view = std::make_shared<bench::BenchOptions>();
-  CLI::App* sim_command = add_bench_part(
-      *bench, action, "sim",
-      "Particle-steps per second of each method against naive code in the same minutes, time per "
-      "phase, memory, spray, scaling from 1 to 2 threads",
-      sim, run_bench_sim);
+  CLI::App* sim_command =
+      add_bench_part(*bench, action, "sim",
+                     "Measure particle-steps per second of each method, interleaved with naive "
+                     "code; time per phase, memory, spray, scaling from 1 to 2 threads",
+                     sim, run_bench_sim);
   sim_command
       ->add_option("--particles", sim->particles,
-                   "Size of the common case instead of 97336; with --curve where it ends")
+                   "Particles of the common case instead of 97336; with --curve, of its last point")
       ->type_name("N");
-  sim_command->add_flag("--curve", sim->is_curve,
-                        "Instead: throughput from 1000 to 5 million particles, as memory allows");
-  CLI::App* frame_command = add_bench_part(
-      *bench, action, "frame",
-      "Seconds per frame of 300000 particles, of 4000 with drawing, to the first picture; what "
-      "--coarsen 2 saves",
-      frame, run_bench_frame);
+  sim_command->add_flag(
+      "--curve", sim->is_curve,
+      "Measure throughput from 1000 to 5 million particles instead, as memory allows");
+  CLI::App* frame_command =
+      add_bench_part(*bench, action, "frame",
+                     "Measure seconds per frame of 300000 particles, of 4000 with drawing, to the "
+                     "first picture; the gain of --coarsen 2",
+                     frame, run_bench_frame);
   CLI::App* render_command = add_bench_part(
       *bench, action, "render",
-      "Milliseconds per picture at 1280x720 of 4000 to a million particles and of all layers, per "
+      "Measure milliseconds per picture at 1280x720: 4000 to a million particles, all layers, each "
       "phase, spheres by OpenGL against spheres by the CPU, PNG encoding",
       render, run_bench_render);
   CLI::App* sweep_command = add_bench_part(
       *bench, action, "sweep",
-      "How busy many small runs keep the cores, and what each costs besides its work", sweep,
-      run_bench_sweep);
-  CLI::App* view_command = add_bench_part(
-      *bench, action, "view",
-      "Pictures per second of the interactive view while it simulates 97000 particles, and "
-      "milliseconds from input to picture",
-      view, run_bench_view);
+      "Measure the share of the cores that many small runs use, and the overhead of each run",
+      sweep, run_bench_sweep);
+  CLI::App* view_command =
+      add_bench_part(*bench, action, "view",
+                     "Measure pictures per second of neve view during a simulation of 97000 "
+                     "particles, and milliseconds from input to picture",
+                     view, run_bench_view);
   for (const auto& [command, options] : {std::pair{frame_command, frame},
                                          {render_command, render},
                                          {sweep_command, sweep},
@@ -284,20 +289,22 @@ void add_report(CLI::App& app, Action& action, const char* name, const char* hel
 
 void add_params(CLI::App& app, Action& action) {
   CLI::App* command =
-      app.add_subcommand("params", "Every parameter: address, unit, range, default");
+      app.add_subcommand("params", "List every parameter: address, unit, range, default");
   const auto is_json = std::make_shared<bool>(false), is_sweep = std::make_shared<bool>(false);
   const auto filter = std::make_shared<std::string>();
-  command->add_option("FILTER", *filter, "Only those with this in their address, as in camera")
+  command
+      ->add_option("FILTER", *filter,
+                   "List only parameters with this text in their address, as in camera")
       ->type_name("");
-  command->add_flag("--sweep", *is_sweep, "Those of sweep files instead of scenes");
+  command->add_flag("--sweep", *is_sweep, "List the parameters of sweep files instead of scenes");
   command->add_flag("--json", *is_json, "Print JSON");
   command->final_callback(
       [=, &action] { action = [=] { return run_params(*filter, *is_sweep, *is_json); }; });
 }
 
 void add_info(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("info", "Which scene and parameters made a picture; the state of a run");
+  CLI::App* command = app.add_subcommand(
+      "info", "Print the scene and parameters of a picture, or the state of a run");
   const auto path = std::make_shared<std::string>();
   const auto is_json = std::make_shared<bool>(false);
   command->add_option("FILE", *path, "A PNG, run.json, or the folder of a run")
@@ -315,15 +322,15 @@ int print_version() {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
-  CLI::App app(
-      "neve simulates snow and draws it: to pictures and movies without a window, or live in one.",
-      "neve");
+  CLI::App app("neve simulates snow and draws it, as pictures and movies or live in a window.",
+               "neve");
   Action action;
   add_render(app, action);
   add_check(app, action);
   add_dump(app, action);
   add_report(app, action, "doctor",
-             "Which OpenGL backends work here, and why others do not; self-tests of the physics",
+             "Test the OpenGL backends of this machine, say why others do not work, and run the "
+             "self-tests of the physics",
              run_doctor);
   add_info(app, action);
   add_params(app, action);
@@ -333,7 +340,7 @@ int run_command_line(int argc, char** argv) {
   add_bench(app, action);
   CLI::App* version_command = app.add_subcommand("version", "Print the version");
   version_command->final_callback([&] { action = print_version; });
-  app.add_subcommand("help", "Print this help, or that of a subcommand");
+  app.add_subcommand("help", "Print this help, or the help of a subcommand");
   app.set_version_flag("--version", std::string("neve ") + version);
   app.footer(footer);
   const auto is_any = [](CLI::App*) { return true; };

@@ -30,33 +30,34 @@ dump::DumpOptions finished_dump(dump::DumpOptions options, const run::RenderOpti
 }  // namespace
 
 void add_dump(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
-      "dump",
-      "Numbers inside a step: fields of nodes and particles at a time, after a stage, with what is "
-      "expected of them");
+  CLI::App* command =
+      app.add_subcommand("dump",
+                         "Print numbers inside a step: fields of nodes and particles at a time, "
+                         "after a stage, with their expected ranges");
   const auto options = std::make_shared<dump::DumpOptions>();
   const auto run = std::make_shared<run::RenderOptions>();
   const auto run_texts = std::make_shared<RenderTexts>();
   const auto texts = std::make_shared<DumpTexts>();
   add_scene(*command, run, run_texts);
-  command->add_option("--at", texts->at, "Time in seconds; the step that contains it is shown")
+  command->add_option("--at", texts->at, "Time in seconds; neve shows the step that contains it")
       ->type_name("TIME")
       ->capture_default_str();
   command
       ->add_option("--stage", texts->stage,
-                   "What this stage has worked out, as in elastic_forces; without it the particles "
+                   "Print the results of this stage, as in elastic_forces; default: the particles "
                    "before the step")
       ->type_name("NAME");
-  add_repeatable(*command, "--field", options->fields, "NAME", "Only this quantity (repeatable)");
+  add_repeatable(*command, "--field", options->fields, "NAME",
+                 "Print only this quantity (repeatable)");
   add_repeatable(*command, "--probe", texts->probes, "ID|X,Y,Z",
-                 "Only one particle, or what is nearest to a place in metres (repeatable)");
+                 "Print only one particle, or the one nearest to a place in metres (repeatable)");
   command->add_option("--format", texts->format, "table (tabs), or vtk for ParaView")
       ->type_name("NAME")
       ->capture_default_str();
-  command->add_option("--out", options->file, "A file instead of standard output")
+  command->add_option("--out", options->file, "Write to a file instead of standard output")
       ->type_name("FILE");
   command->add_flag("--json", run->is_json, "Print summary and probes as JSON");
-  command->add_flag("--quiet,-q", run_texts->is_quiet, "Only errors and warnings");
+  command->add_flag("--quiet,-q", run_texts->is_quiet, "Print only errors and warnings");
   command->final_callback([=, &action] {
     action = [=] { return run_dump(finished_dump(*options, *run, *run_texts, *texts)); };
   });

@@ -35,8 +35,8 @@ sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
         "--engine", "unknown engine \"" + options.engine + "\"",
         "expected local or slurm; --shard and --emit work with any scheduler");
   if (!options.sbatch.empty() && options.engine != "slurm")
-    throw scene::toml::UsageError("--sbatch", "is for --engine slurm",
-                                  "add it, or leave --sbatch out");
+    throw scene::toml::UsageError("--sbatch", "works only with --engine slurm",
+                                  "add --engine slurm, or remove --sbatch");
   check_threads(options.threads);
   check_backend(options.backend);
   if (options.jobs < 0 || options.jobs > 1024)
@@ -57,10 +57,11 @@ void add_what(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts&
                  "Change a parameter of all runs (repeatable)");
   command
       .add_option("--frames", texts.frames,
-                  "Frames of each run: A-B, or N for 0-N; instead of the file's")
+                  "Frames of each run: A-B, or N for 0-N; overrides the file")
       ->type_name("A-B");
-  command.add_option("--size", texts.size, "Size of a tile, 480 wide without it")->type_name("WxH");
-  command.add_option("--coarsen", texts.coarsening, "Cells N times as large in all runs")
+  command.add_option("--size", texts.size, "Size of a tile; default: 480 pixels wide")
+      ->type_name("WxH");
+  command.add_option("--coarsen", texts.coarsening, "Make cells N times as large in all runs")
       ->type_name("N");
   command.add_option("--out", options.out, "Output folder instead of out/<name of the file>.cdb")
       ->type_name("DIR");
@@ -68,23 +69,26 @@ void add_what(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts&
 
 /// Where runs are made, and which.
 void add_where(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts& texts) {
-  command.add_option("--only", options.only, "Only these runs, as in 3,7-12")->type_name("LIST");
+  command.add_option("--only", options.only, "Make only these runs, as in 3,7-12")
+      ->type_name("LIST");
   command
       .add_option("--shard", texts.shard,
-                  "Only the I-th of N shares; each on another machine that sees the same folder")
+                  "Make only the I-th of N shares, each on a machine of its own that shares the "
+                  "output folder")
       ->type_name("I/N");
   command
       .add_option("--engine", options.engine,
-                  "local: on this machine; slurm: as a job array, waited for; Ctrl-C cancels it")
+                  "local: run on this machine; slurm: submit a job array and wait for it (Ctrl-C "
+                  "cancels it)")
       ->type_name("NAME")
       ->capture_default_str();
   add_repeatable(command, "--sbatch", options.sbatch, "OPTION",
-                 "With slurm: a further option of sbatch, as in --sbatch=--partition=long "
-                 "(repeatable)");
+                 "Pass a further option to sbatch, as in --sbatch=--partition=long (repeatable; "
+                 "with --engine slurm)");
   command
       .add_option("--emit", options.emit,
-                  "Start nothing; write the command of each run to a file, one a line, for GNU "
-                  "parallel and render farms")
+                  "Write the command of each run to a file, one a line, for GNU parallel and "
+                  "render farms; start nothing")
       ->type_name("FILE");
 }
 
@@ -94,10 +98,11 @@ void add_folder(CLI::App& command, Action& action, const std::shared_ptr<Options
                 int (*run)(const Options&)) {
   const auto is_quiet = std::make_shared<bool>(false);
   command.add_option("DIR", options->folder, "Output folder of a sweep")->required()->type_name("");
-  command.add_option("--threads", options->threads, "Threads; 0: one per core")->type_name("N");
+  command.add_option("--threads", options->threads, "Number of threads; 0: one per core")
+      ->type_name("N");
   command.add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
       ->type_name("NAME");
-  command.add_flag("--quiet,-q", *is_quiet, "Only errors and warnings");
+  command.add_flag("--quiet,-q", *is_quiet, "Print only errors and warnings");
   command.final_callback([=, &action] {
     check_threads(options->threads);
     check_backend(options->backend);
@@ -110,16 +115,17 @@ void add_folder(CLI::App& command, Action& action, const std::shared_ptr<Options
 
 void add_run(CLI::App& sweep, Action& action) {
   CLI::App* command = sweep.add_subcommand(
-      "run", "Make one run of a sweep that is on disk: what --emit and --engine slurm call");
+      "run", "Make one run of an existing sweep; --emit and --engine slurm use this");
   const auto options = std::make_shared<sweep::plan::SweepRunOptions>();
   command->add_option("--index", options->index, "Number of the run")->required()->type_name("N");
-  command->add_flag("--retry-failed", options->is_failed_again, "Also when it failed before");
+  command->add_flag("--retry-failed", options->is_failed_again,
+                    "Repeat the run if it failed before");
   add_folder(*command, action, options, run_sweep_run);
 }
 
 void add_collect(CLI::App& sweep, Action& action) {
   CLI::App* command = sweep.add_subcommand(
-      "collect", "Put together table, sheets and report of what a sweep has made so far");
+      "collect", "Make table, sheets and report from the finished runs of a sweep");
   add_folder(*command, action, std::make_shared<sweep::plan::CollectOptions>(), run_sweep_collect);
 }
 
@@ -127,32 +133,35 @@ void add_collect(CLI::App& sweep, Action& action) {
 
 void add_sweep(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
-      "sweep", "Run a scene with many parameters; a labelled contact sheet of the results");
+      "sweep",
+      "Run a scene with many parameter values, and make a labelled contact sheet of the results");
   const auto options = std::make_shared<sweep::plan::SweepOptions>();
   const auto texts = std::make_shared<SweepTexts>();
   add_what(*command, *options, *texts);
-  command->add_option("--threads", options->threads, "Cores that are used; 0: all")->type_name("N");
+  command->add_option("--threads", options->threads, "Number of cores; 0: all")->type_name("N");
   command
       ->add_option("--jobs", options->jobs,
-                   "Runs side by side; without it as many as keep the cores busy and fit into "
-                   "memory")
+                   "Number of simultaneous runs; default: as many as keep the cores busy and fit "
+                   "into memory")
       ->type_name("N");
   command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
       ->type_name("NAME");
   command->add_flag("--retry-failed", options->is_failed_again,
-                    "Run those once more that failed, timed out, crashed or took too much memory");
+                    "Repeat the runs that failed, timed out, crashed or took too much memory");
   command->add_flag("--dry-run", options->is_dry_run,
                     "Print the runs, their cost and memory; start nothing");
   command->add_flag("--json", options->is_json, "Print the result, or the error, as JSON");
-  CLI::Option* quiet = command->add_flag("--quiet,-q", texts->is_quiet, "Only errors and warnings");
-  command->add_flag("--verbose,-v", texts->is_verbose, "A line for each run")->excludes(quiet);
+  CLI::Option* quiet =
+      command->add_flag("--quiet,-q", texts->is_quiet, "Print only errors and warnings");
+  command->add_flag("--verbose,-v", texts->is_verbose, "Print a line for each run")
+      ->excludes(quiet);
   add_where(*command, *options, *texts);
   add_run(*command, action);
   add_collect(*command, action);
   command->final_callback([=, &action] {
     if (!command->get_subcommands().empty()) return;
     if (command->count("--out") > 0 && options->out.empty())
-      throw scene::toml::UsageError("--out", "names no folder", "expected the path of one");
+      throw scene::toml::UsageError("--out", "names no folder", "expected the path of a folder");
     action = [=] { return run_sweep(finished_sweep(*options, *texts)); };
   });
 }

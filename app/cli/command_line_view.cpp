@@ -49,12 +49,11 @@ view::ViewOptions finished_view(view::ViewOptions options, const run::RenderOpti
   if (options.is_web && options.is_window)
     throw scene::toml::UsageError("--window", "and --web exclude each other", "choose one");
   if (!options.replay.empty() && (options.is_web || options.is_window || !options.record.empty()))
-    throw scene::toml::UsageError("--replay",
-                                  "works without a window or a page, and is not recorded",
-                                  "leave the others out");
+    throw scene::toml::UsageError("--replay", "cannot be combined with --window, --web or --record",
+                                  "remove the others");
   if (options.pictures < 0)
     throw scene::toml::UsageError("--frames", "cannot use " + std::to_string(options.pictures),
-                                  "expected how many pictures are shown before it ends");
+                                  "expected the number of pictures to show before the end");
   return options;
 }
 
@@ -62,22 +61,23 @@ view::ViewOptions finished_view(view::ViewOptions options, const run::RenderOpti
 
 void add_view(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
-      "view", "Look into a running simulation and turn its knobs, in a window or in a browser");
+      "view", "Inspect and change a running simulation, in a window or in a browser");
   const auto options = std::make_shared<view::ViewOptions>();
   const auto run = std::make_shared<run::RenderOptions>();
   const auto run_texts = std::make_shared<RenderTexts>();
   const auto listen = std::make_shared<std::optional<std::string>>();
   add_scene(*command, run, run_texts);
-  command->add_flag("--window", options->is_window, "A window; the usual thing with a display");
+  command->add_flag("--window", options->is_window, "Open a window; default with a display");
   command->add_flag("--web", options->is_web,
-                    "A web page, for this machine alone; the usual thing without a display");
+                    "Serve a web page to this machine only; default without a display");
   command
       ->add_option("--listen", *listen,
-                   "A web page at this address; others than 127.0.0.1 can be reached by others")
+                   "Serve the web page at this address; any address but 127.0.0.1 is reachable "
+                   "from other machines")
       ->type_name("ADDRESS[:PORT]");
-  add_repeatable(*command, "--view", run->views, "NAME", "The view to begin with");
+  add_repeatable(*command, "--view", run->views, "NAME", "View to show first");
   command->add_flag("--run", options->is_running, "Start simulating at once");
-  command->add_option("--size", run_texts->size, "Size of the window, or of the page at first")
+  command->add_option("--size", run_texts->size, "Size of the window, or initial size of the page")
       ->type_name("WxH");
   command
       ->add_option("--out", run->out,
@@ -88,15 +88,16 @@ void add_view(CLI::App& app, Action& action) {
       ->type_name("NAME");
   command
       ->add_option("--replay", options->replay,
-                   "Works it from a script, without a window: docs/view.md describes scripts")
+                   "Replay a script of input, without a window; docs/view.md describes scripts")
       ->type_name("FILE");
-  command->add_option("--record", options->record, "Writes what is done as such a script")
+  command->add_option("--record", options->record, "Record the input as such a script")
       ->type_name("FILE");
-  command->add_option("--frames", options->pictures, "End after so many pictures; 0: never")
+  command->add_option("--frames", options->pictures, "End after N pictures; 0: never")
       ->type_name("N");
-  command->add_option("--shader-dir", run->shader_dir, "Read shaders from a folder")
+  command->add_option("--shader-dir", run->shader_dir, "Read shaders from this folder")
       ->type_name("DIR");
-  command->add_flag("--quiet,-q", run_texts->is_quiet, "Only errors, warnings and the address");
+  command->add_flag("--quiet,-q", run_texts->is_quiet,
+                    "Print only errors, warnings and the address");
   command->final_callback([=, &action] {
     action = [=] { return run_view(finished_view(*options, *run, *run_texts, *listen)); };
   });

@@ -93,7 +93,7 @@ int compare_with_reference(const run::RenderOptions& options, const run::RenderJ
     throw Error(exit_check_failed,
                 "the picture has " + std::to_string(picture.channels) + " channels and " +
                     options.reference + " has " + std::to_string(reference.channels),
-                options.reference, "set output.background to what the reference has");
+                options.reference, "set output.background to that of the reference");
   const render::Difference difference = render::compare(picture, reference);
   const std::string found = "mean difference " + fixed_text(difference.mean, 3) +
                             ", of 8x8 pixels " + fixed_text(difference.local, 2) + ", largest " +
@@ -156,7 +156,7 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
     std::cerr << "neve: interrupted; " << run.record().frames.size() << " frames are in "
               << job.folder.string() << std::endl;
     if (!result.has_checkpoint) return exit_interrupted;
-    std::cerr << "neve: --resume goes on from here" << std::endl;
+    std::cerr << "neve: --resume continues from here" << std::endl;
     return exit_resumable;
   }
   progress.note(std::to_string(run.record().frames.size()) +

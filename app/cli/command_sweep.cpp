@@ -129,7 +129,7 @@ void warn_of_equal_runs(const sweep::plan::SweepPlan& plan, Progress& progress) 
     if (differing.empty() || ++warnings > 5) continue;
     progress.warning("runs " + std::to_string(first->second->run.index) + " and " +
                      std::to_string(item.run.index) + " are the same: " +
-                     (differing == "output.size" ? "the sweep sets output.size itself, see --size"
+                     (differing == "output.size" ? "the sweep sets output.size itself; see --size"
                                                  : differing + " changes nothing here"));
   }
 }
@@ -141,7 +141,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   const int cores = core_count(options.threads);
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
   for (const std::string& value : sweep::read::repeated_values(plan.sweep))
-    progress.warning(value + " is twice in its list: that run is made once and shown twice");
+    progress.warning(value + " is in its list twice: the run is made once and shown twice");
   warn_of_equal_runs(plan, progress);
   if (options.is_dry_run) {
     sweep::plan::print_sweep_plan(plan, cores, options.is_json);
@@ -160,7 +160,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   sweep::sheet::collect_sweep(plan.folder, options.backend, cores, progress);
   print_sweep_result(options, plan.folder, result, progress);
   if (result.is_interrupted || is_interrupted()) {
-    std::cerr << "neve: interrupted; the same command goes on from here" << std::endl;
+    std::cerr << "neve: interrupted; the same command continues from here" << std::endl;
     return exit_resumable;
   }
   return result.failed > 0 ? exit_runs_failed : exit_ok;

@@ -87,7 +87,7 @@ Place open_place(const view::ViewOptions& options) {
   try {
     return open_window(options);
   } catch (const render::gl::ContextError& error) {
-    std::cerr << "neve: no window: " << error.what() << "; a page instead" << std::endl;
+    std::cerr << "neve: no window: " << error.what() << "; serving a web page instead" << std::endl;
     return open_web(options);
   }
 }

@@ -56,7 +56,7 @@ void check_leftovers_of(const CLI::App& command, const std::string& name) {
     check_leftovers_of(*inner, name + " " + inner->get_name());
   const std::vector<std::string> leftovers = command.remaining();
   if (leftovers.empty()) return;
-  const std::string help = name + " --help lists what it takes";
+  const std::string help = name + " --help lists its arguments";
   std::string word = leftovers.front();
   if (!word.starts_with("-"))
     throw scene::toml::UsageError("", "unexpected argument \"" + word + "\"", help);
@@ -94,8 +94,7 @@ void check_subcommand(const CLI::App& app, int argc, char** argv) {
     return;
   if (part.empty() || part.starts_with("-"))
     throw scene::toml::UsageError(word, "which part?", "expected one of " + known);
-  throw scene::toml::UsageError(word + " " + part, "there is no such part",
-                                "expected one of " + known);
+  throw scene::toml::UsageError(word + " " + part, "unknown part", "expected one of " + known);
 }
 
 void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
@@ -129,7 +128,7 @@ std::string help_of(const CLI::App& app, const std::vector<std::string>& words) 
     name += (name.empty() ? "" : " ") + command->get_name();
     if (std::find(names.begin(), names.end(), word) == names.end())
       throw scene::toml::UsageError("help", "there is no " + name + " " + word,
-                                    suggestion(word, names, name + " --help lists what there is"));
+                                    suggestion(word, names, name + " --help lists them"));
     command = command->get_subcommand(word);
   }
   return command->help(name);

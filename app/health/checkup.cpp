@@ -139,7 +139,7 @@ double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
     checkup.findings.push_back({Severity::warning, "",
                                 "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) +
                                     " m diverges: " + simulation.divergence()->sentence,
-                                "run the scene itself to see whether it does too"});
+                                "run the scene itself to see if it diverges too"});
   return particle_steps > 0 ? seconds / particle_steps : 0;
 }
 
@@ -183,10 +183,10 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
     check_steps(scene, checkup, checkup.findings);
     check_motion(scene, checkup, checkup.findings);
   } else {
-    checkup.findings.push_back({Severity::note, "",
-                                "too large to be seeded for a look: overlaps, dt and time per step "
-                                "are not known",
-                                "neve check with --coarsen 2 tells more"});
+    checkup.findings.push_back(
+        {Severity::note, "",
+         "too large for a check of its particles: overlaps, dt and time per step are not known",
+         "try neve check with --coarsen 2"});
   }
   const double particle_step = foresee_frames(scene, checkup);
   // What emitters will add cannot be timed at the start: half of it, as the coarse copy ran.

@@ -80,8 +80,7 @@ Hypothesis bypass(const Case& c) {
   std::vector<std::string> stages;
   for (const sim::Stage stage : skipped) stages.emplace_back(name(stage));
   return Diagnosis{Cause::bypass, "solver.bypass skips " + joined(stages, ", "),
-                   "nothing can be said of a step that is not whole; solver.bypass = []",
-                   "solver.bypass"};
+                   "set solver.bypass = []; an incomplete step has no diagnosis", "solver.bypass"};
 }
 
 Hypothesis initial_state(const Case& c) {
@@ -99,7 +98,7 @@ Hypothesis initial_state(const Case& c) {
                        ? who + " did not start at rest: det F_E from " + rough_text(s.min_J_E) +
                              " to " + rough_text(s.max_J_E) + ", J_P from " +
                              rough_text(s.min_J_P) + " to " + rough_text(s.max_J_P)
-                       : who + " started with something that is no number",
+                       : who + " did not start with finite numbers",
                    "start with F_E = I and J_P = 1", ""};
 }
 
@@ -108,7 +107,7 @@ Hypothesis units(const Case& c) {
   if (g <= cause(Law::gravity) && largest <= cause(Law::extent)) return std::nullopt;
   return Diagnosis{Cause::units,
                    "gravity of " + rough_text(g) + " m/s2 and a body " + rough_text(largest) +
-                       " m across look like centimetres; snow meets something at " +
+                       " m across look like centimetres; snow hits something at " +
                        rough_text(setup::impact_speed(c.scene)) + " m/s, its sound runs at " +
                        rough_text(c.start_sound()) + " m/s",
                    "write lengths in metres, gravity as 9.81 m/s2", "solver.gravity"};
@@ -138,7 +137,7 @@ Hypothesis raised_limits(const Case& c) {
                                                                         : usual.strain_limit;
     return Diagnosis{Cause::raised_limits,
                      std::string("solver.") + limit.key + " = " + rough_text(limit.value) +
-                         " allows more than holds, which is " + rough_text(limit.holds),
+                         " is above the stable value, " + rough_text(limit.holds),
                      std::string("solver.") + limit.key + " = " + rough_text(default_value),
                      std::string("solver.") + limit.key};
   }
@@ -225,8 +224,8 @@ Hypothesis collider_speed(const Case& c) {
                      "collider " + collider.name + " hits the snow at " + rough_text(speed) +
                          " m/s, " + rough_text(mach) + " times the speed of its sound, and " +
                          rough_text(speed * c.dt / c.h) + " cells in a step",
-                     "move it slower than " + rough_text(0.5 * c.start_sound()) +
-                         " m/s, or let it speed up gently",
+                     "move it at less than " + rough_text(0.5 * c.start_sound()) +
+                         " m/s, or accelerate it gently",
                      motion_address(collider)};
   }
   return std::nullopt;
@@ -243,9 +242,9 @@ Hypothesis colliders_closing(const Case& c) {
       return Diagnosis{
           Cause::colliders_closing,
           "colliders " + a.collider->name + " and " + b.collider->name + " close on the snow at " +
-              rough_text(closing) + " m/s and leave it about " + rough_text(gap) + " m, " +
+              rough_text(closing) + " m/s and leave it a gap of about " + rough_text(gap) + " m, " +
               rough_text(gap / c.h) + " cells",
-          "stop before the snow is as dense as ice: packed to " +
+          "stop them before the snow is as dense as ice: packed to " +
               rough_text(c.material.density / std::max(0.02, c.d.J_P)) + " kg/m3 it has no room",
           motion_address(*b.collider)};
     }
@@ -275,8 +274,8 @@ Hypothesis incompressible(const Case& c) {
       Cause::incompressible,
       "poisson_ratio is " + scene::toml::number_text(c.material.poisson_ratio) + ": lambda is " +
           rough_text(2 * c.material.poisson_ratio / (1 - 2 * c.material.poisson_ratio)) +
-          " times mu, and what compresses locks",
-      "0.2 is snow, 0.3 to 0.4 is rubber enough", c.at("poisson_ratio")};
+          " times mu, so the snow cannot be compressed",
+      "use 0.2 for snow, 0.3 to 0.4 for rubber", c.at("poisson_ratio")};
 }
 
 Hypothesis shock(const Case& c) {
@@ -286,7 +285,7 @@ Hypothesis shock(const Case& c) {
   if (!is_crushed || mach < cause(Law::impact_mach)) return std::nullopt;
   return Diagnosis{
       Cause::shock,
-      "snow meets something at " + rough_text(speed) + " m/s, " + rough_text(mach) +
+      "snow hits something at " + rough_text(speed) + " m/s, " + rough_text(mach) +
           " times the speed of its sound, and is crushed to J_P = " + rough_text(c.d.J_P),
       "stay below " + rough_text(c.start_sound()) +
           " m/s, or make the snow stiffer (youngs_modulus) or denser",
@@ -310,14 +309,13 @@ Hypothesis hardening(const Case& c) {
 
 Hypothesis far_flight(const Case& c) {
   if (c.d.rule != "overflow") return std::nullopt;
-  return Diagnosis{Cause::far_flight,
-                   "particle " + std::to_string(c.d.particle) + " flew to " +
-                       rough_text(c.d.x.norm()) +
-                       " m from the origin, where the lattice ends, at " +
-                       rough_text(c.d.v.norm()) + " m/s and in good health",
-                   "put a collider in its way, end the scene earlier, or place it nearer to the "
-                   "origin",
-                   "frames"};
+  return Diagnosis{
+      Cause::far_flight,
+      "particle " + std::to_string(c.d.particle) + " flew to " + rough_text(c.d.x.norm()) +
+          " m from the origin, where the lattice ends, at " + rough_text(c.d.v.norm()) +
+          " m/s, in a healthy state",
+      "put a collider in its way, end the scene earlier, or move it closer to the origin",
+      "frames"};
 }
 
 Diagnosis unexplained(const Case& c) {
@@ -327,7 +325,7 @@ Diagnosis unexplained(const Case& c) {
   return {Cause::unexplained,
           "no known cause: in the last " + std::to_string(c.d.last_steps.size()) +
               " steps sound crossed at most " + rough_text(sound) + " cells in a step",
-          "neve check looks at the numbers of the scene; neve render --validate watches every step",
+          "neve check examines the numbers of the scene; neve render --validate checks the steps",
           ""};
 }
 

@@ -57,14 +57,14 @@ double Expected::feather_mass() const {
 Expectation Expected::node_mass() const {
   const double full = density_ * h_ * h_ * h_;
   return {{0, scatter * full / min_J_P_},
-          "rho h^3 = " + rough_text(full) + " kg inside snow, more where it is packed"};
+          "rho h^3 = " + rough_text(full) + " kg inside snow, more in packed snow"};
 }
 
 Expectation Expected::speed() const {
   double most = setup::impact_speed(scene_);
   for (const scene::Collider& collider : scene_.colliders)
     most = std::max(most, sim::shapes::largest_speed(collider));
-  return {{0, 1.5 * most}, "the quickest body or collider has " + rough_text(most) + " m/s"};
+  return {{0, 1.5 * most}, "the fastest body or collider has " + rough_text(most) + " m/s"};
 }
 
 Expectation Expected::momentum() const {
@@ -115,7 +115,7 @@ Expectation Expected::J_E() const {
 Expectation Expected::J_P() const {
   return {{sim::health::limits_of(Law::compaction).expected,
            sim::health::limits_of(Law::dilation).expected},
-          "packed to five times the density, or torn as far"};
+          "packed to five times the density, or torn to a fifth of it"};
 }
 
 Expectation Expected::volume() const {

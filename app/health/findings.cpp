@@ -68,9 +68,10 @@ void check_material_units(const sim::Material& m, std::vector<Finding>& findings
                         "density " + rough_text(m.density) + " kg/m3 is lighter than foam",
                         "in g/cm3 it would be " + rough_text(1000 * m.density) + " kg/m3"});
   else if (m.density < line(Law::low_density) || m.density > line(Law::high_density))
-    findings.push_back({Severity::warning, at + "density",
-                        "density " + rough_text(m.density) + " kg/m3 is no snow: 50 to 917",
-                        "powder has 50 to 200, packed snow 300 to 550"});
+    findings.push_back(
+        {Severity::warning, at + "density",
+         "density " + rough_text(m.density) + " kg/m3 is not snow, which has 50 to 917",
+         "powder has 50 to 200, packed snow 300 to 550"});
   if (m.youngs_modulus < line(Law::low_stiffness))
     findings.push_back(
         {Severity::warning, at + "youngs_modulus",
@@ -81,7 +82,7 @@ void check_material_units(const sim::Material& m, std::vector<Finding>& findings
     findings.push_back({Severity::warning, at + "youngs_modulus",
                         "youngs_modulus " + rough_text(m.youngs_modulus) +
                             " Pa makes sound run at " + rough_text(sim::sound_speed(m)) + " m/s",
-                        "steps shorten with its root; the paper's snow has 1.4e5"});
+                        "steps shorten with its square root; the paper's snow has 1.4e5"});
 }
 
 /// Nothing to find where the speed of every cell is its own: bodies share cells when they overlap.
@@ -134,7 +135,7 @@ void check_body_overlaps(const scene::Scene& scene, const sim::ParticleArrays& p
                         called("body", scene.bodies[pair.first].name) + " and " +
                             called("body", scene.bodies[pair.second].name) + " overlap in about " +
                             rough_text(cells) +
-                            " cells: twice the mass there, and one velocity for both",
+                            " cells: these have twice the mass, and one velocity for both bodies",
                         "move them apart"});
   }
 }
@@ -146,7 +147,7 @@ void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
     findings.push_back(
         {severity, "solver.dt",
          "fixed steps of " + rough_text(s.dt) + " s: " + what + " crosses " + rough_text(cfl) +
-             " cells in a step" + (severity == Severity::error ? ", the run will explode" : ""),
+             " cells in a step" + (severity == Severity::error ? ", the run will diverge" : ""),
          "solver.dt = " + rough_text(holds) + " holds, or time_step = \"adaptive\""});
   };
   // As an explicit step would feel it.
@@ -168,9 +169,9 @@ void check_implicit_steps(const sim::SolverSettings& s, const Checkup& checkup,
   const double dt = checkup.dt_start, pi = 3.14159265358979323846;
   const double w = 2 * pi * checkup.start.max_sound_speed / (10 * s.cell_size);
   findings.push_back({Severity::note, "solver.beta",
-                      "semi-implicit steps: of a wave 10 cells long " +
+                      "semi-implicit steps: a wave 10 cells long keeps " +
                           percent_text(std::exp(-s.beta * w * w * dt * 2 * pi / w)) +
-                          " of the energy is left after a period; the first steps took " +
+                          " of its energy after a period; the first steps took " +
                           std::to_string(checkup.solve.iterations) +
                           " iterations to a residual of " + rough_text(checkup.solve.residual),
                       ""});
@@ -178,7 +179,7 @@ void check_implicit_steps(const sim::SolverSettings& s, const Checkup& checkup,
     findings.push_back(
         {Severity::warning, "solver.solve_iterations",
          "the solve ends above solve_tolerance = " + scene::toml::number_text(s.solve_tolerance),
-         "more iterations, or a smaller dt"});
+         "try more iterations, or a smaller dt"});
 }
 
 void check_damping(const scene::Scene& scene, const Checkup& checkup,
@@ -189,11 +190,12 @@ void check_damping(const scene::Scene& scene, const Checkup& checkup,
   const double steps = std::max(1.0, frame / std::max(checkup.dt_start, 1e-12));
   const double kept = std::pow(sim::engine::flip_share(s, frame / steps), steps);
   if (s.flip_reference_dt == 0)
-    findings.push_back({Severity::warning, "solver.flip_reference_dt",
-                        "flip_ratio acts per step: with about " + rough_text(steps) +
-                            " steps a frame " + percent_text(kept) +
-                            " of the finest motion is left, and less with smaller steps",
-                        "flip_reference_dt = 5e-4 makes damping independent of dt"});
+    findings.push_back(
+        {Severity::warning, "solver.flip_reference_dt",
+         "flip_ratio acts per step: with about " + rough_text(steps) + " steps a frame " +
+             percent_text(kept) +
+             " of the finest motion is left after a frame, and less with smaller steps",
+         "flip_reference_dt = 5e-4 makes damping independent of dt"});
   // The defaults are no news.
   const sim::SolverSettings usual;
   const bool is_usual =
@@ -291,7 +293,7 @@ void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings)
     } else if (body.particles_per_cell < line(Law::particles_per_cell)) {
       findings.push_back({Severity::warning, "body." + body.name + ".particles_per_cell",
                           rough_text(body.particles_per_cell) +
-                              " particles per cell leave gaps: snow breaks where none should",
+                              " particles per cell leave gaps, and snow breaks at them",
                           "8 is usual"});
     }
   }
@@ -299,7 +301,8 @@ void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings)
     if (!is_plane(collider.shape) && thickness(collider.shape) < 2 * h)
       colliders.push_back({"collider." + collider.name, called("collider", collider.name),
                            thickness(collider.shape) / h});
-  report_thin(bodies, "4", "weights reach 2 cells: 6 and more show its shape", h / 6, findings);
+  report_thin(bodies, "4", "weights reach 2 cells; use at least 6 to show its shape", h / 6,
+              findings);
   report_thin(colliders, "2", "snow leaks through less than 2; make it thicker", h / 2, findings);
 }
 
@@ -319,10 +322,10 @@ void check_steps(const scene::Scene& scene, const Checkup& checkup,
   const double c = checkup.start.max_sound_speed;
   if (c > 0 && checkup.impact_speed > line(Law::impact_mach) * c)
     findings.push_back({Severity::warning, "",
-                        "snow meets something at " + rough_text(checkup.impact_speed) +
+                        "snow hits something at " + rough_text(checkup.impact_speed) +
                             " m/s, faster than its sound of " + rough_text(c) +
-                            " m/s: it will be crushed in a shock",
-                        "slower, or a larger youngs_modulus"});
+                            " m/s: a shock will crush it",
+                        "make it slower, or youngs_modulus larger"});
 }
 
 void check_cameras(const scene::Scene& scene, const std::vector<setup::Moment>& moments,
@@ -342,7 +345,7 @@ void check_cameras(const scene::Scene& scene, const std::vector<setup::Moment>& 
     findings.push_back({Severity::warning, view.camera ? "view." + view.name + ".camera" : "camera",
                         "view " + view.name + ": " + percent_text(worst) +
                             " of the snow is outside of the picture at " + rough_text(when) + " s",
-                        "leave out eye and target to frame all of it"});
+                        "remove eye and target to frame everything"});
   }
 }
 

@@ -15,8 +15,8 @@ namespace {
 using sim::Vec3d;
 
 constexpr const char* why_move_it =
-    "move it out: contact stops snow at surfaces, it does not push it out "
-    "(solver.push_out does, and leaves it crushed)";
+    "move it out; contact stops snow at surfaces but does not push it out (solver.push_out does, "
+    "and crushes it)";
 
 /// Particles of a body: a share needs no more.
 constexpr std::size_t most_looked_at = 20000;
@@ -76,7 +76,7 @@ void check_emitter_overlaps(const scene::Scene& scene, std::vector<Finding>& fin
       if (share < much) continue;
       findings.push_back({Severity::warning, "emitter." + emitter.name + ".shape",
                           percent_text(share) + " of " + called("emitter", emitter.name) +
-                              " is inside collider " + collider.name + " when it starts",
+                              " is inside collider " + collider.name + " at its start",
                           why_move_it});
     }
   }
@@ -123,7 +123,7 @@ void check_motion(const scene::Scene& scene, const Checkup& checkup,
       findings.push_back(
           {Severity::warning, at,
            called("collider", collider.name) + " moves up to " + rough_text(speed) +
-               " m/s: " + rough_text(cells) + " cells in a step, it runs over snow at rest",
+               " m/s: " + rough_text(cells) + " cells in a step and runs over snow at rest",
            std::string(s.time_step == sim::TimeStep::fixed ? "solver.dt" : "solver.max_dt") +
                " = " + rough_text(0.4 * s.cell_size / speed)});
     else if (c > 0 &&
@@ -131,8 +131,8 @@ void check_motion(const scene::Scene& scene, const Checkup& checkup,
       findings.push_back({Severity::warning, at,
                           called("collider", collider.name) + " moves up to " + rough_text(speed) +
                               " m/s, faster than sound in the snow (" + rough_text(c) +
-                              " m/s): it crushes what it hits",
-                          "slower, or a larger youngs_modulus"});
+                              " m/s): it crushes the snow that it hits",
+                          "make it slower, or youngs_modulus larger"});
   }
 }
 

@@ -38,27 +38,28 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
     findings.push_back(
         {Severity::warning, at + ".shape",
          emitter.name + " is " + rough_text(thick) + " m thick, thinner than the " +
-             rough_text(spacing) + " m between particles: they come one by one, and fall apart",
+             rough_text(spacing) + " m between particles: the snow comes out in single particles",
          "make it thicker, or solver.cell_size = " + rough_text(0.25 * thick / spacing * h)});
   if (emitter.rate == 0) return;
   const double carried = sim::seeding::carried_rate(emitter, material);
   const double falling = falling_rate(emitter, material, scene.solver.gravity);
   if (carried > 0 && emitter.rate > most_packing * std::max(carried, falling))
     findings.push_back({Severity::warning, at + ".rate",
-                        "its velocity carries about " + rough_text(carried) +
-                            " kg/s away at the density of " + material.name +
-                            "; snow will be born inside of snow",
-                        "at most that rate, a faster velocity or a larger shape"});
+                        "its velocity carries away only about " + rough_text(carried) +
+                            " kg/s at the density of " + material.name +
+                            "; new snow will overlap old snow",
+                        "lower the rate, or make the velocity or the shape larger"});
   const double last = std::min(end, emitter.end.value_or(end));
   const double mass = emitter.rate * (last - emitter.start);
   const bool is_filled = mass > material.density * sim::shapes::volume(emitter.shape);
   if (carried == 0 && is_filled && emitter.rate > most_packing * falling)
-    findings.push_back({Severity::warning, at + ".rate",
-                        "snow is born at rest: " +
-                            (falling > 0 ? "about " + rough_text(falling) + " kg/s fall out of it"
-                                         : std::string("nothing carries it away")) +
-                            "; the rest will be born inside of snow",
-                        "give it a velocity, a lower rate or a larger shape"});
+    findings.push_back(
+        {Severity::warning, at + ".rate",
+         "new snow is at rest: " +
+             (falling > 0 ? "about " + rough_text(falling) + " kg/s fall out of the emitter"
+                          : std::string("gravity does not move it away")) +
+             "; the rest will overlap old snow",
+         "give it a velocity, a lower rate or a larger shape"});
 }
 
 }  // namespace
@@ -71,7 +72,7 @@ void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings) {
                           called("emitter", emitter.name) + " opens at " +
                               rough_text(emitter.start) + " s, the scene ends at " +
                               rough_text(end) + " s",
-                          "an earlier start, or more frames"});
+                          "make start earlier, or frames larger"});
     else
       check_opening(scene, emitter, end, findings);
   }
@@ -90,8 +91,8 @@ void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& 
     if (thick >= way) continue;
     findings.push_back({Severity::warning, "sink." + sink.name + ".shape",
                         sink.name + " is " + rough_text(thick) + " m thick; snow at " +
-                            rough_text(speed) + " m/s goes up to " + rough_text(way) +
-                            " m between two looks: some will fly through",
+                            rough_text(speed) + " m/s moves up to " + rough_text(way) +
+                            " m between two tests of the sink: some will fly through",
                         "make it thicker than that"});
   }
 }

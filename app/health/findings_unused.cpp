@@ -38,11 +38,12 @@ void check_removed(const scene::Scene& scene, const std::string& kind, const std
   for (const sim::seeding::Sink& sink : scene.sinks) {
     const double share = share_removed(solid, sim::shapes::Solid(sink.shape), sink.outside);
     if (share < least) continue;
-    findings.push_back({Severity::warning, kind + "." + name + ".shape",
-                        percent_text(share) + " of " + called(kind, name) +
-                            (sink.outside ? " is outside of " : " is inside of ") +
-                            called("sink", sink.name) + ", which removes it at once",
-                        sink.outside ? "a larger sink, or snow inside of it" : "move one of them"});
+    findings.push_back(
+        {Severity::warning, kind + "." + name + ".shape",
+         percent_text(share) + " of " + called(kind, name) +
+             (sink.outside ? " is outside of " : " is inside of ") + called("sink", sink.name) +
+             ", which removes it at once",
+         sink.outside ? "make the sink larger, or move the snow into it" : "move one of them"});
   }
 }
 
@@ -55,7 +56,7 @@ void check_keyframes(const scene::Scene& scene, std::vector<Finding>& findings) 
     findings.push_back({Severity::warning, "collider." + collider.name + ".keyframes",
                         "the last keyframe of " + called("collider", collider.name) + " is at " +
                             rough_text(last) + " s, the scene ends at " + rough_text(end) + " s",
-                        "more frames, or earlier keyframes"});
+                        "make frames larger, or move keyframes earlier"});
   }
 }
 
@@ -95,7 +96,7 @@ void check_unused(const scene::Scene& scene, double coarsening, std::vector<Find
     findings.push_back(
         {Severity::warning, "solver.dt",
          "adaptive steps do not use dt = " + scene::toml::number_text(dt / coarsening) + " s",
-         "time_step = \"fixed\" does; solver.max_dt bounds adaptive ones"});
+         "set time_step = \"fixed\"; solver.max_dt limits adaptive steps"});
 }
 
 }  // namespace neve::app::health

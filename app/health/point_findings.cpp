@@ -39,9 +39,9 @@ void check_point_distance(const sim::seeding::Body& body, double cell_size,
   findings.push_back({is_too_few ? Severity::warning : Severity::note,
                       "body." + body.name + ".shape.points",
                       "the points of " + called("body", body.name) + " are " +
-                          rough_text(per_cell) + " in a cell, going by their volumes" +
-                          (is_too_few ? ": they leave gaps, and snow breaks where none should"
-                                      : ": more than the grid can tell apart"),
+                          rough_text(per_cell) + " in a cell, from their volumes" +
+                          (is_too_few ? ": they leave gaps, and snow breaks at them"
+                                      : ": more than the grid resolves"),
                       "solver.cell_size = " + eight + " has 8" +
                           (is_too_few ? "" : ", or thinning = " + rough_text(per_cell / 8))});
 }
@@ -86,12 +86,12 @@ void check_point_masses(const scene::Scene& scene, const sim::ParticleArrays& pa
     if (found < 2.5 * wanted && found > 0.1 * wanted) continue;
     const std::string points = "the points of " + called("body", body.name);
     const std::string of_material =
-        " kg/m3 where they lie, material " + body.material + " has " + rough_text(wanted);
+        " kg/m3; material " + body.material + " has " + rough_text(wanted);
     findings.push_back(
         {Severity::warning, "body." + body.name + ".shape.points",
          found < wanted
-             ? points + " are too far apart: they weigh " + rough_text(found) + of_material
-             : points + " weigh " + rough_text(found) + of_material,
+             ? points + " are too far apart: their density is " + rough_text(found) + of_material
+             : points + " have a density of " + rough_text(found) + of_material,
          "positions are in m, masses in kg, volumes in m3; spacing is the distance between "
          "neighbours in m"});
   }

@@ -56,9 +56,9 @@ std::vector<fs::path> list(const fs::path& folder) {
 Checkpoint read(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = read_file(file, largest_file);
   const auto refuse = [](const char* why) { throw std::runtime_error(why); };
-  if (bytes.size() < sizeof magic + 2 * number_bytes) refuse("is cut short");
+  if (bytes.size() < sizeof magic + 2 * number_bytes) refuse("is truncated");
   if (std::memcmp(bytes.data(), magic, sizeof magic) != 0)
-    refuse("is no checkpoint of this version");
+    refuse("is not a checkpoint of this version");
   const std::size_t body = bytes.size() - number_bytes;
   std::uint64_t length = 0, sum = 0;
   std::memcpy(&length, bytes.data() + sizeof magic, number_bytes);

@@ -34,7 +34,7 @@ class TextReader {
     Number value{};
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (result.ec != std::errc() || result.ptr != digits.data() + digits.size())
-      fail(std::string("its text ") + key + " is no number");
+      fail(std::string("its text ") + key + " is not a number");
     return value;
   }
 
@@ -42,7 +42,7 @@ class TextReader {
     try {
       return parse_json(std::string_view(text(key)));
     } catch (const nlohmann::json::exception&) {
-      fail(std::string("its text ") + key + " is no JSON");
+      fail(std::string("its text ") + key + " is not valid JSON");
     }
   }
 
@@ -123,7 +123,7 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
   for (const auto& [path, hash] : files.items())
     if (hash.is_string()) record.files[path] = hash.get<std::string>();
   if (record.frame < 0) reader.fail("its frame is negative");
-  if (!output::is_plain_name(record.view)) reader.fail("the name of its view is none");
+  if (!output::is_plain_name(record.view)) reader.fail("the name of its view is invalid");
   return record;
 }
 
@@ -152,7 +152,7 @@ void check_files(const PictureRecord& record) {
       throw Error(
           exit_invalid_scene,
           path + ": error: has changed since the picture was made; the picture used " + hash, path,
-          "put the old file back, or render the scene file instead");
+          "restore the old file, or render the scene file instead");
   }
 }
 

@@ -68,7 +68,7 @@ void check_changes(const RenderJob& job) {
                  changes_of(job.scene, job.changes));
   } catch (const scene::toml::UsageError& error) {
     throw Error(exit_invalid_scene, job.scene_file + ": error: " + error.what(), job.scene_file,
-                "its text neve:changes was not written by this program");
+                "its text neve:changes was not written by neve");
   }
 }
 

@@ -42,9 +42,8 @@ std::string other_thing(const std::filesystem::path& folder, const PictureRecord
              (more > 0 ? ", and " + std::to_string(more) + " more differ" : "");
     }
     const auto version = run.at("version").get<std::string>();
-    if (version != picture.version) return "its version was " + version;
-    if (run.at("changes") != scene::to_json(picture.changes))
-      return "other changes were made in it";
+    if (version != picture.version) return "it was made by version " + version;
+    if (run.at("changes") != scene::to_json(picture.changes)) return "it had other changes";
     if (run.at("coarsen") != picture.coarsening)
       return "--coarsen was " + rough_text(run.at("coarsen").get<double>());
     if (run.at("overrides") != Json(picture.overrides)) return "it had other --set";
@@ -109,7 +108,7 @@ void Checkpoints::write(int frame, const sim::AdvanceReport& advance,
 std::optional<ResumedRun> Checkpoints::resume() {
   const output::FoundCheckpoint found = output::find_checkpoint(folder_);
   for (const std::string& damaged : found.damaged)
-    progress_.warning(damaged + "; an older checkpoint is taken");
+    progress_.warning(damaged + "; using an older checkpoint");
   if (!found.checkpoint) {
     progress_.note("no checkpoint in " + folder_.string() + ": the run starts at frame 0");
     return std::nullopt;
@@ -118,13 +117,13 @@ std::optional<ResumedRun> Checkpoints::resume() {
   if (checkpoint.identity != identity_)
     throw scene::toml::UsageError(
         "--resume",
-        "the run in " + folder_.string() + " is another one: " + other_thing(folder_, picture_),
-        "without --resume it is replaced; with --out it stays");
+        "the run in " + folder_.string() + " is a different run: " + other_thing(folder_, picture_),
+        "remove --resume to replace it, or choose another folder with --out");
   if (checkpoint.simd != simulation_.simd())
-    progress_.warning("the run so far was made with " + checkpoint.simd +
-                      " instructions, now with " + simulation_.simd() +
-                      ": last bits will differ; NEVE_SIMD=" + checkpoint.simd +
-                      " where the machine has it");
+    progress_.warning("the earlier part of the run used " + checkpoint.simd +
+                      " instructions, this part uses " + simulation_.simd() +
+                      ": the last bits will differ; use NEVE_SIMD=" + checkpoint.simd +
+                      " if this machine has it");
   ResumedRun run;
   try {
     player_.go_to(checkpoint.steps);
@@ -136,8 +135,8 @@ std::optional<ResumedRun> Checkpoints::resume() {
       run.retries.push_back(output::retry_record(retry));
   } catch (const std::exception& error) {
     // Its checksum is right, so it was written so.
-    throw scene::toml::UsageError("--resume", std::string("cannot go on: ") + error.what(),
-                                  "without --resume the run starts anew");
+    throw scene::toml::UsageError("--resume", std::string("cannot resume: ") + error.what(),
+                                  "remove --resume to start the run again");
   }
   run.frames = read_frame_records(folder_);
   progress_.note("resumed after frame " + std::to_string(run.frame) + ", step " +

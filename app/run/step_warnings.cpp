@@ -18,17 +18,17 @@ std::vector<std::string> step_warnings(const sim::SolverSettings& settings,
   if (settings.time_step == sim::TimeStep::fixed && warnings.worst_acoustic_cfl > 1.5)
     list.push_back("fixed steps: the acoustic CFL reached " +
                    fixed_text(warnings.worst_acoustic_cfl, 1) +
-                   "; above 1.5 steps are unstable, make solver.dt smaller");
+                   "; steps above 1.5 are unstable: make solver.dt smaller");
   if (warnings.solves_cut_short > 0)
     list.push_back(
         semi_implicit_steps(warnings.solves_cut_short) +
         "ended after solver.solve_iterations = " + std::to_string(settings.solve_iterations) +
-        " above solve_tolerance, and were taken as they were: more iterations, or a "
-        "smaller dt (solver.max_dt, solver.dt)");
+        " above solve_tolerance, and were used as they are; try more iterations, or a smaller dt "
+        "(solver.max_dt, solver.dt)");
   if (warnings.solves_given_up > 0)
     list.push_back(semi_implicit_steps(warnings.solves_given_up) +
-                   "could not be solved, explicit ones took their place: a smaller dt "
-                   "(solver.max_dt, solver.dt) helps");
+                   "could not be solved, and explicit steps replaced them; try a smaller dt "
+                   "(solver.max_dt, solver.dt)");
   return list;
 }
 

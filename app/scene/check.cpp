@@ -32,7 +32,7 @@ Found problem(const sim::shapes::Torus& torus, const std::string& at) {
 
 Found problem(const sim::shapes::Plane& plane, const std::string& at) {
   if (plane.normal.norm() > negligible) return {};
-  return Problem{at + ".plane.normal", "normal is zero", "it points out of the solid side"};
+  return Problem{at + ".plane.normal", "normal is zero", "it must point out of the solid side"};
 }
 
 Found problem(const sim::shapes::Mesh& mesh, const std::string& at) {
@@ -71,7 +71,7 @@ Found material_problem(const Scene& scene, const std::string& wanted, const std:
   }
   if (value_named<Preset>(wanted))
     return Problem{address + ".material",
-                   toml::toml_string(wanted) + " is a preset, and no material of this scene",
+                   toml::toml_string(wanted) + " is a preset, not a material of this scene",
                    "add [material." + wanted + "] with preset = " + toml::toml_string(wanted)};
   const std::string nearest = nearest_name(wanted, names);
   return Problem{address + ".material", "there is no material " + toml::toml_string(wanted),
@@ -132,10 +132,10 @@ Found emitter_problem(const Scene& scene, const sim::seeding::Emitter& emitter) 
     return Problem{address + ".end",
                    "it closes at " + toml::number_text(*emitter.end) + " s and opens at " +
                        toml::number_text(emitter.start) + " s",
-                   "end is later than start; leave it out for an emitter that stays open"};
+                   "end must be later than start; remove end for an emitter that stays open"};
   if (emitter.end && emitter.rate == 0)
     return Problem{address + ".end", "without a rate the whole shape is filled at once",
-                   "give rate, in kg/s, or leave end out"};
+                   "give rate, in kg/s, or remove end"};
   return shape_problem(scene, emitter.shape, address);
 }
 
@@ -170,7 +170,7 @@ Found keyframe_problem(const CameraSettings& camera, const std::string& at) {
       return Problem{key_at + ".time",
                      "keyframe " + std::to_string(index) + " is at " + toml::number_text(key.time) +
                          " s, the one before at " + toml::number_text(before->time) + " s",
-                     "times increase from one keyframe to the next"};
+                     "times must increase from one keyframe to the next"};
     }
     before = &key;
     const auto eye = key.eye ? key.eye : camera.eye;
@@ -184,7 +184,7 @@ Found keyframe_problem(const CameraSettings& camera, const std::string& at) {
 
 Found camera_problem(const CameraSettings& camera, const std::string& at) {
   if (camera.up.norm() <= negligible) {
-    return Problem{at + ".up", "up is zero", "it points upwards in the picture"};
+    return Problem{at + ".up", "up is zero", "it must point upwards in the picture"};
   }
   if (camera.eye.has_value() != camera.target.has_value()) {
     return Problem{at + (camera.eye ? ".eye" : ".target"), "eye and target go together",
@@ -204,12 +204,12 @@ Found camera_problem(const CameraSettings& camera, const std::string& at) {
 
 Found light_problem(const LightSettings& light) {
   if (light.direction.norm() > negligible) return {};
-  return Problem{"light.direction", "direction is zero", "it points towards the light"};
+  return Problem{"light.direction", "direction is zero", "it must point towards the light"};
 }
 
 Found slice_problem(const Scene& scene, const SliceStyle& slice, const std::string& at) {
   if (slice.normal.norm() <= negligible)
-    return Problem{at + ".normal", "normal is zero", "it points across the plane"};
+    return Problem{at + ".normal", "normal is zero", "it must point across the plane"};
   if (slice.follow.empty()) return {};
   std::vector<std::string> names;
   for (const sim::seeding::Body& body : scene.bodies) {
@@ -240,7 +240,7 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
   };
   if (is_view(mosaic.name)) {
     return Problem{at + ".name", "a view is called " + toml::toml_string(mosaic.name) + " too",
-                   "both would write into the folder of that name: name the mosaic"};
+                   "both would write into the folder of that name; rename the mosaic"};
   }
   for (const std::string& name : mosaic.views) {
     if (is_view(name)) continue;
@@ -266,7 +266,7 @@ Found motion_problem(const Collider& collider) {
                                       std::pair{".angular_velocity", collider.angular_velocity}}) {
     if (velocity.isZero(0)) continue;
     return Problem{at + key, std::string(key + 1) + " and keyframes both move the collider",
-                   "give one of them; keyframes hold a thing still where two are equal"};
+                   "give one of the two; two equal keyframes hold the collider still"};
   }
   const sim::shapes::PoseKeyframe* before = nullptr;
   std::size_t index = 0;
@@ -277,11 +277,11 @@ Found motion_problem(const Collider& collider) {
       return Problem{key_at + ".time",
                      who + " is at " + toml::number_text(key.time) + " s, the one before at " +
                          toml::number_text(before->time) + " s",
-                     "times increase from one keyframe to the next"};
+                     "times must increase from one keyframe to the next"};
     }
     if (before && key.time - before->time < 1e-9) {
       return Problem{key_at + ".time", who + " is less than 1e-9 s after the one before",
-                     "a thing that is to jump does so within a step: 1e-4 s is soon enough"};
+                     "for a jump, set the keyframes 1e-4 s apart, less than a step"};
     }
     const sim::Vec3d own = collider.shape.rotation;
     const sim::Vec3d rotation = key.rotation.value_or(own);
@@ -289,8 +289,7 @@ Found motion_problem(const Collider& collider) {
     if (sim::shapes::written_turn(last, rotation) >= 180 || is_half_turn(last, rotation)) {
       return Problem{
           key_at + ".rotation", who + " turns by 180 degrees or more since the one before",
-          "the shorter way is taken, of two as long either: put a keyframe in between, or let "
-          "angular_velocity turn it"};
+          "a collider turns the shorter way; add a keyframe in between, or use angular_velocity"};
     }
     before = &key;
   }
@@ -340,7 +339,7 @@ std::optional<Problem> find_problem(const Scene& scene) {
   if (scene.colliders.size() > sim::kernels::max_colliders)
     return Problem{"collider." + scene.colliders[sim::kernels::max_colliders].name,
                    "there are " + std::to_string(scene.colliders.size()) + " colliders",
-                   "at most " + std::to_string(sim::kernels::max_colliders) + " can be there"};
+                   "at most " + std::to_string(sim::kernels::max_colliders) + " are allowed"};
   for (const Collider& collider : scene.colliders) {
     if ((found = collider_problem(scene, collider))) return found;
   }
@@ -352,7 +351,7 @@ std::optional<Problem> find_problem(const Scene& scene) {
     if (view.camera && (found = camera_problem(*view.camera, at + ".camera"))) return found;
     if (view.clip && view.clip->normal.norm() <= negligible)
       return Problem{at + ".clip.normal", "normal is zero",
-                     "it points towards the side that is cut away"};
+                     "it must point towards the side to cut away"};
   }
   for (const Mosaic& mosaic : scene.mosaics) {
     if ((found = mosaic_problem(scene, mosaic))) return found;

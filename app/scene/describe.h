@@ -66,59 +66,59 @@ void describe(V& visit, sim::SolverSettings& s) {
   visit("cell_size", s.cell_size, unit::metre, at_least(1e-9).at_most(1e6), restart,
         "Spacing h of the grid.");
   visit("kernel", s.kernel, unit::none, anything, live,
-        "B-spline that moves data between particles and grid.");
+        "B-spline that carries data between particles and grid.");
   visit("transfer", s.transfer, unit::none, anything, live,
-        "How particles take their velocity from the grid.");
+        "Transfer of velocity from the grid to the particles.");
   visit("flip_ratio", s.flip_ratio, unit::none, between(0, 1), live,
         "The paper's alpha: share of FLIP, the rest is PIC.");
   visit("flip_reference_dt", s.flip_reference_dt, unit::second, between(0, 1), live,
-        "Step that flip_ratio is meant for, so that damping does not depend on dt; 0: per step.");
+        "Step to which flip_ratio refers, so that damping does not depend on dt; 0: the ratio acts "
+        "per step.");
   visit("advect", s.advect, unit::none, anything, live,
-        "Move particles with their own velocity (the paper) or with the grid's.");
+        "Velocity that moves particles: their own (the paper) or the grid's.");
   visit("time_step", s.time_step, unit::none, anything, live,
-        "Choose each step from the limits below, or take dt as it is.");
-  visit("dt", s.dt, unit::second, between(1e-9, 1), live, "The step when time_step is fixed.");
+        "adaptive: choose each step from the limits below; fixed: use dt.");
+  visit("dt", s.dt, unit::second, between(1e-9, 1), live,
+        "Length of a step if time_step is fixed.");
   visit("max_dt", s.max_dt, unit::second, between(1e-9, 1), live, "Longest adaptive step.");
   visit("cfl", s.cfl, unit::none, between(1e-3, 1e3), live,
-        "Cells that snow may move in an adaptive step.");
+        "Cells that snow may cross in an adaptive step.");
   visit("acoustic_cfl", s.acoustic_cfl, unit::none, between(1e-3, 1e3), live,
-        "Cells that sound may travel in an adaptive step.");
+        "Cells that sound may cross in an adaptive step.");
   visit("strain_limit", s.strain_limit, unit::none, between(1e-3, 1e3), live,
         "Largest |dt grad v| of an adaptive step.");
-  visit(
-      "beta", s.beta, unit::none, between(0, 1), live,
-      "0: explicit steps; up to 1: the paper's semi-implicit steps, for longer dt (from 0.5 on no "
-      "acoustic limit). They damp.");
+  visit("beta", s.beta, unit::none, between(0, 1), live,
+        "0: explicit steps; up to 1: the paper's semi-implicit steps, which allow a longer dt "
+        "(from 0.5 on without acoustic limit) and damp.");
   visit("solve_tolerance", s.solve_tolerance, unit::none, between(1e-14, 0.1), live,
-        "Residual of a semi-implicit step over its right side, where the solve ends; in float it "
-        "gets no further than 1e-6.");
+        "Residual of a semi-implicit step over its right side at which the solve ends; float "
+        "reaches 1e-6 at best.");
   visit("solve_iterations", s.solve_iterations, unit::none, between(1, 10000), live,
-        "Iterations of a semi-implicit step, at most.");
+        "Largest number of iterations in a semi-implicit step.");
   visit("collide_after_solve", s.collide_after_solve, unit::none, anything, live,
-        "Let nodes meet colliders again after the solve, which the paper does not; keeps snow out "
-        "of them.");
-  visit(
-      "push_out", s.push_out, unit::none, anything, live,
-      "Bring particles deeper than 0.1 cell_size in a collider out to there, which the paper does "
-      "not.");
+        "Let nodes collide again after the solve, unlike the paper; this keeps snow out of "
+        "colliders.");
+  visit("push_out", s.push_out, unit::none, anything, live,
+        "Move particles deeper than 0.1 cell_size in a collider back to that depth, unlike the "
+        "paper.");
   visit("gravity", s.gravity, unit::acceleration, within(1e6), live, "Acceleration of all snow.");
   visit("precision", s.precision, unit::none, anything, restart, "Arithmetic of the solver.");
   visit("on_divergence", s.on_divergence, unit::none, anything, live,
-        "stop: end the run and say why; retry: go back to the frame before with half the dt, at "
-        "most four times.");
+        "stop: end the run and explain why; retry: go back to the previous frame with half the dt, "
+        "at most four times.");
   visit("bypass", s.bypass, unit::none, anything, live,
-        "Stages of the step to skip, for debugging a solver; energy is not watched then.");
+        "Stages to skip in every step, for debugging a solver; energy is then not watched.");
 }
 
 template <class V>
 void describe(V& visit, Limits& l) {
   using enum Change;
   visit("memory", l.memory, unit::bytes, between(0, max_count), restart,
-        "Memory a run may use, in bytes or as \"8GiB\"; 0: 80 % of what is available.");
+        "Largest memory of a run, in bytes or as \"8GiB\"; 0: 80 % of the available memory.");
   visit("particles", l.particles, unit::none, between(1, max_count), restart,
-        "Particles a run may have.");
+        "Largest number of particles in a run.");
   visit("pixels", l.pixels, unit::none, between(1, max_count), restart,
-        "Pixels a picture may have.");
+        "Largest number of pixels in a picture.");
 }
 
 template <class V>
@@ -127,11 +127,11 @@ void describe(V& visit, sim::Variation& v) {
   visit("density", v.density, unit::none, between(0, 0.5), restart,
         "Relative standard deviation of the particles' density.");
   visit("youngs_modulus", v.youngs_modulus, unit::none, between(0, 2), restart,
-        "Relative standard deviation of their stiffness.");
+        "Relative standard deviation of the particles' stiffness.");
   visit("thresholds", v.thresholds, unit::none, between(0, 2), restart,
         "Relative standard deviation of theta_c and theta_s, which vary together.");
   visit("size", v.size, unit::metre, at_least(1e-6).at_most_or_0(1e6), restart,
-        "Of the lumps that differ; 0: each particle on its own.");
+        "Size of the lumps that differ; 0: each particle differs on its own.");
 }
 
 /// What a preset sets.
@@ -145,23 +145,22 @@ void describe_snow_numbers(V& visit, sim::Material& m) {
   visit("poisson_ratio", m.poisson_ratio, unit::none, at_least(0).below(0.5), live,
         "Sideways bulge under compression.");
   visit("hardening", m.hardening, unit::none, between(0, 100), live,
-        "The paper's xi: how fast packed snow stiffens.");
+        "The paper's xi: rate at which packed snow stiffens.");
   visit("critical_compression", m.critical_compression, unit::none, at_least(0).below(1), live,
-        "The paper's theta_c: compression where snow starts to yield.");
+        "The paper's theta_c: compression at which snow yields.");
   visit("critical_stretch", m.critical_stretch, unit::none, between(0, 100), live,
-        "The paper's theta_s: stretch where snow starts to break.");
+        "The paper's theta_s: stretch at which snow breaks.");
 }
 
 template <class V>
 void describe(V& visit, sim::Material& m) {
   visit.shorthand(
       "preset", preset_of(m), [&m](Preset preset) { use_preset(m, preset); },
-      "A kind of snow by name: sets density and all numbers below it that are not given beside "
-      "it.");
+      "Named kind of snow: sets the density and the numbers below it, unless they are given.");
   visit("model", m.model, unit::none, anything, Change::live,
         "Elastic law; all harden when compacted, only snow also yields.");
   describe_snow_numbers(visit, m);
-  visit.section("variation", "How uneven the snow is.", [&](auto& v) { describe(v, m.variation); });
+  visit.section("variation", "Unevenness of the snow.", [&](auto& v) { describe(v, m.variation); });
 }
 
 template <class V>
@@ -195,42 +194,42 @@ void describe(V& visit, sim::shapes::Cone& c, Change change) {
   visit("center", c.center, unit::metre, position, change,
         "Middle of the axis, along y; the apex is up.");
   visit("radius", c.radius, unit::metre, length, change, "Radius of the base.");
-  visit("height", c.height, unit::metre, length, change, "From base to apex.");
+  visit("height", c.height, unit::metre, length, change, "Distance from base to apex.");
 }
 
 template <class V>
 void describe(V& visit, sim::shapes::Torus& t, Change change) {
   visit("center", t.center, unit::metre, position, change, "Centre; the axis is y.");
   visit("major_radius", t.major_radius, unit::metre, length, change,
-        "From the centre to the middle of the tube.");
+        "Distance from the centre to the middle of the tube.");
   visit("minor_radius", t.minor_radius, unit::metre, length, change, "Radius of the tube.");
 }
 
 template <class V>
 void describe(V& visit, sim::shapes::Plane& p, Change change) {
-  visit("point", p.point, unit::metre, position, change, "A point of the surface.");
+  visit("point", p.point, unit::metre, position, change, "Point on the surface.");
   visit("normal", p.normal, unit::none, within(1e6), change,
-        "Out of the solid side, of any length.");
+        "Direction out of the solid side, of any length.");
 }
 
 template <class V>
 void describe(V& visit, sim::shapes::Mesh& m, Change change) {
   visit("file", m.file, unit::none, file_path, change,
-        "A closed triangle mesh, OBJ; relative to the scene file.");
+        "Closed triangle mesh, OBJ; path relative to the scene file.");
   visit("scale", m.scale, unit::none, length, change, "Metres per unit of the file.");
-  visit("center", m.center, unit::metre, position, change, "Where the origin of the file goes.");
+  visit("center", m.center, unit::metre, position, change, "Place of the file's origin.");
 }
 
 template <class V>
 void describe(V& visit, sim::shapes::Points& p, Change change) {
   visit("file", p.file, unit::none, file_path, change,
-        "Particles, PLY or CSV, with columns x y z and, if wanted, vx vy vz, mass and volume; "
+        "Particles, PLY or CSV, with columns x y z and optionally vx vy vz, mass and volume; path "
         "relative to the scene file.");
   visit("spacing", p.spacing, unit::metre, at_least(1e-9).at_most_or_0(1e6), change,
-        "Of a file without volumes, the distance between neighbours: each has spacing^3.");
+        "Distance between neighbours in a file without volumes; each particle has spacing^3.");
   visit("thinning", p.thinning, unit::none, between(1, 1e9), change,
-        "One point in so many is used, and stands for all of them.");
-  visit("center", p.center, unit::metre, position, change, "Where the origin of the file goes.");
+        "Use one point of every N, and let it represent all N.");
+  visit("center", p.center, unit::metre, position, change, "Place of the file's origin.");
 }
 
 /// Every form can be turned.
@@ -242,13 +241,13 @@ void describe_rotation(V& visit, sim::shapes::Shape& shape, Change change) {
 
 template <class V>
 void describe_solid_forms(V& visit, sim::shapes::Shape& shape) {
-  visit.template form<sim::shapes::Sphere>("sphere", shape, Change::restart, "A ball.");
+  visit.template form<sim::shapes::Sphere>("sphere", shape, Change::restart, "A sphere.");
   visit.template form<sim::shapes::Box>("box", shape, Change::restart, "A box.");
   visit.template form<sim::shapes::Capsule>("capsule", shape, Change::restart,
                                             "A cylinder with round ends.");
   visit.template form<sim::shapes::Cylinder>("cylinder", shape, Change::restart, "A cylinder.");
   visit.template form<sim::shapes::Cone>("cone", shape, Change::restart, "A cone.");
-  visit.template form<sim::shapes::Torus>("torus", shape, Change::restart, "A ring.");
+  visit.template form<sim::shapes::Torus>("torus", shape, Change::restart, "A torus.");
   visit.template form<sim::shapes::Mesh>("mesh", shape, Change::restart,
                                          "The inside of a triangle mesh.");
 }
@@ -263,13 +262,13 @@ void describe_body_forms(V& visit, sim::shapes::Shape& shape) {
 template <class V>
 void describe_collider_forms(V& visit, sim::shapes::Shape& shape) {
   visit.template form<sim::shapes::Plane>("plane", shape, Change::live, "A half space.");
-  visit.template form<sim::shapes::Sphere>("sphere", shape, Change::live, "A ball.");
+  visit.template form<sim::shapes::Sphere>("sphere", shape, Change::live, "A sphere.");
   visit.template form<sim::shapes::Box>("box", shape, Change::live, "A box.");
   visit.template form<sim::shapes::Capsule>("capsule", shape, Change::live,
                                             "A cylinder with round ends.");
   visit.template form<sim::shapes::Cylinder>("cylinder", shape, Change::live, "A cylinder.");
   visit.template form<sim::shapes::Cone>("cone", shape, Change::live, "A cone.");
-  visit.template form<sim::shapes::Torus>("torus", shape, Change::live, "A ring.");
+  visit.template form<sim::shapes::Torus>("torus", shape, Change::live, "A torus.");
   visit.template form<sim::shapes::Mesh>("mesh", shape, Change::live,
                                          "The inside of a triangle mesh.");
 }
@@ -278,121 +277,124 @@ template <class V>
 void describe(V& visit, sim::seeding::Body& b) {
   using enum Change;
   visit("name", b.name, unit::none, identifier, restart,
-        "What addresses call it; otherwise its number from 1.");
+        "Name in addresses; default: its number, from 1.");
   visit("material", b.material, unit::none, identifier, restart, "Name of a material.");
-  visit.shape("shape", b.shape, "What is filled with snow.",
+  visit.shape("shape", b.shape, "Volume to fill with snow.",
               [](auto& v, sim::shapes::Shape& shape) { describe_body_forms(v, shape); });
   visit("velocity", b.velocity, unit::velocity, speed, restart, "Velocity at the start.");
   visit("angular_velocity", b.angular_velocity, unit::spin, speed, restart,
         "Spin about the shape's centre at the start.");
   visit("particles_per_cell", b.particles_per_cell, unit::none, between(0.1, 1000), restart,
-        "How densely particles are placed.");
-  visit("sampling", b.sampling, unit::none, anything, restart, "How particles are placed.");
+        "Number of particles in a cell.");
+  visit("sampling", b.sampling, unit::none, anything, restart, "Placement of the particles.");
   visit("volumes", b.volumes, unit::none, anything, restart,
-        "Particle volumes from the density on the grid (the paper) or body volume / particles.");
+        "estimated: particle volumes from the density on the grid (the paper); given: body volume "
+        "/ particles.");
 }
 
 template <class V>
 void describe(V& visit, sim::seeding::Emitter& e) {
   using enum Change;
   visit("name", e.name, unit::none, identifier, restart,
-        "What addresses call it; otherwise its number from 1.");
+        "Name in addresses; default: its number, from 1.");
   visit("material", e.material, unit::none, identifier, restart, "Name of a material.");
-  visit.shape("shape", e.shape, "Where snow comes into being.",
+  visit.shape("shape", e.shape, "Volume in which snow appears.",
               [](auto& v, sim::shapes::Shape& shape) { describe_solid_forms(v, shape); });
   visit("velocity", e.velocity, unit::velocity, speed, restart, "Velocity of the snow.");
   visit("angular_velocity", e.angular_velocity, unit::spin, speed, restart,
-        "Its spin about the shape's centre.");
+        "Spin of the snow about the shape's centre.");
   visit("rate", e.rate, unit::mass_rate, between(0, 1e9), restart,
-        "Mass per second; 0: the whole shape is filled once, at start.");
-  visit("start", e.start, unit::second, between(0, 1e6), restart, "When it opens.");
+        "Mass per second; 0: fill the whole shape once, at start.");
+  visit("start", e.start, unit::second, between(0, 1e6), restart, "Time at which it opens.");
   visit("end", e.end, unit::second, between(0, 1e6), restart,
-        "When it closes; without it, it stays open.");
+        "Time at which it closes; default: never.");
   visit("particles_per_cell", e.particles_per_cell, unit::none, between(0.1, 1000), restart,
-        "How many particles the snow of a cell is made of.");
+        "Number of particles in a cell of snow.");
 }
 
 template <class V>
 void describe(V& visit, sim::seeding::Sink& s) {
   using enum Change;
   visit("name", s.name, unit::none, identifier, restart,
-        "What addresses call it; otherwise its number from 1.");
-  visit.shape("shape", s.shape, "Snow inside is removed.",
+        "Name in addresses; default: its number, from 1.");
+  visit.shape("shape", s.shape, "Volume in which snow is removed.",
               [](auto& v, sim::shapes::Shape& shape) { describe_solid_forms(v, shape); });
-  visit("outside", s.outside, unit::none, anything, restart, "Snow outside is removed instead.");
+  visit("outside", s.outside, unit::none, anything, restart, "Remove the snow outside instead.");
 }
 
 template <class V>
 void describe(V& visit, Collider& c) {
   using enum Change;
   visit("name", c.name, unit::none, identifier, restart,
-        "What addresses call it; otherwise its number from 1.");
-  visit.shape("shape", c.shape, "What snow keeps out of.",
+        "Name in addresses; default: its number, from 1.");
+  visit.shape("shape", c.shape, "Solid volume that snow stays out of.",
               [](auto& v, sim::shapes::Shape& shape) { describe_collider_forms(v, shape); });
   visit("contact", c.contact, unit::none, anything, live,
-        "separate: leaves freely, slides with friction; slip: cannot leave, slides freely; "
-        "sticky: moves along.");
+        "separate: snow leaves freely and slides with friction; slip: snow cannot leave and slides "
+        "freely; sticky: snow moves along.");
   visit("friction", c.friction, unit::none, between(0, 1000), live,
         "Coulomb coefficient of separate contact.");
   visit("velocity", c.velocity, unit::velocity, speed, live, "Constant velocity.");
   visit("angular_velocity", c.angular_velocity, unit::spin, speed, live,
-        "Constant spin about the shape's centre; of a plane only its surface moves.");
+        "Constant spin about the shape's centre; a plane only gets a surface velocity.");
   visit.sequence("keyframes", c.keyframes,
-                 "The shape passes through these, from rest to rest; instead of the velocities.");
+                 "Path of the shape, from rest to rest; excludes the velocities.");
   visit("style", c.style, unit::none, anything, live,
-        "solid; wire: lines only; ghost: see-through. Snow behind the last two can be seen.");
+        "solid; wire: lines only; ghost: see-through. Snow behind wires and ghosts is visible.");
 }
 
 template <class V>
 void describe(V& visit, sim::shapes::PoseKeyframe& k) {
   using enum Change;
-  visit("time", k.time, unit::second, between(0, 1e6), live, "When; later than the one before.");
+  visit("time", k.time, unit::second, between(0, 1e6), live,
+        "Time of the keyframe, later than the previous one.");
   visit("position", k.position, unit::metre, position, live,
-        "Where the shape's centre (a plane's point) is then; without it where the shape says.");
-  visit(
-      "rotation", k.rotation, unit::degrees, within(1e6), live,
-      "The shape's rotation then, less than 180 degrees from the one before; without it its own.");
+        "Place of the shape's centre (a plane's point); default: that of the shape.");
+  visit("rotation", k.rotation, unit::degrees, within(1e6), live,
+        "Rotation of the shape, less than 180 degrees from the previous one; default: its own.");
 }
 
 template <class V>
 void describe(V& visit, CameraSettings& c) {
   using enum Change;
   visit("eye", c.eye, unit::metre, position, live,
-        "Where the camera is; with target, or neither: all is framed.");
-  visit("target", c.target, unit::metre, position, live, "What it looks at.");
+        "Place of the camera. Give eye and target together, or neither to frame everything.");
+  visit("target", c.target, unit::metre, position, live, "Point that the camera looks at.");
   visit("up", c.up, unit::none, within(1e6), live, "Upward direction of the picture.");
   visit("fov", c.fov, unit::degrees, between(1, 170), live, "Vertical angle of view.");
   visit("orbit", c.orbit, unit::degrees, within(1e5), live,
-        "The eye turns around the target about up by this much over the scene, from rest to rest.");
+        "Angle by which the eye turns around the target, about up, over the whole scene, from rest "
+        "to rest.");
   visit("turntable", c.turntable, unit::second, between(1e-3, 1e6), live,
-        "The eye turns around the target about up evenly, once in this time.");
-  visit.sequence("keyframes", c.keyframes, "The eye, target and fov pass through these.");
+        "Time of one turn of the eye around the target, about up, at constant speed.");
+  visit.sequence("keyframes", c.keyframes, "Path of eye, target and fov.");
 }
 
 template <class V>
 void describe(V& visit, CameraKeyframe& k) {
   using enum Change;
-  visit("time", k.time, unit::second, between(0, 1e6), live, "When; later than the one before.");
+  visit("time", k.time, unit::second, between(0, 1e6), live,
+        "Time of the keyframe, later than the previous one.");
   visit("eye", k.eye, unit::metre, position, live,
-        "Where the camera is then; without it the camera's eye.");
+        "Place of the camera; default: the camera's eye.");
   visit("target", k.target, unit::metre, position, live,
-        "What it looks at then; without it the camera's target.");
+        "Point that the camera looks at; default: the camera's target.");
   visit("fov", k.fov, unit::degrees, between(1, 170), live,
-        "Vertical angle of view then; without it the camera's fov.");
+        "Vertical angle of view; default: the camera's fov.");
 }
 
 template <class V>
 void describe(V& visit, LightSettings& l) {
   using enum Change;
-  visit("direction", l.direction, unit::none, within(1e6), live, "Towards the light.");
+  visit("direction", l.direction, unit::none, within(1e6), live, "Direction towards the light.");
   visit("intensity", l.intensity, unit::none, between(0, 100), live, "Strength of the light.");
-  visit("ambient", l.ambient, unit::none, between(0, 100), live, "Strength of the sky.");
+  visit("ambient", l.ambient, unit::none, between(0, 100), live, "Strength of the sky light.");
 }
 
 template <class V>
 void describe(V& visit, ParticleStyle& p) {
   using enum Change;
-  visit("color_by", p.color_by, unit::none, anything, live, "What the colour shows.");
+  visit("color_by", p.color_by, unit::none, anything, live, "Quantity shown by the colour.");
   visit("colormap", p.colormap, unit::none, anything, live, "Colours of the values.");
   visit("range", p.range, unit::none, within(1e30), live,
         "Values at the ends of the colour map, or \"auto\".");
@@ -404,7 +406,7 @@ void describe(V& visit, SmokeStyle& s) {
   visit("field", s.field, unit::none, anything, live,
         "mass: white smoke; any other field colours it.");
   visit("density_scale", s.density_scale, unit::none, between(0, 1000), live,
-        "How opaque it is; at 1 three cells of packed snow take 60 % of the light.");
+        "Opacity; at 1, three cells of packed snow absorb 60 % of the light.");
   visit("colormap", s.colormap, unit::none, anything, live, "Colours of the values.");
   visit("range", s.range, unit::none, within(1e30), live,
         "Values at the ends of the colour map, or \"auto\".");
@@ -415,23 +417,23 @@ void describe(V& visit, SliceStyle& s) {
   using enum Change;
   visit("field", s.field, unit::none, anything, live, "Field of the arrows.");
   visit("scalar", s.scalar, unit::none, anything, live, "Field of the heat map.");
-  visit("normal", s.normal, unit::none, within(1e6), live, "Direction across the plane.");
+  visit("normal", s.normal, unit::none, within(1e6), live, "Normal of the plane.");
   visit("point", s.point, unit::metre, position, live,
-        "A point of the plane, without it the middle of the bodies; with follow from the body's "
-        "centre.");
+        "Point on the plane; default: the middle of the bodies. With follow, relative to the "
+        "body's centre of mass.");
   visit("follow", s.follow, unit::none, anything, live,
-        "Name of a body that the plane moves with.");
-  visit("motion", s.motion, unit::velocity, speed, live, "How fast the plane moves.");
+        "Name of a body that moves the plane along.");
+  visit("motion", s.motion, unit::velocity, speed, live, "Velocity of the plane.");
   visit("every", s.every, unit::none, between(0, 1000), live,
-        "Nodes from one arrow to the next; 0: as close as stays readable.");
+        "Nodes from one arrow to the next; 0: as close as readable.");
   visit("arrow_scale", s.arrow_scale, unit::none, above(0).at_most(1000), live,
-        "Factor of the arrows' lengths; at 1 the longest is 1.6 of their distances.");
+        "Factor on the length of arrows; at 1, the longest is 1.6 times their distance.");
   visit("isolines", s.isolines, unit::none, between(0, 100), live,
-        "Steps that lines cut the heat map's range into; 0: no lines.");
+        "Number of bands between isolines of the heat map; 0: no lines.");
   visit("colormap", s.colormap, unit::none, anything, live, "Colours of the arrows.");
-  visit(
-      "range", s.range, unit::none, within(1e30), live,
-      "Magnitudes at the ends of the colour map, or \"auto\"; the longest arrow is the upper one.");
+  visit("range", s.range, unit::none, within(1e30), live,
+        "Magnitudes at the ends of the colour map, or \"auto\"; the longest arrow has the upper "
+        "one.");
   visit("scalar_colormap", s.scalar_colormap, unit::none, anything, live,
         "Colours of the heat map.");
   visit("scalar_range", s.scalar_range, unit::none, within(1e30), live,
@@ -453,9 +455,9 @@ template <class V>
 void describe(V& visit, ClipPlane& c) {
   using enum Change;
   visit("normal", c.normal, unit::none, within(1e6), live,
-        "Towards the side that is cut away, of any length.");
+        "Direction towards the side to cut away, of any length.");
   visit("point", c.point, unit::metre, position, live,
-        "A point of the plane, or \"auto\": the middle of the snow in each frame.");
+        "Point on the plane, or \"auto\": the middle of the snow in each frame.");
 }
 
 template <class V>
@@ -467,13 +469,13 @@ template <class V>
 void describe(V& visit, View& view) {
   using enum Change;
   visit("name", view.name, unit::none, identifier, restart,
-        "Its folder, and what addresses call it; otherwise its number from 1.");
-  visit("layers", view.layers, unit::none, anything, live, "What is drawn.");
+        "Name of its folder, and in addresses; default: its number, from 1.");
+  visit("layers", view.layers, unit::none, anything, live, "Content of the picture.");
   describe_size(visit, "size", view.size,
-                "Width and height of this view; without it the output's.");
+                "Width and height of this view; default: those of the output.");
   visit("background", view.background, unit::none, anything, live,
-        "Behind everything; without it the output's.");
-  visit.section("particles", "How particles are drawn.",
+        "Background of this view; default: that of the output.");
+  visit.section("particles", "Colours of the particles.",
                 [&](auto& v) { describe(v, view.particles); });
   visit.section("smoke", "The mass on the grid, for the layer smoke.",
                 [&](auto& v) { describe(v, view.smoke); });
@@ -481,47 +483,47 @@ void describe(V& visit, View& view) {
                 [&](auto& v) { describe(v, view.slice); });
   visit.section("plots", "The axes of the layer \"plots\".",
                 [&](auto& v) { describe(v, view.plots); });
-  visit.optional("clip", view.clip, "Cuts particles away, to look inside.");
-  visit.optional("camera", view.camera, "The camera of this view; without it the scene's.");
+  visit.optional("clip", view.clip, "A plane that cuts bodies open in the picture.");
+  visit.optional("camera", view.camera, "The camera of this view; default: that of the scene.");
 }
 
 template <class V>
 void describe(V& visit, Mosaic& m) {
   using enum Change;
   visit("name", m.name, unit::none, identifier, restart,
-        "Its folder, and what addresses call it; otherwise its number from 1.");
-  visit("views", m.views, unit::none, identifier, live, "Names of the views in it, row by row.");
+        "Name of its folder, and in addresses; default: its number, from 1.");
+  visit("views", m.views, unit::none, identifier, live, "Names of its views, row by row.");
   visit("columns", m.columns, unit::none, between(0, 64), live,
-        "Views side by side; 0: as leaves few gaps and comes near the output's shape.");
+        "Number of views side by side; 0: few gaps, about the shape of the output.");
   visit("width", m.width, unit::pixels, between(64, 1000000), live,
-        "Width of the whole picture; without it the output's. The height follows.");
+        "Width of the whole picture; default: that of the output. The height follows.");
 }
 
 template <class V>
 void describe_output(V& visit, Scene& s) {
   describe_size(visit, "size", s.size, "Width and height.");
   visit("background", s.background, unit::none, anything, Change::live,
-        "Behind everything: a gradient, or nothing (PNG with straight alpha).");
+        "Background: a gradient, or transparent (PNG with straight alpha).");
 }
 
 template <class V>
 void describe(V& visit, Scene& s) {
   using enum Change;
-  visit("title", s.title, unit::none, anything, live, "Shown in the caption.");
+  visit("title", s.title, unit::none, anything, live, "Title in the caption.");
   visit("frames", s.frames, unit::none, between(0, 100000), live,
         "Last frame; frame 0 is the initial state.");
   visit("fps", s.fps, unit::per_second, between(0.01, 1e5), restart,
         "Frames per second of simulated time.");
   visit("seed", s.seed, unit::none, between(0, max_count), restart, "Placement of the particles.");
   visit.section("solver", "Time integration.", [&](auto& v) { describe(v, s.solver); });
-  visit.section("limits", "What a run may use before it is refused.",
+  visit.section("limits", "Limits of a run; a run that would exceed one is refused.",
                 [&](auto& v) { describe(v, s.limits); });
   visit.named("material", s.materials, "A named material.");
   visit.list("body", s.bodies, "A piece of snow.");
-  visit.list("emitter", s.emitters, "A source of snow while the scene runs.");
-  visit.list("sink", s.sinks, "A solid that removes the snow in it.");
+  visit.list("emitter", s.emitters, "A source of snow during the run.");
+  visit.list("sink", s.sinks, "A region that removes snow.");
   visit.list("collider", s.colliders, "A rigid obstacle.");
-  visit.optional("camera", s.camera, "Without it the whole scene is framed.");
+  visit.optional("camera", s.camera, "The camera of all views; default: frames the whole scene.");
   visit.section("light", "The sun and the sky.", [&](auto& v) { describe(v, s.light); });
   visit.list("view", s.views, "One picture per frame.");
   visit.list("mosaic", s.mosaics, "Several views in one picture.");

@@ -95,7 +95,7 @@ class Edit {
 
   [[noreturn]] void fail(const std::string& why) const {
     change_.fail(
-        change_.place, "cannot be put into the file: " + why,
+        change_.place, "cannot be written into the file: " + why,
         "change the file by hand: " + change_.address + " = " + without_blanks(change_.value));
   }
 
@@ -138,7 +138,7 @@ class Edit {
     if (node_->kind == Kind::inline_table) return add_inline(literal);
     const bool is_root = node_ == &layout_.root;
     if (words_[0] == "view" && (is_root || node_->kind == Kind::list)) return add_view();
-    if (node_->kind != Kind::table) fail("there is something else in its place");
+    if (node_->kind != Kind::table) fail("its place holds something else");
     if (is_root && depth_ + 1 < words_.size())
       return add_section(joined(words_, 0, words_.size() - 1), words_.back() + " = " + literal);
     if (is_root && literal.starts_with('{')) return add_table_section();
@@ -335,7 +335,8 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
     // Whatever is wrong with it, it is not returned.
   }
   if (is_right) return edited;
-  throw toml::UsageError(name, "the changed values cannot be put into this file as it is written",
+  throw toml::UsageError(name,
+                         "the changed values cannot be written into this file in its present form",
                          "save the scene under another name, or change the file by hand");
 }
 

@@ -16,20 +16,20 @@ Json to_json(const std::vector<LiveChange>& changes) {
 
 std::vector<LiveChange> live_changes(const Json& json) {
   std::vector<LiveChange> changes;
-  if (!json.is_array()) throw std::runtime_error("the changes are no list");
+  if (!json.is_array()) throw std::runtime_error("the changes are not a list");
   for (const Json& item : json) {
     const bool is_change = item.is_object() && item.contains("step") && item.contains("address") &&
                            item.contains("value") && item["step"].is_number_unsigned() &&
                            item["address"].is_string() && item["value"].is_string();
-    if (!is_change) throw std::runtime_error("a change is not made of step, address and value");
+    if (!is_change)
+      throw std::runtime_error("a change does not consist of step, address and value");
     changes.push_back({item["step"].get<std::size_t>(), item["address"].get<std::string>(),
                        item["value"].get<std::string>()});
     const LiveChange& change = changes.back();
     if (!is_live(change.address))
-      throw std::runtime_error("nothing that may change while a simulation runs is called \"" +
-                               change.address + "\"");
+      throw std::runtime_error("no live parameter is called \"" + change.address + "\"");
     if (changes.size() > 1 && change.step < changes[changes.size() - 2].step)
-      throw std::runtime_error("the steps of the changes go back");
+      throw std::runtime_error("the steps of the changes decrease");
   }
   return changes;
 }

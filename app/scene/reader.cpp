@@ -130,7 +130,7 @@ const toml::Table& Reader::table_of(const toml::Value& value, const std::string&
   if (!table) {
     const toml::Array* array = std::get_if<toml::Array>(&value.data);
     if (array && !array->empty() && std::holds_alternative<toml::Table>(array->front().data))
-      reading_.source.fail(value.where, address + " is no list",
+      reading_.source.fail(value.where, address + " is not a list",
                            address.find('.') == std::string::npos
                                ? "write [" + address + "], with one pair of brackets"
                                : "write it with one pair of brackets");
@@ -175,8 +175,8 @@ std::vector<std::string> Reader::unique_names(const toml::Entry& list) const {
     reading_.source.fail(name ? name->value.where : items[k].where,
                          "duplicate " + list.key + " name " + toml::toml_string(names[k]),
                          written(k) && written(found->second)
-                             ? "names are unique among them"
-                             : "the unnamed one there is called by its number");
+                             ? "names must be unique"
+                             : "the unnamed one has its number for a name");
   }
   return names;
 }
@@ -186,7 +186,7 @@ void Reader::require_no_list(const toml::Entry& entry) const {
   if (!std::holds_alternative<toml::Array>(entry.value.data)) return;
   const std::string address = address_of(entry.key);
   reading_.source.fail(
-      entry.where, address + " is no list",
+      entry.where, address + " is not a list",
       "each has a table of its name, with one pair of brackets: [" + address + ".NAME]");
 }
 
@@ -212,8 +212,8 @@ void Reader::require_one_form(const toml::Entry& shape,
       const std::string& first = table.entries.front().key;
       if (std::find(forms.begin(), forms.end(), first) != forms.end())
         reading_.source.fail(form.where,
-                             toml::toml_string(form.key) + " is beside the shape in " + address,
-                             "write it into the braces of the shape: { " + first + " = { ..., " +
+                             toml::toml_string(form.key) + " is outside the shape in " + address,
+                             "write it inside the braces of the shape: { " + first + " = { ..., " +
                                  form.key + " = ... } }");
       reading_.source.fail(form.where,
                            "unsupported shape " + toml::toml_string(form.key) + " in " + address,

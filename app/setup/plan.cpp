@@ -147,7 +147,7 @@ void check_limits(const scene::Scene& scene, const Plan& plan) {
                ", or make solver.cell_size larger");
   if (address_space_limit() < plan.memory + driver_address_space)
     refuse("about " + bytes_text(plan.memory + driver_address_space) +
-               " of address space are needed, drivers included; ulimit -v allows " +
+               " of address space are needed, including drivers; ulimit -v allows " +
                bytes_text(address_space_limit()),
            "", "raise it with ulimit -v unlimited");
 }

@@ -119,7 +119,8 @@ std::string machine_text() {
 fs::path this_program() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) throw IoError("cannot tell which file runs: " + error.message(), "/proc/self/exe");
+  if (error)
+    throw IoError("cannot find the path of the program: " + error.message(), "/proc/self/exe");
   return program;
 }
 
@@ -131,8 +132,8 @@ fs::path default_scene() {
   for (const fs::path& folder :
        {program / "../../scenes", program / "../share/neve/scenes", fs::path(NEVE_SCENE_DIR)})
     if (fs::is_regular_file(folder / name, error)) return (folder / name).lexically_normal();
-  throw IoError(std::string("the default scene ") + name + " is not where the program looks for it",
-                name, "name a scene file");
+  throw IoError(std::string("the default scene ") + name + " is not in the program's folder", name,
+                "name a scene file");
 }
 
 }  // namespace neve::app

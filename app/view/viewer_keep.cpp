@@ -61,7 +61,7 @@ void Viewer::save_picture() {
     output::write_file(file, render::encode_png(picture.image, picture.text));
     bench_.say(session::Message::Kind::note,
                "saved " + file.string() + "; neve render " + file.string() + " makes it again" +
-                   (was_between ? "; it is of frame " + std::to_string(live.frame) +
+                   (was_between ? "; it shows frame " + std::to_string(live.frame) +
                                       ", the next one: only whole frames can be made again"
                                 : ""));
   } catch (const std::exception& error) {

@@ -87,7 +87,7 @@ Image ReadBack::finish(Copy copy) {
   const void* mapped = gl_.MapBufferRange(GL_PIXEL_PACK_BUFFER, 0, bytes, GL_MAP_READ_BIT);
   if (!mapped) {
     gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    throw std::runtime_error("the OpenGL driver does not hand out a picture that it has drawn");
+    throw std::runtime_error("the OpenGL driver does not return a picture that it has drawn");
   }
   Image image =
       upright(static_cast<const std::uint8_t*>(mapped), copy.width, copy.height, copy.has_alpha);

@@ -87,7 +87,7 @@ void affine_field(const SelfTestCase& test, self_test::Measure& measure) {
                  self_test::rounding);
     measure.zero("the particle's velocity", (step.after.v[q] - A * p.x[q]).norm(),
                  self_test::rounding);
-    measure.zero("the particle's way",
+    measure.zero("the particle's displacement",
                  (step.after.x[q] - p.x[q] - dt * A * p.x[q]).norm() / self_test::cell_size,
                  self_test::rounding);
   }

@@ -84,7 +84,8 @@ void Engine<Real>::use_materials() {
   limits_.max_hardening = 0;
   for (const Material& m : material_list_) {
     if (m.yields && material_list_.size() > 1)
-      throw std::invalid_argument("material " + m.name + " yields besides snow: it must be alone");
+      throw std::invalid_argument("material " + m.name +
+                                  " yields besides snow: it must be the only material");
     const Lame rest = lame(m.youngs_modulus, m.poisson_ratio);
     materials_.push_back({static_cast<Real>(rest.mu), static_cast<Real>(rest.lambda),
                           static_cast<Real>(m.hardening), static_cast<Real>(m.critical_compression),

@@ -14,7 +14,7 @@ namespace neve::sim::engine {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument(what + " cannot change while a simulation runs: start it anew");
+  throw std::invalid_argument(what + " cannot change during a run: start the run again");
 }
 
 void require_live(const SolverSettings& before, const SolverSettings& after) {
@@ -84,7 +84,9 @@ void Engine<Real>::apply(const SolverSettings& settings, const std::vector<Mater
   if (colliders.size() > kernels::max_colliders)
     throw std::invalid_argument("at most " + std::to_string(kernels::max_colliders) + " colliders");
   if (divergence_)
-    throw std::logic_error("a simulation that broke a rule goes on from a state before it");
+    throw std::logic_error(
+        "this run has diverged: reset it, or go back to an earlier frame, for the change to take "
+        "effect");
   std::vector<shapes::Collider> moving = going_on(colliders_, colliders, colliders_time_);
   // Both throw for what cannot be.
   Fields fields = fields_of(moving);

@@ -128,22 +128,22 @@ void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
   const auto refuse = [](const std::string& why) {
     throw SavedStateError("the saved state " + why);
   };
-  if (bytes.size() < sizeof head) refuse("is cut short");
+  if (bytes.size() < sizeof head) refuse("is truncated");
   std::memcpy(&head, bytes.data(), sizeof head);
-  if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse("is none of this version");
-  if (head.bytes_per_number != sizeof(Real)) refuse("has another precision");
-  if (head.bytes_per_record != sizeof(kernels::Particle<Real>)) refuse("has other particles");
-  if (head.colliders != colliders_.size()) refuse("has another number of colliders");
-  if (head.emitters != streams_.size()) refuse("has another number of emitters");
+  if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse("is from another version");
+  if (head.bytes_per_number != sizeof(Real)) refuse("has a different precision");
+  if (head.bytes_per_record != sizeof(kernels::Particle<Real>)) refuse("has different particles");
+  if (head.colliders != colliders_.size()) refuse("has a different number of colliders");
+  if (head.emitters != streams_.size()) refuse("has a different number of emitters");
   std::vector<SavedTravel> travels(colliders_.size());
   std::vector<seeding::EmitterStream::State> streams(streams_.size());
   if (head.count > bytes.size() / sizeof(kernels::Particle<Real>) ||
       bytes.size() != sizeof head + head.count * sizeof(kernels::Particle<Real>) +
                           saved_bytes(travels) + saved_bytes(streams))
-    refuse("has another length than it says");
+    refuse("has a different length than it says");
   if (head.next_id < head.count || head.next_id > max_ids) refuse("has impossible ids");
   for (int a = 0; a < 3; ++a)
-    if (head.lattice_origin[a] != lattice_origin_[a]) refuse("has another lattice");
+    if (head.lattice_origin[a] != lattice_origin_[a]) refuse("has a different lattice");
 
   std::vector<kernels::Particle<Real>> records(head.count);
   const std::uint8_t* next = bytes.data() + sizeof head;

@@ -45,7 +45,7 @@ StartState start_state(const ParticleArrays& in) {
 template <class Real>
 void require_length(const std::vector<Real>& array, std::size_t count, const char* what) {
   if (!array.empty() && array.size() != count)
-    throw std::invalid_argument(std::string(what) + " has another length than x");
+    throw std::invalid_argument(std::string(what) + " has a different length than x");
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ void Engine<Real>::load(const ParticleArrays& in) {
     p = kernels::Particle<Real>{};
     const std::uint64_t id = in.id.empty() ? q : in.id[q];
     if (id < next_id_ || id >= max_ids)
-      throw std::invalid_argument("ids of particles have to grow, up to 2^31");
+      throw std::invalid_argument("ids of particles must increase, up to 2^31");
     p.id = static_cast<Integer<Real>>(id);
     next_id_ = id + 1;
     const int material = in.material.empty() ? 0 : in.material[q];
@@ -91,7 +91,7 @@ void Engine<Real>::load(const ParticleArrays& in) {
     p.m = static_cast<Real>(in.m[q]);
     p.V0 = in.V0.empty() ? Real(0) : static_cast<Real>(in.V0[q]);
     if (!(p.m > Real(0)) || !(p.V0 >= Real(0)))
-      throw std::invalid_argument("a particle's mass or volume is not positive");
+      throw std::invalid_argument("the mass or volume of a particle is not positive");
     p.kind = kernels::kind_of<Real>(static_cast<std::uint16_t>(material), model_kind(model),
                                     p.V0 == Real(0) ? unsigned(kernels::needs_volume) : 0u);
     store_matrix(in.F_E.empty() ? Mat3d(Mat3d::Identity()) : in.F_E[q], p.F_E);

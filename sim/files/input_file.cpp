@@ -23,7 +23,7 @@ std::string read_input_file(const std::string& path, std::uintmax_t most_mebibyt
   if (error) refuse_input(path, "cannot be read: " + error.message());
   if (size > most_mebibytes << 20)
     refuse_input(path, std::to_string(size >> 20) + " MiB; " + whats + " of up to " +
-                           std::to_string(most_mebibytes) + " MiB are read. Simplify it");
+                           std::to_string(most_mebibytes) + " MiB are read. Simplify the mesh");
   std::ifstream file(path, std::ios::binary);
   std::string bytes(size, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(size));

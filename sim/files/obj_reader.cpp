@@ -134,7 +134,8 @@ class Parser {
 
   void check_indices() const {
     if (mesh_.polygons.empty())
-      refuse_input(name_, "no faces; expected an OBJ file with lines f 1 2 3");
+      refuse_input(name_,
+                   "no faces; neve reads only OBJ, with lines f 1 2 3. Export the mesh as OBJ");
     for (std::size_t p = 0; p < mesh_.polygons.size(); ++p)
       for (std::size_t c = mesh_.polygons[p].first; c < mesh_.corner_end(p); ++c)
         if (mesh_.corners[c] >= mesh_.vertices.size())

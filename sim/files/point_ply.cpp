@@ -99,7 +99,7 @@ class PlyHeaderReader {
     else if (keyword == "property")
       read_property(line);
     else
-      refuse_input(here(), quoted_input(keyword) + " is no keyword of a PLY header");
+      refuse_input(here(), quoted_input(keyword) + " is not a keyword of a PLY header");
     return true;
   }
 
@@ -129,7 +129,7 @@ class PlyHeaderReader {
     const char* end = count.data() + count.size();
     const auto [stop, error] = std::from_chars(count.data(), end, element.count);
     if (count.empty() || error != std::errc{} || stop != end)
-      refuse_input(here(), quoted_input(count) + " is no number of elements");
+      refuse_input(here(), quoted_input(count) + " is not a number of elements");
   }
 
   void read_property(std::string_view line) {
@@ -141,7 +141,7 @@ class PlyHeaderReader {
       return;
     }
     const std::optional<PlyType> type = type_called(type_name);
-    if (!type) refuse_input(here(), quoted_input(type_name) + " is no type of a PLY");
+    if (!type) refuse_input(here(), quoted_input(type_name) + " is not a type of PLY");
     if (element.types.size() == max_columns) refuse_input(here(), "more than 256 properties");
     element.types.push_back(*type);
     element.columns.emplace_back(next_ply_word(line));

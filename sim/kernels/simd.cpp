@@ -58,7 +58,7 @@ SimdLevel chosen_simd_level() {
     if (is_here && (is_free || std::string(wanted) == name(level))) return level;
     if (is_here) available = available.empty() ? name(level) : name(level) + (", " + available);
   }
-  throw SimdError("NEVE_SIMD=" + std::string(wanted) + " cannot be had; this machine has " +
+  throw SimdError("NEVE_SIMD=" + std::string(wanted) + " is not available; this machine has " +
                   available);
 }
 

@@ -40,11 +40,11 @@ DistanceField::DistanceField(const MeshSurface& surface, const std::string& name
   const Bounds& bounds = surface.bounds();
   const Eigen::Array3d count = counts(bounds, spacing);
   if (!(count.prod() <= most_samples))
-    throw ShapeError(
-        name + ": the distances of this collider are kept every " + number_text(spacing) +
-        " m (half a cell), which makes " + number_text(count[0]) + " x " + number_text(count[1]) +
-        " x " + number_text(count[2]) + " numbers; at most 256^3 are. Make it smaller, split " +
-        "it into several colliders, or make solver.cell_size larger");
+    throw ShapeError(name + ": the distance field of this collider has a point every " +
+                     number_text(spacing) + " m (half a cell), in total " + number_text(count[0]) +
+                     " x " + number_text(count[1]) + " x " + number_text(count[2]) +
+                     " points; at most 256^3 are allowed. Make it smaller, split " +
+                     "it into several colliders, or make solver.cell_size larger");
   size_ = count.cast<int>();
   const Vec3d lattice = spacing * (count - 1).matrix();
   first_ = 0.5 * (bounds.min + bounds.max - lattice);
@@ -52,8 +52,8 @@ DistanceField::DistanceField(const MeshSurface& surface, const std::string& name
   fill(surface, pool);
   if (std::none_of(values_.begin(), values_.end(), [](float d) { return d < 0; }))
     throw ShapeError(name + ": the mesh is thinner than the " + number_text(spacing) +
-                     " m between the places where its distance is kept, and snow would pass "
-                     "through. Make it thicker, or smaller as a whole, or take a box");
+                     " m between the points of its distance field, and snow would pass through. "
+                     "Make it thicker, or smaller as a whole, or use a box");
 }
 
 void DistanceField::fill(const MeshSurface& surface, ThreadPool& pool) {

@@ -97,11 +97,11 @@ struct Defect {
 void check_edges(const files::PolygonMesh& mesh, const std::vector<Edge>& edges,
                  const std::string& name) {
   Defect open{"the mesh is open, these edges have a face on one side only",
-              "Close the holes and merge vertices that lie nearly in one place"};
+              "Close the holes and merge vertices that nearly coincide"};
   Defect turned{"neighbouring faces disagree about which side is outside",
                 "Recalculate the normals so that all faces are wound the same way"};
   Defect crowded{"the mesh is not manifold, more than two faces meet at an edge",
-                 "Remove inner and doubled faces, or move touching parts apart"};
+                 "Remove inner and duplicate faces, or move touching parts apart"};
   for (std::size_t k = 0; k < edges.size();) {
     std::size_t end = k;
     while (end < edges.size() && edges[end].low == edges[k].low && edges[end].high == edges[k].high)
@@ -143,7 +143,7 @@ ClosedMesh close_mesh(const files::PolygonMesh& mesh, const std::string& name) {
   }
 
   if (closed.triangles.empty())
-    throw ShapeError(name + ": no face has an area: all corners of each are in one place");
+    throw ShapeError(name + ": no face has an area: the corners of each face coincide");
   const Bounds b = bounds_of(closed);
   const Vec3d origin = 0.5 * (b.min + b.max);  // keeps digits of meshes far from their origin
   for (const auto& [i, j, k] : closed.triangles) {

@@ -98,8 +98,8 @@ PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const 
   const auto count = static_cast<double>(x.size());
   if (V.empty() && !(points.spacing > 0))
     throw ShapeError(name +
-                     ": it has no column volume; give spacing beside file, the distance between "
-                     "neighbouring points in metres");
+                     ": it has no column volume; give spacing, the distance between neighbouring "
+                     "points in metres");
   volume = V.empty() ? count * std::pow(points.spacing, 3) : sum(V);
   expected_count = count / points.thinning;
   if (points.thinning == 1) return;

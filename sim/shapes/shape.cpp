@@ -29,7 +29,7 @@ struct MakeForm {
   Result operator()(const Cone& s) const { return make_peak(s.radius, s.height); }
   Result operator()(const Torus& s) const { return make_ring(s.major_radius, s.minor_radius); }
   Result operator()(const Plane&) const {
-    throw std::invalid_argument("a plane bounds no volume: it serves as a collider only");
+    throw std::invalid_argument("a plane has no volume: it can only be a collider");
   }
   Result operator()(const Mesh& s) const { return read_mesh_solid(s.file, s.scale); }
   Result operator()(const Points& s) const { return make_points_solid(s); }

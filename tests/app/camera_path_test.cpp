@@ -191,8 +191,8 @@ TEST(CameraPath, KeyframesWithPlacesNeedNoFraming) {
 
 TEST(CameraErrors, AreLocatedAndSayWhatToTry) {
   EXPECT_EQ(camera_error("keyframes = [{ time = 1 }, { time = 0.5 }]"),
-            "s.toml:6:37: error: keyframe 2 is at 0.5 s, the one before at 1 s; times increase "
-            "from one keyframe to the next");
+            "s.toml:6:37: error: keyframe 2 is at 0.5 s, the one before at 1 s; times must "
+            "increase from one keyframe to the next");
   EXPECT_EQ(camera_error("orbit = 90\nturntable = 2"),
             "s.toml:7:13: error: orbit and turntable both turn the eye; give one: orbit = degrees "
             "over the whole scene, turntable = seconds per turn");

@@ -98,7 +98,7 @@ const std::vector<Fault>& faults() {
        app::health::Cause::raised_limits,
        {"solver.cfl=20", "solver.acoustic_cfl=50", "body.ball.velocity=[0,-60,0]"},
        "",
-       "allows more than holds"},
+       "is above the stable value"},
       {"snow that hardens too fast for a fixed step",
        app::health::Cause::hardening,
        {"solver.time_step=\"fixed\"", "solver.dt=1e-3", "material.snow.hardening=30"},

@@ -99,7 +99,7 @@ TEST(SceneErrors, BracketsAreExplained) {
             "s.toml:2:1: error: unknown key \"sphere\" in [body.1]; write shape = { sphere = { "
             "... } }");
   const std::string solver = error_of("[[solver]]\ncell_size = 0.1\n");
-  EXPECT_NE(solver.find("solver is no list; write [solver], with one pair of brackets"),
+  EXPECT_NE(solver.find("solver is not a list; write [solver], with one pair of brackets"),
             std::string::npos)
       << solver;
   const std::string bodies = error_of("[[bodies]]\nname = \"a\"\n");
@@ -182,8 +182,8 @@ TEST(SceneErrors, TypesAreNamed) {
             "s.toml:2:10: error: limits.memory = \"8 bananas\"; expected bytes, or a size such as "
             "\"8GiB\" or \"500MB\"");
   EXPECT_EQ(error_of("[[material]]\nname = \"snow\""),
-            "s.toml:1:3: error: material is no list; each has a table of its name, with one pair "
-            "of brackets: [material.NAME]");
+            "s.toml:1:3: error: material is not a list; each has a table of its name, with one "
+            "pair of brackets: [material.NAME]");
   EXPECT_EQ(error_of("body = [3]"), "s.toml:1:9: error: body.1 = 3; expected a table");
 }
 
@@ -206,13 +206,13 @@ TEST(SceneErrors, ChoicesAreListed) {
 TEST(SceneErrors, NamesAreUnique) {
   const std::string ball = "[[body]]\nname = \"x\"\nshape = { box = {} }\n";
   EXPECT_EQ(error_of(ball + ball),
-            "s.toml:5:8: error: duplicate body name \"x\"; names are unique among them");
-  EXPECT_EQ(error_of("[[body]]\nshape = { box = {} }\n[[body]]\nname = \"1\""),
-            "s.toml:4:8: error: duplicate body name \"1\"; the unnamed one there is called by its "
-            "number");
-  EXPECT_EQ(error_of("[[view]]\nname = \"2\"\n[[view]]"),
-            "s.toml:2:8: error: duplicate view name \"2\"; the unnamed one there is called by its "
-            "number");
+            "s.toml:5:8: error: duplicate body name \"x\"; names must be unique");
+  EXPECT_EQ(
+      error_of("[[body]]\nshape = { box = {} }\n[[body]]\nname = \"1\""),
+      "s.toml:4:8: error: duplicate body name \"1\"; the unnamed one has its number for a name");
+  EXPECT_EQ(
+      error_of("[[view]]\nname = \"2\"\n[[view]]"),
+      "s.toml:2:8: error: duplicate view name \"2\"; the unnamed one has its number for a name");
   EXPECT_EQ(error_of("[material.\"a b\"]"),
             "s.toml:1:11: error: bad material name \"a b\"; expected 1 to 64 letters, digits, _ "
             "and -");
@@ -248,8 +248,8 @@ TEST(SceneErrors, AShapeHasExactlyOneForm) {
             "s.toml:2:11: error: unsupported shape \"spere\" in body.1.shape; did you mean "
             "\"sphere\"?");
   EXPECT_EQ(error_of(in_body("shape = { box = {}, rotation = [0, 0, 45] }")),
-            "s.toml:2:21: error: \"rotation\" is beside the shape in body.1.shape; write it into "
-            "the braces of the shape: { box = { ..., rotation = ... } }");
+            "s.toml:2:21: error: \"rotation\" is outside the shape in body.1.shape; write it "
+            "inside the braces of the shape: { box = { ..., rotation = ... } }");
   EXPECT_EQ(
       error_of(in_body("shape = { plane = {} }")),
       "s.toml:2:11: error: unsupported shape \"plane\" in body.1.shape; only colliders can be "
@@ -268,7 +268,7 @@ TEST(SceneErrors, DegenerateShapesAreRefused) {
             "s.toml:2:36: error: minor_radius is larger than major_radius; a tube thicker than its "
             "ring overlaps itself");
   EXPECT_EQ(error_of(with_ball("[[collider]]\nshape = { plane = { normal = [0, 0, 0] } }")),
-            "s.toml:5:30: error: normal is zero; it points out of the solid side");
+            "s.toml:5:30: error: normal is zero; it must point out of the solid side");
   EXPECT_EQ(error_of(in_body("shape = { mesh = { scale = 2 } }")),
             "s.toml:2:18: error: mesh has no file; give file = \"NAME.obj\"");
   EXPECT_EQ(error_of(in_body("shape = { points = { spacing = 0.1 } }")),
@@ -286,21 +286,18 @@ TEST(SceneErrors, KeyframesOfCollidersAreLocated) {
   const auto error_with = [](const std::string& line) {
     return error_of(with_ball("[[collider]]\nshape = { box = {} }\n" + line));
   };
-  EXPECT_EQ(
-      error_with("keyframes = [{ time = 1 }, { time = 0.5 }]"),
-      "s.toml:6:37: error: keyframe 2 is at 0.5 s, the one before at 1 s; times increase from "
-      "one keyframe to the next");
+  EXPECT_EQ(error_with("keyframes = [{ time = 1 }, { time = 0.5 }]"),
+            "s.toml:6:37: error: keyframe 2 is at 0.5 s, the one before at 1 s; times must "
+            "increase from one keyframe to the next");
   EXPECT_EQ(error_with("velocity = [1, 0, 0]\nkeyframes = [{ time = 1 }]"),
-            "s.toml:6:12: error: velocity and keyframes both move the collider; give one of them; "
-            "keyframes hold a thing still where two are equal");
-  EXPECT_EQ(
-      error_with("keyframes = [{ time = 1 }]\nangular_velocity = [0, 0, 1]"),
-      "s.toml:7:20: error: angular_velocity and keyframes both move the collider; give one of "
-      "them; keyframes hold a thing still where two are equal");
+            "s.toml:6:12: error: velocity and keyframes both move the collider; give one of the "
+            "two; two equal keyframes hold the collider still");
+  EXPECT_EQ(error_with("keyframes = [{ time = 1 }]\nangular_velocity = [0, 0, 1]"),
+            "s.toml:7:20: error: angular_velocity and keyframes both move the collider; give one "
+            "of the two; two equal keyframes hold the collider still");
   EXPECT_EQ(error_with("keyframes = [{}, { time = 1, rotation = [0, 270, 0] }]"),
-            "s.toml:6:41: error: keyframe 2 turns by 180 degrees or more since the one before; "
-            "the shorter way is taken, of two as long either: put a keyframe in between, or let "
-            "angular_velocity turn it");
+            "s.toml:6:41: error: keyframe 2 turns by 180 degrees or more since the one before; a "
+            "collider turns the shorter way; add a keyframe in between, or use angular_velocity");
   for (const char* half : {"[0, 180, 0]", "[0, 0, -180]", "[90, 90, -90]"})
     EXPECT_NE(error_with(std::string("keyframes = [{}, { time = 1, rotation = ") + half + " }]")
                   .find("keyframe 2 turns by 180 degrees"),
@@ -334,9 +331,9 @@ TEST(SceneErrors, CamerasCanSee) {
   EXPECT_EQ(error_of(with_ball("[[view]]\ncamera = { eye = [0, 1, 0], target = [0, 0, 0] }")),
             "s.toml:5:10: error: up is parallel to the direction of view; try up = [0, 0, -1]");
   EXPECT_EQ(error_of(with_ball("[camera]\nup = [0, 0, 0]")),
-            "s.toml:5:6: error: up is zero; it points upwards in the picture");
+            "s.toml:5:6: error: up is zero; it must point upwards in the picture");
   EXPECT_EQ(error_of(with_ball("[light]\ndirection = [0, 0, 0]")),
-            "s.toml:5:13: error: direction is zero; it points towards the light");
+            "s.toml:5:13: error: direction is zero; it must point towards the light");
 }
 
 TEST(SceneErrors, ColourRangesAreNotEmpty) {
@@ -365,7 +362,7 @@ TEST(SceneErrors, SyntaxErrorsAreLocated) {
 TEST(SceneErrors, MoreCollidersThanASimulationTakesAreLocated) {
   std::string text = "[[body]]\nshape = { sphere = { radius = 0.1 } }\n";
   for (int k = 0; k < 65; ++k) text += "[[collider]]\nshape = { plane = {} }\n";
-  EXPECT_EQ(error_of(text), "s.toml:131:1: error: there are 65 colliders; at most 64 can be there");
+  EXPECT_EQ(error_of(text), "s.toml:131:1: error: there are 65 colliders; at most 64 are allowed");
 }
 
 TEST(SceneErrors, ControlBytesOfNamesAreNotEchoed) {

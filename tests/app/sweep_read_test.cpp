@@ -230,17 +230,17 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
        "3:10 sweep.frames: cannot use \"9-1\"; expected A-B with 0 <= A <= B <= 100000, or N for "
        "0-N"},
       {"method = \"lhs\"\n[axis]\n\"fps\" = [1]\n",
-       "3:10 method \"lhs\" needs samples; how many runs are drawn?"},
+       "3:10 method \"lhs\" needs samples; give the number of runs to draw"},
       {"[axis]\n\"fps\" = { uniform = [1, 2] }\n",
        "4:9 fps is drawn; that needs method \"random\" or \"lhs\""},
       {"method = \"zip\"\n[axis]\n\"fps\" = [1, 2]\n\"seed\" = [1]\n",
-       "6:11 seed has 1 values, and fps has 2; method \"zip\" needs equally many, \"grid\" makes "
-       "all "
-       "combinations"},
+       "6:11 seed has 1 values, and fps has 2; method \"zip\" needs the same number on all axes, "
+       "\"grid\" makes all combinations"},
       {"[[link]]\n\"fps\" = [1, 2]\n\"seed\" = [1]\n",
-       "5:10 seed has 1 values, and fps of the same [[link]] has 2; linked axes have equally many"},
+       "5:10 seed has 1 values, and fps of the same [[link]] has 2; linked axes must have the same "
+       "number"},
       {"[set]\n\"fps\" = 12\n[axis]\n\"fps\" = [1, 2]\n",
-       "4:1 fps is varied by the sweep; take it out of the axes, or change them with -p"},
+       "4:1 fps is varied by the sweep; remove it from the axes, or change the axis with -p"},
       {"[limits]\ntimeout = \"20 fortnights\"\n",
        "4:11 limits.timeout = \"20 fortnights\"; expected seconds, or a time such as \"90s\", "
        "\"20m\" or \"1h30m\""},

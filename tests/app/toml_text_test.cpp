@@ -60,7 +60,7 @@ TEST(TomlText, MarksAndLineEndingsAreAccepted) {
 
 TEST(TomlText, MoreThanAsciiOutsideBasicStringsIsLocated) {
   const std::string hint =
-      "; only comments and strings in \"double quotes\" may hold more than ASCII";
+      "; only comments and strings in \"double quotes\" may contain non-ASCII characters";
   EXPECT_EQ(toml_error("title = \"é\"\nné = 1"), "f:2:2: error: U+00E9 outside a string" + hint);
   EXPECT_EQ(toml_error("t = 'né'"), "f:1:7: error: U+00E9 in a literal string" + hint);
   EXPECT_EQ(toml_error("t = '''\nné'''"), "f:2:2: error: U+00E9 in a literal string" + hint);

@@ -113,7 +113,7 @@ TEST(Clip, AutomaticallyCutsTheMiddleOfTheSnow) {
 
 TEST(Clip, NeedsADirection) {
   EXPECT_EQ(view_error("[[view]]\nclip = { normal = [0, 0, 0] }"),
-            "s.toml:4:19: error: normal is zero; it points towards the side that is cut away");
+            "s.toml:4:19: error: normal is zero; it must point towards the side to cut away");
   EXPECT_EQ(view_error("[[view]]\nclip = { point = \"middle\" }"),
             "s.toml:4:18: error: view.1.clip.point = \"middle\"; expected three numbers [x, y, z]");
 }
@@ -198,7 +198,7 @@ TEST(Mosaic, ErrorsAreLocated) {
             "s.toml:11:9: error: there is no view \"bb\"; did you mean \"b\"?");
   EXPECT_EQ(view_error(views + "[[mosaic]]\nname = \"a\"\nviews = [\"b\"]"),
             "s.toml:11:8: error: a view is called \"a\" too; both would write into the folder of "
-            "that name: name the mosaic");
+            "that name; rename the mosaic");
   EXPECT_EQ(view_error(views + "[[mosaic]]\nname = \"m\""),
             "s.toml:10:1: error: a mosaic of 0 views; name 1 to 64 of \"a\", \"b\" or \"c\"");
   EXPECT_EQ(view_error(views + "[[mosaic]]\nviews = [1]"),

@@ -155,7 +155,7 @@ TEST_F(Dump, MistakesAreExplained) {
   wrong({"--at", "-1"}, "as in --at 0.25s");
   wrong({"--probe", "1,2"}, "--probe 0,0.5,0");
   wrong({"--probe", "1000000"}, "expected 0 to");
-  wrong({"--probe", "3", "--stage", "rasterize"}, "nodes have no number");
+  wrong({"--probe", "3", "--stage", "rasterize"}, "nodes have no id");
   wrong({"--field", "vv"}, "expected id, x, v");
   wrong({"--format", "csv"}, "table or vtk");
 }
@@ -164,7 +164,7 @@ TEST_F(Dump, ABrokenStateIsShownToo) {
   folder.write("explode.toml", exploding_scene);
   const auto result = neve({"dump", "explode.toml", "--at", "0.3", "--json"});
   EXPECT_EQ(result.exit_code, 5) << result.errors;
-  EXPECT_TRUE(contains(result.errors, "this is the state it left")) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "this is its last state")) << result.errors;
   EXPECT_TRUE(app::parse_json(std::string_view(result.output)).contains("quantities"));
 }
 

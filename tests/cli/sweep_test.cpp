@@ -259,7 +259,7 @@ scene = "scene.toml"
   const auto result =
       app::output::run_process("/bin/bash", {"-c", script, NEVE_BINARY}, folder.path());
   EXPECT_TRUE(contains(result.output, "code 75")) << result.output << result.errors;
-  EXPECT_TRUE(contains(result.errors, "the same command goes on")) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "the same command continues")) << result.errors;
   for (const char* run : {"0000", "0002"}) {
     EXPECT_EQ(status(run, "out/endless.cdb")["state"], "interrupted");
     EXPECT_TRUE(exists("out/endless.cdb/runs/" + std::string(run) + "/checkpoint")) << run;

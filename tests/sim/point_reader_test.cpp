@@ -128,7 +128,7 @@ TEST(PointReader, TellsWhereAndWhatIsWrong) {
   expect("ply\nformat zip 1.0\n", "p:2: the format \"zip\"");
   expect("ply\nend_header\n", "names no format");
   expect("ply\nformat ascii 1.0\nend_header\n", "no element vertex");
-  expect(ply + "-1\n", "p:3: \"-1\" is no number of elements");
+  expect(ply + "-1\n", "p:3: \"-1\" is not a number of elements");
   expect(ply + "1\nproperty half x\n", "p:4: \"half\" is no type");
   expect(ply + "2\n" + xyz + "end_header\n1 2 3 \n", "truncated");
   expect(ply + "1\n" + xyz + "end_header\n1 2      \n", "p:8: 2 numbers");

@@ -191,7 +191,7 @@ TEST(Replay, FramesEndItAndTooFewAreSaid) {
   options.frames = 3;
   EXPECT_EQ(viewer.failure(R"([{"wait": 2}, {"wait": 100}, {"click": "Run"}])", options),
             "clicks.json:1:30: error: step 3 (click): not reached after 3 frames of the panels; "
-            "give it more with --frames");
+            "raise --frames");
 }
 
 TEST(Replay, WakeEndsTheWaitOfAScriptThatWaits) {

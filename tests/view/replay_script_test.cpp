@@ -97,8 +97,8 @@ struct Wrong {
 
 TEST(ReplayScript, EveryWrongValueIsRefusedWithWhatWasExpected) {
   const Wrong all[] = {
-      {"", "no valid JSON"},
-      {"[{\"wait\": 3}", "no valid JSON"},
+      {"", "not valid JSON"},
+      {"[{\"wait\": 3}", "not valid JSON"},
       {"{\"wait\": 3}", "is a list of steps"},
       {"[3]", "3 is no step"},
       {"[{}]", "nothing to do"},

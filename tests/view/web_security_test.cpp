@@ -354,7 +354,7 @@ TEST(WebFront, ListensElsewhereOnlyWhenToldThatItIsRisky) {
     FAIL() << "listens at every network";
   } catch (const app::Error& error) {
     EXPECT_EQ(error.code, app::exit_usage);
-    EXPECT_NE(std::string(error.what()).find("whoever can reach it"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("anyone who can reach it"), std::string::npos);
   }
   options.is_risk_taken = true;
   const app::view::web::WebFront front(options);

@@ -297,7 +297,7 @@ TEST(Workbench, ASweepSaysWhatWasChangedWhileItRan) {
   work.go_to(1);
   work.bench.set("material.snow.youngs_modulus", "30000");
   const std::string text = read_text(work.bench.sweep_around("solver.cfl"));
-  const std::size_t comment = text.find("# Changed while the run went on");
+  const std::size_t comment = text.find("# Changed during the run");
   ASSERT_NE(comment, std::string::npos) << text;
   const std::string list = text.substr(comment, text.find("[sweep]") - comment);
   EXPECT_TRUE(contains(list, "material.snow.youngs_modulus")) << text;
@@ -352,8 +352,8 @@ TEST(Workbench, AFailedReloadSaysWhereAndLeavesTheFileChanged) {
 TEST(Workbench, TellsWhatAFieldRefused) {
   Working work;
   work.bench.edit(
-      {view::session::Edit::Kind::refused, "solver.cfl", "not taken; expected 0 < value", 0});
-  EXPECT_EQ(work.bench.messages().back().text, "solver.cfl: not taken; expected 0 < value");
+      {view::session::Edit::Kind::refused, "solver.cfl", "not accepted; expected 0 < value", 0});
+  EXPECT_EQ(work.bench.messages().back().text, "solver.cfl: not accepted; expected 0 < value");
   EXPECT_EQ(work.bench.messages().back().kind, view::session::Message::Kind::error);
   EXPECT_TRUE(work.bench.document().changes().empty());
 }

@@ -175,7 +175,7 @@ class Rewriter {
     }
     const bool in_literal = state_ != State::plain;
     fail(code_name(c.value) + (in_literal ? " in a literal string" : " outside a string"),
-         "only comments and strings in \"double quotes\" may hold more than ASCII");
+         "only comments and strings in \"double quotes\" may contain non-ASCII characters");
   }
 
   static std::string escape(char32_t c) {

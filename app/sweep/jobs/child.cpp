@@ -79,7 +79,7 @@ Child::Child(const ChildCommand& command, const ChildLimits& limits)
   ::close(log);
   if (pid_ < 0)
     throw IoError(std::string("cannot start a process: ") + std::strerror(reason), program,
-                  "fewer --jobs need fewer processes");
+                  "try fewer --jobs");
   // Both sides set it, so that it is true whoever comes first.
   ::setpgid(pid_, pid_);
 }

@@ -154,7 +154,7 @@ class LocalEngine {
     const fs::path folder = folder_of(run);
     store::RunLock lock(folder);
     if (!lock.is_held()) {
-      progress_.warning(store::run_text(run) + " is left to another sweep that is at it");
+      progress_.warning(store::run_text(run) + " is in progress in another sweep");
       --state_.all;
       work_left_ -= run.work;
       return;

@@ -106,7 +106,7 @@ void judge_signal(const ChildResult& result, const fs::path& folder, store::RunR
   report.reason = "ended by signal " + std::to_string(result.signal);
   if (const char* what = ::strsignal(result.signal)) report.reason += std::string(", ") + what;
   if (result.signal == SIGKILL)
-    report.reason += "; the system kills what takes too much memory, see dmesg";
+    report.reason += "; the system kills processes that take too much memory, see dmesg";
   // An allocation that fails in a thread ends in abort.
   if (result.signal != SIGABRT ||
       last_message(folder / "log").find("bad_alloc") == std::string::npos)
@@ -139,7 +139,7 @@ void judge(const ChildResult& result, const store::Manifest& manifest,
     case Ending::out_of_memory:
       report.state = store::RunState::out_of_memory;
       report.short_reason = "over " + bytes_text(static_cast<std::uint64_t>(manifest.memory));
-      report.reason = "held more than " + bytes_text(static_cast<std::uint64_t>(manifest.memory)) +
+      report.reason = "used more than " + bytes_text(static_cast<std::uint64_t>(manifest.memory)) +
                       " of memory, [limits] memory";
       return;
     case Ending::stopped:

@@ -35,13 +35,13 @@ std::string without_trailing_space(std::string text) {
 std::string call(const std::string& name, const std::vector<std::string>& arguments) {
   const auto program = output::find_program(name);
   if (!program)
-    throw Error(exit_io, name + " is not installed here, so there is no Slurm to use", name,
-                "run on a machine that submits jobs, or without --engine slurm; --shard and --emit "
-                "work with any scheduler");
+    throw Error(exit_io, name + " is not installed here, so Slurm cannot be used", name,
+                "run on a machine that can submit jobs, or without --engine slurm; --shard and "
+                "--emit work with any scheduler");
   const output::ProcessResult result = output::run_process(*program, arguments, fs::current_path());
   if (!result.has_started || result.exit_code != 0)
     throw Error(exit_io, name + " failed: " + without_trailing_space(result.errors + result.output),
-                name, "sinfo tells whether Slurm is there");
+                name, "sinfo shows the state of Slurm");
   return without_trailing_space(result.output);
 }
 
@@ -196,7 +196,7 @@ EngineResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
   EngineResult result;
   std::vector<std::string> jobs = living(known_jobs(folder));
   if (!jobs.empty()) {
-    progress.note("waiting for the jobs that were submitted before");
+    progress.note("waiting for the jobs submitted before");
   } else if (!missing.empty()) {
     jobs = submit(folder, manifest, missing, options, is_failed_again);
     result.started = static_cast<int>(missing.size());

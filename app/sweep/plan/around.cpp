@@ -84,8 +84,8 @@ scene::toml::Value value_of(const scene::FlatParam& param, double x) {
 }
 
 [[noreturn]] void refuse(const scene::FlatParam& param, const std::string& why) {
-  throw scene::toml::UsageError(param.address, "there are no values around it: " + why,
-                                "numbers, choices and vectors other than zero have some");
+  throw scene::toml::UsageError(param.address, "no values can be chosen around it: " + why,
+                                "choose a number, a choice, or a vector other than zero");
 }
 
 std::vector<scene::toml::Value> vectors_around(const scene::FlatParam& param,
@@ -138,7 +138,7 @@ std::vector<scene::toml::Value> values_around(const scene::FlatParam& param) {
   const scene::toml::Array* array =
       param.value ? std::get_if<scene::toml::Array>(&param.value->data) : nullptr;
   if (param.type == "vector" && array) return vectors_around(param, *array);
-  refuse(param, param.value ? "it is a " + param.type : "it has none itself");
+  refuse(param, param.value ? "it is a " + param.type : "it has no value of its own");
 }
 
 std::string sweep_command(const std::string& sweep_file, double coarsening) {
@@ -151,12 +151,13 @@ std::string sweep_around(const std::string& scene_file, const std::string& sweep
                          double coarsening, const std::vector<std::string>& set_later) {
   const std::vector<scene::toml::Value> values = values_around(param);
   const std::string scene = relative_to(scene_file, sweep_file);
-  std::string text = "# What " + param.address + " does, around its value of " + param.text() +
+  std::string text = "# Effect of " + param.address + " around its value of " + param.text() +
                      (*param.unit ? std::string(" ") + param.unit : "") + ".\n# " + param.help +
                      "\n#   " + sweep_command(sweep_file, coarsening) + "\n";
   if (!set_later.empty()) {
     text +=
-        "# Changed while the run went on, here start values of all runs, so that none is that run:";
+        "# Changed during the run. Here they are start values of all runs, so no run repeats that "
+        "one:";
     for (const std::string& address : set_later) text += "\n#   " + address;
     text += "\n";
   }

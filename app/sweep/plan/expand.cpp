@@ -133,8 +133,8 @@ void check_axes(const read::Sweep& sweep) {
     if (sweep.settings.method == read::Method::list)
       first.fail(first.key, "method \"list\" has no axes, only [[run]]s");
     if (sweep.settings.method == read::Method::zip && axis.size() != sweep.axes.front().size())
-      first.fail(first.place, axis.parameters.front().address + " has another number of values",
-                 "method \"zip\" needs equally many on all axes");
+      first.fail(first.place, axis.parameters.front().address + " has a different number of values",
+                 "method \"zip\" needs the same number on all axes");
   }
 }
 

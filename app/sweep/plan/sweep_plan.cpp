@@ -100,7 +100,7 @@ void refuse_two_frames(const SweepOptions& options, const read::Sweep& sweep) {
   if (!setting) return;
   if (options.frames)
     throw scene::toml::UsageError("--frames", "the sweep varies frames",
-                                  "leave out --frames, or take frames out of the axes and runs");
+                                  "remove --frames, or remove frames from the axes and runs");
   if (!sweep.settings.frames.empty())
     sweep.fail("sweep.frames", "sweep.frames is for all runs, and the sweep varies frames",
                "remove one of them");

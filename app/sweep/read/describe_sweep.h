@@ -17,33 +17,33 @@ void describe(V& visit, AxisSpec& a) {
   visit("range", a.range, scene::unit::none, scene::within(1e15), restart,
         "Whole numbers [first, last] or [first, last, step], both ends included.");
   visit("uniform", a.uniform, scene::unit::none, scene::within(1e30), restart,
-        "Drawn between the two numbers; for the methods random and lhs.");
+        "Samples between the two numbers; for the methods random and lhs.");
   visit("log_uniform", a.log_uniform, scene::unit::none, scene::above(0).at_most(1e30), restart,
-        "Drawn between the two numbers so that all ratios are alike; for random and lhs.");
+        "Samples between the two numbers, uniform in the logarithm; for random and lhs.");
   visit("normal", a.normal, scene::unit::none, scene::within(1e30), restart,
-        "Drawn about the first number, the second is the standard deviation; for random and lhs.");
+        "Normal samples, with mean and standard deviation; for random and lhs.");
   visit("num", a.num, scene::unit::none, scene::between(1, 100000), restart,
-        "How many values linspace and logspace make.");
+        "Number of values of linspace and logspace.");
   visit("label", a.label, scene::unit::none, scene::anything, restart,
-        "What the axis is called on the sheet; without it the parameter's name.");
+        "Name of the axis on the sheet; default: the parameter's name.");
 }
 
 template <class V>
 void describe(V& visit, SweepSettings& s) {
   using enum scene::Change;
   visit("scene", s.scene, scene::unit::none, scene::anything, restart,
-        "The scene that is varied; relative to this file.");
+        "Scene to vary; path relative to this file.");
   visit("method", s.method, scene::unit::none, scene::anything, restart,
-        "grid: all combinations; zip: the axes in step; random, lhs: samples are drawn; list: only "
-        "the [[run]]s.");
+        "grid: all combinations; zip: the axes in parallel; random, lhs: samples; list: only the "
+        "[[run]]s.");
   visit("samples", s.samples, scene::unit::none, scene::between(1, 100000), restart,
-        "How many runs random and lhs draw.");
+        "Number of runs of random and lhs.");
   visit("seed", s.seed, scene::unit::none, scene::between(0, scene::max_count), restart,
-        "Of what is drawn.");
+        "Seed of the samples.");
   visit("frames", s.frames, scene::unit::none, scene::anything, restart,
-        "Frames to draw, \"A-B\" or \"N\" for 0-N; without it the scene's.");
+        "Frames to draw, \"A-B\" or \"N\" for 0-N; default: those of the scene.");
   visit("title", s.title, scene::unit::none, scene::anything, restart,
-        "Title of the sheet; without it the scene's.");
+        "Title of the sheet; default: that of the scene.");
 }
 
 template <class V>
@@ -54,40 +54,40 @@ void describe(V& visit, SweepLimits& l) {
   visit("memory", l.memory, scene::unit::bytes, scene::between(0, scene::max_count), restart,
         "Memory of a run, in bytes or as \"6GiB\"; 0: only the scene's own limit.");
   visit("runs", l.runs, scene::unit::none, scene::between(1, 1e6), restart,
-        "Runs that a sweep may have before it is refused.");
+        "Largest number of runs; a sweep with more is refused.");
 }
 
 template <class V>
 void describe(V& visit, SheetSettings& s) {
   using enum scene::Change;
   visit("columns", s.columns, scene::unit::none, scene::anything, restart,
-        "Address or label of the axis that goes across; without it the last one.");
+        "Address or label of the axis across; default: the last one.");
   visit("rows", s.rows, scene::unit::none, scene::anything, restart,
-        "Address or label of the axis that goes down; without it the one before the last.");
+        "Address or label of the axis down; default: the one before the last.");
   visit("wrap", s.wrap, scene::unit::none, scene::between(0, 64), restart,
-        "Tiles side by side where there is one axis or none; 0: chosen by their number.");
+        "Tiles side by side, with one axis or none; 0: chosen from their number.");
   visit("tile", s.tile, scene::unit::pixels, scene::between(64, 4096), restart,
-        "Width and height of a tile; without it 480 wide in the shape of the scene's pictures.");
+        "Width and height of a tile; default: 480 wide, in the shape of the scene's pictures.");
   visit("view", s.view, scene::unit::none, scene::anything, restart,
-        "The view that the tiles show; without it the scene's first.");
+        "View on the tiles; default: the scene's first.");
   visit("label", s.label, scene::unit::none, scene::anything, restart,
-        "What stands on the tiles: differences: the name and the parameters that differ; name: the "
-        "name of the run; none: nothing.");
+        "Text on a tile. differences: the name and the parameters that differ; name: the name of "
+        "the run; none: no text.");
 }
 
 template <class V>
 void describe(V& visit, SweepFile& s) {
-  visit.section("sweep", "What is varied and how.", [&](auto& v) { describe(v, s.sweep); });
-  visit.addresses("set", s.set, "A parameter of the scene that is the same in all runs.");
+  visit.section("sweep", "The scene and the method of the sweep.",
+                [&](auto& v) { describe(v, s.sweep); });
+  visit.addresses("set", s.set, "A parameter with the same value in all runs.");
   visit.addresses("axis", s.axis,
                   "A parameter that varies: a list of values, or a table with one of linspace, "
                   "logspace, range, uniform, log_uniform, normal.");
-  visit.address_lists("link", s.links,
-                      "Parameters that vary together and count as one axis; with labels = [...] "
-                      "its values are called so.");
-  visit.address_lists("run", s.runs,
-                      "Parameters of one run; label = \"...\" is what it is called.");
-  visit.section("limits", "What a run may use before it is stopped.",
+  visit.address_lists(
+      "link", s.links,
+      "Parameters that vary together as one axis; labels = [...] names its values.");
+  visit.address_lists("run", s.runs, "Parameters of one run; label = \"...\" names it.");
+  visit.section("limits", "Limits of a run; a run that exceeds one is stopped.",
                 [&](auto& v) { describe(v, s.limits); });
   visit.section("sheet", "The contact sheet.", [&](auto& v) { describe(v, s.sheet); });
 }

@@ -110,14 +110,14 @@ class SweepReader {
                       entry.key + " has " + std::to_string(last.values.size()) + " values, and " +
                           first.address + " of the same [[link]] has " +
                           std::to_string(first.values.size()),
-                      "linked axes have equally many");
+                      "linked axes must have the same number");
     }
     if (axis.parameters.empty()) source().fail(reading_.place_of("link"), "a [[link]] has no axes");
     if (labels && axis.value_labels.size() != axis.size())
       source().fail(labels->where,
                     "labels has " + std::to_string(axis.value_labels.size()) + " names for " +
                         std::to_string(axis.size()) + " values",
-                    "give each value one");
+                    "give each value a name");
     return axis;
   }
 
@@ -136,7 +136,7 @@ class SweepReader {
     const bool draws = method == Method::random || method == Method::lhs;
     const std::string name = scene::toml::toml_string(scene::name_of(method));
     if (draws && sweep.settings.samples == 0)
-      source().fail(where, "method " + name + " needs samples", "how many runs are drawn?");
+      source().fail(where, "method " + name + " needs samples", "give the number of runs to draw");
     if (!draws && sweep.settings.samples > 0)
       source().fail(reading_.place_of("sweep.samples"), "samples are not for method " + name,
                     "expected method \"random\" or \"lhs\"");
@@ -157,11 +157,12 @@ class SweepReader {
                     "that needs method \"random\" or \"lhs\"");
     const Axis& other = sweep.axes.front();
     if (method == Method::zip && axis.size() != other.size())
-      source().fail(first.place,
-                    axis.parameters.front().address + " has " + std::to_string(axis.size()) +
-                        " values, and " + other.parameters.front().address + " has " +
-                        std::to_string(other.size()),
-                    "method \"zip\" needs equally many, \"grid\" makes all combinations");
+      source().fail(
+          first.place,
+          axis.parameters.front().address + " has " + std::to_string(axis.size()) +
+              " values, and " + other.parameters.front().address + " has " +
+              std::to_string(other.size()),
+          "method \"zip\" needs the same number on all axes, \"grid\" makes all combinations");
   }
 
   scene::Reading reading_;
@@ -214,7 +215,7 @@ void refuse_duplicates(const Sweep& sweep) {
     for (const scene::Override& fixed : sweep.fixed)
       if (fixed.address == settings[k]->address)
         fixed.fail(fixed.key, fixed.address + " is varied by the sweep",
-                   "take it out of the axes, or change them with -p");
+                   "remove it from the axes, or change the axis with -p");
   }
 }
 

@@ -58,7 +58,7 @@ Json column_names(const store::Manifest& manifest) {
     columns.push_back(column(p.name + (p.unit.empty() ? "" : " (" + p.unit + ")"),
                              p.type != "number" && p.type != "integer", true, p.address));
   columns.push_back(column("state", true, false));
-  columns.push_back(column("warnings", false, false, "a cell's tooltip has the words"));
+  columns.push_back(column("warnings", false, false, "hover over a cell for the text"));
   columns.back()["is_warning"] = true;
   for (const store::MetricInfo& metric : store::metric_infos())
     columns.push_back(column(
@@ -171,14 +171,14 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
          xml_text(manifest.title) + "</title>\n<style>" + report_style + "</style></head><body>\n" +
          "<h1>" + xml_text(manifest.title) + "</h1>\n<p class=\"sub\">" + xml_text(sub) + "</p>\n" +
          sheet_section(manifest, layout, sheet_png) +
-         "<h2>Runs</h2>\n<p class=\"hint\">Metrics are those of the last frame that a run reached. "
-         "A click on a head sorts.</p>\n<div class=\"wide\"><table id=\"table\"></table></div>\n" +
+         "<h2>Runs</h2>\n<p class=\"hint\">Metrics are those of the last frame of each run. Click "
+         "a column head to sort.</p>\n<div class=\"wide\"><table id=\"table\"></table></div>\n" +
          "<h2>Parallel coordinates</h2>\n<p class=\"hint\">One line per run; hover over a line, a "
          "row or a tile.</p>\n<div class=\"wide\"><svg id=\"parallel\"></svg></div>\n" +
          "<h2>Metrics</h2>\n<div class=\"wide\" id=\"plots\">" +
          metric_plots_svg(manifest, results, false) + "</div>\n" +
-         "<h2>Commands</h2>\n<p class=\"hint\">Each makes the pictures of its run again, to the "
-         "bit.</p>\n" +
+         "<h2>Commands</h2>\n<p class=\"hint\">Each command makes the pictures of its run again, "
+         "bit for bit.</p>\n" +
          commands_section(folder, manifest) + "<script type=\"application/json\" id=\"data\">" +
          script_json(data) + "</script>\n" + "<script>" + report_script +
          "</script>\n</body></html>\n";

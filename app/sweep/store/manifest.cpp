@@ -121,7 +121,7 @@ ManifestRun run_of(const Json& json) {
   const bool is_plain =
       !run.folder.empty() && std::all_of(run.folder.begin(), run.folder.end(),
                                          [](char c) { return c >= '0' && c <= '9'; });
-  if (!is_plain) throw std::runtime_error("the folder of a run is no number");
+  if (!is_plain) throw std::runtime_error("the folder of a run is not a number");
   return run;
 }
 
@@ -147,7 +147,7 @@ std::optional<std::vector<std::string>> axis_addresses(const Manifest& manifest)
 std::string axes_text(const std::vector<std::string>& addresses) {
   std::string text;
   for (const std::string& address : addresses) text += (text.empty() ? "" : ", ") + address;
-  return text.empty() ? "nothing but its [[run]]s" : text;
+  return text.empty() ? "only its [[run]]s" : text;
 }
 
 /// That the folder has; nothing where there is none that can be read.
@@ -245,7 +245,7 @@ void check_folder(const plan::SweepPlan& plan) {
   throw scene::toml::UsageError(
       plan.folder.string(),
       "has a sweep of " + axes_text(*before) + "; this one varies " + axes_text(now),
-      "give --out another folder, or remove the old one");
+      "choose another folder with --out, or remove the old one");
 }
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
@@ -310,8 +310,8 @@ Manifest read_manifest(const std::filesystem::path& folder) {
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
     return m;
   } catch (const std::exception& error) {
-    throw Error(exit_invalid_scene, file + ": error: is no list of runs: " + error.what(), file,
-                "run the sweep again to write it anew; finished runs are kept");
+    throw Error(exit_invalid_scene, file + ": error: is not a list of runs: " + error.what(), file,
+                "run the sweep again to rewrite it; finished runs are kept");
   }
 }
 

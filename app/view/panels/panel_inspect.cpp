@@ -63,7 +63,7 @@ bool begin_quantities(const char* name) {
 void draw_stage_table(const session::StageLook& look) {
   const std::string rows =
       std::to_string(look.rows) + (look.is_of_nodes ? " nodes, " + std::to_string(look.feathers) +
-                                                          " of them feather-light and left out"
+                                                          " of them too light and left out"
                                                     : " particles");
   ImGui::PushTextWrapPos(0);
   ImGui::TextDisabled("after %s of a step of %s s: magnitudes of %s", sim::name(look.stage),
@@ -135,7 +135,7 @@ void draw_stage(ViewerState& state, sim::Stage stage, const char* name) {
     state.bench.set("solver.bypass", scene::toml::toml_literal(scene::to_value(bypass)));
   }
   note_label((std::string("switch ") + name).c_str());
-  tip("untick: the stage is skipped, like a bypassed node");
+  tip("untick to skip the stage, like a bypassed node");
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   const bool is_past = live.stage && stage <= live.stage->stage;
@@ -147,7 +147,8 @@ void draw_stage(ViewerState& state, sim::Stage stage, const char* name) {
   }
   if (is_past) ImGui::PopStyleColor();
   note_label(name);
-  tip("click: a step on a copy, up to the end of this stage; again: back to the frame");
+  tip("click to take a step on a copy, up to the end of this stage; click again to return to the "
+      "frame");
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", is_done ? stage_time_text(live, stage).c_str() : "skipped");
@@ -165,12 +166,12 @@ void draw_stages(ViewerState& state) {
     ImGui::EndTable();
   }
   ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled(
-      "%s", live.stage       ? "Time: of each stage of this one step, taken stage by "
-                               "stage on a copy; the run itself is faster."
-            : live.steps > 0 ? "Time: of the run so far, by phase; it does the stages of a phase "
-                               "together. Click a stage for its own time."
-                             : "Click a stage to look inside of a step, on a copy.");
+  ImGui::TextDisabled("%s", live.stage ? "Time of each stage of this one step, taken stage by "
+                                         "stage on a copy. The run itself is faster."
+                            : live.steps > 0
+                                ? "Time of the run so far, by phase, because the run joins the "
+                                  "stages of a phase. Click a stage for its own time."
+                                : "Click a stage to inspect a step, on a copy.");
   ImGui::PopTextWrapPos();
   if (live.stage) draw_stage_table(*live.stage);
 }
@@ -210,8 +211,8 @@ void draw_probe(ViewerState& state) {
   if (!state.probe) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextDisabled(
-        "Click a particle in the picture, or with ctrl the nearest node of the "
-        "grid, to read all that it carries.");
+        "Click a particle in the picture, or ctrl-click the nearest node of the grid, to read its "
+        "values.");
     ImGui::PopTextWrapPos();
     return;
   }
@@ -224,7 +225,7 @@ void draw_probe(ViewerState& state) {
   ImGui::Checkbox("follow it", &state.follows_probe);
   note_label("follow it");
   if (!live.probe) {
-    ImGui::TextDisabled(live.probed == state.probe ? "it is not there" : "reading ...");
+    ImGui::TextDisabled(live.probed == state.probe ? "it does not exist now" : "reading ...");
     return;
   }
   const session::ProbeReading& probe = *live.probe;
@@ -249,7 +250,7 @@ void draw_probe(ViewerState& state) {
     if (wants_tip()) {
       std::vector<TipLine> lines;
       if (!row.why.empty()) lines.push_back({row.why});
-      lines.push_back({"click: plotted over time"});
+      lines.push_back({"click to plot it over time"});
       show_tip(lines);
     }
     draw_value(values_text(row), row.is_strange, row.expected);

@@ -99,7 +99,7 @@ void draw_time_line(ViewerState& state) {
     }
   }
   note_label(state.is_playing ? "Stop" : "Play");
-  tip("kept frames, one after the other, without simulating");
+  tip("play the kept frames, without simulating");
   ImGui::SameLine();
   // Beside the bar, where the grab cannot cover it, and as wide for every frame.
   ImGui::AlignTextToFramePadding();
@@ -124,15 +124,14 @@ void draw_time_line(ViewerState& state) {
   if (live.is_older) {
     if (ImGui::Button(is_short ? "Go on" : "Go on from here")) state.bench.continue_from_here();
     note_label("Go on from here");
-    tip("simulate from this frame with the values as they are now;\nwhat came after it is "
-        "forgotten");
+    tip("simulate from this frame with the current values;\nlater frames are dropped");
     ImGui::SameLine();
     if (ImGui::Button(is_short ? "Back" : "Back to the run")) state.bench.session().show_head();
     note_label("Back to the run");
-    tip("the newest frame");
+    tip("show the newest frame");
   } else {
     ImGui::TextDisabled("%zu kept, %s", live.kept.size(), bytes_text(live.kept_bytes).c_str());
-    tip(("up to " + bytes_text(live.kept_budget) + "; then older ones are thinned out").c_str());
+    tip(("up to " + bytes_text(live.kept_budget) + "; then older frames are thinned out").c_str());
   }
 }
 
@@ -150,23 +149,23 @@ void draw_help(ViewerState& state) {
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
     draw_keys("left drag", "orbit");
     draw_keys("middle drag, shift + left drag", "pan");
-    draw_keys("wheel, right drag", "zoom, towards the mouse");
-    draw_keys("click", "read out the particle");
-    draw_keys("ctrl + click", "read out the node of the grid");
+    draw_keys("wheel, right drag", "zoom towards the mouse");
+    draw_keys("click", "inspect the particle");
+    draw_keys("ctrl + click", "inspect the node of the grid");
     draw_keys("space", "run and pause");
     draw_keys(".   ,   ;", "next frame, step, stage");
     draw_keys("R", "reset to frame 0");
     draw_keys("left, right, home, end", "kept frames");
     draw_keys("1 to 9", "the first nine views");
     draw_keys("F   shift + F", "frame the selection; everything");
-    draw_keys("X   Y   Z", "look along an axis; again: from the other side");
+    draw_keys("X   Y   Z", "look along an axis; press again for the other side");
     draw_keys("P", "save a picture");
     draw_keys("ctrl + S", "save the scene with its changes");
     draw_keys("ctrl + Z   ctrl + Y", "undo, redo");
-    draw_keys("tab", "panels on and off");
+    draw_keys("tab", "show or hide the panels");
     draw_keys("ctrl + click on a slider", "type a number");
-    draw_keys("right click on a parameter", "default, file's value, sweep around it");
-    draw_keys("?   escape", "this list; close it, let go");
+    draw_keys("right click on a parameter", "restore its value, sweep around it");
+    draw_keys("?   escape", "this list; close it, clear the probe");
     ImGui::EndTable();
   }
   ImGui::End();

@@ -73,7 +73,7 @@ void fit_range(ViewerState& state, const scene::View& view) {
     high = std::max(high, values[p]);
   }
   if (!(low < high)) {
-    state.bench.say(session::Message::Kind::note, "there is no range: all values are the same");
+    state.bench.say(session::Message::Kind::note, "no range: all values are the same");
     return;
   }
   const double scale = high - low;
@@ -136,7 +136,7 @@ void draw_parameters(ViewerState& state) {
   scene::describe(knobs, scene);
   if (!panel.has_shown()) {
     ImGui::PushTextWrapPos(0);
-    ImGui::TextDisabled("Nothing here has \"%s\" in its name or its sentence.",
+    ImGui::TextDisabled("No parameter here has \"%s\" in its name or description.",
                         state.filter.c_str());
     ImGui::PopTextWrapPos();
   }
@@ -161,7 +161,7 @@ void draw_changes(ViewerState& state) {
   for (const session::ChangedValue& change : changes) {
     ImGui::PushID(change.address.c_str());
     if (ImGui::SmallButton("x")) state.bench.forget(change.address);
-    tip("back to what the file says");
+    tip("restore the value in the file");
     ImGui::SameLine();
     ImGui::TextUnformatted(change.address.c_str());
     ImGui::Indent(1.6f * em());
@@ -208,7 +208,7 @@ void draw_objects(ViewerState& state) {
   knobs_of("emitter.", scene.emitters);
   knobs_of("sink.", scene.sinks);
   knobs_of("collider.", scene.colliders);
-  if (state.selected.empty()) ImGui::TextDisabled("Choose one to move it and to change it.");
+  if (state.selected.empty()) ImGui::TextDisabled("Select an object to move or change it.");
   ImGui::EndChild();
   take_edits(state, panel);
 }
@@ -229,7 +229,7 @@ void draw_view_panel(ViewerState& state) {
     ImGui::SameLine();
     if (ImGui::Button("Fit the range")) fit_range(state, current_view(state));
     note_label("Fit the range");
-    tip("colours from the least to the greatest value of the selected body,\nor of all snow, at "
+    tip("colours from the smallest to the largest value of the selected body,\nor of all snow, at "
         "this moment");
   }
   ImGui::Separator();

@@ -41,7 +41,8 @@ void gap() {
 }
 
 void draw_out_menu(ViewerState& state) {
-  if (button("Save ...", "pictures, sequences, the scene, a command line")) ImGui::OpenPopup("out");
+  if (button("Save ...", "save pictures, sequences, the scene, a command line"))
+    ImGui::OpenPopup("out");
   if (!ImGui::BeginPopup("out")) return;
   const auto item = [](const char* label, const char* key = nullptr, bool is_on = false) {
     const bool is_chosen = ImGui::MenuItem(label, key, is_on);
@@ -96,8 +97,8 @@ void draw_transport(ViewerState& state) {
   } else {
     const bool is_at_end = !live.is_older && live.frame >= live.scene->frames;
     if (button("Run",
-               is_broken   ? "the run broke a rule: reset it, or go on from an older frame"
-               : is_at_end ? "the last frame is reached: raise `frames` to go on"
+               is_broken   ? "the run broke a rule: reset it, or continue from an older frame"
+               : is_at_end ? "the run has reached its last frame: raise `frames` to continue"
                            : "simulate (space)",
                !is_broken && !is_at_end)) {
       state.is_playing = false;
@@ -112,12 +113,12 @@ void draw_transport(ViewerState& state) {
   }
   const std::vector<std::string> waiting = state.bench.waiting_for_reset();
   if (button("Reset",
-             waiting.empty() ? "back to frame 0 (R)"
-                             : "back to frame 0 with the values that wait for it (R)",
+             waiting.empty() ? "go back to frame 0 (R)"
+                             : "go back to frame 0 with the values that wait for it (R)",
              true, !waiting.empty()))
     state.bench.reset();
   gap();
-  if (button("Undo", "take the last change back (ctrl+Z)", state.bench.document().can_undo()))
+  if (button("Undo", "undo the last change (ctrl+Z)", state.bench.document().can_undo()))
     state.bench.undo();
   if (button("Redo", "ctrl+Y", state.bench.document().can_redo())) state.bench.redo();
   gap();
@@ -126,8 +127,8 @@ void draw_transport(ViewerState& state) {
   PanelSwitches& panels = state.panels;
   if (panels.is_one_of_two() &&
       button(panels.prefers_right ? "Parameters" : "View",
-             panels.prefers_right ? "parameters, objects and changes in the column"
-                                  : "view, inspection, plots and messages in the column"))
+             panels.prefers_right ? "show parameters, objects and changes in the column"
+                                  : "show view, inspection, plots and messages in the column"))
     panels.prefers_right = !panels.prefers_right;
   state.bar_rows = 1 + static_cast<int>(std::lround((ImGui::GetCursorPosY() - first_row) /
                                                     ImGui::GetFrameHeightWithSpacing()));

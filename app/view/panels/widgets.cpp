@@ -79,7 +79,7 @@ T resume_typing(const Knob& knob, T& value, bool is_whole = false) {
 
 std::string refusal_text(const Knob& knob) {
   const std::string bounds = knob.valid.text_of_bounds();
-  return "not taken; expected " + (bounds == "value" ? std::string("a plain number") : bounds) +
+  return "not accepted; expected " + (bounds == "value" ? std::string("a plain number") : bounds) +
          (knob.unit[0] ? std::string(" ") + knob.unit : "");
 }
 
@@ -249,7 +249,7 @@ bool edit_value(const Knob& knob, scene::Range& value) {
   // In a drag, on their way past each other, they stay as they were.
   const auto bound = [&](const auto& ends) { return ends[0] < ends[1] ? ends : before; };
   if (!settle(knob, before, numbers, is_valid, bound)) {
-    if (!knob.refusal.empty()) knob.refusal += ", the first number below the second";
+    if (!knob.refusal.empty()) knob.refusal += ", the first number smaller than the second";
     return false;
   }
   value = {numbers[0], numbers[1]};
@@ -342,7 +342,7 @@ void KnobPanel::end(const Knob& knob, const std::string& value) {
     const std::string bounds = knob.valid.text_of_bounds();
     if (!bounds.empty()) lines.push_back({bounds + " " + knob.unit, true});
     lines.push_back(
-        {knob.is_live ? "live: from the next step on" : "takes effect with Reset", true});
+        {knob.is_live ? "live: takes effect at the next step" : "takes effect at Reset", true});
     show_tip(lines);
   };
   context("menu");

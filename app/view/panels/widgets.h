@@ -212,7 +212,7 @@ class Knobs {
     bool is_given = member.has_value();
     T value = member.value_or(T{});
     ImGui::Checkbox("##given", &is_given);
-    tip(is_given ? "given; untick: back to what the file says" : "automatic");
+    tip(is_given ? "given; untick to restore the value in the file" : "automatic");
     ImGui::SameLine();
     bool is_set = false;
     if (is_given)

@@ -64,7 +64,7 @@ void ReplayFront::give_up_label(const ReplayStep& step, const std::string& label
   std::string all;
   for (const std::string& name : labels.names()) all += (all.empty() ? "" : ", ") + name;
   const std::string hint = !nearest.empty() ? "did you mean \"" + nearest + "\"?"
-                           : all.empty()    ? "there are no labels at all"
+                           : all.empty()    ? "there are no labels"
                                             : "there are: " + all;
   const auto place = labels.find(label);
   const std::string what = !place              ? " is not on the picture"
@@ -109,7 +109,7 @@ std::vector<front::InputEvent> ReplayFront::closing() const {
   if (next_ < steps_.size())
     give_up(steps_[next_],
             "not reached after " + std::to_string(options_.frames) + " frames of the panels",
-            "give it more with --frames");
+            "raise --frames");
   return {{.kind = front::InputEvent::Kind::close}};
 }
 

@@ -339,9 +339,9 @@ Json parse_list(std::string_view text, const std::string& file) {
     // "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error ..."
     if (const std::size_t colon = message.find(": "); colon != std::string::npos)
       message = message.substr(colon + 2);
-    throw scene::toml::SceneError(file, place.line, place.column, "no valid JSON: " + message);
+    throw scene::toml::SceneError(file, place.line, place.column, "not valid JSON: " + message);
   } catch (const nlohmann::json::exception& error) {
-    throw scene::toml::SceneError(file, 1, 1, std::string("no valid JSON: ") + error.what());
+    throw scene::toml::SceneError(file, 1, 1, std::string("not valid JSON: ") + error.what());
   }
   if (!json.is_array())
     throw scene::toml::SceneError(file, 1, 1, "a script of input is a list of steps",

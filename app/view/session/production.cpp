@@ -26,7 +26,7 @@ std::vector<scene::FlatParam> with_presets(const scene::Scene& scene) {
     param.address = "material." + material.name + ".preset";
     param.type = "choice";
     param.choices = scene::choices<scene::Preset>();
-    param.help = "Kinds of snow by name.";
+    param.help = "Named kinds of snow.";
     if (const auto preset = scene::preset_of(material)) param.value = scene::to_value(*preset);
   }
   return params;

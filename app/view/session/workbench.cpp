@@ -136,8 +136,7 @@ void Workbench::apply_running() {
   try {
     session_->apply(document_.scene_with(running_));
   } catch (const std::exception& error) {
-    say(Message::Kind::warning,
-        "waits for Reset, together with what it belongs to: " + text_of(error));
+    say(Message::Kind::warning, "waits for Reset, together with its object: " + text_of(error));
   }
 }
 
@@ -182,12 +181,12 @@ void Workbench::reload() {
   } catch (const std::exception& error) {
     reload_error_ = text_of(error);
     failed_time_ = time;
-    say(Message::Kind::error, "not read again: " + reload_error_);
+    say(Message::Kind::error, "not reloaded: " + reload_error_);
     return;
   }
   file_time_ = time;
   reset();
-  say(Message::Kind::note, "read " + document_.file() + " again; the run starts anew");
+  say(Message::Kind::note, "reloaded " + document_.file() + "; the run starts again");
 }
 
 std::string Workbench::reload_error() const {
@@ -243,7 +242,7 @@ std::filesystem::path Workbench::sweep_around(const std::string& address) {
                        sweep::plan::sweep_command(file.string(), document_.coarsening()) +
                        " makes its runs";
     for (const std::string& changed : later)
-      text += (&changed == &later.front() ? "; changed while it ran, start values of all of them: "
+      text += (&changed == &later.front() ? "; changed during the run, start values of all runs: "
                                           : ", ") +
               changed;
     say(Message::Kind::note, text);

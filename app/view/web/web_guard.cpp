@@ -85,9 +85,9 @@ std::string risk_of(const std::string& address) {
   if (is_loopback(address)) return {};
   const bool is_all = address == "0.0.0.0" || address == "::";
   return "listening at " + address + (is_all ? " (every network of this machine)" : "") +
-         ": whoever can reach it and knows the token sees and controls this program, and can save "
-         "pictures and scenes into its output folder. Nothing is encrypted: the token and the "
-         "pictures can be read on the way. Safer: listen at 127.0.0.1 and use ssh -L.";
+         ": anyone who can reach it and knows the token sees and controls this program, and can "
+         "save pictures and scenes into its output folder. Nothing is encrypted: the token and the "
+         "pictures can be read on the way. It is safer to listen at 127.0.0.1 and use ssh -L.";
 }
 
 WebGuard::WebGuard(std::string address, std::string token)

@@ -48,7 +48,7 @@ int listen_at(const std::string& address, int port) {
   if (socket >= 0) ::close(socket);
   throw IoError("cannot listen at " + address + " port " + std::to_string(port) + ": " +
                     std::strerror(reason),
-                address, reason == EADDRINUSE ? "another port, or 0 for a free one" : "");
+                address, reason == EADDRINUSE ? "choose another port, or 0 for a free one" : "");
 }
 
 int port_of(int socket) {

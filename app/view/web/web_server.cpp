@@ -173,7 +173,7 @@ void WebServer::answer_head(Connection& connection, double now) {
   const HttpHead head = read_http_head(connection.head());
   if (head.status == 0) return;
   if (head.status != 200)
-    return connection.finish(plain(head.status, "neve does not read this request"), now);
+    return connection.finish(plain(head.status, "neve does not accept this request"), now);
   const HttpRequest& request = head.request;
   if (std::string refusal = answer(request); !refusal.empty())
     return connection.finish(std::move(refusal), now);
@@ -200,7 +200,7 @@ std::string WebServer::answer(const HttpRequest& request) const {
                  {{"Upgrade", "websocket"}, {"Sec-WebSocket-Version", "13"}});
   return is_web_socket_key(request.header("sec-websocket-key"))
              ? std::string()
-             : plain(400, "Sec-WebSocket-Key has to be 16 bytes in base64");
+             : plain(400, "Sec-WebSocket-Key must be 16 bytes in base64");
 }
 
 void WebServer::open_viewer(Connection& connection, std::size_t head_size, std::string_view key,
