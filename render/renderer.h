@@ -14,12 +14,12 @@
 
 namespace neve::render {
 
-/// What draws particles, ground, smoke and the light on them: OpenGL, or the CPU (surfaces.h),
-/// which is several times faster where OpenGL itself runs on the CPU. Automatic: whichever is
-/// faster here, or what the environment variable NEVE_PARTICLES names: gl or cpu.
+/// Renderer of particles, ground, smoke and the light on them: OpenGL, or the CPU (surfaces.h),
+/// which is several times faster if OpenGL itself runs on the CPU. Automatic: the faster one here,
+/// or the one named by the environment variable NEVE_PARTICLES: gl or cpu.
 enum class ParticlePath { automatic, gl, cpu };
 
-/// How pictures come back: through pixel buffers while the CPU goes on, or at once. Automatic:
+/// Way to read pictures back: through pixel buffers while the CPU works, or at once. Automatic:
 /// buffered on a GPU.
 enum class ReadBackWay { automatic, buffered, at_once };
 

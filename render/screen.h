@@ -1,6 +1,6 @@
 #pragma once
-/// What a person at a window or a web page sees: the last picture, scaled to its place, and panels
-/// drawn with Dear ImGui over it.
+/// Contents of a window or a web page: the last picture, scaled to its place, and panels drawn with
+/// Dear ImGui over it.
 
 #include <memory>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace neve::render {
 
-/// Where the picture goes on the screen, px from the upper left corner.
+/// Place of the picture on the screen, px from the upper left corner.
 struct PicturePlace {
   int x = 0, y = 0, width = 0, height = 0;
 };
@@ -32,7 +32,7 @@ class Screen {
   /// Draws the panels over what the renderer painted last, scaled to its place.
   void end(Renderer& renderer, const PicturePlace& place);
 
-  /// What was drawn last, upright RGB.
+  /// The last drawing, upright RGB.
   Image pixels();
 
   /// Copies what was drawn last to the window of the context. The caller swaps its buffers.

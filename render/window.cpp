@@ -210,8 +210,8 @@ void Window::Impl::listen() {
     if (!has_entered && !self.is_button_down()) self.add({.kind = WindowEvent::Kind::leave});
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
-    // Where it was pressed is where the mouse has been moved to before: asking now would give the
-    // place where it is by now.
+    // The press happened at the last mouse position of the events; asking GLFW now would give a
+    // later position.
     of(w).add(
         {.kind = WindowEvent::Kind::button, .button = button, .is_down = action == GLFW_PRESS});
   });

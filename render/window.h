@@ -16,8 +16,9 @@ struct WindowEvent {
   Kind kind = Kind::move;
   float x = 0, y = 0;  ///< place; of a wheel notches to the right and up; of resize the new size
   int button = 0;      ///< 0 left, 1 right, 2 middle, then the others
-  /// What the key prints without shift on the user's keyboard, as a capital letter, digit or sign
-  /// in ASCII; or GLFW's code of a key that prints nothing, left and right shift being the same.
+  /// Character that the key prints without shift on the user's keyboard, as a capital letter, digit
+  /// or sign in ASCII; or GLFW's code of a key that prints nothing. Left and right shift are the
+  /// same.
   int key = 0;
   bool is_down = false;
   bool ctrl = false, shift = false, alt = false, super = false;  ///< held after it
@@ -40,21 +41,21 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Of the window; its own as long as the window is there. It is current after construction.
+  /// Context of the window, which owns it. It is current after construction.
   gl::Context& context();
 
-  /// Of the picture, px; at least 1.
+  /// Width of the picture, px; at least 1.
   int width() const;
   int height() const;
   /// px per point
   float scale() const;
 
-  /// Whether anybody can see it: not when it is an icon.
+  /// False if the window is minimised.
   bool is_shown() const;
-  /// Whether the desktop has lost what was shown, since the last swap.
+  /// True if the desktop has lost the contents since the last swap.
   bool is_damaged() const;
 
-  /// What happened, in order; waits for something, or wake(), at most so many seconds.
+  /// Waits for events or wake(), at most the given seconds, and returns the events in order.
   std::vector<WindowEvent> wait(double seconds);
   /// Ends wait(); from any thread.
   static void wake();

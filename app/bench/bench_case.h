@@ -7,7 +7,7 @@
 
 namespace neve::app::bench {
 
-/// What makes a simulation.
+/// Ingredients of a simulation.
 struct BenchCase {
   sim::SolverSettings settings;
   sim::Material material;

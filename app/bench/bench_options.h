@@ -1,5 +1,5 @@
 #pragma once
-/// What the command line says of a measurement.
+/// Command line options of a measurement.
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What `neve bench` found: rows, as a table, as Markdown, as JSON.
+/// Results of `neve bench`: rows, as a table, as Markdown, as JSON.
 
 #include <optional>
 #include <ostream>
@@ -11,7 +11,7 @@
 
 namespace neve::app::bench {
 
-/// Of the rounds of one measurement.
+/// Statistics over the rounds of one measurement.
 struct Statistics {
   double median = 0, min = 0, max = 0;
 };

@@ -69,7 +69,7 @@ scene::Scene stiff_box(const BoxSize& size, double youngs_modulus, bool is_impli
   return scene;
 }
 
-/// What a scene needs to be drawn.
+/// Objects needed to draw a scene.
 class Drawing {
  public:
   Drawing(const std::string& backend, int threads)
@@ -117,7 +117,7 @@ class FrameBench {
   Progress& progress_;
   int rounds_;
   Drawing drawing_;
-  /// Of the last simulation, for its row.
+  /// Threads of the last simulation, for its row.
   int threads_ = 0;
   std::size_t particles_ = 0;
   std::string simd_;

@@ -20,7 +20,7 @@ class Stopwatch {
   double cpu_start_ = cpu_now();
 };
 
-/// How much of the machine other processes used meanwhile.
+/// Measures the share of the machine that other processes used meanwhile.
 class OtherLoad {
  public:
   OtherLoad();

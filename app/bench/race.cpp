@@ -16,7 +16,7 @@ NaiveSnow make_naive(int cells_a_side, BenchMethod method) {
   return {c.settings, c.material, c.particles};
 }
 
-/// What both codes have to agree on.
+/// Results on which both codes must agree.
 struct Outcome {
   double mean_J_P = 0, mean_speed = 0;
 };

@@ -80,8 +80,8 @@ void RenderBench::add(const std::string& name, double seconds, const render::Fra
   found->second.particles = frame.points.position.size();
 }
 
-/// What a picture of this frame spends on its phases. Asking for them makes the driver wait, so
-/// their sum is a little more than the picture takes.
+/// Times of the phases of a picture of this frame. Measuring them makes the driver wait, so their
+/// sum is slightly more than the time of the picture.
 std::vector<render::PhaseTime> phases_of(render::Renderer& renderer, const render::Frame& frame) {
   std::vector<render::PhaseTime> times;
   renderer.draw(frame, &times);

@@ -153,7 +153,7 @@ void SimBench::measure_scaling() {
   for (const BenchMethod method : main_methods) {
     const BenchCase c = packed_case(cells_, method, sim::Precision::single);
     const std::string name = name_of({method, sim::Precision::single});
-    // What measure_variants() did with as many threads need not be done again.
+    // Reuses the result of measure_variants() with the same number of threads.
     const Window& measured = windows_.at(name).windows().back();
     const auto with = [&](int threads) {
       return threads == threads_ ? measured : time_window(c, threads, name);

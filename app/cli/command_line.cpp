@@ -209,7 +209,7 @@ void add_compare(CLI::App& app, Action& action) {
   command->final_callback([=, &action] { action = [options] { return run_compare(*options); }; });
 }
 
-/// What all parts of bench take.
+/// Adds a subcommand of bench with the common options.
 CLI::App* add_bench_part(CLI::App& bench, Action& action, const char* name, const char* help,
                          const std::shared_ptr<bench::BenchOptions>& options,
                          int (*run)(const bench::BenchOptions&)) {

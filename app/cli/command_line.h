@@ -7,7 +7,7 @@ namespace neve::app::cli {
 /// @throws UsageError and whatever the subcommand throws
 int run_command_line(int argc, char** argv);
 
-/// Whether errors are wanted as JSON too; works on lines that do not parse.
+/// True if errors are wanted as JSON too; works on command lines that do not parse.
 bool wants_json(int argc, char** argv);
 
 }  // namespace neve::app::cli

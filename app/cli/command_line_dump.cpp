@@ -10,7 +10,7 @@ namespace neve::app::cli {
 
 namespace {
 
-/// What CLI11 hands over as text.
+/// Values that CLI11 delivers as text.
 struct DumpTexts {
   std::string at = "0s", format = "table";
   std::optional<std::string> stage;

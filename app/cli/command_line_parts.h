@@ -1,5 +1,5 @@
 #pragma once
-/// What the files that build the command line share.
+/// Common parts of the files that build the command line.
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace neve::app::cli {
 
-/// What parsing leaves to run.
+/// Action to run after parsing.
 using Action = std::function<int()>;
 
 /// A repeatable option that takes one value each time, so that it does not swallow the scene.

@@ -67,7 +67,7 @@ void add_what(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts&
       ->type_name("DIR");
 }
 
-/// Where runs are made, and which.
+/// Adds the options that select runs and machines.
 void add_where(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts& texts) {
   command.add_option("--only", options.only, "Make only these runs, as in 3,7-12")
       ->type_name("LIST");
@@ -92,7 +92,7 @@ void add_where(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts
       ->type_name("FILE");
 }
 
-/// What the parts of sweep take that work on one on disk.
+/// Adds the options of subcommands that work on an existing sweep.
 template <class Options>
 void add_folder(CLI::App& command, Action& action, const std::shared_ptr<Options>& options,
                 int (*run)(const Options&)) {

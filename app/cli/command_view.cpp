@@ -22,7 +22,7 @@ namespace neve::app::cli {
 
 namespace {
 
-/// Where it is looked at, with what draws it.
+/// Frontend of the view, with its drawing context.
 struct Place {
   std::unique_ptr<view::front::Front> front;
   std::unique_ptr<render::gl::Context> own_context;  ///< none where the window has one
@@ -152,7 +152,7 @@ int run_view(const view::ViewOptions& options) {
     recording = std::make_unique<view::replay::RecordingFront>(*place.front, options.record);
   view::front::Front& front = recording ? *recording : *place.front;
   document = look_at(*std::move(document), options.run.overrides, options, place, front);
-  // What was set for the first scene is not meant for another one; how coarse it is, is.
+  // Overrides belong to the first scene only; the coarsening applies to later scenes too.
   while (document) document = look_at(*std::move(document), {}, options, place, front);
   if (recording) recording->save();
   return exit_ok;

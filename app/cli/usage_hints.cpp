@@ -16,7 +16,7 @@ std::string suggestion(const std::string& wrong, const std::vector<std::string>&
   return nearest.empty() ? otherwise : "did you mean " + nearest + "?";
 }
 
-/// What other programs call it: the first that is an option here.
+/// Names in other programs, with the options here; the first existing option wins.
 constexpr std::pair<const char*, const char*> names_elsewhere[] = {
     {"-o", "--out"},           {"--output", "--out"},    {"--output-dir", "--out"},
     {"-j", "--jobs"},          {"-j", "--threads"},      {"--jobs", "--threads"},

@@ -1,5 +1,5 @@
 #pragma once
-/// What to say of a command line that cannot be parsed.
+/// Messages for a command line that cannot be parsed.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace neve::app::cli {
 
-/// Of all subcommands, called or not.
+/// Names of all subcommands, called or not.
 std::vector<std::string> subcommand_names(const CLI::App& command);
 
 /// CLI11 says of a misspelt subcommand only that one is required. @throws UsageError
 void check_subcommand(const CLI::App& app, int argc, char** argv);
 
-/// What CLI11 complains of, with what was expected and whose help to read. @throws UsageError
+/// Reports an error of CLI11, with the expected value and the help to read. @throws UsageError
 [[noreturn]] void fail_parse(const CLI::App& app, const CLI::ParseError& error);
 
 /// Options and arguments that no command takes. @throws UsageError

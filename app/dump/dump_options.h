@@ -1,5 +1,5 @@
 #pragma once
-/// What the command line says of a dump.
+/// Command line options of a dump.
 
 #include <cstddef>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be looked at inside a step, with what a healthy run would show.
+/// Quantities inside a step, with the ranges of a healthy run.
 
 #include <cstdint>
 #include <optional>
@@ -17,8 +17,8 @@ struct Quantity {
   std::string name, unit;  ///< the unit may be empty
   int components = 1;
   std::vector<double> values;
-  /// What magnitudes (of vectors the length, of tensors the Frobenius norm) lie in when all is
-  /// well, and why.
+  /// Range of the magnitudes in a healthy run (the length of vectors, the Frobenius norm of
+  /// tensors), and its reason.
   std::optional<scene::Range> expected;
   std::string why;
 
@@ -55,8 +55,8 @@ struct Listing {
 /// The particles before the step: x, v, F_E, J_E, J_P, stretches, stress, energy, volume, C.
 Listing list_state(const Inside& inside);
 
-/// What a stage has worked out, with what those before it did to the same things: nodes up to
-/// implicit_solve, then particles.
+/// Results of a stage, with those of earlier stages on the same points: nodes up to implicit_solve,
+/// then particles.
 Listing list_stage(const Inside& inside, sim::Stage stage);
 
 /// Keeps the named ones.

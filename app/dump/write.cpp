@@ -38,7 +38,7 @@ std::string title(const Quantity& q) {
   return q.name + (q.unit.empty() ? "" : " (" + q.unit + ")");
 }
 
-/// What least and greatest are of: |v| of vectors and tensors.
+/// Title of the quantity whose extremes are printed: |v| of vectors and tensors.
 std::string summary_title(const Quantity& q) {
   if (q.components == 1) return title(q);
   return "|" + q.name + "|" + (q.unit.empty() ? "" : " (" + q.unit + ")");
@@ -49,7 +49,7 @@ struct Extremes {
   std::size_t strange = 0;
 };
 
-/// Of all but feather-light nodes.
+/// Extremes over all nodes except light ones.
 Extremes extremes(const Listing& listing, const Quantity& q) {
   Extremes e;
   bool is_first = true;

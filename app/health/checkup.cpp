@@ -43,7 +43,7 @@ double measure_step(sim::Simulation& simulation, double frame, sim::SolveReport&
   return *middle;
 }
 
-/// What limits steps of a scene, or of a copy with other cells, in a state that a copy had.
+/// Step and limit of a scene, or of a copy with other cells, in a state of the coarse copy.
 sim::DtChoice allowed(const scene::Scene& scene, const sim::StepLimits& state,
                       double cell_of_state) {
   sim::engine::StateLimits limits;
@@ -76,7 +76,7 @@ FrameForecast foresee(const scene::Scene& scene, const scene::Scene& coarse, int
   return forecast;
 }
 
-/// Of a scene that starts empty: what its first snow will allow.
+/// Step of the first emitted snow, for a scene that starts empty.
 sim::DtChoice first_emission(const scene::Scene& scene, sim::StepLimits& start) {
   sim::engine::StateLimits limits;
   for (const setup::SnowPiece& piece : setup::snow_places(scene)) {
@@ -189,7 +189,7 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
          "try neve check with --coarsen 2"});
   }
   const double particle_step = foresee_frames(scene, checkup);
-  // What emitters will add cannot be timed at the start: half of it, as the coarse copy ran.
+  // Emitted particles cannot be timed at the start: count half of them, as in the coarse copy.
   if (plan.emitted > 0 && checkup.seconds_per_step > 0)
     checkup.seconds_per_step =
         particle_step / used_threads * (checkup.plan.particles - 0.5 * plan.emitted);

@@ -1,5 +1,5 @@
 #pragma once
-/// What a scene will cost and whether its numbers make sense, before it is run.
+/// Forecast of the cost of a scene, and findings about its numbers, before a run.
 
 #include <string>
 #include <vector>

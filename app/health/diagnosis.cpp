@@ -35,7 +35,7 @@ double at_start(Law law) {
   return limits_of(law).at_start;
 }
 
-/// What all hypotheses look at.
+/// Data for all hypotheses.
 struct Case {
   const scene::Scene& scene;
   const sim::Divergence& d;
@@ -68,7 +68,7 @@ struct Case {
   }
   /// Speed of the snow before trouble began, m/s.
   double honest_speed() const { return std::max(d.start.max_speed, setup::impact_speed(scene)); }
-  /// Of snow at rest, m/s.
+  /// Sound speed of snow at rest, m/s.
   double start_sound() const { return d.start.max_sound_speed; }
 };
 

@@ -162,7 +162,7 @@ void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
            speed, "snow at impact", s.cfl * h / checkup.impact_speed);
 }
 
-/// What semi-implicit steps damp: a wave loses beta w^2 dt of its energy per second.
+/// Reports the damping of semi-implicit steps: a wave loses beta w^2 dt of its energy per second.
 void check_implicit_steps(const sim::SolverSettings& s, const Checkup& checkup,
                           std::vector<Finding>& findings) {
   if (!s.is_implicit() || checkup.start.max_sound_speed <= 0) return;

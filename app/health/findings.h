@@ -1,5 +1,5 @@
 #pragma once
-/// The questions that an examination asks; each adds what it finds.
+/// Questions of `neve check`; each adds its findings.
 
 #include "app/health/checkup.h"
 #include "app/setup/dry_run.h"
@@ -32,9 +32,9 @@ void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings);
 /// Sinks that fast snow crosses between two looks. @param speed  m/s, of the fastest snow
 void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& findings);
 
-/// What the scene says without effect: bodies and emitters in sinks, keyframes after the last
-/// frame, slices that no layer shows, a dt that adaptive steps do not use.
-/// @param coarsening  what --coarsen did to the scene
+/// Settings without effect: bodies and emitters in sinks, keyframes after the last frame, slices
+/// that no layer shows, a dt that adaptive steps do not use.
+/// @param coarsening the N of --coarsen
 void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings);
 
 /// Bodies in one another and in colliders, points that weigh too much.

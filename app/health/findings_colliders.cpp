@@ -1,4 +1,4 @@
-/// What can be found about colliders before a run.
+/// Findings about colliders before a run.
 
 #include <algorithm>
 #include <memory>
@@ -21,7 +21,7 @@ constexpr const char* why_move_it =
 /// Particles of a body: a share needs no more.
 constexpr std::size_t most_looked_at = 20000;
 
-/// Whether a place is in a collider at a time.
+/// Tests if a place is in a collider at a time.
 class Inside {
  public:
   Inside(const sim::shapes::Collider& collider, double time)

@@ -1,4 +1,4 @@
-/// What can be found about emitters and sinks before a run.
+/// Findings about emitters and sinks before a run.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,8 @@ namespace neve::app::health {
 
 namespace {
 
-/// Of what an emitter's velocity carries away: spheres and cones are not as wide everywhere.
+/// Allowed ratio of the rate to the carried rate: spheres and cones are not equally wide
+/// everywhere.
 constexpr double most_packing = 1.3;
 
 /// kg/s that fall out of a shape in which snow is born at rest, at most at packed density; 0

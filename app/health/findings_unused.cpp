@@ -1,4 +1,4 @@
-/// What a scene says and a run never shows.
+/// Findings about settings that a run never shows.
 
 #include <algorithm>
 
@@ -60,7 +60,7 @@ void check_keyframes(const scene::Scene& scene, std::vector<Finding>& findings) 
   }
 }
 
-/// Whether a view asks for something of a slice, other than where automatic values put it.
+/// True if a view sets anything of a slice other than its automatic place.
 bool asks_for_slice(const scene::SliceStyle& s) {
   const scene::SliceStyle usual;
   return s.field != usual.field || s.scalar != usual.scalar || s.normal != usual.normal ||
@@ -82,7 +82,7 @@ void check_slices(const scene::Scene& scene, std::vector<Finding>& findings) {
 }  // namespace
 
 void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings) {
-  // Of an emitter that only touches a sink most snow gets away; a third is a mistake.
+  // Most snow escapes from an emitter that only touches a sink; a third lost is a mistake.
   constexpr double whole = 0.999, much = 0.3;
   for (const sim::seeding::Body& body : scene.bodies)
     check_removed(scene, "body", body.name, body.shape, whole, findings);

@@ -20,7 +20,7 @@ using sim::Vec3d;
 /// Cells that the picture of the slice is high.
 constexpr double cells_shown = 26;
 
-/// Of most particles near a place, m/s: the culprit's own speed may be any number.
+/// Speed of most particles near a place, m/s: the culprit's own speed may be any number.
 double speed_around(const sim::ParticleArrays& particles, const Vec3d& place, double reach) {
   std::vector<double> speeds;
   for (std::size_t p = 0; p < particles.x.size(); ++p) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What is left of a run that broke a rule: a report, and a look at the place where it happened.
+/// Report of a diverged run, and a view of the place where it happened.
 
 #include <optional>
 

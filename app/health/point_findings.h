@@ -1,6 +1,6 @@
 #pragma once
-/// What an examination asks of bodies from point files, whose distances and masses nobody chose
-/// for this scene.
+/// Findings about bodies from point files, whose distances and masses were not chosen for this
+/// scene.
 
 #include <vector>
 
@@ -10,7 +10,7 @@ namespace neve::app::health {
 
 bool is_from_points(const sim::seeding::Body& body);
 
-/// How many particles a full cell of edge `cell_size` (m) has.
+/// Number of particles in a full cell of edge `cell_size` (m).
 double particles_in_cell(const sim::seeding::Body& body, double cell_size);
 
 /// Points that are too far apart for the cells, or needlessly close.

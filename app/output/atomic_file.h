@@ -11,7 +11,7 @@
 
 namespace neve::app::output {
 
-/// Whether the bytes must survive a power cut before the call returns.
+/// Durability of written bytes: synced bytes survive a power cut after the call returns.
 enum class Durability { cached, synced };
 
 /// Writes to `.name.PID.tmp` in the same folder, then renames.

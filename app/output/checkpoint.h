@@ -12,8 +12,8 @@
 namespace neve::app::output {
 
 struct Checkpoint {
-  /// What has to be the same for a run to go on: version, resolved scene, quality, contents of
-  /// files. A hash.
+  /// Hash of everything that must be equal to resume a run: version, resolved scene, quality,
+  /// contents of files.
   std::string identity;
   std::string simd;                 ///< instruction set that the bits belong to
   int frame = 0;                    ///< the last one that is drawn
@@ -33,7 +33,7 @@ struct FoundCheckpoint {
 /// Nothing where the folder has none. Damaged ones are passed over and named.
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder);
 
-/// Of a run that starts anew. Other files stay.
+/// Removes the checkpoints before a new run. Other files stay.
 void remove_checkpoints(const std::filesystem::path& folder);
 
 }  // namespace neve::app::output

@@ -49,7 +49,7 @@ void PictureWriter::work() {
     lock.lock();
     is_writing_ = false;
     if (failure) {
-      // What is still waiting would most likely fail the same way.
+      // Waiting pictures would most likely fail in the same way.
       if (!failure_) failure_ = failure;
       queue_.clear();
     }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int max_frame = 99'999'999;
 
-/// What an earlier run.json claims to have written.
+/// Files that an earlier run.json claims to have written.
 struct EarlierRun {
   std::set<std::string> views;
   std::set<int> frames;

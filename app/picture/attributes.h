@@ -1,5 +1,5 @@
 #pragma once
-/// Values per particle that colours show.
+/// Per-particle scalars for colouring.
 
 #include <vector>
 

@@ -64,8 +64,8 @@ void add_box(const sim::shapes::Box& box, const sim::shapes::Pose& pose, scene::
       .push_back(render::shapes::box_mesh(center, size, rotation));
 }
 
-/// Of any other form, placed: solid or ghost as triangles, otherwise as lines. Edges show where a
-/// ghost would have no rim.
+/// Adds any other form, placed: solid or ghost as triangles, otherwise as lines. Edges replace the
+/// rim that a ghost lacks there.
 void add_form(render::TriangleMesh mesh, render::Lines lines, scene::ColliderStyle style,
               bool has_rim, render::Frame& frame) {
   if (style == scene::ColliderStyle::wire) return add_lines(std::move(lines), 0.7f, frame);
@@ -86,7 +86,7 @@ std::optional<render::shapes::Profile> profile_of(const sim::shapes::Shape& shap
   return std::nullopt;
 }
 
-/// Of a mesh, about the origin of its file.
+/// Drawing of a mesh, about the origin of its file.
 struct MeshLook {
   render::TriangleMesh mesh;
   render::Lines lines;

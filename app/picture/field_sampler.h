@@ -1,5 +1,5 @@
 #pragma once
-/// Fields of nodes between the nodes.
+/// Trilinear interpolation of node fields.
 
 #include <array>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace neve::app::picture {
 
-/// Where the arrays of a field have a node's value; nothing where its block is not there.
+/// Index of a node in the arrays of a field; nothing if its block is absent.
 std::optional<std::size_t> node_index(const render::NodeLattice& lattice, const Vec3i& node);
 
 /// Trilinear weights of the nodes around a point; those that carry no mass do not count.

@@ -96,7 +96,7 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   frame.camera = camera_of(scene_, view, snapshot.time);
   frame.light = {to_float(scene_.light.direction), static_cast<float>(scene_.light.intensity),
                  static_cast<float>(scene_.light.ambient)};
-  // Of the start: grid lines do not change while the camera moves.
+  // The camera at the start: grid lines do not change while the camera moves.
   const render::Camera first = camera_of(scene_, view, 0);
   const double spacing = round_down(0.1 * static_cast<double>(length(first.eye - first.target)));
   add_colliders(scene_, view, snapshot.time, static_cast<float>(spacing), frame);
@@ -126,7 +126,7 @@ render::Frame FrameBuilder::build_incident(const scene::View& view, const Snapsh
                                            const health::Diagnosis& diagnosis,
                                            std::optional<render::Points> points) const {
   render::Frame frame = build(view, snapshot, std::move(points));
-  // Where only a plane is drawn, rings around what is before or behind it point at nothing.
+  // If only a plane is drawn, rings around particles before or behind it point at nothing.
   const bool is_plane = !scene::has_layer(view, scene::Layer::particles) &&
                         !scene::has_layer(view, scene::Layer::smoke);
   const auto is_shown = [&](const sim::Vec3d& x) {
@@ -161,7 +161,8 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
   points.position.reserve(snapshot.particles.x.size());
   points.id.reserve(snapshot.particles.x.size());
   points.value.reserve(values.size());
-  // What is cut away casts no shadow either: the cut is lit like a surface, and its colours read.
+  // Hidden particles cast no shadow either: the cut is lit like a surface, so its colours are
+  // readable.
   const Cut cut(view.clip, snapshot.particles.x);
   for (std::size_t p = 0; p < snapshot.particles.x.size(); ++p) {
     // A diverged state is drawn too, as far as it can be.

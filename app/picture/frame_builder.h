@@ -30,7 +30,7 @@ class FrameBuilder {
   render::Frame build(const scene::View& view, const Snapshot& snapshot,
                       std::optional<render::Points> points = std::nullopt) const;
 
-  /// What the caption of such a picture adds: rule, cause, evidence, remedy.
+  /// Extra lines of the caption of such a picture: rule, cause, evidence, remedy.
   static std::vector<std::string> incident_lines(const sim::Divergence& divergence,
                                                  const health::Diagnosis& diagnosis);
 

@@ -12,7 +12,7 @@
 
 namespace neve::app::picture {
 
-/// What a view shows; with rings, cause and remedy where a run diverged.
+/// Builds the frame of a view; with rings, cause and remedy if the run diverged.
 using BuildFrame = std::function<render::Frame(const scene::View& view)>;
 
 render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,

@@ -13,7 +13,7 @@ namespace neve::app::picture {
 
 struct Snapshot;
 
-/// What views want to see of the nodes; `is_needed` also where the nodes' places are enough.
+/// Node fields that views show; `is_needed` also if the places of the nodes are enough.
 struct FieldNeeds {
   bool is_needed = false;
   std::set<scene::ScalarField> scalars;

@@ -11,7 +11,7 @@
 
 namespace neve::app::picture {
 
-/// What the plots need to know of one frame.
+/// Data of one frame for the plots.
 struct PlotSample {
   double time = 0;                                ///< s
   double kinetic_energy = 0, elastic_energy = 0;  ///< J

@@ -6,7 +6,7 @@
 
 namespace neve::app::picture {
 
-/// Where the plane is at one moment.
+/// Position of the plane at one moment.
 struct SlicePlane {
   sim::Vec3d point, normal;  ///< m, unit
   sim::Vec3d across, up;     ///< unit, in the plane

@@ -8,7 +8,7 @@ namespace neve::app::picture {
 
 namespace {
 
-/// What counts as packed: the densest snow that there is.
+/// Density of packed snow: that of the densest material in use.
 double full_density(const scene::Scene& scene) {
   double density = 0;
   for (const setup::SnowPiece& piece : setup::snow_places(scene))

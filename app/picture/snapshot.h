@@ -24,7 +24,7 @@ struct Snapshot {
   std::vector<scene::LiveChange> changes;  ///< made while it ran, for the caption; the caller's too
 };
 
-/// Whether a view of the scene shows stress.
+/// True if a view of the scene shows stress.
 bool needs_stress(const scene::Scene& scene);
 
 Snapshot take_snapshot(const scene::Scene& scene, const sim::Simulation& simulation, int frame);

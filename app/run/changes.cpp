@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t no_step = std::numeric_limits<std::size_t>::max();
 
-/// Of two changes to one address the earlier one has no effect on the scene.
+/// Overrides from changes: of two changes to one address, only the later one has an effect.
 std::vector<scene::Override> overrides_of(const std::vector<scene::LiveChange>& changes,
                                           std::size_t count) {
   std::vector<scene::Override> overrides;
@@ -39,7 +39,7 @@ scene::Scene read_with(const SceneSource& source, const std::vector<scene::LiveC
   return scene::read_scene_text(source.text, source.name, source.base_dir, overrides);
 }
 
-/// Of a view or mosaic that the scene does not have.
+/// True for the address of a view or mosaic that the scene does not have.
 bool is_drawn_nowhere(const scene::Scene& scene, const std::string& address) {
   const auto has = [&](const auto& items, const std::string& prefix) {
     return std::any_of(items.begin(), items.end(), [&](const auto& item) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What was changed while a simulation ran: kept with its pictures, made again by `neve render`.
+/// Changes during a run: kept with its pictures, repeated by `neve render`.
 ///
 /// A change belongs to the step after which it was made. Everything that happens to a run in these
 /// terms is a function of the scene it started from and the list of its changes, which is why the

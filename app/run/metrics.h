@@ -1,5 +1,5 @@
 #pragma once
-/// What a state of snow looks like, in a few numbers.
+/// Shape statistics of a particle state.
 
 #include <cstddef>
 

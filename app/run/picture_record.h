@@ -1,5 +1,5 @@
 #pragma once
-/// What a picture knows of its own making, as text in the PNG.
+/// Record of the origin of a picture, as text in the PNG.
 
 #include <cstdint>
 #include <filesystem>
@@ -41,7 +41,7 @@ std::map<std::string, std::string> hash_files(const scene::Scene& scene);
 /// @throws Error naming the file that is missing or has changed since the picture was made
 void check_files(const PictureRecord& record);
 
-/// Whether the file starts like a PNG.
+/// True if the file starts like a PNG.
 bool is_png(const std::filesystem::path& file);
 
 }  // namespace neve::app::run

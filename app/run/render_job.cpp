@@ -61,7 +61,7 @@ void choose_views(const std::vector<std::string>& names, RenderJob& job) {
   job.scene.mosaics = mosaics;
 }
 
-/// What was changed last, at least, has to be something that can be set.
+/// Checks that the last change of each address can be set.
 void check_changes(const RenderJob& job) {
   try {
     with_changes({scene::write_scene(job.scene), job.scene_file, {}, {}},

@@ -1,5 +1,5 @@
 #pragma once
-/// What `neve render` is asked to make, put together from the scene, the flags, or a picture.
+/// Job of `neve render`, assembled from the scene, the flags, or a picture.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-/// What the command line says of a run.
+/// Command line options of a run.
 
 #include <optional>
 #include <string>
@@ -23,8 +23,8 @@ struct RenderOptions {
   std::optional<setup::Quality> quality;
   std::string reference;
   double reference_threshold = 0.5;  ///< of the mean difference, 0 to 255
-  /// Of the mean over any 8x8 pixels: small snow that is somewhere else changes the picture's mean
-  /// by little. Rounding of other drivers stays far below it.
+  /// Threshold for the mean over any 8x8 block: a small local change hardly affects the mean of the
+  /// picture. Rounding of other drivers stays far below it.
   double reference_local_threshold = 8;
   std::string shader_dir;
   bool is_validated = false;

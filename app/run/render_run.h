@@ -43,7 +43,7 @@ class RenderRun {
   RenderResult run();
 
   const RunRecord& record() const { return record_; }
-  /// What --validate found; null without it.
+  /// Findings of --validate; null without the flag.
   const Validation* validation() const { return validation_ ? &*validation_ : nullptr; }
 
  private:
@@ -72,7 +72,7 @@ class RenderRun {
   void forget_unwritten_frames();
   /// By itself, not only in a mosaic.
   bool is_drawn(const scene::View& view) const;
-  /// What pictures say of the simulation as it is now.
+  /// Updates the text of pictures about the current simulation.
   void note_state(std::uint64_t state_hash);
   render::PngText png_text(const std::string& view, int frame) const;
 

@@ -54,7 +54,7 @@ struct RunRecord {
 std::string hash_text(std::uint64_t hash);
 
 Json to_json(const FrameRecord& frame);
-/// Of what to_json writes; the rest of advance and summary has its defaults.
+/// Reads the output of to_json; the rest of advance and summary has its defaults.
 /// @throws nlohmann::json::exception
 FrameRecord frame_record(const Json& json);
 

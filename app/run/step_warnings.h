@@ -1,5 +1,5 @@
 #pragma once
-/// What a run has to say about its steps.
+/// Warnings of a run about its steps.
 
 #include <string>
 #include <vector>

@@ -86,7 +86,7 @@ Found too_far(const Scene& scene, const sim::Vec3d& x, const std::string& addres
                  "move it closer or enlarge solver.cell_size"};
 }
 
-/// What only making the shape ready tells: a mesh that is open, a volume that is none.
+/// Problems that only preparing the shape reveals: an open mesh, a volume that is not positive.
 template <class Make>
 Found ready_problem(const std::string& address, const Make& make) {
   try {
@@ -96,7 +96,7 @@ Found ready_problem(const std::string& address, const Make& make) {
   }
 }
 
-/// Of the form, and of where it stands.
+/// Problem of the form or of its place.
 Found form_problem(const sim::shapes::Shape& shape, const std::string& address) {
   return std::visit([&](const auto& form) { return problem(form, address + ".shape"); },
                     shape.form);
@@ -106,7 +106,7 @@ std::string place_address(const sim::shapes::Shape& shape, const std::string& ad
   return address + ".shape" + std::visit(PlaceKey{}, shape.form);
 }
 
-/// Of a shape that is filled with snow. Files of points are read when they are.
+/// Problem of a shape that is filled with snow. Point files are read later, with their points.
 Found shape_problem(const Scene& scene, const sim::shapes::Shape& shape,
                     const std::string& address) {
   const std::string at = place_address(shape, address);
@@ -148,7 +148,7 @@ Found sink_problem(const sim::seeding::Sink& sink) {
   });
 }
 
-/// Of one place to look from.
+/// Problem of one camera position.
 Found place_problem(const sim::Vec3d& eye, const sim::Vec3d& target, const sim::Vec3d& up,
                     const std::string& target_at, const std::string& up_at) {
   const sim::Vec3d forward = target - eye;
@@ -252,7 +252,7 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
   return {};
 }
 
-/// Of the attitudes themselves, whatever angles they are written in. Within 1e-4 degrees.
+/// Compares the attitudes themselves, whatever angles describe them, within 1e-4 degrees.
 bool is_half_turn(const sim::Vec3d& degrees, const sim::Vec3d& next) {
   const sim::Mat3d turn =
       sim::rotation_from_degrees(degrees).transpose() * sim::rotation_from_degrees(next);

@@ -1,5 +1,5 @@
 #pragma once
-/// What no single parameter can tell: values that do not go together.
+/// Problems of several parameters together: values that contradict each other.
 
 #include <optional>
 #include <string>

@@ -134,7 +134,7 @@ void describe(V& visit, sim::Variation& v) {
         "Size of the lumps that differ; 0: each particle differs on its own.");
 }
 
-/// What a preset sets.
+/// Parameters that a preset sets.
 template <class V>
 void describe_snow_numbers(V& visit, sim::Material& m) {
   using enum Change;

@@ -132,7 +132,7 @@ class Edit {
     }
   }
 
-  // What is not there.
+  // Absent entries.
 
   void add(const std::string& literal) {
     if (node_->kind == Kind::inline_table) return add_inline(literal);
@@ -159,7 +159,7 @@ class Edit {
       insert(end, ", " + what);
   }
 
-  /// Where the last "key = value" inside ends; 0: there is none.
+  /// End of the last "key = value" inside; 0: no such entry.
   static std::size_t last_entry(const toml::TomlNode& node) {
     std::size_t end = 0;
     for (const auto& member : node.members)
@@ -177,7 +177,7 @@ class Edit {
     std::string padded = std::string(is_own_line ? text.substr(section.last_line.begin, indent)
                                                  : std::string_view()) +
                          line;
-    // Where the signs stand in a column, this one does too.
+    // If the equals signs form a column, this one joins it.
     const std::size_t own = line.find(" = ") + 1;
     if (section.aligned > 1 && own < section.column)
       padded.insert(padded.size() - line.size() + own, section.column - own, ' ');
@@ -255,7 +255,7 @@ class Edit {
     return line;
   }
 
-  // What goes away.
+  // Removed entries.
 
   void remove() {
     std::vector<toml::Span> spans;

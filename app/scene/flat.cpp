@@ -129,7 +129,7 @@ std::string pattern_of(std::string_view address) {
   return std::string(address.substr(0, first)) + ".NAME" + std::string(address.substr(second));
 }
 
-/// What a pattern stands for: all parameters, once.
+/// All parameters by pattern, computed once.
 const std::map<std::string, ParamInfo, std::less<>>& known() {
   static const auto all = [] {
     std::map<std::string, ParamInfo, std::less<>> map;
@@ -159,13 +159,13 @@ bool is_inside(const std::string& address, const std::string& table) {
          address[table.size()] == '.';
 }
 
-/// Of a shape the form, which is the table's only key; "" of anything else.
+/// Form of a shape, the only key of its table; "" for other values.
 std::string form_of(const std::optional<toml::Value>& value) {
   const toml::Table* table = value ? std::get_if<toml::Table>(&value->data) : nullptr;
   return table && table->entries.size() == 1 ? table->entries.front().key : "";
 }
 
-/// Whether a table differs as a whole, so that its members need not be looked at.
+/// True if a table differs as a whole, so that its members need no comparison.
 bool differs_as_a_whole(const FlatParam& before, const FlatParam& after) {
   if (before.value.has_value() != after.value.has_value()) return true;
   return before.address.ends_with(".shape") && form_of(before.value) != form_of(after.value);

@@ -34,11 +34,11 @@ struct FlatParam {
 /// In the order of describe.h. Lists one item after the other.
 std::vector<FlatParam> flatten(const Scene& scene);
 
-/// Whether what has this address may change while a simulation runs; of a table all of it. False
-/// for addresses that no scene has.
+/// True if the parameter, or the whole table, at this address may change during a run. False for
+/// unknown addresses.
 bool is_live(std::string_view address);
 
-/// What depends on a parameter.
+/// Part of the program that depends on a parameter.
 enum class Concern {
   simulation,  ///< every number of it
   run,         ///< how far it goes, and whether it may: no number
@@ -50,7 +50,7 @@ inline bool concerns_simulation(std::string_view address) {
   return concern_of(address) == Concern::simulation;
 }
 
-/// What is at an address in two scenes; absent where one has none.
+/// Values at an address in two scenes; absent if a scene has none.
 struct Difference {
   std::string address;  ///< of a parameter; of a table that only one has or that is of another kind
   std::optional<toml::Value> before, after;

@@ -13,7 +13,7 @@
 
 namespace neve::app::scene {
 
-/// What a document is read from: for messages, relative paths and values given by --set.
+/// Source of a document: for messages, relative paths and values given by --set.
 struct Source {
   std::string file;
   std::string base_dir;

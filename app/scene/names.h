@@ -1,5 +1,5 @@
 #pragma once
-/// How the values of each choice are written in scenes.
+/// Names of the values of each choice in scenes.
 
 #include <array>
 #include <optional>

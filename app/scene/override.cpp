@@ -68,8 +68,8 @@ void refuse_unknown_name(const Override& change, const toml::Table& root) {
                               : "did you mean " + toml::toml_string(nearest) + "?");
 }
 
-/// Whether the address is that of a table inside an item or at the top: "camera",
-/// "body.ball.shape", but not "body" or "body.ball", whose names must stay.
+/// True for the address of a table inside an item or at the top: "camera", "body.ball.shape", but
+/// not "body" or "body.ball", whose names must stay.
 bool is_table_address(const std::string& address, const std::string& known, bool is_in_item) {
   const auto dots = std::count(address.begin(), address.end(), '.');
   const bool is_around = known.starts_with(address + ".") || known.starts_with(address + "[");
@@ -253,7 +253,7 @@ void remove(toml::Table& root, const std::string& address, bool is_in_item) {
 void apply_override(toml::Table& root, const Override& change, int index) {
   const Target target = resolve(change, root);
   if (takes_away(change)) return remove(root, change.address, target.is_in_item);
-  // What is set here counts more than what the file says, so its numbers give way to a preset.
+  // An override precedes the file, so a preset set here replaces the numbers of the file.
   if (is_preset_address(change.address))
     for (const std::string& number : addresses_set_by(change.address))
       remove(root, number, target.is_in_item);

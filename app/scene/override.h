@@ -38,17 +38,17 @@ void apply_override(toml::Table& root, const Override& change, int index);
 /// @throws UsageError, SceneError
 toml::Value value_of(const Override& change, const std::string& type);
 
-/// Whether the change takes away what may be absent.
+/// True if the change removes an optional setting.
 bool takes_away(const Override& change);
 
 /// "material", "snow", "hardening" for "material.snow.hardening".
 std::vector<std::string> words_of(const std::string& address);
 
-/// What a document has at an address; null where it has nothing.
+/// Value of a document at an address; null if it has none.
 const toml::Value* value_at(const toml::Table& root, const std::string& address);
 
-/// What the entries of a list or table of tables are called: names, or numbers from 1 where there
-/// is none that could be one.
+/// Names of the entries of a list or table of tables; numbers from 1 for entries without a valid
+/// name.
 std::vector<std::string> item_names(const toml::Value& items);
 
 }  // namespace neve::app::scene

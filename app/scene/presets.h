@@ -36,7 +36,7 @@ void use_preset(sim::Material& material, Preset preset);
 /// The preset whose numbers these are, all of them.
 std::optional<Preset> preset_of(const sim::Material& material);
 
-/// Whether an address is that of a material's preset: "material.snow.preset".
+/// True for the address of a material's preset: "material.snow.preset".
 bool is_preset_address(std::string_view address);
 
 /// The addresses of the numbers that the preset at an address sets: "material.snow.density" and so

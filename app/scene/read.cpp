@@ -67,7 +67,7 @@ void add_layers(toml::Table& view) {
   }
 }
 
-/// Whether a [[mosaic]] lists the view.
+/// True if a [[mosaic]] lists the view.
 bool is_in_mosaic(const toml::Table& root, const std::string& name) {
   const toml::Entry* entry = root.find("mosaic");
   const toml::Array* mosaics = entry ? std::get_if<toml::Array>(&entry->value.data) : nullptr;
@@ -106,8 +106,7 @@ void add_views(toml::Table& root, const std::vector<Override>& overrides) {
     if (toml::Table* table = std::get_if<toml::Table>(&view.data)) add_layers(*table);
 }
 
-/// What is there although no scene says so: a material and views with the names of their defaults.
-/// In the document, so that --set finds them too.
+/// Adds the built-in material and views to the document, so that --set finds them too.
 void add_built_ins(toml::Table& root, const std::vector<Override>& overrides) {
   if (!root.find("material")) root.entries.push_back({"material", {}, {toml::Table{}}});
   toml::Table* materials = std::get_if<toml::Table>(&root.find("material")->value.data);

@@ -9,7 +9,7 @@
 namespace neve::app::scene {
 namespace {
 
-/// What others call it: the first that is a key here.
+/// Names in other programs, with the keys here; the first key of the table wins.
 constexpr std::pair<const char*, const char*> other_names[] = {{"h", "cell_size"},
                                                                {"dx", "cell_size"},
                                                                {"resolution", "cell_size"},
@@ -73,7 +73,7 @@ std::vector<std::string> forms_of(const std::string& kind) {
   return forms.keys;
 }
 
-/// What to write instead of a form that is none here.
+/// Advice for an unknown form.
 std::string form_advice(const std::string& key, const std::vector<std::string>& forms) {
   if (key == "plane") return "only colliders can be planes: use a large box";
   if (key == "points") return "only bodies can be points";
@@ -98,7 +98,7 @@ toml::Location Reading::place_of(std::string address) const {
   return {1, 1};
 }
 
-/// What to write instead of a key that is not one here.
+/// Advice for an unknown key.
 std::string Reader::advice(const std::string& key, const std::vector<std::string>& known) const {
   const std::string other = other_name(key, known);
   if (!other.empty()) return quoted_question(other);

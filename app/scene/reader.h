@@ -10,12 +10,12 @@
 
 namespace neve::app::scene {
 
-/// What all readers of one document share.
+/// State that all readers of one document share.
 struct Reading {
   Source source;
   std::map<std::string, toml::Location> places;  ///< where each address was given
 
-  /// Of the address, or of the closest thing around it that was written.
+  /// Location of the address, or of the closest enclosing entry in the text.
   toml::Location place_of(std::string address) const;
 };
 

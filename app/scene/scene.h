@@ -43,7 +43,7 @@ struct Range {
 enum class Background { gradient, transparent };
 enum class ColliderStyle { solid, wire, ghost };
 
-/// What the simulation knows of an obstacle, and how it is drawn.
+/// Collider of the simulation, with its style of drawing.
 struct Collider : sim::shapes::Collider {
   ColliderStyle style = ColliderStyle::solid;
 };
@@ -79,7 +79,7 @@ struct SliceStyle {
   std::optional<Range> scalar_range;
 };
 
-/// What it leaves out is the camera's own.
+/// Absent values are inherited from the camera.
 struct CameraKeyframe {
   double time = 0;  ///< s
   std::optional<sim::Vec3d> eye, target;

@@ -46,7 +46,7 @@ constexpr Valid within(double x) {
   return between(-x, x);
 }
 
-/// Whether `text` can name a body, material, collider or view.
+/// True if `text` can name a body, material, collider or view.
 bool is_identifier(const std::string& text);
 
 }  // namespace neve::app::scene

@@ -67,7 +67,7 @@ class Writer {
     add(key, {std::move(inner.table)});
   }
 
-  /// What it stands for is written, which later versions read alike.
+  /// Writes the parameters that a shorthand sets, which later versions read alike.
   template <Choice E, class Use>
   void shorthand(const char*, const std::optional<E>&, Use, const char*) {}
 

@@ -160,7 +160,7 @@ double azimuth_of(const Vec3d& normal) {
   return std::atan2(normal.x(), normal.z()) * 180 / std::numbers::pi;
 }
 
-/// What the picture's sides and the angle of view make of directions.
+/// Projection of directions by the angle of view and the shape of the picture.
 struct Lens {
   Vec3d up;
   double slope;               ///< tan(fov / 2)
@@ -169,7 +169,7 @@ struct Lens {
   bool is_turning() const { return turns.size() > 1; }
 };
 
-/// What the camera turns by, in steps so small that nothing leaves the picture between them.
+/// Angles of the camera, in steps so small that nothing leaves the picture between them.
 std::vector<double> turns_of(const scene::CameraSettings& settings, double duration) {
   constexpr double step = 20;
   const double all = std::clamp(turned(settings, duration, duration), -360.0, 360.0);
@@ -179,7 +179,7 @@ std::vector<double> turns_of(const scene::CameraSettings& settings, double durat
   return turns;
 }
 
-/// What a camera that turns about the middle of the points sees, as if they turned instead.
+/// Turns the points instead of a camera that turns about their middle.
 std::vector<Vec3d> turned_backwards(const std::vector<Vec3d>& points, const Lens& lens) {
   const Vec3d middle = box_of(points).center();
   std::vector<Vec3d> seen;

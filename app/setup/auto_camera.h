@@ -1,5 +1,5 @@
 #pragma once
-/// A place for cameras that name none.
+/// Chooses eye and target for automatic cameras.
 
 #include <optional>
 #include <vector>

@@ -15,7 +15,7 @@ namespace {
 
 using sim::Vec3d;
 
-/// How far a point moves along a unit direction until it meets a collider; negative: never.
+/// Distance from a point along a unit direction to a collider; negative: no collider there.
 double distance_to(const sim::shapes::Collider& collider, const Vec3d& point,
                    const Vec3d& direction) {
   if (const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form)) {
@@ -41,7 +41,7 @@ double distance_to(const sim::shapes::Collider& collider, const Vec3d& point,
   return enter <= leave ? enter : -1;
 }
 
-/// Of points that have velocities in their file.
+/// Largest speed of points that have velocities in their file.
 double own_speed(const sim::shapes::Shape& shape) {
   const auto* points = std::get_if<sim::shapes::Points>(&shape.form);
   if (!points) return 0;
@@ -88,7 +88,7 @@ double yield_shear(const sim::Material& m) {
   return 2 * l.mu * theta;
 }
 
-/// Of snow that meets something, rho v^2: below the elastic limit, and well above its own weight.
+/// Pressure of snow at impact, rho v^2: below the elastic limit, and well above its own weight.
 double stagnation_pressure(const scene::Scene& scene) {
   const double speed = setup::impact_speed(scene);
   const double density = largest(scene.materials, [](const sim::Material& m) { return m.density; });

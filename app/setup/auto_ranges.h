@@ -13,7 +13,7 @@ scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
 /// m/s: speed of the quickest body when it meets what is below it, or at the end of the scene.
 double impact_speed(const scene::Scene& scene);
 
-/// Of a field on nodes.
+/// Automatic range of a field on nodes.
 scene::Range automatic_range(const scene::Scene& scene, scene::ScalarField field);
 scene::Range automatic_range(const scene::Scene& scene,
                              scene::VectorField field);  ///< of its magnitude
@@ -21,7 +21,7 @@ scene::Range automatic_range(const scene::Scene& scene,
 /// Kinetic energy of all bodies when they meet what is below them, J.
 double energy_of_impact(const scene::Scene& scene);
 
-/// What particles carry that makes a field of nodes.
+/// Particle attribute that makes a field of nodes.
 scene::ColorBy attribute_of(scene::ScalarField field);
 
 /// Fills in the ranges of plots that are absent, from constants of the scene, as round numbers.

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a camera is at a time: its place, keyframes and turning. A function of the time alone.
+/// Pose of a camera at a time, from its place, keyframes and turning. It depends on the time alone.
 
 #include "app/scene/scene.h"
 

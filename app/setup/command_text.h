@@ -14,7 +14,7 @@ namespace neve::app::setup {
 /// A word for a POSIX shell, quoted where it has to be.
 std::string shell_word(const std::string& text);
 
-/// What a picture is made of that a command can say.
+/// Contents of a picture that a command can express.
 struct RenderCommand {
   std::string scene_file;  ///< as the shell's folder sees it
   std::vector<scene::Override> overrides;

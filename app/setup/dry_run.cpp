@@ -24,7 +24,7 @@ bool is_out_of_steps() {
   return --steps_left <= 0 || is_interrupted();
 }
 
-/// What a dry run makes of the scene's snow.
+/// Replacement for the scene's snow in a coarse run.
 enum class Substitute {
   same,      ///< the scene's own, but for a bound on its stiffness
   uncrushed  ///< no compaction: for scenes whose coarse snow is crushed out of bounds

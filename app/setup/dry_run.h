@@ -13,7 +13,7 @@ struct Moment {
   std::vector<sim::Vec3d> x;
 };
 
-/// How many particles the bodies will have, roughly.
+/// Approximate number of particles of the bodies.
 double planned_particles(const scene::Scene& scene);
 
 /// Some hundred particles over the whole scene, or as long as a fixed budget of steps times

@@ -10,7 +10,7 @@ namespace neve::app::setup {
 
 namespace {
 
-/// How much a sheet twice as wide as wanted counts against gaps of that share of it.
+/// Weight of a sheet twice as wide as wanted, relative to the share of gaps.
 constexpr double weight_of_shape = 0.15;
 
 const scene::View& view_called(const scene::Scene& scene, const std::string& name) {
@@ -33,7 +33,7 @@ int column_count(const scene::Scene& scene, const scene::Mosaic& mosaic) {
   const double wanted = shape_of(scene.size);
   int best = 1;
   double least = 1e300;
-  // Of two that are as good the wider one: three views side by side.
+  // The wider of two equally good layouts wins: three views side by side.
   for (int columns = count; columns >= 1; --columns) {
     const int rows = (count + columns - 1) / columns;
     const double empty = 1 - static_cast<double>(count) / (rows * columns);

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the views of a mosaic go.
+/// Layout of the views of a mosaic.
 
 #include <vector>
 
@@ -12,7 +12,7 @@ struct MosaicTile {
   int x = 0, y = 0;  ///< px, of its upper left corner
 };
 
-/// Where everything goes; the same in every frame.
+/// Places of all parts; the same in every frame.
 struct MosaicLayout {
   int width = 0, height = 0;  ///< px
   int caption_height = 0;     ///< px, of the strip at the top

@@ -21,10 +21,10 @@ namespace {
 
 constexpr std::array quality_names{"draft", "preview", "final"};
 
-/// What a software rasteriser maps; with less some drivers crash instead of saying so.
+/// Address space of a software rasteriser; with less some drivers crash without a message.
 constexpr std::uint64_t driver_address_space = 1'000'000'000;
 
-/// Of a sample while it is drawn: colour, normal, depth and their copies on both sides.
+/// Memory of a sample while it is drawn: colour, normal, depth and their copies on both sides.
 constexpr double bytes_per_sample = 64;
 constexpr double bytes_per_pixel = 4;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run will need, worked out before anything is allocated, and the limits it has to keep.
+/// Needs of a run, estimated before anything is allocated, and the limits it must keep.
 
 #include <cstdint>
 #include <string>

@@ -34,7 +34,7 @@ bool is_of_shape(double aspect, double other) {
   return std::abs(aspect / other - 1) < 0.02;
 }
 
-/// Whether the scene's own camera is used and has no place.
+/// True if the scene's own camera is used and has no place.
 bool needs_shared_camera(const scene::Scene& scene) {
   const bool is_used = std::any_of(scene.views.begin(), scene.views.end(),
                                    [](const scene::View& view) { return !view.camera; });

@@ -11,7 +11,7 @@ namespace neve::app::setup {
 /// @param particle_count of the whole scene
 void resolve(scene::Scene& scene, std::size_t particle_count);
 
-/// Whether a camera of the scene has no place yet.
+/// True if a camera of the scene has no place yet.
 bool needs_framing(const scene::Scene& scene);
 
 /// Places those cameras for what dry runs saw, in order of time.

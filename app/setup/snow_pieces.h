@@ -1,5 +1,5 @@
 #pragma once
-/// Where the snow of a scene comes from: bodies at the start, emitters while it runs.
+/// Sources of the snow of a scene: bodies at the start, emitters during the run.
 
 #include <string>
 #include <vector>
@@ -37,7 +37,7 @@ struct SnowCount {
 /// @param seeded  particles that the bodies got
 SnowCount count_snow(const scene::Scene& scene, std::size_t seeded);
 
-/// What comes and goes, for the simulation.
+/// Emitters and sinks, for the simulation.
 sim::seeding::Flow flow_of(const scene::Scene& scene);
 
 }  // namespace neve::app::setup

@@ -1,5 +1,5 @@
 #pragma once
-/// What measures how long things take.
+/// Monotonic clock.
 
 #include <chrono>
 

@@ -6,7 +6,7 @@ namespace neve::app {
 /// From now on SIGINT and SIGTERM set a flag; the second of them ends the process with code 130.
 void catch_interrupts();
 
-/// Whether somebody asked to stop.
+/// True after a request to stop.
 bool is_interrupted();
 
 }  // namespace neve::app

@@ -44,7 +44,7 @@ std::optional<std::uint64_t> read_field(const fs::path& file, const std::string&
   return std::nullopt;
 }
 
-/// What a group and those above it still allow. Cache that can be given back does not count.
+/// Memory that a group and those above it still allow. Reclaimable cache counts as free.
 std::uint64_t left_in_groups(const fs::path& root, fs::path group, const char* limit_file,
                              const char* usage_file, const char* cache_key) {
   std::uint64_t left = unlimited;

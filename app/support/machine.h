@@ -1,5 +1,5 @@
 #pragma once
-/// What this machine has: memory, the folder of the program, the scenes that come with it.
+/// Properties of this machine: memory, the folder of the program, the installed scenes.
 
 #include <cstdint>
 #include <filesystem>

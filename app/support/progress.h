@@ -13,7 +13,7 @@ namespace neve::app {
 
 enum class Verbosity { quiet, normal, verbose };
 
-/// What a line says.
+/// Contents of a progress line.
 struct ProgressState {
   int frame = 0, last_frame = 0;
   double time = 0;                ///< s, simulated
@@ -27,7 +27,7 @@ std::string progress_text(const ProgressState& state);
 /// "8 s", "3 min 20 s", "2 h 05 min"
 std::string duration_text(double seconds);
 
-/// How many units of work are done, and when the rest will be.
+/// Estimates the remaining time from the finished units of work.
 class WorkClock {
  public:
   using Clock = std::chrono::steady_clock;
@@ -41,7 +41,7 @@ class WorkClock {
   std::deque<std::pair<Clock::time_point, double>> seen_;
 };
 
-/// What the line of a sweep says.
+/// Contents of the progress line of a sweep.
 struct RunsState {
   int finished = 0, failed = 0, running = 0, all = 0;
   double seconds_left = -1;  ///< negative: not known yet
@@ -50,7 +50,7 @@ struct RunsState {
 /// "12/64 runs  2 failed  2 running  3 min 20 s left"
 std::string runs_text(const RunsState& state);
 
-/// Whether a stream can take an updating line: a terminal that is not dumb, without NO_COLOR.
+/// True if a stream supports an updating line: a terminal that is not dumb, without NO_COLOR.
 bool can_update_lines(int fd);
 
 /// Any thread may call it.

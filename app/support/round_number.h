@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers that people would have chosen.
+/// Rounding to 1, 2 or 5 times a power of ten.
 
 namespace neve::app {
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the command line says of neve view.
+/// Command line options of neve view.
 
 #include <cstdint>
 #include <string>

@@ -113,7 +113,7 @@ void Viewer::take_live_frame() {
   follow();
 }
 
-/// What went wrong since the last picture becomes a message, and its tab is opened.
+/// Turns errors since the last picture into messages, and opens their tab.
 void Viewer::show_news() {
   const session::LiveFrame& live = *state_.live;
   if (live.errors != state_.errors_seen) {
@@ -196,7 +196,7 @@ int Viewer::font_size() const {
   return std::clamp(static_cast<int>(std::lround(14 * front_.size().scale)), 11, 48);
 }
 
-/// Where there is no room for two columns beside the picture, one stands for both.
+/// Lays out the columns; a narrow window has one column for both.
 void Viewer::lay_out() {
   const front::ScreenSize size = front_.size();
   const auto unit = static_cast<float>(font_size());

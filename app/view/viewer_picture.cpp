@@ -21,8 +21,8 @@ constexpr double quick_enough = 1.0 / 60;
 constexpr double still_after = 0.25;  // s without a move
 constexpr double smallest_scale = 0.45;
 
-/// Whether all that the view shows was worked out for this moment: a view that was just chosen has
-/// to wait for the session.
+/// True if everything that the view shows was computed for this moment: a newly chosen view waits
+/// for the session.
 bool has_all(const picture::Snapshot& snapshot, const scene::View& view) {
   scene::Scene scene;
   scene.views = {view};
@@ -44,7 +44,7 @@ double widened(double fov, double narrower) {
 
 }  // namespace
 
-/// What the picture shows, from wherever it is seen.
+/// Key of the contents of the picture, independent of the camera.
 std::string Viewer::state_key() const {
   char text[120];
   std::snprintf(

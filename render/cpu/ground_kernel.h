@@ -7,7 +7,7 @@
 namespace neve::render::cpu {
 namespace {
 
-/// How much of a sample the lines of one direction cover, given how many lines one sample spans.
+/// Share of a sample that the lines of one direction cover, from the number of lines that it spans.
 template <class V>
 NEVE_INLINE V line_cover(V at, V span, float line_width) {
   const V pixels = absolute_lanes(fraction_lanes(at - 0.5f) - 0.5f) / span;

@@ -87,7 +87,7 @@ template <class V>
 NEVE_INLINE V rough_log2(V x) {
   using I = MaskOf<V>;
   const I bits = reinterpret_cast<I>(x);
-  // Of exponents around sqrt(1/2), so that m is from there to sqrt(2).
+  // Exponents are relative to sqrt(1/2), so that m is from there to sqrt(2).
   const I n = (bits - 0x3f3504f3) >> 23;
   const V m = reinterpret_cast<V>(bits - (n << 23));
   const V z = (m - 1) / (m + 1), z2 = z * z;

@@ -34,7 +34,7 @@ NEVE_INLINE V tone_map(V c) {
   return rough_power(unit_lanes(c), all<V>(1 / 2.2f));
 }
 
-/// What tone_map turns into the linear light y.
+/// Inverse of tone_map: the value that becomes the linear light y.
 template <class V>
 NEVE_INLINE V before_tone_map(V y) {
   const V b = 1 - 0.55f * y;
@@ -204,7 +204,7 @@ NEVE_INLINE SmokeSums<V> smoke_before(const light::SmokeCover& smoke, const RowP
   V total{};
   for (int n = 0; n < 4; ++n) {
     V apart = (gather_lanes<V>(smoke.depth, ray[n]) - z) * (1 / smoke.spacing);
-    // What smoke already hides may be anywhere behind it.
+    // Samples that smoke already hides may be anywhere behind it.
     apart = a[n] > all<V>(0.999f) ? larger_lanes(apart, V{}) : apart;
     apart = 9 * apart * apart;  // up to a third of the spacing it hardly counts
     const V near = ((n & 1) ? part_x : 1 - part_x) * ((n >> 1) ? part_y : 1 - part_y);

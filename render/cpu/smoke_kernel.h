@@ -53,8 +53,8 @@ NEVE_INLINE Channels color_at(const light::SmokeJob& job, float place) {
   return load_lanes<Channels>(at) * (1 - part) + load_lanes<Channels>(at + 4) * part;
 }
 
-/// Where the ray ends, m along the view, given the samples that it stands for: in their middle, or
-/// at an edge in turn before the nearest and the farthest, so that shading finds both sides.
+/// End of the ray, m along the view, from the samples that it represents: in their middle, or at an
+/// edge in turn before the nearest and the farthest, so that shading finds both sides.
 NEVE_INLINE float surface_distance(const light::SmokeJob& job, int ray_x, int ray_y) {
   const int n = job.samples_per_ray;
   float most = 0, least = 1e30f;
@@ -96,8 +96,7 @@ struct March {
   NEVE_INLINE float start_of(int step) const { return z + static_cast<float>(step) * dz; }
 };
 
-/// How many steps to where the ray leaves the brick that a step's sample is in, 0 where there is
-/// something in it.
+/// Number of steps until the ray leaves the brick of a step's sample; 0 if the brick is not empty.
 NEVE_INLINE int empty_steps(const light::SmokeJob& job, const March& march, int step) {
   const float z = march.start_of(step);
   const float at = z + march.jitter * smaller(march.dz, march.z_end - z);
@@ -128,7 +127,7 @@ struct Steps {
   Channels texel[steps_at_once];
 };
 
-/// Where the samples of the steps from `first` on are.
+/// Positions of the samples of the steps from `first` on.
 template <class V>
 NEVE_INLINE void place_steps(const light::SmokeJob& job, const March& march, int first,
                              Steps& steps) {
@@ -158,7 +157,7 @@ NEVE_INLINE void place_steps(const light::SmokeJob& job, const March& march, int
   }
 }
 
-/// What the texels around each step hold.
+/// Values of the texels around each step.
 template <class V>
 NEVE_INLINE void read_texels(const light::SmokeJob& job, int count, Steps& steps) {
   const long row = 4 * static_cast<long>(job.grid_size.x), slice = row * job.grid_size.y;
@@ -174,7 +173,7 @@ NEVE_INLINE void read_texels(const light::SmokeJob& job, int count, Steps& steps
   }
 }
 
-/// What is left of light that goes through each step.
+/// Share of light that passes each step.
 template <class V>
 NEVE_INLINE void find_decay(const March& march, Steps& steps) {
   for (int l = 0; l < steps_at_once; l += lane_count<V>) {

@@ -8,7 +8,7 @@
 namespace neve::render::cpu {
 namespace {
 
-/// Whether a tile of rays or one beside it may show smoke: shading looks at the next ray too.
+/// True if a tile of rays or a neighbour may show smoke: shading reads the next ray too.
 bool is_near_smoke(const light::SmokeSpans& spans, int column, int row) {
   for (int j = std::max(row - 1, 0); j <= std::min(row + 1, spans.rows - 1); ++j)
     for (int i = std::max(column - 1, 0); i <= std::min(column + 1, spans.columns - 1); ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-/// What the kernels of the CPU splatter work on: plain data, so that a file compiled for another
-/// instruction set shares no inline function with the rest of the program.
+/// Data of the CPU splatter's kernels: plain data, so that a file compiled for another instruction
+/// set shares no inline function with the rest of the program.
 ///
 /// Places on the picture are in samples, y up. Slopes are samples / pixels_per_slope, so that the
 /// ray of slope s is (s.x, s.y, 1) in the axes of the view, with length 1 along it.

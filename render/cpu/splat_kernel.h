@@ -138,7 +138,7 @@ NEVE_INLINE float least_of_block(const Tile& tile, int block) {
   return smallest_lane(least);
 }
 
-/// Whether nothing nearer than `nearest` can be seen within the span.
+/// True if nothing nearer than `nearest` is visible within the span.
 template <class V>
 NEVE_INLINE bool is_hidden(Tile& tile, const Span& span, float nearest) {
   for (int by = span.y0 / block_side; by <= span.y1 / block_side; ++by) {
@@ -237,7 +237,7 @@ NEVE_INLINE Points3<V> normals_of(const SplatView& view, const Discs<V>& disc, V
           part * (dy * num - cy * back - (cy + dy) * root), part * (-back - root)};
 }
 
-/// Whose disc each sample of a lane shows becomes what is seen of it.
+/// Turns the disc that each sample of a lane shows into its visible surface.
 template <class V>
 NEVE_INLINE void finish_samples(const TileJob& job, int x, int y) {
   using I = MaskOf<V>;

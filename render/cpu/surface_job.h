@@ -1,5 +1,5 @@
 #pragma once
-/// What the kernels work on that finish and light a tile of surfaces: plain data, as splat_job.h.
+/// Data of the kernels that finish and light a tile of surfaces: plain data, as splat_job.h.
 ///
 /// Positions are relative to the eye, in m, with the axes of the world. Samples count from the
 /// lower left corner of the picture.

@@ -106,7 +106,7 @@ void Surfaces::keep_solids() {
                        [&](int tile) { add_solids(tile, kept_[static_cast<std::size_t>(tile)]); });
 }
 
-/// Of its lower left sample in the picture.
+/// Index of the tile's lower left sample in the picture.
 std::size_t Surfaces::corner_of(int tile) const {
   const int columns = splatter_.columns();
   return static_cast<std::size_t>(tile / columns * light::tile_height) *

@@ -16,7 +16,7 @@
 
 namespace neve::render::cpu {
 
-/// What OpenGL has drawn into its G-buffer, rows from the bottom up; see shaders/gbuffer.glsl.
+/// Contents of OpenGL's G-buffer, rows from the bottom up; see shaders/gbuffer.glsl.
 struct SolidSamples {
   int width = 0, height = 0;  ///< 0: nothing
   std::vector<float> depth;
@@ -35,7 +35,7 @@ class Surfaces {
 
   /// The frame has to stay until its picture is there.
   void prepare(const Frame& frame, const View& view);
-  /// What OpenGL has drawn of it. Without this call: nothing.
+  /// Sets the part that OpenGL has drawn. Default: nothing.
   void set_solids(const SolidSamples* solids) { solids_ = solids; }
 
   /// Draws all tiles and keeps them, in three steps, for who has to know depths before the light or

@@ -1,6 +1,6 @@
 #pragma once
-/// What to draw: plain arrays, filled by the application. Metres, y up, right-handed; colours are
-/// linear light unless said otherwise. Knows no snow.
+/// Contents of a picture: plain arrays, filled by the application. Metres, y up, right-handed;
+/// colours are linear light unless said otherwise. Knows no snow.
 
 #include <array>
 #include <cstdint>

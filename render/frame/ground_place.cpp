@@ -12,8 +12,8 @@ Vec3f tangent_of(Vec3f normal) {
   return normalized(axis - dot(axis, normal) * normal);
 }
 
-/// Where the eye is between two lines, in units of their spacing. In double and on the CPU, so that
-/// lines stand still far from the origin.
+/// Position of the eye between two lines, in units of their spacing. Computed in double on the CPU,
+/// so that lines stay fixed far from the origin.
 float between_lines(Vec3f eye, Vec3f direction, float spacing) {
   const double lines =
       (double{eye.x} * direction.x + double{eye.y} * direction.y + double{eye.z} * direction.z) /

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the lines of a ground are and how it fades, the same for OpenGL and for the CPU.
+/// Lines and fading of a ground, the same for OpenGL and for the CPU.
 
 #include "render/frame/frame.h"
 #include "render/frame/view.h"

@@ -14,7 +14,7 @@ class OcclusionGrid {
   /// @param typical_radius of spheres on the picture, samples; sets the size of the tiles
   OcclusionGrid(const View& view, float typical_radius);
 
-  /// Whether everything within reach of a place is covered by something nearer.
+  /// True if nearer spheres cover everything within reach of a place.
   /// @param x, y, reach samples, y up; @param nearest distance along the view, m
   bool hides(float x, float y, float reach, float nearest) const;
 

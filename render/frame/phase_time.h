@@ -1,9 +1,9 @@
 #pragma once
-/// How long a phase of a picture took.
+/// Time of one phase of a picture.
 
 namespace neve::render {
 
-/// How long a phase of a picture took.
+/// Time of one phase of a picture.
 struct PhaseTime {
   const char* phase;  ///< light, particles, solids, slices, smoke, shade, overlay, read_back
   double seconds;

@@ -51,7 +51,7 @@ Disc disc_of(const View& view, Vec3f p, float radius, float max_point_size) {
   return d;
 }
 
-/// Whether nearer spheres cover this one; if not, it covers others from now on.
+/// True if nearer spheres cover this one; if not, it covers others from now on.
 bool is_hidden(const Disc& d, float pixels_per_slope, OcclusionGrid& grid) {
   const float ratio = d.radius / d.z;
   if (ratio > 0.1f) return false;  // so close that the bounds below are too rough

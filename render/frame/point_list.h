@@ -29,7 +29,7 @@ inline constexpr float min_radius_pixels = 0.75f;
 /// always do.
 std::vector<std::uint32_t> order_by_id(const Points& points);
 
-/// What colour each point has: its value on the colour map, or one of many shades of snow.
+/// Colour of each point: its value on the colour map, or one of many shades of snow.
 class PointColors {
  public:
   explicit PointColors(const Points& points) : points_(points) {}

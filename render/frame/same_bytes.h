@@ -1,5 +1,5 @@
 #pragma once
-/// Whether what something was made from is still the same.
+/// Bytewise comparison of inputs, for caches.
 
 #include <cstring>
 #include <vector>

@@ -21,7 +21,7 @@ class Context {
   bool is_software = false;
 };
 
-/// What happened to one backend.
+/// Result of trying one backend.
 struct Attempt {
   std::string backend;
   bool available = false;

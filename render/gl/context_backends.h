@@ -1,5 +1,5 @@
 #pragma once
-/// What each backend file offers to context.cpp.
+/// Functions of each backend file for context.cpp.
 
 #include <memory>
 #include <string>

@@ -48,8 +48,8 @@ struct Egl {
 /// Loaded at the first call.
 const Egl& egl();
 
-/// Whether a name is among extensions separated by spaces; whole words, as some names are prefixes
-/// of others.
+/// True if a name is among extensions separated by spaces. Compares whole words, because some names
+/// are prefixes of others.
 bool lists(const char* extensions, std::string_view name);
 
 }  // namespace neve::render::gl

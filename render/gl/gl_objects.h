@@ -56,10 +56,10 @@ using Framebuffer = GlObject<FramebufferTraits>;
 Texture make_texture_2d(const Gl& gl, int width, int height, GLint internal_format, GLenum format,
                         GLenum type, const void* pixels, GLint filter);
 
-/// What every full-screen pass draws with: nothing tested, nothing blended.
+/// Sets the state of full-screen passes: no tests, no blending.
 void set_flat_state(const Gl& gl);
 
-/// What every pass draws with that fills the G-buffer: the nearest surface counts, from both sides.
+/// Sets the state of passes that fill the G-buffer: the nearest surface wins, from both sides.
 void set_solid_state(const Gl& gl);
 
 }  // namespace neve::render::gl

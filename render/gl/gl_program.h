@@ -8,7 +8,7 @@
 
 namespace neve::render::gl {
 
-/// Where shader text comes from.
+/// Source of shader texts.
 class ShaderLibrary {
  public:
   /// @param folder read from there instead of the binary when not empty

@@ -1,5 +1,5 @@
 #pragma once
-/// What the passes draw into, made for one size of picture.
+/// Render targets of the passes, for one size of picture.
 
 #include "render/gl/gl_objects.h"
 

@@ -8,10 +8,10 @@
 
 namespace neve::render {
 
-/// Whether this build has libturbojpeg; without it encode_jpeg throws.
+/// True if this build has libturbojpeg; without it encode_jpeg throws.
 bool can_encode_jpeg();
 
-/// What to install and to configure for a build that can.
+/// Packages and options for a build with JPEG.
 extern const char* const jpeg_advice;
 
 /// @param image three or four channels; the fourth is ignored

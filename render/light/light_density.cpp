@@ -102,7 +102,8 @@ void bin_points(const Points& points, const LightGrid& grid, ThreadPool* pool,
 
 namespace {
 
-/// Where the cells of a row lie between texels: the lower one and how far towards the next.
+/// Position of each cell of a row between texels: the lower texel and the fraction towards the
+/// next.
 struct Between {
   int low = -1;  ///< -1: outside
   float part = 0;

@@ -22,8 +22,8 @@ struct LightBuffers {
   std::array<std::vector<float>, 5> arriving;  ///< the key light, and the sky from four directions
 };
 
-/// How full each cell is: 1 for packed points and above, trilinear, a stray point far below 1. Into
-/// buffers.density.
+/// Computes how full each cell is, into buffers.density: 1 for packed points and above, trilinear;
+/// a stray point is far below 1.
 void bin_points(const Points& points, const LightGrid& grid, ThreadPool* pool,
                 LightBuffers& buffers);
 

@@ -37,7 +37,7 @@ Slicing slice_along(const LightGrid& grid, Vec3f toward_light) {
   return s;
 }
 
-/// What leaves a slice towards the next one, with a border of full light around it.
+/// Light that leaves a slice towards the next one, with a border of full light around it.
 class Border {
  public:
   Border(int rows, int columns)

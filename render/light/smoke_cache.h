@@ -1,6 +1,6 @@
 #pragma once
-/// What becomes of smoke before a camera looks at it, kept for as long as nothing in it changes:
-/// several views of one state, and one view that is turned, share it.
+/// Camera-independent work on smoke, kept while the smoke is unchanged: several views of one state,
+/// and a view that turns, share it.
 
 #include <cstdint>
 #include <memory>
@@ -15,10 +15,11 @@ class SmokeCache {
   ~SmokeCache();
   /// Valid until the next call. @param pool may be null
   const SmokeGrid& grid(const Smoke& smoke, ThreadPool* pool);
-  /// Of the grid asked for last, which is not empty. @param light made by Lighting for that grid
+  /// Volume of the grid requested last, which is not empty. @param light made by Lighting for that
+  /// grid
   const SmokeVolume& volume(const LightVolume& light, Vec3f toward_light, ThreadPool* pool);
 
-  /// How often grids and volumes were made anew.
+  /// Number of times that grids and volumes were computed.
   std::uint64_t renewals() const { return renewals_; }
 
  private:

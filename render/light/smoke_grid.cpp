@@ -16,7 +16,7 @@ struct NodeBox {
   Vec3i low, high;  ///< nodes, both inclusive
 };
 
-/// What is seen of each block.
+/// Visible part of each block.
 struct Blocks {
   std::vector<float> opacity;  ///< per node
   std::vector<int> seen;       ///< blocks with something to see

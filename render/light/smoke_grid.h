@@ -19,7 +19,8 @@ struct SmokeGrid {
   std::vector<float> opacity;  ///< 0 and more
   std::vector<float> value;    ///< place in the range, [0, 1], times opacity; empty without values
 
-  /// Of opacity 1: packed snow at density_scale 1. Three nodes of it let 40 % of the light through.
+  /// Extinction at opacity 1: packed snow at density_scale 1. Three nodes of it pass 40 % of the
+  /// light.
   float extinction() const { return 0.3054f / node_spacing; }  // 1/m; -ln(0.4) / 3
   bool is_empty() const { return opacity.empty(); }
   std::size_t index(int x, int y, int z) const {

@@ -1,5 +1,5 @@
 #pragma once
-/// What the kernel works on that marches through smoke: plain data, as splat_job.h.
+/// Data of the kernel that marches through smoke: plain data, as splat_job.h.
 
 #include "render/light/gbuffer_tile.h"
 #include "render/light/light_job.h"
@@ -21,7 +21,7 @@ struct SmokeJob {
   float extinction;            ///< 1/m, of opacity 1
   const float* colormap;       ///< linear light, four numbers each; null: smoke is white
   float key_light, sky_light;  ///< on colours
-  // What it hides behind.
+  // Surfaces in front of the smoke.
   const GBufferTile* tiles;
   int tile_columns;
   // The rays.

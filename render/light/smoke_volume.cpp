@@ -10,7 +10,7 @@
 namespace neve::render::light {
 namespace {
 
-/// What the light volume holds at a place between its cells.
+/// Interpolated light volume at a place between its cells.
 struct Lit {
   Vec3f body;
   float key = 0, sky = 0;

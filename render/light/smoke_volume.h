@@ -29,15 +29,14 @@ SmokeVolume make_smoke_volume(const SmokeGrid& grid, const LightVolume& light, V
 /// Linear light at colormap_width places of a colour map, four numbers each, the last one 0.
 std::vector<float> linear_colors(ColorMap map);
 
-/// Where light that falls on smoke is taken to colours: without a tint of its own, so that these
-/// are those of the legend.
+/// Light on coloured smoke: it has no tint, so that colours equal those of the legend.
 inline constexpr float key_on_colors = 1.15f, sky_on_colors = 0.55f;
 
 /// Rays of a tile along each axis.
 inline constexpr int smoke_rays_per_tile = 8;
 
-/// How many samples along each axis share a ray: what the smoke asks for, or by how large its
-/// texels are in the picture.
+/// Number of samples along each axis that share a ray: the smoke's own setting, or from the size of
+/// its texels in the picture.
 int samples_per_ray(const Smoke& smoke, const SmokeGrid& grid, const View& view);
 
 /// Between which distances along the view each tile of the picture shows smoke.

@@ -1,5 +1,5 @@
 #pragma once
-/// What all overlays share: text with a shadow, its colours, and the unit of layout.
+/// Common parts of overlays: text with a shadow, its colours, and the unit of layout.
 
 #include <imgui.h>
 

@@ -22,7 +22,7 @@ ImU32 color_of(const PlotSeries& series, int alpha = 255) {
   return IM_COL32(series.color[0], series.color[1], series.color[2], alpha);
 }
 
-/// Where things are, in pixels: the same for all panels but for top and bottom.
+/// Layout in pixels: the same for all panels except for top and bottom.
 struct Panel {
   float left, right, top, bottom;
 };

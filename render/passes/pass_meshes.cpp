@@ -25,7 +25,7 @@ float distance_to(const TriangleMesh& mesh, Vec3f eye) {
   return length(sum / static_cast<float>(std::max<std::size_t>(mesh.position.size(), 1)) - eye);
 }
 
-/// What is nearer is laid over what is farther.
+/// Order for blending: nearer meshes are drawn over farther ones.
 std::vector<std::size_t> far_to_near(const std::vector<TriangleMesh>& meshes, Vec3f eye) {
   std::vector<float> distance;
   for (const TriangleMesh& mesh : meshes) distance.push_back(distance_to(mesh, eye));

@@ -1,5 +1,5 @@
 #pragma once
-/// How long the phases of a picture take.
+/// Times of the phases of a picture.
 
 #include <chrono>
 #include <vector>
@@ -18,7 +18,7 @@ class PhaseClock {
     if (times_) times_->clear();
   }
   bool is_wanted() const { return times_ != nullptr; }
-  /// What was done since the last phase ended was this one.
+  /// Books the time since the end of the last phase under this one.
   void end(const char* phase) {
     if (!times_) return;
     gl_.Finish();

@@ -15,12 +15,12 @@ class SolidCache {
  public:
   SolidCache();
   ~SolidCache();
-  /// Whether the samples are those of this frame.
+  /// True if the samples belong to this frame.
   bool holds(const Frame& frame, const View& view) const;
   /// To be filled with those of this frame.
   cpu::SolidSamples& renew(const Frame& frame, const View& view);
   const cpu::SolidSamples& samples() const { return samples_; }
-  /// How often they were made anew.
+  /// Number of times that the samples were drawn.
   std::uint64_t renewals() const { return renewals_; }
 
  private:

@@ -82,7 +82,7 @@ class ThreadPool {
   /// Covers the gaps between the sweeps of a step; longer would take cores from other processes.
   static constexpr std::chrono::microseconds spin_time{20};
 
-  /// What one thread has left to do, and its bell. On a cache line of its own.
+  /// Remaining work of one thread, and its signal. On a cache line of its own.
   struct alignas(64) Share {
     /// Generation, begin and end of its parts in 32, 16 and 16 bits. They change as one, so that
     /// nobody takes parts of a job that is over.

@@ -42,7 +42,7 @@ std::size_t owner(const Vec3i& node);
 /// Two interleaved lattices of spacing h around the origin. B-splines on such a lattice reproduce
 /// linear functions, so that in its middle the grid's velocity is exactly what the particles have.
 ParticleArrays even_lattice();
-/// Whether every node around x is surrounded by the lattice.
+/// True if every node around x is surrounded by the lattice.
 bool is_deep_inside(const Vec3d& x);
 
 /// A ball of snow with some particles per cell, at rest, with its true volumes.
@@ -50,8 +50,8 @@ ParticleArrays small_ball();
 
 /// w_ip, from the definition of the splines: cubic and quadratic hats by distance.
 double weight(Kernel kernel, const Vec3d& node_minus_particle);
-/// What forces and velocity gradients use in the place of grad_w_ip, 1/m: for MLS
-/// w_ip (x_i - x_p) / D (Hu et al. 2018).
+/// Gradient that forces and velocity gradients use, 1/m: grad_w_ip, for MLS w_ip (x_i - x_p) / D
+/// (Hu et al. 2018).
 Vec3d weight_gradient(Kernel kernel, Transfer transfer, const Vec3d& node_minus_particle);
 
 /// D of APIC, h^2/3 or h^2/4 (Jiang et al. 2015), m2.

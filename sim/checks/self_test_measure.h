@@ -1,5 +1,5 @@
 #pragma once
-/// How a self-test says what it found and what is allowed.
+/// Measurements of a self-test: values found and tolerances.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace neve::sim::checks::self_test {
 
-/// What rounding may do, by precision. The states are of order one in their units (weights,
+/// Tolerance for rounding, by precision. The states are of order one in their units (weights,
 /// strains, speeds in m/s), sums have at most a few hundred terms, and the errors found are 3e-15
 /// in double and 1e-6 in float: so only mistakes fail, also on other machines.
 struct Tolerance {

@@ -64,7 +64,7 @@ void volumes(const SelfTestCase& test, self_test::Measure& measure) {
                   0.5, 3);
 }
 
-/// What runs is the fast driver, what the other tests look into is the staged one: a step of
+/// Compares the two drivers: runs use the fused one, the other self-tests the staged one. A step of
 /// either, of a body that moves, yields and touches a plane, must end in the same state.
 void drivers(const SelfTestCase& test, self_test::Measure& measure) {
   constexpr double dt = 2e-4;

@@ -163,8 +163,8 @@ Watch::Watch(const SolverSettings& settings, const std::vector<Material>& materi
     for (std::size_t k = static_cast<std::size_t>(WatchCheck::energy); k < records_.size(); ++k)
       records_[k].threshold = records_[k].error = never;
   if (settings.is_implicit()) {
-    // What no longer limits the step says nothing about it; neither does a trapezoidal rule over
-    // steps that are long for the stiffness, and that damp.
+    // A limit that no longer applies says nothing about the step; neither does a trapezoidal rule
+    // over steps that are long for the stiffness, and that damp.
     const double stretch = engine::acoustic_stretch(settings);
     for (WatchRecord& record : records_) {
       if (record.check == WatchCheck::work) record.threshold = never;

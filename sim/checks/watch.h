@@ -21,7 +21,7 @@ using health::meaning;
 using health::name;
 using health::quantity;
 
-/// What one look found, by check; 0 where a check had nothing to look at.
+/// Values of one measurement, by check; 0 if a check had no data.
 struct WatchValues {
   std::array<double, watch_check_count> value{};
   double& operator[](WatchCheck check) { return value[static_cast<std::size_t>(check)]; }
@@ -51,8 +51,8 @@ std::string sentence(const WatchRecord& record, double value, double dt);
 /// keeps it near a tenth of the run, a fifth on two threads.
 inline constexpr std::size_t watch_interval = 256;
 
-/// Whether the state after `steps` steps is to be looked at: the first ones, where wrong numbers
-/// show at once, then ever rarer down to the interval.
+/// True if the state after `steps` steps is measured: the first ones, where wrong numbers show at
+/// once, then fewer and fewer down to the interval.
 bool is_watch_due(std::size_t steps);
 
 class Watch {
@@ -66,12 +66,12 @@ class Watch {
   /// @return one sentence for each check that was broken for the first time
   std::vector<std::string> look(const Simulation& simulation);
 
-  /// What look() would find, not recorded.
+  /// Measures as look() does, without recording.
   WatchValues measure(const Simulation& simulation) const;
 
   std::size_t looks() const { return looks_; }
   const std::vector<WatchRecord>& records() const { return records_; }
-  /// Whether something was wrong, not only worth a warning.
+  /// True if a value was beyond its error level.
   bool has_errors() const;
 
  private:

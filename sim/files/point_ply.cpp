@@ -147,7 +147,7 @@ class PlyHeaderReader {
     element.columns.emplace_back(next_ply_word(line));
   }
 
-  /// What comes after the points need not be understood.
+  /// Elements after the points are ignored.
   void keep_up_to_points() {
     std::vector<PlyElement>& elements = header_.elements;
     const auto points =

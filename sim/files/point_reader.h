@@ -27,7 +27,7 @@ struct PointCloud {
 ///         points. What a file claims is compared with its length before anything is allocated.
 PointCloud parse_points(std::string_view bytes, const std::string& name);
 
-/// Of an element vertex, whose properties, and those of elements before it, are single numbers.
+/// Reads the element vertex, whose properties, and those of elements before it, are single numbers.
 PointCloud parse_ply_points(std::string_view bytes, const std::string& name);
 
 /// Fields are separated by what the header has most of, commas, semicolons or tabs, and may stand

@@ -29,7 +29,7 @@ class TableLines {
 
 inline constexpr std::size_t max_columns = 256;
 
-/// What the rows of a table become.
+/// Collects the points from the rows of a table.
 class PointTable {
  public:
   /// @param where  of the header, for messages

@@ -58,7 +58,7 @@ Mat3d corotated_piola(const Lame& l, const Mat3d& F_E, const Principal& p) {
   return 2 * l.mu * (F_E - p.U * p.V.transpose()) + l.lambda * (J - 1) * cofactor;
 }
 
-/// How badly a particle breaks the rule: the larger the worse.
+/// Degree to which a particle breaks the rule; larger is worse.
 double badness(const std::string& rule, const ParticleArrays& p, std::size_t id,
                const std::vector<Material>& materials) {
   constexpr double worst = std::numeric_limits<double>::infinity();
@@ -74,7 +74,7 @@ double badness(const std::string& rule, const ParticleArrays& p, std::size_t id,
   return p.v[id].norm();
 }
 
-/// What happened, without advice.
+/// Description of the event, without advice.
 std::string what(const Divergence& d, double acoustic_cfl) {
   std::string text =
       "diverged at step " + std::to_string(d.step) + " (t = " + number_text(d.time) + " s): ";

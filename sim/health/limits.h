@@ -58,7 +58,7 @@ inline constexpr double no_line = std::numeric_limits<double>::quiet_NaN();
 /// The line of checks that warn and never fail.
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Where the readers draw their lines, and what they say of it.
+/// Thresholds of the readers of a law, and their words.
 struct Limits {
   Law law;
   const char* name;
@@ -327,12 +327,12 @@ constexpr const char* name(Law law) {
 constexpr const char* quantity(Law law) {
   return limits_of(law).quantity;
 }
-/// What a broken law tells, for people; empty where --validate does not watch it.
+/// Meaning of a broken law, for the user; empty if --validate does not measure it.
 constexpr const char* meaning(Law law) {
   return limits_of(law).meaning;
 }
 
-/// Whether each law has its own row and the watched ones come first.
+/// True if each law has its own row and the watched ones come first.
 constexpr bool is_in_order() {
   for (std::size_t k = 0; k < law_count; ++k) {
     const bool is_watched = laws[k].watch_warning == laws[k].watch_warning;

@@ -25,8 +25,8 @@ inline constexpr double eigen_lo = 0.1, eigen_hi = 4;
 template <class Real>
 inline constexpr int eigen_sweeps = sizeof(Real) == 4 ? 3 : 5;
 
-/// What a material needs of a particle and what it finds, word by word in lanes: plain words, so
-/// that particles can be moved together into full lanes.
+/// Inputs and results of a material for particles in lanes: plain words, so that particles can be
+/// packed into full lanes.
 template <class V>
 struct MaterialLanes {
   using Real = ElementOf<V>;

@@ -193,7 +193,7 @@ NEVE_INLINE V field_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec
   for (int a = 0; a < 3; ++a) {
     const V place = (dot(d, widened<V>(c.axis[a])) - c.first[a]) / c.spacing;
     const V last = all<V>(static_cast<Real>(c.size[a] - 1));
-    // What is no number is held at 0.
+    // NaN becomes 0.
     V held = place > zero ? place : zero;
     held = held < last ? held : last;
     beyond += (place - held) * (place - held);
@@ -235,7 +235,8 @@ NEVE_INLINE V field_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec
   return beyond > zero ? outside : distance;
 }
 
-/// Of the collider's shape, as the functions above. @param r from the block's first node, m
+/// Distance from the collider's shape, as in the functions above. @param r from the block's first
+/// node, m
 template <class V, class Real>
 NEVE_INLINE V surface_distance(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal) {
   if (c.shape == ColliderShape::plane) {

@@ -66,7 +66,7 @@ NEVE_INLINE V row_sum_norm(const Sym3<V>& a) {
                       larger_lanes(absolute_lanes(a.yy) + xy + yz, absolute_lanes(a.zz) + xz + yz));
 }
 
-/// Of a matrix given row by row.
+/// Determinant of a matrix given row by row.
 template <class V>
 NEVE_INLINE V determinant(const V* F) {
   const V x = fused_negative(F[5], F[7], F[4] * F[8]), y = fused_negative(F[5], F[6], F[3] * F[8]);
@@ -89,8 +89,8 @@ NEVE_INLINE Sym3<V> left_cauchy_green(const V* F) {
 /// Largest |eigenvalue of b - I| for which root_minus_identity holds.
 inline constexpr double series_radius = 0.1;
 
-/// sqrt(b) - I = sum of binomial(1/2, k) (b - I)^k from k = 1: no cancellation at small strain.
-/// What is left out is below 5e-7 of the strain in float and 1e-15 in double.
+/// sqrt(b) - I = sum of binomial(1/2, k) (b - I)^k from k = 1: no cancellation at small strain. The
+/// truncation error is below 5e-7 of the strain in float and 1e-15 in double.
 template <class V>
 NEVE_INLINE Sym3<V> root_minus_identity(const Sym3<V>& b) {
   using Real = ElementOf<V>;
@@ -204,8 +204,8 @@ NEVE_INLINE MaskOf<V> make_orthogonal(JacobiRow<V>& p, JacobiRow<V>& q, V tolera
   return is_turned;
 }
 
-/// Where `mask`, a quarter turn: (p, q) becomes (q, -p), which swaps their lengths and keeps U
-/// proper.
+/// Applies a quarter turn where `mask` is set: (p, q) becomes (q, -p), which swaps their lengths
+/// and keeps U proper.
 template <class V>
 NEVE_INLINE void quarter_turn(JacobiRow<V>& p, JacobiRow<V>& q, V& length_p, V& length_q,
                               MaskOf<V> mask) {

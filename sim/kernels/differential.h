@@ -1,6 +1,6 @@
 #pragma once
-/// How the stress of particles changes with their strain, in lanes: what the Hessian of the elastic
-/// energy is made of.
+/// Change of the stress of particles with their strain, in lanes: the parts of the Hessian of the
+/// elastic energy.
 ///
 /// With dF = G F_E for a gradient G of displacements, the nodes feel -sum V0 D grad_w_ip, where
 /// D = dP F_E^T. Written with the left stretch V (F_E = V R) and b = V^2, R drops out:
@@ -13,7 +13,7 @@
 
 namespace neve::sim::kernels {
 
-/// What is kept of a particle during a solve: two quads.
+/// Data kept of a particle during a solve: two quads.
 template <class V>
 struct Elasticity {
   Sym3<V> shape;       ///< V of snow and corotated, b of neo-Hookean

@@ -10,7 +10,7 @@
 
 namespace neve::sim::kernels {
 
-/// What a node has during a solve. u is the displacement that particles gather next, M^-1/2 times
+/// Vectors of a node during a solve. u is the displacement that particles gather next, M^-1/2 times
 /// the vector that A is applied to; its fourth number is m^-1/2, 0 where there is no mass.
 enum SolveVector { solve_y, solve_r, solve_q, solve_Ar, solve_Aq, solve_u, solve_vectors };
 

@@ -20,7 +20,7 @@ struct SolveSweepsFor {
   using Rows = typename Base::ScatterRows;
   using Products = Lanes<double, 4>;
   static constexpr int W = Base::W;
-  /// Of a gradient: 1/h, and 1/D of MLS in units of h.
+  /// Scale of a gradient: 1/h, and 1/D of MLS in units of h.
   static constexpr Real gradient_scale = is_mls ? Real(1 / apic_inertia<K>) : Real(1);
 
   NEVE_INLINE static Quad<Real>* vector(const Args& a, Index block, SolveVector which) {

@@ -37,8 +37,8 @@ struct StepConstants {
   int collider_count;
 };
 
-/// What one block of particles found out while it was updated. All combine by max, min and sums of
-/// integers, or are added in block order, so threads cannot change them.
+/// Results of the update of one block of particles. All combine by max, min and sums of integers,
+/// or are added in block order, so threads cannot change them.
 template <class Real>
 struct BlockReport {
   Real max_speed_squared = 0;  ///< m2/s2
@@ -52,11 +52,11 @@ struct BlockReport {
   std::uint32_t overflowed = 0;  ///< cells outside the lattice
 };
 
-/// What the fused driver keeps of a node: what particles gather.
+/// Channels of a node in the fused driver: the values that particles gather.
 enum NodeChannel { channel_v_new = 0, channel_change = 1 };
 
-/// What the staged driver keeps of a node block, 64 nodes each. The alignment is said, since that
-/// of a Quad depends on the instruction set that a file is compiled for.
+/// Data of a node block in the staged driver, 64 nodes each. The alignment is explicit, because
+/// that of a Quad depends on the instruction set of the file.
 template <class Real>
 struct alignas(64) StagedNodes {
   Quad<Real> momentum[block_nodes];  ///< x y z and mass
@@ -64,7 +64,7 @@ struct alignas(64) StagedNodes {
   Quad<Real> v_old[block_nodes], v_free[block_nodes], v_star[block_nodes], v_new[block_nodes];
 };
 
-/// What a particle gathers from the grid; a number or lanes.
+/// Values that a particle gathers from the grid; a number or lanes.
 template <class R>
 struct Gathered {
   R v[3];       ///< sum w v_new (PIC)

@@ -1,5 +1,5 @@
 #pragma once
-/// What a particle carries.
+/// Layout of a particle record.
 
 #include <cstdint>
 

@@ -67,8 +67,8 @@ NEVE_INLINE void each_cell(const Stencils<Real, K, G>& s, int count, const Body&
 
 // ---- transfers: reusable scatter and gather -----------------------------------------------------
 
-/// How many slabs of a stencil (nodes of the same x) are accumulated at once: as many as there are
-/// registers for.
+/// Number of slabs of a stencil (nodes of the same x) accumulated at once: as many as fit into
+/// registers.
 template <class Real, int K, class Set>
 inline constexpr int slabs_at_once = Set::template lanes<Real> == 16 ? K : 1;
 
@@ -327,7 +327,7 @@ NEVE_INLINE void collide_nodes(Quad<Real>* v, const StepConstants<Real>& c,
 
 // ---- node to particle ---------------------------------------------------------------------------
 
-/// What steps 7 and 8 need from the grid, for particles [q, q + W) of the stencils.
+/// Gathers the input of steps 7 and 8 from the grid, for particles [q, q + W) of the stencils.
 /// @param change  v_new - v_old on the tile; FLIP only
 template <class Set, TransferKind transfer, class V, class Real, int K, int G>
 NEVE_INLINE void gather(const Stencils<Real, K, G>& s, int q, int count, Real inv_h,
@@ -414,8 +414,8 @@ NEVE_INLINE void collide_particles(const Record<V, I>& p, Vec3<V>& v, MaskOf<V> 
   collide<Set>(v, p.m, r, is_used, near.local, near.count, Real(0), work);
 }
 
-/// Where the option is on, what is deeper in a collider than this is brought out to it, cells. A
-/// hair less than the tenth that is promised, so that rounding does not break it.
+/// push_out moves particles deeper than this back to this depth, cells. Slightly less than the
+/// documented tenth, so that rounding does not exceed it.
 inline constexpr double depth_left = 0.0999;
 /// Out of one collider may be into another: as often as a corner of three needs with room to spare.
 inline constexpr int push_rounds = 8;

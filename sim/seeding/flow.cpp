@@ -23,7 +23,7 @@ constexpr std::uint64_t emitter_key = 0x656d6974;
 constexpr int most_candidates = 8192;
 constexpr double least_share = 1.0 / 64;
 
-/// Of a shape that fills less, places are looked for once and used in turn: a tenth of a second, a
+/// For a shape that fills less, places are found once and reused in turn: a tenth of a second, a
 /// second for a mesh.
 constexpr std::uint64_t pool_candidates = 1 << 20;
 constexpr std::size_t pool_places = 1 << 14;

@@ -41,7 +41,7 @@ struct Flow {
   std::uint64_t seed = 1;
 };
 
-/// What came and went since the start.
+/// Emitted and removed particles since the start.
 struct FlowTotals {
   std::uint64_t emitted = 0, removed = 0;     ///< particles
   double emitted_mass = 0, removed_mass = 0;  ///< kg
@@ -75,7 +75,7 @@ class EmitterStream {
   /// steps has moved on since.
   void advance_to(double time, std::vector<Birth>& births);
 
-  /// What a run that goes on has to know.
+  /// State needed to resume a run.
   struct State {
     std::uint64_t born = 0, candidate = 0;  ///< candidates for places, looked at so far
   };

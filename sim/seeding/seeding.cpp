@@ -17,7 +17,7 @@ constexpr double max_particles = 4294967296.0;  // ids have 32 bits
 double expected_count(const Body& body, const shapes::Solid& solid, double spacing) {
   const double by_volume = solid.volume() / (spacing * spacing * spacing);
   if (body.sampling != Sampling::lattice) return by_volume;
-  // Of a sheet thinner than the spacing the grid has a whole layer.
+  // The grid gets a whole layer of a sheet thinner than the spacing.
   const shapes::Bounds b = solid.local_bounds();
   const Vec3d size = b.max - b.min;
   return lattice_size(size, spacing).prod() * (solid.volume() / size.prod());

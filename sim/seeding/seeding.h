@@ -25,7 +25,7 @@ struct Body {
   Volumes volumes = Volumes::estimated;
 };
 
-/// What is known of a body's particles before any is placed.
+/// Properties of a body's particles before they are placed.
 struct SeedingPlan {
   double volume = 0;               ///< m3, exact for analytic shapes, of the polyhedron for meshes,
                                    ///< the sum of the points' own
@@ -39,7 +39,7 @@ struct SeedingPlan {
 /// @throws ShapeError as seed_body
 SeedingPlan plan_seeding(const Body& body, double cell_size);
 
-/// How many particles the volume of a body asks for, or its points are; less than one for bodies
+/// Expected number of particles, from the volume of a body or its points; less than one for bodies
 /// that are too small. Reads the file of a mesh or of points. @throws ShapeError as seed_body
 double expected_particles(const Body& body, double cell_size);
 
@@ -48,7 +48,7 @@ struct SeededBody {
   std::vector<Vec3d> x;
   Vec3d center;       ///< what angular_velocity turns about
   double volume = 0;  ///< m3, of the whole body
-  // Of points alone, each empty or as long as x.
+  // For points only, each empty or as long as x.
   std::vector<Vec3d> v;   ///< m/s, of the file; the body's velocity comes on top
   std::vector<double> m;  ///< kg; empty: density times volume
   std::vector<double> V;  ///< m3; empty: all have the same

@@ -114,7 +114,7 @@ struct TouchInWorld {
   }
 };
 
-/// Of a plane only the surface moves.
+/// False for a plane, of which only the surface moves.
 bool turns(const Collider& collider) {
   return !std::holds_alternative<Plane>(collider.shape.form);
 }

@@ -11,8 +11,8 @@ namespace neve::sim::shapes {
 
 enum class Contact { separate, slip, sticky };
 
-/// How a collider came to be elsewhere than its shape and motion say: a run that went on with
-/// another velocity, or with a collider that was not there before.
+/// Displacement of a collider by changes during a run: another velocity, or a collider that was
+/// added.
 struct Travel {
   double since = 0;                  ///< s; from then on it moves with its present velocity
   Vec3d moved{0, 0, 0};              ///< m, until then
@@ -32,9 +32,9 @@ struct Collider {
   Travel travel{};
 };
 
-/// Where a collider is at a time, and how it moves: from its place in the scene at t = 0 with
-/// constant velocities, or as its travel says; through its keyframes if it has any. Point: centre,
-/// or the point of a plane.
+/// Pose and motion of a collider at a time: from its place in the scene at t = 0 with constant
+/// velocities, or from its travel; along its keyframes if it has any. Point: centre, or the point
+/// of a plane.
 using Pose = RigidMotion;
 Pose pose_at(const Collider& collider, double time);
 

@@ -12,7 +12,7 @@ namespace {
 /// Around the mesh, so that the lattice ends where all is outside.
 constexpr double samples_around = 2;
 
-/// What making the lattice finer than half a cell may cost: 8 MiB, a second.
+/// Limit for a lattice finer than half a cell: 8 MiB, a second.
 constexpr double most_refined = 128.0 * 128.0 * 128.0;
 
 /// Along each axis, as doubles: a mesh may be absurdly large.

@@ -8,7 +8,7 @@
 
 namespace neve::sim::shapes {
 
-/// What it leaves out is the shape's own.
+/// Absent values are inherited from the shape.
 struct PoseKeyframe {
   double time = 0;                ///< s
   std::optional<Vec3d> position;  ///< m, of the shape's centre (a plane's point)

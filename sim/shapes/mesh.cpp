@@ -71,7 +71,7 @@ std::vector<Edge> sorted_edges(const files::PolygonMesh& mesh,
   return edges;
 }
 
-/// What can be wrong with an edge, and how often it was.
+/// Defect of edges, and its count.
 struct Defect {
   std::string what, advice;
   std::size_t count = 0;

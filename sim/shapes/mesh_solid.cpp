@@ -31,8 +31,8 @@ int winding(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p) {
   return passing(a, b, p) + passing(b, c, p) + passing(c, a, p);
 }
 
-/// Where the line through p along x meets the triangle. Never outside the triangle's own range, so
-/// that rounding in triangles seen edge-on moves nothing further than they reach.
+/// Intersection of the line through p along x with the triangle. It never leaves the triangle's own
+/// range, so rounding in triangles seen edge-on cannot move it further.
 double meeting_x(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p) {
   const auto [low, high] = std::minmax({a.x(), b.x(), c.x()});
   const Vec3d n = (b - a).cross(c - a);

@@ -81,7 +81,7 @@ struct MeshSurface::Nearest {
     const auto& [a, b, c] = mesh.triangles[t];
     const Vec3d q = nearest_on_triangle(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], p);
     const double away = (p - q).squaredNorm();
-    // Of two as near the first: the order of a search must not show.
+    // The first of two equally near triangles wins: the result must not depend on the search order.
     if (away < squared || (away == squared && t < triangle))
       squared = away, place = q, triangle = t;
     return away;

@@ -67,7 +67,7 @@ PointsSummary summarize(const PlacedPoints& placed, const Mat3d& rotation) {
   return summary;
 }
 
-/// What a summary depends on. Files are told apart by their size and when they were written.
+/// Inputs of a summary. Size and time of writing identify a file.
 struct SummaryKey {
   std::string file;
   std::uintmax_t size = 0;
@@ -103,7 +103,7 @@ PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const 
   volume = V.empty() ? count * std::pow(points.spacing, 3) : sum(V);
   expected_count = count / points.thinning;
   if (points.thinning == 1) return;
-  // What is left stands for all: mass and volume stay what they were.
+  // The remaining points represent all: total mass and volume stay the same.
   const double mass = sum(m);
   thin(x, points.thinning);
   thin(v, points.thinning);

@@ -25,7 +25,7 @@ struct PlacedPoints {
   double expected_count = 0;  ///< points over thinning, which may be less than the one there is
 };
 
-/// What is known of a body's points without having them.
+/// Summary of a body's points, without the points.
 struct PointsSummary {
   std::size_t count = 0;
   double expected_count = 0;                    ///< see PlacedPoints

@@ -64,16 +64,16 @@ struct Bounds {
   Vec3d min, max;
 };
 
-/// What rotation and angular velocity turn about: the middle of a capsule, the point of a plane,
-/// where the file's origin of a mesh or of points goes.
+/// Centre of rotation and angular velocity: the middle of a capsule, the point of a plane, the
+/// place of the file's origin for a mesh or points.
 Vec3d center(const Shape& shape);
 
 /// Axes that the form of a shape is described in, before its rotation: of a capsule y points from a
 /// to b, of all others they are those of the world.
 Mat3d form_axes(const Shape& shape);
 
-/// Of solid shapes only. Each call prepares the shape, which reads the file of a mesh or of points;
-/// class Solid (sim/shapes/solid.h) prepares it once for many questions.
+/// Measures of solid shapes only. Each call prepares the shape, which reads the file of a mesh or
+/// of points; class Solid (sim/shapes/solid.h) prepares it once for many questions.
 /// @throws ShapeError when a mesh cannot be read or is open, or the shape has no finite volume > 0;
 ///         std::invalid_argument for a plane
 double volume(const Shape& shape);  ///< m3, exact for analytic shapes, of the polyhedron for meshes

@@ -33,7 +33,7 @@ class Solid {
   double volume() const { return form_->volume(); }                               ///< m3
   Bounds local_bounds() const { return form_->bounds_after(Mat3d::Identity()); }  ///< tight
   Bounds bounds() const;  ///< in the world, tight
-  /// Of the shape moved to another centre and turned by this instead of its own rotation.
+  /// Bounds of the shape at another centre, with this rotation instead of its own.
   Bounds bounds_at(const Vec3d& center, const Mat3d& rotation) const;
 
   /// m, of its projection on a direction that is not zero.

@@ -10,7 +10,7 @@ namespace neve::sim::shapes {
 
 namespace {
 
-/// Of the standard deviation: beyond, a particle could be as stiff as to rule every step.
+/// Cut in standard deviations: beyond it, a single stiff particle could set every step.
 constexpr double most_deviations = 3;
 
 enum Quantity : std::uint64_t { of_density = 1, of_stiffness, of_threshold };

@@ -1,5 +1,5 @@
 #pragma once
-/// What energy a run has and what it may have.
+/// Energy of a run, and the energy that is explained.
 
 namespace neve::sim {
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the solver cannot work with. Numerical trouble is data, see Divergence.
+/// Input that the solver cannot use. Numerical trouble is data, see Divergence.
 
 #include <stdexcept>
 

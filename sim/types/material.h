@@ -7,7 +7,7 @@ namespace neve::sim {
 
 enum class Model { snow, corotated, neo_hookean };
 
-/// How much particles differ: relative standard deviations.
+/// Variation between particles: relative standard deviations.
 struct Variation {
   double density = 0, youngs_modulus = 0;
   double thresholds = 0;  ///< theta_c and theta_s together

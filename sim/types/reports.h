@@ -1,5 +1,5 @@
 #pragma once
-/// What a simulation tells about its steps and its state.
+/// Reports of a simulation about its steps and its state.
 
 #include <array>
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace neve::sim {
 
-/// What limited a time step.
+/// Limit of a time step.
 enum class DtLimit { max_dt, cfl, acoustic, strain, fixed, frame_end };
 inline constexpr int dt_limit_count = 6;
 const char* name(DtLimit limit);
@@ -23,7 +23,7 @@ struct DtChoice {
   DtLimit limit;
 };
 
-/// What each limit would allow now, whatever the settings say about fixed steps, and why.
+/// dt that each limit allows now, also with fixed steps, and the reasons.
 struct StepLimits {
   std::array<double, dt_limit_count> dt{};  ///< s; infinite where a limit says nothing
   double max_speed = 0;                     ///< m/s
@@ -44,7 +44,7 @@ struct Summary {
   double max_depth = 0;  ///< m, of the particle that is deepest in a collider
 };
 
-/// How well the velocities of semi-implicit steps were found.
+/// Accuracy of the velocities of semi-implicit steps.
 struct SolveReport {
   int iterations = 0;   ///< of conjugate residuals
   double residual = 0;  ///< |v_star - (I + beta dt^2 M^-1 H) v_new| / |v_star|, weighted by mass
@@ -107,7 +107,7 @@ struct Divergence {
   std::string sentence;  ///< with the dt that would have held
 };
 
-/// What was noticed but did not stop the run.
+/// Events that did not stop the run.
 struct Warnings {
   std::size_t inverted_trials = 0;   ///< trial det F_E <= 0, repaired by the projection
   double worst_acoustic_cfl = 0;     ///< of fixed steps

@@ -13,7 +13,7 @@ enum class Kernel { cubic, quadratic };
 enum class Transfer { flip, apic, mls };
 enum class Advect { particle, pic };
 enum class TimeStep { adaptive, fixed };
-/// What a run does when a rule of health breaks: end, or go back and try with half the dt.
+/// Reaction to a broken rule: end the run, or go back and try with half the dt.
 enum class OnDivergence { stop, retry };
 enum class Precision { single, real64 };  ///< written "float" and "double" in scenes
 
@@ -46,9 +46,9 @@ struct SolverSettings {
   /// kg; nodes of at most this mass rest and feel no force. For comparison with solvers that have
   /// such a rule; no scene key. Above 0 the run takes the staged driver.
   double resting_mass = 0;
-  /// Of the lattice, in blocks of 4 cells per axis, 0: open. For verification by waves and
-  /// manufactured solutions; no scene key. Places stay unwrapped, and contact knows nothing of the
-  /// seam: only planes along the periodic axes make sense.
+  /// Period of the lattice, in blocks of 4 cells per axis, 0: open. For verification by waves and
+  /// manufactured solutions; no scene key. Places stay unwrapped, and contact ignores the seam:
+  /// only planes along the periodic axes make sense.
   Vec3i period{0, 0, 0};
 
   bool takes_stages() const { return !bypass.empty() || resting_mass > 0; }

@@ -1,5 +1,5 @@
 #pragma once
-/// What is wrong with a scene, and where. what() is the finished line for stderr.
+/// Errors of a scene, with their location. what() is the finished line for stderr.
 
 #include <stdexcept>
 #include <string>

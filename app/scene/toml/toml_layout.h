@@ -1,6 +1,6 @@
 #pragma once
-/// Where things stand in the text of a TOML document that is known to be valid: for changing it in
-/// place. Values are not interpreted.
+/// Positions of entries in the text of a valid TOML document, for changes in place. Values are not
+/// interpreted.
 
 #include <cstddef>
 #include <memory>

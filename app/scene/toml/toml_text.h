@@ -18,7 +18,7 @@ inline constexpr std::size_t max_toml_bytes = 1 << 20;
 struct AsciiToml {
   std::string text;
 
-  /// Where the user wrote what stands at this line and column of `text`.
+  /// Location in the user's text of this line and column of `text`.
   Location original(int line, int column) const;
 
   /// A code point written as an escape of `length` columns, from `column` of `text`.
@@ -32,7 +32,7 @@ struct AsciiToml {
 /// @throws SceneError located in the user's text
 AsciiToml to_ascii_toml(std::string_view text, const std::string& file);
 
-/// Whether `text` is valid UTF-8 without control bytes other than tab, LF and CR.
+/// True if `text` is valid UTF-8 without control bytes other than tab, LF and CR.
 bool is_clean_text(std::string_view text);
 
 }  // namespace neve::app::scene::toml

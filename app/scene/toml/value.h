@@ -46,7 +46,7 @@ struct Entry {
   Value value{};
 };
 
-/// Where long values are cut in messages.
+/// Length at which messages cut long values.
 inline constexpr std::size_t max_shown = 60;
 /// The value as TOML on one line; long ones are cut to `limit` bytes (0: never).
 std::string toml_literal(const Value& value, std::size_t limit = 0);

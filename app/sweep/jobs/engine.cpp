@@ -194,7 +194,7 @@ class LocalEngine {
     return true;
   }
 
-  /// What an attempt left that is not gone on with.
+  /// Removes the files of an abandoned attempt.
   static void clean(const fs::path& folder) {
     output::remove_earlier_run(folder);
     output::remove_checkpoints(folder);

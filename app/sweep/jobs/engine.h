@@ -35,7 +35,8 @@ EngineResult run_local(const std::filesystem::path& folder, const store::Manifes
                        const std::vector<int>& indices, const EngineOptions& options,
                        Progress& progress);
 
-/// How many threads a run gets when so many are left to start. @param memory bytes that are free
+/// Number of threads for a run if `left` runs have not started yet. @param memory bytes that are
+/// free
 int threads_for(const store::ManifestRun& run, int left, int cores, double memory);
 
 }  // namespace neve::app::sweep::jobs

@@ -1,5 +1,5 @@
 #pragma once
-/// How a run ended, in words for a tile and for a person.
+/// End of a run, in words for a tile and for the user.
 
 #include <filesystem>
 

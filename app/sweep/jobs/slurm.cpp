@@ -113,7 +113,7 @@ std::vector<std::string> known_jobs(const fs::path& folder) {
 /// Those of the jobs that are still waiting or running.
 std::vector<std::string> living(const std::vector<std::string>& jobs) {
   std::set<std::string> seen;
-  // Of all jobs of this user: asking for one that Slurm has forgotten is an error.
+  // Lists all jobs of this user, because asking for a job that Slurm has forgotten is an error.
   std::istringstream lines(call("squeue", {"--me", "--noheader", "--format=%A %F"}));
   for (std::string id; lines >> id;) seen.insert(id);
   std::vector<std::string> alive;

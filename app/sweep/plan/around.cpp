@@ -45,7 +45,7 @@ bool spans_decades(const scene::FlatParam& param, double x) {
   return x > 0 && param.valid.min > 0 && param.valid.max / param.valid.min >= 1e3;
 }
 
-/// How far to look from a number: half of it, or of what else is known about its size.
+/// Distance of the outer values from a number: half of it, or of its known scale.
 double reach(const scene::FlatParam& param, double x) {
   if (x != 0) return 0.5 * std::abs(x);
   const double usual = double_of(param.default_value).value_or(0);

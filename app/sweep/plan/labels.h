@@ -1,5 +1,5 @@
 #pragma once
-/// What runs and axes are called for people.
+/// Labels of runs and axes.
 
 #include <string>
 #include <vector>

@@ -53,7 +53,7 @@ void widen(scene::View& look, scene::View own, scene::View resolved, const scene
   }
 }
 
-/// What the run leaves open is taken from the look.
+/// Takes the values that the run leaves open from the look.
 void apply(const scene::Scene& look, scene::Scene& scene) {
   if (setup::needs_framing(scene)) {
     if (!scene.camera || !scene.camera->eye) {
@@ -113,7 +113,7 @@ scene::Scene find_look(const SweepPlan& plan, int cores) {
   return look;
 }
 
-/// What the look was found for. Axes do not count: they may grow.
+/// Identity of the sweep for which the look was computed. Axes are excluded, because they may grow.
 std::string mark_of(const SweepPlan& plan) {
   const std::string text = scene::write_scene(plan.base);
   return "# Camera and colour ranges of all runs. Of scene " +

@@ -1,5 +1,5 @@
 #pragma once
-/// What makes the pictures of all runs comparable: one camera and one range for each field.
+/// Shared look of all runs, for comparable pictures: one camera and one range for each field.
 
 #include "app/sweep/plan/sweep_plan.h"
 

@@ -7,8 +7,7 @@ namespace neve::app::sweep::plan {
 
 namespace {
 
-/// How late a place is met when the ends come first and then the middles of what is between two
-/// places.
+/// Rank of a place if the ends come first, then the middles between two earlier places.
 int lateness(int index, int count) {
   if (index == 0 || index == count - 1) return 0;
   int low = 0, high = count - 1, level = 1;

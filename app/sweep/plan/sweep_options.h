@@ -1,5 +1,5 @@
 #pragma once
-/// What the command line says of a sweep.
+/// Command line options of a sweep.
 
 #include <optional>
 #include <string>
@@ -33,7 +33,7 @@ struct SweepOptions {
   bool is_json = false;
 };
 
-/// Of one run of a sweep that is on disk already.
+/// Options for one run of an existing sweep.
 struct SweepRunOptions {
   std::string folder;  ///< of the sweep
   int index = 0;

@@ -144,7 +144,7 @@ double foreseen_work(const scene::Scene& scene, const setup::Plan& plan) {
     const double speed = setup::impact_speed(scene);
     if (speed > 0) dt = std::min(dt, s.cfl * s.cell_size / speed);
   }
-  // What a run costs before its first step counts as some steps of few particles.
+  // The start of a run costs as much as some steps of few particles.
   constexpr double start = 1e5;
   // A solve takes about as long as some explicit steps.
   const double step = s.is_implicit() ? 8 : 1;

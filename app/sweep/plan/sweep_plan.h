@@ -1,5 +1,5 @@
 #pragma once
-/// What a sweep will do: the scene of every run, what it costs, and in which order they start.
+/// Plan of a sweep: the scene, the cost and the order of every run.
 
 #include <cstdint>
 #include <filesystem>

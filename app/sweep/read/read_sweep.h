@@ -9,7 +9,7 @@
 
 namespace neve::app::sweep::read {
 
-/// What the command line adds to a sweep or scene file.
+/// Additions of the command line to a sweep or scene file.
 struct SweepChanges {
   std::vector<std::string> axes;  ///< -p ADDRESS=LIST; in place of an axis of the same address
   std::vector<std::string> sets;  ///< --set ADDRESS=VALUE

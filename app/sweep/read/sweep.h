@@ -12,7 +12,7 @@
 
 namespace neve::app::sweep::read {
 
-/// How the values of the axes are put together.
+/// Method of combining the values of the axes.
 enum class Method {
   grid,    ///< all combinations
   zip,     ///< the first values of all axes, the second ones, ...
@@ -38,7 +38,7 @@ struct Values {
   scene::toml::Array items;
 };
 
-/// What stands for the values of an axis; exactly one of the first seven is there.
+/// Specification of the values of an axis; exactly one of the first seven is set.
 struct AxisSpec {
   std::optional<Values> values;
   std::optional<Ends> linspace, logspace;

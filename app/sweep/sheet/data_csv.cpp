@@ -127,7 +127,7 @@ void add_header(const store::Manifest& manifest, bool with_times, Rows& rows) {
     }
     for (const char* axis : {"_x", "_y", "_z"}) rows.add(names.unique(name + axis, "_set"));
   }
-  // What runs came to gives way to what they were given: frames, frames_done.
+  // Columns of results give way to columns of settings: frames, frames_done.
   for (const char* name : {"state", "reason", "warnings", "frames"})
     rows.add(names.unique(name, "_done"));
   for (const store::MetricInfo& metric : store::metric_infos())
@@ -159,7 +159,7 @@ void add_row(const store::Manifest& manifest, const store::ManifestRun& run,
   for (std::size_t k = 0; k < store::metric_infos().size(); ++k) {
     const store::MetricInfo& metric = store::metric_infos()[k];
     if (!with_times && metric.is_time) continue;
-    // The moment at which a run broke down is none to compare with.
+    // Metrics of a diverged run are not comparable.
     const bool is_told = metric.is_cost || store::is_whole(run, result);
     const std::optional<double> value = is_told ? result.metrics[k] : std::nullopt;
     rows.add(!value ? "" : metric.is_whole ? whole_text(*value) : float_text(*value));

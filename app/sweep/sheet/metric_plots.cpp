@@ -22,7 +22,7 @@ std::optional<double> number_of(const std::string& text) {
   return is_whole ? std::optional(x) : std::nullopt;
 }
 
-/// Where the runs lie along one parameter.
+/// Positions of the runs along one parameter.
 struct Across {
   std::string title;
   std::vector<std::optional<double>> place;           ///< 0 to 1, of each run
@@ -136,7 +136,7 @@ struct Extent {
   double low = 0, high = 1;
 };
 
-/// Of the runs that got to their end; of all where none did.
+/// Extent of the finished runs; of all runs if none is finished.
 std::optional<Extent> extent_of(const store::Manifest& manifest,
                                 const std::vector<store::RunResult>& results, std::size_t metric) {
   Extent all{1e300, -1e300}, whole = all;

@@ -40,7 +40,7 @@ std::optional<int> newest_frame(const store::RunResult& result, int frame) {
   return newest;
 }
 
-/// Whether the run has stopped before this frame, or not got there yet.
+/// True if the run has stopped before this frame, or has not reached it yet.
 bool is_late(const store::ManifestRun& run, const store::RunResult& result, int frame) {
   const bool has_frame = std::binary_search(result.frames.begin(), result.frames.end(), frame);
   // One whose last frame is an earlier one by its plan stands still.

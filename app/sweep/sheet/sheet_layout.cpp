@@ -40,7 +40,7 @@ struct Side {
     }
     return at;
   }
-  /// How many levels around the innermost begin anew at a place: gaps grow with it.
+  /// Number of outer levels that start again at a place: gaps grow with it.
   int level(const store::Manifest& m, int place) const {
     int level = 0, block = 1;
     for (std::size_t k = axes.size(); k-- > 1;) {
@@ -177,7 +177,7 @@ class Layouter {
     return letter * out_.font_size * static_cast<double>(letters + 1);
   }
 
-  /// Whether "name = value" fits side by side for all values of an axis.
+  /// True if "name = value" fits side by side for all values of an axis.
   bool is_joined(std::size_t axis) const {
     const store::ManifestAxis& a = m_.axes[axis];
     std::size_t longest = 0;
@@ -188,7 +188,7 @@ class Layouter {
     return !a.name.empty() && width_of(a.name.size() + 3 + longest) <= most_level_width();
   }
 
-  /// Of a row: name above value where both do not fit side by side.
+  /// Lines of a row header: name above value if both do not fit side by side.
   std::vector<std::string> row_lines(std::size_t axis, int value) const {
     if (is_joined(axis)) return {label_text(m_, axis, value)};
     std::vector<std::string> lines =

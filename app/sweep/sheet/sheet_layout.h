@@ -1,5 +1,5 @@
 #pragma once
-/// Where the tiles and words of a contact sheet go; the same in every frame.
+/// Layout of the tiles and words of a contact sheet; the same in every frame.
 
 #include <string>
 #include <vector>

@@ -77,7 +77,7 @@ Pairs pairs_of(const Json& list) {
   return pairs;
 }
 
-/// What the run's scene has for the parameters that it does not set.
+/// Values of the run's scene for the parameters that the run does not set.
 Pairs unset_values(const plan::RunPlan& item, const std::vector<plan::Varied>& parameters) {
   Pairs pairs;
   const scene::toml::Table root = scene::toml::parse_toml(scene::write_scene(item.scene), "scene");
@@ -134,7 +134,7 @@ std::vector<std::string> axis_addresses(const read::Sweep& sweep) {
   return addresses;
 }
 
-/// Of an earlier sweep; nothing where they are not known.
+/// Axis addresses of an earlier sweep; nothing if they are unknown.
 std::optional<std::vector<std::string>> axis_addresses(const Manifest& manifest) {
   if (manifest.varied || manifest.axes.empty()) return manifest.varied;
   std::vector<std::string> addresses;

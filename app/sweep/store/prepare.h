@@ -11,7 +11,7 @@ namespace neve::app::sweep::store {
 /// @throws IoError
 Manifest prepare_sweep(const plan::SweepPlan& plan);
 
-/// Of the resolved scene, the files it names, the version and the frames.
+/// Hash of the resolved scene, the files it names, the version and the frames.
 std::string key_of(const plan::RunPlan& run);
 
 }  // namespace neve::app::sweep::store

@@ -42,8 +42,7 @@ std::vector<std::optional<double>> metrics_of(const std::vector<run::FrameRecord
           finite(report.seconds)};
 }
 
-/// What DIR/run.json says besides its frames; what it does not have, or had not yet when it was
-/// written, is left out.
+/// Contents of DIR/run.json besides its frames; missing values are omitted.
 struct RunNotes {
   std::vector<std::string> warnings;
   std::optional<double> diverged_at;  ///< step

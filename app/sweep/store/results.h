@@ -1,5 +1,5 @@
 #pragma once
-/// What the runs of a sweep came to, read from their folders.
+/// Results of the runs of a sweep, read from their folders.
 
 #include <optional>
 #include <string>
@@ -33,7 +33,7 @@ struct RunResult {
   }
 };
 
-/// Whether the metrics are those of the moment that all runs are compared at: its last frame.
+/// True if the metrics belong to the last frame, at which all runs are compared.
 bool is_whole(const ManifestRun& run, const RunResult& result);
 
 /// @param folder of the sweep

@@ -1,5 +1,5 @@
 #pragma once
-/// What is on disk about each run: DIR/runs/0000/status.json, small and atomic, no database.
+/// Status of each run on disk: DIR/runs/0000/status.json, small and atomic, no database.
 
 #include <filesystem>
 #include <map>

@@ -1,5 +1,5 @@
 #pragma once
-/// What a person did and the program has not seen yet. Never grows beyond its limit.
+/// Input events that the program has not read yet. The queue never exceeds its limit.
 
 #include <cstddef>
 #include <vector>

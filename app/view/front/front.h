@@ -1,5 +1,5 @@
 #pragma once
-/// Where `neve view` is looked at and worked with: a window, a web page, or a script.
+/// Input and display device of `neve view`: a window, a web page, or a script.
 
 #include <string>
 #include <vector>
@@ -24,7 +24,7 @@ inline constexpr int escape = 256, enter = 257, tab = 258, backspace = 259, inse
                      super = 343, last = 348;
 }
 
-/// What a person did. Places are pixels of the picture from its upper left corner.
+/// One input event. Places are pixels of the picture from its upper left corner.
 struct InputEvent {
   enum class Kind { move, button, wheel, key, text, resize, drop, paste, close };
 
@@ -46,7 +46,7 @@ class Front {
  public:
   virtual ~Front() = default;
 
-  /// What to call the place: "http://127.0.0.1:40123/?token=..." or "window".
+  /// Address of the device: "http://127.0.0.1:40123/?token=..." or "window".
   virtual std::string where() const = 0;
 
   virtual ScreenSize size() const = 0;
@@ -58,8 +58,8 @@ class Front {
   /// Ends wait(), from any thread.
   virtual void wake() = 0;
 
-  /// Whether a picture that is shown now is seen soon: nobody looks, or the ones before are still
-  /// on their way, otherwise.
+  /// True if a new picture would be seen soon; false if the page is hidden or earlier pictures are
+  /// still in flight.
   virtual bool is_ready() const = 0;
 
   /// Somebody looks again and has nothing: the present picture is wanted although nothing changed.

@@ -105,7 +105,7 @@ bool is_plain_letter(const InputEvent& event) {
 
 }  // namespace
 
-/// What one frame has been given so far.
+/// Events given to one frame so far.
 struct ImGuiInput::Portion {
   bool is_empty = true;
   bool has_wheel = false, has_buttons = false, has_text = false, has_command_key = false;
@@ -171,7 +171,7 @@ void ImGuiInput::push_paste(const InputEvent& event) {
 }
 
 void ImGuiInput::release_all() {
-  // What is waiting may press something yet: the last state of each counts.
+  // Waiting events may still press a key or button: the last state of each decides.
   std::vector<bool> keys = is_key_down_, buttons = is_button_down_;
   for (const auto& [event, ends_paste] : waiting_) {
     if (event.kind == Kind::key) keys[static_cast<std::size_t>(event.key)] = event.is_down;

@@ -11,7 +11,7 @@ struct ImGuiIO;
 
 namespace neve::app::view::front {
 
-/// Where the mouse is when it is nowhere on the picture: events of kind `move` may say so.
+/// Mouse position outside the picture, for events of kind `move`.
 inline constexpr float off_picture = -100000;
 
 /// Dear ImGui looks at its input once per frame. Of one key or button it notices one change, and it
@@ -59,7 +59,7 @@ class ImGuiInput {
   Modifiers held_{};
 };
 
-/// Whether a key (see namespace key) went down in this frame of the current ImGui context, again
+/// True if a key (see namespace key) went down in this frame of the current ImGui context, again
 /// and again while it is held if it repeats.
 bool is_key_pressed(int key, bool is_repeating = false);
 bool is_key_down(int key);

@@ -1,5 +1,5 @@
 #pragma once
-/// What keys are called in scripts and help.
+/// Names of keys in scripts and help.
 
 #include <optional>
 #include <string>

@@ -13,7 +13,7 @@ class WindowFront : public Front {
   /// Opens the window. @throws render::ContextError
   explicit WindowFront(const std::string& title, const ScreenSize& size = {});
 
-  /// What renderer and screen have to draw with; as long as this lives.
+  /// Context for renderer and screen; valid as long as this object.
   render::gl::Context& context() { return window_.context(); }
 
   void set_title(const std::string& title) { window_.set_title(title); }

@@ -1,6 +1,6 @@
 #pragma once
-/// Where the widgets with names are on the picture: so that scripts, tests and documentation click
-/// "Run" and not (212, 48), and survive a new layout.
+/// Places of named widgets on the picture, so that scripts, tests and documentation click "Run" and
+/// not (212, 48), and survive a new layout.
 
 #include <map>
 #include <optional>

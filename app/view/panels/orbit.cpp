@@ -64,7 +64,7 @@ void Orbit::pan(double dx, double dy) {
 void Orbit::zoom(double notches, double x, double y) {
   const double factor = std::pow(zoom_of_notch, notches);
   const double height = 2 * distance_ * std::tan(0.5 * fov_ * pi / 180);
-  // What is under the mouse at the target's distance stays there.
+  // The point under the mouse at the target's distance stays there.
   target_ += (1 - factor) * height * (x * right() + y * up());
   distance_ = std::clamp(distance_ * factor, 1e-4, 1e6);
 }

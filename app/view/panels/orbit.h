@@ -34,8 +34,8 @@ class Orbit {
   sim::Vec3d up() const;
   sim::Vec3d forward() const;
 
-  /// Where a place is in the picture: share of its height from the middle, y up, and the distance
-  /// along the view; a distance that is not positive is behind the eye.
+  /// Projection of a place into the picture: share of its height from the middle, y up, and the
+  /// distance along the view. A distance that is not positive is behind the eye.
   sim::Vec3d project(const sim::Vec3d& place) const;
   /// Direction from the eye through a point of the picture, unit.
   sim::Vec3d ray(double x, double y) const;

@@ -99,7 +99,7 @@ StagePhase phase_of(sim::Stage stage, const sim::PhaseSeconds& p) {
   return {"", colliders, 0};
 }
 
-/// What a stage took: its own time where a step was taken stage by stage, else that of its phase.
+/// Time of a stage: its own if a step was taken stage by stage, otherwise that of its phase.
 std::string stage_time_text(const session::LiveFrame& live, sim::Stage stage) {
   if (live.stage) {
     const auto& seconds = live.stage->seconds;

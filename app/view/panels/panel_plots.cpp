@@ -1,5 +1,5 @@
-/// What the run did over time: energies, momentum, dt with the limit that ruled it, and where the
-/// time of a step goes.
+/// Plots of the run over time: energies, momentum, dt with the limit that set it, and the times of
+/// the phases of a step.
 
 #include <imgui.h>
 

@@ -16,7 +16,7 @@ namespace neve::app::view::panels {
 
 namespace {
 
-/// Where the row has no room for the next item, that begins another one.
+/// Starts a new row if the current one has no room for the next item.
 void start_item(float width) {
   const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
   if (ImGui::GetCursorScreenPos().x + width > end) ImGui::NewLine();

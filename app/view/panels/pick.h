@@ -1,5 +1,5 @@
 #pragma once
-/// What is under the mouse.
+/// Picks the object under the mouse.
 
 #include <optional>
 
@@ -16,7 +16,7 @@ std::optional<std::size_t> pick_particle(const Orbit& orbit, double x, double y,
                                          const session::LiveFrame& live,
                                          const std::optional<scene::ClipPlane>& clip = {});
 
-/// Where the ray meets the plane, before the eye.
+/// Intersection of the ray with the plane, in front of the eye.
 std::optional<sim::Vec3d> pick_plane(const Orbit& orbit, double x, double y,
                                      const picture::SlicePlane& plane);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How a number is turned, from what is known of it: the only place that decides it.
+/// Scale of a parameter's slider, from its description; the only place that decides it.
 
 #include <optional>
 #include <string>

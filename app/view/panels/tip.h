@@ -13,17 +13,17 @@ struct TipLine {
   bool is_dim = false;
 };
 
-/// Whether the mouse rests on the widget that was drawn last, enabled or not, for long enough.
+/// True if the mouse rests long enough on the widget drawn last, enabled or not.
 bool wants_tip();
 /// Below that widget; above it where there is no room.
 void show_tip(const std::vector<TipLine>& lines);
 /// Both of one line.
 void tip(const char* text);
 
-/// Whether one is due soon, though nothing happens: the panels have to be drawn again.
+/// True if a tip is due soon without further input, so the panels must be drawn again.
 bool is_tip_coming();
 
-/// Where a tip stands, px from the upper left corner.
+/// Place of a tip, px from the upper left corner.
 /// @param from, to the widget's corners
 /// @param size of the tip
 /// @param screen its size

@@ -1,5 +1,5 @@
 #pragma once
-/// What the panels of `neve view` show and change.
+/// State that the panels of `neve view` show and change.
 
 #include <cstddef>
 #include <cstdint>
@@ -96,7 +96,7 @@ void set_probe(ViewerState& state, std::optional<session::ProbeTarget> probe);
 void toggle_run(ViewerState& state);
 /// All snow and small obstacles.
 void frame_all(ViewerState& state);
-/// What is probed or selected; all where nothing is.
+/// Frames the probed or selected object; everything if there is none.
 void frame_selection(ViewerState& state);
 /// Brings what broke the rule into the picture.
 void show_incident(ViewerState& state);
@@ -112,7 +112,7 @@ void draw_plots_panel(ViewerState& state);
 void draw_messages(ViewerState& state);
 void draw_time_line(ViewerState& state);
 void draw_help(ViewerState& state);
-/// What has to be decided: a file that changed.
+/// Draws a pending question: a file that changed.
 void draw_offer(ViewerState& state);
 void draw_left_column(ViewerState& state);
 void draw_right_column(ViewerState& state);

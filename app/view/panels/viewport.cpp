@@ -16,7 +16,7 @@ namespace {
 
 using sim::Vec3d;
 
-/// Of a click; a mouse that moved further was dragged.
+/// Largest movement of a click, px; a mouse that moved further was dragged.
 constexpr float click_slack = 4;
 constexpr double hint_seconds = 1.5;
 

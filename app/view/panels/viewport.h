@@ -10,9 +10,9 @@
 
 namespace neve::app::view::panels {
 
-/// Where a projected place is, px; see Orbit::project.
+/// Pixel of a projected place; see Orbit::project.
 ImVec2 on_screen(const ViewerState& state, const sim::Vec3d& projected);
-/// Of the mouse: share of the picture's height from its middle, y up.
+/// Place of the mouse: share of the picture's height from its middle, y up.
 std::array<double, 2> in_picture(const ViewerState& state, ImVec2 mouse);
 
 /// Words in a dark box, which stays inside of the picture.

@@ -16,7 +16,8 @@ using sim::Vec3d;
 constexpr ImU32 axis_colors[] = {IM_COL32(240, 90, 90, 255), IM_COL32(110, 215, 110, 255),
                                  IM_COL32(95, 150, 255, 255)};
 
-/// What the arrows of a handle move: addresses of the places of a shape, with their values.
+/// Parameters that the arrows of a handle move: addresses of the places of a shape, with their
+/// values.
 struct Movable {
   Vec3d center;
   std::vector<std::pair<std::string, Vec3d>> places;

@@ -42,21 +42,21 @@ std::string format_of(const char* unit) {
   return std::string("%.4g") + (unit[0] ? std::string(" ") + unit : "");
 }
 
-/// What was typed so far into a field with a value of this type.
+/// Text typed so far into a field with a value of this type.
 template <class T>
 struct Typing {
   T value{};
   bool has_strange_letters = false;  ///< that are no part of a number; ImGui leaves them out
 };
 
-/// Of the field that is active, by its address, and of one that was left in this frame.
+/// Typed text of the active field, by its address, and of a field left in this frame.
 template <class T>
 std::map<std::string, Typing<T>>& typings() {
   static std::map<std::string, Typing<T>> typings;
   return typings;
 }
 
-/// Whether a key was typed in this frame that no number has: of "30 kPa" 30 would be left.
+/// True if a character that no number has was typed in this frame: "30 kPa" would become 30.
 bool has_strange_letters(bool is_whole) {
   const std::string_view allowed = is_whole ? "0123456789+-*/ " : "0123456789+-*/.eE ";
   const ImVector<ImWchar>& typed = ImGui::GetIO().InputQueueCharacters;
@@ -375,7 +375,7 @@ bool Knobs::open(const std::string& address, const std::string& title, const cha
   }
   const bool is_changed = panel_.has_changes_below(address);
   if (is_changed) ImGui::PushStyleColor(ImGuiCol_Text, changed_color);
-  // What is turned most is open from the start.
+  // Materials start expanded.
   if (address.starts_with("material.")) ImGui::SetNextItemOpen(true, ImGuiCond_Once);
   const bool is_open = ImGui::TreeNode(title.c_str());
   if (is_changed) ImGui::PopStyleColor();

@@ -64,7 +64,7 @@ bool edit_value(const Knob& knob, std::vector<E>& value) {
   return true;
 }
 
-/// What surrounds the widgets of one panel.
+/// Context of the widgets of one panel.
 class KnobPanel {
  public:
   /// @param filter only knobs whose address or help has these words; "": all
@@ -79,7 +79,7 @@ class KnobPanel {
   void close_title();
   bool has_shown() const { return has_shown_; }  ///< a knob
   bool is_changed(const std::string& address) const;
-  /// Whether something below this address differs from the file.
+  /// True if a value below this address differs from the file.
   bool has_changes_below(const std::string& prefix) const;
   /// Before and after the widget: id, label, tooltip, menu.
   void begin(const Knob& knob);
@@ -160,7 +160,7 @@ class Knobs {
 
   template <scene::Choice E, class Use>
   void shorthand(const char* key, const std::optional<E>& now, Use, const char* help) {
-    // What it sets says itself what waits for a reset.
+    // The parameters that it sets show themselves if they wait for Reset.
     const Knob knob{at(key), key, scene::unit::none, scene::anything, help, true};
     if (!panel_.shows(knob.address, help)) return;
     panel_.begin(knob);

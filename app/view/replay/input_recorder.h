@@ -16,11 +16,11 @@ class InputRecorder {
   /// @param seconds since the first one
   void note(const std::vector<front::InputEvent>& events, double seconds);
 
-  /// What the simulation has reached; steps that follow wait for it.
+  /// Progress of the simulation; the steps that follow wait for it.
   void set_progress(int frame, bool is_running);
   void set_size(const front::ScreenSize& size);
 
-  /// What is finished.
+  /// Finished steps.
   const std::vector<ReplayStep>& steps() const { return steps_; }
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
-/// Where the objects of a JSON list and their keys are in the text: the JSON library does not say.
+/// Positions of the objects of a JSON list and their keys in the text, which the JSON library does
+/// not give.
 
 #include <map>
 #include <string>

@@ -127,7 +127,7 @@ class Hand {
     return c == '\n' ? front::key::enter : 0;
   }
 
-  /// What a key types into a text field.
+  /// Text that a key types into a text field.
   std::string printed_by(int code) const {
     if (step_.held.ctrl || step_.held.alt || step_.held.super || code < ' ' || code > 126)
       return {};

@@ -1,5 +1,5 @@
 #pragma once
-/// What somebody does in a step, as the events of the frames that it takes.
+/// Events of a step, for each of the frames that it takes.
 
 #include <vector>
 
@@ -13,8 +13,8 @@ struct ReplayPoint {
   float x = 0, y = 0;
 };
 
-/// Of a click the move, the press and the release come in three frames, as from a hand, and a frame
-/// in which the panels follow.
+/// Events of a step. The move, press and release of a click take three frames, as by hand, and the
+/// panels follow in a fourth.
 /// @param points where its places are now
 /// @return for each frame what happens before it; nothing for steps that are no input
 std::vector<std::vector<front::InputEvent>> events_of(const ReplayStep& step,

@@ -25,7 +25,7 @@ using Step = ReplayStep::Kind;
 
 constexpr std::size_t step_limit = 100'000, text_limit = 64 << 10;
 
-/// What a step does, and which keys it may have beside at_frame.
+/// Action of a step, and the keys that it may have besides at_frame.
 struct Action {
   Step kind;
   const char* name;
@@ -73,7 +73,7 @@ std::string shown(const Json& value) {
   return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 
-/// Whether a name stays within the folder that it is taken relative to.
+/// True if a relative name stays within its folder.
 bool stays_inside(const std::filesystem::path& file) {
   return !file.has_root_path() &&
          std::none_of(file.begin(), file.end(), [](const auto& part) { return part == ".."; });

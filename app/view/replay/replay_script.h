@@ -54,7 +54,7 @@ struct ReplayStep {
   int line = 0, column = 0;  ///< where it is in its file
 };
 
-/// What wait_for waits for.
+/// Goal of wait_for.
 struct ReplayGoal {
   enum class Kind { frame, running, paused, label };
   Kind kind = Kind::frame;

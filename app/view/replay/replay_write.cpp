@@ -24,7 +24,7 @@ Json place_json(const ReplayPlace& place) {
           {"part", Json::array({rounded(place.x, 1000), rounded(place.y, 1000)})}};
 }
 
-/// What the step does, without what modifies it.
+/// Action of the step, without its modifiers.
 Json action_json(const ReplayStep& step) {
   switch (step.kind) {
     case Step::click:

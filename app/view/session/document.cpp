@@ -24,7 +24,7 @@ std::vector<scene::Override>::iterator find(std::vector<scene::Override>& edits,
                       [&](const scene::Override& edit) { return edit.address == address; });
 }
 
-/// What a dry run found, in the settings of the scene as it is now.
+/// Takes the camera found by a coarse run into the current settings of the scene.
 void place(const scene::CameraSettings& found, scene::CameraSettings& camera) {
   if (camera.eye && camera.target) return;
   camera.eye = found.eye;
@@ -50,7 +50,7 @@ void put_preset(const scene::Scene& scene, scene::Preset preset, const std::stri
     put_edit(edits, difference.address, scene::toml::toml_literal(*difference.after));
 }
 
-/// Of a material that there is; whatever else is wrong, reading tells.
+/// Preset of an existing material; the reader reports other errors.
 std::optional<scene::Preset> preset_in(const scene::Override& edit, const scene::Scene& scene) {
   const auto is_meant = [&](const sim::Material& material) {
     return edit.address == "material." + material.name + ".preset";

@@ -1,12 +1,12 @@
 #pragma once
-/// What panels hand on.
+/// Parameter edits requested by panels.
 
 #include <cstdint>
 #include <string>
 
 namespace neve::app::view::session {
 
-/// What a person did to a parameter.
+/// One edit of a parameter.
 struct Edit {
   enum class Kind { set, as_in_file, to_default, sweep, copy_address, refused };
 

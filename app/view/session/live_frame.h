@@ -1,5 +1,5 @@
 #pragma once
-/// What a session shows of its simulation at one moment: immutable, shared between threads.
+/// State of a simulation at one moment, for display: immutable, shared between threads.
 
 #include <array>
 #include <cstdint>
@@ -46,7 +46,7 @@ struct StageLook {
   std::array<double, sim::stage_names.size()> seconds{};  ///< of every stage of the step
 };
 
-/// What is read out: a particle by its id, or the node that is nearest to a place.
+/// Target of the probe: a particle by its id, or the node nearest to a place.
 using ProbeTarget = std::variant<std::size_t, sim::Vec3d>;
 
 struct ProbeRow {

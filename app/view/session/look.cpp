@@ -88,7 +88,7 @@ void show_after_stage(const dump::Inside& inside, sim::Stage stage, picture::Sna
 std::optional<ProbeReading> read_probe(const dump::Inside& inside, const ProbeTarget& target,
                                        const std::optional<sim::Stage>& stage) {
   const bool is_node = std::holds_alternative<sim::Vec3d>(target);
-  // Of a node before the step there is what the step rasterises.
+  // Before the step, a node has the values that the step rasterises.
   const std::optional<sim::Stage> after =
       is_node ? std::optional(stage.value_or(sim::Stage::implicit_solve)) : stage;
   const dump::Listing listing = after && has_nodes(*after) == is_node

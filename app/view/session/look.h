@@ -1,5 +1,5 @@
 #pragma once
-/// The inside of a step in a few numbers, for panels.
+/// Summary of a stage for panels.
 
 #include <optional>
 

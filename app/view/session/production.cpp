@@ -32,7 +32,7 @@ std::vector<scene::FlatParam> with_presets(const scene::Scene& scene) {
   return params;
 }
 
-/// What is set in all runs of a sweep: not the numbers that its presets set.
+/// Settings of all runs of a sweep, without the numbers that its presets set.
 std::vector<scene::Override> set_in_all(const Document& document, const std::string& address) {
   std::vector<scene::Override> all = document.all_overrides();
   if (!scene::is_preset_address(address)) return all;

@@ -1,5 +1,5 @@
 #pragma once
-/// From tuning to production: what a person found out, as files and commands for the other tools.
+/// From tuning to production: exports edits, as files and commands for the other tools.
 
 #include <filesystem>
 #include <string>

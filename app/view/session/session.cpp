@@ -24,7 +24,7 @@ namespace {
 constexpr int niceness = 5;
 constexpr int last_stage = static_cast<int>(sim::Stage::colliders);
 
-/// Of the calling thread, and of those that it starts from now on.
+/// Lowers the priority of the calling thread and of the threads that it starts from now on.
 void step_back() {
 #ifdef __linux__
   const auto thread = static_cast<id_t>(gettid());
@@ -141,7 +141,7 @@ void Session::apply(std::shared_ptr<const scene::Scene> scene) {
     leave_older();
     simulation_->apply(scene->solver, scene->materials, scene::sim_colliders(*scene));
     const std::size_t steps = simulation_->steps();
-    // What the simulation was told, not what was typed: both differ where a scene is coarsened.
+    // Compares the values of the simulation, not the typed ones: they differ in a coarsened scene.
     for (const scene::Difference& change : scene::differences(*scene_, *scene))
       if (change.is_live && scene::concerns_simulation(change.address))
         scene::note_change(changes_,
@@ -149,7 +149,7 @@ void Session::apply(std::shared_ptr<const scene::Scene> scene) {
                             change.after ? scene::toml::toml_literal(*change.after) : "none"});
     colliders_ = simulation_->colliders();
     scene_ = scene;
-    // What is kept of this moment has to go on with the change.
+    // The kept copy of this moment must include the change.
     if (steps == steps_of_frame_) keep();
   });
 }

@@ -60,7 +60,7 @@ class Session {
   /// changes after it are forgotten.
   void continue_from_here();
 
-  /// What the pictures need: the session works out the fields of these views.
+  /// Sets the views whose fields the session computes.
   void set_views(std::vector<scene::View> views);
   void set_probe(std::optional<ProbeTarget> probe);
   /// While on, every frame is shown at its end, and waits until taken() has it.

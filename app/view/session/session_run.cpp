@@ -131,7 +131,7 @@ void Session::advance() {
   sim::AdvanceReport report;
   std::vector<sim::Retry> retries;
   if (may_go_back) {
-    // What may go back to the beginning of its frame is not stopped inside of it.
+    // A run that may return to the beginning of its frame is not stopped inside the frame.
     report = sim::advance_retrying(
         *simulation_, time,
         [] {

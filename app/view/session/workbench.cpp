@@ -213,7 +213,7 @@ void Workbench::save_scene(const std::filesystem::path& file) {
   }
 }
 
-/// What the simulation was told after its first step.
+/// Addresses changed after the first step.
 std::vector<std::string> Workbench::changed_while_running() const {
   std::vector<std::string> changed = Document::difference(at_start_, running_);
   const std::shared_ptr<const LiveFrame> live = session_->latest();

@@ -1,5 +1,5 @@
 #pragma once
-/// What a person does to a scene while it runs, whatever it is done with: mouse, keys or a script.
+/// Operations on a running scene, independent of the input device: mouse, keys or a script.
 
 #include <cstdint>
 #include <deque>
@@ -49,7 +49,7 @@ class Workbench {
   void undo();
   void redo();
   void forget(const std::string& address);
-  /// Whether values were changed that only count from frame 0 on.
+  /// Addresses of changed values that take effect only at Reset.
   std::vector<std::string> waiting_for_reset() const;
   void reset();
   /// The run goes on from the older frame that is shown, with the parameters as they are now.
@@ -59,7 +59,7 @@ class Workbench {
   /// document.
   scene::Scene display_scene(const LiveFrame& live) const;
 
-  /// Whether it is another one on disk than what was read or kept last.
+  /// True if the file on disk differs from the one read or saved last.
   bool has_file_changed() const;
   /// Reads the file again and starts anew. Where it is no scene, all stays as it was, and the file
   /// still counts as changed.
@@ -73,7 +73,7 @@ class Workbench {
   void save_scene(const std::filesystem::path& file);
   std::filesystem::path sweep_around(const std::string& address);
   std::string command() const;
-  /// What a picture of this moment has to know to be made again.
+  /// Record that a picture of this moment needs to be made again.
   run::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
 
   void say(Message::Kind kind, std::string text);

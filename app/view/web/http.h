@@ -16,9 +16,9 @@ struct HttpRequest {
   /// @return "" where there is none; heads with two Host or Origin lines are not read at all
   std::string_view header(std::string_view name) const;
   bool has_header(std::string_view name) const;
-  /// Whether a list like "keep-alive, Upgrade" has the word, in any case.
+  /// True if a list like "keep-alive, Upgrade" has the word, in any case.
   bool header_has_word(std::string_view name, std::string_view word) const;
-  /// Of "a=1&token=2", as it is written: nothing is decoded. "" where there is none.
+  /// Value of a key in "a=1&token=2", without decoding; "" if absent.
   std::string_view query_value(std::string_view name) const;
 };
 

@@ -11,7 +11,7 @@
 
 namespace neve::app::view::web {
 
-/// What a connection may use. Every number is a bound on memory or on time.
+/// Limits of a connection. Every number is a bound on memory or on time.
 struct WebLimits {
   int connections = 16;                  ///< at the same time
   std::size_t message = 256 * 1024;      ///< bytes of one message of a page: a pasted text

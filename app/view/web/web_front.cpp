@@ -99,7 +99,7 @@ void WebFront::wake() {
 }
 
 bool WebFront::is_ready_now() const {
-  // What the network has not taken is on its way too, whatever the page says it has seen.
+  // Unsent bytes are in flight too, whatever pictures the page has confirmed.
   return viewer_ != 0 && has_told_size_ && is_visible_ && pacing_.can_send() &&
          server_.unsent(viewer_) < FramePacing::max_in_flight;
 }
@@ -116,7 +116,7 @@ bool WebFront::is_picture_wanted() const {
 
 bool WebFront::has_news() const {
   const bool is_ready = is_ready_now();
-  // What counts is what the program was told, not what was true when it began to wait.
+  // The last reported value decides, not the value at the beginning of the wait.
   if (!is_ready) has_told_ready_ = false;
   return !events_.empty() || is_woken_ || (is_ready && (!has_told_ready_ || is_wanted_));
 }

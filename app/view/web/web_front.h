@@ -67,10 +67,10 @@ class WebFront final : public front::Front, private WebListener {
   void show_image(render::Image image);
 
   void set_cursor(Cursor cursor);
-  /// Of the page: the browser's tab has it.
+  /// Sets the title of the page, shown in the browser's tab.
   void set_title(const std::string& title);
 
-  /// Of the present viewer, for measurements.
+  /// Pacing of the current page, for measurements.
   FramePacing pacing() const;
 
  private:

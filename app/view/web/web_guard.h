@@ -15,10 +15,10 @@ std::string make_token();
 /// Takes the same time wherever the two differ.
 bool is_same_secret(std::string_view secret, std::string_view given);
 
-/// Whether only this machine reaches it: 127.x.x.x, ::1 or localhost.
+/// True if only this machine reaches it: 127.x.x.x, ::1 or localhost.
 bool is_loopback(const std::string& address);
 
-/// What a person should know before listening at the address; "" for loopback.
+/// Warning to print before listening at the address; "" for loopback.
 std::string risk_of(const std::string& address);
 
 class WebGuard {
@@ -26,8 +26,8 @@ class WebGuard {
   /// @param address where the server listens
   WebGuard(std::string address, std::string token);
 
-  /// Whether a Host line names this server. A foreign name means that somebody's name server
-  /// pointed it here (DNS rebinding). The port may be any: a tunnel has its own.
+  /// True if a Host line names this server. A foreign name means that a foreign name server points
+  /// here (DNS rebinding). The port may be any: a tunnel has its own.
   bool is_own_host(std::string_view host) const;
 
   /// @return whether the page that asks came from this server

@@ -1,5 +1,5 @@
 #pragma once
-/// What the page and the program say to each other; docs/view_web.md has the list.
+/// Messages between the page and the program; docs/view_web.md has the list.
 
 #include <cstdint>
 #include <string>

@@ -11,10 +11,10 @@ namespace neve::app::view::web {
 /// Sec-WebSocket-Accept that answers a Sec-WebSocket-Key (section 4.2.2).
 std::string web_socket_accept(std::string_view key);
 
-/// Whether it is 16 bytes in base64, as a Sec-WebSocket-Key has to be.
+/// True for 16 bytes in base64, the form of a Sec-WebSocket-Key.
 bool is_web_socket_key(std::string_view key);
 
-/// Whether the bytes are UTF-8: no overlong forms, no surrogates, nothing above U+10FFFF.
+/// True if the bytes are UTF-8: no overlong forms, no surrogates, nothing above U+10FFFF.
 bool is_utf8(std::string_view bytes);
 
 enum class Opcode : std::uint8_t {
@@ -56,7 +56,7 @@ class FrameReader {
   /// Close code of the first offence, 0 while there was none.
   int error() const { return error_; }
 
-  /// Whether a part of a frame or of a message has come and the rest has not.
+  /// True if a part of a frame or of a message has come and the rest has not.
   bool is_midway() const { return begin_ < buffer_.size() || is_fragmented_; }
 
  private:
