@@ -47,7 +47,7 @@ class Renderer {
   void submit(const Frame& frame);
   /// Pictures submitted and not fetched.
   std::size_t pending() const;
-  /// The oldest of them. @throws std::logic_error when there is none
+  /// The oldest of them. @throws std::logic_error if there is no picture
   Image fetch();
 
   /// Draws without reading back: the picture stays where copy_picture finds it.

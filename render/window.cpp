@@ -206,7 +206,7 @@ void Window::Impl::listen() {
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).add_move(x, y); });
   glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int has_entered) {
     Impl& self = of(w);
-    // A drag goes on outside.
+    // A drag continues outside.
     if (!has_entered && !self.is_button_down()) self.add({.kind = WindowEvent::Kind::leave});
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {

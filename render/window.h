@@ -1,5 +1,5 @@
 #pragma once
-/// A window on the desktop, with what a person does there.
+/// A window on the desktop, with its input events.
 
 #include <memory>
 #include <string>

@@ -20,7 +20,7 @@ class NaiveSnow {
  public:
   /// @param settings FLIP with cubic or MLS with quadratic weights, advect = particle
   /// @param particles with volumes
-  /// @throws std::invalid_argument for what it does not implement
+  /// @throws std::invalid_argument for features that it lacks
   NaiveSnow(const sim::SolverSettings& settings, const sim::Material& material,
             const sim::ParticleArrays& particles);
 

@@ -123,7 +123,7 @@ void RenderBench::measure_all_layers(render::Frame& frame) {
   const Stopwatch watch;
   renderer_.draw(frame);
   add(name, watch.wall(), frame);
-  // As somebody does who turns the view.
+  // As in a view that turns.
   frame.camera.eye.x += 1e-3f;
   const Stopwatch again;
   renderer_.draw(frame);

@@ -39,7 +39,7 @@ struct Round {
   double cores_busy = 0, overhead = 0;
 };
 
-/// Seconds that a run spent on what it is for.
+/// Seconds that a run spent on simulating and drawing.
 double seconds_of_work(const std::filesystem::path& folder, const sweep::store::ManifestRun& run) {
   double seconds = 0;
   for (const run::FrameRecord& frame :

@@ -12,7 +12,7 @@ namespace neve::app::cli {
 
 namespace {
 
-/// One backend: whether it opens, and whether what it draws is right.
+/// Tests one backend: it opens and draws correctly.
 struct Examination {
   render::gl::Attempt attempt;
   std::string picture_fault;  ///< empty: the test picture is right, or none could be drawn

@@ -24,7 +24,7 @@ void check_threads(int threads);
 /// @throws UsageError with the names there are
 void check_backend(const std::string& name);
 
-/// The file with ".toml" behind it where there is none of the name as it is, but one of that.
+/// Adds ".toml" to a name if only the file with that suffix exists.
 std::string with_toml_suffix(const std::string& file);
 
 /// Values that CLI11 hands over as text; turned into options when parsing is done.

@@ -79,7 +79,7 @@ Place open_window(const view::ViewOptions& options) {
   return place;
 }
 
-/// A window where there is a display and nobody wants a page.
+/// Opens a window if there is a display and no page is requested.
 Place open_place(const view::ViewOptions& options) {
   if (!options.replay.empty()) return open_replay(options);
   if (options.is_window) return open_window(options);
@@ -102,7 +102,7 @@ void announce(const Place& place, bool is_quiet) {
             << std::endl;
 }
 
-/// @return the scene to go on with, if there is one
+/// @return the scene to open next, if there is one
 std::optional<view::session::Document> look_at(view::session::Document document,
                                                const std::vector<std::string>& overrides,
                                                const view::ViewOptions& options, Place& place,

@@ -32,7 +32,7 @@ int run_bench_view(const bench::BenchOptions& options);
 int run_info(const std::string& path, bool is_json);
 int run_doctor(bool is_json);
 /// @param filter  only addresses with this in them; "" for all
-/// @throws UsageError when there is none
+/// @throws UsageError if it is missing
 int run_params(const std::string& filter, bool is_sweep, bool is_json);
 int run_sweep(const sweep::plan::SweepOptions& options);
 int run_sweep_run(const sweep::plan::SweepRunOptions& options);

@@ -108,7 +108,7 @@ void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
   const std::string option = text.substr(0, equals);
   const std::string value = equals == std::string::npos ? "" : text.substr(equals + 3);
   const CLI::Option* found = command->get_option_no_throw(option);
-  // MEAN is the only one that stands for a fraction.
+  // Only MEAN is a fraction.
   const bool is_fraction = found && found->get_type_name() == "MEAN";
   throw scene::toml::UsageError(
       option, "cannot use \"" + value + "\"",

@@ -1,5 +1,5 @@
 #pragma once
-/// A listing as text for people and scripts, and for ParaView.
+/// Writes a listing as text for the user and for scripts, and for ParaView.
 
 #include <string>
 #include <vector>

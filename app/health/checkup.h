@@ -11,13 +11,13 @@ namespace neve::app::health {
 
 enum class Severity { note, warning, error };
 
-/// Something a person should know; `address` names the parameter, or is empty.
+/// Result of a check; `address` names the parameter, or is empty.
 struct Finding {
   Severity severity = Severity::warning;
   std::string address, what, hint;
 };
 
-/// The steps of one frame, foreseen.
+/// Forecast of the steps of one frame.
 struct FrameForecast {
   int frame = 0;
   double dt = 0;     ///< s
@@ -38,8 +38,8 @@ struct Checkup {
   sim::SolveReport solve;               ///< of these steps; zero where they are explicit
   std::vector<Finding> findings;
 
-  double steps() const;    ///< of the whole run, foreseen
-  double seconds() const;  ///< of simulation, foreseen
+  double steps() const;    ///< forecast for the whole run
+  double seconds() const;  ///< forecast of the simulation
 };
 
 /// Seeds the scene, takes some steps, and runs a coarse copy: about three seconds.

@@ -19,8 +19,8 @@ enum class Cause {
   stiffness,          ///< so stiff that sound outruns the step
   time_step,          ///< a fixed dt above the limits of snow at rest
   hardening,          ///< packed snow became too stiff
-  collider_speed,     ///< an obstacle that hits like a bullet
-  colliders_closing,  ///< obstacles leave the snow no room
+  collider_speed,     ///< a collider that hits like a bullet
+  colliders_closing,  ///< colliders leave the snow no room
   incompressible,     ///< Poisson's ratio next to 0.5
   shock,              ///< an impact faster than sound
   far_flight,         ///< out of the lattice, in good health

@@ -29,7 +29,7 @@ void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings)
 /// velocity, or gravity, carries away.
 void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings);
 
-/// Sinks that fast snow crosses between two looks. @param speed  m/s, of the fastest snow
+/// Sinks that fast snow crosses between two tests. @param speed m/s, of the fastest snow
 void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& findings);
 
 /// Settings without effect: bodies and emitters in sinks, keyframes after the last frame, slices

@@ -17,8 +17,8 @@ std::optional<scene::View> culprit_slice(const scene::Scene& scene,
                                          const sim::Divergence& divergence,
                                          const sim::ParticleArrays& particles);
 
-/// Everything about the step, the culprit, the last steps and the cause. Where a number is none,
-/// null.
+/// Everything about the step, the culprit, the last steps and the cause. Null for numbers that are
+/// not finite.
 /// @param scene resolved, TOML
 Json incident_json(const sim::Divergence& divergence, const Diagnosis& diagnosis,
                    const std::string& scene, double cell_size);

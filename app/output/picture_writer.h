@@ -24,7 +24,7 @@ inline constexpr std::size_t picture_queue_capacity = 3;
 class PictureWriter {
  public:
   PictureWriter();
-  /// Writes what is waiting; errors nobody asked for are dropped.
+  /// Writes what is waiting; errors not requested are dropped.
   ~PictureWriter();
   PictureWriter(const PictureWriter&) = delete;
   PictureWriter& operator=(const PictureWriter&) = delete;

@@ -88,7 +88,7 @@ class ChangePlayer {
 
   SceneSource source_;
   std::vector<scene::LiveChange> changes_;
-  std::size_t made_ = 0;  ///< how many of them
+  std::size_t made_ = 0;  ///< number of them
   sim::Simulation& simulation_;
   std::function<void(const scene::Scene&)> after_each_;
   scene::Scene scene_;

@@ -23,7 +23,7 @@
 namespace neve::app::run {
 
 struct RenderResult {
-  bool has_checkpoint = false;  ///< the run can go on from where it stopped
+  bool has_checkpoint = false;  ///< the run can be resumed
   RunStatus status = RunStatus::ok;
   std::vector<std::filesystem::path> movies;
   std::optional<render::Image> last_picture;   ///< of the first view
@@ -38,8 +38,8 @@ class RenderRun {
             render::Renderer& renderer, double spacing, const std::vector<std::size_t>& body_end,
             Progress& progress);
 
-  /// Removes what an earlier run left, or goes on with it, then makes all frames and movies.
-  /// run.json says at every moment how far it got, also when this throws.
+  /// Removes the files of an earlier run, or resumes it, then makes all frames and movies. run.json
+  /// says at every moment how far it got, also when this throws.
   RenderResult run();
 
   const RunRecord& record() const { return record_; }
@@ -93,7 +93,7 @@ class RenderRun {
   std::vector<picture::PlotSample> history_;  ///< of all frames simulated
   double seconds_sim_ = 0;
   std::future<Advanced> next_;    ///< the frame after the one being drawn, if it was begun
-  output::PictureWriter writer_;  ///< last: stops before what it was given goes away
+  output::PictureWriter writer_;  ///< last: stops before its inputs are destroyed
 };
 
 }  // namespace neve::app::run

@@ -1,5 +1,5 @@
 #pragma once
-/// Checkpoints of a run and what is needed to go on from one.
+/// Checkpoints of a run, and resuming from them.
 
 #include <filesystem>
 #include <optional>
@@ -37,7 +37,7 @@ class Checkpoints {
              std::span<const picture::PlotSample> history, std::span<const sim::Retry> retries);
 
   /// Brings the simulation to the newest checkpoint that is whole; damaged ones are named and
-  /// passed over. Nothing where there is none: the run starts at its beginning.
+  /// passed over. Nothing without a checkpoint: the run starts at its beginning.
   /// @throws UsageError when the run in the folder is another one
   std::optional<ResumedRun> resume();
 

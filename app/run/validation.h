@@ -1,6 +1,5 @@
 #pragma once
-/// `neve render --validate`: the watch of the solver's laws beside a run, and what it says at its
-/// end.
+/// `neve render --validate`: checks of the laws during a run, and their summary at its end.
 
 #include <string>
 #include <vector>

@@ -50,7 +50,7 @@ Found problem(const Form&, const std::string&) {
   return {};
 }
 
-/// The key of where a form stands.
+/// Key of the place of a form.
 struct PlaceKey {
   const char* operator()(const sim::shapes::Capsule&) const { return ".capsule.a"; }
   const char* operator()(const sim::shapes::Plane&) const { return ".plane.point"; }

@@ -30,7 +30,7 @@ std::string without_blanks(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
-/// The value as it will stand in the file: numbers, arrays and tables as they were given.
+/// Text of the value in the file: numbers, arrays and tables as they were given.
 std::string literal_of(const Override& change) {
   const std::optional<ParamInfo> info = param_at(change.address);
   const toml::Value value = value_of(change, info ? info->type : "table");
@@ -57,7 +57,7 @@ bool is_comment(std::string_view line) {
   return first != std::string_view::npos && line[first] == '#';
 }
 
-/// One change to a text. Everything is looked for anew, so that changes can follow each other.
+/// One change to a text. Every change searches again, so that changes can follow each other.
 class Edit {
  public:
   Edit(std::string& text, const Override& change)
@@ -243,7 +243,7 @@ class Edit {
     return first;
   }
 
-  /// The line begin above the comments that stand directly above a line.
+  /// Beginning of the comments directly above a line.
   std::size_t above_comment(std::size_t line) const {
     const std::size_t top = layout_.sections.front().begin;  // below a byte order mark
     while (line > top) {

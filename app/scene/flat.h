@@ -41,7 +41,7 @@ bool is_live(std::string_view address);
 /// Part of the program that depends on a parameter.
 enum class Concern {
   simulation,  ///< every number of it
-  run,         ///< how far it goes, and whether it may: no number
+  run,         ///< its length, and whether it may: no number
   pictures     ///< only what is drawn
 };
 Concern concern_of(std::string_view address);
@@ -65,7 +65,7 @@ std::vector<Difference> differences(const Scene& before, const Scene& after);
 struct SplitDifferences {
   std::vector<Difference> live, restart;
 };
-/// The same, by what can go on running and what has to start anew.
+/// The same, split into live differences and those that need a restart.
 SplitDifferences split_live(const Scene& before, const Scene& after);
 
 /// Same type and content; -0 is not 0.

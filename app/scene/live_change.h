@@ -30,7 +30,7 @@ std::string text_of(const LiveChange& change);
 /// the state. (Both, since a value that came back leaves one: last bits of the stress.)
 void note_change(std::vector<LiveChange>& changes, LiveChange change);
 
-/// Forgets the changes made after a step: a run that goes on from an earlier state.
+/// Forgets the changes made after a step: for a run that continues from an earlier state.
 void forget_changes_after(std::vector<LiveChange>& changes, std::size_t step);
 
 }  // namespace neve::app::scene

@@ -37,7 +37,7 @@ std::vector<std::string> addresses_of(const ParamInfo& info, const toml::Table& 
   return addresses;
 }
 
-/// body.bull.velocity: the kind is one, the name is none.
+/// body.bull.velocity: the kind exists, the name does not.
 void refuse_unknown_name(const Override& change, const toml::Table& root) {
   const Path path = words_of(change.address);
   if (path.size() < 2) return;

@@ -28,7 +28,7 @@ std::vector<ParamInfo> params();
 /// The parameter that an address such as "material.snow.hardening" means, whatever the names in it.
 std::optional<ParamInfo> param_at(const std::string& address);
 
-/// Aligned columns for people.
+/// Text in aligned columns.
 std::string params_table(const std::vector<ParamInfo>& list = params());
 /// A list of objects: address, type, unit, min, max, default, live, help; and choices where there
 /// are some, min_open or max_open where the bound itself is not allowed.

@@ -117,7 +117,7 @@ void add_built_ins(toml::Table& root, const std::vector<Override>& overrides) {
   add_views(root, overrides);
 }
 
-/// Advice for a file that is not there: what its folder has of a like name, or that there is none.
+/// Advice for a missing file: a similar name in its folder, or the missing folder.
 std::string nearest_file(const std::string& file) {
   namespace fs = std::filesystem;
   const fs::path wanted(file);

@@ -11,7 +11,7 @@
 
 namespace neve::app::scene {
 
-/// The text of a scene or sweep file. @throws SceneError when it is none, or too large
+/// The text of a scene or sweep file. @throws SceneError if it is missing or too large
 std::string read_toml_file(const std::string& file);
 
 /// @throws SceneError for the file, UsageError for an override

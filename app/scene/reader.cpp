@@ -40,7 +40,7 @@ std::string quoted_question(const std::string& name) {
   return "did you mean " + toml::toml_string(name) + "?";
 }
 
-/// Forms and keyframes are each of their own: what others of them have helps nobody.
+/// Forms and keyframes are independent: keys of other forms are no help.
 bool is_of_one_kind_alone(const std::string& address) {
   return address.find(".shape.") != std::string::npos || address.find('[') != std::string::npos;
 }

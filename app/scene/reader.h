@@ -180,7 +180,7 @@ class Reader {
     use(chosen);
   }
 
-  /// Reads the members of this table after refusing keys that are none of them.
+  /// Reads the members of this table after refusing unknown keys.
   template <class Describe>
   void read(Describe describe_members) {
     Keys known;

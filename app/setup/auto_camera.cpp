@@ -231,7 +231,7 @@ std::vector<double> times_of(const sim::shapes::Collider& collider, double durat
   return times;
 }
 
-/// No plane between the eye and what it looks at.
+/// True if no plane is between the eye and its target.
 bool is_clear_at(const scene::Scene& scene, const Framing& framing, const Vec3d& towards_eye) {
   const Vec3d eye = framing.target + framing.distance * towards_eye;
   return std::all_of(scene.colliders.begin(), scene.colliders.end(), [&](const auto& collider) {

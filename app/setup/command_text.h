@@ -1,5 +1,5 @@
 #pragma once
-/// Commands as a person would type them into a POSIX shell.
+/// Commands as typed into a POSIX shell.
 
 #include <optional>
 #include <string>

@@ -69,7 +69,7 @@ sim::ParticleArrays seed_what_fits(const scene::Scene& coarse) {
   return particles;
 }
 
-/// Meshes too thin for the coarse cells stand in nobody's way.
+/// Removes meshes too thin for the coarse cells.
 sim::Simulation coarse_simulation(const scene::Scene& coarse,
                                   const sim::ParticleArrays& particles) {
   try {

@@ -1,5 +1,5 @@
 #pragma once
-/// A short, strongly coarsened run of a scene: where its snow goes, roughly.
+/// A coarse run: a short, strongly coarsened copy of a scene that shows roughly how its snow moves.
 
 #include <vector>
 

@@ -12,7 +12,7 @@ namespace neve::app::setup {
 
 enum class Quality { draft, preview, final };
 const char* name(Quality quality);
-/// @throws UsageError for a name that is none
+/// @throws UsageError for an unknown name
 Quality quality_named(const std::string& name);
 
 /// The first and the last frame drawn; those before are simulated only.

@@ -27,7 +27,7 @@ inline Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
-/// Text for people and files; bytes that are no UTF-8 become U+FFFD instead of an exception.
+/// JSON as text; invalid UTF-8 becomes U+FFFD instead of an exception.
 inline std::string to_text(const Json& json, int indent = 2) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }

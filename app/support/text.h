@@ -16,7 +16,7 @@ std::string bytes_text(std::uint64_t bytes);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
 /// The name closest to a misspelt one, or empty when none is close.
 std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names);
-/// "did you mean a? expected a, b, c": advice for a name that is none of some few.
+/// "did you mean a? expected a, b, c": advice for an unknown name.
 std::string names_advice(const std::string& wrong, const std::vector<std::string>& names);
 
 }  // namespace neve::app

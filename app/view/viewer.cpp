@@ -85,7 +85,7 @@ void Viewer::take_events(std::vector<front::InputEvent> events) {
   input_.push(std::move(events));
 }
 
-/// The present run goes on when the file is no scene.
+/// The current run continues if the file is not a scene.
 void Viewer::take_drop(const std::string& file) {
   try {
     state_.dropped = session::open_document(file, {}, bench_.document().coarsening());

@@ -73,7 +73,7 @@ class Viewer {
   std::string painted_key_;
   render::Points
       points_;  ///< of the last picture: the next has the same while only the camera moves
-  std::string points_key_;   ///< what they belong to; empty: nothing
+  std::string points_key_;   ///< their key; empty: nothing
   double scale_ = 1;         ///< of the picture last painted
   double full_seconds_ = 0;  ///< that a picture of full size takes
   Clock::time_point moved_at_{};

@@ -1,4 +1,4 @@
-/// The picture in the middle of the panels: what it shows, and when it is painted anew.
+/// The picture between the panels: its contents, and when it is drawn again.
 
 #include <algorithm>
 #include <cmath>
@@ -103,7 +103,7 @@ void Viewer::paint_picture() {
   if (state_.is_recording) record_frame();
 }
 
-/// The current view; inside a step its arrows are what the stage has just worked out.
+/// The current view; inside a step its arrows show the result of the stage.
 scene::View Viewer::shown_view() const {
   scene::View view = panels::current_view(state_);
   const std::vector<scene::View>& asked = state_.live->scene->views;

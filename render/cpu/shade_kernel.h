@@ -175,7 +175,7 @@ struct SmokeSums {
 };
 
 /// Smoke before a surface: of the four rays around the sample, those that ended at its depth or in
-/// smoke before it, so that nothing leaks over the edge of what stands in it.
+/// smoke before it, so that nothing leaks over the edge of solids in the smoke.
 template <class V>
 NEVE_INLINE SmokeSums<V> smoke_before(const light::SmokeCover& smoke, const RowPart<V>& part,
                                       V inverse) {
@@ -219,7 +219,7 @@ NEVE_INLINE SmokeSums<V> smoke_before(const light::SmokeCover& smoke, const RowP
   return {sum.r * scale, sum.g * scale, sum.b * scale, sum.a * scale};
 }
 
-/// Linear light of smoke, given what it scatters of each kind.
+/// Linear light of smoke, from the scattered light of each kind.
 template <class V>
 NEVE_INLINE Points3<V> smoke_light(const ShadeJob& job, const RowPart<V>& part,
                                    const SmokeSums<V>& sums) {

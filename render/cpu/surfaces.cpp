@@ -10,7 +10,7 @@
 namespace neve::render::cpu {
 namespace {
 
-/// Memory that nobody has to clear; grows only.
+/// Memory that needs no clearing; it only grows.
 template <class T>
 void make_room(std::unique_ptr<T[]>& memory, std::size_t& size, std::size_t wanted) {
   if (size >= wanted) return;

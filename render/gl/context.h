@@ -28,7 +28,7 @@ struct Attempt {
   std::string version, renderer;
   bool is_software = false;
   std::string reason;   ///< why it is not available
-  std::string install;  ///< what would help
+  std::string install;  ///< packages that would help
 };
 
 /// No backend worked; what() lists what was tried and why each failed. Exit code 4.

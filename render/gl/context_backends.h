@@ -8,11 +8,11 @@
 
 namespace neve::render::gl {
 
-/// A context, or why there is none.
+/// A context, or the reason for its absence.
 struct Opened {
   std::unique_ptr<Context> context;
   std::string reason;   ///< set when context is null
-  std::string install;  ///< what would help
+  std::string install;  ///< packages that would help
 };
 
 Opened open_egl_device();

@@ -12,8 +12,8 @@ namespace neve::render::gl {
 
 class ReadBack {
  public:
-  /// @param is_buffered through pixel buffers, which a GPU fills while the CPU goes on; otherwise
-  /// at once, which saves a copy where OpenGL itself runs on the CPU
+  /// @param is_buffered through pixel buffers, which a GPU fills while the CPU works; otherwise at
+  /// once, which saves a copy where OpenGL itself runs on the CPU
   ReadBack(const Gl& gl, bool is_buffered) : gl_(gl), is_buffered_(is_buffered) {}
 
   /// Begins to read colour attachment 0 of the framebuffer that is bound.

@@ -15,7 +15,8 @@ inline constexpr float smoke_spacings_per_cell = 0.8f;
 /// Runs task(0) ... task(count - 1), on the pool where there is one.
 void for_each_task(int count, ThreadPool* pool, const std::function<void(int)>& task);
 
-/// Memory of the steps, kept from one volume to the next: getting it anew costs as much as a step.
+/// Memory of the steps, kept from one volume to the next: allocating it again costs as much as a
+/// step.
 struct LightBuffers {
   std::vector<std::vector<std::uint32_t>> sums;
   std::vector<float> density, key, sky, smooth, blurred;

@@ -16,7 +16,7 @@ namespace {
 // Extinction per cell of packed snow. Less for the sky, whose light also comes around corners.
 constexpr float key_extinction = 0.55f, sky_extinction = 0.36f, solid_extinction = 8.0f;
 
-/// The sky is sampled straight above and on three sides 37 degrees up; the mean stands for all of
+/// The sky is sampled straight above and on three sides 37 degrees up; the mean represents all of
 /// it.
 constexpr std::array<Vec3f, 4> sky_directions = {
     {{0.01f, 0.9999f, 0.01f}, {0.8f, 0.6f, 0}, {-0.4f, 0.6f, 0.693f}, {-0.4f, 0.6f, -0.693f}}};

@@ -21,7 +21,7 @@ class ImGuiDraw {
   ~ImGuiDraw();
 
   /// Starts an ImGui frame. Fonts are rasterised at their exact size, with the characters of texts
-  /// and those of Western Europe; they are made anew when size or characters change.
+  /// and those of Western Europe; they are made again if size or characters change.
   /// @param font_size height of a line of text, pixels
   /// @param seconds since the frame before, for what blinks and repeats
   void begin(int width, int height, int font_size, const std::vector<std::string>& texts,

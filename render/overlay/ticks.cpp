@@ -45,7 +45,7 @@ std::string format(double value, double largest, double step) {
 std::vector<Tick> nice_ticks(double min, double max, int count) {
   if (!std::isfinite(min) || !std::isfinite(max)) return {};
   const double largest = std::max(std::abs(min), std::abs(max));
-  // Floats that close are one number for whoever reads the bar.
+  // Floats this close are equal to a reader of the bar.
   if (!(max - min > 1e-6 * largest)) {
     char text[64];
     std::snprintf(text, sizeof text, "%.4g", min);

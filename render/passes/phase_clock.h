@@ -9,8 +9,8 @@
 
 namespace neve::render::passes {
 
-/// Asks the driver to finish before it looks at the clock, but only where somebody wants to know:
-/// otherwise it does nothing.
+/// Waits for the driver before it reads the clock, but only if times are requested: otherwise it
+/// does nothing.
 class PhaseClock {
  public:
   /// @param times may be null

@@ -1,6 +1,6 @@
 #pragma once
 /// Meshes, heat maps and arrows as OpenGL has drawn them, kept in memory for as long as neither
-/// they nor the camera change: colliders that stand still are drawn once for a whole sequence.
+/// they nor the camera change: colliders at rest are drawn once for a whole sequence.
 
 #include <cstdint>
 #include <memory>

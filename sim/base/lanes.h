@@ -433,7 +433,7 @@ NEVE_INLINE void store_words(const FourWords<V>& words, Record* const* records, 
   });
 }
 
-/// The same from and to quads that stand side by side, one per lane.
+/// The same from and to adjacent quads, one per lane.
 template <class V>
 NEVE_INLINE FourWords<V> load_quads(const Quad<ElementOf<V>>* from) {
   return gather_words<V>([&](int l) NEVE_INLINE_BODY { return from[l]; });

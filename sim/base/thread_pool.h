@@ -84,8 +84,8 @@ class ThreadPool {
 
   /// Remaining work of one thread, and its signal. On a cache line of its own.
   struct alignas(64) Share {
-    /// Generation, begin and end of its parts in 32, 16 and 16 bits. They change as one, so that
-    /// nobody takes parts of a job that is over.
+    /// Generation, begin and end of its parts in 32, 16 and 16 bits. They change as one, so that no
+    /// thread takes parts of a finished job.
     std::atomic<std::uint64_t> parts{0};
     std::atomic<std::uint32_t> generation{0};
   };

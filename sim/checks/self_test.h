@@ -13,7 +13,7 @@ namespace neve::sim::checks {
 
 struct SelfTestResult {
   std::string name;  ///< one word or a few, for scripts: weights, affine_field, ...
-  std::string what;  ///< what is tested, for people
+  std::string what;  ///< claim under test, for the user
   bool passed = true;
   std::string detail;  ///< what was asked, the worst value found, what is allowed, and where
 };

@@ -24,7 +24,7 @@ inline double largest(const Mat3d& m) {
   return m.cwiseAbs().maxCoeff();
 }
 
-/// The worst of what one test measured, relative to what it allows.
+/// Worst value of one test, relative to its tolerance.
 class Measure {
  public:
   explicit Measure(const SelfTestCase& test) : test_(test) {}

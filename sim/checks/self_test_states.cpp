@@ -7,7 +7,7 @@
 
 namespace neve::sim::checks::self_test {
 
-/// Snow that nobody deformed starts with F_E = I, J_P = 1 and no stress.
+/// Undeformed snow starts with F_E = I, J_P = 1 and no stress.
 void initial_state(const SelfTestCase& test, self_test::Measure& measure) {
   const Simulation simulation(self_test::settings_of(test), {Material{}}, {},
                               self_test::small_ball(), 1);

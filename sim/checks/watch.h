@@ -1,5 +1,5 @@
 #pragma once
-/// The run-time watch: laws that every right step keeps, looked at between steps. Looking takes a
+/// Checks at run time: laws of every correct step, measured between steps. A measurement takes a
 /// staged step of a copy, so it never changes the run.
 
 #include <array>
@@ -43,7 +43,7 @@ struct WatchRecord {
   bool breaks(double value, double limit) const;
 };
 
-/// One line for people: step, value, threshold, what it means, what to do.
+/// One line for the user: step, value, threshold, meaning and remedy.
 std::string sentence(const WatchRecord& record, double value, double dt);
 
 /// Steps between two looks of a long run. A look costs about as much as 25 steps on one thread (a

@@ -30,7 +30,7 @@ inline bool is_blank(char c) {
 std::string_view trimmed(std::string_view text);
 
 /// All of a word, blanks around it aside, as a number, which may be infinite or not a number;
-/// nothing if it is none. Independent of the locale.
+/// nothing for other text. Independent of the locale.
 std::optional<double> number_in(std::string_view word);
 
 }  // namespace neve::sim::files

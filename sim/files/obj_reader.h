@@ -10,7 +10,7 @@
 
 namespace neve::sim::files {
 
-/// Polygons over shared vertices, as they stand in the file.
+/// Polygons over shared vertices, in file order.
 struct PolygonMesh {
   /// Corners first to first of the next polygon; line in the file, from 1.
   struct Polygon {

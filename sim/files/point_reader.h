@@ -9,7 +9,7 @@
 
 namespace neve::sim::files {
 
-/// As they stand in the file. Of v, m and V each is as long as x, or empty: the file has none.
+/// Points in file order. v, m and V are as long as x, or empty if the file has none.
 struct PointCloud {
   std::vector<Vec3d> x;   ///< m
   std::vector<Vec3d> v;   ///< m/s

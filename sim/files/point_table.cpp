@@ -45,7 +45,7 @@ std::optional<std::size_t> quantity_called(const std::string& name) {
   return std::nullopt;
 }
 
-/// The first few names of a header, as they stand there.
+/// The first few names of a header, as written.
 std::string listed_columns(const std::vector<std::string>& columns) {
   std::string text;
   for (std::size_t k = 0; k < std::min<std::size_t>(columns.size(), 8); ++k)

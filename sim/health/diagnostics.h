@@ -1,5 +1,5 @@
 #pragma once
-/// Energy and stress in double for people, sums and tests; the search for what broke a run.
+/// Energy and stress in double for reports, sums and tests; the search for culprits.
 
 #include "sim/types/particle_arrays.h"
 #include "sim/types/reports.h"
@@ -28,7 +28,7 @@ ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, dou
 /// as the acoustic limit sees it, m/s. @param rho0 mass / initial volume, kg/m3
 double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0);
 
-/// Fills in who broke the rule that d names, in what state, and the sentence for people.
+/// Fills in the culprit of the rule that d names, its state, and the sentence for the user.
 void find_culprits(const ParticleArrays& particles, const SolverSettings& settings,
                    const std::vector<Material>& materials, Divergence& d);
 

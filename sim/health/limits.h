@@ -323,7 +323,7 @@ constexpr const Limits& limits_of(Law law) {
 constexpr const char* name(Law law) {
   return limits_of(law).name;
 }
-/// The number that is compared, for people.
+/// Name of the compared number, for the user.
 constexpr const char* quantity(Law law) {
   return limits_of(law).quantity;
 }

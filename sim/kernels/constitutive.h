@@ -225,7 +225,7 @@ NEVE_INLINE void neo_hookean(MaterialLanes<V>& m) {
 
 /// Projects F_E (snow) and recomputes tau from it, for batches of one model. Most particles take
 /// the cheap way; those that yield or are far from the identity are moved together into full lanes.
-/// Which lanes stand together changes no bit.
+/// The grouping of lanes changes no bit.
 template <class Real, class Set, int most_batches>
 class MaterialUpdate {
  public:

@@ -16,7 +16,7 @@ enum ParticleFlag : std::uint8_t {
 /// One record, read whole by every sweep; with R and I lanes, a batch of records word by word.
 /// Neither dt nor material constants are baked into it. Position is the cell (lattice units) and
 /// the offset in it, in [0, 1) cells, so that accuracy does not fade away from the origin. Words
-/// stand in fours: what a step writes comes first.
+/// are in groups of four: those that a step writes come first.
 template <class R, class I>
 struct Record {
   R offset[3];

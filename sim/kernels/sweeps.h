@@ -17,7 +17,7 @@ NEVE_INLINE Quad<Real>* nodes_of(const SweepArgs<Real>& a, std::uint32_t block, 
 }
 
 /// Adds the tiles that reach a node block, always in the order of NodeBlock::tile. Rows go beyond
-/// the tile's overlap along z; what stands there is 0.
+/// the tile's overlap along z, filled with 0.
 template <class Real, int K, class Set>
 NEVE_INLINE void collect(const SweepArgs<Real>& a, std::uint32_t block, int channel,
                          Quad<Real>* sum) {

@@ -149,7 +149,7 @@ Vec3d EmitterStream::next_place() {
   return solid_.inner_point();
 }
 
-/// The same whenever it is made: a run that goes on makes it anew.
+/// Reproducible: a resumed run makes it again.
 void EmitterStream::fill_pool() {
   const std::uint64_t places_so_far = std::exchange(state_.candidate, 0);
   while (state_.candidate < pool_candidates && pool_.size() < pool_places)

@@ -23,7 +23,7 @@ struct Emitter {
   double particles_per_cell = 8.0;
   double rate = 0;            ///< kg/s; 0: the whole shape once, at `start`
   double start = 0;           ///< s
-  std::optional<double> end;  ///< s; absent: goes on. Of no meaning at rate 0
+  std::optional<double> end;  ///< s; absent: stays open. Ignored at rate 0
 };
 
 /// Particles inside are removed.

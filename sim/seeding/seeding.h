@@ -57,7 +57,7 @@ struct SeededBody {
 /// Smallest distance in metres between two particles of poisson sampling.
 double poisson_distance(double particles_per_cell, double cell_size);
 
-/// Points stand where their file says, whatever sampling and particles_per_cell. Other shapes are
+/// Points keep the places in their file, whatever sampling and particles_per_cell. Other shapes are
 /// filled. Jittered: one random point in every sub-cell of edge cell_size /
 /// cbrt(particles_per_cell). Poisson: random points no closer than poisson_distance. Lattice: a
 /// regular grid with the shape's bounds in its middle. Neighbours in the list are near each other

@@ -39,7 +39,7 @@ using Pose = RigidMotion;
 Pose pose_at(const Collider& collider, double time);
 
 /// The travel of a collider that is changed at a time: with another velocity or spin, or without
-/// its keyframes, it goes on from where it is; one whose place, shape or contact was edited moves
+/// its keyframes, it continues from its place; one whose place, shape or contact was edited moves
 /// by the edit alone. Keyframes say themselves where it is.
 Travel travel_after(const Collider& before, const Collider& after, double time);
 

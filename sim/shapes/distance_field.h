@@ -23,7 +23,7 @@ class DistanceField {
   /// Exact distances at the samples, the sign by the winding number. The bits do not depend on the
   /// number of threads.
   /// @param name  what messages call the mesh
-  /// @throws ShapeError when the samples would be too many, or none of them is inside
+  /// @throws ShapeError if the samples would be too many, or no sample is inside
   DistanceField(const MeshSurface& surface, const std::string& name, double spacing,
                 ThreadPool& pool);
 
@@ -44,8 +44,8 @@ class DistanceField {
 /// largest extent or 8 along its smallest, and more are not too many to keep.
 double field_spacing(const MeshSurface& surface, double cell_size);
 
-/// The field of a mesh for cells of that size. Made once: whoever asks again while it is in use or
-/// was lately, has the same one (another simulation of the scene, a reset).
+/// The field of a mesh for cells of that size. Made once: later calls while it is in use or was
+/// lately, has the same one (another simulation of the scene, a reset).
 /// @throws ShapeError
 std::shared_ptr<const DistanceField> distance_field(const Mesh& mesh, double cell_size,
                                                     ThreadPool& pool);

@@ -27,9 +27,9 @@ struct RigidMotion {
 /// Hermite curve of unit quaternions, from keyframe to keyframe the shorter way round, with angular
 /// velocities at keyframes chosen like the slopes of the coordinates. So position and attitude and
 /// their velocities are continuous, at rest at the first and last keyframe and beyond, and a thing
-/// held by two equal keyframes stands still.
-/// Source: Kim, Kim and Shin, A general construction scheme for unit quaternion curves with simple
-/// high order derivatives, SIGGRAPH 1995, section 5 (Hermite curves).
+/// held by two equal keyframes does not move. Source: Kim, Kim and Shin, A general construction
+/// scheme for unit quaternion curves with simple high order derivatives, SIGGRAPH 1995, section 5
+/// (Hermite curves).
 /// @param keyframes  times increase; at least one
 /// @param position, degrees  of the shape, for what keyframes leave out
 /// Check: Keyframes.VelocitiesAreTheDerivativesOfThePose

@@ -76,7 +76,7 @@ struct SummaryKey {
   auto operator<=>(const SummaryKey&) const = default;
 };
 
-/// @return nothing where the file cannot be told apart from what it may become
+/// @return nothing if a later change of the file could go unnoticed
 std::optional<SummaryKey> key_of(const Points& points, const Mat3d& rotation) {
   std::error_code no_size, no_time;
   SummaryKey key{points.file,

@@ -36,7 +36,7 @@ struct PointsSummary {
   Bounds bounds{Vec3d::Zero(), Vec3d::Zero()};  ///< m, turned about the file's origin
 };
 
-/// Remembered until the file changes, for scenes ask often while somebody turns knobs. Any thread.
+/// Cached until the file changes, because scenes ask often while parameters change. Any thread.
 /// @throws ShapeError as PlacedPoints
 PointsSummary summary_of(const Points& points, const Mat3d& rotation);
 

@@ -50,7 +50,7 @@ struct Mesh {
 struct Points {
   std::string file;       ///< resolved path
   double spacing = 0;     ///< m; of a file without volumes each point has spacing^3; 0: not given
-  double thinning = 1;    ///< one point in so many is used, and stands for all of them
+  double thinning = 1;    ///< one point of this many is used, and represents all of them
   Vec3d center{0, 0, 0};  ///< where the origin of the file goes
 };
 

@@ -20,8 +20,8 @@ class Form {
 };
 
 /// The local frame has its origin at the shape's centre and the axes of the unrotated shape
-/// (capsule: y along a to b), so nothing local depends on where the shape stands.
-/// x = center + rotation * local.
+/// (capsule: y along a to b), so nothing local depends on the place of the shape. x = center +
+/// rotation * local.
 class Solid {
  public:
   /// @throws ShapeError when a mesh cannot be read or is open, or the shape has no finite

@@ -1,5 +1,5 @@
 #pragma once
-/// Particles as plain arrays: what a simulation is given and what it gives back.
+/// Particles as plain arrays: input and output of a simulation.
 
 #include <cstddef>
 #include <cstdint>

@@ -90,7 +90,7 @@ struct Divergence {
   double time = 0;
   std::string stage;  ///< name of the stage that broke the rule
   std::string rule;   ///< energy, speed_cfl, acoustic_cfl, J_P, inverted, not_finite, overflow
-  std::int64_t particle = -1;  ///< id of a culprit, -1 if none stands out
+  std::int64_t particle = -1;  ///< id of a culprit, -1 if unknown
   int material = 0;            ///< of the culprit, like what follows
   Vec3d x{0, 0, 0}, v{0, 0, 0};
   Mat3d F_E = Mat3d::Identity();
@@ -98,12 +98,12 @@ struct Divergence {
   Vec3d stretches{1, 1, 1};         ///< singular values of F_E
   double J_E = 1, J_P = 1;
   double sound_speed = 0;       ///< m/s, hardened
-  double value = 0, limit = 0;  ///< what was found and what the rule allows
+  double value = 0, limit = 0;  ///< value found, and value allowed by the rule
   double dt = 0, dt_that_holds = 0;
   std::vector<std::uint32_t> culprits;  ///< ids, at most 1000
   std::vector<StepRecord> last_steps;   ///< oldest first, the broken one last
   StartState start;
-  std::string what;      ///< one line for people
+  std::string what;      ///< one line for the user
   std::string sentence;  ///< with the dt that would have held
 };
 

@@ -24,7 +24,7 @@ class LayoutReader {
         header();
       else
         line();
-      if (at_ == before) ++at_;  // no TOML: go on, whatever it is
+      if (at_ == before) ++at_;  // not TOML: skip it
     }
     return std::move(out_);
   }

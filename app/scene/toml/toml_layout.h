@@ -16,7 +16,7 @@ struct Span {
   std::size_t size() const { return end - begin; }
 };
 
-/// Keys that stand one below the other: those of the document, or those after a [header].
+/// Consecutive keys: those of the document, or those after a [header].
 struct TomlSection {
   std::size_t begin = 0;  ///< of the line after the header
   Span last_line{};       ///< of the last key, with what follows it and the line's end; empty: none

@@ -80,7 +80,7 @@ Child::Child(const ChildCommand& command, const ChildLimits& limits)
   if (pid_ < 0)
     throw IoError(std::string("cannot start a process: ") + std::strerror(reason), program,
                   "try fewer --jobs");
-  // Both sides set it, so that it is true whoever comes first.
+  // Both sides set it, so the order does not matter.
   ::setpgid(pid_, pid_);
 }
 
@@ -110,7 +110,7 @@ double Child::seconds() const {
 void Child::end_because(Ending why) {
   why_ = why;
   asked_at_ = Clock::now();
-  // One that was stopped hears nothing before it goes on.
+  // A stopped process receives no signal before it continues.
   ::kill(-pid_, SIGTERM);
   ::kill(-pid_, SIGCONT);
 }

@@ -236,7 +236,7 @@ class LocalEngine {
               const store::RunReport& report) {
     store::write_report(folder, report);
     if (store::is_finished(report.state)) count(report);
-    // Also by somebody else: then the sweep is not done either.
+    // Also by another process: then the sweep is not done either.
     if (report.state == store::RunState::interrupted) result_.is_interrupted = true;
     work_done_ += run.work;
     work_left_ -= run.work;

@@ -28,8 +28,8 @@ struct EngineResult {
 };
 
 /// Runs what is not finished yet of the runs of these indices; each ends as a state and a reason in
-/// its status.json and never ends the sweep. A run that somebody else is at is left to them. A
-/// Ctrl-C asks all children to end and waits for them.
+/// its status.json and never ends the sweep. A run in progress elsewhere is left alone. A Ctrl-C
+/// asks all children to end and waits for them.
 /// @throws IoError
 EngineResult run_local(const std::filesystem::path& folder, const store::Manifest& manifest,
                        const std::vector<int>& indices, const EngineOptions& options,

@@ -38,7 +38,7 @@ std::vector<RangeSlot> range_slots(scene::View& view) {
 }
 
 /// Widens the look's ranges by those that were found for a run.
-/// @param own the run's view before: what it sets itself counts for nobody else
+/// @param own the run's view before: its own settings apply to no other run
 void widen(scene::View& look, scene::View own, scene::View resolved, const scene::View& base) {
   scene::View given = base;
   const std::vector<RangeSlot> shared = range_slots(look), mine = range_slots(own),

@@ -9,8 +9,8 @@ std::filesystem::path look_path(const std::filesystem::path& folder);
 
 /// Fills in the cameras and ranges of all runs, from DIR/look.toml where it belongs to the same
 /// scene, otherwise from dry runs of the corners of the sweep and the ranges of all runs together;
-/// then it is written there. So runs that are added later look like those before, and whoever wants
-/// another camera writes it into that file. What a run sets itself stays as it is.
+/// then it is written there. So later runs look like earlier ones, and another camera can be
+/// written into that file. Settings of a run are kept.
 /// @param cores for dry runs side by side
 /// @throws SceneError for a broken look.toml, IoError
 void share_look(SweepPlan& plan, int cores);

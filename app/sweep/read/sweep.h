@@ -116,7 +116,7 @@ struct Sweep {
   std::vector<ExplicitRun> rows;
   std::map<std::string, scene::toml::Location> places;  ///< of the keys in the sweep file
 
-  /// Throws a SceneError at a key of the sweep file, or a UsageError where there is none.
+  /// Throws a SceneError at a key of the sweep file, or a UsageError without a file.
   [[noreturn]] void fail(const std::string& key, const std::string& message,
                          const std::string& hint) const;
 };

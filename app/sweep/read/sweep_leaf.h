@@ -18,7 +18,7 @@ constexpr auto names(TileLabel) {
                     scene::Name{none, "none"}};
 }
 
-/// Seconds of "90", "90s", "20m", "1h30m"; nothing when it is none of that.
+/// Seconds of "90", "90s", "20m", "1h30m"; nothing for other text.
 std::optional<double> seconds_of(std::string_view text);
 
 void read_leaf(const scene::Leaf& leaf, Duration& member);

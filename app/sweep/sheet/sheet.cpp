@@ -43,7 +43,7 @@ std::optional<int> newest_frame(const store::RunResult& result, int frame) {
 /// True if the run has stopped before this frame, or has not reached it yet.
 bool is_late(const store::ManifestRun& run, const store::RunResult& result, int frame) {
   const bool has_frame = std::binary_search(result.frames.begin(), result.frames.end(), frame);
-  // One whose last frame is an earlier one by its plan stands still.
+  // A run whose plan ends at an earlier frame keeps its last picture.
   const bool is_over = result.report.state == store::RunState::ok && frame > run.last_frame;
   return !has_frame && !is_over;
 }
@@ -284,7 +284,7 @@ store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames) const {
   return grid;
 }
 
-/// Why a run stands still, in few words.
+/// Reason why a run has ended, in few words.
 void SheetMaker::add_state(const SheetLayout& layout, const Tile& tile,
                            render::Frame& words) const {
   const auto [state, reason] = split_state(jobs::tile_text(tile.result->report));

@@ -150,7 +150,7 @@ std::string axes_text(const std::vector<std::string>& addresses) {
   return text.empty() ? "only its [[run]]s" : text;
 }
 
-/// That the folder has; nothing where there is none that can be read.
+/// Manifest of the folder; nothing if it cannot be read.
 std::optional<Manifest> earlier_manifest(const std::filesystem::path& folder) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(manifest_path(folder), error)) return std::nullopt;

@@ -67,7 +67,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
 /// @throws UsageError when the folder has a sweep with axes of other addresses
 void check_folder(const plan::SweepPlan& plan);
 
-/// @throws Error when there is none, or a broken one
+/// @throws Error if it is missing or broken
 Manifest read_manifest(const std::filesystem::path& folder);
 
 }  // namespace neve::app::sweep::store

@@ -19,17 +19,17 @@ enum class RunState {
   timeout,        ///< longer than [limits] timeout
   crashed,        ///< ended by a signal
   out_of_memory,  ///< more than [limits] memory, or than there was
-  interrupted     ///< stopped with us; goes on next time
+  interrupted     ///< stopped with the sweep; continues next time
 };
 const char* name(RunState state);
 
 struct RunReport {
   RunState state = RunState::pending;
-  std::string key;           ///< of what was run: scene, version, frames
+  std::string key;           ///< hash of scene, version, frames
   std::string reason;        ///< one line; "" for ok
   std::string short_reason;  ///< for a tile
   int exit_code = 0, signal = 0;
-  int attempts = 0;               ///< how often it was started
+  int attempts = 0;               ///< number of starts
   double seconds = 0;             ///< of all attempts
   std::uint64_t peak_memory = 0;  ///< bytes
   long pid = 0;                   ///< while it runs
@@ -53,7 +53,7 @@ bool has_failed(RunState state);
 /// Keys of all runs that the folder has, with the names of their folders.
 std::map<std::string, std::string> known_runs(const std::filesystem::path& sweep);
 
-/// Held by whoever runs it; gone with the process, however that ends.
+/// Held by the process that makes the run; released when the process ends.
 class RunLock {
  public:
   explicit RunLock(const std::filesystem::path& run_folder);

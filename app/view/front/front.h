@@ -71,7 +71,7 @@ class Front {
   /// Tells what the simulation has reached: scripts wait for it.
   virtual void set_progress(int /*frame*/, bool /*is_running*/) {}
 
-  /// Text to the clipboard of whoever looks.
+  /// Puts text into the user's clipboard.
   virtual void set_clipboard(const std::string& text) = 0;
   /// The last text known to be in it.
   virtual std::string clipboard() const = 0;

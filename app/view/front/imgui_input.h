@@ -1,5 +1,5 @@
 #pragma once
-/// Hands what a person did to Dear ImGui, in portions that it understands.
+/// Passes input events to Dear ImGui, in portions that it understands.
 
 #include <deque>
 #include <string>
@@ -35,7 +35,7 @@ class ImGuiInput {
   /// @return whether more is waiting for the next
   bool feed();
 
-  /// Lets go of every key and button, after what is waiting: for when somebody stops looking.
+  /// Releases every key and button after the waiting events, for a page that disconnects.
   void release_all();
 
  private:

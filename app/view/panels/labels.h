@@ -12,7 +12,7 @@ namespace neve::app::view::panels {
 /// The part of a widget that can be seen, px of the picture from its upper left corner.
 struct LabelPlace {
   float x = 0, y = 0, width = 0, height = 0;
-  /// False for what is scrolled out of sight: the place is the whole widget's then.
+  /// False if scrolled out of sight: the place is then that of the whole widget.
   bool is_visible = true;
 };
 
@@ -22,9 +22,9 @@ class Labels {
  public:
   static Labels& of_panels();
 
-  /// Starts anew with the first label of another frame.
-  /// @param name what a person reads on the widget; a second one in the frame becomes "Run#2"
-  /// @return whether somebody wants it scrolled into sight
+  /// Clears the labels at the first label of another frame.
+  /// @param name text on the widget; a second one in the frame becomes "Run#2"
+  /// @return true if it should be scrolled into sight
   bool note(const std::string& name, const LabelPlace& place, int frame);
 
   std::optional<LabelPlace> find(const std::string& name) const;

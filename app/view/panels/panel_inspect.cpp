@@ -83,7 +83,7 @@ void draw_stage_table(const session::StageLook& look) {
   ImGui::EndTable();
 }
 
-/// The phase of the fast driver that a stage is a part of, and what it took.
+/// Phase of the fused driver that contains a stage, and its time.
 struct StagePhase {
   const char* name;
   sim::Stage first;

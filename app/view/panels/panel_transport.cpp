@@ -49,7 +49,7 @@ void draw_out_menu(ViewerState& state) {
     note_label(label);
     return is_chosen;
   };
-  // Only pictures of frames can be made again: between two, the run goes on to the next.
+  // Only pictures of frames can be made again: between two, the run first advances to the next.
   const bool is_frame = state.live->is_frame_end && !state.live->is_running;
   if (item(is_frame ? "Picture of this frame" : "Picture of the next frame", "P"))
     state.wants_picture = true;

@@ -24,7 +24,7 @@ struct ProbeTrace {
   std::optional<session::ProbeTarget> target;
 };
 
-/// Which columns stand beside the picture.
+/// Columns beside the picture.
 struct PanelSwitches {
   bool left = true, right = true;
   bool is_narrow = false;      ///< there is room for one
@@ -47,7 +47,7 @@ struct ViewerState {
   std::shared_ptr<const session::LiveFrame> live{};
 
   Orbit orbit{};
-  bool is_camera_of_scene = true;  ///< nobody moved the camera yet: it moves as the scene says
+  bool is_camera_of_scene = true;  ///< the user has not moved the camera: it follows the scene
   std::string view = "particles";
   render::PicturePlace viewport{};  ///< px
   PanelSwitches panels{};
@@ -72,7 +72,7 @@ struct ViewerState {
   std::uint64_t errors_told = 0;           ///< of the messages: their tab was opened for these
   bool is_divergence_told = false;
   bool is_reload_offered = false;              ///< the scene file was changed by another program
-  std::optional<session::Document> dropped{};  ///< that somebody wants to look at instead
+  std::optional<session::Document> dropped{};  ///< scene to open instead
   Hint hint{};
   bool shows_incident = false;  ///< rings around the culprits
 

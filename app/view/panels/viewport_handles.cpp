@@ -69,7 +69,7 @@ std::string literal(const Vec3d& value) {
          ", " + scene::toml::number_text(value.z()) + "]";
 }
 
-/// Rounded to what a person would type at this zoom.
+/// Rounds to a precision suited to this zoom.
 double rounded_move(double value, double distance) {
   const double step = std::pow(10, std::floor(std::log10(std::max(1e-9, distance))) - 2.0);
   return std::round(value / step) * step;

@@ -65,7 +65,7 @@ bool has_strange_letters(bool is_whole) {
   });
 }
 
-/// Called before the widget: it goes on with what was typed so far.
+/// Call before the widget: it continues with the text typed so far.
 /// @return the value that counts meanwhile
 template <class T>
 T resume_typing(const Knob& knob, T& value, bool is_whole = false) {
@@ -113,7 +113,7 @@ bool settle(const Knob& knob, const T& before, T& value, IsValid is_valid, Bound
   return !(value == before);
 }
 
-/// A turning arrow: what stands beside it waits for Reset.
+/// A turning arrow: the parameter beside it waits for Reset.
 void draw_reset_mark() {
   const float size = ImGui::GetFontSize(), r = 0.30f * size;
   const ImVec2 at = ImGui::GetCursorScreenPos();

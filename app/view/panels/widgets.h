@@ -1,5 +1,5 @@
 #pragma once
-/// Parameters as ImGui widgets: the visitor of describe.h that a person turns knobs of.
+/// Parameters as ImGui widgets: the visitor of describe.h for the panels.
 
 #include <imgui.h>
 
@@ -35,7 +35,7 @@ bool edit_value(const Knob& knob, sim::Vec3d& value);
 bool edit_value(const Knob& knob, std::vector<std::string>& value);
 bool edit_value(const Knob& knob, scene::PictureSize& value);
 bool edit_value(const Knob& knob, scene::Range& value);
-/// @param index -1: none of them
+/// @param index -1: no item
 bool edit_choice(const Knob& knob, const std::vector<std::string>& choices, int& index);
 bool edit_choices(const Knob& knob, const std::vector<std::string>& choices,
                   std::vector<bool>& chosen);

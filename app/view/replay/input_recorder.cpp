@@ -16,7 +16,7 @@ using Kind = front::InputEvent::Kind;
 using Step = ReplayStep::Kind;
 
 constexpr double frames_per_second = 60;
-/// Shorter pauses are how fast somebody's hand is; longer ones are somebody who thinks.
+/// Shorter pauses are the speed of a hand; longer ones are time to think.
 constexpr double shortest_pause = 0.25, longest_pause = 5;
 /// A mouse at rest shows tooltips.
 constexpr double tooltip_time = 0.5;

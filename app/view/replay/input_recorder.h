@@ -1,5 +1,5 @@
 #pragma once
-/// Turns what a person does into a script of input.
+/// Turns input into a script.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 namespace neve::app::view::replay {
 
 /// Places are written by the label of the widget there, where one is, so that the script still
-/// works when the panels are laid out anew; a press, moves and a release become a click or a drag.
+/// works with another layout of the panels; a press, moves and a release become a click or a drag.
 class InputRecorder {
  public:
   /// @param events of one frame of the panels
@@ -32,7 +32,7 @@ class InputRecorder {
   void note_key(const front::InputEvent& event);
   void note_text(const std::string& text);
   void note_wheel(const front::InputEvent& event);
-  /// Adds a step that began at `start`, after what it has to wait for.
+  /// Adds a step that began at `start`, after the steps that it waits for.
   void add(ReplayStep step, double start);
   /// The last step, when it is of this kind and ended less than so long ago.
   ReplayStep* last(ReplayStep::Kind kind, double seconds);

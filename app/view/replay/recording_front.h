@@ -12,7 +12,7 @@ namespace neve::app::view::replay {
 class RecordingFront : public front::Front {
  public:
   /// @param front must live longer
-  /// @param file of the script; written anew while it grows, so that it is there whatever happens
+  /// @param file of the script; rewritten while it grows, so that a crash loses nothing
   /// @throws IoError when it cannot be written
   RecordingFront(front::Front& front, std::filesystem::path file);
   ~RecordingFront() override;

@@ -1,6 +1,6 @@
 #pragma once
-/// Scripts of input: a JSON list of what a person does, for tests, for the pictures of the
-/// documentation and to show somebody what went wrong. docs/view.md lists the steps.
+/// Scripts of input: a JSON list of steps, for tests, for the pictures of the documentation and for
+/// bug reports. docs/view.md lists the steps.
 
 #include <array>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-/// The scene that a person works on: the file, what was changed since, and how to take it back.
+/// The scene being edited: the file, the changes since, and their undo.
 
 #include <cstdint>
 #include <functional>
@@ -98,7 +98,7 @@ class Document {
   std::vector<std::vector<scene::Override>> done_, undone_;
   std::uint64_t gesture_ = 0;
   std::shared_ptr<const scene::Scene> scene_;
-  // Found once, by a dry run: pictures must not jump while somebody turns a knob.
+  // Found once, by a dry run: pictures must not jump while a parameter changes.
   std::optional<scene::CameraSettings> camera_;
   std::map<std::string, scene::CameraSettings> view_cameras_;
 };

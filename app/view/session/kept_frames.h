@@ -17,7 +17,7 @@ struct KeptFrame {
   std::size_t steps = 0;                         ///< since the start of the run
   std::size_t steps_of_frame = 0;                ///< that the run had at the end of the frame
   std::vector<std::uint8_t> state;               ///< sim::Simulation::save
-  std::shared_ptr<const scene::Scene> scene;     ///< that it goes on with
+  std::shared_ptr<const scene::Scene> scene;     ///< to continue with
   std::vector<sim::shapes::Collider> colliders;  ///< as they move there
   sim::AdvanceReport advance;                    ///< since the frame before
 };
@@ -31,7 +31,7 @@ class KeptFrames {
   /// In the place of the one with its number.
   void add(KeptFrame frame);
 
-  /// The last one not after this number; null when there is none.
+  /// The last one not after this number; null if there is no such frame.
   const KeptFrame* at_or_before(int frame) const;
 
   /// Forgets those after this number.

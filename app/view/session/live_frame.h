@@ -31,7 +31,7 @@ struct RunSample {
 struct QuantitySummary {
   std::string name, unit;
   double min = 0, mean = 0, max = 0;  ///< of magnitudes
-  std::size_t strange = 0;            ///< how many are outside of what is expected
+  std::size_t strange = 0;            ///< number of values outside the expected range
   std::optional<scene::Range> expected;
   std::string why;
 };
@@ -95,7 +95,7 @@ struct LiveFrame {
   std::optional<health::Diagnosis> diagnosis;
   std::optional<StageLook> stage;
   std::optional<ProbeReading> probe;
-  std::optional<ProbeTarget> probed;  ///< what was looked for
+  std::optional<ProbeTarget> probed;  ///< requested target
   std::string error;                  ///< why the last thing asked for was not done; empty: it was
   std::uint64_t errors = 0;           ///< how many there were, to tell a new one from the same
 };

@@ -238,7 +238,7 @@ void Session::work() {
   }
 }
 
-/// Whatever goes wrong is told to who asked; the thread goes on.
+/// Reports any error to the caller; the thread continues.
 void Session::obey(const std::function<void()>& command) {
   try {
     command();

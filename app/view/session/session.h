@@ -1,5 +1,5 @@
 #pragma once
-/// A simulation on a thread of its own: asked to do things, shows what it does as LiveFrames.
+/// A simulation on a thread of its own: takes requests and publishes LiveFrames.
 
 #include <atomic>
 #include <chrono>
@@ -46,7 +46,7 @@ class Session {
   /// Shows the state between two steps again.
   void leave_stage();
 
-  /// Starts anew. On an error the old simulation goes on.
+  /// Starts again. On an error the old simulation continues.
   void reset(std::shared_ptr<const scene::Scene> scene);
   /// Goes on with the live changes that make this scene of the one that runs. They are listed in
   /// the snapshots of the frames that follow, whatever they were made by.
@@ -56,7 +56,7 @@ class Session {
   void show_frame(int frame);
   /// Back to where the run is.
   void show_head();
-  /// The run goes on from the kept frame that is shown, with the parameters it had then; frames and
+  /// Continues the run from the kept frame shown, with the parameters it had then; frames and
   /// changes after it are forgotten.
   void continue_from_here();
 
@@ -108,7 +108,7 @@ class Session {
   int frame_ = 0;                   ///< the last one passed
   sim::AdvanceReport advance_;      ///< of the frame that was reached last, or is on its way
   bool advance_is_new_ = true;      ///< the next step belongs to another frame
-  sim::ParticleArrays seeded_;      ///< what the run started from
+  sim::ParticleArrays seeded_;      ///< initial state of the run
   std::size_t steps_of_frame_ = 0;  ///< that the simulation had at the frame before
   std::vector<scene::LiveChange>
       changes_;  ///< of the run, also those after an older frame that is shown

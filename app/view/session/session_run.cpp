@@ -74,7 +74,7 @@ void Session::leave_older() {
   load(head);
 }
 
-/// The simulation as it was then. With other parameters since, it is made anew: a state goes on
+/// The simulation as it was then. With other parameters since, it is made again: a state continues
 /// only with those that it had.
 void Session::load(const KeptFrame& kept) {
   if (kept.scene != scene_) {

@@ -94,7 +94,7 @@ void Workbench::edit(const Edit& edit) {
       say(Message::Kind::error, edit.address + ": " + edit.value);
       return;
     case Edit::Kind::copy_address:
-      return;  // the clipboard belongs to whoever looks
+      return;  // the clipboard belongs to the frontend
   }
 }
 
@@ -114,7 +114,7 @@ void Workbench::forget(const std::string& address) {
   attempt([&] { document_.forget(address); });
 }
 
-/// The simulation learns what it can of the difference.
+/// Applies the live part of the difference to the simulation.
 void Workbench::take_over(const std::vector<scene::Override>& before) {
   bool needs_restart = false, is_live = false;
   for (const std::string& address : Document::difference(before, document_.edits())) {

@@ -52,7 +52,7 @@ class Workbench {
   /// Addresses of changed values that take effect only at Reset.
   std::vector<std::string> waiting_for_reset() const;
   void reset();
-  /// The run goes on from the older frame that is shown, with the parameters as they are now.
+  /// Continues the run from the older frame shown, with the current parameters.
   void continue_from_here();
 
   /// The scene as a picture shows it: the one that runs, with the views and the light of the
@@ -61,7 +61,7 @@ class Workbench {
 
   /// True if the file on disk differs from the one read or saved last.
   bool has_file_changed() const;
-  /// Reads the file again and starts anew. Where it is no scene, all stays as it was, and the file
+  /// Reads the file again and starts again. If it is not a scene, everything stays, and the file
   /// still counts as changed.
   void reload();
   /// Why the last reload failed; empty where it did not, or where the file has changed since.

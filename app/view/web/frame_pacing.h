@@ -37,7 +37,7 @@ class FramePacing {
     double sent = 0;
   };
   std::vector<Picture> in_flight_;
-  std::uint32_t next_number_ = 1;  ///< goes on with the next viewer: no number comes twice
+  std::uint32_t next_number_ = 1;  ///< continues with the next viewer: no number is used twice
   double quality_ = 80, round_trip_ = 0;
 };
 

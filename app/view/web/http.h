@@ -13,7 +13,7 @@ struct HttpRequest {
   std::string method, path, query;
   std::vector<std::pair<std::string, std::string>> headers;
 
-  /// @return "" where there is none; heads with two Host or Origin lines are not read at all
+  /// @return "" if it is absent; heads with two Host or Origin lines are not read at all
   std::string_view header(std::string_view name) const;
   bool has_header(std::string_view name) const;
   /// True if a list like "keep-alive, Upgrade" has the word, in any case.

@@ -20,7 +20,7 @@ struct PageMessage;
 struct WebOptions {
   std::string address = "127.0.0.1";     ///< a number, or localhost
   int port = 0;                          ///< 0: a free one
-  front::ScreenSize size{1280, 800, 1};  ///< until somebody looks
+  front::ScreenSize size{1280, 800, 1};  ///< until a page connects
   /// Somebody was told risk_of(address) and wants it all the same.
   bool is_risk_taken = false;
   WebLimits limits{};
@@ -40,7 +40,7 @@ enum class Cursor {
   none
 };
 
-/// One person looks at a time: whoever opens the page last. All but where(), wake() and the
+/// Only one page is connected at a time: the one opened last. All but where(), wake() and the
 /// destructor belong to one thread, the program's; the server's thread only fills queues.
 class WebFront final : public front::Front, private WebListener {
  public:
@@ -98,7 +98,7 @@ class WebFront final : public front::Front, private WebListener {
   FramePacing pacing_;
   front::ScreenSize size_;
   std::string clipboard_, cursor_ = "default", title_ = "neve";
-  std::uint64_t viewer_ = 0;  ///< 0: nobody looks
+  std::uint64_t viewer_ = 0;  ///< 0: no page is connected
   bool has_told_size_ = false, is_visible_ = true;
   bool is_wanted_ = false, is_woken_ = false, is_full_ = false;
   mutable bool has_told_ready_ = false;  ///< what the program knows

@@ -1,6 +1,6 @@
 #pragma once
-/// Who may look: whoever knows the token, from a page of ours. Any page a browser shows can send
-/// requests to this machine, so that an address nobody else reaches is not enough.
+/// Access control: only a page of ours with the token may connect. Any page in a browser can send
+/// requests to this machine, so a local address alone is not enough.
 
 #include <string>
 #include <string_view>

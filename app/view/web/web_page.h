@@ -7,11 +7,11 @@
 namespace neve::app::view::web {
 
 /// The answer with the page. Its script and its style carry a number of this answer only, so that
-/// nothing else can run in it, and it may talk to nobody but this host.
+/// nothing else can run in it, and it may connect only to this host.
 /// @param host as the browser named it, checked
 std::string page_answer(std::string_view host);
 
-/// The answer to whoever has no token. A tab that had one, and was reloaded, finds it again.
+/// Answer to a request without token. A reloaded tab finds its token again.
 std::string no_token_answer();
 
 /// Files of this folder that are compiled in; see cmake/EmbedFiles.cmake.

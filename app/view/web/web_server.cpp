@@ -152,7 +152,7 @@ void WebServer::accept_all(double now) {
   }
 }
 
-/// The oldest that is not the viewer's goes, so that connections which only sit there keep nobody
+/// Closes the oldest connection that is not the viewer's, so that idle connections block nobody
 /// out.
 void WebServer::make_room() {
   if (int(connections_.size()) < limits_.connections) return;
@@ -185,7 +185,7 @@ std::string WebServer::answer(const HttpRequest& request) const {
   if (!guard_.is_own_host(request.header("host")))
     return plain(403, "this address does not belong to neve");
   const bool is_socket = request.path == "/ws";
-  // Browsers leave Origin out when a person opens a page, never when a script opens a web socket.
+  // Browsers omit Origin when the user opens a page, never when a script opens a web socket.
   if ((is_socket || request.has_header("origin")) && !guard_.is_own_origin(request))
     return plain(403, "another page may not talk to neve");
   if (request.method != "GET") return plain(405, "only GET", {{"Allow", "GET"}});

@@ -91,7 +91,7 @@ class WebServer {
 
   mutable std::mutex mutex_;         ///< of what follows
   std::vector<std::string> posted_;  ///< frames for the viewer
-  std::uint64_t viewer_ = 0;         ///< 0: nobody looks
+  std::uint64_t viewer_ = 0;         ///< 0: no page is connected
   int unsent_ = 0;                   ///< of its frames, those posted included
   bool is_resumed_ = false;
   std::atomic<bool> is_ending_ = false;
