@@ -21,7 +21,7 @@ uniform float line_width;  // samples
 
 const float line_brightness = 0.34;
 
-// How much of a sample the lines of one direction cover, given how many lines one sample spans.
+// Share of a sample that the lines of one direction cover, from the number of lines that it spans.
 float line_cover(float at, float span) {
   float pixels = abs(fract(at - 0.5) - 0.5) / span;
   float cover = clamp(0.5 * line_width + 0.5 - pixels, 0.0, 1.0);

@@ -22,7 +22,7 @@ void main() {
   vec3 first = in_first, second = in_second;
   float z_first = dot(first, view_forward), z_second = dot(second, view_forward);
   float least = 1.5 * near_distance;
-  // What is behind the eye is cut off; a line that is all behind it has no size.
+  // The part behind the eye is cut off; a line that is all behind it has no size.
   if (z_first < least && z_second < least) {
     gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
     from_middle = 0.0;

@@ -74,7 +74,7 @@ vec3 tone_map(vec3 c) {
   return pow(min(c, vec3(1.0)), vec3(1.0 / 2.2));
 }
 
-// What tone_map turns into the linear light y.
+// Inverse of tone_map: the value that becomes the linear light y.
 vec3 before_tone_map(vec3 y) {
   vec3 b = 1.0 - 0.55 * y;
   return 2.42 * (sqrt(b * b + y * (4.0 / 4.84)) - b) / 0.8;
@@ -124,7 +124,7 @@ vec4 smoke_before(float depth) {
     q = clamp(corner + q, ivec2(0), last);
     vec4 smoke = texelFetch(smoke_map, q, 0);
     float apart = (texelFetch(smoke_depth_map, q, 0).r - z) / smoke_spacing;
-    // What smoke already hides may be anywhere behind it.
+    // Samples that smoke already hides may be anywhere behind it.
     if (smoke.a > 0.999) apart = max(apart, 0.0);
     apart = 9.0 * apart * apart;  // up to a third of the spacing it hardly counts
     float weight = near.x * near.y / (1.0 + apart * apart);

@@ -30,8 +30,8 @@ const float opaque = 0.015;  // what is left of the light where a march ends
 
 float distance_of(float depth) { return near_distance / max(1.0 - depth, 1e-9); }
 
-// Where the ray ends, m along the view, given the samples that it stands for: in their middle, or at
-// an edge in turn before the nearest and the farthest, so that the shading pass finds both sides.
+// End of the ray, m along the view, from the samples that it represents: in their middle, or at an
+// edge in turn before the nearest and the farthest, so that the shading pass finds both sides.
 float surface_distance(ivec2 at) {
   float nearest = 1.0, farthest = 0.0;
   ivec2 last = textureSize(depth_map, 0) - 1;
@@ -46,7 +46,7 @@ float surface_distance(ivec2 at) {
   return ((at.x + at.y) & 1) == 0 ? a : b;
 }
 
-// Where the ray is in the box, along the view; near > far where it misses.
+// Part of the ray in the box, along the view; near > far if it misses.
 vec2 box_span(vec3 ray) {
   vec3 inverse = 1.0 / (ray + vec3(equal(ray, vec3(0.0))) * 1e-7);
   vec3 a = grid_origin * inverse, b = (grid_origin + texel * (grid_size - 1.0)) * inverse;

@@ -1,5 +1,5 @@
-/// How deep snow gets into colliders: little by the paper's method, but for edges that are quick;
-/// and what solver.push_out promises for these.
+/// Depth of snow in colliders: small by the paper's method, except at fast edges; and what
+/// solver.push_out promises for these.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-/// What semi-implicit steps do to waves: the eigenvalues of the scheme, what is left of the energy,
-/// and where they are stable.
+/// Semi-implicit steps and waves: the eigenvalues of the scheme, the remaining energy, and where
+/// they are stable.
 
 #include <numbers>
 #include <random>

@@ -186,7 +186,7 @@ TEST(ChangePlayer, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
   EXPECT_GT(told, 5);
   EXPECT_EQ(player.scene().views[0].particles.color_by, app::scene::ColorBy::id);
   EXPECT_EQ(player.scene().solver.kernel, sim::Kernel::quadratic);
-  // What it draws stands where it is.
+  // Drawn colliders are at their simulated places.
   EXPECT_EQ(player.scene().colliders[1].travel.since, again.colliders()[1].travel.since);
   EXPECT_GT(again.colliders()[1].travel.since, 0);
   // Without them it is another run.
@@ -243,8 +243,8 @@ TEST(ChangePlayer, WithRetriesAHealthyFrameIsTheSame) {
   EXPECT_EQ(again.state_hash(), session.simulation.state_hash());
 }
 
-/// Where one breaks, its steps are final at its end: changes inside it wait until then, in the same
-/// way however the run got there.
+/// With retries, the steps of a frame are final at its end: changes inside it wait until then, in
+/// the same way however the run got there.
 TEST(ChangePlayer, WithRetriesChangesInsideABrokenFrameWaitForItsEnd) {
   app::scene::Scene scene = start("solver.on_divergence=retry");
   scene.solver.time_step = sim::TimeStep::fixed;

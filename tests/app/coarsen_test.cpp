@@ -59,7 +59,7 @@ TEST(Coarsen, LeavesAnEighthOfTheParticlesAndAllOfTheMass) {
   EXPECT_NEAR(mass(few), mass(all), 1e-9 * mass(all));
 }
 
-/// What FLIP keeps of a difference to the grid's velocity over the same time.
+/// Share of a difference to the grid's velocity that FLIP keeps over the same time.
 double kept(const sim::SolverSettings& s, double dt, int steps) {
   return std::pow(sim::engine::flip_share(s, dt), steps);
 }

@@ -39,7 +39,7 @@ TEST(CommandLine, IsWhatAPersonWouldType) {
   EXPECT_EQ(app::setup::command_line(command), "neve render ./-x.toml");
 }
 
-/// What a shell makes of the line are the arguments.
+/// A shell splits the line into the arguments.
 TEST(CommandLine, GoesThroughAShellUnharmed) {
   const app::setup::RenderCommand command = awkward();
   const test::TemporaryFolder folder;

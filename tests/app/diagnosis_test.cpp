@@ -284,7 +284,7 @@ TEST(Retry, GivesUpWhereNoStepHelps) {
 
 int polls = 0;
 
-/// What is saved of an interrupted frame is its beginning: going on takes the same way.
+/// An interrupted frame saves its beginning, so a resumed run repeats it.
 TEST(Retry, AnInterruptedFrameStartsAgain) {
   app::scene::Scene scene = scene_of(fault("the same with a longer step"));
   const sim::ParticleArrays particles = app::setup::seed_scene(scene);

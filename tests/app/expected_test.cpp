@@ -1,4 +1,4 @@
-/// What numbers of a healthy step are taken for.
+/// Expected ranges and the numbers of healthy steps.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// What pictures show of the grid: fields of nodes, planes through them, wires around them.
+/// Pictures of the grid: fields of nodes, planes through them, wires around them.
 
 #include "app/picture/node_fields.h"
 

@@ -18,7 +18,7 @@ using test::file_count;
 using test::read_text;
 using test::TemporaryFolder;
 
-/// What a child process returns that may not write files of more than `bytes`.
+/// Exit code of a child process that may not write files of more than `bytes`.
 int run_with_file_limit(rlim_t bytes, const std::function<int()>& child) {
   const pid_t pid = ::fork();
   if (pid == 0) {

@@ -212,7 +212,7 @@ TEST(SceneFlow, SinksThatSnowFliesThroughAreFound) {
   EXPECT_EQ(found(0.025, 100, "outside = true\n"), 0u);
 }
 
-/// What the whole scene says, not the file of a mesh alone.
+/// Values of the whole scene, not of the mesh file alone.
 TEST(SceneFlow, ShapesThatCannotBeAreLocated) {
   const auto expect_error = [](const std::string& text, const std::string& part) {
     const std::string said = flow_error(spout + text);

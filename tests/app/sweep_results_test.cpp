@@ -1,4 +1,4 @@
-/// What a sweep's runs came to: metrics, table, sheet and report.
+/// Results of a sweep: metrics, table, sheet and report.
 
 #include <gtest/gtest.h>
 

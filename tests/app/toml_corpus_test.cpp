@@ -147,7 +147,7 @@ TEST(TomlFuzz, MutatedScenesAreReadOrSceneErrors) {
     const std::string text = mutate(seed_text);
     try {
       const app::scene::Scene scene = app::scene::read_scene_text(text, "mutant");
-      // What was read can be written and read again.
+      // A scene that was read can be written and read again.
       EXPECT_NO_THROW(app::scene::read_scene_text(app::scene::write_scene(scene), "again")) << text;
       ++read;
     } catch (const app::scene::toml::SceneError& error) {

@@ -1,4 +1,4 @@
-/// What a view asks for beyond attributes: styles of colliders, a cut, no background, mosaics.
+/// Settings of a view besides attributes: styles of colliders, a cut, no background, mosaics.
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 namespace neve::test {
 namespace {
 
-/// How many times faster than the naive code one thread has to be: half of what is measured. A
-/// ratio of two codes in turns loses only a small part on another machine or in noise.
+/// Required speed of one thread relative to the naive code: half of the measured one. A ratio of
+/// two codes in turns loses only a small part on another machine or in noise.
 double must_beat_naive(const std::string& simd) {
   return simd == "baseline" ? 4 : 9;
 }

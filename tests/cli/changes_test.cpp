@@ -1,4 +1,4 @@
-/// What was changed while a simulation ran is made again from its picture.
+/// Changes during a run are repeated from its picture.
 
 #include "app/run/changes.h"
 #include "app/output/atomic_file.h"
@@ -174,7 +174,7 @@ TEST_F(Changes, WithRetriesTheyAreMadeAgainToo) {
   EXPECT_EQ(hashes("a"), hashes("b"));
 }
 
-/// What panels offer, through the program.
+/// Operations of the panels, through the program.
 TEST_F(Changes, ASweepAroundAValueRuns) {
   const app::scene::Scene scene = app::scene::read_scene_file((folder / "scene.toml").string());
   for (const app::scene::FlatParam& param : app::scene::flatten(scene))

@@ -211,7 +211,7 @@ TEST_F(Cli, ARunMayGoBackAndTryHalfTheStep) {
   EXPECT_EQ(run["status"], "ok");
   ASSERT_FALSE(run["retries"].empty());
   EXPECT_EQ(run["retries"][0]["dt_scale"], 0.5);
-  // What was left of the run that diverged is gone.
+  // The files of the diverged run are gone.
   EXPECT_FALSE(exists("out/scene/incident.json"));
   EXPECT_FALSE(exists("out/scene/diverged_culprit_slice.png"));
 }

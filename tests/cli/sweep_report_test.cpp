@@ -1,4 +1,4 @@
-/// What a sweep puts together: database, sheets, and a report that a browser can show.
+/// Output of a sweep: database, sheets, and a report for a browser.
 
 #include <algorithm>
 

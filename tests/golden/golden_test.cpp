@@ -39,7 +39,7 @@ render::Image read(const fs::path& file) {
   return render::decode_png(app::output::read_file(file));
 }
 
-/// How pictures can come about: OpenGL by a backend, particles by OpenGL or on the CPU.
+/// Ways to draw a picture: OpenGL by a backend, particles by OpenGL or on the CPU.
 struct Way {
   const char* backend;
   const char* particles;

@@ -9,7 +9,7 @@
 
 namespace neve::test {
 
-/// How often the old text of an edit occurs in its file; once is right.
+/// Number of times that the old text of an edit occurs in its file; once is right.
 std::size_t occurrences(const Edit& edit);
 
 /// Which checks noticed a mistake.

@@ -98,7 +98,7 @@ constexpr const char* initial_F = "in.F_E.empty() ? Mat3d(Mat3d::Identity()) : i
 constexpr const char* initial_J_P = "p.J_P = in.J_P.empty() ? Real(1) :";
 const Edit zero_J_P{engine, initial_J_P, "p.J_P = in.J_P.empty() ? Real(0) :"};
 
-/// What stands in the exponent of the hardening, times xi.
+/// Exponent of the hardening, times xi.
 std::vector<Edit> hardening_by(const std::string& exponent) {
   return {{laws, "exponential_lanes(word[word_xi] * (Real(1) - J_P()));",
            "exponential_lanes(word[word_xi] * (" + exponent + "));"}};

@@ -70,7 +70,7 @@ std::string cell(const std::string& text) {
   return escaped;
 }
 
-/// How many mistakes a check notices.
+/// Number of mistakes that a check notices.
 std::size_t count(const std::vector<Finding>& findings, const std::string& check,
                   bool is_self_test) {
   const auto has = [&](const std::vector<std::string>& names) {

@@ -136,7 +136,7 @@ inline neve::sim::ParticleArrays particles(const Json& j) {
   p.x = list(j["x"], vec3);
   p.v = list(j["v"], vec3);
   p.m = j["mass"].get<std::vector<double>>();
-  // What a set leaves out is what a particle starts with.
+  // Missing values of a set are the initial values of a particle.
   const auto has = [&](const char* key) { return j.contains(key) && !j[key].is_null(); };
   if (has("volume0")) p.V0 = j["volume0"].get<std::vector<double>>();
   if (has("FE")) p.F_E = list(j["FE"], mat3);

@@ -1,5 +1,5 @@
 #pragma once
-/// What tests that draw share: opening a context or skipping, small frames, looking at pixels.
+/// Common parts of tests that draw: opening a context or skipping, small frames, reading pixels.
 
 #include <gtest/gtest.h>
 

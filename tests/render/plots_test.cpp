@@ -35,7 +35,7 @@ struct Extent {
   int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1, count = 0;
 };
 
-/// Of the pixels that `is` says.
+/// Bounds of the pixels that `is` selects.
 Extent extent(const Image& image, auto is) {
   Extent e;
   for (int y = 0; y < image.height; ++y)

@@ -32,8 +32,8 @@ double middle(const Image& image) {
   return sum / 169;
 }
 
-/// What a slab across the view, of so many layers of nodes, leaves of the background. In the dark,
-/// so that it gives no light of its own.
+/// Share of the background that a slab across the view, of this many layers of nodes, passes. In
+/// the dark, so that it gives no light of its own.
 double opacity_of_slab(Renderer& renderer, int layers, float share, float scale, int samples) {
   Frame frame = small_frame(160, 120);
   frame.light.intensity = frame.light.ambient = 0;
@@ -74,7 +74,7 @@ TEST(Smoke, ThreeLayersOfPackedSnowReachSixtyPercentAndPowderShows) {
   EXPECT_GT(opacity_of_slab(renderer, 3, 0.02f, 1, 2), 0.03);
 }
 
-/// How red the middle is with a red plate at a depth, seen through smoke between -0.3 and 0.3.
+/// Red in the middle with a red plate at a depth, seen through smoke between -0.3 and 0.3.
 int red_of_plate(Renderer& renderer, float z, bool has_smoke) {
   Frame frame = small_frame();
   frame.meshes.push_back(render::shapes::box_mesh({0, 0, z}, {0.3f, 0.3f, 0.01f}));

@@ -61,7 +61,7 @@ TEST(Splat, SphereThatFillsThePictureIsTheSame) {
   }
 }
 
-/// What a splat left, row by row.
+/// Result of a splat, row by row.
 struct Samples {
   std::vector<float> inverse;
   std::vector<Vec3f> normal;

@@ -94,7 +94,7 @@ TEST(Surfaces, TransparentPictureIsThatOfOpenGl) {
   ASSERT_EQ(a.channels, 4);
   int other = 0;
   for (std::size_t i = 0; i < a.pixels.size(); i += 4) {
-    // What hardly covers anything has its colour from a few levels of a premultiplied byte.
+    // Nearly transparent pixels have their colour from a few levels of a premultiplied byte.
     if (a.pixels[i + 3] < 32 && b.pixels[i + 3] < 32) continue;
     for (std::size_t c = 0; c < 4; ++c)
       other += std::abs(int{a.pixels[i + c]} - int{b.pixels[i + c]}) > 8;

@@ -111,7 +111,7 @@ TEST(Apply, StressAndLimitsAreThoseOfTheNewMaterialAndTheRestStays) {
     world.materials[0].hardening = 12;
     world.apply_to(simulation);
 
-    // What a simulation that starts from this state works out.
+    // Results of a simulation that starts from this state.
     const Simulation fresh = world.simulate(before);
     const std::vector<Mat3d> after = simulation.kirchhoff(), expected = fresh.kirchhoff();
     std::size_t stressed = 0;
@@ -220,7 +220,7 @@ TEST(Apply, AChangeAloneBreaksNoRule) {
       change.edit(world);
       world.apply_to(simulation);
       const EnergyAccount after = energy_account(simulation);
-      // What was not explained before is all that is not explained now, to rounding of sums.
+      // The unexplained energy stays the same, to rounding of sums.
       EXPECT_NEAR(after.found - after.explained, before.found - before.explained,
                   1e-12 * (before.scale + after.scale))
           << change.what;
@@ -461,7 +461,7 @@ TEST(AppliedCollider, WaitsWhileItsStageIsSkippedAndThenGoesOn) {
   world.apply_to(simulation);
   advance(simulation, 10);
   EXPECT_LT((pose_of(simulation, 1).point - before.point).norm(), 1e-12);
-  // What is saved meanwhile waits as well.
+  // A state saved meanwhile waits as well.
   Simulation again = world.simulate({});
   again.restore(simulation.save());
   EXPECT_EQ(pose_of(again, 1).point, pose_of(simulation, 1).point);

@@ -1,4 +1,4 @@
-/// What must hold for every combination of transfer, kernel, advection and precision at every SIMD
+/// Properties of every combination of transfer, kernel, advection and precision at every SIMD
 /// level: bits that do not depend on threads or place, and conservation.
 
 #include <gtest/gtest.h>

@@ -127,7 +127,7 @@ TEST(ContactKernel, NormalIsTheGradientOfTheDistanceInside) {
   }
 }
 
-/// Where several places of the surface are as near, or a direction has no length.
+/// Points with several nearest places on the surface, or a direction without length.
 TEST(ContactKernel, TiesAndCentresAreAsDocumented) {
   struct Case {
     sim::shapes::Shape shape;

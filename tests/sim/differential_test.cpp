@@ -61,7 +61,7 @@ TEST(StressChange, IsTheDerivativeOfTheStress) {
       const Mat3d found = stress_change_of<double>(material, F_E, 0.97, G);
       const double scale = material.youngs_modulus + expected.norm();
       EXPECT_LE((found - expected).norm() / scale, 2e-8) << static_cast<int>(model) << "\n" << F_E;
-      // What float does to V, J and ln J: some units of 6e-8, more where stretches cancel.
+      // Error of V, J and ln J in float: some units of 6e-8, more where stretches cancel.
       const Mat3d in_float = stress_change_of<float>(material, F_E, 0.97, G);
       EXPECT_LE((in_float - found).norm() / scale, 2e-5) << static_cast<int>(model) << "\n" << F_E;
     }
@@ -93,7 +93,7 @@ TEST(StressChange, OfABodyAtRestIsHookesLaw) {
 }
 
 TEST(StressChange, IsFiniteForAnyFiniteDeformation) {
-  // Where two stretches cancel the corotated stress has no derivative.
+  // The corotated stress has no derivative if two stretches cancel.
   for (const Model model : differentiated_models)
     for (const Vec3d& s : {Vec3d(1, 0, 0), Vec3d(0, 0, 0), Vec3d(1, 0.5, -0.5), Vec3d(2, 2, -2),
                            Vec3d(1e-12, 1e-12, 1e-12), Vec3d(100, 1, 1e-4)}) {

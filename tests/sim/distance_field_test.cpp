@@ -56,7 +56,7 @@ TEST(MeshSurface, IsAsFarAsTheFormulaSays) {
     const Vec3d away = 1e-6 * box->normal(x);
     EXPECT_GT(box->signed_distance(x + away), box->signed_distance(x - away) + 1e-6);
   }
-  // What is further than it was asked for is as far as it was asked for.
+  // A distance beyond the requested bound is the bound.
   EXPECT_NEAR(box->distance({5, 0, 0}, 0.25), 0.25, 1e-15);
 }
 
@@ -148,7 +148,7 @@ TEST(DistanceField, BeyondItsLatticeStaysBelowTheDistanceAndAboveZero) {
     EXPECT_LT(found, exact + 0.05 / 3);
     EXPECT_GT(found, 0.5 * exact);
   }
-  // What is no number must not read beyond the samples.
+  // NaN must not read beyond the samples.
   EXPECT_FALSE(kernel_in_field<double>(field, Vec3d::Constant(NAN)).first <= 0);
 }
 
@@ -216,7 +216,7 @@ TEST(DistanceField, RefusesScalesThatLeaveNoMesh) {
     EXPECT_NE(said.find("metres per unit of the file"), std::string::npos) << said;
     EXPECT_THROW(sim::shapes::Solid({written_mesh(folder, box, scale)}), ShapeError);
   }
-  // What is smaller than cells by far has a lattice of its own size.
+  // A mesh much smaller than cells has a lattice of its own size.
   EXPECT_EQ(mesh_complaint(written_mesh(folder, box, 1e-8), 0.05), "");
 }
 

@@ -256,8 +256,7 @@ TEST(Flow, ARestoredRunGoesOnToTheBit) {
   }
 }
 
-/// What pictures show is a mean over the particles that are there: the same of a run that began
-/// with them.
+/// Pictures show means over the present particles: the same in a run that began with them.
 TEST(Flow, MeansAreOfTheParticlesThatAreLeft) {
   const ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.01);
   Simulation flowed = flowing(SolverSettings{}, block, {{spout(5)}, {pit(0.25)}, 1});
@@ -275,7 +274,7 @@ TEST(Flow, MeansAreOfTheParticlesThatAreLeft) {
     EXPECT_NEAR(found.mean[0][n], wanted.mean[0][n], 1e-5) << n;
 }
 
-/// What comes brings its energy, what goes takes it along.
+/// Emitted particles bring energy, removed ones take it along.
 TEST(Flow, EnergyIsAccountedFor) {
   SolverSettings settings = without_gravity();
   settings.precision = Precision::real64;
@@ -359,7 +358,7 @@ TEST(Flow, ShapesMuchSmallerThanASpacingAreFilled) {
       right += b.x.x() > 0;
       out += (b.x.cwiseQuotient(box.max)).cwiseAbs().maxCoeff() > 0.5;
     }
-    // Of the thinnest ring some fifty places were found: half of them give or take a third.
+    // The thinnest ring has some fifty places: half of them, give or take a third.
     EXPECT_NEAR(right / 4000, 0.5, 0.17);
     // Nothing near the middle only: of a ball less than a third is further in than half its radius.
     EXPECT_GT(out / 4000, 0.6);

@@ -98,7 +98,7 @@ TEST_F(KeyframedRun, TakesOtherKeyframesShapesAndMeshesWhileItRuns) {
   simulation.apply(settings_, {snow_}, other);
   step(simulation, 20);
   EXPECT_FALSE(simulation.divergence());
-  // What cannot be read changes nothing.
+  // Unreadable states change nothing.
   const std::uint64_t before = simulation.state_hash();
   other[1].shape.form = sim::shapes::Mesh{(folder_ / "none.obj").string(), 1, {0, 0, 0}};
   EXPECT_THROW(simulation.apply(settings_, {snow_}, other), ShapeError);

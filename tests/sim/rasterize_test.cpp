@@ -1,4 +1,4 @@
-/// What pictures show of the grid is what the steps rasterise, and looking changes nothing.
+/// Pictures show the grid that the steps rasterise, and rasterising for them changes nothing.
 
 #include "sim/rasterize.h"
 

@@ -9,7 +9,7 @@ namespace {
 using namespace neve;
 using namespace neve::sim;
 
-/// What the choice complains about when NEVE_SIMD is `value`; empty: nothing.
+/// Error of the choice if NEVE_SIMD is `value`; empty: no error.
 std::string complaint_about(const char* value) {
   std::string complaint;
   const char* before = std::getenv("NEVE_SIMD");

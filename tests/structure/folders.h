@@ -11,8 +11,8 @@ namespace neve::test {
 struct Folder {
   std::string_view path;
   std::string_view may_include;  ///< folders above in this table
-  /// Where it is not the path: the vocabulary that everything around uses has the name of the
-  /// folder around it.
+  /// Namespace if it is not the path: the vocabulary that everything around uses has the name of
+  /// the folder around it.
   std::string_view name_space = "";
 };
 

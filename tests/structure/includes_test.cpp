@@ -21,7 +21,7 @@ struct Header {
   std::string_view name, gives;
 };
 
-/// What is used here and there; headers that others are made of (cstdint, utility) are left out.
+/// Names and their headers; headers that other headers contain (cstdint, utility) are omitted.
 constexpr Header standard_headers[] = {
     {"algorithm",
      "all_of any_of binary_search clamp copy_if count_if equal_range fill_n find_if generate "
@@ -98,7 +98,7 @@ std::string code_of(const std::string& line) {
   return code;
 }
 
-/// What a file includes and what it uses of std.
+/// Includes of a file and its uses of std.
 struct Source {
   std::set<std::string> standard, ours, used;
 };

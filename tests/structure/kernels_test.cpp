@@ -1,4 +1,4 @@
-/// What files of kernels include and share, read from the sources and the objects.
+/// Includes and shared functions of kernel files, read from the sources and the objects.
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What kernels are made of includes neither Eigen nor the standard library, so that no copy of a
-/// shared inline function compiled for one instruction set can serve another.
+/// Headers of kernels include neither Eigen nor the standard library, so that no copy of a shared
+/// inline function compiled for one instruction set can serve another.
 TEST(Structure, KernelsIncludeOnlyEachOther) {
   const std::set<std::string> allowed{"cstdint", "cstddef", "immintrin.h"};
   std::set<std::string> seen;

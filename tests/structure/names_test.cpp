@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view letters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 
-/// What a line at the margin of an unnamed namespace declares, or nothing. clang-format has put
+/// Name declared by a line at the margin of an unnamed namespace, or nothing. clang-format has put
 /// every declaration to the margin and all that belongs to it off it.
 std::string declared_name(std::string_view line) {
   const auto word_at = [&](std::size_t begin) {
@@ -47,7 +47,7 @@ struct Declaration {
   std::string name, line, file;
 };
 
-/// What the unnamed namespaces of a source declare, with the name of the namespace around them.
+/// Names declared by the unnamed namespaces of a source, with the namespace around them.
 std::vector<Declaration> helpers_of(const fs::path& file) {
   std::vector<Declaration> found;
   std::string around;

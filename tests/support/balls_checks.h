@@ -1,5 +1,5 @@
 #pragma once
-/// What a collision of balls has to show, and its curves.
+/// Checks of a collision of balls, and its curves.
 
 #include "tests/support/balls.h"
 #include "tests/support/verification.h"

@@ -51,7 +51,7 @@ inline std::string cinema_type(const std::string& value) {
   return "string";
 }
 
-/// What is wrong with the database in a folder; "" for nothing.
+/// Fault of the database in a folder; "" for none.
 inline std::string cinema_problem(const std::string& csv, const std::filesystem::path& folder) {
   const std::vector<CsvRow> rows = parse_csv(csv);
   if (rows.size() < 2) return "no rows";

@@ -1,5 +1,5 @@
 #pragma once
-/// What lanes.h computes, compiled once per instruction set: files that include this include no
+/// Results of lanes.h, compiled once per instruction set: files that include this include no
 /// standard library, as kernels do.
 
 #include "sim/base/lanes.h"
@@ -27,10 +27,10 @@ struct LanesProbe {
   Real (*smallest)(const Real* x);
   /// halves: all lanes, taken apart and joined again, upper half first; quads: last quad first
   void (*swap_halves)(const Real* x, Real* y);
-  /// Of a quad: itself width/4 times; and numbers 0, 1 ... each four times.
+  /// Repetitions of a quad: itself width/4 times; and numbers 0, 1 ... each four times.
   void (*repeat)(const Real* quad, Real* y);
   void (*spread)(const Real* quad, Real* y);
-  /// Of four rows of 16 numbers: the sums over their quads, side by side.
+  /// Sums over the quads of four rows of 16 numbers, side by side.
   void (*row_sums)(const Real* rows, Real* sums);
 };
 

@@ -26,7 +26,7 @@ struct ManufacturedCase {
   }
 };
 
-/// What a body force of v = dt b on the nodes does to FLIP particles: P2G, then G2P. A PIC step
+/// Applies a body force of v = dt b on the nodes to FLIP particles: P2G, then G2P. A PIC step
 /// without stress does just that.
 inline std::vector<Vec3d> smoothed_by_grid(sim::SolverSettings settings, const sim::Material& m,
                                            const ParticleArrays& p, const std::vector<Vec3d>& v) {

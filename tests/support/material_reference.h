@@ -1,6 +1,6 @@
 #pragma once
-/// What materials should find for one particle, by Eigen in a wider type, and how far rounding may
-/// lead a kernel away from it.
+/// Reference results of materials for one particle, by Eigen in a wider type, and how far rounding
+/// may lead a kernel away from it.
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -101,7 +101,7 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
   const ProperSvd<Wide> svd(out.F_E);
   const Vec& s = svd.s;
   const double largest = static_cast<double>(s[0]);
-  // What kernels hold of the thresholds: rounded to Real.
+  // Thresholds as in the kernels: rounded to Real.
   const auto lo = static_cast<Wide>(Real(1) - k.theta_c * p.threshold);
   const auto hi = static_cast<Wide>(Real(1) + k.theta_s * p.threshold);
   Vec c = s;
@@ -136,7 +136,7 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
   const Wide exponent = std::clamp(xi * (1 - out.J_P), -most, most);
   const Wide H = std::exp(exponent) * static_cast<Wide>(p.stiffness);
   const Wide mu = H * static_cast<Wide>(k.mu0), lambda = H * static_cast<Wide>(k.lambda0);
-  // Of the factor e^(xi (1 - J_P)): its argument is rounded, and J_P is uncertain.
+  // Error of the factor e^(xi (1 - J_P)): its argument is rounded, and J_P is uncertain.
   const auto softening = static_cast<double>(xi) * out.J_P_unit;
   const double hardening_unit =
       epsilon * (2 + std::abs(static_cast<double>(exponent)) + static_cast<double>(xi)) + softening;
@@ -166,7 +166,7 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
   bool is_any_free = model != sim::kernels::ModelKind::snow;
   for (int i = 0; i < 3; ++i)
     is_any_free |= std::abs(static_cast<double>(c[i] - s[i])) < 100 * epsilon * largest;
-  // Where the eigenvalues of b are taken, F' is F and a correction as large as F.
+  // If the eigenvalues of b are used, F' is F and a correction as large as F.
   const bool is_correction = largest * largest < 1.01 * sim::kernels::eigen_hi;
   out.stretch_unit = epsilon * (top + (is_any_free || is_correction ? largest : 0));
   out.F_unit = epsilon * (top + std::max(slope.strain, is_any_free ? largest : 0) + slope.turn);

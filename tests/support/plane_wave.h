@@ -105,8 +105,8 @@ inline Oscillation predicted_wave(const WaveCase& wave) {
   return {std::abs(rate.imag()), -rate.real()};
 }
 
-/// What the solver does in a period and a bit. One particle per cell across the wave is enough:
-/// there fields are constant and weights sum to 1.
+/// Runs the solver for slightly more than a period. One particle per cell across the wave is
+/// enough: there fields are constant and weights sum to 1.
 inline Oscillation measured_wave(const WaveCase& wave) {
   sim::SolverSettings s;
   s.cell_size = wave.h();

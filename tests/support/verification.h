@@ -17,7 +17,7 @@
 
 namespace neve::test {
 
-/// What is compared: a table of the page, and a line in it.
+/// Subject of a comparison: a table of the page, and a line in it.
 struct Quantity {
   std::string table;  ///< names the table of the page
   std::string line;   ///< case and parameters

@@ -80,7 +80,7 @@ class RawSocket {
     return bytes;
   }
 
-  /// Whether the other side has closed; set by receive().
+  /// True if the other side has closed; set by receive().
   bool is_closed() const { return is_closed_; }
 
  private:

@@ -142,7 +142,7 @@ class XHand {
     flush();
   }
 
-  /// Of the whole display, 0xrrggbb.
+  /// Pixels of the whole display, 0xrrggbb.
   unsigned long pixel(int x, int y) {
     using GetImage = void*(void*, unsigned long, int, int, unsigned, unsigned, unsigned long, int);
     constexpr int z_pixmap = 2;

@@ -175,7 +175,7 @@ TEST(FramePacing, LetsTwoPicturesOnTheirWay) {
   EXPECT_TRUE(pacing.shown(first, 2));
   EXPECT_FALSE(pacing.shown(first, 2));
   EXPECT_EQ(pacing.in_flight(), 1);
-  // What the viewer before had on its way says nothing about the next one's.
+  // Pictures in flight to the previous viewer say nothing about the next one's.
   pacing.reset();
   EXPECT_EQ(pacing.in_flight(), 0);
   EXPECT_FALSE(pacing.shown(second, 3));

@@ -1,4 +1,4 @@
-/// What somebody who must not look, or a program that means harm, sends.
+/// Requests without permission, and from hostile programs.
 
 #include <atomic>
 #include <filesystem>

@@ -92,7 +92,7 @@ class Web : public testing::Test {
     return answer.size() > 12 ? std::atoi(answer.c_str() + 9) : 0;
   }
 
-  /// What happens until the test is content, for some seconds.
+  /// Events until the test is content, for some seconds.
   bool wait_until(const std::function<bool()>& is_content, double seconds = 5) {
     const double end = seconds_now() + seconds;
     while (seconds_now() < end) {

@@ -96,7 +96,7 @@ TEST(Document, KeepsTheCameraWhileKnobsAreTurned) {
   EXPECT_EQ(*document.scene()->camera->eye, eye);
 }
 
-// What a change waits for and what a picture lists of it come from one list of concerns.
+// One list of concerns decides the time of a change and its entry in a picture.
 TEST(Document, KnowsWhatEveryParameterConcerns) {
   for (const scene::ParamInfo& info : scene::params()) {
     const bool is_drawn = scene::concern_of(info.address) == scene::Concern::pictures;
@@ -132,7 +132,7 @@ TEST(Workbench, ChangesAreReplayedToTheBit) {
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
 }
 
-/// What was taken back or left behind is no part of the run any more; what it is continued with is.
+/// Undone or abandoned changes are no longer part of the run; later changes are.
 TEST(Workbench, ARunContinuedFromAnOlderFrameIsReplayedToTheBit) {
   Working work;
   work.go_to(1);

@@ -79,7 +79,7 @@ Scene spin() {
   return scene;
 }
 
-/// What fired, in the order of the checks; "stopped" last: a rule of every run.
+/// Checks that fired, in their order; "stopped" last: a rule of every run.
 std::vector<std::string> watch(const Scene& scene) {
   std::vector<std::string> fired;
   bool has_stopped = false;
