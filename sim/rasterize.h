@@ -1,5 +1,5 @@
 #pragma once
-/// The grid as the particles of this moment make it: for pictures, never for the run.
+/// The grid that the present particles make: for pictures, never for the run.
 
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "sim/simulation.h"
 
 #include <algorithm>
-#include <variant>
 
 #include "sim/engine/engine.h"
 #include "sim/rasterize.h"
@@ -9,144 +8,117 @@
 
 namespace neve::sim {
 
-struct Simulation::Impl {
-  std::variant<engine::Engine<float>, engine::Engine<double>> engine;
-
-  template <class Call>
-  decltype(auto) visit(Call&& call) {
-    return std::visit(call, engine);
-  }
-};
-
-namespace {
-
-std::variant<engine::Engine<float>, engine::Engine<double>> make_engine(
-    const SolverSettings& settings, const std::vector<Material>& materials,
-    const std::vector<shapes::Collider>& colliders, const ParticleArrays& particles, int threads,
-    const Vec3i& lattice_origin, const seeding::Flow& flow) {
-  if (settings.precision == Precision::real64)
-    return engine::Engine<double>(settings, materials, colliders, particles, threads,
-                                  lattice_origin, flow);
-  return engine::Engine<float>(settings, materials, colliders, particles, threads, lattice_origin,
-                               flow);
-}
-
-}  // namespace
-
 Simulation::Simulation(const SolverSettings& settings, const std::vector<Material>& materials,
                        const std::vector<shapes::Collider>& colliders,
                        const ParticleArrays& particles, int threads, const Vec3i& lattice_origin,
-                       const seeding::Flow& flow)
-    : impl_(new Impl{
-          make_engine(settings, materials, colliders, particles, threads, lattice_origin, flow)}) {}
+                       const seeding::Flow& flow) {
+  const auto make = [&]<class Real>(Real) {
+    stepper_ = std::make_unique<engine::Engine<Real>>(settings, materials, colliders, particles,
+                                                      threads, lattice_origin, flow);
+  };
+  if (settings.precision == Precision::real64)
+    make(double());
+  else
+    make(float());
+}
 
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 double Simulation::time() const {
-  return impl_->visit([](const auto& e) { return e.time(); });
+  return stepper_->progress().time;
 }
 std::size_t Simulation::steps() const {
-  return impl_->visit([](const auto& e) { return e.steps(); });
+  return stepper_->progress().steps;
 }
-std::size_t Simulation::particle_count() const {
-  return impl_->visit([](const auto& e) { return e.particle_count(); });
+double Simulation::dt_scale() const {
+  return stepper_->progress().dt_scale;
 }
 seeding::FlowTotals Simulation::flow_totals() const {
-  return impl_->visit([](const auto& e) { return e.flow_totals(); });
+  return stepper_->progress().flow;
 }
-int Simulation::threads() const {
-  return impl_->visit([](const auto& e) { return e.threads(); });
+const Warnings& Simulation::warnings() const {
+  return stepper_->progress().warnings;
 }
-const char* Simulation::simd() const {
-  return kernels::name(impl_->visit([](const auto& e) { return e.simd(); }));
+const std::optional<Divergence>& Simulation::divergence() const {
+  return stepper_->divergence();
+}
+SolveReport Simulation::last_solve() const {
+  return stepper_->last_solve();
 }
 PhaseSeconds Simulation::phase_seconds() const {
-  return impl_->visit([](const auto& e) { return e.phase_seconds(); });
+  return stepper_->phase_seconds();
+}
+DtChoice Simulation::choose_dt(double remaining) const {
+  return stepper_->choose_dt(remaining);
+}
+StepLimits Simulation::step_limits() const {
+  return stepper_->step_limits();
+}
+std::size_t Simulation::particle_count() const {
+  return stepper_->particle_count();
+}
+int Simulation::threads() const {
+  return stepper_->threads();
+}
+const char* Simulation::simd() const {
+  return stepper_->simd();
 }
 std::uint64_t Simulation::memory_bytes() const {
-  return impl_->visit([](const auto& e) { return e.memory_bytes(); });
+  return stepper_->memory_bytes();
 }
 
 void Simulation::step(double dt) {
-  impl_->visit([&](auto& e) { e.step(dt); });
+  stepper_->step(dt);
 }
 AdvanceReport Simulation::advance_to(double time, bool (*interrupted)(), std::size_t last_step) {
-  return impl_->visit([&](auto& e) { return e.advance_to(time, interrupted, last_step); });
+  return stepper_->advance_to(time, interrupted, last_step);
 }
 void Simulation::apply(const SolverSettings& settings, const std::vector<Material>& materials,
                        const std::vector<shapes::Collider>& colliders) {
-  impl_->visit([&](auto& e) { e.apply(settings, materials, colliders); });
+  stepper_->apply(settings, materials, colliders);
 }
-std::vector<shapes::Collider> Simulation::colliders() const {
-  return impl_->visit([](const auto& e) { return e.colliders(); });
-}
-DtChoice Simulation::choose_dt(double remaining) const {
-  return impl_->visit([&](const auto& e) { return e.choose_dt(remaining); });
-}
-StepLimits Simulation::step_limits() const {
-  return impl_->visit([](const auto& e) { return e.step_limits(); });
-}
-const std::optional<Divergence>& Simulation::divergence() const {
-  return impl_->visit(
-      [](const auto& e) -> const std::optional<Divergence>& { return e.divergence(); });
-}
-const Warnings& Simulation::warnings() const {
-  return impl_->visit([](const auto& e) -> const Warnings& { return e.warnings(); });
-}
-SolveReport Simulation::last_solve() const {
-  return impl_->visit([](const auto& e) { return e.last_solve(); });
-}
-Summary Simulation::summary() const {
-  return impl_->visit([](const auto& e) { return e.summary(); });
-}
-ParticleArrays Simulation::particles() const {
-  return impl_->visit([](const auto& e) { return e.particles(); });
-}
-std::vector<Mat3d> Simulation::kirchhoff() const {
-  return impl_->visit([](const auto& e) { return e.kirchhoff(); });
-}
-std::vector<Vec3i> Simulation::cells() const {
-  return impl_->visit([](const auto& e) { return e.cells(); });
-}
-std::uint64_t Simulation::state_hash() const {
-  return impl_->visit([](const auto& e) { return e.state_hash(); });
-}
-
 std::vector<std::uint8_t> Simulation::save() const {
-  return impl_->visit([](const auto& e) { return e.save(); });
+  return stepper_->save();
 }
 void Simulation::restore(std::span<const std::uint8_t> bytes) {
-  impl_->visit([&](auto& e) { e.restore(bytes); });
+  stepper_->restore(bytes);
 }
-
 void Simulation::set_dt_scale(double scale) {
-  impl_->visit([&](auto& e) { e.set_dt_scale(scale); });
-}
-double Simulation::dt_scale() const {
-  return impl_->visit([](const auto& e) { return e.dt_scale(); });
+  stepper_->set_dt_scale(scale);
 }
 
-/// For looking inside: what works on copies and is no part of a run.
-struct InsideAccess {
-  template <class Call>
-  static decltype(auto) visit(const Simulation& simulation, Call&& call) {
-    return simulation.impl_->visit(call);
-  }
-};
+std::vector<shapes::Collider> Simulation::colliders() const {
+  return stepper_->colliders();
+}
+Summary Simulation::summary() const {
+  return stepper_->summary();
+}
+ParticleArrays Simulation::particles() const {
+  return stepper_->particles();
+}
+std::vector<Mat3d> Simulation::kirchhoff() const {
+  return stepper_->kirchhoff();
+}
+std::vector<Vec3i> Simulation::cells() const {
+  return stepper_->cells();
+}
+std::uint64_t Simulation::state_hash() const {
+  return stepper_->state_hash();
+}
 
 StagedStep staged_step(const Simulation& simulation, double dt) {
-  return InsideAccess::visit(simulation, [&](const auto& e) { return e.staged_step(dt); });
+  return simulation.stepper().staged_step(dt);
 }
 
 EnergyAccount energy_account(const Simulation& simulation) {
-  return InsideAccess::visit(simulation, [](const auto& e) { return e.energy_account(); });
+  return simulation.stepper().energy_account();
 }
 
 RasterizedNodes rasterize(const Simulation& simulation,
                           const std::vector<std::vector<double>>& values) {
-  return InsideAccess::visit(simulation, [&](const auto& e) { return e.rasterize(values); });
+  return simulation.stepper().rasterize(values);
 }
 
 std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,

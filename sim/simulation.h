@@ -19,10 +19,15 @@
 
 namespace neve::sim {
 
+namespace engine {
+class Stepper;
+}
+
 class Simulation {
  public:
-  /// @param flow snow that comes and goes; emitters and sinks stay as they are
-  /// @param lattice_origin in blocks of 4 cells; x is measured from it. Moving it changes no bit of
+  /// @param flow  emitters and sinks; they never change
+  /// @param lattice_origin  in blocks of 4 cells; x is measured from it. Moving it changes no bit
+  /// of
   ///        the result but the cells.
   /// @throws std::invalid_argument when arrays disagree in length or hold non-finite numbers
   /// @throws ShapeError for emitters and sinks without a volume
@@ -33,6 +38,9 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
+
+  /// For functions that inspect a simulation.
+  const engine::Stepper& stepper() const { return *stepper_; }
 
   double time() const;
   std::size_t steps() const;
@@ -50,49 +58,50 @@ class Simulation {
 
   /// Steps chosen by the settings until `time` is reached, ending on it exactly. Stops early on
   /// divergence, after a step when `interrupted` (polled, may be null) returns true, or when
-  /// steps() has reached `last_step`; called again with the same time it goes on as if it had not
+  /// steps() has reached `last_step`; called again with the same time it continues as if it had not
   /// stopped.
   AdvanceReport advance_to(double time, bool (*interrupted)() = nullptr,
                            std::size_t last_step = std::numeric_limits<std::size_t>::max());
 
-  /// Goes on with other parameters: between steps, whatever needs no restart. Settings but
-  /// cell_size, precision and period; materials but their number and density; colliders, also more
-  /// or fewer of them. Position, velocity, F_E and J_P of the particles stay; what is derived from
-  /// them (stress, limits of the next step) is worked out anew, and the energy that the change put
-  /// in or took out is accounted for, so that no change alone breaks a rule.
+  /// Changes parameters between steps, all that need no restart: settings but cell_size, precision
+  /// and period; materials but their number and density; colliders, also more or fewer of them.
+  /// Position, velocity, F_E and J_P of the particles stay; all that follows from them (stress,
+  /// limits of the next step) is computed again, and the energy that the change put in or took out
+  /// is accounted for, so that no change alone breaks a rule.
   ///
   /// C starts from zero when the transfer changes from or to FLIP, which has none, and stays
   /// between APIC and MLS. A collider keeps its place when its velocity or spin changes, moves by
   /// the edit when its place in the scene changes, and is the one of the same name (of several the
-  /// one of the same number); a new one stands where it says and moves from now on. The travel of
-  /// the colliders given is not looked at.
+  /// one of the same number); a new one starts where its shape is and moves from now on. The pose
+  /// offsets of the colliders given are ignored.
   ///
-  /// Values that are all as before change no bit of the run. save() holds what the change left
-  /// behind: restore() into a simulation built with the present parameters goes on to the bit.
-  /// @throws std::invalid_argument for what needs a restart; nothing has changed then
+  /// Values that are all as before change no bit of the run. save() includes the effects of the
+  /// change: restore() into a simulation built with the present parameters takes the same steps to
+  /// the bit.
+  /// @throws std::invalid_argument for parameters that need a restart; nothing has changed then
   /// @throws std::logic_error after a divergence: first restore() a state from before it
   void apply(const SolverSettings& settings, const std::vector<Material>& materials,
              const std::vector<shapes::Collider>& colliders);
 
-  /// As they are now: pose_at(collider, time()) is where each stands.
+  /// As they are now: pose_at(collider, time()) is where each of them is.
   std::vector<shapes::Collider> colliders() const;
 
-  /// The dt that the settings would choose now, and which limit rules it.
+  /// The dt that the settings would choose now, and the limit that rules it.
   DtChoice choose_dt(double remaining) const;
 
-  /// What each limit would allow now, whatever the settings say about fixed steps, and why.
+  /// The dt that each limit would allow now, whatever the settings say about fixed steps, and why.
   StepLimits step_limits() const;
 
   /// Set once a rule of a healthy run was broken.
   const std::optional<Divergence>& divergence() const;
   const Warnings& warnings() const;
-  /// Of the last step, if it was semi-implicit.
+  /// Report of the last step, if it was semi-implicit.
   SolveReport last_solve() const;
 
   Summary summary() const;
 
-  /// All particles in id order. Volumes that are to be estimated are known from the start: the
-  /// mass on the grid before the first step is all that they need.
+  /// All particles in id order. Volumes that are to be estimated are known from the start: they
+  /// follow from the mass on the grid before the first step.
   ParticleArrays particles() const;
 
   /// Kirchhoff stress tau = P F_E^T in Pa, id order.
@@ -109,26 +118,23 @@ class Simulation {
   /// materials and colliders that restores them takes the same steps to the bit.
   std::vector<std::uint8_t> save() const;
 
-  /// @throws SavedStateError when the bytes are no state of such a simulation; it is then as before
+  /// @throws SavedStateError for bytes that no such simulation saved; nothing has changed then
   void restore(std::span<const std::uint8_t> bytes);
 
-  /// Factor of every dt that the settings choose from now on, (0, 1]: a run that broke a rule goes
-  /// on more carefully.
+  /// Sets the factor of every dt that the settings choose from now on, (0, 1]: a run that broke a
+  /// rule continues with shorter steps.
   void set_dt_scale(double scale);
   double dt_scale() const;
 
-  struct Impl;
-
  private:
-  friend struct InsideAccess;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<engine::Stepper> stepper_;
 };
 
-/// What energy the run has now and what it may have.
+/// Energy that the run has now, and that gravity and colliders explain.
 EnergyAccount energy_account(const Simulation& simulation);
 
-/// Bytes that a simulation of so many particles needs, grid and buffers included. An estimate from
-/// above for packed snow; computed before anything is allocated.
+/// Estimates the bytes that a simulation of so many particles needs, grid and buffers included:
+/// from above for packed snow, and before anything is allocated.
 std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,
                               const SolverSettings& settings, int threads);
 

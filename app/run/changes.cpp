@@ -79,7 +79,7 @@ scene::Scene recorded_scene(const scene::Scene& start, const scene::Scene& now) 
 void follow_colliders(const sim::Simulation& simulation, scene::Scene& scene) {
   const std::vector<sim::shapes::Collider> colliders = simulation.colliders();
   for (std::size_t k = 0; k < std::min(colliders.size(), scene.colliders.size()); ++k)
-    scene.colliders[k].travel = colliders[k].travel;
+    scene.colliders[k].pose_offset = colliders[k].pose_offset;
 }
 
 void apply_scene(scene::Scene& scene, sim::Simulation& simulation) {

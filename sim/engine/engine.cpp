@@ -1,307 +1,235 @@
 #include "sim/engine/engine.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <stdexcept>
 
-#include "sim/engine/engine_records.h"
+#include "sim/engine/live_changes.h"
+#include "sim/engine/load.h"
+#include "sim/engine/rasterize.h"
+#include "sim/engine/saved_state.h"
+#include "sim/engine/staged_step.h"
+#include "sim/engine/state_reader.h"
+#include "sim/engine/step.h"
+#include "sim/kernels/simd.h"
 
 namespace neve::sim::engine {
-
-namespace {
-
-/// Below this many particles per thread, waking a thread costs more than it saves.
-constexpr std::size_t particles_per_thread = 1000;
-
-kernels::TransferKind transfer_kind(Transfer transfer) {
-  switch (transfer) {
-    case Transfer::apic:
-      return kernels::TransferKind::apic;
-    case Transfer::mls:
-      return kernels::TransferKind::mls;
-    default:
-      return kernels::TransferKind::flip;
-  }
-}
-
-/// Time since the last call.
-class PhaseTimer {
- public:
-  void add_to(double& seconds) {
-    const auto now = std::chrono::steady_clock::now();
-    seconds += std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
-
-template <class Real>
-std::uint64_t Engine<Real>::memory_bytes() const {
-  const std::size_t record = sizeof(kernels::Particle<Real>);
-  std::size_t fields = 0;
-  for (const auto& field : fields_) fields += field ? field->bytes() : 0;
-  return fields + record * particles_.capacity() + reordering_.memory_bytes() +
-         8 * keys_.capacity() + 2 * locals_.capacity() + partition_.memory_bytes() +
-         tiles_.bytes() + nodes_.bytes() + elasticity_.bytes() + solve_vectors_.bytes() +
-         8 * products_.capacity() + sizeof(kernels::BlockReport<Real>) * reports_.capacity() +
-         8 * node_contact_work_.capacity();
-}
 
 template <class Real>
 Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>& materials,
                      const std::vector<shapes::Collider>& colliders,
                      const ParticleArrays& particles, int threads, const Vec3i& lattice_origin,
                      const seeding::Flow& flow)
-    : settings_(settings),
-      material_list_(materials),
-      colliders_(colliders),
-      lattice_origin_(lattice_origin),
-      pool_(std::make_shared<ThreadPool>(threads)) {
-  if (materials.empty()) throw std::invalid_argument("a simulation needs a material");
-  if (colliders.size() > kernels::max_colliders)
-    throw std::invalid_argument("at most " + std::to_string(kernels::max_colliders) + " colliders");
-  use_materials();
-  simd_ = kernels::chosen_simd_level();
-  use_sweeps();
-  if (settings.period.minCoeff() < 0 || settings.period.maxCoeff() > kernels::block_limit)
-    throw std::invalid_argument("a period of the lattice is negative or too long");
-  partition_.set_period(settings.period);
-  fields_ = fields_of(colliders_);
-  place_colliders();
-  load(particles);
-  prepare();
-  open(flow);
+    : state_(settings, materials, colliders, threads, lattice_origin), flow_(flow, state_.method) {
+  watch_.start = load(particles, state_);
+  prepare(state_, watch_.start);
+  flow_.open(state_, watch_.start);
 }
 
-template <class Real>
-void Engine<Real>::use_materials() {
-  materials_.clear();
-  limits_.max_hardening = 0;
-  for (const Material& m : material_list_) {
-    if (m.yields && material_list_.size() > 1)
-      throw std::invalid_argument("material " + m.name +
-                                  " yields besides snow: it must be the only material");
-    const Lame rest = lame(m.youngs_modulus, m.poisson_ratio);
-    materials_.push_back({static_cast<Real>(rest.mu), static_cast<Real>(rest.lambda),
-                          static_cast<Real>(m.hardening), static_cast<Real>(m.critical_compression),
-                          static_cast<Real>(m.critical_stretch)});
-    limits_.max_hardening = std::max(limits_.max_hardening, m.hardening);
-  }
-}
-
-template <class Real>
-void Engine<Real>::use_sweeps() {
-  kernel_nodes_ =
-      settings_.kernel == Kernel::cubic ? kernels::cubic_nodes : kernels::quadratic_nodes;
-  sweeps_ = &kernels::sweeps_for(simd_, kernel_nodes_, transfer_kind(settings_.transfer), Real());
-  solve_sweeps_ =
-      &kernels::solve_sweeps_for(simd_, kernel_nodes_, settings_.transfer == Transfer::mls, Real());
-}
-
-/// Everything the first step relies on: stress, keys, volumes of new bodies, and the limits on dt.
-template <class Real>
-void Engine<Real>::prepare() {
-  kernels::SweepArgs<Real> a = args(0, kernels::all_channels);
-  kernels::BlockReport<Real> report;
-  const auto count = static_cast<std::uint32_t>(particles_.size());
-  sweeps_->refresh(a, 0, count, false, report);
-  if (report.overflowed > 0) throw std::invalid_argument("a particle starts outside the lattice");
-  if (count == 0) return;
-
-  // Volumes and the velocity gradient want the rasterised mass and velocity.
-  partition();
-  a = args(0, kernels::all_channels);
-  std::vector<kernels::StagedNodes<Real>> staged(partition_.node_blocks().size());
-  std::vector<kernels::Gathered<Real>> gathered(particles_.size());
-  a.staged = staged.data();
-  a.gathered = gathered.data();
-  over_particle_blocks(sweeps_->rasterize, a);
-  over_node_blocks(sweeps_->collect_momentum, a);
-  if (!settings_.skips(Stage::volumes)) over_particle_blocks(sweeps_->volumes, a);
-  for (kernels::StagedNodes<Real>& nodes : staged)
-    std::copy(std::begin(nodes.v_old), std::end(nodes.v_old), std::begin(nodes.v_star));
-  over_node_blocks(sweeps_->keep_velocities, a);
-  over_particle_blocks(sweeps_->gather, a);
-
-  report = {};
-  sweeps_->refresh(a, 0, count, false, report);
-  for (const kernels::Gathered<Real>& g : gathered)
-    for (const Real entry : g.grad_v)
-      report.max_strain_rate = std::max(report.max_strain_rate, std::abs(entry));
-  limits_.max_speed = std::sqrt(static_cast<double>(report.max_speed_squared));
-  limits_.max_sound_speed = std::sqrt(static_cast<double>(report.max_sound_squared));
-  limits_.max_strain_rate = static_cast<double>(report.max_strain_rate);
-  StateLimits at_rest = limits_;
-  at_rest.max_strain_rate = 0;
-  start_.max_speed = limits_.max_speed;
-  start_.max_sound_speed = limits_.max_sound_speed;
-  rest_dt_ = std::min(settings_.max_dt, stable_dt(settings_, at_rest));
-  const Summary start = summary();
-  energy_.start = start.kinetic_energy + start.elastic_energy;
-  energy_.largest = energy_.start;
-  energy_.moment = start.mass * start.centre_of_mass;
-}
-
-template <class Real>
-kernels::SweepArgs<Real> Engine<Real>::args(double dt, int channels) {
-  const double h = settings_.cell_size;
-  kernels::SweepArgs<Real> a{};
-  kernels::StepConstants<Real>& c = a.constants;
-  c.h = static_cast<Real>(h);
-  c.inv_h = static_cast<Real>(1 / h);
-  c.dt = static_cast<Real>(dt);
-  c.dt_over_h = static_cast<Real>(dt / h);
-  c.alpha = static_cast<Real>(flip_share(settings_, dt));
-  for (int axis = 0; axis < 3; ++axis) c.gravity[axis] = static_cast<Real>(settings_.gravity[axis]);
-  c.moves_with_grid = settings_.advect == Advect::pic;
-  c.h_double = h;
-  c.materials = materials_.data();
-  c.colliders = poses_.data();
-  c.collider_count = static_cast<int>(poses_.size());
-  a.particles = particles_.data();
-  a.particle_count = static_cast<std::uint32_t>(particles_.size());
-  a.keys = keys_.data();
-  a.locals = locals_.data();
-  a.order = partition_.order().data();
-  a.blocks = partition_.blocks().data();
-  a.node_blocks = partition_.node_blocks().data();
-  const std::size_t block_count = partition_.blocks().size();
-  const std::size_t node_block_count = partition_.node_blocks().size();
-  const std::size_t tile = static_cast<std::size_t>(
-      kernel_nodes_ == kernels::cubic_nodes ? kernels::Tile<kernels::cubic_nodes>::nodes
-                                            : kernels::Tile<kernels::quadratic_nodes>::nodes);
-  a.channels = channels;
-  const auto planes = static_cast<std::size_t>(channels);
-  a.tiles = tiles_.at_least(block_count * planes * tile);
-  a.nodes = nodes_.at_least(node_block_count * planes * kernels::block_nodes);
-  reports_.resize(block_count);
-  node_contact_work_.resize(node_block_count);
-  a.reports = reports_.data();
-  a.node_contact_work = node_contact_work_.data();
-  return a;
-}
-
-template <class Real>
-int Engine<Real>::active_threads() const {
-  const std::size_t wanted = particles_.size() / particles_per_thread;
-  return static_cast<int>(
-      std::clamp<std::size_t>(wanted, 1, static_cast<std::size_t>(pool_->thread_count())));
-}
-
-template <class Real>
-void Engine<Real>::partition() {
-  partition_.wrap(keys_, *pool_, active_threads());
-  partition_.build(keys_, locals_, *pool_, active_threads());
-}
-
-template <class Real>
-void Engine<Real>::sort_storage() {
-  partition_.sort_storage(particles_, reordering_, keys_, locals_, *pool_, active_threads());
-}
+// ---- steps --------------------------------------------------------------------------------------
 
 template <class Real>
 void Engine<Real>::step(double dt) {
   take_step(dt);
-  if (!divergence_) exchange();
+  if (!divergence()) flow_.run(state_, watch_.start);
 }
 
 template <class Real>
 void Engine<Real>::take_step(double dt) {
-  if (particles_.empty()) {
-    time_ += dt;
-    ++steps_;
-    move_colliders();
-    return;
-  }
-  if (takes_stages()) {
-    step_by_stages(dt);
-    return;
-  }
-  if (take_fused(dt, settings_.is_implicit())) return;
-  const int parts = explicit_parts(dt);
-  for (int part = 0; part < parts && !divergence_; ++part) take_fused(dt / parts, false);
+  const Method<Real>& method = state_.method;
+  if (state_.particles.size() == 0) return state_.advance_time(dt);
+  if (method.takes_stages()) return take_stages(dt);
+  if (take_fused(dt, method.settings.is_implicit())) return;
+  const int parts = explicit_parts(method.settings, state_.progress.limits, dt);
+  for (int part = 0; part < parts && !divergence(); ++part) take_fused(dt / parts, false);
 }
 
+/// @return false: the solve failed, nothing was changed
 template <class Real>
 bool Engine<Real>::take_fused(double dt, bool is_implicit) {
-  PhaseSeconds& seconds = phase_seconds_;
-  PhaseTimer timer;
-  partition();
-  if (steps_ % steps_between_sorts == 0) sort_storage();
-  const kernels::SweepArgs<Real> a = args(dt, sweeps_->fused_channels);
-  timer.add_to(seconds.partition);
-  over_particle_blocks(sweeps_->particles_to_grid, a);
-  timer.add_to(seconds.particles_to_grid);
-  over_node_blocks(sweeps_->grid_update, a);
-  timer.add_to(seconds.grid_update);
-  if (is_implicit) {
-    const bool is_solved = solve_velocities(a, dt);
-    timer.add_to(seconds.solve);
-    if (!is_solved) return false;
-  }
-  over_particle_blocks(sweeps_->grid_to_particles, a);
-  timer.add_to(seconds.grid_to_particles);
-  end_step(dt, a);
-  note(dt);
-  timer.add_to(seconds.checks);
+  if (!FusedDriver<Real>(state_, solver_, seconds_, dt).step(is_implicit)) return false;
+  timed(seconds_.checks, [&] { check_step(dt); });
   return true;
 }
 
+/// For settings that skip stages, and for comparisons.
 template <class Real>
-StepLimits Engine<Real>::step_limits() const {
-  return {limits_on_dt(settings_, limits_), limits_.max_speed, limits_.max_sound_speed,
-          limits_.max_strain_rate};
+void Engine<Real>::take_stages(double dt) {
+  StageFields<Real> fields;
+  StagedDriver<Real>(state_, solver_, fields, dt).step();
+  StateLimits& limits = state_.progress.limits;
+  const double sound_speed = limits.max_sound_speed;
+  check_step(dt);
+  // Nothing has updated the stress; it is as it was.
+  if (state_.method.settings.skips(Stage::deformation)) limits.max_sound_speed = sound_speed;
+}
+
+template <class Real>
+void Engine<Real>::check_step(double dt) {
+  Progress& progress = state_.progress;
+  const double speed_before = progress.limits.max_speed;
+  diverge_if(watch_.check_step(state_.method.settings, dt, state_.grid.step_report(), progress));
+  ++progress.steps_since_sink_check;
+  progress.distance_since_sink_check += dt * std::max(speed_before, progress.limits.max_speed);
+  if (progress.steps % HealthWatch::steps_between_energy_checks == 0) check_energy();
+}
+
+template <class Real>
+void Engine<Real>::check_energy() {
+  const SolverSettings& settings = state_.method.settings;
+  if (divergence() || state_.particles.size() == 0 || !settings.bypass.empty()) return;
+  diverge_if(watch_.check_energy(settings, summary(), state_.progress));
+}
+
+template <class Real>
+void Engine<Real>::diverge_if(const std::optional<BrokenRule>& broken) {
+  if (!broken) return;
+  const Method<Real>& method = state_.method;
+  watch_.diverge(*broken, state_.progress, method.settings, method.materials, particles());
 }
 
 template <class Real>
 DtChoice Engine<Real>::choose_dt(double remaining) const {
-  return engine::choose_dt(settings_, limits_, remaining, dt_scale_);
+  const Progress& progress = state_.progress;
+  return engine::choose_dt(state_.method.settings, progress.limits, remaining, progress.dt_scale);
 }
+
+template <class Real>
+StepLimits Engine<Real>::step_limits() const {
+  const StateLimits& limits = state_.progress.limits;
+  return {limits_on_dt(state_.method.settings, limits), limits.max_speed, limits.max_sound_speed,
+          limits.max_strain_rate};
+}
+
+// ---- frames -------------------------------------------------------------------------------------
 
 template <class Real>
 AdvanceReport Engine<Real>::advance_to(double time, bool (*interrupted)(), std::size_t last_step) {
   AdvanceReport report;
-  if (!(frame_end_ == time && time_ == frame_start_ + frame_done_)) {
-    frame_start_ = time_;
-    frame_done_ = 0;
-    frame_end_ = time;
-  }
+  Progress& progress = state_.progress;
+  FrameProgress& frame = progress.frame;
+  if (!(frame.end == time && progress.time == frame.start + frame.done))
+    frame = {progress.time, 0, time};
   // Counting from the start of the frame keeps the end of the frame exact.
-  const double start = frame_start_, whole = time - start;
-  double& done = frame_done_;
-  while (done < whole && !divergence_ && steps_ < last_step) {
-    const DtChoice choice = choose_dt(whole - done);
-    last_limit_ = choice.limit;
-    const std::size_t steps_before = steps_;
-    step(choice.dt);
-    done += choice.dt;
-    if (settings_.is_implicit()) {
-      if (!report.solve) report.solve.emplace();
-      report.solve->add(last_solve_);
-    }
-    const bool is_last = choice.limit == DtLimit::frame_end && !(done < whole * (1 - 1e-12));
-    if (is_last) done = whole;
-    time_ = start + done;
-    // Explicit steps may have taken the place of one.
-    const std::size_t steps = steps_ - steps_before;
-    const double dt = steps > 1 ? last_dt_ : choice.dt;
-    report.dt_min = report.steps == 0 ? dt : std::min(report.dt_min, dt);
-    report.dt_max = std::max(report.dt_max, dt);
-    const DtLimit limit = steps > 1 ? explicit_limit() : choice.limit;
-    report.ruled[static_cast<std::size_t>(limit)] += steps;
-    report.steps += steps;
+  const double whole = frame.end - frame.start;
+  while (frame.done < whole && !divergence() && progress.steps < last_step) {
+    advance_frame(choose_dt(whole - frame.done), report);
     if (interrupted && interrupted()) break;
   }
-  if (done >= whole) {
-    time_ = time;
-    if (!divergence_) check_energy();
+  if (frame.done >= whole) {
+    progress.time = time;
+    check_energy();
   }
   return report;
+}
+
+/// One step of the frame that advance_to is in.
+template <class Real>
+void Engine<Real>::advance_frame(const DtChoice& choice, AdvanceReport& report) {
+  const SolverSettings& settings = state_.method.settings;
+  Progress& progress = state_.progress;
+  FrameProgress& frame = progress.frame;
+  const double whole = frame.end - frame.start;
+  const std::uint64_t steps_before = progress.steps;
+  watch_.set_limit(choice.limit);
+  step(choice.dt);
+  frame.done += choice.dt;
+  const bool is_last = choice.limit == DtLimit::frame_end && !(frame.done < whole * (1 - 1e-12));
+  if (is_last) frame.done = whole;
+  progress.time = frame.start + frame.done;
+
+  if (settings.is_implicit()) {
+    if (!report.solve) report.solve.emplace();
+    report.solve->add(last_solve());
+  }
+  // Explicit steps may have taken the place of one.
+  const std::uint64_t steps = progress.steps - steps_before;
+  const double dt = steps > 1 ? progress.last_dt : choice.dt;
+  report.dt_min = report.steps == 0 ? dt : std::min(report.dt_min, dt);
+  report.dt_max = std::max(report.dt_max, dt);
+  const DtLimit limit = steps > 1 ? explicit_limit(settings, progress.limits) : choice.limit;
+  report.ruled[static_cast<std::size_t>(limit)] += steps;
+  report.steps += steps;
+}
+
+// ---- changes ------------------------------------------------------------------------------------
+
+template <class Real>
+void Engine<Real>::apply(const SolverSettings& settings, const std::vector<Material>& materials,
+                         const std::vector<shapes::Collider>& colliders) {
+  if (divergence())
+    throw std::logic_error(
+        "this run has diverged: reset it, or go back to an earlier frame, for the change to take "
+        "effect");
+  engine::apply(settings, materials, colliders, state_);
+}
+
+template <class Real>
+std::vector<std::uint8_t> Engine<Real>::save() const {
+  return engine::save(state_, flow_);
+}
+
+template <class Real>
+void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
+  engine::restore(bytes, state_, flow_);
+  watch_.forget();
+}
+
+// ---- queries ------------------------------------------------------------------------------------
+
+template <class Real>
+const char* Engine<Real>::simd() const {
+  return kernels::name(state_.method.simd);
+}
+
+template <class Real>
+std::uint64_t Engine<Real>::memory_bytes() const {
+  return state_.colliders.memory_bytes() + state_.particles.memory_bytes() +
+         state_.grid.memory_bytes() + solver_.memory_bytes();
+}
+
+template <class Real>
+std::vector<shapes::Collider> Engine<Real>::colliders() const {
+  return colliders_now(state_);
+}
+
+template <class Real>
+Summary Engine<Real>::summary() const {
+  return StateReader<Real>(state_).summary();
+}
+
+template <class Real>
+EnergyAccount Engine<Real>::energy_account() const {
+  return engine::energy_account(state_.method.settings, state_.progress.energy, summary());
+}
+
+template <class Real>
+ParticleArrays Engine<Real>::particles() const {
+  return StateReader<Real>(state_).particles();
+}
+
+template <class Real>
+std::vector<Mat3d> Engine<Real>::kirchhoff() const {
+  return StateReader<Real>(state_).kirchhoff();
+}
+
+template <class Real>
+std::vector<Vec3i> Engine<Real>::cells() const {
+  return StateReader<Real>(state_).cells();
+}
+
+template <class Real>
+std::uint64_t Engine<Real>::state_hash() const {
+  return StateReader<Real>(state_).state_hash();
+}
+
+template <class Real>
+StagedStep Engine<Real>::staged_step(double dt) const {
+  return engine::staged_step(state_, dt);
+}
+
+template <class Real>
+RasterizedNodes Engine<Real>::rasterize(const std::vector<std::vector<double>>& values) const {
+  return engine::rasterize(state_, values);
 }
 
 template class Engine<float>;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/engine/engine_records.h"
+#include "sim/engine/records.h"
 #include "sim/kernels/blocks.h"
 
 namespace neve::sim::engine {

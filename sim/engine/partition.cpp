@@ -70,12 +70,12 @@ void Partition::build(const std::vector<std::uint64_t>& keys,
   const bool is_same_list = list_blocks();
   place_particles(pool);
   if (!is_same_list) link_node_blocks(pool, threads);
-  // The first time everybody arrives; never again so many.
+  // The first build moves every particle: free its buffers.
   if (known == 0)
     for (Part& part : parts_) part = Part();
 }
 
-/// Sorts out who stays, who changed cell and who arrives in another block.
+/// Finds the particles that stay, those that changed cell and those that arrive in another block.
 void Partition::find_changes(const std::vector<std::uint64_t>& keys,
                              const std::vector<std::uint16_t>& locals, std::size_t known,
                              ThreadPool& pool) {
@@ -84,7 +84,7 @@ void Partition::find_changes(const std::vector<std::uint64_t>& keys,
   pool.run(threads, threads, [&](int t) {
     Part& part = parts_[static_cast<std::size_t>(t)];
     part.arrivals.clear();
-    part.flocks.clear();
+    part.groups.clear();
     const std::uint32_t end = first_block(t + 1, threads);
     for (std::uint32_t b = first_block(t, threads); b < end; ++b) keep(b, keys, locals, part);
     const std::size_t added = keys.size() - known, before = part.arrivals.size();
@@ -92,22 +92,22 @@ void Partition::find_changes(const std::vector<std::uint64_t>& keys,
     for (std::size_t q = known + cut(added, static_cast<std::size_t>(t), parts_.size()); q < last;
          ++q)
       part.arrivals.push_back({keys[q], place_of(locals[q], static_cast<std::uint32_t>(q))});
-    gather_flocks(part, before);
-    std::sort(part.flocks.begin(), part.flocks.end(), is_before);
+    group_arrivals(part, before);
+    std::sort(part.groups.begin(), part.groups.end(), is_before);
   });
 }
 
-/// Arrivals from `begin` on: those that go to the same block together.
-void Partition::gather_flocks(Part& part, std::size_t begin) {
+/// Groups the arrivals from `begin` on by the block that they go to.
+void Partition::group_arrivals(Part& part, std::size_t begin) {
   if (begin == part.arrivals.size()) return;
   std::sort(part.arrivals.begin() + static_cast<std::ptrdiff_t>(begin), part.arrivals.end(),
             is_before);
-  const std::size_t first = part.flocks.size();
+  const std::size_t first = part.groups.size();
   for (std::size_t a = begin; a < part.arrivals.size(); ++a) {
     const std::uint64_t key = part.arrivals[a].key;
-    if (part.flocks.size() == first || part.flocks.back().key != key)
-      part.flocks.push_back({key, static_cast<std::uint32_t>(a), 0});
-    ++part.flocks.back().count;
+    if (part.groups.size() == first || part.groups.back().key != key)
+      part.groups.push_back({key, static_cast<std::uint32_t>(a), 0});
+    ++part.groups.back().count;
   }
 }
 
@@ -134,32 +134,33 @@ void Partition::keep(std::size_t b, const std::vector<std::uint64_t>& keys,
     order_[--back] = static_cast<std::uint32_t>(place);
     locals_[back] = static_cast<std::uint16_t>(place >> 32);
   }
-  gather_flocks(part, before);
+  group_arrivals(part, before);
   kept_[b] = {block.begin, stay, back, block.end};
 }
 
-/// The blocks that have particles now, with their ranges. True if they are those of the step
+/// Lists the blocks that have particles now, with their ranges. True if they are those of the step
 /// before.
 bool Partition::list_blocks() {
-  flocks_.clear();
+  arrival_groups_.clear();
   for (const Part& part : parts_)
-    flocks_.insert(flocks_.end(), part.flocks.begin(), part.flocks.end());
-  std::sort(flocks_.begin(), flocks_.end(), is_before);
+    arrival_groups_.insert(arrival_groups_.end(), part.groups.begin(), part.groups.end());
+  std::sort(arrival_groups_.begin(), arrival_groups_.end(), is_before);
   next_blocks_.clear();
   source_.clear();
   bool is_same_list = true;
   std::uint32_t sum = 0;
   std::size_t a = 0, b = 0;
-  while (b < blocks_.size() || a < flocks_.size()) {
-    const bool is_known =
-        b < blocks_.size() && (a == flocks_.size() || blocks_[b].key <= flocks_[a].key);
+  while (b < blocks_.size() || a < arrival_groups_.size()) {
+    const bool is_known = b < blocks_.size() &&
+                          (a == arrival_groups_.size() || blocks_[b].key <= arrival_groups_[a].key);
     kernels::ParticleBlock block = is_known ? blocks_[b] : kernels::ParticleBlock{};
     std::uint32_t count = 0;
     if (is_known)
       count = kept_[b].stay - kept_[b].begin + kept_[b].end - kept_[b].moved;
     else
-      block.key = flocks_[a].key;
-    for (; a < flocks_.size() && flocks_[a].key == block.key; ++a) count += flocks_[a].count;
+      block.key = arrival_groups_[a].key;
+    for (; a < arrival_groups_.size() && arrival_groups_[a].key == block.key; ++a)
+      count += arrival_groups_[a].count;
     is_same_list = is_same_list && is_known && count > 0;
     if (count > 0) {
       block.begin = sum;
@@ -181,10 +182,10 @@ void Partition::place_particles(ThreadPool& pool) {
     if (begin == end) return;
     part.next.clear();
     for (const Part& from : parts_)
-      part.next.push_back(
-          static_cast<std::size_t>(std::lower_bound(from.flocks.begin(), from.flocks.end(),
-                                                    Flock{blocks_[begin].key, 0, 0}, is_before) -
-                                   from.flocks.begin()));
+      part.next.push_back(static_cast<std::size_t>(
+          std::lower_bound(from.groups.begin(), from.groups.end(),
+                           ArrivalGroup{blocks_[begin].key, 0, 0}, is_before) -
+          from.groups.begin()));
     for (std::uint32_t b = begin; b < end; ++b)
       fill(blocks_[b], source_[b] < 0 ? Kept{} : kept_[static_cast<std::size_t>(source_[b])], part);
   });
@@ -199,9 +200,9 @@ void Partition::fill(const kernels::ParticleBlock& block, const Kept& kept, Part
   for (std::uint32_t p = kept.moved; p < kept.end; ++p)
     places.push_back(place_of(locals_[p], order_[p]));
   for (std::size_t t = 0; t < parts_.size(); ++t) {
-    const std::vector<Flock>& flocks = parts_[t].flocks;
-    for (std::size_t& f = part.next[t]; f < flocks.size() && flocks[f].key == block.key; ++f)
-      for (std::uint32_t a = flocks[f].begin; a < flocks[f].begin + flocks[f].count; ++a)
+    const std::vector<ArrivalGroup>& groups = parts_[t].groups;
+    for (std::size_t& f = part.next[t]; f < groups.size() && groups[f].key == block.key; ++f)
+      for (std::uint32_t a = groups[f].begin; a < groups[f].begin + groups[f].count; ++a)
         places.push_back(parts_[t].arrivals[a].place);
   }
   sort_places(places, part.scattered);
@@ -288,7 +289,7 @@ void Partition::link_node_blocks(ThreadPool& pool, int threads) {
 void Partition::unite(const std::vector<std::uint64_t>& keys, int axis, Union& out) const {
   constexpr std::uint64_t past_all = ~std::uint64_t(0);
   const std::size_t count = keys.size();
-  // Around the end of a period the moved list begins anew: then it has to be put in order.
+  // Around the end of a period the moved list begins again: then it has to be put in order.
   std::vector<std::pair<std::uint64_t, std::int32_t>> around;
   if (period_[axis] > 0) {
     for (std::size_t k = 0; k < count; ++k)
@@ -334,9 +335,9 @@ std::size_t Partition::memory_bytes() const {
   std::size_t bytes = bytes_of(order_) + bytes_of(next_order_) + bytes_of(locals_) +
                       bytes_of(next_locals_) + bytes_of(blocks_) + bytes_of(next_blocks_) +
                       bytes_of(kept_) + bytes_of(source_) + bytes_of(node_blocks_) +
-                      bytes_of(flocks_);
+                      bytes_of(arrival_groups_);
   for (const Part& part : parts_)
-    bytes += bytes_of(part.arrivals) + bytes_of(part.flocks) + bytes_of(part.places) +
+    bytes += bytes_of(part.arrivals) + bytes_of(part.groups) + bytes_of(part.places) +
              bytes_of(part.next) + bytes_of(part.scattered);
   for (const Union& u : unions_) bytes += bytes_of(u.keys) + bytes_of(u.here) + bytes_of(u.below);
   return bytes;

@@ -23,13 +23,13 @@ class Partition {
   /// Brings keys of particles into the first period.
   void wrap(std::vector<std::uint64_t>& keys, ThreadPool& pool, int threads) const;
 
-  /// Particles may have been added at the end since the last call; if there are fewer, all is done
-  /// anew. After any other change of the storage forget() has to be called.
+  /// Particles may have been added at the end since the last call; if there are fewer, all are
+  /// sorted again. After any other change of the storage forget() has to be called.
   /// @param keys, locals  per storage index, see SweepArgs
   void build(const std::vector<std::uint64_t>& keys, const std::vector<std::uint16_t>& locals,
              ThreadPool& pool, int threads);
 
-  /// The storage is another one: the next build starts anew.
+  /// Says that the storage is another one: the next build sorts all particles.
   void forget();
 
   /// Brings storage into the order found; keys and locals follow.
@@ -57,23 +57,24 @@ class Partition {
     std::uint64_t key, place;
   };
   /// Arrivals of one part that go to the same block.
-  struct Flock {
+  struct ArrivalGroup {
     std::uint64_t key;
     std::uint32_t begin, count;
   };
-  /// Where a block of the step before has those that stay in their cell, [begin, stay), and those
-  /// that changed cell, [moved, end). Between them were those that left.
+  /// Particles of a block of the step before: [begin, stay) stay in their cell, [moved, end)
+  /// changed cell. Those between them left.
   struct Kept {
     std::uint32_t begin = 0, stay = 0, moved = 0, end = 0;
   };
-  /// What one thread works with.
+  /// Lists of one thread.
   struct Part {
     std::vector<Arrival> arrivals;
-    std::vector<Flock> flocks;
+    std::vector<ArrivalGroup> groups;
     std::vector<std::size_t> next;
     std::vector<std::uint64_t> places, scattered;
   };
-  /// Of a list of keys and the same moved one block up an axis, in order. Index in the list, or -1.
+  /// Union of a list of keys and the same moved one block up an axis, in order. Index in the list,
+  /// or -1.
   struct Union {
     std::vector<std::uint64_t> keys;
     std::vector<std::int32_t> here, below;
@@ -85,7 +86,7 @@ class Partition {
                     const std::vector<std::uint16_t>& locals, std::size_t known, ThreadPool& pool);
   void keep(std::size_t block, const std::vector<std::uint64_t>& keys,
             const std::vector<std::uint16_t>& locals, Part& part);
-  static void gather_flocks(Part& part, std::size_t begin);
+  static void group_arrivals(Part& part, std::size_t begin);
   bool list_blocks();
   void place_particles(ThreadPool& pool);
   void fill(const kernels::ParticleBlock& block, const Kept& kept, Part& part);
@@ -102,7 +103,7 @@ class Partition {
   std::vector<std::int32_t> source_;  ///< per block: which it was in the step before, -1: none
   std::vector<kernels::NodeBlock> node_blocks_;
   std::vector<Part> parts_;
-  std::vector<Flock> flocks_;
+  std::vector<ArrivalGroup> arrival_groups_;
   Union unions_[3];
 };
 

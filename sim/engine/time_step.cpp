@@ -65,6 +65,21 @@ double stable_dt(const SolverSettings& s, const StateLimits& limits) {
   return std::min(ratio(s.cfl * s.cell_size, limits.max_speed), acoustic_dt(s, limits));
 }
 
+int explicit_parts(const SolverSettings& s, const StateLimits& limits, double dt) {
+  constexpr double max_parts = 1000;
+  SolverSettings settings = s;
+  settings.beta = 0;
+  const double parts = std::ceil(dt / stable_dt(settings, limits));
+  return static_cast<int>(std::clamp(parts, 1.0, max_parts));
+}
+
+DtLimit explicit_limit(const SolverSettings& s, const StateLimits& limits) {
+  SolverSettings settings = s;
+  settings.beta = 0;
+  settings.time_step = TimeStep::adaptive;
+  return choose_dt(settings, limits, unlimited).limit;
+}
+
 double acoustic_stretch(const SolverSettings& s) {
   if (!s.is_implicit()) return 1;
   return s.beta < 0.5 ? 1 / std::sqrt(1 - 2 * s.beta) : unlimited;

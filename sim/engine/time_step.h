@@ -23,12 +23,18 @@ struct StateLimits {
 DtChoice choose_dt(const SolverSettings& settings, const StateLimits& limits, double remaining,
                    double scale = 1);
 
-/// dt that each limit allows, infinite for those that say nothing of a state (fixed, frame_end).
+/// dt that each limit allows, infinite for those that no state has (fixed, frame_end).
 std::array<double, dt_limit_count> limits_on_dt(const SolverSettings& settings,
                                                 const StateLimits& limits);
 
 /// The largest dt that speed and sound allow now, whatever the settings say about fixed steps.
 double stable_dt(const SolverSettings& settings, const StateLimits& limits);
+
+/// Explicit steps that take the place of one semi-implicit step of dt, at most 1000.
+int explicit_parts(const SolverSettings& settings, const StateLimits& limits, double dt);
+
+/// The limit that rules those.
+DtLimit explicit_limit(const SolverSettings& settings, const StateLimits& limits);
 
 /// Largest stable dt over that of explicit steps: 1 / sqrt(1 - 2 beta) below beta = 1/2, infinite
 /// from there on. A mode of frequency w becomes v' = (v - dt w^2 x) / (1 + beta dt^2 w^2),

@@ -160,40 +160,40 @@ bool same_motion(const Collider& a, const Collider& b) {
 }  // namespace
 
 Pose pose_at(const Collider& collider, double time) {
-  const Travel& travel = collider.travel;
+  const PoseOffset& offset = collider.pose_offset;
   if (!collider.keyframes.empty())
     return motion_at(collider.keyframes, center(collider.shape), collider.shape.rotation,
-                     time - travel.waited);
-  const double moving = time - travel.since;
-  const Mat3d start = travel.turned * rotation_from_degrees(collider.shape.rotation);
+                     time - offset.delay);
+  const double moving = time - offset.since;
+  const Mat3d start = offset.turned * rotation_from_degrees(collider.shape.rotation);
   return {
-      center(collider.shape) + travel.moved + moving * collider.velocity,
+      center(collider.shape) + offset.moved + moving * collider.velocity,
       turns(collider) ? rotation_from_vector(moving * collider.angular_velocity) * start : start,
       collider.velocity, collider.angular_velocity};
 }
 
-Travel travel_after(const Collider& before, const Collider& after, double time) {
-  if (!after.keyframes.empty()) return before.travel;
-  if (before.keyframes.empty() && same_motion(before, after)) return before.travel;
-  Travel travel = before.travel;
-  travel.since = time;
+PoseOffset offset_after(const Collider& before, const Collider& after, double time) {
+  if (!after.keyframes.empty()) return before.pose_offset;
+  if (before.keyframes.empty() && same_motion(before, after)) return before.pose_offset;
+  PoseOffset offset = before.pose_offset;
+  offset.since = time;
   if (!before.keyframes.empty()) {
     const Pose now = pose_at(before, time);
-    travel.moved = now.point - center(before.shape);
-    travel.turned = now.rotation * rotation_from_degrees(before.shape.rotation).transpose();
-    return travel;
+    offset.moved = now.point - center(before.shape);
+    offset.turned = now.rotation * rotation_from_degrees(before.shape.rotation).transpose();
+    return offset;
   }
-  const double moving = time - before.travel.since;
-  travel.moved += moving * before.velocity;
+  const double moving = time - before.pose_offset.since;
+  offset.moved += moving * before.velocity;
   if (turns(before))
-    travel.turned = rotation_from_vector(moving * before.angular_velocity) * travel.turned;
-  return travel;
+    offset.turned = rotation_from_vector(moving * before.angular_velocity) * offset.turned;
+  return offset;
 }
 
-Travel waited(Travel travel, double seconds) {
-  travel.since += seconds;
-  travel.waited += seconds;
-  return travel;
+PoseOffset delayed(PoseOffset offset, double seconds) {
+  offset.since += seconds;
+  offset.delay += seconds;
+  return offset;
 }
 
 Bounds bounds_at(const Collider& collider, double time) {
@@ -214,7 +214,7 @@ double largest_speed(const Collider& collider) {
     constexpr int looks = 32;
     const double from = collider.keyframes[k - 1].time, to = collider.keyframes[k].time;
     for (int look = 0; look <= looks; ++look) {
-      const double time = from + (to - from) * look / looks + collider.travel.waited;
+      const double time = from + (to - from) * look / looks + collider.pose_offset.delay;
       speed = std::max(speed, speed_at(collider, furthest, time));
     }
   }

@@ -13,11 +13,11 @@ enum class Contact { separate, slip, sticky };
 
 /// Displacement of a collider by changes during a run: another velocity, or a collider that was
 /// added.
-struct Travel {
+struct PoseOffset {
   double since = 0;                  ///< s; from then on it moves with its present velocity
   Vec3d moved{0, 0, 0};              ///< m, until then
   Mat3d turned = Mat3d::Identity();  ///< until then, after the rotation of the shape
-  double waited = 0;                 ///< s that steps did not move it: keyframes are so much later
+  double delay = 0;                  ///< s that steps did not move it: keyframes are so much later
 };
 
 struct Collider {
@@ -29,22 +29,22 @@ struct Collider {
   Vec3d angular_velocity{
       0, 0, 0};  ///< rad/s about the shape's centre; a plane's only adds surface velocity
   std::vector<PoseKeyframe> keyframes;  ///< times increase; the velocities above are 0 then
-  Travel travel{};
+  PoseOffset pose_offset{};
 };
 
 /// Pose and motion of a collider at a time: from its place in the scene at t = 0 with constant
-/// velocities, or from its travel; along its keyframes if it has any. Point: centre, or the point
-/// of a plane.
+/// velocities, displaced by its offset; along its keyframes if it has any. Point: centre, or the
+/// point of a plane.
 using Pose = RigidMotion;
 Pose pose_at(const Collider& collider, double time);
 
-/// The travel of a collider that is changed at a time: with another velocity or spin, or without
-/// its keyframes, it continues from its place; one whose place, shape or contact was edited moves
-/// by the edit alone. Keyframes say themselves where it is.
-Travel travel_after(const Collider& before, const Collider& after, double time);
+/// Offset of a collider that is changed at a time: with another velocity or spin, or without its
+/// keyframes, it continues from its place; one whose place, shape or contact was edited moves by
+/// the edit alone. Keyframes say themselves where it is.
+PoseOffset offset_after(const Collider& before, const Collider& after, double time);
 
-/// The travel of a collider that steps did not move for a while.
-Travel waited(Travel travel, double seconds);
+/// Offset of a collider that steps did not move for a while.
+PoseOffset delayed(PoseOffset offset, double seconds);
 
 /// Axis-aligned bounds at a time. @throws std::invalid_argument for a plane, ShapeError
 Bounds bounds_at(const Collider& collider, double time);

@@ -187,8 +187,8 @@ TEST(ChangePlayer, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
   EXPECT_EQ(player.scene().views[0].particles.color_by, app::scene::ColorBy::id);
   EXPECT_EQ(player.scene().solver.kernel, sim::Kernel::quadratic);
   // Drawn colliders are at their simulated places.
-  EXPECT_EQ(player.scene().colliders[1].travel.since, again.colliders()[1].travel.since);
-  EXPECT_GT(again.colliders()[1].travel.since, 0);
+  EXPECT_EQ(player.scene().colliders[1].pose_offset.since, again.colliders()[1].pose_offset.since);
+  EXPECT_GT(again.colliders()[1].pose_offset.since, 0);
   // Without them it is another run.
   sim::Simulation plain = simulate(scene);
   plain.advance_to(3 / 24.0);

@@ -137,17 +137,16 @@ std::vector<Mistake> volume_mistakes() {
       {"volume_every_step",
        "V0 estimated again in every step",
        {{sweeps, "          if (!(record.flags() & needs_volume)) continue;\n", ""},
-        {"sim/engine/engine.cpp",
-         "  const SweepArgs<Real> a = args(dt, sweeps_->fused_channels);\n",
-         "  {\n"
-         "    SweepArgs<Real> again = args(dt, all_channels);\n"
-         "    std::vector<StagedNodes<Real>> staged(partition_.node_blocks().size());\n"
+        {"sim/engine/step.cpp",
+         "    a_ = state_.sweep_args(dt_, state_.method.sweeps->fused_channels);\n",
+         "    kernels::SweepArgs<Real> again = state_.sweep_args(dt_, kernels::all_channels);\n"
+         "    std::vector<kernels::StagedNodes<Real>> staged(\n"
+         "        state_.particles.partition.node_blocks().size());\n"
          "    again.staged = staged.data();\n"
-         "    over_particle_blocks(sweeps_->rasterize, again);\n"
-         "    over_node_blocks(sweeps_->collect_momentum, again);\n"
-         "    over_particle_blocks(sweeps_->volumes, again);\n"
-         "  }\n"
-         "  const SweepArgs<Real> a = args(dt, sweeps_->fused_channels);\n"}}},
+         "    state_.over_particle_blocks(state_.method.sweeps->rasterize, again);\n"
+         "    state_.over_node_blocks(state_.method.sweeps->collect_momentum, again);\n"
+         "    state_.over_particle_blocks(state_.method.sweeps->volumes, again);\n"
+         "    a_ = state_.sweep_args(dt_, state_.method.sweeps->fused_channels);\n"}}},
   };
 }
 

@@ -7,7 +7,7 @@ namespace neve::test {
 namespace {
 
 constexpr const char* laws = "sim/kernels/constitutive.h";
-constexpr const char* engine = "sim/engine/engine_state.cpp";
+constexpr const char* load = "sim/engine/load.cpp";
 
 /// The stored stress is symmetric. For a stress that is not, forces are computed from nine numbers
 /// `s`, row by row, found where particles are read.
@@ -96,7 +96,7 @@ Edit stress_times(const std::string& factor) {
 
 constexpr const char* initial_F = "in.F_E.empty() ? Mat3d(Mat3d::Identity()) : in.F_E[q]";
 constexpr const char* initial_J_P = "p.J_P = in.J_P.empty() ? Real(1) :";
-const Edit zero_J_P{engine, initial_J_P, "p.J_P = in.J_P.empty() ? Real(0) :"};
+const Edit zero_J_P{load, initial_J_P, "p.J_P = in.J_P.empty() ? Real(0) :"};
 
 /// Exponent of the hardening, times xi.
 std::vector<Edit> hardening_by(const std::string& exponent) {
@@ -143,7 +143,7 @@ std::vector<Mistake> stress_mistakes() {
        added},
       {"F_starts_at_0",
        "F_E, F_P start at 0, formula with 1/J",
-       {{engine, initial_F, "in.F_E.empty() ? Mat3d(Mat3d::Zero()) : in.F_E[q]"},
+       {{load, initial_F, "in.F_E.empty() ? Mat3d(Mat3d::Zero()) : in.F_E[q]"},
         zero_J_P,
         stress_times("J / J")},
        {},

@@ -25,7 +25,7 @@ std::vector<Mistake> solve_mistakes() {
          "e.V0_lambda * J * J * trace"}}},
       {"beta_dt",
        "semi-implicit: β dt instead of β dt²",
-       {{"sim/engine/engine_implicit.cpp", "settings_.beta * dt * dt", "settings_.beta * dt"}}},
+       {{"sim/engine/implicit_solver.cpp", "settings.beta * dt * dt", "settings.beta * dt"}}},
   };
 }
 

@@ -118,11 +118,11 @@ TEST(Keyframes, TakenAwayTheColliderGoesOnFromWhereItIs) {
   sim::shapes::Collider before;
   before.shape = {sim::shapes::Box{own_place, {0.4, 0.2, 0.6}}, own_rotation};
   before.keyframes = keyframe_path();
-  before.travel = sim::shapes::waited({}, 0.25);
+  before.pose_offset = sim::shapes::delayed({}, 0.25);
   sim::shapes::Collider after = before;
   after.keyframes.clear();
   after.velocity = {1, 0, 0};
-  after.travel = sim::shapes::travel_after(before, after, 0.9);
+  after.pose_offset = sim::shapes::offset_after(before, after, 0.9);
   const sim::shapes::Pose was = sim::shapes::pose_at(before, 0.9),
                           is = sim::shapes::pose_at(after, 0.9);
   EXPECT_LT((was.point - is.point).norm(), 1e-14);
@@ -130,13 +130,13 @@ TEST(Keyframes, TakenAwayTheColliderGoesOnFromWhereItIs) {
   EXPECT_LT((sim::shapes::pose_at(after, 1.4).point - is.point - Vec3d(0.5, 0, 0)).norm(), 1e-14);
   // A collider that waited is where it would have been so much earlier.
   sim::shapes::Collider punctual = before;
-  punctual.travel = {};
+  punctual.pose_offset = {};
   EXPECT_LT((sim::shapes::pose_at(punctual, 0.65).point - was.point).norm(), 1e-14);
   // And back: keyframes say where it is.
   sim::shapes::Collider again = after;
   again.keyframes = keyframe_path();
   again.velocity.setZero();
-  again.travel = sim::shapes::travel_after(after, again, 1.2);
+  again.pose_offset = sim::shapes::offset_after(after, again, 1.2);
   EXPECT_LT(
       (sim::shapes::pose_at(again, 1.25).point - sim::shapes::pose_at(punctual, 1.0).point).norm(),
       1e-14);

@@ -1,8 +1,8 @@
 #pragma once
-/// Between particle records and Eigen's types, for the files that implement Engine.
+/// Between particle records and Eigen's types.
 
 #include <cmath>
-#include <cstddef>
+#include <cstdint>
 
 #include "sim/kernels/particles.h"
 #include "sim/types/material.h"
@@ -10,8 +10,8 @@
 
 namespace neve::sim::engine {
 
-/// Storage is put into block order this often: sorting costs more than it gains every step.
-inline constexpr std::size_t steps_between_sorts = 32;
+/// Ids are signed words.
+inline constexpr std::uint64_t max_ids = std::uint64_t(1) << 31;
 
 inline kernels::ModelKind model_kind(Model model) {
   switch (model) {

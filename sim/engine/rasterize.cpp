@@ -1,10 +1,10 @@
-/// Particles to nodes on a copy, with whatever quantity in the place of the velocity: the transfer
-/// is the one of the steps.
+#include "sim/engine/rasterize.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
 
-#include "sim/engine/engine.h"
-#include "sim/engine/engine_records.h"
+#include "sim/engine/state_reader.h"
 
 namespace neve::sim::engine {
 
@@ -17,7 +17,7 @@ struct MassAndMean {
 
 /// Mass and momentum of all nodes of some blocks; momentum over mass is the mean.
 template <class Real>
-MassAndMean read(const std::vector<kernels::StagedNodes<Real>>& staged) {
+MassAndMean mass_and_mean(const std::vector<kernels::StagedNodes<Real>>& staged) {
   MassAndMean out;
   out.mass.resize(kernels::block_nodes * staged.size());
   out.mean.resize(out.mass.size(), Vec3d::Zero());
@@ -38,38 +38,35 @@ MassAndMean read(const std::vector<kernels::StagedNodes<Real>>& staged) {
 }  // namespace
 
 template <class Real>
-RasterizedNodes Engine<Real>::rasterize(const std::vector<std::vector<double>>& values) const {
+RasterizedNodes rasterize(State<Real> copy, const std::vector<std::vector<double>>& values) {
+  std::vector<kernels::Particle<Real>>& records = copy.particles.records;
   for (const std::vector<double>& list : values)
-    if (list.size() != particles_.size())
+    if (list.size() != records.size())
       throw std::invalid_argument("rasterize: a list has " + std::to_string(list.size()) +
-                                  " values for " + std::to_string(particles_.size()) +
-                                  " particles");
+                                  " values for " + std::to_string(records.size()) + " particles");
   RasterizedNodes out;
-  out.spacing = settings_.cell_size;
+  out.spacing = copy.method.settings.cell_size;
   out.mean.resize(values.size());
-  if (particles_.empty()) return out;
+  if (records.empty()) return out;
 
-  Engine copy(*this);
   copy.partition();
-  const kernels::SweepArgs<Real> with_places = copy.args(0, kernels::all_channels);
-  std::vector<kernels::StagedNodes<Real>> staged(copy.partition_.node_blocks().size());
+  kernels::SweepArgs<Real> a = copy.sweep_args(0, kernels::all_channels);
+  std::vector<kernels::StagedNodes<Real>> staged(copy.particles.partition.node_blocks().size());
+  a.staged = staged.data();
   const auto sweep = [&] {
-    kernels::SweepArgs<Real> a = with_places;
-    a.staged = staged.data();
-    copy.over_particle_blocks(sweeps_->rasterize, a);
-    copy.over_node_blocks(sweeps_->collect_momentum, a);
-    return read(staged);
+    copy.over_particle_blocks(copy.method.sweeps->rasterize, a);
+    copy.over_node_blocks(copy.method.sweeps->collect_momentum, a);
+    return mass_and_mean(staged);
   };
   MassAndMean nodes = sweep();
   out.mass = std::move(nodes.mass);
   out.velocity = std::move(nodes.mean);
-  const Ranks rank = ranks();
+  const Ranks rank = StateReader<Real>(copy).ranks();
   // Three lists at a time, where velocity was. An affine part would belong to the velocity.
-  for (kernels::Particle<Real>& p : copy.particles_)
-    std::fill(std::begin(p.C), std::end(p.C), Real(0));
+  for (kernels::Particle<Real>& p : records) std::fill(std::begin(p.C), std::end(p.C), Real(0));
   for (std::size_t first = 0; first < values.size(); first += 3) {
     const std::size_t lists = std::min<std::size_t>(3, values.size() - first);
-    for (kernels::Particle<Real>& p : copy.particles_)
+    for (kernels::Particle<Real>& p : records)
       for (std::size_t k = 0; k < lists; ++k)
         p.v[k] = static_cast<Real>(values[first + k][rank[p]]);
     const MassAndMean means = sweep();
@@ -79,16 +76,12 @@ RasterizedNodes Engine<Real>::rasterize(const std::vector<std::vector<double>>& 
       for (const Vec3d& mean : means.mean) list.push_back(mean[static_cast<Eigen::Index>(k)]);
     }
   }
-  for (const kernels::NodeBlock& block : copy.partition_.node_blocks()) {
-    Vec3i at;
-    for (int axis = 0; axis < 3; ++axis)
-      at[axis] = kernels::block_coordinate(block.key, axis) - lattice_origin_[axis];
-    out.block.push_back(at);
-  }
+  for (const kernels::NodeBlock& block : copy.particles.partition.node_blocks())
+    out.block.push_back(copy.method.lattice.first_cell(block.key) / kernels::block_side);
   return out;
 }
 
-template RasterizedNodes Engine<float>::rasterize(const std::vector<std::vector<double>>&) const;
-template RasterizedNodes Engine<double>::rasterize(const std::vector<std::vector<double>>&) const;
+template RasterizedNodes rasterize(State<float>, const std::vector<std::vector<double>>&);
+template RasterizedNodes rasterize(State<double>, const std::vector<std::vector<double>>&);
 
 }  // namespace neve::sim::engine

@@ -1,0 +1,143 @@
+#include "sim/engine/health_watch.h"
+
+#include <algorithm>
+
+#include "sim/health/diagnostics.h"
+#include "sim/health/limits.h"
+
+namespace neve::sim::engine {
+
+namespace {
+
+using health::Law;
+
+/// Steps that a report of trouble looks back.
+constexpr std::size_t steps_recorded = 64;
+
+/// The first rule of a healthy step that its own report says is broken.
+/// @param before  limits that the dt of the step was chosen by
+std::optional<BrokenRule> broken_rule(const SolverSettings& settings, double dt,
+                                      const StateLimits& before, const StepReport& report,
+                                      Progress& progress) {
+  const double h = settings.cell_size;
+  const double speed_cfl = progress.limits.max_speed * dt / h;
+  // As an explicit step would feel it.
+  const double acoustic_cfl = progress.limits.max_sound_speed * dt / h / acoustic_stretch(settings);
+  double& worst_cfl = progress.warnings.worst_acoustic_cfl;
+  worst_cfl = std::max(worst_cfl, acoustic_cfl);
+  const bool is_adaptive = settings.time_step == TimeStep::adaptive;
+  const auto broken = [&](const char* rule, const char* stage, double value, double limit) {
+    return BrokenRule{rule, stage, dt, stable_dt(settings, before), value, limit};
+  };
+  const auto stop = [](Law law) { return health::limits_of(law).stop; };
+  const auto next_dt = [&] {
+    return choose_dt(settings, progress.limits, 1, progress.dt_scale).dt;
+  };
+  if (report.not_finite > stop(Law::not_finite))
+    return broken("not_finite", "deformation", report.not_finite, stop(Law::not_finite));
+  if (report.overflowed > stop(Law::overflow))
+    return broken("overflow", "advection", report.overflowed, stop(Law::overflow));
+  if (speed_cfl > stop(Law::speed_cfl))
+    return broken("speed_cfl", "particle_velocities", speed_cfl, stop(Law::speed_cfl));
+  if (report.inverted_unprojected > stop(Law::inverted))
+    return broken("inverted", "deformation", report.inverted_unprojected, stop(Law::inverted));
+  if (report.min_J_P < stop(Law::compaction))
+    return broken("J_P", "deformation", report.min_J_P, stop(Law::compaction));
+  if (is_adaptive && acoustic_cfl > stop(Law::acoustic_cfl))
+    return broken("acoustic_cfl", "deformation", acoustic_cfl, stop(Law::acoustic_cfl));
+  if (is_adaptive && next_dt() < stop(Law::time_step) * progress.rest_dt)
+    return broken("time_step", "deformation", next_dt(), stop(Law::time_step) * progress.rest_dt);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<BrokenRule> HealthWatch::check_step(const SolverSettings& settings, double dt,
+                                                  const StepReport& report, Progress& progress) {
+  const StateLimits before = progress.limits;
+  progress.limits.max_speed = report.max_speed;
+  progress.limits.max_sound_speed = report.max_sound_speed;
+  progress.limits.max_strain_rate = report.max_strain_rate;
+  progress.warnings.inverted_trials += report.inverted;
+  progress.energy.contact_work += report.contact_work;
+  progress.last_dt = dt;
+  record_step(dt, report, progress);
+  if (divergence_) return std::nullopt;
+  return broken_rule(settings, dt, before, report, progress);
+}
+
+void HealthWatch::record_step(double dt, const StepReport& report, const Progress& progress) {
+  ring_.resize(steps_recorded);
+  ring_[progress.steps % steps_recorded] = {progress.steps,
+                                            progress.time,
+                                            dt,
+                                            limit_,
+                                            report.max_speed,
+                                            report.max_sound_speed,
+                                            report.max_strain_rate,
+                                            report.min_J_P,
+                                            report.max_J_P,
+                                            report.inverted};
+}
+
+/// Oldest first.
+std::vector<StepRecord> HealthWatch::last_steps(std::uint64_t step) const {
+  std::vector<StepRecord> records;
+  for (std::size_t k = 1; k <= ring_.size(); ++k) {
+    const StepRecord& record = ring_[(step + k) % ring_.size()];
+    // An interrupted or repeated run has taken fewer than the ring holds.
+    if (record.step > 0 && record.step <= step && record.step + ring_.size() > step)
+      records.push_back(record);
+  }
+  return records;
+}
+
+EnergyAccount energy_account(const SolverSettings& settings, const EnergyBudget& budget,
+                             const Summary& now) {
+  const double gravity_work =
+      settings.gravity.dot(now.mass * now.centre_of_mass - moment_of(budget));
+  EnergyAccount account;
+  account.found = now.kinetic_energy + now.elastic_energy;
+  account.explained = budget.start + gravity_work + budget.contact_work;
+  // A cell's fall: what rounding and the first contact may do to snow that starts at rest.
+  const double floor = now.mass * settings.gravity.norm() * settings.cell_size;
+  account.scale = std::max({budget.largest, account.explained, floor}) + 1e-11 * now.mass;
+  return account;
+}
+
+std::optional<BrokenRule> HealthWatch::check_energy(const SolverSettings& settings,
+                                                    const Summary& now, Progress& progress) const {
+  const EnergyAccount account = energy_account(settings, progress.energy, now);
+  progress.energy.largest = std::max(progress.energy.largest, account.explained);
+  const double allowed =
+      account.explained + (health::limits_of(Law::energy).stop - 1) * account.scale;
+  if (account.found <= allowed) return std::nullopt;
+  return BrokenRule{"energy",         "particle_velocities",
+                    progress.last_dt, stable_dt(settings, progress.limits),
+                    account.found,    allowed};
+}
+
+void HealthWatch::diverge(const BrokenRule& broken, const Progress& progress,
+                          const SolverSettings& settings, const std::vector<Material>& materials,
+                          const ParticleArrays& particles) {
+  Divergence d;
+  d.step = progress.steps;
+  d.time = progress.time;
+  d.rule = broken.rule;
+  d.stage = broken.stage;
+  d.dt = broken.dt;
+  d.dt_that_holds = broken.dt_that_holds;
+  d.value = broken.value;
+  d.limit = broken.limit;
+  d.start = start;
+  d.last_steps = last_steps(progress.steps);
+  health::find_culprits(particles, settings, materials, d);
+  divergence_ = d;
+}
+
+void HealthWatch::forget() {
+  divergence_.reset();
+  ring_.clear();
+}
+
+}  // namespace neve::sim::engine

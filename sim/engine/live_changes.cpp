@@ -1,0 +1,199 @@
+#include "sim/engine/live_changes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "sim/engine/records.h"
+#include "sim/engine/state_reader.h"
+
+namespace neve::sim::engine {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& parameter) {
+  throw std::invalid_argument(parameter + " cannot change during a run: start the run again");
+}
+
+void require_live(const SolverSettings& before, const SolverSettings& after) {
+  if (before.cell_size != after.cell_size) refuse("the cell size");
+  if (before.precision != after.precision) refuse("the precision");
+  if (before.period != after.period) refuse("the period of the lattice");
+}
+
+void require_live(const std::vector<Material>& before, const std::vector<Material>& after) {
+  if (before.size() != after.size()) refuse("the number of materials");
+  for (std::size_t k = 0; k < before.size(); ++k)
+    if (before[k].density != after[k].density) refuse("the density of " + before[k].name);
+}
+
+bool same_law(const Material& a, const Material& b) {
+  return a.model == b.model && a.youngs_modulus == b.youngs_modulus &&
+         a.poisson_ratio == b.poisson_ratio && a.hardening == b.hardening &&
+         a.critical_compression == b.critical_compression &&
+         a.critical_stretch == b.critical_stretch;
+}
+
+/// The collider that continues as `after`, which has number k: the one of its name, of several the
+/// one of its number.
+const shapes::Collider* earlier(const std::vector<shapes::Collider>& before,
+                                const shapes::Collider& after, std::size_t k) {
+  if (k < before.size() && before[k].name == after.name) return &before[k];
+  const auto found =
+      std::find_if(before.begin(), before.end(),
+                   [&](const shapes::Collider& collider) { return collider.name == after.name; });
+  return found == before.end() ? nullptr : &*found;
+}
+
+/// The colliders of `after`, each from where it is at a time.
+std::vector<shapes::Collider> with_offsets(const std::vector<shapes::Collider>& before,
+                                           const std::vector<shapes::Collider>& after,
+                                           double time) {
+  std::vector<shapes::Collider> colliders = after;
+  for (std::size_t k = 0; k < colliders.size(); ++k) {
+    const shapes::Collider* same = earlier(before, after[k], k);
+    colliders[k].pose_offset =
+        same ? shapes::offset_after(*same, after[k], time) : shapes::PoseOffset{.since = time};
+  }
+  return colliders;
+}
+
+/// Steps that skip the colliders leave them where they were.
+void delay(std::vector<shapes::Collider>& colliders, const Progress& progress) {
+  for (shapes::Collider& collider : colliders)
+    collider.pose_offset =
+        shapes::delayed(collider.pose_offset, progress.time - progress.colliders_time);
+}
+
+/// Longest step by what the settings limit; not the end of a frame, and not fixed steps.
+double longest_step(const SolverSettings& settings, const StateLimits& limits) {
+  const auto allowed = limits_on_dt(settings, limits);
+  return *std::min_element(allowed.begin(), allowed.end());
+}
+
+/// Per material: whether its stress is another one.
+std::vector<bool> new_laws(const std::vector<Material>& before,
+                           const std::vector<Material>& after) {
+  std::vector<bool> is_changed(after.size());
+  for (std::size_t k = 0; k < after.size(); ++k) is_changed[k] = !same_law(before[k], after[k]);
+  return is_changed;
+}
+
+bool contains_true(const std::vector<bool>& list) {
+  return std::find(list.begin(), list.end(), true) != list.end();
+}
+
+/// Stress of the particles whose material changed, keys and groups of all: a kernel has its own
+/// blocks, a model its own groups.
+template <class Real>
+void recompute_stress(const std::vector<bool>& is_changed, State<Real>& state) {
+  std::vector<kernels::Particle<Real>>& records = state.particles.records;
+  if (records.empty()) return;
+  for (kernels::Particle<Real>& p : records)
+    p.kind = kernels::kind_of<Real>(
+        static_cast<std::uint16_t>(p.material()),
+        model_kind(state.method.materials[static_cast<std::size_t>(p.material())].model),
+        static_cast<unsigned>(p.flags()));
+  // The sweep writes whole records, of materials that stayed perhaps with another last bit.
+  std::vector<kernels::Particle<Real>> kept = records;
+  const kernels::BlockReport<Real> report = state.refresh(0, records.size());
+  for (std::size_t q = 0; q < kept.size(); ++q)
+    if (is_changed[static_cast<std::size_t>(kept[q].material())])
+      std::copy(std::begin(records[q].tau), std::end(records[q].tau), std::begin(kept[q].tau));
+  std::copy(kept.begin(), kept.end(), records.begin());
+  if (contains_true(is_changed))
+    state.progress.limits.max_sound_speed =
+        std::sqrt(static_cast<double>(report.max_sound_squared));
+}
+
+/// Makes the energy that the change put in or took out part of what the run may have. The scale of
+/// the rule never shrinks by a change: what was within it stays within it.
+template <class Real>
+void rebase_energy(const SolverSettings& before, const EnergyAccount& account, const Summary& found,
+                   State<Real>& state) {
+  const Summary now = StateReader<Real>(state).summary();
+  EnergyBudget& budget = state.progress.energy;
+  const double energy = now.kinetic_energy + now.elastic_energy;
+  const double change = energy - (found.kinetic_energy + found.elastic_energy);
+  // Not finite: the next step will say so, with its particle.
+  if (!std::isfinite(change)) return;
+  // Steps that skip stages are not watched; they may have left any energy behind.
+  const double explained = before.bypass.empty() ? account.explained + change : energy;
+  budget.start = explained - budget.contact_work;
+  Vec3d::Map(budget.moment.data()) = now.mass * now.centre_of_mass;
+  budget.largest = std::max({budget.largest, account.scale, explained});
+}
+
+/// Colliders of a run whose settings change too.
+template <class Real>
+MovingColliders changed_colliders(const SolverSettings& settings,
+                                  const std::vector<shapes::Collider>& colliders,
+                                  const State<Real>& state, double& colliders_time) {
+  const Progress& progress = state.progress;
+  std::vector<shapes::Collider> list =
+      with_offsets(state.colliders.list(), colliders, progress.colliders_time);
+  colliders_time = progress.colliders_time;
+  if (state.method.settings.skips(Stage::colliders) && !settings.skips(Stage::colliders)) {
+    // They move again, from where they waited.
+    delay(list, progress);
+    colliders_time = progress.time;
+  }
+  return MovingColliders(list, state.method.lattice, colliders_time, *state.pool);
+}
+
+}  // namespace
+
+template <class Real>
+std::vector<shapes::Collider> colliders_now(const State<Real>& state) {
+  std::vector<shapes::Collider> now = state.colliders.list();
+  if (state.method.settings.skips(Stage::colliders)) delay(now, state.progress);
+  return now;
+}
+
+template <class Real>
+void apply(const SolverSettings& settings, const std::vector<Material>& materials,
+           const std::vector<shapes::Collider>& colliders, State<Real>& state) {
+  const SolverSettings before = state.method.settings;
+  Progress& progress = state.progress;
+  require_live(before, settings);
+  require_live(state.method.materials, materials);
+  // Both throw for what cannot be.
+  double colliders_time = 0;
+  MovingColliders moving = changed_colliders(settings, colliders, state, colliders_time);
+  Method<Real> method = state.method;
+  method.change(settings, materials);
+
+  const std::vector<bool> is_changed = new_laws(state.method.materials, materials);
+  const bool has_new_stress = contains_true(is_changed) || before.kernel != settings.kernel ||
+                              before.transfer != settings.transfer;
+  const bool has_new_accounts =
+      has_new_stress || before.gravity != settings.gravity || before.bypass != settings.bypass;
+  const Summary found = has_new_accounts ? StateReader<Real>(state).summary() : Summary{};
+  const EnergyAccount account =
+      has_new_accounts ? energy_account(before, progress.energy, found) : EnergyAccount{};
+  const double longest_before = longest_step(before, progress.limits);
+
+  state.method = std::move(method);
+  state.colliders = std::move(moving);
+  progress.colliders_time = colliders_time;
+  progress.limits.max_hardening = state.method.max_hardening();
+  if ((before.transfer == Transfer::flip) != (settings.transfer == Transfer::flip))
+    for (kernels::Particle<Real>& p : state.particles.records)
+      std::fill(std::begin(p.C), std::end(p.C), Real(0));
+  if (has_new_stress) recompute_stress(is_changed, state);
+  if (has_new_accounts) rebase_energy(before, account, found, state);
+  // Which step is too short was said by the parameters of the start.
+  const double ratio = longest_step(settings, progress.limits) / longest_before;
+  if (std::isfinite(ratio) && ratio > 0) progress.rest_dt *= ratio;
+}
+
+#define NEVE_LIVE_CHANGES(Real)                                             \
+  template std::vector<shapes::Collider> colliders_now(const State<Real>&); \
+  template void apply(const SolverSettings&, const std::vector<Material>&,  \
+                      const std::vector<shapes::Collider>&, State<Real>&);
+NEVE_LIVE_CHANGES(float)
+NEVE_LIVE_CHANGES(double)
+#undef NEVE_LIVE_CHANGES
+
+}  // namespace neve::sim::engine

@@ -1,0 +1,119 @@
+#include "sim/engine/method.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "sim/engine/time_step.h"
+#include "sim/health/diagnostics.h"
+#include "sim/kernels/simd.h"
+
+namespace neve::sim::engine {
+
+namespace {
+
+kernels::TransferKind transfer_kind(Transfer transfer) {
+  switch (transfer) {
+    case Transfer::apic:
+      return kernels::TransferKind::apic;
+    case Transfer::mls:
+      return kernels::TransferKind::mls;
+    default:
+      return kernels::TransferKind::flip;
+  }
+}
+
+template <class Real>
+std::vector<kernels::MaterialConstants<Real>> constants_of(const std::vector<Material>& materials) {
+  std::vector<kernels::MaterialConstants<Real>> constants;
+  for (const Material& m : materials) {
+    if (m.yields && materials.size() > 1)
+      throw std::invalid_argument("material " + m.name +
+                                  " yields besides snow: it must be the only material");
+    const Lame rest = lame(m.youngs_modulus, m.poisson_ratio);
+    constants.push_back({static_cast<Real>(rest.mu), static_cast<Real>(rest.lambda),
+                         static_cast<Real>(m.hardening), static_cast<Real>(m.critical_compression),
+                         static_cast<Real>(m.critical_stretch)});
+  }
+  return constants;
+}
+
+}  // namespace
+
+template <class Real>
+Method<Real>::Method(const SolverSettings& given, const std::vector<Material>& materials_given,
+                     const Vec3i& lattice_origin)
+    : lattice{given.cell_size, lattice_origin} {
+  if (materials_given.empty()) throw std::invalid_argument("a simulation needs a material");
+  if (given.period.minCoeff() < 0 || given.period.maxCoeff() > kernels::block_limit)
+    throw std::invalid_argument("a period of the lattice is negative or too long");
+  simd = kernels::chosen_simd_level();
+  change(given, materials_given);
+}
+
+template <class Real>
+void Method<Real>::change(const SolverSettings& given,
+                          const std::vector<Material>& materials_given) {
+  material_constants = constants_of<Real>(materials_given);
+  settings = given;
+  materials = materials_given;
+  kernel_nodes = settings.kernel == Kernel::cubic ? kernels::cubic_nodes : kernels::quadratic_nodes;
+  sweeps = &kernels::sweeps_for(simd, kernel_nodes, transfer_kind(settings.transfer), Real());
+  solve_sweeps =
+      &kernels::solve_sweeps_for(simd, kernel_nodes, settings.transfer == Transfer::mls, Real());
+}
+
+template <class Real>
+double Method<Real>::max_hardening() const {
+  double most = 0;
+  for (const Material& m : materials) most = std::max(most, m.hardening);
+  return most;
+}
+
+template <class Real>
+std::size_t Method<Real>::tile_nodes() const {
+  return static_cast<std::size_t>(kernel_nodes == kernels::cubic_nodes
+                                      ? kernels::Tile<kernels::cubic_nodes>::nodes
+                                      : kernels::Tile<kernels::quadratic_nodes>::nodes);
+}
+
+template <class Real>
+kernels::StepConstants<Real> Method<Real>::step_constants(double dt) const {
+  const double h = settings.cell_size;
+  kernels::StepConstants<Real> c{};
+  c.h = static_cast<Real>(h);
+  c.inv_h = static_cast<Real>(1 / h);
+  c.dt = static_cast<Real>(dt);
+  c.dt_over_h = static_cast<Real>(dt / h);
+  c.alpha = static_cast<Real>(flip_share(settings, dt));
+  for (int axis = 0; axis < 3; ++axis) c.gravity[axis] = static_cast<Real>(settings.gravity[axis]);
+  c.moves_with_grid = settings.advect == Advect::pic;
+  c.h_double = h;
+  c.materials = material_constants.data();
+  return c;
+}
+
+template <class Real>
+double Method<Real>::affine_inertia() const {
+  return settings.cell_size * settings.cell_size *
+         (kernel_nodes == kernels::cubic_nodes ? kernels::apic_inertia<kernels::cubic_nodes>
+                                               : kernels::apic_inertia<kernels::quadratic_nodes>);
+}
+
+template <class Real>
+double Method<Real>::kinetic_energy(const kernels::Particle<Real>& p) const {
+  const double m = static_cast<double>(p.m), energy = 0.5 * m * vector(p.v).squaredNorm();
+  if (settings.transfer == Transfer::flip) return energy;
+  return energy + 0.5 * m * affine_inertia() * matrix(p.C).squaredNorm();
+}
+
+template <class Real>
+double Method<Real>::elastic_energy(const kernels::Particle<Real>& p) const {
+  return static_cast<double>(p.V0) * static_cast<double>(p.stiffness) *
+         health::energy_density(materials[static_cast<std::size_t>(p.material())], matrix(p.F_E),
+                                static_cast<double>(p.J_P));
+}
+
+template struct Method<float>;
+template struct Method<double>;
+
+}  // namespace neve::sim::engine

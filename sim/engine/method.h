@@ -1,0 +1,45 @@
+#pragma once
+/// The method of a run: settings and materials, and the kernels that they choose.
+
+#include <vector>
+
+#include "sim/engine/lattice.h"
+#include "sim/kernels/implicit.h"
+#include "sim/kernels/kernels.h"
+#include "sim/types/material.h"
+#include "sim/types/settings.h"
+
+namespace neve::sim::engine {
+
+template <class Real>
+struct Method {
+  /// @throws std::invalid_argument for materials or a period that cannot be
+  Method(const SolverSettings& settings, const std::vector<Material>& materials,
+         const Vec3i& lattice_origin);
+
+  /// All but the lattice. @throws std::invalid_argument, and then is as it was
+  void change(const SolverSettings& settings, const std::vector<Material>& materials);
+
+  /// Whether stages to skip, or a material, force the staged driver.
+  bool takes_stages() const { return settings.takes_stages() || materials[0].yields; }
+  double max_hardening() const;
+  std::size_t tile_nodes() const;
+  /// For a step of dt; without colliders.
+  kernels::StepConstants<Real> step_constants(double dt) const;
+
+  /// m2, of the weights around a particle.
+  double affine_inertia() const;
+  double kinetic_energy(const kernels::Particle<Real>& p) const;
+  double elastic_energy(const kernels::Particle<Real>& p) const;
+
+  SolverSettings settings;
+  std::vector<Material> materials;
+  Lattice lattice;
+  std::vector<kernels::MaterialConstants<Real>> material_constants;
+  kernels::SimdLevel simd = kernels::SimdLevel::baseline;
+  int kernel_nodes = kernels::cubic_nodes;
+  const kernels::Sweeps<Real>* sweeps = nullptr;
+  const kernels::SolveSweeps<Real>* solve_sweeps = nullptr;
+};
+
+}  // namespace neve::sim::engine

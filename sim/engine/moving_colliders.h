@@ -1,0 +1,39 @@
+#pragma once
+/// The colliders of a run, and their poses as kernels read them.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "sim/base/thread_pool.h"
+#include "sim/engine/lattice.h"
+#include "sim/kernels/contact.h"
+#include "sim/shapes/collider.h"
+#include "sim/shapes/distance_field.h"
+
+namespace neve::sim::engine {
+
+class MovingColliders {
+ public:
+  /// Makes the distances of meshes, and places all colliders.
+  /// @throws ShapeError, std::invalid_argument for what cannot be a collider
+  MovingColliders(const std::vector<shapes::Collider>& colliders, const Lattice& lattice,
+                  double time, ThreadPool& pool);
+
+  void place(const Lattice& lattice, double time);
+  void set_offset(std::size_t k, const shapes::PoseOffset& offset) {
+    list_[k].pose_offset = offset;
+  }
+
+  const std::vector<shapes::Collider>& list() const { return list_; }
+  /// Poses of the colliders in reach of the lattice.
+  const std::vector<kernels::ColliderPose>& poses() const { return poses_; }
+  std::uint64_t memory_bytes() const;
+
+ private:
+  std::vector<shapes::Collider> list_;
+  std::vector<std::shared_ptr<const shapes::DistanceField>> fields_;  ///< null but of meshes
+  std::vector<kernels::ColliderPose> poses_;
+};
+
+}  // namespace neve::sim::engine

@@ -1,0 +1,17 @@
+#pragma once
+/// Particles to nodes, with any quantity in the place of the velocity: the transfer of the steps.
+
+#include <vector>
+
+#include "sim/engine/state.h"
+#include "sim/types/grid_fields.h"
+
+namespace neve::sim::engine {
+
+/// @param copy  of the state of a run, which is not changed
+/// @param values  lists of one value per particle in id order
+/// @throws std::invalid_argument when a list has another length
+template <class Real>
+RasterizedNodes rasterize(State<Real> copy, const std::vector<std::vector<double>>& values);
+
+}  // namespace neve::sim::engine

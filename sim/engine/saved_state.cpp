@@ -1,0 +1,166 @@
+#include "sim/engine/saved_state.h"
+
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+#include "sim/engine/records.h"
+#include "sim/types/errors.h"
+
+namespace neve::sim::engine {
+
+namespace {
+
+/// The last sign is the version of the layout.
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', '8'};
+
+/// At the beginning: it says what follows. Then come Progress, the records, the offsets of the
+/// colliders and the emitters.
+struct SavedHead {
+  char magic[8];
+  std::uint32_t bytes_per_number, bytes_per_record;
+  std::uint64_t particles, colliders, emitters;
+  std::int32_t lattice_origin[3], unused;
+};
+static_assert(std::has_unique_object_representations_v<SavedHead>);
+
+struct SavedOffset {
+  double since, moved[3], turned[9], delay;
+};
+
+SavedOffset saved(const shapes::PoseOffset& offset) {
+  SavedOffset out{};
+  out.since = offset.since;
+  out.delay = offset.delay;
+  for (int a = 0; a < 3; ++a) out.moved[a] = offset.moved[a];
+  for (int q = 0; q < 9; ++q) out.turned[q] = offset.turned(q / 3, q % 3);
+  return out;
+}
+
+shapes::PoseOffset restored(const SavedOffset& in) {
+  shapes::PoseOffset out;
+  out.since = in.since;
+  out.delay = in.delay;
+  for (int a = 0; a < 3; ++a) out.moved[a] = in.moved[a];
+  for (int q = 0; q < 9; ++q) out.turned(q / 3, q % 3) = in.turned[q];
+  return out;
+}
+
+template <class T>
+std::size_t bytes_in(const std::vector<T>& list) {
+  return sizeof(T) * list.size();
+}
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw SavedStateError("the saved state " + why);
+}
+
+template <class Real>
+SavedHead head_of(const State<Real>& state, std::size_t emitters) {
+  SavedHead head{};
+  std::memcpy(head.magic, magic, sizeof magic);
+  head.bytes_per_number = sizeof(Real);
+  head.bytes_per_record = sizeof(kernels::Particle<Real>);
+  head.particles = state.particles.size();
+  head.colliders = state.colliders.list().size();
+  head.emitters = emitters;
+  for (int a = 0; a < 3; ++a) head.lattice_origin[a] = state.method.lattice.origin[a];
+  return head;
+}
+
+/// Compares everything but the number of particles.
+void require_same(const SavedHead& found, const SavedHead& expected) {
+  if (found.bytes_per_number != expected.bytes_per_number) refuse("has a different precision");
+  if (found.bytes_per_record != expected.bytes_per_record) refuse("has different particles");
+  if (found.colliders != expected.colliders) refuse("has a different number of colliders");
+  if (found.emitters != expected.emitters) refuse("has a different number of emitters");
+  if (std::memcmp(found.lattice_origin, expected.lattice_origin, sizeof found.lattice_origin) != 0)
+    refuse("has a different lattice");
+}
+
+template <class Real>
+void require_possible(const std::vector<kernels::Particle<Real>>& records, std::size_t materials,
+                      std::uint64_t next_id) {
+  for (const kernels::Particle<Real>& p : records) {
+    for (const Integer<Real> cell : p.cell)
+      if (cell <= -4 * kernels::block_limit || cell >= 4 * kernels::block_limit)
+        refuse("has particles outside of the lattice");
+    if (static_cast<std::size_t>(p.material()) >= materials ||
+        static_cast<std::uint64_t>(p.id) >= next_id)
+      refuse("names a material or a particle that is not there");
+  }
+}
+
+}  // namespace
+
+template <class Real>
+std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& flow) {
+  static_assert(std::is_trivially_copyable_v<kernels::Particle<Real>>);
+  const std::vector<kernels::Particle<Real>>& records = state.particles.records;
+  std::vector<SavedOffset> offsets;
+  for (const shapes::Collider& collider : state.colliders.list())
+    offsets.push_back(saved(collider.pose_offset));
+  const std::vector<seeding::EmitterStream::State> emitters = flow.emitter_states();
+  const SavedHead head = head_of(state, emitters.size());
+  std::vector<std::uint8_t> bytes(sizeof head + sizeof state.progress + bytes_in(records) +
+                                  bytes_in(offsets) + bytes_in(emitters));
+  std::uint8_t* next = bytes.data();
+  const auto put = [&](const void* data, std::size_t size) {
+    if (size > 0) std::memcpy(next, data, size);
+    next += size;
+  };
+  put(&head, sizeof head);
+  put(&state.progress, sizeof state.progress);
+  put(records.data(), bytes_in(records));
+  put(offsets.data(), bytes_in(offsets));
+  put(emitters.data(), bytes_in(emitters));
+  return bytes;
+}
+
+template <class Real>
+void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<Real>& flow) {
+  const std::uint8_t* next = bytes.data();
+  const auto take = [&](void* data, std::size_t size) {
+    if (size > 0) std::memcpy(data, next, size);
+    next += size;
+  };
+  SavedHead head{};
+  Progress progress;
+  if (bytes.size() < sizeof head) refuse("is truncated");
+  take(&head, sizeof head);
+  if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse("is from another version");
+  std::vector<SavedOffset> offsets(state.colliders.list().size());
+  std::vector<seeding::EmitterStream::State> emitters = flow.emitter_states();
+  require_same(head, head_of(state, emitters.size()));
+  if (head.particles > bytes.size() / sizeof(kernels::Particle<Real>) ||
+      bytes.size() != sizeof head + sizeof progress +
+                          head.particles * sizeof(kernels::Particle<Real>) + bytes_in(offsets) +
+                          bytes_in(emitters))
+    refuse("has a different length than it says");
+  take(&progress, sizeof progress);
+  if (progress.next_id < head.particles || progress.next_id > max_ids) refuse("has impossible ids");
+  std::vector<kernels::Particle<Real>> records(head.particles);
+  take(records.data(), bytes_in(records));
+  take(offsets.data(), bytes_in(offsets));
+  take(emitters.data(), bytes_in(emitters));
+  require_possible(records, state.method.materials.size(), progress.next_id);
+
+  state.progress = progress;
+  for (std::size_t k = 0; k < offsets.size(); ++k)
+    state.colliders.set_offset(k, restored(offsets[k]));
+  state.colliders.place(state.method.lattice, progress.colliders_time);
+  flow.restore(emitters);
+  state.particles.replace(records);
+  if (records.empty()) return;
+  // Keys come from a sweep that also computes the stress, perhaps with another last bit: the
+  // records go back as they were.
+  state.refresh(0, records.size());
+  state.particles.records = std::move(records);
+}
+
+template std::vector<std::uint8_t> save(const State<float>&, const SnowFlow<float>&);
+template std::vector<std::uint8_t> save(const State<double>&, const SnowFlow<double>&);
+template void restore(std::span<const std::uint8_t>, State<float>&, SnowFlow<float>&);
+template void restore(std::span<const std::uint8_t>, State<double>&, SnowFlow<double>&);
+
+}  // namespace neve::sim::engine

@@ -1,0 +1,20 @@
+#pragma once
+/// The state of a run as bytes, and back: exact, in the order of storage.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/engine/snow_flow.h"
+#include "sim/engine/state.h"
+
+namespace neve::sim::engine {
+
+template <class Real>
+std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& flow);
+
+/// @throws SavedStateError; state and flow are then as they were
+template <class Real>
+void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<Real>& flow);
+
+}  // namespace neve::sim::engine

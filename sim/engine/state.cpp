@@ -1,0 +1,103 @@
+#include "sim/engine/state.h"
+
+#include <algorithm>
+
+namespace neve::sim::engine {
+
+namespace {
+
+/// Below this many particles per thread, waking a thread costs more than it saves.
+constexpr std::size_t particles_per_thread = 1000;
+
+/// Sorting the storage costs more than it gains every step.
+constexpr std::uint64_t steps_between_sorts = 32;
+
+}  // namespace
+
+template <class Real>
+State<Real>::State(const SolverSettings& settings, const std::vector<Material>& materials,
+                   const std::vector<shapes::Collider>& given, int threads,
+                   const Vec3i& lattice_origin)
+    : method(settings, materials, lattice_origin),
+      pool(std::make_shared<ThreadPool>(threads)),
+      colliders(given, method.lattice, 0, *pool) {
+  particles.partition.set_period(settings.period);
+  progress.limits.max_hardening = method.max_hardening();
+}
+
+template <class Real>
+void State<Real>::partition() {
+  ParticleStorage<Real>& p = particles;
+  p.partition.wrap(p.keys, *pool, active_threads());
+  p.partition.build(p.keys, p.locals, *pool, active_threads());
+}
+
+template <class Real>
+void State<Real>::sort_storage() {
+  if (progress.steps % steps_between_sorts != 0) return;
+  ParticleStorage<Real>& p = particles;
+  p.partition.sort_storage(p.records, p.reordering, p.keys, p.locals, *pool, active_threads());
+}
+
+template <class Real>
+kernels::SweepArgs<Real> State<Real>::sweep_args(double dt, int channels) {
+  kernels::SweepArgs<Real> a{};
+  a.constants = method.step_constants(dt);
+  a.constants.colliders = colliders.poses().data();
+  a.constants.collider_count = static_cast<int>(colliders.poses().size());
+  a.particles = particles.records.data();
+  a.particle_count = static_cast<std::uint32_t>(particles.size());
+  a.keys = particles.keys.data();
+  a.locals = particles.locals.data();
+  const Partition& blocks = particles.partition;
+  a.order = blocks.order().data();
+  a.blocks = blocks.blocks().data();
+  a.node_blocks = blocks.node_blocks().data();
+  a.channels = channels;
+  const auto planes = static_cast<std::size_t>(channels);
+  const std::size_t block_count = blocks.blocks().size();
+  const std::size_t node_block_count = blocks.node_blocks().size();
+  a.tiles = grid.tiles.at_least(block_count * planes * method.tile_nodes());
+  a.nodes = grid.nodes.at_least(node_block_count * planes * kernels::block_nodes);
+  grid.reports.resize(block_count);
+  grid.node_contact_work.resize(node_block_count);
+  a.reports = grid.reports.data();
+  a.node_contact_work = grid.node_contact_work.data();
+  return a;
+}
+
+template <class Real>
+kernels::BlockReport<Real> State<Real>::refresh(std::size_t begin, std::size_t end) {
+  kernels::BlockReport<Real> report;
+  method.sweeps->refresh(sweep_args(0, kernels::all_channels), static_cast<std::uint32_t>(begin),
+                         static_cast<std::uint32_t>(end), false, report);
+  return report;
+}
+
+template <class Real>
+void State<Real>::advance_time(double dt) {
+  progress.time += dt;
+  ++progress.steps;
+  if (method.settings.skips(Stage::colliders)) return;
+  progress.colliders_time = progress.time;
+  colliders.place(method.lattice, progress.time);
+}
+
+template <class Real>
+void State<Real>::push_out(kernels::SweepArgs<Real> a) const {
+  if (!method.settings.push_out) return;
+  a.constants.colliders = colliders.poses().data();
+  over_particle_blocks(method.sweeps->push_out, a);
+}
+
+template <class Real>
+int State<Real>::active_threads() const {
+  const std::size_t wanted = particles.size() / particles_per_thread;
+  return static_cast<int>(
+      std::clamp<std::size_t>(wanted, 1, static_cast<std::size_t>(pool->thread_count())));
+}
+
+template struct State<float>;
+template struct State<double>;
+
+}  // namespace neve::sim::engine

@@ -1,0 +1,74 @@
+#pragma once
+/// Everything that a step reads and changes. A copy shares only the threads.
+
+#include <memory>
+
+#include "sim/base/thread_pool.h"
+#include "sim/engine/grid_storage.h"
+#include "sim/engine/method.h"
+#include "sim/engine/moving_colliders.h"
+#include "sim/engine/particle_storage.h"
+#include "sim/engine/progress.h"
+
+namespace neve::sim::engine {
+
+/// A sweep over blocks [begin, end).
+template <class Args>
+using BlockSweep = void (*)(const Args&, std::uint32_t begin, std::uint32_t end);
+
+template <class Real>
+struct State {
+  State(const SolverSettings& settings, const std::vector<Material>& materials,
+        const std::vector<shapes::Collider>& colliders, int threads, const Vec3i& lattice_origin);
+
+  /// Brings particles into the order of blocks.
+  void partition();
+  /// Brings storage into that order too, once in a while.
+  void sort_storage();
+  /// For sweeps of a step of dt. Room for the grid is made: earlier arguments are void.
+  /// @param channels of tiles and nodes
+  kernels::SweepArgs<Real> sweep_args(double dt, int channels);
+  /// Calls a sweep over particle blocks (weighted by particles) or node blocks, on all threads.
+  template <class Args>
+  void over_particle_blocks(BlockSweep<Args> sweep, const Args& a) const;
+  template <class Args>
+  void over_node_blocks(BlockSweep<Args> sweep, const Args& a) const;
+  /// Stress, keys and limits of records [begin, end) as they are.
+  kernels::BlockReport<Real> refresh(std::size_t begin, std::size_t end);
+
+  /// Time passes, and colliders move unless the settings skip that.
+  void advance_time(double dt);
+  /// Brings particles out of colliders, if the settings ask for it.
+  void push_out(kernels::SweepArgs<Real> a) const;
+
+  int active_threads() const;
+  Vec3d position(const kernels::Particle<Real>& p) const { return method.lattice.position(p); }
+
+  Method<Real> method;
+  std::shared_ptr<ThreadPool> pool;
+  MovingColliders colliders;
+  ParticleStorage<Real> particles;
+  GridStorage<Real> grid;
+  Progress progress;
+};
+
+template <class Real>
+template <class Args>
+void State<Real>::over_particle_blocks(BlockSweep<Args> sweep, const Args& a) const {
+  const int threads = active_threads(), parts = ThreadPool::parts_for(threads);
+  pool->run(threads, parts, [&](int part) {
+    sweep(a, particles.partition.first_block(part, parts),
+          particles.partition.first_block(part + 1, parts));
+  });
+}
+
+template <class Real>
+template <class Args>
+void State<Real>::over_node_blocks(BlockSweep<Args> sweep, const Args& a) const {
+  pool->ranges(particles.partition.node_blocks().size(), active_threads(),
+               [&](std::size_t begin, std::size_t end) {
+                 sweep(a, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+               });
+}
+
+}  // namespace neve::sim::engine

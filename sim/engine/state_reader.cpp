@@ -1,0 +1,219 @@
+#include "sim/engine/state_reader.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "sim/base/hash.h"
+
+namespace neve::sim::engine {
+
+namespace {
+
+/// Sums are taken over chunks of particles and added in order: the same bits at any number of
+/// threads.
+constexpr std::size_t chunk = 4096;
+
+constexpr std::size_t chunks_of(std::size_t count) {
+  return (count + chunk - 1) / chunk;
+}
+
+}  // namespace
+
+template <class Real>
+Ranks StateReader<Real>::ranks() const {
+  const std::uint64_t ids = state_.progress.next_id;
+  // Ids grow: where none is left out they are ranks themselves.
+  if (ids == state_.particles.size()) return Ranks({});
+  std::vector<std::uint32_t> rank(ids, 0);
+  for (const kernels::Particle<Real>& p : state_.particles.records)
+    rank[static_cast<std::size_t>(p.id)] = 1;
+  std::uint32_t sum = 0;
+  for (std::uint32_t& r : rank) {
+    const std::uint32_t own = r;
+    r = sum;
+    sum += own;
+  }
+  return Ranks(std::move(rank));
+}
+
+template <class Real>
+ParticleArrays StateReader<Real>::particles() const {
+  ParticleArrays out;
+  const std::size_t count = state_.particles.size();
+  out.x.resize(count);
+  out.v.resize(count);
+  out.m.resize(count);
+  out.V0.resize(count);
+  out.F_E.resize(count);
+  out.J_P.resize(count);
+  out.C.resize(count);
+  out.material.resize(count);
+  const Ranks rank = ranks();
+  if (!rank.are_ids()) out.id.resize(count);
+  bool is_varied = false;
+  for (const kernels::Particle<Real>& p : state_.particles.records) {
+    const std::size_t id = rank[p];
+    if (!out.id.empty()) out.id[id] = static_cast<std::uint32_t>(p.id);
+    is_varied = is_varied || p.stiffness != Real(1) || p.threshold != Real(1);
+    out.x[id] = state_.position(p);
+    out.v[id] = vector(p.v);
+    out.m[id] = static_cast<double>(p.m);
+    out.V0[id] = static_cast<double>(p.V0);
+    out.F_E[id] = matrix(p.F_E);
+    out.J_P[id] = static_cast<double>(p.J_P);
+    out.C[id] = matrix(p.C);
+    out.material[id] = static_cast<int>(p.material());
+  }
+  if (!is_varied) return out;
+  out.stiffness.resize(count);
+  out.threshold.resize(count);
+  for (const kernels::Particle<Real>& p : state_.particles.records) {
+    out.stiffness[rank[p]] = static_cast<double>(p.stiffness);
+    out.threshold[rank[p]] = static_cast<double>(p.threshold);
+  }
+  return out;
+}
+
+template <class Real>
+std::vector<Mat3d> StateReader<Real>::kirchhoff() const {
+  std::vector<Mat3d> out(state_.particles.size());
+  const Ranks rank = ranks();
+  for (const kernels::Particle<Real>& p : state_.particles.records) {
+    const Real* t = p.tau;
+    const Real full[9] = {t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2]};
+    out[rank[p]] = matrix(full);
+  }
+  return out;
+}
+
+template <class Real>
+std::vector<Vec3i> StateReader<Real>::cells() const {
+  std::vector<Vec3i> out(state_.particles.size());
+  const Ranks rank = ranks();
+  for (const kernels::Particle<Real>& p : state_.particles.records)
+    out[rank[p]] = Eigen::Matrix<Integer<Real>, 3, 1>(p.cell).template cast<int>();
+  return out;
+}
+
+template <class Real>
+std::uint64_t StateReader<Real>::state_hash() const {
+  std::uint64_t sum = 0;
+  for (const kernels::Particle<Real>& p : state_.particles.records) {
+    std::int32_t cell[3];
+    for (int a = 0; a < 3; ++a)
+      cell[a] = static_cast<int>(p.cell[a]) - kernels::block_side * state_.method.lattice.origin[a];
+    std::uint64_t hash = hash_bytes(cell, sizeof cell);
+    hash = hash_bytes(p.offset, sizeof p.offset, hash);
+    hash = hash_bytes(p.v, sizeof p.v, hash);
+    hash = hash_bytes(&p.m, sizeof p.m, hash);
+    hash = hash_bytes(&p.V0, sizeof p.V0, hash);
+    hash = hash_bytes(p.F_E, sizeof p.F_E, hash);
+    hash = hash_bytes(&p.J_P, sizeof p.J_P, hash);
+    hash = hash_bytes(p.C, sizeof p.C, hash);
+    sum += mix64(static_cast<std::uint64_t>(p.id), hash);
+  }
+  return sum;
+}
+
+template <class Real>
+Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
+  const Method<Real>& method = state_.method;
+  const bool has_C = method.settings.transfer != Transfer::flip;
+  const double inertia = method.affine_inertia();
+  Summary s;
+  for (std::size_t q = begin; q < end; ++q) {
+    const kernels::Particle<Real>& p = state_.particles.records[q];
+    const double m = static_cast<double>(p.m), J_P = static_cast<double>(p.J_P);
+    const Vec3d x = state_.position(p), v = vector(p.v);
+    s.mass += m;
+    s.kinetic_energy += method.kinetic_energy(p);
+    s.momentum += m * v;
+    s.centre_of_mass += m * x;
+    s.angular_momentum += m * x.cross(v);
+    if (has_C) {
+      const Mat3d C = matrix(p.C);
+      s.angular_momentum +=
+          m * inertia * Vec3d(C(2, 1) - C(1, 2), C(0, 2) - C(2, 0), C(1, 0) - C(0, 1));
+    }
+    s.elastic_energy += method.elastic_energy(p);
+    s.max_speed = std::max(s.max_speed, v.norm());
+    s.min_J_P = q == begin ? J_P : std::min(s.min_J_P, J_P);
+    s.max_J_P = q == begin ? J_P : std::max(s.max_J_P, J_P);
+  }
+  return s;
+}
+
+template <class Real>
+Summary StateReader<Real>::summary() const {
+  const std::size_t count = state_.particles.size();
+  std::vector<Summary> parts(chunks_of(count));
+  state_.pool->ranges(parts.size(), state_.active_threads(),
+                      [&](std::size_t begin, std::size_t end) {
+                        for (std::size_t c = begin; c < end; ++c)
+                          parts[c] = sum_of(c * chunk, std::min(count, (c + 1) * chunk));
+                      });
+  Summary all;
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    const Summary& s = parts[c];
+    all.mass += s.mass;
+    all.kinetic_energy += s.kinetic_energy;
+    all.elastic_energy += s.elastic_energy;
+    all.momentum += s.momentum;
+    all.centre_of_mass += s.centre_of_mass;
+    all.angular_momentum += s.angular_momentum;
+    all.max_speed = std::max(all.max_speed, s.max_speed);
+    all.min_J_P = c == 0 ? s.min_J_P : std::min(all.min_J_P, s.min_J_P);
+    all.max_J_P = c == 0 ? s.max_J_P : std::max(all.max_J_P, s.max_J_P);
+  }
+  all.max_depth = max_depth();
+  all.time = state_.progress.time;
+  all.particles = count;
+  all.emitted = state_.progress.flow.emitted;
+  all.removed = state_.progress.flow.removed;
+  if (all.mass > 0) all.centre_of_mass /= all.mass;
+  return all;
+}
+
+/// In double, as the kernels see it: four particles at a time.
+template <class Real>
+double StateReader<Real>::max_depth() const {
+  using V = Quad<double>;
+  const Lattice& lattice = state_.method.lattice;
+  const std::vector<kernels::Particle<Real>>& records = state_.particles.records;
+  const int origin[3] = {kernels::block_side * lattice.origin[0],
+                         kernels::block_side * lattice.origin[1],
+                         kernels::block_side * lattice.origin[2]};
+  std::vector<kernels::LocalCollider<double>> colliders;
+  for (const kernels::ColliderPose& pose : state_.colliders.poses())
+    colliders.push_back(kernels::localize<double>(pose, origin, lattice.cell_size));
+  std::vector<double> deepest(chunks_of(records.size()), 0.0);
+  if (colliders.empty() || deepest.empty()) return 0;
+  const auto deepest_of = [&](std::size_t begin, std::size_t end) {
+    V least{};
+    for (std::size_t q = begin; q < end; q += 4) {
+      Vec3<V> r;
+      for (int l = 0; l < 4; ++l) {
+        const Vec3d x =
+            state_.position(records[std::min(q + static_cast<std::size_t>(l), end - 1)]);
+        for (int a = 0; a < 3; ++a) r[a][l] = x[a];
+      }
+      for (const kernels::LocalCollider<double>& collider : colliders) {
+        Vec3<V> normal;
+        least = smaller_lanes(least, kernels::surface_distance(collider, r, normal));
+      }
+    }
+    // Not -smallest: nothing is 0 deep, never -0.
+    return 0 - smallest_lane(least);
+  };
+  state_.pool->ranges(
+      deepest.size(), state_.active_threads(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c)
+          deepest[c] = deepest_of(c * chunk, std::min(records.size(), (c + 1) * chunk));
+      });
+  return *std::max_element(deepest.begin(), deepest.end());
+}
+
+template class StateReader<float>;
+template class StateReader<double>;
+
+}  // namespace neve::sim::engine

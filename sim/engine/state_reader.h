@@ -1,0 +1,50 @@
+#pragma once
+/// Reads particles back, in id order, and sums over them.
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "sim/engine/state.h"
+#include "sim/types/particle_arrays.h"
+#include "sim/types/reports.h"
+
+namespace neve::sim::engine {
+
+/// Ranks of particles in id order.
+class Ranks {
+ public:
+  /// @param by_id may be empty: ids are ranks
+  explicit Ranks(std::vector<std::uint32_t> by_id) : by_id_(std::move(by_id)) {}
+  bool are_ids() const { return by_id_.empty(); }
+  template <class Real>
+  std::size_t operator[](const kernels::Particle<Real>& p) const {
+    const auto id = static_cast<std::size_t>(p.id);
+    return by_id_.empty() ? id : by_id_[id];
+  }
+
+ private:
+  std::vector<std::uint32_t> by_id_;
+};
+
+template <class Real>
+class StateReader {
+ public:
+  explicit StateReader(const State<Real>& state) : state_(state) {}
+
+  Ranks ranks() const;
+  ParticleArrays particles() const;
+  std::vector<Mat3d> kirchhoff() const;
+  std::vector<Vec3i> cells() const;
+  std::uint64_t state_hash() const;
+  Summary summary() const;
+
+ private:
+  Summary sum_of(std::size_t begin, std::size_t end) const;
+  /// Depth of the deepest particle in a collider, m; 0 where all are outside.
+  double max_depth() const;
+
+  const State<Real>& state_;
+};
+
+}  // namespace neve::sim::engine

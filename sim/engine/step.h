@@ -1,0 +1,102 @@
+#pragma once
+/// One step, by two drivers: one stage after the other, or fused into three sweeps.
+
+#include <array>
+#include <chrono>
+#include <vector>
+
+#include "sim/engine/implicit_solver.h"
+#include "sim/engine/state.h"
+#include "sim/types/reports.h"
+#include "sim/types/stage.h"
+
+namespace neve::sim::engine {
+
+/// Does some work, and adds the time that it takes.
+template <class Work>
+void timed(double& seconds, const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The fused driver, which runs: sweeps keep in registers whatever one stage hands to the next.
+template <class Real>
+class FusedDriver {
+ public:
+  FusedDriver(State<Real>& state, ImplicitSolver<Real>& solver, PhaseSeconds& seconds, double dt)
+      : state_(state), solver_(solver), seconds_(seconds), dt_(dt) {}
+
+  /// @return false: the solve failed, nothing was changed
+  bool step(bool is_implicit);
+
+ private:
+  void sort_particles();
+  void particles_to_grid();
+  void update_grid();
+  bool solve_velocities();
+  void grid_to_particles();
+  void move_colliders();
+
+  State<Real>& state_;
+  ImplicitSolver<Real>& solver_;
+  PhaseSeconds& seconds_;
+  const double dt_;
+  kernels::SweepArgs<Real> a_{};
+};
+
+/// Fields that the stages of a step leave behind.
+template <class Real>
+struct StageFields {
+  std::vector<kernels::StagedNodes<Real>> nodes;     ///< per node block
+  std::vector<kernels::Gathered<Real>> gathered;     ///< per record, like those below
+  std::vector<Real> F_trial, v_before_collision;     ///< 9 and 3 numbers
+  std::array<double, stage_names.size()> seconds{};  ///< see StagedStep
+};
+
+/// The staged driver, for debugging and dumps: it keeps every field and can skip stages.
+template <class Real>
+class StagedDriver {
+ public:
+  StagedDriver(State<Real>& state, ImplicitSolver<Real>& solver, StageFields<Real>& fields,
+               double dt)
+      : state_(state), solver_(solver), fields_(fields), dt_(dt) {}
+
+  void step();
+
+ private:
+  void sort_particles();
+  void rasterize();
+  void estimate_volumes();
+  void add_elastic_forces();
+  void update_grid_velocities();
+  void collide_grid();
+  void solve_velocities();
+  void update_deformation();
+  void update_particle_velocities();
+  void collide_particles();
+  void move_particles();
+  void move_colliders();
+
+  struct Nothing {
+    void operator()() const {}
+  };
+  /// Measures a stage. If the settings skip it, only `instead` is done.
+  template <class Work, class Instead = Nothing>
+  void stage(Stage stage, const Work& work, const Instead& instead = {});
+  /// change(nodes, n) for every node.
+  template <class Change>
+  void each_node(const Change& change);
+  void over_particle_blocks(kernels::Sweep<Real> sweep) { state_.over_particle_blocks(sweep, a_); }
+  void over_node_blocks(kernels::Sweep<Real> sweep) { state_.over_node_blocks(sweep, a_); }
+  void rest_light_nodes();
+  void deform();
+
+  State<Real>& state_;
+  ImplicitSolver<Real>& solver_;
+  StageFields<Real>& fields_;
+  const double dt_;
+  kernels::SweepArgs<Real> a_{};
+};
+
+}  // namespace neve::sim::engine
