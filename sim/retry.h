@@ -26,7 +26,7 @@ inline constexpr int max_retries = 4;
 /// to go back to.
 /// @param retries  what happened is appended
 /// @return steps of the attempt that the state comes from
-AdvanceReport advance_retrying(Simulation& simulation, double time, bool (*interrupted)(),
+AdvanceReport advance_retrying(Simulation& simulation, double time, const StepObserver& after_step,
                                std::vector<Retry>& retries);
 
 }  // namespace neve::sim

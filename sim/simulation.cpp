@@ -72,8 +72,9 @@ std::uint64_t Simulation::memory_bytes() const {
 void Simulation::step(double dt) {
   stepper_->step(dt);
 }
-AdvanceReport Simulation::advance_to(double time, bool (*interrupted)(), std::size_t last_step) {
-  return stepper_->advance_to(time, interrupted, last_step);
+AdvanceReport Simulation::advance_to(double time, const StepObserver& after_step,
+                                     std::size_t last_step) {
+  return stepper_->advance_to(time, after_step, last_step);
 }
 void Simulation::apply(const SolverSettings& settings, const std::vector<Material>& materials,
                        const std::vector<shapes::Collider>& colliders) {

@@ -16,6 +16,7 @@
 #include "sim/types/particle_arrays.h"
 #include "sim/types/reports.h"
 #include "sim/types/settings.h"
+#include "sim/types/step_observer.h"
 
 namespace neve::sim {
 
@@ -57,10 +58,9 @@ class Simulation {
   void step(double dt);
 
   /// Steps chosen by the settings until `time` is reached, ending on it exactly. Stops early on
-  /// divergence, after a step when `interrupted` (polled, may be null) returns true, or when
-  /// steps() has reached `last_step`; called again with the same time it continues as if it had not
-  /// stopped.
-  AdvanceReport advance_to(double time, bool (*interrupted)() = nullptr,
+  /// divergence, after a step when the observer says so, or when steps() has reached `last_step`;
+  /// called again with the same time it continues as if it had not stopped.
+  AdvanceReport advance_to(double time, const StepObserver& after_step = {},
                            std::size_t last_step = std::numeric_limits<std::size_t>::max());
 
   /// Changes parameters between steps, all that need no restart: settings but cell_size, precision

@@ -80,9 +80,10 @@ class Drawing {
   /// Seconds until the picture of the simulation's state is in memory.
   double draw(const scene::Scene& scene, const sim::Simulation& simulation) {
     const Stopwatch watch;
-    const picture::FrameBuilder builder(scene, 0.5 * scene.solver.cell_size,
-                                        setup::Quality::preview, {}, 1, {});
-    const picture::Snapshot snapshot = picture::take_snapshot(scene, simulation, 1);
+    setup::SeededScene seeded;
+    seeded.spacing = 0.5 * scene.solver.cell_size;
+    const picture::FrameBuilder builder(scene, seeded);
+    const picture::Snapshot snapshot = picture::take_snapshot(scene, scene.views, simulation, 1);
     renderer_.draw(builder.build(scene.views.front(), snapshot));
     return watch.wall();
   }
@@ -147,7 +148,7 @@ void FrameBench::measure(const std::string& name, const std::string& unit, const
 double FrameBench::simulate(const std::string& name, const scene::Scene& scene, int frames,
                             bool is_drawn) {
   sim::Simulation simulation(scene.solver, scene.materials, scene::sim_colliders(scene),
-                             setup::seed_scene(scene), options_.threads);
+                             setup::seed_scene(scene).particles, options_.threads);
   threads_ = simulation.threads();
   particles_ = simulation.particle_count();
   simd_ = simulation.simd();
@@ -216,9 +217,9 @@ std::vector<BenchRow> FrameBench::run() {
   setup::resolve(small, 4000);
   measure("flip_cubic_300k", "s", [&] { return simulate("flip_cubic_300k", flip_scene, 1); });
   measure("mls_quadratic_300k", "s", [&] { return simulate("mls_quadratic_300k", mls_scene, 1); });
-  drawing_.draw(small,
-                sim::Simulation(small.solver, small.materials, scene::sim_colliders(small),
-                                setup::seed_scene(small), 1));  // the first one compiles shaders
+  drawing_.draw(small, sim::Simulation(small.solver, small.materials, scene::sim_colliders(small),
+                                       setup::seed_scene(small).particles,
+                                       1));  // the first one compiles shaders
   measure("flip_cubic_4000_drawn", "s",
           [&] { return simulate("flip_cubic_4000_drawn", small, 1, true); });
   implicit_steps();

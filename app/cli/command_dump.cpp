@@ -21,48 +21,39 @@ namespace neve::app::cli {
 
 namespace {
 
-/// The poll of a simulation has no argument.
-struct Stop {
-  const sim::Simulation* simulation = nullptr;
-  Progress* progress = nullptr;
-  double at = 0, frame_end = 0;
-};
-Stop stop;
-
-/// Stops before the step that contains the time.
-bool next_step_is_asked_for() {
-  stop.progress->step();
-  const double now = stop.simulation->time();
-  return is_interrupted() ||
-         now + stop.simulation->choose_dt(stop.frame_end - now).dt > stop.at * (1 + 1e-12);
-}
-
 bool is_broken(const sim::Simulation& simulation) {
   return simulation.divergence() || is_interrupted();
 }
 
-/// Takes the run's own steps: the state is one that the run passes through.
-void run_to(double at, double fps, sim::Simulation& simulation, Progress& progress) {
+/// Takes the run's own steps: the state is one that the run passes through, before the step that
+/// contains the time.
+/// @return the end of the frame that the time is in, s
+double run_to(double at, double fps, sim::Simulation& simulation, Progress& progress) {
   const int last = static_cast<int>(std::floor(at * fps * (1 + 1e-12)));
   progress.start(last);
-  stop = {&simulation, &progress, at, 0};
   for (int frame = 1; frame <= last && !is_broken(simulation); ++frame) {
-    simulation.advance_to(frame / fps, [] {
-      stop.progress->step();
+    simulation.advance_to(frame / fps, [&] {
+      progress.step();
       return is_interrupted();
     });
     progress.frame(frame, frame / fps);
   }
-  stop.frame_end = (last + 1) / fps;
+  const double frame_end = (last + 1) / fps;
+  const auto end_of_next_step = [&] {
+    return simulation.time() + simulation.choose_dt(frame_end - simulation.time()).dt;
+  };
   const bool is_between = at > simulation.time() * (1 + 1e-12);
-  if (is_between && !is_broken(simulation) &&
-      simulation.time() + simulation.choose_dt(stop.frame_end - simulation.time()).dt <= at)
-    simulation.advance_to(stop.frame_end, next_step_is_asked_for);
+  if (is_between && !is_broken(simulation) && end_of_next_step() <= at)
+    simulation.advance_to(frame_end, [&] {
+      progress.step();
+      return is_interrupted() || end_of_next_step() > at * (1 + 1e-12);
+    });
   progress.clear();
+  return frame_end;
 }
 
 std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOptions& options,
-                                 const dump::Inside& inside, const dump::Listing& listing) {
+                                 const dump::StepInspection& inside, const dump::Listing& listing) {
   return {job.scene_file + (job.scene.title.empty() ? "" : ": " + job.scene.title),
           "t = " + rough_text(inside.simulation.time()) + " s after " +
               std::to_string(inside.simulation.steps()) + " steps; the next has dt = " +
@@ -71,7 +62,7 @@ std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOpti
                          : std::string("before the step")) +
               ": " + std::to_string(listing.place.size()) +
               (listing.is_of_nodes
-                   ? " nodes with mass, of which " + std::to_string(listing.feathers()) +
+                   ? " nodes with mass, of which " + std::to_string(listing.negligible_count()) +
                          " are left out of the summary, lighter than 1e-4 rho h^3"
                    : std::string(" particles")),
           "state " + run::hash_text(inside.simulation.state_hash())};
@@ -86,7 +77,7 @@ std::size_t nearest_row(const dump::Listing& listing, const sim::Vec3d& place) {
 }
 
 /// @throws UsageError when no such particle or node is there
-std::size_t probed_row(const dump::Inside& inside, const dump::Listing& listing,
+std::size_t probed_row(const dump::StepInspection& inside, const dump::Listing& listing,
                        const dump::Probe& probe) {
   if (const auto* place = std::get_if<sim::Vec3d>(&probe)) {
     if (listing.place.empty())
@@ -111,7 +102,7 @@ std::size_t probed_row(const dump::Inside& inside, const dump::Listing& listing,
 }
 
 Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
-               const dump::Inside& inside, const dump::Listing& listing,
+               const dump::StepInspection& inside, const dump::Listing& listing,
                const std::vector<std::size_t>& probed) {
   Json json;
   json["scene"] = job.scene_file;
@@ -129,7 +120,7 @@ Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
 }
 
 void print_dump(const run::RenderJob& job, const dump::DumpOptions& options,
-                const dump::Inside& inside, const dump::Listing& listing) {
+                const dump::StepInspection& inside, const dump::Listing& listing) {
   std::vector<std::size_t> probed;
   for (const dump::Probe& probe : options.probes)
     probed.push_back(probed_row(inside, listing, probe));
@@ -167,18 +158,18 @@ int run_dump(const dump::DumpOptions& options) {
                                   "give a file with --out, as in --out fields.vtp");
   catch_interrupts();
   Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO));
-  sim::Simulation simulation =
-      setup::make_simulation(job.scene, setup::seed_scene(job.scene), options.run.threads);
+  sim::Simulation simulation = setup::make_simulation(
+      job.scene, setup::seed_scene(job.scene).particles, options.run.threads);
   if (const double end = job.scene.frames / job.scene.fps; options.at > end * (1 + 1e-12))
     progress.warning("--at " + rough_text(options.at) + " s is after the end of the scene, " +
                      rough_text(end) + " s; Ctrl-C stops");
-  run_to(options.at, job.scene.fps, simulation, progress);
+  const double frame_end = run_to(options.at, job.scene.fps, simulation, progress);
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the requested time");
   if (simulation.divergence())
     progress.warning(simulation.divergence()->sentence + "; this is its last state");
-  const double left = stop.frame_end - simulation.time();
-  const dump::Inside inside =
-      dump::look_inside(job.scene, simulation, left > 0 ? left : 1 / job.scene.fps);
+  const double left = frame_end - simulation.time();
+  const dump::StepInspection inside =
+      dump::inspect_step(job.scene, simulation, left > 0 ? left : 1 / job.scene.fps);
   dump::Listing listing =
       options.stage ? dump::list_stage(inside, *options.stage) : dump::list_state(inside);
   dump::keep_only(listing, options.fields);

@@ -161,10 +161,10 @@ void add_render(CLI::App& app, Action& action) {
                    "Largest mean difference allowed in any 8x8 block; catches small local changes")
       ->type_name("MEAN")
       ->capture_default_str();
-  command->add_flag("--validate", options->is_validated,
+  command->add_flag("--validate", options->validate,
                     "Check the laws of the method in the first steps and every 256th; warn if one "
                     "is broken, exit with 9 if the error is large");
-  command->add_flag("--resume", options->is_resumed,
+  command->add_flag("--resume", options->resume,
                     "Continue the run in the output folder from its last checkpoint, bit for bit; "
                     "a finished run continues with more --frames");
   command
@@ -175,7 +175,7 @@ void add_render(CLI::App& app, Action& action) {
   command->add_flag("!--no-movie", options->has_movies, "Write pictures only, no movie");
   command->add_option("--shader-dir", options->shader_dir, "Read shaders from this folder")
       ->type_name("DIR");
-  command->add_flag("--dry-run", options->is_dry_run,
+  command->add_flag("--dry-run", options->dry_run,
                     "Print particles, memory, pixels and frames, without a run");
   command->add_flag("--json", options->is_json, "Print the result, or the error, as JSON");
   CLI::Option* quiet =

@@ -128,10 +128,9 @@ void print_result(const run::RenderJob& job, const run::RenderRun& run,
 }
 
 /// Snow that starts inside colliders: nothing else about the run would show it.
-void warn_about_start(run::RenderJob& job, const sim::ParticleArrays& particles,
-                      const std::vector<std::size_t>& body_end, Progress& progress) {
+void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Progress& progress) {
   std::vector<health::Finding> findings;
-  health::check_collider_overlaps(job.scene, particles, body_end, findings);
+  health::check_collider_overlaps(job.scene, seeded, findings);
   for (const health::Finding& finding : findings) {
     job.warnings.push_back(finding.what);
     progress.warning(finding.address + ": " + finding.what + "; " + finding.hint);
@@ -170,7 +169,7 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
 int run_render(const run::RenderOptions& options) {
   run::RenderJob job = run::make_job(options);
   const setup::Plan plan = setup::make_plan(job.scene, job.frames, job.quality, options.threads);
-  if (options.is_dry_run) {
+  if (options.dry_run) {
     print_plan(job, plan, options.is_json);
     setup::check_limits(job.scene, plan);
     return exit_ok;
@@ -187,21 +186,19 @@ int run_render(const run::RenderOptions& options) {
   render::Renderer renderer(*context, options.shader_dir, &pool);
   check_picture_sizes(job.scene, job.quality, renderer.max_size());
 
-  std::vector<std::size_t> body_end;
-  const sim::ParticleArrays particles = setup::seed_scene(job.scene, &body_end);
-  warn_about_start(job, particles, body_end, progress);
-  const setup::SnowCount snow = setup::count_snow(job.scene, particles.x.size());
-  setup::resolve(job.scene, snow.particles);
+  const setup::SeededScene seeded = setup::seed_scene(job.scene);
+  warn_about_start(job, seeded, progress);
+  setup::resolve(job.scene, seeded.planned);
   // A framing that was cut short is another one: nothing may be written with it.
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first frame");
-  sim::Simulation simulation = setup::make_simulation(job.scene, particles, options.threads);
+  sim::Simulation simulation = setup::make_simulation(job.scene, seeded.particles, options.threads);
   progress.note(
-      job.scene_file + ": " + std::to_string(particles.x.size()) + " particles" +
+      job.scene_file + ": " + std::to_string(seeded.particles.x.size()) + " particles" +
       (plan.emitted > 0 ? " and " + fixed_text(plan.emitted, 0) + " to come" : "") + ", about " +
       bytes_text(plan.memory) + " of memory" +
       (job.coarsening > 1 ? ", coarsened " + scene::coarsening_text(job.coarsening) : ""));
 
-  run::RenderRun run(job, simulation, *context, renderer, snow.spacing, body_end, progress);
+  run::RenderRun run(job, simulation, *context, renderer, seeded, progress);
   const run::RenderResult result = run.run();
   for (const std::string& warning : run::step_warnings(job.scene.solver, simulation.warnings()))
     progress.warning(warning);

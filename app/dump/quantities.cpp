@@ -124,7 +124,8 @@ std::vector<Vec3d> difference(const std::vector<Vec3d>& a, const std::vector<Vec
   return out;
 }
 
-Listing nodes_after(const Inside& inside, const health::Expected& expected, sim::Stage stage) {
+Listing nodes_after(const StepInspection& inside, const health::Expected& expected,
+                    sim::Stage stage) {
   const sim::NodeFields& n = inside.step.nodes;
   Listing listing;
   listing.is_of_nodes = true;
@@ -133,7 +134,8 @@ Listing nodes_after(const Inside& inside, const health::Expected& expected, sim:
     index.push_back(node.cast<double>());
     listing.place.push_back(inside.scene.solver.cell_size * node.cast<double>());
   }
-  for (const double mass : n.mass) listing.is_feather.push_back(mass < expected.feather_mass());
+  for (const double mass : n.mass)
+    listing.is_negligible.push_back(mass < expected.negligible_mass());
   auto& q = listing.quantities;
   q.push_back(vectors("node", "", index));
   q.push_back(scalars("mass", "kg", n.mass, expected.node_mass()));
@@ -158,8 +160,8 @@ Listing nodes_after(const Inside& inside, const health::Expected& expected, sim:
 
 }  // namespace
 
-std::size_t Listing::feathers() const {
-  return static_cast<std::size_t>(std::count(is_feather.begin(), is_feather.end(), true));
+std::size_t Listing::negligible_count() const {
+  return static_cast<std::size_t>(std::count(is_negligible.begin(), is_negligible.end(), true));
 }
 
 double Quantity::magnitude(std::size_t row) const {
@@ -170,7 +172,7 @@ double Quantity::magnitude(std::size_t row) const {
   return std::sqrt(sum);
 }
 
-bool Quantity::is_strange(std::size_t row) const {
+bool Quantity::is_outside_expected(std::size_t row) const {
   const double found = magnitude(row);
   if (!std::isfinite(found)) return true;
   return expected && !(found >= expected->min && found <= expected->max);
@@ -183,7 +185,8 @@ std::string component_name(const Quantity& quantity, int component) {
   return quantity.name + "_" + axes[component / 3] + axes[component % 3];
 }
 
-Inside look_inside(const scene::Scene& scene, const sim::Simulation& simulation, double remaining) {
+StepInspection inspect_step(const scene::Scene& scene, const sim::Simulation& simulation,
+                            double remaining) {
   const sim::DtChoice choice = simulation.choose_dt(remaining);
   return {scene,
           simulation,
@@ -193,7 +196,7 @@ Inside look_inside(const scene::Scene& scene, const sim::Simulation& simulation,
           simulation.particles()};
 }
 
-Listing list_state(const Inside& inside) {
+Listing list_state(const StepInspection& inside) {
   const sim::ParticleArrays& p = inside.before;
   const health::Expected expected(inside.scene, p, inside.dt);
   Listing listing = particles_at(p);
@@ -209,7 +212,7 @@ Listing list_state(const Inside& inside) {
   return listing;
 }
 
-Listing list_stage(const Inside& inside, sim::Stage stage) {
+Listing list_stage(const StepInspection& inside, sim::Stage stage) {
   using enum sim::Stage;
   const health::Expected expected(inside.scene, inside.before, inside.dt);
   if (stage == rasterize || (stage >= elastic_forces && stage <= implicit_solve))

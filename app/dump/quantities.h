@@ -25,14 +25,14 @@ struct Quantity {
   std::size_t rows() const { return values.size() / static_cast<std::size_t>(components); }
   double magnitude(std::size_t row) const;
   /// Outside what is expected, or no number.
-  bool is_strange(std::size_t row) const;
+  bool is_outside_expected(std::size_t row) const;
 };
 
 /// "v_x v_y v_z", "F_E_xx F_E_xy ..."
 std::string component_name(const Quantity& quantity, int component);
 
 /// A step that is looked at: the state before it and what its stages leave.
-struct Inside {
+struct StepInspection {
   const scene::Scene& scene;
   const sim::Simulation& simulation;
   double dt;  ///< s
@@ -40,24 +40,25 @@ struct Inside {
   sim::StagedStep step;
   sim::ParticleArrays before;
 };
-Inside look_inside(const scene::Scene& scene, const sim::Simulation& simulation, double remaining);
+StepInspection inspect_step(const scene::Scene& scene, const sim::Simulation& simulation,
+                            double remaining);
 
 /// Either nodes (place and index known) or particles (id order).
 struct Listing {
   bool is_of_nodes = false;
   std::vector<sim::Vec3d> place;  ///< m
   /// Nodes so light (below 1e-4 rho h^3) that their velocities mean nothing; empty: none.
-  std::vector<bool> is_feather;
-  std::size_t feathers() const;
+  std::vector<bool> is_negligible;
+  std::size_t negligible_count() const;
   std::vector<Quantity> quantities;
 };
 
 /// The particles before the step: x, v, F_E, J_E, J_P, stretches, stress, energy, volume, C.
-Listing list_state(const Inside& inside);
+Listing list_state(const StepInspection& inside);
 
 /// Results of a stage, with those of earlier stages on the same points: nodes up to implicit_solve,
 /// then particles.
-Listing list_stage(const Inside& inside, sim::Stage stage);
+Listing list_stage(const StepInspection& inside, sim::Stage stage);
 
 /// Keeps the named ones.
 /// @throws UsageError with the nearest name

@@ -46,7 +46,7 @@ std::string summary_title(const Quantity& q) {
 
 struct Extremes {
   double least = 0, greatest = 0;
-  std::size_t strange = 0;
+  std::size_t outside_expected = 0;
 };
 
 /// Extremes over all nodes except light ones.
@@ -54,8 +54,8 @@ Extremes extremes(const Listing& listing, const Quantity& q) {
   Extremes e;
   bool is_first = true;
   for (std::size_t row = 0; row < q.rows(); ++row) {
-    if (!listing.is_feather.empty() && listing.is_feather[row]) continue;
-    e.strange += q.is_strange(row);
+    if (!listing.is_negligible.empty() && listing.is_negligible[row]) continue;
+    e.outside_expected += q.is_outside_expected(row);
     const double found = q.magnitude(row);
     if (!std::isfinite(found)) continue;
     e.least = is_first ? found : std::min(e.least, found);
@@ -86,10 +86,12 @@ std::vector<std::string> summary_lines(const Listing& listing) {
   for (const Quantity& q : listing.quantities) {
     if (is_index(q) && q.components > 1) continue;  // the length of i, j, k means nothing
     const Extremes e = extremes(listing, q);
-    lines.push_back(column_text(summary_title(q), 22) + column_text(value_text(q, e.least), 12) +
-                    column_text(value_text(q, e.greatest), 12) +
-                    column_text(q.expected || e.strange > 0 ? std::to_string(e.strange) : "-", 9) +
-                    expected_text(q));
+    lines.push_back(
+        column_text(summary_title(q), 22) + column_text(value_text(q, e.least), 12) +
+        column_text(value_text(q, e.greatest), 12) +
+        column_text(q.expected || e.outside_expected > 0 ? std::to_string(e.outside_expected) : "-",
+                    9) +
+        expected_text(q));
   }
   return lines;
 }
@@ -163,7 +165,7 @@ std::vector<std::string> probe_lines(const Listing& listing, std::size_t row) {
     const auto width = static_cast<std::size_t>(q.components);
     for (std::size_t c = 0; c < width; ++c)
       value += (c == 0 ? "" : c % 3 == 0 ? "; " : " ") + value_text(q, q.values[row * width + c]);
-    lines.push_back((q.is_strange(row) ? "! " : "  ") + column_text(title(q), 22) +
+    lines.push_back((q.is_outside_expected(row) ? "! " : "  ") + column_text(title(q), 22) +
                     column_text(value, 30) +
                     (q.components > 1 && q.expected
                          ? "magnitude " + rough_text(q.magnitude(row)) + ", expected "
@@ -184,7 +186,7 @@ Json summary_json(const Listing& listing) {
                  {"is_magnitude", q.components > 1},
                  {"least", number_or_null(e.least)},
                  {"greatest", number_or_null(e.greatest)},
-                 {"outside", e.strange}};
+                 {"outside", e.outside_expected}};
     if (q.expected) {
       json["expected"] = {number_or_null(q.expected->min), number_or_null(q.expected->max)};
       json["why"] = q.why;
@@ -201,7 +203,8 @@ Json probe_json(const Listing& listing, std::size_t row) {
     Json value = Json::array();
     for (std::size_t c = 0; c < width; ++c)
       value.push_back(number_or_null(q.values[row * width + c]));
-    json[q.name] = {{"value", width == 1 ? value[0] : value}, {"strange", q.is_strange(row)}};
+    json[q.name] = {{"value", width == 1 ? value[0] : value},
+                    {"strange", q.is_outside_expected(row)}};
     if (q.expected)
       json[q.name]["expected"] = {number_or_null(q.expected->min), number_or_null(q.expected->max)};
   }

@@ -108,7 +108,7 @@ std::optional<scene::Scene> coarse_copy(const scene::Scene& scene, double partic
 double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
   const std::optional<scene::Scene> coarse = coarse_copy(scene, checkup.plan.particles);
   if (!coarse) return 0;
-  const sim::ParticleArrays particles = setup::seed_scene(*coarse);
+  const sim::ParticleArrays particles = setup::seed_scene(*coarse).particles;
   checkup.coarse_particles = static_cast<double>(particles.x.size()) +
                              setup::planned_emission(*coarse, scene.frames / scene.fps);
   sim::Simulation simulation = setup::make_simulation(*coarse, particles, 1);
@@ -168,10 +168,10 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
   check_sinks(scene, checkup.impact_speed, checkup.findings);
   check_unused(scene, coarsening, checkup.findings);
   if (plan.particles <= most_seeded && plan.memory <= plan.memory_limit) {
-    std::vector<std::size_t> body_end;
-    const sim::ParticleArrays particles = setup::seed_scene(scene, &body_end);
+    const setup::SeededScene seeded = setup::seed_scene(scene);
+    const sim::ParticleArrays& particles = seeded.particles;
     checkup.plan.particles = static_cast<double>(particles.x.size()) + plan.emitted;
-    check_overlaps(scene, particles, body_end, checkup.findings);
+    check_overlaps(scene, seeded, checkup.findings);
     sim::Simulation simulation = setup::make_simulation(scene, particles, threads);
     used_threads = simulation.threads();
     checkup.start = simulation.step_limits();
@@ -193,7 +193,7 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
   if (plan.emitted > 0 && checkup.seconds_per_step > 0)
     checkup.seconds_per_step =
         particle_step / used_threads * (checkup.plan.particles - 0.5 * plan.emitted);
-  check_cameras(scene, setup::dry_run(scene), checkup.findings);
+  check_cameras(scene, setup::coarse_run(scene), checkup.findings);
   std::stable_sort(checkup.findings.begin(), checkup.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return checkup;

@@ -67,7 +67,9 @@ struct Case {
     return nullptr;
   }
   /// Speed of the snow before trouble began, m/s.
-  double honest_speed() const { return std::max(d.start.max_speed, setup::impact_speed(scene)); }
+  double speed_before_failure() const {
+    return std::max(d.start.max_speed, setup::impact_speed(scene));
+  }
   /// Sound speed of snow at rest, m/s.
   double start_sound() const { return d.start.max_sound_speed; }
 };
@@ -279,7 +281,7 @@ Hypothesis incompressible(const Case& c) {
 }
 
 Hypothesis shock(const Case& c) {
-  const double speed = c.honest_speed(), mach = speed / std::max(1e-9, c.start_sound());
+  const double speed = c.speed_before_failure(), mach = speed / std::max(1e-9, c.start_sound());
   const bool is_crushed = c.d.rule == "J_P" || c.d.rule == "acoustic_cfl" ||
                           c.d.rule == "time_step" || c.d.rule == "not_finite";
   if (!is_crushed || mach < cause(Law::impact_mach)) return std::nullopt;

@@ -50,7 +50,7 @@ Expected::Expected(const scene::Scene& scene, const sim::ParticleArrays& state, 
   }
 }
 
-double Expected::feather_mass() const {
+double Expected::negligible_mass() const {
   return sim::health::limits_of(Law::light_node).expected * lightest_density_ * h_ * h_ * h_;
 }
 

@@ -17,7 +17,7 @@ class Expected {
  public:
   Expected(const scene::Scene& scene, const sim::ParticleArrays& state, double dt);
 
-  double feather_mass() const;          ///< kg, of nodes that are not to be believed
+  double negligible_mass() const;       ///< kg, of nodes that are not to be believed
   Expectation node_mass() const;        ///< kg
   Expectation speed() const;            ///< m/s
   Expectation momentum() const;         ///< kg m/s, of a node

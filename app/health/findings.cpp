@@ -85,22 +85,19 @@ void check_material_units(const sim::Material& m, std::vector<Finding>& findings
                         "steps shorten with its square root; the paper's snow has 1.4e5"});
 }
 
-/// Nothing to find where the speed of every cell is its own: bodies share cells when they overlap.
+/// Of a grid cell.
 using CellIndex = std::array<long, 3>;
 
-std::map<CellIndex, std::map<std::size_t, int>> bodies_in_cells(
-    const scene::Scene& scene, const sim::ParticleArrays& particles,
-    const std::vector<std::size_t>& body_end) {
+std::map<CellIndex, std::map<std::size_t, int>> bodies_in_cells(const scene::Scene& scene,
+                                                                const setup::SeededScene& seeded) {
   const double h = scene.solver.cell_size;
   std::map<CellIndex, std::map<std::size_t, int>> cells;
-  std::size_t first = 0;
-  for (std::size_t body = 0; body < body_end.size(); ++body) {
-    for (std::size_t p = first; p < body_end[body]; ++p) {
-      const Vec3d& x = particles.x[p];
+  for (std::size_t body = 0; body < seeded.body_end.size(); ++body) {
+    for (std::size_t p = seeded.body_begin(body); p < seeded.body_end[body]; ++p) {
+      const Vec3d& x = seeded.particles.x[p];
       ++cells[{std::lround(std::floor(x.x() / h)), std::lround(std::floor(x.y() / h)),
                std::lround(std::floor(x.z() / h))}][body];
     }
-    first = body_end[body];
   }
   return cells;
 }
@@ -110,8 +107,8 @@ bool boxes_touch(const sim::shapes::Shape& a, const sim::shapes::Shape& b) {
   return (p.min.array() < q.max.array()).all() && (q.min.array() < p.max.array()).all();
 }
 
-void check_body_overlaps(const scene::Scene& scene, const sim::ParticleArrays& particles,
-                         const std::vector<std::size_t>& body_end, std::vector<Finding>& findings) {
+void check_body_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
+                         std::vector<Finding>& findings) {
   bool may_overlap = false;
   for (std::size_t a = 0; a < scene.bodies.size(); ++a)
     for (std::size_t b = a + 1; b < scene.bodies.size(); ++b)
@@ -122,7 +119,7 @@ void check_body_overlaps(const scene::Scene& scene, const sim::ParticleArrays& p
     per_cell.push_back(particles_in_cell(body, scene.solver.cell_size));
   // In a cell that both fill, each has most of the particles that it has where it is alone.
   std::map<std::pair<std::size_t, std::size_t>, double> shared;
-  for (const auto& [cell, counts] : bodies_in_cells(scene, particles, body_end))
+  for (const auto& [cell, counts] : bodies_in_cells(scene, seeded))
     for (auto a = counts.begin(); a != counts.end(); ++a)
       for (auto b = std::next(a); b != counts.end(); ++b) {
         const double in_a = a->second / per_cell[a->first];
@@ -132,9 +129,9 @@ void check_body_overlaps(const scene::Scene& scene, const sim::ParticleArrays& p
   for (const auto& [pair, cells] : shared) {
     if (cells < 1) continue;
     findings.push_back({Severity::warning, "body." + scene.bodies[pair.second].name + ".shape",
-                        called("body", scene.bodies[pair.first].name) + " and " +
-                            called("body", scene.bodies[pair.second].name) + " overlap in about " +
-                            rough_text(cells) +
+                        display_name("body", scene.bodies[pair.first].name) + " and " +
+                            display_name("body", scene.bodies[pair.second].name) +
+                            " overlap in about " + rough_text(cells) +
                             " cells: these have twice the mass, and one velocity for both bodies",
                         "move them apart"});
   }
@@ -227,7 +224,7 @@ double share_outside(const scene::CameraSettings& camera, double aspect,
 
 }  // namespace
 
-std::string called(const std::string& kind, const std::string& name) {
+std::string display_name(const std::string& kind, const std::string& name) {
   const bool is_number =
       std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
   return is_number ? kind + " " + name : name;
@@ -287,7 +284,8 @@ void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings)
   std::vector<Thin> bodies, colliders;
   for (const sim::seeding::Body& body : scene.bodies) {
     if (thickness(body.shape) < 4 * h)
-      bodies.push_back({"body." + body.name, called("body", body.name), thickness(body.shape) / h});
+      bodies.push_back(
+          {"body." + body.name, display_name("body", body.name), thickness(body.shape) / h});
     if (is_from_points(body)) {
       check_point_distance(body, h, findings);
     } else if (body.particles_per_cell < line(Law::particles_per_cell)) {
@@ -299,18 +297,18 @@ void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings)
   }
   for (const sim::shapes::Collider& collider : scene.colliders)
     if (!is_plane(collider.shape) && thickness(collider.shape) < 2 * h)
-      colliders.push_back({"collider." + collider.name, called("collider", collider.name),
+      colliders.push_back({"collider." + collider.name, display_name("collider", collider.name),
                            thickness(collider.shape) / h});
   report_thin(bodies, "4", "weights reach 2 cells; use at least 6 to show its shape", h / 6,
               findings);
   report_thin(colliders, "2", "snow leaks through less than 2; make it thicker", h / 2, findings);
 }
 
-void check_overlaps(const scene::Scene& scene, const sim::ParticleArrays& particles,
-                    const std::vector<std::size_t>& body_end, std::vector<Finding>& findings) {
-  check_body_overlaps(scene, particles, body_end, findings);
-  check_collider_overlaps(scene, particles, body_end, findings);
-  check_point_masses(scene, particles, body_end, findings);
+void check_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
+                    std::vector<Finding>& findings) {
+  check_body_overlaps(scene, seeded, findings);
+  check_collider_overlaps(scene, seeded, findings);
+  check_point_masses(scene, seeded, findings);
 }
 
 void check_steps(const scene::Scene& scene, const Checkup& checkup,

@@ -2,7 +2,8 @@
 /// Questions of `neve check`; each adds its findings.
 
 #include "app/health/checkup.h"
-#include "app/setup/dry_run.h"
+#include "app/setup/coarse_run.h"
+#include "app/setup/seed_scene.h"
 #include "sim/health/limits.h"
 
 namespace neve::app::health {
@@ -11,7 +12,7 @@ namespace neve::app::health {
 std::string percent_text(double share);
 
 /// "ball", or "body 1" of a body that has a number for a name.
-std::string called(const std::string& kind, const std::string& name);
+std::string display_name(const std::string& kind, const std::string& name);
 
 /// The longest edge of the boxes around bodies and emitters, m.
 double largest_extent(const scene::Scene& scene);
@@ -38,13 +39,11 @@ void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& 
 void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings);
 
 /// Bodies in one another and in colliders, points that weigh too much.
-/// @param body_end see seed_scene
-void check_overlaps(const scene::Scene& scene, const sim::ParticleArrays& particles,
-                    const std::vector<std::size_t>& body_end, std::vector<Finding>& findings);
+void check_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
+                    std::vector<Finding>& findings);
 
 /// Bodies and emitters in colliders.
-void check_collider_overlaps(const scene::Scene& scene, const sim::ParticleArrays& particles,
-                             const std::vector<std::size_t>& body_end,
+void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
                              std::vector<Finding>& findings);
 
 /// Colliders that cross too much of a cell in a step, or outrun sound in the snow.

@@ -75,7 +75,7 @@ void check_emitter_overlaps(const scene::Scene& scene, std::vector<Finding>& fin
       const double share = static_cast<double>(inside) / static_cast<double>(places.size());
       if (share < much) continue;
       findings.push_back({Severity::warning, "emitter." + emitter.name + ".shape",
-                          percent_text(share) + " of " + called("emitter", emitter.name) +
+                          percent_text(share) + " of " + display_name("emitter", emitter.name) +
                               " is inside collider " + collider.name + " at its start",
                           why_move_it});
     }
@@ -84,24 +84,22 @@ void check_emitter_overlaps(const scene::Scene& scene, std::vector<Finding>& fin
 
 }  // namespace
 
-void check_collider_overlaps(const scene::Scene& scene, const sim::ParticleArrays& particles,
-                             const std::vector<std::size_t>& body_end,
+void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
                              std::vector<Finding>& findings) {
   check_emitter_overlaps(scene, findings);
   for (const sim::shapes::Collider& collider : scene.colliders) {
     const Inside is_inside(collider, 0);
-    std::size_t first = 0;
-    for (std::size_t body = 0; body < body_end.size(); ++body) {
-      const std::size_t stride = (body_end[body] - first) / most_looked_at + 1;
+    for (std::size_t body = 0; body < seeded.body_end.size(); ++body) {
+      const std::size_t first = seeded.body_begin(body), end = seeded.body_end[body];
+      const std::size_t stride = (end - first) / most_looked_at + 1;
       std::size_t inside = 0, count = 0;
-      for (std::size_t p = first; p < body_end[body]; p += stride, ++count)
-        inside += is_inside(particles.x[p]);
-      first = body_end[body];
+      for (std::size_t p = first; p < end; p += stride, ++count)
+        inside += is_inside(seeded.particles.x[p]);
       if (inside == 0) continue;
       findings.push_back({Severity::warning, "body." + scene.bodies[body].name + ".shape",
                           percent_text(static_cast<double>(inside) / static_cast<double>(count)) +
-                              " of " + called("body", scene.bodies[body].name) + " starts inside " +
-                              "collider " + collider.name,
+                              " of " + display_name("body", scene.bodies[body].name) +
+                              " starts inside " + "collider " + collider.name,
                           why_move_it});
     }
   }
@@ -122,16 +120,16 @@ void check_motion(const scene::Scene& scene, const Checkup& checkup,
     if (cells > sim::health::limits_of(sim::health::Law::collider_cfl).check_warning)
       findings.push_back(
           {Severity::warning, at,
-           called("collider", collider.name) + " moves up to " + rough_text(speed) +
+           display_name("collider", collider.name) + " moves up to " + rough_text(speed) +
                " m/s: " + rough_text(cells) + " cells in a step and runs over snow at rest",
            std::string(s.time_step == sim::TimeStep::fixed ? "solver.dt" : "solver.max_dt") +
                " = " + rough_text(0.4 * s.cell_size / speed)});
     else if (c > 0 &&
              speed > sim::health::limits_of(sim::health::Law::collider_mach).check_warning * c)
       findings.push_back({Severity::warning, at,
-                          called("collider", collider.name) + " moves up to " + rough_text(speed) +
-                              " m/s, faster than sound in the snow (" + rough_text(c) +
-                              " m/s): it crushes the snow that it hits",
+                          display_name("collider", collider.name) + " moves up to " +
+                              rough_text(speed) + " m/s, faster than sound in the snow (" +
+                              rough_text(c) + " m/s): it crushes the snow that it hits",
                           "make it slower, or youngs_modulus larger"});
   }
 }

@@ -70,7 +70,7 @@ void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings) {
   for (const sim::seeding::Emitter& emitter : scene.emitters) {
     if (emitter.start >= end && end > 0)
       findings.push_back({Severity::warning, "emitter." + emitter.name + ".start",
-                          called("emitter", emitter.name) + " opens at " +
+                          display_name("emitter", emitter.name) + " opens at " +
                               rough_text(emitter.start) + " s, the scene ends at " +
                               rough_text(end) + " s",
                           "make start earlier, or frames larger"});

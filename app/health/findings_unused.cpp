@@ -40,9 +40,9 @@ void check_removed(const scene::Scene& scene, const std::string& kind, const std
     if (share < least) continue;
     findings.push_back(
         {Severity::warning, kind + "." + name + ".shape",
-         percent_text(share) + " of " + called(kind, name) +
-             (sink.outside ? " is outside of " : " is inside of ") + called("sink", sink.name) +
-             ", which removes it at once",
+         percent_text(share) + " of " + display_name(kind, name) +
+             (sink.outside ? " is outside of " : " is inside of ") +
+             display_name("sink", sink.name) + ", which removes it at once",
          sink.outside ? "make the sink larger, or move the snow into it" : "move one of them"});
   }
 }
@@ -54,8 +54,9 @@ void check_keyframes(const scene::Scene& scene, std::vector<Finding>& findings) 
     const double last = collider.keyframes.back().time;
     if (last <= end * (1 + 1e-9)) continue;
     findings.push_back({Severity::warning, "collider." + collider.name + ".keyframes",
-                        "the last keyframe of " + called("collider", collider.name) + " is at " +
-                            rough_text(last) + " s, the scene ends at " + rough_text(end) + " s",
+                        "the last keyframe of " + display_name("collider", collider.name) +
+                            " is at " + rough_text(last) + " s, the scene ends at " +
+                            rough_text(end) + " s",
                         "make frames larger, or move keyframes earlier"});
   }
 }

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "app/health/findings.h"
-#include "app/setup/seed_scene.h"
 #include "app/support/text.h"
 
 namespace neve::app::health {
@@ -38,7 +37,7 @@ void check_point_distance(const sim::seeding::Body& body, double cell_size,
   const std::string eight = rough_text(cell_size * std::cbrt(8 / per_cell));
   findings.push_back({is_too_few ? Severity::warning : Severity::note,
                       "body." + body.name + ".shape.points",
-                      "the points of " + called("body", body.name) + " are " +
+                      "the points of " + display_name("body", body.name) + " are " +
                           rough_text(per_cell) + " in a cell, from their volumes" +
                           (is_too_few ? ": they leave gaps, and snow breaks at them"
                                       : ": more than the grid resolves"),
@@ -69,22 +68,20 @@ double density_where_they_lie(const sim::ParticleArrays& particles, std::size_t 
 
 }  // namespace
 
-void check_point_masses(const scene::Scene& scene, const sim::ParticleArrays& particles,
-                        const std::vector<std::size_t>& body_end, std::vector<Finding>& findings) {
-  std::size_t first = 0;
-  for (std::size_t k = 0; k < body_end.size(); ++k) {
+void check_point_masses(const scene::Scene& scene, const setup::SeededScene& seeded,
+                        std::vector<Finding>& findings) {
+  for (std::size_t k = 0; k < seeded.body_end.size(); ++k) {
     const sim::seeding::Body& body = scene.bodies[k];
-    const std::size_t begin = first;
-    first = body_end[k];
-    if (!is_from_points(body) || body_end[k] - begin < fewest_points) continue;
+    const std::size_t begin = seeded.body_begin(k), end = seeded.body_end[k];
+    if (!is_from_points(body) || end - begin < fewest_points) continue;
     // Large enough for some points: what one of them weighs itself is left out.
     const double h = scene.solver.cell_size;
     const double edge = h * std::max(1.0, std::cbrt(8 / particles_in_cell(body, h)));
-    const double found = density_where_they_lie(particles, begin, body_end[k], edge);
+    const double found = density_where_they_lie(seeded.particles, begin, end, edge);
     const double wanted = scene.materials[setup::material_index(scene, body.material)].density;
     // Thin bodies fill a part of their cells; a tenth is a mistake of units.
     if (found < 2.5 * wanted && found > 0.1 * wanted) continue;
-    const std::string points = "the points of " + called("body", body.name);
+    const std::string points = "the points of " + display_name("body", body.name);
     const std::string of_material =
         " kg/m3; material " + body.material + " has " + rough_text(wanted);
     findings.push_back(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/health/checkup.h"
+#include "app/setup/seed_scene.h"
 
 namespace neve::app::health {
 
@@ -18,8 +19,8 @@ void check_point_distance(const sim::seeding::Body& body, double cell_size,
                           std::vector<Finding>& findings);
 
 /// Points that weigh where they lie something else than their material says: masses, volumes and
-/// positions are not of the same units. @param body_end see seed_scene
-void check_point_masses(const scene::Scene& scene, const sim::ParticleArrays& particles,
-                        const std::vector<std::size_t>& body_end, std::vector<Finding>& findings);
+/// positions are not of the same units.
+void check_point_masses(const scene::Scene& scene, const setup::SeededScene& seeded,
+                        std::vector<Finding>& findings);
 
 }  // namespace neve::app::health

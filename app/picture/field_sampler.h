@@ -15,7 +15,7 @@ std::optional<std::size_t> node_index(const render::NodeLattice& lattice, const 
 /// Trilinear weights of the nodes around a point; those that carry no mass do not count.
 class FieldSampler {
  public:
-  explicit FieldSampler(const NodeFields& fields) : fields_(fields) {}
+  explicit FieldSampler(const FieldSamples& fields) : fields_(fields) {}
 
   struct Stencil {
     std::array<std::size_t, 8> node;
@@ -37,7 +37,7 @@ class FieldSampler {
   }
 
  private:
-  const NodeFields& fields_;
+  const FieldSamples& fields_;
 };
 
 }  // namespace neve::app::picture

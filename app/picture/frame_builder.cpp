@@ -75,15 +75,9 @@ std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& chan
 
 }  // namespace
 
-FrameBuilder::FrameBuilder(const scene::Scene& scene, double spacing, setup::Quality quality,
-                           const std::vector<std::string>& overrides, double coarsening,
-                           const std::vector<std::size_t>& body_end)
-    : scene_(scene),
-      spacing_(spacing),
-      quality_(quality),
-      override_lines_(picture::override_lines(overrides)),
-      coarsening_(coarsening),
-      body_end_(body_end) {}
+FrameBuilder::FrameBuilder(const scene::Scene& scene, const setup::SeededScene& seeded,
+                           PictureOptions options)
+    : scene_(scene), seeded_(seeded), options_(std::move(options)) {}
 
 render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snapshot,
                                   std::optional<render::Points> points) const {
@@ -91,7 +85,7 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   const scene::PictureSize size = setup::size_of(scene_, view);
   frame.width = size.width;
   frame.height = size.height;
-  frame.supersampling = setup::supersampling(quality_);
+  frame.supersampling = setup::supersampling(options_.quality);
   frame.is_transparent = scene::background_of(scene_, view) == scene::Background::transparent;
   frame.camera = camera_of(scene_, view, snapshot.time);
   frame.light = {to_float(scene_.light.direction), static_cast<float>(scene_.light.intensity),
@@ -153,8 +147,8 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
   const scene::Range range = style.range.value_or(scene::Range{});
   const std::vector<double> values = attribute_values(scene_, style.color_by, snapshot);
   render::Points& points = frame.points;
-  points.spacing = static_cast<float>(spacing_);
-  points.radius = static_cast<float>(radius_share * spacing_);
+  points.spacing = static_cast<float>(seeded_.spacing);
+  points.radius = static_cast<float>(radius_share * seeded_.spacing);
   points.colormap = style.colormap;
   points.range_min = static_cast<float>(range.min);
   points.range_max = static_cast<float>(range.max);
@@ -176,7 +170,7 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
 
 void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
                             render::Frame& frame) const {
-  const NodeFields& fields = snapshot.fields;
+  const FieldSamples& fields = snapshot.fields;
   if (fields.lattice && scene::has_layer(view, scene::Layer::blocks))
     frame.lines.push_back(block_lines(*fields.lattice, fields.density));
   if (scene::has_layer(view, scene::Layer::smoke)) add_smoke(scene_, view, fields, frame);
@@ -189,7 +183,7 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
 void FrameBuilder::add_bounds(const Snapshot& snapshot, render::Frame& frame) const {
   render::Lines lines;
   lines.opacity = 0.6f;
-  for (std::size_t body = 0; body < body_end_.size(); ++body) {
+  for (std::size_t body = 0; body < seeded_.body_end.size(); ++body) {
     const auto [first, end] = particles_of(body, snapshot);
     sim::shapes::Bounds box{sim::Vec3d::Constant(1e300), sim::Vec3d::Constant(-1e300)};
     for (std::size_t p = first; p < end; ++p) {
@@ -199,7 +193,7 @@ void FrameBuilder::add_bounds(const Snapshot& snapshot, render::Frame& frame) co
     }
     if (!(box.min.x() <= box.max.x())) continue;
     append_box(box.min, box.max, lines);
-    if (body_end_.size() > 1)
+    if (seeded_.body_end.size() > 1)
       frame.labels.push_back(
           {to_float(sim::Vec3d(box.min.x(), box.max.y(), box.max.z())), scene_.bodies[body].name});
   }
@@ -209,12 +203,12 @@ void FrameBuilder::add_bounds(const Snapshot& snapshot, render::Frame& frame) co
 std::pair<std::size_t, std::size_t> FrameBuilder::particles_of(std::size_t body,
                                                                const Snapshot& snapshot) const {
   const sim::ParticleArrays& p = snapshot.particles;
-  return {body == 0 ? 0 : p.first_from(body_end_[body - 1]), p.first_from(body_end_[body])};
+  return {p.first_from(seeded_.body_begin(body)), p.first_from(seeded_.body_end[body])};
 }
 
 std::optional<sim::Vec3d> FrameBuilder::centre_of_mass(const std::string& name,
                                                        const Snapshot& snapshot) const {
-  for (std::size_t body = 0; body < body_end_.size(); ++body) {
+  for (std::size_t body = 0; body < seeded_.body_end.size(); ++body) {
     if (scene_.bodies[body].name != name) continue;
     const auto [first, end] = particles_of(body, snapshot);
     sim::Vec3d moment = sim::Vec3d::Zero();
@@ -236,9 +230,11 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
                   "   t = " + fixed_text(snapshot.time, 3) + " s");
   const std::size_t count = snapshot.particles.x.size();
   lines.push_back(grouped(count) + (count == 1 ? " particle" : " particles") +
-                  (coarsening_ > 1 ? ", coarsened " + scene::coarsening_text(coarsening_) : "") +
+                  (options_.coarsening > 1
+                       ? ", coarsened " + scene::coarsening_text(options_.coarsening)
+                       : "") +
                   (snapshot.advance.steps > 0 ? "   " + steps_text(snapshot.advance) : ""));
-  std::vector<std::string> different = override_lines_;
+  std::vector<std::string> different = override_lines(options_.overrides);
   for (std::string& line : change_lines(snapshot.changes)) different.push_back(std::move(line));
   const std::size_t shown = std::min(different.size(), max_override_lines);
   lines.insert(lines.end(), different.begin(),

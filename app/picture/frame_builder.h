@@ -9,21 +9,25 @@
 #include "app/health/diagnosis.h"
 #include "app/picture/snapshot.h"
 #include "app/setup/plan.h"
+#include "app/setup/seed_scene.h"
 #include "render/frame/frame.h"
 #include "sim/simulation.h"
 
 namespace neve::app::picture {
 
+/// What pictures of a scene depend on besides the scene.
+struct PictureOptions {
+  setup::Quality quality = setup::Quality::preview;
+  std::vector<std::string> overrides;  ///< "material.snow.hardening=5", for the caption
+  double coarsening = 1;  ///< what --coarsen did to the scene, for the caption; 1: nothing
+};
+
 class FrameBuilder {
  public:
-  /// @param scene resolved: cameras and ranges are there; must outlive the builder
-  /// @param spacing mean distance of particles in packed snow, m
-  /// @param overrides "material.snow.hardening=5", for the caption
-  /// @param coarsening what --coarsen did to the scene, for the caption; 1: nothing
-  /// @param body_end for each body the id after its last particle, see seed_scene
-  FrameBuilder(const scene::Scene& scene, double spacing, setup::Quality quality,
-               const std::vector<std::string>& overrides, double coarsening,
-               const std::vector<std::size_t>& body_end);
+  /// @param scene resolved: cameras and ranges are there; its views are not looked at
+  /// @param scene, seeded outlive the builder
+  FrameBuilder(const scene::Scene& scene, const setup::SeededScene& seeded,
+               PictureOptions options = {});
 
   /// @param points of a frame that was built before from the same snapshot and view, except for
   /// the camera and the size: taken as they are, since they cost most to make
@@ -53,11 +57,8 @@ class FrameBuilder {
   std::optional<sim::Vec3d> centre_of_mass(const std::string& body, const Snapshot& snapshot) const;
 
   const scene::Scene& scene_;
-  double spacing_;
-  setup::Quality quality_;
-  std::vector<std::string> override_lines_;
-  double coarsening_;
-  std::vector<std::size_t> body_end_;
+  const setup::SeededScene& seeded_;
+  PictureOptions options_;
 };
 
 /// "hardening = 5" for "material.snow.hardening=5", "post center = ..." for what is a collider's;

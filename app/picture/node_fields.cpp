@@ -71,7 +71,7 @@ const std::vector<Vec3d>& field_of_step(const sim::NodeFields& nodes, scene::Vec
 }
 
 void add_fields_of_step(const scene::Scene& scene, const sim::Simulation& simulation,
-                        const FieldNeeds& needs, NodeFields& out) {
+                        const FieldNeeds& needs, FieldSamples& out) {
   const double frame = 1 / scene.fps;
   const sim::StagedStep step = sim::staged_step(simulation, simulation.choose_dt(frame).dt);
   std::vector<std::optional<std::size_t>> places;
@@ -109,15 +109,15 @@ std::vector<Value> where_dense(const std::vector<float>& density, auto&& value_a
 
 }  // namespace
 
-FieldNeeds field_needs(const scene::Scene& scene) {
+FieldNeeds field_needs(std::span<const scene::View> views) {
   FieldNeeds needs;
-  for (const scene::View& view : scene.views) add_needs(view, needs);
+  for (const scene::View& view : views) add_needs(view, needs);
   return needs;
 }
 
-NodeFields sample_fields(const scene::Scene& scene, const sim::Simulation& simulation,
-                         const Snapshot& snapshot, const FieldNeeds& needs) {
-  NodeFields out;
+FieldSamples sample_fields(const scene::Scene& scene, const sim::Simulation& simulation,
+                           const Snapshot& snapshot, const FieldNeeds& needs) {
+  FieldSamples out;
   if (!needs.is_needed) return out;
   const sim::RasterizedNodes nodes =
       sim::rasterize(simulation, particle_values(scene, snapshot, needs));

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "app/scene/scene.h"
@@ -19,11 +20,11 @@ struct FieldNeeds {
   std::set<scene::ScalarField> scalars;
   std::set<scene::VectorField> vectors;
 };
-FieldNeeds field_needs(const scene::Scene& scene);
+FieldNeeds field_needs(std::span<const scene::View> views);
 
 /// Values are at 64 b + 16 i + 4 j + k, see render::NodeLattice. Nodes lighter than 1e-4 rho h^3,
 /// which carry absurd values, count as empty: zero everywhere.
-struct NodeFields {
+struct FieldSamples {
   std::shared_ptr<const render::NodeLattice> lattice;
   std::vector<float> density;  ///< kg/m3, the node's mass over h^3
   std::map<scene::ScalarField, std::vector<float>> scalars;
@@ -33,7 +34,7 @@ struct NodeFields {
 /// Rasterises the particles as they are. What belongs to a step (force, v_free, v_star, v_new) is
 /// that of the step which follows, done on a copy.
 /// @param particles of the same moment, with stress where a field wants it
-NodeFields sample_fields(const scene::Scene& scene, const sim::Simulation& simulation,
-                         const Snapshot& particles, const FieldNeeds& needs);
+FieldSamples sample_fields(const scene::Scene& scene, const sim::Simulation& simulation,
+                           const Snapshot& particles, const FieldNeeds& needs);
 
 }  // namespace neve::app::picture

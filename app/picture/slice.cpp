@@ -53,7 +53,7 @@ Vec3d position_of(const render::NodeLattice& lattice, std::size_t value_index) {
 }
 
 /// Around the nodes with mass next to the plane, in its own coordinates.
-Rectangle rectangle_of(const NodeFields& fields, const SlicePlane& plane) {
+Rectangle rectangle_of(const FieldSamples& fields, const SlicePlane& plane) {
   const double h = static_cast<double>(fields.lattice->spacing);
   Rectangle r;
   for (std::size_t n = 0; n < fields.density.size(); ++n) {
@@ -80,7 +80,7 @@ int nodes_between_arrows(const scene::SliceStyle& slice, double h, double pixels
   return static_cast<int>(std::clamp(std::ceil(min_arrow_distance / pixels), 1.0, 1000.0));
 }
 
-void add_arrows(const scene::SliceStyle& slice, const NodeFields& fields, const SlicePlane& plane,
+void add_arrows(const scene::SliceStyle& slice, const FieldSamples& fields, const SlicePlane& plane,
                 const Rectangle& r, int every, render::Frame& frame) {
   const double step = every * static_cast<double>(fields.lattice->spacing);
   const scene::Range range = slice.range.value_or(scene::Range{});
@@ -106,8 +106,8 @@ void add_arrows(const scene::SliceStyle& slice, const NodeFields& fields, const 
   frame.arrows.push_back(std::move(arrows));
 }
 
-void add_heat_map(const scene::SliceStyle& slice, const NodeFields& fields, const SlicePlane& plane,
-                  const Rectangle& r, render::Frame& frame) {
+void add_heat_map(const scene::SliceStyle& slice, const FieldSamples& fields,
+                  const SlicePlane& plane, const Rectangle& r, render::Frame& frame) {
   const double h = static_cast<double>(fields.lattice->spacing);
   const auto samples = [&](double extent) {
     return std::clamp(static_cast<int>(std::ceil(samples_per_node * extent / h)), 1, max_samples);
@@ -184,7 +184,7 @@ SlicePlane slice_plane(const scene::SliceStyle& slice, double time,
   return plane;
 }
 
-void add_slice(const scene::View& view, const NodeFields& fields, const SlicePlane& wanted,
+void add_slice(const scene::View& view, const FieldSamples& fields, const SlicePlane& wanted,
                double pixels_per_metre, render::Frame& frame) {
   const bool has_arrows = scene::has_layer(view, scene::Layer::arrows);
   const bool has_map = scene::has_layer(view, scene::Layer::heatmap);

@@ -18,7 +18,7 @@ double full_density(const scene::Scene& scene) {
 
 }  // namespace
 
-void add_smoke(const scene::Scene& scene, const scene::View& view, const NodeFields& fields,
+void add_smoke(const scene::Scene& scene, const scene::View& view, const FieldSamples& fields,
                render::Frame& frame) {
   const scene::SmokeStyle& style = view.smoke;
   render::Smoke& smoke = frame.smoke;

@@ -7,7 +7,7 @@
 namespace neve::app::picture {
 
 /// @param fields with the mass and what colours it, see field_needs; none: no smoke
-void add_smoke(const scene::Scene& scene, const scene::View& view, const NodeFields& fields,
+void add_smoke(const scene::Scene& scene, const scene::View& view, const FieldSamples& fields,
                render::Frame& frame);
 
 }  // namespace neve::app::picture

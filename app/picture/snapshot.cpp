@@ -7,25 +7,26 @@
 
 namespace neve::app::picture {
 
-bool needs_stress(const scene::Scene& scene) {
+bool needs_stress(std::span<const scene::View> views) {
   const auto is_stress = [](scene::ColorBy color_by) {
     return color_by == scene::ColorBy::pressure || color_by == scene::ColorBy::von_mises;
   };
-  const FieldNeeds needs = field_needs(scene);
-  return std::any_of(scene.views.begin(), scene.views.end(),
+  const FieldNeeds needs = field_needs(views);
+  return std::any_of(views.begin(), views.end(),
                      [&](const scene::View& view) { return is_stress(view.particles.color_by); }) ||
          std::any_of(needs.scalars.begin(), needs.scalars.end(), [&](scene::ScalarField field) {
            return is_stress(setup::attribute_of(field));
          });
 }
 
-Snapshot take_snapshot(const scene::Scene& scene, const sim::Simulation& simulation, int frame) {
+Snapshot take_snapshot(const scene::Scene& scene, std::span<const scene::View> views,
+                       const sim::Simulation& simulation, int frame) {
   Snapshot snapshot;
   snapshot.frame = frame;
   snapshot.time = simulation.time();
   snapshot.particles = simulation.particles();
-  if (needs_stress(scene)) snapshot.kirchhoff = simulation.kirchhoff();
-  snapshot.fields = sample_fields(scene, simulation, snapshot, field_needs(scene));
+  if (needs_stress(views)) snapshot.kirchhoff = simulation.kirchhoff();
+  snapshot.fields = sample_fields(scene, simulation, snapshot, field_needs(views));
   return snapshot;
 }
 

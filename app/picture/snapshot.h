@@ -18,15 +18,17 @@ struct Snapshot {
   double time = 0;                         ///< s
   sim::ParticleArrays particles;           ///< id order
   std::vector<sim::Mat3d> kirchhoff;       ///< Pa; empty unless a view shows stress
-  NodeFields fields;                       ///< empty unless a view shows the grid
+  FieldSamples fields;                     ///< empty unless a view shows the grid
   sim::AdvanceReport advance;              ///< steps since the frame before; the caller fills it in
   std::span<const PlotSample> history;     ///< of the frames up to this one; the caller keeps it
   std::vector<scene::LiveChange> changes;  ///< made while it ran, for the caption; the caller's too
 };
 
-/// True if a view of the scene shows stress.
-bool needs_stress(const scene::Scene& scene);
+/// True if one of the views shows stress.
+bool needs_stress(std::span<const scene::View> views);
 
-Snapshot take_snapshot(const scene::Scene& scene, const sim::Simulation& simulation, int frame);
+/// @param views  that will be drawn, not only those of the scene
+Snapshot take_snapshot(const scene::Scene& scene, std::span<const scene::View> views,
+                       const sim::Simulation& simulation, int frame);
 
 }  // namespace neve::app::picture

@@ -101,16 +101,17 @@ ChangePlayer::ChangePlayer(const scene::Scene& start, std::vector<scene::LiveCha
     : changes_(changes_of(start, std::move(changes))),
       simulation_(simulation),
       after_each_(std::move(after_each)),
-      scene_(start) {
+      scene_(std::make_shared<scene::Scene>(start)) {
   if (!changes_.empty()) source_ = {scene::write_scene(start), "the scene of the run", {}, {}};
 }
 
 void ChangePlayer::make(std::size_t end) {
-  scene_ = read_with(source_, changes_, end);
-  setup::resolve_ranges(scene_, simulation_.particle_count());
+  auto scene = std::make_shared<scene::Scene>(read_with(source_, changes_, end));
+  setup::resolve_ranges(*scene, simulation_.particle_count());
   made_ = end;
-  apply_scene(scene_, simulation_);
-  if (after_each_) after_each_(scene_);
+  apply_scene(*scene, simulation_);
+  scene_ = std::move(scene);
+  if (after_each_) after_each_(*scene_);
 }
 
 /// Changes of one step at once, but a second one to an address after the first: both leave a trace.
@@ -134,34 +135,64 @@ void ChangePlayer::go_to(std::size_t steps) {
   if (end > 0) make(end);
 }
 
+void ChangePlayer::make_now(std::shared_ptr<const scene::Scene> scene) {
+  simulation_.apply(scene->solver, scene->materials, scene::sim_colliders(*scene));
+  // What the simulation was told, not what was typed: both differ where a scene is coarsened.
+  for (const scene::Difference& change : scene::differences(*scene_, *scene))
+    if (change.is_live && scene::concerns_simulation(change.address))
+      scene::note_change(changes_,
+                         {simulation_.steps(), change.address,
+                          change.after ? scene::toml::toml_literal(*change.after) : "none"});
+  made_ = changes_.size();
+  scene_ = std::move(scene);
+}
+
+void ChangePlayer::go_to(std::size_t steps, std::shared_ptr<const scene::Scene> scene) {
+  made_ = 0;
+  while (made_ < changes_.size() && changes_[made_].step <= steps) ++made_;
+  scene_ = std::move(scene);
+}
+
+void ChangePlayer::forget_later() {
+  scene::forget_changes_after(changes_, simulation_.steps());
+  made_ = std::min(made_, changes_.size());
+}
+
 /// As far as the next change, or to the end of the frame.
-sim::AdvanceReport ChangePlayer::advance(double time, bool (*interrupted)(), std::size_t last_step,
-                                         std::vector<sim::Retry>& retries) {
-  if (scene_.solver.on_divergence == sim::OnDivergence::stop)
-    return simulation_.advance_to(time, interrupted, last_step);
+sim::AdvanceReport ChangePlayer::advance(double time, const sim::StepObserver& after_step,
+                                         std::size_t last_step, std::vector<sim::Retry>& retries) {
+  if (scene_->solver.on_divergence == sim::OnDivergence::stop)
+    return simulation_.advance_to(time, after_step, last_step);
   if (last_step == no_step || simulation_.dt_scale() < 1)
-    return sim::advance_retrying(simulation_, time, interrupted, retries);
+    return sim::advance_retrying(simulation_, time, after_step, retries);
   // While nothing breaks, steps with and without retrying are the same.
   const std::vector<std::uint8_t> good = simulation_.save();
-  const sim::AdvanceReport report = simulation_.advance_to(time, interrupted, last_step);
+  const sim::AdvanceReport report = simulation_.advance_to(time, after_step, last_step);
   const bool has_broken = simulation_.divergence().has_value();
   if (!has_broken && (simulation_.time() >= time || simulation_.steps() >= last_step))
     return report;
   simulation_.restore(good);
-  return has_broken ? sim::advance_retrying(simulation_, time, interrupted, retries)
+  return has_broken ? sim::advance_retrying(simulation_, time, after_step, retries)
                     : sim::AdvanceReport{};  // interrupted: the frame is simulated as a whole
 }
 
-sim::AdvanceReport ChangePlayer::advance_to(double time, bool (*interrupted)(),
+sim::AdvanceReport ChangePlayer::advance_to(double time, const sim::StepObserver& after_step,
                                             std::vector<sim::Retry>& retries) {
   sim::AdvanceReport report;
   for (;;) {
     const std::size_t next = made_ < changes_.size() ? changes_[made_].step : no_step;
-    report.append(advance(time, interrupted, next, retries));
+    report.append(advance(time, after_step, next, retries));
     if (simulation_.divergence()) return report;
     make_due();
     if (simulation_.time() >= time || simulation_.steps() != next) return report;
   }
+}
+
+sim::AdvanceReport ChangePlayer::step_towards(double time, const sim::StepObserver& after_step) {
+  const sim::AdvanceReport report =
+      simulation_.advance_to(time, after_step, simulation_.steps() + 1);
+  if (!simulation_.divergence()) make_due();
+  return report;
 }
 
 }  // namespace neve::app::run

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,7 @@ void follow_colliders(const sim::Simulation& simulation, scene::Scene& scene);
 /// colliders. @throws std::invalid_argument, see sim::Simulation::apply
 void apply_scene(scene::Scene& scene, sim::Simulation& simulation);
 
-/// Advances a simulation and makes the changes again on the way.
+/// Advances a simulation and makes the changes again on the way, or new ones between two steps.
 ///
 /// Whenever it returns, all changes with a step up to simulation.steps() have been made: which ones
 /// have follows from the number of steps alone, also for a state that was saved and restored. With
@@ -67,31 +68,45 @@ class ChangePlayer {
                std::function<void(const scene::Scene&)> after_each = {});
 
   /// The scene as it is now.
-  const scene::Scene& scene() const { return scene_; }
+  const scene::Scene& scene() const { return *scene_; }
+  const std::shared_ptr<const scene::Scene>& shared_scene() const { return scene_; }
   const std::vector<scene::LiveChange>& changes() const { return changes_; }
 
   /// Makes the changes that are due before the first step.
   void begin() { make_due(); }
 
+  /// Makes the changes that lead from scene() to this one at the present step, and lists them.
+  /// Throws like sim::Simulation::apply; nothing has changed then.
+  void make_now(std::shared_ptr<const scene::Scene> scene);
+
   /// Before a state after so many steps is restored into the simulation.
   void go_to(std::size_t steps);
+  /// The same for a simulation that has what it needs of this scene, the one of that state. Changes
+  /// of later steps stay in the list.
+  void go_to(std::size_t steps, std::shared_ptr<const scene::Scene> scene);
+
+  /// Forgets the changes of later steps: the run takes another way from here.
+  void forget_later();
 
   /// sim::Simulation::advance_to or sim::advance_retrying, as the settings want it by then.
-  sim::AdvanceReport advance_to(double time, bool (*interrupted)(),
+  sim::AdvanceReport advance_to(double time, const sim::StepObserver& after_step,
                                 std::vector<sim::Retry>& retries);
+
+  /// One step towards a time. It is taken as it is, whatever it breaks.
+  sim::AdvanceReport step_towards(double time, const sim::StepObserver& after_step);
 
  private:
   void make_due();
   void make(std::size_t end);
-  sim::AdvanceReport advance(double time, bool (*interrupted)(), std::size_t last_step,
-                             std::vector<sim::Retry>& retries);
+  sim::AdvanceReport advance(double time, const sim::StepObserver& after_step,
+                             std::size_t last_step, std::vector<sim::Retry>& retries);
 
   SceneSource source_;
   std::vector<scene::LiveChange> changes_;
   std::size_t made_ = 0;  ///< number of them
   sim::Simulation& simulation_;
   std::function<void(const scene::Scene&)> after_each_;
-  scene::Scene scene_;
+  std::shared_ptr<const scene::Scene> scene_;
 };
 
 }  // namespace neve::app::run

@@ -126,8 +126,8 @@ RenderJob make_job(const RenderOptions& options) {
   if (options.frames) job.frames = *options.frames;
   if (options.quality) job.quality = *options.quality;
   if (!options.out.empty()) job.folder = options.out;
-  job.is_validated = options.is_validated;
-  job.is_resumed = options.is_resumed;
+  job.validate = options.validate;
+  job.resume = options.resume;
   job.checkpoint_every = options.checkpoint_every;
   job.has_movies = options.has_movies;
   return job;

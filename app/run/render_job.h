@@ -20,8 +20,8 @@ struct RenderJob {
   std::vector<std::string> overrides;      ///< for the caption; those of a picture come first
   std::vector<scene::LiveChange> changes;  ///< to be made while it runs, as they were in a picture
   std::vector<std::string> only_tiles;  ///< views that are drawn in a mosaic and not by themselves
-  bool is_validated = false;            ///< with the checks of sim/checks/watch.h
-  bool is_resumed = false;              ///< from the checkpoint in the folder
+  bool validate = false;                ///< with the checks of sim/checks/watch.h
+  bool resume = false;                  ///< from the checkpoint in the folder
   int checkpoint_every = 10;            ///< frames; 0: none
   bool has_movies = true;
   std::vector<std::string> warnings;  ///< of the start, for run.json

@@ -27,12 +27,12 @@ struct RenderOptions {
   /// picture. Rounding of other drivers stays far below it.
   double reference_local_threshold = 8;
   std::string shader_dir;
-  bool is_validated = false;
-  bool is_resumed = false;
+  bool validate = false;
+  bool resume = false;
   int checkpoint_every = 10;  ///< frames; 0: none
   bool has_movies = true;
   Verbosity verbosity = Verbosity::normal;
-  bool is_dry_run = false;
+  bool dry_run = false;
   bool is_json = false;
 };
 

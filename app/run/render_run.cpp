@@ -1,7 +1,6 @@
 #include "app/run/render_run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <system_error>
 
 #include "app/health/incident.h"
@@ -22,23 +21,10 @@ namespace neve::app::run {
 
 namespace {
 
-/// The poll of a simulation has no argument; a process renders one scene at a time.
-Progress* stepping = nullptr;
-Validation* validating = nullptr;
-
 bool has_alpha(const scene::Scene& scene, const std::string& name) {
   return std::any_of(scene.views.begin(), scene.views.end(), [&](const scene::View& view) {
     return view.name == name && scene::background_of(scene, view) == scene::Background::transparent;
   });
-}
-
-/// Nobody waits for the frame being simulated any more.
-std::atomic<bool> is_abandoned = false;
-
-bool after_step() {
-  if (stepping) stepping->step();
-  if (validating) validating->after_step();
-  return is_interrupted() || is_abandoned;
 }
 
 /// Two pools of threads on fewer cores would only take turns.
@@ -79,8 +65,8 @@ PictureRecord picture_record(const RenderJob& job, const std::string& scene) {
 }  // namespace
 
 RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
-                     const render::gl::Context& context, render::Renderer& renderer, double spacing,
-                     const std::vector<std::size_t>& body_end, Progress& progress)
+                     const render::gl::Context& context, render::Renderer& renderer,
+                     const setup::SeededScene& seeded, Progress& progress)
     : job_(job),
       simulation_(simulation),
       renderer_(renderer),
@@ -90,11 +76,11 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
               [this](const scene::Scene& scene) {
                 if (validation_) validation_->use(scene.solver, scene.materials);
               }),
-      builder_(scene_, spacing, job.quality, job.overrides, job.coarsening, body_end),
+      builder_(scene_, seeded, {job.quality, job.overrides, job.coarsening}),
       record_(run_record(job, simulation, context)),
       picture_record_(picture_record(job, record_.scene)),
       checkpoints_(job.folder, picture_record_, simulation, player_, progress) {
-  if (job.is_validated)
+  if (job.validate)
     validation_.emplace(job.scene.solver, job.scene.materials, simulation, progress);
   for (const scene::View& view : job.scene.views)
     if (is_drawn(view)) record_.views.push_back(view.name);
@@ -106,7 +92,7 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
 int RenderRun::begin() {
   output::make_folder(job_.folder);
   std::optional<ResumedRun> resumed;
-  if (job_.is_resumed) resumed = checkpoints_.resume();
+  if (job_.resume) resumed = checkpoints_.resume();
   if (resumed) {
     record_.frames = std::move(resumed->frames);
     history_ = std::move(resumed->history);
@@ -128,14 +114,13 @@ int RenderRun::begin() {
 RenderResult RenderRun::run() {
   const int first = begin();
   try {
-    is_abandoned = false;
     make_frames(first);
     writer_.finish();
     write_movies();
     record_.status = result_.status;
     write_run_json(job_.folder, record_);
   } catch (const std::exception& error) {
-    is_abandoned = true;
+    is_abandoned_ = true;
     if (next_.valid()) next_.wait();
     record_.status = RunStatus::failed;
     record_.error = error.what();
@@ -190,17 +175,20 @@ void RenderRun::write_checkpoint(int frame) {
   result_.has_checkpoint = true;
 }
 
+bool RenderRun::after_step() {
+  progress_.step();
+  if (validation_) validation_->after_step();
+  return is_interrupted() || is_abandoned_;
+}
+
 RenderRun::Advanced RenderRun::simulate_to(int frame) {
   const auto start = Clock::now();
   Advanced advanced;
-  stepping = &progress_;
-  validating = validation_ ? &*validation_ : nullptr;
   const double time = frame / job_.scene.fps;
-  advanced.report = player_.advance_to(time, after_step, advanced.retries);
+  advanced.report = player_.advance_to(
+      time, [this] { return after_step(); }, advanced.retries);
   advanced.scene = player_.scene();
   follow_colliders(simulation_, advanced.scene);
-  stepping = nullptr;
-  validating = nullptr;
   advanced.seconds = seconds_since(start);
   return advanced;
 }
@@ -237,7 +225,7 @@ bool RenderRun::advance_to_frame(int frame) {
 
 void RenderRun::draw_frame(int frame) {
   const auto start = Clock::now();
-  picture::Snapshot snapshot = picture::take_snapshot(scene_, simulation_, frame);
+  picture::Snapshot snapshot = picture::take_snapshot(scene_, scene_.views, simulation_, frame);
   snapshot.history = history_;
   snapshot.advance = advance_;
   const std::uint64_t state_hash = simulation_.state_hash();
@@ -315,16 +303,16 @@ void RenderRun::report_incident() {
       health::incident_json(divergence, diagnosis, record_.scene, job_.scene.solver.cell_size);
   output::write_file(output::incident_path(job_.folder), to_text(incident) + "\n");
   const int frame = static_cast<int>(divergence.time * job_.scene.fps);
-  scene::Scene scene = scene_;
-  if (const auto slice = health::culprit_slice(scene, divergence, simulation_.particles()))
-    scene.views.push_back(*slice);
-  picture::Snapshot snapshot = picture::take_snapshot(scene, simulation_, frame);
+  std::vector<scene::View> views = scene_.views;
+  if (const auto slice = health::culprit_slice(scene_, divergence, simulation_.particles()))
+    views.push_back(*slice);
+  picture::Snapshot snapshot = picture::take_snapshot(scene_, views, simulation_, frame);
   snapshot.time = divergence.time;
   snapshot.advance = advance_;
   snapshot.history = history_;
   note_state(simulation_.state_hash());
   snapshot.changes = picture_record_.changes;
-  for (const scene::View& view : scene.views)
+  for (const scene::View& view : views)
     writer_.write({output::diverged_path(job_.folder, view.name),
                    renderer_.draw(builder_.build_incident(view, snapshot, divergence, diagnosis)),
                    png_text(view.name, frame)});
@@ -336,7 +324,7 @@ void RenderRun::report_incident() {
   };
   for (const scene::Mosaic& mosaic : scene_.mosaics)
     writer_.write({output::diverged_path(job_.folder, mosaic.name),
-                   picture::draw_mosaic(scene, mosaic, build, caption, renderer_),
+                   picture::draw_mosaic(scene_, mosaic, build, caption, renderer_),
                    png_text(mosaic.name, frame)});
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The frame loop of `neve render`: simulate, draw, write, record.
 
+#include <atomic>
 #include <filesystem>
 #include <future>
 #include <optional>
@@ -33,10 +34,8 @@ struct RenderResult {
 class RenderRun {
  public:
   /// @param job with a resolved scene; must outlive the run, like the others
-  /// @param spacing, body_end see FrameBuilder
   RenderRun(const RenderJob& job, sim::Simulation& simulation, const render::gl::Context& context,
-            render::Renderer& renderer, double spacing, const std::vector<std::size_t>& body_end,
-            Progress& progress);
+            render::Renderer& renderer, const setup::SeededScene& seeded, Progress& progress);
 
   /// Removes the files of an earlier run, or resumes it, then makes all frames and movies. run.json
   /// says at every moment how far it got, also when this throws.
@@ -60,6 +59,8 @@ class RenderRun {
     double seconds = 0;
   };
   Advanced simulate_to(int frame);
+  /// @return whether to stop
+  bool after_step();
   bool advance_to_frame(int frame);
   /// Lets the next frame be simulated while this one is drawn, where there are cores for both.
   void begin_next(int frame);
@@ -92,6 +93,7 @@ class RenderRun {
   sim::Summary summary_;                      ///< of the frame being made
   std::vector<picture::PlotSample> history_;  ///< of all frames simulated
   double seconds_sim_ = 0;
+  std::atomic<bool> is_abandoned_ = false;  ///< nobody waits for the frame being simulated
   std::future<Advanced> next_;    ///< the frame after the one being drawn, if it was begun
   output::PictureWriter writer_;  ///< last: stops before its inputs are destroyed
 };

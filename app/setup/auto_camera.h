@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "app/scene/scene.h"
-#include "app/setup/dry_run.h"
+#include "app/setup/coarse_run.h"
 
 namespace neve::app::setup {
 
-/// Frames what a dry run saw from the side and slightly above, and small colliders near it. Round
-/// numbers, the same for every frame. A camera that turns has it in the picture all the way round.
+/// Frames the snow of a coarse run from the side and slightly above, and small colliders near it.
+/// Round numbers, the same for every frame. A camera that turns has it in the picture all the way
+/// round.
 /// @param settings all but eye and target is kept
 /// @param aspect width / height of the picture
 /// @param normal of a plane that should be seen from its front, a little askew

@@ -5,7 +5,7 @@
 
 #include "app/setup/auto_camera.h"
 #include "app/setup/auto_ranges.h"
-#include "app/setup/dry_run.h"
+#include "app/setup/coarse_run.h"
 #include "app/setup/snow_pieces.h"
 
 namespace neve::app::setup {
@@ -97,7 +97,7 @@ void resolve_ranges(scene::Scene& scene, std::size_t particle_count) {
 }
 
 void resolve(scene::Scene& scene, std::size_t particle_count) {
-  if (needs_framing(scene)) resolve_cameras(scene, dry_run(scene));
+  if (needs_framing(scene)) resolve_cameras(scene, coarse_run(scene));
   resolve_ranges(scene, particle_count);
 }
 

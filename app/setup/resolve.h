@@ -2,7 +2,7 @@
 /// Fills in what a scene leaves to the program, so that the scene alone makes the picture again.
 
 #include "app/scene/scene.h"
-#include "app/setup/dry_run.h"
+#include "app/setup/coarse_run.h"
 #include "app/setup/plan.h"
 
 namespace neve::app::setup {
@@ -14,7 +14,7 @@ void resolve(scene::Scene& scene, std::size_t particle_count);
 /// True if a camera of the scene has no place yet.
 bool needs_framing(const scene::Scene& scene);
 
-/// Places those cameras for what dry runs saw, in order of time.
+/// Places those cameras for the snow of coarse runs, in order of time.
 void resolve_cameras(scene::Scene& scene, const std::vector<Moment>& moments);
 
 void resolve_ranges(scene::Scene& scene, std::size_t particle_count);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "app/scene/toml/value.h"
@@ -108,13 +109,19 @@ sim::Simulation make_simulation(const scene::Scene& scene, const sim::ParticleAr
   return make_simulation(scene, particles, threads, scene::sim_colliders(scene));
 }
 
-sim::ParticleArrays seed_scene(const scene::Scene& scene, std::vector<std::size_t>* body_end) {
-  sim::ParticleArrays particles;
+SeededScene seed_scene(const scene::Scene& scene) {
+  SeededScene seeded;
   for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
-    append_body(scene, index, particles);
-    if (body_end) body_end->push_back(particles.x.size());
+    append_body(scene, index, seeded.particles);
+    seeded.body_end.push_back(seeded.particles.x.size());
   }
-  return particles;
+  double volume = 0;
+  for (const SnowPiece& piece : snow_pieces(scene)) volume += piece.volume;
+  const double count = static_cast<double>(seeded.particles.x.size()) +
+                       planned_emission(scene, scene.frames / scene.fps);
+  seeded.planned = static_cast<std::size_t>(count);
+  seeded.spacing = std::cbrt(volume / std::max(1.0, count));
+  return seeded;
 }
 
 }  // namespace neve::app::setup

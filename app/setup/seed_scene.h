@@ -1,16 +1,25 @@
 #pragma once
 /// Bodies of a scene to the arrays that a simulation starts from.
 
+#include <cstddef>
+#include <vector>
+
 #include "app/scene/scene.h"
 #include "sim/simulation.h"
 
 namespace neve::app::setup {
 
-/// All bodies in the order of the scene; particles of a body follow each other.
-/// @param body_end gets for each body the index after its last particle, may be null
+/// The snow that a scene starts from.
+struct SeededScene {
+  sim::ParticleArrays particles;      ///< of all bodies in the order of the scene
+  std::vector<std::size_t> body_end;  ///< for each body the id after its last particle
+  double spacing = 0.01;              ///< m, between packed particles; the same for any frame
+  std::size_t planned = 0;            ///< particles until the scene ends, emitted ones included
+
+  std::size_t body_begin(std::size_t body) const { return body == 0 ? 0 : body_end[body - 1]; }
+};
 /// @throws sim::ShapeError
-sim::ParticleArrays seed_scene(const scene::Scene& scene,
-                               std::vector<std::size_t>* body_end = nullptr);
+SeededScene seed_scene(const scene::Scene& scene);
 
 /// Appends one body. @param index in the scene: the key of its random numbers
 void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArrays& particles);

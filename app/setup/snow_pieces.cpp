@@ -60,14 +60,6 @@ double planned_emission(const scene::Scene& scene, double time) {
   return count;
 }
 
-SnowCount count_snow(const scene::Scene& scene, std::size_t seeded) {
-  double volume = 0;
-  for (const SnowPiece& piece : snow_pieces(scene)) volume += piece.volume;
-  const double count =
-      static_cast<double>(seeded) + planned_emission(scene, scene.frames / scene.fps);
-  return {static_cast<std::size_t>(count), std::cbrt(volume / std::max(1.0, count))};
-}
-
 sim::seeding::Flow flow_of(const scene::Scene& scene) {
   return {scene.emitters, scene.sinks, scene.seed};
 }

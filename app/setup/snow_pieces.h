@@ -28,15 +28,6 @@ std::vector<SnowPiece> snow_places(const scene::Scene& scene);
 /// Particles of all emitters until a time, s.
 double planned_emission(const scene::Scene& scene, double time);
 
-/// All particles until the scene ends, and how far they are apart in packed snow: the same for any
-/// part of its frames.
-struct SnowCount {
-  std::size_t particles = 0;
-  double spacing = 0;  ///< m
-};
-/// @param seeded  particles that the bodies got
-SnowCount count_snow(const scene::Scene& scene, std::size_t seeded);
-
 /// Emitters and sinks, for the simulation.
 sim::seeding::Flow flow_of(const scene::Scene& scene);
 

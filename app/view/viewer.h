@@ -1,6 +1,7 @@
 #pragma once
 /// The loop of `neve view`: input, panels, pictures.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,25 @@ struct ViewerOptions {
   bool is_running = false;          ///< from the start
   bool has_own_clock = false;       ///< panels see 1/60 s pass from picture to picture: scripts
   std::optional<std::string> view;  ///< the first one; without: the scene's first
+};
+
+/// What the picture shows, from wherever it is seen.
+struct StateKey {
+  const scene::Scene* scene = nullptr;  ///< as it is edited
+  std::uint64_t number = 0;             ///< of the LiveFrame
+  bool shows_incident = false;
+  std::string view;
+  bool operator==(const StateKey&) const = default;
+};
+
+/// Everything that the picture depends on.
+struct PictureKey {
+  StateKey state;
+  int width = 0, height = 0;
+  sim::Vec3d eye, target;
+  double fov = 0;
+  bool is_camera_of_scene = false;
+  bool operator==(const PictureKey&) const = default;
 };
 
 class Viewer {
@@ -54,8 +74,8 @@ class Viewer {
   void save_picture();
   void record_frame();
   double seconds_passed();
-  std::string state_key() const;
-  std::string picture_key() const;
+  StateKey state_key() const;
+  PictureKey picture_key() const;
 
   session::Workbench& bench_;
   front::Front& front_;
@@ -70,12 +90,12 @@ class Viewer {
   float styled_scale_ = 0;  ///< that the panels' distances are for
   int settle_ = 3;          ///< pictures that ImGui still needs to come to rest
   std::uint64_t painted_number_ = 0;
-  std::string painted_key_;
+  std::optional<PictureKey> painted_;  ///< empty: another picture is on the screen
   render::Points
       points_;  ///< of the last picture: the next has the same while only the camera moves
-  std::string points_key_;   ///< their key; empty: nothing
-  double scale_ = 1;         ///< of the picture last painted
-  double full_seconds_ = 0;  ///< that a picture of full size takes
+  std::optional<StateKey> points_of_;  ///< what they belong to
+  double scale_ = 1;                   ///< of the picture last painted
+  double full_seconds_ = 0;            ///< that a picture of full size takes
   Clock::time_point moved_at_{};
   Clock::time_point drawn_at_ = Clock::now(), file_looked_at_{};
   bool has_input_ = false;                            ///< since the last picture

@@ -41,7 +41,7 @@ output::Picture Viewer::picture_to_keep(const std::filesystem::path& file) {
     view.camera = scene.camera;
   run::PictureRecord record = bench_.picture_record(live, view);
   record.state_hash = run::hash_text(live.state_hash);
-  painted_key_.clear();  // another picture takes the place of the one on the screen
+  painted_.reset();  // another picture takes the place of the one on the screen
   return {file, renderer_.draw(picture_frame(std::move(view))), run::to_png_text(record)};
 }
 

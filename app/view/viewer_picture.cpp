@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "app/picture/frame_builder.h"
@@ -24,12 +25,11 @@ constexpr double smallest_scale = 0.45;
 /// True if everything that the view shows was computed for this moment: a newly chosen view waits
 /// for the session.
 bool has_all(const picture::Snapshot& snapshot, const scene::View& view) {
-  scene::Scene scene;
-  scene.views = {view};
-  const picture::FieldNeeds needs = picture::field_needs(scene);
+  const std::span only(&view, 1);
+  const picture::FieldNeeds needs = picture::field_needs(only);
   const auto& fields = snapshot.fields;
   return (!needs.is_needed || fields.lattice) &&
-         (!picture::needs_stress(scene) || !snapshot.kirchhoff.empty()) &&
+         (!picture::needs_stress(only) || !snapshot.kirchhoff.empty()) &&
          std::all_of(needs.scalars.begin(), needs.scalars.end(),
                      [&](scene::ScalarField field) { return fields.scalars.contains(field); }) &&
          std::all_of(needs.vectors.begin(), needs.vectors.end(),
@@ -44,23 +44,14 @@ double widened(double fov, double narrower) {
 
 }  // namespace
 
-/// Key of the contents of the picture, independent of the camera.
-std::string Viewer::state_key() const {
-  char text[120];
-  std::snprintf(
-      text, sizeof text, "%p %llu %d ", static_cast<const void*>(bench_.document().scene().get()),
-      static_cast<unsigned long long>(state_.live->number), state_.shows_incident ? 1 : 0);
-  return text + state_.view;
+StateKey Viewer::state_key() const {
+  return {bench_.document().scene().get(), state_.live->number, state_.shows_incident, state_.view};
 }
 
-/// Everything that the picture depends on.
-std::string Viewer::picture_key() const {
-  const sim::Vec3d eye = state_.orbit.eye(), target = state_.orbit.target();
-  char text[400];
-  std::snprintf(text, sizeof text, " %d %d %a %a %a %a %a %a %a %d", state_.viewport.width,
-                state_.viewport.height, eye.x(), eye.y(), eye.z(), target.x(), target.y(),
-                target.z(), state_.orbit.fov(), state_.is_camera_of_scene ? 1 : 0);
-  return state_key() + text;
+PictureKey Viewer::picture_key() const {
+  return {
+      state_key(),           state_.viewport.width, state_.viewport.height,   state_.orbit.eye(),
+      state_.orbit.target(), state_.orbit.fov(),    state_.is_camera_of_scene};
 }
 
 void Viewer::paint_picture() {
@@ -81,8 +72,8 @@ void Viewer::paint_picture() {
   double scale = 1;
   if (is_moving && full_seconds_ > quick_enough)
     scale = std::clamp(std::sqrt(quick_enough / full_seconds_), smallest_scale, 1.0);
-  const std::string key = picture_key();
-  if (key == painted_key_ && scale <= scale_) return;
+  PictureKey key = picture_key();
+  if (key == painted_ && scale <= scale_) return;
   if (!has_all(state_.live->snapshot, shown_view())) return;
   const auto start = Clock::now();
   const scene::PictureSize size{
@@ -99,7 +90,7 @@ void Viewer::paint_picture() {
   if (scale >= 1) full_seconds_ = seconds_since(start);
   scale_ = scale;
   painted_number_ = state_.live->number;
-  painted_key_ = key;
+  painted_ = std::move(key);
   if (state_.is_recording) record_frame();
 }
 
@@ -123,20 +114,19 @@ scene::View Viewer::shown_view() const {
 
 void Viewer::keep_points(render::Points points) {
   points_ = std::move(points);
-  points_key_ = state_key();
+  points_of_ = state_key();
 }
 
 render::Frame Viewer::picture_frame(scene::View view) {
   const session::LiveFrame& live = *state_.live;
-  scene::Scene scene = bench_.display_scene(live);
+  const scene::Scene scene = bench_.display_scene(live);
   view.background = scene::Background::gradient;
-  scene.views = {view};
-  const picture::FrameBuilder builder(scene, live.spacing, setup::Quality::preview,
-                                      bench_.overrides(), bench_.document().coarsening(),
-                                      live.body_end);
+  const picture::FrameBuilder builder(
+      scene, *live.seeded,
+      {setup::Quality::preview, bench_.overrides(), bench_.document().coarsening()});
   std::optional<render::Points> points;
-  if (points_key_ == state_key()) points = std::move(points_);
-  points_key_.clear();
+  if (points_of_ == state_key()) points = std::move(points_);
+  points_of_.reset();
   if (live.divergence && live.diagnosis && state_.shows_incident)
     return builder.build_incident(view, live.snapshot, *live.divergence, *live.diagnosis,
                                   std::move(points));

@@ -103,7 +103,8 @@ StepLimits Engine<Real>::step_limits() const {
 // ---- frames -------------------------------------------------------------------------------------
 
 template <class Real>
-AdvanceReport Engine<Real>::advance_to(double time, bool (*interrupted)(), std::size_t last_step) {
+AdvanceReport Engine<Real>::advance_to(double time, const StepObserver& after_step,
+                                       std::size_t last_step) {
   AdvanceReport report;
   Progress& progress = state_.progress;
   FrameProgress& frame = progress.frame;
@@ -113,7 +114,7 @@ AdvanceReport Engine<Real>::advance_to(double time, bool (*interrupted)(), std::
   const double whole = frame.end - frame.start;
   while (frame.done < whole && !divergence() && progress.steps < last_step) {
     advance_frame(choose_dt(whole - frame.done), report);
-    if (interrupted && interrupted()) break;
+    if (after_step && after_step()) break;
   }
   if (frame.done >= whole) {
     progress.time = time;

@@ -17,7 +17,8 @@ class Engine final : public Stepper {
          int threads, const Vec3i& lattice_origin, const seeding::Flow& flow);
 
   void step(double dt) override;
-  AdvanceReport advance_to(double time, bool (*interrupted)(), std::size_t last_step) override;
+  AdvanceReport advance_to(double time, const StepObserver& after_step,
+                           std::size_t last_step) override;
   void apply(const SolverSettings& settings, const std::vector<Material>& materials,
              const std::vector<shapes::Collider>& colliders) override;
   void restore(std::span<const std::uint8_t> bytes) override;

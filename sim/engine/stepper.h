@@ -14,6 +14,7 @@
 #include "sim/types/particle_arrays.h"
 #include "sim/types/reports.h"
 #include "sim/types/settings.h"
+#include "sim/types/step_observer.h"
 
 namespace neve::sim::engine {
 
@@ -25,7 +26,8 @@ class Stepper {
   virtual ~Stepper() = default;
 
   virtual void step(double dt) = 0;
-  virtual AdvanceReport advance_to(double time, bool (*interrupted)(), std::size_t last_step) = 0;
+  virtual AdvanceReport advance_to(double time, const StepObserver& after_step,
+                                   std::size_t last_step) = 0;
   virtual void apply(const SolverSettings& settings, const std::vector<Material>& materials,
                      const std::vector<shapes::Collider>& colliders) = 0;
   virtual void restore(std::span<const std::uint8_t> bytes) = 0;

@@ -332,10 +332,15 @@ constexpr const char* meaning(Law law) {
   return limits_of(law).meaning;
 }
 
+/// False for no_line, which is NaN.
+constexpr bool is_line(double value) {
+  return value == value;
+}
+
 /// True if each law has its own row and the watched ones come first.
 constexpr bool is_in_order() {
   for (std::size_t k = 0; k < law_count; ++k) {
-    const bool is_watched = laws[k].watch_warning == laws[k].watch_warning;
+    const bool is_watched = is_line(laws[k].watch_warning);
     if (static_cast<std::size_t>(laws[k].law) != k || is_watched != (k < watched_laws))
       return false;
   }

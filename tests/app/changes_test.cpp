@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "app/run/changes.h"
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
@@ -36,7 +41,8 @@ app::scene::Scene start(const std::string& more = {}) {
 
 sim::Simulation simulate(const app::scene::Scene& scene, bool is_empty = false) {
   return sim::Simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
-                         is_empty ? sim::ParticleArrays{} : app::setup::seed_scene(scene), 1);
+                         is_empty ? sim::ParticleArrays{} : app::setup::seed_scene(scene).particles,
+                         1);
 }
 
 TEST(LiveChanges, GoToJsonAndBack) {
@@ -193,6 +199,51 @@ TEST(ChangePlayer, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
   sim::Simulation plain = simulate(scene);
   plain.advance_to(3 / 24.0);
   EXPECT_NE(plain.state_hash(), again.state_hash());
+}
+
+TEST(ChangePlayer, PlaysAgainTheChangesThatItMadeBetweenSteps) {
+  const app::scene::Scene scene = start();
+  sim::Simulation live = simulate(scene);
+  app::run::ChangePlayer player(scene, {}, live);
+  std::vector<sim::Retry> none;
+  const auto set = [&](const std::string& address, const std::string& value) {
+    player.make_now(std::make_shared<app::scene::Scene>(app::run::with_changes(
+        {app::scene::write_scene(player.scene()), "now", "", {}}, {{0, address, value}})));
+  };
+  const auto hash_after_replay = [&] {
+    sim::Simulation again = simulate(scene);
+    app::run::ChangePlayer replay(scene, player.changes(), again);
+    replay.begin();
+    for (int frame = 1; frame <= 2; ++frame) replay.advance_to(frame / 24.0, nullptr, none);
+    return again.state_hash();
+  };
+  set("material.snow.youngs_modulus", "2e5");
+  player.step_towards(1 / 24.0, nullptr);
+  EXPECT_EQ(live.steps(), 1u);
+  set("solver.gravity", "[0, -20, 0]");
+  player.advance_to(1 / 24.0, nullptr, none);
+  const std::vector<std::uint8_t> state = live.save();
+  const std::size_t steps = live.steps();
+  const std::shared_ptr<const app::scene::Scene> then = player.shared_scene();
+  player.step_towards(2 / 24.0, nullptr);
+  set("solver.transfer", "apic");
+  player.advance_to(2 / 24.0, nullptr, none);
+  EXPECT_EQ(player.changes().size(), 3u);
+  const std::uint64_t first_way = live.state_hash();
+  EXPECT_EQ(hash_after_replay(), first_way);
+
+  // Another way from the frame in between.
+  live = simulate(*then);
+  live.restore(state);
+  player.go_to(steps, then);
+  EXPECT_EQ(player.changes().size(), 3u);
+  player.forget_later();
+  EXPECT_EQ(player.changes().size(), 2u);
+  player.step_towards(2 / 24.0, nullptr);
+  set("solver.transfer", "mls");
+  player.advance_to(2 / 24.0, nullptr, none);
+  EXPECT_NE(live.state_hash(), first_way);
+  EXPECT_EQ(hash_after_replay(), live.state_hash());
 }
 
 TEST(ChangePlayer, GoesOnFromAStateAtAnyStep) {

@@ -46,8 +46,8 @@ TEST(Coarsen, CellsAndLongestStepsGrowParticlesPerCellStay) {
 TEST(Coarsen, LeavesAnEighthOfTheParticlesAndAllOfTheMass) {
   app::scene::Scene coarse = coarse_ball();
   app::scene::coarsen(coarse, 2);
-  const sim::ParticleArrays all = app::setup::seed_scene(coarse_ball()),
-                            few = app::setup::seed_scene(coarse);
+  const sim::ParticleArrays all = app::setup::seed_scene(coarse_ball()).particles,
+                            few = app::setup::seed_scene(coarse).particles;
   // Cells on the surface are in or out by chance, about 6 h^2 of them per 10 h^2 of surface.
   EXPECT_NEAR(static_cast<double>(few.x.size()), static_cast<double>(all.x.size()) / 8,
               0.03 * static_cast<double>(all.x.size()) / 8);

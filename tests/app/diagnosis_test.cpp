@@ -179,7 +179,7 @@ TEST(Diagnosis, NamesTheCauseOfEachFault) {
   for (const Fault& fault : faults()) {
     SCOPED_TRACE(fault.what);
     app::scene::Scene scene = scene_of(fault);
-    const sim::Simulation simulation = run(scene, app::setup::seed_scene(scene));
+    const sim::Simulation simulation = run(scene, app::setup::seed_scene(scene).particles);
     ASSERT_TRUE(simulation.divergence());
     const app::health::Diagnosis diagnosis = app::health::diagnose(scene, *simulation.divergence());
     EXPECT_STREQ(app::scene::name_of(diagnosis.cause), app::scene::name_of(fault.cause))
@@ -193,7 +193,7 @@ TEST(Diagnosis, NamesTheCauseOfEachFault) {
 TEST(Diagnosis, NamesWhatWasWrongBeforeTheFirstStep) {
   const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");
   const auto cause_with = [&](auto&& damage) {
-    sim::ParticleArrays particles = app::setup::seed_scene(scene);
+    sim::ParticleArrays particles = app::setup::seed_scene(scene).particles;
     particles.F_E.assign(particles.x.size(), sim::Mat3d::Identity());
     particles.J_P.assign(particles.x.size(), 1);
     damage(particles);
@@ -232,7 +232,7 @@ TEST(Diagnosis, NamesHardeningOfAdaptiveSteps) {
 
 TEST(Diagnosis, KeepsTheLastStepsInOrder) {
   const app::scene::Scene scene = scene_of(fault("acoustic limit raised"));
-  const sim::Simulation simulation = run(scene, app::setup::seed_scene(scene));
+  const sim::Simulation simulation = run(scene, app::setup::seed_scene(scene).particles);
   ASSERT_TRUE(simulation.divergence());
   const sim::Divergence& d = *simulation.divergence();
   ASSERT_GT(d.last_steps.size(), 10u);
@@ -252,7 +252,7 @@ TEST(Diagnosis, KeepsTheLastStepsInOrder) {
 /// Half of a step that is just too long holds; the frames that follow may be as they were.
 TEST(Retry, GoesOnWithHalfTheStepWhereThatHolds) {
   app::scene::Scene scene = scene_of(fault("the same with a longer step"));
-  const sim::ParticleArrays particles = app::setup::seed_scene(scene);
+  const sim::ParticleArrays particles = app::setup::seed_scene(scene).particles;
   sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
                              particles);
   std::vector<sim::Retry> retries;
@@ -269,7 +269,7 @@ TEST(Retry, GoesOnWithHalfTheStepWhereThatHolds) {
 
 TEST(Retry, GivesUpWhereNoStepHelps) {
   const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");
-  sim::ParticleArrays particles = app::setup::seed_scene(scene);
+  sim::ParticleArrays particles = app::setup::seed_scene(scene).particles;
   particles.J_P.assign(particles.x.size(), 1);
   particles.J_P[7] = 0.05;
   sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
@@ -287,7 +287,7 @@ int polls = 0;
 /// An interrupted frame saves its beginning, so a resumed run repeats it.
 TEST(Retry, AnInterruptedFrameStartsAgain) {
   app::scene::Scene scene = scene_of(fault("the same with a longer step"));
-  const sim::ParticleArrays particles = app::setup::seed_scene(scene);
+  const sim::ParticleArrays particles = app::setup::seed_scene(scene).particles;
   const auto make = [&] {
     return sim::Simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
                            particles);

@@ -23,7 +23,8 @@ shape = { box = { center = [0, 0.2, 0], size = [0.3, 0.3, 0.3] } }
 // The sharp corners of a cube of three cells: the worst that the paper's estimate does.
 TEST(ExpectedVolume, HasRoomForEstimatesAtCornersAndNoMoreWhereVolumesAreGiven) {
   const app::scene::Scene scene = app::scene::read_scene_text(coarse_cube, "cube.toml");
-  sim::Simulation simulation = app::setup::make_simulation(scene, app::setup::seed_scene(scene), 1);
+  sim::Simulation simulation =
+      app::setup::make_simulation(scene, app::setup::seed_scene(scene).particles, 1);
   const sim::ParticleArrays state = simulation.particles();
   const app::scene::Range expected = app::health::Expected(scene, state, 1e-4).volume().range;
   const double share = state.m.front() / scene.materials[0].density;

@@ -62,7 +62,7 @@ TEST(Limits, AreThoseOfTheStopRules) {
   scene::Scene scene = ball();
   scene.solver.time_step = sim::TimeStep::fixed;
   scene.solver.dt = 1;
-  sim::Simulation simulation = setup::make_simulation(scene, setup::seed_scene(scene), 1);
+  sim::Simulation simulation = setup::make_simulation(scene, setup::seed_scene(scene).particles, 1);
   simulation.advance_to(1);
   ASSERT_TRUE(simulation.divergence());
   EXPECT_EQ(simulation.divergence()->rule, limits_of(Law::speed_cfl).name);
@@ -104,12 +104,12 @@ TEST(Limits, AreThoseOfTheDiagnosis) {
 
 TEST(Limits, AreThoseOfDumps) {
   const scene::Scene scene = ball();
-  const sim::ParticleArrays state = setup::seed_scene(scene);
+  const sim::ParticleArrays state = setup::seed_scene(scene).particles;
   const health::Expected expected(scene, state, 1e-4);
   EXPECT_EQ(expected.J_P().range.min, limits_of(Law::compaction).expected);
   EXPECT_EQ(expected.J_P().range.max, limits_of(Law::dilation).expected);
   const double full = scene.materials[0].density * std::pow(scene.solver.cell_size, 3);
-  EXPECT_DOUBLE_EQ(expected.feather_mass(), limits_of(Law::light_node).expected * full);
+  EXPECT_DOUBLE_EQ(expected.negligible_mass(), limits_of(Law::light_node).expected * full);
 }
 
 }  // namespace

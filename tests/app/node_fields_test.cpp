@@ -43,11 +43,11 @@ struct FieldMoment {
 
 FieldMoment moment_of(const std::string& views) {
   FieldMoment moment{read_thrown(views), {}};
-  const sim::ParticleArrays particles = app::setup::seed_scene(moment.scene);
+  const sim::ParticleArrays particles = app::setup::seed_scene(moment.scene).particles;
   app::setup::resolve(moment.scene, particles.x.size());
   const sim::Simulation simulation(moment.scene.solver, moment.scene.materials,
                                    app::scene::sim_colliders(moment.scene), particles, 1);
-  moment.snapshot = app::picture::take_snapshot(moment.scene, simulation, 0);
+  moment.snapshot = app::picture::take_snapshot(moment.scene, moment.scene.views, simulation, 0);
   return moment;
 }
 
@@ -67,9 +67,9 @@ slice = { field = "velocity", scalar = "speed" }
 )";
 
 TEST(NodeFields, AreSampledOnlyWhenAViewShowsThem) {
-  EXPECT_FALSE(app::picture::field_needs(read_thrown("")).is_needed);
+  EXPECT_FALSE(app::picture::field_needs(read_thrown("").views).is_needed);
   EXPECT_EQ(moment_of("").snapshot.fields.lattice, nullptr);
-  const app::picture::FieldNeeds needs = app::picture::field_needs(read_thrown(all_fields));
+  const app::picture::FieldNeeds needs = app::picture::field_needs(read_thrown(all_fields).views);
   EXPECT_EQ(needs.vectors,
             (std::set{app::scene::VectorField::force, app::scene::VectorField::v_star,
                       app::scene::VectorField::velocity}));
@@ -80,7 +80,7 @@ TEST(NodeFields, AreSampledOnlyWhenAViewShowsThem) {
 
 TEST(NodeFields, OfABallThatFliesAreThoseOfItsParticles) {
   const FieldMoment moment = moment_of(all_fields);
-  const app::picture::NodeFields& fields = moment.snapshot.fields;
+  const app::picture::FieldSamples& fields = moment.snapshot.fields;
   ASSERT_NE(fields.lattice, nullptr);
   ASSERT_EQ(fields.density.size(), 64 * fields.lattice->block.size());
   double mass = 0, largest = 0;
@@ -105,7 +105,7 @@ TEST(NodeFields, OfABallThatFliesAreThoseOfItsParticles) {
 
 TEST(FieldSampler, ReproducesLinearFieldsInside) {
   FieldMoment moment = moment_of(all_fields);
-  app::picture::NodeFields& fields = moment.snapshot.fields;
+  app::picture::FieldSamples& fields = moment.snapshot.fields;
   const float h = fields.lattice->spacing;
   std::vector<float>& values = fields.scalars.at(app::scene::ScalarField::J_P);
   const auto linear = [](const Vec3d& x) { return 3 + 2 * x.x() - x.y() + 5 * x.z(); };

@@ -62,7 +62,8 @@ TEST_F(Attributes, OfABrokenStateStillMakeAPicture) {
   app::scene::View view;
   view.particles.color_by = app::scene::ColorBy::speed;
   view.particles.range = app::scene::Range{0, 2};
-  const app::picture::FrameBuilder builder(scene, 0.01, app::setup::Quality::preview, {}, 1, {});
+  const app::setup::SeededScene seeded;
+  const app::picture::FrameBuilder builder(scene, seeded);
   const render::Frame frame = builder.build(view, s);
   ASSERT_EQ(frame.points.position.size(), 2u);
   EXPECT_EQ(frame.points.id[1], 2u);
@@ -73,8 +74,8 @@ TEST_F(Attributes, OfABrokenStateStillMakeAPicture) {
 
 TEST_F(Attributes, CaptionsSayWhatWasCoarsened) {
   const auto last_line = [&](double coarsening) {
-    const app::picture::FrameBuilder builder(scene, 0.01, app::setup::Quality::preview, {},
-                                             coarsening, {});
+    const app::setup::SeededScene seeded;
+    const app::picture::FrameBuilder builder(scene, seeded, {.coarsening = coarsening});
     return builder.build(app::scene::View{}, squeezed()).caption.back();
   };
   EXPECT_EQ(last_line(1), "1 particle");

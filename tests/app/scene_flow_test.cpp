@@ -9,7 +9,7 @@
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/auto_ranges.h"
-#include "app/setup/dry_run.h"
+#include "app/setup/coarse_run.h"
 #include "app/setup/plan.h"
 #include "app/setup/resolve.h"
 #include "app/setup/seed_scene.h"
@@ -81,7 +81,7 @@ TEST(SceneFlow, CamerasAndRangesKnowWhereSnowWillBe) {
   app::scene::Scene scene = flow_scene(spout + "[[collider]]\nshape = { plane = {} }\n");
   // Falls 1 m from 2 m/s.
   EXPECT_NEAR(app::setup::impact_speed(scene), std::sqrt(4 + 2 * 9.81), 1e-6);
-  const std::vector<app::setup::Moment> moments = app::setup::dry_run(scene);
+  const std::vector<app::setup::Moment> moments = app::setup::coarse_run(scene);
   ASSERT_FALSE(moments.empty());
   double lowest = 1;
   for (const app::setup::Moment& moment : moments)
@@ -95,8 +95,10 @@ TEST(SceneFlow, AMomentWithoutParticlesIsDrawnAndMeasured) {
   app::scene::Scene scene = flow_scene(spout);
   app::setup::resolve(scene, 1000);
   const sim::Simulation simulation = app::setup::make_simulation(scene, {}, 1);
-  const app::picture::Snapshot snapshot = app::picture::take_snapshot(scene, simulation, 0);
-  const app::picture::FrameBuilder builder(scene, 0.01, app::setup::Quality::draft, {}, 1, {});
+  const app::picture::Snapshot snapshot =
+      app::picture::take_snapshot(scene, scene.views, simulation, 0);
+  const app::setup::SeededScene seeded;
+  const app::picture::FrameBuilder builder(scene, seeded, {.quality = app::setup::Quality::draft});
   for (const app::scene::View& view : scene.views)
     EXPECT_TRUE(builder.build(view, snapshot).points.position.empty());
   EXPECT_EQ(app::run::measure(snapshot.particles, 0.02).fragments, 0u);
@@ -117,14 +119,13 @@ name = "slice"
 layers = ["bounds"]
 )");
   app::setup::resolve(scene, 1000);
-  std::vector<std::size_t> body_end;
-  const sim::ParticleArrays seeded = app::setup::seed_scene(scene, &body_end);
-  const sim::Simulation simulation = app::setup::make_simulation(scene, seeded, 1);
-  EXPECT_EQ(simulation.particle_count(), body_end[1] - body_end[0]);
-  const app::picture::Snapshot snapshot = app::picture::take_snapshot(scene, simulation, 0);
-  EXPECT_EQ(snapshot.particles.id_of(0), body_end[0]);
-  const app::picture::FrameBuilder builder(scene, 0.01, app::setup::Quality::draft, {}, 1,
-                                           body_end);
+  const app::setup::SeededScene seeded = app::setup::seed_scene(scene);
+  const sim::Simulation simulation = app::setup::make_simulation(scene, seeded.particles, 1);
+  EXPECT_EQ(simulation.particle_count(), seeded.body_end[1] - seeded.body_end[0]);
+  const app::picture::Snapshot snapshot =
+      app::picture::take_snapshot(scene, scene.views, simulation, 0);
+  EXPECT_EQ(snapshot.particles.id_of(0), seeded.body_end[0]);
+  const app::picture::FrameBuilder builder(scene, seeded, {.quality = app::setup::Quality::draft});
   const render::Frame frame = builder.build(scene.views[0], snapshot);
   ASSERT_EQ(frame.labels.size(), 1u);
   EXPECT_EQ(frame.labels[0].text, "kept");
@@ -139,13 +140,15 @@ shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
 volumes = "given"
 )";
   const app::scene::Scene scene = flow_scene(text);
-  const sim::ParticleArrays p = app::setup::seed_scene(scene);
+  const sim::ParticleArrays p = app::setup::seed_scene(scene).particles;
   ASSERT_EQ(p.stiffness.size(), p.x.size());
   const auto [least, most] = std::minmax_element(p.stiffness.begin(), p.stiffness.end());
   EXPECT_LT(*least, 0.8);
   EXPECT_GT(*most, 1.3);
-  const sim::ParticleArrays moved = app::setup::seed_scene(
-      flow_scene(text, {app::scene::parse_override("body.1.shape.sphere.center=[3,1,2]")}));
+  const sim::ParticleArrays moved =
+      app::setup::seed_scene(
+          flow_scene(text, {app::scene::parse_override("body.1.shape.sphere.center=[3,1,2]")}))
+          .particles;
   ASSERT_EQ(moved.x.size(), p.x.size());
   for (std::size_t q = 0; q < p.x.size(); ++q) {
     // Places are rounded where they stand.
@@ -157,7 +160,7 @@ volumes = "given"
           flow_scene(text,
                      {app::scene::parse_override("material.snow.variation.thresholds=0"),
                       app::scene::parse_override("material.snow.variation.youngs_modulus=0")}))
-          .stiffness.empty());
+          .particles.stiffness.empty());
 }
 
 std::vector<std::string> findings_of(const std::string& text) {

@@ -32,14 +32,14 @@ app::scene::Scene read_powder(const std::string& more,
 
 /// The first view of frame 0.
 render::Frame first_frame(app::scene::Scene scene) {
-  std::vector<std::size_t> body_end;
-  const sim::ParticleArrays particles = app::setup::seed_scene(scene, &body_end);
-  app::setup::resolve(scene, particles.x.size());
+  app::setup::SeededScene seeded = app::setup::seed_scene(scene);
+  seeded.spacing = 0.01;
+  app::setup::resolve(scene, seeded.particles.x.size());
   const sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
-                                   particles, 1);
-  const app::picture::FrameBuilder builder(scene, 0.01, app::setup::Quality::preview, {}, 1,
-                                           body_end);
-  return builder.build(scene.views.front(), app::picture::take_snapshot(scene, simulation, 0));
+                                   seeded.particles, 1);
+  const app::picture::FrameBuilder builder(scene, seeded);
+  return builder.build(scene.views.front(),
+                       app::picture::take_snapshot(scene, scene.views, simulation, 0));
 }
 
 double mass_of(const render::Smoke& smoke) {

@@ -36,9 +36,9 @@ render::Frame build(const app::scene::Scene& scene, const std::vector<Vec3d>& po
   app::picture::Snapshot snapshot;
   snapshot.particles.x = positions;
   snapshot.particles.v.assign(positions.size(), Vec3d(0, 0, 0));
-  return app::picture::FrameBuilder(scene, 0.01, app::setup::Quality::preview, {}, 1,
-                                    {positions.size()})
-      .build(scene.views.front(), snapshot);
+  app::setup::SeededScene seeded;
+  seeded.body_end = {positions.size()};
+  return app::picture::FrameBuilder(scene, seeded).build(scene.views.front(), snapshot);
 }
 
 TEST(ColliderStyle, DecidesWhatIsDrawn) {

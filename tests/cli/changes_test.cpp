@@ -25,7 +25,7 @@ class Changes : public Cli {
     plain_hash = record.state_hash;
     const app::scene::Scene scene = app::scene::read_scene_text(record.scene, "plain");
     sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
-                               app::setup::seed_scene(scene), 1);
+                               app::setup::seed_scene(scene).particles, 1);
     const auto set = [&](const std::string& address, const std::string& value) {
       app::scene::note_change(record.changes, {simulation.steps(), address, value});
       app::scene::Scene now = app::run::with_changes({record.scene, "now", "", {}}, record.changes);

@@ -172,7 +172,7 @@ TEST(Slice, TellsWhyThereAreNoArrows) {
   view.layers = {app::scene::Layer::arrows};
   view.slice.field = app::scene::VectorField::velocity;
   view.slice.range = app::scene::Range{0, 2};
-  app::picture::NodeFields fields;
+  app::picture::FieldSamples fields;
   EXPECT_EQ(app::view::panels::reason_for_no_arrows(view, fields), "");  // not worked out yet
   fields.vectors[app::scene::VectorField::velocity] = {{0, 0, 0}, {0, 0, 0}};
   EXPECT_EQ(app::view::panels::reason_for_no_arrows(view, fields),

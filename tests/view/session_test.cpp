@@ -21,7 +21,7 @@ std::shared_ptr<const scene::Scene> scene_of(const std::string& text) {
 /// Hash of the state at a frame of a run that nobody looks at.
 std::uint64_t undisturbed(const scene::Scene& scene, int frame) {
   sim::Simulation simulation(scene.solver, scene.materials, scene::sim_colliders(scene),
-                             setup::seed_scene(scene));
+                             setup::seed_scene(scene).particles);
   for (int f = 1; f <= frame; ++f) simulation.advance_to(f / scene.fps);
   return simulation.state_hash();
 }
@@ -40,7 +40,7 @@ TEST(Session, RunsToTheEndAndKeepsEveryFrame) {
 TEST(Session, LookingChangesNothing) {
   const auto scene = scene_of(tiny_scene);
   view::session::Session session(scene, {}, {});
-  session.set_probe(view::session::ProbeTarget(std::size_t{7}));
+  session.set_probe(dump::Probe(std::size_t{7}));
   session.next_frame();
   rest_at(session, 1);
   // Two stages of a step, an older frame, and back.
@@ -110,7 +110,7 @@ TEST(Session, GoesThroughAllStagesOfAStepAndTakesItThen) {
     EXPECT_TRUE(!leaves_numbers || !live->stage->quantities.empty()) << stage;
     for (const view::session::QuantitySummary& quantity : live->stage->quantities)
       // Volumes at the rim of a ball of two cells are too large: the paper's estimate.
-      EXPECT_LE(20 * quantity.strange, live->stage->rows) << stage << " " << quantity.name;
+      EXPECT_LE(20 * quantity.outside_expected, live->stage->rows) << stage << " " << quantity.name;
   }
   session.next_stage();
   const auto live =

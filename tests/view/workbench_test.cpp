@@ -24,7 +24,7 @@ using namespace neve::test;
 std::uint64_t hash_of_replay(const run::PictureRecord& record) {
   const scene::Scene start = scene::read_scene_text(record.scene, "record");
   sim::Simulation simulation(start.solver, start.materials, scene::sim_colliders(start),
-                             setup::seed_scene(start));
+                             setup::seed_scene(start).particles);
   run::ChangePlayer player(start, record.changes, simulation);
   std::vector<sim::Retry> retries;
   player.begin();
@@ -403,7 +403,9 @@ TEST(Orbit, FramesABoxAndLooksAlongAxes) {
 TEST(Pick, FindsTheNearestParticleUnderTheMouse) {
   const view::panels::Orbit orbit({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30);
   view::session::LiveFrame live;
-  live.spacing = 0.1;
+  app::setup::SeededScene seeded;
+  seeded.spacing = 0.1;
+  live.seeded = std::make_shared<app::setup::SeededScene>(seeded);
   live.snapshot.particles.x = {{0, 0, -1}, {0, 0, 1}, {0.5, 0, 2}};
   EXPECT_EQ(view::panels::pick_particle(orbit, 0, 0, live), std::optional<std::size_t>(1));
   const sim::Vec3d third = orbit.project({0.5, 0, 2});

@@ -8,7 +8,7 @@
 #include "app/run/run_json.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
-#include "app/setup/dry_run.h"
+#include "app/setup/coarse_run.h"
 #include "app/setup/resolve.h"
 #include "app/support/interrupt.h"
 #include "app/sweep/plan/order.h"
@@ -92,8 +92,8 @@ std::vector<setup::Moment> moments_of_corners(const SweepPlan& plan, int cores) 
   for (std::size_t first = 0; first < scenes.size(); first += together) {
     std::vector<std::future<std::vector<setup::Moment>>> runs;
     for (std::size_t k = first; k < std::min(first + together, scenes.size()); ++k)
-      runs.push_back(
-          std::async(std::launch::async, [scene = scenes[k]] { return setup::dry_run(*scene); }));
+      runs.push_back(std::async(std::launch::async,
+                                [scene = scenes[k]] { return setup::coarse_run(*scene); }));
     for (auto& run : runs)
       for (setup::Moment& moment : run.get()) moments.push_back(std::move(moment));
   }

@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace neve::render {
-class Screen;
-}
+#include "render/screen.h"
 
 namespace neve::app::view::front {
 

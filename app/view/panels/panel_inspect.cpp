@@ -39,10 +39,10 @@ void draw_expected(const std::optional<scene::Range>& expected) {
 }
 
 /// The second column of a row, red where something is outside of what is expected.
-void draw_value(const std::string& text, bool is_strange,
+void draw_value(const std::string& text, bool is_outside_expected,
                 const std::optional<scene::Range>& expected) {
   ImGui::TableNextColumn();
-  if (is_strange)
+  if (is_outside_expected)
     ImGui::TextColored(strange_color, "%s", text.c_str());
   else
     ImGui::TextUnformatted(text.c_str());
@@ -60,9 +60,9 @@ bool begin_quantities(const char* name) {
   return true;
 }
 
-void draw_stage_table(const session::StageLook& look) {
+void draw_stage_table(const session::StageSummary& look) {
   const std::string rows =
-      std::to_string(look.rows) + (look.is_of_nodes ? " nodes, " + std::to_string(look.feathers) +
+      std::to_string(look.rows) + (look.is_of_nodes ? " nodes, " + std::to_string(look.negligible) +
                                                           " of them too light and left out"
                                                     : " particles");
   ImGui::PushTextWrapPos(0);
@@ -75,10 +75,10 @@ void draw_stage_table(const session::StageLook& look) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(with_unit(quantity.name, quantity.unit).c_str());
     if (!quantity.why.empty() && wants_tip())
-      show_tip(
-          {{std::to_string(quantity.strange) + " outside of what is expected: " + quantity.why}});
-    draw_value(rough_text(quantity.min) + " to " + rough_text(quantity.max), quantity.strange > 0,
-               quantity.expected);
+      show_tip({{std::to_string(quantity.outside_expected) +
+                 " outside of what is expected: " + quantity.why}});
+    draw_value(rough_text(quantity.min) + " to " + rough_text(quantity.max),
+               quantity.outside_expected > 0, quantity.expected);
   }
   ImGui::EndTable();
 }
@@ -253,7 +253,7 @@ void draw_probe(ViewerState& state) {
       lines.push_back({"click to plot it over time"});
       show_tip(lines);
     }
-    draw_value(values_text(row), row.is_strange, row.expected);
+    draw_value(values_text(row), row.is_outside_expected, row.expected);
   }
   ImGui::EndTable();
 }

@@ -60,11 +60,12 @@ void fit_range(ViewerState& state, const scene::View& view) {
   const std::vector<double> values =
       picture::attribute_values(*live.scene, view.particles.color_by, live.snapshot);
   std::size_t first = 0, end = values.size();
-  for (std::size_t b = 0; b < live.body_end.size(); ++b)
+  const setup::SeededScene& seeded = *live.seeded;
+  for (std::size_t b = 0; b < seeded.body_end.size(); ++b)
     if (state.selected == "body." + live.scene->bodies[b].name) {
       const sim::ParticleArrays& p = live.snapshot.particles;
-      first = b == 0 ? 0 : p.first_from(live.body_end[b - 1]);
-      end = std::min(end, p.first_from(live.body_end[b]));
+      first = p.first_from(seeded.body_begin(b));
+      end = std::min(end, p.first_from(seeded.body_end[b]));
     }
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (std::size_t p = first; p < end; ++p) {

@@ -20,7 +20,7 @@ std::optional<std::size_t> pick_particle(const Orbit& orbit, double x, double y,
                                          const session::LiveFrame& live,
                                          const std::optional<scene::ClipPlane>& clip) {
   const Vec3d eye = orbit.eye(), ray = orbit.ray(x, y);
-  const double radius = 0.6 * live.spacing;
+  const double radius = 0.6 * live.seeded->spacing;
   std::optional<std::size_t> hit;
   double nearest = std::numeric_limits<double>::infinity();
   const std::vector<Vec3d>& places = live.snapshot.particles.x;

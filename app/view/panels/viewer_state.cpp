@@ -51,7 +51,7 @@ void announce_view(ViewerState& state) {
   state.bench.session().set_views({current_view(state)});
 }
 
-void set_probe(ViewerState& state, std::optional<session::ProbeTarget> probe) {
+void set_probe(ViewerState& state, std::optional<dump::Probe> probe) {
   state.probe = probe;
   state.trace = {state.trace.quantity, {}, probe};
   state.last_followed.reset();
@@ -81,11 +81,12 @@ void frame_selection(ViewerState& state) {
     return;
   }
   const std::vector<sim::seeding::Body>& bodies = state.live->scene->bodies;
-  for (std::size_t b = 0; b < std::min(bodies.size(), state.live->body_end.size()); ++b) {
+  const setup::SeededScene& seeded = *state.live->seeded;
+  for (std::size_t b = 0; b < std::min(bodies.size(), seeded.body_end.size()); ++b) {
     if (state.selected != "body." + bodies[b].name) continue;
     const sim::ParticleArrays& p = state.live->snapshot.particles;
-    const std::size_t first = b == 0 ? 0 : p.first_from(state.live->body_end[b - 1]);
-    frame_box(state, bounds_of(p.x, first, p.first_from(state.live->body_end[b])));
+    const std::size_t first = p.first_from(seeded.body_begin(b));
+    frame_box(state, bounds_of(p.x, first, p.first_from(seeded.body_end[b])));
     return;
   }
   const auto frame_shape = [&](const char* list, const auto& items) {
@@ -119,7 +120,7 @@ void show_incident(ViewerState& state) {
   const sim::Vec3d half = sim::Vec3d::Constant(6 * state.live->scene->solver.cell_size);
   frame_box(state, {divergence.x - half, divergence.x + half});
   if (divergence.particle >= 0)
-    set_probe(state, session::ProbeTarget(static_cast<std::size_t>(divergence.particle)));
+    set_probe(state, dump::Probe(static_cast<std::size_t>(divergence.particle)));
 }
 
 }  // namespace neve::app::view::panels

@@ -21,7 +21,7 @@ namespace neve::app::view::panels {
 struct ProbeTrace {
   std::string quantity;                           ///< empty: the first one
   std::vector<std::pair<double, double>> points;  ///< s, magnitude; times increase
-  std::optional<session::ProbeTarget> target;
+  std::optional<dump::Probe> target;
 };
 
 /// Columns beside the picture.
@@ -56,7 +56,7 @@ struct ViewerState {
 
   std::string filter{};    ///< of the parameters
   std::string selected{};  ///< "body.ball", "collider.floor" or ""
-  std::optional<session::ProbeTarget> probe{};
+  std::optional<dump::Probe> probe{};
   bool follows_probe = false;
   ProbeTrace trace{};
   std::optional<sim::Vec3d> last_followed{};
@@ -91,7 +91,7 @@ const scene::View& current_view(const ViewerState& state);
 void choose_view(ViewerState& state, const std::string& name);
 /// The session works out what the current view shows.
 void announce_view(ViewerState& state);
-void set_probe(ViewerState& state, std::optional<session::ProbeTarget> probe);
+void set_probe(ViewerState& state, std::optional<dump::Probe> probe);
 
 void toggle_run(ViewerState& state);
 /// All snow and small obstacles.

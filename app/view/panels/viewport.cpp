@@ -36,7 +36,7 @@ bool is_in_snow(const session::LiveFrame& live, const Vec3d& place) {
 }
 
 /// The particle under the mouse; of a slice, or where a node is wanted, a place that has one.
-std::optional<session::ProbeTarget> pick(const ViewerState& state, ImVec2 mouse, bool wants_node) {
+std::optional<dump::Probe> pick(const ViewerState& state, ImVec2 mouse, bool wants_node) {
   const auto [x, y] = in_picture(state, mouse);
   const session::LiveFrame& live = *state.live;
   const scene::View& view = current_view(state);
@@ -46,13 +46,13 @@ std::optional<session::ProbeTarget> pick(const ViewerState& state, ImVec2 mouse,
   if (takes_node && is_slice && view.slice.point) {
     const auto place =
         pick_plane(state.orbit, x, y, picture::slice_plane(view.slice, live.snapshot.time, {}));
-    if (place && is_in_snow(live, *place)) return session::ProbeTarget(*place);
+    if (place && is_in_snow(live, *place)) return dump::Probe(*place);
   }
   const auto hit = pick_particle(state.orbit, x, y, live, view.clip);
   if (!hit) return std::nullopt;
   const sim::ParticleArrays& particles = live.snapshot.particles;
-  return takes_node ? session::ProbeTarget(particles.x[*hit])
-                    : session::ProbeTarget(static_cast<std::size_t>(particles.id_of(*hit)));
+  return takes_node ? dump::Probe(particles.x[*hit])
+                    : dump::Probe(static_cast<std::size_t>(particles.id_of(*hit)));
 }
 
 void click(ViewerState& state, ImVec2 mouse, bool wants_node) {

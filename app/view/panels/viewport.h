@@ -28,7 +28,7 @@ std::string probe_text(const session::ProbeReading& probe, const std::string& qu
 void draw_marks(ViewerState& state);
 
 /// Why a slice with arrows shows none, or "".
-std::string reason_for_no_arrows(const scene::View& view, const picture::NodeFields& fields);
+std::string reason_for_no_arrows(const scene::View& view, const picture::FieldSamples& fields);
 
 /// Arrows at the middle of the selected object. @return whether the mouse is busy with them
 bool use_handles(ViewerState& state, bool is_over_picture);

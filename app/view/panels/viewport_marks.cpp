@@ -85,7 +85,7 @@ void draw_note(const ViewerState& state, ImVec2 at, const std::string& text, ImU
   list.AddText(ImVec2(x, y), color, text.c_str());
 }
 
-std::string reason_for_no_arrows(const scene::View& view, const picture::NodeFields& fields) {
+std::string reason_for_no_arrows(const scene::View& view, const picture::FieldSamples& fields) {
   if (!scene::has_layer(view, scene::Layer::arrows) ||
       scene::has_layer(view, scene::Layer::heatmap))
     return "";

@@ -9,7 +9,7 @@
 #include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/toml_source.h"
-#include "app/setup/dry_run.h"
+#include "app/setup/coarse_run.h"
 #include "app/setup/resolve.h"
 
 namespace neve::app::view::session {

@@ -98,7 +98,7 @@ class Document {
   std::vector<std::vector<scene::Override>> done_, undone_;
   std::uint64_t gesture_ = 0;
   std::shared_ptr<const scene::Scene> scene_;
-  // Found once, by a dry run: pictures must not jump while a parameter changes.
+  // Found once, by a coarse run: pictures must not jump while a parameter changes.
   std::optional<scene::CameraSettings> camera_;
   std::map<std::string, scene::CameraSettings> view_cameras_;
 };

@@ -6,7 +6,6 @@
 
 namespace neve::app::view::session {
 
-/// One edit of a parameter.
 struct Edit {
   enum class Kind { set, as_in_file, to_default, sweep, copy_address, refused };
 

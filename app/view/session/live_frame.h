@@ -6,11 +6,12 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "app/dump/dump_options.h"
 #include "app/health/diagnosis.h"
 #include "app/picture/snapshot.h"
+#include "app/setup/seed_scene.h"
 #include "sim/types/stage.h"
 
 namespace neve::app::view::session {
@@ -31,23 +32,20 @@ struct RunSample {
 struct QuantitySummary {
   std::string name, unit;
   double min = 0, mean = 0, max = 0;  ///< of magnitudes
-  std::size_t strange = 0;            ///< number of values outside the expected range
+  std::size_t outside_expected = 0;   ///< number of values outside the expected range
   std::optional<scene::Range> expected;
   std::string why;
 };
 
 /// A step that is looked at stage by stage, on a copy.
-struct StageLook {
+struct StageSummary {
   sim::Stage stage = sim::Stage::rasterize;  ///< the last that was done
   double dt = 0;                             ///< s, of the step
   bool is_of_nodes = false;
-  std::size_t rows = 0, feathers = 0;
+  std::size_t rows = 0, negligible = 0;
   std::vector<QuantitySummary> quantities;
   std::array<double, sim::stage_names.size()> seconds{};  ///< of every stage of the step
 };
-
-/// Target of the probe: a particle by its id, or the node nearest to a place.
-using ProbeTarget = std::variant<std::size_t, sim::Vec3d>;
 
 struct ProbeRow {
   std::string name, unit;
@@ -55,11 +53,11 @@ struct ProbeRow {
   double magnitude = 0;
   std::optional<scene::Range> expected;
   std::string why;
-  bool is_strange = false;
+  bool is_outside_expected = false;
 };
 
 struct ProbeReading {
-  ProbeTarget target;
+  dump::Probe target;
   sim::Vec3d place{0, 0, 0};  ///< m
   bool is_node = false;
   std::string after;  ///< the stage that was done last, or ""
@@ -72,8 +70,8 @@ struct LiveFrame {
   picture::Snapshot snapshot;
   std::vector<picture::PlotSample> history;  ///< one per frame; snapshot.history shows these
   std::shared_ptr<const std::vector<RunSample>> samples;
-  std::vector<std::size_t> body_end;
-  double spacing = 0.01;  ///< m, between packed particles
+  /// The snow that the run started from.
+  std::shared_ptr<const setup::SeededScene> seeded = std::make_shared<setup::SeededScene>();
 
   int frame = 0;  ///< the last one that was passed
   bool is_frame_end = true;
@@ -93,9 +91,9 @@ struct LiveFrame {
 
   std::optional<sim::Divergence> divergence;
   std::optional<health::Diagnosis> diagnosis;
-  std::optional<StageLook> stage;
+  std::optional<StageSummary> stage;
   std::optional<ProbeReading> probe;
-  std::optional<ProbeTarget> probed;  ///< requested target
+  std::optional<dump::Probe> probed;  ///< requested target
   std::string error;                  ///< why the last thing asked for was not done; empty: it was
   std::uint64_t errors = 0;           ///< how many there were, to tell a new one from the same
 };

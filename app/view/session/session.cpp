@@ -11,8 +11,6 @@
 #include <future>
 #include <utility>
 
-#include "app/run/changes.h"
-#include "app/scene/flat.h"
 #include "app/support/machine.h"
 
 namespace neve::app::view::session {
@@ -139,18 +137,10 @@ void Session::reset(std::shared_ptr<const scene::Scene> scene) {
 void Session::apply(std::shared_ptr<const scene::Scene> scene) {
   ask([this, scene = std::move(scene)] {
     leave_older();
-    simulation_->apply(scene->solver, scene->materials, scene::sim_colliders(*scene));
-    const std::size_t steps = simulation_->steps();
-    // Compares the values of the simulation, not the typed ones: they differ in a coarsened scene.
-    for (const scene::Difference& change : scene::differences(*scene_, *scene))
-      if (change.is_live && scene::concerns_simulation(change.address))
-        scene::note_change(changes_,
-                           {steps, change.address,
-                            change.after ? scene::toml::toml_literal(*change.after) : "none"});
+    player_->make_now(scene);
     colliders_ = simulation_->colliders();
-    scene_ = scene;
     // The kept copy of this moment must include the change.
-    if (steps == steps_of_frame_) keep();
+    if (simulation_->steps() == steps_of_frame_) keep();
   });
 }
 
@@ -180,7 +170,7 @@ void Session::continue_from_here() {
     auto kept = std::make_shared<std::vector<RunSample>>(*samples_);
     std::erase_if(*kept, [&](const RunSample& sample) { return sample.time > now; });
     samples_ = kept;
-    scene::forget_changes_after(changes_, simulation_->steps());
+    player_->forget_later();
   });
 }
 
@@ -188,7 +178,7 @@ void Session::set_views(std::vector<scene::View> views) {
   ask([this, views = std::move(views)] { views_ = views; });
 }
 
-void Session::set_probe(std::optional<ProbeTarget> probe) {
+void Session::set_probe(std::optional<dump::Probe> probe) {
   ask([this, probe = std::move(probe)] {
     probe_ = probe;
     probed_at_ = {};

@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "app/run/changes.h"
+#include "app/setup/seed_scene.h"
 #include "app/view/session/kept_frames.h"
 #include "app/view/session/live_frame.h"
 
@@ -62,7 +64,7 @@ class Session {
 
   /// Sets the views whose fields the session computes.
   void set_views(std::vector<scene::View> views);
-  void set_probe(std::optional<ProbeTarget> probe);
+  void set_probe(std::optional<dump::Probe> probe);
   /// While on, every frame is shown at its end, and waits until taken() has it.
   void set_recording(bool is_on);
 
@@ -89,9 +91,10 @@ class Session {
   bool is_publication_due() const;
   void publish();
   void after_step();
-  static bool poll();
+  /// As it is simulated now.
+  const scene::Scene& scene() const { return player_->scene(); }
   std::shared_ptr<const scene::Scene> shown_scene() const;
-  void look_inside_step(LiveFrame& live);
+  void inspect_next_step(LiveFrame& live);
   void load(const KeptFrame& kept);
   void keep();
   KeptFrame state_now() const;
@@ -100,18 +103,14 @@ class Session {
   SessionOptions options_;
 
   // Only the session's thread.
-  std::shared_ptr<const scene::Scene> scene_;
   std::unique_ptr<sim::Simulation> simulation_;
+  std::optional<run::ChangePlayer> player_;       ///< advances the simulation
   std::vector<sim::shapes::Collider> colliders_;  ///< where the simulation has them
-  std::vector<std::size_t> body_end_;
-  double spacing_ = 0.01;
+  std::shared_ptr<const setup::SeededScene> seeded_;
   int frame_ = 0;                   ///< the last one passed
   sim::AdvanceReport advance_;      ///< of the frame that was reached last, or is on its way
   bool advance_is_new_ = true;      ///< the next step belongs to another frame
-  sim::ParticleArrays seeded_;      ///< initial state of the run
   std::size_t steps_of_frame_ = 0;  ///< that the simulation had at the frame before
-  std::vector<scene::LiveChange>
-      changes_;  ///< of the run, also those after an older frame that is shown
   std::vector<picture::PlotSample> history_;
   std::shared_ptr<std::vector<RunSample>> samples_;
   KeptFrames kept_{0};
@@ -119,7 +118,7 @@ class Session {
   Goal goal_ = Goal::none;
   std::optional<int> stage_;  ///< of a step that is looked at: the last one done
   std::vector<scene::View> views_;
-  std::optional<ProbeTarget> probe_;
+  std::optional<dump::Probe> probe_;
   std::optional<ProbeReading> last_reading_;
   bool is_recording_ = false;
   bool has_news_ = true;

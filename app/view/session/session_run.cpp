@@ -1,11 +1,8 @@
 /// The part of a session that simulates: frame by frame, and on from kept states.
 
 #include "app/setup/plan.h"
-#include "app/setup/seed_scene.h"
-#include "app/setup/snow_pieces.h"
 #include "app/support/clock.h"
 #include "app/view/session/session.h"
-#include "sim/retry.h"
 
 namespace neve::app::view::session {
 
@@ -14,31 +11,24 @@ namespace {
 /// Sampling takes at most one part in so many of the time.
 constexpr int sampling_share = 20;
 
-/// The poll of a simulation has no argument.
-thread_local Session* stepping = nullptr;
-
 }  // namespace
 
 void Session::start(std::shared_ptr<const scene::Scene> scene) {
   const setup::Plan plan =
       setup::make_plan(*scene, {0, scene->frames}, setup::Quality::preview, options_.threads);
   setup::check_limits(*scene, plan);
-  std::vector<std::size_t> body_end;
-  sim::ParticleArrays particles = setup::seed_scene(*scene, &body_end);
+  auto seeded = std::make_shared<setup::SeededScene>(setup::seed_scene(*scene));
   auto simulation = std::make_unique<sim::Simulation>(
-      setup::make_simulation(*scene, particles, options_.threads));
+      setup::make_simulation(*scene, seeded->particles, options_.threads));
   // From here on nothing fails: the old run may go.
   simulation_ = std::move(simulation);
-  seeded_ = std::move(particles);
-  scene_ = std::move(scene);
+  seeded_ = std::move(seeded);
+  player_.emplace(*scene, std::vector<scene::LiveChange>{}, *simulation_);
   colliders_ = simulation_->colliders();
-  body_end_ = std::move(body_end);
-  spacing_ = setup::count_snow(*scene_, seeded_.x.size()).spacing;
   frame_ = 0;
   advance_ = {};
   advance_is_new_ = true;
   steps_of_frame_ = 0;
-  changes_.clear();
   history_.clear();
   samples_ = std::make_shared<std::vector<RunSample>>();
   kept_.clear();
@@ -56,7 +46,7 @@ void Session::set_goal(Goal goal) {
     leave_older();
     stop_looking_inside();
     if (simulation_->divergence()) return;
-    if (goal == Goal::end && frame_ >= scene_->frames) return;
+    if (goal == Goal::end && frame_ >= scene().frames) return;
     measured_at_ = Clock::now();
     measured_time_ = simulation_->time();
   }
@@ -77,15 +67,15 @@ void Session::leave_older() {
 /// The simulation as it was then. With other parameters since, it is made again: a state continues
 /// only with those that it had.
 void Session::load(const KeptFrame& kept) {
-  if (kept.scene != scene_) {
-    auto simulation = std::make_unique<sim::Simulation>(
-        setup::make_simulation(*kept.scene, seeded_, options_.threads, kept.colliders));
-    simulation->restore(kept.state);
-    simulation_ = std::move(simulation);
+  if (kept.scene != player_->shared_scene()) {
+    sim::Simulation simulation =
+        setup::make_simulation(*kept.scene, seeded_->particles, options_.threads, kept.colliders);
+    simulation.restore(kept.state);
+    *simulation_ = std::move(simulation);
   } else {
     simulation_->restore(kept.state);
   }
-  scene_ = kept.scene;
+  player_->go_to(kept.steps, kept.scene);
   colliders_ = kept.colliders;
   frame_ = kept.frame;
   advance_ = kept.advance;
@@ -99,13 +89,13 @@ void Session::keep() {
 }
 
 KeptFrame Session::state_now() const {
-  return {frame_, simulation_->steps(), steps_of_frame_, simulation_->save(),
-          scene_, colliders_,           advance_};
-}
-
-bool Session::poll() {
-  stepping->after_step();
-  return stepping->goal_ == Goal::step || stepping->has_commands_ || stepping->is_ending_;
+  return {frame_,
+          simulation_->steps(),
+          steps_of_frame_,
+          simulation_->save(),
+          player_->shared_scene(),
+          colliders_,
+          advance_};
 }
 
 void Session::after_step() {
@@ -122,31 +112,23 @@ void Session::after_step() {
 }
 
 void Session::advance() {
-  const double time = (frame_ + 1) / scene_->fps;
+  const double time = (frame_ + 1) / scene().fps;
   if (advance_is_new_) advance_ = {};
   advance_is_new_ = false;
-  stepping = this;
-  const bool may_go_back =
-      scene_->solver.on_divergence == sim::OnDivergence::retry && goal_ != Goal::step;
-  sim::AdvanceReport report;
+  // What may go back to the beginning of its frame is not stopped inside of it.
+  const bool may_go_back = scene().solver.on_divergence == sim::OnDivergence::retry;
+  const auto observe = [&] {
+    after_step();
+    return is_ending_ || (has_commands_ && !may_go_back);
+  };
   std::vector<sim::Retry> retries;
-  if (may_go_back) {
-    // A run that may return to the beginning of its frame is not stopped inside the frame.
-    report = sim::advance_retrying(
-        *simulation_, time,
-        [] {
-          stepping->after_step();
-          return stepping->is_ending_.load();
-        },
-        retries);
-  } else {
-    report = simulation_->advance_to(time, poll);
-  }
-  stepping = nullptr;
+  const sim::AdvanceReport report = goal_ == Goal::step
+                                        ? player_->step_towards(time, observe)
+                                        : player_->advance_to(time, observe, retries);
   advance_.append(report);
   if (simulation_->divergence()) {
     note_sample();
-    diagnosis_ = health::diagnose(*scene_, *simulation_->divergence());
+    diagnosis_ = health::diagnose(scene(), *simulation_->divergence());
     goal_ = Goal::none;
     return;
   }
@@ -161,18 +143,18 @@ void Session::reach_frame() {
   ++frame_;
   history_.resize(static_cast<std::size_t>(frame_));
   const sim::Summary summary = note_sample();
-  history_.push_back(picture::plot_sample(frame_ / scene_->fps, summary, advance_));
+  history_.push_back(picture::plot_sample(frame_ / scene().fps, summary, advance_));
   advance_is_new_ = true;
   steps_of_frame_ = simulation_->steps();
   keep();
-  if (goal_ == Goal::frame || frame_ == scene_->frames) goal_ = Goal::none;
+  if (goal_ == Goal::frame || frame_ == scene().frames) goal_ = Goal::none;
   if (is_recording_) publish();
 }
 
 /// Until the end of the frame.
 double Session::seconds_left() const {
-  const double left = (frame_ + 1) / scene_->fps - simulation_->time();
-  return left > 0 ? left : 1 / scene_->fps;
+  const double left = (frame_ + 1) / scene().fps - simulation_->time();
+  return left > 0 ? left : 1 / scene().fps;
 }
 
 }  // namespace neve::app::view::session

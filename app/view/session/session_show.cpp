@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "app/run/changes.h"
-#include "app/view/session/look.h"
 #include "app/view/session/session.h"
+#include "app/view/session/stage_summary.h"
 
 namespace neve::app::view::session {
 
@@ -43,7 +43,7 @@ bool Session::is_publication_due() const {
 
 /// With colliders where they are, and the views that are looked at.
 std::shared_ptr<const scene::Scene> Session::shown_scene() const {
-  auto scene = std::make_shared<scene::Scene>(*scene_);
+  auto scene = std::make_shared<scene::Scene>(player_->scene());
   scene->views = views_;
   if (stage_)
     for (scene::View& view : scene->views)
@@ -57,16 +57,15 @@ void Session::publish() {
   auto live = std::make_shared<LiveFrame>();
   live->number = ++number_;
   live->scene = shown_scene();
-  live->snapshot = picture::take_snapshot(*live->scene, *simulation_, frame_);
+  live->snapshot = picture::take_snapshot(*live->scene, live->scene->views, *simulation_, frame_);
   live->snapshot.advance = advance_;
-  live->snapshot.changes = changes_;
+  live->snapshot.changes = player_->changes();
   scene::forget_changes_after(live->snapshot.changes, simulation_->steps());
   live->probed = probe_;
   live->history = history_;
   live->snapshot.history = live->history;
   live->samples = samples_;
-  live->body_end = body_end_;
-  live->spacing = spacing_;
+  live->seeded = seeded_;
   live->frame = frame_;
   live->is_frame_end = simulation_->steps() == steps_of_frame_;
   live->steps = simulation_->steps();
@@ -85,7 +84,7 @@ void Session::publish() {
   live->simd = simulation_->simd();
   live->divergence = simulation_->divergence();
   live->diagnosis = diagnosis_;
-  look_inside_step(*live);
+  inspect_next_step(*live);
   live->error = error_;
   live->errors = errors_;
   published_at_ = Clock::now();
@@ -98,7 +97,7 @@ void Session::publish() {
 }
 
 /// Stage and probe need a step on a copy. While it runs, four times a second are enough to read.
-void Session::look_inside_step(LiveFrame& live) {
+void Session::inspect_next_step(LiveFrame& live) {
   const bool is_stage = stage_.has_value();
   const auto now = Clock::now();
   const bool is_probe =
@@ -107,11 +106,11 @@ void Session::look_inside_step(LiveFrame& live) {
     live.probe = probe_ ? last_reading_ : std::nullopt;
     return;
   }
-  const dump::Inside inside = dump::look_inside(*live.scene, *simulation_, seconds_left());
+  const dump::StepInspection inside = dump::inspect_step(*live.scene, *simulation_, seconds_left());
   std::optional<sim::Stage> stage;
   if (is_stage) {
     stage = static_cast<sim::Stage>(*stage_);
-    live.stage = stage_look(inside, *stage);
+    live.stage = summarize_stage(inside, *stage);
     show_after_stage(inside, *stage, live.snapshot);
   }
   if (is_probe) {

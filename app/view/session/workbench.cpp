@@ -11,7 +11,7 @@
 #include "app/scene/toml/error.h"
 #include "app/support/version.h"
 #include "app/sweep/plan/around.h"
-#include "app/view/session/production.h"
+#include "app/view/session/export.h"
 
 namespace neve::app::view::session {
 

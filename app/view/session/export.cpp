@@ -1,4 +1,4 @@
-#include "app/view/session/production.h"
+#include "app/view/session/export.h"
 
 #include <algorithm>
 #include <cctype>

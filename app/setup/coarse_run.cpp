@@ -1,4 +1,4 @@
-#include "app/setup/dry_run.h"
+#include "app/setup/coarse_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +16,6 @@ constexpr double work_budget = 1.6e6;  // steps x particles, a fraction of a sec
 constexpr int moments = 24;
 constexpr double most_sound_speed =
     45;  // m/s at rest: what is stiffer moves the same, in more steps
-
-/// The poll of a simulation has no argument; each thread runs at most one dry run.
-thread_local long steps_left = 0;
-
-bool is_out_of_steps() {
-  return --steps_left <= 0 || is_interrupted();
-}
 
 /// Replacement for the scene's snow in a coarse run.
 enum class Substitute {
@@ -89,7 +82,7 @@ struct Run {
   bool is_whole = false;  ///< not cut short by a divergence
 };
 
-Run run_coarse(const scene::Scene& coarse) {
+Run run_within_budget(const scene::Scene& coarse) {
   const sim::ParticleArrays particles = seed_what_fits(coarse);
   Run result;
   result.is_whole = true;
@@ -101,10 +94,11 @@ Run run_coarse(const scene::Scene& coarse) {
   note(0, particles.x);
 
   sim::Simulation simulation = coarse_simulation(coarse, particles);
-  steps_left = std::lround(work_budget / (static_cast<double>(particles.x.size()) + emitted));
+  long steps_left = std::lround(work_budget / (static_cast<double>(particles.x.size()) + emitted));
   const double duration = coarse.frames / coarse.fps;
   for (int k = 1; k <= moments && duration > 0; ++k) {
-    simulation.advance_to(duration * k / moments, is_out_of_steps);
+    simulation.advance_to(duration * k / moments,
+                          [&] { return --steps_left <= 0 || is_interrupted(); });
     result.is_whole = !simulation.divergence();
     if (!result.is_whole) break;
     note(simulation.time(), simulation.particles().x);
@@ -121,10 +115,10 @@ double planned_particles(const scene::Scene& scene) {
   return count;
 }
 
-std::vector<Moment> dry_run(const scene::Scene& scene) {
-  Run first = run_coarse(coarsened(scene, Substitute::same));
+std::vector<Moment> coarse_run(const scene::Scene& scene) {
+  Run first = run_within_budget(coarsened(scene, Substitute::same));
   if (first.is_whole || is_interrupted()) return first.seen;
-  Run second = run_coarse(coarsened(scene, Substitute::uncrushed));
+  Run second = run_within_budget(coarsened(scene, Substitute::uncrushed));
   const bool is_longer = second.seen.size() > first.seen.size();
   return is_longer ? second.seen : first.seen;
 }

@@ -1,4 +1,4 @@
-#include "app/view/session/look.h"
+#include "app/view/session/stage_summary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@ QuantitySummary summary_of(const dump::Listing& listing, const dump::Quantity& q
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t row = 0; row < quantity.rows(); ++row) {
-    if (row < listing.is_feather.size() && listing.is_feather[row]) continue;
+    if (row < listing.is_negligible.size() && listing.is_negligible[row]) continue;
     const double value = quantity.magnitude(row);
-    if (quantity.is_strange(row)) ++summary.strange;
+    if (quantity.is_outside_expected(row)) ++summary.outside_expected;
     if (!std::isfinite(value)) continue;
     summary.min = count == 0 ? value : std::min(summary.min, value);
     summary.max = count == 0 ? value : std::max(summary.max, value);
@@ -58,22 +58,23 @@ scene::View view_of_stage(const scene::Scene& scene, scene::View view, sim::Stag
   return view;
 }
 
-StageLook stage_look(const dump::Inside& inside, sim::Stage stage) {
+StageSummary summarize_stage(const dump::StepInspection& inside, sim::Stage stage) {
   const dump::Listing listing = dump::list_stage(inside, stage);
-  StageLook look;
-  look.stage = stage;
-  look.dt = inside.dt;
-  look.is_of_nodes = listing.is_of_nodes;
-  look.rows = listing.place.size();
-  look.feathers = listing.feathers();
-  look.seconds = inside.step.seconds;
+  StageSummary summary;
+  summary.stage = stage;
+  summary.dt = inside.dt;
+  summary.is_of_nodes = listing.is_of_nodes;
+  summary.rows = listing.place.size();
+  summary.negligible = listing.negligible_count();
+  summary.seconds = inside.step.seconds;
   for (const dump::Quantity& quantity : listing.quantities)
     if (quantity.name != "node" && quantity.name != "id")  // which they are
-      look.quantities.push_back(summary_of(listing, quantity));
-  return look;
+      summary.quantities.push_back(summary_of(listing, quantity));
+  return summary;
 }
 
-void show_after_stage(const dump::Inside& inside, sim::Stage stage, picture::Snapshot& snapshot) {
+void show_after_stage(const dump::StepInspection& inside, sim::Stage stage,
+                      picture::Snapshot& snapshot) {
   using enum sim::Stage;
   const sim::StagedStep& step = inside.step;
   if (stage >= deformation) {
@@ -85,7 +86,8 @@ void show_after_stage(const dump::Inside& inside, sim::Stage stage, picture::Sna
   if (stage >= advection) snapshot.particles.x = step.after.x;
 }
 
-std::optional<ProbeReading> read_probe(const dump::Inside& inside, const ProbeTarget& target,
+std::optional<ProbeReading> read_probe(const dump::StepInspection& inside,
+                                       const dump::Probe& target,
                                        const std::optional<sim::Stage>& stage) {
   const bool is_node = std::holds_alternative<sim::Vec3d>(target);
   // Before the step, a node has the values that the step rasterises.
@@ -111,7 +113,7 @@ std::optional<ProbeReading> read_probe(const dump::Inside& inside, const ProbeTa
                  quantity.magnitude(*row),
                  quantity.expected,
                  quantity.why,
-                 quantity.is_strange(*row)};
+                 quantity.is_outside_expected(*row)};
     reading.rows.push_back(std::move(out));
   }
   return reading;

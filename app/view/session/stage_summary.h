@@ -8,17 +8,19 @@
 
 namespace neve::app::view::session {
 
-StageLook stage_look(const dump::Inside& inside, sim::Stage stage);
+StageSummary summarize_stage(const dump::StepInspection& inside, sim::Stage stage);
 
 /// The view with arrows of what a stage works out, where it works out a field of arrows.
 scene::View view_of_stage(const scene::Scene& scene, scene::View view, sim::Stage stage);
 
 /// The particles as a stage leaves them; stress stays that of the step's beginning.
-void show_after_stage(const dump::Inside& inside, sim::Stage stage, picture::Snapshot& snapshot);
+void show_after_stage(const dump::StepInspection& inside, sim::Stage stage,
+                      picture::Snapshot& snapshot);
 
 /// @param stage the last one that was done; nothing: before the step
 /// @return nothing where there is no such particle, or no node
-std::optional<ProbeReading> read_probe(const dump::Inside& inside, const ProbeTarget& target,
+std::optional<ProbeReading> read_probe(const dump::StepInspection& inside,
+                                       const dump::Probe& target,
                                        const std::optional<sim::Stage>& stage);
 
 }  // namespace neve::app::view::session

@@ -1,0 +1,12 @@
+#pragma once
+/// What looks on while a simulation advances.
+
+#include <functional>
+
+namespace neve::sim {
+
+/// Called after each step, in the thread that advances. Returns true to stop there; an empty one
+/// never stops.
+using StepObserver = std::function<bool()>;
+
+}  // namespace neve::sim
