@@ -1,4 +1,6 @@
+#include <fmt/core.h>
 #include <unistd.h>
+
 #include <cmath>
 #include <iostream>
 
@@ -67,16 +69,20 @@ void check_picture_sizes(const scene::Scene& scene, setup::Quality quality, int 
   for (const scene::View& view : scene.views) {
     const scene::PictureSize size = setup::size_of(scene, view);
     if (std::max(size.width, size.height) * setup::supersampling(quality) > largest)
-      throw LimitError("refused: the view " + view.name + " is larger than the " +
-                           std::to_string(largest) + " samples a side that this backend draws",
-                       "view." + view.name + ".size", "draw smaller pictures with --size");
+      throw LimitError(
+          fmt::format("refused: the view {} is larger than the {} samples a side that this "
+                      "backend draws",
+                      view.name, largest),
+          fmt::format("view.{}.size", view.name), "draw smaller pictures with --size");
   }
   for (const scene::Mosaic& mosaic : scene.mosaics) {
     const scene::PictureSize size = setup::size_of(scene, mosaic);
     if (std::max(size.width, size.height) > largest)
-      throw LimitError("refused: the mosaic " + mosaic.name + " is larger than the " +
-                           std::to_string(largest) + " pixels a side that this backend draws",
-                       "mosaic." + mosaic.name + ".width", "make it narrower");
+      throw LimitError(
+          fmt::format("refused: the mosaic {} is larger than the {} pixels a side that this "
+                      "backend draws",
+                      mosaic.name, largest),
+          fmt::format("mosaic.{}.width", mosaic.name), "make it narrower");
   }
 }
 
@@ -85,19 +91,18 @@ int compare_with_reference(const run::RenderOptions& options, const run::RenderJ
                            const render::Image& picture, const render::Image& reference) {
   if (picture.width != reference.width || picture.height != reference.height)
     throw Error(exit_check_failed,
-                "the picture is " + std::to_string(picture.width) + "x" +
-                    std::to_string(picture.height) + " and " + options.reference + " is " +
-                    std::to_string(reference.width) + "x" + std::to_string(reference.height),
+                fmt::format("the picture is {}x{} and {} is {}x{}", picture.width, picture.height,
+                            options.reference, reference.width, reference.height),
                 options.reference, "give the size of the reference with --size");
   if (picture.channels != reference.channels)
     throw Error(exit_check_failed,
-                "the picture has " + std::to_string(picture.channels) + " channels and " +
-                    options.reference + " has " + std::to_string(reference.channels),
+                fmt::format("the picture has {} channels and {} has {}", picture.channels,
+                            options.reference, reference.channels),
                 options.reference, "set output.background to that of the reference");
   const render::Difference difference = render::compare(picture, reference);
-  const std::string found = "mean difference " + fixed_text(difference.mean, 3) +
-                            ", of 8x8 pixels " + fixed_text(difference.local, 2) + ", largest " +
-                            fixed_text(difference.max, 0) + " of 255";
+  const std::string found = fmt::format(
+      "mean difference {}, of 8x8 pixels {}, largest {} of 255", fixed_text(difference.mean, 3),
+      fixed_text(difference.local, 2), fixed_text(difference.max, 0));
   const bool is_mean_right = difference.mean <= options.reference_threshold;
   if (is_mean_right && difference.local <= options.reference_local_threshold) {
     if (options.verbosity != Verbosity::quiet) std::cerr << "as the reference: " << found << "\n";
@@ -105,13 +110,12 @@ int compare_with_reference(const run::RenderOptions& options, const run::RenderJ
   }
   const std::filesystem::path file = job.folder / "difference.png";
   output::write_file(file, render::encode_png(render::difference_image(picture, reference)));
-  throw Error(
-      exit_check_failed,
-      "the picture differs from " + options.reference + ": " + found + "; see " + file.string(),
-      options.reference,
-      std::string(is_mean_right ? "raise --reference-local-threshold"
-                                : "raise --reference-threshold") +
-          " if this is expected");
+  throw Error(exit_check_failed,
+              fmt::format("the picture differs from {}: {}; see {}", options.reference, found,
+                          file.string()),
+              options.reference,
+              fmt::format("raise {} if this is expected",
+                          is_mean_right ? "--reference-local-threshold" : "--reference-threshold"));
 }
 
 void print_result(const run::RenderJob& job, const run::RenderRun& run,
@@ -133,7 +137,7 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
   health::check_collider_overlaps(job.scene, seeded, findings);
   for (const health::Finding& finding : findings) {
     job.warnings.push_back(finding.what);
-    progress.warning(finding.address + ": " + finding.what + "; " + finding.hint);
+    progress.warning(fmt::format("{}: {}; {}", finding.address, finding.what, finding.hint));
   }
 }
 
@@ -142,6 +146,17 @@ void report_validation(const run::Validation& validation, Progress& progress) {
     progress.note(validation.summary());
   else if (!validation.has_errors())  // those become the error that the run ends with
     progress.warning(validation.summary());
+}
+
+void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t particles,
+                Progress& progress) {
+  const std::string to_come =
+      plan.emitted > 0 ? fmt::format(" and {} to come", fixed_text(plan.emitted, 0)) : "";
+  const std::string coarsened =
+      job.coarsening > 1 ? fmt::format(", coarsened {}", scene::coarsening_text(job.coarsening))
+                         : "";
+  progress.note(fmt::format("{}: {} particles{}, about {} of memory{}", job.scene_file, particles,
+                            to_come, bytes_text(plan.memory), coarsened));
 }
 
 int finish(const run::RenderOptions& options, const run::RenderJob& job, const run::RenderRun& run,
@@ -158,9 +173,9 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
     std::cerr << "neve: --resume continues from here" << std::endl;
     return exit_resumable;
   }
-  progress.note(std::to_string(run.record().frames.size()) +
-                (run.record().frames.size() == 1 ? " frame" : " frames") + " in " +
-                job.folder.string());
+  const std::size_t frames = run.record().frames.size();
+  progress.note(
+      fmt::format("{} {} in {}", frames, frames == 1 ? "frame" : "frames", job.folder.string()));
   return exit_ok;
 }
 
@@ -181,7 +196,8 @@ int run_render(const run::RenderOptions& options) {
   catch_interrupts();
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
   const auto context = render::gl::open_context(options.backend);
-  progress.note("OpenGL: " + context->backend + ", " + context->renderer + ", " + context->version);
+  progress.note(
+      fmt::format("OpenGL: {}, {}, {}", context->backend, context->renderer, context->version));
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, options.shader_dir, &pool);
   check_picture_sizes(job.scene, job.quality, renderer.max_size());
@@ -192,18 +208,14 @@ int run_render(const run::RenderOptions& options) {
   // A framing that was cut short is another one: nothing may be written with it.
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first frame");
   sim::Simulation simulation = setup::make_simulation(job.scene, seeded.particles, options.threads);
-  progress.note(
-      job.scene_file + ": " + std::to_string(seeded.particles.x.size()) + " particles" +
-      (plan.emitted > 0 ? " and " + fixed_text(plan.emitted, 0) + " to come" : "") + ", about " +
-      bytes_text(plan.memory) + " of memory" +
-      (job.coarsening > 1 ? ", coarsened " + scene::coarsening_text(job.coarsening) : ""));
+  note_start(job, plan, seeded.particles.x.size(), progress);
 
   run::RenderRun run(job, simulation, *context, renderer, seeded, progress);
   const run::RenderResult result = run.run();
   for (const std::string& warning : run::step_warnings(job.scene.solver, simulation.warnings()))
     progress.warning(warning);
   if (const std::size_t trials = simulation.warnings().inverted_trials; trials > 0)
-    progress.detail(std::to_string(trials) + " trial deformations were inverted and repaired");
+    progress.detail(fmt::format("{} trial deformations were inverted and repaired", trials));
   if (run.validation()) report_validation(*run.validation(), progress);
   const int code = finish(options, job, run, result, progress);
   if (code == exit_ok && run.validation() && run.validation()->has_errors())

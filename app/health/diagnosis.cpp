@@ -1,5 +1,7 @@
 #include "app/health/diagnosis.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -94,25 +96,27 @@ Hypothesis initial_state(const Case& c) {
   // NaN leaves no mark on the extremes; a particle that is named and breaks the first steps does.
   const bool is_no_number = s.strangest >= 0 && c.d.rule == "not_finite" && c.d.step <= 2;
   if (!is_strange && !is_no_number) return std::nullopt;
-  const std::string who = "particle " + std::to_string(s.strangest);
-  return Diagnosis{Cause::initial_state,
-                   is_strange
-                       ? who + " did not start at rest: det F_E from " + rough_text(s.min_J_E) +
-                             " to " + rough_text(s.max_J_E) + ", J_P from " +
-                             rough_text(s.min_J_P) + " to " + rough_text(s.max_J_P)
-                       : who + " did not start with finite numbers",
-                   "start with F_E = I and J_P = 1", ""};
+  return Diagnosis{
+      Cause::initial_state,
+      is_strange
+          ? fmt::format(
+                "particle {} did not start at rest: det F_E from {} to {}, J_P from {} to {}",
+                s.strangest, rough_text(s.min_J_E), rough_text(s.max_J_E), rough_text(s.min_J_P),
+                rough_text(s.max_J_P))
+          : fmt::format("particle {} did not start with finite numbers", s.strangest),
+      "start with F_E = I and J_P = 1", ""};
 }
 
 Hypothesis units(const Case& c) {
   const double g = c.scene.solver.gravity.norm(), largest = largest_extent(c.scene);
   if (g <= cause(Law::gravity) && largest <= cause(Law::extent)) return std::nullopt;
-  return Diagnosis{Cause::units,
-                   "gravity of " + rough_text(g) + " m/s2 and a body " + rough_text(largest) +
-                       " m across look like centimetres; snow hits something at " +
-                       rough_text(setup::impact_speed(c.scene)) + " m/s, its sound runs at " +
-                       rough_text(c.start_sound()) + " m/s",
-                   "write lengths in metres, gravity as 9.81 m/s2", "solver.gravity"};
+  return Diagnosis{
+      Cause::units,
+      fmt::format("gravity of {} m/s2 and a body {} m across look like centimetres; "
+                  "snow hits something at {} m/s, its sound runs at {} m/s",
+                  rough_text(g), rough_text(largest), rough_text(setup::impact_speed(c.scene)),
+                  rough_text(c.start_sound())),
+      "write lengths in metres, gravity as 9.81 m/s2", "solver.gravity"};
 }
 
 Hypothesis raised_limits(const Case& c) {
@@ -137,11 +141,11 @@ Hypothesis raised_limits(const Case& c) {
     const double default_value = limit.ruling == sim::DtLimit::acoustic ? usual.acoustic_cfl
                                  : limit.ruling == sim::DtLimit::cfl    ? usual.cfl
                                                                         : usual.strain_limit;
+    const std::string address = std::string("solver.") + limit.key;
     return Diagnosis{Cause::raised_limits,
-                     std::string("solver.") + limit.key + " = " + rough_text(limit.value) +
-                         " is above the stable value, " + rough_text(limit.holds),
-                     std::string("solver.") + limit.key + " = " + rough_text(default_value),
-                     std::string("solver.") + limit.key};
+                     fmt::format("{} = {} is above the stable value, {}", address,
+                                 rough_text(limit.value), rough_text(limit.holds)),
+                     fmt::format("{} = {}", address, rough_text(default_value)), address};
   }
   return std::nullopt;
 }
@@ -154,30 +158,34 @@ Hypothesis too_long_at_rest(const Case& c) {
   if (sound < at_start(Law::acoustic_cfl) && speed < at_start(Law::speed_cfl)) return std::nullopt;
   const double holds =
       0.5 * c.h / std::max(c.start_sound() / c.stretch, 1.25 * c.d.start.max_speed);
-  const std::string remedy = "solver.dt = " + rough_text(holds) + " or time_step = \"adaptive\"";
+  const std::string remedy =
+      fmt::format("solver.dt = {} or time_step = \"adaptive\"", rough_text(holds));
   if (sound >= speed) {
-    const std::string crossed = "sound runs at " + rough_text(c.start_sound()) +
-                                " m/s and crosses " + rough_text(sound) + " cells in a step of " +
-                                rough_text(c.dt) + " s";
+    const std::string crossed =
+        fmt::format("sound runs at {} m/s and crosses {} cells in a step of {} s",
+                    rough_text(c.start_sound()), rough_text(sound), rough_text(c.dt));
     const double without = usual_sound_speed() * c.dt / c.h;
     if (without < at_start(Law::acoustic_cfl) && c.material.density < cause(Law::low_density))
-      return Diagnosis{Cause::density,
-                       "density is " + rough_text(c.material.density) + " kg/m3, so " + crossed,
-                       "in g/cm3 it would be " + rough_text(1000 * c.material.density) +
-                           " kg/m3; snow has 50 to 917. Otherwise " + remedy,
-                       c.at("density")};
+      return Diagnosis{
+          Cause::density,
+          fmt::format("density is {} kg/m3, so {}", rough_text(c.material.density), crossed),
+          fmt::format("in g/cm3 it would be {} kg/m3; snow has 50 to 917. Otherwise {}",
+                      rough_text(1000 * c.material.density), remedy),
+          c.at("density")};
     if (without < at_start(Law::acoustic_cfl) &&
         c.material.youngs_modulus > cause(Law::high_stiffness))
-      return Diagnosis{
-          Cause::stiffness,
-          "youngs_modulus is " + rough_text(c.material.youngs_modulus) + " Pa, so " + crossed,
-          "the paper's snow has 1.4e5 Pa. Otherwise " + remedy, c.at("youngs_modulus")};
+      return Diagnosis{Cause::stiffness,
+                       fmt::format("youngs_modulus is {} Pa, so {}",
+                                   rough_text(c.material.youngs_modulus), crossed),
+                       "the paper's snow has 1.4e5 Pa. Otherwise " + remedy,
+                       c.at("youngs_modulus")};
     return Diagnosis{Cause::time_step, crossed, remedy, "solver.dt"};
   }
-  return Diagnosis{Cause::time_step,
-                   "snow at " + rough_text(c.d.start.max_speed) + " m/s crosses " +
-                       rough_text(speed) + " cells in a step of " + rough_text(c.dt) + " s",
-                   remedy, "solver.dt"};
+  return Diagnosis{
+      Cause::time_step,
+      fmt::format("snow at {} m/s crosses {} cells in a step of {} s",
+                  rough_text(c.d.start.max_speed), rough_text(speed), rough_text(c.dt)),
+      remedy, "solver.dt"};
 }
 
 /// The surface of a collider where it is nearest to the culprit. NaN counts as far.
@@ -223,11 +231,12 @@ Hypothesis collider_speed(const Case& c) {
     if (mach < cause(Law::collider_mach) && speed * c.dt < cause(Law::collider_cfl) * c.h) continue;
     if (speed < 2 * c.d.start.max_speed) continue;
     return Diagnosis{Cause::collider_speed,
-                     "collider " + collider.name + " hits the snow at " + rough_text(speed) +
-                         " m/s, " + rough_text(mach) + " times the speed of its sound, and " +
-                         rough_text(speed * c.dt / c.h) + " cells in a step",
-                     "move it at less than " + rough_text(0.5 * c.start_sound()) +
-                         " m/s, or accelerate it gently",
+                     fmt::format("collider {} hits the snow at {} m/s, {} times the speed of its "
+                                 "sound, and {} cells in a step",
+                                 collider.name, rough_text(speed), rough_text(mach),
+                                 rough_text(speed * c.dt / c.h)),
+                     fmt::format("move it at less than {} m/s, or accelerate it gently",
+                                 rough_text(0.5 * c.start_sound())),
                      motion_address(collider)};
   }
   return std::nullopt;
@@ -243,11 +252,14 @@ Hypothesis colliders_closing(const Case& c) {
       const double gap = std::max(0.0, a.surface.distance) + std::max(0.0, b.surface.distance);
       return Diagnosis{
           Cause::colliders_closing,
-          "colliders " + a.collider->name + " and " + b.collider->name + " close on the snow at " +
-              rough_text(closing) + " m/s and leave it a gap of about " + rough_text(gap) + " m, " +
-              rough_text(gap / c.h) + " cells",
-          "stop them before the snow is as dense as ice: packed to " +
-              rough_text(c.material.density / std::max(0.02, c.d.J_P)) + " kg/m3 it has no room",
+          fmt::format(
+              "colliders {} and {} close on the snow at {} m/s and leave it a gap of about {} "
+              "m, {} cells",
+              a.collider->name, b.collider->name, rough_text(closing), rough_text(gap),
+              rough_text(gap / c.h)),
+          fmt::format(
+              "stop them before the snow is as dense as ice: packed to {} kg/m3 it has no room",
+              rough_text(c.material.density / std::max(0.02, c.d.J_P))),
           motion_address(*b.collider)};
     }
   return std::nullopt;
@@ -260,23 +272,24 @@ Hypothesis hardened_beyond_fixed_step(const Case& c) {
   const double factor = std::exp(c.material.hardening * (1 - step->min_J_P));
   return Diagnosis{
       Cause::hardening,
-      "snow was packed to J_P = " + rough_text(step->min_J_P) + " and hardened " +
-          rough_text(factor) + " times (hardening = " + rough_text(c.material.hardening) +
-          "): sound, " + rough_text(c.start_sound()) + " m/s at the start, reached " +
-          rough_text(step->max_sound_speed) + " m/s and crossed " +
-          rough_text(step->max_sound_speed * step->dt / c.h) + " cells in a step",
-      "time_step = \"adaptive\", or solver.dt = " + rough_text(0.5 * c.h / step->max_sound_speed) +
-          ", or a smaller hardening",
+      fmt::format(
+          "snow was packed to J_P = {} and hardened {} times (hardening = {}): sound, {} m/s "
+          "at the start, reached {} m/s and crossed {} cells in a step",
+          rough_text(step->min_J_P), rough_text(factor), rough_text(c.material.hardening),
+          rough_text(c.start_sound()), rough_text(step->max_sound_speed),
+          rough_text(step->max_sound_speed * step->dt / c.h)),
+      fmt::format("time_step = \"adaptive\", or solver.dt = {}, or a smaller hardening",
+                  rough_text(0.5 * c.h / step->max_sound_speed)),
       "solver.dt"};
 }
 
 Hypothesis incompressible(const Case& c) {
   if (c.material.poisson_ratio < cause(Law::poisson_ratio)) return std::nullopt;
+  const double nu = c.material.poisson_ratio;
   return Diagnosis{
       Cause::incompressible,
-      "poisson_ratio is " + scene::toml::number_text(c.material.poisson_ratio) + ": lambda is " +
-          rough_text(2 * c.material.poisson_ratio / (1 - 2 * c.material.poisson_ratio)) +
-          " times mu, so the snow cannot be compressed",
+      fmt::format("poisson_ratio is {}: lambda is {} times mu, so the snow cannot be compressed",
+                  scene::toml::number_text(nu), rough_text(2 * nu / (1 - 2 * nu))),
       "use 0.2 for snow, 0.3 to 0.4 for rubber", c.at("poisson_ratio")};
 }
 
@@ -287,10 +300,11 @@ Hypothesis shock(const Case& c) {
   if (!is_crushed || mach < cause(Law::impact_mach)) return std::nullopt;
   return Diagnosis{
       Cause::shock,
-      "snow hits something at " + rough_text(speed) + " m/s, " + rough_text(mach) +
-          " times the speed of its sound, and is crushed to J_P = " + rough_text(c.d.J_P),
-      "stay below " + rough_text(c.start_sound()) +
-          " m/s, or make the snow stiffer (youngs_modulus) or denser",
+      fmt::format("snow hits something at {} m/s, {} times the speed of its sound, and is crushed "
+                  "to J_P = {}",
+                  rough_text(speed), rough_text(mach), rough_text(c.d.J_P)),
+      fmt::format("stay below {} m/s, or make the snow stiffer (youngs_modulus) or denser",
+                  rough_text(c.start_sound())),
       c.at("youngs_modulus")};
 }
 
@@ -299,24 +313,26 @@ Hypothesis hardening(const Case& c) {
   const bool is_sound = c.d.rule == "J_P" || c.d.rule == "acoustic_cfl" ||
                         c.d.rule == "time_step" || c.d.rule == "not_finite";
   if (!is_sound || !(factor > cause(Law::hardening))) return std::nullopt;
-  return Diagnosis{Cause::hardening,
-                   "snow was packed to J_P = " + rough_text(c.d.J_P) + " and hardened " +
-                       rough_text(factor) +
-                       " times: hardening = " + rough_text(c.material.hardening) +
-                       ", critical_compression = " + rough_text(c.material.critical_compression),
-                   "a smaller hardening (the paper: 5 to 10) or a larger critical_compression "
-                   "(0.019 to 0.025)",
-                   c.at("hardening")};
+  return Diagnosis{
+      Cause::hardening,
+      fmt::format("snow was packed to J_P = {} and hardened {} times: hardening = {}, "
+                  "critical_compression = {}",
+                  rough_text(c.d.J_P), rough_text(factor), rough_text(c.material.hardening),
+                  rough_text(c.material.critical_compression)),
+      "a smaller hardening (the paper: 5 to 10) or a larger critical_compression "
+      "(0.019 to 0.025)",
+      c.at("hardening")};
 }
 
 Hypothesis far_flight(const Case& c) {
   if (c.d.rule != "overflow") return std::nullopt;
   return Diagnosis{
       Cause::far_flight,
-      "particle " + std::to_string(c.d.particle) + " flew to " + rough_text(c.d.x.norm()) +
-          " m from the origin, where the lattice ends, at " + rough_text(c.d.v.norm()) +
-          " m/s, in a healthy state",
-      "put a collider in its way, end the scene earlier, or move it closer to the origin",
+      fmt::format("particle {} flew to {} m from the origin, where the lattice ends, at "
+                  "{} m/s, in a healthy state",
+                  c.d.particle, rough_text(c.d.x.norm()), rough_text(c.d.v.norm())),
+      "put a collider in its way, end the scene earlier, or move it closer to the "
+      "origin",
       "frames"};
 }
 
@@ -324,11 +340,11 @@ Diagnosis unexplained(const Case& c) {
   double sound = 0;
   for (const sim::StepRecord& step : c.d.last_steps)
     sound = std::max(sound, step.max_sound_speed * step.dt / c.h);
-  return {Cause::unexplained,
-          "no known cause: in the last " + std::to_string(c.d.last_steps.size()) +
-              " steps sound crossed at most " + rough_text(sound) + " cells in a step",
-          "neve check examines the numbers of the scene; neve render --validate checks the steps",
-          ""};
+  return {
+      Cause::unexplained,
+      fmt::format("no known cause: in the last {} steps sound crossed at most {} cells in a step",
+                  c.d.last_steps.size(), rough_text(sound)),
+      "neve check examines the numbers of the scene; neve render --validate checks the steps", ""};
 }
 
 }  // namespace
@@ -344,8 +360,9 @@ Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence)
 
 std::string sentence(const sim::Divergence& d, const Diagnosis& diagnosis) {
   // One advice on dt is enough; that of the cause looks at where trouble began.
-  return (diagnosis.cause == Cause::unexplained ? d.sentence : d.what) +
-         ". Cause: " + diagnosis.evidence + ". Try: " + diagnosis.remedy;
+  return fmt::format("{}. Cause: {}. Try: {}",
+                     diagnosis.cause == Cause::unexplained ? d.sentence : d.what,
+                     diagnosis.evidence, diagnosis.remedy);
 }
 
 }  // namespace neve::app::health

@@ -1,5 +1,7 @@
 #include "app/health/findings.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -53,35 +55,36 @@ void report_thin(const std::vector<Thin>& thin, const std::string& bound, const 
   for (auto other = thin.begin(); other != thin.end(); ++other)
     if (other != worst && others.size() < most_named) others.push_back(other->name);
   const std::size_t left = thin.size() - 1 - others.size();
-  std::string what = worst->name + " is " + rough_text(worst->cells) + " cells thick";
+  std::string what = fmt::format("{} is {} cells thick", worst->name, rough_text(worst->cells));
   if (!others.empty())
-    what += " (also under " + bound + ": " + joined(others, ", ") +
-            (left > 0 ? " and " + std::to_string(left) + " more)" : ")");
-  findings.push_back({Severity::warning, worst->address + ".shape", what,
-                      remedy + "; solver.cell_size = " + rough_text(worst->cells * size_per_cell)});
+    what += fmt::format(" (also under {}: {}{})", bound, joined(others, ", "),
+                        left > 0 ? fmt::format(" and {} more", left) : "");
+  findings.push_back(
+      {Severity::warning, worst->address + ".shape", what,
+       fmt::format("{}; solver.cell_size = {}", remedy, rough_text(worst->cells * size_per_cell))});
 }
 
 void check_material_units(const sim::Material& m, std::vector<Finding>& findings) {
-  const std::string at = "material." + m.name + ".";
+  const std::string at = "material." + m.name + ".", density = rough_text(m.density),
+                    modulus = rough_text(m.youngs_modulus);
   if (m.density > 0.03 && m.density < 2)
-    findings.push_back({Severity::warning, at + "density",
-                        "density " + rough_text(m.density) + " kg/m3 is lighter than foam",
-                        "in g/cm3 it would be " + rough_text(1000 * m.density) + " kg/m3"});
-  else if (m.density < line(Law::low_density) || m.density > line(Law::high_density))
     findings.push_back(
         {Severity::warning, at + "density",
-         "density " + rough_text(m.density) + " kg/m3 is not snow, which has 50 to 917",
-         "powder has 50 to 200, packed snow 300 to 550"});
+         fmt::format("density {} kg/m3 is lighter than foam", density),
+         fmt::format("in g/cm3 it would be {} kg/m3", rough_text(1000 * m.density))});
+  else if (m.density < line(Law::low_density) || m.density > line(Law::high_density))
+    findings.push_back({Severity::warning, at + "density",
+                        fmt::format("density {} kg/m3 is not snow, which has 50 to 917", density),
+                        "powder has 50 to 200, packed snow 300 to 550"});
   if (m.youngs_modulus < line(Law::low_stiffness))
-    findings.push_back(
-        {Severity::warning, at + "youngs_modulus",
-         "youngs_modulus " + rough_text(m.youngs_modulus) + " Pa is softer than jelly",
-         "in kPa it would be " + rough_text(1000 * m.youngs_modulus) +
-             " Pa; the paper's snow has 1.4e5"});
+    findings.push_back({Severity::warning, at + "youngs_modulus",
+                        fmt::format("youngs_modulus {} Pa is softer than jelly", modulus),
+                        fmt::format("in kPa it would be {} Pa; the paper's snow has 1.4e5",
+                                    rough_text(1000 * m.youngs_modulus))});
   else if (m.youngs_modulus > line(Law::high_stiffness))
     findings.push_back({Severity::warning, at + "youngs_modulus",
-                        "youngs_modulus " + rough_text(m.youngs_modulus) +
-                            " Pa makes sound run at " + rough_text(sim::sound_speed(m)) + " m/s",
+                        fmt::format("youngs_modulus {} Pa makes sound run at {} m/s", modulus,
+                                    rough_text(sim::sound_speed(m))),
                         "steps shorten with its square root; the paper's snow has 1.4e5"});
 }
 
@@ -128,12 +131,14 @@ void check_body_overlaps(const scene::Scene& scene, const setup::SeededScene& se
       }
   for (const auto& [pair, cells] : shared) {
     if (cells < 1) continue;
-    findings.push_back({Severity::warning, "body." + scene.bodies[pair.second].name + ".shape",
-                        display_name("body", scene.bodies[pair.first].name) + " and " +
-                            display_name("body", scene.bodies[pair.second].name) +
-                            " overlap in about " + rough_text(cells) +
-                            " cells: these have twice the mass, and one velocity for both bodies",
-                        "move them apart"});
+    const std::string &first = scene.bodies[pair.first].name,
+                      &second = scene.bodies[pair.second].name;
+    findings.push_back(
+        {Severity::warning, fmt::format("body.{}.shape", second),
+         fmt::format("{} and {} overlap in about {} cells: these have twice the mass, and one "
+                     "velocity for both bodies",
+                     display_name("body", first), display_name("body", second), rough_text(cells)),
+         "move them apart"});
   }
 }
 
@@ -143,9 +148,9 @@ void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
   const auto report = [&](Severity severity, double cfl, const char* what, double holds) {
     findings.push_back(
         {severity, "solver.dt",
-         "fixed steps of " + rough_text(s.dt) + " s: " + what + " crosses " + rough_text(cfl) +
-             " cells in a step" + (severity == Severity::error ? ", the run will diverge" : ""),
-         "solver.dt = " + rough_text(holds) + " holds, or time_step = \"adaptive\""});
+         fmt::format("fixed steps of {} s: {} crosses {} cells in a step{}", rough_text(s.dt), what,
+                     rough_text(cfl), severity == Severity::error ? ", the run will diverge" : ""),
+         fmt::format("solver.dt = {} holds, or time_step = \"adaptive\"", rough_text(holds))});
   };
   // As an explicit step would feel it.
   const double sound_speed = checkup.start.max_sound_speed / sim::engine::acoustic_stretch(s);
@@ -165,13 +170,14 @@ void check_implicit_steps(const sim::SolverSettings& s, const Checkup& checkup,
   if (!s.is_implicit() || checkup.start.max_sound_speed <= 0) return;
   const double dt = checkup.dt_start, pi = 3.14159265358979323846;
   const double w = 2 * pi * checkup.start.max_sound_speed / (10 * s.cell_size);
-  findings.push_back({Severity::note, "solver.beta",
-                      "semi-implicit steps: a wave 10 cells long keeps " +
-                          percent_text(std::exp(-s.beta * w * w * dt * 2 * pi / w)) +
-                          " of its energy after a period; the first steps took " +
-                          std::to_string(checkup.solve.iterations) +
-                          " iterations to a residual of " + rough_text(checkup.solve.residual),
-                      ""});
+  findings.push_back(
+      {Severity::note, "solver.beta",
+       fmt::format("semi-implicit steps: a wave 10 cells long keeps {} of its energy "
+                   "after a period; the first steps took {} iterations to a "
+                   "residual of {}",
+                   percent_text(std::exp(-s.beta * w * w * dt * 2 * pi / w)),
+                   checkup.solve.iterations, rough_text(checkup.solve.residual)),
+       ""});
   if (checkup.solve.residual > s.solve_tolerance)
     findings.push_back(
         {Severity::warning, "solver.solve_iterations",
@@ -189,9 +195,10 @@ void check_damping(const scene::Scene& scene, const Checkup& checkup,
   if (s.flip_reference_dt == 0)
     findings.push_back(
         {Severity::warning, "solver.flip_reference_dt",
-         "flip_ratio acts per step: with about " + rough_text(steps) + " steps a frame " +
-             percent_text(kept) +
-             " of the finest motion is left after a frame, and less with smaller steps",
+         fmt::format("flip_ratio acts per step: with about {} steps a frame {} of "
+                     "the finest motion is left after a frame, and less with smaller "
+                     "steps",
+                     rough_text(steps), percent_text(kept)),
          "flip_reference_dt = 5e-4 makes damping independent of dt"});
   // The defaults are no news.
   const sim::SolverSettings usual;
@@ -267,16 +274,18 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings) {
   const double g = scene.solver.gravity.norm();
   if (g > line(Law::gravity))
     findings.push_back({Severity::warning, "solver.gravity",
-                        "gravity of " + rough_text(g) + " m/s2 is " + rough_text(g / 9.81) +
-                            " times that of the earth",
+                        fmt::format("gravity of {} m/s2 is {} times that of the earth",
+                                    rough_text(g), rough_text(g / 9.81)),
                         "981 would be cm/s2; lengths are in metres"});
   const double largest = largest_extent(scene);
   if (largest > line(Law::extent))
-    findings.push_back({Severity::warning, pieces.front().address + ".shape",
-                        "the largest piece of snow is " + rough_text(largest) + " m across",
-                        "lengths are in metres: in centimetres it would be " +
-                            rough_text(0.01 * largest) + " m, with solver.cell_size = " +
-                            scene::toml::number_text(0.01 * scene.solver.cell_size)});
+    findings.push_back(
+        {Severity::warning, pieces.front().address + ".shape",
+         fmt::format("the largest piece of snow is {} m across", rough_text(largest)),
+         fmt::format("lengths are in metres: in centimetres it would be {} m, with "
+                     "solver.cell_size = {}",
+                     rough_text(0.01 * largest),
+                     scene::toml::number_text(0.01 * scene.solver.cell_size))});
 }
 
 void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings) {
@@ -320,9 +329,9 @@ void check_steps(const scene::Scene& scene, const Checkup& checkup,
   const double c = checkup.start.max_sound_speed;
   if (c > 0 && checkup.impact_speed > line(Law::impact_mach) * c)
     findings.push_back({Severity::warning, "",
-                        "snow hits something at " + rough_text(checkup.impact_speed) +
-                            " m/s, faster than its sound of " + rough_text(c) +
-                            " m/s: a shock will crush it",
+                        fmt::format("snow hits something at {} m/s, faster than its sound of {} "
+                                    "m/s: a shock will crush it",
+                                    rough_text(checkup.impact_speed), rough_text(c)),
                         "make it slower, or youngs_modulus larger"});
 }
 
@@ -341,8 +350,8 @@ void check_cameras(const scene::Scene& scene, const std::vector<setup::Moment>& 
     }
     if (worst < 0.05) continue;
     findings.push_back({Severity::warning, view.camera ? "view." + view.name + ".camera" : "camera",
-                        "view " + view.name + ": " + percent_text(worst) +
-                            " of the snow is outside of the picture at " + rough_text(when) + " s",
+                        fmt::format("view {}: {} of the snow is outside of the picture at {} s",
+                                    view.name, percent_text(worst), rough_text(when)),
                         "remove eye and target to frame everything"});
   }
 }

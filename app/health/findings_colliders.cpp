@@ -1,5 +1,7 @@
 /// Findings about colliders before a run.
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <memory>
 #include <vector>
@@ -74,10 +76,11 @@ void check_emitter_overlaps(const scene::Scene& scene, std::vector<Finding>& fin
           std::count_if(places.begin(), places.end(), [&](const Vec3d& x) { return is_inside(x); });
       const double share = static_cast<double>(inside) / static_cast<double>(places.size());
       if (share < much) continue;
-      findings.push_back({Severity::warning, "emitter." + emitter.name + ".shape",
-                          percent_text(share) + " of " + display_name("emitter", emitter.name) +
-                              " is inside collider " + collider.name + " at its start",
-                          why_move_it});
+      findings.push_back(
+          {Severity::warning, "emitter." + emitter.name + ".shape",
+           fmt::format("{} of {} is inside collider {} at its start", percent_text(share),
+                       display_name("emitter", emitter.name), collider.name),
+           why_move_it});
     }
   }
 }
@@ -96,10 +99,11 @@ void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene
       for (std::size_t p = first; p < end; p += stride, ++count)
         inside += is_inside(seeded.particles.x[p]);
       if (inside == 0) continue;
-      findings.push_back({Severity::warning, "body." + scene.bodies[body].name + ".shape",
-                          percent_text(static_cast<double>(inside) / static_cast<double>(count)) +
-                              " of " + display_name("body", scene.bodies[body].name) +
-                              " starts inside " + "collider " + collider.name,
+      const std::string& name = scene.bodies[body].name;
+      const double share = static_cast<double>(inside) / static_cast<double>(count);
+      findings.push_back({Severity::warning, "body." + name + ".shape",
+                          fmt::format("{} of {} starts inside collider {}", percent_text(share),
+                                      display_name("body", name), collider.name),
                           why_move_it});
     }
   }
@@ -120,17 +124,19 @@ void check_motion(const scene::Scene& scene, const Checkup& checkup,
     if (cells > sim::health::limits_of(sim::health::Law::collider_cfl).check_warning)
       findings.push_back(
           {Severity::warning, at,
-           display_name("collider", collider.name) + " moves up to " + rough_text(speed) +
-               " m/s: " + rough_text(cells) + " cells in a step and runs over snow at rest",
-           std::string(s.time_step == sim::TimeStep::fixed ? "solver.dt" : "solver.max_dt") +
-               " = " + rough_text(0.4 * s.cell_size / speed)});
+           fmt::format("{} moves up to {} m/s: {} cells in a step and runs over snow at rest",
+                       display_name("collider", collider.name), rough_text(speed),
+                       rough_text(cells)),
+           fmt::format("solver.{} = {}", s.time_step == sim::TimeStep::fixed ? "dt" : "max_dt",
+                       rough_text(0.4 * s.cell_size / speed))});
     else if (c > 0 &&
              speed > sim::health::limits_of(sim::health::Law::collider_mach).check_warning * c)
-      findings.push_back({Severity::warning, at,
-                          display_name("collider", collider.name) + " moves up to " +
-                              rough_text(speed) + " m/s, faster than sound in the snow (" +
-                              rough_text(c) + " m/s): it crushes the snow that it hits",
-                          "make it slower, or youngs_modulus larger"});
+      findings.push_back(
+          {Severity::warning, at,
+           fmt::format("{} moves up to {} m/s, faster than sound in the snow ({} "
+                       "m/s): it crushes the snow that it hits",
+                       display_name("collider", collider.name), rough_text(speed), rough_text(c)),
+           "make it slower, or youngs_modulus larger"});
   }
 }
 

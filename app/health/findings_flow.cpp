@@ -1,5 +1,7 @@
 /// Findings about emitters and sinks before a run.
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,28 +40,31 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
   if (thick < spacing)
     findings.push_back(
         {Severity::warning, at + ".shape",
-         emitter.name + " is " + rough_text(thick) + " m thick, thinner than the " +
-             rough_text(spacing) + " m between particles: the snow comes out in single particles",
-         "make it thicker, or solver.cell_size = " + rough_text(0.25 * thick / spacing * h)});
+         fmt::format("{} is {} m thick, thinner than the {} m between particles: the snow comes "
+                     "out in single particles",
+                     emitter.name, rough_text(thick), rough_text(spacing)),
+         fmt::format("make it thicker, or solver.cell_size = {}",
+                     rough_text(0.25 * thick / spacing * h))});
   if (emitter.rate == 0) return;
   const double carried = sim::seeding::carried_rate(emitter, material);
   const double falling = falling_rate(emitter, material, scene.solver.gravity);
   if (carried > 0 && emitter.rate > most_packing * std::max(carried, falling))
-    findings.push_back({Severity::warning, at + ".rate",
-                        "its velocity carries away only about " + rough_text(carried) +
-                            " kg/s at the density of " + material.name +
-                            "; new snow will overlap old snow",
-                        "lower the rate, or make the velocity or the shape larger"});
+    findings.push_back(
+        {Severity::warning, at + ".rate",
+         fmt::format("its velocity carries away only about {} kg/s at the density of "
+                     "{}; new snow will overlap old snow",
+                     rough_text(carried), material.name),
+         "lower the rate, or make the velocity or the shape larger"});
   const double last = std::min(end, emitter.end.value_or(end));
   const double mass = emitter.rate * (last - emitter.start);
   const bool is_filled = mass > material.density * sim::shapes::volume(emitter.shape);
   if (carried == 0 && is_filled && emitter.rate > most_packing * falling)
     findings.push_back(
         {Severity::warning, at + ".rate",
-         "new snow is at rest: " +
-             (falling > 0 ? "about " + rough_text(falling) + " kg/s fall out of the emitter"
-                          : std::string("gravity does not move it away")) +
-             "; the rest will overlap old snow",
+         fmt::format("new snow is at rest: {}; the rest will overlap old snow",
+                     falling > 0
+                         ? fmt::format("about {} kg/s fall out of the emitter", rough_text(falling))
+                         : "gravity does not move it away"),
          "give it a velocity, a lower rate or a larger shape"});
 }
 
@@ -70,9 +75,9 @@ void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings) {
   for (const sim::seeding::Emitter& emitter : scene.emitters) {
     if (emitter.start >= end && end > 0)
       findings.push_back({Severity::warning, "emitter." + emitter.name + ".start",
-                          display_name("emitter", emitter.name) + " opens at " +
-                              rough_text(emitter.start) + " s, the scene ends at " +
-                              rough_text(end) + " s",
+                          fmt::format("{} opens at {} s, the scene ends at {} s",
+                                      display_name("emitter", emitter.name),
+                                      rough_text(emitter.start), rough_text(end)),
                           "make start earlier, or frames larger"});
     else
       check_opening(scene, emitter, end, findings);
@@ -90,11 +95,12 @@ void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& 
     if (sink.outside) continue;
     const double thick = thickness(sink.shape);
     if (thick >= way) continue;
-    findings.push_back({Severity::warning, "sink." + sink.name + ".shape",
-                        sink.name + " is " + rough_text(thick) + " m thick; snow at " +
-                            rough_text(speed) + " m/s moves up to " + rough_text(way) +
-                            " m between two tests of the sink: some will fly through",
-                        "make it thicker than that"});
+    findings.push_back(
+        {Severity::warning, "sink." + sink.name + ".shape",
+         fmt::format("{} is {} m thick; snow at {} m/s moves up to {} m between two "
+                     "tests of the sink: some will fly through",
+                     sink.name, rough_text(thick), rough_text(speed), rough_text(way)),
+         "make it thicker than that"});
   }
 }
 

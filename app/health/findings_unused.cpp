@@ -1,5 +1,7 @@
 /// Findings about settings that a run never shows.
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "app/health/findings.h"
@@ -40,9 +42,9 @@ void check_removed(const scene::Scene& scene, const std::string& kind, const std
     if (share < least) continue;
     findings.push_back(
         {Severity::warning, kind + "." + name + ".shape",
-         percent_text(share) + " of " + display_name(kind, name) +
-             (sink.outside ? " is outside of " : " is inside of ") +
-             display_name("sink", sink.name) + ", which removes it at once",
+         fmt::format("{} of {} is {} of {}, which removes it at once", percent_text(share),
+                     display_name(kind, name), sink.outside ? "outside" : "inside",
+                     display_name("sink", sink.name)),
          sink.outside ? "make the sink larger, or move the snow into it" : "move one of them"});
   }
 }
@@ -53,11 +55,11 @@ void check_keyframes(const scene::Scene& scene, std::vector<Finding>& findings) 
     if (collider.keyframes.size() < 2 || end <= 0) continue;
     const double last = collider.keyframes.back().time;
     if (last <= end * (1 + 1e-9)) continue;
-    findings.push_back({Severity::warning, "collider." + collider.name + ".keyframes",
-                        "the last keyframe of " + display_name("collider", collider.name) +
-                            " is at " + rough_text(last) + " s, the scene ends at " +
-                            rough_text(end) + " s",
-                        "make frames larger, or move keyframes earlier"});
+    findings.push_back(
+        {Severity::warning, "collider." + collider.name + ".keyframes",
+         fmt::format("the last keyframe of {} is at {} s, the scene ends at {} s",
+                     display_name("collider", collider.name), rough_text(last), rough_text(end)),
+         "make frames larger, or move keyframes earlier"});
   }
 }
 
@@ -75,9 +77,10 @@ void check_slices(const scene::Scene& scene, std::vector<Finding>& findings) {
   for (const scene::View& view : scene.views)
     if (!scene::has_layer(view, scene::Layer::arrows) &&
         !scene::has_layer(view, scene::Layer::heatmap) && asks_for_slice(view.slice))
-      findings.push_back({Severity::warning, "view." + view.name + ".slice",
-                          "no layer of view " + view.name + " shows a slice",
-                          "add \"arrows\" or \"heatmap\" to view." + view.name + ".layers"});
+      findings.push_back(
+          {Severity::warning, "view." + view.name + ".slice",
+           fmt::format("no layer of view {} shows a slice", view.name),
+           fmt::format("add \"arrows\" or \"heatmap\" to view.{}.layers", view.name)});
 }
 
 }  // namespace
@@ -94,10 +97,10 @@ void check_unused(const scene::Scene& scene, double coarsening, std::vector<Find
   const double usual_dt = sim::SolverSettings{}.dt * coarsening, dt = scene.solver.dt;
   if (scene.solver.time_step == sim::TimeStep::adaptive &&
       !(dt > 0.999 * usual_dt && dt < 1.001 * usual_dt))
-    findings.push_back(
-        {Severity::warning, "solver.dt",
-         "adaptive steps do not use dt = " + scene::toml::number_text(dt / coarsening) + " s",
-         "set time_step = \"fixed\"; solver.max_dt limits adaptive steps"});
+    findings.push_back({Severity::warning, "solver.dt",
+                        fmt::format("adaptive steps do not use dt = {} s",
+                                    scene::toml::number_text(dt / coarsening)),
+                        "set time_step = \"fixed\"; solver.max_dt limits adaptive steps"});
 }
 
 }  // namespace neve::app::health
