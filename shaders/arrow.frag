@@ -1,6 +1,7 @@
 // In: as arrow.vert has it. Writes the G-buffer: a colour that stands for a value is shown as it is,
 // a little darker where the surface turns away, so that arrows look round. Depth by the raster.
 
+#include "constants.glsl"
 #include "gbuffer.glsl"
 
 in vec3 position;

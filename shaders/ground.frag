@@ -3,6 +3,7 @@
 // the plane. With GHOST: sRGB, to be blended over the shaded picture by alpha.
 
 #include "view.glsl"
+#include "constants.glsl"
 #ifdef GHOST
 uniform float fill;  // opacity between the lines
 out vec4 out_color;
@@ -19,13 +20,11 @@ uniform float fade_distance;
 uniform vec3 color;  // linear
 uniform float line_width;  // samples
 
-const float line_brightness = 0.34;
-
 // Share of a sample that the lines of one direction cover, from the number of lines that it spans.
 float line_cover(float at, float span) {
   float pixels = abs(fract(at - 0.5) - 0.5) / span;
   float cover = clamp(0.5 * line_width + 0.5 - pixels, 0.0, 1.0);
-  return cover * (1.0 - smoothstep(0.08, 0.3, span));  // lines closer than that are a grey veil
+  return cover * (1.0 - smoothstep(line_veil_first, line_veil_last, span));
 }
 
 void main() {
@@ -38,7 +37,7 @@ void main() {
 
   vec3 from_center = p - fade_center;
   float left = exp(-dot(from_center, from_center) / (fade_distance * fade_distance));
-  if (left < 0.004) discard;
+  if (left < ground_least) discard;
 
   float line = max(line_cover(on_grid.x, span.x), line_cover(on_grid.y, span.y));
 #ifdef GHOST

@@ -2,6 +2,7 @@
 // values times whether there is one, and whether there is one. Writes the G-buffer: colours that stand
 // for values are shown as they are. Depth by the raster.
 
+#include "constants.glsl"
 #include "gbuffer.glsl"
 
 in vec2 on_map;

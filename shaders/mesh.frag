@@ -1,6 +1,7 @@
 // In: position relative to the eye (m) and normal in world axes, turned towards the eye here so that
 // open meshes show both sides. Writes the G-buffer; depth by the raster.
 
+#include "constants.glsl"
 #include "gbuffer.glsl"
 
 in vec3 position;

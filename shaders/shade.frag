@@ -3,7 +3,7 @@
 // dithered, premultiplied by alpha. Writes no depth.
 
 #include "view.glsl"
-#include "light.glsl"
+#include "constants.glsl"
 #include "noise.glsl"
 
 uniform sampler2D depth_map;
@@ -20,14 +20,6 @@ uniform int is_transparent;
 
 out vec4 out_color;
 
-const float kind_ground = 1.0;
-const float kind_solid = 2.0;
-const float kind_snow = 3.0;
-const float kind_flat = 5.0;
-
-const vec3 background_top = vec3(0.060, 0.072, 0.098);
-const vec3 background_bottom = vec3(0.190, 0.215, 0.260);
-
 bool is_in_box(vec3 p) {
   return all(greaterThan(p, box_origin)) && all(lessThan(p, box_origin + box_size));
 }
@@ -42,7 +34,7 @@ float key_light(vec3 p) {
     vec3 low = min(a, b), high = max(a, b);
     float enter = max(max(low.x, low.y), low.z), leave = min(min(high.x, high.y), high.z);
     if (enter < 0.0 || enter > leave) return 1.0;
-    p += toward_light * (enter + 0.5 * cell);
+    p += toward_light * (enter + entry_offset * cell);
   }
   return texture(light_volume, texture_position(p)).r;
 }
@@ -50,34 +42,33 @@ float key_light(vec3 p) {
 // Sky at p, fading to all of it over the outermost cells of the box.
 float sky_light(vec3 p) {
   vec3 inside = min(p - box_origin, box_origin + box_size - p) / cell;
-  float weight = clamp(min(min(inside.x, inside.y), inside.z) / 3.5, 0.0, 1.0);
+  float weight = clamp(min(min(inside.x, inside.y), inside.z) / sky_fade_cells, 0.0, 1.0);
   return mix(1.0, texture(light_volume, texture_position(p)).g, weight);
 }
 
 // Light that leaves a matte surface. Contrast below 1 lifts the shadows, so that colours that stand
 // for values stay readable.
 vec3 lit(vec3 albedo, vec3 n, float key, float open_sky, float contrast) {
-  const float wrap = 0.3;
-  float facing = max(0.0, (dot(n, toward_light) + wrap) / (1.0 + wrap));
-  facing = mix(1.0, facing, contrast) * (0.65 + 0.35 * facing);
-  // Light that has gone through snow is bluer: red is absorbed first.
-  vec3 shade = pow(vec3(key), vec3(0.90, 0.78, 0.66) * contrast);
+  float facing = max(0.0, (dot(n, toward_light) + facing_wrap) / (1.0 + facing_wrap));
+  facing = mix(1.0, facing, contrast) * (facing_least + facing_gain * facing);
+  vec3 shade = pow(vec3(key), absorption * contrast);
   float open = mix(1.0, open_sky, contrast);
-  vec3 ambient = mix(bounce, sky, 0.5 + 0.5 * n.y) * (0.08 + 0.92 * open) * 0.75;
-  vec3 inside = scatter * (0.6 * open * (1.0 - key) + 0.15);
-  return albedo * (sun * facing * shade * key_intensity + (ambient + inside) * ambient_intensity);
+  vec3 ambient = mix(bounce_color, sky_color, 0.5 + 0.5 * n.y) *
+                 (ambient_least + ambient_gain * open) * ambient_share;
+  vec3 inside = scatter_color * (inside_gain * open * (1.0 - key) + inside_least);
+  return albedo * (sun_color * facing * shade * key_intensity + (ambient + inside) * ambient_intensity);
 }
 
 vec3 tone_map(vec3 c) {
-  c *= 0.8;
-  c = c * (1.0 + c / 4.84) / (1.0 + 0.55 * c);
-  return pow(min(c, vec3(1.0)), vec3(1.0 / 2.2));
+  c *= exposure;
+  c = c * (1.0 + c / white_point) / (1.0 + shoulder * c);
+  return pow(min(c, vec3(1.0)), vec3(1.0 / display_gamma));
 }
 
 // Inverse of tone_map: the value that becomes the linear light y.
 vec3 before_tone_map(vec3 y) {
-  vec3 b = 1.0 - 0.55 * y;
-  return 2.42 * (sqrt(b * b + y * (4.0 / 4.84)) - b) / 0.8;
+  vec3 b = 1.0 - shoulder * y;
+  return 0.5 * white_point * (sqrt(b * b + y * (4.0 / white_point)) - b) / exposure;
 }
 
 // Software rasterisers run both sides of a branch: so all kinds share the samples of the volumes.
@@ -86,17 +77,19 @@ vec3 surface(vec3 p, vec4 normal_kind, vec3 albedo) {
   float kind = normal_kind.w;
   if (kind == kind_flat) return before_tone_map(albedo);
   bool is_hard = kind == kind_ground || kind == kind_solid;
-  // Snow: the body decides the shape, the sphere gives the grain. A stray particle has no body.
+  // A stray particle has no body.
   vec3 body = is_in_box(p) ? texture(body_volume, texture_position(p)).xyz : vec3(0.0);
   float certainty = min(length(body), 1.0);
-  if (!is_hard) n = normalize(mix(n, body / max(certainty, 1e-3), 0.72 * certainty));
+  if (!is_hard) n = normalize(mix(n, body / max(certainty, 1e-3), body_share * certainty));
   vec3 above =
-      p + (is_hard ? n * cell * (kind == kind_solid ? 2.5 : 0.5) : body * (1.2 * cell));
+      p + (is_hard ? n * cell * (kind == kind_solid ? solid_offset : ground_offset)
+                   : body * (snow_offset * cell));
   float key = key_light(is_hard ? above : above + toward_light * cell);
-  vec3 color = lit(albedo, n, key, sky_light(above), is_hard || kind == kind_snow ? 1.0 : 0.6);
+  float contrast = is_hard || kind == kind_snow ? 1.0 : value_contrast;
+  vec3 color = lit(albedo, n, key, sky_light(above), contrast);
   if (kind == kind_solid) {
     float rim = 1.0 - abs(dot(n, normalize(p)));
-    color += 0.35 * rim * rim * rim * rim * sky;
+    color += rim_light * rim * rim * rim * rim * sky_color;
   }
   return color;
 }
@@ -125,8 +118,8 @@ vec4 smoke_before(float depth) {
     vec4 smoke = texelFetch(smoke_map, q, 0);
     float apart = (texelFetch(smoke_depth_map, q, 0).r - z) / smoke_spacing;
     // Samples that smoke already hides may be anywhere behind it.
-    if (smoke.a > 0.999) apart = max(apart, 0.0);
-    apart = 9.0 * apart * apart;  // up to a third of the spacing it hardly counts
+    if (smoke.a > smoke_hides) apart = max(apart, 0.0);
+    apart = smoke_falloff * apart * apart;
     float weight = near.x * near.y / (1.0 + apart * apart);
     sum += weight * smoke;
     total += weight;
@@ -136,7 +129,7 @@ vec4 smoke_before(float depth) {
 
 // Henyey and Greenstein, 1 on average: dust is brighter towards the light.
 float phase(float cosine) {
-  const float g = 0.5;
+  const float g = smoke_forward;
   return (1.0 - g * g) / pow(1.0 + g * g - 2.0 * g * cosine, 1.5);
 }
 
@@ -144,9 +137,10 @@ float phase(float cosine) {
 vec3 smoke_light(vec4 sums) {
   if (is_smoke_colored) return sums.rgb;
   float ahead = phase(dot(normalize(view_ray(gl_FragCoord.xy)), toward_light)) - 1.0;
-  vec3 direct = sun * (1.75 * (1.0 + 0.35 * ahead) * sums.r);
-  vec3 inside = mix(sun, sky, 0.75) * (0.30 * (1.0 + 0.2 * ahead) * sums.b);
-  vec3 ambient = sky * (0.72 * sums.g) + bounce * (0.42 * sums.a);
+  vec3 direct = sun_color * (smoke_direct * (1.0 + smoke_direct_phase * ahead) * sums.r);
+  vec3 inside = mix(sun_color, sky_color, smoke_inside_sky) *
+                (smoke_inside * (1.0 + smoke_inside_phase * ahead) * sums.b);
+  vec3 ambient = sky_color * (smoke_sky * sums.g) + bounce_color * (smoke_bounce * sums.a);
   return (direct + inside) * key_intensity + ambient * ambient_intensity;
 }
 #endif
@@ -167,7 +161,8 @@ void main() {
   }
   // Darker corners; but a colour that stands for a value is the one of the legend, and what a
   // transparent picture is laid over would not have them.
-  float vignette = is_transparent == 1 ? 1.0 : 1.0 - 0.35 * dot(across - 0.5, across - 0.5);
+  float corner = dot(across - 0.5, across - 0.5);
+  float vignette = is_transparent == 1 ? 1.0 : 1.0 - vignette_strength * corner;
   if (normal_kind.w != kind_flat) color *= vignette;
 #ifdef SMOKE
   vec4 smoke = smoke_before(depth);

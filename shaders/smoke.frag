@@ -4,11 +4,12 @@
 // where it ended. Writes no depth.
 
 #include "view.glsl"
+#include "constants.glsl"
 #include "noise.glsl"
 
 uniform sampler2D depth_map;
 uniform sampler3D smoke_volume;
-uniform sampler3D brick_map;   // 0 where 4x4x4 texels are empty
+uniform sampler3D brick_map;   // 0 where brick_side^3 texels are empty
 uniform sampler2D span_map;    // nearest and farthest smoke of a tile, m along the view
 uniform sampler2D colormap;    // linear
 uniform float tile;            // samples
@@ -24,9 +25,6 @@ uniform float key_light, sky_light;  // on colours
 // Key light, sky, light from inside, opacity; with VALUE linear light and opacity.
 layout(location = 0) out vec4 out_sums;
 layout(location = 1) out float out_depth;
-
-const int max_steps = 1024;
-const float opaque = 0.015;  // what is left of the light where a march ends
 
 float distance_of(float depth) { return near_distance / max(1.0 - depth, 1e-9); }
 
@@ -69,18 +67,20 @@ void main() {
   if (!(z < z_end)) return;
 
   float per_z = length(ray);  // m along the ray per m along the view
-  float dz = max(step_length / per_z, (z_end - z) / float(max_steps));
+  float dz = max(step_length / per_z, (z_end - z) / float(max_march_steps));
   float jitter = even_noise(gl_FragCoord.xy);
   vec3 per_texel = 1.0 / (ray / texel + vec3(equal(ray, vec3(0.0))) * 1e-7);
   float left = 1.0;
   vec4 sums = vec4(0.0);
-  for (int i = 0; i < max_steps && z < z_end && left > opaque; ++i) {
+  for (int i = 0; i < max_march_steps && z < z_end && left > march_opaque; ++i) {
     float part = min(dz, z_end - z);
     vec3 u = (ray * (z + jitter * part) - grid_origin) / texel;
-    vec3 brick = floor(u * 0.25);
+    const float side = float(brick_side);
+    vec3 brick = floor(u / side);
     if (texelFetch(brick_map, ivec3(brick), 0).r == 0.0) {
       // On to the first step that begins beyond the brick.
-      vec3 exits = max((4.0 * brick - u) * per_texel, (4.0 * brick + 4.0 - u) * per_texel);
+      vec3 from_corner = side * brick - u;
+      vec3 exits = max(from_corner * per_texel, (from_corner + side) * per_texel);
       float steps = floor(min(min(exits.x, exits.y), exits.z) / dz) + 1.0;
       z += max(steps, 1.0) * dz;
       continue;
@@ -100,7 +100,7 @@ void main() {
 #endif
   }
   sums.a = 1.0 - left;
-  if (left <= opaque) {
+  if (left <= march_opaque) {
     sums /= sums.a;  // what a march cut short left out
     out_depth = min(out_depth, z);
   }

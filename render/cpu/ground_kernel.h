@@ -3,6 +3,7 @@
 
 #include "render/cpu/lane_math.h"
 #include "render/cpu/surface_job.h"
+#include "render/light/shading_constants.h"
 
 namespace neve::render::cpu {
 namespace {
@@ -12,7 +13,8 @@ template <class V>
 NEVE_INLINE V line_cover(V at, V span, float line_width) {
   const V pixels = absolute_lanes(fraction_lanes(at - 0.5f) - 0.5f) / span;
   const V cover = unit_lanes(all<V>(0.5f * line_width + 0.5f) - pixels);
-  const V t = unit_lanes((span - 0.08f) * (1 / 0.22f));
+  const float first = light::line_veil_first, last = light::line_veil_last;
+  const V t = unit_lanes((span - first) * (1 / (last - first)));
   return cover * (1 - t * t * (3 - 2 * t));
 }
 
@@ -66,14 +68,14 @@ NEVE_INLINE void ground_lanes(const GroundJob& job, light::GBufferTile& tile, in
   const Points3<V> from_center = ray * z + all_points<V>(-job.fade_center);
   const V left =
       rough_decay(square_of(from_center) * (1 / (job.fade_distance * job.fade_distance)));
-  is_seen &= left >= all<V>(0.004f);
+  is_seen &= left >= all<V>(light::ground_least);
   if (!any_lane(is_seen)) return;
 
   I number{};
   for (int l = 0; l < lane_count<V>; ++l) number[l] = l;
   const V sx = (number & 1) == 0 ? all<V>(1) : all<V>(-1);
   const V line = line_share(job, trio_of(inverse, dx, dy, sx, sy), base, x, sx, sy);
-  const V bright = square_root_lanes(1 + 0.34f * line);
+  const V bright = square_root_lanes(1 + light::line_brightness * line);
   const I albedo = to_byte(job.root_color.x * bright) | to_byte(job.root_color.y * bright) << 8 |
                    to_byte(job.root_color.z * bright) << 16 | to_byte(left) << 24;
   const auto put = [&](float* to, V value) NEVE_INLINE_BODY {

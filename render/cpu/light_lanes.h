@@ -3,6 +3,7 @@
 
 #include "render/cpu/lane_math.h"
 #include "render/light/light_job.h"
+#include "render/light/shading_constants.h"
 
 namespace neve::render::cpu {
 namespace {
@@ -92,7 +93,7 @@ NEVE_INLINE V key_lanes(const light::LightCells& cells, Vec3f toward_light, Poin
     cut(p.y, toward_light.y, cells.origin.y, cells.count.y);
     cut(p.z, toward_light.z, cells.origin.z, cells.count.z);
     is_shaded &= ~is_outside | ((enter >= V{}) & (enter <= leave));
-    p = choose(is_outside, p + toward_light * (enter + 0.5f * cells.cell), p);
+    p = choose(is_outside, p + toward_light * (enter + light::entry_offset * cells.cell), p);
   }
   if (!any_lane(is_shaded)) return all<V>(1);
   V sum{};
@@ -115,7 +116,7 @@ NEVE_INLINE V sky_lanes(const light::LightCells& cells, const Points3<V>& p, Mas
   const V nearest = smaller_lanes(smaller_lanes(inside(p.x, cells.origin.x, cells.count.x),
                                                 inside(p.y, cells.origin.y, cells.count.y)),
                                   inside(p.z, cells.origin.z, cells.count.z));
-  const V weight = lanes ? unit_lanes(nearest * (1 / 3.5f)) : V{};
+  const V weight = lanes ? unit_lanes(nearest * (1 / light::sky_fade_cells)) : V{};
   const I is_near = weight > V{};
   if (!any_lane(is_near)) return all<V>(1);
   V sum{};

@@ -6,15 +6,10 @@
 #include "render/cpu/lane_math.h"
 #include "render/cpu/light_lanes.h"
 #include "render/cpu/surface_job.h"
+#include "render/light/shading_constants.h"
 
 namespace neve::render::cpu {
 namespace {
-
-// shaders/light.glsl and shade.frag.
-constexpr Vec3f sun_color = {1.30f, 1.22f, 1.08f}, sky_color = {0.42f, 0.56f, 0.80f};
-constexpr Vec3f bounce_color = {0.23f, 0.29f, 0.38f}, scatter_color = {0.10f, 0.16f, 0.24f};
-constexpr Vec3f background_top = {0.060f, 0.072f, 0.098f};
-constexpr Vec3f background_bottom = {0.190f, 0.215f, 0.260f};
 
 /// Some samples side by side in a row.
 template <class V>
@@ -29,16 +24,17 @@ struct RowPart {
 
 template <class V>
 NEVE_INLINE V tone_map(V c) {
-  c = c * 0.8f;
-  c = c * (1 + c * (1 / 4.84f)) / (1 + 0.55f * c);
-  return rough_power(unit_lanes(c), all<V>(1 / 2.2f));
+  c = c * light::exposure;
+  c = c * (1 + c * (1 / light::white_point)) / (1 + light::shoulder * c);
+  return rough_power(unit_lanes(c), all<V>(1 / light::display_gamma));
 }
 
 /// Inverse of tone_map: the value that becomes the linear light y.
 template <class V>
 NEVE_INLINE V before_tone_map(V y) {
-  const V b = 1 - 0.55f * y;
-  return (square_root_lanes(b * b + y * (4 / 4.84f)) - b) * (2.42f / 0.8f);
+  const V b = 1 - light::shoulder * y;
+  return (square_root_lanes(b * b + y * (4 / light::white_point)) - b) *
+         (0.5f * light::white_point / light::exposure);
 }
 
 /// shaders/noise.glsl
@@ -46,9 +42,10 @@ template <class V>
 NEVE_INLINE V noise_lanes(V x, float y) {
   using U = Lanes<unsigned, lane_count<V>>;
   const U column = reinterpret_cast<U>(__builtin_convertvector(x, MaskOf<V>));
-  U h = column * 0x9E3779B1u ^ (static_cast<unsigned>(static_cast<int>(y)) * 0x85EBCA77u);
-  h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
-  h = (h ^ (h >> 12)) * 0x297A2D39u;
+  U h = column * light::noise_column ^
+        (static_cast<unsigned>(static_cast<int>(y)) * light::noise_row);
+  h = (h ^ (h >> 15)) * light::noise_mix_1;
+  h = (h ^ (h >> 12)) * light::noise_mix_2;
   h = (h ^ (h >> 15)) >> 8;
   return __builtin_convertvector(reinterpret_cast<MaskOf<V>>(h), V) * (1.0f / 16777216);
 }
@@ -63,23 +60,24 @@ NEVE_INLINE Points3<V> root_squared(MaskOf<V> albedo) {
 template <class V>
 NEVE_INLINE Points3<V> lit(const ShadeJob& job, const Points3<V>& albedo, const Points3<V>& n,
                            V key, V open_sky, V contrast) {
-  constexpr float wrap = 0.3f;
+  const float wrap = light::facing_wrap;
   const V raw = larger_lanes((along(n, job.toward_light) + wrap) * (1 / (1 + wrap)), V{});
-  const V facing = mix_lanes(all<V>(1), raw, contrast) * (0.65f + 0.35f * raw);
-  // Light that has gone through snow is bluer: red is absorbed first.
+  const V facing =
+      mix_lanes(all<V>(1), raw, contrast) * (light::facing_least + light::facing_gain * raw);
   const V log_key = rough_log2(larger_lanes(key, all<V>(1e-30f))) * contrast;
   const V direct = facing * job.key_intensity;
   const V open = mix_lanes(all<V>(1), open_sky, contrast);
   const V up = 0.5f + 0.5f * n.y;
-  const V around = (0.08f + 0.92f * open) * (0.75f * job.ambient_intensity);
-  const V inside = (0.6f * open * (1 - key) + 0.15f) * job.ambient_intensity;
-  const auto channel = [&](float Vec3f::*c, float power) NEVE_INLINE_BODY {
-    return direct * rough_exp2(log_key * power) * (sun_color.*c) +
-           around * mix_lanes(all<V>(bounce_color.*c), all<V>(sky_color.*c), up) +
-           inside * (scatter_color.*c);
+  const V around = (light::ambient_least + light::ambient_gain * open) *
+                   (light::ambient_share * job.ambient_intensity);
+  const V inside =
+      (light::inside_gain * open * (1 - key) + light::inside_least) * job.ambient_intensity;
+  const auto channel = [&](float Vec3f::*c) NEVE_INLINE_BODY {
+    return direct * rough_exp2(log_key * (light::absorption.*c)) * (light::sun_color.*c) +
+           around * mix_lanes(all<V>(light::bounce_color.*c), all<V>(light::sky_color.*c), up) +
+           inside * (light::scatter_color.*c);
   };
-  return albedo * Points3<V>{channel(&Vec3f::x, 0.90f), channel(&Vec3f::y, 0.78f),
-                             channel(&Vec3f::z, 0.66f)};
+  return albedo * Points3<V>{channel(&Vec3f::x), channel(&Vec3f::y), channel(&Vec3f::z)};
 }
 
 /// @param is_there lanes with a surface that light falls on
@@ -95,29 +93,31 @@ NEVE_INLINE Points3<V> surface_light(const ShadeJob& job, const RowPart<V>& part
                   load_lanes<V>(tile.normal_z + part.at)};
   const I is_solid = kind == light::kind_solid, is_hard = is_solid | (kind == light::kind_ground);
   const I is_soft = is_there & ~is_hard;
-  Points3<V> out = n * (cells.cell * (is_solid ? all<V>(2.5f) : all<V>(0.5f)));
+  Points3<V> out =
+      n * (cells.cell * (is_solid ? all<V>(light::solid_offset) : all<V>(light::ground_offset)));
   if (any_lane(is_soft)) {
-    // Snow: the body decides the shape, the sphere gives the grain. A stray particle has no body.
+    // A stray particle has no body.
     const Points3<V> body = body_lanes(cells, p, is_soft & is_in_box(cells, p));
     const V certainty = smaller_lanes(square_root_lanes(square_of(body)), all<V>(1));
-    const V weight = 0.72f * certainty;
+    const V weight = light::body_share * certainty;
     const Points3<V> mixed =
         n * (1 - weight) + body * (weight / larger_lanes(certainty, all<V>(1e-3f)));
     const V size = larger_lanes(square_of(mixed), all<V>(1e-30f));
     n = choose(is_soft, mixed * (1 / square_root_lanes(size)), n);
-    out = choose(is_soft, body * all<V>(1.2f * cells.cell), out);
+    out = choose(is_soft, body * all<V>(light::snow_offset * cells.cell), out);
   }
   const Points3<V> above = p + out;
   const V toward = is_soft ? all<V>(cells.cell) : V{};
   const V key = key_lanes(cells, job.toward_light, above + job.toward_light * toward, is_there);
   const V open = sky_lanes(cells, above, is_there);
   const I is_plain = is_hard | (kind == light::kind_snow);
-  Points3<V> color = lit(job, albedo, n, key, open, is_plain ? all<V>(1) : all<V>(0.6f));
+  Points3<V> color =
+      lit(job, albedo, n, key, open, is_plain ? all<V>(1) : all<V>(light::value_contrast));
   if (any_lane(is_solid)) {
     const V back = 1 / square_root_lanes(square_of(p));
     const V facing = (n.x * p.x + n.y * p.y + n.z * p.z) * back;
     const V rim = 1 - absolute_lanes(facing), rim2 = rim * rim;
-    color = color + sky_color * (is_solid ? 0.35f * rim2 * rim2 : V{});
+    color = color + light::sky_color * (is_solid ? light::rim_light * rim2 * rim2 : V{});
   }
   return color;
 }
@@ -134,14 +134,14 @@ NEVE_INLINE Covered<V> behind_smoke(const ShadeJob& job, const RowPart<V>& part)
   using I = MaskOf<V>;
   const float cover = job.is_transparent ? 0.0f : 1.0f;
   const auto background = [&](float Vec3f::*c) NEVE_INLINE_BODY {
-    return all<V>(cover *
-                  (background_bottom.*c * (1 - part.share_y) + background_top.*c * part.share_y));
+    return all<V>(cover * (light::background_bottom.*c * (1 - part.share_y) +
+                           light::background_top.*c * part.share_y));
   };
   Covered<V> out{{background(&Vec3f::x), background(&Vec3f::y), background(&Vec3f::z)},
                  all<V>(cover)};
   const float dy = part.share_y - 0.5f;
   const V dx = part.share_x - 0.5f;
-  V vignette = job.is_transparent ? all<V>(1) : 1 - 0.35f * (dx * dx + dy * dy);
+  V vignette = job.is_transparent ? all<V>(1) : 1 - light::vignette_strength * (dx * dx + dy * dy);
   I kind;
   __builtin_memcpy(&kind, job.tile->kind + part.at, sizeof kind);
   const I is_there = kind != light::kind_nothing;
@@ -205,8 +205,8 @@ NEVE_INLINE SmokeSums<V> smoke_before(const light::SmokeCover& smoke, const RowP
   for (int n = 0; n < 4; ++n) {
     V apart = (gather_lanes<V>(smoke.depth, ray[n]) - z) * (1 / smoke.spacing);
     // Samples that smoke already hides may be anywhere behind it.
-    apart = a[n] > all<V>(0.999f) ? larger_lanes(apart, V{}) : apart;
-    apart = 9 * apart * apart;  // up to a third of the spacing it hardly counts
+    apart = a[n] > all<V>(light::smoke_hides) ? larger_lanes(apart, V{}) : apart;
+    apart = light::smoke_falloff * apart * apart;
     const V near = ((n & 1) ? part_x : 1 - part_x) * ((n >> 1) ? part_y : 1 - part_y);
     const V weight = near / (1 + apart * apart);
     sum.r += weight * gather_lanes<V>(smoke.sums[0], ray[n]);
@@ -225,17 +225,21 @@ NEVE_INLINE Points3<V> smoke_light(const ShadeJob& job, const RowPart<V>& part,
                                    const SmokeSums<V>& sums) {
   if (job.smoke->is_colored) return {sums.r, sums.g, sums.b};
   // Henyey and Greenstein, 1 on average: dust is brighter towards the light.
-  constexpr float g = 0.5f;
+  const float g = light::smoke_forward;
   const V cosine = along(part.ray, job.toward_light) / square_root_lanes(square_of(part.ray));
   const V apart = 1 + g * g - 2 * g * cosine;
   const V ahead = (1 - g * g) / (apart * square_root_lanes(apart)) - 1;
-  const V direct = 1.75f * (1 + 0.35f * ahead) * sums.r * job.key_intensity;
-  const V inside = 0.30f * (1 + 0.2f * ahead) * sums.b * job.key_intensity;
-  const V sky = 0.72f * sums.g * job.ambient_intensity;
-  const V ground = 0.42f * sums.a * job.ambient_intensity;
+  const V direct =
+      light::smoke_direct * (1 + light::smoke_direct_phase * ahead) * sums.r * job.key_intensity;
+  const V inside =
+      light::smoke_inside * (1 + light::smoke_inside_phase * ahead) * sums.b * job.key_intensity;
+  const V sky = light::smoke_sky * sums.g * job.ambient_intensity;
+  const V ground = light::smoke_bounce * sums.a * job.ambient_intensity;
+  const float of_sky = light::smoke_inside_sky;
   const auto channel = [&](float Vec3f::*c) NEVE_INLINE_BODY {
-    return direct * (sun_color.*c) + inside * (0.25f * (sun_color.*c) + 0.75f * (sky_color.*c)) +
-           sky * (sky_color.*c) + ground * (bounce_color.*c);
+    return direct * (light::sun_color.*c) +
+           inside * ((1 - of_sky) * (light::sun_color.*c) + of_sky * (light::sky_color.*c)) +
+           sky * (light::sky_color.*c) + ground * (light::bounce_color.*c);
   };
   return {channel(&Vec3f::x), channel(&Vec3f::y), channel(&Vec3f::z)};
 }
@@ -247,7 +251,8 @@ NEVE_INLINE void lay_smoke_over(const ShadeJob& job, const RowPart<V>& part, Cov
   if (!any_lane(smoke.a > V{})) return;
   const float dy = part.share_y - 0.5f;
   const V dx = part.share_x - 0.5f;
-  const V vignette = job.is_transparent ? all<V>(1) : 1 - 0.35f * (dx * dx + dy * dy);
+  const V vignette =
+      job.is_transparent ? all<V>(1) : 1 - light::vignette_strength * (dx * dx + dy * dy);
   out.color = out.color * (1 - smoke.a) + smoke_light(job, part, smoke) * vignette;
   out.cover = out.cover * (1 - smoke.a) + smoke.a;
 }

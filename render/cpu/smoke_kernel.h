@@ -3,15 +3,13 @@
 /// one after another; lanes are the four channels of two texels side by side.
 
 #include "render/cpu/lane_math.h"
+#include "render/light/shading_constants.h"
 #include "render/light/smoke_job.h"
 
 namespace neve::render::cpu {
 namespace {
 
 using Channels = Lanes<float, 4>;
-
-constexpr int max_march_steps = 1024;
-constexpr float left_at_end = 0.015f;  ///< of the light, where a march ends
 
 /// Two texels side by side: one register where there are eight lanes.
 template <class V>
@@ -104,15 +102,16 @@ NEVE_INLINE int empty_steps(const light::SmokeJob& job, const March& march, int 
   float exit = 1e30f;
   for (int axis = 0; axis < 3; ++axis) {
     const float u = march.ray[axis] * at - march.origin[axis];
-    const int b = floor_to_int(u * 0.25f);
-    const float low = 4 * static_cast<float>(b) - u;
-    exit = smaller(exit, larger(low * march.per_texel[axis], (low + 4) * march.per_texel[axis]));
+    const int b = floor_to_int(u * (1.0f / light::brick_side));
+    const float low = light::brick_side * static_cast<float>(b) - u;
+    exit = smaller(exit, larger(low * march.per_texel[axis],
+                                (low + light::brick_side) * march.per_texel[axis]));
     brick[axis] = smaller(larger(b, 0), job.brick_count[axis] - 1);
   }
   const long index =
       (static_cast<long>(brick[2]) * job.brick_count.y + brick[1]) * job.brick_count.x + brick[0];
   if (job.bricks[index] != 0) return 0;
-  return static_cast<int>(clamped(exit / march.dz, 0, max_march_steps)) + 1;
+  return static_cast<int>(clamped(exit / march.dz, 0, light::max_march_steps)) + 1;
 }
 
 /// Some steps, as many for every instruction set.
@@ -197,7 +196,7 @@ NEVE_INLINE MarchResult march_through(const light::SmokeJob& job, const March& m
   // Far fewer than lanes can count in floats: dz is at least a max_march_steps-th of the way.
   const int last = static_cast<int>((march.z_end - march.z) / march.dz) + 1;
   int step = 0;
-  while (step < last && r.left > left_at_end) {
+  while (step < last && r.left > light::march_opaque) {
     if (const int empty = empty_steps(job, march, step); empty > 0) {
       step += empty;
       continue;
@@ -208,7 +207,7 @@ NEVE_INLINE MarchResult march_through(const light::SmokeJob& job, const March& m
     place_steps<V>(job, march, step, steps);
     read_texels<V>(job, count, steps);
     find_decay<V>(march, steps);
-    for (int k = 0; k < count && r.left > left_at_end; ++k, ++step) {
+    for (int k = 0; k < count && r.left > light::march_opaque; ++k, ++step) {
       const float rest = r.left * steps.decay[k];
       const float share = (r.left - rest) * steps.inverse[k];
       r.left = rest;
@@ -247,16 +246,17 @@ NEVE_INLINE void march_ray(const light::SmokeJob& job, int x, int y) {
     march.ray = ray * per_texel;
     march.per_texel = {inverse_of(march.ray.x), inverse_of(march.ray.y), inverse_of(march.ray.z)};
     march.z = z;
-    march.dz = larger(0.5f * job.texel / per_z, (z_end - z) / max_march_steps);
+    march.dz = larger(0.5f * job.texel / per_z, (z_end - z) / light::max_march_steps);
     march.z_end = z_end;
-    march.jitter = fraction_of(52.9829189f * fraction_of(fx * 0.06711056f + fy * 0.00583715f));
+    march.jitter = fraction_of(light::even_noise_scale * fraction_of(fx * light::even_noise_column +
+                                                                     fy * light::even_noise_row));
     march.extinction = job.extinction * per_z;
     const MarchResult result = march_through<V>(job, march);
     sums = result.sums;
     if (!job.colormap)
       sums = Channels{sums[1], sums[2], sums[3], 0};  // the first is what was taken
     float alpha = 1 - result.left;
-    if (result.left <= left_at_end) {
+    if (result.left <= light::march_opaque) {
       sums = sums * (1 / alpha);  // what a march cut short left out
       alpha = 1;
       depth = smaller(depth, result.z);

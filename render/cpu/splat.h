@@ -9,6 +9,7 @@
 #include "render/cpu/draw_kernels.h"
 #include "render/frame/frame.h"
 #include "render/frame/view.h"
+#include "render/light/shading_constants.h"
 #include "sim/base/thread_pool.h"
 
 namespace neve::render::cpu {

@@ -6,6 +6,7 @@
 
 #include "render/frame/colormap.h"
 #include "render/light/light_fields.h"
+#include "render/light/shading_constants.h"
 
 namespace neve::render::light {
 namespace {
@@ -79,21 +80,22 @@ Glow glow(const Lit& lit, Vec3f toward_light, float contrast) {
 }
 
 void mark_bricks(const SmokeGrid& grid, SmokeVolume& volume) {
-  for (int axis = 0; axis < 3; ++axis) volume.brick_count[axis] = (grid.size[axis] - 1) / 4 + 1;
+  constexpr int side = brick_side;
+  for (int axis = 0; axis < 3; ++axis) volume.brick_count[axis] = (grid.size[axis] - 1) / side + 1;
   const Vec3i count = volume.brick_count;
   volume.bricks.assign(static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y) *
                            static_cast<std::size_t>(count.z),
                        0);
   // A texel on the face between two bricks counts for both.
-  const auto first = [](int i) { return i > 0 && i % 4 == 0 ? i / 4 - 1 : i / 4; };
+  const auto first = [](int i) { return i > 0 && i % side == 0 ? i / side - 1 : i / side; };
   for (int z = 0; z < grid.size.z; ++z) {
     for (int y = 0; y < grid.size.y; ++y) {
       const float* row = grid.opacity.data() + grid.index(0, y, z);
       for (int x = 0; x < grid.size.x; ++x) {
         if (!(row[x] > 0)) continue;
-        for (int c = first(z); c <= z / 4; ++c) {
-          for (int b = first(y); b <= y / 4; ++b) {
-            for (int a = first(x); a <= x / 4; ++a)
+        for (int c = first(z); c <= z / side; ++c) {
+          for (int b = first(y); b <= y / side; ++b) {
+            for (int a = first(x); a <= x / side; ++a)
               volume.bricks[static_cast<std::size_t>((c * count.y + b) * count.x + a)] = 255;
           }
         }
@@ -150,9 +152,9 @@ void add_brick(const SmokeGrid& grid, Vec3i brick, const View& view, SmokeSpans&
   float left = huge, right = -huge, bottom = huge, top = -huge, near = huge * huge, far = 0;
   bool is_at_eye = false;
   for (int n = 0; n < 8; ++n) {
-    const Vec3f corner = {static_cast<float>(4 * (brick.x + (n & 1))),
-                          static_cast<float>(4 * (brick.y + (n >> 1 & 1))),
-                          static_cast<float>(4 * (brick.z + (n >> 2)))};
+    const Vec3f corner = {static_cast<float>(brick_side * (brick.x + (n & 1))),
+                          static_cast<float>(brick_side * (brick.y + (n >> 1 & 1))),
+                          static_cast<float>(brick_side * (brick.z + (n >> 2)))};
     const Vec3f p = view.project(grid.origin + grid.spacing * corner);
     is_at_eye = is_at_eye || p.z <= view.near_distance;
     near = std::min(near, p.z);

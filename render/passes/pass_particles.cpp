@@ -2,7 +2,7 @@
 #include <cstddef>
 
 #include "render/frame/point_list.h"
-#include "render/light/gbuffer_tile.h"
+#include "render/light/shading_constants.h"
 #include "render/passes/passes.h"
 #include "render/passes/view_uniforms.h"
 
