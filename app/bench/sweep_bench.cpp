@@ -8,8 +8,8 @@
 #include "app/run/run_json.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
-#include "app/sweep/jobs/engine.h"
-#include "app/sweep/plan/look.h"
+#include "app/sweep/jobs/local.h"
+#include "app/sweep/plan/shared_view.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/plan/sweep_plan.h"
 #include "app/sweep/store/prepare.h"
@@ -40,7 +40,7 @@ struct Round {
 };
 
 /// Seconds that a run spent on simulating and drawing.
-double seconds_of_work(const std::filesystem::path& folder, const sweep::store::ManifestRun& run) {
+double seconds_of_work(const std::filesystem::path& folder, const sweep::Run& run) {
   double seconds = 0;
   for (const run::FrameRecord& frame :
        run::read_frame_records(sweep::store::runs_folder(folder) / run.folder))
@@ -56,22 +56,22 @@ Round measure_round(const BenchOptions& options, int cores, int run_count, Progr
   sweep.axes = {"seed={ range = [1, " + std::to_string(run_count) + "] }"};
   sweep.out = (scratch.path() / "out").string();
   sweep::plan::SweepPlan plan = sweep::plan::plan_sweep(sweep);
-  sweep::plan::share_look(plan, cores);
+  sweep::plan::share_camera_and_ranges(plan, cores);
   const sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan);
-  sweep::jobs::EngineOptions engine;
+  sweep::jobs::LocalOptions engine;
   engine.cores = cores;
   engine.backend = options.backend;
   engine.program = this_program();
   std::vector<int> all;
-  for (const sweep::store::ManifestRun& run : manifest.runs) all.push_back(run.index);
-  const sweep::jobs::EngineResult result =
+  for (const sweep::Run& run : manifest.runs) all.push_back(run.index);
+  const sweep::jobs::JobsResult result =
       sweep::jobs::run_local(plan.folder, manifest, all, engine, progress);
   stop_if_interrupted();
   if (result.failed > 0) throw Error(exit_internal, "a run of the bench failed");
   double overhead = 0;
-  for (const sweep::store::ManifestRun& run : manifest.runs)
+  for (const sweep::Run& run : manifest.runs)
     overhead +=
-        sweep::store::read_report(sweep::store::runs_folder(plan.folder) / run.folder).seconds -
+        sweep::store::read_status(sweep::store::runs_folder(plan.folder) / run.folder).seconds -
         seconds_of_work(plan.folder, run);
   return {result.core_seconds / (cores * result.seconds), overhead / run_count};
 }

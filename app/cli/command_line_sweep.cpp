@@ -118,8 +118,7 @@ void add_run(CLI::App& sweep, Action& action) {
       "run", "Make one run of an existing sweep; --emit and --engine slurm use this");
   const auto options = std::make_shared<sweep::plan::SweepRunOptions>();
   command->add_option("--index", options->index, "Number of the run")->required()->type_name("N");
-  command->add_flag("--retry-failed", options->is_failed_again,
-                    "Repeat the run if it failed before");
+  command->add_flag("--retry-failed", options->retry_failed, "Repeat the run if it failed before");
   add_folder(*command, action, options, run_sweep_run);
 }
 
@@ -146,7 +145,7 @@ void add_sweep(CLI::App& app, Action& action) {
       ->type_name("N");
   command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
       ->type_name("NAME");
-  command->add_flag("--retry-failed", options->is_failed_again,
+  command->add_flag("--retry-failed", options->retry_failed,
                     "Repeat the runs that failed, timed out, crashed or took too much memory");
   command->add_flag("--dry-run", options->is_dry_run,
                     "Print the runs, their cost and memory; start nothing");

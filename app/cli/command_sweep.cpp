@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,11 +18,11 @@
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
-#include "app/sweep/jobs/engine.h"
+#include "app/sweep/jobs/local.h"
 #include "app/sweep/jobs/slurm.h"
 #include "app/sweep/plan/dry_run_report.h"
 #include "app/sweep/plan/labels.h"
-#include "app/sweep/plan/look.h"
+#include "app/sweep/plan/shared_view.h"
 #include "app/sweep/plan/sweep_plan.h"
 #include "app/sweep/read/read_sweep.h"
 #include "app/sweep/sheet/collect.h"
@@ -42,7 +43,7 @@ std::vector<int> chosen_runs(const sweep::plan::SweepOptions& options,
                              const sweep::store::Manifest& manifest) {
   std::vector<int> indices;
   if (options.only.empty())
-    for (const sweep::store::ManifestRun& run : manifest.runs) indices.push_back(run.index);
+    for (const sweep::Run& run : manifest.runs) indices.push_back(run.index);
   else
     indices = sweep::plan::parse_selection(options.only, manifest.runs.back().index);
   if (options.shard)
@@ -60,43 +61,42 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
   std::string text;
   int count = 0;
   for (const int index : chosen_runs(options, manifest)) {
-    const sweep::store::ManifestRun& run = manifest.runs[static_cast<std::size_t>(index)];
+    const sweep::Run& run = manifest.runs[static_cast<std::size_t>(index)];
     const sweep::store::RunState state =
-        sweep::store::read_report(sweep::store::runs_folder(folder) / run.folder).state;
+        sweep::store::read_status(sweep::store::runs_folder(folder) / run.folder).state;
     if (sweep::store::is_finished(state) &&
-        !(options.is_failed_again && sweep::store::has_failed(state)))
+        !(options.retry_failed && sweep::store::has_failed(state)))
       continue;
-    text += program + " sweep run " + where + " --index " + std::to_string(index) +
-            " --threads 1 --quiet" + (options.is_failed_again ? " --retry-failed" : "") + "\n";
+    text += fmt::format("{} sweep run {} --index {} --threads 1 --quiet{}\n", program, where, index,
+                        options.retry_failed ? " --retry-failed" : "");
     ++count;
   }
   output::write_file(options.emit, text);
-  progress.note(std::to_string(count) + (count == 1 ? " command in " : " commands in ") +
-                options.emit + "; then: neve sweep collect " + folder.string());
+  progress.note(fmt::format("{} {} in {}; then: neve sweep collect {}", count,
+                            count == 1 ? "command" : "commands", options.emit, folder.string()));
 }
 
-sweep::jobs::EngineResult run_engine(const sweep::plan::SweepOptions& options,
-                                     const std::filesystem::path& folder,
-                                     const sweep::store::Manifest& manifest, Progress& progress) {
+sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
+                                   const std::filesystem::path& folder,
+                                   const sweep::store::Manifest& manifest, Progress& progress) {
   const std::vector<int> indices = chosen_runs(options, manifest);
   if (options.engine == "slurm") {
     const sweep::jobs::SlurmOptions slurm{this_program(), options.backend, options.jobs,
                                           std::max(1, options.threads), options.sbatch};
-    return sweep::jobs::run_slurm(folder, manifest, indices, slurm, options.is_failed_again,
-                                  progress);
+    return sweep::jobs::run_slurm(folder, manifest, indices, slurm, options.retry_failed, progress);
   }
-  sweep::jobs::EngineOptions engine;
+  sweep::jobs::LocalOptions engine;
   engine.cores = core_count(options.threads);
   engine.jobs = options.jobs;
   engine.backend = options.backend;
-  engine.is_failed_again = options.is_failed_again;
+  engine.retry_failed = options.retry_failed;
   engine.program = this_program();
   return sweep::jobs::run_local(folder, manifest, indices, engine, progress);
 }
 
 void print_sweep_result(const sweep::plan::SweepOptions& options,
-                        const std::filesystem::path& folder,
-                        const sweep::jobs::EngineResult& result, Progress& progress) {
+                        const std::filesystem::path& folder, const sweep::jobs::JobsResult& result,
+                        Progress& progress) {
   if (options.is_json) {
     Json json;
     json["out"] = folder.string();
@@ -107,30 +107,31 @@ void print_sweep_result(const sweep::plan::SweepOptions& options,
     json["seconds"] = result.seconds;
     std::cout << to_text(json) << "\n";
   }
-  progress.note(std::to_string(result.ok) + (result.ok == 1 ? " run" : " runs") + " ok" +
-                (result.failed > 0 ? ", " + std::to_string(result.failed) + " failed" : "") +
-                ", in " + folder.string());
+  progress.note(fmt::format("{} {} ok{}, in {}", result.ok, result.ok == 1 ? "run" : "runs",
+                            result.failed > 0 ? fmt::format(", {} failed", result.failed) : "",
+                            folder.string()));
 }
 
 /// Runs whose scenes are equal although their settings are not, at most five.
 void warn_of_equal_runs(const sweep::plan::SweepPlan& plan, Progress& progress) {
   int warnings = 0;
-  std::map<std::string, const sweep::plan::RunPlan*> seen;
-  for (const sweep::plan::RunPlan& item : plan.runs) {
-    const std::string text = scene::write_scene(item.scene) + std::to_string(item.frames.first) +
-                             "-" + std::to_string(item.frames.last);
+  std::map<std::string, const sweep::plan::PlannedRun*> seen;
+  for (const sweep::plan::PlannedRun& item : plan.runs) {
+    const std::string text = scene::write_scene(item.scene) +
+                             std::to_string(item.run.frames.first) + "-" +
+                             std::to_string(item.run.frames.last);
     const auto [first, is_new] = seen.emplace(text, &item);
     if (is_new) continue;
     std::string differing;
     for (const scene::Override& setting : item.run.settings)
-      if (sweep::plan::value_of(first->second->run, setting.address) != setting.value)
+      if (first->second->run.setting(setting.address) != setting.value)
         differing += (differing.empty() ? "" : ", ") + setting.address;
     // One that is given twice is told already.
     if (differing.empty() || ++warnings > 5) continue;
-    progress.warning("runs " + std::to_string(first->second->run.index) + " and " +
-                     std::to_string(item.run.index) + " are the same: " +
-                     (differing == "output.size" ? "the sweep sets output.size itself; see --size"
-                                                 : differing + " changes nothing here"));
+    progress.warning(fmt::format(
+        "runs {} and {} are the same: {}", first->second->run.index, item.run.index,
+        differing == "output.size" ? "the sweep sets output.size itself; see --size"
+                                   : fmt::format("{} changes nothing here", differing)));
   }
 }
 
@@ -149,14 +150,14 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   }
   sweep::store::check_folder(plan);
   catch_interrupts();
-  sweep::plan::share_look(plan, cores);
+  sweep::plan::share_camera_and_ranges(plan, cores);
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first run");
   const sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan);
   if (!options.emit.empty()) {
     emit_commands(options, plan.folder, manifest, progress);
     return exit_ok;
   }
-  const sweep::jobs::EngineResult result = run_engine(options, plan.folder, manifest, progress);
+  const sweep::jobs::JobsResult result = run_engine(options, plan.folder, manifest, progress);
   sweep::sheet::collect_sweep(plan.folder, options.backend, cores, progress);
   print_sweep_result(options, plan.folder, result, progress);
   if (result.is_interrupted || is_interrupted()) {
@@ -172,15 +173,15 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   const sweep::store::Manifest manifest = sweep::store::read_manifest(options.folder);
   if (options.index < 0 || options.index >= static_cast<int>(manifest.runs.size()))
     throw scene::toml::UsageError(
-        "--index", "there is no run " + std::to_string(options.index),
-        "expected a number from 0 to " + std::to_string(manifest.runs.size() - 1));
-  sweep::jobs::EngineOptions engine;
+        "--index", fmt::format("there is no run {}", options.index),
+        fmt::format("expected a number from 0 to {}", manifest.runs.size() - 1));
+  sweep::jobs::LocalOptions engine;
   engine.cores = core_count(options.threads);
   engine.jobs = 1;
   engine.backend = options.backend;
-  engine.is_failed_again = options.is_failed_again;
+  engine.retry_failed = options.retry_failed;
   engine.program = this_program();
-  const sweep::jobs::EngineResult result =
+  const sweep::jobs::JobsResult result =
       sweep::jobs::run_local(options.folder, manifest, {options.index}, engine, progress);
   if (result.is_interrupted) return exit_resumable;
   return result.failed > 0 ? exit_runs_failed : exit_ok;

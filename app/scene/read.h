@@ -27,6 +27,9 @@ Scene read_scene_text(std::string_view text, const std::string& name,
 /// bit. Mesh files are written as absolute paths, so it reads the same from anywhere.
 std::string write_scene(const Scene& scene);
 
+/// The same before it is text.
+toml::Table scene_table(const Scene& scene);
+
 /// Views that every scene has: particles, smoke and slice.
 std::vector<View> built_in_views();
 

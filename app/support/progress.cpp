@@ -44,11 +44,11 @@ std::string progress_text(const ProgressState& state) {
   return text;
 }
 
-std::string runs_text(const RunsState& state) {
-  std::string text = std::to_string(state.finished) + "/" + std::to_string(state.all) + " runs";
-  if (state.failed > 0) text += "  " + std::to_string(state.failed) + " failed";
-  if (state.running > 0) text += "  " + std::to_string(state.running) + " running";
-  if (state.seconds_left >= 0) text += "  " + duration_text(state.seconds_left) + " left";
+std::string runs_text(const RunCounts& counts) {
+  std::string text = std::to_string(counts.finished) + "/" + std::to_string(counts.all) + " runs";
+  if (counts.failed > 0) text += "  " + std::to_string(counts.failed) + " failed";
+  if (counts.running > 0) text += "  " + std::to_string(counts.running) + " running";
+  if (counts.seconds_left >= 0) text += "  " + duration_text(counts.seconds_left) + " left";
   return text;
 }
 

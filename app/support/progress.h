@@ -42,13 +42,13 @@ class WorkClock {
 };
 
 /// Contents of the progress line of a sweep.
-struct RunsState {
+struct RunCounts {
   int finished = 0, failed = 0, running = 0, all = 0;
   double seconds_left = -1;  ///< negative: not known yet
 };
 
 /// "12/64 runs  2 failed  2 running  3 min 20 s left"
-std::string runs_text(const RunsState& state);
+std::string runs_text(const RunCounts& counts);
 
 /// True if a stream supports an updating line: a terminal that is not dumb, without NO_COLOR.
 bool can_update_lines(int fd);

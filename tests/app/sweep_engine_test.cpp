@@ -11,7 +11,7 @@
 
 #include "app/support/progress.h"
 #include "app/sweep/jobs/child.h"
-#include "app/sweep/jobs/engine.h"
+#include "app/sweep/jobs/local.h"
 #include "app/sweep/jobs/outcome.h"
 #include "app/sweep/plan/order.h"
 #include "app/sweep/store/store.h"
@@ -91,21 +91,21 @@ TEST_F(ChildTest, DiesWithItsParent) {
 
 TEST(SweepStore, RemembersReportsAndSurvivesBrokenOnes) {
   test::TemporaryFolder folder;
-  app::sweep::store::RunReport report;
-  report.state = app::sweep::store::RunState::out_of_memory;
-  report.key = "0123";
-  report.reason = "too \"much\"";
-  report.attempts = 2;
-  report.seconds = 1.5;
-  app::sweep::store::write_report(folder.path(), report);
-  const app::sweep::store::RunReport same = app::sweep::store::read_report(folder.path());
-  EXPECT_EQ(same.state, report.state);
-  EXPECT_EQ(same.key, report.key);
-  EXPECT_EQ(same.reason, report.reason);
+  app::sweep::store::RunStatus status;
+  status.state = app::sweep::store::RunState::out_of_memory;
+  status.key = "0123";
+  status.reason = "too \"much\"";
+  status.attempts = 2;
+  status.seconds = 1.5;
+  app::sweep::store::write_status(folder.path(), status);
+  const app::sweep::store::RunStatus same = app::sweep::store::read_status(folder.path());
+  EXPECT_EQ(same.state, status.state);
+  EXPECT_EQ(same.key, status.key);
+  EXPECT_EQ(same.reason, status.reason);
   EXPECT_EQ(same.attempts, 2);
   for (const char* broken : {"", "{", "[]", "{\"state\": 3}", "{\"state\": \"ok\"}"}) {
     folder.write("status.json", broken);
-    EXPECT_EQ(app::sweep::store::read_report(folder.path()).state,
+    EXPECT_EQ(app::sweep::store::read_status(folder.path()).state,
               app::sweep::store::RunState::pending)
         << broken;
   }
@@ -135,7 +135,7 @@ TEST(SweepOrder, CornersComeFirstThenMiddles) {
 }
 
 TEST(SweepThreads, FillTheCoresAndFitIntoMemory) {
-  app::sweep::store::ManifestRun small, large;
+  app::sweep::Run small, large;
   small.particles = 5000;
   small.memory = 5e7;
   large.particles = 1e6;
@@ -156,7 +156,7 @@ TEST(SweepProgress, EstimatesOverATrailingWindow) {
   for (int k = 0; k <= 600; k += 10) clock.note(0.01 * k, start + k * 1s);
   for (int k = 0; k <= 300; k += 10) clock.note(6 + k, start + (600 + k) * 1s);
   EXPECT_NEAR(clock.seconds_for(50), 50, 0.5);
-  EXPECT_EQ(runs_text(RunsState{12, 2, 2, 64, 200}),
+  EXPECT_EQ(runs_text(RunCounts{12, 2, 2, 64, 200}),
             "12/64 runs  2 failed  2 running  3 min 20 s left");
 }
 

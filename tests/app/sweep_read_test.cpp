@@ -36,7 +36,7 @@ class SweepFileTest : public testing::Test {
     return app::sweep::read::read_sweep((folder_ / "sweep.toml").string(), changes);
   }
 
-  std::vector<app::sweep::read::PlannedRun> runs(const std::string& text) {
+  std::vector<app::sweep::Run> runs(const std::string& text) {
     return app::sweep::plan::expand(read(text));
   }
 
@@ -60,7 +60,7 @@ class SweepFileTest : public testing::Test {
 
 const std::string head = "[sweep]\nscene = \"scene.toml\"\n";
 
-std::vector<std::string> values(const app::sweep::read::PlannedRun& run) {
+std::vector<std::string> values(const app::sweep::Run& run) {
   std::vector<std::string> list;
   for (const app::scene::Override& setting : run.settings) list.push_back(setting.value);
   return list;
@@ -140,7 +140,7 @@ TEST_F(SweepFileTest, LatinHypercubesMeetEveryPartOfEveryAxisOnce) {
   ASSERT_EQ(list.size(), 20u);
   std::set<int> first, second;
   int flips = 0;
-  for (const app::sweep::read::PlannedRun& run : list) {
+  for (const app::sweep::Run& run : list) {
     first.insert(static_cast<int>(std::stod(run.settings[0].value) * 10));
     second.insert(static_cast<int>(std::stod(run.settings[1].value) * 20));
     flips += run.settings[2].value == "\"flip\"";
@@ -171,7 +171,7 @@ TEST(SweepQuantile, IsTheInverseOfTheNormalDistribution) {
 }
 
 TEST_F(SweepFileTest, WholeNumbersAreDrawnWhole) {
-  for (const app::sweep::read::PlannedRun& run :
+  for (const app::sweep::Run& run :
        runs(head + "method = \"lhs\"\nsamples = 5\n[axis]\n\"seed\" = { uniform = [1, 99] }\n"))
     EXPECT_EQ(run.settings[0].value.find('.'), std::string::npos) << run.settings[0].value;
 }
@@ -262,7 +262,7 @@ TEST_F(SweepFileTest, FramesAreGivenForAllRunsOrVaried) {
   options.file = (folder_ / "scene.toml").string();
   options.axes = {"frames=1,2"};
   const app::sweep::plan::SweepPlan plan = app::sweep::plan::plan_sweep(options);
-  EXPECT_EQ(plan.runs[1].frames.last, 2);
+  EXPECT_EQ(plan.runs[1].run.frames.last, 2);
   options.frames = app::setup::FrameRange{0, 3};
   EXPECT_THROW(app::sweep::plan::plan_sweep(options), app::scene::toml::UsageError);
 }
@@ -271,9 +271,10 @@ TEST_F(SweepFileTest, RunsNeedTheMemoryOfTheirProcess) {
   app::sweep::plan::SweepOptions options;
   options.file = (folder_ / "scene.toml").string();
   options.axes = {"seed=1"};
-  const app::sweep::plan::RunPlan run = app::sweep::plan::plan_sweep(options).runs[0];
-  EXPECT_EQ(run.memory(), run.plan.memory + app::sweep::plan::program_memory);
-  EXPECT_GT(run.memory(), 80'000'000u);
+  const app::sweep::plan::PlannedRun run = app::sweep::plan::plan_sweep(options).runs[0];
+  EXPECT_EQ(run.run.memory,
+            static_cast<double>(run.plan.memory + app::sweep::plan::program_memory));
+  EXPECT_GT(run.run.memory, 80e6);
 }
 
 TEST_F(SweepFileTest, RangesOfOtherProgramsAndComponentsAreExplained) {

@@ -78,7 +78,7 @@ app::sweep::store::Manifest manifest_of(const std::vector<int>& sizes) {
   for (std::size_t a = 0; a < sizes.size(); ++a) {
     const std::string address = "a.b" + std::to_string(a);
     m.parameters.push_back({address, "b" + std::to_string(a), "Pa", "number"});
-    app::sweep::store::ManifestAxis axis{"b" + std::to_string(a), {}};
+    app::sweep::store::AxisLabels axis{"b" + std::to_string(a), {}};
     std::vector<std::vector<int>> longer;
     for (int k = 0; k < sizes[a]; ++k) axis.values.push_back(std::to_string(k));
     for (const auto& place : places)
@@ -90,12 +90,12 @@ app::sweep::store::Manifest manifest_of(const std::vector<int>& sizes) {
     m.axes.push_back(axis);
   }
   for (const auto& place : places) {
-    app::sweep::store::ManifestRun run;
+    app::sweep::Run run;
     run.index = static_cast<int>(m.runs.size());
     run.folder = app::sweep::store::run_folder_name(run.index);
     run.coordinates = place;
     for (std::size_t a = 0; a < place.size(); ++a)
-      run.settings.emplace_back("a.b" + std::to_string(a), std::to_string(place[a]));
+      run.settings.push_back({"a.b" + std::to_string(a), std::to_string(place[a])});
     m.runs.push_back(run);
   }
   return m;
@@ -170,10 +170,10 @@ std::vector<app::sweep::store::RunResult> results_of(const app::sweep::store::Ma
   std::vector<app::sweep::store::RunResult> results(m.runs.size());
   for (std::size_t k = 0; k < results.size(); ++k) {
     app::sweep::store::RunResult& r = results[k];
-    r.report.state =
+    r.status.state =
         k % 3 == 1 ? app::sweep::store::RunState::diverged : app::sweep::store::RunState::ok;
-    r.report.reason = k % 3 == 1 ? "diverged, \"badly\"" : "";
-    r.report.short_reason = "frame 17: acoustic CFL 3.1";
+    r.status.reason = k % 3 == 1 ? "diverged, \"badly\"" : "";
+    r.status.short_reason = "frame 17: acoustic CFL 3.1";
     for (std::size_t i = 0; i < app::sweep::store::metric_infos().size(); ++i)
       r.metrics.push_back(k % 4 == 2 ? std::nullopt
                                      : std::optional(static_cast<double>(k) * (k % 2 ? 0.5 : 1)));
@@ -191,12 +191,12 @@ TEST(DataCsv, KeepsTheRulesOfCinema) {
   m.parameters.push_back({"FILE.name", "name", "", "string"});
   const char* const titles[] = {"12", "nan", "a, \"b\"", "1e5", "", "x"};
   for (std::size_t k = 0; k < m.runs.size(); ++k) {
-    app::sweep::store::ManifestRun& run = m.runs[k];
-    run.settings.emplace_back("body.ball.velocity", "[0, -5, " + std::to_string(k) + "]");
-    run.settings.emplace_back("solver.transfer", k % 2 ? "\"flip\"" : "apic");
-    run.settings.emplace_back("seed", std::to_string(k));
-    run.settings.emplace_back("title", "\"" + std::string(titles[k]) + "\"");
-    run.settings.emplace_back("FILE.name", "\"f\"");
+    app::sweep::Run& run = m.runs[k];
+    run.settings.push_back({"body.ball.velocity", "[0, -5, " + std::to_string(k) + "]"});
+    run.settings.push_back({"solver.transfer", k % 2 ? "\"flip\"" : "apic"});
+    run.settings.push_back({"seed", std::to_string(k)});
+    run.settings.push_back({"title", "\"" + std::string(titles[k]) + "\""});
+    run.settings.push_back({"FILE.name", "\"f\""});
     run.label = k % 2 ? "7" : "";
     folder.write("runs/" + run.folder + "/scene.toml", "x");
   }
@@ -250,10 +250,10 @@ TEST(RunResults, CountTheStepsUntilARunDiverged) {
   frame.advance.steps = 5;
   Json run = {{"frames", Json::array({app::run::to_json(frame)})}, {"divergence", {{"step", 17}}}};
   folder.write("runs/0000/run.json", to_text(run));
-  app::sweep::store::RunReport report;
-  report.state = app::sweep::store::RunState::diverged;
-  report.key = "k";
-  app::sweep::store::write_report(folder.path() / "runs/0000", report);
+  app::sweep::store::RunStatus status;
+  status.state = app::sweep::store::RunState::diverged;
+  status.key = "k";
+  app::sweep::store::write_status(folder.path() / "runs/0000", status);
   const auto steps = [&] {
     const app::sweep::store::RunResult result =
         app::sweep::store::read_result(folder.path(), m.runs[0]);
@@ -269,7 +269,7 @@ TEST(RunResults, CountTheStepsUntilARunDiverged) {
 }
 
 TEST(RunText, HasTheFolderWhereItsNumberIsAnother) {
-  app::sweep::store::ManifestRun run;
+  app::sweep::Run run;
   run.index = 1;
   run.folder = "0001";
   EXPECT_EQ(app::sweep::store::run_text(run), "run 1");
@@ -309,8 +309,8 @@ TEST(SweepReport, IsOneFileThatNamesNothingOutside) {
 
 TEST(SweepReport, KeepsParametersAsTheyWereWritten) {
   app::sweep::store::Manifest m = manifest_of({2});
-  m.runs[0].settings[0].second = "0.123456789";
-  m.runs[1].settings[0].second = "1.40e5";
+  m.runs[0].settings[0].value = "0.123456789";
+  m.runs[1].settings[0].value = "1.40e5";
   const std::string html = app::sweep::sheet::report_html(
       "out", m, results_of(m), app::sweep::sheet::layout_sheet(m, false, 8192), {});
   EXPECT_NE(html.find("\"texts\":{\"1\":\"0.123456789\"}"), std::string::npos);
@@ -341,14 +341,14 @@ TEST(MetricPlots, HaveAPointForEachRunThatHasTheMetric) {
 TEST(RunWarnings, AreReadFromRunJsonAndCountedInTableAndReport) {
   const test::TemporaryFolder folder;
   app::sweep::store::Manifest m = manifest_of({3});
-  for (app::sweep::store::ManifestRun& run : m.runs) {
+  for (app::sweep::Run& run : m.runs) {
     run.key = "k";
-    app::sweep::store::RunReport report;
-    report.state = app::sweep::store::RunState::ok;
-    report.key = "k";
+    app::sweep::store::RunStatus status;
+    status.state = app::sweep::store::RunState::ok;
+    status.key = "k";
     const auto run_folder = folder.path() / "runs" / run.folder;
     std::filesystem::create_directories(run_folder);
-    app::sweep::store::write_report(run_folder, report);
+    app::sweep::store::write_status(run_folder, status);
   }
   folder.write("runs/0000/run.json", R"({"frames": [], "warnings": ["CFL < 4", "odd"]})");
   folder.write("runs/0001/run.json", R"({"frames": []})");  // of an older version
@@ -403,13 +403,13 @@ TEST(MetricPlots, LeaveTheAxesToRunsThatGotToTheirEnd) {
 }
 
 TEST(TileText, SaysWhatHappenedInPlace) {
-  app::sweep::store::RunReport report;
-  report.state = app::sweep::store::RunState::diverged;
-  report.short_reason = "frame 17: acoustic CFL 3.1";
-  EXPECT_EQ(app::sweep::jobs::tile_text(report), "DIVERGED frame 17: acoustic CFL 3.1");
-  report.state = app::sweep::store::RunState::out_of_memory;
-  report.short_reason.clear();
-  EXPECT_EQ(app::sweep::jobs::tile_text(report), "OUT OF MEMORY");
+  app::sweep::store::RunStatus status;
+  status.state = app::sweep::store::RunState::diverged;
+  status.short_reason = "frame 17: acoustic CFL 3.1";
+  EXPECT_EQ(app::sweep::jobs::tile_text(status), "DIVERGED frame 17: acoustic CFL 3.1");
+  status.state = app::sweep::store::RunState::out_of_memory;
+  status.short_reason.clear();
+  EXPECT_EQ(app::sweep::jobs::tile_text(status), "OUT OF MEMORY");
 }
 
 }  // namespace

@@ -64,10 +64,11 @@ inline constexpr Folder folders[] = {
     {"app/dump",
      "sim/base sim/types sim/health sim app/support app/scene/toml app/scene app/setup "
      "app/health app/run"},
-    {"app/sweep/read", "app/support app/scene/toml app/scene app/setup"},
+    {"app/sweep", "app/scene app/setup"},
+    {"app/sweep/read", "app/support app/scene/toml app/scene app/setup app/sweep"},
     {"app/sweep/plan",
      "sim/base sim/types sim/engine app/support app/scene/toml app/scene app/output app/setup "
-     "app/health app/run app/sweep/read"},
+     "app/health app/run app/sweep app/sweep/read"},
     {"app/sweep/store",
      "sim/base app/support app/scene/toml app/scene app/output app/run app/sweep/read "
      "app/sweep/plan"},
@@ -84,8 +85,8 @@ inline constexpr Folder folders[] = {
      "render/frame render/overlay render app/support app/scene/toml app/scene app/health "
      "app/picture app/run app/view/session app/view/front"},
     {"app/view/replay",
-     "render/image render/frame render app/support app/scene/toml app/output app/view/front "
-     "app/view/panels"},
+     "render/image render/frame render app/support app/scene/toml app/scene app/output "
+     "app/view/front app/view/panels"},
     {"app/view",
      "render/image render/frame render app/support app/scene app/output app/setup app/picture "
      "app/run app/view/session app/view/front app/view/panels"},

@@ -41,7 +41,7 @@ double seconds_of(const timeval& t) {
   if (::getppid() != parent) ::_exit(127);
   for (const int signal : {SIGPIPE, SIGXFSZ, SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
   if (memory > 0) {
-    // Whoever allocates faster than poll() looks meets this wall.
+    // A process that allocates faster than poll() checks meets this limit.
     const rlim_t data = memory + unused_data;
     const rlimit limit{data, data};
     ::setrlimit(RLIMIT_DATA, &limit);
@@ -60,7 +60,7 @@ double seconds_of(const timeval& t) {
 }  // namespace
 
 Child::Child(const ChildCommand& command, const ChildLimits& limits)
-    : limits_(limits), start_(Clock::now()), looked_at_(start_) {
+    : limits_(limits), start_(Clock::now()), checked_at_(start_) {
   std::vector<std::string> words{command.program.string()};
   words.insert(words.end(), command.arguments.begin(), command.arguments.end());
   std::vector<char*> argv;
@@ -89,7 +89,7 @@ Child::Child(Child&& other) noexcept
       limits_(other.limits_),
       start_(other.start_),
       asked_at_(other.asked_at_),
-      looked_at_(other.looked_at_),
+      checked_at_(other.checked_at_),
       why_(other.why_),
       is_killed_(other.is_killed_) {
   other.pid_ = -1;
@@ -138,8 +138,8 @@ std::optional<ChildResult> Child::poll() {
     return result;
   }
   if (!why_ && limits_.timeout > 0 && seconds() > limits_.timeout) end_because(Ending::timeout);
-  if (!why_ && limits_.memory > 0 && now - looked_at_ >= memory_interval) {
-    looked_at_ = now;
+  if (!why_ && limits_.memory > 0 && now - checked_at_ >= memory_interval) {
+    checked_at_ = now;
     // Not asked: asking costs memory too.
     if (resident_bytes(pid_) > limits_.memory) {
       why_ = Ending::out_of_memory;

@@ -68,7 +68,7 @@ class Child {
 
   pid_t pid_ = -1;
   ChildLimits limits_;
-  Clock::time_point start_, asked_at_, looked_at_;
+  Clock::time_point start_, asked_at_, checked_at_;
   std::optional<Ending> why_;  ///< it was asked to end
   bool is_killed_ = false;
 };

@@ -1,5 +1,7 @@
 #include "app/sweep/jobs/outcome.h"
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <cmath>
 #include <csignal>
@@ -31,7 +33,7 @@ std::string last_message(const fs::path& log) {
   return last.starts_with(prefix) ? last.substr(prefix.size()) : last;
 }
 
-double fps_of(const store::Manifest& manifest, const store::ManifestRun& run) {
+double fps_of(const store::Manifest& manifest, const Run& run) {
   const std::string given = run.value("fps");
   double fps = manifest.fps;
   std::from_chars(given.data(), given.data() + given.size(), fps);
@@ -52,107 +54,107 @@ std::string rule_text(const std::string& rule, double value) {
   return rule;
 }
 
-void judge_divergence(const store::Manifest& manifest, const store::ManifestRun& run,
-                      const fs::path& folder, store::RunReport& report) {
-  report.state = store::RunState::diverged;
+void judge_divergence(const store::Manifest& manifest, const Run& run, const fs::path& folder,
+                      store::RunStatus& status) {
+  status.state = store::RunState::diverged;
   try {
     const Json incident = parse_json(output::read_file(output::incident_path(folder)));
-    report.reason = incident.at("sentence").get<std::string>();
+    status.reason = incident.at("sentence").get<std::string>();
     const double time = incident.value("time", 0.0);
     const auto frame = static_cast<int>(std::floor(time * fps_of(manifest, run)));
     const Json value = incident.value("value", Json());
-    report.short_reason =
-        "frame " + std::to_string(frame) + ": " +
-        rule_text(incident.value("rule", ""), value.is_number() ? value.get<double>() : 0);
+    status.short_reason = fmt::format(
+        "frame {}: {}", frame,
+        rule_text(incident.value("rule", ""), value.is_number() ? value.get<double>() : 0));
   } catch (const std::exception&) {
-    report.reason = last_message(folder / "log");
+    status.reason = last_message(folder / "log");
   }
 }
 
-void judge_exit(const ChildResult& result, const store::Manifest& manifest,
-                const store::ManifestRun& run, const fs::path& folder, store::RunReport& report) {
-  report.exit_code = result.code;
+void judge_exit(const ChildResult& result, const store::Manifest& manifest, const Run& run,
+                const fs::path& folder, store::RunStatus& status) {
+  status.exit_code = result.code;
   switch (result.code) {
     case exit_ok:
-      report.state = store::RunState::ok;
+      status.state = store::RunState::ok;
       return;
     case exit_diverged:
-      return judge_divergence(manifest, run, folder, report);
+      return judge_divergence(manifest, run, folder, status);
     case exit_resumable:
     case exit_interrupted:
-      report.state = store::RunState::interrupted;
-      report.reason = "interrupted";
+      status.state = store::RunState::interrupted;
+      status.reason = "interrupted";
       return;
     default:
-      report.reason = last_message(folder / "log");
+      status.reason = last_message(folder / "log");
   }
-  const bool is_memory = report.reason.find("memory") != std::string::npos;
-  if (result.code == exit_refused && report.reason.find("out of memory") != std::string::npos)
-    report.state = store::RunState::out_of_memory;
+  const bool is_memory = status.reason.find("memory") != std::string::npos;
+  if (result.code == exit_refused && status.reason.find("out of memory") != std::string::npos)
+    status.state = store::RunState::out_of_memory;
   else if (result.code == exit_refused)
-    report.state = store::RunState::refused;
+    status.state = store::RunState::refused;
   else
-    report.state = store::RunState::failed;
-  report.short_reason = report.state == store::RunState::refused
+    status.state = store::RunState::failed;
+  status.short_reason = status.state == store::RunState::refused
                             ? (is_memory ? "memory limit" : "limit of the scene")
-                            : "exit code " + std::to_string(result.code);
-  if (report.state == store::RunState::out_of_memory) report.short_reason.clear();
+                            : fmt::format("exit code {}", result.code);
+  if (status.state == store::RunState::out_of_memory) status.short_reason.clear();
 }
 
-void judge_signal(const ChildResult& result, const fs::path& folder, store::RunReport& report) {
-  report.signal = result.signal;
-  report.state = store::RunState::crashed;
-  report.short_reason = "signal " + std::to_string(result.signal);
-  report.reason = "ended by signal " + std::to_string(result.signal);
-  if (const char* what = ::strsignal(result.signal)) report.reason += std::string(", ") + what;
+void judge_signal(const ChildResult& result, const fs::path& folder, store::RunStatus& status) {
+  status.signal = result.signal;
+  status.state = store::RunState::crashed;
+  status.short_reason = fmt::format("signal {}", result.signal);
+  status.reason = fmt::format("ended by signal {}", result.signal);
+  if (const char* name = ::strsignal(result.signal)) status.reason += fmt::format(", {}", name);
   if (result.signal == SIGKILL)
-    report.reason += "; the system kills processes that take too much memory, see dmesg";
+    status.reason += "; the system kills processes that take too much memory, see dmesg";
   // An allocation that fails in a thread ends in abort.
   if (result.signal != SIGABRT ||
       last_message(folder / "log").find("bad_alloc") == std::string::npos)
     return;
-  report.state = store::RunState::out_of_memory;
-  report.reason = "an allocation failed";
-  report.short_reason.clear();
+  status.state = store::RunState::out_of_memory;
+  status.reason = "an allocation failed";
+  status.short_reason.clear();
 }
 
 }  // namespace
 
-void judge(const ChildResult& result, const store::Manifest& manifest,
-           const store::ManifestRun& run, const fs::path& run_folder, store::RunReport& report) {
-  report.exit_code = report.signal = 0;
-  report.reason.clear();
-  report.short_reason.clear();
-  report.pid = 0;
-  report.seconds += result.seconds;
-  report.peak_memory = std::max(report.peak_memory, result.peak_memory);
+void judge(const ChildResult& result, const store::Manifest& manifest, const Run& run,
+           const fs::path& run_folder, store::RunStatus& status) {
+  status.exit_code = status.signal = 0;
+  status.reason.clear();
+  status.short_reason.clear();
+  status.pid = 0;
+  status.seconds += result.seconds;
+  status.peak_memory = std::max(status.peak_memory, result.peak_memory);
+  const std::string memory_limit = bytes_text(static_cast<std::uint64_t>(manifest.memory));
   switch (result.ending) {
     case Ending::exited:
-      return judge_exit(result, manifest, run, run_folder, report);
+      return judge_exit(result, manifest, run, run_folder, status);
     case Ending::signaled:
-      return judge_signal(result, run_folder, report);
+      return judge_signal(result, run_folder, status);
     case Ending::timeout:
-      report.state = store::RunState::timeout;
-      report.short_reason = "after " + duration_text(manifest.timeout);
-      report.reason = "stopped after " + duration_text(manifest.timeout) + ", [limits] timeout";
+      status.state = store::RunState::timeout;
+      status.short_reason = fmt::format("after {}", duration_text(manifest.timeout));
+      status.reason = fmt::format("stopped {}, [limits] timeout", status.short_reason);
       return;
     case Ending::out_of_memory:
-      report.state = store::RunState::out_of_memory;
-      report.short_reason = "over " + bytes_text(static_cast<std::uint64_t>(manifest.memory));
-      report.reason = "used more than " + bytes_text(static_cast<std::uint64_t>(manifest.memory)) +
-                      " of memory, [limits] memory";
+      status.state = store::RunState::out_of_memory;
+      status.short_reason = fmt::format("over {}", memory_limit);
+      status.reason = fmt::format("used more than {} of memory, [limits] memory", memory_limit);
       return;
     case Ending::stopped:
-      report.state = store::RunState::interrupted;
-      report.reason = "interrupted";
+      status.state = store::RunState::interrupted;
+      status.reason = "interrupted";
   }
 }
 
-std::string tile_text(const store::RunReport& report) {
+std::string tile_text(const store::RunStatus& status) {
   const auto with_reason = [&](const char* word) {
-    return report.short_reason.empty() ? std::string(word) : word + (" " + report.short_reason);
+    return status.short_reason.empty() ? std::string(word) : word + (" " + status.short_reason);
   };
-  switch (report.state) {
+  switch (status.state) {
     case store::RunState::pending:
       return "not run yet";
     case store::RunState::running:

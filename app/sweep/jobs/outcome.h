@@ -11,11 +11,10 @@ namespace neve::app::sweep::jobs {
 
 /// Fills in state, reason and the like from how the process ended and what it left: its log and, of
 /// a diverged run, incident.json.
-void judge(const ChildResult& result, const store::Manifest& manifest,
-           const store::ManifestRun& run, const std::filesystem::path& run_folder,
-           store::RunReport& report);
+void judge(const ChildResult& result, const store::Manifest& manifest, const Run& run,
+           const std::filesystem::path& run_folder, store::RunStatus& status);
 
 /// "DIVERGED frame 17: acoustic CFL 3.1", "TIMEOUT after 20 min 00 s", "CRASHED signal 11"
-std::string tile_text(const store::RunReport& report);
+std::string tile_text(const store::RunStatus& status);
 
 }  // namespace neve::app::sweep::jobs

@@ -1,5 +1,7 @@
 #include "app/sweep/jobs/slurm.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -23,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr auto look_interval = std::chrono::seconds(1);
+constexpr auto check_interval = std::chrono::seconds(1);
 constexpr int default_max_array_size = 1001;
 
 std::string without_trailing_space(std::string text) {
@@ -79,21 +81,23 @@ std::vector<std::string> sbatch_options(const store::Manifest& manifest,
 /// The script is the sweep's own run, so that signals reach it and its exit code is Slurm's.
 void write_scripts(const fs::path& folder, const SlurmOptions& options) {
   const std::string program = setup::shell_word(options.program.string()),
-                    where = setup::shell_word(fs::absolute(folder).string());
+                    where = setup::shell_word(fs::absolute(folder).string()),
+                    backend = setup::shell_word(options.backend);
   output::write_file(folder / "slurm" / "run.sh",
-                     "#!/bin/bash\nexec " + program + " sweep run " + where +
-                         " --index $((SLURM_ARRAY_TASK_ID + $1)) --threads " +
-                         std::to_string(options.threads) + " --backend " +
-                         setup::shell_word(options.backend) + " --quiet $2\n");
+                     fmt::format("#!/bin/bash\nexec {} sweep run {} --index "
+                                 "$((SLURM_ARRAY_TASK_ID + $1)) --threads {} --backend {} --quiet "
+                                 "$2\n",
+                                 program, where, options.threads, backend));
   output::write_file(folder / "slurm" / "collect.sh",
-                     "#!/bin/bash\nexec " + program + " sweep collect " + where + " --backend " +
-                         setup::shell_word(options.backend) + " --quiet\n");
+                     fmt::format("#!/bin/bash\nexec {} sweep collect {} --backend {} --quiet\n",
+                                 program, where, backend));
 }
 
 std::string job_id(const std::string& answer) {
   const std::string id = answer.substr(0, answer.find_first_of(";\n"));
   if (id.empty() || id.find_first_not_of("0123456789") != std::string::npos)
-    throw Error(exit_io, "sbatch answered \"" + answer + "\"; expected the number of a job",
+    throw Error(exit_io,
+                fmt::format("sbatch answered \"{}\"; expected the number of a job", answer),
                 "sbatch");
   return id;
 }
@@ -124,7 +128,7 @@ std::vector<std::string> living(const std::vector<std::string>& jobs) {
 
 std::vector<std::string> submit(const fs::path& folder, const store::Manifest& manifest,
                                 const std::vector<int>& indices, const SlurmOptions& options,
-                                bool is_failed_again) {
+                                bool retry_failed) {
   output::make_folder(folder / "slurm");
   write_scripts(folder, options);
   const std::string log = (fs::absolute(folder) / "slurm" / "%A_%a.log").string();
@@ -137,7 +141,7 @@ std::vector<std::string> submit(const fs::path& folder, const store::Manifest& m
     words.push_back("--output=" + log);
     words.push_back((folder / "slurm" / "run.sh").string());
     words.push_back(std::to_string(array.offset));
-    if (is_failed_again) words.push_back("--retry-failed");
+    if (retry_failed) words.push_back("--retry-failed");
     jobs.push_back(job_id(call("sbatch", words)));
     after += ":" + jobs.back();
   }
@@ -152,17 +156,14 @@ std::vector<std::string> submit(const fs::path& folder, const store::Manifest& m
   return jobs;
 }
 
-struct Counts {
-  int ok = 0, failed = 0, running = 0;
-};
-
-Counts count(const fs::path& folder, const store::Manifest& manifest,
-             const std::vector<int>& indices) {
-  Counts counts;
+RunCounts count(const fs::path& folder, const store::Manifest& manifest,
+                const std::vector<int>& indices) {
+  RunCounts counts;
+  counts.all = static_cast<int>(indices.size());
   for (const int index : indices) {
-    const store::ManifestRun& run = manifest.runs[static_cast<std::size_t>(index)];
-    const store::RunState state = store::read_report(store::runs_folder(folder) / run.folder).state;
-    counts.ok += state == store::RunState::ok;
+    const Run& run = manifest.runs[static_cast<std::size_t>(index)];
+    const store::RunState state = store::read_status(store::runs_folder(folder) / run.folder).state;
+    counts.finished += store::is_finished(state);
     counts.failed += store::has_failed(state);
     counts.running += state == store::RunState::running;
   }
@@ -180,37 +181,35 @@ std::vector<SlurmArray> split_arrays(const std::vector<int>& indices, int max_ar
   return arrays;
 }
 
-EngineResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
-                       const std::vector<int>& indices, const SlurmOptions& options,
-                       bool is_failed_again, Progress& progress) {
+JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
+                     const std::vector<int>& indices, const SlurmOptions& options,
+                     bool retry_failed, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<int> missing;
   std::set<std::string> keys;
   for (const int index : indices) {
-    const store::ManifestRun& run = manifest.runs[static_cast<std::size_t>(index)];
-    const store::RunState state = store::read_report(store::runs_folder(folder) / run.folder).state;
-    const bool is_wanted =
-        !store::is_finished(state) || (is_failed_again && store::has_failed(state));
+    const Run& run = manifest.runs[static_cast<std::size_t>(index)];
+    const store::RunState state = store::read_status(store::runs_folder(folder) / run.folder).state;
+    const bool is_wanted = !store::is_finished(state) || (retry_failed && store::has_failed(state));
     if (is_wanted && keys.insert(run.key).second) missing.push_back(index);
   }
-  EngineResult result;
+  JobsResult result;
   std::vector<std::string> jobs = living(known_jobs(folder));
   if (!jobs.empty()) {
     progress.note("waiting for the jobs submitted before");
   } else if (!missing.empty()) {
-    jobs = submit(folder, manifest, missing, options, is_failed_again);
+    jobs = submit(folder, manifest, missing, options, retry_failed);
     result.started = static_cast<int>(missing.size());
-    progress.note("submitted " + std::to_string(missing.size()) + " runs as job " + jobs.front() +
-                  (jobs.size() > 2 ? " and others" : ""));
+    progress.note(fmt::format("submitted {} runs as job {}{}", missing.size(), jobs.front(),
+                              jobs.size() > 2 ? " and others" : ""));
   }
   WorkClock clock;
   while (!jobs.empty() && !is_interrupted()) {
-    const Counts counts = count(folder, manifest, indices);
-    const int all = static_cast<int>(indices.size()), finished = counts.ok + counts.failed;
-    clock.note(finished);
-    progress.line(runs_text(
-        {finished, counts.failed, counts.running, all, clock.seconds_for(all - finished)}));
-    std::this_thread::sleep_for(look_interval);
+    RunCounts counts = count(folder, manifest, indices);
+    clock.note(counts.finished);
+    counts.seconds_left = clock.seconds_for(counts.all - counts.finished);
+    progress.line(runs_text(counts));
+    std::this_thread::sleep_for(check_interval);
     jobs = living(jobs);
   }
   if (is_interrupted() && !jobs.empty()) {
@@ -218,8 +217,8 @@ EngineResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
     result.is_interrupted = true;
   }
   progress.clear();
-  const Counts counts = count(folder, manifest, indices);
-  result.ok = counts.ok;
+  const RunCounts counts = count(folder, manifest, indices);
+  result.ok = counts.finished - counts.failed;
   result.failed = counts.failed;
   const std::chrono::duration<double> span = std::chrono::steady_clock::now() - start;
   result.seconds = span.count();

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/support/progress.h"
-#include "app/sweep/jobs/engine.h"
+#include "app/sweep/jobs/local.h"
 
 namespace neve::app::sweep::jobs {
 
@@ -31,8 +31,8 @@ std::vector<SlurmArray> split_arrays(const std::vector<int>& indices, int max_ar
 /// waits for that, with progress. Jobs that an earlier call submitted and that are still there are
 /// waited for instead. A Ctrl-C cancels the jobs.
 /// @throws Error where there is no Slurm, or it refuses
-EngineResult run_slurm(const std::filesystem::path& folder, const store::Manifest& manifest,
-                       const std::vector<int>& indices, const SlurmOptions& options,
-                       bool is_failed_again, Progress& progress);
+JobsResult run_slurm(const std::filesystem::path& folder, const store::Manifest& manifest,
+                     const std::vector<int>& indices, const SlurmOptions& options,
+                     bool retry_failed, Progress& progress);
 
 }  // namespace neve::app::sweep::jobs

@@ -1,5 +1,7 @@
 #include "app/sweep/plan/expand.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,14 +24,14 @@ double six_digits(double x) {
 }
 
 /// The value at a place between 0 and 1 of a distribution.
-double drawn_value(const read::AxisSpec& spec, double u) {
+double drawn_value(const read::AxisRule& spec, double u) {
   if (spec.uniform) return spec.uniform->first + u * (spec.uniform->last - spec.uniform->first);
   if (spec.log_uniform)
     return spec.log_uniform->first * std::pow(spec.log_uniform->last / spec.log_uniform->first, u);
   return spec.normal->first + spec.normal->last * normal_quantile(std::clamp(u, 1e-9, 1 - 1e-9));
 }
 
-void append_value(read::PlannedRun& run, const read::Axis& axis, std::size_t value) {
+void append_value(Run& run, const read::Axis& axis, std::size_t value) {
   for (const read::Axis::Parameter& parameter : axis.parameters)
     run.settings.push_back(parameter.values[value]);
   if (axis.value_labels.empty()) return;
@@ -37,7 +39,7 @@ void append_value(read::PlannedRun& run, const read::Axis& axis, std::size_t val
 }
 
 /// @param u place on the axis, 0 to 1
-void append_at(read::PlannedRun& run, const read::Axis& axis, double u) {
+void append_at(Run& run, const read::Axis& axis, double u) {
   const read::Axis::Parameter& parameter = axis.parameters.front();
   if (!parameter.drawn) {
     const auto count = static_cast<double>(axis.size());
@@ -60,9 +62,9 @@ std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
   return order;
 }
 
-std::vector<read::PlannedRun> drawn(const read::Sweep& sweep) {
+std::vector<Run> drawn(const read::Sweep& sweep) {
   const auto count = static_cast<std::size_t>(sweep.settings.samples);
-  std::vector<read::PlannedRun> runs(count);
+  std::vector<Run> runs(count);
   for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
     const std::uint64_t seed = mix64(sweep.settings.seed, a);
     const std::vector<std::size_t> stratum = shuffled(count, seed);
@@ -77,19 +79,19 @@ std::vector<read::PlannedRun> drawn(const read::Sweep& sweep) {
   return runs;
 }
 
-std::vector<read::PlannedRun> zipped(const read::Sweep& sweep) {
-  std::vector<read::PlannedRun> runs(sweep.axes.empty() ? 0 : sweep.axes.front().size());
+std::vector<Run> zipped(const read::Sweep& sweep) {
+  std::vector<Run> runs(sweep.axes.empty() ? 0 : sweep.axes.front().size());
   for (std::size_t k = 0; k < runs.size(); ++k)
     for (const read::Axis& axis : sweep.axes) append_value(runs[k], axis, k);
   return runs;
 }
 
-std::vector<read::PlannedRun> combined(const read::Sweep& sweep) {
-  std::vector<read::PlannedRun> runs;
+std::vector<Run> combined(const read::Sweep& sweep) {
+  std::vector<Run> runs;
   if (sweep.axes.empty()) return runs;
   std::vector<int> at(sweep.axes.size(), 0);
   while (true) {
-    read::PlannedRun& run = runs.emplace_back();
+    Run& run = runs.emplace_back();
     run.coordinates = at;
     for (std::size_t a = 0; a < at.size(); ++a)
       append_value(run, sweep.axes[a], static_cast<std::size_t>(at[a]));
@@ -149,16 +151,17 @@ double normal_quantile(double p) {
   return 0.5 * (low + high);
 }
 
-std::vector<read::PlannedRun> expand(const read::Sweep& sweep) {
+std::vector<Run> expand(const read::Sweep& sweep) {
   check_axes(sweep);
   const double count = count_of(sweep);
   if (count > sweep.limits.runs)
     throw LimitError(
-        "refused: " + (count < 1e15 ? fixed_text(count, 0) : scene::toml::number_text(count)) +
-            " runs are more than limits.runs = " + std::to_string(sweep.limits.runs) +
-            "; raise it in the sweep file, or use method \"lhs\" with samples",
+        fmt::format("refused: {} runs are more than limits.runs = {}; raise it in the sweep file, "
+                    "or use method \"lhs\" with samples",
+                    count < 1e15 ? fixed_text(count, 0) : scene::toml::number_text(count),
+                    sweep.limits.runs),
         "limits.runs", "raise limits.runs, or use method \"lhs\" with samples");
-  std::vector<read::PlannedRun> runs;
+  std::vector<Run> runs;
   switch (sweep.settings.method) {
     case read::Method::grid:
       runs = combined(sweep);
@@ -173,7 +176,7 @@ std::vector<read::PlannedRun> expand(const read::Sweep& sweep) {
     case read::Method::list:
       break;
   }
-  for (const read::ExplicitRun& row : sweep.rows) runs.push_back({0, row.label, row.settings, {}});
+  runs.insert(runs.end(), sweep.rows.begin(), sweep.rows.end());
   for (std::size_t k = 0; k < runs.size(); ++k) runs[k].index = static_cast<int>(k);
   return runs;
 }

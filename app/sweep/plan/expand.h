@@ -11,7 +11,7 @@ namespace neve::app::sweep::plan {
 /// depends on the sweep's seed, the axis and the sample alone.
 /// @throws LimitError when there are more than limits.runs; SceneError or UsageError when axes do
 ///         not fit together
-std::vector<read::PlannedRun> expand(const read::Sweep& sweep);
+std::vector<Run> expand(const read::Sweep& sweep);
 
 /// The value below which a share p of a normal distribution lies, in standard deviations.
 /// @param p 0 < p < 1

@@ -56,9 +56,9 @@ std::string value_text(const std::string& value) {
   return std::string(text) + "e" + std::to_string(power);
 }
 
-std::vector<Varied> varied_parameters(const SweepPlan& plan) {
+std::vector<Parameter> varied_parameters(const SweepPlan& plan) {
   std::vector<std::string> addresses;
-  for (const RunPlan& item : plan.runs)
+  for (const PlannedRun& item : plan.runs)
     for (const scene::Override& setting : item.run.settings)
       if (std::find(addresses.begin(), addresses.end(), setting.address) == addresses.end())
         addresses.push_back(setting.address);
@@ -68,7 +68,7 @@ std::vector<Varied> varied_parameters(const SweepPlan& plan) {
       for (std::size_t k = 0; k < addresses.size(); ++k)
         if (addresses[k] == parameter.address && !parameter.label.empty())
           names[k] = parameter.label;
-  std::vector<Varied> varied;
+  std::vector<Parameter> varied;
   for (std::size_t k = 0; k < addresses.size(); ++k) {
     const std::optional<scene::ParamInfo> info = scene::param_at(addresses[k]);
     varied.push_back(
@@ -77,17 +77,10 @@ std::vector<Varied> varied_parameters(const SweepPlan& plan) {
   return varied;
 }
 
-std::string value_of(const read::PlannedRun& run, const std::string& address) {
-  // A later setting of the same address wins.
-  for (auto setting = run.settings.rbegin(); setting != run.settings.rend(); ++setting)
-    if (setting->address == address) return setting->value;
-  return {};
-}
-
-std::string settings_text(const SweepPlan& plan, const read::PlannedRun& run) {
+std::string settings_text(const SweepPlan& plan, const Run& run) {
   std::string text;
-  for (const Varied& parameter : varied_parameters(plan)) {
-    const std::string value = value_of(run, parameter.address);
+  for (const Parameter& parameter : varied_parameters(plan)) {
+    const std::string value = run.setting(parameter.address);
     if (value.empty()) continue;
     text += (text.empty() ? "" : ", ") + parameter.name + " = " + value_text(value);
     if (!parameter.unit.empty()) text += " " + parameter.unit;

@@ -14,18 +14,10 @@ std::vector<std::string> short_names(const std::vector<std::string>& addresses);
 /// "1.4e5", "[0, -5, 0]", "flip": a value as it is given, numbers with at most six digits.
 std::string value_text(const std::string& value);
 
-/// A parameter that some run sets.
-struct Varied {
-  std::string address, name, unit, type;
-};
-
 /// All parameters that differ between runs, in the order of the file.
-std::vector<Varied> varied_parameters(const SweepPlan& plan);
-
-/// The value that a run has for an address; "" where it leaves it to the scene.
-std::string value_of(const read::PlannedRun& run, const std::string& address);
+std::vector<Parameter> varied_parameters(const SweepPlan& plan);
 
 /// "hardening = 5, youngs_modulus = 48000 Pa" without those of the sweep's fixed settings.
-std::string settings_text(const SweepPlan& plan, const read::PlannedRun& run);
+std::string settings_text(const SweepPlan& plan, const Run& run);
 
 }  // namespace neve::app::sweep::plan

@@ -1,5 +1,7 @@
 #include "app/sweep/plan/selection.h"
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <optional>
 #include <set>
@@ -43,8 +45,8 @@ std::vector<int> parse_selection(const std::string& text, int last) {
       throw scene::toml::UsageError("--only", "cannot use \"" + text + "\"",
                                     "expected numbers of runs, as in 3,7-12");
     if (*end > last)
-      throw scene::toml::UsageError("--only", "there is no run " + std::to_string(*end),
-                                    "expected numbers from 0 to " + std::to_string(last));
+      throw scene::toml::UsageError("--only", fmt::format("there is no run {}", *end),
+                                    fmt::format("expected numbers from 0 to {}", last));
     for (int k = *first; k <= *end; ++k) numbers.insert(k);
     if (comma == rest.size()) break;
     rest.remove_prefix(comma + 1);

@@ -88,7 +88,7 @@ const scene::Override* frames_setting(const read::Sweep& sweep) {
   for (const read::Axis& axis : sweep.axes)
     for (const read::Axis::Parameter& parameter : axis.parameters)
       if (parameter.address == "frames") return &parameter.values.front();
-  for (const read::ExplicitRun& row : sweep.rows)
+  for (const Run& row : sweep.rows)
     for (const scene::Override& setting : row.settings)
       if (setting.address == "frames") return &setting;
   return nullptr;
@@ -120,13 +120,14 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   plan.title = plan.sweep.settings.title;
   if (plan.title.empty()) plan.title = plan.base.title;
   if (plan.title.empty()) plan.title = plan.sweep.name;
-  for (const read::PlannedRun& run : expand(plan.sweep)) {
-    RunPlan& item = plan.runs.emplace_back();
-    item.run = run;
-    item.scene = maker.make(run.settings);
-    item.frames = frames_of(options, plan.sweep, item.scene);
-    item.plan = setup::make_plan(item.scene, item.frames, setup::Quality::preview, 1);
-    item.work = foreseen_work(item.scene, item.plan);
+  for (Run& run : expand(plan.sweep)) {
+    scene::Scene scene = maker.make(run.settings);
+    run.frames = frames_of(options, plan.sweep, scene);
+    const setup::Plan needs = setup::make_plan(scene, run.frames, setup::Quality::preview, 1);
+    run.particles = needs.particles;
+    run.memory = static_cast<double>(needs.memory + program_memory);
+    run.work = foreseen_work(scene, needs);
+    plan.runs.push_back({std::move(run), std::move(scene), needs});
   }
   return plan;
 }

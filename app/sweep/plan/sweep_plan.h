@@ -19,15 +19,11 @@ struct SweepOptions;
 /// took 75 to 100 MiB.
 constexpr std::uint64_t program_memory = std::uint64_t{80} << 20;
 
-struct RunPlan {
-  read::PlannedRun run;
+/// A run and its scene.
+struct PlannedRun {
+  Run run;
   scene::Scene scene;  ///< with the shared camera and ranges once these were found
-  setup::FrameRange frames;
   setup::Plan plan;
-  double work = 0;  ///< particles times foreseen steps: costs in proportion
-
-  /// Bytes of the run's process.
-  std::uint64_t memory() const { return plan.memory + program_memory; }
 };
 
 struct SweepPlan {
@@ -36,7 +32,7 @@ struct SweepPlan {
   std::string title;
   std::string view;   ///< that the tiles show
   scene::Scene base;  ///< with the fixed settings alone
-  std::vector<RunPlan> runs;
+  std::vector<PlannedRun> runs;
 };
 
 /// Reads the scene of every run; starts nothing.

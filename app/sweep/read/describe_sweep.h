@@ -7,7 +7,7 @@
 namespace neve::app::sweep::read {
 
 template <class V>
-void describe(V& visit, AxisSpec& a) {
+void describe(V& visit, AxisRule& a) {
   using enum scene::Change;
   visit("values", a.values, scene::unit::none, scene::anything, restart, "The values, as a list.");
   visit("linspace", a.linspace, scene::unit::none, scene::within(1e30), restart,

@@ -23,7 +23,7 @@ constexpr std::size_t most_values = 100'000;
 
 std::vector<std::string> rule_names() {
   scene::Keys keys;
-  AxisSpec spec;
+  AxisRule spec;
   describe(keys, spec);
   return keys.keys;
 }
@@ -75,14 +75,14 @@ std::vector<scene::toml::Value> counted(const WholeRange& range) {
   return values;
 }
 
-int kinds_given(const AxisSpec& s) {
+int kinds_given(const AxisRule& s) {
   return s.values.has_value() + s.linspace.has_value() + s.logspace.has_value() +
          s.range.has_value() + s.uniform.has_value() + s.log_uniform.has_value() +
          s.normal.has_value();
 }
 
 /// @param where for complaints
-std::vector<scene::toml::Value> values_of(const AxisSpec& spec, const scene::Source& source,
+std::vector<scene::toml::Value> values_of(const AxisRule& spec, const scene::Source& source,
                                           scene::toml::Location where) {
   if (spec.values) return spec.values->items;
   if (spec.range) return counted(*spec.range);
@@ -104,8 +104,8 @@ scene::Override override_of(const scene::Source& source, const scene::toml::Entr
   return setting;
 }
 
-AxisSpec read_rule(const scene::Source& source, const scene::toml::Entry& entry) {
-  AxisSpec spec;
+AxisRule read_rule(const scene::Source& source, const scene::toml::Entry& entry) {
+  AxisRule spec;
   scene::Reading reading{source, {}};
   scene::Reader(reading, std::get<scene::toml::Table>(entry.value.data), entry.key)
       .read([&](auto& v) { describe(v, spec); });
@@ -202,7 +202,7 @@ Axis::Parameter read_axis(const scene::Source& source, const scene::toml::Entry&
   if (const scene::toml::Array* list = std::get_if<scene::toml::Array>(&entry.value.data)) {
     values = *list;
   } else if (std::holds_alternative<scene::toml::Table>(entry.value.data)) {
-    const AxisSpec spec = read_rule(source, entry);
+    const AxisRule spec = read_rule(source, entry);
     parameter.label = spec.label;
     if (spec.uniform || spec.log_uniform || spec.normal) {
       parameter.drawn = spec;

@@ -1,5 +1,7 @@
 #include "app/sweep/read/read_sweep.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -107,22 +109,21 @@ class SweepReader {
                       "give it values");
       if (last.values.size() != first.values.size())
         source().fail(entry.value.where,
-                      entry.key + " has " + std::to_string(last.values.size()) + " values, and " +
-                          first.address + " of the same [[link]] has " +
-                          std::to_string(first.values.size()),
+                      fmt::format("{} has {} values, and {} of the same [[link]] has {}", entry.key,
+                                  last.values.size(), first.address, first.values.size()),
                       "linked axes must have the same number");
     }
     if (axis.parameters.empty()) source().fail(reading_.place_of("link"), "a [[link]] has no axes");
     if (labels && axis.value_labels.size() != axis.size())
-      source().fail(labels->where,
-                    "labels has " + std::to_string(axis.value_labels.size()) + " names for " +
-                        std::to_string(axis.size()) + " values",
-                    "give each value a name");
+      source().fail(
+          labels->where,
+          fmt::format("labels has {} names for {} values", axis.value_labels.size(), axis.size()),
+          "give each value a name");
     return axis;
   }
 
-  ExplicitRun run(scene::toml::Table table) const {
-    ExplicitRun row;
+  Run run(scene::toml::Table table) const {
+    Run row;
     if (const std::optional<scene::toml::Value> label = take(table, "label"))
       row.label = label_of(*label, "run.label");
     for (const scene::toml::Entry& entry : addresses_in(table))
@@ -159,9 +160,8 @@ class SweepReader {
     if (method == Method::zip && axis.size() != other.size())
       source().fail(
           first.place,
-          axis.parameters.front().address + " has " + std::to_string(axis.size()) +
-              " values, and " + other.parameters.front().address + " has " +
-              std::to_string(other.size()),
+          fmt::format("{} has {} values, and {} has {}", axis.parameters.front().address,
+                      axis.size(), other.parameters.front().address, other.size()),
           "method \"zip\" needs the same number on all axes, \"grid\" makes all combinations");
   }
 
@@ -199,7 +199,7 @@ std::vector<Axis::Parameter> parse_axes(const std::vector<std::string>& argument
       if (other.address == axis.address)
         throw scene::toml::UsageError(
             "-p " + argument, axis.address + " is given twice",
-            "write all its values into one list, as in -p " + axis.address + "=A,B,C");
+            fmt::format("write all its values into one list, as in -p {}=A,B,C", axis.address));
     axes.push_back(std::move(axis));
   }
   return axes;
@@ -280,7 +280,7 @@ std::vector<scene::ParamInfo> sweep_params() {
   SweepFile file;
   describe(lister, file);
   scene::Lister rules(list, "axis.ADDRESS.");
-  AxisSpec spec;
+  AxisRule spec;
   describe(rules, spec);
   return list;
 }

@@ -9,6 +9,7 @@
 
 #include "app/scene/override.h"
 #include "app/scene/scene.h"
+#include "app/sweep/run.h"
 
 namespace neve::app::sweep::read {
 
@@ -39,7 +40,7 @@ struct Values {
 };
 
 /// Specification of the values of an axis; exactly one of the first seven is set.
-struct AxisSpec {
+struct AxisRule {
   std::optional<Values> values;
   std::optional<Ends> linspace, logspace;
   std::optional<WholeRange> range;
@@ -87,7 +88,7 @@ struct Axis {
     std::string label;  ///< "" for its name
     /// One override per value; or, where values are drawn, a single one that tells the place.
     std::vector<scene::Override> values;
-    std::optional<AxisSpec> drawn;  ///< uniform, log_uniform or normal
+    std::optional<AxisRule> drawn;  ///< uniform, log_uniform or normal
   };
   std::vector<Parameter> parameters;
   std::vector<std::string> value_labels;  ///< as many as values, or none
@@ -96,12 +97,6 @@ struct Axis {
   std::size_t size() const {
     return parameters.front().drawn ? 0 : parameters.front().values.size();
   }
-};
-
-/// One [[run]].
-struct ExplicitRun {
-  std::string label;
-  std::vector<scene::Override> settings;
 };
 
 struct Sweep {
@@ -113,20 +108,12 @@ struct Sweep {
   SheetSettings sheet;
   std::vector<scene::Override> fixed;
   std::vector<Axis> axes;
-  std::vector<ExplicitRun> rows;
+  std::vector<Run> rows;                                ///< of [[run]]
   std::map<std::string, scene::toml::Location> places;  ///< of the keys in the sweep file
 
   /// Throws a SceneError at a key of the sweep file, or a UsageError without a file.
   [[noreturn]] void fail(const std::string& key, const std::string& message,
                          const std::string& hint) const;
-};
-
-/// One run of a sweep before its scene is read.
-struct PlannedRun {
-  int index = 0;
-  std::string label;                      ///< of a [[run]] or a labelled value
-  std::vector<scene::Override> settings;  ///< without the fixed ones
-  std::vector<int> coordinates;           ///< place on each axis of a grid; -1: on none
 };
 
 }  // namespace neve::app::sweep::read

@@ -9,7 +9,7 @@
 #include "app/picture/legends.h"
 #include "app/scene/read.h"
 #include "app/support/interrupt.h"
-#include "app/sweep/plan/look.h"
+#include "app/sweep/plan/shared_view.h"
 #include "app/sweep/sheet/data_csv.h"
 #include "app/sweep/sheet/metric_plots.h"
 #include "app/sweep/sheet/report.h"
@@ -26,10 +26,10 @@ namespace {
 std::vector<render::Legend> shared_legends(const fs::path& folder,
                                            const store::Manifest& manifest) {
   std::error_code error;
-  const fs::path file = plan::look_path(folder);
+  const fs::path file = plan::shared_view_path(folder);
   if (!fs::exists(file, error)) return {};
-  const scene::Scene look = scene::read_scene_file(file.string());
-  for (const scene::View& view : look.views)
+  const scene::Scene shared = scene::read_scene_file(file.string());
+  for (const scene::View& view : shared.views)
     if (view.name == manifest.view) return picture::legends_of(view);
   return {};
 }

@@ -119,7 +119,7 @@ class Rows {
 void add_header(const store::Manifest& manifest, bool with_times, Rows& rows) {
   ColumnNames names;
   for (const char* name : {"run", "label"}) rows.add(names.unique(name, "_"));
-  for (const plan::Varied& parameter : manifest.parameters) {
+  for (const Parameter& parameter : manifest.parameters) {
     const std::string name = column_name(parameter.address);
     if (parameter.type != "vector") {
       rows.add(names.unique(name, "_set"));
@@ -136,8 +136,8 @@ void add_header(const store::Manifest& manifest, bool with_times, Rows& rows) {
   rows.end();
 }
 
-void add_parameters(const store::Manifest& manifest, const store::ManifestRun& run, Rows& rows) {
-  for (const plan::Varied& parameter : manifest.parameters) {
+void add_parameters(const store::Manifest& manifest, const Run& run, Rows& rows) {
+  for (const Parameter& parameter : manifest.parameters) {
     const std::string value = run.value(parameter.address);
     if (parameter.type != "vector") {
       rows.add(cell(value, parameter.type));
@@ -147,13 +147,13 @@ void add_parameters(const store::Manifest& manifest, const store::ManifestRun& r
   }
 }
 
-void add_row(const store::Manifest& manifest, const store::ManifestRun& run,
-             const store::RunResult& result, bool with_times, Rows& rows) {
+void add_row(const store::Manifest& manifest, const Run& run, const store::RunResult& result,
+             bool with_times, Rows& rows) {
   rows.add(std::to_string(run.index));
   rows.add(cell(run.label.empty() ? "run " + std::to_string(run.index) : run.label, "string"));
   add_parameters(manifest, run, rows);
-  rows.add(store::name(result.report.state));
-  rows.add(result.report.reason.empty() ? "-" : cell(result.report.reason, "string"));
+  rows.add(store::name(result.status.state));
+  rows.add(result.status.reason.empty() ? "-" : cell(result.status.reason, "string"));
   rows.add(std::to_string(result.warnings.size()));
   rows.add(std::to_string(result.frames.size()));
   for (std::size_t k = 0; k < store::metric_infos().size(); ++k) {

@@ -42,11 +42,11 @@ Across by_run(const store::Manifest& manifest) {
   return across;
 }
 
-Across by_choice(const store::Manifest& manifest, const plan::Varied& parameter) {
+Across by_choice(const store::Manifest& manifest, const Parameter& parameter) {
   Across across;
   across.title = parameter.name;
   std::vector<std::string> values;
-  for (const store::ManifestRun& run : manifest.runs) {
+  for (const Run& run : manifest.runs) {
     const std::string value = run.value(parameter.address);
     if (!value.empty() && std::find(values.begin(), values.end(), value) == values.end())
       values.push_back(value);
@@ -54,7 +54,7 @@ Across by_choice(const store::Manifest& manifest, const plan::Varied& parameter)
   const auto place = [&](std::size_t k) {
     return (static_cast<double>(k) + 0.5) / static_cast<double>(values.size());
   };
-  for (const store::ManifestRun& run : manifest.runs) {
+  for (const Run& run : manifest.runs) {
     const auto found = std::find(values.begin(), values.end(), run.value(parameter.address));
     across.place.push_back(
         found == values.end()
@@ -67,7 +67,7 @@ Across by_choice(const store::Manifest& manifest, const plan::Varied& parameter)
 }
 
 /// Logarithmic where the values are positive and go over more than a factor of 20.
-Across by_number(const plan::Varied& parameter, const std::vector<std::optional<double>>& values) {
+Across by_number(const Parameter& parameter, const std::vector<std::optional<double>>& values) {
   Across across;
   across.title = parameter.name + (parameter.unit.empty() ? "" : " (" + parameter.unit + ")");
   double low = 1e300, high = -1e300;
@@ -105,10 +105,10 @@ Across by_number(const plan::Varied& parameter, const std::vector<std::optional<
 
 std::vector<Across> parameters_across(const store::Manifest& manifest) {
   std::vector<Across> columns;
-  for (const plan::Varied& parameter : manifest.parameters) {
+  for (const Parameter& parameter : manifest.parameters) {
     std::vector<std::optional<double>> values;
     std::size_t numbers = 0, given = 0;
-    for (const store::ManifestRun& run : manifest.runs) {
+    for (const Run& run : manifest.runs) {
       values.push_back(number_of(run.value(parameter.address)));
       numbers += values.back().has_value();
       given += !run.value(parameter.address).empty();
@@ -174,7 +174,7 @@ std::string svg_panel(const Across& across, const std::vector<store::RunResult>&
   for (std::size_t k = 0; k < results.size(); ++k) {
     const std::optional<double>& value = results[k].metrics[metric];
     if (!value || !across.place[k]) continue;
-    const bool is_ok = results[k].report.state == store::RunState::ok;
+    const bool is_ok = results[k].status.state == store::RunState::ok;
     // One that exploded lies far beyond; its tooltip has the number.
     const double inside = std::clamp(*value, extent.low, extent.high);
     svg += "<circle cx=\"" + n(x0 + *across.place[k] * panel_width) + "\" cy=\"" + n(y_of(inside)) +

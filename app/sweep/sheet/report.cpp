@@ -47,14 +47,14 @@ Json column(const std::string& title, bool is_text, bool is_parallel,
 
 bool has_labels(const store::Manifest& manifest) {
   return std::any_of(manifest.runs.begin(), manifest.runs.end(),
-                     [](const store::ManifestRun& run) { return !run.label.empty(); });
+                     [](const Run& run) { return !run.label.empty(); });
 }
 
 Json column_names(const store::Manifest& manifest) {
   Json columns = Json::array();
   columns.push_back(column("run", false, false));
   if (has_labels(manifest)) columns.push_back(column("name", true, false));
-  for (const plan::Varied& p : manifest.parameters)
+  for (const Parameter& p : manifest.parameters)
     columns.push_back(column(p.name + (p.unit.empty() ? "" : " (" + p.unit + ")"),
                              p.type != "number" && p.type != "integer", true, p.address));
   columns.push_back(column("state", true, false));
@@ -69,10 +69,10 @@ Json column_names(const store::Manifest& manifest) {
 }
 
 /// Parameters that are numbers as they were written, by column: rounding is for results.
-Json written_values(const store::Manifest& manifest, const store::ManifestRun& run) {
+Json written_values(const store::Manifest& manifest, const Run& run) {
   Json texts = Json::object();
   std::size_t c = has_labels(manifest) ? 2 : 1;
-  for (const plan::Varied& p : manifest.parameters) {
+  for (const Parameter& p : manifest.parameters) {
     const std::string value = run.value(p.address);
     if (cell_of(value).is_number()) texts[std::to_string(c)] = value;
     ++c;
@@ -80,20 +80,19 @@ Json written_values(const store::Manifest& manifest, const store::ManifestRun& r
   return texts;
 }
 
-Json row_of(const store::Manifest& manifest, const store::ManifestRun& run,
-            const store::RunResult& result) {
+Json row_of(const store::Manifest& manifest, const Run& run, const store::RunResult& result) {
   Json cells = Json::array();
   cells.push_back(run.index);
   if (has_labels(manifest)) cells.push_back(run.label);
-  for (const plan::Varied& p : manifest.parameters) cells.push_back(cell_of(run.value(p.address)));
-  cells.push_back(store::name(result.report.state));
+  for (const Parameter& p : manifest.parameters) cells.push_back(cell_of(run.value(p.address)));
+  cells.push_back(store::name(result.status.state));
   cells.push_back(result.warnings.size());
   for (const std::optional<double>& value : result.metrics)
     cells.push_back(value ? Json(*value) : Json());
-  cells.push_back(result.report.reason);
+  cells.push_back(result.status.reason);
   return {{"run", run.index},
           {"label", run.label},
-          {"failed", store::has_failed(result.report.state)},
+          {"failed", store::has_failed(result.status.state)},
           {"warnings", result.warnings},
           {"texts", written_values(manifest, run)},
           {"cells", cells}};
@@ -131,7 +130,7 @@ std::string commands_section(const std::string& folder, const store::Manifest& m
   std::string html =
       "<div class=\"wide\"><table><thead><tr><th>run</th><th "
       "class=\"text\">command</th></tr></thead><tbody>\n";
-  for (const store::ManifestRun& run : manifest.runs) {
+  for (const Run& run : manifest.runs) {
     const std::string command = xml_text(repeat_command(folder, run));
     html += "<tr data-run=\"" + std::to_string(run.index) + "\"><td>" + std::to_string(run.index) +
             "</td><td class=\"text\"><code>" + command + "</code><button data-copy=\"" + command +
@@ -142,10 +141,10 @@ std::string commands_section(const std::string& folder, const store::Manifest& m
 
 }  // namespace
 
-std::string repeat_command(const std::string& folder, const store::ManifestRun& run) {
+std::string repeat_command(const std::string& folder, const Run& run) {
   const std::string scene = folder + "/runs/" + run.folder + "/scene.toml";
   return "neve render " + setup::shell_word(scene) + " --frames " +
-         std::to_string(run.first_frame) + "-" + std::to_string(run.last_frame) + " --out " +
+         std::to_string(run.frames.first) + "-" + std::to_string(run.frames.last) + " --out " +
          setup::shell_word("again/" + run.folder);
 }
 
@@ -158,8 +157,8 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
   int failed = 0, ok = 0;
   for (std::size_t k = 0; k < manifest.runs.size(); ++k) {
     data["rows"].push_back(row_of(manifest, manifest.runs[k], results[k]));
-    failed += store::has_failed(results[k].report.state);
-    ok += results[k].report.state == store::RunState::ok;
+    failed += store::has_failed(results[k].status.state);
+    ok += results[k].status.state == store::RunState::ok;
   }
   const int open = static_cast<int>(manifest.runs.size()) - ok - failed;
   std::string sub = std::to_string(manifest.runs.size()) + " runs of " + manifest.scene_file +

@@ -16,6 +16,6 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
                         const std::vector<std::uint8_t>& sheet_png);
 
 /// The command that makes a run's pictures again.
-std::string repeat_command(const std::string& folder, const store::ManifestRun& run);
+std::string repeat_command(const std::string& folder, const Run& run);
 
 }  // namespace neve::app::sweep::sheet

@@ -41,10 +41,10 @@ std::optional<int> newest_frame(const store::RunResult& result, int frame) {
 }
 
 /// True if the run has stopped before this frame, or has not reached it yet.
-bool is_late(const store::ManifestRun& run, const store::RunResult& result, int frame) {
+bool is_late(const Run& run, const store::RunResult& result, int frame) {
   const bool has_frame = std::binary_search(result.frames.begin(), result.frames.end(), frame);
   // A run whose plan ends at an earlier frame keeps its last picture.
-  const bool is_over = result.report.state == store::RunState::ok && frame > run.last_frame;
+  const bool is_over = result.status.state == store::RunState::ok && frame > run.frames.last;
   return !has_frame && !is_over;
 }
 
@@ -66,7 +66,7 @@ render::Image read_tile(const std::filesystem::path& file, int width, int height
 
 /// "hardening = 5" and so on, or the name of the run.
 /// @param has_edges  what the sheet's edges say is left out
-std::vector<std::string> tile_lines(const store::Manifest& manifest, const store::ManifestRun& run,
+std::vector<std::string> tile_lines(const store::Manifest& manifest, const Run& run,
                                     bool has_edges) {
   std::vector<std::string> lines;
   if (manifest.tile_label == "none") return lines;
@@ -83,7 +83,7 @@ std::vector<std::string> tile_lines(const store::Manifest& manifest, const store
            });
   };
   std::string settings;
-  for (const plan::Varied& parameter : manifest.parameters) {
+  for (const Parameter& parameter : manifest.parameters) {
     const std::string value = run.setting(parameter.address);
     if (value.empty() || is_at_edge(parameter.address)) continue;
     settings += (settings.empty() ? "" : ", ") + parameter.name + " = " + plan::value_text(value);
@@ -94,12 +94,12 @@ std::vector<std::string> tile_lines(const store::Manifest& manifest, const store
 }
 
 /// The name of a run, or what it sets, a line each.
-std::string strip_name(const store::Manifest& manifest, const store::ManifestRun& run) {
+std::string strip_name(const store::Manifest& manifest, const Run& run) {
   constexpr int most_lines = 5;
   if (!run.label.empty()) return run.label;
   std::string text;
   int lines = 0;
-  for (const plan::Varied& parameter : manifest.parameters) {
+  for (const Parameter& parameter : manifest.parameters) {
     const std::string value = run.setting(parameter.address);
     if (value.empty() || ++lines > most_lines) continue;
     text += (text.empty() ? "" : "\n") + parameter.name + " = " + plan::value_text(value) +
@@ -122,8 +122,8 @@ std::pair<std::string, std::string> split_state(const std::string& text) {
 std::string run_count_text(const std::vector<store::RunResult>& results) {
   int ok = 0, failed = 0;
   for (const store::RunResult& result : results) {
-    ok += result.report.state == store::RunState::ok;
-    failed += store::has_failed(result.report.state);
+    ok += result.status.state == store::RunState::ok;
+    failed += store::has_failed(result.status.state);
   }
   const int open = static_cast<int>(results.size()) - ok - failed;
   std::string text = std::to_string(results.size()) + (results.size() == 1 ? " run" : " runs");
@@ -152,7 +152,7 @@ render::Image SheetMaker::tile_picture(const Tile& tile, int width, int height,
   const std::optional<int> frame = newest_frame(*tile.result, tile.frame);
   // The picture of what went wrong has rings around the culprits.
   const std::filesystem::path incident = output::diverged_path(run, manifest_.view);
-  if (is_dark && tile.result->report.state == store::RunState::diverged &&
+  if (is_dark && tile.result->status.state == store::RunState::diverged &&
       std::filesystem::exists(incident, error))
     file = incident;
   else if (frame)
@@ -179,8 +179,8 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
                            "! " + store::warning_count_text(tile.result->warnings.size()),
                            render::Note::Anchor::left, room, false, caution});
   if (!is_dark) return;
-  const auto [state, reason] = split_state(jobs::tile_text(tile.result->report));
-  const bool is_alarm = store::has_failed(tile.result->report.state);
+  const auto [state, reason] = split_state(jobs::tile_text(tile.result->status));
+  const bool is_alarm = store::has_failed(tile.result->status.state);
   const float middle = static_cast<float>(tile.x) + 0.5f * static_cast<float>(layout.tile_width);
   const float height = static_cast<float>(layout.tile_height);
   const float y =
@@ -271,7 +271,7 @@ store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames) const {
   grid.tile_height =
       std::max(1, static_cast<int>(std::lround(1.0 * grid.tile_width * manifest_.tile_height /
                                                manifest_.tile_width)));
-  store::ManifestAxis names{"", {}}, times{"t", {}};
+  store::AxisLabels names{"", {}}, times{"t", {}};
   for (const int frame : frames)
     times.values.push_back(fixed_text(frame / manifest_.fps, 3) + " s");
   grid.runs.clear();
@@ -287,13 +287,13 @@ store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames) const {
 /// Reason why a run has ended, in few words.
 void SheetMaker::add_state(const SheetLayout& layout, const Tile& tile,
                            render::Frame& words) const {
-  const auto [state, reason] = split_state(jobs::tile_text(tile.result->report));
+  const auto [state, reason] = split_state(jobs::tile_text(tile.result->status));
   const auto width = static_cast<float>(layout.tile_width);
   words.notes.push_back({static_cast<float>(tile.x) + 0.5f * width,
                          static_cast<float>(tile.y) +
                              0.5f * static_cast<float>(layout.tile_height - layout.font_size),
                          state.empty() ? reason : state, render::Note::Anchor::middle, width, false,
-                         store::has_failed(tile.result->report.state) ? alarm : soft});
+                         store::has_failed(tile.result->status.state) ? alarm : soft});
 }
 
 }  // namespace neve::app::sweep::sheet

@@ -30,7 +30,7 @@ class SheetMaker {
 
  private:
   struct Tile {
-    const store::ManifestRun* run;
+    const Run* run;
     const store::RunResult* result;
     int frame;
     int x, y;  ///< px

@@ -76,7 +76,7 @@ Sides choose_sides(const store::Manifest& m, double tile_aspect) {
 }
 
 std::string label_text(const store::Manifest& m, std::size_t axis, int value) {
-  const store::ManifestAxis& a = m.axes[axis];
+  const store::AxisLabels& a = m.axes[axis];
   return a.name + " = " + a.values[static_cast<std::size_t>(value)];
 }
 
@@ -179,7 +179,7 @@ class Layouter {
 
   /// True if "name = value" fits side by side for all values of an axis.
   bool is_joined(std::size_t axis) const {
-    const store::ManifestAxis& a = m_.axes[axis];
+    const store::AxisLabels& a = m_.axes[axis];
     std::size_t longest = 0;
     for (const std::string& value : a.values) {
       if (value.find('\n') != std::string::npos) return false;

@@ -1,5 +1,7 @@
 #include "app/sweep/store/manifest.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <exception>
 #include <stdexcept>
@@ -8,7 +10,6 @@
 #include "app/output/atomic_file.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
-#include "app/scene/toml/toml_source.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
 #include "app/sweep/read/sweep_leaf.h"
@@ -31,7 +32,7 @@ int axis_called(const plan::SweepPlan& plan, const char* key, const std::string&
       if (parameter.address == wanted || parameter.label == wanted) return static_cast<int>(a);
       known.push_back(parameter.address);
     }
-  plan.sweep.fail(key, std::string(key) + " = \"" + wanted + "\": there is no such axis",
+  plan.sweep.fail(key, fmt::format("{} = \"{}\": there is no such axis", key, wanted),
                   known.empty() ? "the sweep has no axes" : "expected " + scene::list_of(known));
 }
 
@@ -39,11 +40,11 @@ std::string with_unit(const std::string& value, const std::string& unit) {
   return plan::value_text(value) + (unit.empty() ? "" : " " + unit);
 }
 
-ManifestAxis manifest_axis(const read::Axis& axis, const std::vector<plan::Varied>& parameters) {
-  ManifestAxis result;
+AxisLabels manifest_axis(const read::Axis& axis, const std::vector<Parameter>& parameters) {
+  AxisLabels result;
   const auto varied = [&](const std::string& address) {
     return *std::find_if(parameters.begin(), parameters.end(),
-                         [&](const plan::Varied& v) { return v.address == address; });
+                         [&](const Parameter& v) { return v.address == address; });
   };
   for (const read::Axis::Parameter& parameter : axis.parameters) {
     result.addresses.push_back(parameter.address);
@@ -62,59 +63,57 @@ ManifestAxis manifest_axis(const read::Axis& axis, const std::vector<plan::Varie
   return result;
 }
 
-using Pairs = std::vector<std::pair<std::string, std::string>>;
-
-Json pairs_json(const Pairs& pairs) {
+Json pairs_json(const std::vector<scene::Override>& settings) {
   Json list = Json::array();
-  for (const auto& [address, value] : pairs) list.push_back({address, value});
+  for (const scene::Override& setting : settings) list.push_back({setting.address, setting.value});
   return list;
 }
 
-Pairs pairs_of(const Json& list) {
-  Pairs pairs;
-  for (const Json& pair : list)
-    pairs.emplace_back(pair.at(0).get<std::string>(), pair.at(1).get<std::string>());
-  return pairs;
+std::vector<scene::Override> settings_of(const Json& pairs) {
+  std::vector<scene::Override> settings;
+  for (const Json& pair : pairs)
+    settings.push_back({pair.at(0).get<std::string>(), pair.at(1).get<std::string>()});
+  return settings;
 }
 
-/// Values of the run's scene for the parameters that the run does not set.
-Pairs unset_values(const plan::RunPlan& item, const std::vector<plan::Varied>& parameters) {
-  Pairs pairs;
-  const scene::toml::Table root = scene::toml::parse_toml(scene::write_scene(item.scene), "scene");
-  for (const plan::Varied& parameter : parameters) {
-    if (!plan::value_of(item.run, parameter.address).empty()) continue;
+/// Values of the run's scene for the parameters that it does not set.
+std::vector<scene::Override> inherited_values(const plan::PlannedRun& item,
+                                              const std::vector<Parameter>& parameters) {
+  std::vector<scene::Override> inherited;
+  const scene::toml::Table root = scene::scene_table(item.scene);
+  for (const Parameter& parameter : parameters) {
+    if (!item.run.setting(parameter.address).empty()) continue;
     if (const scene::toml::Value* value = scene::value_at(root, parameter.address))
-      pairs.emplace_back(parameter.address, scene::toml::toml_literal(*value));
+      inherited.push_back({parameter.address, scene::toml::toml_literal(*value)});
   }
-  return pairs;
+  return inherited;
 }
 
-Json run_json(const ManifestRun& run) {
+Json run_json(const Run& run) {
   return {{"run", run.index},
           {"folder", run.folder},
           {"key", run.key},
           {"label", run.label},
           {"settings", pairs_json(run.settings)},
-          {"unset", pairs_json(run.unset)},
+          {"unset", pairs_json(run.inherited)},
           {"coordinates", run.coordinates},
-          {"first_frame", run.first_frame},
-          {"last_frame", run.last_frame},
+          {"first_frame", run.frames.first},
+          {"last_frame", run.frames.last},
           {"particles", run.particles},
           {"memory_bytes", run.memory},
           {"work", run.work}};
 }
 
-ManifestRun run_of(const Json& json) {
-  ManifestRun run;
+Run run_of(const Json& json) {
+  Run run;
   run.index = json.at("run").get<int>();
   run.folder = json.at("folder").get<std::string>();
   run.key = json.at("key").get<std::string>();
   run.label = json.at("label").get<std::string>();
-  run.settings = pairs_of(json.at("settings"));
-  run.unset = pairs_of(json.at("unset"));
+  run.settings = settings_of(json.at("settings"));
+  run.inherited = settings_of(json.at("unset"));
   run.coordinates = json.at("coordinates").get<std::vector<int>>();
-  run.first_frame = json.at("first_frame").get<int>();
-  run.last_frame = json.at("last_frame").get<int>();
+  run.frames = {json.at("first_frame").get<int>(), json.at("last_frame").get<int>()};
   run.particles = json.at("particles").get<double>();
   run.memory = json.at("memory_bytes").get<double>();
   run.work = json.at("work").get<double>();
@@ -138,7 +137,7 @@ std::vector<std::string> axis_addresses(const read::Sweep& sweep) {
 std::optional<std::vector<std::string>> axis_addresses(const Manifest& manifest) {
   if (manifest.varied || manifest.axes.empty()) return manifest.varied;
   std::vector<std::string> addresses;
-  for (const ManifestAxis& axis : manifest.axes)
+  for (const AxisLabels& axis : manifest.axes)
     addresses.insert(addresses.end(), axis.addresses.begin(), axis.addresses.end());
   std::sort(addresses.begin(), addresses.end());
   return addresses;
@@ -163,33 +162,21 @@ std::optional<Manifest> earlier_manifest(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::string ManifestRun::setting(const std::string& address) const {
-  for (auto given = settings.rbegin(); given != settings.rend(); ++given)
-    if (given->first == address) return given->second;
-  return {};
-}
-
-std::string ManifestRun::value(const std::string& address) const {
-  const std::string own = setting(address);
-  for (const auto& [name, text] : unset)
-    if (own.empty() && name == address) return text;
-  return own;
-}
-
-std::string run_text(const ManifestRun& run) {
-  const std::string text = "run " + std::to_string(run.index);
-  return run.folder == run_folder_name(run.index) ? text : text + " (runs/" + run.folder + ")";
+std::string run_text(const Run& run) {
+  return run.folder == run_folder_name(run.index)
+             ? fmt::format("run {}", run.index)
+             : fmt::format("run {} (runs/{})", run.index, run.folder);
 }
 
 int Manifest::first_frame() const {
-  int first = runs.empty() ? 0 : runs.front().first_frame;
-  for (const ManifestRun& run : runs) first = std::min(first, run.first_frame);
+  int first = runs.empty() ? 0 : runs.front().frames.first;
+  for (const Run& run : runs) first = std::min(first, run.frames.first);
   return first;
 }
 
 int Manifest::last_frame() const {
   int last = 0;
-  for (const ManifestRun& run : runs) last = std::max(last, run.last_frame);
+  for (const Run& run : runs) last = std::max(last, run.frames.last);
   return last;
 }
 
@@ -217,21 +204,10 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
     for (const read::Axis& axis : plan.sweep.axes)
       m.axes.push_back(manifest_axis(axis, m.parameters));
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
-    const plan::RunPlan& item = plan.runs[k];
-    ManifestRun& run = m.runs.emplace_back();
-    run.index = item.run.index;
+    Run& run = m.runs.emplace_back(plan.runs[k].run);
     run.folder = folders[k];
     run.key = keys[k];
-    run.label = item.run.label;
-    for (const scene::Override& setting : item.run.settings)
-      run.settings.emplace_back(setting.address, setting.value);
-    run.unset = unset_values(item, m.parameters);
-    run.coordinates = item.run.coordinates;
-    run.first_frame = item.frames.first;
-    run.last_frame = item.frames.last;
-    run.particles = item.plan.particles;
-    run.memory = static_cast<double>(item.memory());
-    run.work = item.work;
+    run.inherited = inherited_values(plan.runs[k], m.parameters);
   }
   return m;
 }
@@ -244,7 +220,7 @@ void check_folder(const plan::SweepPlan& plan) {
   if (!before || *before == now) return;
   throw scene::toml::UsageError(
       plan.folder.string(),
-      "has a sweep of " + axes_text(*before) + "; this one varies " + axes_text(now),
+      fmt::format("has a sweep of {}; this one varies {}", axes_text(*before), axes_text(now)),
       "choose another folder with --out, or remove the old one");
 }
 
@@ -265,16 +241,16 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   json["timeout"] = m.timeout;
   json["memory"] = m.memory;
   json["parameters"] = Json::array();
-  for (const plan::Varied& p : m.parameters)
+  for (const Parameter& p : m.parameters)
     json["parameters"].push_back(
         {{"address", p.address}, {"name", p.name}, {"unit", p.unit}, {"type", p.type}});
   json["axes"] = Json::array();
-  for (const ManifestAxis& axis : m.axes)
+  for (const AxisLabels& axis : m.axes)
     json["axes"].push_back(
         {{"name", axis.name}, {"values", axis.values}, {"addresses", axis.addresses}});
   if (m.varied) json["varied"] = *m.varied;
   json["runs"] = Json::array();
-  for (const ManifestRun& run : m.runs) json["runs"].push_back(run_json(run));
+  for (const Run& run : m.runs) json["runs"].push_back(run_json(run));
   output::write_file(manifest_path(folder), to_text(json) + "\n");
 }
 
@@ -310,7 +286,8 @@ Manifest read_manifest(const std::filesystem::path& folder) {
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
     return m;
   } catch (const std::exception& error) {
-    throw Error(exit_invalid_scene, file + ": error: is not a list of runs: " + error.what(), file,
+    throw Error(exit_invalid_scene,
+                fmt::format("{}: error: is not a list of runs: {}", file, error.what()), file,
                 "run the sweep again to rewrite it; finished runs are kept");
   }
 }

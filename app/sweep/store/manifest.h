@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/support/json.h"
@@ -13,30 +12,14 @@
 
 namespace neve::app::sweep::store {
 
-struct ManifestRun {
-  int index = 0;
-  std::string folder;  ///< "0007", under DIR/runs
-  std::string key, label;
-  std::vector<std::pair<std::string, std::string>> settings;  ///< address and value, TOML
-  /// The same of parameters that only other runs set.
-  std::vector<std::pair<std::string, std::string>> unset;
-  std::vector<int> coordinates;
-  int first_frame = 0, last_frame = 0;
-  double particles = 0, memory = 0, work = 0;  ///< foreseen; memory in bytes, of the process
-
-  /// "" where the run leaves it to the scene.
-  std::string setting(const std::string& address) const;
-  /// The run's own or the scene's; "" where neither has one.
-  std::string value(const std::string& address) const;
-};
-
 /// "run 1", which --only and --index mean, with its folder where that has another number:
 /// "run 1 (runs/0010)"
-std::string run_text(const ManifestRun& run);
+std::string run_text(const Run& run);
 
-struct ManifestAxis {
-  std::string name;                      ///< for the edge of the sheet; may be empty
-  std::vector<std::string> values;       ///< texts for the edge, with units
+/// An axis as the edge of the sheet names it.
+struct AxisLabels {
+  std::string name;                      ///< may be empty
+  std::vector<std::string> values;       ///< texts, with units
   std::vector<std::string> addresses{};  ///< of the parameters that it sets
 };
 
@@ -48,11 +31,11 @@ struct Manifest {
   int wrap = 0;
   std::string tile_label;  ///< differences, name, none
   double timeout = 0, memory = 0;
-  std::vector<plan::Varied> parameters;
-  std::vector<ManifestAxis> axes;  ///< of a grid
+  std::vector<Parameter> parameters;
+  std::vector<AxisLabels> axes;  ///< of a grid
   /// Addresses of all axes, whatever the method; sorted. Nothing in files of before they had it.
   std::optional<std::vector<std::string>> varied;
-  std::vector<ManifestRun> runs;
+  std::vector<Run> runs;
 
   int first_frame() const;
   int last_frame() const;

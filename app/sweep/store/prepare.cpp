@@ -38,29 +38,30 @@ std::vector<std::string> assign_folders(const plan::SweepPlan& plan,
   return folders;
 }
 
-void write_run(const fs::path& folder, const plan::RunPlan& item, const std::string& key) {
+void write_run(const fs::path& folder, const plan::PlannedRun& item, const std::string& key) {
   output::make_folder(folder);
   std::error_code error;
-  if (read_report(folder).key == key && fs::exists(folder / "scene.toml", error)) return;
+  if (read_status(folder).key == key && fs::exists(folder / "scene.toml", error)) return;
   output::write_file(folder / "scene.toml", scene::write_scene(item.scene));
-  RunReport report;
-  report.key = key;
-  write_report(folder, report);
+  RunStatus status;
+  status.key = key;
+  write_status(folder, status);
 }
 
 }  // namespace
 
-std::string key_of(const plan::RunPlan& run) {
-  std::string text = scene::write_scene(run.scene) + "\nversion " + version + "\nframes " +
-                     std::to_string(run.frames.first) + "-" + std::to_string(run.frames.last);
-  for (const auto& [file, hash] : run::hash_files(run.scene)) text += "\n" + file + " " + hash;
+std::string key_of(const plan::PlannedRun& item) {
+  std::string text = scene::write_scene(item.scene) + "\nversion " + version + "\nframes " +
+                     std::to_string(item.run.frames.first) + "-" +
+                     std::to_string(item.run.frames.last);
+  for (const auto& [file, hash] : run::hash_files(item.scene)) text += "\n" + file + " " + hash;
   return run::hash_text(hash_bytes(text.data(), text.size()));
 }
 
 Manifest prepare_sweep(const plan::SweepPlan& plan) {
   output::make_folder(runs_folder(plan.folder));
   std::vector<std::string> keys;
-  for (const plan::RunPlan& item : plan.runs) keys.push_back(key_of(item));
+  for (const plan::PlannedRun& item : plan.runs) keys.push_back(key_of(item));
   const std::vector<std::string> folders = assign_folders(plan, keys);
   const Manifest manifest = make_manifest(plan, keys, folders);
   for (std::size_t k = 0; k < plan.runs.size(); ++k)

@@ -7,11 +7,11 @@ namespace neve::app::sweep::store {
 
 /// DIR/manifest.json, DIR/sweep.toml, and for each run a folder with scene.toml and status.json.
 /// A run that the folder knows by its key keeps its folder and its state.
-/// @param plan with shared looks
+/// @param plan with the shared camera and ranges
 /// @throws IoError
 Manifest prepare_sweep(const plan::SweepPlan& plan);
 
 /// Hash of the resolved scene, the files it names, the version and the frames.
-std::string key_of(const plan::RunPlan& run);
+std::string key_of(const plan::PlannedRun& item);
 
 }  // namespace neve::app::sweep::store

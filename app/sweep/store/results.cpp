@@ -1,5 +1,7 @@
 #include "app/sweep/store/results.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -17,7 +19,7 @@ std::optional<double> finite(double x) {
 
 /// In the order of metric_infos().
 std::vector<std::optional<double>> metrics_of(const std::vector<run::FrameRecord>& frames,
-                                              const RunReport& report,
+                                              const RunStatus& status,
                                               std::optional<double> diverged_at) {
   if (frames.empty()) return std::vector<std::optional<double>>(metric_infos().size());
   const run::FrameRecord& last = frames.back();
@@ -39,7 +41,7 @@ std::vector<std::optional<double>> metrics_of(const std::vector<run::FrameRecord
           finite(last.summary.max_J_P),
           finite(max_speed),
           steps,
-          finite(report.seconds)};
+          finite(status.seconds)};
 }
 
 /// Contents of DIR/run.json besides its frames; missing values are omitted.
@@ -78,38 +80,38 @@ const std::vector<MetricInfo>& metric_infos() {
   return infos;
 }
 
-bool is_whole(const ManifestRun& run, const RunResult& result) {
-  return result.report.state == RunState::ok ||
-         (!result.frames.empty() && result.frames.back() >= run.last_frame);
+bool is_whole(const Run& run, const RunResult& result) {
+  return result.status.state == RunState::ok ||
+         (!result.frames.empty() && result.frames.back() >= run.frames.last);
 }
 
-RunResult read_result(const std::filesystem::path& folder, const ManifestRun& run) {
+RunResult read_result(const std::filesystem::path& folder, const Run& run) {
   RunResult result;
   const std::filesystem::path run_folder = runs_folder(folder) / run.folder;
-  result.report = read_report(run_folder);
+  result.status = read_status(run_folder);
   // A folder that was given to another run in the meantime tells nothing about this one.
-  if (result.report.key != run.key) result.report = RunReport{};
+  if (result.status.key != run.key) result.status = RunStatus{};
   std::vector<run::FrameRecord> frames;
   RunNotes notes;
-  if (result.report.key == run.key) {
+  if (result.status.key == run.key) {
     const Json record = run::read_run_json(run_folder);
     frames = run::frame_records(record);
     notes = notes_of(record);
     result.warnings = notes.warnings;
   }
   for (const run::FrameRecord& frame : frames) result.frames.push_back(frame.frame);
-  result.metrics = metrics_of(frames, result.report, notes.diverged_at);
+  result.metrics = metrics_of(frames, result.status, notes.diverged_at);
   return result;
 }
 
 std::vector<RunResult> read_results(const std::filesystem::path& folder, const Manifest& manifest) {
   std::vector<RunResult> results;
-  for (const ManifestRun& run : manifest.runs) results.push_back(read_result(folder, run));
+  for (const Run& run : manifest.runs) results.push_back(read_result(folder, run));
   return results;
 }
 
 std::string warning_count_text(std::size_t count) {
-  return std::to_string(count) + (count == 1 ? " warning" : " warnings");
+  return fmt::format("{} {}", count, count == 1 ? "warning" : "warnings");
 }
 
 std::vector<std::string> warning_lines(const Manifest& manifest,
@@ -129,7 +131,7 @@ std::vector<std::string> warning_lines(const Manifest& manifest,
     lines.push_back(line);
   }
   if (further > 0)
-    lines.push_back("and " + std::to_string(further) + " more runs with warnings, see report.html");
+    lines.push_back(fmt::format("and {} more runs with warnings, see report.html", further));
   return lines;
 }
 

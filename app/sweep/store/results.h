@@ -21,7 +21,7 @@ struct MetricInfo {
 const std::vector<MetricInfo>& metric_infos();
 
 struct RunResult {
-  RunReport report;
+  RunStatus status;
   std::vector<int> frames;  ///< that have a picture, in order
   /// One per metric_infos(), of the last frame; nothing where there is no frame.
   std::vector<std::optional<double>> metrics;
@@ -34,10 +34,10 @@ struct RunResult {
 };
 
 /// True if the metrics belong to the last frame, at which all runs are compared.
-bool is_whole(const ManifestRun& run, const RunResult& result);
+bool is_whole(const Run& run, const RunResult& result);
 
 /// @param folder of the sweep
-RunResult read_result(const std::filesystem::path& folder, const ManifestRun& run);
+RunResult read_result(const std::filesystem::path& folder, const Run& run);
 std::vector<RunResult> read_results(const std::filesystem::path& folder, const Manifest& manifest);
 
 /// "1 warning", "2 warnings"

@@ -20,7 +20,7 @@ namespace {
 constexpr std::array states{"pending", "running", "ok",      "diverged",      "failed",
                             "refused", "timeout", "crashed", "out_of_memory", "interrupted"};
 
-fs::path report_path(const fs::path& run_folder) {
+fs::path status_path(const fs::path& run_folder) {
   return run_folder / "status.json";
 }
 
@@ -54,42 +54,42 @@ bool has_failed(RunState state) {
          state != RunState::interrupted;
 }
 
-RunReport read_report(const fs::path& run_folder) {
-  RunReport report;
+RunStatus read_status(const fs::path& run_folder) {
+  RunStatus status;
   try {
-    const Json json = parse_json(output::read_file(report_path(run_folder), 1 << 20));
+    const Json json = parse_json(output::read_file(status_path(run_folder), 1 << 20));
     const auto found = std::find(states.begin(), states.end(), json.at("state").get<std::string>());
-    report.key = json.at("key").get<std::string>();
-    report.reason = json.value("reason", "");
-    report.short_reason = json.value("short_reason", "");
-    report.exit_code = json.value("exit_code", 0);
-    report.signal = json.value("signal", 0);
-    report.attempts = json.value("attempts", 0);
-    report.seconds = json.value("seconds", 0.0);
-    report.peak_memory = json.value("peak_memory_bytes", std::uint64_t{0});
-    report.pid = json.value("pid", 0L);
-    report.host = json.value("host", "");
-    if (found != states.end()) report.state = static_cast<RunState>(found - states.begin());
+    status.key = json.at("key").get<std::string>();
+    status.reason = json.value("reason", "");
+    status.short_reason = json.value("short_reason", "");
+    status.exit_code = json.value("exit_code", 0);
+    status.signal = json.value("signal", 0);
+    status.attempts = json.value("attempts", 0);
+    status.seconds = json.value("seconds", 0.0);
+    status.peak_memory = json.value("peak_memory_bytes", std::uint64_t{0});
+    status.pid = json.value("pid", 0L);
+    status.host = json.value("host", "");
+    if (found != states.end()) status.state = static_cast<RunState>(found - states.begin());
   } catch (const std::exception&) {
     return {};
   }
-  return report;
+  return status;
 }
 
-void write_report(const fs::path& run_folder, const RunReport& report) {
+void write_status(const fs::path& run_folder, const RunStatus& status) {
   Json json;
-  json["state"] = name(report.state);
-  json["key"] = report.key;
-  json["reason"] = report.reason;
-  json["short_reason"] = report.short_reason;
-  json["exit_code"] = report.exit_code;
-  json["signal"] = report.signal;
-  json["attempts"] = report.attempts;
-  json["seconds"] = report.seconds;
-  json["peak_memory_bytes"] = report.peak_memory;
-  json["pid"] = report.pid;
-  json["host"] = report.host;
-  output::write_file(report_path(run_folder), to_text(json) + "\n");
+  json["state"] = name(status.state);
+  json["key"] = status.key;
+  json["reason"] = status.reason;
+  json["short_reason"] = status.short_reason;
+  json["exit_code"] = status.exit_code;
+  json["signal"] = status.signal;
+  json["attempts"] = status.attempts;
+  json["seconds"] = status.seconds;
+  json["peak_memory_bytes"] = status.peak_memory;
+  json["pid"] = status.pid;
+  json["host"] = status.host;
+  output::write_file(status_path(run_folder), to_text(json) + "\n");
 }
 
 std::map<std::string, std::string> known_runs(const fs::path& sweep) {
@@ -98,8 +98,8 @@ std::map<std::string, std::string> known_runs(const fs::path& sweep) {
   for (const auto& entry : fs::directory_iterator(runs_folder(sweep), error)) {
     const std::string folder = entry.path().filename().string();
     if (!is_run_folder(folder)) continue;
-    const RunReport report = read_report(entry.path());
-    if (!report.key.empty()) known.emplace(report.key, folder);
+    const RunStatus status = read_status(entry.path());
+    if (!status.key.empty()) known.emplace(status.key, folder);
   }
   return known;
 }

@@ -23,7 +23,7 @@ enum class RunState {
 };
 const char* name(RunState state);
 
-struct RunReport {
+struct RunStatus {
   RunState state = RunState::pending;
   std::string key;           ///< hash of scene, version, frames
   std::string reason;        ///< one line; "" for ok
@@ -41,9 +41,9 @@ std::string run_folder_name(int number);
 std::filesystem::path runs_folder(const std::filesystem::path& sweep);
 
 /// Pending where there is no file or a broken one.
-RunReport read_report(const std::filesystem::path& run_folder);
+RunStatus read_status(const std::filesystem::path& run_folder);
 /// @throws IoError
-void write_report(const std::filesystem::path& run_folder, const RunReport& report);
+void write_status(const std::filesystem::path& run_folder, const RunStatus& status);
 
 /// Nothing is left to do, unless failed ones are to be run again.
 bool is_finished(RunState state);

@@ -1,4 +1,4 @@
-#include "app/sweep/plan/look.h"
+#include "app/sweep/plan/shared_view.h"
 
 #include <algorithm>
 #include <future>
@@ -37,42 +37,41 @@ std::vector<RangeSlot> range_slots(scene::View& view) {
           {&view.plots.dt, "dt"}};
 }
 
-/// Widens the look's ranges by those that were found for a run.
+/// Widens the shared ranges by those that were found for a run.
 /// @param own the run's view before: its own settings apply to no other run
-void widen(scene::View& look, scene::View own, scene::View resolved, const scene::View& base) {
+void widen(scene::View& shared, scene::View own, scene::View resolved, const scene::View& base) {
   scene::View given = base;
-  const std::vector<RangeSlot> shared = range_slots(look), mine = range_slots(own),
+  const std::vector<RangeSlot> all = range_slots(shared), mine = range_slots(own),
                                found = range_slots(resolved), fixed = range_slots(given);
-  for (std::size_t k = 0; k < shared.size(); ++k) {
-    if (*fixed[k].range || *mine[k].range || !*found[k].range || mine[k].of != shared[k].of)
-      continue;
-    std::optional<scene::Range>& range = *shared[k].range;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (*fixed[k].range || *mine[k].range || !*found[k].range || mine[k].of != all[k].of) continue;
+    std::optional<scene::Range>& range = *all[k].range;
     const scene::Range& other = **found[k].range;
     range = range ? scene::Range{std::min(range->min, other.min), std::max(range->max, other.max)}
                   : other;
   }
 }
 
-/// Takes the values that the run leaves open from the look.
-void apply(const scene::Scene& look, scene::Scene& scene) {
+/// Fills in what the run leaves open.
+void apply(const scene::Scene& shared, scene::Scene& scene) {
   if (setup::needs_framing(scene)) {
     if (!scene.camera || !scene.camera->eye) {
       const scene::CameraSettings own = scene.camera.value_or(scene::CameraSettings{});
-      if (look.camera && own.keyframes.empty() && own.fov == look.camera->fov &&
-          own.up == look.camera->up)
-        scene.camera = look.camera;
+      if (shared.camera && own.keyframes.empty() && own.fov == shared.camera->fov &&
+          own.up == shared.camera->up)
+        scene.camera = shared.camera;
     }
-    if (!scene.views[0].camera) scene.views[0].camera = look.views[0].camera;
+    if (!scene.views[0].camera) scene.views[0].camera = shared.views[0].camera;
   }
-  scene::View from = look.views[0];
-  const std::vector<RangeSlot> shared = range_slots(from), own = range_slots(scene.views[0]);
+  scene::View from = shared.views[0];
+  const std::vector<RangeSlot> all = range_slots(from), own = range_slots(scene.views[0]);
   for (std::size_t k = 0; k < own.size(); ++k)
-    if (!*own[k].range && own[k].of == shared[k].of) *own[k].range = *shared[k].range;
+    if (!*own[k].range && own[k].of == all[k].of) *own[k].range = *all[k].range;
 }
 
 std::vector<std::vector<int>> coordinates_of(const SweepPlan& plan) {
   std::vector<std::vector<int>> places;
-  for (const RunPlan& item : plan.runs) places.push_back(item.run.coordinates);
+  for (const PlannedRun& item : plan.runs) places.push_back(item.run.coordinates);
   return places;
 }
 
@@ -102,18 +101,18 @@ std::vector<setup::Moment> moments_of_corners(const SweepPlan& plan, int cores) 
   return moments;
 }
 
-scene::Scene find_look(const SweepPlan& plan, int cores) {
-  scene::Scene look = plan.base;
-  if (setup::needs_framing(look)) setup::resolve_cameras(look, moments_of_corners(plan, cores));
-  for (const RunPlan& item : plan.runs) {
+scene::Scene find_shared_view(const SweepPlan& plan, int cores) {
+  scene::Scene shared = plan.base;
+  if (setup::needs_framing(shared)) setup::resolve_cameras(shared, moments_of_corners(plan, cores));
+  for (const PlannedRun& item : plan.runs) {
     scene::Scene resolved = item.scene;
     setup::resolve_ranges(resolved, static_cast<std::size_t>(item.plan.particles));
-    widen(look.views[0], item.scene.views[0], resolved.views[0], plan.base.views[0]);
+    widen(shared.views[0], item.scene.views[0], resolved.views[0], plan.base.views[0]);
   }
-  return look;
+  return shared;
 }
 
-/// Identity of the sweep for which the look was computed. Axes are excluded, because they may grow.
+/// Names the scene that the camera and ranges belong to. Axes are no part of it: they may grow.
 std::string mark_of(const SweepPlan& plan) {
   const std::string text = scene::write_scene(plan.base);
   return "# Camera and colour ranges of all runs. Of scene " +
@@ -122,28 +121,28 @@ std::string mark_of(const SweepPlan& plan) {
 
 }  // namespace
 
-std::filesystem::path look_path(const std::filesystem::path& folder) {
+std::filesystem::path shared_view_path(const std::filesystem::path& folder) {
   return folder / "look.toml";
 }
 
-void share_look(SweepPlan& plan, int cores) {
-  const std::filesystem::path file = look_path(plan.folder);
+void share_camera_and_ranges(SweepPlan& plan, int cores) {
+  const std::filesystem::path file = shared_view_path(plan.folder);
   const std::string mark = mark_of(plan);
   std::error_code error;
-  std::optional<scene::Scene> look;
+  std::optional<scene::Scene> shared;
   if (std::filesystem::is_regular_file(file, error)) {
     const std::string text = scene::read_toml_file(file.string());
-    if (text.starts_with(mark)) look = scene::read_scene_text(text, file.string());
+    if (text.starts_with(mark)) shared = scene::read_scene_text(text, file.string());
   }
-  if (!look) {
-    look = find_look(plan, cores);
+  if (!shared) {
+    shared = find_shared_view(plan, cores);
     // A framing that was cut short is another one.
     if (is_interrupted()) return;
     output::make_folder(plan.folder);
-    output::write_file(file, mark + scene::write_scene(*look));
+    output::write_file(file, mark + scene::write_scene(*shared));
   }
-  for (RunPlan& item : plan.runs) {
-    apply(*look, item.scene);
+  for (PlannedRun& item : plan.runs) {
+    apply(*shared, item.scene);
     setup::resolve(item.scene, static_cast<std::size_t>(item.plan.particles));
   }
 }

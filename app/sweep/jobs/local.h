@@ -10,16 +10,16 @@
 
 namespace neve::app::sweep::jobs {
 
-struct EngineOptions {
+struct LocalOptions {
   int cores = 1;
   int jobs = 0;  ///< runs side by side; 0: as many as keep the cores busy and fit into memory
   std::string backend = "auto";
-  bool is_failed_again = false;   ///< runs those that failed before once more
+  bool retry_failed = false;      ///< runs those that failed before once more
   double grace = 20;              ///< s that a run has to end when it is asked to
   std::filesystem::path program;  ///< whose `render` makes the runs
 };
 
-struct EngineResult {
+struct JobsResult {
   int ok = 0, failed = 0;               ///< of all that were asked for, earlier ones included
   int started = 0;                      ///< now
   bool is_interrupted = false;          ///< some run waits for the next time
@@ -31,12 +31,12 @@ struct EngineResult {
 /// its status.json and never ends the sweep. A run in progress elsewhere is left alone. A Ctrl-C
 /// asks all children to end and waits for them.
 /// @throws IoError
-EngineResult run_local(const std::filesystem::path& folder, const store::Manifest& manifest,
-                       const std::vector<int>& indices, const EngineOptions& options,
-                       Progress& progress);
+JobsResult run_local(const std::filesystem::path& folder, const store::Manifest& manifest,
+                     const std::vector<int>& indices, const LocalOptions& options,
+                     Progress& progress);
 
 /// Number of threads for a run if `left` runs have not started yet. @param memory bytes that are
 /// free
-int threads_for(const store::ManifestRun& run, int left, int cores, double memory);
+int threads_for(const Run& run, int left, int cores, double memory);
 
 }  // namespace neve::app::sweep::jobs

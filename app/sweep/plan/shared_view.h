@@ -1,11 +1,11 @@
 #pragma once
-/// Shared look of all runs, for comparable pictures: one camera and one range for each field.
+/// One camera and one range of each field for all runs, so that their pictures can be compared.
 
 #include "app/sweep/plan/sweep_plan.h"
 
 namespace neve::app::sweep::plan {
 
-std::filesystem::path look_path(const std::filesystem::path& folder);
+std::filesystem::path shared_view_path(const std::filesystem::path& folder);
 
 /// Fills in the cameras and ranges of all runs, from DIR/look.toml where it belongs to the same
 /// scene, otherwise from dry runs of the corners of the sweep and the ranges of all runs together;
@@ -13,6 +13,6 @@ std::filesystem::path look_path(const std::filesystem::path& folder);
 /// written into that file. Settings of a run are kept.
 /// @param cores for dry runs side by side
 /// @throws SceneError for a broken look.toml, IoError
-void share_look(SweepPlan& plan, int cores);
+void share_camera_and_ranges(SweepPlan& plan, int cores);
 
 }  // namespace neve::app::sweep::plan

@@ -1,5 +1,6 @@
-#include "app/sweep/jobs/engine.h"
+#include "app/sweep/jobs/local.h"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -36,17 +37,16 @@ std::string host_name() {
 }
 
 /// In which the next runs are started.
-std::deque<const store::ManifestRun*> queue_of(const store::Manifest& manifest,
-                                               const std::vector<int>& indices) {
+std::deque<const Run*> queue_of(const store::Manifest& manifest, const std::vector<int>& indices) {
   std::vector<std::vector<int>> coordinates;
   std::vector<int> sizes;
-  for (const store::ManifestRun& run : manifest.runs) coordinates.push_back(run.coordinates);
-  for (const store::ManifestAxis& axis : manifest.axes)
+  for (const Run& run : manifest.runs) coordinates.push_back(run.coordinates);
+  for (const store::AxisLabels& axis : manifest.axes)
     sizes.push_back(static_cast<int>(axis.values.size()));
-  std::deque<const store::ManifestRun*> queue;
+  std::deque<const Run*> queue;
   std::set<std::string> keys;
   for (const std::size_t k : plan::coarse_first(coordinates, sizes)) {
-    const store::ManifestRun& run = manifest.runs[k];
+    const Run& run = manifest.runs[k];
     const bool is_wanted = std::find(indices.begin(), indices.end(), run.index) != indices.end();
     // Equal runs share a folder: one of them is enough.
     if (is_wanted && keys.insert(run.key).second) queue.push_back(&run);
@@ -54,18 +54,18 @@ std::deque<const store::ManifestRun*> queue_of(const store::Manifest& manifest,
   return queue;
 }
 
-class LocalEngine {
+class LocalJobs {
  public:
-  LocalEngine(const fs::path& folder, const store::Manifest& manifest, const EngineOptions& options,
-              Progress& progress)
+  LocalJobs(const fs::path& folder, const store::Manifest& manifest, const LocalOptions& options,
+            Progress& progress)
       : folder_(folder), manifest_(manifest), options_(options), progress_(progress) {}
 
-  EngineResult run(const std::vector<int>& indices) {
+  JobsResult run(const std::vector<int>& indices) {
     const auto start = Child::Clock::now();
     queue_ = queue_of(manifest_, indices);
-    state_.all = static_cast<int>(queue_.size());
+    counts_.all = static_cast<int>(queue_.size());
     skip_finished();
-    for (const store::ManifestRun* run : queue_) work_left_ += run->work;
+    for (const Run* run : queue_) work_left_ += run->work;
     clock_.note(0);
     while (!active_.empty() || !queue_.empty()) {
       if (is_interrupted()) stop();
@@ -82,33 +82,31 @@ class LocalEngine {
 
  private:
   struct Active {
-    const store::ManifestRun* run;
+    const Run* run;
     fs::path folder;
     store::RunLock lock;
-    store::RunReport report;
+    store::RunStatus status;
     Child child;
     int threads;
     int frame;  ///< the next one that was not there yet
   };
 
-  fs::path folder_of(const store::ManifestRun& run) const {
-    return store::runs_folder(folder_) / run.folder;
-  }
+  fs::path folder_of(const Run& run) const { return store::runs_folder(folder_) / run.folder; }
 
-  void count(const store::RunReport& report) {
-    ++state_.finished;
-    if (report.state == store::RunState::ok) ++result_.ok;
-    if (!store::has_failed(report.state)) return;
+  void count(const store::RunStatus& status) {
+    ++counts_.finished;
+    if (status.state == store::RunState::ok) ++result_.ok;
+    if (!store::has_failed(status.state)) return;
     ++result_.failed;
-    ++state_.failed;
+    ++counts_.failed;
   }
 
   void skip_finished() {
-    std::erase_if(queue_, [&](const store::ManifestRun* run) {
-      const store::RunReport report = store::read_report(folder_of(*run));
-      const bool is_again = options_.is_failed_again && store::has_failed(report.state);
-      if (!store::is_finished(report.state) || is_again) return false;
-      count(report);
+    std::erase_if(queue_, [&](const Run* run) {
+      const store::RunStatus status = store::read_status(folder_of(*run));
+      const bool is_again = options_.retry_failed && store::has_failed(status.state);
+      if (!store::is_finished(status.state) || is_again) return false;
+      count(status);
       return true;
     });
   }
@@ -140,7 +138,7 @@ class LocalEngine {
               ? static_cast<int>(active_.size()) >= options_.jobs
               : free_cores() <= 0 || (!active_.empty() && queue_.front()->memory > free_memory());
       if (is_full) return;
-      const store::ManifestRun* run = queue_.front();
+      const Run* run = queue_.front();
       queue_.pop_front();
       const int threads =
           options_.jobs > 0
@@ -150,47 +148,47 @@ class LocalEngine {
     }
   }
 
-  void start(const store::ManifestRun& run, int threads) {
+  void start(const Run& run, int threads) {
     const fs::path folder = folder_of(run);
     store::RunLock lock(folder);
     if (!lock.is_held()) {
-      progress_.warning(store::run_text(run) + " is in progress in another sweep");
-      --state_.all;
+      progress_.warning(fmt::format("{} is in progress in another sweep", store::run_text(run)));
+      --counts_.all;
       work_left_ -= run.work;
       return;
     }
-    store::RunReport report = store::read_report(folder);
-    if (is_over_memory(run, report, folder)) return;
-    const bool goes_on = report.state == store::RunState::running ||
-                         report.state == store::RunState::interrupted ||
-                         report.state == store::RunState::timeout;
-    if (!goes_on) clean(folder);
-    Child child({options_.program, arguments_of(run, threads, goes_on), folder, folder / "log"},
+    store::RunStatus status = store::read_status(folder);
+    if (is_over_memory(run, status, folder)) return;
+    const bool resumes = status.state == store::RunState::running ||
+                         status.state == store::RunState::interrupted ||
+                         status.state == store::RunState::timeout;
+    if (!resumes) clean(folder);
+    Child child({options_.program, arguments_of(run, threads, resumes), folder, folder / "log"},
                 {manifest_.timeout, static_cast<std::uint64_t>(manifest_.memory), options_.grace});
-    report.state = store::RunState::running;
-    ++report.attempts;
-    report.pid = child.pid();
-    report.host = host_name();
-    report.reason.clear();
-    report.short_reason.clear();
-    store::write_report(folder, report);
+    status.state = store::RunState::running;
+    ++status.attempts;
+    status.pid = child.pid();
+    status.host = host_name();
+    status.reason.clear();
+    status.short_reason.clear();
+    store::write_status(folder, status);
     ++result_.started;
-    progress_.detail(store::run_text(run) + " starts on " + std::to_string(threads) +
-                     (threads == 1 ? " thread" : " threads"));
-    active_.push_back({&run, folder, std::move(lock), std::move(report), std::move(child), threads,
-                       run.first_frame});
+    progress_.detail(fmt::format("{} starts on {} {}", store::run_text(run), threads,
+                                 threads == 1 ? "thread" : "threads"));
+    active_.push_back({&run, folder, std::move(lock), std::move(status), std::move(child), threads,
+                       run.frames.first});
   }
 
   /// Known before anything is started.
-  bool is_over_memory(const store::ManifestRun& run, store::RunReport& report,
-                      const fs::path& folder) {
+  bool is_over_memory(const Run& run, store::RunStatus& status, const fs::path& folder) {
     if (manifest_.memory <= 0 || run.memory <= manifest_.memory) return false;
-    report.state = store::RunState::out_of_memory;
+    status.state = store::RunState::out_of_memory;
     const std::string needed = bytes_text(static_cast<std::uint64_t>(run.memory)),
                       allowed = bytes_text(static_cast<std::uint64_t>(manifest_.memory));
-    report.short_reason = "needs " + needed;
-    report.reason = "about " + needed + " of memory are needed, [limits] memory allows " + allowed;
-    finish(run, folder, report);
+    status.short_reason = fmt::format("needs {}", needed);
+    status.reason =
+        fmt::format("about {} of memory are needed, [limits] memory allows {}", needed, allowed);
+    finish(run, folder, status);
     return true;
   }
 
@@ -203,16 +201,15 @@ class LocalEngine {
     fs::remove(output::run_json_path(folder), error);
   }
 
-  std::vector<std::string> arguments_of(const store::ManifestRun& run, int threads,
-                                        bool goes_on) const {
+  std::vector<std::string> arguments_of(const Run& run, int threads, bool resumes) const {
     std::vector<std::string> words{
         "render",     "scene.toml",
         "--out",      ".",
-        "--frames",   std::to_string(run.first_frame) + "-" + std::to_string(run.last_frame),
+        "--frames",   fmt::format("{}-{}", run.frames.first, run.frames.last),
         "--threads",  std::to_string(threads),
         "--backend",  options_.backend,
         "--no-movie", "--quiet"};
-    if (goes_on) words.push_back("--resume");
+    if (resumes) words.push_back("--resume");
     return words;
   }
 
@@ -225,33 +222,32 @@ class LocalEngine {
       }
       result_.cpu_seconds += ended->cpu_seconds;
       result_.core_seconds += ended->seconds * active->threads;
-      judge(*ended, manifest_, *active->run, active->folder, active->report);
-      finish(*active->run, active->folder, active->report);
-      if (active->report.state == store::RunState::ok) output::remove_checkpoints(active->folder);
+      judge(*ended, manifest_, *active->run, active->folder, active->status);
+      finish(*active->run, active->folder, active->status);
+      if (active->status.state == store::RunState::ok) output::remove_checkpoints(active->folder);
       active = active_.erase(active);
     }
   }
 
-  void finish(const store::ManifestRun& run, const fs::path& folder,
-              const store::RunReport& report) {
-    store::write_report(folder, report);
-    if (store::is_finished(report.state)) count(report);
+  void finish(const Run& run, const fs::path& folder, const store::RunStatus& status) {
+    store::write_status(folder, status);
+    if (store::is_finished(status.state)) count(status);
     // Also by another process: then the sweep is not done either.
-    if (report.state == store::RunState::interrupted) result_.is_interrupted = true;
+    if (status.state == store::RunState::interrupted) result_.is_interrupted = true;
     work_done_ += run.work;
     work_left_ -= run.work;
     clock_.note(work_done_);
     const std::string what = store::run_text(run) + (run.label.empty() ? "" : ", " + run.label);
-    if (store::has_failed(report.state))
-      progress_.note(what + ": " + tile_text(report) +
-                     (report.reason.empty() ? "" : "\n  " + report.reason));
+    if (store::has_failed(status.state))
+      progress_.note(what + ": " + tile_text(status) +
+                     (status.reason.empty() ? "" : "\n  " + status.reason));
     else
-      progress_.detail(what + ": " + store::name(report.state) + " after " +
-                       fixed_text(report.seconds, 1) + " s");
+      progress_.detail(fmt::format("{}: {} after {} s", what, store::name(status.state),
+                                   fixed_text(status.seconds, 1)));
   }
 
   void show() {
-    state_.running = static_cast<int>(active_.size());
+    counts_.running = static_cast<int>(active_.size());
     const auto now = Child::Clock::now();
     if (now - shown_at_ < std::chrono::milliseconds(500)) return;
     shown_at_ = now;
@@ -259,25 +255,25 @@ class LocalEngine {
     double begun = 0;
     for (Active& active : active_) {
       std::error_code error;
-      while (active.frame <= active.run->last_frame &&
+      while (active.frame <= active.run->frames.last &&
              fs::exists(output::frame_path(active.folder, manifest_.view, active.frame), error))
         ++active.frame;
-      const int all = active.run->last_frame - active.run->first_frame + 1;
-      begun += active.run->work * (active.frame - active.run->first_frame) / all;
+      const int all = active.run->frames.count();
+      begun += active.run->work * (active.frame - active.run->frames.first) / all;
     }
     clock_.note(work_done_ + begun);
-    state_.seconds_left = clock_.seconds_for(std::max(0.0, work_left_ - begun));
-    progress_.line(runs_text(state_));
+    counts_.seconds_left = clock_.seconds_for(std::max(0.0, work_left_ - begun));
+    progress_.line(runs_text(counts_));
   }
 
   const fs::path& folder_;
   const store::Manifest& manifest_;
-  const EngineOptions& options_;
+  const LocalOptions& options_;
   Progress& progress_;
-  std::deque<const store::ManifestRun*> queue_;
+  std::deque<const Run*> queue_;
   std::list<Active> active_;
-  EngineResult result_;
-  RunsState state_;
+  JobsResult result_;
+  RunCounts counts_;
   WorkClock clock_;
   double work_done_ = 0, work_left_ = 0;
   Child::Clock::time_point shown_at_;
@@ -285,7 +281,7 @@ class LocalEngine {
 
 }  // namespace
 
-int threads_for(const store::ManifestRun& run, int left, int cores, double memory) {
+int threads_for(const Run& run, int left, int cores, double memory) {
   // Fewer particles than these are not worth a thread's share of a step.
   constexpr double least = 4000;
   const double fitting = run.memory > 0 ? std::max(1.0, std::floor(memory / run.memory)) : cores;
@@ -296,10 +292,10 @@ int threads_for(const store::ManifestRun& run, int left, int cores, double memor
   return std::clamp(threads, 1, useful);
 }
 
-EngineResult run_local(const fs::path& folder, const store::Manifest& manifest,
-                       const std::vector<int>& indices, const EngineOptions& options,
-                       Progress& progress) {
-  return LocalEngine(folder, manifest, options, progress).run(indices);
+JobsResult run_local(const fs::path& folder, const store::Manifest& manifest,
+                     const std::vector<int>& indices, const LocalOptions& options,
+                     Progress& progress) {
+  return LocalJobs(folder, manifest, options, progress).run(indices);
 }
 
 }  // namespace neve::app::sweep::jobs
