@@ -10,6 +10,7 @@
 #include "app/output/process.h"
 #include "app/output/sequence.h"
 #include "render/image/image.h"
+#include "tests/support/needs.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -43,7 +44,7 @@ struct Fixture {
 class Movie : public testing::Test {
  protected:
   void SetUp() override {
-    if (!app::output::find_program("ffmpeg")) GTEST_SKIP() << "ffmpeg is not installed";
+    if (!app::output::find_program("ffmpeg")) SKIP_OR_FAIL("no ffmpeg in PATH (Debian: ffmpeg)");
   }
 };
 

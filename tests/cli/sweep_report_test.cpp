@@ -5,6 +5,7 @@
 #include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/cinema.h"
+#include "tests/support/needs.h"
 
 namespace neve::test {
 namespace {
@@ -80,7 +81,7 @@ std::optional<std::filesystem::path> browser() {
 
 TEST_F(SweepResults, AreShownByABrowserThatMayNotReachAnything) {
   const auto program = browser();
-  if (!program) GTEST_SKIP() << "no chromium in PATH";
+  if (!program) SKIP_OR_FAIL("no chromium in PATH (Debian: chromium)");
   const std::string page = "file://" + (folder / "out/study.cdb/report.html").string();
   const std::vector<std::string> quiet{"--headless",
                                        "--no-sandbox",

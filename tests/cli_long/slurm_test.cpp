@@ -4,6 +4,7 @@
 
 #include "tests/cli/run_neve.h"
 #include "tests/support/cinema.h"
+#include "tests/support/needs.h"
 #include "tests/support/slurm.h"
 
 namespace neve::test {
@@ -43,10 +44,10 @@ std::string without_times(const std::string& csv) {
 }
 
 TEST_F(Cli, SlurmMakesTheSameTableAsThisMachine) {
-  if (const std::string obstacle = Slurm::obstacle(); !obstacle.empty())
-    GTEST_SKIP() << "no Slurm: " << obstacle;
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can start Slurm's daemons";
+  if (const std::string missing = Slurm::missing(); !missing.empty()) SKIP_OR_FAIL(missing);
   const Slurm slurm;
-  if (!slurm.is_up()) GTEST_SKIP() << "Slurm does not start here";
+  if (!slurm.is_up()) SKIP_OR_FAIL("Slurm is installed and does not start");
   folder.write("study.toml", study);
   const auto local = neve({"sweep", "study.toml", "--out", "local"});
   EXPECT_EQ(local.exit_code, 7) << local.errors;
@@ -64,10 +65,10 @@ TEST_F(Cli, SlurmMakesTheSameTableAsThisMachine) {
 }
 
 TEST_F(Cli, CancelledSlurmSweepsGoOn) {
-  if (const std::string obstacle = Slurm::obstacle(); !obstacle.empty())
-    GTEST_SKIP() << "no Slurm: " << obstacle;
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can start Slurm's daemons";
+  if (const std::string missing = Slurm::missing(); !missing.empty()) SKIP_OR_FAIL(missing);
   const Slurm slurm;
-  if (!slurm.is_up()) GTEST_SKIP() << "Slurm does not start here";
+  if (!slurm.is_up()) SKIP_OR_FAIL("Slurm is installed and does not start");
   folder.write("long.toml",
                "[sweep]\nscene = \"scene.toml\"\n[axis]\n\"solver.max_dt\" = [1e-6, 1.1e-6]\n");
   const std::string script =

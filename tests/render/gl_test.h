@@ -3,22 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <memory>
 #include <string>
 
 #include "render/renderer.h"
+#include "tests/support/needs.h"
 
-/// Skips the test without OpenGL; fails instead where NEVE_REQUIRE_GL=1 says that there must be
-/// one.
+/// Opens a context, or ends the test where there is none.
 #define OPEN_OR_SKIP(context, choice)                                           \
   std::string context##_reason;                                                 \
   const auto context = neve::render::open_or_explain(choice, context##_reason); \
-  if (!context) {                                                               \
-    const char* required = std::getenv("NEVE_REQUIRE_GL");                      \
-    if (required && std::string(required) == "1") FAIL() << context##_reason;   \
-    GTEST_SKIP() << context##_reason;                                           \
-  }
+  if (!context) SKIP_OR_FAIL(context##_reason)
 
 namespace neve::render {
 

@@ -27,6 +27,9 @@ namespace neve::test {
 
 using app::Json;
 
+inline constexpr const char* no_chromium =
+    "no chromium, chromium-browser or google-chrome in PATH (Debian: chromium)";
+
 /// Path of Chromium or Chrome, empty where there is none.
 inline std::string find_chromium() {
   const char* const path = std::getenv("PATH");

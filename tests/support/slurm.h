@@ -17,12 +17,13 @@ namespace neve::test {
 
 class Slurm {
  public:
-  /// Why none can be started here; "" where it can.
-  static std::string obstacle() {
-    if (::geteuid() != 0) return "not root";
+  /// The program that is missing, with its package; "" where none is.
+  static std::string missing() {
     ::setenv("PATH", (std::string(std::getenv("PATH")) + ":/usr/sbin:/sbin").c_str(), 1);
     for (const char* name : {"slurmctld", "slurmd", "sbatch", "squeue", "scancel", "munged"})
-      if (!app::output::find_program(name)) return std::string(name) + " is not installed";
+      if (!app::output::find_program(name))
+        return std::string("no ") + name +
+               " in PATH (Debian: slurmctld, slurmd, slurm-client, munge)";
     return "";
   }
 

@@ -1,6 +1,7 @@
 /// The page in a real browser: what a person does there arrives, and what is shown is seen.
 
 #include "tests/support/chromium.h"
+#include "tests/support/needs.h"
 #include "tests/view/relay.h"
 #include "tests/view/web_support.h"
 
@@ -37,7 +38,7 @@ class Browser : public Web {
 
   void SetUp() override {
     if (!browser)
-      GTEST_SKIP() << "no chromium, chromium-browser or google-chrome in PATH (Debian: chromium)";
+      SKIP_OR_FAIL(no_chromium);
     browser->exceptions.clear();
     start();
   }

@@ -5,6 +5,7 @@
 
 #include "tests/support/child.h"
 #include "tests/support/chromium.h"
+#include "tests/support/needs.h"
 
 namespace neve::test {
 namespace {
@@ -50,7 +51,7 @@ class ViewPage : public testing::Test {
  protected:
   void SetUp() override {
     if (find_chromium().empty())
-      GTEST_SKIP() << "no chromium, chromium-browser or google-chrome in PATH (Debian: chromium)";
+      SKIP_OR_FAIL(no_chromium);
     folder.write("fall.toml", long_fall);
     start_view();
   }
@@ -71,7 +72,7 @@ class ViewPage : public testing::Test {
       if (::waitpid(process, &status_of_process, WNOHANG) == process) {
         process = -1;
         const std::string why = read_text(folder / "messages.txt");
-        if (WEXITSTATUS(status_of_process) == 4) GTEST_SKIP() << why;  // no OpenGL here
+        if (WEXITSTATUS(status_of_process) == 4) SKIP_OR_FAIL(why);  // no OpenGL here
         FAIL() << why;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -6,6 +6,7 @@
 #include "app/support/errors.h"
 #include "render/image/image.h"
 #include "tests/cli/run_neve.h"
+#include "tests/support/needs.h"
 
 namespace neve::test {
 namespace {
@@ -33,7 +34,7 @@ class ViewByScript : public Cli {
 };
 
 #define SKIP_WITHOUT_GL(result) \
-  if (result.exit_code == app::exit_no_backend) GTEST_SKIP() << result.errors
+  if (result.exit_code == app::exit_no_backend) SKIP_OR_FAIL(result.errors)
 
 TEST_F(ViewByScript, AParameterIsFoundChangedSimulatedWithAndSaved) {
   const auto result = view(R"([

@@ -11,6 +11,7 @@
 #include "app/view/front/imgui_input.h"
 #include "render/gl/context.h"
 #include "render/gl/gl.h"
+#include "tests/support/needs.h"
 #include "tests/support/xvfb.h"
 
 namespace neve::app {
@@ -25,16 +26,16 @@ class InWindow : public testing::Test {
   static void TearDownTestSuite() { display.reset(); }
 
   void SetUp() override {
-    if (!display->reason().empty()) GTEST_SKIP() << display->reason();
+    if (!display->reason().empty()) SKIP_OR_FAIL(display->reason());
     hand = std::make_unique<test::XHand>();
-    if (!hand->reason().empty()) GTEST_SKIP() << hand->reason();
+    if (!hand->reason().empty()) SKIP_OR_FAIL(hand->reason());
     try {
       front = std::make_unique<app::view::front::WindowFront>(
           "neve test", app::view::front::ScreenSize{640, 480, 1});
     } catch (const render::gl::ContextError& error) {
       const std::string reason = error.what();
       if (reason.find("built without") == std::string::npos) FAIL() << reason;
-      GTEST_SKIP() << reason;
+      SKIP_OR_FAIL(reason);
     }
     hand->move(320, 240);
     wait_until([&] { return saw(Kind::move); });
