@@ -9,6 +9,7 @@
 
 #include "app/output/process.h"
 #include "app/support/json.h"
+#include "tests/mutation/edits.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::test {
@@ -43,23 +44,14 @@ void compile(const std::string& source, const fs::path& object, const fs::path& 
       copies);
 }
 
-std::size_t count_in(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-    ++found;
-  return found;
-}
-
 /// Copies the files that a mistake changes, changed.
 void make_copies(const Mistake& mistake, const fs::path& copies) {
   std::map<std::string, std::string> texts;
   for (const Edit& edit : mistake.edits) {
     if (!texts.contains(edit.file))
       texts[edit.file] = read_text(fs::path(NEVE_SOURCE_DIR) / edit.file);
-    std::string& text = texts[edit.file];
-    if (count_in(text, edit.old_text) != 1)
-      throw Trouble(mistake.name + " has lost its place in " + edit.file + ":\n" + edit.old_text);
-    text.replace(text.find(edit.old_text), edit.old_text.size(), edit.new_text);
+    if (const std::string lost = lost_place(mistake, edit); !lost.empty()) throw Trouble(lost);
+    texts[edit.file] = edited(texts[edit.file], edit);
   }
   for (const auto& [file, text] : texts) {
     fs::create_directories((copies / file).parent_path());
@@ -76,10 +68,6 @@ std::vector<std::string> strings(const app::Json& json) {
 }
 
 }  // namespace
-
-std::size_t occurrences(const Edit& edit) {
-  return count_in(read_text(fs::path(NEVE_SOURCE_DIR) / edit.file), edit.old_text);
-}
 
 Laboratory::Laboratory(const fs::path& folder) : folder_(folder), kernels_(folder / "kernels.o") {
   compile(kernels, kernels_, folder_);

@@ -9,9 +9,6 @@
 
 namespace neve::test {
 
-/// Number of times that the old text of an edit occurs in its file; once is right.
-std::size_t occurrences(const Edit& edit);
-
 /// Which checks noticed a mistake.
 struct Finding {
   std::string trouble;  ///< why there is no finding: a lost place, a compiler's message

@@ -7,8 +7,8 @@
 
 namespace neve::test {
 
-/// Replaces a text that must occur exactly once in a file: a refactoring that moves it makes the
-/// test say which mistake has lost its place.
+/// Replaces a text that must occur exactly once in a file, spaces and new lines ignored. A test
+/// (Structure.MistakesHaveTheirPlacesInTheSources) says which edit a refactoring has to update.
 struct Edit {
   std::string file;  ///< from the top of the source tree
   std::string old_text, new_text;

@@ -181,8 +181,8 @@ std::vector<Mistake> transfer_mistakes() {
        "half a cell between P2G and G2P",
        {{sweeps,
          "s.template set<!is_mls, !is_flip>(0, p.offset, p.cell);\n"
-         "          sim::gather<Set, transfer>(s, 0",
-         std::string(aside) + "          sim::gather<Set, transfer>(s, 0"},
+         "          kernels::gather<Set, transfer>(s, 0",
+         std::string(aside) + "          kernels::gather<Set, transfer>(s, 0"},
         {sweeps,
          "s.template set<!is_mls, !is_flip>(0, p.offset, p.cell);\n"
          "        Gathered<V> g{};",

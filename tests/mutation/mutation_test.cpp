@@ -8,14 +8,6 @@
 namespace neve::test {
 namespace {
 
-TEST(Mistakes, HaveTheirPlacesInTheSources) {
-  for (const Mistake& mistake : all_mistakes())
-    for (const Edit& edit : mistake.edits)
-      EXPECT_EQ(occurrences(edit), 1u)
-          << "the mistake " << mistake.name << " has lost its place in " << edit.file << ":\n"
-          << edit.old_text << "\nMake the same mistake in the new code.";
-}
-
 TEST(Mistakes, AreNoticedAsDocumentedAndRightCodeIsNot) {
   std::vector<Mistake> mistakes{{"none", "none", {}}};
   for (const Mistake& mistake : all_mistakes())

@@ -17,10 +17,11 @@ inline bool is_everything_required() {
 }  // namespace neve::test
 
 /// Ends the test because something is missing. @param reason says what, and what to install
-#define SKIP_OR_FAIL(reason)                                                                   \
-  do {                                                                                         \
-    if (neve::test::is_everything_required())                                                  \
-      FAIL() << (reason) << "\nNEVE_REQUIRE_ALL=1 forbids to skip: ./neve test installs what " \
-                "tests need; unset it where that is impossible";                               \
-    GTEST_SKIP() << (reason);                                                                  \
+#define SKIP_OR_FAIL(reason)                                                       \
+  do {                                                                             \
+    if (neve::test::is_everything_required())                                      \
+      FAIL() << (reason)                                                           \
+             << "\nNEVE_REQUIRE_ALL=1 forbids to skip: ./neve test installs what " \
+                "tests need; unset it where that is impossible";                   \
+    GTEST_SKIP() << (reason);                                                      \
   } while (false)

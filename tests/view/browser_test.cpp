@@ -37,8 +37,7 @@ class Browser : public Web {
   static void TearDownTestSuite() { browser.reset(); }
 
   void SetUp() override {
-    if (!browser)
-      SKIP_OR_FAIL(no_chromium);
+    if (!browser) SKIP_OR_FAIL(no_chromium);
     browser->exceptions.clear();
     start();
   }
@@ -51,10 +50,20 @@ class Browser : public Web {
   void open(const std::string& address = {}, int width = 640, int height = 400, double ratio = 1) {
     browser->resize(width, height, ratio);
     browser->open(address.empty() ? front->where() : address);
-    ASSERT_TRUE(wait_until([&] { return front->is_picture_wanted(); }, 10));
-    front->show_image(quarters(front->size().width, front->size().height));
-    ASSERT_TRUE(wait_until([&] { return is_true("note.hidden && drawn > 0"); }));
+    ASSERT_TRUE(show_until([&] { return is_true("note.hidden && drawn > 0"); }));
     events.clear();
+  }
+
+  /// Shows a picture of the window's size whenever the front wants one. A single picture could go
+  /// to a page that is just being replaced.
+  bool show_until(const std::function<bool()>& is_content) {
+    return wait_until(
+        [&] {
+          if (front->is_picture_wanted())
+            front->show_image(quarters(front->size().width, front->size().height));
+          return is_content();
+        },
+        15);
   }
 
   bool is_true(const std::string& expression) { return browser->evaluate(expression) == true; }
@@ -318,9 +327,7 @@ TEST_F(Browser, LostConnectionIsShownAndComesBack) {
   EXPECT_NEAR(pixel(shot, 0.1, 0.1)[0], pixel(shot, 0.1, 0.1)[2], 6);
   EXPECT_FALSE(front->is_ready());
   relay.cut(false);
-  ASSERT_TRUE(wait_until([&] { return front->is_picture_wanted(); }, 10));
-  front->show_image(quarters(640, 400));
-  EXPECT_TRUE(wait_until([&] { return note().empty(); }));
+  EXPECT_TRUE(show_until([&] { return note().empty(); }));
   expect_quarters(browser->screenshot());
 }
 
@@ -330,9 +337,7 @@ TEST_F(Browser, EndAndReplacementAreTold) {
   EXPECT_TRUE(wait_until([&] { return note().find("somewhere else") != std::string::npos; }));
   browser->evaluate("note.querySelector('button').click()");
   EXPECT_EQ(other->close_code(3), app::view::web::close_code::taken);
-  ASSERT_TRUE(wait_until([&] { return front->is_picture_wanted(); }));
-  front->show_image(quarters(640, 400));
-  EXPECT_TRUE(wait_until([&] { return note().empty(); }));
+  EXPECT_TRUE(show_until([&] { return note().empty(); }));
   front.reset();
   for (int k = 0; k < 100 && note().empty(); ++k)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -50,8 +50,7 @@ int difference(const render::Image& a, const render::Image& b, const Region& reg
 class ViewPage : public testing::Test {
  protected:
   void SetUp() override {
-    if (find_chromium().empty())
-      SKIP_OR_FAIL(no_chromium);
+    if (find_chromium().empty()) SKIP_OR_FAIL(no_chromium);
     folder.write("fall.toml", long_fall);
     start_view();
   }
