@@ -1,11 +1,11 @@
 /// The kernels that the probe needs, and no more: double, cubic spline, FLIP, the baseline
 /// instruction set. Compiled in seconds, where all of them take minutes. Takes the place of
-/// sim/kernels/simd.cpp and sim/kernels_*.cpp when it is linked before the library.
+/// sim/kernels/simd.cpp and sim/kernels/instruction_sets/ when it is linked before the library.
 
 #include "sim/kernels/implicit_sweeps.h"
 #include "sim/kernels/sweeps.h"
 
-namespace neve::sim {
+namespace neve::sim::kernels {
 
 template <>
 const Sweeps<double>& KernelSet<BaselineSet>::sweeps(int nodes, TransferKind transfer, double) {
@@ -27,7 +27,7 @@ const SolveSweeps<float>& SolveKernelSet<BaselineSet>::sweeps(int, bool, float) 
   __builtin_trap();
 }
 
-}  // namespace neve::sim
+}  // namespace neve::sim::kernels
 
 #include "sim/kernels/implicit_simd.cpp"
 #include "sim/kernels/simd.cpp"
