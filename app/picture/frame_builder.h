@@ -18,7 +18,7 @@ namespace neve::app::picture {
 /// What pictures of a scene depend on besides the scene.
 struct PictureOptions {
   setup::Quality quality = setup::Quality::preview;
-  std::vector<std::string> overrides;  ///< "material.snow.hardening=5", for the caption
+  std::vector<std::string> overrides = {};  ///< "material.snow.hardening=5", for the caption
   double coarsening = 1;  ///< what --coarsen did to the scene, for the caption; 1: nothing
 };
 
