@@ -47,7 +47,7 @@ void check_memory(double bytes) {
   const auto allowed = static_cast<double>(available_memory() / 10 * 8);
   if (bytes <= allowed) return;
   throw LimitError("refused: about " + bytes_text(static_cast<std::uint64_t>(bytes)) +
-                       " of memory are more than 80 % of what is available; measure fewer "
+                       " of memory are more than 80 % of the available memory; measure fewer "
                        "particles with --particles",
                    "--particles", "measure fewer particles with --particles");
 }

@@ -88,7 +88,7 @@ void check_material_units(const sim::Material& m, std::vector<Finding>& findings
                         "steps shorten with its square root; the paper's snow has 1.4e5"});
 }
 
-/// Of a grid cell.
+/// Index of a grid cell.
 using CellIndex = std::array<long, 3>;
 
 std::map<CellIndex, std::map<std::size_t, int>> bodies_in_cells(const scene::Scene& scene,

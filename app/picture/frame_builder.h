@@ -15,7 +15,7 @@
 
 namespace neve::app::picture {
 
-/// What pictures of a scene depend on besides the scene.
+/// Inputs of a picture besides the scene.
 struct PictureOptions {
   setup::Quality quality = setup::Quality::preview;
   std::vector<std::string> overrides = {};  ///< "material.snow.hardening=5", for the caption

@@ -137,7 +137,7 @@ void ChangePlayer::go_to(std::size_t steps) {
 
 void ChangePlayer::make_now(std::shared_ptr<const scene::Scene> scene) {
   simulation_.apply(scene->solver, scene->materials, scene::sim_colliders(*scene));
-  // What the simulation was told, not what was typed: both differ where a scene is coarsened.
+  // Compares the values of the simulation, not the typed ones: they differ in a coarsened scene.
   for (const scene::Difference& change : scene::differences(*scene_, *scene))
     if (change.is_live && scene::concerns_simulation(change.address))
       scene::note_change(changes_,

@@ -141,7 +141,7 @@ void check_limits(const scene::Scene& scene, const Plan& plan) {
   if (plan.memory > plan.memory_limit)
     refuse("about " + bytes_text(plan.memory) +
                " of memory are more than limits.memory = " + bytes_text(plan.memory_limit) +
-               (scene.limits.memory > 0 ? "" : ", 80 % of what is available"),
+               (scene.limits.memory > 0 ? "" : ", 80 % of the available memory"),
            "limits.memory",
            "raise it with --set limits.memory=" + std::to_string(plan.memory) +
                ", or make solver.cell_size larger");

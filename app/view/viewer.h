@@ -24,7 +24,7 @@ struct ViewerOptions {
   std::optional<std::string> view;  ///< the first one; without: the scene's first
 };
 
-/// What the picture shows, from wherever it is seen.
+/// Key of the contents of the picture, independent of the camera.
 struct StateKey {
   const scene::Scene* scene = nullptr;  ///< as it is edited
   std::uint64_t number = 0;             ///< of the LiveFrame

@@ -20,7 +20,7 @@ struct Method {
   /// All but the lattice. @throws std::invalid_argument, and then is as it was
   void change(const SolverSettings& settings, const std::vector<Material>& materials);
 
-  /// Whether stages to skip, or a material, force the staged driver.
+  /// True if skipped stages, or a material, force the staged driver.
   bool takes_stages() const { return settings.takes_stages() || materials[0].yields; }
   double max_hardening() const;
   std::size_t tile_nodes() const;

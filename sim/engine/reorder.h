@@ -103,7 +103,7 @@ class Reordering {
       const auto [place, source] = fill(static_cast<std::uint32_t>(q));
       records[place] = part.foreign[source & ~foreign_flag];
     }
-    // What is left goes round in circles.
+    // The remaining moves form cycles.
     for (std::size_t q = part.begin; q < part.end; ++q) {
       if (order[q] == q) continue;
       const Record record = records[q];

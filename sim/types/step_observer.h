@@ -1,5 +1,5 @@
 #pragma once
-/// What looks on while a simulation advances.
+/// Observer of a simulation while it advances.
 
 #include <functional>
 

@@ -217,10 +217,10 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
       {"[axis]\n\"seed\" = { linspce = [1, 2], num = 2 }\n",
        "4:12 unknown key \"linspce\" in [seed]; did you mean \"linspace\"?"},
       {"[axis]\n\"fps\" = { linspace = [1, 2] }\n",
-       "4:9 num is missing; linspace and logspace need how many values, as num = 4"},
+       "4:9 num is missing; linspace and logspace need the number of values, as num = 4"},
       {"[axis]\n\"seed\" = 3\n",
        "4:10 seed = 3; expected a list of values, as in [5, 10], or a table such as { linspace = "
-       "[1, 2], num = 3 }; what does not vary belongs into [set]"},
+       "[1, 2], num = 3 }; put constant values into [set]"},
       {"[axis]\n\"fps\" = []\n", "4:9 fps has no values"},
       {"method = \"gird\"\n",
        "3:10 sweep.method = \"gird\"; expected \"grid\", \"zip\", \"random\", \"lhs\" or \"list\"; "

@@ -146,7 +146,7 @@ TEST_F(SweepCli, AnotherStudyDoesNotReplaceTheFirst) {
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_TRUE(contains(other.errors,
                        "out/scene.cdb: has a sweep of seed; this one varies "
-                       "material.snow.hardening; give --out another folder"))
+                       "material.snow.hardening; choose another folder with --out"))
       << other.errors;
   EXPECT_EQ(read_text(folder / "out/scene.cdb/data.csv"), table);
   const auto finer = neve({"sweep", "scene.toml", "-p", "seed=1,2,3", "--frames", "0", "--json"});

@@ -22,7 +22,7 @@ TEST(Mistakes, AreNoticedAsDocumentedAndRightCodeIsNot) {
     EXPECT_TRUE(findings[k].is_caught()) << mistakes[k].name << " goes unnoticed";
     const std::string line = row(mistakes[k], findings[k]);
     EXPECT_NE(documented.find(line), std::string::npos)
-        << "docs/mistakes.md says otherwise; ./neve test --all makes it anew:\n"
+        << "docs/mistakes.md says otherwise; ./neve test --all makes it again:\n"
         << line;
   }
 }

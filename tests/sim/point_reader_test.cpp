@@ -124,12 +124,12 @@ TEST(PointReader, TellsWhereAndWhatIsWrong) {
   const std::string ply = "ply\nformat ascii 1.0\nelement vertex ";
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
   expect("ply\n", "without end_header");
-  expect("ply\nformat ascii 2.0\nsnow\n", "p:3: \"snow\" is no keyword");
+  expect("ply\nformat ascii 2.0\nsnow\n", "p:3: \"snow\" is not a keyword");
   expect("ply\nformat zip 1.0\n", "p:2: the format \"zip\"");
   expect("ply\nend_header\n", "names no format");
   expect("ply\nformat ascii 1.0\nend_header\n", "no element vertex");
   expect(ply + "-1\n", "p:3: \"-1\" is not a number of elements");
-  expect(ply + "1\nproperty half x\n", "p:4: \"half\" is no type");
+  expect(ply + "1\nproperty half x\n", "p:4: \"half\" is not a type");
   expect(ply + "2\n" + xyz + "end_header\n1 2 3 \n", "truncated");
   expect(ply + "1\n" + xyz + "end_header\n1 2      \n", "p:8: 2 numbers");
   expect(ply + "1\n" + xyz + "end_header\n1 2 3 4\n", "p:8: more numbers than the header's 3");

@@ -116,7 +116,7 @@ std::vector<std::string> look_at(const Drop& drop) {
 TEST(Watch, NamesWhatIsWrongWithAState) {
   Drop lost;
   lost.particles.v[7][1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(has(look_at(lost), "particles that are no numbers is 1"));
+  EXPECT_TRUE(has(look_at(lost), "particles that are not finite is 1"));
 
   Drop inverted;
   inverted.materials[0].model = Model::corotated;
@@ -137,7 +137,7 @@ TEST(Watch, NamesWhatIsWrongWithAState) {
 
   Drop fast;
   fast.particles.v[7] = {25, 0, 0};
-  EXPECT_TRUE(has(look_at(fast), "speed over that of sound is 1.2"));
+  EXPECT_TRUE(has(look_at(fast), "speed relative to sound is 1.2"));
 }
 
 TEST(Watch, DoesNotBlameTheSolverForStagesThatWereLeftOut) {

@@ -100,7 +100,7 @@ TEST(ReplayScript, EveryWrongValueIsRefusedWithWhatWasExpected) {
       {"", "not valid JSON"},
       {"[{\"wait\": 3}", "not valid JSON"},
       {"{\"wait\": 3}", "is a list of steps"},
-      {"[3]", "3 is no step"},
+      {"[3]", "3 is not a step"},
       {"[{}]", "nothing to do"},
       {"[{\"wait\": 3, \"type\": \"a\"}]", "one thing"},
       {"[{\"wait\": 3, \"wait\": 4}]", "\"wait\" is there twice"},

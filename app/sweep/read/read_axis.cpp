@@ -88,7 +88,8 @@ std::vector<scene::toml::Value> values_of(const AxisRule& spec, const scene::Sou
   if (spec.range) return counted(*spec.range);
   const bool is_spaced = spec.linspace || spec.logspace;
   if (is_spaced && spec.num == 0)
-    source.fail(where, "num is missing", "linspace and logspace need how many values, as num = 4");
+    source.fail(where, "num is missing",
+                "linspace and logspace need the number of values, as num = 4");
   if (spec.linspace) return spaced(*spec.linspace, spec.num, false);
   return spec.logspace ? spaced(*spec.logspace, spec.num, true) : std::vector<scene::toml::Value>{};
 }
@@ -168,7 +169,7 @@ void refuse_foreign_range(const scene::Override& change, const std::string& what
                           text.find_first_not_of("0123456789.eE+-: ") == std::string::npos;
   if (has_colons || text.find("space(") != std::string::npos || text.starts_with("range("))
     throw scene::toml::UsageError(
-        what, "is no list of values",
+        what, "is not a list of values",
         "for a range write { linspace = [5, 10], num = 3 }, in quotes for the shell");
 }
 
@@ -213,7 +214,7 @@ Axis::Parameter read_axis(const scene::Source& source, const scene::toml::Entry&
   } else {
     source.fail(entry.value.where, entry.key + " = " + scene::toml::toml_literal(entry.value, 60),
                 "expected a list of values, as in [5, 10], or a table such as { linspace = [1, 2], "
-                "num = 3 }; what does not vary belongs into [set]");
+                "num = 3 }; put constant values into [set]");
   }
   if (values.empty()) source.fail(entry.value.where, entry.key + " has no values");
   if (values.size() >= most_values)

@@ -76,11 +76,11 @@ void draw_offer(ViewerState& state) {
       ImGui::PopStyleColor();
     }
     ImGui::PopTextWrapPos();
-    const bool is_reload = ImGui::Button("Reload and start anew");
-    note_label("Reload and start anew");
+    const bool is_reload = ImGui::Button("Reload and restart");
+    note_label("Reload and restart");
     ImGui::SameLine();
-    const bool is_kept = ImGui::Button("Keep what is here");
-    note_label("Keep what is here");
+    const bool is_kept = ImGui::Button("Keep the current scene");
+    note_label("Keep the current scene");
     if (is_reload) state.bench.reload();
     if (is_kept) state.bench.keep_file();
     if (is_reload || is_kept) state.is_reload_offered = state.bench.has_file_changed();

@@ -76,7 +76,7 @@ void draw_stage_table(const session::StageSummary& look) {
     ImGui::TextUnformatted(with_unit(quantity.name, quantity.unit).c_str());
     if (!quantity.why.empty() && wants_tip())
       show_tip({{std::to_string(quantity.outside_expected) +
-                 " outside of what is expected: " + quantity.why}});
+                 " outside the expected range: " + quantity.why}});
     draw_value(rough_text(quantity.min) + " to " + rough_text(quantity.max),
                quantity.outside_expected > 0, quantity.expected);
   }
@@ -216,11 +216,11 @@ void draw_probe(ViewerState& state) {
     ImGui::PopTextWrapPos();
     return;
   }
-  if (ImGui::Button("Let go")) {
+  if (ImGui::Button("Clear")) {
     set_probe(state, std::nullopt);
     return;
   }
-  note_label("Let go");
+  note_label("Clear");
   ImGui::SameLine();
   ImGui::Checkbox("follow it", &state.follows_probe);
   note_label("follow it");

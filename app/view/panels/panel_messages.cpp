@@ -122,8 +122,9 @@ void draw_time_line(ViewerState& state) {
   draw_ticks(live, last);
   ImGui::SameLine();
   if (live.is_older) {
-    if (ImGui::Button(is_short ? "Go on" : "Go on from here")) state.bench.continue_from_here();
-    note_label("Go on from here");
+    if (ImGui::Button(is_short ? "Continue" : "Continue from here"))
+      state.bench.continue_from_here();
+    note_label("Continue from here");
     tip("simulate from this frame with the current values;\nlater frames are dropped");
     ImGui::SameLine();
     if (ImGui::Button(is_short ? "Back" : "Back to the run")) state.bench.session().show_head();

@@ -153,8 +153,8 @@ void draw_changes(ViewerState& state) {
     ImGui::PopTextWrapPos();
     return;
   }
-  if (ImGui::Button("Take all back")) state.bench.forget("");
-  note_label("Take all back");
+  if (ImGui::Button("Restore all")) state.bench.forget("");
+  note_label("Restore all");
   ImGui::SameLine();
   if (ImGui::Button("Copy the command")) state.copy(state.bench.command());
   note_label("Copy the command");

@@ -88,7 +88,7 @@ class StepReader {
 
   ReplayStep read() {
     if (!json_.is_object())
-      fail({}, shown(json_) + " is no step", "a step is an object such as {\"click\": \"Run\"}");
+      fail({}, shown(json_) + " is not a step", "a step is an object such as {\"click\": \"Run\"}");
     if (!places_.repeated_key.empty())
       fail(places_.repeated_key, "\"" + places_.repeated_key + "\" is there twice", {});
     step_.line = places_.start.line;

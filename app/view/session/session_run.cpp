@@ -115,7 +115,7 @@ void Session::advance() {
   const double time = (frame_ + 1) / scene().fps;
   if (advance_is_new_) advance_ = {};
   advance_is_new_ = false;
-  // What may go back to the beginning of its frame is not stopped inside of it.
+  // A run that may return to the beginning of its frame is not stopped inside the frame.
   const bool may_go_back = scene().solver.on_divergence == sim::OnDivergence::retry;
   const auto observe = [&] {
     after_step();
