@@ -104,7 +104,8 @@ TEST(Limits, AreThoseOfTheDiagnosis) {
 
 TEST(Limits, AreThoseOfDumps) {
   const scene::Scene scene = ball();
-  const sim::ParticleArrays state = setup::seed_scene(scene).particles;
+  const sim::ParticleArrays state =
+      setup::make_simulation(scene, setup::seed_scene(scene).particles, 1).particles();
   const health::Expected expected(scene, state, 1e-4);
   EXPECT_EQ(expected.J_P().range.min, limits_of(Law::compaction).expected);
   EXPECT_EQ(expected.J_P().range.max, limits_of(Law::dilation).expected);
