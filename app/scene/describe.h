@@ -88,8 +88,8 @@ void describe(V& visit, sim::SolverSettings& s) {
   visit("strain_limit", s.strain_limit, unit::none, between(1e-3, 1e3), live,
         "Largest |dt grad v| of an adaptive step.");
   visit("beta", s.beta, unit::none, between(0, 1), live,
-        "0: explicit steps; up to 1: the paper's semi-implicit steps, which allow a longer dt "
-        "(from 0.5 on without acoustic limit) and damp.");
+        "0: explicit; up to 1: the paper's semi-implicit steps, for a longer dt (from 0.5 on no "
+        "acoustic limit); they damp.");
   visit("solve_tolerance", s.solve_tolerance, unit::none, between(1e-14, 0.1), live,
         "Residual of a semi-implicit step over its right side at which the solve ends; float "
         "reaches 1e-6 at best.");
@@ -330,8 +330,8 @@ void describe(V& visit, Collider& c) {
   visit.shape("shape", c.shape, "Solid volume that snow stays out of.",
               [](auto& v, sim::shapes::Shape& shape) { describe_collider_forms(v, shape); });
   visit("contact", c.contact, unit::none, anything, live,
-        "separate: snow leaves freely and slides with friction; slip: snow cannot leave and slides "
-        "freely; sticky: snow moves along.");
+        "separate: snow leaves, slides with friction; slip: cannot leave, slides freely; sticky: "
+        "moves along.");
   visit("friction", c.friction, unit::none, between(0, 1000), live,
         "Coulomb coefficient of separate contact.");
   visit("velocity", c.velocity, unit::velocity, speed, live, "Constant velocity.");
