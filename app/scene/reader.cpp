@@ -108,6 +108,7 @@ std::string Reader::advice(const std::string& key, const std::vector<std::string
   if (contains(known, "shape") && key == "plane") return "only colliders can be planes";
   const std::string nearest = nearest_name(key, known);
   if (!nearest.empty()) return quoted_question(nearest);
+  if (!reading_.is_scene) return "expected " + list_of(known);
   if (!address_.empty() && is_at_the_top(key))
     return "it belongs at the top of the file, before the first [table]";
   for (const auto& [word, ours] : other_names)

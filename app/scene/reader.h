@@ -14,6 +14,7 @@ namespace neve::app::scene {
 struct Reading {
   Source source;
   std::map<std::string, toml::Location> places;  ///< where each address was given
+  bool is_scene = true;                          ///< its keys may be sought in all of a scene
 
   /// Location of the address, or of the closest enclosing entry in the text.
   toml::Location place_of(std::string address) const;
