@@ -18,7 +18,7 @@ namespace {
 using Kind = toml::TomlNode::Kind;
 using Words = std::vector<std::string>;
 
-std::string joined(const Words& words, std::size_t first, std::size_t end) {
+std::string path_text(const Words& words, std::size_t first, std::size_t end) {
   std::string text;
   for (std::size_t k = first; k < end; ++k) text += (k == first ? "" : ".") + words[k];
   return text;
@@ -140,14 +140,14 @@ class Edit {
     if (words_[0] == "view" && (is_root || node_->kind == Kind::list)) return add_view();
     if (node_->kind != Kind::table) fail("its place holds something else");
     if (is_root && depth_ + 1 < words_.size())
-      return add_section(joined(words_, 0, words_.size() - 1), words_.back() + " = " + literal);
+      return add_section(path_text(words_, 0, words_.size() - 1), words_.back() + " = " + literal);
     if (is_root && literal.starts_with('{')) return add_table_section();
     if (node_->section >= 0) return add_line(literal);
     Words header = keys_;
     header.insert(header.end(), words_.begin() + static_cast<std::ptrdiff_t>(depth_),
                   words_.end() - 1);
     const std::string line = words_.back() + " = " + literal;
-    add_section_before(first_header(*node_), joined(header, 0, header.size()), line);
+    add_section_before(first_header(*node_), path_text(header, 0, header.size()), line);
   }
 
   void add_inline(const std::string& literal) {

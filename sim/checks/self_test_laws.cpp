@@ -182,7 +182,7 @@ void projection(const SelfTestCase& test, self_test::Measure& measure) {
   for (std::size_t q = 0; q < p.x.size(); ++q) {
     // F = U s V^T without U: F V s'/s V^T is U s' V^T.
     const Eigen::SelfAdjointEigenSolver<Mat3d> eigen(p.F_E[q].transpose() * p.F_E[q]);
-    const Mat3d V = eigen.eigenvectors();
+    const Mat3d& V = eigen.eigenvectors();
     Vec3d factor;
     for (int a = 0; a < 3; ++a) {
       const double s = std::sqrt(eigen.eigenvalues()[a]);

@@ -129,7 +129,8 @@ TEST(MovingCollider, CarriesSnowAtItsOwnVelocity) {
   verify_near({"motion", "snow on a sled", "velocity after 1 s, m/s"}, 0.5,
               end.momentum[0] / end.mass, 0.01);
   // It was picked up from rest.
-  verify_near({"motion", "snow on a sled", "distance after 1 s, m"}, 0.5, end.centre_of_mass[0], 0.03);
+  verify_near({"motion", "snow on a sled", "distance after 1 s, m"}, 0.5, end.centre_of_mass[0],
+              0.03);
 }
 
 }  // namespace

@@ -158,7 +158,7 @@ class LayoutReader {
     section.aligned = section.column == equals - begin ? section.aligned + 1 : 1;
     section.column = equals - begin;
     // A comment after the value holds no keys.
-    const std::size_t end = std::min(text_.find_first_of("\n", at_), text_.size());
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
     at_ = end;
   }
 
