@@ -51,7 +51,7 @@ std::size_t bytes_in(const std::vector<T>& list) {
   return sizeof(T) * list.size();
 }
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_saved(const std::string& why) {
   throw SavedStateError("the saved state " + why);
 }
 
@@ -70,12 +70,13 @@ SavedHead head_of(const State<Real>& state, std::size_t emitters) {
 
 /// Compares everything but the number of particles.
 void require_same(const SavedHead& found, const SavedHead& expected) {
-  if (found.bytes_per_number != expected.bytes_per_number) refuse("has a different precision");
-  if (found.bytes_per_record != expected.bytes_per_record) refuse("has different particles");
-  if (found.colliders != expected.colliders) refuse("has a different number of colliders");
-  if (found.emitters != expected.emitters) refuse("has a different number of emitters");
+  if (found.bytes_per_number != expected.bytes_per_number)
+    refuse_saved("has a different precision");
+  if (found.bytes_per_record != expected.bytes_per_record) refuse_saved("has different particles");
+  if (found.colliders != expected.colliders) refuse_saved("has a different number of colliders");
+  if (found.emitters != expected.emitters) refuse_saved("has a different number of emitters");
   if (std::memcmp(found.lattice_origin, expected.lattice_origin, sizeof found.lattice_origin) != 0)
-    refuse("has a different lattice");
+    refuse_saved("has a different lattice");
 }
 
 template <class Real>
@@ -84,10 +85,10 @@ void require_possible(const std::vector<kernels::Particle<Real>>& records, std::
   for (const kernels::Particle<Real>& p : records) {
     for (const Integer<Real> cell : p.cell)
       if (cell <= -4 * kernels::block_limit || cell >= 4 * kernels::block_limit)
-        refuse("has particles outside of the lattice");
+        refuse_saved("has particles outside of the lattice");
     if (static_cast<std::size_t>(p.material()) >= materials ||
         static_cast<std::uint64_t>(p.id) >= next_id)
-      refuse("names a material or a particle that is not there");
+      refuse_saved("names a material or a particle that is not there");
   }
 }
 
@@ -126,9 +127,9 @@ void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<R
   };
   SavedHead head{};
   Progress progress;
-  if (bytes.size() < sizeof head) refuse("is truncated");
+  if (bytes.size() < sizeof head) refuse_saved("is truncated");
   take(&head, sizeof head);
-  if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse("is from another version");
+  if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse_saved("is from another version");
   std::vector<SavedOffset> offsets(state.colliders.list().size());
   std::vector<seeding::EmitterStream::State> emitters = flow.emitter_states();
   require_same(head, head_of(state, emitters.size()));
@@ -136,9 +137,10 @@ void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<R
       bytes.size() != sizeof head + sizeof progress +
                           head.particles * sizeof(kernels::Particle<Real>) + bytes_in(offsets) +
                           bytes_in(emitters))
-    refuse("has a different length than it says");
+    refuse_saved("has a different length than it says");
   take(&progress, sizeof progress);
-  if (progress.next_id < head.particles || progress.next_id > max_ids) refuse("has impossible ids");
+  if (progress.next_id < head.particles || progress.next_id > max_ids)
+    refuse_saved("has impossible ids");
   std::vector<kernels::Particle<Real>> records(head.particles);
   take(records.data(), bytes_in(records));
   take(offsets.data(), bytes_in(offsets));

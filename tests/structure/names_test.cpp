@@ -27,6 +27,8 @@ std::string declared_name(std::string_view line) {
   const auto word_at = [&](std::size_t begin) {
     return std::string(line.substr(begin, line.find_first_not_of(letters, begin) - begin));
   };
+  if (const std::size_t end = line.find("]] "); line.starts_with("[[") && end != line.npos)
+    line.remove_prefix(end + 3);
   if (line.empty() || !std::isalpha(static_cast<unsigned char>(line.front()))) return {};
   for (const char* other : {"TEST", "INSTANTIATE_", "template", "namespace", "using namespace"})
     if (line.starts_with(other)) return {};
@@ -111,6 +113,7 @@ TEST(Structure, NamesOfHelpersAreRead) {
   EXPECT_EQ(declared_name("constexpr std::array<int, 2> both{1, 2};"), "both");
   EXPECT_EQ(declared_name("const char* const text = R\"("), "text");
   EXPECT_EQ(declared_name("struct Case {"), "Case");
+  EXPECT_EQ(declared_name("[[noreturn]] void fail(int line) {"), "fail");
   EXPECT_EQ(declared_name("using Cell = std::array<int, 3>;"), "Cell");
   EXPECT_EQ(declared_name("using sim::Vec3d;"), "Vec3d");
   EXPECT_EQ(declared_name("void Case::run() {"), "");
