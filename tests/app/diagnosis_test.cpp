@@ -18,7 +18,8 @@
 namespace neve::app {
 namespace {
 
-/// A snowball of some 2000 particles that falls on a floor.
+/// A snowball of some 2000 particles that falls on a floor. The floor lies a little above a plane
+/// of nodes: nodes on its surface would be free, and the impact softer.
 constexpr const char* base = R"(
 [solver]
 cell_size = 0.04
@@ -28,7 +29,7 @@ shape = { sphere = { center = [0, 0.3, 0], radius = 0.16 } }
 velocity = [0, -3, 0]
 [[collider]]
 name = "floor"
-shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+shape = { plane = { point = [0, 0.001, 0], normal = [0, 1, 0] } }
 )";
 
 constexpr const char* press = R"(
