@@ -29,6 +29,11 @@ class LaneBuffer {
     }
     return static_cast<Quad<Real>*>(data_.get());
   }
+  /// Gives the memory back; pointers into it are void.
+  void release() {
+    data_.reset();
+    capacity_ = 0;
+  }
   std::size_t bytes() const { return capacity_ * 4 * sizeof(Real); }
 
  private:

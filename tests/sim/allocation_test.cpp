@@ -102,6 +102,19 @@ TEST(Memory, PackedSnowTakesLessThanThreeHundredBytesPerParticle) {
   EXPECT_LT(bytes, static_cast<double>(estimate_memory(p.x.size(), 8, coarse(), 2)));
 }
 
+/// MLS keeps one number a node and component where FLIP keeps two, also from the start on.
+TEST(Memory, StepsOfMlsTakeLessThanThoseOfFlip) {
+  const ParticleArrays p = box_of_snow({0, 0, 0}, {0.2, 0.2, 0.2}, 0.01);
+  const auto bytes_of = [&](Transfer transfer) {
+    SolverSettings settings = coarse();
+    settings.transfer = transfer;
+    Simulation simulation(settings, {Material{}}, {}, p, 1);
+    simulation.step(1e-4);
+    return static_cast<double>(simulation.memory_bytes());
+  };
+  EXPECT_LT(bytes_of(Transfer::mls), 0.9 * bytes_of(Transfer::flip));
+}
+
 TEST(Memory, OneParticleFarAwayTakesOneBlock) {
   const ParticleArrays near = box_of_snow({0, 0, 0}, {0.2, 0.2, 0.2}, 0.01);
   ParticleArrays both = near;
