@@ -8,7 +8,7 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-TEST(UniaxialCompression, FollowsTheTable) {
+TEST(UniaxialCompression, UniaxialCompressionFollowsTheTable) {
   // The reference's table; it is printed to the pascal, J_P and hardening to three digits.
   struct Entry {
     double s, J_P, hardening, sigma;
@@ -24,7 +24,7 @@ TEST(UniaxialCompression, FollowsTheTable) {
   }
 }
 
-TEST(UniaxialCompression, OfTheMaterialFollowsTheFormula) {
+TEST(UniaxialCompression, UniaxialCompressionOfTheMaterialFollowsTheFormula) {
   // Steps of 0.5 %. Double: rounding of 140 products, times e^(xi (1 - J_P)) and its exponent.
   // Float: 1e-7 a step in J_P, raised by xi = 10 and by s_E - 1 = 0.025 being a difference: 1e-3.
   for (const Precision precision : {Precision::real64, Precision::single}) {

@@ -47,7 +47,7 @@ double exact_acceleration(double degrees, double friction) {
   return std::max(0.0, 9.81 * (std::sin(t) - friction * std::cos(t)));
 }
 
-TEST(SlidingBlock, AcceleratesByGravityLessFriction) {
+TEST(SlidingBlock, SlidingBlockAcceleratesByGravityLessFriction) {
   // a = g (sin t - mu cos t), 0 where mu >= tan t. The reference meets it within 2e-4; the bounce
   // of the block on its own elasticity is what is left.
   const double cases[][2] = {{30, 0}, {30, 0.2}, {30, 0.4}, {30, 0.7}, {20, 0.3}};
@@ -66,7 +66,7 @@ TEST(SlidingBlock, AcceleratesByGravityLessFriction) {
               acceleration_on_slope(Transfer::flip, 30, 0.4, Precision::single), 2e-3);
 }
 
-TEST(StickyFloor, BringsSnowToRest) {
+TEST(StickyFloor, StickyFloorBringsSnowToRest) {
   SolverSettings s;
   s.cell_size = 0.03;
   Simulation simulation(s, {Material{}},
@@ -82,7 +82,7 @@ TEST(StickyFloor, BringsSnowToRest) {
                  0.14, end.centre_of_mass[1]);
 }
 
-TEST(SlipFloor, KeepsTangentialMomentumAndHoldsOnTo) {
+TEST(SlipFloor, SlipFloorKeepsTangentialMomentumAndHoldsOnTo) {
   SolverSettings s;
   s.cell_size = 0.03;
   const auto end_of = [&](shapes::Contact contact, double v_y) {

@@ -138,7 +138,7 @@ DeepScene quick_edge() {
   return scene;
 }
 
-TEST(Depth, IsAtMostATenthOfACell) {
+TEST(Depth, DepthIsAtMostATenthOfACell) {
   for (const DeepScene& scene : {fast_ball(), corner(), plough(), press(), drum()}) {
     SCOPED_TRACE(scene.name);
     const Deepest found = run_deep(scene, {}, false);
@@ -148,7 +148,7 @@ TEST(Depth, IsAtMostATenthOfACell) {
   }
 }
 
-TEST(Depth, OfAQuickEdgeIsATenthOfACellWithPushOut) {
+TEST(Depth, DepthOfAQuickEdgeIsATenthOfACellWithPushOut) {
   const DeepScene scene = quick_edge();
   const Deepest paper = run_deep(scene, {}, false), pushed = run_deep(scene, {}, true);
   EXPECT_FALSE(paper.has_diverged || pushed.has_diverged);
@@ -176,7 +176,7 @@ TEST(Depth, NothingPassesTheThinPlate) {
   }
 }
 
-TEST(Depth, IsTheSameInEveryDriverTransferAndPrecision) {
+TEST(Depth, DepthIsTheSameInEveryDriverTransferAndPrecision) {
   for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls})
     for (const Precision precision : {Precision::single, Precision::real64}) {
       SolverSettings s;
@@ -218,7 +218,7 @@ TEST(Depth, StagedAndFusedStepsPushAlike) {
   EXPECT_TRUE(has_pushed);
 }
 
-TEST(Depth, OfPlacedParticlesIsTheirDistance) {
+TEST(Depth, DepthOfPlacedParticlesIsTheirDistance) {
   const TemporaryFolder folder;
   const shapes::Mesh mesh{folder.write("box.obj", box_obj({0.4, 0.4, 0.4})).string(), 1, {2, 0, 0}};
   ParticleArrays p;
@@ -270,7 +270,7 @@ double acceleration_on(const shapes::Shape& shape, double degrees, double fricti
   return (n * tv - t1 * v1) / (n * t2 - t1 * t1);
 }
 
-TEST(SlidingBlock, HasTheSameFrictionOnEveryFlatTop) {
+TEST(SlidingBlock, SlidingBlockHasTheSameFrictionOnEveryFlatTop) {
   const TemporaryFolder folder;
   const std::string file = folder.write("box.obj", box_obj({4, 0.4, 4})).string();
   // All end a little above y = 0, off the nodes: see SlidingBlock. Turned upside down, a cone's

@@ -12,7 +12,7 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-TEST(ImplicitWave, HasTheEigenvaluesOfItsScheme) {
+TEST(ImplicitWave, ImplicitWaveHasTheEigenvaluesOfItsScheme) {
   // Exact for small waves, as that of explicit steps; c dt/h up to 2, four times what these hold.
   for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls})
     for (const double beta : {0.25, 0.5, 1.0})
@@ -34,7 +34,7 @@ TEST(ImplicitWave, HasTheEigenvaluesOfItsScheme) {
       }
 }
 
-TEST(ImplicitWave, LosesEnergyInProportionToBetaAndDt) {
+TEST(ImplicitWave, ImplicitWaveLosesEnergyInProportionToBetaAndDt) {
   // 16 cells, c dt/h = 0.2: an independent reference has 0.97, 0.57 and 0.34 of all energy left
   // after 2.3 periods of c k; here it is that of the wave alone.
   WaveCase wave;

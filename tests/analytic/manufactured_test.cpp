@@ -8,7 +8,7 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-TEST(ManufacturedSolution, IsApproachedAtSecondOrder) {
+TEST(ManufacturedSolution, ManufacturedSolutionIsApproachedAtSecondOrder) {
   // Strains of 31 %. Splines and splitting are of order 2, so 1.8 for FLIP; the errors of APIC and
   // MLS fall faster on the way there. Errors are the reference's within 3 in the last digit given.
   struct Gate {
@@ -30,7 +30,7 @@ TEST(ManufacturedSolution, IsApproachedAtSecondOrder) {
   }
 }
 
-TEST(ManufacturedSolution, InFloatStaysAsNear) {
+TEST(ManufacturedSolution, ManufacturedSolutionInFloatStaysAsNear) {
   // Rounding of float, 1e-7 of a state built anew every step, is far below the error of h = 1/16.
   ManufacturedCase c;
   c.transfer = Transfer::mls;
@@ -40,7 +40,7 @@ TEST(ManufacturedSolution, InFloatStaysAsNear) {
                manufactured_error(c, 16), 0.01);
 }
 
-TEST(ManufacturedSolution, NeedsNoContinuousRun) {
+TEST(ManufacturedSolution, ManufacturedSolutionNeedsNoContinuousRun) {
   // Building the simulation anew each step, as the body force needs, changes nothing but rounding.
   SolverSettings s;
   s.cell_size = 1.0 / 8;

@@ -37,7 +37,7 @@ double error_of_fall(Transfer transfer, Kernel kernel, Precision precision) {
   return worst;
 }
 
-TEST(FreeFall, FollowsParabola) {
+TEST(FreeFall, FreeFallFollowsParabola) {
   for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls})
     for (const Kernel kernel : {Kernel::cubic, Kernel::quadratic}) {
       const std::string line = "free fall, " + name(transfer) + " " + name(kernel);
@@ -50,7 +50,7 @@ TEST(FreeFall, FollowsParabola) {
     }
 }
 
-TEST(RigidRotation, KeepsShapeAndSpin) {
+TEST(RigidRotation, RigidRotationKeepsShapeAndSpin) {
   SolverSettings s;
   s.cell_size = 0.04;
   s.transfer = Transfer::apic;
@@ -113,7 +113,7 @@ TEST(TwoBalls, CollideWithZeroMomentumAndLoseEnergy) {
   EXPECT_LT(end.min_J_P, 0.97);
 }
 
-TEST(MovingCollider, CarriesSnowAtItsOwnVelocity) {
+TEST(MovingCollider, MovingColliderCarriesSnowAtItsOwnVelocity) {
   SolverSettings s;
   s.cell_size = 0.04;
   shapes::Collider sled;

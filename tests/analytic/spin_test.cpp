@@ -8,7 +8,7 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-TEST(SpinningCube, KeepsItsAngularMomentumWithApicAndMls) {
+TEST(SpinningCube, SpinningCubeKeepsItsAngularMomentumWithApicAndMls) {
   for (const Precision precision : {Precision::real64, Precision::single})
     for (const Transfer transfer : {Transfer::apic, Transfer::mls})
       for (const Kernel kernel : {Kernel::cubic, Kernel::quadratic}) {
@@ -23,7 +23,7 @@ TEST(SpinningCube, KeepsItsAngularMomentumWithApicAndMls) {
       }
 }
 
-TEST(SpinningCube, LosesEnergyAtARateThatDoesNotDependOnTheStepWithApicAndMls) {
+TEST(SpinningCube, SpinningCubeLosesEnergyAtARateThatDoesNotDependOnTheStepWithApicAndMls) {
   // The vibration is damped away, the spin stays: about three quarters of the energy is in it. The
   // reference's change between these steps is 1 %.
   for (const Transfer transfer : {Transfer::apic, Transfer::mls}) {
@@ -44,7 +44,7 @@ TEST(SpinningCube, LosesEnergyAtARateThatDoesNotDependOnTheStepWithApicAndMls) {
   }
 }
 
-TEST(SpinningCube, LosesWithFlipWhatTheReferenceLoses) {
+TEST(SpinningCube, SpinningCubeLosesWithFlipWhatTheReferenceLoses) {
   // An alpha below 1 per step damps spin as well, faster the smaller the step; alpha = 1 keeps most
   // of it. Three digits of the reference.
   struct Expected {

@@ -8,7 +8,7 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-TEST(PlaneWave, OfFlipFollowsTheClosedFormula) {
+TEST(PlaneWave, PlaneWaveOfFlipFollowsTheClosedFormula) {
   // omega = c k sinc(kh/2)^(2q) is for endless particles and small steps. Four particles a cell
   // leave 1e-5 (cubic) and, at 8 cells a wavelength, 1.4e-3 (quadratic); the step (c dt/h = 0.05)
   // adds 1e-4.
@@ -51,7 +51,7 @@ WaveCase ordinary_wave() {
   return wave;
 }
 
-TEST(PlaneWave, HasTheEigenvaluesOfItsScheme) {
+TEST(PlaneWave, PlaneWaveHasTheEigenvaluesOfItsScheme) {
   // The theory is exact for small waves; at strains of 1e-4 the rest is 2e-6.
   for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls})
     for (const Kernel kernel : {Kernel::cubic, Kernel::quadratic})
@@ -64,7 +64,7 @@ TEST(PlaneWave, HasTheEigenvaluesOfItsScheme) {
       }
 }
 
-TEST(PlaneWave, OfSmearedFlipHasTheEigenvaluesOfItsScheme) {
+TEST(PlaneWave, PlaneWaveOfSmearedFlipHasTheEigenvaluesOfItsScheme) {
   WaveCase wave = ordinary_wave();
   wave.cells = 16;
   for (const double alpha : {0.95, 0.5, 0.0}) {
@@ -73,7 +73,7 @@ TEST(PlaneWave, OfSmearedFlipHasTheEigenvaluesOfItsScheme) {
   }
 }
 
-TEST(PlaneWave, InFloatHasTheEigenvaluesOfItsScheme) {
+TEST(PlaneWave, PlaneWaveInFloatHasTheEigenvaluesOfItsScheme) {
   // F near 1 is known to 6e-8, strains are 1e-3: 6e-5, partly averaged out.
   WaveCase wave = ordinary_wave();
   wave.precision = Precision::single;
@@ -83,7 +83,7 @@ TEST(PlaneWave, InFloatHasTheEigenvaluesOfItsScheme) {
   check_against_eigenvalues(wave, 1e-4);
 }
 
-TEST(FlipShare, DampsWavesPerSecondNotPerStep) {
+TEST(FlipShare, FlipShareDampsWavesPerSecondNotPerStep) {
   // alpha^(dt/reference) takes the same share of a wave per second whatever the step; what FLIP
   // with alpha = 1 damps by itself, in proportion to dt, comes on top. An alpha per step damps
   // twice as much at half the step.

@@ -8,7 +8,7 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-TEST(CompressedColumnLong, FollowsTheStressStrainCurve) {
+TEST(CompressedColumnLong, CompressedColumnFollowsTheStressStrainCurve) {
   // 16 cells high, endless to the sides, pressed at 0.1 m/s (sound: 20 m/s).
   constexpr double speed = 0.1;
   constexpr int cells = 16;

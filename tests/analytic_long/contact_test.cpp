@@ -12,7 +12,7 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-TEST(SlippingBallLong, AcceleratesByGravityLessFriction) {
+TEST(SlippingBallLong, SlippingBallAcceleratesByGravityLessFriction) {
   // mu < 2/7 tan t: it slips, a = g (sin t - mu cos t). The ball also should spin up, by alpha =
   // 5 mu g cos t / (2 R); that it does not is what contact on nodes costs: within a cell of the
   // plane the ball stands on a flat of 4 cells' radius, which resists rolling. So rolling is no

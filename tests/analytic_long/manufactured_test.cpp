@@ -28,7 +28,7 @@ void check_order(const ManufacturedCase& c, double bound, const std::vector<doub
       bound, order(errors[1], errors[2]));
 }
 
-TEST(ManufacturedSolutionLong, IsApproachedAtSecondOrderByEveryCubicScheme) {
+TEST(ManufacturedSolutionLong, ManufacturedSolutionIsApproachedAtSecondOrderByEveryCubicScheme) {
   // Gates up to 32 cells: beyond, two particles a cell are too few to integrate (the quadrature
   // floor of MPM), and the order falls off.
   for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls}) {

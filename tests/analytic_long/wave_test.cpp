@@ -20,7 +20,7 @@ WaveCase wave_of(Transfer transfer, Kernel kernel, bool is_shear, double waves) 
   return wave;
 }
 
-TEST(PlaneWaveLong, HasTheEigenvaluesOfItsSchemeAtEveryWavelength) {
+TEST(PlaneWaveLong, PlaneWaveHasTheEigenvaluesOfItsSchemeAtEveryWavelength) {
   // 1 to 8 waves in 32 cells, 2 particles a cell. Linear theory; the rest is below 1e-5 at strains
   // of 1e-4.
   for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls})

@@ -45,7 +45,7 @@ double distance(const Vec3d& a, const Vec3d& b) {
   return (a - b).norm();
 }
 
-TEST(CameraPath, PassesThroughItsKeyframes) {
+TEST(CameraPath, CameraPathPassesThroughItsKeyframes) {
   const app::scene::Scene scene = scene_with_camera(R"(eye = [9, 9, 9]
 target = [0, 0, 0]
 keyframes = [
@@ -63,7 +63,7 @@ keyframes = [
   EXPECT_EQ(place(scene, 7).eye, Vec3d(4, 1, 0)) << "and after the last";
 }
 
-TEST(CameraPath, IsSmoothAndAtRestAtItsEnds) {
+TEST(CameraPath, CameraPathIsSmoothAndAtRestAtItsEnds) {
   const app::scene::Scene scene = scene_with_camera(R"(keyframes = [
   { time = 0, eye = [1, 0, 0], target = [0, 0, 0] }, { time = 0.3, eye = [2, 0, 3], target = [0, 0, 0] },
   { time = 1, eye = [6, 1, 4], target = [0, 0, 0] } ])");
@@ -189,7 +189,7 @@ TEST(CameraPath, KeyframesWithPlacesNeedNoFraming) {
   EXPECT_EQ(place(zoom, 1).eye, *zoom.camera->eye);
 }
 
-TEST(CameraErrors, AreLocatedAndSayWhatToTry) {
+TEST(CameraErrors, CameraErrorsAreLocatedAndSayWhatToTry) {
   EXPECT_EQ(camera_error("keyframes = [{ time = 1 }, { time = 0.5 }]"),
             "s.toml:6:37: error: keyframe 2 is at 0.5 s, the one before at 1 s; times must "
             "increase from one keyframe to the next");

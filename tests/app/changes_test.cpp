@@ -56,7 +56,7 @@ TEST(LiveChanges, GoToJsonAndBack) {
   EXPECT_TRUE(app::scene::live_changes(Json::array()).empty());
 }
 
-TEST(LiveChanges, ThatAreNoneAreRefused) {
+TEST(LiveChanges, ChangesThatAreNoneAreRefused) {
   for (const char* bad : {"{}", "[1]", "null", R"([{"step": 1, "address": "solver.cfl"}])",
                           R"([{"step": -1, "address": "solver.cfl", "value": "1"}])",
                           R"([{"step": 1.5, "address": "solver.cfl", "value": "1"}])",
@@ -68,7 +68,7 @@ TEST(LiveChanges, ThatAreNoneAreRefused) {
         << bad;
 }
 
-TEST(LiveChanges, OfOneStepAndAddressOnlyTheFirstAndTheLastAreKept) {
+TEST(LiveChanges, ChangesOfOneStepAndAddressOnlyTheFirstAndTheLastAreKept) {
   std::vector<app::scene::LiveChange> changes;
   for (const char* value : {"1", "2", "3", "4"})
     app::scene::note_change(changes, {5, "light.ambient", value});
@@ -171,7 +171,7 @@ void play(Session& session) {
   session.finish();
 }
 
-TEST(ChangePlayer, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
+TEST(ChangePlayer, ChangePlayerGetsTheStateOfTheRunInWhichTheChangesWereMade) {
   Session session;
   play(session);
   ASSERT_FALSE(session.simulation.divergence());
@@ -201,7 +201,7 @@ TEST(ChangePlayer, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
   EXPECT_NE(plain.state_hash(), again.state_hash());
 }
 
-TEST(ChangePlayer, PlaysAgainTheChangesThatItMadeBetweenSteps) {
+TEST(ChangePlayer, ChangePlayerPlaysAgainTheChangesThatItMadeBetweenSteps) {
   const app::scene::Scene scene = start();
   sim::Simulation live = simulate(scene);
   app::run::ChangePlayer player(scene, {}, live);
@@ -246,7 +246,7 @@ TEST(ChangePlayer, PlaysAgainTheChangesThatItMadeBetweenSteps) {
   EXPECT_EQ(hash_after_replay(), live.state_hash());
 }
 
-TEST(ChangePlayer, GoesOnFromAStateAtAnyStep) {
+TEST(ChangePlayer, ChangePlayerGoesOnFromAStateAtAnyStep) {
   Session session;
   play(session);
   const app::scene::Scene scene = start();
@@ -331,7 +331,7 @@ TEST(ChangePlayer, WithRetriesChangesInsideABrokenFrameWaitForItsEnd) {
   EXPECT_GT(went_back, 0u) << "nothing broke: the test looks at nothing";
 }
 
-TEST(ChangePlayer, PassesOverViewsThatAreNotDrawn) {
+TEST(ChangePlayer, ChangePlayerPassesOverViewsThatAreNotDrawn) {
   const app::scene::Scene scene = start();
   sim::Simulation simulation = simulate(scene);
   app::run::ChangePlayer player(scene,

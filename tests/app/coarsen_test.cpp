@@ -43,7 +43,7 @@ TEST(Coarsen, CellsAndLongestStepsGrowParticlesPerCellStay) {
   EXPECT_EQ(scene.solver.flip_ratio, 0.95);
 }
 
-TEST(Coarsen, LeavesAnEighthOfTheParticlesAndAllOfTheMass) {
+TEST(Coarsen, CoarseningLeavesAnEighthOfTheParticlesAndAllOfTheMass) {
   app::scene::Scene coarse = coarse_ball();
   app::scene::coarsen(coarse, 2);
   const sim::ParticleArrays all = app::setup::seed_scene(coarse_ball()).particles,
@@ -64,7 +64,7 @@ double kept(const sim::SolverSettings& s, double dt, int steps) {
   return std::pow(sim::engine::flip_share(s, dt), steps);
 }
 
-TEST(Coarsen, DampsAsMuchPerSecondWhateverTheRatioRefersTo) {
+TEST(Coarsen, CoarseningDampsAsMuchPerSecondWhateverTheRatioRefersTo) {
   for (const char* reference : {"flip_reference_dt = 5e-4\n", "flip_reference_dt = 0\n"}) {
     const app::scene::Scene full = coarse_ball(reference);
     app::scene::Scene coarse = full;
@@ -94,13 +94,13 @@ TEST(Coarsen, TheResultIsASceneThatReadsBack) {
             app::scene::write_scene(scene));
 }
 
-TEST(Coarsen, RefusesWhatIsNoFactor) {
+TEST(Coarsen, CoarseningRefusesWhatIsNoFactor) {
   for (const double factor : {0.0, -2.0, 0.5, std::numeric_limits<double>::quiet_NaN(),
                               std::numeric_limits<double>::infinity()})
     EXPECT_NE(message_of(coarse_ball(), factor).find("at least 1"), std::string::npos) << factor;
 }
 
-TEST(Coarsen, RefusesToLeaveABodyWithoutAParticleAndSaysWhatFits) {
+TEST(Coarsen, CoarseningRefusesToLeaveABodyWithoutAParticleAndSaysWhatFits) {
   // 4/3 pi 0.15^3 m3 of 8 per 0.02^3 m3 are 14137 particles, 24.18 cubed.
   const std::string message = message_of(coarse_ball(), 25);
   EXPECT_NE(message.find("no particle of body ball"), std::string::npos) << message;
@@ -108,7 +108,7 @@ TEST(Coarsen, RefusesToLeaveABodyWithoutAParticleAndSaysWhatFits) {
   EXPECT_EQ(message_of(coarse_ball(), 24.17), "");
 }
 
-TEST(Coarsen, RefusesStepsOutOfRange) {
+TEST(Coarsen, CoarseningRefusesStepsOutOfRange) {
   const std::string message = message_of(coarse_ball("max_dt = 0.5\n"), 4);
   EXPECT_NE(message.find("solver.max_dt would become 2"), std::string::npos) << message;
 }

@@ -25,7 +25,7 @@ app::setup::RenderCommand awkward() {
   return command;
 }
 
-TEST(CommandLine, IsWhatAPersonWouldType) {
+TEST(CommandLine, CommandLineIsWhatAPersonWouldType) {
   app::setup::RenderCommand command;
   command.scene_file = "scenes/snowball_drop.toml";
   EXPECT_EQ(app::setup::command_line(command), "neve render scenes/snowball_drop.toml");
@@ -40,7 +40,7 @@ TEST(CommandLine, IsWhatAPersonWouldType) {
 }
 
 /// A shell splits the line into the arguments.
-TEST(CommandLine, GoesThroughAShellUnharmed) {
+TEST(CommandLine, CommandLineGoesThroughAShellUnharmed) {
   const app::setup::RenderCommand command = awkward();
   const test::TemporaryFolder folder;
   const app::output::ProcessResult shell = app::output::run_process(
@@ -54,7 +54,7 @@ TEST(CommandLine, GoesThroughAShellUnharmed) {
   EXPECT_EQ(shell.output, expected);
 }
 
-TEST(ShellWord, IsQuotedWhereItHasToBe) {
+TEST(ShellWord, ShellWordIsQuotedWhereItHasToBe) {
   EXPECT_EQ(app::setup::shell_word("a/b-c_d.toml"), "a/b-c_d.toml");
   EXPECT_EQ(app::setup::shell_word(""), "''");
   EXPECT_EQ(app::setup::shell_word("a b"), "'a b'");

@@ -176,7 +176,7 @@ sim::Simulation run(const app::scene::Scene& scene, sim::ParticleArrays particle
   return simulation;
 }
 
-TEST(Diagnosis, NamesTheCauseOfEachFault) {
+TEST(Diagnosis, DiagnosisNamesTheCauseOfEachFault) {
   for (const Fault& fault : faults()) {
     SCOPED_TRACE(fault.what);
     app::scene::Scene scene = scene_of(fault);
@@ -191,7 +191,7 @@ TEST(Diagnosis, NamesTheCauseOfEachFault) {
 }
 
 /// States that no scene can ask for, as from a damaged file.
-TEST(Diagnosis, NamesWhatWasWrongBeforeTheFirstStep) {
+TEST(Diagnosis, DiagnosisNamesWhatWasWrongBeforeTheFirstStep) {
   const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");
   const auto cause_with = [&](auto&& damage) {
     sim::ParticleArrays particles = app::setup::seed_scene(scene).particles;
@@ -217,7 +217,7 @@ TEST(Diagnosis, NamesWhatWasWrongBeforeTheFirstStep) {
 }
 
 /// Adaptive steps shrink with hardening for hours before a rule breaks; the end is made up here.
-TEST(Diagnosis, NamesHardeningOfAdaptiveSteps) {
+TEST(Diagnosis, DiagnosisNamesHardeningOfAdaptiveSteps) {
   const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");
   sim::Divergence d;
   d.rule = "time_step";
@@ -231,7 +231,7 @@ TEST(Diagnosis, NamesHardeningOfAdaptiveSteps) {
   EXPECT_EQ(app::health::diagnose(scene, d).cause, app::health::Cause::unexplained);
 }
 
-TEST(Diagnosis, KeepsTheLastStepsInOrder) {
+TEST(Diagnosis, DiagnosisKeepsTheLastStepsInOrder) {
   const app::scene::Scene scene = scene_of(fault("acoustic limit raised"));
   const sim::Simulation simulation = run(scene, app::setup::seed_scene(scene).particles);
   ASSERT_TRUE(simulation.divergence());
@@ -251,7 +251,7 @@ TEST(Diagnosis, KeepsTheLastStepsInOrder) {
 }
 
 /// Half of a step that is just too long holds; the frames that follow may be as they were.
-TEST(Retry, GoesOnWithHalfTheStepWhereThatHolds) {
+TEST(Retry, RetryGoesOnWithHalfTheStepWhereThatHolds) {
   app::scene::Scene scene = scene_of(fault("the same with a longer step"));
   const sim::ParticleArrays particles = app::setup::seed_scene(scene).particles;
   sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
@@ -268,7 +268,7 @@ TEST(Retry, GoesOnWithHalfTheStepWhereThatHolds) {
   EXPECT_FALSE(retries[0].rule.empty());
 }
 
-TEST(Retry, GivesUpWhereNoStepHelps) {
+TEST(Retry, RetryGivesUpWhereNoStepHelps) {
   const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");
   sim::ParticleArrays particles = app::setup::seed_scene(scene).particles;
   particles.J_P.assign(particles.x.size(), 1);

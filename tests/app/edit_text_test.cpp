@@ -127,7 +127,7 @@ TEST(EditText, TheFirstKeyOfADocumentStandsAboveItsFirstHeader) {
   EXPECT_EQ(edit({"frames=3"}, text), with("# A body.", "frames = 3\n\n# A body.", text));
 }
 
-TEST(EditText, WhatIsSetToNoneGoesWithItsLine) {
+TEST(EditText, ValuesSetToNoneGoWithTheirLine) {
   EXPECT_EQ(edit({"camera=none"}), with("[camera]\nfov = 30\n", ""));
   const std::string text = with("fov = 30\n", "fov = 30\norbit = 90   # degrees\nup = [0, 1, 0]\n");
   EXPECT_EQ(edit({"camera.orbit=none"}, text), with("orbit = 90   # degrees\n", "", text));
@@ -147,7 +147,7 @@ TEST(EditText, SectionsAndDottedKeysGiveWayToAWholeTable) {
                  "velocity = [0,0,0]\nshape = { sphere = {} }\n"));
 }
 
-TEST(EditText, KeepsLineEndsAndTheLackOfALastOne) {
+TEST(EditText, EditingKeepsLineEndsAndTheLackOfALastOne) {
   std::string text;
   for (const char c : std::string(edited_scene))
     text += c == '\n' ? std::string("\r\n") : std::string(1, c);

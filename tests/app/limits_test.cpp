@@ -43,7 +43,7 @@ bool has_finding(const std::vector<health::Finding>& findings, const std::string
                      [&](const health::Finding& f) { return f.address == address; });
 }
 
-TEST(Limits, AreThoseOfTheWatch) {
+TEST(Limits, LimitsAreThoseOfTheWatch) {
   scene::Scene scene = ball();
   scene.solver.time_step = sim::TimeStep::fixed;
   for (const sim::Precision precision : {sim::Precision::real64, sim::Precision::single}) {
@@ -58,7 +58,7 @@ TEST(Limits, AreThoseOfTheWatch) {
   }
 }
 
-TEST(Limits, AreThoseOfTheStopRules) {
+TEST(Limits, LimitsAreThoseOfTheStopRules) {
   scene::Scene scene = ball();
   scene.solver.time_step = sim::TimeStep::fixed;
   scene.solver.dt = 1;
@@ -69,7 +69,7 @@ TEST(Limits, AreThoseOfTheStopRules) {
   EXPECT_EQ(simulation.divergence()->limit, limits_of(Law::speed_cfl).stop);
 }
 
-TEST(Limits, AreThoseOfTheCheck) {
+TEST(Limits, LimitsAreThoseOfTheCheck) {
   scene::Scene scene = ball();
   const auto has_warning = [&](double gravity, double density) {
     scene.solver.gravity = {0, -gravity, 0};
@@ -88,7 +88,7 @@ TEST(Limits, AreThoseOfTheCheck) {
   EXPECT_EQ(has_warning(gravity, 1.001 * most), std::pair(false, true));
 }
 
-TEST(Limits, AreThoseOfTheDiagnosis) {
+TEST(Limits, LimitsAreThoseOfTheDiagnosis) {
   scene::Scene scene = ball();
   sim::Divergence divergence;
   divergence.rule = "J_P";
@@ -102,7 +102,7 @@ TEST(Limits, AreThoseOfTheDiagnosis) {
   EXPECT_EQ(cause_at(0.999 * line), health::Cause::unexplained);
 }
 
-TEST(Limits, AreThoseOfDumps) {
+TEST(Limits, LimitsAreThoseOfDumps) {
   const scene::Scene scene = ball();
   const sim::ParticleArrays state =
       setup::make_simulation(scene, setup::seed_scene(scene).particles, 1).particles();

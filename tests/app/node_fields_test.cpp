@@ -66,7 +66,7 @@ layers = ["arrows", "heatmap"]
 slice = { field = "velocity", scalar = "speed" }
 )";
 
-TEST(NodeFields, AreSampledOnlyWhenAViewShowsThem) {
+TEST(NodeFields, NodeFieldsAreSampledOnlyWhenAViewShowsThem) {
   EXPECT_FALSE(app::picture::field_needs(read_thrown("").views).is_needed);
   EXPECT_EQ(moment_of("").snapshot.fields.lattice, nullptr);
   const app::picture::FieldNeeds needs = app::picture::field_needs(read_thrown(all_fields).views);
@@ -78,7 +78,7 @@ TEST(NodeFields, AreSampledOnlyWhenAViewShowsThem) {
                       app::scene::ScalarField::speed}));
 }
 
-TEST(NodeFields, OfABallThatFliesAreThoseOfItsParticles) {
+TEST(NodeFields, NodeFieldsOfABallThatFliesAreThoseOfItsParticles) {
   const FieldMoment moment = moment_of(all_fields);
   const app::picture::FieldSamples& fields = moment.snapshot.fields;
   ASSERT_NE(fields.lattice, nullptr);
@@ -103,7 +103,7 @@ TEST(NodeFields, OfABallThatFliesAreThoseOfItsParticles) {
   EXPECT_GT(largest, 380);
 }
 
-TEST(FieldSampler, ReproducesLinearFieldsInside) {
+TEST(FieldSampler, FieldSamplerReproducesLinearFieldsInside) {
   FieldMoment moment = moment_of(all_fields);
   app::picture::FieldSamples& fields = moment.snapshot.fields;
   const float h = fields.lattice->spacing;
@@ -155,7 +155,7 @@ TEST(Slice, ArrowsStandOnNodesAndHaveTheirVelocity) {
   EXPECT_NE(frame.footnote.find("z = 0 m"), std::string::npos) << frame.footnote;
 }
 
-TEST(Slice, SaysWhereThereIsNoSnow) {
+TEST(Slice, SliceSaysWhereThereIsNoSnow) {
   const FieldMoment moment = moment_of(all_fields);
   app::scene::SliceStyle slice = moment.scene.views[2].slice;
   slice.point = Vec3d(0, 0, 5);
@@ -213,7 +213,7 @@ TEST(Slice, AnyPlaneAndOneThatMissesTheSnow) {
   EXPECT_TRUE(missed.lines.empty());
 }
 
-TEST(Slice, MovesAndFollows) {
+TEST(Slice, SliceMovesAndFollows) {
   app::scene::SliceStyle slice;
   slice.point = Vec3d(1, 2, 3);
   slice.motion = {0, 0, 2};
@@ -226,7 +226,7 @@ TEST(Slice, MovesAndFollows) {
   EXPECT_NEAR(level.across.norm(), 1, 1e-12);
 }
 
-TEST(Slice, IsBuiltInAndSetByItsName) {
+TEST(Slice, SliceIsBuiltInAndSetByItsName) {
   const app::scene::Scene none = read_thrown("");
   EXPECT_EQ(none.views.size(), 1u);
   const app::scene::View slice = app::scene::find_view(none, "slice");

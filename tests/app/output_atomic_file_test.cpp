@@ -32,7 +32,7 @@ int run_with_file_limit(rlim_t bytes, const std::function<int()>& child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-TEST(AtomicFile, ReplacesAFileAndLeavesNoTemporary) {
+TEST(AtomicFile, AtomicFileReplacesAFileAndLeavesNoTemporary) {
   const TemporaryFolder folder;
   app::output::write_file(folder / "a.txt", std::string_view("old"));
   app::output::write_file(folder / "a.txt", std::string_view("new"),
@@ -41,7 +41,7 @@ TEST(AtomicFile, ReplacesAFileAndLeavesNoTemporary) {
   EXPECT_EQ(file_count(folder.path()), 1u);
 }
 
-TEST(AtomicFile, OnAFullDiskKeepsTheOldFileAndSaysWhy) {
+TEST(AtomicFile, AtomicFileOnAFullDiskKeepsTheOldFileAndSaysWhy) {
   const TemporaryFolder folder;
   app::output::write_file(folder / "a.bin", std::string_view("old"));
   const int code = run_with_file_limit(64 * 1024, [&] {
@@ -61,7 +61,7 @@ TEST(AtomicFile, OnAFullDiskKeepsTheOldFileAndSaysWhy) {
   EXPECT_EQ(file_count(folder.path()), 1u);
 }
 
-TEST(AtomicFile, FailsWhereNoFileCanBe) {
+TEST(AtomicFile, AtomicFileFailsWhereNoFileCanBe) {
   const TemporaryFolder folder;
   folder.write("file", "x");
   EXPECT_THROW(app::output::write_file(folder.path() / "file" / "a.txt", std::string_view("x")),
@@ -71,7 +71,7 @@ TEST(AtomicFile, FailsWhereNoFileCanBe) {
                IoError);
 }
 
-TEST(AtomicFile, OverwritesATemporaryThatAKilledProcessLeft) {
+TEST(AtomicFile, AtomicFileOverwritesATemporaryThatAKilledProcessLeft) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder / "a.txt";
   folder.write(app::output::temporary_name(file).filename().string(), "half");
@@ -80,7 +80,7 @@ TEST(AtomicFile, OverwritesATemporaryThatAKilledProcessLeft) {
   EXPECT_EQ(file_count(folder.path()), 1u);
 }
 
-TEST(ReadFile, RefusesFoldersMissingFilesAndTooLargeOnes) {
+TEST(ReadFile, ReaderRefusesFoldersMissingFilesAndTooLargeOnes) {
   const TemporaryFolder folder;
   folder.write("a", "12345");
   EXPECT_THROW(app::output::read_file(folder.path()), IoError);

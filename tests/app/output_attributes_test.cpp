@@ -36,7 +36,7 @@ class Attributes : public testing::Test {
       "[[body]]\nshape = { sphere = { radius = 0.1 } }\n[output]\nsize = [64, 64]\n", "a.toml");
 };
 
-TEST_F(Attributes, AreThoseOfTheCurrentConfiguration) {
+TEST_F(Attributes, AttributesAreThoseOfTheCurrentConfiguration) {
   const app::picture::Snapshot s = squeezed();
   EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::speed, s), 5);
   EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::J_E, s), 0.5);
@@ -54,7 +54,7 @@ TEST_F(Attributes, TakeTheMaterialsDensityBeforeVolumesAreKnown) {
   EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::density, s), 1000);
 }
 
-TEST_F(Attributes, OfABrokenStateStillMakeAPicture) {
+TEST_F(Attributes, AttributesOfABrokenStateStillMakeAPicture) {
   app::picture::Snapshot s = squeezed();
   s.particles.x.push_back(sim::Vec3d::Constant(std::numeric_limits<double>::quiet_NaN()));
   s.particles.x.push_back(sim::Vec3d::Zero());

@@ -32,7 +32,7 @@ double reach(const app::scene::CameraSettings& camera, double aspect, const sim:
   return std::max(std::abs(q.dot(right)) / (half * aspect), std::abs(q.dot(up)) / half);
 }
 
-TEST(AutomaticCamera, ShowsWhereTheSnowStartsAndLands) {
+TEST(AutomaticCamera, AutomaticCameraShowsWhereTheSnowStartsAndLands) {
   app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
   app::setup::resolve(scene, 1000);
   ASSERT_TRUE(scene.camera && scene.camera->eye);
@@ -65,21 +65,21 @@ TEST(AutomaticCamera, FramesUprightPicturesByThemselves) {
   EXPECT_LT(width_seen(tall, 1.0 / 3), width_seen(*scene.camera, 16.0 / 9));
 }
 
-TEST(AutomaticCamera, IsTheSameEveryTime) {
+TEST(AutomaticCamera, AutomaticCameraIsTheSameEveryTime) {
   app::scene::Scene a = app::scene::read_scene_text(drop, "drop.toml"), b = a;
   app::setup::resolve(a, 1000);
   app::setup::resolve(b, 1000);
   EXPECT_EQ(app::scene::write_scene(a), app::scene::write_scene(b));
 }
 
-TEST(AutomaticCamera, LeavesAGivenPlaceAlone) {
+TEST(AutomaticCamera, AutomaticCameraLeavesAGivenPlaceAlone) {
   app::scene::Scene scene = app::scene::read_scene_text(
       std::string(drop) + "[camera]\neye = [3, 1, 0]\ntarget = [0, 0, 0]\n", "drop.toml");
   app::setup::resolve(scene, 1000);
   EXPECT_EQ(*scene.camera->eye, sim::Vec3d(3, 1, 0));
 }
 
-TEST(AutomaticCamera, StaysOnTheOpenSideOfASlope) {
+TEST(AutomaticCamera, AutomaticCameraStaysOnTheOpenSideOfASlope) {
   app::scene::Scene scene = app::scene::read_scene_text(R"(
 frames = 12
 [[body]]
@@ -92,7 +92,7 @@ shape = { plane = { point = [0, 0, 0], normal = [0.5, 0.866, 0] } }
   EXPECT_GT(scene.camera->eye->dot(sim::Vec3d(0.5, 0.866, 0)), 0);
 }
 
-TEST(AutomaticCamera, StaysAboveGroundThatKeyframesTilt) {
+TEST(AutomaticCamera, AutomaticCameraStaysAboveGroundThatKeyframesTilt) {
   app::scene::Scene scene = app::scene::read_scene_text(R"(
 frames = 12
 [[body]]
@@ -110,7 +110,7 @@ keyframes = [{ time = 0 }, { time = 0.2, rotation = [0, 0, 40] }]
   }
 }
 
-TEST(DryRun, CoversTheWholeScene) {
+TEST(DryRun, DryRunCoversTheWholeScene) {
   const app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
   const std::vector<app::setup::Moment> moments = app::setup::coarse_run(scene);
   ASSERT_GT(moments.size(), 2u);
@@ -118,14 +118,14 @@ TEST(DryRun, CoversTheWholeScene) {
   EXPECT_LT(moments.front().x.size(), 2000u);
 }
 
-TEST(AutomaticRange, OfSpeedReachesTheImpact) {
+TEST(AutomaticRange, AutomaticRangeOfSpeedReachesTheImpact) {
   const app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
   // From rest through half a metre: sqrt(2 g 0.5) = 3.13 m/s, rounded up.
   EXPECT_EQ(app::setup::automatic_range(scene, app::scene::ColorBy::speed, 10).max, 4);
   EXPECT_EQ(app::setup::automatic_range(scene, app::scene::ColorBy::speed, 10).min, 0);
 }
 
-TEST(AutomaticRange, HoldsTheNeutralValue) {
+TEST(AutomaticRange, AutomaticRangeHoldsTheNeutralValue) {
   const app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
   const auto holds = [&](app::scene::ColorBy color_by, double value) {
     const app::scene::Range range = app::setup::automatic_range(scene, color_by, 10);

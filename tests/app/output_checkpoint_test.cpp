@@ -30,7 +30,7 @@ std::vector<fs::path> files(const test::TemporaryFolder& folder) {
   return all;
 }
 
-TEST(CheckpointFile, ComesBackWholeAndOnlyTwoAreKept) {
+TEST(CheckpointFile, CheckpointFileComesBackWholeAndOnlyTwoAreKept) {
   const test::TemporaryFolder folder;
   EXPECT_FALSE(app::output::find_checkpoint(folder.path()).checkpoint);
   for (const auto& [frame, steps] : {std::pair{1, 10u}, {2, 20u}, {10, 90u}, {10, 99u}})

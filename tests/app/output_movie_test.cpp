@@ -48,7 +48,7 @@ class Movie : public testing::Test {
   }
 };
 
-TEST_F(Movie, OfTransparentPicturesHasAPlainBackground) {
+TEST_F(Movie, MovieOfTransparentPicturesHasAPlainBackground) {
   const Fixture f;
   for (int frame = 0; frame < 2; ++frame) {
     render::Image image{32, 16, 4, std::vector<std::uint8_t>(32 * 16 * 4)};
@@ -80,7 +80,7 @@ TEST_F(Movie, OfTransparentPicturesHasAPlainBackground) {
   EXPECT_NEAR(green(27), 0x4b, 6);
 }
 
-TEST_F(Movie, HoldsEveryFrameOfOddSizeFromAStrangeFolder) {
+TEST_F(Movie, MovieHoldsEveryFrameOfOddSizeFromAStrangeFolder) {
   const Fixture f;
   write_pictures(f.folder, 3, 8);
   const app::output::MovieResult result = app::output::write_movie(request(f.folder, 3, 8));
@@ -89,21 +89,21 @@ TEST_F(Movie, HoldsEveryFrameOfOddSizeFromAStrangeFolder) {
   EXPECT_EQ(file_count(f.folder), 2u) << "a temporary file is left";
 }
 
-TEST_F(Movie, GoesOnPastFrame9999) {
+TEST_F(Movie, MovieGoesOnPastFrame9999) {
   const Fixture f;
   write_pictures(f.folder, 9998, 10001);
   EXPECT_EQ(app::output::write_movie(request(f.folder, 9998, 10001)).outcome,
             app::output::MovieOutcome::written);
 }
 
-TEST_F(Movie, IgnoresPicturesBehindTheLastFrame) {
+TEST_F(Movie, MovieIgnoresPicturesBehindTheLastFrame) {
   const Fixture f;
   write_pictures(f.folder, 0, 9);
   EXPECT_EQ(app::output::write_movie(request(f.folder, 0, 4)).outcome,
             app::output::MovieOutcome::written);
 }
 
-TEST_F(Movie, IsNotKeptWhenAPictureIsEmptyOrMissing) {
+TEST_F(Movie, MovieIsNotKeptWhenAPictureIsEmptyOrMissing) {
   for (const bool is_missing : {false, true}) {
     const Fixture f;
     write_pictures(f.folder, 0, 7);
@@ -116,7 +116,7 @@ TEST_F(Movie, IsNotKeptWhenAPictureIsEmptyOrMissing) {
   }
 }
 
-TEST(MovieWithoutFfmpeg, IsNoError) {
+TEST(MovieWithoutFfmpeg, MovieWithoutFfmpegIsNoError) {
   const TemporaryFolder folder;
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", folder.path().c_str(), 1);

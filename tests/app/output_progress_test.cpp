@@ -27,7 +27,7 @@ TEST(Progress, DurationsUseTwoUnits) {
   EXPECT_EQ(duration_text(7500), "2 h 05 min");
 }
 
-TEST(Progress, RewritesItsLineOnlyOnATerminal) {
+TEST(Progress, ProgressRewritesItsLineOnlyOnATerminal) {
   for (const bool updates : {true, false}) {
     std::ostringstream out;
     {
@@ -53,7 +53,7 @@ TEST(Progress, QuietRunsPrintOnlyWarnings) {
   EXPECT_EQ(out.str(), "neve: warning: careful\n");
 }
 
-TEST(RoundNumber, IsOneThatPeopleWouldChoose) {
+TEST(RoundNumber, RoundNumberIsOneThatPeopleWouldChoose) {
   EXPECT_EQ(round_up(4.4), 5);
   EXPECT_EQ(round_up(3), 3);
   EXPECT_EQ(round_up(8.1), 10);
@@ -64,7 +64,7 @@ TEST(RoundNumber, IsOneThatPeopleWouldChoose) {
   EXPECT_EQ(round_to(12345, 12345, 2), 12000);
 }
 
-TEST(FrameArguments, AreRangesOrALastFrame) {
+TEST(FrameArguments, FrameArgumentsAreRangesOrALastFrame) {
   EXPECT_EQ(app::setup::parse_frames("3-7").first, 3);
   EXPECT_EQ(app::setup::parse_frames("3-7").last, 7);
   EXPECT_EQ(app::setup::parse_frames("48").first, 0);
@@ -73,14 +73,14 @@ TEST(FrameArguments, AreRangesOrALastFrame) {
     EXPECT_THROW(app::setup::parse_frames(wrong), app::scene::toml::UsageError) << wrong;
 }
 
-TEST(SizeArguments, AreTwoSides) {
+TEST(SizeArguments, SizeArgumentsAreTwoSides) {
   EXPECT_EQ(app::setup::parse_size("1280x720").width, 1280);
   EXPECT_EQ(app::setup::parse_size("1280x720").height, 720);
   for (const char* wrong : {"", "x", "1280", "1280x", "0x720", "-5x9", "1280X720", "99999999x9"})
     EXPECT_THROW(app::setup::parse_size(wrong), app::scene::toml::UsageError) << wrong;
 }
 
-TEST(Caption, NamesOverridesOfTheSnowShortly) {
+TEST(Caption, CaptionNamesOverridesOfTheSnowShortly) {
   const std::vector<std::string> lines = app::picture::override_lines(
       {"material.snow.hardening=5", "body.a.velocity=[0,1,0]", "body.b.velocity=[0,2,0]",
        "camera.fov=20", "material.snow.hardening=6", "view.particles.layers=[\"particles\"]"});
@@ -89,7 +89,7 @@ TEST(Caption, NamesOverridesOfTheSnowShortly) {
   EXPECT_EQ(lines, expected);
 }
 
-TEST(NearestName, IsFoundForTypingErrorsOnly) {
+TEST(NearestName, NearestNameIsFoundForTypingErrorsOnly) {
   EXPECT_EQ(nearest_name("rendr", {"render", "doctor"}), "render");
   EXPECT_EQ(nearest_name("banana", {"render", "doctor"}), "");
 }

@@ -15,7 +15,7 @@ std::vector<std::string> keys(const Json& json) {
   return result;
 }
 
-TEST(RunJson, HasTheFieldsOfTheContract) {
+TEST(RunJson, RunJsonHasTheFieldsOfTheContract) {
   app::run::RunRecord run;
   run.frames.emplace_back();
   const Json json = app::run::to_json(run);
@@ -64,7 +64,7 @@ TEST(RunJson, FrameZeroHasNoSteps) {
   EXPECT_TRUE(json["dt_limit"].is_null());
 }
 
-TEST(RunJson, NamesTheLimitThatRuledMostSteps) {
+TEST(RunJson, RunJsonNamesTheLimitThatRuledMostSteps) {
   app::run::FrameRecord frame;
   frame.advance.steps = 5;
   frame.advance.ruled[static_cast<std::size_t>(sim::DtLimit::cfl)] = 4;
@@ -72,7 +72,7 @@ TEST(RunJson, NamesTheLimitThatRuledMostSteps) {
   EXPECT_EQ(app::run::to_json(frame)["dt_limit"], "cfl");
 }
 
-TEST(RunJson, WritesNanAsNullAndHashesWithAllDigits) {
+TEST(RunJson, RunJsonWritesNanAsNullAndHashesWithAllDigits) {
   app::run::FrameRecord frame;
   frame.summary.max_speed = std::numeric_limits<double>::quiet_NaN();
   frame.summary.momentum.x() = std::numeric_limits<double>::infinity();
@@ -83,7 +83,7 @@ TEST(RunJson, WritesNanAsNullAndHashesWithAllDigits) {
   EXPECT_EQ(json["state_hash"], "0000000000000abc");
 }
 
-TEST(RunJson, SurvivesTextThatIsNoUtf8) {
+TEST(RunJson, RunJsonSurvivesTextThatIsNoUtf8) {
   app::run::RunRecord run;
   run.scene_file = "caf\xe9.toml";
   EXPECT_NO_THROW(to_text(app::run::to_json(run)));

@@ -21,12 +21,12 @@ render::Image small_picture() {
   return image;
 }
 
-TEST(Sequence, NamesFramesWithAtLeastFourDigits) {
+TEST(Sequence, SequenceNamesFramesWithAtLeastFourDigits) {
   EXPECT_EQ(app::output::frame_path("out", "smoke", 24), fs::path("out/smoke/0024.png"));
   EXPECT_EQ(app::output::frame_path("out", "smoke", 12345), fs::path("out/smoke/12345.png"));
 }
 
-TEST(Sequence, RemovesWhatTheEarlierRunListsAndNothingElse) {
+TEST(Sequence, SequenceRemovesWhatTheEarlierRunListsAndNothingElse) {
   const TemporaryFolder folder;
   folder.write("run.json", R"({"views": ["particles"], "frames": [{"frame": 0}, {"frame": 1}]})");
   for (const char* name : {"particles/0000.png", "particles/0001.png", "particles/0002.png",
@@ -40,7 +40,7 @@ TEST(Sequence, RemovesWhatTheEarlierRunListsAndNothingElse) {
     EXPECT_TRUE(fs::exists(folder / name)) << name;
 }
 
-TEST(Sequence, IsNotLedOutOfItsFolder) {
+TEST(Sequence, SequenceIsNotLedOutOfItsFolder) {
   const TemporaryFolder outer;
   outer.write("victim/0000.png", "x");
   outer.write("victim.mp4", "x");
@@ -56,7 +56,7 @@ TEST(Sequence, IsNotLedOutOfItsFolder) {
   EXPECT_TRUE(fs::exists(outer / "real/0000.png"));
 }
 
-TEST(Sequence, RemovesNothingWhenRunJsonIsMissingOrBroken) {
+TEST(Sequence, SequenceRemovesNothingWhenRunJsonIsMissingOrBroken) {
   const TemporaryFolder folder;
   folder.write("particles/0000.png", "x");
   EXPECT_EQ(app::output::remove_earlier_run(folder.path()), 0u);
@@ -70,7 +70,7 @@ TEST(Sequence, RemovesNothingWhenRunJsonIsMissingOrBroken) {
   EXPECT_TRUE(fs::exists(folder / "particles/0000.png"));
 }
 
-TEST(PictureWriter, WritesEverythingInOrderOfArrival) {
+TEST(PictureWriter, PictureWriterWritesEverythingInOrderOfArrival) {
   const TemporaryFolder folder;
   app::output::PictureWriter writer;
   for (int frame = 0; frame < 12; ++frame)
@@ -86,7 +86,7 @@ TEST(PictureWriter, WritesEverythingInOrderOfArrival) {
   }
 }
 
-TEST(PictureWriter, ReportsItsErrorsToTheCaller) {
+TEST(PictureWriter, PictureWriterReportsItsErrorsToTheCaller) {
   const TemporaryFolder folder;
   folder.write("file", "x");
   app::output::PictureWriter writer;

@@ -82,7 +82,7 @@ plots = { dt_range = [0, 0.01] }
   EXPECT_EQ(again.views[0].plots.energy->max, 10);
 }
 
-TEST(PlotSample, TakesTheLimitThatRuledMost) {
+TEST(PlotSample, PlotSampleTakesTheLimitThatRuledMost) {
   sim::AdvanceReport advance;
   advance.steps = 5;
   advance.ruled[static_cast<std::size_t>(sim::DtLimit::strain)] = 4;

@@ -34,7 +34,7 @@ sim::Material preset_snow(const std::string& material, const std::vector<std::st
 
 const std::string powder = "[material.snow]\npreset = \"powder\"\n";
 
-TEST(Preset, OfThePaperIsTheDefault) {
+TEST(Preset, PresetOfThePaperIsTheDefault) {
   EXPECT_EQ(app::scene::preset_of(sim::Material{}), app::scene::Preset::paper);
 }
 
@@ -52,7 +52,7 @@ TEST(Preset, EachHasNumbersOfItsOwnThatASceneMayHave) {
   }
 }
 
-TEST(Preset, SetsEveryNumberOfTheSnowAndNothingElse) {
+TEST(Preset, PresetSetsEveryNumberOfTheSnowAndNothingElse) {
   app::scene::Scene before = preset_scene("");
   sim::Material& m = before.materials[0];
   m.density = m.youngs_modulus = m.hardening = 3;
@@ -67,14 +67,14 @@ TEST(Preset, SetsEveryNumberOfTheSnowAndNothingElse) {
   EXPECT_EQ(changed.size(), 6u);
 }
 
-TEST(Preset, GivesWayToNumbersBesideIt) {
+TEST(Preset, PresetGivesWayToNumbersBesideIt) {
   const sim::Material m = preset_snow("[material.snow]\nhardening = 3\npreset = \"powder\"\n");
   EXPECT_EQ(m.hardening, 3);
   EXPECT_EQ(m.density, app::scene::snow_of(app::scene::Preset::powder).density);
   EXPECT_EQ(m.critical_stretch, app::scene::snow_of(app::scene::Preset::powder).critical_stretch);
 }
 
-TEST(Preset, GivesWayToNumbersThatAreSet) {
+TEST(Preset, PresetGivesWayToNumbersThatAreSet) {
   for (const auto& sets : {std::vector<std::string>{"material.snow.hardening=3"},
                            {"material.snow.preset=icy", "material.snow.hardening=3"},
                            {"material.snow.hardening=3", "material.snow.preset=icy"}}) {
@@ -87,7 +87,7 @@ TEST(Preset, GivesWayToNumbersThatAreSet) {
 }
 
 // The scene kept with a picture gives all its numbers; a preset set for it must not do nothing.
-TEST(Preset, ThatIsSetCountsMoreThanTheFile) {
+TEST(Preset, PresetThatIsSetCountsMoreThanTheFile) {
   EXPECT_EQ(app::scene::preset_of(
                 preset_snow("[material.snow]\nhardening = 3\n", {"material.snow.preset=wet"})),
             app::scene::Preset::wet);
@@ -103,7 +103,7 @@ TEST(Preset, TakenAwayLeavesTheNumbersOfTheFile) {
   EXPECT_EQ(m.density, sim::Material{}.density);
 }
 
-TEST(Preset, IsWrittenAsNumbers) {
+TEST(Preset, PresetIsWrittenAsNumbers) {
   const std::string text = app::scene::write_scene(preset_scene(powder + "hardening = 3\n"));
   EXPECT_EQ(text.find("preset"), std::string::npos) << text;
   const sim::Material m = app::scene::read_scene_text(text, "again", "").materials[0];
@@ -111,7 +111,7 @@ TEST(Preset, IsWrittenAsNumbers) {
   EXPECT_EQ(m.youngs_modulus, app::scene::snow_of(app::scene::Preset::powder).youngs_modulus);
 }
 
-TEST(Preset, OfAnUnknownNameIsRefusedWithTheNearest) {
+TEST(Preset, PresetOfAnUnknownNameIsRefusedWithTheNearest) {
   try {
     preset_snow("[material.snow]\npreset = \"powdr\"\n");
     ADD_FAILURE() << "was read";
@@ -130,7 +130,7 @@ TEST(Preset, OfAnUnknownNameIsRefusedWithTheNearest) {
   EXPECT_THROW(preset_snow("[material.snow]\npreset = 3\n"), app::scene::toml::SceneError);
 }
 
-TEST(Preset, IsListedWithItsChoices) {
+TEST(Preset, PresetIsListedWithItsChoices) {
   const auto info = app::scene::param_at("material.snow.preset");
   ASSERT_TRUE(info);
   EXPECT_EQ(info->choices, app::scene::choices<app::scene::Preset>());
@@ -138,7 +138,7 @@ TEST(Preset, IsListedWithItsChoices) {
   EXPECT_FALSE(app::scene::is_live("material.snow.preset"));
 }
 
-TEST(Preset, IsDocumentedWithItsNumbers) {
+TEST(Preset, PresetIsDocumentedWithItsNumbers) {
   std::ifstream file(std::string(NEVE_SOURCE_DIR) + "/docs/scenes.md");
   std::map<std::string, std::vector<double>> rows;
   for (std::string line; std::getline(file, line);) {

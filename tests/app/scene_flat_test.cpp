@@ -41,7 +41,7 @@ const app::scene::FlatParam& find(const std::vector<app::scene::FlatParam>& list
   throw std::runtime_error("nothing is called " + address);
 }
 
-TEST(Flat, HasEveryParameterOfTheSceneWithValueAndRange) {
+TEST(Flat, FlatListHasEveryParameterOfTheSceneWithValueAndRange) {
   const std::vector<app::scene::FlatParam> list = app::scene::flatten(read());
   const app::scene::FlatParam& cfl = find(list, "solver.cfl");
   EXPECT_EQ(cfl.text(), "0.3");
@@ -68,7 +68,7 @@ TEST(Flat, HasEveryParameterOfTheSceneWithValueAndRange) {
 }
 
 /// Every leaf of params() that the scene can have is there once, in the same order.
-TEST(Flat, FollowsTheOrderOfTheDescription) {
+TEST(Flat, FlatListFollowsTheOrderOfTheDescription) {
   const std::string text = R"(
 [[body]]
 name = "NAME"
@@ -114,7 +114,7 @@ views = ["NAME"]
   EXPECT_EQ(found, expected);
 }
 
-TEST(Flat, KnowsWhatMayChangeWhileASimulationRuns) {
+TEST(Flat, FlatListKnowsWhatMayChangeWhileASimulationRuns) {
   for (const char* live :
        {"solver.gravity", "solver.bypass", "material.snow.hardening", "material.a.model",
         "collider.floor.velocity", "collider.1.shape", "collider.1.shape.sphere.center", "camera",
@@ -137,7 +137,7 @@ std::vector<std::string> addresses(const std::vector<app::scene::Difference>& li
   return out;
 }
 
-TEST(Differences, AreSplitByWhatCanGoOnRunning) {
+TEST(Differences, DifferencesAreSplitByWhatCanGoOnRunning) {
   EXPECT_TRUE(app::scene::differences(read(), read()).empty());
   const app::scene::SplitDifferences split = app::scene::split_live(
       read(),
@@ -151,7 +151,7 @@ TEST(Differences, AreSplitByWhatCanGoOnRunning) {
   EXPECT_EQ(app::scene::toml::toml_literal(*split.live[0].after), "0.2");
 }
 
-TEST(Differences, OfTablesThatComeGoOrChangeKindAreWhole) {
+TEST(Differences, DifferencesOfTablesThatComeGoOrChangeKindAreWhole) {
   const auto found = app::scene::differences(
       read({"view.close.clip.normal=[1,0,0]"}),
       read({"camera.fov=40", "view.close.camera=none", "collider.1.shape={sphere={}}"}));
@@ -162,7 +162,7 @@ TEST(Differences, OfTablesThatComeGoOrChangeKindAreWhole) {
   EXPECT_FALSE(found[2].after);
 }
 
-TEST(Differences, OfItemsNeedARestart) {
+TEST(Differences, DifferencesOfItemsNeedARestart) {
   const std::string more = std::string(flat_scene) + "[[collider]]\nshape = { sphere = {} }\n";
   const app::scene::SplitDifferences split = app::scene::split_live(read(), read({}, more));
   EXPECT_TRUE(split.live.empty());
@@ -197,7 +197,7 @@ TEST(Differences, SetOneByOneMakeTheOtherScene) {
   }
 }
 
-TEST(SetNone, TakesAwayWhatMayBeAbsentAndNothingElse) {
+TEST(SetNone, SettingNoneTakesAwayWhatMayBeAbsentAndNothingElse) {
   EXPECT_FALSE(read({"view.close.camera=none"}).views[0].camera);
   EXPECT_TRUE(read({"view.close.camera.keyframes=none"}).views[0].camera->keyframes.empty());
   EXPECT_FALSE(read({"camera.orbit=90", "camera.orbit=none"}).camera->orbit);

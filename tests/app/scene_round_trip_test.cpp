@@ -236,7 +236,7 @@ class RoundTrip : public testing::Test {
   std::string mesh_ = (folder_ / "round_trip_é.obj").string();
 };
 
-TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {
+TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   const app::scene::Scene plain = full_scene(mesh_);
   app::scene::Scene scene = plain;
   int count = 0;
@@ -276,7 +276,7 @@ TEST_F(RoundTrip, KeepsEveryParameterBitForBit) {
       << "only names, materials, files, the turns not taken and velocities beside keyframes stay";
 }
 
-TEST_F(RoundTrip, KeepsAnAutomaticScene) {
+TEST_F(RoundTrip, RoundTripKeepsAnAutomaticScene) {
   const app::scene::Scene scene =
       app::scene::read_scene_text("[camera]\nfov = 20\n[[body]]\nshape = {box = {}}", "s");
   const app::scene::Scene again =
@@ -288,7 +288,7 @@ TEST_F(RoundTrip, KeepsAnAutomaticScene) {
   EXPECT_FALSE(again.views.at(0).particles.range.has_value());
 }
 
-TEST_F(RoundTrip, FindsMeshesFromAnywhere) {
+TEST_F(RoundTrip, RoundTripFindsMeshesFromAnywhere) {
   const app::scene::Scene scene = full_scene(mesh_);
   const std::string file = std::get<sim::shapes::Mesh>(scene.bodies.back().shape.form).file;
   EXPECT_TRUE(std::filesystem::path(file).is_absolute());
@@ -297,7 +297,7 @@ TEST_F(RoundTrip, FindsMeshesFromAnywhere) {
   EXPECT_EQ(std::get<sim::shapes::Mesh>(again.bodies.back().shape.form).file, file);
 }
 
-TEST(NumberText, ReadsBackExactly) {
+TEST(NumberText, NumberTextReadsBackExactly) {
   EXPECT_EQ(app::scene::toml::number_text(5e-4), "5e-4");
   EXPECT_EQ(app::scene::toml::number_text(0.001), "0.001");
   EXPECT_EQ(app::scene::toml::number_text(1e30), "1e30");
@@ -308,7 +308,7 @@ TEST(NumberText, ReadsBackExactly) {
   EXPECT_EQ(app::scene::toml::number_text(0.1 + 0.2), "0.30000000000000004");
 }
 
-TEST(SceneDefaults, AreThoseOfTheStructs) {
+TEST(SceneDefaults, SceneDefaultsAreThoseOfTheStructs) {
   const app::scene::Scene scene =
       app::scene::read_scene_text("[[body]]\nshape = { box = {} }", "s");
   EXPECT_EQ(scene.frames, app::scene::Scene{}.frames);
@@ -322,7 +322,7 @@ TEST(SceneDefaults, AreThoseOfTheStructs) {
   EXPECT_FALSE(scene.camera.has_value());
 }
 
-TEST(SceneReader, AcceptsWholeFloatsAsIntegersAndBack) {
+TEST(SceneReader, SceneReaderAcceptsWholeFloatsAsIntegersAndBack) {
   const app::scene::Scene scene = app::scene::read_scene_text(
       "frames = 12.0\nfps = 30\n[limits]\nmemory = \"1.5 kB\"\nparticles = 2e7\n[[body]]\nshape = "
       "{ sphere = { radius = 1 } }",

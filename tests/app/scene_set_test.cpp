@@ -40,7 +40,7 @@ std::string override_error(const std::string& argument) {
   return "no usage error";
 }
 
-TEST(Set, ReachesEveryKindOfAddress) {
+TEST(Set, SettingReachesEveryKindOfAddress) {
   EXPECT_EQ(set({"solver.cell_size=0.05"}).solver.cell_size, 0.05);
   EXPECT_EQ(set({"material.snow.hardening=5"}).materials[0].hardening, 5);
   EXPECT_EQ(set({"material.wet.hardening=5"}).materials[1].hardening, 5);
@@ -56,24 +56,24 @@ TEST(Set, ReachesEveryKindOfAddress) {
   EXPECT_EQ(std::get<sim::shapes::Sphere>(scene.bodies[0].shape.form).radius, 0.3);
 }
 
-TEST(Set, ReachesTheBuiltInView) {
+TEST(Set, SettingReachesTheBuiltInView) {
   const char* text = "[[body]]\nshape = { box = {} }";
   EXPECT_EQ(set({"view.particles.particles.color_by=id"}, text).views[0].particles.color_by,
             app::scene::ColorBy::id);
 }
 
-TEST(Set, TakesTheLastOfTwo) {
+TEST(Set, SettingTakesTheLastOfTwo) {
   EXPECT_EQ(set({"frames=3", "frames=4"}).frames, 4);
 }
 
-TEST(Set, TakesWholeTables) {
+TEST(Set, SettingTakesWholeTables) {
   const app::scene::Scene scene = set(
       {"body.ball.shape={ box = { size = [1, 1, 1] } }", "camera={eye=[0,0,2],target=[0,0,0]}"});
   EXPECT_TRUE(std::holds_alternative<sim::shapes::Box>(scene.bodies[0].shape.form));
   EXPECT_EQ(scene.camera->eye->z(), 2);
 }
 
-TEST(Set, TakesBareWordsAsStrings) {
+TEST(Set, SettingTakesBareWordsAsStrings) {
   EXPECT_EQ(set({"solver.kernel=quadratic"}).solver.kernel, sim::Kernel::quadratic);
   EXPECT_EQ(set({"title=Boule de névé # 2"}).title, "Boule de névé # 2");
   EXPECT_EQ(set({"title=\"quoted\""}).title, "quoted");
@@ -122,7 +122,7 @@ TEST(Set, UnknownAddressesNameTheNearest) {
             "--set body=3: error: unknown parameter \"body\"; neve params lists all of them");
 }
 
-TEST(Set, NeedsAnAddressAndAValue) {
+TEST(Set, SettingNeedsAnAddressAndAValue) {
   EXPECT_THROW(app::scene::parse_override("frames"), app::scene::toml::UsageError);
   EXPECT_THROW(app::scene::parse_override("=3"), app::scene::toml::UsageError);
   EXPECT_THROW(app::scene::parse_override(""), app::scene::toml::UsageError);
@@ -146,14 +146,14 @@ TEST(Set, MistakesOfTheFileStayWithTheFile) {
                app::scene::toml::SceneError);
 }
 
-TEST(FindView, KnowsTheBuiltInOne) {
+TEST(FindView, ViewLookupKnowsTheBuiltInOne) {
   const app::scene::Scene scene = set({});
   EXPECT_EQ(app::scene::find_view(scene, "close").camera->fov, 20);
   EXPECT_EQ(app::scene::find_view(scene, "particles").name, "particles");
   EXPECT_THROW(app::scene::find_view(scene, "clos"), app::scene::toml::UsageError);
 }
 
-TEST(ValueAt, FindsWhatAnAddressMeans) {
+TEST(ValueAt, ValueLookupFindsWhatAnAddressMeans) {
   const app::scene::toml::Table root = app::scene::toml::parse_toml(
       "fps = 24\n[solver]\ncfl = 0.4\n[material.snow]\nhardening = 5\n[[body]]\nname = \"ball\"\n"
       "velocity = [0, 1, 2]\n[[body]]\nshape = { sphere = { radius = 0.1 } }\n",

@@ -62,7 +62,7 @@ TEST(SmokeLayer, BuiltInViewTakesItsOwnLayers) {
             app::scene::ScalarField::J_P);
 }
 
-TEST(SmokeLayer, HoldsTheMassOfTheSnow) {
+TEST(SmokeLayer, SmokeLayerHoldsTheMassOfTheSnow) {
   app::scene::Scene scene = read_powder("");
   scene.views = {app::scene::find_view(scene, "smoke")};
   const render::Frame frame = first_frame(scene);
@@ -99,7 +99,7 @@ TEST(SmokeLayer, AFieldColoursItWithALegendAndAnAutomaticRange) {
   }
 }
 
-TEST(SmokeLayer, ShowsTheSpeedOfTheBall) {
+TEST(SmokeLayer, SmokeLayerShowsTheSpeedOfTheBall) {
   app::scene::Scene scene = read_powder("");
   scene.views = {app::scene::find_view(scene, "smoke")};
   scene.views.front().smoke.field = app::scene::ScalarField::speed;

@@ -55,7 +55,7 @@ TEST(ValuesAround, StandAtEqualDistancesElsewhereAndStayInRange) {
   EXPECT_EQ(around("frames", "100000"), "[50000, 62500, 75000, 87500, 100000]");
 }
 
-TEST(ValuesAround, OfChoicesAreAllOfThemAndVectorsAreStretched) {
+TEST(ValuesAround, ValuesAroundOfChoicesAreAllOfThemAndVectorsAreStretched) {
   EXPECT_EQ(around("solver.transfer"), "[\"flip\", \"apic\", \"mls\"]");
   EXPECT_EQ(around("body.ball.velocity"),
             "[[0, -2, 0], [0, -3, 0], [0, -4, 0], [0, -5, 0], [0, -6, 0]]");
@@ -66,7 +66,7 @@ TEST(ValuesAround, OfChoicesAreAllOfThemAndVectorsAreStretched) {
 }
 
 /// All parameters that have values around them: each value is valid, the present one among them.
-TEST(ValuesAround, AreValidAndHaveThePresentOneAmongThem) {
+TEST(ValuesAround, ValuesAroundAreValidAndHaveThePresentOneAmongThem) {
   int count = 0;
   for (const app::scene::FlatParam& param :
        app::scene::flatten(app::scene::read_scene_text(around_scene, "s.toml"))) {
@@ -94,7 +94,7 @@ TEST(ValuesAround, AreValidAndHaveThePresentOneAmongThem) {
   EXPECT_GT(count, 50);
 }
 
-TEST(SweepAround, IsAFileThatReadsAsTheSweep) {
+TEST(SweepAround, SweepAroundIsAFileThatReadsAsTheSweep) {
   const test::TemporaryFolder folder;
   const auto scene = folder.write("scenes/a b.toml", around_scene);
   const auto file = folder / "sweeps/hardening.toml";

@@ -35,7 +35,7 @@ class ChildTest : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(ChildTest, TellsHowItEnded) {
+TEST_F(ChildTest, ChildTellsHowItEnded) {
   const app::sweep::jobs::ChildResult good = run("echo hello; echo bad >&2; exit 5", {});
   EXPECT_EQ(good.ending, app::sweep::jobs::Ending::exited);
   EXPECT_EQ(good.code, 5);
@@ -45,7 +45,7 @@ TEST_F(ChildTest, TellsHowItEnded) {
   EXPECT_EQ(crashed.signal, SIGSEGV);
 }
 
-TEST_F(ChildTest, IsAskedToEndAfterItsTimeAndThenEnded) {
+TEST_F(ChildTest, ChildIsAskedToEndAfterItsTimeAndThenEnded) {
   EXPECT_EQ(run("sleep 60", {.timeout = 0.1}).ending, app::sweep::jobs::Ending::timeout);
   // One that does not listen.
   const app::sweep::jobs::ChildResult deaf = run("trap '' TERM; while true; do sleep 0.1; done",
@@ -55,7 +55,7 @@ TEST_F(ChildTest, IsAskedToEndAfterItsTimeAndThenEnded) {
   EXPECT_LT(deaf.seconds, 20);
 }
 
-TEST_F(ChildTest, IsEndedWhenItTakesTooMuchMemory) {
+TEST_F(ChildTest, ChildIsEndedWhenItTakesTooMuchMemory) {
   // Keeps the last 400 MB of an endless stream.
   const app::sweep::jobs::ChildResult result =
       run("exec tail -c 400000000 < <(cat /dev/zero)", {.timeout = 60, .memory = 100'000'000});
@@ -63,7 +63,7 @@ TEST_F(ChildTest, IsEndedWhenItTakesTooMuchMemory) {
   EXPECT_GE(result.peak_memory, 100'000'000u);
 }
 
-TEST_F(ChildTest, DiesWithItsParent) {
+TEST_F(ChildTest, ChildDiesWithItsParent) {
   const pid_t parent = ::fork();
   if (parent == 0) {
     app::sweep::jobs::Child child(
@@ -89,7 +89,7 @@ TEST_F(ChildTest, DiesWithItsParent) {
   EXPECT_FALSE(is_alive);
 }
 
-TEST(SweepStore, RemembersReportsAndSurvivesBrokenOnes) {
+TEST(SweepStore, SweepStoreRemembersReportsAndSurvivesBrokenOnes) {
   test::TemporaryFolder folder;
   app::sweep::store::RunStatus status;
   status.state = app::sweep::store::RunState::out_of_memory;
@@ -147,7 +147,7 @@ TEST(SweepThreads, FillTheCoresAndFitIntoMemory) {
   EXPECT_EQ(app::sweep::jobs::threads_for(small, 1, 8, 64e9), 1);   // too small to share
 }
 
-TEST(SweepProgress, EstimatesOverATrailingWindow) {
+TEST(SweepProgress, SweepProgressEstimatesOverATrailingWindow) {
   using namespace std::chrono_literals;
   WorkClock clock;
   const WorkClock::Clock::time_point start{};

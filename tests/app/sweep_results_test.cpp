@@ -101,7 +101,7 @@ app::sweep::store::Manifest manifest_of(const std::vector<int>& sizes) {
   return m;
 }
 
-TEST(SheetLayout, HasEveryRunOnceAndNoTileOverAnother) {
+TEST(SheetLayout, SheetLayoutHasEveryRunOnceAndNoTileOverAnother) {
   for (const auto& sizes : std::vector<std::vector<int>>{
            {}, {1}, {3}, {20}, {2, 3}, {3, 2, 2}, {2, 2, 2, 2}, {2, 3, 2, 2, 2}, {12, 40}}) {
     const app::sweep::store::Manifest m = manifest_of(sizes);
@@ -181,7 +181,7 @@ std::vector<app::sweep::store::RunResult> results_of(const app::sweep::store::Ma
   return results;
 }
 
-TEST(DataCsv, KeepsTheRulesOfCinema) {
+TEST(DataCsv, DataCsvKeepsTheRulesOfCinema) {
   test::TemporaryFolder folder;
   app::sweep::store::Manifest m = manifest_of({2, 3});
   m.parameters.push_back({"body.ball.velocity", "velocity", "m/s", "vector"});
@@ -218,7 +218,7 @@ TEST(DataCsv, KeepsTheRulesOfCinema) {
   EXPECT_TRUE(breaks("state", "FILE_x"));
 }
 
-TEST(DataCsv, HasEveryColumnOnceWhenAnAxisIsCalledAsAMetric) {
+TEST(DataCsv, DataCsvHasEveryColumnOnceWhenAnAxisIsCalledAsAMetric) {
   app::sweep::store::Manifest m = manifest_of({2});
   m.parameters = {{"frames", "frames", "", "integer"}, {"steps", "steps", "", "integer"}};
   const std::vector<test::CsvRow> rows =
@@ -227,7 +227,7 @@ TEST(DataCsv, HasEveryColumnOnceWhenAnAxisIsCalledAsAMetric) {
     EXPECT_EQ(std::count(rows[0].begin(), rows[0].end(), name), 1) << name;
 }
 
-TEST(DataCsv, HasNoMetricsOfRunsThatBrokeDownButWhatTheyCost) {
+TEST(DataCsv, DataCsvHasNoMetricsOfRunsThatBrokeDownButWhatTheyCost) {
   const app::sweep::store::Manifest m = manifest_of({2});
   const std::vector<test::CsvRow> rows =
       test::parse_csv(app::sweep::sheet::data_csv(m, results_of(m)));
@@ -268,7 +268,7 @@ TEST(RunResults, CountTheStepsUntilARunDiverged) {
   EXPECT_EQ(steps(), 5);
 }
 
-TEST(RunText, HasTheFolderWhereItsNumberIsAnother) {
+TEST(RunText, RunTextHasTheFolderWhereItsNumberIsAnother) {
   app::sweep::Run run;
   run.index = 1;
   run.folder = "0001";
@@ -277,7 +277,7 @@ TEST(RunText, HasTheFolderWhereItsNumberIsAnother) {
   EXPECT_EQ(app::sweep::store::run_text(run), "run 1 (runs/0010)");
 }
 
-TEST(DataCsv, LeavesOutTimesWhereTablesAreCompared) {
+TEST(DataCsv, DataCsvLeavesOutTimesWhereTablesAreCompared) {
   const app::sweep::store::Manifest m = manifest_of({2});
   std::vector<app::sweep::store::RunResult> results = results_of(m);
   const std::string without = app::sweep::sheet::data_csv(m, results, false);
@@ -286,7 +286,7 @@ TEST(DataCsv, LeavesOutTimesWhereTablesAreCompared) {
   EXPECT_NE(app::sweep::sheet::data_csv(m, results), without);
 }
 
-TEST(SweepReport, IsOneFileThatNamesNothingOutside) {
+TEST(SweepReport, SweepReportIsOneFileThatNamesNothingOutside) {
   const app::sweep::store::Manifest m = manifest_of({2, 3});
   const std::vector<app::sweep::store::RunResult> results = results_of(m);
   const std::string html = app::sweep::sheet::report_html(
@@ -307,7 +307,7 @@ TEST(SweepReport, IsOneFileThatNamesNothingOutside) {
   EXPECT_EQ(scripts, 2u);
 }
 
-TEST(SweepReport, KeepsParametersAsTheyWereWritten) {
+TEST(SweepReport, SweepReportKeepsParametersAsTheyWereWritten) {
   app::sweep::store::Manifest m = manifest_of({2});
   m.runs[0].settings[0].value = "0.123456789";
   m.runs[1].settings[0].value = "1.40e5";
@@ -317,7 +317,7 @@ TEST(SweepReport, KeepsParametersAsTheyWereWritten) {
   EXPECT_NE(html.find("\"texts\":{\"1\":\"1.40e5\"}"), std::string::npos);
 }
 
-TEST(MetricPlots, HaveAPointForEachRunThatHasTheMetric) {
+TEST(MetricPlots, MetricPlotsHaveAPointForEachRunThatHasTheMetric) {
   const app::sweep::store::Manifest m = manifest_of({4});
   const std::string svg = app::sweep::sheet::metric_plots_svg(m, results_of(m), true);
   const auto count = [&](const std::string& what) {
@@ -338,7 +338,7 @@ TEST(MetricPlots, HaveAPointForEachRunThatHasTheMetric) {
       "");
 }
 
-TEST(RunWarnings, AreReadFromRunJsonAndCountedInTableAndReport) {
+TEST(RunWarnings, RunWarningsAreReadFromRunJsonAndCountedInTableAndReport) {
   const test::TemporaryFolder folder;
   app::sweep::store::Manifest m = manifest_of({3});
   for (app::sweep::Run& run : m.runs) {
@@ -402,7 +402,7 @@ TEST(MetricPlots, LeaveTheAxesToRunsThatGotToTheirEnd) {
   EXPECT_NE(without_tooltips(svg), without_tooltips(far));
 }
 
-TEST(TileText, SaysWhatHappenedInPlace) {
+TEST(TileText, TileTextSaysWhatHappenedInPlace) {
   app::sweep::store::RunStatus status;
   status.state = app::sweep::store::RunState::diverged;
   status.short_reason = "frame 17: acoustic CFL 3.1";

@@ -10,7 +10,7 @@
 namespace neve::app {
 namespace {
 
-TEST(SweepSelection, ReadsNumbersAndRanges) {
+TEST(SweepSelection, SweepSelectionReadsNumbersAndRanges) {
   EXPECT_EQ(app::sweep::plan::parse_selection("3,7-9,1", 20), (std::vector<int>{1, 3, 7, 8, 9}));
   EXPECT_EQ(app::sweep::plan::parse_selection("2,2,1-3", 3), (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(app::sweep::plan::parse_selection("0", 0), (std::vector<int>{0}));
@@ -19,7 +19,7 @@ TEST(SweepSelection, ReadsNumbersAndRanges) {
         << wrong;
 }
 
-TEST(SweepSelection, WritesTheShortestText) {
+TEST(SweepSelection, SweepSelectionWritesTheShortestText) {
   EXPECT_EQ(app::sweep::plan::selection_text({0, 1, 2, 3, 7, 9, 10}), "0-3,7,9-10");
   EXPECT_EQ(app::sweep::plan::selection_text({5}), "5");
   EXPECT_EQ(app::sweep::plan::selection_text({}), "");

@@ -21,7 +21,7 @@ std::string string_of(std::string_view text) {
   return std::get<std::string>(app::scene::toml::parse_toml(text, "f").entries.at(0).value.data);
 }
 
-TEST(TomlText, IsAsciiAfterwards) {
+TEST(TomlText, TomlTextIsAsciiAfterwards) {
   const app::scene::toml::AsciiToml toml = app::scene::toml::to_ascii_toml("a = \"é😀\" # ü\n", "f");
   EXPECT_EQ(toml.text, "a = \"\\u00E9\\U0001F600\" # ?\n");
 }
@@ -106,7 +106,7 @@ TEST(TomlText, AssertionsOfTheParserDoNotAbort) {
             "delimiter, saw '\\'");
 }
 
-TEST(TomlSource, KeepsTheOrderOfTheFile) {
+TEST(TomlSource, TomlSourceKeepsTheOrderOfTheFile) {
   const app::scene::toml::Table root =
       app::scene::toml::parse_toml("z = 1\na = 2\n[m]\nb = 1\na = [{y = 1, x = 2}]", "f");
   ASSERT_EQ(root.entries.size(), 3u);
@@ -117,7 +117,7 @@ TEST(TomlSource, KeepsTheOrderOfTheFile) {
             "z = 1\na = 2\n\n[m]\nb = 1\na = [{ y = 1, x = 2 }]\n");
 }
 
-TEST(TomlSource, KnowsWhereEveryValueIs) {
+TEST(TomlSource, TomlSourceKnowsWhereEveryValueIs) {
   const app::scene::toml::Table root =
       app::scene::toml::parse_toml("t = \"é\"\nlist = [\"é\", { \"é\" = 5 }]", "f");
   const app::scene::toml::Array& list =

@@ -41,7 +41,7 @@ render::Frame build(const app::scene::Scene& scene, const std::vector<Vec3d>& po
   return app::picture::FrameBuilder(scene, seeded).build(scene.views.front(), snapshot);
 }
 
-TEST(ColliderStyle, DecidesWhatIsDrawn) {
+TEST(ColliderStyle, ColliderStyleDecidesWhatIsDrawn) {
   const app::scene::Scene scene = scene_with(R"([[collider]]
 shape = { sphere = {} }
 [[collider]]
@@ -69,7 +69,7 @@ style = "ghost"
   EXPECT_GT(frame.ghost_grounds[1].fill, 0);
 }
 
-TEST(ColliderStyle, KeepsToTheLayersOfTheView) {
+TEST(ColliderStyle, ColliderStyleKeepsToTheLayersOfTheView) {
   const app::scene::Scene scene = scene_with(
       "[[collider]]\nshape = { sphere = {} }\nstyle = \"wire\"\n[[collider]]\nshape = { plane = {} "
       "}\n"
@@ -80,7 +80,7 @@ TEST(ColliderStyle, KeepsToTheLayersOfTheView) {
   EXPECT_EQ(frame.grounds.size(), 1u);
 }
 
-TEST(ColliderStyle, IsNothingToTheSimulation) {
+TEST(ColliderStyle, ColliderStyleIsNothingToTheSimulation) {
   const app::scene::Scene scene =
       scene_with("[[collider]]\nfriction = 0.3\nshape = { box = {} }\nstyle = \"ghost\"");
   const std::vector<sim::shapes::Collider> colliders = app::scene::sim_colliders(scene);
@@ -91,7 +91,7 @@ TEST(ColliderStyle, IsNothingToTheSimulation) {
             "\"ghost\"");
 }
 
-TEST(Clip, RemovesTheParticlesOnItsSide) {
+TEST(Clip, ClipRemovesTheParticlesOnItsSide) {
   const app::scene::Scene scene =
       scene_with("[[view]]\nclip = { normal = [0, 0, 5], point = [0, 0, 0.1] }\n");
   const render::Frame frame = build(scene, {{0, 0, 0}, {0, 0, 0.09}, {0, 0, 0.11}, {5, 0, 9}});
@@ -111,14 +111,14 @@ TEST(Clip, AutomaticallyCutsTheMiddleOfTheSnow) {
   }
 }
 
-TEST(Clip, NeedsADirection) {
+TEST(Clip, ClipNeedsADirection) {
   EXPECT_EQ(view_error("[[view]]\nclip = { normal = [0, 0, 0] }"),
             "s.toml:4:19: error: normal is zero; it must point towards the side to cut away");
   EXPECT_EQ(view_error("[[view]]\nclip = { point = \"middle\" }"),
             "s.toml:4:18: error: view.1.clip.point = \"middle\"; expected three numbers [x, y, z]");
 }
 
-TEST(Background, OfTheViewGoesBeforeThatOfTheOutput) {
+TEST(Background, BackgroundOfTheViewGoesBeforeThatOfTheOutput) {
   const app::scene::Scene scene = scene_with(
       "[[view]]\n[[view]]\nbackground = \"gradient\"\n[output]\nbackground = \"transparent\"\n");
   EXPECT_EQ(app::scene::background_of(scene, scene.views[0]), app::scene::Background::transparent);
@@ -156,7 +156,7 @@ TEST(Mosaic, TilesKeepTheShapeOfTheirViewsAndStandInRows) {
         << "there is one caption";
 }
 
-TEST(Mosaic, LeavesFewGapsAndComesNearTheShapeOfTheOutput) {
+TEST(Mosaic, MosaicLeavesFewGapsAndComesNearTheShapeOfTheOutput) {
   const auto columns = [](int views, const std::string& size) {
     std::string text, names;
     for (int k = 0; k < views; ++k) {
@@ -177,7 +177,7 @@ TEST(Mosaic, LeavesFewGapsAndComesNearTheShapeOfTheOutput) {
   EXPECT_EQ(columns(4, "[720, 1280]"), 4);
 }
 
-TEST(Mosaic, IsAsWideAsTheOutput) {
+TEST(Mosaic, MosaicIsAsWideAsTheOutput) {
   const app::scene::Scene scene =
       scene_with(std::string(three_views) + "[[mosaic]]\nviews = [\"c\", \"a\"]\n");
   const app::setup::MosaicLayout layout = app::setup::layout_of(scene, scene.mosaics[0], 2);
@@ -186,7 +186,7 @@ TEST(Mosaic, IsAsWideAsTheOutput) {
   EXPECT_EQ(layout.tiles[1].y, layout.tiles[0].y);
 }
 
-TEST(Mosaic, MayNameBuiltInViews) {
+TEST(Mosaic, MosaicMayNameBuiltInViews) {
   const app::scene::Scene scene = scene_with("[[mosaic]]\nviews = [\"particles\", \"slice\"]\n");
   ASSERT_EQ(scene.views.size(), 2u);
   EXPECT_EQ(app::setup::layout_of(scene, scene.mosaics[0], 2).tiles[1].view.name, "slice");

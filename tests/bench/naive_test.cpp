@@ -26,7 +26,7 @@ app::bench::BenchCase small_case(app::bench::BenchMethod method) {
 
 class Naive : public testing::TestWithParam<app::bench::BenchMethod> {};
 
-TEST_P(Naive, DoesTheSameAsTheSolver) {
+TEST_P(Naive, NaiveCodeDoesTheSameAsTheSolver) {
   const app::bench::BenchCase c = small_case(GetParam());
   sim::Simulation simulation(c.settings, {c.material}, {}, c.particles, 1);
   app::bench::NaiveSnow naive(c.settings, c.material, c.particles);
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Naive,
                            return std::string(app::bench::name(tested.param));
                          });
 
-TEST(NaiveSnow, RefusesWhatItDoesNotImplement) {
+TEST(NaiveSnow, NaiveSnowRefusesWhatItDoesNotImplement) {
   const app::bench::BenchCase apic =
       app::bench::packed_case(2, app::bench::BenchMethod::apic_cubic, sim::Precision::real64);
   EXPECT_THROW(app::bench::NaiveSnow(apic.settings, apic.material, apic.particles),
@@ -74,7 +74,7 @@ TEST(NaiveSnow, RefusesWhatItDoesNotImplement) {
                std::invalid_argument);
 }
 
-TEST(Window, OfACaseThatDivergesIsAnError) {
+TEST(Window, WindowOfACaseThatDivergesIsAnError) {
   app::bench::BenchCase c =
       app::bench::packed_case(4, app::bench::BenchMethod::flip_cubic, sim::Precision::single);
   c.settings.dt = 5e-3;  // sound crosses ten cells
@@ -95,7 +95,7 @@ TEST(Statistics, MedianIsTheMiddleOrBetweenTheTwo) {
   EXPECT_EQ(app::bench::statistics_of({4, 1, 2, 3}).max, 4);
 }
 
-TEST(BenchCase, IsTheCommonCase) {
+TEST(BenchCase, BenchCaseIsTheCommonCase) {
   const app::bench::BenchCase packed =
       app::bench::packed_case(23, app::bench::BenchMethod::flip_cubic, sim::Precision::single);
   EXPECT_EQ(packed.particles.x.size(), 97336u);

@@ -126,7 +126,7 @@ TEST_F(Changes, AResumedRunMakesTheRestOfThem) {
   EXPECT_EQ(render("0-4", "parts", true).exit_code, 2);
 }
 
-TEST_F(Changes, AreShownByInfo) {
+TEST_F(Changes, ChangesAreShownByInfo) {
   ASSERT_NO_FATAL_FAILURE(play());
   const auto info = neve({"info", "session.png"});
   EXPECT_TRUE(contains(info.output, "changed     step ")) << info.output;
@@ -142,7 +142,7 @@ TEST_F(Changes, AreShownByInfo) {
   EXPECT_TRUE(contains(neve({"info", "again"}).output, "changed     step "));
 }
 
-TEST_F(Changes, ThatAreNoneAreRefused) {
+TEST_F(Changes, ChangesThatAreNoneAreRefused) {
   ASSERT_NO_FATAL_FAILURE(play());
   const auto image =
       render::decode_png(app::output::read_file(folder / "plain/particles/0004.png"));

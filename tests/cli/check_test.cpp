@@ -40,7 +40,7 @@ TEST_F(Check, AHealthySceneHasNoWarning) {
   EXPECT_EQ(findings(scene("", floor_plane)), Findings{});
 }
 
-TEST_F(Check, SaysWhatEachMistakeIs) {
+TEST_F(Check, CheckSaysWhatEachMistakeIs) {
   EXPECT_EQ(findings(scene("time_step = \"fixed\"\ndt = 2e-3", floor_plane), 9).at(0),
             "error solver.dt");
   EXPECT_EQ(findings(scene("time_step = \"fixed\"\ndt = 5e-4", floor_plane)),
@@ -87,7 +87,7 @@ TEST_F(Check, SaysWhatEachMistakeIs) {
             Findings{"warning camera"});
 }
 
-TEST_F(Check, SaysWhatHasNoEffect) {
+TEST_F(Check, CheckSaysWhatHasNoEffect) {
   const auto with = [&](const std::string& more) {
     return findings(scene("", floor_plane + more));
   };
@@ -105,7 +105,7 @@ TEST_F(Check, SaysWhatHasNoEffect) {
   EXPECT_EQ(with("[[view]]\nname = \"slice\"\n[view.slice]\nisolines = 6\n"), Findings{});
 }
 
-TEST_F(Check, JoinsWhatIsTheSameOfManyBodies) {
+TEST_F(Check, CheckJoinsWhatIsTheSameOfManyBodies) {
   std::string more = floor_plane;
   for (const char* x : {"0.5", "0.8", "1.1"})
     more += "[[body]]\nshape = { box = { center = [" + std::string(x) +
@@ -118,7 +118,7 @@ TEST_F(Check, JoinsWhatIsTheSameOfManyBodies) {
 
 /// Two balls that touch nothing for a while: one crushed particle at the end of a frame rules a
 /// few of its steps and not all of them.
-TEST_F(Check, ForeseesTheFirstFrameToo) {
+TEST_F(Check, CheckForeseesTheFirstFrameToo) {
   const std::string file = std::string(NEVE_SOURCE_DIR) + "/scenes/two_snowballs.toml";
   const auto check = neve({"check", file, "--coarsen", "3", "--json"});
   ASSERT_EQ(check.exit_code, 0) << check.errors;
@@ -132,7 +132,7 @@ TEST_F(Check, ForeseesTheFirstFrameToo) {
 }
 
 /// The forecast comes from a coarse copy: the factor of two is what it claims, no more.
-TEST_F(Check, ForeseesTheStepsOfTheRun) {
+TEST_F(Check, CheckForeseesTheStepsOfTheRun) {
   folder.write("scene.toml", scene("", floor_plane));
   const auto check = neve({"check", "scene.toml", "--json"});
   ASSERT_EQ(check.exit_code, 0) << check.errors;
@@ -154,7 +154,7 @@ TEST_F(Check, ForeseesTheStepsOfTheRun) {
   EXPECT_EQ(json["dt_limit"], "acoustic");
 }
 
-TEST_F(Check, RefusesWhatRenderWouldAndExplainsItself) {
+TEST_F(Check, CheckRefusesWhatRenderWouldAndExplainsItself) {
   folder.write("scene.toml", scene("", "[limits]\nparticles = 10\n"));
   const auto refused = neve({"check", "scene.toml"});
   EXPECT_EQ(refused.exit_code, 8);

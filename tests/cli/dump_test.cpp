@@ -45,7 +45,7 @@ TEST_F(Dump, AHealthyStepIsAsExpected) {
   EXPECT_LT(quantity(dump, "mass")["greatest"].get<double>(), 1.5 * full);
 }
 
-TEST_F(Dump, ShowsAStateThatTheRunPassesThrough) {
+TEST_F(Dump, DumpShowsAStateThatTheRunPassesThrough) {
   ASSERT_EQ(neve({"render", "scene.toml", "--quiet"}).exit_code, 0);
   const app::Json run = json_of("out/scene/run.json");
   for (const int frame : {0, 2, 4}) {

@@ -83,7 +83,7 @@ TEST_F(Cli, NobodyHasToReadAllThatIsPrinted) {
   }
 }
 
-TEST_F(Cli, WhatIsComparedHasToBeThere) {
+TEST_F(Cli, ComparedFilesHaveToBeThere) {
   const auto result = neve({"compare", "scene.toml", "nofolder"});
   EXPECT_EQ(result.exit_code, 6);
   EXPECT_TRUE(contains(result.errors, "nofolder: error: does not exist")) << result.errors;

@@ -26,7 +26,7 @@ size = [160, 120]
   }
 };
 
-TEST_F(FlowCli, WhatComesAndGoesIsCounted) {
+TEST_F(FlowCli, SnowThatComesAndGoesIsCounted) {
   const auto run = neve({"render", "flow.toml", "--out", "out"});
   ASSERT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_TRUE(contains(run.errors, "0 particles and")) << run.errors;

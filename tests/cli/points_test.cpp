@@ -90,7 +90,7 @@ TEST_F(PointFiles, CountForLimitsWhateverTheScenesParticlesPerCell) {
             0);
 }
 
-TEST_F(PointFiles, AreToldApartByTheirBytes) {
+TEST_F(PointFiles, PointFilesAreToldApartByTheirBytes) {
   ASSERT_EQ(render({"--frames", "0-1"}).exit_code, 0);
   EXPECT_EQ(render({"--frames", "0-2", "--resume"}).exit_code, 0);
   const auto again = neve({"render", "out/particles/0001.png", "--out", "again"});
@@ -117,7 +117,7 @@ TEST_F(PointFiles, MistakesAreToldWithFileAndLine) {
   EXPECT_TRUE(contains(spacing.errors, "give spacing")) << spacing.errors;
 }
 
-TEST_F(PointFiles, AreExaminedByTheirDistanceAndMass) {
+TEST_F(PointFiles, PointFilesAreExaminedByTheirDistanceAndMass) {
   EXPECT_EQ(warnings(), "");
   folder.write("points/block.csv", block_csv(3.2));  // in grams
   EXPECT_TRUE(

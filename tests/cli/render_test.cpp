@@ -6,7 +6,7 @@
 namespace neve::test {
 namespace {
 
-TEST_F(Cli, WarnsOfWhatMakesResultsDoubtfulAndKeepsItInTheRecord) {
+TEST_F(Cli, NeveWarnsOfWhatMakesResultsDoubtfulAndKeepsItInTheRecord) {
   std::string text = tiny_scene;
   text.replace(text.find("0.12, 0]"), 8, "0.02, 0]");
   folder.write("sunk.toml", text);

@@ -38,7 +38,7 @@ class SweepResults : public Cli {
   app::output::ProcessResult made;
 };
 
-TEST_F(SweepResults, AreACinemaDatabaseWithSheetsAndCanBeMadeAgain) {
+TEST_F(SweepResults, SweepResultsAreACinemaDatabaseWithSheetsAndCanBeMadeAgain) {
   EXPECT_EQ(made.exit_code, 7) << made.errors;
   const std::string csv = text("data.csv");
   EXPECT_EQ(cinema_problem(csv, folder / "out/study.cdb"), "") << csv;
@@ -79,7 +79,7 @@ std::optional<std::filesystem::path> browser() {
   return std::nullopt;
 }
 
-TEST_F(SweepResults, AreShownByABrowserThatMayNotReachAnything) {
+TEST_F(SweepResults, SweepResultsAreShownByABrowserThatMayNotReachAnything) {
   const auto program = browser();
   if (!program) SKIP_OR_FAIL("no chromium in PATH (Debian: chromium)");
   const std::string page = "file://" + (folder / "out/study.cdb/report.html").string();

@@ -105,7 +105,7 @@ TEST_F(SweepCli, MistakesExitWithTheirCodesAndSuggestions) {
   EXPECT_EQ(neve({"sweep", "many.toml"}).exit_code, 8);
 }
 
-TEST_F(SweepCli, RunsOnceAndGoesOnWithWhatIsNew) {
+TEST_F(SweepCli, SweepRunsOnceAndGoesOnWithWhatIsNew) {
   const auto first = neve({"sweep", "sweep.toml"});
   ASSERT_EQ(first.exit_code, 0) << first.errors;
   for (const char* run : {"0000", "0001", "0002", "0003"}) {
@@ -181,7 +181,7 @@ TEST_F(SweepCli, AllRunsAreSeenAlike) {
   EXPECT_FALSE(contains(line("0000", "particles = "), "auto"));
 }
 
-TEST_F(SweepCli, WhatGoesWrongBecomesAStateAndAReason) {
+TEST_F(SweepCli, FailuresBecomeAStateAndAReason) {
   folder.write("troubled.toml", troubled_sweep);
   app::output::ProcessResult result;
   {

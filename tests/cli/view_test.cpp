@@ -65,7 +65,7 @@ TEST_F(View, APictureIsFramedAsRenderFramesIt) {
   }
 }
 
-TEST_F(View, RecordsASequenceThatRenderWouldMake) {
+TEST_F(View, ViewRecordsASequenceThatRenderWouldMake) {
   const auto result = view(R"([
     {"click": "Save ..."}, {"wait": 3}, {"click": "Record every frame"}, {"wait": 3},
     {"key": "escape"}, {"wait": 3},
@@ -80,7 +80,7 @@ TEST_F(View, RecordsASequenceThatRenderWouldMake) {
   }
 }
 
-TEST_F(View, ShowsWhyARunBroke) {
+TEST_F(View, ViewShowsWhyARunBroke) {
   folder.write("scene.toml", exploding_scene);
   const auto result = view(R"([
     {"click": "Run"}, {"wait_for": "label Show me"}, {"click": "Show me"}, {"wait": 10},
@@ -89,7 +89,7 @@ TEST_F(View, ShowsWhyARunBroke) {
   EXPECT_TRUE(exists("viewed/incident.png"));
 }
 
-TEST_F(View, RefusesWhatItCannotDoBeforeAnythingOpens) {
+TEST_F(View, ViewRefusesWhatItCannotDoBeforeAnythingOpens) {
   EXPECT_EQ(neve({"view", "nowhere.toml"}).exit_code, 3);
   EXPECT_EQ(neve({"view", "scene.toml", "--set", "material.snow.poisson_ratio=1"}).exit_code, 2);
   EXPECT_EQ(neve({"view", "scene.toml", "--listen", "127.0.0.1:99999"}).exit_code, 2);

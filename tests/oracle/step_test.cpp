@@ -130,11 +130,11 @@ void compare_steps(Precision precision, const Tolerance& explicit_tolerance,
   EXPECT_GT(counter.compared, 0) << "no vector in " << folder();
 }
 
-TEST(OracleStep, AgreesInDoubleThroughBothDrivers) {
+TEST(OracleStep, OracleStepAgreesInDoubleThroughBothDrivers) {
   at_every_simd_level([] { compare_steps(Precision::real64, {1e-10, 1e-12}, {1e-9, 1e-12}); });
 }
 
-TEST(OracleStep, AgreesInFloatThroughBothDrivers) {
+TEST(OracleStep, OracleStepAgreesInFloatThroughBothDrivers) {
   at_every_simd_level([] { compare_steps(Precision::single, {2e-4, 1e-6}, {1e-3, 1e-6}); });
 }
 
@@ -203,11 +203,11 @@ void compare_trajectories(Precision precision, const TrajectoryTolerance& tolera
   EXPECT_GT(counter.compared, 0) << "no trajectory in " << folder();
 }
 
-TEST(OracleTrajectory, AgreesInDouble) {
+TEST(OracleTrajectory, OracleTrajectoryAgreesInDouble) {
   at_every_simd_level([] { compare_trajectories(Precision::real64, {1e-10, 1e-8, 1e-9}); });
 }
 
-TEST(OracleTrajectory, AgreesInFloat) {
+TEST(OracleTrajectory, OracleTrajectoryAgreesInFloat) {
   at_every_simd_level([] { compare_trajectories(Precision::single, {1e-5, 5e-4, 1e-4}); });
 }
 

@@ -17,7 +17,7 @@ struct Spot {
   Rgb8 at_0, at_64, at_128, at_255;
 };
 
-TEST(ColorMap, AgreesWithThePublishedTables) {
+TEST(ColorMap, ColorMapAgreesWithThePublishedTables) {
   const Spot spots[] = {
       {ColorMap::viridis, {68, 1, 84}, {58, 82, 139}, {32, 144, 140}, {253, 231, 36}},
       {ColorMap::magma, {0, 0, 3}, {80, 18, 123}, {182, 54, 121}, {251, 252, 191}},
@@ -38,7 +38,7 @@ TEST(ColorMap, AgreesWithThePublishedTables) {
   }
 }
 
-TEST(ColorMap, ClampsAndMarksWhatIsNotANumber) {
+TEST(ColorMap, ColorMapClampsAndMarksWhatIsNotANumber) {
   EXPECT_EQ(map_color(ColorMap::viridis, -3), map_color(ColorMap::viridis, 0));
   EXPECT_EQ(map_color(ColorMap::viridis, INFINITY), map_color(ColorMap::viridis, 1));
   EXPECT_EQ(map_value(ColorMap::viridis, 7, 7, 7), map_color(ColorMap::viridis, 0.5f));
@@ -55,7 +55,7 @@ std::string labels(double min, double max, int count = 5) {
   return out;
 }
 
-TEST(Ticks, AreRoundAndReadable) {
+TEST(Ticks, TicksAreRoundAndReadable) {
   EXPECT_EQ(labels(0, 4.2), "0 1 2 3 4 ");
   EXPECT_EQ(labels(0, 1), "0 0.2 0.4 0.6 0.8 1.0 ");
   EXPECT_EQ(labels(-1, 1), "-1.0 -0.5 0 0.5 1.0 ");

@@ -34,7 +34,7 @@ TEST(Context, OsmesaOpensAndIsSoftware) {
   EXPECT_TRUE(context->is_software);
 }
 
-TEST(Context, OpensAgainAndAgain) {
+TEST(Context, ContextOpensAgainAndAgain) {
   for (int round = 0; round < 6; ++round) {
     for (const char* backend : {"egl_device", "egl_surfaceless", "osmesa"}) {
       OPEN_OR_SKIP(context, backend);
@@ -77,12 +77,12 @@ TEST(Context, EveryBackendWorksOrSaysWhyNot) {
     EXPECT_NE(attempt.available, !attempt.reason.empty()) << attempt.backend;
 }
 
-TEST(SelfTest, PassesOnEgl) {
+TEST(SelfTest, SelfTestPassesOnEgl) {
   OPEN_OR_SKIP(context, "egl");
   EXPECT_EQ(self_test(*context), "");
 }
 
-TEST(SelfTest, PassesOnOsmesa) {
+TEST(SelfTest, SelfTestPassesOnOsmesa) {
   OPEN_OR_SKIP(context, "osmesa");
   EXPECT_EQ(self_test(*context), "");
 }

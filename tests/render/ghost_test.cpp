@@ -39,7 +39,7 @@ TEST(Ghosts, LetTheSnowBehindThemShineThrough) {
   EXPECT_NE(middle_value(through), snow);
 }
 
-TEST(Ghosts, AreHiddenByTheSnowBeforeThem) {
+TEST(Ghosts, GhostsAreHiddenByTheSnowBeforeThem) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = with_ball();
@@ -48,7 +48,7 @@ TEST(Ghosts, AreHiddenByTheSnowBeforeThem) {
   EXPECT_EQ(middle_value(renderer.draw(frame)), snow);
 }
 
-TEST(Ghosts, AreBrightestAtTheirRim) {
+TEST(Ghosts, GhostsAreBrightestAtTheirRim) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = small_frame(160, 120);
@@ -91,7 +91,7 @@ TEST(Ghosts, OrderInTheFrameDoesNotMatter) {
   EXPECT_EQ(renderer.draw(frame).pixels, forward.pixels);
 }
 
-TEST(GhostGrounds, AreSeenFromBothSidesAndWithoutFillOnlyAsLines) {
+TEST(GhostGrounds, GhostGroundsAreSeenFromBothSidesAndWithoutFillOnlyAsLines) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const Image nothing = renderer.draw(small_frame(160, 120));

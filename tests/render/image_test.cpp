@@ -118,7 +118,7 @@ TEST(Png, UnusableInputIsRefused) {
   EXPECT_THROW(encode_png(image, {{"k", std::string("a\0b", 3)}}), ImageError);
 }
 
-TEST(Compare, MeasuresLargestAndMeanDifference) {
+TEST(Compare, ComparisonMeasuresLargestAndMeanDifference) {
   const Image a{2, 1, 3, {0, 10, 20, 30, 40, 50}};
   const Image b{2, 1, 3, {0, 13, 20, 30, 40, 41}};
   EXPECT_EQ(compare(a, b).max, 9);
@@ -128,7 +128,7 @@ TEST(Compare, MeasuresLargestAndMeanDifference) {
   EXPECT_THROW(compare(a, noise(1, 2, 3)), ImageError);
 }
 
-TEST(Compare, FindsTheSquareThatDiffersMost) {
+TEST(Compare, ComparisonFindsTheSquareThatDiffersMost) {
   Image a{40, 20, 3, std::vector<std::uint8_t>(40 * 20 * 3, 100)};
   Image b = a;
   EXPECT_EQ(compare(a, b).local, 0);

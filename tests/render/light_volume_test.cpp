@@ -74,7 +74,7 @@ TEST(LightVolume, StrayHasHardlyABody) {
   EXPECT_GT(sample(volume, {0.5f, 0.25f, 0}).key, 0.9f);
 }
 
-TEST(LightVolume, DependsNeitherOnOrderNorOnThreads) {
+TEST(LightVolume, LightVolumeDependsNeitherOnOrderNorOnThreads) {
   Frame frame = ball();
   for (int i = 0; i < 4; ++i)  // enough for several parts
     frame.points.position.insert(frame.points.position.end(), frame.points.position.begin(),
@@ -90,7 +90,7 @@ TEST(LightVolume, DependsNeitherOnOrderNorOnThreads) {
   }
 }
 
-TEST(Lighting, MakesAVolumeAnewOnlyWhenWhatItDependsOnHasChanged) {
+TEST(Lighting, LightingMakesAVolumeAnewOnlyWhenWhatItDependsOnHasChanged) {
   render::light::Lighting lighting;
   Frame frame = ball();
   frame.meshes.push_back(render::shapes::box_mesh({0, 0.5f, 0}, {0.4f, 0.05f, 0.4f}));
@@ -139,7 +139,7 @@ TEST(LightGrid, FarStrayDoesNotCoarsenIt) {
   EXPECT_LT(sample(volume, {0, 0, 0}).key, 0.2f);
 }
 
-TEST(LightGrid, StaysWithin96CellsAndAroundThePoints) {
+TEST(LightGrid, LightGridStaysWithin96CellsAndAroundThePoints) {
   Frame frame;
   for (const float extent : {1e-5f, 1.0f, 1e5f}) {
     frame.points.position = {{0, 0, 0}, {extent, 0.5f * extent, 0.1f * extent}};

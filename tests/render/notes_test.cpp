@@ -69,7 +69,7 @@ TEST(Notes, PatchesLieBelowThem) {
   EXPECT_EQ(pixel(image, 41, 18).g, 90);
 }
 
-TEST(Shrink, IsTheMeanOfWhatAPixelCovers) {
+TEST(Shrink, ShrunkPixelIsTheMeanOfWhatAPixelCovers) {
   Image image{4, 2, 3, {}};
   for (int k = 0; k < 8; ++k)
     for (int c = 0; c < 3; ++c) image.pixels.push_back(static_cast<std::uint8_t>(10 * k + c));

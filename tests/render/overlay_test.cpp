@@ -35,7 +35,7 @@ Image draw_caption(Renderer& renderer, const std::string& text, int width = 480,
   return renderer.draw(frame);
 }
 
-TEST(Caption, IsDrawnWithItsAccents) {
+TEST(Caption, CaptionIsDrawnWithItsAccents) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const Image nothing = draw_caption(renderer, "");
@@ -47,7 +47,7 @@ TEST(Caption, IsDrawnWithItsAccents) {
   EXPECT_LT(accents.count, changed(nothing, with).count / 2);
 }
 
-TEST(Caption, DrawsScriptsBeyondLatin) {
+TEST(Caption, CaptionDrawsScriptsBeyondLatin) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   // Different letters that would all be the same box if the font lacked them.
@@ -58,7 +58,7 @@ TEST(Caption, DrawsScriptsBeyondLatin) {
   EXPECT_GT(changed(symbols, draw_caption(renderer, "∂≥←")).count, 10);
 }
 
-TEST(Caption, StaysInsideThePictureAndOffTheLegend) {
+TEST(Caption, CaptionStaysInsideThePictureAndOffTheLegend) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const std::string long_word(400, 'W');
@@ -79,7 +79,7 @@ TEST(Caption, StaysInsideThePictureAndOffTheLegend) {
   }
 }
 
-TEST(Caption, GrowsWithThePicture) {
+TEST(Caption, CaptionGrowsWithThePicture) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const auto height_of = [&](int width, int height) {
@@ -100,7 +100,7 @@ TEST(Caption, OddTextIsHarmless) {
   EXPECT_NO_THROW(draw_caption(renderer, "tiny", 8, 8));
 }
 
-TEST(Legend, ShowsTheColoursOfTheMap) {
+TEST(Legend, LegendShowsTheColoursOfTheMap) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = small_frame(640, 360);
@@ -156,7 +156,7 @@ TEST(Legend, SeveralStandAboveEachOther) {
   }
 }
 
-TEST(Footnote, StandsBetweenPlotsAndLegends) {
+TEST(Footnote, FootnoteStandsBetweenPlotsAndLegends) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const auto place_of = [&](Frame frame) {

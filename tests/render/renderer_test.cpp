@@ -198,7 +198,7 @@ TEST(Renderer, SupersamplingSmoothsEdgesAndKeepsThePicture) {
   EXPECT_GT(levels_between(smooth), levels_between(plain) + 20);
 }
 
-TEST(Renderer, DrawsUpToItsLargestSideAndRefusesMore) {
+TEST(Renderer, RendererDrawsUpToItsLargestSideAndRefusesMore) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const int max = renderer.max_size();
@@ -255,7 +255,7 @@ TEST(Renderer, SceneFarFromTheOriginLooksTheSame) {
   EXPECT_LT(compare(here, renderer.draw(frame)).mean, 0.5);
 }
 
-TEST(Shaders, AreReadFromAFolderAndErrorsNameTheFile) {
+TEST(Shaders, ShadersAreReadFromAFolderAndErrorsNameTheFile) {
   OPEN_OR_SKIP(context, "auto");
   namespace fs = std::filesystem;
   const test::TemporaryFolder temporary;

@@ -50,7 +50,7 @@ int count_changed(const Image& a, const Image& b, int from_x, int to_x) {
   return count;
 }
 
-TEST(HeatMapPass, ShowsTheColoursOfTheLegend) {
+TEST(HeatMapPass, HeatMapPassShowsTheColoursOfTheLegend) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   for (const ColorMap colormap : {ColorMap::viridis, ColorMap::magma, ColorMap::coolwarm})
@@ -67,7 +67,7 @@ TEST(HeatMapPass, ShowsTheColoursOfTheLegend) {
     }
 }
 
-TEST(HeatMapPass, LeavesHolesWhereThereIsNoValue) {
+TEST(HeatMapPass, HeatMapPassLeavesHolesWhereThereIsNoValue) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const float none = std::numeric_limits<float>::quiet_NaN();

@@ -87,7 +87,7 @@ int red_of_plate(Renderer& renderer, float z, bool has_smoke) {
   return p.r - p.b;
 }
 
-TEST(Smoke, IsHiddenByWhatIsInFrontAndHidesWhatIsBehind) {
+TEST(Smoke, SmokeIsHiddenByWhatIsInFrontAndHidesWhatIsBehind) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const int open = red_of_plate(renderer, 0.6f, false);
@@ -101,7 +101,7 @@ TEST(Smoke, IsHiddenByWhatIsInFrontAndHidesWhatIsBehind) {
   EXPECT_LT(behind, far - 5);
 }
 
-TEST(Smoke, OfNothingChangesNoPixel) {
+TEST(Smoke, SmokeOfNothingChangesNoPixel) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = small_frame();
@@ -153,7 +153,7 @@ TEST(Smoke, LightFromTheSideLeavesTheFarSideDark) {
   EXPECT_GT(dark.b, dark.r);  // and blue rather than grey
 }
 
-TEST(Smoke, ThrowsAShadowOnTheGroundAndLiesInThatOfMeshes) {
+TEST(Smoke, SmokeThrowsAShadowOnTheGroundAndLiesInThatOfMeshes) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = small_frame(160, 120);
@@ -240,7 +240,7 @@ TEST(Smoke, ColoursShowValues) {
   EXPECT_GT(high.r, high.b + 60);
 }
 
-TEST(Smoke, CanBeLookedAtFromWithin) {
+TEST(Smoke, SmokeCanBeLookedAtFromWithin) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = ball_of_smoke();
@@ -264,7 +264,7 @@ TEST(Smoke, FarFromTheOriginLooksTheSame) {
   EXPECT_LT(compare(here, renderer.draw(frame)).mean, 0.5);  // floats are 0.1 mm apart there
 }
 
-TEST(Smoke, ThatFitsNoLatticeIsRefused) {
+TEST(Smoke, SmokeThatFitsNoLatticeIsRefused) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = ball_of_smoke();

@@ -18,7 +18,7 @@ void add_values(Frame& frame) {
   for (const Vec3f& p : frame.points.position) frame.points.value.push_back(p.y + 0.4f);
 }
 
-TEST(Splat, DrawsThePictureOfOpenGl) {
+TEST(Splat, SplattingDrawsThePictureOfOpenGl) {
   OPEN_OR_SKIP(context, "auto");
   Frame frame = rough_ball(320, 200);
   expect_same_picture(*context, frame, "snow");
@@ -33,7 +33,7 @@ TEST(Splat, DrawsThePictureOfOpenGl) {
   expect_same_picture(*context, frame, "off the axis");
 }
 
-TEST(Splat, DrawsThePictureOfOpenGlNearAndFar) {
+TEST(Splat, SplattingDrawsThePictureOfOpenGlNearAndFar) {
   OPEN_OR_SKIP(context, "auto");
   Frame frame = rough_ball(320, 200);
   frame.camera = {.eye = {0, 0, 0.45f}, .target = {0, 0, 0}, .up = {0, 1, 0}, .fov = 60};
@@ -97,7 +97,7 @@ Samples splat(const Frame& frame, const render::cpu::DrawKernels& kernels, Threa
   return all;
 }
 
-TEST(Splat, DependsNeitherOnThreadsNorOnTheInstructionSet) {
+TEST(Splat, SplattingDependsNeitherOnThreadsNorOnTheInstructionSet) {
   for (const float fov : {2.0f, 40.0f, 120.0f}) {
     Frame frame = rough_ball(300, 170);  // no whole tiles
     frame.camera.fov = fov;

@@ -179,7 +179,7 @@ TEST(Surfaces, KeptTilesGiveTheSamePicture) {
 
 // ---- what is kept from one picture to the next --------------------------------------------------
 
-TEST(SolidCache, HoldsOnlyWhatIsTheSame) {
+TEST(SolidCache, SolidCacheHoldsOnlyWhatIsTheSame) {
   Frame frame = ball_in_slices();
   frame.meshes.push_back(render::shapes::box_mesh({0, 0, 0}, {0.2f, 0.2f, 0.2f}));
   const auto view_of = [](const Frame& f) { return make_view(f.camera, f.width, f.height); };
@@ -208,7 +208,7 @@ TEST(SolidCache, HoldsOnlyWhatIsTheSame) {
   expect_new("arrow's colours", [](Frame& f) { f.arrows[0].colormap = ColorMap::magma; });
 }
 
-TEST(SmokeCache, MakesAnewOnlyWhatHasChanged) {
+TEST(SmokeCache, SmokeCacheMakesAnewOnlyWhatHasChanged) {
   Frame frame = ball_in_smoke();
   render::light::SmokeCache cache;
   render::light::Lighting lighting;

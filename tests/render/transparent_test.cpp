@@ -114,7 +114,7 @@ TEST(Transparent, PngKeepsTheAlpha) {
   EXPECT_EQ(compare(image, again).max, 0);
 }
 
-TEST(Compose, PutsTilesWhereTheyBelongAndCutsWhatIsOutside) {
+TEST(Compose, CompositionPutsTilesWhereTheyBelongAndCutsWhatIsOutside) {
   const Image red{2, 1, 3, {255, 0, 0, 255, 0, 0}};
   const Image half{1, 1, 4, {0, 200, 0, 128}};
   const Image picture = compose(3, 2, {10, 20, 30}, {{2, 0, red}, {0, 1, half}, {-5, -5, red}});

@@ -73,7 +73,7 @@ TEST(Apply, WithNothingChangedChangesNoBit) {
   }
 }
 
-TEST(Apply, RefusesWhatNeedsARestartAndIsAsBefore) {
+TEST(Apply, ApplyingRefusesWhatNeedsARestartAndIsAsBefore) {
   const World world;
   Simulation simulation = crushed(world);
   const std::vector<std::uint8_t> before = simulation.save();
@@ -396,7 +396,7 @@ shapes::Pose pose_of(const Simulation& simulation, std::size_t k) {
   return shapes::pose_at(simulation.colliders().at(k), simulation.time());
 }
 
-TEST(AppliedCollider, GoesOnFromWhereItIsWithItsNewMotion) {
+TEST(AppliedCollider, AppliedColliderGoesOnFromWhereItIsWithItsNewMotion) {
   // Also where there is no snow to step.
   for (const ParticleArrays& particles : {ParticleArrays{}, ball_of_two_materials()}) {
     World world;
@@ -418,7 +418,7 @@ TEST(AppliedCollider, GoesOnFromWhereItIsWithItsNewMotion) {
   }
 }
 
-TEST(AppliedCollider, MovesByTheEditOfItsPlace) {
+TEST(AppliedCollider, AppliedColliderMovesByTheEditOfItsPlace) {
   World world;
   Simulation simulation = world.simulate(ball_of_two_materials());
   advance(simulation, 10);
@@ -434,7 +434,7 @@ TEST(AppliedCollider, MovesByTheEditOfItsPlace) {
   EXPECT_EQ(std::get<shapes::Sphere>(simulation.colliders()[1].shape.form).radius, 0.07);
 }
 
-TEST(AppliedCollider, IsKnownByItsNameAndANewOneStandsWhereItSays) {
+TEST(AppliedCollider, AppliedColliderIsKnownByItsNameAndANewOneStandsWhereItSays) {
   World world;
   Simulation simulation = world.simulate(ball_of_two_materials());
   advance(simulation, 10);
@@ -451,7 +451,7 @@ TEST(AppliedCollider, IsKnownByItsNameAndANewOneStandsWhereItSays) {
   EXPECT_LT((pose_of(simulation, 0).point - Vec3d(1 + 1e-4, 2, 3)).norm(), 1e-15);
 }
 
-TEST(AppliedCollider, WaitsWhileItsStageIsSkippedAndThenGoesOn) {
+TEST(AppliedCollider, AppliedColliderWaitsWhileItsStageIsSkippedAndThenGoesOn) {
   World world;
   world.colliders[1].velocity = {0, -5, 0};
   Simulation simulation = world.simulate(ball_of_two_materials());

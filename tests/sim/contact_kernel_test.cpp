@@ -78,7 +78,7 @@ std::vector<Vec3d> random_places(std::size_t count, double reach) {
   return places;
 }
 
-TEST(ContactKernel, AgreesWithTheHostForEveryShape) {
+TEST(ContactKernel, ContactKernelAgreesWithTheHostForEveryShape) {
   for (const sim::shapes::Shape& shape : analytic_shapes()) {
     SCOPED_TRACE(shape.form.index());
     const sim::shapes::Collider c = moving_and_turned(shape);

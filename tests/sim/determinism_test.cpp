@@ -110,7 +110,7 @@ Difference difference(const ParticleArrays& a, const ParticleArrays& b) {
   return d;
 }
 
-TEST(StagedDriver, AgreesWithTheFusedOneAlongARun) {
+TEST(StagedDriver, StagedDriverAgreesWithTheFusedOneAlongARun) {
   for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls}) {
     for (const Precision precision : {Precision::single, Precision::real64}) {
       SolverSettings s;

@@ -46,7 +46,7 @@ std::vector<Mat3d> deformations(Model model) {
 
 constexpr Model differentiated_models[] = {Model::snow, Model::corotated, Model::neo_hookean};
 
-TEST(StressChange, IsTheDerivativeOfTheStress) {
+TEST(StressChange, StressChangeIsTheDerivativeOfTheStress) {
   for (const Model model : differentiated_models) {
     const Material material = material_of(model);
     for (const Mat3d& F_E : deformations(model)) {
@@ -68,7 +68,7 @@ TEST(StressChange, IsTheDerivativeOfTheStress) {
   }
 }
 
-TEST(StressChange, IsSymmetric) {
+TEST(StressChange, StressChangeIsSymmetric) {
   for (const Model model : differentiated_models) {
     const Material material = material_of(model);
     for (const Mat3d& F_E : deformations(model)) {
@@ -81,7 +81,7 @@ TEST(StressChange, IsSymmetric) {
   }
 }
 
-TEST(StressChange, OfABodyAtRestIsHookesLaw) {
+TEST(StressChange, StressChangeOfABodyAtRestIsHookesLaw) {
   for (const Model model : differentiated_models) {
     const Material material = material_of(model);
     const Lame l = lame(material.youngs_modulus, material.poisson_ratio);
@@ -92,7 +92,7 @@ TEST(StressChange, OfABodyAtRestIsHookesLaw) {
   }
 }
 
-TEST(StressChange, IsFiniteForAnyFiniteDeformation) {
+TEST(StressChange, StressChangeIsFiniteForAnyFiniteDeformation) {
   // The corotated stress has no derivative if two stretches cancel.
   for (const Model model : differentiated_models)
     for (const Vec3d& s : {Vec3d(1, 0, 0), Vec3d(0, 0, 0), Vec3d(1, 0.5, -0.5), Vec3d(2, 2, -2),

@@ -45,7 +45,7 @@ std::string mesh_complaint(const sim::shapes::Mesh& mesh, double cell_size) {
   return "";
 }
 
-TEST(MeshSurface, IsAsFarAsTheFormulaSays) {
+TEST(MeshSurface, MeshSurfaceIsAsFarAsTheFormulaSays) {
   const TemporaryFolder folder;
   const Vec3d size(0.4, 0.8, 0.6);
   const auto box = sim::shapes::mesh_surface(written_mesh(folder, box_obj(size / 0.5), 0.5));
@@ -80,7 +80,7 @@ std::pair<double, Vec3d> kernel_in_field(const sim::shapes::DistanceField& field
                                            static_cast<double>(n.z[2]))};
 }
 
-TEST(DistanceField, OfABoxIsExactButAtEdges) {
+TEST(DistanceField, DistanceFieldOfABoxIsExactButAtEdges) {
   const TemporaryFolder folder;
   const Vec3d size(0.4, 0.8, 0.6);
   ThreadPool pool(2);
@@ -109,7 +109,7 @@ TEST(DistanceField, OfABoxIsExactButAtEdges) {
   }
 }
 
-TEST(DistanceField, OfABallIsWithinItsCurvature) {
+TEST(DistanceField, DistanceFieldOfABallIsWithinItsCurvature) {
   const TemporaryFolder folder;
   const double radius = 0.3, spacing = 0.02;
   const int rings = 96;
@@ -152,7 +152,7 @@ TEST(DistanceField, BeyondItsLatticeStaysBelowTheDistanceAndAboveZero) {
   EXPECT_FALSE(kernel_in_field<double>(field, Vec3d::Constant(NAN)).first <= 0);
 }
 
-TEST(DistanceField, HasTheSameBitsOnAnyNumberOfThreads) {
+TEST(DistanceField, DistanceFieldHasTheSameBitsOnAnyNumberOfThreads) {
   const TemporaryFolder folder;
   const auto surface = sim::shapes::mesh_surface(written_mesh(folder, ball_obj(0.3, 24)));
   ThreadPool one(1), three(3);
@@ -162,7 +162,7 @@ TEST(DistanceField, HasTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(std::memcmp(a.samples().distance, b.samples().distance, a.bytes()), 0);
 }
 
-TEST(DistanceField, IsMadeOnceAndAnewForANewFile) {
+TEST(DistanceField, DistanceFieldIsMadeOnceAndAnewForANewFile) {
   const TemporaryFolder folder;
   ThreadPool pool(2);
   const sim::shapes::Mesh mesh = written_mesh(folder, box_obj({0.4, 0.4, 0.4}));
@@ -185,7 +185,7 @@ TEST(DistanceField, SpacingFollowsCellsAndThinParts) {
   EXPECT_DOUBLE_EQ(sim::shapes::field_spacing(*thick, 0.2), 0.0125);
 }
 
-TEST(DistanceField, SaysWhatIsWrongWithAMesh) {
+TEST(DistanceField, DistanceFieldSaysWhatIsWrongWithAMesh) {
   const TemporaryFolder folder;
   const std::string box = box_obj({0.4, 0.4, 0.4});
   EXPECT_NE(
@@ -206,7 +206,7 @@ TEST(DistanceField, SaysWhatIsWrongWithAMesh) {
   EXPECT_NE(mesh_complaint(written_mesh(folder, paper), 0.05).find("thinner"), std::string::npos);
 }
 
-TEST(DistanceField, RefusesScalesThatLeaveNoMesh) {
+TEST(DistanceField, DistanceFieldRefusesScalesThatLeaveNoMesh) {
   const TemporaryFolder folder;
   const std::string box = box_obj({1, 1, 1});
   // 1e-322 cubed, and then already over 64, is 0.

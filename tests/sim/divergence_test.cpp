@@ -166,7 +166,7 @@ TEST(Divergence, EnergyFromNowhereIsFound) {
       << simulation.divergence()->rule;
 }
 
-TEST(Simulation, RefusesArraysThatDoNotFit) {
+TEST(Simulation, SimulationRefusesArraysThatDoNotFit) {
   const SolverSettings s;
   ParticleArrays p = falling_ball(0);
   p.v.pop_back();

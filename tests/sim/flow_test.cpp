@@ -175,7 +175,7 @@ TEST(Flow, MomentumIsThatOfTheBirthsAndOfGravity) {
   EXPECT_NEAR(s.mass, simulation.flow_totals().emitted_mass, 1e-12);
 }
 
-TEST(Flow, WhatGoesIsGoneAndWhatStaysKeepsItsId) {
+TEST(Flow, SnowThatStaysKeepsItsId) {
   SolverSettings settings;
   ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.01);
   const std::size_t bodies = block.x.size();
@@ -299,7 +299,7 @@ TEST(Flow, EnergyIsAccountedFor) {
   EXPECT_GT(gap(falling), -0.3);
 }
 
-TEST(Flow, RefusesWhatCannotBe) {
+TEST(Flow, FlowRefusesWhatCannotBe) {
   seeding::Emitter e = spout(1);
   e.material = "sand";
   EXPECT_THROW(flowing({}, {}, {{e}, {}, 1}), std::invalid_argument);

@@ -97,7 +97,7 @@ double momentum_error(const NodeFields& nodes, const std::vector<Vec3d>& expecte
   return worst / largest;
 }
 
-TEST(ImplicitSolve, AgreesWithADenseSolve) {
+TEST(ImplicitSolve, ImplicitSolveAgreesWithADenseSolve) {
   // dt is 4 times what explicit steps would take.
   constexpr double dt = 4e-3, beta = 1;
   const ParticleArrays p = strained(12);
@@ -117,7 +117,7 @@ TEST(ImplicitSolve, AgreesWithADenseSolve) {
   }
 }
 
-TEST(ImplicitSolve, KeepsMomentum) {
+TEST(ImplicitSolve, ImplicitSolveKeepsMomentum) {
   // Forces cancel whatever moves: sum grad_w = 0.
   for (const checks::SelfTestCase& test : checks::all_self_test_cases()) {
     const Simulation simulation(implicit_settings(test, 1), three_models(), {}, strained(150), 1);
@@ -132,7 +132,7 @@ TEST(ImplicitSolve, KeepsMomentum) {
   }
 }
 
-TEST(ImplicitSolve, OfSmallBetaIsTheExplicitStep) {
+TEST(ImplicitSolve, ImplicitSolveOfSmallBetaIsTheExplicitStep) {
   const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::real64};
   Simulation explicit_run(implicit_settings(test, 0), three_models(), {}, strained(150), 1);
   Simulation implicit_run(implicit_settings(test, 1e-12), three_models(), {}, strained(150), 1);
@@ -142,7 +142,7 @@ TEST(ImplicitSolve, OfSmallBetaIsTheExplicitStep) {
   for (std::size_t q = 0; q < a.x.size(); ++q) EXPECT_LE((a.v[q] - b.v[q]).norm(), 1e-11);
 }
 
-TEST(ImplicitSolve, EndsWithinItsToleranceAndSaysSo) {
+TEST(ImplicitSolve, ImplicitSolveEndsWithinItsToleranceAndSaysSo) {
   const checks::SelfTestCase test{Kernel::cubic, Transfer::mls, Precision::single};
   SolverSettings s = implicit_settings(test, 1);
   s.time_step = TimeStep::fixed;
@@ -170,7 +170,7 @@ TEST(ImplicitSolve, EndsWithinItsToleranceAndSaysSo) {
   EXPECT_FALSE(explicit_run.advance_to(s.dt).solve);
 }
 
-TEST(ImplicitSolve, ThatFailsIsReplacedByExplicitSteps) {
+TEST(ImplicitSolve, ImplicitSolveThatFailsIsReplacedByExplicitSteps) {
   // One iteration at fifty times the explicit step is worse than to stand still. c dt/h may be 0.5.
   const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
   SolverSettings s = implicit_settings(test, 1);
@@ -195,7 +195,7 @@ TEST(ImplicitSolve, ThatFailsIsReplacedByExplicitSteps) {
   EXPECT_EQ(report.limit(), DtLimit::acoustic);  // of the steps that were taken
 }
 
-TEST(ImplicitSolve, OfCrushedBodiesLeavesNumbers) {
+TEST(ImplicitSolve, ImplicitSolveOfCrushedBodiesLeavesNumbers) {
   // H is indefinite: crushed bodies buckle. dt is up to a hundred times the explicit one.
   for (const double crushed : {0.9, 0.5, 0.3})
     for (const Model model : {Model::snow, Model::corotated, Model::neo_hookean})
@@ -241,7 +241,7 @@ Simulation impact(const SolverSettings& s, double speed) {
   return Simulation(s, {Material{}}, {plane({0, 0.005, 0}, {0, 1, 0}, 0.5)}, p, 1);
 }
 
-TEST(ImplicitStep, HoldsAtTenTimesTheExplicitStep) {
+TEST(ImplicitStep, ImplicitStepHoldsAtTenTimesTheExplicitStep) {
   // c = 19.7 m/s at rest, so 0.5 ms has c dt/h = 0.5; the impact hardens the snow besides.
   for (const double dt : {2.5e-3, 5e-3}) {
     Simulation held = impact(impact_settings(1, dt), 2);
@@ -260,7 +260,7 @@ TEST(ImplicitStep, HoldsAtTenTimesTheExplicitStep) {
   }
 }
 
-TEST(ImplicitStep, EndsWhereSmallExplicitStepsDo) {
+TEST(ImplicitStep, ImplicitStepEndsWhereSmallExplicitStepsDo) {
   Simulation small = impact(impact_settings(0, 1e-4), 1),
              large = impact(impact_settings(1, 1e-3), 1);
   small.advance_to(0.1);
@@ -335,7 +335,7 @@ TEST(ImplicitStep, DriversAgree) {
   }
 }
 
-TEST(CollideAfterSolve, KeepsNodesOutOfColliders) {
+TEST(CollideAfterSolve, CollisionAfterTheSolveKeepsNodesOutOfColliders) {
   const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::real64};
   const double height = -0.53 * checks::self_test::cell_size;
   const auto fastest_into = [&](bool collides) {

@@ -43,7 +43,7 @@ class KeyframedRun : public testing::Test {
   std::vector<sim::shapes::Collider> colliders_;
 };
 
-TEST_F(KeyframedRun, GoesOnToTheBitFromASavedState) {
+TEST_F(KeyframedRun, KeyframedRunGoesOnToTheBitFromASavedState) {
   Simulation whole = made();
   step(whole, 120);
   const std::vector<std::uint8_t> half = whole.save();
@@ -81,7 +81,7 @@ TEST_F(KeyframedRun, StepsThatDoNotMoveCollidersDelayThem) {
   EXPECT_EQ(sim::shapes::pose_at(again.colliders()[1], again.time()).point, moved);
 }
 
-TEST_F(KeyframedRun, TakesOtherKeyframesShapesAndMeshesWhileItRuns) {
+TEST_F(KeyframedRun, KeyframedRunTakesOtherKeyframesShapesAndMeshesWhileItRuns) {
   Simulation simulation = made();
   step(simulation, 60);
   std::vector<sim::shapes::Collider> other = colliders_;

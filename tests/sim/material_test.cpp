@@ -95,7 +95,7 @@ TEST(Energy, StressIsItsDerivative) {
   }
 }
 
-TEST(Stress, OfKernelsIsFirstPiolaTimesTransposedF) {
+TEST(Stress, StressOfKernelsIsFirstPiolaTimesTransposedF) {
   Random random(2);
   for (const Model model : models) {
     Material m;
@@ -119,7 +119,7 @@ TEST(Stress, OfKernelsIsFirstPiolaTimesTransposedF) {
   }
 }
 
-TEST(Stress, VanishesInRotationAndTurnsWithIt) {
+TEST(Stress, StressVanishesInRotationAndTurnsWithIt) {
   Random random(3);
   for (const Model model : models) {
     Material m;
@@ -150,7 +150,7 @@ void expect_no_step_at(double border) {
       << border;
 }
 
-TEST(Stress, OfTwoPathsMeetsAtTheirBorders) {
+TEST(Stress, StressOfTwoPathsMeetsAtTheirBorders) {
   at_every_simd_level([] {
     for (const double squared : {1 - kernels::series_radius, 1 + kernels::series_radius,
                                  kernels::eigen_lo, kernels::eigen_hi})
@@ -196,7 +196,7 @@ TEST(Snow, HardeningGrowsUnderCompressionOnly) {
   EXPECT_NEAR(pulled.J_P, 1.1 / 1.0075, 1e-12);
 }
 
-TEST(Decomposition, RebuildsAnyMatrixInFloatAndDouble) {
+TEST(Decomposition, DecompositionRebuildsAnyMatrixInFloatAndDouble) {
   Random random(6);
   double worst_float = 0, worst_double = 0;
   for (int trial = 0; trial < 20000; ++trial) {
@@ -255,7 +255,7 @@ TEST(Arithmetic, ExponentialAndLogarithmMatchTheLibrary) {
   EXPECT_EQ(exponential_of(0.0), 1.0);
 }
 
-TEST(WaveSpeed, OfPaperSnowAtRest) {
+TEST(WaveSpeed, PaperSnowAtRestHasItsWaveSpeed) {
   // mu 58333.3, lambda 38888.9 Pa, rho 400: sqrt(155555.6 / 400) = 19.72 m/s.
   EXPECT_NEAR(sound_speed(Material{}), 19.7203, 1e-4);
   EXPECT_NEAR(health::wave_speed(Material{}, Mat3d::Identity(), 1, 400), 19.7203, 1e-4);

@@ -30,7 +30,7 @@ void expect_message(const std::string& text, const std::string& part) {
   EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 
-TEST(ObjReader, AcceptsAllFormsOfIndices) {
+TEST(ObjReader, ObjReaderAcceptsAllFormsOfIndices) {
   const sim::files::PolygonMesh mesh = sim::files::parse_obj(
       "v 0 0 0 1\nvt 0 0\nvn 0 0 1\nv +1 .0 0\nv 0 1e0 0 0.5 0.5 0.5\nf 1/1 2/1/1 3//1\nf -3 -2 -1",
       "m");
@@ -40,13 +40,13 @@ TEST(ObjReader, AcceptsAllFormsOfIndices) {
   EXPECT_EQ(mesh.vertices[1], Vec3d(1, 0, 0));
 }
 
-TEST(ObjReader, IgnoresWhatItDoesNotKnow) {
+TEST(ObjReader, ObjReaderIgnoresWhatItDoesNotKnow) {
   const std::string noise =
       "# v 1\nmtllib x\no a\ng b\ns off\nusemtl c\nvp 1\nl 1 2\np 1\n\n  \t\n";
   EXPECT_EQ(sim::files::parse_obj(noise + tetrahedron + noise, "m").polygons.size(), 4u);
 }
 
-TEST(ObjReader, ReadsWindowsLinesAndContinuedLines) {
+TEST(ObjReader, ObjReaderReadsWindowsLinesAndContinuedLines) {
   const sim::files::PolygonMesh mesh = sim::files::parse_obj(
       "# a \\\r\nv x\r\nv 0 \\\r\n0 0\r\nv 1 0 0\nv 0 1 0\nf 1 \\\n 2\\\n 3\r\nf 1 2 9\n"
       "v 0 0 1\nv 0 0 1\nv 0 0 1\nv 0 0 1\nv 0 0 1\nv 0 0 1\n",
@@ -55,14 +55,14 @@ TEST(ObjReader, ReadsWindowsLinesAndContinuedLines) {
   EXPECT_EQ(mesh.polygons[1].line, 10u);
 }
 
-TEST(ObjReader, DoesNotDependOnTheLocale) {
+TEST(ObjReader, ObjReaderDoesNotDependOnTheLocale) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) std::setlocale(LC_ALL, name);
   EXPECT_EQ(sim::files::parse_obj("v 0.5 0 0\nf 1 1 1", "m").vertices[0].x(), 0.5);
   std::setlocale(LC_ALL, before.c_str());
 }
 
-TEST(ObjReader, NamesTheLineOfBadNumbers) {
+TEST(ObjReader, ObjReaderNamesTheLineOfBadNumbers) {
   expect_message("v 0 0 0\nv 1 abc 2\n", "m.obj:2: the coordinate \"abc\"");
   expect_message("v 0 nan 0\n", "m.obj:1: the coordinate \"nan\"");
   expect_message("v 0 inf 0\n", "not a finite number");
@@ -72,7 +72,7 @@ TEST(ObjReader, NamesTheLineOfBadNumbers) {
   expect_message("v 0 1 \x1b[31m\n", "\"?[31m\"");
 }
 
-TEST(ObjReader, NamesTheLineOfBadIndices) {
+TEST(ObjReader, ObjReaderNamesTheLineOfBadIndices) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (const char* index : {"0", "-4", "x", "99999999999999", "99999999999999999999", "1.5", "/1"})
     expect_message(vertices + "f 1 2 " + index + "\n", "m.obj:4: the face names");

@@ -101,7 +101,7 @@ void expect_links(const engine::Partition& p, const neve::sim::Vec3i& period) {
   }
 }
 
-TEST(Partition, KeepsTheOrderOfADefinitionThatKnowsNoHistory) {
+TEST(Partition, PartitionKeepsTheOrderOfADefinitionThatKnowsNoHistory) {
   for (const int threads : {1, 2, 3, 7}) {
     ThreadPool pool(threads);
     // Packed, spray and single particles; slow, and as fast as no stable step allows.
@@ -132,7 +132,7 @@ TEST(Partition, KeepsTheOrderOfADefinitionThatKnowsNoHistory) {
   }
 }
 
-TEST(Partition, TakesParticlesThatComeAndGo) {
+TEST(Partition, PartitionTakesParticlesThatComeAndGo) {
   ThreadPool pool(2);
   Cloud cloud;
   engine::Partition partition;

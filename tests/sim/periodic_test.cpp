@@ -51,7 +51,7 @@ void expect_same(const ParticleArrays& a, const ParticleArrays& b, const Vec3d& 
   EXPECT_LE(F, tolerance);
 }
 
-TEST(PeriodicLattice, ConservesMassAndMomentumAcrossTheSeam) {
+TEST(PeriodicLattice, PeriodicLatticeConservesMassAndMomentumAcrossTheSeam) {
   each_scheme([](Transfer transfer, Kernel kernel) {
     Simulation simulation(periodic(transfer, kernel, {2, 1, 3}), {Material{}}, {},
                           filled({2, 1, 3}), 1);
@@ -74,7 +74,7 @@ TEST(PeriodicLattice, ConservesMassAndMomentumAcrossTheSeam) {
   });
 }
 
-TEST(PeriodicLattice, LooksTheSameFromEveryCell) {
+TEST(PeriodicLattice, PeriodicLatticeLooksTheSameFromEveryCell) {
   // Sums are taken in another order, so rounding differs: 1e-16 a step, amplified by stiffness.
   each_scheme([](Transfer transfer, Kernel kernel) {
     const SolverSettings s = periodic(transfer, kernel, {2, 3, 1});
@@ -88,7 +88,7 @@ TEST(PeriodicLattice, LooksTheSameFromEveryCell) {
   });
 }
 
-TEST(PeriodicLattice, IsAnEndlessRowOfCopies) {
+TEST(PeriodicLattice, PeriodicLatticeIsAnEndlessRowOfCopies) {
   // One block, the smallest period, against 3 x 3 x 3 open copies of it: for one step the middle
   // one cannot know where they end.
   each_scheme([](Transfer transfer, Kernel kernel) {
@@ -113,7 +113,7 @@ TEST(PeriodicLattice, IsAnEndlessRowOfCopies) {
   });
 }
 
-TEST(PeriodicLattice, OfNegativeLengthIsRefused) {
+TEST(PeriodicLattice, PeriodicLatticeOfNegativeLengthIsRefused) {
   EXPECT_THROW(Simulation(periodic(Transfer::flip, Kernel::cubic, {-1, 0, 0}), {Material{}}, {},
                           filled({1, 1, 1}), 1),
                std::invalid_argument);

@@ -47,7 +47,7 @@ std::string binary_ply(bool is_little) {
   return bytes + std::string("\x01\x00\x00\x00\x00", 5);
 }
 
-TEST(PointReader, ReadsEveryColumnOfACsv) {
+TEST(PointReader, PointReaderReadsEveryColumnOfACsv) {
   const sim::files::PointCloud cloud = sim::files::parse_points(csv, "p");
   ASSERT_EQ(cloud.x.size(), 2u);
   EXPECT_EQ(cloud.x[1], Vec3d(-1, 0, 1e-3));
@@ -56,7 +56,7 @@ TEST(PointReader, ReadsEveryColumnOfACsv) {
   EXPECT_EQ(cloud.V, (std::vector<double>{0.25, 1}));
 }
 
-TEST(PointReader, FindsColumnsByNameInAnyOrderAndPassesOverOthers) {
+TEST(PointReader, PointReaderFindsColumnsByNameInAnyOrderAndPassesOverOthers) {
   const sim::files::PointCloud cloud = sim::files::parse_points(
       "\xEF\xBB\xBF# from elsewhere\r\n\r\n\"Pz\"; color ;\"P.y\";Position_X\r\n"
       "3; red ;2;+1\r\n\r\n# half way\r\n6;;5;4",
@@ -69,7 +69,7 @@ TEST(PointReader, FindsColumnsByNameInAnyOrderAndPassesOverOthers) {
             Vec3d(1, 2, 3));
 }
 
-TEST(PointReader, TakesQuotedFieldsOfACsvAsTheyAre) {
+TEST(PointReader, PointReaderTakesQuotedFieldsOfACsvAsTheyAre) {
   const sim::files::PointCloud cloud =
       sim::files::parse_points("name;x;\"y\";z\n\"a;b \"\"c\"\"\";\"1\";2;3\n\"\";4;5;6\n", "p");
   ASSERT_EQ(cloud.x.size(), 2u);
@@ -77,7 +77,7 @@ TEST(PointReader, TakesQuotedFieldsOfACsvAsTheyAre) {
   EXPECT_EQ(cloud.x[1], Vec3d(4, 5, 6));
 }
 
-TEST(PointReader, ReadsAsciiPly) {
+TEST(PointReader, PointReaderReadsAsciiPly) {
   const sim::files::PointCloud cloud = sim::files::parse_points(
       "ply\r\nformat ascii 1.0\r\nelement vertex 2\r\nproperty float x\r\nproperty float y\r\n"
       "property float z\r\nproperty float vol\r\nend_header\r\n1 2 3 0.5\r\n4 5 6 0.25",
@@ -87,7 +87,7 @@ TEST(PointReader, ReadsAsciiPly) {
   EXPECT_EQ(cloud.V, (std::vector<double>{0.5, 0.25}));
 }
 
-TEST(PointReader, ReadsBinaryPlyOfBothByteOrders) {
+TEST(PointReader, PointReaderReadsBinaryPlyOfBothByteOrders) {
   for (const bool is_little : {true, false}) {
     const sim::files::PointCloud cloud = sim::files::parse_points(binary_ply(is_little), "p");
     ASSERT_EQ(cloud.x.size(), 2u);
@@ -97,7 +97,7 @@ TEST(PointReader, ReadsBinaryPlyOfBothByteOrders) {
   }
 }
 
-TEST(PointReader, TellsWhereAndWhatIsWrong) {
+TEST(PointReader, PointReaderTellsWhereAndWhatIsWrong) {
   const auto expect = [](const std::string& bytes, const std::string& part) {
     EXPECT_NE(point_error(bytes).find(part), std::string::npos) << point_error(bytes);
   };
@@ -143,7 +143,7 @@ TEST(PointReader, TellsWhereAndWhatIsWrong) {
          "p:6: a second element \"vertex\"");
 }
 
-TEST(PointReader, ComparesWhatAFileClaimsWithItsLengthBeforeAllocating) {
+TEST(PointReader, PointReaderComparesWhatAFileClaimsWithItsLengthBeforeAllocating) {
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"})
     for (const char* count : {"1000000000000", "18446744073709551615", "4611686018427387904"}) {
       const std::string header = "ply\nformat " + std::string(format) + " 1.0\nelement vertex " +
@@ -153,7 +153,7 @@ TEST(PointReader, ComparesWhatAFileClaimsWithItsLengthBeforeAllocating) {
     }
 }
 
-TEST(PointReader, TakesLinesOfManyMegabytes) {
+TEST(PointReader, PointReaderTakesLinesOfManyMegabytes) {
   const std::string digits(10u << 20, '1');
   EXPECT_NE(point_error("x,y,z\n1,2," + digits + "\n"), "no error");
   EXPECT_NE(point_error("x,y,z\n" + std::string(10u << 20, ',') + "\n").find("more fields than"),
@@ -164,7 +164,7 @@ TEST(PointReader, TakesLinesOfManyMegabytes) {
 }
 
 // Whatever stands in a file, reading it ends, with points that could be simulated or with an error.
-TEST(PointReader, SurvivesTruncatedAndDamagedFiles) {
+TEST(PointReader, PointReaderSurvivesTruncatedAndDamagedFiles) {
   const std::string ascii =
       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
       "property float z\nproperty double mass\nend_header\n1 2 3 4\n5 6 7 8\n";
@@ -210,7 +210,7 @@ TEST(Points, StandTurnAndMoveWithTheirBody) {
   EXPECT_TRUE((plan.bounds.max.array() > seeded.x[1].array()).all());
 }
 
-TEST(Points, AreReadAgainWhenTheirFileHasChanged) {
+TEST(Points, PointsAreReadAgainWhenTheirFileHasChanged) {
   const test::TemporaryFolder folder;
   sim::seeding::Body body;
   const auto count = [&](const std::string& text) {
@@ -223,7 +223,7 @@ TEST(Points, AreReadAgainWhenTheirFileHasChanged) {
   EXPECT_THROW(sim::seeding::plan_seeding(body, 0.1), ShapeError);
 }
 
-TEST(Points, WithoutVolumesNeedASpacing) {
+TEST(Points, PointsWithoutVolumesNeedASpacing) {
   const sim::files::PointCloud cloud = sim::files::parse_points("x,y,z\n0,0,0\n0.1,0,0\n", "p");
   EXPECT_THROW(sim::shapes::PlacedPoints(cloud, sim::shapes::Points{}, "p"), ShapeError);
   EXPECT_NEAR(

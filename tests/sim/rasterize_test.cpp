@@ -48,7 +48,7 @@ std::map<Node, std::size_t> index_of(const RasterizedNodes& nodes) {
 
 class RasterizeTest : public testing::TestWithParam<std::tuple<Transfer, Precision>> {};
 
-TEST_P(RasterizeTest, IsWhatTheStagedStepRasterizes) {
+TEST_P(RasterizeTest, RasterizeIsWhatTheStagedStepRasterizes) {
   const auto [transfer, precision] = GetParam();
   Simulation simulation = simulation_of(transfer, precision, moving_cube());
   for (int k = 0; k < 3; ++k) simulation.step(1e-4);

@@ -42,7 +42,7 @@ void expect_reordered(std::size_t count, double distance, int threads) {
   }
 }
 
-TEST(Reordering, PutsEveryRecordWhereTheOrderSays) {
+TEST(Reordering, ReorderingPutsEveryRecordWhereTheOrderSays) {
   for (const int threads : {1, 2, 3, 7})
     for (const std::size_t count : {0, 1, 2, 13, 10000})
       for (const double distance : {0.0, 5.0, 50.0, 1000.0, 1e6})

@@ -124,7 +124,7 @@ TEST(SavedState, AnInterruptedFrameGoesOnToTheBit) {
   EXPECT_EQ(first.save(), whole.save());
 }
 
-TEST(SavedState, OfNothingIsNothing) {
+TEST(SavedState, SavedStateOfNothingIsNothing) {
   Simulation empty = simulate({}, {}, 1);
   Simulation again = simulate({}, two_materials(), 1);
   again.restore(empty.save());

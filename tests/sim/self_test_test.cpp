@@ -41,7 +41,7 @@ TEST(SelfTests, FailOnWhatIsNoNumber) {
   EXPECT_NE(measure.detail().find("b is off"), std::string::npos) << measure.detail();
 }
 
-TEST(SelfTests, HaveWeightsOfTheirOwnThatAreRight) {
+TEST(SelfTests, SelfTestsHaveWeightsOfTheirOwnThatAreRight) {
   for (const Kernel kernel : {Kernel::cubic, Kernel::quadratic}) {
     const double h = checks::self_test::cell_size;
     const Vec3d x(0.3 * h, 0.8 * h, 0.5 * h);

@@ -12,7 +12,7 @@ namespace {
 
 using namespace neve;
 
-TEST(ThreadPool, DoesEveryPartOfManyTinyJobsOnce) {
+TEST(ThreadPool, ThreadPoolDoesEveryPartOfManyTinyJobsOnce) {
   for (const int threads : {1, 2, 3, 7}) {
     ThreadPool pool(threads);
     ASSERT_EQ(pool.thread_count(), threads);
@@ -61,7 +61,7 @@ TEST(ThreadPool, RangesCoverWithoutOverlap) {
   }
 }
 
-TEST(ThreadPool, AsksForNoMoreThreadsThanItHas) {
+TEST(ThreadPool, ThreadPoolAsksForNoMoreThreadsThanItHas) {
   ThreadPool pool(2);
   std::atomic<int> calls{0};
   pool.run(9, [&](int) { ++calls; });
@@ -70,7 +70,7 @@ TEST(ThreadPool, AsksForNoMoreThreadsThanItHas) {
   EXPECT_EQ(calls, 3);
 }
 
-TEST(ThreadPool, EndsWhileIdleAsleepOrJustCalled) {
+TEST(ThreadPool, ThreadPoolEndsWhileIdleAsleepOrJustCalled) {
   for (int k = 0; k < 200; ++k) {
     ThreadPool idle(1 + k % 7);
     if (k % 2) idle.run(idle.thread_count(), [](int) {});
@@ -78,7 +78,7 @@ TEST(ThreadPool, EndsWhileIdleAsleepOrJustCalled) {
   }
 }
 
-TEST(ThreadPool, WakesThreadsThatFellAsleep) {
+TEST(ThreadPool, ThreadPoolWakesThreadsThatFellAsleep) {
   ThreadPool pool(3);
   for (int k = 0; k < 20; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -86,7 +86,7 @@ TEST(TimeStep, FramesEndExactlyAndCountTheirSteps) {
   }
 }
 
-TEST(FlipShare, DampsByTimeNotBySteps) {
+TEST(FlipShare, FlipShareDampsByTimeNotBySteps) {
   SolverSettings s;
   EXPECT_NEAR(engine::flip_share(s, 5e-4), 0.95, 1e-15);
   EXPECT_NEAR(std::pow(engine::flip_share(s, 1e-4), 5), 0.95, 1e-14);
@@ -94,7 +94,7 @@ TEST(FlipShare, DampsByTimeNotBySteps) {
   EXPECT_EQ(engine::flip_share(s, 1e-5), 0.95);
 }
 
-TEST(Interruption, EndsAfterAStep) {
+TEST(Interruption, InterruptionEndsAfterAStep) {
   SolverSettings s;
   Simulation simulation(s, {Material{}}, {}, box_of_snow({0, 0, 0}, {0.1, 0.1, 0.1}, 0.01), 1);
   const AdvanceReport report = simulation.advance_to(1, [] { return true; });

@@ -83,7 +83,7 @@ ParticleArrays disturbed_snow() {
   return p;
 }
 
-TEST(Transfer, ConservesMassAndMomentumBothWays) {
+TEST(Transfer, TransferConservesMassAndMomentumBothWays) {
   for (const TransferCase& c : cases) {
     const ParticleArrays before = disturbed_snow();
     Simulation simulation(settings_of(c), {Material{}}, {}, before, 1);
@@ -194,7 +194,7 @@ TEST(Transfer, AffineVelocityArrivesAsItsGradient) {
   }
 }
 
-TEST(Volumes, OfPackedSnowAreMassOverDensity) {
+TEST(Volumes, VolumesOfPackedSnowAreMassOverDensity) {
   ParticleArrays p = box_of_snow({0, 0, 0}, {0.6, 0.6, 0.6}, 0.025);
   const std::vector<double> true_volume = p.V0;
   p.V0.clear();

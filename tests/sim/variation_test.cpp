@@ -53,7 +53,7 @@ TEST(Variation, FactorsHaveTheDeviationsThatAreAskedFor) {
   }
 }
 
-TEST(Variation, WithoutAnyFactorsAreOne) {
+TEST(Variation, FactorsWithoutVariationAreOne) {
   const shapes::Factors f = shapes::vary(Variation{}, 5, 3, {0.1, 0.2, 0.3});
   EXPECT_EQ(f.density, 1);
   EXPECT_EQ(f.stiffness, 1);
@@ -133,7 +133,7 @@ TEST(Variation, EveryLawOfAStepHolds) {
   }
 }
 
-TEST(Variation, RefusesFactorsThatAreNotPositive) {
+TEST(Variation, VariationRefusesFactorsThatAreNotPositive) {
   ParticleArrays p = ball_of_snow({0, 0.2, 0}, 0.03, 0.01, Vec3d::Zero());
   p.stiffness.assign(p.x.size(), 1.0);
   p.stiffness.back() = 0;

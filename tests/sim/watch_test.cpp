@@ -39,7 +39,7 @@ bool has(const std::vector<std::string>& sentences, const std::string& part) {
   return false;
 }
 
-TEST(Watch, IsSilentInARightRun) {
+TEST(Watch, WatchIsSilentInARightRun) {
   for (const Precision precision : {Precision::single, Precision::real64})
     for (const Kernel kernel : {Kernel::cubic, Kernel::quadratic})
       for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls}) {
@@ -72,7 +72,7 @@ TEST(Watch, ChangesNoBitOfTheRun) {
   EXPECT_EQ(watched.save(), alone.save());
 }
 
-TEST(Watch, SeesAStepThatIsTooLongBeforeItIsTaken) {
+TEST(Watch, WatchSeesAStepThatIsTooLongBeforeItIsTaken) {
   Drop drop;
   drop.settings.time_step = TimeStep::fixed;
   drop.settings.dt = 1.0 / 240;
@@ -87,7 +87,7 @@ TEST(Watch, SeesAStepThatIsTooLongBeforeItIsTaken) {
   EXPECT_EQ(record_of(watch, checks::WatchCheck::acoustic_cfl).first_step, 0u);
 }
 
-TEST(Watch, SaysAThingOnceAndCountsIt) {
+TEST(Watch, WatchSaysAThingOnceAndCountsIt) {
   Drop drop;
   drop.settings.time_step = TimeStep::fixed;
   drop.settings.dt = 1.0 / 1200;
@@ -113,7 +113,7 @@ std::vector<std::string> look_at(const Drop& drop) {
   return watch.look(drop.simulation());
 }
 
-TEST(Watch, NamesWhatIsWrongWithAState) {
+TEST(Watch, WatchNamesWhatIsWrongWithAState) {
   Drop lost;
   lost.particles.v[7][1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(has(look_at(lost), "particles that are not finite is 1"));
@@ -140,7 +140,7 @@ TEST(Watch, NamesWhatIsWrongWithAState) {
   EXPECT_TRUE(has(look_at(fast), "speed relative to sound is 1.2"));
 }
 
-TEST(Watch, DoesNotBlameTheSolverForStagesThatWereLeftOut) {
+TEST(Watch, WatchDoesNotBlameTheSolverForStagesThatWereLeftOut) {
   Drop drop;
   disturb(drop.particles, 0.01, 1);
   EXPECT_TRUE(look_at(drop).empty());
@@ -148,14 +148,14 @@ TEST(Watch, DoesNotBlameTheSolverForStagesThatWereLeftOut) {
   EXPECT_TRUE(look_at(drop).empty());
 }
 
-TEST(Watch, LooksAtTheFirstStepsAndThenRarely) {
+TEST(Watch, WatchLooksAtTheFirstStepsAndThenRarely) {
   std::vector<std::size_t> due;
   for (std::size_t step = 0; step < 1000; ++step)
     if (checks::is_watch_due(step)) due.push_back(step);
   EXPECT_EQ(due, (std::vector<std::size_t>{0, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 768}));
 }
 
-TEST(Watch, HasNothingToSayAboutAnEmptyScene) {
+TEST(Watch, WatchHasNothingToSayAboutAnEmptyScene) {
   Drop drop;
   drop.particles = {};
   EXPECT_TRUE(look_at(drop).empty());

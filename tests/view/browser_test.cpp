@@ -112,7 +112,7 @@ class Browser : public Web {
   static inline std::unique_ptr<Chromium> browser;
 };
 
-TEST_F(Browser, SeesThePictureAndHidesTheToken) {
+TEST_F(Browser, BrowserSeesThePictureAndHidesTheToken) {
   open();
   EXPECT_EQ(front->size().width, 640);
   EXPECT_EQ(front->size().height, 400);

@@ -59,7 +59,7 @@ struct Field {
   }
 };
 
-TEST(TypedNumber, CountsWhenItIsComplete) {
+TEST(TypedNumber, TypedNumberCountsWhenItIsComplete) {
   Field<double> field(140000, app::scene::between(0.001, 1e12));
   field.type("30000");
   ASSERT_EQ(field.edits.size(), 1u);
@@ -81,7 +81,7 @@ TEST(TypedNumber, OutOfRangeIsRefusedWithTheRange) {
   }
 }
 
-TEST(TypedNumber, WithLettersIsRefused) {
+TEST(TypedNumber, TypedNumberWithLettersIsRefused) {
   Field<double> field(140000, app::scene::between(0.001, 1e12));
   for (const char* typed : {"banana", "30 kPa", "0,5"}) {
     field.type(typed);
@@ -90,7 +90,7 @@ TEST(TypedNumber, WithLettersIsRefused) {
   }
 }
 
-TEST(TypedNumber, IsForgottenWithEscape) {
+TEST(TypedNumber, TypedNumberIsForgottenWithEscape) {
   Field<double> field(140000, app::scene::between(0.001, 1e12));
   field.type("30000", app::view::front::key::escape);
   EXPECT_TRUE(field.edits.empty());
@@ -98,7 +98,7 @@ TEST(TypedNumber, IsForgottenWithEscape) {
   EXPECT_TRUE(field.edits.empty());
 }
 
-TEST(TypedNumber, OfAWholeNumberIsHeldToItsRangeToo) {
+TEST(TypedNumber, TypedNumberOfAWholeNumberIsHeldToItsRangeToo) {
   Field<int> field(5, app::scene::between(1, 100));
   field.type("101");
   ASSERT_EQ(field.edits.size(), 1u);

@@ -26,7 +26,7 @@ app::view::panels::SliderScale scale_of(const std::string& address) {
   return app::view::panels::slider_scale(info->valid, usual, usual.value_or(0));
 }
 
-TEST(SliderScale, IsLogarithmicWhereAValueSpansDecades) {
+TEST(SliderScale, SliderScaleIsLogarithmicWhereAValueSpansDecades) {
   for (const char* address :
        {"material.snow.critical_compression", "material.snow.critical_stretch",
         "material.snow.youngs_modulus", "material.snow.density", "solver.cell_size",
@@ -40,7 +40,7 @@ TEST(SliderScale, IsLogarithmicWhereAValueSpansDecades) {
   }
 }
 
-TEST(SliderScale, IsLinearBetweenNearEndsAndOpenWithoutAny) {
+TEST(SliderScale, SliderScaleIsLinearBetweenNearEndsAndOpenWithoutAny) {
   for (const char* address : {"material.snow.poisson_ratio", "solver.flip_ratio", "solver.beta",
                               "material.snow.hardening", "camera.fov"})
     EXPECT_EQ(scale_of(address).kind, TurnedAs::linear) << address;
@@ -50,7 +50,7 @@ TEST(SliderScale, IsLinearBetweenNearEndsAndOpenWithoutAny) {
   EXPECT_FALSE(app::view::panels::usual_number("no.such.thing"));
 }
 
-TEST(SliderScale, ReachesThePresentValueAndZeroWhereItIsAllowed) {
+TEST(SliderScale, SliderScaleReachesThePresentValueAndZeroWhereItIsAllowed) {
   const app::scene::Valid valid = app::scene::between(0, 1e6);
   EXPECT_TRUE(app::view::panels::slider_scale(valid, 1.0, 1).is_zero_at_low);
   EXPECT_FALSE(
@@ -61,7 +61,7 @@ TEST(SliderScale, ReachesThePresentValueAndZeroWhereItIsAllowed) {
 }
 
 // A drag over a slider gives a value that the scene may have, whatever its kind.
-TEST(SliderScale, GivesOnlyValidValues) {
+TEST(SliderScale, SliderScaleGivesOnlyValidValues) {
   for (const app::scene::ParamInfo& info : app::scene::params()) {
     if (info.type != "number") continue;
     const app::view::panels::SliderScale scale =
@@ -77,7 +77,7 @@ TEST(SliderScale, GivesOnlyValidValues) {
   }
 }
 
-TEST(Tip, StandsBesideItsWidgetAndOnTheScreen) {
+TEST(Tip, TipStandsBesideItsWidgetAndOnTheScreen) {
   const ImVec2 screen(800, 600), size(200, 80);
   const ImVec2 below = app::view::panels::tip_place({100, 10}, {160, 30}, size, screen);
   EXPECT_EQ(below.x, 100);
@@ -87,7 +87,7 @@ TEST(Tip, StandsBesideItsWidgetAndOnTheScreen) {
   EXPECT_LE(above.y + size.y, 560);
 }
 
-TEST(Tip, WaitsUntilTheMouseRests) {
+TEST(Tip, TipWaitsUntilTheMouseRests) {
   Panels panels;
   ImGuiIO& io = ImGui::GetIO();
   int shown_at = -1;
@@ -133,7 +133,7 @@ std::pair<std::vector<std::string>, bool> filtered(const std::string& filter) {
   return {names, has_shown};
 }
 
-TEST(Filter, LeavesNoEmptyGroups) {
+TEST(Filter, FilterLeavesNoEmptyGroups) {
   const auto [names, has_shown] = filtered("critical_c");
   EXPECT_EQ(names, std::vector<std::string>{"material.snow.critical_compression"});
   EXPECT_TRUE(has_shown);
@@ -153,7 +153,7 @@ TEST(Columns, ShareTheRoomOfANarrowWindow) {
   EXPECT_TRUE(panels.shows_left() && !panels.shows_right());
 }
 
-TEST(ProbeText, HasTheSizeOfTheQuantityAndSaysWhatIsCutAway) {
+TEST(ProbeText, ProbeTextHasTheSizeOfTheQuantityAndSaysWhatIsCutAway) {
   app::view::session::ProbeReading probe;
   EXPECT_EQ(app::view::panels::probe_text(probe, "", true), "cut away");
   EXPECT_EQ(app::view::panels::probe_text(probe, "", false), "");
@@ -167,7 +167,7 @@ TEST(ProbeText, HasTheSizeOfTheQuantityAndSaysWhatIsCutAway) {
             "|v| = " + rough_text(2) + " m/s, cut away");
 }
 
-TEST(Slice, TellsWhyThereAreNoArrows) {
+TEST(Slice, SliceTellsWhyThereAreNoArrows) {
   app::scene::View view;
   view.layers = {app::scene::Layer::arrows};
   view.slice.field = app::scene::VectorField::velocity;

@@ -126,7 +126,7 @@ TEST(Replay, TypesIntoAFieldAndPressesKeys) {
   EXPECT_EQ(viewer.space_pressed, 1) << "keyboards send the key with the text";
 }
 
-TEST(Replay, ScrollsToWhatIsOutOfSightAsAPersonWould) {
+TEST(Replay, ReplayScrollsToWhatIsOutOfSightAsAPersonWould) {
   SmallViewer viewer;
   viewer.run(R"([{"click": "item 47"}])");
   EXPECT_EQ(viewer.clicked, 47);
@@ -134,7 +134,7 @@ TEST(Replay, ScrollsToWhatIsOutOfSightAsAPersonWould) {
   EXPECT_EQ(viewer.clicked, 2);
 }
 
-TEST(Replay, WaitsForFramesAndForTheSimulation) {
+TEST(Replay, ReplayWaitsForFramesAndForTheSimulation) {
   SmallViewer viewer;
   viewer.run(R"([{"wait": 20}, {"click": "Run"}, {"wait_for": "simulation running"},
                  {"wait_for": "simulation frame 12"}, {"wait_for": "label Run"},
@@ -144,7 +144,7 @@ TEST(Replay, WaitsForFramesAndForTheSimulation) {
   EXPECT_EQ(viewer.resets, 1);
 }
 
-TEST(Replay, ResizesDropsAndTurnsTheWheel) {
+TEST(Replay, ReplayResizesDropsAndTurnsTheWheel) {
   SmallViewer viewer;
   app::view::replay::ReplayFront::Options options;
   options.folder = "/somewhere";
@@ -255,7 +255,7 @@ TEST(Replay, ScreenshotsAreTheScreenOrAPartOfIt) {
 }
 
 /// Somebody whose hand is a script, seen by a recorder.
-TEST(Recording, WhatWasRecordedDoesTheSameAgain) {
+TEST(Recording, RecordedInputDoesTheSameAgain) {
   const test::TemporaryFolder folder;
   const std::string script = R"([
     {"click": "Run"}, {"click": {"label": "name", "part": [0.2, 0.5]}}, {"type": "snow"},

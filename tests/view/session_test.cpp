@@ -26,7 +26,7 @@ std::uint64_t undisturbed(const scene::Scene& scene, int frame) {
   return simulation.state_hash();
 }
 
-TEST(Session, RunsToTheEndAndKeepsEveryFrame) {
+TEST(Session, SessionRunsToTheEndAndKeepsEveryFrame) {
   const auto scene = scene_of(tiny_scene);
   view::session::Session session(scene, {}, {});
   session.run();
@@ -68,7 +68,7 @@ TEST(Session, LookingChangesNothing) {
   EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
 }
 
-TEST(Session, ShowsAnyStageOfAStepAndWhatEachTook) {
+TEST(Session, SessionShowsAnyStageOfAStepAndWhatEachTook) {
   const auto scene = scene_of(tiny_scene);
   view::session::Session session(scene, {}, {});
   session.next_frame();
@@ -97,7 +97,7 @@ TEST(Session, ShowsAnyStageOfAStepAndWhatEachTook) {
   EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
 }
 
-TEST(Session, GoesThroughAllStagesOfAStepAndTakesItThen) {
+TEST(Session, SessionGoesThroughAllStagesOfAStepAndTakesItThen) {
   view::session::Session session(scene_of(tiny_scene), {}, {});
   for (const char* const stage : sim::stage_names) {
     session.next_stage();
@@ -118,7 +118,7 @@ TEST(Session, GoesThroughAllStagesOfAStepAndTakesItThen) {
   EXPECT_FALSE(live->stage);
 }
 
-TEST(Session, GoesOnFromAnOlderFrameAsIfTheRestHadNotBeen) {
+TEST(Session, SessionGoesOnFromAnOlderFrameAsIfTheRestHadNotBeen) {
   const auto scene = scene_of(tiny_scene);
   view::session::Session session(scene, {}, {});
   session.run();
@@ -135,7 +135,7 @@ TEST(Session, GoesOnFromAnOlderFrameAsIfTheRestHadNotBeen) {
   EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
 }
 
-TEST(Session, SaysWhyARunBrokeAndIsGoodForAnother) {
+TEST(Session, SessionSaysWhyARunBrokeAndIsGoodForAnother) {
   view::session::Session session(scene_of(exploding_scene), {}, {});
   session.run();
   const auto live = wait_for(session, [](const view::session::LiveFrame& frame) {
@@ -152,7 +152,7 @@ TEST(Session, SaysWhyARunBrokeAndIsGoodForAnother) {
   EXPECT_FALSE(rest_at(session, 1)->divergence);
 }
 
-TEST(Session, TellsWhatItRefusesAndGoesOn) {
+TEST(Session, SessionTellsWhatItRefusesAndGoesOn) {
   view::session::Session session(scene_of(tiny_scene), {}, {});
   scene::Scene huge = *scene_of(tiny_scene);
   huge.limits.particles = 10;
@@ -164,7 +164,7 @@ TEST(Session, TellsWhatItRefusesAndGoesOn) {
   EXPECT_EQ(rest_at(session, 1)->frame, 1);
 }
 
-TEST(Session, RecordsEveryFrameOnce) {
+TEST(Session, SessionRecordsEveryFrameOnce) {
   view::session::Session session(scene_of(tiny_scene), {}, {});
   session.set_recording(true);
   session.run();

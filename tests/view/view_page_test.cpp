@@ -110,7 +110,7 @@ class ViewPage : public testing::Test {
   std::unique_ptr<Chromium> browser;
 };
 
-TEST_F(ViewPage, IsWorkedWithMouseAndKeys) {
+TEST_F(ViewPage, PageIsWorkedWithMouseAndKeys) {
   browser = std::make_unique<Chromium>();
   browser->resize(1280, 800);
   browser->open(address);

@@ -157,7 +157,7 @@ TEST_F(ViewByScript, AClickBesideTheSnowIsAnsweredForAMoment) {
   EXPECT_EQ(changed_bytes(before, image("after.png")), 0u);
 }
 
-TEST_F(ViewByScript, WhatCannotBeDoneEndsItWithStepAndReason) {
+TEST_F(ViewByScript, ImpossibleActionsEndItWithStepAndReason) {
   const auto result = view("[{\"wait\": 2},\n {\"click\": \"Simulate\"}]");
   SKIP_WITHOUT_GL(result);
   EXPECT_EQ(result.exit_code, app::exit_check_failed);

@@ -11,7 +11,7 @@ namespace {
 using app::view::front::InputEvent;
 using app::view::web::FramePacing;
 
-TEST(Jpeg, KeepsThePicture) {
+TEST(Jpeg, JpegKeepsThePicture) {
   ASSERT_TRUE(render::can_encode_jpeg());
   const render::Image image = plain_image(33, 17, 200, 100, 50);
   const auto quick = render::encode_jpeg(image, 60, false);

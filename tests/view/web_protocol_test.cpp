@@ -13,7 +13,7 @@ namespace {
 
 using PageKind = app::view::web::PageMessage::Kind;
 
-TEST(PageMessage, TellsWhatAPersonDid) {
+TEST(PageMessage, PageMessageTellsWhatAPersonDid) {
   const app::view::front::InputEvent move = app::view::web::read_page_message("m 12.5 -3 3").event;
   EXPECT_EQ(move.kind, app::view::front::InputEvent::Kind::move);
   EXPECT_EQ(move.x, 12.5f);
@@ -45,7 +45,7 @@ TEST(PageMessage, TellsWhatAPersonDid) {
   EXPECT_FALSE(app::view::web::read_page_message("v 0").is_visible);
 }
 
-TEST(PageMessage, ThatMakesNoSenseIsNothing) {
+TEST(PageMessage, PageMessageThatMakesNoSenseIsNothing) {
   for (const char* text : {"",          "m",           "m ",           "m 1 2",
                            "m 1 2 3 4", "m  1 2 3",    "m 1 2 16",     "m 1 2 -1",
                            "m 1 2 0.5", "m nan 2 0",   "m inf 2 0",    "m 1e999 2 0",
@@ -59,7 +59,7 @@ TEST(PageMessage, ThatMakesNoSenseIsNothing) {
     EXPECT_EQ(app::view::web::read_page_message(text).kind, PageKind::none) << text;
 }
 
-TEST(PageMessage, SurvivesRandomText) {
+TEST(PageMessage, PageMessageSurvivesRandomText) {
   std::mt19937 random(11);
   const std::string alphabet = "mbwktpsav 0123456789.-+einfx\n";
   for (int run = 0; run < 50000; ++run) {
@@ -72,7 +72,7 @@ TEST(PageMessage, SurvivesRandomText) {
   }
 }
 
-TEST(PageSize, StaysInItsLimits) {
+TEST(PageSize, PageSizeStaysInItsLimits) {
   const app::view::front::ScreenSize usual =
       app::view::web::read_page_message("s 1280 800 1.5").size;
   EXPECT_EQ(usual.width, 1280);
@@ -93,7 +93,7 @@ TEST(PageSize, StaysInItsLimits) {
   }
 }
 
-TEST(PageText, IsJsonWhateverTheText) {
+TEST(PageText, PageTextIsJsonWhateverTheText) {
   EXPECT_EQ(app::view::web::page_text("title", "a \"b\"\n"), R"({"title":"a \"b\"\n"})");
   EXPECT_EQ(app::view::web::page_text("title", "\xFF"), "{\"title\":\"\xEF\xBF\xBD\"}");
   EXPECT_EQ(app::view::web::page_picture(0x01020304, "jpeg"), "\x04\x03\x02\x01jpeg");
@@ -103,7 +103,7 @@ app::view::front::InputEvent event_of(const char* text) {
   return app::view::web::read_page_message(text).event;
 }
 
-TEST(EventQueue, JoinsMovesAndWheels) {
+TEST(EventQueue, EventQueueJoinsMovesAndWheels) {
   app::view::front::EventQueue queue;
   for (const char* text : {"m 1 1 0", "m 2 2 0", "m 3 3 1", "w 0 1 0", "w 0 2 0", "b 0 1 3 3 0",
                            "m 4 4 0", "m 5 5 0", "t a", "t b"})
@@ -116,7 +116,7 @@ TEST(EventQueue, JoinsMovesAndWheels) {
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(EventQueue, RefusesMoreThanItHolds) {
+TEST(EventQueue, EventQueueRefusesMoreThanItHolds) {
   app::view::front::EventQueue queue;
   std::size_t taken = 0;
   while (queue.push(event_of(taken % 2 ? "k 65 0 0" : "k 65 1 0"))) ++taken;
@@ -131,7 +131,7 @@ TEST(EventQueue, RefusesMoreThanItHolds) {
   EXPECT_TRUE(queue.push(event_of(pasted.c_str())));
 }
 
-TEST(EventQueue, ReleasesWhatIsHeld) {
+TEST(EventQueue, EventQueueReleasesWhatIsHeld) {
   app::view::front::EventQueue queue;
   for (const char* text : {"k 65 1 0", "k 66 1 0", "k 65 0 0", "b 0 1 7 8 0", "k 341 1 1"})
     queue.push(event_of(text));
@@ -159,14 +159,14 @@ int quality_after(int pictures, double seconds_each) {
   return pacing.quality();
 }
 
-TEST(FramePacing, AdaptsQualityToTheNetwork) {
+TEST(FramePacing, FramePacingAdaptsQualityToTheNetwork) {
   EXPECT_EQ(quality_after(100, 0.01), app::view::web::FramePacing::max_quality);
   EXPECT_EQ(quality_after(100, 0.3), app::view::web::FramePacing::min_quality);
   // Between the two it stays as it is.
   EXPECT_EQ(quality_after(100, 0.09), app::view::web::FramePacing().quality());
 }
 
-TEST(FramePacing, LetsTwoPicturesOnTheirWay) {
+TEST(FramePacing, FramePacingLetsTwoPicturesOnTheirWay) {
   app::view::web::FramePacing pacing;
   const std::uint32_t first = pacing.sent(1), second = pacing.sent(1);
   EXPECT_FALSE(pacing.can_send());

@@ -61,7 +61,7 @@ TEST_F(Web, PageHasStrictHeaders) {
   EXPECT_NE(page.find("connect-src ws://" + host), std::string::npos);
 }
 
-TEST_F(Web, RefusesForeignHosts) {
+TEST_F(Web, ServerRefusesForeignHosts) {
   start();
   for (const char* name :
        {"evil.example", "evil.example:80", "localhost.evil.example", "10.1.2.3"}) {
@@ -79,7 +79,7 @@ TEST_F(Web, RefusesForeignHosts) {
   EXPECT_EQ(status(target("/"), "Host: localhost:1234\r\n"), 200);
 }
 
-TEST_F(Web, RefusesForeignPages) {
+TEST_F(Web, ServerRefusesForeignPages) {
   start();
   for (const std::string& origin :
        {std::string("http://evil.example"), std::string("null"), std::string("http://127.0.0.1"),
@@ -93,7 +93,7 @@ TEST_F(Web, RefusesForeignPages) {
   expect_serving();
 }
 
-TEST_F(Web, ServesOnePageOnly) {
+TEST_F(Web, ServerServesOnePageOnly) {
   start();
   const std::string lines = "Host: " + host + "\r\n";
   EXPECT_EQ(status("/favicon.ico", lines), 204);
@@ -119,7 +119,7 @@ TEST_F(Web, LimitsRequests) {
   expect_serving();
 }
 
-TEST_F(Web, RefusesBadFramesAndGoesOn) {
+TEST_F(Web, ServerRefusesBadFramesAndGoesOn) {
   start();
   const auto code_for = [&](const std::string& bytes) {
     auto page = connect();
@@ -139,7 +139,7 @@ TEST_F(Web, RefusesBadFramesAndGoesOn) {
   expect_serving();
 }
 
-TEST_F(Web, TakesMessagesInPiecesAndAnswersPings) {
+TEST_F(Web, ServerTakesMessagesInPiecesAndAnswersPings) {
   start();
   auto page = connect();
   page->send_frame(0x01, "k 6");
@@ -152,7 +152,7 @@ TEST_F(Web, TakesMessagesInPiecesAndAnswersPings) {
   EXPECT_EQ(pong->payload, "are you there");
 }
 
-TEST_F(Web, RefusesTooLongMessagesWithoutKeepingThem) {
+TEST_F(Web, ServerRefusesTooLongMessagesWithoutKeepingThem) {
   start();
   const double before = resident_bytes();
   for (const std::uint64_t length : {std::uint64_t(300'000), std::uint64_t(100'000'000)}) {
@@ -175,7 +175,7 @@ TEST_F(Web, RefusesTooLongMessagesWithoutKeepingThem) {
   expect_serving();
 }
 
-TEST_F(Web, SurvivesRandomConnections) {
+TEST_F(Web, ServerSurvivesRandomConnections) {
   start();
   std::mt19937 random(3);
   for (int run = 0; run < 150; ++run) {
@@ -194,7 +194,7 @@ TEST_F(Web, SurvivesRandomConnections) {
   expect_serving();
 }
 
-TEST_F(Web, EndsSlowAndSilentConnections) {
+TEST_F(Web, ServerEndsSlowAndSilentConnections) {
   app::view::web::WebOptions options;
   options.limits.head_seconds = 0.4;
   options.limits.message_seconds = 0.4;
@@ -233,7 +233,7 @@ TEST_F(Web, EndsSlowAndSilentConnections) {
   expect_serving();
 }
 
-TEST_F(Web, KeepsServingWhileOthersOnlySitThere) {
+TEST_F(Web, ServerKeepsServingWhileOthersOnlySitThere) {
   start();
   auto page = connect();
   std::vector<std::unique_ptr<RawSocket>> idle;
@@ -346,7 +346,7 @@ TEST_F(Web, FiftyReconnectsLeaveNothingBehind) {
   expect_serving();
 }
 
-TEST(WebFront, ListensElsewhereOnlyWhenToldThatItIsRisky) {
+TEST(WebFront, WebFrontListensElsewhereOnlyWhenToldThatItIsRisky) {
   app::view::web::WebOptions options;
   options.address = "0.0.0.0";
   try {
@@ -361,7 +361,7 @@ TEST(WebFront, ListensElsewhereOnlyWhenToldThatItIsRisky) {
   EXPECT_EQ(front.where().find("0.0.0.0"), std::string::npos) << front.where();
 }
 
-TEST(WebFront, SaysWhyItCannotListen) {
+TEST(WebFront, WebFrontSaysWhyItCannotListen) {
   app::view::web::WebOptions options;
   const app::view::web::WebFront first(options);
   options.port = first.port();

@@ -24,7 +24,7 @@ int error_of(const std::string& bytes, std::size_t limit = 1000) {
   return reader.error();
 }
 
-TEST(WebSocketKey, IsAnsweredAsInTheStandard) {
+TEST(WebSocketKey, WebSocketKeyIsAnsweredAsInTheStandard) {
   // RFC 6455, section 1.3.
   EXPECT_EQ(app::view::web::web_socket_accept("dGhlIHNhbXBsZSBub25jZQ=="),
             "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
@@ -34,7 +34,7 @@ TEST(WebSocketKey, IsAnsweredAsInTheStandard) {
   EXPECT_FALSE(app::view::web::is_web_socket_key(""));
 }
 
-TEST(Utf8, IsWhatTheStandardAllows) {
+TEST(Utf8, Utf8IsWhatTheStandardAllows) {
   for (const char* good : {"", "snow", "n\xC3\xA9v\xC3\xA9", "\xE2\x9D\x84", "\xF0\x9F\x8C\xA8",
                            "\xED\x9F\xBF", "\xEE\x80\x80", "\xF4\x8F\xBF\xBF"})
     EXPECT_TRUE(app::view::web::is_utf8(good)) << good;
@@ -44,7 +44,7 @@ TEST(Utf8, IsWhatTheStandardAllows) {
     EXPECT_FALSE(app::view::web::is_utf8(bad)) << bad;
 }
 
-TEST(FrameReader, FindsMessagesInPiecesOfAnySize) {
+TEST(FrameReader, FrameReaderFindsMessagesInPiecesOfAnySize) {
   const std::string bytes = client_frame(0x81, "first") + client_frame(0x01, "sec") +
                             client_frame(0x89, "ping") + client_frame(0x00, "") +
                             client_frame(0x80, "ond") + client_frame(0x82, std::string(300, 'x'));
@@ -62,7 +62,7 @@ TEST(FrameReader, FindsMessagesInPiecesOfAnySize) {
   }
 }
 
-TEST(FrameReader, ReadsLengthsInAllThreeForms) {
+TEST(FrameReader, FrameReaderReadsLengthsInAllThreeForms) {
   for (const std::size_t length : {0u, 1u, 125u, 126u, 127u, 65535u, 65536u, 100000u}) {
     app::view::web::FrameReader reader(100000);
     reader.feed(client_frame(0x82, std::string(length, 'a')));
@@ -72,7 +72,7 @@ TEST(FrameReader, ReadsLengthsInAllThreeForms) {
   }
 }
 
-TEST(FrameReader, RefusesWhatTheStandardForbids) {
+TEST(FrameReader, FrameReaderRefusesWhatTheStandardForbids) {
   EXPECT_EQ(error_of(client_frame(0x81, "unmasked", false)), 1002);
   EXPECT_EQ(error_of(client_frame(0xC1, "reserved bit")), 1002);
   EXPECT_EQ(error_of(client_frame(0x83, "unknown opcode")), 1002);
@@ -89,7 +89,7 @@ TEST(FrameReader, RefusesWhatTheStandardForbids) {
   EXPECT_EQ(error_of(std::string("\x81\xFF\x80\0\0\0\0\0\0\x01mask", 14)), 1002);
 }
 
-TEST(FrameReader, RefusesTooLongMessagesBeforeTheyCome) {
+TEST(FrameReader, FrameReaderRefusesTooLongMessagesBeforeTheyCome) {
   EXPECT_EQ(error_of(client_frame(0x81, std::string(1000, 'a'))), 0);
   EXPECT_EQ(error_of(client_frame(0x81, std::string(1001, 'a')).substr(0, 4)), 1009);
   EXPECT_EQ(error_of(client_frame(0x01, std::string(600, 'a')) +
@@ -98,7 +98,7 @@ TEST(FrameReader, RefusesTooLongMessagesBeforeTheyCome) {
   EXPECT_EQ(error_of(std::string("\x82\xFF\x7F\xFF\xFF\xFF\xFF\xFF\xFF\xFF", 10)), 1009);
 }
 
-TEST(FrameReader, SurvivesRandomBytes) {
+TEST(FrameReader, FrameReaderSurvivesRandomBytes) {
   std::mt19937 random(7);
   for (int run = 0; run < 20000; ++run) {
     std::string bytes(random() % 40, '\0');
@@ -114,7 +114,7 @@ TEST(FrameReader, SurvivesRandomBytes) {
   }
 }
 
-TEST(ServerFrame, IsReadBackByAClient) {
+TEST(ServerFrame, ServerFrameIsReadBackByAClient) {
   EXPECT_EQ(app::view::web::web_socket_frame(app::view::web::Opcode::text, "hello"),
             "\x81\x05hello");
   EXPECT_EQ(app::view::web::web_socket_frame(app::view::web::Opcode::binary, std::string(126, 'x'))
@@ -131,7 +131,7 @@ int status_of(const std::string& head) {
   return app::view::web::read_http_head(head).status;
 }
 
-TEST(HttpHead, IsReadStrictly) {
+TEST(HttpHead, HttpHeadIsReadStrictly) {
   const app::view::web::HttpHead head = app::view::web::read_http_head(
       "GET /ws?a=1&token=abc HTTP/1.1\r\nHost: localhost:80\r\nConnection: keep-alive, "
       "Upgrade\r\n\r\nmore");
@@ -159,7 +159,7 @@ TEST(HttpHead, IsReadStrictly) {
   EXPECT_EQ(status_of("GET / HTTP/2.0\r\nHost: a\r\n\r\n"), 505);
 }
 
-TEST(HttpHead, IsLimitedWhileItComes) {
+TEST(HttpHead, HttpHeadIsLimitedWhileItComes) {
   const std::string long_target(2000, 'a');
   EXPECT_EQ(status_of("GET /" + long_target + " HTTP/1.1\r\nHost: a\r\n\r\n"), 414);
   EXPECT_EQ(status_of("GET /" + long_target), 414);
@@ -171,7 +171,7 @@ TEST(HttpHead, IsLimitedWhileItComes) {
   EXPECT_EQ(status_of(start + "X: " + std::string(4000, 'a') + "\r\n\r\n"), 200);
 }
 
-TEST(WebGuard, KnowsItsOwnNames) {
+TEST(WebGuard, WebGuardKnowsItsOwnNames) {
   const app::view::web::WebGuard local("127.0.0.1", "secret");
   for (const char* own : {"127.0.0.1:8080", "localhost", "LocalHost:1", "[::1]:9", "127.0.0.2:3"})
     EXPECT_TRUE(local.is_own_host(own)) << own;
@@ -188,14 +188,14 @@ TEST(WebGuard, KnowsItsOwnNames) {
   EXPECT_FALSE(open.is_own_host("evil.example"));
 }
 
-TEST(WebGuard, TellsTheRiskOfOtherAddresses) {
+TEST(WebGuard, WebGuardTellsTheRiskOfOtherAddresses) {
   for (const char* safe : {"127.0.0.1", "127.3.2.1", "::1", "localhost"})
     EXPECT_EQ(app::view::web::risk_of(safe), "") << safe;
   for (const char* open : {"0.0.0.0", "::", "10.0.0.5", "127.0.0.1.example", "example.com"})
     EXPECT_NE(app::view::web::risk_of(open), "") << open;
 }
 
-TEST(Token, HasManyRandomBits) {
+TEST(Token, TokenHasManyRandomBits) {
   const std::string a = app::view::web::make_token(), b = app::view::web::make_token();
   EXPECT_EQ(a.size(), 32u);
   EXPECT_EQ(a.find_first_not_of("0123456789abcdef"), std::string::npos);

@@ -68,7 +68,7 @@ class InWindow : public testing::Test {
 };
 std::unique_ptr<test::Xvfb> InWindow::display;
 
-TEST_F(InWindow, HasAnOpenGlContextThatDraws) {
+TEST_F(InWindow, WindowHasAnOpenGlContextThatDraws) {
   render::gl::Context& context = front->context();
   EXPECT_EQ(context.backend, "window");
   EXPECT_GE(std::atof(context.version.c_str()), 3.3);
@@ -210,7 +210,7 @@ TEST_F(InWindow, PointerThatLeavesIsNowhere) {
       [&] { return saw(Kind::move) && last(Kind::move)->x == app::view::front::off_picture; });
 }
 
-TEST(WindowWithoutDisplay, SaysWhatIsMissing) {
+TEST(WindowWithoutDisplay, WindowWithoutDisplaySaysWhatIsMissing) {
   const char* before = std::getenv("DISPLAY");
   const std::string display = before ? before : "";
   const char* wayland_before = std::getenv("WAYLAND_DISPLAY");

@@ -51,7 +51,7 @@ struct Working {
   view::session::Workbench bench;
 };
 
-TEST(Document, TakesBackAndDoesAgain) {
+TEST(Document, DocumentTakesBackAndDoesAgain) {
   view::session::Document document("scene.toml", tiny_scene, {}, 1);
   document.set("material.snow.hardening", "5");
   document.set("solver.cfl", "0.3");
@@ -80,7 +80,7 @@ TEST(Document, OneDragIsOneUndo) {
   EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 10);
 }
 
-TEST(Document, RefusesWhatIsInvalidAndStaysAsItWas) {
+TEST(Document, DocumentRefusesWhatIsInvalidAndStaysAsItWas) {
   view::session::Document document("scene.toml", tiny_scene, {}, 1);
   document.set("material.snow.hardening", "5");
   EXPECT_THROW(document.set("material.snow.poisson_ratio", "0.7"), scene::toml::UsageError);
@@ -89,7 +89,7 @@ TEST(Document, RefusesWhatIsInvalidAndStaysAsItWas) {
   EXPECT_DOUBLE_EQ(document.scene()->materials[0].poisson_ratio, 0.2);
 }
 
-TEST(Document, KeepsTheCameraWhileKnobsAreTurned) {
+TEST(Document, DocumentKeepsTheCameraWhileKnobsAreTurned) {
   view::session::Document document("scene.toml", tiny_scene, {}, 1);
   const sim::Vec3d eye = *document.scene()->camera->eye;
   document.set("body.ball.velocity", "[3, -2, 0]");
@@ -97,7 +97,7 @@ TEST(Document, KeepsTheCameraWhileKnobsAreTurned) {
 }
 
 // One list of concerns decides the time of a change and its entry in a picture.
-TEST(Document, KnowsWhatEveryParameterConcerns) {
+TEST(Document, DocumentKnowsWhatEveryParameterConcerns) {
   for (const scene::ParamInfo& info : scene::params()) {
     const bool is_drawn = scene::concern_of(info.address) == scene::Concern::pictures;
     EXPECT_EQ(view::session::effect_of(info.address) == view::session::Effect::display, is_drawn)
@@ -187,7 +187,7 @@ TEST(Workbench, APausedChangeBelongsToThePicture) {
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
 }
 
-TEST(Document, KeepsAPresetAsTheNumbersThatItChanges) {
+TEST(Document, DocumentKeepsAPresetAsTheNumbersThatItChanges) {
   view::session::Document document("scene.toml", tiny_scene, {}, 1);
   document.set("material.snow.preset", "\"lower_hardening\"");
   ASSERT_EQ(document.changes().size(), 1u);
@@ -205,7 +205,7 @@ TEST(Document, KeepsAPresetAsTheNumbersThatItChanges) {
   EXPECT_THROW(document.set("material.ice.preset", "icy"), scene::toml::UsageError);
 }
 
-TEST(Document, KnowsTheNumbersOfAPresetInTheFile) {
+TEST(Document, DocumentKnowsTheNumbersOfAPresetInTheFile) {
   const std::string text = std::string(tiny_scene) + "[material.snow]\npreset = \"wet\"\n";
   view::session::Document document("scene.toml", text, {}, 1);
   EXPECT_EQ(document.in_file("material.snow.hardening"), "5");
@@ -233,7 +233,7 @@ TEST(Workbench, APresetChosenWhileItRunsIsReplayedToTheBit) {
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
 }
 
-TEST(Workbench, WhatNeedsARestartWaitsForItUnlessNothingIsLost) {
+TEST(Workbench, ChangesThatNeedARestartWaitForItUnlessNothingIsLost) {
   Working work;
   work.bench.set("body.ball.shape.sphere.radius", "0.1");
   EXPECT_TRUE(work.bench.waiting_for_reset().empty());
@@ -260,7 +260,7 @@ TEST(Workbench, WhatNeedsARestartWaitsForItUnlessNothingIsLost) {
   EXPECT_TRUE(anew->snapshot.changes.empty());
 }
 
-TEST(Workbench, SavesTheSceneWithItsComments) {
+TEST(Workbench, WorkbenchSavesTheSceneWithItsComments) {
   Working work("# mine\n" + std::string(tiny_scene) + "# the end\n");
   work.bench.set("solver.cell_size", "0.05");
   work.bench.save_scene(work.folder / "saved.toml");
@@ -271,7 +271,7 @@ TEST(Workbench, SavesTheSceneWithItsComments) {
   EXPECT_EQ(work.bench.messages().back().kind, view::session::Message::Kind::note);
 }
 
-TEST(Workbench, WritesASweepAroundAValue) {
+TEST(Workbench, WorkbenchWritesASweepAroundAValue) {
   Working work;
   work.bench.set("material.snow.hardening", "5");
   const std::filesystem::path file = work.bench.sweep_around("material.snow.hardening");
@@ -305,7 +305,7 @@ TEST(Workbench, ASweepSaysWhatWasChangedWhileItRan) {
   EXPECT_TRUE(contains(work.bench.messages().back().text, "material.snow.youngs_modulus"));
 }
 
-TEST(Workbench, NoticesAChangedFile) {
+TEST(Workbench, WorkbenchNoticesAChangedFile) {
   Working work;
   EXPECT_FALSE(work.bench.has_file_changed());
   std::string text = tiny_scene;
@@ -349,7 +349,7 @@ TEST(Workbench, AFailedReloadSaysWhereAndLeavesTheFileChanged) {
   EXPECT_EQ(work.bench.messages().back().kind, view::session::Message::Kind::note);
 }
 
-TEST(Workbench, TellsWhatAFieldRefused) {
+TEST(Workbench, WorkbenchTellsWhatAFieldRefused) {
   Working work;
   work.bench.edit(
       {view::session::Edit::Kind::refused, "solver.cfl", "not accepted; expected 0 < value", 0});
@@ -358,7 +358,7 @@ TEST(Workbench, TellsWhatAFieldRefused) {
   EXPECT_TRUE(work.bench.document().changes().empty());
 }
 
-TEST(Workbench, WhatFailsIsAnErrorToBeSeen) {
+TEST(Workbench, FailuresAreErrorsToBeSeen) {
   Working work;
   const std::uint64_t before = work.bench.errors_said();
   work.folder.write("file", "");
@@ -368,13 +368,13 @@ TEST(Workbench, WhatFailsIsAnErrorToBeSeen) {
   EXPECT_EQ(work.bench.errors_said(), before + 2);
 }
 
-TEST(Orbit, StartsWhereTheCameraIs) {
+TEST(Orbit, OrbitStartsWhereTheCameraIs) {
   const sim::Vec3d eye(1.5, 0.9, 2.0), target(0.1, 0.2, -0.3);
   const view::panels::Orbit orbit(eye, target, {0, 1, 0}, 30);
   EXPECT_LT((orbit.eye() - eye).norm(), 1e-12);
 }
 
-TEST(Orbit, ZoomsTowardsTheMouse) {
+TEST(Orbit, OrbitZoomsTowardsTheMouse) {
   view::panels::Orbit orbit({1.5, 0.9, 2.0}, {0, 0, 0}, {0, 1, 0}, 30);
   // A point at the target's distance under the mouse stays under it.
   const sim::Vec3d ray = orbit.ray(0.3, -0.2);
@@ -400,7 +400,7 @@ TEST(Orbit, FramesABoxAndLooksAlongAxes) {
   EXPECT_NEAR(orbit.forward().x(), 1, 1e-9);
 }
 
-TEST(Pick, FindsTheNearestParticleUnderTheMouse) {
+TEST(Pick, PickingFindsTheNearestParticleUnderTheMouse) {
   const view::panels::Orbit orbit({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30);
   view::session::LiveFrame live;
   app::setup::SeededScene seeded;
