@@ -143,7 +143,7 @@ Found sink_problem(const sim::seeding::Sink& sink) {
   const std::string address = "sink." + sink.name;
   if (Found found = form_problem(sink.shape, address)) return found;
   return ready_problem(address, [&] {
-    sim::shapes::Solid(sink.shape);
+    [[maybe_unused]] const sim::shapes::Solid solid(sink.shape);
     return Found{};
   });
 }
