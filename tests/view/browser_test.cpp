@@ -29,6 +29,10 @@ const std::uint8_t* pixel(const render::Image& image, double x, double y) {
   return &image.pixels[(std::size_t(row) * image.width + column) * image.channels];
 }
 
+/// True once the page shows a picture. Until its script has run, the page before it answers, or
+/// none.
+constexpr const char* is_drawn = "typeof note !== 'undefined' && note.hidden && drawn > 0";
+
 class Browser : public Web {
  protected:
   static void SetUpTestSuite() {
@@ -50,7 +54,7 @@ class Browser : public Web {
   void open(const std::string& address = {}, int width = 640, int height = 400, double ratio = 1) {
     browser->resize(width, height, ratio);
     browser->open(address.empty() ? front->where() : address);
-    ASSERT_TRUE(show_until([&] { return is_true("note.hidden && drawn > 0"); }));
+    ASSERT_TRUE(show_until([&] { return is_true(is_drawn); }));
     events.clear();
   }
 
@@ -131,7 +135,7 @@ TEST_F(Browser, ReloadNeedsNoTokenInTheAddress) {
   ASSERT_TRUE(wait_until([&] { return !front->is_ready(); }));
   ASSERT_TRUE(wait_until([&] { return front->is_picture_wanted(); }));
   front->show_image(quarters(640, 400));
-  EXPECT_TRUE(wait_until([&] { return is_true("note.hidden && drawn > 0"); }));
+  EXPECT_TRUE(wait_until([&] { return is_true(is_drawn); }));
   EXPECT_EQ(browser->evaluate("location.href"), "http://" + host + "/");
 }
 
