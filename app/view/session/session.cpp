@@ -49,7 +49,7 @@ Session::Session(std::shared_ptr<const scene::Scene> scene, const SessionOptions
   thread_ = std::thread([this, &scene, started = std::move(promise)]() mutable {
     step_back();
     try {
-      start(std::move(scene));
+      start(scene);
       publish();
     } catch (...) {
       started.set_exception(std::current_exception());

@@ -80,7 +80,7 @@ class Session {
   void ask(std::function<void()> command);
   void work();
   void obey(const std::function<void()>& command);
-  void start(std::shared_ptr<const scene::Scene> scene);
+  void start(const std::shared_ptr<const scene::Scene>& scene);
   void set_goal(Goal goal);
   void stop_looking_inside();
   void leave_older();

@@ -13,7 +13,7 @@ constexpr int sampling_share = 20;
 
 }  // namespace
 
-void Session::start(std::shared_ptr<const scene::Scene> scene) {
+void Session::start(const std::shared_ptr<const scene::Scene>& scene) {
   const setup::Plan plan =
       setup::make_plan(*scene, {0, scene->frames}, setup::Quality::preview, options_.threads);
   setup::check_limits(*scene, plan);

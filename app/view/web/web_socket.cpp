@@ -85,7 +85,8 @@ bool FrameReader::is_allowed(const Header& header, unsigned char reserved_bits) 
   return true;
 }
 
-std::optional<WebMessage> FrameReader::add_fragment(const Header& header, std::string payload) {
+std::optional<WebMessage> FrameReader::add_fragment(const Header& header,
+                                                    const std::string& payload) {
   if (header.opcode != Opcode::continuation) message_opcode_ = header.opcode;
   message_ += payload;
   is_fragmented_ = !header.is_final;
@@ -110,7 +111,7 @@ std::optional<WebMessage> FrameReader::next() {
     for (std::size_t k = 0; k < length; ++k) payload[k] = char(payload[k] ^ header.mask[k & 3]);
     begin_ += header.size + length;
     if (header.opcode >= Opcode::close) return WebMessage{header.opcode, std::move(payload)};
-    if (auto whole = add_fragment(header, std::move(payload))) return whole;
+    if (auto whole = add_fragment(header, payload)) return whole;
   }
   return {};
 }

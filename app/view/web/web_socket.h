@@ -71,7 +71,7 @@ class FrameReader {
   bool read_header(Header& header);
   bool read_length(std::string_view bytes, Header& header, int length_bytes);
   bool is_allowed(const Header& header, unsigned char reserved_bits);
-  std::optional<WebMessage> add_fragment(const Header& header, std::string payload);
+  std::optional<WebMessage> add_fragment(const Header& header, const std::string& payload);
   bool fail(int code);
 
   std::size_t max_message_;
