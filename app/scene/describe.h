@@ -76,6 +76,9 @@ void describe(V& visit, sim::SolverSettings& s) {
         "per step.");
   visit("advect", s.advect, unit::none, anything, live,
         "Velocity that moves particles: their own (the paper) or the grid's.");
+  visit("contact_at", s.contact_at, unit::none, anything, live,
+        "Where explicit steps stop snow at colliders: at particles, or at nodes (the paper), a "
+        "cell off.");
   visit("time_step", s.time_step, unit::none, anything, live,
         "adaptive: choose each step from the limits below; fixed: use dt.");
   visit("dt", s.dt, unit::second, between(1e-9, 1), live,

@@ -31,6 +31,10 @@ constexpr auto names(sim::Advect) {
   using enum sim::Advect;
   return std::array{Name{particle, "particle"}, Name{pic, "pic"}};
 }
+constexpr auto names(sim::ContactAt) {
+  using enum sim::ContactAt;
+  return std::array{Name{particles, "particles"}, Name{nodes, "nodes"}};
+}
 constexpr auto names(sim::TimeStep) {
   using enum sim::TimeStep;
   return std::array{Name{adaptive, "adaptive"}, Name{fixed, "fixed"}};

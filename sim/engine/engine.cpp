@@ -185,7 +185,7 @@ const char* Engine<Real>::simd() const {
 template <class Real>
 std::uint64_t Engine<Real>::memory_bytes() const {
   return state_.colliders.memory_bytes() + state_.particles.memory_bytes() +
-         state_.grid.memory_bytes() + solver_.memory_bytes();
+         state_.grid.memory_bytes() + state_.contact.memory_bytes() + solver_.memory_bytes();
 }
 
 template <class Real>

@@ -1,6 +1,7 @@
 #include "sim/engine/method.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "sim/engine/time_step.h"
@@ -56,10 +57,14 @@ void Method<Real>::change(const SolverSettings& given,
   material_constants = constants_of<Real>(materials_given);
   settings = given;
   materials = materials_given;
+  half_spacing.clear();
+  for (const Material& m : materials)
+    half_spacing.push_back(static_cast<Real>(0.5 * std::cbrt(1 / m.density)));
   kernel_nodes = settings.kernel == Kernel::cubic ? kernels::cubic_nodes : kernels::quadratic_nodes;
   sweeps = &kernels::sweeps_for(simd, kernel_nodes, transfer_kind(settings.transfer), Real());
   solve_sweeps =
       &kernels::solve_sweeps_for(simd, kernel_nodes, settings.transfer == Transfer::mls, Real());
+  contact_sweeps = &kernels::contact_sweeps_for(simd, kernel_nodes, Real());
 }
 
 template <class Real>
@@ -90,6 +95,12 @@ kernels::StepConstants<Real> Method<Real>::step_constants(double dt) const {
   c.h_double = h;
   c.materials = material_constants.data();
   return c;
+}
+
+template <class Real>
+double Method<Real>::kept_share(double dt) const {
+  const bool keeps = settings.transfer == Transfer::flip && settings.advect == Advect::particle;
+  return keeps ? flip_share(settings, dt) : 0;
 }
 
 template <class Real>

@@ -6,6 +6,7 @@
 #include "sim/engine/lattice.h"
 #include "sim/kernels/implicit.h"
 #include "sim/kernels/kernels.h"
+#include "sim/kernels/particle_contact.h"
 #include "sim/types/material.h"
 #include "sim/types/settings.h"
 
@@ -27,6 +28,10 @@ struct Method {
   /// For a step of dt; without colliders.
   kernels::StepConstants<Real> step_constants(double dt) const;
 
+  /// Share of its own velocity that a particle keeps in a step of dt beside that of the grid, and
+  /// moves with.
+  double kept_share(double dt) const;
+
   /// m2, of the weights around a particle.
   double affine_inertia() const;
   double kinetic_energy(const kernels::Particle<Real>& p) const;
@@ -36,10 +41,12 @@ struct Method {
   std::vector<Material> materials;
   Lattice lattice;
   std::vector<kernels::MaterialConstants<Real>> material_constants;
+  std::vector<Real> half_spacing;  ///< per material: of particles of 1 kg, m
   kernels::SimdLevel simd = kernels::SimdLevel::baseline;
   int kernel_nodes = kernels::cubic_nodes;
   const kernels::Sweeps<Real>* sweeps = nullptr;
   const kernels::SolveSweeps<Real>* solve_sweeps = nullptr;
+  const kernels::ContactSweeps<Real>* contact_sweeps = nullptr;
 };
 
 }  // namespace neve::sim::engine

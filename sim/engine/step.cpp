@@ -96,18 +96,30 @@ void StagedDriver<Real>::collide_grid() {
     std::vector<double>& work = state_.grid.node_contact_work;
     std::fill(work.begin(), work.end(), 0.0);
   };
-  stage(
-      Stage::grid_collisions, [&] { over_node_blocks(state_.method.sweeps->grid_collisions); },
-      keep_v_free);
+  const auto collide = [&] {
+    if (state_.method.settings.is_contact_at_particles())
+      collide_at_particles();
+    else
+      over_node_blocks(state_.method.sweeps->grid_collisions);
+  };
+  stage(Stage::grid_collisions, collide, keep_v_free);
 }
 
 /// Explicit steps take v_star, and so do steps whose solve fails.
 template <class Real>
 void StagedDriver<Real>::solve_velocities() {
-  const auto keep_v_star = [&] { over_node_blocks(state_.method.sweeps->keep_velocities); };
+  const SolverSettings& settings = state_.method.settings;
+  const bool has_channels =
+      settings.is_contact_at_particles() && !settings.skips(Stage::grid_collisions);
+  const auto keep_v_star = [&] {
+    if (has_channels)
+      each_node([](auto& nodes, int n) { nodes.v_new[n] = nodes.v_star[n]; });
+    else
+      over_node_blocks(state_.method.sweeps->keep_velocities);
+  };
   const auto solve = [&] {
     keep_v_star();
-    if (!state_.method.settings.is_implicit()) return;
+    if (!settings.is_implicit()) return;
     solver_.solve(state_, a_, dt_);
     const std::size_t nodes_per_block = kernels::all_channels * kernels::block_nodes;
     for (std::size_t b = 0; b < fields_.nodes.size(); ++b)
@@ -181,8 +193,13 @@ void FusedDriver<Real>::particles_to_grid() {
 
 template <class Real>
 void FusedDriver<Real>::update_grid() {
-  timed(seconds_.grid_update,
-        [&] { state_.over_node_blocks(state_.method.sweeps->grid_update, a_); });
+  timed(seconds_.grid_update, [&] {
+    const bool at_particles = state_.method.settings.is_contact_at_particles();
+    kernels::SweepArgs<Real> of_nodes = a_;
+    if (at_particles) of_nodes.constants.collider_count = 0;
+    state_.over_node_blocks(state_.method.sweeps->grid_update, of_nodes);
+    if (at_particles) state_.press_particles(a_, dt_);
+  });
 }
 
 template <class Real>
@@ -225,6 +242,19 @@ template <class Change>
 void StagedDriver<Real>::each_node(const Change& change) {
   for (kernels::StagedNodes<Real>& nodes : fields_.nodes)
     for (int n = 0; n < kernels::block_nodes; ++n) change(nodes, n);
+}
+
+/// Works on the nodes as the fused driver has them: what particles gather.
+template <class Real>
+void StagedDriver<Real>::collide_at_particles() {
+  kernels::SweepArgs<Real> of_nodes = a_;
+  of_nodes.constants.collider_count = 0;
+  state_.over_node_blocks(state_.method.sweeps->grid_collisions, of_nodes);
+  over_node_blocks(state_.method.sweeps->keep_velocities);
+  state_.press_particles(a_, dt_);
+  const std::size_t nodes_per_block = kernels::all_channels * kernels::block_nodes;
+  for (std::size_t b = 0; b < fields_.nodes.size(); ++b)
+    std::copy_n(a_.nodes + b * nodes_per_block, kernels::block_nodes, fields_.nodes[b].v_star);
 }
 
 /// See SolverSettings::resting_mass.

@@ -87,6 +87,7 @@ class StagedDriver {
   /// change(nodes, n) for every node.
   template <class Change>
   void each_node(const Change& change);
+  void collide_at_particles();
   void over_particle_blocks(kernels::Sweep<Real> sweep) { state_.over_particle_blocks(sweep, a_); }
   void over_node_blocks(kernels::Sweep<Real> sweep) { state_.over_node_blocks(sweep, a_); }
   void rest_light_nodes();

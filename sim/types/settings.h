@@ -12,6 +12,9 @@ namespace neve::sim {
 enum class Kernel { cubic, quadratic };
 enum class Transfer { flip, apic, mls };
 enum class Advect { particle, pic };
+/// Where snow meets colliders in an explicit step: at particles, by impulses through the grid, or at
+/// nodes, as the paper has it. Semi-implicit steps hold nodes.
+enum class ContactAt { particles, nodes };
 enum class TimeStep { adaptive, fixed };
 /// Reaction to a broken rule: end the run, or go back and try with half the dt.
 enum class OnDivergence { stop, retry };
@@ -24,6 +27,7 @@ struct SolverSettings {
   double flip_ratio = 0.95;          ///< the paper's alpha
   double flip_reference_dt = 5e-4;   ///< s; 0: alpha acts per step, as in the paper
   Advect advect = Advect::particle;  ///< move particles with v_p (paper) or the grid's velocity
+  ContactAt contact_at = ContactAt::particles;
   TimeStep time_step = TimeStep::adaptive;
   double dt = 2e-4;                  ///< s; used by fixed steps
   double max_dt = 1e-3;              ///< s; adaptive
@@ -52,6 +56,9 @@ struct SolverSettings {
   Vec3i period{0, 0, 0};
 
   bool takes_stages() const { return !bypass.empty() || resting_mass > 0; }
+  bool is_contact_at_particles() const {
+    return contact_at == ContactAt::particles && !is_implicit();
+  }
   bool is_implicit() const { return beta > 0 && !skips(Stage::implicit_solve); }
   bool skips(Stage stage) const {
     return std::find(bypass.begin(), bypass.end(), stage) != bypass.end();

@@ -29,6 +29,8 @@ double bar_period(int cells, bool is_held, Precision precision = Precision::real
     shape.push_back(is_held ? std::sin(k * p.x[q][0]) : -std::cos(k * p.x[q][0]));
     p.v[q][0] = 1e-3 * bar_c * shape[q];
   }
+  // The wall is a plane of nodes, and holds them.
+  s.contact_at = ContactAt::nodes;
   std::vector<shapes::Collider> wall;
   if (is_held) wall.push_back(plane({1e-6, 0, 0}, {1, 0, 0}, 0, shapes::Contact::sticky));
   Simulation simulation(s, {elastic(bar_modulus, 0, bar_density)}, wall, p, 1);

@@ -15,6 +15,7 @@ TEST(CompressedColumnLong, CompressedColumnFollowsTheStressStrainCurve) {
   SolverSettings s;
   s.cell_size = 0.02;
   s.transfer = Transfer::apic;
+  s.contact_at = ContactAt::nodes;  // floor and plate begin on planes of nodes
   s.precision = Precision::real64;
   s.gravity.setZero();
   s.period = {1, 0, 1};

@@ -20,6 +20,7 @@ TEST(SlippingBallLong, SlippingBallAcceleratesByGravityLessFriction) {
   const double t = 20 * std::numbers::pi / 180, mu = 0.05, R = 0.3;
   SolverSettings s;
   s.cell_size = R / 6;
+  s.contact_at = ContactAt::nodes;
   s.flip_ratio = 0.99;
   s.flip_reference_dt = 1e-3;
   s.gravity = 9.81 * Vec3d(std::sin(t), -std::cos(t), 0);

@@ -198,7 +198,7 @@ TEST_F(Cli, DivergenceExitsWithFiveAndAReport) {
 
 TEST_F(Cli, ARunMayGoBackAndTryHalfTheStep) {
   const std::vector<std::string> changes = {
-      "--set", "solver.time_step=fixed",     "--set", "solver.dt=1.6e-3",
+      "--set", "solver.time_step=fixed",     "--set", "solver.dt=2.4e-3",
       "--set", "material.snow.hardening=30", "--set", "body.ball.velocity=[0,-4,0]"};
   std::vector<std::string> arguments = {"render", "scene.toml"};
   arguments.insert(arguments.end(), changes.begin(), changes.end());

@@ -18,11 +18,11 @@ TEST_F(Cli, NeveWarnsOfWhatMakesResultsDoubtfulAndKeepsItInTheRecord) {
   EXPECT_TRUE(contains(warnings[0].get<std::string>(), "inside collider floor"));
   // c dt/h of more than 1.5, whatever comes of it.
   const auto fast = neve({"render", "scene.toml", "--frames", "1", "--out", "fast", "--set",
-                          "solver.time_step=fixed", "--set", "solver.dt=4e-3"});
+                          "solver.time_step=fixed", "--set", "solver.dt=2.5e-3"});
   const std::string kept = json_of("fast/run.json")["warnings"].dump();
   EXPECT_TRUE(contains(kept, "the acoustic CFL reached")) << kept << fast.errors;
   const auto again = neve({"render", "scene.toml", "--frames", "1", "--out", "fast", "--resume",
-                           "--set", "solver.time_step=fixed", "--set", "solver.dt=4e-3"});
+                           "--set", "solver.time_step=fixed", "--set", "solver.dt=2.5e-3"});
   EXPECT_EQ(again.exit_code, 0) << again.errors;  // it was complete
   EXPECT_EQ(json_of("fast/run.json")["warnings"].dump(), kept);
   ASSERT_EQ(neve({"render", "scene.toml", "--frames", "0", "--out", "good"}).exit_code, 0);

@@ -106,6 +106,7 @@ inline Setup setup(const Json& scene, neve::sim::Precision precision) {
                                              : Transfer::mls;
   s.settings.flip_ratio = scene["alpha"].get<double>();
   s.settings.flip_reference_dt = 0;
+  s.settings.contact_at = ContactAt::nodes;
   s.settings.advect = scene["advect"] == "pic" ? Advect::pic : Advect::particle;
   s.settings.time_step = TimeStep::fixed;
   s.settings.gravity = vec3(scene["gravity"]);

@@ -301,6 +301,7 @@ TEST(ContactKernel, ASurfaceDoesNotHoldTheNodesOnIt) {
     for (const double height : {0.0, 0.3}) {
       SolverSettings s;
       s.cell_size = h;
+      s.contact_at = ContactAt::nodes;
       s.precision = precision;
       const Vec3d low(0, height, 0), high(0.4, height + 0.4, 0.4);
       Simulation simulation(s, {Material{}}, {test::plane(low, {0, 1, 0}, 0.5)},

@@ -1,0 +1,89 @@
+#pragma once
+/// Contact found at particles and acting through the grid, and the sweeps that it is made of.
+///
+/// Nodes are a cell apart, so snow held at nodes rests up to a cell above what it lies on. Here
+/// every particle that comes too near to a surface gets an impulse j_p, along the normal and by
+/// friction, that is scattered to its nodes as the stress is: v_i += sum w_ip j_p / m_i. Each is
+/// such that the velocity v_p that the particle will move with closes its gap and no more. FLIP
+/// particles keep alpha (v_p - sum w_ip v_i) of before the step beside what the grid gives them.
+/// The impulses are found by a projected Jacobi iteration
+///   j_p <- project(j_p + (wanted - v_p) / D_p),  D_p = sum_i w_ip c_i / m_i,  c_i = sum_q w_iq
+/// with c over the particles in contact. D is the sum of a row of the system, not its diagonal: a
+/// step never goes too far, however many particles share a node, and one is enough where all of
+/// them want the same.
+///
+/// Plain data, as in kernels.h.
+
+#include "sim/kernels/kernels.h"
+
+namespace neve::sim::kernels {
+
+/// What is kept of a particle in contact with a collider; numbers, or lanes.
+template <class R, class I>
+struct ContactRecord {
+  R offset[3];  ///< of the particle in its cell
+  R least;      ///< m/s: it may not be slower than this along the normal, relative to the surface
+  R normal[3];
+  R impulse;     ///< kg m/s, along the normal
+  R surface[3];  ///< m/s, velocity of the surface
+  R friction;    ///< most of the impulse along the surface, as a share of the one along the normal
+  R sliding[3];  ///< kg m/s, impulse along the surface
+  R row;         ///< D_p, 1/kg
+  R own[3];      ///< m/s, what the particle keeps beside the velocity of the grid
+  R unused;
+  I cell[3];
+  I collider;  ///< its index; negative (-1 - index) if it holds on to the particle
+};
+template <class Real>
+using Contact = ContactRecord<Real, Integer<Real>>;
+inline constexpr int contact_quads = 6;
+static_assert(sizeof(Contact<float>) == 16 * contact_quads);
+
+/// A block of nodes while impulses are found.
+template <class Real>
+struct alignas(64) ContactNodes {
+  Quad<Real> velocity[block_nodes];  ///< v, and c / m in the fourth number
+};
+
+template <class Real>
+struct ContactArgs {
+  SweepArgs<Real> step;      ///< nodes have v_free and get v_star
+  const Real* half_spacing;  ///< per material: of particles of 1 kg, m
+  Real kept;       ///< share of its own velocity that a particle keeps: alpha of FLIP, otherwise 0
+  Real max_speed;  ///< m/s, of all particles before the step
+  std::uint32_t* candidates;    ///< per sorted position: those of a block come first in its range
+  std::uint32_t* near_counts;   ///< per particle block: candidates
+  std::uint32_t* counts;        ///< per particle block: contacts; until `start`, the most there are
+  const std::uint32_t* blocks;  ///< particle blocks with contacts
+  const std::uint64_t* first;   ///< per particle block: its first contact
+  const std::uint32_t* node_blocks;  ///< those that they reach
+  Contact<Real>* contacts;
+  ContactNodes<Real>* nodes;  ///< per node block
+  bool is_last;               ///< of the passes
+};
+
+template <class Real>
+using ContactSweep = void (*)(const ContactArgs<Real>&, std::uint32_t begin, std::uint32_t end);
+
+/// Over blocks of particles and of nodes in turn.
+template <class Real>
+struct ContactSweeps {
+  ContactSweep<Real> find;   ///< all particle blocks: candidates
+  ContactSweep<Real> start;  ///< contacts of candidates, c into the tiles
+  ContactSweep<Real> weigh;  ///< nodes: velocities and c / m
+  ContactSweep<Real> press;  ///< change of the impulses into the tiles
+  ContactSweep<Real> yield;  ///< nodes: velocities after it, after the last pass v_star
+};
+
+/// The sweeps of an instruction set.
+const ContactSweeps<float>& contact_sweeps_for(SimdLevel level, int nodes, float);
+const ContactSweeps<double>& contact_sweeps_for(SimdLevel level, int nodes, double);
+
+/// One file per instruction set defines its own.
+template <class Set>
+struct ContactKernelSet {
+  static const ContactSweeps<float>& sweeps(int nodes, float);
+  static const ContactSweeps<double>& sweeps(int nodes, double);
+};
+
+}  // namespace neve::sim::kernels

@@ -1,0 +1,434 @@
+#pragma once
+/// The sweeps of contact at particles; instantiated once per instruction set.
+
+#include "sim/kernels/particle_contact.h"
+#include "sim/kernels/sweeps.h"
+
+namespace neve::sim::kernels {
+
+/// Snow touches a surface where its particles are this share of half their spacing away: seeded
+/// particles are not all in the middle of their part of the body.
+inline constexpr double touching_share = 0.75;
+/// A particle counts as touching up to this distance beyond, cells.
+inline constexpr double touching_slack = 0.1;
+/// No particle touches at more than this, cells, however few there are in a cell.
+inline constexpr double most_touching = 0.5;
+/// Of how deep it is, what a particle inside is brought out by, per step and per second at most.
+inline constexpr double out_per_step = 0.2, out_per_second = 50;
+/// Of how much too near it is, what a particle outside is moved away by, per second. Enough against
+/// what the iteration leaves undone, step by step in the same direction; too little to be seen.
+inline constexpr double apart_per_second = 1;
+
+/// x^(1/3) of positive numbers.
+template <class V>
+NEVE_INLINE V cube_root_lanes(V x) {
+  return exponential_lanes(logarithm_lanes(x) * ElementOf<V>(1.0 / 3.0));
+}
+
+template <class Real, int K, class Set>
+struct ContactSweepsFor {
+  using Args = ContactArgs<Real>;
+  using Base = SweepsFor<Real, K, TransferKind::flip, Set>;
+  using Index = typename Base::Index;
+  using V = typename Base::V;
+  using I = typename Base::I;
+  using R = typename Base::R;
+  using Batch = typename Base::Batch;
+  static constexpr int W = Base::W;
+  using Lanes = ContactRecord<V, I>;
+
+  // ---- particles near surfaces ------------------------------------------------------------------
+
+  /// Colliders that particles of a block can come to touch in a step, and their indices.
+  struct Near {
+    NearColliders<Real> colliders;
+    Integer<Real> index[max_colliders];
+  };
+
+  /// Particles of a block lie within 4 cells of its middle. They touch within half a cell and a
+  /// slack, and may come nearer by twice what they and the collider move in a step.
+  NEVE_APART static void find_near(Near& near, const Args& a, std::uint64_t key) {
+    const StepConstants<Real>& c = a.step.constants;
+    int cell[3];
+    for (int axis = 0; axis < 3; ++axis) cell[axis] = block_coordinate(key, axis) * block_side;
+    const Vec3<Real> middle{Real(2.75) * c.h, Real(2.75) * c.h, Real(2.75) * c.h};
+    const Real still = static_cast<Real>(4 + most_touching + touching_slack) * c.h;
+    int& count = near.colliders.count;
+    for (int k = 0; k < c.collider_count; ++k) {
+      const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
+      const Vec3<Real> arm = candidate.to_block + middle;
+      const Real turning = square_root(dot(candidate.omega, candidate.omega) * dot(arm, arm));
+      const Real speed = square_root(dot(candidate.velocity, candidate.velocity)) + turning;
+      const Real closing = 2 * (speed + a.max_speed) * c.dt;
+      if (is_out_of_reach(candidate, middle, still + closing)) continue;
+      near.index[count] = k;
+      near.colliders.local[count++] = candidate;
+    }
+  }
+
+  /// Distance from a collider at which particles touch it, m.
+  NEVE_INLINE static V touching_distance(const Args& a, const Batch& p) {
+    V half{};
+    for (int l = 0; l < W; ++l) half[l] = a.half_spacing[p.kind[l] & 0xffff];
+    return smaller_lanes(half * cube_root_lanes(p.m) * static_cast<Real>(touching_share),
+                         all<V>(static_cast<Real>(most_touching) * a.step.constants.h));
+  }
+
+  /// The lanes of a batch that may come to touch a collider in this step.
+  NEVE_INLINE static unsigned coming(const Args& a, const Batch& p, const Vec3<V>& r,
+                                     const LocalCollider<Real>& collider) {
+    const StepConstants<Real>& c = a.step.constants;
+    Vec3<V> normal;
+    const V distance = surface_distance(collider, r, normal);
+    const Vec3<V> v{p.v[0], p.v[1], p.v[2]};
+    const V closing = larger_lanes(-dot(v - surface_velocity(collider, r), normal), V{});
+    const V room = distance - closing * (2 * c.dt) - static_cast<Real>(touching_slack) * c.h;
+    // Most are further away than any particle touches.
+    if (!any_lane(room <= all<V>(static_cast<Real>(most_touching) * c.h))) return 0;
+    return lane_bits(room <= touching_distance(a, p));
+  }
+
+  static void find(const Args& a, Index begin, Index end) {
+    const StepConstants<Real>& c = a.step.constants;
+    for (Index b = begin; b < end; ++b) {
+      const ParticleBlock& block = a.step.blocks[b];
+      Index found = 0, pairs = 0;
+      Near near;
+      find_near(near, a, block.key);
+      const int colliders = near.colliders.count;
+      if (colliders > 0)
+        Base::template each_group<gather_group>(a.step, block, [&](const auto& group) {
+          for (int q = 0; q < group.count; q += W) {
+            Batch p;
+            RecordReader<V, I> read(group.record + q, p);
+            read.place();
+            read.motion();
+            const unsigned used = group.used(q);
+            unsigned any = 0;
+            const Vec3<V> r = places_in_block(p, block.key, c.h);
+            for (int k = 0; k < colliders; ++k) {
+              const unsigned bits = coming(a, p, r, near.colliders.local[k]) & used;
+              pairs += static_cast<Index>(__builtin_popcount(bits));
+              any |= bits;
+            }
+            for (; any != 0; any &= any - 1)
+              a.candidates[block.begin + found++] =
+                  static_cast<Index>(group.storage - a.step.order) +
+                  static_cast<Index>(q + __builtin_ctz(any));
+          }
+        });
+      a.near_counts[b] = found;
+      a.counts[b] = pairs;
+    }
+  }
+
+  // ---- contacts ---------------------------------------------------------------------------------
+
+  /// The candidates [q, q + W) of a block; lanes without one repeat the last.
+  NEVE_INLINE static void load_candidates(const Args& a, const ParticleBlock& block, Index q,
+                                          Index count, Batch& p) {
+    const Particle<Real>* record[W];
+    for (int l = 0; l < W; ++l) {
+      const Index at = smaller<Index>(q + static_cast<Index>(l), count - 1);
+      record[l] = a.step.particles + a.step.order[a.candidates[block.begin + at]];
+    }
+    RecordReader<V, I> read(record, p);
+    read.place();
+    read.motion();
+  }
+
+  template <int G>
+  NEVE_INLINE static FourWords<V> gathered(const Stencils<Real, K, G>& s, const Quad<Real>* tile) {
+    Quad<Real> sums[W];
+    for (int l = 0; l < W; ++l) sums[l] = gather_value<Set>(s, l, tile);
+    return load_quads<V>(sums);
+  }
+
+  /// tile += w value of the first `count` lanes.
+  template <int G>
+  NEVE_INLINE static void scatter(const Stencils<Real, K, G>& s, const FourWords<V>& value,
+                                  int count, Quad<Real>* tile) {
+    Quad<Real> of[W];
+    store_quads(value, of);
+    R along[W];
+    for (int l = 0; l < count; ++l) along[l] = R::repeat(of[l]) * R::spread(s.z[l]);
+    each_cell(s, count, [&](int first, int last) {
+      scatter_value<Real, K, G, Set>(s, along, first, last, tile);
+    });
+  }
+
+  static void start(const Args& a, Index begin, Index end) {
+    const bool keeps = a.kept > Real(0);
+    Quad<Real> v_free[Tile<K>::nodes], change[Tile<K>::nodes];
+    Stencils<Real, K, W> s;
+    for (Index n = begin; n < end; ++n) {
+      const Index b = a.blocks[n];
+      const ParticleBlock& block = a.step.blocks[b];
+      load_tile<Real, K, Set>(
+          block, [&](Index m) { return nodes_of(a.step, m, channel_v_new); }, v_free);
+      if (keeps)
+        load_tile<Real, K, Set>(
+            block, [&](Index m) { return nodes_of(a.step, m, channel_change); }, change);
+      Quad<Real>* tile = tile_of<Real, K>(a.step, b, 0);
+      Base::clear(tile);
+      Near near;
+      find_near(near, a, block.key);
+      Contact<Real>* to = a.contacts + a.first[b];
+      const Index count = a.near_counts[b];
+      for (Index q = 0; q < count; q += W) {
+        Batch p;
+        load_candidates(a, block, q, count, p);
+        s.template set<false, false>(0, p.offset, p.cell);
+        const FourWords<V> on_grid = gathered(s, v_free);
+        Velocities v{{on_grid.w[0], on_grid.w[1], on_grid.w[2]}, {}};
+        if (keeps) {
+          const FourWords<V> changed = gathered(s, change);
+          for (int x = 0; x < 3; ++x) v.own[x] = (p.v[x] - (on_grid.w[x] - changed.w[x])) * a.kept;
+        }
+        V touches{};
+        const I is_used = first_lanes<I>(static_cast<int>(count - q));
+        for (int k = 0; k < near.colliders.count; ++k)
+          touches +=
+              add_contacts(a, p, block.key, v, is_used, near.colliders.local[k], near.index[k], to);
+        scatter(s, FourWords<V>{{V{}, V{}, V{}, touches}},
+                static_cast<int>(smaller<Index>(W, count - q)), tile);
+      }
+      a.counts[b] = static_cast<Index>(to - (a.contacts + a.first[b]));
+    }
+  }
+
+  struct Velocities {
+    Vec3<V> of_grid, own;  ///< their sum is what the particle moves with
+  };
+
+  /// Of a batch with a collider: those that would come nearer than they may.
+  /// @return 1 in their lanes
+  NEVE_INLINE static V add_contacts(const Args& a, const Batch& p, std::uint64_t key,
+                                    const Velocities& v, const I& is_used,
+                                    const LocalCollider<Real>& collider, Integer<Real> index,
+                                    Contact<Real>*& to) {
+    const StepConstants<Real>& c = a.step.constants;
+    const Vec3<V> r = places_in_block(p, key, c.h);
+    Vec3<V> normal;
+    const V distance = surface_distance(collider, r, normal);
+    const V gap = distance - touching_distance(a, p);
+    const Vec3<V> surface = surface_velocity(collider, r);
+    // A surface that does not let go stops what is inside where it is: there is no way out.
+    const bool lets_go = collider.contact == ContactLaw::separate;
+    const Real out =
+        lets_go ? smaller(static_cast<Real>(out_per_step) / c.dt, Real(out_per_second)) : Real(0);
+    const V apart = -gap * static_cast<Real>(apart_per_second);
+    const V inside = lets_go ? larger_lanes(-distance * out, apart) : V{};
+    const V least = gap > V{} ? -gap / c.dt : distance > V{} ? apart : inside;
+    const V v_n = dot(v.of_grid + v.own - surface, normal);
+    I is_contact = is_used & (v_n < least);
+    I number = all<I>(index);
+    if (!lets_go) {
+      const I is_held = gap <= all<V>(static_cast<Real>(touching_slack) * c.h);
+      is_contact = is_contact | (is_used & is_held);
+      number = is_held ? -1 - number : number;
+    }
+    const unsigned bits = lane_bits(is_contact);
+    if (bits == 0) return V{};
+    Lanes contact{};
+    for (int x = 0; x < 3; ++x) {
+      contact.offset[x] = p.offset[x];
+      contact.cell[x] = p.cell[x];
+      contact.normal[x] = normal[x];
+      contact.surface[x] = surface[x];
+      contact.own[x] = v.own[x];
+    }
+    contact.least = least;
+    contact.friction = all<V>(friction_of(collider));
+    contact.collider = number;
+    store(contact, bits, to);
+    return is_contact ? all<V>(1) : V{};
+  }
+
+  NEVE_INLINE static Real friction_of(const LocalCollider<Real>& collider) {
+    constexpr Real without_bound = sizeof(Real) == 4 ? Real(1e30) : Real(1e300);
+    switch (collider.contact) {
+      case ContactLaw::sticky:
+        return without_bound;
+      case ContactLaw::slip:
+        return 0;
+      default:
+        return collider.friction;
+    }
+  }
+
+  /// Appends the lanes of some bits.
+  NEVE_INLINE static void store(const Lanes& contact, unsigned bits, Contact<Real>*& to) {
+    Contact<Real> each[W];
+    Contact<Real>* records[W];
+    for (int l = 0; l < W; ++l) records[l] = each + l;
+    write(contact, records, W);
+    for (; bits != 0; bits &= bits - 1) *to++ = each[__builtin_ctz(bits)];
+  }
+
+  NEVE_INLINE static void write(const Lanes& c, Contact<Real>* const* records, int count) {
+    const auto put = [&](int quad, V x, V y, V z, V w) NEVE_INLINE_BODY {
+      store_words(FourWords<V>{{x, y, z, w}}, records, 4 * quad * static_cast<int>(sizeof(Real)),
+                  count);
+    };
+    put(0, c.offset[0], c.offset[1], c.offset[2], c.least);
+    put(1, c.normal[0], c.normal[1], c.normal[2], c.impulse);
+    put(2, c.surface[0], c.surface[1], c.surface[2], c.friction);
+    put(3, c.sliding[0], c.sliding[1], c.sliding[2], c.row);
+    put(4, c.own[0], c.own[1], c.own[2], V{});
+    put(5, reinterpret_cast<V>(c.cell[0]), reinterpret_cast<V>(c.cell[1]),
+        reinterpret_cast<V>(c.cell[2]), reinterpret_cast<V>(c.collider));
+  }
+
+  NEVE_INLINE static void read(Lanes& c, Contact<Real>* const* records) {
+    const auto get = [&](int quad) NEVE_INLINE_BODY {
+      return load_words<V>(records, 4 * quad * static_cast<int>(sizeof(Real)));
+    };
+    const FourWords<V> q[contact_quads] = {get(0), get(1), get(2), get(3), get(4), get(5)};
+    for (int x = 0; x < 3; ++x) {
+      c.offset[x] = q[0].w[x];
+      c.normal[x] = q[1].w[x];
+      c.surface[x] = q[2].w[x];
+      c.sliding[x] = q[3].w[x];
+      c.own[x] = q[4].w[x];
+      c.cell[x] = reinterpret_cast<I>(q[5].w[x]);
+    }
+    c.least = q[0].w[3];
+    c.impulse = q[1].w[3];
+    c.friction = q[2].w[3];
+    c.row = q[3].w[3];
+    c.collider = reinterpret_cast<I>(q[5].w[3]);
+  }
+
+  // ---- passes -----------------------------------------------------------------------------------
+
+  static void press(const Args& a, Index begin, Index end) {
+    Quad<Real> v[Tile<K>::nodes];
+    Stencils<Real, K, W> s;
+    for (Index n = begin; n < end; ++n) {
+      const Index b = a.blocks[n];
+      load_tile<Real, K, Set>(
+          a.step.blocks[b], [&](Index m) { return a.nodes[m].velocity; }, v);
+      Quad<Real>* tile = tile_of<Real, K>(a.step, b, 0);
+      Base::clear(tile);
+      Contact<Real>* first = a.contacts + a.first[b];
+      const Index count = a.counts[b];
+      double work = 0;
+      for (Index q = 0; q < count; q += W) {
+        Contact<Real>* records[W];
+        for (int l = 0; l < W; ++l)
+          records[l] = first + smaller<Index>(q + static_cast<Index>(l), count - 1);
+        const int used = static_cast<int>(smaller<Index>(W, count - q));
+        Lanes contact;
+        read(contact, records);
+        s.template set<false, false>(0, contact.offset, contact.cell);
+        const Vec3<V> change = respond_to(gathered(s, v), contact);
+        write(contact, records, used);
+        scatter(s, FourWords<V>{{change.x, change.y, change.z, V{}}}, used, tile);
+        if (a.is_last) work += work_of(contact, used);
+      }
+      if (a.is_last) a.step.node_contact_work[a.step.blocks[b].node_block[0]] += work;
+    }
+  }
+
+  /// A pass for a batch. @return how much its impulses changed
+  NEVE_INLINE static Vec3<V> respond_to(const FourWords<V>& v_and_row, Lanes& c) {
+    const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
+    Vec3<V> v_rel;
+    for (int x = 0; x < 3; ++x) v_rel[x] = v_and_row.w[x] + c.own[x] - c.surface[x];
+    c.row = v_and_row.w[3];
+    const V inverse = all<V>(1) / c.row;
+    const V v_n = dot(v_rel, n);
+    const I is_held = c.collider < I{};
+    const V push = larger_lanes(c.impulse + (c.least - v_n) * inverse, V{});
+    // Nearer it may come, away it may not.
+    const V most_v_n = larger_lanes(c.least, V{});
+    const V pull = smaller_lanes(c.impulse + (most_v_n - v_n) * inverse, V{});
+    const V impulse = (is_held & (push <= V{})) ? pull : push;
+    const Vec3<V> before{c.sliding[0], c.sliding[1], c.sliding[2]};
+    Vec3<V> sliding = before - (v_rel - n * v_n) * inverse;
+    const V size = square_root_lanes(dot(sliding, sliding));
+    const V most = c.friction * (is_held ? absolute_lanes(impulse) + Real(1) : impulse);
+    sliding = select(size > most, sliding * (most / size), sliding);
+    const Vec3<V> change = n * (impulse - c.impulse) + (sliding - before);
+    c.impulse = impulse;
+    for (int x = 0; x < 3; ++x) c.sliding[x] = sliding[x];
+    return change;
+  }
+
+  /// What colliders do to the first `count` lanes, J; only what is added.
+  NEVE_INLINE static double work_of(const Lanes& c, int count) {
+    V done = c.impulse * larger_lanes(c.least, V{});
+    for (int x = 0; x < 3; ++x) done += (c.normal[x] * c.impulse + c.sliding[x]) * c.surface[x];
+    double work = 0;
+    for (int l = 0; l < count; ++l)
+      if (done[l] > Real(0)) work += static_cast<double>(done[l]);
+    return work;
+  }
+
+  // ---- nodes ------------------------------------------------------------------------------------
+
+  /// The tiles of blocks in contact that reach a node block, in the order of NodeBlock::tile.
+  NEVE_INLINE static void collect_pressed(const Args& a, Index block, Quad<Real>* sum) {
+    for (int n = 0; n < block_nodes; n += 4) R::zero().store(sum + n);
+    for (int o = 0; o < 8; ++o) {
+      const std::int32_t source = a.step.node_blocks[block].tile[o];
+      if (source < 0 || a.counts[source] == 0) continue;
+      const int ox = o >> 2, oy = o >> 1 & 1, oz = o & 1;
+      const int nx = ox ? Tile<K>::overlap : block_side, ny = oy ? Tile<K>::overlap : block_side;
+      const Quad<Real>* tile = tile_of<Real, K>(a.step, static_cast<Index>(source), 0) +
+                               Tile<K>::node(4 * ox, 4 * oy, 4 * oz);
+      for (int i = 0; i < nx; ++i)
+        for (int j = 0; j < ny; ++j)
+          R::load(tile + Tile<K>::node(i, j, 0)).add_to(sum + (i * block_side + j) * block_side);
+    }
+  }
+
+  static void weigh(const Args& a, Index begin, Index end) {
+    Quad<Real> sum[block_nodes];
+    for (Index k = begin; k < end; ++k) {
+      const Index b = a.node_blocks[k];
+      collect_pressed(a, b, sum);
+      const Quad<Real>* v_free = nodes_of(a.step, b, channel_v_new);
+      Quad<Real>* v = a.nodes[b].velocity;
+      for (int n = 0; n < block_nodes; ++n) {
+        v[n] = v_free[n];
+        v[n][3] = v_free[n][3] > Real(0) ? sum[n][3] / v_free[n][3] : Real(0);
+      }
+    }
+  }
+
+  static void yield(const Args& a, Index begin, Index end) {
+    Quad<Real> sum[block_nodes];
+    for (Index k = begin; k < end; ++k) {
+      const Index b = a.node_blocks[k];
+      collect_pressed(a, b, sum);
+      Quad<Real>* v_new = nodes_of(a.step, b, channel_v_new);
+      Quad<Real>* v = a.nodes[b].velocity;
+      for (int n = 0; n < block_nodes; ++n) {
+        const Real mass = v_new[n][3];
+        if (mass > Real(0)) v[n] += sum[n] / mass;  // the fourth of sum is 0
+      }
+      if (!a.is_last) continue;
+      const bool has_change = a.step.channels > channel_change;
+      Quad<Real>* change = has_change ? nodes_of(a.step, b, channel_change) : nullptr;
+      for (int n = 0; n < block_nodes; ++n) {
+        const Real mass = v_new[n][3];
+        v_new[n][3] = v[n][3];
+        if (has_change) change[n] += v[n] - v_new[n];
+        v_new[n] = v[n];
+        v_new[n][3] = mass;
+      }
+    }
+  }
+
+  static constexpr ContactSweeps<Real> table{find, start, weigh, press, yield};
+};
+
+template <class Real, class Set>
+const ContactSweeps<Real>& choose_contact_sweeps(int nodes) {
+  if (nodes == cubic_nodes) return ContactSweepsFor<Real, cubic_nodes, Set>::table;
+  return ContactSweepsFor<Real, quadratic_nodes, Set>::table;
+}
+
+}  // namespace neve::sim::kernels
