@@ -3,37 +3,27 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "tests/mutation/mistakes.h"
 #include "tests/structure/folders.h"
+#include "tests/structure/sources.h"
 
 namespace neve::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct PageLine {
-  std::string page;  ///< from the root
-  int number;
-  std::string text;
-};
-
 /// Every line of the README and of the pages in docs.
-std::vector<PageLine> lines_of_pages() {
-  const fs::path root = NEVE_SOURCE_DIR;
-  std::vector<fs::path> pages{root / "README.md"};
-  for (const auto& entry : fs::directory_iterator(root / "docs"))
-    if (entry.path().extension() == ".md") pages.push_back(entry.path());
-  std::vector<PageLine> lines;
-  for (const fs::path& page : pages) {
-    std::ifstream in(page);
-    int number = 0;
-    for (std::string text; std::getline(in, text);)
-      lines.push_back({page.lexically_relative(root).generic_string(), ++number, text});
+std::vector<SourceLine> lines_of_pages() {
+  std::vector<SourceLine> lines = lines_of("README.md");
+  for (const auto& entry : fs::directory_iterator(source_root() / "docs")) {
+    if (entry.path().extension() != ".md") continue;
+    const std::vector<SourceLine> more = lines_of("docs/" + entry.path().filename().string());
+    lines.insert(lines.end(), more.begin(), more.end());
   }
   return lines;
 }
@@ -48,16 +38,16 @@ std::vector<std::string> found_in(const std::string& text, const char* pattern) 
 }
 
 TEST(Structure, DocumentsNameFilesThatExist) {
-  const std::vector<PageLine> lines = lines_of_pages();
+  const std::vector<SourceLine> lines = lines_of_pages();
   int paths = 0;
-  for (const PageLine& line : lines)
+  for (const SourceLine& line : lines)
     for (std::string path : found_in(line.text,
                                      "(?:^|[^A-Za-z0-9_/.-])((?:app|sim|render|tests|scenes|docs|"
                                      "shaders|cmake)/[A-Za-z0-9_./-]+)")) {
       while (path.ends_with('.')) path.pop_back();
       ++paths;
-      EXPECT_TRUE(fs::exists(fs::path(NEVE_SOURCE_DIR) / path))
-          << line.page << ":" << line.number << " names " << path
+      EXPECT_TRUE(fs::exists(source_root() / path))
+          << line.file << ":" << line.number << " names " << path
           << ", which does not exist; name its new place";
     }
   EXPECT_GT(paths, 60) << "the pages are not read as they are written";
@@ -65,20 +55,20 @@ TEST(Structure, DocumentsNameFilesThatExist) {
 
 TEST(Structure, DocumentsLinkToFilesThatExist) {
   int links = 0;
-  for (const PageLine& line : lines_of_pages())
+  for (const SourceLine& line : lines_of_pages())
     for (const std::string& link : found_in(line.text, R"(\]\(([^)#]+)[^)]*\))")) {
       if (link.find("://") != std::string::npos) continue;
       ++links;
-      EXPECT_TRUE(fs::exists(fs::path(NEVE_SOURCE_DIR) / fs::path(line.page).parent_path() / link))
-          << line.page << ":" << line.number << " links to " << link << ", which does not exist";
+      EXPECT_TRUE(fs::exists(source_root() / fs::path(line.file).parent_path() / link))
+          << line.file << ":" << line.number << " links to " << link << ", which does not exist";
     }
   EXPECT_GT(links, 40) << "the pages are not read as they are written";
 }
 
 TEST(Structure, TheMapForDevelopersHasEveryFolder) {
   std::set<std::string> rows;
-  for (const PageLine& line : lines_of_pages()) {
-    if (line.page != "docs/developers.md") continue;
+  for (const SourceLine& line : lines_of_pages()) {
+    if (line.file != "docs/developers.md") continue;
     for (const std::string& folder : found_in(line.text, "^\\| `([a-z_/]+)` \\| .+ \\|$"))
       EXPECT_TRUE(rows.insert(folder).second) << folder << " has two rows";
   }
@@ -89,6 +79,27 @@ TEST(Structure, TheMapForDevelopersHasEveryFolder) {
   for (const std::string& row : rows)
     ADD_FAILURE() << "docs/developers.md has a row for " << row
                   << ", which is no folder of tests/structure/folders.h";
+}
+
+TEST(Structure, TheReadmeCountsTheRowsOfTheTableOfMistakes) {
+  std::size_t rows = 0;
+  bool is_in_table = false;
+  for (const SourceLine& line : lines_of("docs/mistakes.md")) {
+    if (line.text.starts_with("| mistake |")) is_in_table = true;
+    if (line.text.empty()) is_in_table = false;
+    if (is_in_table) ++rows;
+  }
+  ASSERT_GT(rows, 2u) << "docs/mistakes.md is not read as it is written";
+  rows -= 2;  // the heading and the line below it
+  EXPECT_EQ(rows, all_mistakes().size()) << "docs/mistakes.md does not list every mistake";
+  int counts = 0;
+  for (const SourceLine& line : lines_of_pages())
+    for (const std::string& count : found_in(line.text, "([0-9]+) classic mistakes")) {
+      ++counts;
+      EXPECT_EQ(count, std::to_string(rows))
+          << line.file << ":" << line.number << ": docs/mistakes.md lists " << rows;
+    }
+  EXPECT_GT(counts, 0) << "no page says how many mistakes there are";
 }
 
 }  // namespace

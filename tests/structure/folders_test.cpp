@@ -6,53 +6,27 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "tests/structure/sources.h"
 
 namespace neve::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Line {
-  std::string file;  ///< from the root
-  int number;
-  std::string text;
-};
-
 /// Every line of the sources that starts with some word.
-std::vector<Line> lines_starting_with(const std::string& word) {
-  std::vector<Line> found;
-  const fs::path root = NEVE_SOURCE_DIR;
-  for (const char* top : {"app", "render", "sim"})
-    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
-      const std::string extension = entry.path().extension().string();
-      if (extension != ".h" && extension != ".cpp") continue;
-      std::ifstream file(entry.path());
-      int number = 0;
-      for (std::string line; std::getline(file, line);)
-        if (++number; line.starts_with(word))
-          found.push_back({entry.path().lexically_relative(root).generic_string(), number, line});
-    }
+std::vector<SourceLine> lines_starting_with(const std::string& word) {
+  std::vector<SourceLine> found;
+  for (const std::string& file : sources_below({"app", "render", "sim"}))
+    for (SourceLine& line : lines_of(file))
+      if (line.text.starts_with(word)) found.push_back(std::move(line));
   return found;
-}
-
-std::string line_of(const std::string& file, int number) {
-  std::ifstream in(fs::path(NEVE_SOURCE_DIR) / file);
-  std::string line;
-  for (int k = 0; k < number; ++k) std::getline(in, line);
-  return line;
-}
-
-/// The name between quotes or brackets; empty where there are none.
-std::string included_name(const std::string& line) {
-  const std::size_t begin = line.find_first_of("<\"");
-  if (begin == std::string::npos) return {};
-  return line.substr(begin + 1, line.find_first_of(">\"", begin + 1) - begin - 1);
 }
 
 std::string folder_of(const std::string& file) {
@@ -69,21 +43,18 @@ std::map<std::string, std::set<std::string>> allowed_includes() {
   return allowed;
 }
 
-bool is_ours(const std::string& name) {
-  return name.starts_with("app/") || name.starts_with("render/") || name.starts_with("sim/");
-}
-
 TEST(Structure, FoldersIncludeOnlyWhatTheFloorPlanAllows) {
   const auto allowed = allowed_includes();
-  const std::vector<Line> includes = lines_starting_with("#include");
+  const std::vector<SourceLine> includes = lines_starting_with("#include");
   ASSERT_GT(includes.size(), 1000u) << "the sources are not read as they are written";
-  for (const Line& line : includes) {
-    const std::string from = folder_of(line.file), name = included_name(line.text);
+  for (const SourceLine& line : includes) {
+    const std::string from = folder_of(line.file);
+    const Include include = include_of(line.text);
     const auto plan = allowed.find(from);
     ASSERT_TRUE(plan != allowed.end())
         << line.file << ": the folder " << from << " is missing in tests/structure/folders.h";
-    if (!is_ours(name)) continue;
-    const std::string to = folder_of(name);
+    if (!include.is_ours || include.name.starts_with("shaders/")) continue;
+    const std::string to = folder_of(include.name);
     EXPECT_TRUE(to == from || plan->second.contains(to))
         << line.file << ":" << line.number << ": " << line.text << "\n  " << from
         << " may not include " << to
@@ -105,13 +76,13 @@ TEST(Structure, TheFloorPlanHasNoCircles) {
 
 TEST(Structure, EveryFolderOfTheFloorPlanIsThere) {
   for (const Folder& folder : folders)
-    EXPECT_TRUE(fs::is_directory(fs::path(NEVE_SOURCE_DIR) / folder.path)) << folder.path;
+    EXPECT_TRUE(fs::is_directory(source_root() / folder.path)) << folder.path;
 }
 
 TEST(Structure, NoFolderHoldsTooManyUnits) {
   for (const Folder& folder : folders) {
     std::set<std::string> units;
-    for (const auto& entry : fs::directory_iterator(fs::path(NEVE_SOURCE_DIR) / folder.path))
+    for (const auto& entry : fs::directory_iterator(source_root() / folder.path))
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
         units.insert(entry.path().stem().string());
     EXPECT_LE(static_cast<int>(units.size()), most_units) << folder.path;
@@ -127,33 +98,35 @@ TEST(Structure, NamespacesAreCalledLikeTheirFolders) {
     wanted[std::string(folder.path)] =
         folder.name_space.empty() ? name : std::string(folder.name_space);
   }
-  const std::vector<Line> opened = lines_starting_with("namespace neve");
+  const std::vector<SourceLine> opened = lines_starting_with("namespace neve");
   ASSERT_GT(opened.size(), 400u) << "the sources are not read as they are written";
-  for (const Line& line : opened) {
+  for (const SourceLine& line : opened) {
     const std::string name = line.text.substr(10, line.text.find(' ', 10) - 10);
     const std::string& folder = wanted.at(folder_of(line.file));
     // A part of a folder may have a name inside; forward declarations name other folders.
     const bool is_inside = name == folder || name.starts_with(folder + "::");
-    const bool is_forward = line_of(line.file, line.number + 2) == "}";
+    const std::vector<SourceLine> lines = lines_of(line.file);
+    const auto next_but_one = static_cast<std::size_t>(line.number) + 1;
+    const bool is_forward = next_but_one < lines.size() && lines[next_but_one].text == "}";
     EXPECT_TRUE(is_inside || is_forward)
         << line.file << ":" << line.number << " opens " << name << " instead of " << folder;
   }
 }
 
 TEST(Structure, SimulationIncludesNoGraphicsLibrary) {
-  for (const Line& line : lines_starting_with("#include"))
+  for (const SourceLine& line : lines_starting_with("#include"))
     if (line.file.starts_with("sim/")) {
       for (const char* forbidden : {"GL/", "EGL/", "GLFW/", "imgui", "stb"})
-        EXPECT_FALSE(included_name(line.text).starts_with(forbidden))
+        EXPECT_FALSE(include_of(line.text).name.starts_with(forbidden))
             << line.file << ":" << line.number << ": " << line.text;
     }
 }
 
 TEST(Structure, ApplicationDrawsThroughTheRendererOnly) {
-  for (const Line& line : lines_starting_with("#include"))
+  for (const SourceLine& line : lines_starting_with("#include"))
     if (line.file.starts_with("app/")) {
       for (const char* forbidden : {"GL/", "EGL/", "GLFW/", "render/gl/gl"})
-        EXPECT_FALSE(included_name(line.text).starts_with(forbidden))
+        EXPECT_FALSE(include_of(line.text).name.starts_with(forbidden))
             << line.file << ":" << line.number << ": " << line.text;
     }
 }

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
@@ -13,9 +11,10 @@
 #include <string_view>
 #include <vector>
 
-namespace {
+#include "tests/structure/sources.h"
 
-namespace fs = std::filesystem;
+namespace neve::test {
+namespace {
 
 struct Header {
   std::string_view name, gives;
@@ -103,19 +102,16 @@ struct Source {
   std::set<std::string> standard, ours, used;
 };
 
-Source read_source(const fs::path& file) {
+Source read_source(const std::string& file) {
   Source source;
-  std::ifstream in(file);
   bool is_raw = false;
-  for (std::string line; std::getline(in, line);) {
+  for (const auto& [name, number, line] : lines_of(file)) {
     if (is_raw) {
       is_raw = line.find(")\"") == std::string::npos;
       continue;
     }
-    if (line.starts_with("#include")) {
-      const std::size_t begin = line.find_first_of("<\"") + 1;
-      (line[begin - 1] == '<' ? source.standard : source.ours)
-          .insert(line.substr(begin, line.find_first_of(">\"", begin) - begin));
+    if (const Include include = include_of(line); !include.name.empty()) {
+      (include.is_ours ? source.ours : source.standard).insert(include.name);
       continue;
     }
     const std::size_t raw = line.find("R\"(");
@@ -142,11 +138,8 @@ void add_standard(const std::string& file, const std::map<std::string, Source>& 
 
 TEST(Structure, FilesIncludeWhatTheyUseOfTheStandardLibrary) {
   std::map<std::string, Source> sources;
-  const fs::path root = NEVE_SOURCE_DIR;
-  for (const char* folder : {"app", "render", "sim", "tests"})
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
-      if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
-        sources[entry.path().lexically_relative(root).generic_string()] = read_source(entry.path());
+  for (const std::string& file : sources_below({"app", "render", "sim", "tests"}))
+    sources[file] = read_source(file);
   const std::map<std::string, std::string> headers = header_of_name();
   std::size_t uses = 0;
   for (const auto& [file, source] : sources) {
@@ -169,3 +162,4 @@ TEST(Structure, UsesOfTheStandardLibraryAreRead) {
 }
 
 }  // namespace
+}  // namespace neve::test

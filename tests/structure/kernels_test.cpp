@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
-namespace {
+#include "tests/structure/sources.h"
 
-namespace fs = std::filesystem;
+namespace neve::test {
+namespace {
 
 /// Headers of kernels include neither Eigen nor the standard library, so that no copy of a shared
 /// inline function compiled for one instruction set can serve another.
@@ -26,12 +25,11 @@ TEST(Structure, KernelsIncludeOnlyEachOther) {
     const std::string file = open.back();
     open.pop_back();
     if (!seen.insert(file).second) continue;
-    std::ifstream text(fs::path(NEVE_SOURCE_DIR) / file);
-    ASSERT_TRUE(text) << file;
-    for (std::string line; std::getline(text, line);) {
-      if (!line.starts_with("#include")) continue;
-      const std::size_t begin = line.find_first_of("<\"") + 1;
-      const std::string name = line.substr(begin, line.find_first_of(">\"", begin) - begin);
+    const std::vector<SourceLine> lines = lines_of(file);
+    ASSERT_FALSE(lines.empty()) << file;
+    for (const SourceLine& line : lines) {
+      const std::string name = include_of(line.text).name;
+      if (name.empty()) continue;
       if (name.starts_with("sim/"))
         open.push_back(name);
       else
@@ -69,3 +67,4 @@ TEST(Structure, KernelFilesShareNoFunction) {
 }
 
 }  // namespace
+}  // namespace neve::test

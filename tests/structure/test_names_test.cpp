@@ -3,23 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
-#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
 
+#include "tests/structure/sources.h"
+
 namespace neve::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// "Suite.Name" of every test in the sources.
 std::set<std::string> names_of_tests() {
   std::set<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(NEVE_SOURCE_DIR) / "tests")) {
-    if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
-    std::ifstream in(entry.path());
+  for (const std::string& file : sources_below({"tests"})) {
+    std::ifstream in(source_root() / file);
     for (std::string line; std::getline(in, line);) {
       if (!line.starts_with("TEST")) continue;
       // A long name is on the next line.
@@ -38,10 +36,9 @@ std::set<std::string> names_of_tests() {
 TEST(Structure, TestsThatCMakeNamesExist) {
   const std::set<std::string> names = names_of_tests();
   ASSERT_GT(names.size(), 900u) << "the sources are not read as they are written";
-  std::ifstream in(fs::path(NEVE_SOURCE_DIR) / "tests/CMakeLists.txt");
   int seen = 0;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line.substr(0, line.find('#')));
+  for (const SourceLine& line : lines_of("tests/CMakeLists.txt")) {
+    std::istringstream words(line.text.substr(0, line.text.find('#')));
     for (std::string word; words >> word;) {
       while (word.ends_with(')')) word.pop_back();
       const std::size_t dot = word.find('.');
