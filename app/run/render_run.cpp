@@ -30,10 +30,6 @@ bool has_alpha(const scene::Scene& scene, const std::string& name) {
 /// Two pools of threads on fewer cores would only take turns.
 constexpr int threads_for_overlap = 4;
 
-}  // namespace
-
-namespace {
-
 RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation,
                      const render::gl::Context& context) {
   RunRecord record;

@@ -18,17 +18,6 @@ namespace {
 /// Apart from the keys of places.
 constexpr std::uint64_t variation_key = 0x76617279;
 
-}  // namespace
-
-std::size_t material_index(const scene::Scene& scene, const std::string& name) {
-  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
-                                  [&](const sim::Material& m) { return m.name == name; });
-  if (found == scene.materials.end()) throw std::logic_error("no material is called " + name);
-  return static_cast<std::size_t>(found - scene.materials.begin());
-}
-
-namespace {
-
 /// Factors of the particles that were appended last. They are left out while all are 1.
 void vary_body(const scene::Scene& scene, std::size_t index, const sim::seeding::SeededBody& seeded,
                sim::ParticleArrays& particles) {
@@ -52,10 +41,6 @@ void vary_body(const scene::Scene& scene, std::size_t index, const sim::seeding:
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Particles of a body, within the lattice. @throws sim::ShapeError that names the body
 sim::seeding::SeededBody seed_checked(const scene::Scene& scene, std::size_t index) {
   const sim::seeding::Body& body = scene.bodies[index];
@@ -76,6 +61,13 @@ sim::seeding::SeededBody seed_checked(const scene::Scene& scene, std::size_t ind
 }
 
 }  // namespace
+
+std::size_t material_index(const scene::Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                  [&](const sim::Material& m) { return m.name == name; });
+  if (found == scene.materials.end()) throw std::logic_error("no material is called " + name);
+  return static_cast<std::size_t>(found - scene.materials.begin());
+}
 
 void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArrays& particles) {
   const sim::seeding::Body& body = scene.bodies[index];
