@@ -15,6 +15,14 @@ namespace {
 
 constexpr std::size_t no_step = std::numeric_limits<std::size_t>::max();
 
+/// Number of changes, from the first, that are made once so many steps are taken.
+std::size_t count_until(const std::vector<scene::LiveChange>& changes, std::size_t steps) {
+  const auto later =
+      std::find_if(changes.begin(), changes.end(),
+                   [&](const scene::LiveChange& change) { return change.step > steps; });
+  return static_cast<std::size_t>(later - changes.begin());
+}
+
 /// Overrides from changes: of two changes to one address, only the later one has an effect.
 std::vector<scene::Override> overrides_of(const std::vector<scene::LiveChange>& changes,
                                           std::size_t count) {
@@ -54,10 +62,7 @@ bool is_drawn_nowhere(const scene::Scene& scene, const std::string& address) {
 
 scene::Scene with_changes(const SceneSource& source, const std::vector<scene::LiveChange>& changes,
                           std::size_t up_to_step) {
-  const auto later =
-      std::find_if(changes.begin(), changes.end(),
-                   [&](const scene::LiveChange& change) { return change.step > up_to_step; });
-  return read_with(source, changes, static_cast<std::size_t>(later - changes.begin()));
+  return read_with(source, changes, count_until(changes, up_to_step));
 }
 
 scene::Scene recorded_scene(const scene::Scene& start, const scene::Scene& now) {
@@ -130,9 +135,7 @@ void ChangePlayer::make_due() {
 }
 
 void ChangePlayer::go_to(std::size_t steps) {
-  std::size_t end = 0;
-  while (end < changes_.size() && changes_[end].step <= steps) ++end;
-  if (end > 0) make(end);
+  if (const std::size_t end = count_until(changes_, steps); end > 0) make(end);
 }
 
 void ChangePlayer::make_now(std::shared_ptr<const scene::Scene> scene) {
@@ -148,8 +151,7 @@ void ChangePlayer::make_now(std::shared_ptr<const scene::Scene> scene) {
 }
 
 void ChangePlayer::go_to(std::size_t steps, std::shared_ptr<const scene::Scene> scene) {
-  made_ = 0;
-  while (made_ < changes_.size() && changes_[made_].step <= steps) ++made_;
+  made_ = count_until(changes_, steps);
   scene_ = std::move(scene);
 }
 
