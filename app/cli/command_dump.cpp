@@ -7,6 +7,7 @@
 #include "app/cli/report_error.h"
 #include "app/dump/quantities.h"
 #include "app/dump/write.h"
+#include "app/health/expected.h"
 #include "app/output/atomic_file.h"
 #include "app/run/render_job.h"
 #include "app/run/run_json.h"
@@ -63,7 +64,8 @@ std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOpti
               ": " + std::to_string(listing.place.size()) +
               (listing.is_of_nodes
                    ? " nodes with mass, of which " + std::to_string(listing.negligible_count()) +
-                         " are left out of the summary, lighter than 1e-4 rho h^3"
+                         " are left out of the summary, lighter than " +
+                         rough_text(health::Expected::negligible_share()) + " rho h^3"
                    : std::string(" particles")),
           "state " + run::hash_text(inside.simulation.state_hash())};
 }

@@ -47,7 +47,7 @@ StepInspection inspect_step(const scene::Scene& scene, const sim::Simulation& si
 struct Listing {
   bool is_of_nodes = false;
   std::vector<sim::Vec3d> place;  ///< m
-  /// Nodes so light (below 1e-4 rho h^3) that their velocities mean nothing; empty: none.
+  /// Nodes below Expected::negligible_mass(), whose velocities are meaningless; empty: none.
   std::vector<bool> is_negligible;
   std::size_t negligible_count() const;
   std::vector<Quantity> quantities;

@@ -50,8 +50,12 @@ Expected::Expected(const scene::Scene& scene, const sim::ParticleArrays& state, 
   }
 }
 
+double Expected::negligible_share() {
+  return sim::health::limits_of(Law::light_node).expected;
+}
+
 double Expected::negligible_mass() const {
-  return sim::health::limits_of(Law::light_node).expected * lightest_density_ * h_ * h_ * h_;
+  return negligible_share() * lightest_density_ * h_ * h_ * h_;
 }
 
 Expectation Expected::node_mass() const {

@@ -17,7 +17,8 @@ class Expected {
  public:
   Expected(const scene::Scene& scene, const sim::ParticleArrays& state, double dt);
 
-  double negligible_mass() const;       ///< kg, of nodes that are not to be believed
+  static double negligible_share();     ///< of rho h^3; lighter nodes have meaningless velocities
+  double negligible_mass() const;       ///< kg, the same for the lightest material in use
   Expectation node_mass() const;        ///< kg
   Expectation speed() const;            ///< m/s
   Expectation momentum() const;         ///< kg m/s, of a node

@@ -22,8 +22,8 @@ struct FieldNeeds {
 };
 FieldNeeds field_needs(std::span<const scene::View> views);
 
-/// Values are at 64 b + 16 i + 4 j + k, see render::NodeLattice. Nodes lighter than 1e-4 rho h^3,
-/// which carry absurd values, count as empty: zero everywhere.
+/// Values are at 64 b + 16 i + 4 j + k, see render::NodeLattice. Light nodes (sim::health::
+/// Law::light_node) carry absurd values and are treated as empty: zero everywhere.
 struct FieldSamples {
   std::shared_ptr<const render::NodeLattice> lattice;
   std::vector<float> density;  ///< kg/m3, the node's mass over h^3
