@@ -343,6 +343,8 @@ int run_command_line(int argc, char** argv) {
   app.add_subcommand("help", "Print this help, or the help of a subcommand");
   app.set_version_flag("--version", std::string("neve ") + version);
   app.footer(footer);
+  // After one subcommand, the name of another is an argument: neve params view.
+  app.require_subcommand(0, 1);
   const auto is_any = [](CLI::App*) { return true; };
   for (CLI::App* command : app.get_subcommands(is_any)) {
     command->allow_extras();

@@ -64,6 +64,19 @@ TEST_F(Cli, ParamsAreFoundByAPartOfTheirAddress) {
   EXPECT_TRUE(contains(none.errors, "did you mean hardening?")) << none.errors;
 }
 
+TEST_F(Cli, NamesOfSubcommandsAreArgumentsOfOthers) {
+  const auto params = neve({"params", "view"});
+  EXPECT_EQ(params.exit_code, 0) << params.errors;
+  EXPECT_TRUE(contains(params.output, "view.NAME.size")) << params.output;
+  EXPECT_FALSE(contains(params.output, "solver.")) << params.output;
+  const auto render = neve({"render", "scene", "view"});
+  EXPECT_EQ(render.exit_code, 2);
+  EXPECT_TRUE(contains(render.errors, "unexpected argument \"view\"")) << render.errors;
+  const auto sweep = neve({"sweep", "run", "list.toml", "--index", "0", "params"});
+  EXPECT_EQ(sweep.exit_code, 2);
+  EXPECT_TRUE(contains(sweep.errors, "unexpected argument \"params\"")) << sweep.errors;
+}
+
 TEST_F(Cli, AScenesFileIsFoundByItsName) {
   EXPECT_EQ(neve({"render", "scene", "--dry-run"}).exit_code, 0);
   const auto wrong = neve({"render", "scnee.toml"});
