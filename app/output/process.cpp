@@ -2,7 +2,8 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,8 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
-
-extern "C" char** environ;
+#include <system_error>
 
 namespace neve::app::output {
 
@@ -69,17 +69,74 @@ int wait_for(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// Start attributes: own process group, and the signals that we ignore back to their defaults.
-void set_attributes(posix_spawnattr_t& attributes) {
-  sigset_t defaults;
-  sigemptyset(&defaults);
-  for (const int signal : {SIGPIPE, SIGXFSZ, SIGINT, SIGTERM}) sigaddset(&defaults, signal);
-  posix_spawnattr_setsigdefault(&attributes, &defaults);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+/// The command in the form that exec takes.
+class Arguments {
+ public:
+  explicit Arguments(const Command& command) : words_{command.program.string()} {
+    words_.insert(words_.end(), command.arguments.begin(), command.arguments.end());
+    for (std::string& word : words_) pointers_.push_back(word.data());
+    pointers_.push_back(nullptr);
+  }
+  char* const* argv() const { return pointers_.data(); }
+
+ private:
+  std::vector<std::string> words_;
+  std::vector<char*> pointers_;
+};
+
+/// Copies first: a given file may be a standard stream itself, which another one replaces.
+void set_streams(const StartOptions& options) {
+  const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  int files[] = {options.input, options.output, options.errors};
+  for (int& file : files) file = ::fcntl(file < 0 ? nothing : file, F_DUPFD_CLOEXEC, 3);
+  for (int stream = 0; stream < 3; ++stream) ::dup2(files[stream], stream);
+}
+
+/// Between fork and exec: only what is safe there. @return errno of the call that failed
+int become(const char* folder, char* const* argv, const StartOptions& options, pid_t parent) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // A parent that ended before the line above sends no signal any more.
+  if (::getppid() != parent) ::_exit(127);
+  for (const int signal : {SIGPIPE, SIGXFSZ, SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+  for (const ResourceLimit& limit : options.limits) {
+    const rlimit both{limit.value, limit.value};
+    ::setrlimit(static_cast<decltype(RLIMIT_DATA)>(limit.resource), &both);
+  }
+  set_streams(options);
+  if (::chdir(folder) == 0) ::execv(argv[0], argv);
+  return errno;
+}
+
+/// Waits until a new process runs its program. @return 0, or errno of what failed in it
+int start_error(Pipe& report) {
+  report.close_write_end();
+  int reason = 0;
+  ssize_t count = 0;
+  do count = ::read(report.read_end, &reason, sizeof reason);
+  while (count < 0 && errno == EINTR);
+  return count > 0 ? reason : 0;
 }
 
 }  // namespace
+
+pid_t start_process(const Command& command, const StartOptions& options) {
+  const Arguments arguments(command);
+  const std::string folder = command.folder.string();
+  Pipe report;
+  if (report.read_end < 0) throw std::system_error(errno, std::generic_category());
+  const pid_t parent = ::getpid(), child = ::fork();
+  if (child == 0) {
+    const int reason = become(folder.c_str(), arguments.argv(), options, parent);
+    ::_exit(::write(report.write_end, &reason, sizeof reason) < 0 ? 126 : 127);
+  }
+  if (child < 0) throw std::system_error(errno, std::generic_category());
+  if (const int reason = start_error(report); reason != 0) {
+    wait_for(child);
+    throw std::system_error(reason, std::generic_category());
+  }
+  return child;
+}
 
 ProcessResult run_process(const std::filesystem::path& program,
                           const std::vector<std::string>& arguments,
@@ -90,33 +147,15 @@ ProcessResult run_process(const std::filesystem::path& program,
     result.errors = std::strerror(errno);
     return result;
   }
-  std::vector<std::string> words{program.string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, out.write_end, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, err.write_end, STDERR_FILENO);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  set_attributes(attributes);
-
   pid_t child = -1;
-  const int reason =
-      posix_spawn(&child, program.c_str(), &actions, &attributes, argv.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  out.close_write_end();
-  err.close_write_end();
-  if (reason != 0) {
-    result.errors = std::strerror(reason);
+  try {
+    child = start_process({program, arguments, folder}, {-1, out.write_end, err.write_end, {}});
+  } catch (const std::system_error& error) {
+    result.errors = error.code().message();
     return result;
   }
+  out.close_write_end();
+  err.close_write_end();
   result.has_started = true;
   drain(out.read_end, err.read_end, result);
   result.exit_code = wait_for(child);

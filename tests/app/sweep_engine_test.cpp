@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
-#include <fstream>
 #include <thread>
 
 #include "app/support/progress.h"
@@ -15,6 +13,7 @@
 #include "app/sweep/jobs/outcome.h"
 #include "app/sweep/plan/order.h"
 #include "app/sweep/store/store.h"
+#include "tests/support/child.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -24,7 +23,7 @@ class ChildTest : public testing::Test {
  protected:
   app::sweep::jobs::ChildResult run(const std::string& script,
                                     const app::sweep::jobs::ChildLimits& limits) {
-    app::sweep::jobs::Child child({"/bin/bash", {"-c", script}, folder_.path(), folder_ / "log"},
+    app::sweep::jobs::Child child({"/bin/bash", {"-c", script}, folder_.path()}, folder_ / "log",
                                   limits);
     while (true) {
       if (const auto result = child.poll()) return *result;
@@ -67,26 +66,13 @@ TEST_F(ChildTest, ChildDiesWithItsParent) {
   const pid_t parent = ::fork();
   if (parent == 0) {
     app::sweep::jobs::Child child(
-        {"/bin/bash", {"-c", "echo $$ > pid; exec sleep 600"}, folder_.path(), folder_ / "log"},
+        {"/bin/bash", {"-c", "echo $$ > pid; exec sleep 600"}, folder_.path()}, folder_ / "log",
         {});
-    while (!std::filesystem::exists(folder_ / "pid") || test::read_text(folder_ / "pid").empty())
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    test::wait_for_text(folder_ / "pid");
     ::raise(SIGKILL);
   }
-  int status = 0;
-  ::waitpid(parent, &status, 0);
-  const int child = std::stoi(test::read_text(folder_ / "pid"));
-  bool is_alive = true;
-  for (int k = 0; k < 1000 && is_alive; ++k) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    // One that waits for a reaper counts as dead.
-    const std::string stat = "/proc/" + std::to_string(child) + "/stat";
-    std::ifstream in(stat);
-    std::string id, name, state;
-    in >> id >> name >> state;
-    is_alive = in && state != "Z";
-  }
-  EXPECT_FALSE(is_alive);
+  EXPECT_EQ(test::wait_for(parent), 128 + SIGKILL);
+  EXPECT_TRUE(test::is_gone_soon(std::stoi(test::read_text(folder_ / "pid"))));
 }
 
 TEST(SweepStore, SweepStoreRemembersReportsAndSurvivesBrokenOnes) {

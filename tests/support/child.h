@@ -7,9 +7,12 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "tests/support/temporary_folder.h"
 
 extern "C" char** environ;
 
@@ -37,6 +40,27 @@ inline bool wait_for_file(const std::filesystem::path& file) {
   for (int k = 0; k < 3000; ++k) {
     if (std::filesystem::exists(file)) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+/// Until the file has something in it, half a minute at most.
+inline bool wait_for_text(const std::filesystem::path& file) {
+  for (int k = 0; k < 3000; ++k) {
+    if (!read_text(file).empty()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+/// True once a process has ended, which has five seconds; one that waits for a reaper has ended.
+inline bool is_gone_soon(pid_t process) {
+  for (int k = 0; k < 1000; ++k) {
+    std::ifstream in("/proc/" + std::to_string(process) + "/stat");
+    std::string id, name, state;
+    in >> id >> name >> state;
+    if (!in || state == "Z") return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return false;
 }

@@ -1,7 +1,6 @@
 #include "app/sweep/jobs/child.h"
 
 #include <fcntl.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +9,9 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "app/support/errors.h"
 
@@ -33,55 +35,30 @@ double seconds_of(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
-/// Between fork and exec: only what is safe there.
-[[noreturn]] void become(const char* program, char* const* argv, const char* folder, int log,
-                         pid_t parent, std::uint64_t memory) {
-  ::setpgid(0, 0);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(127);
-  for (const int signal : {SIGPIPE, SIGXFSZ, SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
-  if (memory > 0) {
-    // A process that allocates faster than poll() checks meets this limit.
-    const rlim_t data = memory + unused_data;
-    const rlimit limit{data, data};
-    ::setrlimit(RLIMIT_DATA, &limit);
-  }
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
-  const int nothing = ::open("/dev/null", O_RDONLY);
-  ::dup2(nothing, STDIN_FILENO);
-  ::dup2(log, STDOUT_FILENO);
-  ::dup2(log, STDERR_FILENO);
-  if (::chdir(folder) != 0) ::_exit(127);
-  ::execv(program, argv);
-  ::_exit(127);
+/// A process that allocates faster than poll() checks meets the limit on data.
+std::vector<output::ResourceLimit> resource_limits(const ChildLimits& limits) {
+  std::vector<output::ResourceLimit> list{{RLIMIT_CORE, 0}};
+  if (limits.memory > 0) list.push_back({RLIMIT_DATA, limits.memory + unused_data});
+  return list;
 }
 
 }  // namespace
 
-Child::Child(const ChildCommand& command, const ChildLimits& limits)
+Child::Child(const output::Command& command, const std::filesystem::path& log,
+             const ChildLimits& limits)
     : limits_(limits), start_(Clock::now()), checked_at_(start_) {
-  std::vector<std::string> words{command.program.string()};
-  words.insert(words.end(), command.arguments.begin(), command.arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const std::string folder = command.folder.string(), program = command.program.string();
-  const int log =
-      ::open(command.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
-  if (log < 0)
-    throw IoError("cannot write " + command.log.string() + ": " + std::strerror(errno),
-                  command.log.string());
-  const pid_t parent = ::getpid();
-  pid_ = ::fork();
-  if (pid_ == 0) become(program.c_str(), argv.data(), folder.c_str(), log, parent, limits.memory);
-  const int reason = errno;
-  ::close(log);
-  if (pid_ < 0)
-    throw IoError(std::string("cannot start a process: ") + std::strerror(reason), program,
+  const int file =
+      ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (file < 0)
+    throw IoError("cannot write " + log.string() + ": " + std::strerror(errno), log.string());
+  try {
+    pid_ = output::start_process(command, {-1, file, file, resource_limits(limits)});
+  } catch (const std::system_error& error) {
+    ::close(file);
+    throw IoError("cannot start a process: " + error.code().message(), command.program.string(),
                   "try fewer --jobs");
-  // Both sides set it, so the order does not matter.
-  ::setpgid(pid_, pid_);
+  }
+  ::close(file);
 }
 
 Child::Child(Child&& other) noexcept

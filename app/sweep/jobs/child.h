@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <vector>
+
+#include "app/output/process.h"
 
 namespace neve::app::sweep::jobs {
 
@@ -34,21 +34,15 @@ struct ChildResult {
   std::uint64_t peak_memory = 0;  ///< bytes, resident
 };
 
-struct ChildCommand {
-  std::filesystem::path program;
-  std::vector<std::string> arguments;
-  std::filesystem::path folder;  ///< that it runs in
-  std::filesystem::path log;     ///< takes what it prints; appended to
-};
-
 class Child {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// The child has its own process group, no input, and is killed by the system when this process
-  /// ends for whatever reason.
+  /// Starts it as output::start_process does, without input.
+  /// @param log  what the child prints is appended to this file
   /// @throws IoError when the log cannot be opened or the process cannot be made
-  Child(const ChildCommand& command, const ChildLimits& limits);
+  Child(const output::Command& command, const std::filesystem::path& log,
+        const ChildLimits& limits);
   /// Kills what still runs.
   ~Child();
   Child(Child&& other) noexcept;

@@ -163,7 +163,7 @@ class LocalJobs {
                          status.state == store::RunState::interrupted ||
                          status.state == store::RunState::timeout;
     if (!resumes) clean(folder);
-    Child child({options_.program, arguments_of(run, threads, resumes), folder, folder / "log"},
+    Child child({options_.program, arguments_of(run, threads, resumes), folder}, folder / "log",
                 {manifest_.timeout, static_cast<std::uint64_t>(manifest_.memory), options_.grace});
     status.state = store::RunState::running;
     ++status.attempts;
