@@ -1,4 +1,4 @@
-// In: as arrow.vert has it. Writes the G-buffer: a colour that stands for a value is shown as it is,
+// In: as arrow.vert has it. Writes the G-buffer: a colour that shows a value is not shaded,
 // a little darker where the surface turns away, so that arrows look round. Depth by the raster.
 
 #include "constants.glsl"

@@ -28,13 +28,13 @@ const float ambient_gain = 0.92f;
 const float ambient_share = 0.75f;
 const float inside_gain = 0.6f;  // light that was scattered inside
 const float inside_least = 0.15f;
-const float value_contrast = 0.6f;  // of colours that stand for values: lifts the shadows
+const float value_contrast = 0.6f;  // of colours that show values: lifts the shadows
 const float rim_light = 0.35f;      // of solids, of the sky's colour
 
 // Snow: the body decides the shape, the sphere gives the grain.
 const float body_share = 0.72f;
 
-// Where the light of a surface is read, in cells of its volume off the surface.
+// Distance from a surface at which its light is read, in cells of its volume.
 const float ground_offset = 0.5f;
 const float solid_offset = 2.5f;
 const float snow_offset = 1.2f;

@@ -1,6 +1,6 @@
 // Values on a rectangle through a colour map, with lines where they pass multiples of a step. In: the
-// values times whether there is one, and whether there is one. Writes the G-buffer: colours that stand
-// for values are shown as they are. Depth by the raster.
+// values times whether there is one, and whether there is one. Writes the G-buffer: colours that show
+// values are not shaded. Depth by the raster.
 
 #include "constants.glsl"
 #include "gbuffer.glsl"

@@ -46,8 +46,8 @@ float sky_light(vec3 p) {
   return mix(1.0, texture(light_volume, texture_position(p)).g, weight);
 }
 
-// Light that leaves a matte surface. Contrast below 1 lifts the shadows, so that colours that stand
-// for values stay readable.
+// Light that leaves a matte surface. Contrast below 1 lifts the shadows, so that colours that show
+// values stay readable.
 vec3 lit(vec3 albedo, vec3 n, float key, float open_sky, float contrast) {
   float facing = max(0.0, (dot(n, toward_light) + facing_wrap) / (1.0 + facing_wrap));
   facing = mix(1.0, facing, contrast) * (facing_least + facing_gain * facing);
@@ -103,7 +103,7 @@ uniform float smoke_spacing;
 uniform bool is_smoke_colored;
 
 // Smoke before a surface: of the four rays around the sample, those that ended at its depth or in
-// smoke before it, so that nothing leaks over the edge of what stands in it.
+// smoke before it, so that nothing leaks over the edges of objects in it.
 vec4 smoke_before(float depth) {
   float z = clamp(near_distance / max(1.0 - depth, 1e-9), smoke_range.x, smoke_range.y);
   vec2 at = gl_FragCoord.xy / samples_per_ray - 0.5;
@@ -159,8 +159,8 @@ void main() {
     color = mix(color, surface(p, normal_kind, albedo.rgb * albedo.rgb), albedo.a);
     cover = mix(cover, 1.0, albedo.a);
   }
-  // Darker corners; but a colour that stands for a value is the one of the legend, and what a
-  // transparent picture is laid over would not have them.
+  // Darker corners; but a colour that shows a value is the one of the legend, and the background
+  // behind a transparent picture would not have them.
   float corner = dot(across - 0.5, across - 0.5);
   float vignette = is_transparent == 1 ? 1.0 : 1.0 - vignette_strength * corner;
   if (normal_kind.w != kind_flat) color *= vignette;

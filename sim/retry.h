@@ -12,7 +12,7 @@ namespace neve::sim {
 struct Retry {
   std::size_t step = 0;  ///< that broke the rule
   double time = 0;       ///< s, of that step
-  double back_to = 0;    ///< s, where the run went on from
+  double back_to = 0;    ///< s, the run continued from there
   double dt_scale = 1;   ///< factor of every dt from there on
   std::string rule, sentence;
 };

@@ -10,8 +10,8 @@ namespace neve::app::bench {
 class Stopwatch {
  public:
   double wall() const;
-  /// CPU time of all threads of this process. What one thread needs does not depend on how often
-  /// others took its core away.
+  /// CPU time of all threads of this process. It does not include the time that other programs
+  /// had their cores.
   double cpu() const;
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 /// The same method as a reader of the papers would write it down first: one loop after the other
 /// over Eigen matrices in double precision, a dense grid, one JacobiSVD wherever the paper asks for
-/// a decomposition, one thread, no word to the compiler but -O3. What `neve bench` compares with.
+/// a decomposition, one thread, no word to the compiler but -O3. The yardstick of `neve bench`.
 ///
 /// It does not waste time on purpose: weights are evaluated once per particle and axis, the grid is
 /// no larger than the snow, particles are stored in the order of the grid. It takes two SVDs per

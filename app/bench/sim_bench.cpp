@@ -24,7 +24,7 @@ struct Variant {
   sim::Precision precision;
 };
 
-/// Those that tables are about, and those that have a naive counterpart.
+/// The methods in the tables, and those with a naive counterpart.
 constexpr BenchMethod main_methods[] = {BenchMethod::mls_quadratic, BenchMethod::flip_cubic};
 constexpr Variant variants[] = {{BenchMethod::mls_quadratic, sim::Precision::single},
                                 {BenchMethod::flip_cubic, sim::Precision::single},

@@ -37,7 +37,7 @@ target = [0, 0.25, 0]
 
 constexpr int picture_width = 960, picture_height = 540;
 
-/// Somebody who drags the camera without pause, at a page that takes every picture at once.
+/// Input of a user who drags the camera without pause; every picture is shown at once.
 class BenchFront : public view::front::Front {
  public:
   explicit BenchFront(int pictures) : pictures_(pictures) {}

@@ -90,7 +90,7 @@ void add_view(CLI::App& app, Action& action) {
       ->add_option("--replay", options->replay,
                    "Replay a script of input, without a window; docs/view.md describes scripts")
       ->type_name("FILE");
-  command->add_option("--record", options->record, "Record the input as such a script")
+  command->add_option("--record", options->record, "Record the input as a script for --replay")
       ->type_name("FILE");
   command->add_option("--frames", options->pictures, "End after N pictures; 0: never")
       ->type_name("N");

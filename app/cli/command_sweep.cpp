@@ -38,7 +38,7 @@ int core_count(int threads) {
   return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// Those of --only and --shard, otherwise all.
+/// The runs of --only and --shard, otherwise all.
 std::vector<int> chosen_runs(const sweep::plan::SweepOptions& options,
                              const sweep::store::Manifest& manifest) {
   std::vector<int> indices;

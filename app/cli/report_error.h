@@ -7,7 +7,7 @@ namespace neve::app::cli {
 /// object on stdout. @return the exit code
 int report_current_error(bool is_json);
 
-/// Writes out what std::cout holds. Whoever reads it may have seen enough: `neve dump ... | head`.
+/// Flushes std::cout. A reader that stops early is no error: `neve dump ... | head`.
 /// @throws IoError when it cannot be written for another reason
 void finish_output();
 

@@ -31,8 +31,8 @@ struct FieldSamples {
   std::map<scene::VectorField, std::vector<Vec3f>> vectors;
 };
 
-/// Rasterises the particles as they are. What belongs to a step (force, v_free, v_star, v_new) is
-/// that of the step which follows, done on a copy.
+/// Rasterises the particles as they are. Fields that belong to a step (force, v_free, v_star,
+/// v_new) are those of the step which follows, done on a copy.
 /// @param particles of the same moment, with stress where a field wants it
 FieldSamples sample_fields(const scene::Scene& scene, const sim::Simulation& simulation,
                            const Snapshot& particles, const FieldNeeds& needs);

@@ -28,7 +28,7 @@ struct SceneSource {
 };
 
 /// The scene as it is after the changes made at steps up to this one, read the one way that scenes
-/// are read. What scenes leave to the program ("auto") is not filled in.
+/// are read. Automatic values ("auto") are not filled in.
 /// @throws SceneError for the text, UsageError for overrides and changes
 scene::Scene with_changes(const SceneSource& source, const std::vector<scene::LiveChange>& changes,
                           std::size_t up_to_step = static_cast<std::size_t>(-1));

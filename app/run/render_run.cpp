@@ -274,7 +274,7 @@ void RenderRun::add_frame_record(const FrameRecord& frame) {
     record_.frames.insert(place, frame);
 }
 
-/// Those of a run that is resumed are in its state.
+/// The simulation of a resumed run has the warnings of the steps before.
 void RenderRun::note_warnings() {
   record_.warnings = job_.warnings;
   for (std::string& warning : step_warnings(scene_.solver, simulation_.warnings()))

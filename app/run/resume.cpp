@@ -48,7 +48,7 @@ std::string other_thing(const std::filesystem::path& folder, const PictureRecord
       return "--coarsen was " + rough_text(run.at("coarsen").get<double>());
     if (run.at("overrides") != Json(picture.overrides)) return "it had other --set";
   } catch (const std::exception&) {
-    // Whatever is wrong with it: the identity alone says that the run is another one.
+    // An unreadable scene changes nothing here: the identity alone says that the run differs.
   }
   return "its scene, changes, views, quality or version differ";
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Every parameter of a scene, once. Whatever reads, writes, sets or lists parameters is a visitor
+/// Every parameter of a scene, once. Code that reads, writes, sets or lists parameters is a visitor
 /// of these functions; there is no second list.
 ///
 /// A visitor has
@@ -77,8 +77,8 @@ void describe(V& visit, sim::SolverSettings& s) {
   visit("advect", s.advect, unit::none, anything, live,
         "Velocity that moves particles: their own (the paper) or the grid's.");
   visit("contact_at", s.contact_at, unit::none, anything, live,
-        "Where explicit steps stop snow at colliders: at particles, or at nodes (the paper), a "
-        "cell off.");
+        "Contact in explicit steps: at particles, on the surface; at nodes (the paper), up to a "
+        "cell before it.");
   visit("time_step", s.time_step, unit::none, anything, live,
         "adaptive: choose each step from the limits below; fixed: use dt.");
   visit("dt", s.dt, unit::second, between(1e-9, 1), live,

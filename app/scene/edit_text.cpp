@@ -82,7 +82,7 @@ class Edit {
     add(literal);
   }
 
-  /// Whatever the address is.
+  /// Removes the assignment of the address in any of its forms.
   void make_absent() {
     walk();
     take_away();
@@ -332,7 +332,7 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
     for (const Override& change : changes) Edit(edited, change).make();
     is_right = write_scene(read_scene_text(edited, name, base_dir)) == wanted;
   } catch (const toml::SceneError&) {
-    // Whatever is wrong with it, it is not returned.
+    // A text that cannot be read is not returned, for any reason.
   }
   if (is_right) return edited;
   throw toml::UsageError(name,

@@ -25,9 +25,9 @@ std::vector<LiveChange> live_changes(const Json& json);
 /// "step 120: material.snow.hardening = 5"
 std::string text_of(const LiveChange& change);
 
-/// Adds a change that was made now. Of many at one step to one address, as a slider makes them
-/// while a run is paused, the first and the last are kept: what comes in between leaves no trace in
-/// the state. (Both, since a value that came back leaves one: last bits of the stress.)
+/// Adds a change that was made now. A slider makes many changes at one step to one address while a
+/// run is paused. Only the first and the last are kept, because those in between leave no trace in
+/// the state. (The first too: a value that came back leaves one in the last bits of the stress.)
 void note_change(std::vector<LiveChange>& changes, LiveChange change);
 
 /// Forgets the changes made after a step: for a run that continues from an earlier state.

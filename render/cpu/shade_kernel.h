@@ -1,6 +1,6 @@
 #pragma once
-/// Lights a tile of the G-buffer in lanes: shaders/shade.frag, step by step. What is the same for
-/// every sample of a row is worked out once, and samples without a surface cost only the
+/// Lights a tile of the G-buffer in lanes: shaders/shade.frag, step by step. Values that are
+/// equal along a row are computed once, and samples without a surface cost only the
 /// background.
 
 #include "render/cpu/lane_math.h"

@@ -39,8 +39,8 @@ struct NodeLattice {
   std::vector<Vec3i> block;  ///< sorted by x, then y, then z; each once
 };
 
-/// A field on nodes as light that is scattered and swallowed on its way to the eye. What it shows
-/// is the mass density, or with `value` the density coloured by another field.
+/// A field on nodes as light that is scattered and swallowed on its way to the eye. It shows
+/// the mass density, or with `value` the density coloured by another field.
 struct Smoke {
   std::shared_ptr<const NodeLattice> nodes;  ///< null: no smoke
   std::vector<float> density;                ///< kg/m3, 0 and more

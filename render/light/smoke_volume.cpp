@@ -65,7 +65,7 @@ struct Glow {
 };
 
 /// Light goes deeper into snow than shadows suggest, because most of it is scattered on, not
-/// swallowed: the powers below. Where the smoke is the surface of a body its slope counts, as on a
+/// swallowed: the powers below. The surface of a body is lit by its slope, like a
 /// matte surface. @param contrast below 1 lifts shadows, so that colours stay readable
 Glow glow(const Lit& lit, Vec3f toward_light, float contrast) {
   const float certainty = std::min(length(lit.body), 1.0f);

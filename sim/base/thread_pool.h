@@ -127,7 +127,7 @@ class ThreadPool {
     }
   }
 
-  /// Works until no part of this job is left to take. Whoever holds a part may read the job: its
+  /// Works until no part of this job is left to take. A thread with a part may read the job: its
   /// caller waits for that part.
   void take_parts(int thread, std::uint32_t generation) {
     const int owners = thread_count();

@@ -184,10 +184,10 @@ Watch::Watch(const SolverSettings& settings, const std::vector<Material>& materi
 }
 
 void Watch::use(const SolverSettings& settings, const std::vector<Material>& materials) {
-  const Watch anew(settings, materials);
+  const Watch other(settings, materials);
   for (std::size_t k = 0; k < records_.size(); ++k) {
-    records_[k].threshold = anew.records_[k].threshold;
-    records_[k].error = anew.records_[k].error;
+    records_[k].threshold = other.records_[k].threshold;
+    records_[k].error = other.records_[k].error;
   }
   settings_ = settings;
   materials_ = materials;

@@ -59,7 +59,7 @@ class Watch {
  public:
   Watch(const SolverSettings& settings, const std::vector<Material>& materials);
 
-  /// Goes on with what Simulation::apply changed. What was found so far stays.
+  /// Continues with the settings that Simulation::apply changed. Earlier findings stay.
   void use(const SolverSettings& settings, const std::vector<Material>& materials);
 
   /// Looks at the state as it is and at the step that would come next.

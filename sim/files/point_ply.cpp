@@ -184,7 +184,7 @@ class PointPly {
  private:
   std::string here() const { return name_ + ":" + std::to_string(lines_.number()); }
 
-  /// Whatever the header claims, a row has so many bytes at least, and the file has those it has.
+  /// Compares the count of the header with the bytes left in the file, at a least size of a row.
   static void check_count(const PlyElement& element, std::size_t row_size, std::size_t left) {
     if (row_size > 0 && element.count > left / row_size)
       refuse_input(element.where, "truncated: the header promises " +

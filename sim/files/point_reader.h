@@ -24,13 +24,13 @@ struct PointCloud {
 /// @throws ShapeError for what is neither PLY nor CSV, without positions, with a part of a vector
 ///         only or one column twice, truncated, with numbers that are missing, not finite or out of
 ///         range (|x| <= 1e6 m, |v| <= 1e6 m/s, mass and volume above 0 and up to 1e12), or without
-///         points. What a file claims is compared with its length before anything is allocated.
+///         points. Counts in a file are compared with its length before anything is allocated.
 PointCloud parse_points(std::string_view bytes, const std::string& name);
 
 /// Reads the element vertex, whose properties, and those of elements before it, are single numbers.
 PointCloud parse_ply_points(std::string_view bytes, const std::string& name);
 
-/// Fields are separated by what the header has most of, commas, semicolons or tabs, and may stand
+/// Fields are separated by commas, semicolons or tabs, the most frequent in the header, and may be
 /// between double quotes; lines that are empty or start with # are passed over.
 PointCloud parse_csv_points(std::string_view text, const std::string& name);
 

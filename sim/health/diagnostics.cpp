@@ -152,7 +152,7 @@ void find_culprits(const ParticleArrays& particles, const SolverSettings& settin
   std::partial_sort(
       ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(kept), ids.end(),
       [&](std::uint32_t a, std::uint32_t b) { return bad[a] != bad[b] ? bad[a] > bad[b] : a < b; });
-  // The ones that stand out with the worst; a threshold of half its badness keeps marks few.
+  // Keeps those at least half as bad as the worst, so that there are few marks.
   if (kept > 0) {
     const std::size_t worst = ids[0];
     d.particle = particles.id_of(worst);

@@ -18,8 +18,8 @@ namespace {
 /// Apart from the keys of bodies.
 constexpr std::uint64_t emitter_key = 0x656d6974;
 
-/// Candidates for one place. Of a shape that fills this share of its box one of 64 is inside: that
-/// none of so many is, does not happen.
+/// Candidates for one place. In a shape that fills this share of its box one of 64 is inside: it
+/// never happens that all of so many are outside.
 constexpr int most_candidates = 8192;
 constexpr double least_share = 1.0 / 64;
 
@@ -125,7 +125,7 @@ void EmitterStream::fill_whole(double age, std::vector<Birth>& births) {
 }
 
 /// In the box around the shape, evenly spread and shaken by up to half a spacing, so that no rows
-/// are seen. What is shaken out on one side comes in on the other: all of the box is as dense.
+/// are seen. Places shaken out on one side come in on the other: the density is even.
 Vec3d EmitterStream::next_candidate() {
   const Vec3d size = box_.max - box_.min;
   const double spacing = std::cbrt(V0_);

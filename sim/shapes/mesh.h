@@ -36,7 +36,7 @@ ClosedMesh close_mesh(const files::PolygonMesh& mesh, const std::string& name);
 ClosedMesh scaled(ClosedMesh mesh, double scale, const std::string& name);
 
 /// A mesh from an OBJ file as a solid: inside is where the winding number is above 0. Read once:
-/// whoever asks again has the same one, unless the file was written since.
+/// later calls return the same one, unless the file was written since.
 /// @throws ShapeError
 std::shared_ptr<const Form> read_mesh_solid(const std::string& path, double scale);
 std::unique_ptr<const Form> make_mesh_solid(ClosedMesh mesh);

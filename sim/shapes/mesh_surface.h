@@ -40,11 +40,11 @@ class MeshSurface {
   std::unique_ptr<const Tree> tree_;
 };
 
-/// The surface of a mesh in metres about the origin of its file. Read and prepared once: whoever
-/// asks again while it is in use or was lately, has the same one. A file that was written since is
-/// read again. Threads may ask at the same time.
-/// @throws ShapeError when the file cannot be read, the mesh is open, or a face is concave (what
-///         stands for it would reach beyond it)
+/// The surface of a mesh in metres about the origin of its file. Read and prepared once: later
+/// calls return the same one while it is in use or was used lately. A file that was written since
+/// is read again. Threads may call at the same time.
+/// @throws ShapeError when the file cannot be read, the mesh is open, or a face is concave (its
+///         triangles would reach beyond it)
 std::shared_ptr<const MeshSurface> mesh_surface(const Mesh& mesh);
 
 /// Tells one content of a file from another: path, size and time of the last change.

@@ -60,7 +60,7 @@ struct AdvanceReport {
   double dt_min = 0, dt_max = 0;
   std::array<std::size_t, dt_limit_count> ruled{};  ///< steps that each limit ruled
   DtLimit limit() const;                            ///< the one that ruled most
-  std::optional<SolveReport> solve;                 ///< the worst; none of explicit steps
+  std::optional<SolveReport> solve;                 ///< the worst; empty in explicit steps
   /// Adds the steps that followed in the same frame.
   void append(const AdvanceReport& later);
 };

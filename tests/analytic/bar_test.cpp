@@ -70,7 +70,7 @@ TEST(FreeBar, RingsAtTwoLengthsPerWaveSpeed) {
 TEST(HeldBar, RingsAtFourLengthsPerWaveSpeed) {
   // T = 4 L / c. B-splines do not interpolate: particles in the cell at the wall are slowed by it,
   // the bar behaves as if longer by a share of h. So the order is 1. The reference's periods, known
-  // to half of a thousandth, stand where it has them; beyond, what order 1 makes of them.
+  // to half of a thousandth, are used where it has them; beyond, they follow from order 1.
   const double exact = 4 / bar_c;
   Curve curve("bar_held", "h (m), period / exact");
   std::vector<double> errors;

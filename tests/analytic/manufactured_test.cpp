@@ -31,7 +31,7 @@ TEST(ManufacturedSolution, ManufacturedSolutionIsApproachedAtSecondOrder) {
 }
 
 TEST(ManufacturedSolution, ManufacturedSolutionInFloatStaysAsNear) {
-  // Rounding of float, 1e-7 of a state built anew every step, is far below the error of h = 1/16.
+  // Rounding of float, 1e-7 of a state rebuilt every step, is far below the error of h = 1/16.
   ManufacturedCase c;
   c.transfer = Transfer::mls;
   const double exact = manufactured_error(c, 16);
@@ -41,7 +41,7 @@ TEST(ManufacturedSolution, ManufacturedSolutionInFloatStaysAsNear) {
 }
 
 TEST(ManufacturedSolution, ManufacturedSolutionNeedsNoContinuousRun) {
-  // Building the simulation anew each step, as the body force needs, changes nothing but rounding.
+  // Rebuilding the simulation each step, as the body force needs, changes nothing but rounding.
   SolverSettings s;
   s.cell_size = 1.0 / 8;
   s.transfer = Transfer::apic;
@@ -53,9 +53,9 @@ TEST(ManufacturedSolution, ManufacturedSolutionNeedsNoContinuousRun) {
   Simulation continuous(s, {m}, {}, p, 1);
   for (int n = 0; n < 50; ++n) {
     continuous.step(1e-3);
-    Simulation anew(s, {m}, {}, p, 1);
-    anew.step(1e-3);
-    p = anew.particles();
+    Simulation rebuilt(s, {m}, {}, p, 1);
+    rebuilt.step(1e-3);
+    p = rebuilt.particles();
   }
   const ParticleArrays expected = continuous.particles();
   double worst = 0;

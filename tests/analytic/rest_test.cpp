@@ -1,4 +1,4 @@
-/// Where snow comes to rest: on the surface that it lies on, however that lies in the grid.
+/// Snow comes to rest on the surface below it, at any place of that surface in the grid.
 
 #include "tests/support/rest.h"
 

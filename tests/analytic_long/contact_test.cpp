@@ -14,8 +14,8 @@ using namespace neve::test;
 
 TEST(SlippingBallLong, SlippingBallAcceleratesByGravityLessFriction) {
   // mu < 2/7 tan t: it slips, a = g (sin t - mu cos t). The ball also should spin up, by alpha =
-  // 5 mu g cos t / (2 R); that it does not is what contact on nodes costs: within a cell of the
-  // plane the ball stands on a flat of 4 cells' radius, which resists rolling. So rolling is no
+  // 5 mu g cos t / (2 R); that it does not is the price of contact on nodes: within a cell of the
+  // plane the ball rests on a flat of 4 cells' radius, which resists rolling. So rolling is no
   // case for a grid as coarse as R = 6 h.
   const double t = 20 * std::numbers::pi / 180, mu = 0.05, R = 0.3;
   SolverSettings s;

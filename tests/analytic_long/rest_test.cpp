@@ -1,4 +1,4 @@
-/// Where snow comes to rest on planes, at every fraction of a cell and tilt, by both contacts.
+/// Heights of snow at rest on planes, at every fraction of a cell and tilt, by both contacts.
 
 #include "tests/support/rest.h"
 

@@ -59,7 +59,7 @@ keyframes = [
   EXPECT_EQ(place(scene, 0.5).target, Vec3d(0, 0, 1));
   EXPECT_EQ(place(scene, 0.5).fov, 30) << "what a keyframe leaves out is the camera's own";
   EXPECT_EQ(place(scene, 1).eye, Vec3d(4, 1, 0));
-  EXPECT_EQ(place(scene, 0).eye, Vec3d(1, 0, 0)) << "before the first it stands still";
+  EXPECT_EQ(place(scene, 0).eye, Vec3d(1, 0, 0)) << "it does not move before the first";
   EXPECT_EQ(place(scene, 7).eye, Vec3d(4, 1, 0)) << "and after the last";
 }
 

@@ -263,7 +263,7 @@ TEST(EditText, EveryParameterOfEverySceneCanBeSaved) {
   EXPECT_GT(edits, 500);
 }
 
-/// Whatever the bytes: an error, or a text that reads back; never a crash.
+/// Any bytes lead to an error or to a text that reads back, never to a crash.
 TEST(EditText, HostileFilesAreRefusedOrEditedRightly) {
   int refused = 0;
   for (const auto& entry :

@@ -89,7 +89,7 @@ TEST(RunJson, RunJsonSurvivesTextThatIsNoUtf8) {
   EXPECT_NO_THROW(to_text(app::run::to_json(run)));
 }
 
-/// A resumed run goes on with what the run before it wrote.
+/// A resumed run starts from the records of the run before it.
 TEST(RunJson, FramesComeBackAsTheyWereWritten) {
   app::run::FrameRecord frame;
   frame.frame = 7;

@@ -1,4 +1,4 @@
-// Kinds of snow by name: what they set, what counts more, and that pictures keep numbers alone.
+// Kinds of snow by name: the numbers they set, their precedence, and that pictures keep numbers.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -151,7 +151,7 @@ volumes = "given"
           .particles;
   ASSERT_EQ(moved.x.size(), p.x.size());
   for (std::size_t q = 0; q < p.x.size(); ++q) {
-    // Places are rounded where they stand.
+    // Positions are rounded at another place.
     EXPECT_NEAR(moved.stiffness[q], p.stiffness[q], 1e-9);
     EXPECT_NEAR(moved.m[q] / p.m[q], 1, 1e-9);
   }

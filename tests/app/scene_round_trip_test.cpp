@@ -1,5 +1,6 @@
-// Whatever describe.h describes survives writing and reading. A visitor changes every parameter
-// and another reads them all back, so a new parameter is covered as soon as it is described.
+// Everything that describe.h describes survives writing and reading. A visitor changes every
+// parameter and another reads them all back, so a new parameter is covered as soon as it is
+// described.
 #include <gtest/gtest.h>
 
 #include <bit>

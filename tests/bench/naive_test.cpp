@@ -1,4 +1,4 @@
-// What `neve bench` compares with does the same as the solver.
+// The naive code of `neve bench` gives the same results as the solver.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -20,7 +20,7 @@ frames = "0-2"
 )";
 
 /// Six runs: two that are well, one that explodes, one that wants too much memory, and two long
-/// ones for whoever wants to harm them.
+/// ones for tests that interrupt them.
 const std::string troubled_sweep = std::string(R"(
 [sweep]
 scene = "scene.toml"

@@ -35,7 +35,7 @@ std::string troubled_sweep() {
           "\"material.snow.youngs_modulus\" = 5e7\n\"material.snow.model\" = \"corotated\"\n"
           "\"body.ball.velocity\" = [0, -8, 0]\n";
     if (k >= 58 && k < 60) text += "\"solver.cell_size\" = 0.002\n";
-    // Long enough for somebody to hit them.
+    // Long enough to be interrupted.
     if (k >= 60) text += "\"solver.max_dt\" = 1e-6\n";
   }
   return text;

@@ -1,5 +1,5 @@
-/// Golden pictures: everything that can be drawn, as it was when somebody looked at it. The scene
-/// is layers.toml, a view is a picture; remake makes them anew.
+/// Golden pictures: everything that can be drawn, as it was when a person approved it. The scene
+/// is layers.toml, a view is a picture; remake makes them again.
 
 #include <algorithm>
 #include <cstdlib>

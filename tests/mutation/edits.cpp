@@ -38,7 +38,7 @@ std::string line_number(const std::string& text, std::size_t position) {
   return std::to_string(std::count(text.begin(), end, '\n') + 1);
 }
 
-/// Where the mistake is written: "tests/mutation/mistakes_grid.cpp:120".
+/// File and line of the mistake: "tests/mutation/mistakes_grid.cpp:120".
 std::string definition(const Mistake& mistake) {
   for (const auto& entry : fs::directory_iterator(fs::path(NEVE_SOURCE_DIR) / "tests/mutation")) {
     if (!entry.is_regular_file()) continue;
@@ -59,7 +59,7 @@ std::string other_file(const Edit& edit) {
   return {};
 }
 
-/// How far the file still has what the edit replaces.
+/// The longest beginning of the replaced text that the file still has.
 std::string nearest_place(const Edit& edit, const std::string& text) {
   const Squeezed part = squeezed(edit.old_text), whole = squeezed(text);
   std::size_t most = 0, at = 0;

@@ -13,7 +13,7 @@ struct Span {
   std::size_t begin = 0, size = 0;
 };
 
-/// Where a text occurs in another, when spaces and new lines are ignored in both.
+/// Places of a text in another; spaces and new lines are ignored in both.
 std::vector<Span> places_of(const std::string& part, const std::string& text);
 
 /// Makes the edit in the text of its file. @throws std::runtime_error unless it has one place

@@ -74,7 +74,7 @@ void compare_weights(const Json& entry) {
       }
   EXPECT_NEAR(sum, 1, 1e-14);
   // A place on a node may have its stencil start one node to the side, where the weights are 0: so
-  // every node of either must agree, and 0 stands for a node that one of them leaves out.
+  // every node of either must agree, and a node that one of them leaves out has 0.
   RelativeError w, grad;
   for (std::size_t q = 0; q < entry["node"].size(); ++q) {
     const auto at = found.find(entry["node"][q].get<std::array<int, 3>>());

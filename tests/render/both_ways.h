@@ -24,8 +24,8 @@ inline Frame rough_ball(int width, int height) {
   return frame;
 }
 
-/// Draws a frame both ways. Where both agree on which sphere a sample shows, its colour differs by
-/// what 8-bit albedo, half normals and rounding of the depth leave: 1 or 2 of 255. On the edge of a
+/// Draws a frame both ways. If both agree on which sphere a sample shows, 8-bit albedo, half
+/// normals and rounding of the depth make its colour differ by 1 or 2 of 255. On the edge of a
 /// sphere, and where two meet, rounding decides which one a sample shows, and a pixel may differ by
 /// anything; those may be one in two thousand.
 inline void expect_same_picture(render::gl::Context& context, const Frame& frame,

@@ -1,4 +1,4 @@
-/// Plots: where they stand, that the future is not drawn, and that nothing odd upsets them.
+/// Plots have their places, do not draw the future, and survive odd numbers.
 
 #include <array>
 #include <cmath>

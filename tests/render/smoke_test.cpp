@@ -180,7 +180,7 @@ TEST(Smoke, SmokeThrowsAShadowOnTheGroundAndLiesInThatOfMeshes) {
 TEST(Smoke, HalfResolutionIsCloseToFullAndKeepsEdges) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
-  Frame frame = small_frame(301, 201);  // odd: the last ray stands for less than the others
+  Frame frame = small_frame(301, 201);  // odd: the last ray covers less than the others
   frame.smoke = make_smoke({-0.4f, -0.3f, -0.3f}, {0.4f, 0.3f, 0.3f}, 0.03f, [](Vec3f p) {
     return 0.15f + 0.1f * std::sin(9 * p.x) * std::cos(11 * p.y);
   });

@@ -190,7 +190,7 @@ TEST(SolidCache, SolidCacheHoldsOnlyWhatIsTheSame) {
   other.points.position.clear();
   other.light.intensity = 0.5f;
   other.caption = {"another moment"};
-  EXPECT_TRUE(cache.holds(other, view_of(other))) << "none of it is a solid";
+  EXPECT_TRUE(cache.holds(other, view_of(other))) << "it has no solid";
   const auto expect_new = [&](const char* what, const auto& change) {
     Frame changed = frame;
     change(changed);

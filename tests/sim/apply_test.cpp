@@ -1,4 +1,4 @@
-/// Other parameters while a run goes on: they act at once, what does not follow from them stays,
+/// Parameters changed during a run: they act at once, anything that does not depend on them stays,
 /// and no change alone breaks a rule of a healthy run.
 
 #include <gtest/gtest.h>

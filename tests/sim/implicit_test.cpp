@@ -154,7 +154,7 @@ TEST(ImplicitSolve, ImplicitSolveEndsWithinItsToleranceAndSaysSo) {
     const AdvanceReport report = simulation.advance_to(s.dt);
     ASSERT_TRUE(report.solve);
     EXPECT_LE(report.solve->residual, tolerance);
-    EXPECT_GT(report.solve->residual, 0.01 * tolerance) << "went on for nothing";
+    EXPECT_GT(report.solve->residual, 0.01 * tolerance) << "took more iterations than it needed";
     EXPECT_GT(report.solve->iterations, before);
     before = report.solve->iterations;
     EXPECT_EQ(simulation.warnings().solves_cut_short, 0u);
@@ -171,7 +171,8 @@ TEST(ImplicitSolve, ImplicitSolveEndsWithinItsToleranceAndSaysSo) {
 }
 
 TEST(ImplicitSolve, ImplicitSolveThatFailsIsReplacedByExplicitSteps) {
-  // One iteration at fifty times the explicit step is worse than to stand still. c dt/h may be 0.5.
+  // One iteration at fifty times the explicit step is worse than no motion at all. c dt/h may be
+  // 0.5.
   const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
   SolverSettings s = implicit_settings(test, 1);
   s.solve_iterations = 1;

@@ -163,7 +163,7 @@ TEST(PointReader, PointReaderTakesLinesOfManyMegabytes) {
   EXPECT_LT(point_error("ply\n" + digits).size(), 300u);
 }
 
-// Whatever stands in a file, reading it ends, with points that could be simulated or with an error.
+// Reading ends for any content of a file: with points that could be simulated, or with an error.
 TEST(PointReader, PointReaderSurvivesTruncatedAndDamagedFiles) {
   const std::string ascii =
       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"

@@ -1,4 +1,4 @@
-/// A restored simulation goes on to the bit; bytes that are no state are refused.
+/// A restored simulation continues bit for bit; bytes that are no state are refused.
 
 #include <gtest/gtest.h>
 

@@ -49,7 +49,7 @@ double scan(const sim::shapes::Bounds& box, int per_axis, const Visit& visit) {
   return step.prod();
 }
 
-/// Volume from the inside test. Of a million stratified points about 5 % are at the surface and
+/// Volume from the inside test. About 5 % of a million stratified points are at the surface and
 /// random: the error is near 0.02 %.
 double filled(const sim::shapes::Shape& shape) {
   const sim::shapes::Solid solid(shape);

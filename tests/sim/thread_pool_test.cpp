@@ -1,4 +1,4 @@
-/// Every part of a job is done once, whoever does it.
+/// Every part of a job is done once, by any thread.
 
 #include "sim/base/thread_pool.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The floor plan: every folder of sources, from the foundation up, and what it may include.
 ///
-/// A folder may always include itself. What is not listed is forbidden, so that a new arrow is a
+/// A folder may always include itself. Everything else is forbidden, so that a new arrow is a
 /// decision and shows in the change that makes it.
 
 #include <string_view>

@@ -70,7 +70,7 @@ TEST(Structure, TheFloorPlanHasNoCircles) {
     for (const std::string& name : allowed.at(std::string(folder.path)))
       EXPECT_TRUE(below.contains(name))
           << folder.path << " may include " << name << ", which comes later or does not exist";
-    EXPECT_TRUE(below.insert(std::string(folder.path)).second) << folder.path << " stands twice";
+    EXPECT_TRUE(below.insert(std::string(folder.path)).second) << folder.path << " is listed twice";
   }
 }
 

@@ -40,7 +40,7 @@ inline std::vector<Vec3d> smoothed_by_grid(sim::SolverSettings settings, const s
 }
 
 /// One step with a body force b per mass, dt b given for each particle. It enters as v += dt b in a
-/// simulation that is built anew from the particles: nothing but their rounding (1e-16) is lost.
+/// simulation that is rebuilt from the particles: nothing but their rounding (1e-16) is lost.
 /// FLIP particles then get back what they would have gathered from the nodes instead.
 inline ParticleArrays forced_step(const sim::SolverSettings& s, const sim::Material& material,
                                   ParticleArrays p, const std::vector<Vec3d>& dt_b, double dt) {

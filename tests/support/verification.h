@@ -1,5 +1,5 @@
 #pragma once
-/// Checks whose numbers end up in docs/verification.md. Where NEVE_VERIFICATION_DIR names a folder,
+/// Checks whose numbers end up in docs/verification.md. If NEVE_VERIFICATION_DIR names a folder,
 /// every check leaves a line in <suite>.<test>.tsv there, and curves leave <name>.dat for plots;
 /// docs/verification/make turns both into the page. Elsewhere these are plain expectations.
 
@@ -40,7 +40,8 @@ inline std::string in_digits(double x, int digits = 9) {
   return text.str();
 }
 
-/// Appends a line to the results of the running test; its first line of the process starts anew.
+/// Appends a line to the results of the running test; the first line of a process replaces earlier
+/// ones.
 inline void keep_row(const std::vector<std::string>& fields) {
   const std::filesystem::path folder = verification_folder();
   if (folder.empty()) return;

@@ -1,5 +1,5 @@
 #pragma once
-/// A display that nobody sees, and somebody who moves its mouse, types, and looks at its pixels.
+/// A virtual display, with functions that move its mouse, type, and read its pixels.
 
 #include <dlfcn.h>
 #include <fcntl.h>

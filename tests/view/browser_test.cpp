@@ -73,7 +73,7 @@ class Browser : public Web {
   bool is_true(const std::string& expression) { return browser->evaluate(expression) == true; }
   std::string note() { return browser->evaluate("note.hidden ? '' : note.textContent"); }
 
-  /// Whether the next of its kind is so, for every claim in turn.
+  /// Waits for a move of the mouse to this place.
   bool wait_for_move(double x, double y) {
     return wait_for([=](const InputEvent& event) {
       return event.kind == Kind::move && std::abs(event.x - x) < 0.6 && std::abs(event.y - y) < 0.6;
@@ -150,7 +150,7 @@ TEST_F(Browser, PointerComesWithItsPlace) {
     EXPECT_TRUE(wait_for_button(number, false, 200 + 10 * number, 120)) << button;
     ++number;
   }
-  // A drag goes on outside of the window.
+  // A drag continues outside of the window.
   browser->mouse("mousePressed", 300, 200, "left", 1);
   browser->mouse("mouseMoved", -20, 200, "left", 1);
   browser->mouse("mouseReleased", -20, 210, "left");

@@ -1,4 +1,4 @@
-/// What becomes of numbers that are typed into a parameter's field.
+/// Numbers typed into a parameter's field.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ struct Field {
     app::view::panels::Knobs knobs(panel, "test");
     const ImVec2 at = ImGui::GetCursorScreenPos();
     middle = ImVec2(at.x + 40, at.y + 0.5f * ImGui::GetFrameHeight());
-    knobs("stiffness", value, "Pa", valid, app::scene::Change::live, "How stiff it is.");
+    knobs("stiffness", value, "Pa", valid, app::scene::Change::live, "Stiffness of the snow.");
     for (const app::view::session::Edit& edit : panel.edits()) edits.push_back(edit);
   }
 

@@ -60,7 +60,7 @@ class Panels {
   ImGuiContext* context_;
 };
 
-// What somebody does.
+// Input of a user.
 inline app::view::front::InputEvent move_to(float x, float y) {
   return {.kind = app::view::front::InputEvent::Kind::move, .x = x, .y = y};
 }

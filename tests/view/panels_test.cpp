@@ -1,4 +1,4 @@
-/// What panels decide: how numbers are turned, where tips stand, what a filter leaves.
+/// Decisions of panels: scales of sliders, places of tips, parameters that pass a filter.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What ssh -L is: another port of this machine, whose connections can be cut.
+/// A forwarded port like that of ssh -L, whose connections can be cut.
 
 #include <atomic>
 #include <thread>

@@ -254,7 +254,7 @@ TEST(Replay, ScreenshotsAreTheScreenOrAPartOfIt) {
   EXPECT_FALSE(std::filesystem::exists(folder / "beyond.png"));
 }
 
-/// Somebody whose hand is a script, seen by a recorder.
+/// A script plays the user, and a recorder writes it down.
 TEST(Recording, RecordedInputDoesTheSameAgain) {
   const test::TemporaryFolder folder;
   const std::string script = R"([

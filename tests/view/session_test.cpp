@@ -1,4 +1,4 @@
-/// What a person does to a running simulation, and that looking at it never changes it.
+/// Actions of a user on a running simulation, and proof that inspecting it never changes it.
 
 #include <gtest/gtest.h>
 
@@ -143,7 +143,7 @@ TEST(Session, SessionSaysWhyARunBrokeAndIsGoodForAnother) {
   });
   ASSERT_TRUE(live->diagnosis);
   EXPECT_FALSE(live->diagnosis->evidence.empty());
-  session.run();  // a broken state does not go on
+  session.run();  // a broken state takes no more steps
   session.reset(scene_of(tiny_scene));
   wait_for(session, [](const view::session::LiveFrame& frame) {
     return !frame.divergence && frame.steps == 0;

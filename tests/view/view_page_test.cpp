@@ -125,7 +125,7 @@ TEST_F(ViewPage, PageIsWorkedWithMouseAndKeys) {
   const render::Image start = browser->screenshot();
   browser->click(run_x, run_y);
   EXPECT_TRUE(changes(start, status, 30)) << "Run does not run";
-  EXPECT_TRUE(changes(browser->screenshot(), status, 5)) << "and goes on";
+  EXPECT_TRUE(changes(browser->screenshot(), status, 5)) << "the run continues";
   browser->click(run_x, run_y);
   ASSERT_TRUE(becomes_still()) << "Pause does not pause";
 

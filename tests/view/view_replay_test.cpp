@@ -110,7 +110,7 @@ TEST_F(ViewByScript, ANarrowWindowShowsOneColumnAtATime) {
   EXPECT_EQ(result.exit_code, 0) << result.errors;
 }
 
-/// How many bytes of the pixels differ between two screenshots.
+/// Number of bytes of the pixels that differ between two screenshots.
 std::size_t changed_bytes(const render::Image& a, const render::Image& b) {
   EXPECT_EQ(a.pixels.size(), b.pixels.size());
   std::size_t changed = 0;

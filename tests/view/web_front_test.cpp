@@ -215,7 +215,7 @@ TEST_F(Web, NewViewerTakesThePlaceOfTheOneBefore) {
   const render::Image image = plain_image(64, 64, 90, 0, 0);
   front->show_image(image);
   auto second = connect();
-  EXPECT_TRUE(wait_for_key('A', false)) << "held by somebody who is gone";
+  EXPECT_TRUE(wait_for_key('A', false)) << "held by a page that is gone";
   EXPECT_EQ(first->close_code(3), app::view::web::close_code::taken);
   // The same picture, but for someone who has not seen it.
   ASSERT_TRUE(wait_until([&] { return front->is_picture_wanted(); }));

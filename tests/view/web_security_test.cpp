@@ -161,7 +161,7 @@ TEST_F(Web, ServerRefusesTooLongMessagesWithoutKeepingThem) {
     for (int k = 7; k >= 0; --k) head += char(length >> (8 * k) & 0xFF);
     page->socket().send(head + "mask");
     EXPECT_EQ(page->close_code(3), 1009) << length;
-    // Whoever sends all of it after that talks to a closed door.
+    // The rest of the message goes to a closed socket.
     const std::string megabyte(1 << 20, 'x');
     for (int k = 0; k < 100 && page->socket().send(megabyte); ++k) {
     }

@@ -253,11 +253,11 @@ TEST(Workbench, ChangesThatNeedARestartWaitForItUnlessNothingIsLost) {
   EXPECT_EQ(applied->frame, 1);
   EXPECT_DOUBLE_EQ(applied->scene->materials[0].density, 400);
   work.bench.reset();
-  const auto anew = wait_for(work.session(),
-                             [](const view::session::LiveFrame& live) { return live.steps == 0; });
-  EXPECT_DOUBLE_EQ(anew->scene->materials[0].density, 200);
+  const auto restarted = wait_for(
+      work.session(), [](const view::session::LiveFrame& live) { return live.steps == 0; });
+  EXPECT_DOUBLE_EQ(restarted->scene->materials[0].density, 200);
   EXPECT_TRUE(work.bench.waiting_for_reset().empty());
-  EXPECT_TRUE(anew->snapshot.changes.empty());
+  EXPECT_TRUE(restarted->snapshot.changes.empty());
 }
 
 TEST(Workbench, WorkbenchSavesTheSceneWithItsComments) {

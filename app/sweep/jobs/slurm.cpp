@@ -114,7 +114,7 @@ std::vector<std::string> known_jobs(const fs::path& folder) {
   }
 }
 
-/// Those of the jobs that are still waiting or running.
+/// The jobs that are still waiting or running.
 std::vector<std::string> living(const std::vector<std::string>& jobs) {
   std::set<std::string> seen;
   // Lists all jobs of this user, because asking for a job that Slurm has forgotten is an error.

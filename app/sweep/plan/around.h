@@ -22,8 +22,8 @@ std::vector<scene::toml::Value> values_around(const scene::FlatParam& param);
 /// @param param       as it is now, see flatten()
 /// @param set         what else is not as in the scene file; of the parameter itself is left out
 /// @param coarsening  of the run that it comes from: a comment says how neve sweep gets it
-/// @param set_later   addresses that were changed while that run went on: a comment says that they
-///                    are start values now
+/// @param set_later   addresses that were changed during that run: a comment says that they are
+///                    start values now
 /// @throws UsageError like values_around
 std::string sweep_around(const std::string& scene_file, const std::string& sweep_file,
                          const scene::FlatParam& param, const std::vector<scene::Override>& set,

@@ -76,7 +76,7 @@ void collect_sweep(const fs::path& folder, const std::string& backend, int threa
   progress.clear();
   for (const std::string& line : store::warning_lines(manifest, results)) progress.warning(line);
 
-  // Whoever interrupts a sweep does not wait for pictures of it.
+  // An interrupted sweep ends without pictures.
   if (is_interrupted()) return;
   const std::vector<render::Legend> legends = shared_legends(folder, manifest);
   const auto context = render::gl::open_context(backend);

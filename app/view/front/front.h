@@ -60,7 +60,7 @@ class Front {
   /// still in flight.
   virtual bool is_ready() const = 0;
 
-  /// Somebody looks again and has nothing: the present picture is wanted although nothing changed.
+  /// A page has connected and shows nothing yet: it needs the present picture, changed or not.
   virtual bool is_picture_wanted() const = 0;
 
   /// Shows the present picture of the screen.

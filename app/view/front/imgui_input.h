@@ -14,10 +14,10 @@ namespace neve::app::view::front {
 /// Mouse position outside the picture, for events of kind `move`.
 inline constexpr float off_picture = -100000;
 
-/// Dear ImGui looks at its input once per frame. Of one key or button it notices one change, and it
-/// cannot tell what came first among the rest: a click that starts and ends between two frames
-/// would be lost, one before a move would land behind it. So events wait here and every frame gets
-/// as many as keep their meaning. Newer versions of Dear ImGui do the same by themselves.
+/// Dear ImGui looks at its input once per frame. It notices one change of each key or button, and
+/// it does not know the order of the rest: a click that starts and ends between two frames would
+/// be lost, and a click before a move would land behind it. So events wait here and every frame
+/// gets as many as keep their meaning. Newer versions of Dear ImGui do the same by themselves.
 class ImGuiInput {
  public:
   /// The ImGui context that is current now gets its clipboard from the front, which must live

@@ -31,8 +31,8 @@ void draw_probe_mark(const ViewerState& state) {
   const picture::Cut cut(current_view(state).clip, state.live->snapshot.particles.x);
   const bool is_cut = !probe.is_node && cut.removes(probe.place);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  // Dark around bright: it stands out from snow and from shadow. Where nothing is to be seen in it,
-  // it is faint.
+  // Dark around bright, to contrast with snow and with shadow. It is faint where the probed point
+  // is cut away.
   list.AddCircle(place, 9, IM_COL32(20, 12, 6, is_cut ? 60 : 190), 24, 4);
   list.AddCircle(place, 9, IM_COL32(255, 122, 40, is_cut ? 90 : 255), 24, 2);
   const std::string text = probe_text(probe, state.trace.quantity, is_cut);

@@ -84,7 +84,7 @@ std::string refusal_text(const Knob& knob) {
 }
 
 /// Called after the widget. Digits that are being typed into it count when they are complete: 30000
-/// is never 3. What is no valid value then is refused; a drag stops at the ends.
+/// is never 3. A complete but invalid value is refused; a drag stops at the ends.
 /// @param bound moves a value between the ends
 /// @return whether the value is a new one now
 template <class T, class IsValid, class Bound>

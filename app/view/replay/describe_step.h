@@ -27,12 +27,13 @@ void describe_mouse(V& visit, ReplayStep& s) {
   MouseButton button{s.button};
   Notches notches{s.wheel_x, s.wheel_y};
   if (s.kind == click || s.kind == move)
-    visit(action, place, none, anything, restart, "Where the mouse goes.");
+    visit(action, place, none, anything, restart, "Place that the mouse moves to.");
   if (s.kind == drag)
-    visit(action, s.places, none, anything, restart, "Where the mouse goes with a button down.");
+    visit(action, s.places, none, anything, restart,
+          "Places that the mouse moves through with a button down.");
   if (s.kind == wheel) {
     visit(action, notches, none, between(-100, 100), restart, "Notches up, or right and up.");
-    visit("at", place, none, anything, restart, "Where the mouse goes before.");
+    visit("at", place, none, anything, restart, "Place that the mouse moves to first.");
   }
   if (s.kind == click || s.kind == drag)
     visit("button", button, none, anything, restart, "The button that is pressed.");
@@ -58,7 +59,8 @@ void describe_others(V& visit, ReplayStep& s) {
   MustBeTrue must{};
   if (s.kind == key) {
     visit(action, code, none, anything, restart, "The key that is pressed.");
-    visit("hold", s.frames, none, between(1, 100'000), restart, "Frames until it is let go.");
+    visit("hold", s.frames, none, between(1, 100'000), restart,
+          "Frames until the key is released.");
     describe_held(visit, s.held);
   }
   if (s.kind == type || s.kind == paste || s.kind == drop)

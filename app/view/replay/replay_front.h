@@ -16,8 +16,8 @@
 namespace neve::app::view::replay {
 
 /// Each wait() is one frame of the panels and brings what happens in it; for the panels it should
-/// be 1/60 s long however long it takes. Where nothing happens it lets that time pass, unless
-/// wait() is not to take any, so that others get on with what they do.
+/// be 1/60 s long however long it takes. A frame without input lets that time pass, unless wait()
+/// is not to take any, so that other threads can work.
 class ReplayFront : public front::Front {
  public:
   struct Options {

@@ -43,7 +43,7 @@ class Document {
   const std::shared_ptr<const scene::Scene>& scene() const { return scene_; }
   const std::vector<scene::Override>& command_line() const { return overrides_; }
   double coarsening() const { return coarsening_; }
-  /// Those of the command line, then the edits.
+  /// The overrides of the command line, then the edits.
   std::vector<scene::Override> all_overrides() const { return with(edits_); }
 
   /// A material's preset is remembered as the numbers that it changes.

@@ -11,7 +11,7 @@ struct Edit {
 
   Kind kind = Kind::set;
   std::string address;
-  /// TOML: of set, and the present one of sweep. Of refused: why nothing was changed.
+  /// TOML: the new value for set, the present one for sweep. For refused, the reason.
   std::string value;
   std::uint64_t gesture = 0;  ///< the same while one widget is held
 };

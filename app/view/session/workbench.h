@@ -69,7 +69,7 @@ class Workbench {
   /// The change on disk is nothing to us.
   void keep_file();
 
-  // Out of the workbench. What they wrote, or why not, becomes a message.
+  // Exports. Each leaves a message with the file it wrote or the error.
   void save_scene(const std::filesystem::path& file);
   std::filesystem::path sweep_around(const std::string& address);
   std::string command() const;

@@ -248,7 +248,7 @@ bool WebFront::on_message(std::uint64_t, std::string_view text) {
 }
 
 void WebFront::on_all_sent() {
-  // Whoever is about to wait has to have begun, or it would not hear.
+  // A thread about to wait has to be waiting, or it would miss the notification.
   { const std::lock_guard lock(mutex_); }
   changed_.notify_all();
 }

@@ -21,7 +21,7 @@ struct WebOptions {
   std::string address = "127.0.0.1";     ///< a number, or localhost
   int port = 0;                          ///< 0: a free one
   front::ScreenSize size{1280, 800, 1};  ///< until a page connects
-  /// Somebody was told risk_of(address) and wants it all the same.
+  /// The user has seen risk_of(address) and accepts it.
   bool is_risk_taken = false;
   WebLimits limits{};
 };

@@ -37,7 +37,7 @@ struct WebMessage {
   std::string payload;
 };
 
-/// Finds messages in the bytes that a browser sends. What is kept is limited by the longest message
+/// Finds messages in the bytes that a browser sends. It buffers at most the longest message
 /// allowed: a longer one is refused as soon as its length is known.
 class FrameReader {
  public:
