@@ -32,7 +32,7 @@ constexpr Variant variants[] = {{BenchMethod::mls_quadratic, sim::Precision::sin
                                 {BenchMethod::mls_quadratic, sim::Precision::real64},
                                 {BenchMethod::flip_cubic, sim::Precision::real64}};
 
-std::string name_of(const Variant& v) {
+std::string variant_name(const Variant& v) {
   return std::string(name(v.method)) +
          (v.precision == sim::Precision::single ? "_float" : "_double");
 }
@@ -130,7 +130,7 @@ std::vector<BenchRow> SimBench::run() {
 void SimBench::measure_variants() {
   for (const Variant& variant : variants) {
     const BenchCase c = packed_case(cells_, variant.method, variant.precision);
-    windows_[name_of(variant)].add(time_window(c, threads_, name_of(variant)));
+    windows_[variant_name(variant)].add(time_window(c, threads_, variant_name(variant)));
   }
 }
 
@@ -152,7 +152,7 @@ void SimBench::measure_flow() {
 void SimBench::measure_scaling() {
   for (const BenchMethod method : main_methods) {
     const BenchCase c = packed_case(cells_, method, sim::Precision::single);
-    const std::string name = name_of({method, sim::Precision::single});
+    const std::string name = variant_name({method, sim::Precision::single});
     // Reuses the result of measure_variants() with the same number of threads.
     const Window& measured = windows_.at(name).windows().back();
     const auto with = [&](int threads) {
@@ -179,7 +179,7 @@ BenchRow SimBench::row(const std::string& name, int threads, const std::string& 
 }
 
 void SimBench::add_throughput(const Variant& variant) {
-  const std::string name = name_of(variant);
+  const std::string name = variant_name(variant);
   BenchRow r = row(name, threads_, throughput_unit);
   r.value = windows_.at(name).throughput();
   r.phases = windows_.at(name).phases();
@@ -196,7 +196,7 @@ void SimBench::add_naive(BenchMethod method) {
 }
 
 void SimBench::add_one_thread(BenchMethod method) {
-  const std::string name = name_of({method, sim::Precision::single}) + "_1_thread";
+  const std::string name = variant_name({method, sim::Precision::single}) + "_1_thread";
   BenchRow r = row(name, 1, throughput_unit);
   r.value = windows_.at(name).throughput();
   r.phases = windows_.at(name).phases();
@@ -205,14 +205,14 @@ void SimBench::add_one_thread(BenchMethod method) {
 }
 
 void SimBench::add_scaling(BenchMethod method) {
-  const std::string name = name_of({method, sim::Precision::single});
+  const std::string name = variant_name({method, sim::Precision::single});
   BenchRow r = row(name_for("scaling_2_threads", method), 2, "x one thread");
   r.value = time_ratio(windows_.at(name + "_1_thread"), windows_.at(name + "_2_threads"));
   rows_.push_back(r);
 }
 
 void SimBench::add_memory_and_spray(BenchMethod method) {
-  const Samples& packed = windows_.at(name_of({method, sim::Precision::single}));
+  const Samples& packed = windows_.at(variant_name({method, sim::Precision::single}));
   const Samples& spray = windows_.at(name_for("spray", method));
   BenchRow memory = row(name_for("memory_per_particle", method), threads_, "B");
   memory.value = packed.bytes_per_particle();
@@ -264,7 +264,7 @@ std::vector<BenchRow> bench_curve(const BenchOptions& options, Progress& progres
       break;
     }
     for (const BenchMethod method : main_methods) {
-      const std::string name = "curve_" + name_of({method, sim::Precision::single});
+      const std::string name = "curve_" + variant_name({method, sim::Precision::single});
       const BenchCase c = packed_case(cells, method, sim::Precision::single);
       Samples samples;
       for (int round = 0; round < rounds; ++round)

@@ -125,7 +125,7 @@ std::optional<view::session::Document> look_at(view::session::Document document,
   if (place.window) place.window->set_title(title);
   if (place.web) place.web->set_title(title);
   view::ViewerOptions viewer_options;
-  viewer_options.most_pictures = options.replay.empty() ? options.pictures : 0;
+  viewer_options.max_pictures = options.replay.empty() ? options.pictures : 0;
   viewer_options.is_running = options.is_running;
   viewer_options.has_own_clock = !options.replay.empty();
   if (!options.run.views.empty()) {

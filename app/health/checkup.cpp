@@ -23,7 +23,7 @@ constexpr double coarse_seconds = 2;
 constexpr double calibration_seconds = 1;
 constexpr int calibration_steps = 40;
 /// Above this many particles seeding alone takes too long for a look.
-constexpr double most_seeded = 3e6;
+constexpr double max_seeded = 3e6;
 
 /// The median of some steps, after two that warm caches up.
 /// @param solve  the worst of them
@@ -167,7 +167,7 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
   check_emitters(scene, checkup.findings);
   check_sinks(scene, checkup.impact_speed, checkup.findings);
   check_unused(scene, coarsening, checkup.findings);
-  if (plan.particles <= most_seeded && plan.memory <= plan.memory_limit) {
+  if (plan.particles <= max_seeded && plan.memory <= plan.memory_limit) {
     const setup::SeededScene seeded = setup::seed_scene(scene);
     const sim::ParticleArrays& particles = seeded.particles;
     checkup.plan.particles = static_cast<double>(particles.x.size()) + plan.emitted;

@@ -50,10 +50,10 @@ void report_thin(const std::vector<Thin>& thin, const std::string& bound, const 
   if (thin.empty()) return;
   const auto worst = std::min_element(
       thin.begin(), thin.end(), [](const Thin& a, const Thin& b) { return a.cells < b.cells; });
-  constexpr std::size_t most_named = 5;
+  constexpr std::size_t max_named = 5;
   std::vector<std::string> others;
   for (auto other = thin.begin(); other != thin.end(); ++other)
-    if (other != worst && others.size() < most_named) others.push_back(other->name);
+    if (other != worst && others.size() < max_named) others.push_back(other->name);
   const std::size_t left = thin.size() - 1 - others.size();
   std::string what = fmt::format("{} is {} cells thick", worst->name, rough_text(worst->cells));
   if (!others.empty())

@@ -21,7 +21,7 @@ constexpr const char* why_move_it =
     "and crushes it)";
 
 /// Particles of a body: a share needs no more.
-constexpr std::size_t most_looked_at = 20000;
+constexpr std::size_t max_looked_at = 20000;
 
 /// Tests if a place is in a collider at a time.
 class Inside {
@@ -94,7 +94,7 @@ void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene
     const Inside is_inside(collider, 0);
     for (std::size_t body = 0; body < seeded.body_end.size(); ++body) {
       const std::size_t first = seeded.body_begin(body), end = seeded.body_end[body];
-      const std::size_t stride = (end - first) / most_looked_at + 1;
+      const std::size_t stride = (end - first) / max_looked_at + 1;
       std::size_t inside = 0, count = 0;
       for (std::size_t p = first; p < end; p += stride, ++count)
         inside += is_inside(seeded.particles.x[p]);

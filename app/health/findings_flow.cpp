@@ -17,7 +17,7 @@ namespace {
 
 /// Allowed ratio of the rate to the carried rate: spheres and cones are not equally wide
 /// everywhere.
-constexpr double most_packing = 1.3;
+constexpr double max_packing = 1.3;
 
 /// kg/s that fall out of a shape in which snow is born at rest, at most at packed density; 0
 /// without gravity. With the same rate everywhere, momentum asks for v^2 = g y / 1.5 at a depth y
@@ -48,7 +48,7 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
   if (emitter.rate == 0) return;
   const double carried = sim::seeding::carried_rate(emitter, material);
   const double falling = falling_rate(emitter, material, scene.solver.gravity);
-  if (carried > 0 && emitter.rate > most_packing * std::max(carried, falling))
+  if (carried > 0 && emitter.rate > max_packing * std::max(carried, falling))
     findings.push_back(
         {Severity::warning, at + ".rate",
          fmt::format("its velocity carries away only about {} kg/s at the density of "
@@ -58,7 +58,7 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
   const double last = std::min(end, emitter.end.value_or(end));
   const double mass = emitter.rate * (last - emitter.start);
   const bool is_filled = mass > material.density * sim::shapes::volume(emitter.shape);
-  if (carried == 0 && is_filled && emitter.rate > most_packing * falling)
+  if (carried == 0 && is_filled && emitter.rate > max_packing * falling)
     findings.push_back(
         {Severity::warning, at + ".rate",
          fmt::format("new snow is at rest: {}; the rest will overlap old snow",

@@ -92,7 +92,7 @@ Json incident_json(const sim::Divergence& divergence, const Diagnosis& diagnosis
                    const std::string& scene, double cell_size) {
   Json json = output::to_json(divergence);
   json["sentence"] = sentence(divergence, diagnosis);
-  json["cause"] = scene::name_of(diagnosis.cause);
+  json["cause"] = scene::name(diagnosis.cause);
   json["evidence"] = diagnosis.evidence;
   json["remedy"] = diagnosis.remedy;
   json["address"] = diagnosis.address;

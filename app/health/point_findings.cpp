@@ -15,7 +15,7 @@ namespace {
 using sim::health::Law;
 
 /// Particles per cell: the grid cannot tell more of them apart.
-constexpr double most_useful = 40;
+constexpr double max_useful = 40;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void check_point_distance(const sim::seeding::Body& body, double cell_size,
                           std::vector<Finding>& findings) {
   const double per_cell = particles_in_cell(body, cell_size);
   const bool is_too_few = per_cell < sim::health::limits_of(Law::particles_per_cell).check_warning;
-  if (!is_too_few && per_cell <= most_useful) return;
+  if (!is_too_few && per_cell <= max_useful) return;
   const std::string eight = rough_text(cell_size * std::cbrt(8 / per_cell));
   findings.push_back({is_too_few ? Severity::warning : Severity::note,
                       "body." + body.name + ".shape.points",

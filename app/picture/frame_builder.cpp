@@ -111,7 +111,7 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
 std::vector<std::string> FrameBuilder::incident_lines(const sim::Divergence& divergence,
                                                       const health::Diagnosis& diagnosis) {
   return {"diverged at step " + std::to_string(divergence.step) + ", rule " + divergence.rule,
-          "cause: " + std::string(scene::name_of(diagnosis.cause)), diagnosis.evidence,
+          "cause: " + std::string(scene::name(diagnosis.cause)), diagnosis.evidence,
           "try: " + diagnosis.remedy};
 }
 

@@ -294,7 +294,7 @@ void RenderRun::report_incident() {
   const sim::Divergence& divergence = *record_.divergence;
   const health::Diagnosis diagnosis = health::diagnose(scene_, divergence);
   result_.diagnosis = diagnosis;
-  record_.cause = scene::name_of(diagnosis.cause);
+  record_.cause = scene::name(diagnosis.cause);
   const Json incident =
       health::incident_json(divergence, diagnosis, record_.scene, job_.scene.solver.cell_size);
   output::write_file(output::incident_path(job_.folder), to_text(incident) + "\n");

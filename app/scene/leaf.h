@@ -115,7 +115,7 @@ void read_leaf(const Leaf& leaf, std::optional<T>& member) {
 
 template <Choice E>
 toml::Value to_value(E member) {
-  return {std::string(name_of(member))};
+  return {std::string(name(member))};
 }
 
 template <Choice E>

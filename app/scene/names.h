@@ -133,7 +133,7 @@ concept Choice = requires(E e) {
 };
 
 template <Choice E>
-constexpr const char* name_of(E value) {
+constexpr const char* name(E value) {
   for (const auto& name : names(E{})) {
     if (name.value == value) return name.text;
   }

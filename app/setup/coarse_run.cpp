@@ -14,7 +14,7 @@ namespace {
 constexpr double particles_wanted = 250;
 constexpr double work_budget = 1.6e6;  // steps x particles, a fraction of a second
 constexpr int moments = 24;
-constexpr double most_sound_speed =
+constexpr double max_sound_speed =
     45;  // m/s at rest: what is stiffer moves the same, in more steps
 
 /// Replacement for the scene's snow in a coarse run.
@@ -38,8 +38,7 @@ scene::Scene coarsened(const scene::Scene& scene, Substitute substitute) {
       points->thinning *= growth;
   for (sim::Material& material : coarse.materials) {
     const double c = sim::sound_speed(material);
-    if (c > most_sound_speed)
-      material.youngs_modulus *= most_sound_speed * most_sound_speed / (c * c);
+    if (c > max_sound_speed) material.youngs_modulus *= max_sound_speed * max_sound_speed / (c * c);
     if (substitute == Substitute::uncrushed) {
       material.hardening = 0;
       material.critical_compression = 0.9;

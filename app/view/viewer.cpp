@@ -70,7 +70,7 @@ void Viewer::run() {
     has_input_ = false;
     draw();
     settle_ = is_more ? 3 : std::max(0, settle_ - 1);
-    if (options_.most_pictures > 0 && ++pictures_ >= options_.most_pictures) break;
+    if (options_.max_pictures > 0 && ++pictures_ >= options_.max_pictures) break;
   }
   if (state_.is_recording) bench_.session().set_recording(false);
   writer_.finish();

@@ -18,7 +18,7 @@
 namespace neve::app::view {
 
 struct ViewerOptions {
-  int most_pictures = 0;            ///< ends after so many; 0: never
+  int max_pictures = 0;             ///< ends after so many; 0: never
   bool is_running = false;          ///< from the start
   bool has_own_clock = false;       ///< panels see 1/60 s pass from picture to picture: scripts
   std::optional<std::string> view;  ///< the first one; without: the scene's first

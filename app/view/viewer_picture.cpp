@@ -101,9 +101,8 @@ scene::View Viewer::shown_view() const {
   if (state_.live->stage && !asked.empty() && asked.front().name == view.name) {
     view.slice.field = asked.front().slice.field;
     // Forces differ by orders of magnitude from step to step: the longest arrow is the largest.
-    const std::string name = view.slice.field == scene::VectorField::velocity
-                                 ? "v_old"
-                                 : scene::name_of(view.slice.field);
+    const std::string name =
+        view.slice.field == scene::VectorField::velocity ? "v_old" : scene::name(view.slice.field);
     view.slice.range = asked.front().slice.range;
     for (const session::QuantitySummary& quantity : state_.live->stage->quantities)
       if (quantity.name == name && quantity.max > 0)

@@ -13,7 +13,7 @@ void refuse_input(const std::string& where, const std::string& what) {
   throw ShapeError(where + ": " + what);
 }
 
-std::string read_input_file(const std::string& path, std::uintmax_t most_mebibytes,
+std::string read_input_file(const std::string& path, std::uintmax_t max_mebibytes,
                             const std::string& whats) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -21,9 +21,9 @@ std::string read_input_file(const std::string& path, std::uintmax_t most_mebibyt
   if (!std::filesystem::is_regular_file(status)) refuse_input(path, "not a file");
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) refuse_input(path, "cannot be read: " + error.message());
-  if (size > most_mebibytes << 20)
+  if (size > max_mebibytes << 20)
     refuse_input(path, std::to_string(size >> 20) + " MiB; " + whats + " of up to " +
-                           std::to_string(most_mebibytes) + " MiB are read. Simplify the mesh");
+                           std::to_string(max_mebibytes) + " MiB are read. Simplify the mesh");
   std::ifstream file(path, std::ios::binary);
   std::string bytes(size, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(size));

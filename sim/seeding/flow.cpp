@@ -9,6 +9,7 @@
 #include "sim/base/hash.h"
 #include "sim/seeding/sampling.h"
 #include "sim/seeding/sampling_blocks.h"
+#include "sim/seeding/seeding.h"
 #include "sim/shapes/variation.h"
 
 namespace neve::sim::seeding {
@@ -20,15 +21,13 @@ constexpr std::uint64_t emitter_key = 0x656d6974;
 
 /// Candidates for one place. In a shape that fills this share of its box one of 64 is inside: it
 /// never happens that all of so many are outside.
-constexpr int most_candidates = 8192;
+constexpr int max_candidates = 8192;
 constexpr double least_share = 1.0 / 64;
 
 /// For a shape that fills less, places are found once and reused in turn: a tenth of a second, a
 /// second for a mesh.
 constexpr std::uint64_t pool_candidates = 1 << 20;
 constexpr std::size_t pool_places = 1 << 14;
-
-constexpr double most_particles = 4294967296.0;  // ids have 32 bits
 
 double share_of(const Emitter& emitter, double cell_size) {
   return cell_size * cell_size * cell_size / emitter.particles_per_cell;
@@ -83,7 +82,7 @@ std::uint64_t count_emitted(const Emitter& emitter, const Material& material, do
     count = births_until(emitter, material.density * share, time);
   else if (time >= emitter.start)
     count = std::max(1.0, std::ceil(shapes::Solid(emitter.shape).volume() / share));
-  return static_cast<std::uint64_t>(std::min(count, most_particles));
+  return static_cast<std::uint64_t>(std::min(count, max_particles));
 }
 
 EmitterStream::EmitterStream(const Emitter& emitter, std::size_t number, const Material& material,
@@ -95,7 +94,7 @@ EmitterStream::EmitterStream(const Emitter& emitter, std::size_t number, const M
       box_(solid_.local_bounds()),
       V0_(share_of(emitter, cell_size)) {
   if (emitter.rate > 0) return;
-  if (!(solid_.volume() / V0_ < most_particles))
+  if (!(solid_.volume() / V0_ < max_particles))
     throw ShapeError("emitter " + emitter.name + ": more than 2^32 particles fit into it");
   require_few_blocks(solid_, Vec3d::Zero(), std::cbrt(V0_));
 }
@@ -107,7 +106,7 @@ void EmitterStream::advance_to(double time, std::vector<Birth>& births) {
   }
   const double mass = material_.density * V0_, period = mass / emitter_.rate;
   const auto until =
-      static_cast<std::uint64_t>(std::min(births_until(emitter_, mass, time), most_particles));
+      static_cast<std::uint64_t>(std::min(births_until(emitter_, mass, time), max_particles));
   for (; state_.born < until; ++state_.born) {
     const double birth = emitter_.start + (static_cast<double>(state_.born) + 0.5) * period;
     births.push_back(born_at(next_place(), std::max(0.0, time - birth)));
@@ -144,7 +143,7 @@ Vec3d EmitterStream::next_place() {
     if (pool_.empty()) fill_pool();
     return pool_[state_.candidate++ % pool_.size()];
   }
-  for (int tries = 0; tries < most_candidates; ++tries)
+  for (int tries = 0; tries < max_candidates; ++tries)
     if (const Vec3d y = next_candidate(); solid_.contains_local(y)) return y;
   return solid_.inner_point();
 }

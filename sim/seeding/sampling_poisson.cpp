@@ -87,7 +87,7 @@ constexpr std::uint64_t darts_per_cell = 400;
 
 // Darts for a solid of so many points: a needle that fills next to nothing of its blocks is given
 // up after a few seconds instead of a day.
-constexpr std::uint64_t most_darts(std::uint64_t points) {
+constexpr std::uint64_t darts_for(std::uint64_t points) {
   return 10'000'000 + 10'000 * points;
 }
 
@@ -98,7 +98,7 @@ std::vector<Vec3d> sample_poisson(const shapes::Solid& solid, double spacing, st
   const auto wanted = static_cast<std::size_t>(
       std::max(1.0, std::round(solid.volume() / (spacing * spacing * spacing))));
   const std::uint64_t max_darts = std::min(
-      darts_per_cell * block_cells * block_cells * block_cells * blocks.size(), most_darts(wanted));
+      darts_per_cell * block_cells * block_cells * block_cells * blocks.size(), darts_for(wanted));
 
   Neighbours taken(poisson_distance_in_spacings * spacing, wanted);
   for (std::uint64_t t = 0; t < max_darts && taken.points().size() < wanted; ++t) {

@@ -12,8 +12,6 @@
 namespace neve::sim::seeding {
 namespace {
 
-constexpr double max_particles = 4294967296.0;  // ids have 32 bits
-
 double expected_count(const Body& body, const shapes::Solid& solid, double spacing) {
   const double by_volume = solid.volume() / (spacing * spacing * spacing);
   if (body.sampling != Sampling::lattice) return by_volume;

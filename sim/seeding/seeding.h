@@ -11,6 +11,9 @@
 
 namespace neve::sim::seeding {
 
+/// Ids of particles have 32 bits.
+inline constexpr double max_particles = 4294967296.0;
+
 enum class Sampling { jittered, poisson, lattice };
 enum class Volumes { estimated, given };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double samples_around = 2;
 
 /// Limit for a lattice finer than half a cell: 8 MiB, a second.
-constexpr double most_refined = 128.0 * 128.0 * 128.0;
+constexpr double max_refined = 128.0 * 128.0 * 128.0;
 
 /// Along each axis, as doubles: a mesh may be absurdly large.
 Eigen::Array3d counts(const Bounds& bounds, double spacing) {
@@ -28,9 +28,9 @@ double field_spacing(const MeshSurface& surface, double cell_size) {
   const double coarse = 0.5 * cell_size;
   // A row of so many samples is too many by itself: no need to begin below, where a flat mesh
   // would.
-  const double least = extent.maxCoeff() / most_refined;
+  const double least = extent.maxCoeff() / max_refined;
   double fine = std::max(std::min({coarse, extent.minCoeff() / 8, extent.maxCoeff() / 64}), least);
-  while (fine < coarse && counts(bounds, fine).prod() > most_refined) fine *= 1.1;
+  while (fine < coarse && counts(bounds, fine).prod() > max_refined) fine *= 1.1;
   return std::min(fine, coarse);
 }
 
@@ -39,7 +39,7 @@ DistanceField::DistanceField(const MeshSurface& surface, const std::string& name
     : spacing_(spacing) {
   const Bounds& bounds = surface.bounds();
   const Eigen::Array3d count = counts(bounds, spacing);
-  if (!(count.prod() <= most_samples))
+  if (!(count.prod() <= max_samples))
     throw ShapeError(name + ": the distance field of this collider has a point every " +
                      number_text(spacing) + " m (half a cell), in total " + number_text(count[0]) +
                      " x " + number_text(count[1]) + " x " + number_text(count[2]) +

@@ -18,7 +18,7 @@ namespace neve::sim::shapes {
 class DistanceField {
  public:
   /// 64 MiB.
-  static constexpr double most_samples = 256.0 * 256.0 * 256.0;
+  static constexpr double max_samples = 256.0 * 256.0 * 256.0;
 
   /// Exact distances at the samples, the sign by the winding number. The bits do not depend on the
   /// number of threads.

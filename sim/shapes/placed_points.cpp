@@ -125,7 +125,7 @@ Bounds PlacedPoints::bounds_after(const Mat3d& rotation) const {
 }
 
 PointsSummary summary_of(const Points& points, const Mat3d& rotation) {
-  constexpr std::size_t most_remembered = 256;
+  constexpr std::size_t max_remembered = 256;
   static std::mutex mutex;
   static std::map<SummaryKey, PointsSummary> remembered;
   const std::optional<SummaryKey> key = key_of(points, rotation);
@@ -136,7 +136,7 @@ PointsSummary summary_of(const Points& points, const Mat3d& rotation) {
   const PointsSummary summary = summarize(PlacedPoints(points), rotation);
   if (key) {
     const std::lock_guard lock(mutex);
-    if (remembered.size() >= most_remembered) remembered.clear();
+    if (remembered.size() >= max_remembered) remembered.clear();
     remembered.emplace(*key, summary);
   }
   return summary;

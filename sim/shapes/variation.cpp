@@ -11,7 +11,7 @@ namespace neve::sim::shapes {
 namespace {
 
 /// Cut in standard deviations: beyond it, a single stiff particle could set every step.
-constexpr double most_deviations = 3;
+constexpr double max_deviations = 3;
 
 enum Quantity : std::uint64_t { of_density = 1, of_stiffness, of_threshold };
 
@@ -53,7 +53,7 @@ double smooth_normal(std::uint64_t key, const Vec3d& place) {
 /// Log-normal with mean 1 and the given standard deviation.
 double factor(double deviation, double z) {
   const double sigma = std::sqrt(std::log1p(deviation * deviation));
-  return std::exp(sigma * std::clamp(z, -most_deviations, most_deviations) - 0.5 * sigma * sigma);
+  return std::exp(sigma * std::clamp(z, -max_deviations, max_deviations) - 0.5 * sigma * sigma);
 }
 
 }  // namespace

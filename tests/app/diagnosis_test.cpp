@@ -184,7 +184,7 @@ TEST(Diagnosis, DiagnosisNamesTheCauseOfEachFault) {
     const sim::Simulation simulation = run(scene, app::setup::seed_scene(scene).particles);
     ASSERT_TRUE(simulation.divergence());
     const app::health::Diagnosis diagnosis = app::health::diagnose(scene, *simulation.divergence());
-    EXPECT_STREQ(app::scene::name_of(diagnosis.cause), app::scene::name_of(fault.cause))
+    EXPECT_STREQ(app::scene::name(diagnosis.cause), app::scene::name(fault.cause))
         << app::health::sentence(*simulation.divergence(), diagnosis);
     EXPECT_NE(diagnosis.evidence.find(fault.proof), std::string::npos) << diagnosis.evidence;
     EXPECT_FALSE(diagnosis.remedy.empty());

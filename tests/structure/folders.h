@@ -103,6 +103,6 @@ inline constexpr Folder folders[] = {
 };
 
 /// Units (a header, a source or both) that a folder may hold before it wants a cut.
-inline constexpr int most_units = 30;
+inline constexpr int max_units = 30;
 
 }  // namespace neve::test

@@ -85,7 +85,7 @@ TEST(Structure, NoFolderHoldsTooManyUnits) {
     for (const auto& entry : fs::directory_iterator(source_root() / folder.path))
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
         units.insert(entry.path().stem().string());
-    EXPECT_LE(static_cast<int>(units.size()), most_units) << folder.path;
+    EXPECT_LE(static_cast<int>(units.size()), max_units) << folder.path;
   }
 }
 

@@ -19,7 +19,7 @@ namespace neve::app::sweep::plan {
 namespace {
 
 /// Dry runs take part of a second each; the corners come first and show the extremes.
-constexpr std::size_t most_dry_runs = 8;
+constexpr std::size_t max_dry_runs = 8;
 
 /// A range and what it is a range of: only equal ones are shared.
 struct RangeSlot {
@@ -28,10 +28,10 @@ struct RangeSlot {
 };
 
 std::vector<RangeSlot> range_slots(scene::View& view) {
-  return {{&view.particles.range, scene::name_of(view.particles.color_by)},
-          {&view.smoke.range, scene::name_of(view.smoke.field)},
-          {&view.slice.range, scene::name_of(view.slice.field)},
-          {&view.slice.scalar_range, scene::name_of(view.slice.scalar)},
+  return {{&view.particles.range, scene::name(view.particles.color_by)},
+          {&view.smoke.range, scene::name(view.smoke.field)},
+          {&view.slice.range, scene::name(view.slice.field)},
+          {&view.slice.scalar_range, scene::name(view.slice.scalar)},
           {&view.plots.energy, "energy"},
           {&view.plots.speed, "speed"},
           {&view.plots.dt, "dt"}};
@@ -84,7 +84,7 @@ std::vector<int> axis_sizes(const SweepPlan& plan) {
 std::vector<setup::Moment> moments_of_corners(const SweepPlan& plan, int cores) {
   std::vector<const scene::Scene*> scenes;
   for (const std::size_t k : coarse_first(coordinates_of(plan), axis_sizes(plan)))
-    if (scenes.size() < most_dry_runs && setup::needs_framing(plan.runs[k].scene))
+    if (scenes.size() < max_dry_runs && setup::needs_framing(plan.runs[k].scene))
       scenes.push_back(&plan.runs[k].scene);
   std::vector<setup::Moment> moments;
   const auto together = static_cast<std::size_t>(std::max(1, cores));

@@ -135,7 +135,7 @@ class SweepReader {
     const Method method = sweep.settings.method;
     const scene::toml::Location where = reading_.place_of("sweep.method");
     const bool draws = method == Method::random || method == Method::lhs;
-    const std::string name = scene::toml::toml_string(scene::name_of(method));
+    const std::string name = scene::toml::toml_string(scene::name(method));
     if (draws && sweep.settings.samples == 0)
       source().fail(where, "method " + name + " needs samples", "give the number of runs to draw");
     if (!draws && sweep.settings.samples > 0)

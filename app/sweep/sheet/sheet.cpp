@@ -20,7 +20,7 @@ constexpr Rgb paper{30, 33, 39}, empty_tile{44, 48, 56};
 constexpr Rgb bright{240, 244, 250}, soft{190, 199, 212}, alarm{255, 138, 76},
     caution{255, 205, 96};
 constexpr double darkness = 0.42;  // of a tile whose run got less far
-constexpr std::size_t most_moments = 6;
+constexpr std::size_t max_moments = 6;
 const char* const dot = "   \u00b7   ";
 
 render::Image plain_image(int width, int height, const Rgb& color) {
@@ -95,13 +95,13 @@ std::vector<std::string> tile_lines(const store::Manifest& manifest, const Run& 
 
 /// The name of a run, or what it sets, a line each.
 std::string strip_name(const store::Manifest& manifest, const Run& run) {
-  constexpr int most_lines = 5;
+  constexpr int max_lines = 5;
   if (!run.label.empty()) return run.label;
   std::string text;
   int lines = 0;
   for (const Parameter& parameter : manifest.parameters) {
     const std::string value = run.setting(parameter.address);
-    if (value.empty() || ++lines > most_lines) continue;
+    if (value.empty() || ++lines > max_lines) continue;
     text += (text.empty() ? "" : "\n") + parameter.name + " = " + plan::value_text(value) +
             (parameter.unit.empty() ? "" : " " + parameter.unit);
   }
@@ -253,7 +253,7 @@ render::Image SheetMaker::strips() {
 
 std::vector<int> SheetMaker::moments() const {
   const int first = manifest_.first_frame(), last = manifest_.last_frame();
-  const std::size_t count = std::min(most_moments, static_cast<std::size_t>(last - first + 1));
+  const std::size_t count = std::min(max_moments, static_cast<std::size_t>(last - first + 1));
   std::vector<int> frames;
   for (std::size_t k = 0; k < count; ++k) {
     const double part = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 1;

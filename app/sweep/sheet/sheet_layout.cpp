@@ -172,7 +172,7 @@ class Layouter {
         std::lround(line() * static_cast<double>(sides_.columns.axes.size()) + 0.2 * line()));
   }
 
-  double most_level_width() const { return 14.0 * out_.font_size; }
+  double max_level_width() const { return 14.0 * out_.font_size; }
   double width_of(std::size_t letters) const {
     return letter * out_.font_size * static_cast<double>(letters + 1);
   }
@@ -185,7 +185,7 @@ class Layouter {
       if (value.find('\n') != std::string::npos) return false;
       longest = std::max(longest, value.size());
     }
-    return !a.name.empty() && width_of(a.name.size() + 3 + longest) <= most_level_width();
+    return !a.name.empty() && width_of(a.name.size() + 3 + longest) <= max_level_width();
   }
 
   /// Lines of a row header: name above value if both do not fit side by side.
@@ -202,7 +202,7 @@ class Layouter {
     for (int value = 0; value < static_cast<int>(m_.axes[axis].values.size()); ++value)
       for (const std::string& text : row_lines(axis, value))
         longest = std::max(longest, text.size());
-    return static_cast<int>(std::min(width_of(longest), most_level_width()));
+    return static_cast<int>(std::min(width_of(longest), max_level_width()));
   }
   int row_label_width() const {
     int width = 0;
@@ -283,13 +283,13 @@ class Layouter {
 }  // namespace
 
 SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest) {
-  constexpr double most_pixels = 48e6;
+  constexpr double max_pixels = 48e6;
   constexpr int smallest_tile = 64;
   int tile = manifest.tile_width;
   while (true) {
     SheetLayout layout = Layouter(manifest, has_legend, tile).make();
     const double pixels = 1.0 * layout.width * layout.height;
-    if ((layout.width <= largest && layout.height <= largest && pixels <= most_pixels) ||
+    if ((layout.width <= largest && layout.height <= largest && pixels <= max_pixels) ||
         tile <= smallest_tile)
       return layout;
     tile = std::max(smallest_tile, tile * 9 / 10);

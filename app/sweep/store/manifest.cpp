@@ -195,7 +195,7 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
   m.columns = axis_called(plan, "sheet.columns", plan.sweep.sheet.columns);
   m.rows = axis_called(plan, "sheet.rows", plan.sweep.sheet.rows);
   m.wrap = plan.sweep.sheet.wrap;
-  m.tile_label = scene::name_of(plan.sweep.sheet.label);
+  m.tile_label = scene::name(plan.sweep.sheet.label);
   m.timeout = plan.sweep.limits.timeout.seconds;
   m.memory = static_cast<double>(plan.sweep.limits.memory);
   m.parameters = plan::varied_parameters(plan);

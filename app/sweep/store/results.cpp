@@ -116,12 +116,12 @@ std::string warning_count_text(std::size_t count) {
 
 std::vector<std::string> warning_lines(const Manifest& manifest,
                                        const std::vector<RunResult>& results) {
-  constexpr std::size_t most_lines = 5;
+  constexpr std::size_t max_lines = 5;
   std::vector<std::string> lines;
   std::size_t further = 0;
   for (std::size_t k = 0; k < results.size(); ++k) {
     if (results[k].warnings.empty()) continue;
-    if (lines.size() >= most_lines) {
+    if (lines.size() >= max_lines) {
       ++further;
       continue;
     }

@@ -83,7 +83,7 @@ void fit_range(ViewerState& state, const scene::View& view) {
                       scene::toml::number_text(round_to(high, scale, 2)) + "]");
 }
 
-constexpr std::size_t most_view_buttons = 8;
+constexpr std::size_t max_view_buttons = 8;
 
 void note_view(const scene::View& view, std::size_t index) {
   note_label(("view " + view.name).c_str());
@@ -216,7 +216,7 @@ void draw_objects(ViewerState& state) {
 
 void draw_view_panel(ViewerState& state) {
   const scene::Scene& scene = *state.bench.document().scene();
-  if (scene.views.size() <= most_view_buttons)
+  if (scene.views.size() <= max_view_buttons)
     draw_view_buttons(state, scene.views);
   else
     draw_view_list(state, scene.views);

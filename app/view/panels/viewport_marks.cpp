@@ -93,7 +93,7 @@ std::string reason_for_no_arrows(const scene::View& view, const picture::FieldSa
   if (arrows == fields.vectors.end()) return "";
   const double most = longest(arrows->second);
   const double range = view.slice.range ? view.slice.range->max : 0;
-  const std::string name = scene::name_of(view.slice.field);
+  const std::string name = scene::name(view.slice.field);
   if (most == 0) return "no arrows: " + name + " is 0 everywhere";
   if (range > 0 && most < visible_share * range)
     return "no arrows to be seen: the largest " + name + " is " + rough_text(most) +

@@ -165,9 +165,9 @@ class Knobs {
     if (!panel_.shows(knob.address, help)) return;
     panel_.begin(knob);
     const std::vector<std::string> all = scene::choices<E>();
-    int index = now ? static_cast<int>(std::find(all.begin(), all.end(), scene::name_of(*now)) -
-                                       all.begin())
-                    : -1;
+    int index =
+        now ? static_cast<int>(std::find(all.begin(), all.end(), scene::name(*now)) - all.begin())
+            : -1;
     const bool is_set = edit_choice(knob, all, index);
     const std::string value =
         index < 0 ? "" : scene::toml::toml_string(all[static_cast<std::size_t>(index)]);

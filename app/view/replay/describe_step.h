@@ -22,7 +22,7 @@ void describe_mouse(V& visit, ReplayStep& s) {
   using enum scene::Change;
   using enum ReplayStep::Kind;
   using scene::anything, scene::between, scene::unit::none;
-  const char* const action = name_of(s.kind);
+  const char* const action = name(s.kind);
   OnePlace place{s.places};
   MouseButton button{s.button};
   Notches notches{s.wheel_x, s.wheel_y};
@@ -49,7 +49,7 @@ void describe_others(V& visit, ReplayStep& s) {
   using enum scene::Change;
   using enum ReplayStep::Kind;
   using scene::anything, scene::between, scene::unit::none, scene::unit::second;
-  const char* const action = name_of(s.kind);
+  const char* const action = name(s.kind);
   KeyCode code{s.key};
   SomeText words{s.text};
   WaitGoal goal{s.text};

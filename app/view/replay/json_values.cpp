@@ -18,7 +18,7 @@ using scene::toml::Location;
 using scene::toml::Table;
 using scene::toml::Value;
 
-constexpr std::size_t most_nested = 16, most_keys = 64;
+constexpr std::size_t max_nested = 16, max_keys = 64;
 
 bool is_between_tokens(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ',' || c == ':';
@@ -109,7 +109,7 @@ class Builder {
     if (left_out_ > 0) return true;
     const Table& table = std::get<Table>(open_.back()->data);
     if (table.find(name)) fail(key_.where, scene::toml::toml_string(name) + " is there twice", "");
-    if (table.entries.size() >= most_keys) fail(key_.where, "too many keys in one object", "");
+    if (table.entries.size() >= max_keys) fail(key_.where, "too many keys in one object", "");
     return true;
   }
 
@@ -140,7 +140,7 @@ class Builder {
   }
 
   bool open(Value value) {
-    if (left_out_ > 0 || open_.size() >= most_nested)
+    if (left_out_ > 0 || open_.size() >= max_nested)
       ++left_out_;
     else
       open_.push_back(&place(std::move(value)));

@@ -53,7 +53,7 @@ void ReplayFront::give_up(const ReplayStep& step, const std::string& message,
       file_ + ":" + std::to_string(step.line) + ":" + std::to_string(step.column);
   const std::size_t number = static_cast<std::size_t>(&step - steps_.data()) + 1;
   throw Error(exit_check_failed,
-              where + ": error: step " + std::to_string(number) + " (" + name_of(step.kind) +
+              where + ": error: step " + std::to_string(number) + " (" + name(step.kind) +
                   "): " + message + (hint.empty() ? "" : "; " + hint),
               where, hint);
 }

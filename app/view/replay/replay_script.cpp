@@ -68,7 +68,7 @@ ReplayStep read_step(scene::Reading& reading, const scene::toml::Value& value, s
 
 }  // namespace
 
-const char* name_of(ReplayStep::Kind kind) {
+const char* name(ReplayStep::Kind kind) {
   return action_names[static_cast<std::size_t>(kind)];
 }
 

@@ -73,7 +73,7 @@ std::vector<ReplayStep> parse_replay(std::string_view text, const std::string& f
 /// As parse_replay reads it, one step a line; what is as usual is left out.
 std::string replay_text(const std::vector<ReplayStep>& steps);
 
-const char* name_of(ReplayStep::Kind kind);
+const char* name(ReplayStep::Kind kind);
 
 inline constexpr const char* button_names[] = {"left", "right", "middle"};
 

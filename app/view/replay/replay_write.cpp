@@ -57,7 +57,7 @@ Json action_json(const ReplayStep& step) {
 Json step_json(const ReplayStep& step) {
   const ReplayStep usual;
   Json json;
-  json[name_of(step.kind)] = action_json(step);
+  json[name(step.kind)] = action_json(step);
   if (step.at_frame != usual.at_frame) json["at_frame"] = step.at_frame;
   if (step.kind == Step::wheel && !step.places.empty()) json["at"] = place_json(step.places[0]);
   if (step.button != usual.button) json["button"] = button_names[step.button];

@@ -11,7 +11,7 @@ namespace neve::app::view::replay {
 
 namespace {
 
-constexpr std::size_t most_text = 64 << 10, most_places = 10'000;
+constexpr std::size_t max_text = 64 << 10, max_places = 10'000;
 
 /// A number between two bounds; `what` names all that the value may be.
 double number(const scene::Leaf& leaf, const scene::toml::Value& value, double low, double high,
@@ -26,7 +26,7 @@ double number(const scene::Leaf& leaf, const scene::toml::Value& value, double l
 std::string text_of(const scene::Leaf& leaf, const std::string& what) {
   const std::string& text = leaf.text(what);
   if (text.empty()) leaf.fail(what);
-  if (text.size() > most_text) leaf.fail("at most 64 KiB");
+  if (text.size() > max_text) leaf.fail("at most 64 KiB");
   return text;
 }
 
@@ -70,7 +70,7 @@ void read_leaf(const scene::Leaf& leaf, OnePlace& member) {
 void read_leaf(const scene::Leaf& leaf, std::vector<ReplayPlace>& member) {
   const std::string what = "a list of two places or more";
   const scene::toml::Array& list = leaf.array(0, what);
-  if (list.size() < 2 || list.size() > most_places) leaf.fail(what);
+  if (list.size() < 2 || list.size() > max_places) leaf.fail(what);
   member.clear();
   for (const scene::toml::Value& value : list) member.push_back(place_of(leaf, value));
 }

@@ -16,7 +16,7 @@ namespace neve::app::view::session {
 
 namespace {
 
-constexpr std::size_t most_undos = 500;
+constexpr std::size_t max_undos = 500;
 
 std::vector<scene::Override>::iterator find(std::vector<scene::Override>& edits,
                                             const std::string& address) {
@@ -135,7 +135,7 @@ void Document::set(const std::string& address, const std::string& value, std::ui
   const std::vector<scene::Override> before = edits_;
   become(std::move(edits));
   if (gesture == 0 || gesture != gesture_) done_.push_back(before);
-  if (done_.size() > most_undos) done_.erase(done_.begin());
+  if (done_.size() > max_undos) done_.erase(done_.begin());
   gesture_ = gesture;
   undone_.clear();
 }

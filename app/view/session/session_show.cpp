@@ -12,7 +12,7 @@ namespace {
 
 /// Between two moments of a run that are shown; turning the view draws pictures in between.
 constexpr auto publish_interval = std::chrono::milliseconds(30);
-constexpr std::size_t most_samples = 4000;
+constexpr std::size_t max_samples = 4000;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ sim::Summary Session::note_sample() {
   list.push_back({summary.time, summary.kinetic_energy, summary.elastic_energy, summary.momentum,
                   summary.max_speed, summary.min_J_P, summary.max_J_P, choice.dt, choice.limit,
                   summary.max_depth});
-  if (list.size() <= most_samples) return summary;
+  if (list.size() <= max_samples) return summary;
   std::size_t kept = 0;  // every other one: the plot covers the whole run with half the detail
   for (std::size_t k = 0; k < list.size(); k += 2) list[kept++] = list[k];
   list.resize(kept);

@@ -17,7 +17,7 @@ namespace neve::app::view::session {
 
 namespace {
 
-constexpr std::size_t most_messages = 100;
+constexpr std::size_t max_messages = 100;
 
 std::string text_of(const std::exception& error) {
   if (const auto* usage = dynamic_cast<const scene::toml::UsageError*>(&error))
@@ -282,7 +282,7 @@ void Workbench::say(Message::Kind kind, std::string text) {
   if (kind == Message::Kind::error) ++errors_said_;
   if (!messages_.empty() && messages_.back().text == text) return;
   messages_.push_back({kind, std::move(text)});
-  if (messages_.size() > most_messages) messages_.pop_front();
+  if (messages_.size() > max_messages) messages_.pop_front();
 }
 
 }  // namespace neve::app::view::session

@@ -12,7 +12,7 @@ namespace neve::app::view::web {
 namespace {
 
 constexpr double far = 100000;  ///< px: a drag may leave the picture; so far it is nowhere
-constexpr double most_notches = 20;
+constexpr double max_notches = 20;
 
 /// The numbers of "m 12 34.5 0", split by single blanks: exactly so many, all finite.
 template <std::size_t count>
@@ -76,8 +76,8 @@ PageMessage read_wheel(std::string_view text) {
   const auto n = read_numbers<3>(text);  // notches to the right, up, modifiers
   if (!n) return {};
   PageMessage message = event_of(front::InputEvent::Kind::wheel, (*n)[2]);
-  message.event.x = float(std::clamp((*n)[0], -most_notches, most_notches));
-  message.event.y = float(std::clamp((*n)[1], -most_notches, most_notches));
+  message.event.x = float(std::clamp((*n)[0], -max_notches, max_notches));
+  message.event.y = float(std::clamp((*n)[1], -max_notches, max_notches));
   return message;
 }
 
