@@ -38,33 +38,33 @@ target = [0, 0.25, 0]
 constexpr int picture_width = 960, picture_height = 540;
 
 /// Input of a user who drags the camera without pause; every picture is shown at once.
-class BenchFront : public view::front::Front {
+class BenchFrontend : public view::frontend::Frontend {
  public:
-  explicit BenchFront(int pictures) : pictures_(pictures) {}
+  explicit BenchFrontend(int pictures) : pictures_(pictures) {}
 
   std::string where() const override { return "bench"; }
-  view::front::ScreenSize size() const override { return {picture_width, picture_height, 1}; }
+  view::frontend::ScreenSize size() const override { return {picture_width, picture_height, 1}; }
 
-  std::vector<view::front::InputEvent> wait(double) override {
+  std::vector<view::frontend::InputEvent> wait(double) override {
     asked_ = Stopwatch();
-    std::vector<view::front::InputEvent> events;
-    view::front::InputEvent event;
+    std::vector<view::frontend::InputEvent> events;
+    view::frontend::InputEvent event;
     event.x = 480 + 200 * std::sin(0.05f * static_cast<float>(shown_));
     event.y = 270 + 60 * std::cos(0.08f * static_cast<float>(shown_));
     if (shown_ == 0) {
-      view::front::InputEvent hide;  // the panels: all of the window is picture
-      hide.kind = view::front::InputEvent::Kind::key;
-      hide.key = view::front::key::tab;
+      view::frontend::InputEvent hide;  // the panels: all of the window is picture
+      hide.kind = view::frontend::InputEvent::Kind::key;
+      hide.key = view::frontend::key::tab;
       hide.is_down = true;
       events.push_back(hide);
       hide.is_down = false;
       events.push_back(hide);
     }
     if (shown_ == 8) {
-      event.kind = view::front::InputEvent::Kind::button;
+      event.kind = view::frontend::InputEvent::Kind::button;
       event.is_down = true;
     }
-    if (shown_ >= pictures_) event.kind = view::front::InputEvent::Kind::close;
+    if (shown_ >= pictures_) event.kind = view::frontend::InputEvent::Kind::close;
     events.push_back(event);
     return events;
   }
@@ -107,7 +107,7 @@ ViewRound measure_view(const std::string& file, const BenchOptions& options, boo
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, {}, &pool);
   render::Screen screen(*context);
-  BenchFront front(options.is_quick ? 30 : 150);
+  BenchFrontend front(options.is_quick ? 30 : 150);
   view::session::WorkbenchOptions bench_options;
   bench_options.session.threads = options.threads;
   view::session::Workbench bench(view::session::open_document(file, {}, 1), bench_options, {});

@@ -10,11 +10,11 @@
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
-#include "app/view/front/window_front.h"
-#include "app/view/replay/recording_front.h"
-#include "app/view/replay/replay_front.h"
+#include "app/view/frontend/window_frontend.h"
+#include "app/view/replay/recording_frontend.h"
+#include "app/view/replay/replay_frontend.h"
 #include "app/view/viewer.h"
-#include "app/view/web/web_front.h"
+#include "app/view/web/web_frontend.h"
 #include "app/view/web/web_guard.h"
 #include "render/gl/context.h"
 
@@ -24,11 +24,11 @@ namespace {
 
 /// Frontend of the view, with its drawing context.
 struct Place {
-  std::unique_ptr<view::front::Front> front;
+  std::unique_ptr<view::frontend::Frontend> front;
   std::unique_ptr<render::gl::Context> own_context;  ///< none where the window has one
   render::gl::Context* context = nullptr;
-  view::front::WindowFront* window = nullptr;
-  view::web::WebFront* web = nullptr;
+  view::frontend::WindowFrontend* window = nullptr;
+  view::web::WebFrontend* web = nullptr;
 };
 
 bool has_display() {
@@ -38,11 +38,11 @@ bool has_display() {
 Place open_replay(const view::ViewOptions& options) {
   Place place;
   const std::string text = scene::read_toml_file(options.replay);
-  view::replay::ReplayFront::Options replay;
+  view::replay::ReplayFrontend::Options replay;
   replay.folder = options.run.out.empty() ? "." : options.run.out;
   replay.frames = options.pictures;
   if (options.run.size) replay.size = {options.run.size->width, options.run.size->height, 1};
-  place.front = std::make_unique<view::replay::ReplayFront>(
+  place.front = std::make_unique<view::replay::ReplayFrontend>(
       view::replay::parse_replay(text, options.replay), options.replay, replay);
   place.own_context = render::gl::open_context(options.run.backend);
   place.context = place.own_context.get();
@@ -60,7 +60,7 @@ Place open_web(const view::ViewOptions& options) {
   web.port = options.port;
   if (options.run.size) web.size = {options.run.size->width, options.run.size->height, 1};
   Place place;
-  auto front = std::make_unique<view::web::WebFront>(web);
+  auto front = std::make_unique<view::web::WebFrontend>(web);
   place.web = front.get();
   place.front = std::move(front);
   place.own_context = render::gl::open_context(options.run.backend);
@@ -69,10 +69,10 @@ Place open_web(const view::ViewOptions& options) {
 }
 
 Place open_window(const view::ViewOptions& options) {
-  view::front::ScreenSize size{1440, 860, 1};
+  view::frontend::ScreenSize size{1440, 860, 1};
   if (options.run.size) size = {options.run.size->width, options.run.size->height, 1};
   Place place;
-  auto front = std::make_unique<view::front::WindowFront>("neve", size);
+  auto front = std::make_unique<view::frontend::WindowFrontend>("neve", size);
   place.window = front.get();
   place.context = &front->context();
   place.front = std::move(front);
@@ -106,7 +106,7 @@ void announce(const Place& place, bool is_quiet) {
 std::optional<view::session::Document> look_at(view::session::Document document,
                                                const std::vector<std::string>& overrides,
                                                const view::ViewOptions& options, Place& place,
-                                               view::front::Front& front) {
+                                               view::frontend::Frontend& front) {
   const std::string file = document.file();
   view::session::WorkbenchOptions bench_options;
   bench_options.session.threads = options.run.threads;
@@ -147,10 +147,10 @@ int run_view(const view::ViewOptions& options) {
       view::session::open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
   Place place = open_place(options);
   announce(place, options.run.verbosity == Verbosity::quiet);
-  std::unique_ptr<view::replay::RecordingFront> recording;
+  std::unique_ptr<view::replay::RecordingFrontend> recording;
   if (!options.record.empty())
-    recording = std::make_unique<view::replay::RecordingFront>(*place.front, options.record);
-  view::front::Front& front = recording ? *recording : *place.front;
+    recording = std::make_unique<view::replay::RecordingFrontend>(*place.front, options.record);
+  view::frontend::Frontend& front = recording ? *recording : *place.front;
   document = look_at(*std::move(document), options.run.overrides, options, place, front);
   // Overrides belong to the first scene only; the coarsening applies to later scenes too.
   while (document) document = look_at(*std::move(document), {}, options, place, front);

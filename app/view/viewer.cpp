@@ -38,7 +38,7 @@ void style_panels(float scale) {
 
 }  // namespace
 
-Viewer::Viewer(session::Workbench& bench, front::Front& front, render::Screen& screen,
+Viewer::Viewer(session::Workbench& bench, frontend::Frontend& front, render::Screen& screen,
                render::Renderer& renderer, const ViewerOptions& options)
     : bench_(bench),
       front_(front),
@@ -76,11 +76,11 @@ void Viewer::run() {
   writer_.finish();
 }
 
-void Viewer::take_events(std::vector<front::InputEvent> events) {
+void Viewer::take_events(std::vector<frontend::InputEvent> events) {
   has_input_ = has_input_ || !events.empty();
-  for (const front::InputEvent& event : events) {
-    if (event.kind == front::InputEvent::Kind::close) is_closed_ = true;
-    if (event.kind == front::InputEvent::Kind::drop) take_drop(event.text);
+  for (const frontend::InputEvent& event : events) {
+    if (event.kind == frontend::InputEvent::Kind::close) is_closed_ = true;
+    if (event.kind == frontend::InputEvent::Kind::drop) take_drop(event.text);
   }
   input_.push(std::move(events));
 }
@@ -166,7 +166,7 @@ double Viewer::seconds_passed() {
 
 void Viewer::draw() {
   const auto start = Clock::now();
-  const front::ScreenSize size = front_.size();
+  const frontend::ScreenSize size = front_.size();
   const double passed = seconds_passed();
   if (size.scale != styled_scale_) {
     screen_.select_panels();
@@ -198,7 +198,7 @@ int Viewer::font_size() const {
 
 /// Lays out the columns; a narrow window has one column for both.
 void Viewer::lay_out() {
-  const front::ScreenSize size = front_.size();
+  const frontend::ScreenSize size = front_.size();
   const auto unit = static_cast<float>(font_size());
   panels::PanelSwitches& panels = state_.panels;
   panels.is_narrow = static_cast<float>(size.width) < narrow * unit;

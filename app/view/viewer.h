@@ -9,8 +9,8 @@
 
 #include "app/output/picture_writer.h"
 #include "app/support/clock.h"
-#include "app/view/front/front.h"
-#include "app/view/front/imgui_input.h"
+#include "app/view/frontend/frontend.h"
+#include "app/view/frontend/imgui_input.h"
 #include "app/view/panels/viewer_state.h"
 #include "render/renderer.h"
 #include "render/screen.h"
@@ -45,16 +45,16 @@ struct PictureKey {
 
 class Viewer {
  public:
-  Viewer(session::Workbench& bench, front::Front& front, render::Screen& screen,
+  Viewer(session::Workbench& bench, frontend::Frontend& front, render::Screen& screen,
          render::Renderer& renderer, const ViewerOptions& options);
 
-  /// Until the front closes, or Ctrl-C.
+  /// Until the frontend closes, or Ctrl-C.
   void run();
 
   panels::ViewerState& state() { return state_; }
 
  private:
-  void take_events(std::vector<front::InputEvent> events);
+  void take_events(std::vector<frontend::InputEvent> events);
   void take_drop(const std::string& file);
   void take_live_frame();
   void show_news();
@@ -78,11 +78,11 @@ class Viewer {
   PictureKey picture_key() const;
 
   session::Workbench& bench_;
-  front::Front& front_;
+  frontend::Frontend& front_;
   render::Screen& screen_;
   render::Renderer& renderer_;
   ViewerOptions options_;
-  front::ImGuiInput input_;
+  frontend::ImGuiInput input_;
   panels::ViewerState state_;
   output::PictureWriter writer_;
   bool is_closed_ = false;

@@ -79,17 +79,17 @@ inline constexpr Folder folders[] = {
     {"app/view/session",
      "sim/types sim app/support app/scene/toml app/scene app/output app/setup app/health "
      "app/picture app/run app/dump app/sweep/plan"},
-    {"app/view/front", "render/image render"},
-    {"app/view/web", "render/image render app/support app/view/front"},
+    {"app/view/frontend", "render/image render"},
+    {"app/view/web", "render/image render app/support app/view/frontend"},
     {"app/view/panels",
      "render/frame render/overlay render app/support app/scene/toml app/scene app/health "
-     "app/picture app/run app/view/session app/view/front"},
+     "app/picture app/run app/view/session app/view/frontend"},
     {"app/view/replay",
      "render/image render/frame render app/support app/scene/toml app/scene app/output "
-     "app/view/front app/view/panels"},
+     "app/view/frontend app/view/panels"},
     {"app/view",
      "render/image render/frame render app/support app/scene app/output app/setup app/picture "
-     "app/run app/view/session app/view/front app/view/panels"},
+     "app/run app/view/session app/view/frontend app/view/panels"},
     {"app/bench",
      "sim/base sim/types sim/kernels sim render/image render/frame render/shapes render/gl "
      "render/cpu render app/support app/scene/toml app/scene app/output app/setup app/picture "
@@ -98,7 +98,7 @@ inline constexpr Folder folders[] = {
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
      "app/scene/toml app/scene app/output app/setup app/health app/picture app/run app/dump "
      "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet "
-     "app/view/front app/view/web app/view/replay app/view app/bench"},
+     "app/view/frontend app/view/web app/view/replay app/view app/bench"},
     {"app", "app/output app/cli", "neve::app"},
 };
 

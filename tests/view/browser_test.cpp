@@ -8,7 +8,7 @@
 namespace neve::test {
 namespace {
 
-using app::view::front::InputEvent;
+using app::view::frontend::InputEvent;
 using Kind = InputEvent::Kind;
 
 /// Each quarter has its colour: red, green, blue, and grey at the lower right.
@@ -58,8 +58,8 @@ class Browser : public Web {
     events.clear();
   }
 
-  /// Shows a picture of the window's size whenever the front wants one. A single picture could go
-  /// to a page that is just being replaced.
+  /// Shows a picture of the window's size whenever the frontend wants one. A single picture could
+  /// go to a page that is just being replaced.
   bool show_until(const std::function<bool()>& is_content) {
     return wait_until(
         [&] {
@@ -247,10 +247,10 @@ TEST_F(Browser, KeysAreThoseOfTheProgramButNotOfTheBrowser) {
   EXPECT_TRUE(wait_for_key('A', false));
   EXPECT_TRUE(wait_for_text("a"));
   press("Tab", "Tab", 9);
-  EXPECT_TRUE(wait_for_key(app::view::front::key::tab, false));
+  EXPECT_TRUE(wait_for_key(app::view::frontend::key::tab, false));
   EXPECT_TRUE(is_true("document.activeElement === typing")) << "Tab stays inside";
   press("ArrowLeft", "ArrowLeft", 37);
-  EXPECT_TRUE(wait_for_key(app::view::front::key::left, false));
+  EXPECT_TRUE(wait_for_key(app::view::frontend::key::left, false));
   press(" ", "Space", 32);
   EXPECT_TRUE(wait_for_key(' ', false));
   press("?", "Slash", 191, 8);
@@ -262,7 +262,7 @@ TEST_F(Browser, KeysAreThoseOfTheProgramButNotOfTheBrowser) {
   EXPECT_TRUE(wait_for([](const InputEvent& event) {
     return event.kind == Kind::key && event.key == 'Z' && event.is_down && event.held.ctrl;
   }));
-  EXPECT_TRUE(wait_for_key(app::view::front::key::ctrl, false));
+  EXPECT_TRUE(wait_for_key(app::view::frontend::key::ctrl, false));
   events.clear();
   press("F12", "F12", 123);
   press("l", "KeyL", 76, 2);

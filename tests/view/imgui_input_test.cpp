@@ -1,4 +1,4 @@
-#include "app/view/front/imgui_input.h"
+#include "app/view/frontend/imgui_input.h"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@ namespace {
 
 /// A button at (10, 10), a text field below it, and what they have seen.
 struct InputOfPanels : testing::Test {
-  ClipboardFront front;
+  ClipboardFrontend front;
   Panels panels;
-  app::view::front::ImGuiInput input{front};
+  app::view::frontend::ImGuiInput input{front};
   char field[256] = "";
   int clicks = 0, double_clicks = 0, frames = 0;
   bool is_field_focused = false;
@@ -35,7 +35,7 @@ struct InputOfPanels : testing::Test {
   }
 
   /// Frames until nothing waits any more, and one in which the panels follow.
-  void play(std::vector<app::view::front::InputEvent> events) {
+  void play(std::vector<app::view::frontend::InputEvent> events) {
     input.push(std::move(events));
     bool is_more = true;
     frames = 0;
@@ -77,7 +77,7 @@ TEST_F(InputOfPanels, ClickCountsWhereItWasThoughTheMouseMovedOn) {
 }
 
 TEST_F(InputOfPanels, MovesOfABatchShareAFrame) {
-  std::vector<app::view::front::InputEvent> moves;
+  std::vector<app::view::frontend::InputEvent> moves;
   for (int k = 0; k < 500; ++k) moves.push_back(move_to(static_cast<float>(k), 300));
   play(moves);
   EXPECT_EQ(frames, 1);
@@ -94,22 +94,22 @@ TEST_F(InputOfPanels, TypedTextArrivesInOrder) {
 
 TEST_F(InputOfPanels, KeysBetweenTextsKeepTheirPlace) {
   focus_field();
-  play({text("ab"), press(app::view::front::key::backspace),
-        release(app::view::front::key::backspace), text("c"), press(app::view::front::key::left),
-        release(app::view::front::key::left), text("X")});
+  play({text("ab"), press(app::view::frontend::key::backspace),
+        release(app::view::frontend::key::backspace), text("c"),
+        press(app::view::frontend::key::left), release(app::view::frontend::key::left), text("X")});
   EXPECT_STREQ(field, "aXc");
 }
 
-TEST_F(InputOfPanels, SelectCopyAndPasteUseTheClipboardOfTheFront) {
+TEST_F(InputOfPanels, SelectCopyAndPasteUseTheClipboardOfTheFrontend) {
   focus_field();
-  const app::view::front::Modifiers ctrl{.ctrl = true};
-  play({text("snow"), press(app::view::front::key::ctrl, ctrl), press('A', ctrl),
+  const app::view::frontend::Modifiers ctrl{.ctrl = true};
+  play({text("snow"), press(app::view::frontend::key::ctrl, ctrl), press('A', ctrl),
         release('A', ctrl), press('C', ctrl), release('C', ctrl),
-        release(app::view::front::key::ctrl)});
+        release(app::view::frontend::key::ctrl)});
   EXPECT_EQ(front.clipboard(), "snow");
   front.set_clipboard("ice");
-  play({press(app::view::front::key::ctrl, ctrl), press('V', ctrl), release('V', ctrl),
-        press('V', ctrl), release('V', ctrl), release(app::view::front::key::ctrl)});
+  play({press(app::view::frontend::key::ctrl, ctrl), press('V', ctrl), release('V', ctrl),
+        press('V', ctrl), release('V', ctrl), release(app::view::frontend::key::ctrl)});
   EXPECT_STREQ(field, "iceice");
   EXPECT_FALSE(ImGui::GetIO().KeyCtrl);
 }
@@ -117,18 +117,18 @@ TEST_F(InputOfPanels, SelectCopyAndPasteUseTheClipboardOfTheFront) {
 TEST_F(InputOfPanels, ModifierCountsFromItsOwnPressWhateverIsReportedWithIt) {
   focus_field();
   // X11 reports the state before the event.
-  const app::view::front::Modifiers none, ctrl{.ctrl = true};
-  play({text("snow"), press(app::view::front::key::ctrl, none), press('A', ctrl),
-        release('A', ctrl), release(app::view::front::key::ctrl, ctrl), text("x")});
+  const app::view::frontend::Modifiers none, ctrl{.ctrl = true};
+  play({text("snow"), press(app::view::frontend::key::ctrl, none), press('A', ctrl),
+        release('A', ctrl), release(app::view::frontend::key::ctrl, ctrl), text("x")});
   EXPECT_STREQ(field, "x") << "all of it was selected, then typed over";
 }
 
 TEST_F(InputOfPanels, PasteBringsItsText) {
   focus_field();
-  app::view::front::InputEvent first{.kind = app::view::front::InputEvent::Kind::paste,
-                                     .text = "one "};
-  app::view::front::InputEvent second{.kind = app::view::front::InputEvent::Kind::paste,
-                                      .text = "two"};
+  app::view::frontend::InputEvent first{.kind = app::view::frontend::InputEvent::Kind::paste,
+                                        .text = "one "};
+  app::view::frontend::InputEvent second{.kind = app::view::frontend::InputEvent::Kind::paste,
+                                         .text = "two"};
   play({first, second, text("!")});
   EXPECT_STREQ(field, "one two!");
   EXPECT_FALSE(ImGui::GetIO().KeyCtrl);
@@ -152,14 +152,14 @@ TEST_F(InputOfPanels, WheelAfterAClickWaitsForTheNextFrame) {
 }
 
 TEST_F(InputOfPanels, LettingGoOfAllReleasesWhatIsDownAndWhatIsAboutToBe) {
-  const app::view::front::Modifiers shift{.shift = true};
-  play({press(app::view::front::key::shift, shift), press('Q', shift), button(true, 1)});
-  EXPECT_TRUE(app::view::front::is_key_down('Q'));
+  const app::view::frontend::Modifiers shift{.shift = true};
+  play({press(app::view::frontend::key::shift, shift), press('Q', shift), button(true, 1)});
+  EXPECT_TRUE(app::view::frontend::is_key_down('Q'));
   input.push({press('W', shift)});
   input.release_all();
   play({});
-  for (const int key : {int{'Q'}, int{'W'}, app::view::front::key::shift})
-    EXPECT_FALSE(app::view::front::is_key_down(key)) << key;
+  for (const int key : {int{'Q'}, int{'W'}, app::view::frontend::key::shift})
+    EXPECT_FALSE(app::view::frontend::is_key_down(key)) << key;
   EXPECT_FALSE(ImGui::GetIO().MouseDown[1]);
   EXPECT_FALSE(ImGui::GetIO().KeyShift);
   EXPECT_FALSE(ImGui::IsMousePosValid());
@@ -170,7 +170,7 @@ TEST_F(InputOfPanels, KeyIsPressedInOneFrame) {
   input.push({press(' '), release(' '), press(' '), release(' ')});
   for (int k = 0; k < 6; ++k) {
     input.feed();
-    panels.frame([&] { pressed += app::view::front::is_key_pressed(' '); });
+    panels.frame([&] { pressed += app::view::frontend::is_key_pressed(' '); });
   }
   EXPECT_EQ(pressed, 2);
 }

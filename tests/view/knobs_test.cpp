@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/view/front/imgui_input.h"
+#include "app/view/frontend/imgui_input.h"
 #include "app/view/panels/widgets.h"
 #include "tests/view/panels.h"
 
@@ -16,9 +16,9 @@ namespace {
 /// One parameter's field, and the edits that it has made.
 template <class T>
 struct Field {
-  ClipboardFront front;
+  ClipboardFrontend front;
   Panels panels;
-  app::view::front::ImGuiInput input{front};
+  app::view::frontend::ImGuiInput input{front};
   T value;
   app::scene::Valid valid;
   std::vector<app::view::session::Edit> edits;
@@ -35,7 +35,7 @@ struct Field {
     for (const app::view::session::Edit& edit : panel.edits()) edits.push_back(edit);
   }
 
-  void play(std::vector<app::view::front::InputEvent> events) {
+  void play(std::vector<app::view::frontend::InputEvent> events) {
     input.push(std::move(events));
     for (bool is_more = true; is_more;) {
       is_more = input.feed();
@@ -45,15 +45,15 @@ struct Field {
   }
 
   /// With ctrl and a click into the field; what was there is selected.
-  void type(const std::string& typed, int last_key = app::view::front::key::enter) {
-    const app::view::front::Modifiers ctrl{.ctrl = true};
+  void type(const std::string& typed, int last_key = app::view::frontend::key::enter) {
+    const app::view::frontend::Modifiers ctrl{.ctrl = true};
     edits.clear();
-    const app::view::front::InputEvent down{
-        .kind = app::view::front::InputEvent::Kind::button, .is_down = true, .held = ctrl};
-    const app::view::front::InputEvent up{.kind = app::view::front::InputEvent::Kind::button,
-                                          .held = ctrl};
-    play({move_to(middle.x, middle.y), press(app::view::front::key::ctrl, ctrl), down, up,
-          release(app::view::front::key::ctrl)});
+    const app::view::frontend::InputEvent down{
+        .kind = app::view::frontend::InputEvent::Kind::button, .is_down = true, .held = ctrl};
+    const app::view::frontend::InputEvent up{.kind = app::view::frontend::InputEvent::Kind::button,
+                                             .held = ctrl};
+    play({move_to(middle.x, middle.y), press(app::view::frontend::key::ctrl, ctrl), down, up,
+          release(app::view::frontend::key::ctrl)});
     for (const char c : typed) play({text(std::string(1, c))});
     play({press(last_key), release(last_key)});
   }
@@ -92,9 +92,9 @@ TEST(TypedNumber, TypedNumberWithLettersIsRefused) {
 
 TEST(TypedNumber, TypedNumberIsForgottenWithEscape) {
   Field<double> field(140000, app::scene::between(0.001, 1e12));
-  field.type("30000", app::view::front::key::escape);
+  field.type("30000", app::view::frontend::key::escape);
   EXPECT_TRUE(field.edits.empty());
-  field.type("-5", app::view::front::key::escape);
+  field.type("-5", app::view::frontend::key::escape);
   EXPECT_TRUE(field.edits.empty());
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A small Dear ImGui user interface without OpenGL, and a front that remembers a clipboard.
+/// A small Dear ImGui user interface without OpenGL, and a frontend that remembers a clipboard.
 
 #include <imgui.h>
 
@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "app/view/front/front.h"
+#include "app/view/frontend/frontend.h"
 
 namespace neve::app {
 
 /// Nobody looks; the clipboard is a string.
-class ClipboardFront : public app::view::front::Front {
+class ClipboardFrontend : public app::view::frontend::Frontend {
  public:
   std::string where() const override { return "nowhere"; }
-  app::view::front::ScreenSize size() const override { return {800, 600, 1}; }
-  std::vector<app::view::front::InputEvent> wait(double) override { return {}; }
+  app::view::frontend::ScreenSize size() const override { return {800, 600, 1}; }
+  std::vector<app::view::frontend::InputEvent> wait(double) override { return {}; }
   void wake() override {}
   bool is_ready() const override { return true; }
   bool is_picture_wanted() const override { return false; }
@@ -61,24 +61,27 @@ class Panels {
 };
 
 // Input of a user.
-inline app::view::front::InputEvent move_to(float x, float y) {
-  return {.kind = app::view::front::InputEvent::Kind::move, .x = x, .y = y};
+inline app::view::frontend::InputEvent move_to(float x, float y) {
+  return {.kind = app::view::frontend::InputEvent::Kind::move, .x = x, .y = y};
 }
-inline app::view::front::InputEvent button(bool is_down, int which = 0) {
-  return {.kind = app::view::front::InputEvent::Kind::button, .button = which, .is_down = is_down};
-}
-inline app::view::front::InputEvent press(int key, app::view::front::Modifiers held = {}) {
+inline app::view::frontend::InputEvent button(bool is_down, int which = 0) {
   return {
-      .kind = app::view::front::InputEvent::Kind::key, .key = key, .is_down = true, .held = held};
+      .kind = app::view::frontend::InputEvent::Kind::button, .button = which, .is_down = is_down};
 }
-inline app::view::front::InputEvent release(int key, app::view::front::Modifiers held = {}) {
-  return {.kind = app::view::front::InputEvent::Kind::key, .key = key, .held = held};
+inline app::view::frontend::InputEvent press(int key, app::view::frontend::Modifiers held = {}) {
+  return {.kind = app::view::frontend::InputEvent::Kind::key,
+          .key = key,
+          .is_down = true,
+          .held = held};
 }
-inline app::view::front::InputEvent text(const std::string& typed) {
-  return {.kind = app::view::front::InputEvent::Kind::text, .text = typed};
+inline app::view::frontend::InputEvent release(int key, app::view::frontend::Modifiers held = {}) {
+  return {.kind = app::view::frontend::InputEvent::Kind::key, .key = key, .held = held};
 }
-inline app::view::front::InputEvent wheel(float x, float y) {
-  return {.kind = app::view::front::InputEvent::Kind::wheel, .x = x, .y = y};
+inline app::view::frontend::InputEvent text(const std::string& typed) {
+  return {.kind = app::view::frontend::InputEvent::Kind::text, .text = typed};
+}
+inline app::view::frontend::InputEvent wheel(float x, float y) {
+  return {.kind = app::view::frontend::InputEvent::Kind::wheel, .x = x, .y = y};
 }
 
 }  // namespace neve::app

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/scene/toml/error.h"
-#include "app/view/front/key_names.h"
+#include "app/view/frontend/key_names.h"
 
 namespace neve::app {
 namespace {
@@ -150,16 +150,16 @@ TEST(ReplayScript, DeepNestingIsNoTrouble) {
 
 TEST(KeyNames, EveryNamedKeyIsFoundByItsName) {
   int named = 0;
-  for (int key = 0; key <= app::view::front::key::last; ++key) {
-    const std::string name = app::view::front::key_name(key);
+  for (int key = 0; key <= app::view::frontend::key::last; ++key) {
+    const std::string name = app::view::frontend::key_name(key);
     if (name.empty()) continue;
     ++named;
-    EXPECT_EQ(app::view::front::key_named(name), key) << name;
+    EXPECT_EQ(app::view::frontend::key_named(name), key) << name;
   }
   // Letters, digits, signs, twelve function keys, and those listed by name.
-  EXPECT_EQ(named, 26 + 10 + 16 + static_cast<int>(app::view::front::key_names().size()));
-  EXPECT_EQ(app::view::front::key_named("Z"), 'Z');
-  EXPECT_EQ(app::view::front::key_named("f13"), std::nullopt);
+  EXPECT_EQ(named, 26 + 10 + 16 + static_cast<int>(app::view::frontend::key_names().size()));
+  EXPECT_EQ(app::view::frontend::key_named("Z"), 'Z');
+  EXPECT_EQ(app::view::frontend::key_named("f13"), std::nullopt);
 }
 
 }  // namespace

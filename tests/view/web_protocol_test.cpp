@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "app/view/front/event_queue.h"
+#include "app/view/frontend/event_queue.h"
 #include "app/view/web/frame_pacing.h"
 
 namespace neve::app {
@@ -14,32 +14,34 @@ namespace {
 using PageKind = app::view::web::PageMessage::Kind;
 
 TEST(PageMessage, PageMessageTellsWhatAPersonDid) {
-  const app::view::front::InputEvent move = app::view::web::read_page_message("m 12.5 -3 3").event;
-  EXPECT_EQ(move.kind, app::view::front::InputEvent::Kind::move);
+  const app::view::frontend::InputEvent move =
+      app::view::web::read_page_message("m 12.5 -3 3").event;
+  EXPECT_EQ(move.kind, app::view::frontend::InputEvent::Kind::move);
   EXPECT_EQ(move.x, 12.5f);
   EXPECT_EQ(move.y, -3.0f);
   EXPECT_TRUE(move.held.ctrl && move.held.shift && !move.held.alt && !move.held.super);
 
-  const app::view::front::InputEvent button =
+  const app::view::frontend::InputEvent button =
       app::view::web::read_page_message("b 2 1 7 8 4").event;
-  EXPECT_EQ(button.kind, app::view::front::InputEvent::Kind::button);
+  EXPECT_EQ(button.kind, app::view::frontend::InputEvent::Kind::button);
   EXPECT_EQ(button.button, 2);
   EXPECT_TRUE(button.is_down && button.held.alt);
   EXPECT_EQ(button.y, 8.0f);
 
-  const app::view::front::InputEvent wheel = app::view::web::read_page_message("w 0 -500 0").event;
-  EXPECT_EQ(wheel.kind, app::view::front::InputEvent::Kind::wheel);
+  const app::view::frontend::InputEvent wheel =
+      app::view::web::read_page_message("w 0 -500 0").event;
+  EXPECT_EQ(wheel.kind, app::view::frontend::InputEvent::Kind::wheel);
   EXPECT_EQ(wheel.y, -20.0f);  // nobody turns it further in one event
 
-  const app::view::front::InputEvent key = app::view::web::read_page_message("k 265 1 8").event;
-  EXPECT_EQ(key.kind, app::view::front::InputEvent::Kind::key);
-  EXPECT_EQ(key.key, app::view::front::key::up);
+  const app::view::frontend::InputEvent key = app::view::web::read_page_message("k 265 1 8").event;
+  EXPECT_EQ(key.kind, app::view::frontend::InputEvent::Kind::key);
+  EXPECT_EQ(key.key, app::view::frontend::key::up);
   EXPECT_TRUE(key.is_down && key.held.super);
 
   EXPECT_EQ(app::view::web::read_page_message("t n\xC3\xA9v\xC3\xA9").event.text,
             "n\xC3\xA9v\xC3\xA9");
   EXPECT_EQ(app::view::web::read_page_message("p two\nlines").event.kind,
-            app::view::front::InputEvent::Kind::paste);
+            app::view::frontend::InputEvent::Kind::paste);
   EXPECT_EQ(app::view::web::read_page_message("p two\nlines").event.text, "two\nlines");
   EXPECT_EQ(app::view::web::read_page_message("a 4294967295").number, 4294967295u);
   EXPECT_FALSE(app::view::web::read_page_message("v 0").is_visible);
@@ -73,19 +75,20 @@ TEST(PageMessage, PageMessageSurvivesRandomText) {
 }
 
 TEST(PageSize, PageSizeStaysInItsLimits) {
-  const app::view::front::ScreenSize usual =
+  const app::view::frontend::ScreenSize usual =
       app::view::web::read_page_message("s 1280 800 1.5").size;
   EXPECT_EQ(usual.width, 1280);
   EXPECT_EQ(usual.height, 800);
   EXPECT_EQ(usual.scale, 1.5f);
   // A screen of 8K keeps its shape with a quarter of its pixels, and its panels keep their size.
-  const app::view::front::ScreenSize huge = app::view::web::read_page_message("s 7680 4320 2").size;
+  const app::view::frontend::ScreenSize huge =
+      app::view::web::read_page_message("s 7680 4320 2").size;
   EXPECT_LE(double(huge.width) * huge.height, app::view::web::max_web_pixels);
   EXPECT_GT(double(huge.width) * huge.height, 0.99 * app::view::web::max_web_pixels);
   EXPECT_NEAR(double(huge.width) / huge.height, 16.0 / 9, 0.01);
   EXPECT_NEAR(huge.scale, 1.0, 0.01);
   for (const char* text : {"s -5 0 0", "s 1e30 1e30 1e30", "s 1 1e9 -1", "s 32768 64 1"}) {
-    const app::view::front::ScreenSize size = app::view::web::read_page_message(text).size;
+    const app::view::frontend::ScreenSize size = app::view::web::read_page_message(text).size;
     EXPECT_GE(size.width, 64) << text;
     EXPECT_GE(size.height, 64) << text;
     EXPECT_LE(double(size.width) * size.height, app::view::web::max_web_pixels) << text;
@@ -99,12 +102,12 @@ TEST(PageText, PageTextIsJsonWhateverTheText) {
   EXPECT_EQ(app::view::web::page_picture(0x01020304, "jpeg"), "\x04\x03\x02\x01jpeg");
 }
 
-app::view::front::InputEvent event_of(const char* text) {
+app::view::frontend::InputEvent event_of(const char* text) {
   return app::view::web::read_page_message(text).event;
 }
 
 TEST(EventQueue, EventQueueJoinsMovesAndWheels) {
-  app::view::front::EventQueue queue;
+  app::view::frontend::EventQueue queue;
   for (const char* text : {"m 1 1 0", "m 2 2 0", "m 3 3 1", "w 0 1 0", "w 0 2 0", "b 0 1 3 3 0",
                            "m 4 4 0", "m 5 5 0", "t a", "t b"})
     EXPECT_TRUE(queue.push(event_of(text)));
@@ -117,22 +120,22 @@ TEST(EventQueue, EventQueueJoinsMovesAndWheels) {
 }
 
 TEST(EventQueue, EventQueueRefusesMoreThanItHolds) {
-  app::view::front::EventQueue queue;
+  app::view::frontend::EventQueue queue;
   std::size_t taken = 0;
   while (queue.push(event_of(taken % 2 ? "k 65 0 0" : "k 65 1 0"))) ++taken;
-  EXPECT_EQ(taken, app::view::front::EventQueue::limit);
-  EXPECT_EQ(queue.take().size(), app::view::front::EventQueue::limit);
+  EXPECT_EQ(taken, app::view::frontend::EventQueue::limit);
+  EXPECT_EQ(queue.take().size(), app::view::frontend::EventQueue::limit);
 
   const std::string pasted = "p " + std::string(200000, 'x');
   for (taken = 0; queue.push(event_of(pasted.c_str())); ++taken)
     ;
-  EXPECT_EQ(taken, app::view::front::EventQueue::text_limit / 200000);
+  EXPECT_EQ(taken, app::view::frontend::EventQueue::text_limit / 200000);
   queue.take();
   EXPECT_TRUE(queue.push(event_of(pasted.c_str())));
 }
 
 TEST(EventQueue, EventQueueReleasesWhatIsHeld) {
-  app::view::front::EventQueue queue;
+  app::view::frontend::EventQueue queue;
   for (const char* text : {"k 65 1 0", "k 66 1 0", "k 65 0 0", "b 0 1 7 8 0", "k 341 1 1"})
     queue.push(event_of(text));
   queue.take();
@@ -140,11 +143,11 @@ TEST(EventQueue, EventQueueReleasesWhatIsHeld) {
   queue.release_all();
   const auto events = queue.take();
   ASSERT_EQ(events.size(), 3u);
-  EXPECT_EQ(events[0].kind, app::view::front::InputEvent::Kind::button);
+  EXPECT_EQ(events[0].kind, app::view::frontend::InputEvent::Kind::button);
   EXPECT_EQ(events[0].x, 7);  // where it was, so that a drag ends there
   EXPECT_EQ(events[1].key, 66);
-  EXPECT_EQ(events[2].key, app::view::front::key::ctrl);
-  for (const app::view::front::InputEvent& event : events) EXPECT_FALSE(event.is_down);
+  EXPECT_EQ(events[2].key, app::view::frontend::key::ctrl);
+  for (const app::view::frontend::InputEvent& event : events) EXPECT_FALSE(event.is_down);
 }
 
 /// Sends and shows pictures one after the other. @return the quality after them

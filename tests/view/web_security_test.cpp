@@ -11,7 +11,7 @@
 namespace neve::test {
 namespace {
 
-using app::view::front::InputEvent;
+using app::view::frontend::InputEvent;
 
 /// More than an honest server keeps for a viewer, less than one bad message would need if it were
 /// kept: tests below send hundreds of megabytes.
@@ -275,7 +275,7 @@ TEST_F(Web, FloodNeitherGrowsNorStops) {
     count += events_now;
     EXPECT_LT(seconds_now() - begin, 1);
   }
-  EXPECT_LE(most, app::view::front::EventQueue::limit);
+  EXPECT_LE(most, app::view::frontend::EventQueue::limit);
   // 512 KiB a second of messages of at least 13 bytes, a second's worth of them at once.
   EXPECT_LT(count, 3 * 512 * 1024 / 13);
   EXPECT_GT(count, 1000u);
@@ -346,33 +346,33 @@ TEST_F(Web, FiftyReconnectsLeaveNothingBehind) {
   expect_serving();
 }
 
-TEST(WebFront, WebFrontListensElsewhereOnlyWhenToldThatItIsRisky) {
+TEST(WebFrontend, WebFrontListensElsewhereOnlyWhenToldThatItIsRisky) {
   app::view::web::WebOptions options;
   options.address = "0.0.0.0";
   try {
-    app::view::web::WebFront front(options);
+    app::view::web::WebFrontend front(options);
     FAIL() << "listens at every network";
   } catch (const app::Error& error) {
     EXPECT_EQ(error.code, app::exit_usage);
     EXPECT_NE(std::string(error.what()).find("anyone who can reach it"), std::string::npos);
   }
   options.is_risk_taken = true;
-  const app::view::web::WebFront front(options);
+  const app::view::web::WebFrontend front(options);
   EXPECT_EQ(front.where().find("0.0.0.0"), std::string::npos) << front.where();
 }
 
-TEST(WebFront, WebFrontSaysWhyItCannotListen) {
+TEST(WebFrontend, WebFrontSaysWhyItCannotListen) {
   app::view::web::WebOptions options;
-  const app::view::web::WebFront first(options);
+  const app::view::web::WebFrontend first(options);
   options.port = first.port();
-  EXPECT_THROW(app::view::web::WebFront second(options), app::IoError);
+  EXPECT_THROW(app::view::web::WebFrontend second(options), app::IoError);
   options.port = 70000;
-  EXPECT_THROW(app::view::web::WebFront third(options), app::IoError);
+  EXPECT_THROW(app::view::web::WebFrontend third(options), app::IoError);
   options.port = 0;
   options.is_risk_taken = true;
   for (const char* address : {"192.0.2.77", "nowhere.example", "", "127.0.0.1:80"}) {
     options.address = address;
-    EXPECT_THROW(app::view::web::WebFront fourth(options), app::IoError) << address;
+    EXPECT_THROW(app::view::web::WebFrontend fourth(options), app::IoError) << address;
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A web front in this process, pictures to show and a page that is no browser.
+/// A web frontend in this process, pictures to show and a page that is no browser.
 
 #include <gtest/gtest.h>
 #include <stb/stb_image.h>
@@ -9,7 +9,7 @@
 #include <functional>
 #include <memory>
 
-#include "app/view/web/web_front.h"
+#include "app/view/web/web_frontend.h"
 #include "tests/support/web_client.h"
 
 namespace neve::test {
@@ -61,7 +61,7 @@ inline Received read_picture(const std::string& payload) {
 class Web : public testing::Test {
  protected:
   void start(app::view::web::WebOptions options = {}) {
-    front = std::make_unique<app::view::web::WebFront>(options);
+    front = std::make_unique<app::view::web::WebFrontend>(options);
     host = "127.0.0.1:" + std::to_string(front->port());
   }
 
@@ -101,7 +101,7 @@ class Web : public testing::Test {
     }
     return is_content();
   }
-  bool wait_for(const std::function<bool(const app::view::front::InputEvent&)>& is_it,
+  bool wait_for(const std::function<bool(const app::view::frontend::InputEvent&)>& is_it,
                 double seconds = 5) {
     return wait_until(
         [&] {
@@ -112,8 +112,8 @@ class Web : public testing::Test {
         seconds);
   }
   bool wait_for_key(int key, bool is_down) {
-    return wait_for([&](const app::view::front::InputEvent& event) {
-      return event.kind == app::view::front::InputEvent::Kind::key && event.key == key &&
+    return wait_for([&](const app::view::frontend::InputEvent& event) {
+      return event.kind == app::view::frontend::InputEvent::Kind::key && event.key == key &&
              event.is_down == is_down;
     });
   }
@@ -133,9 +133,9 @@ class Web : public testing::Test {
     wait_until([&] { return !front->is_ready(); });
   }
 
-  std::unique_ptr<app::view::web::WebFront> front;
+  std::unique_ptr<app::view::web::WebFrontend> front;
   std::string host;
-  std::vector<app::view::front::InputEvent> events;
+  std::vector<app::view::frontend::InputEvent> events;
 };
 
 }  // namespace neve::test

@@ -1,4 +1,4 @@
-#include "app/view/front/window_front.h"
+#include "app/view/frontend/window_frontend.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <memory>
 #include <thread>
 
-#include "app/view/front/imgui_input.h"
+#include "app/view/frontend/imgui_input.h"
 #include "render/gl/context.h"
 #include "render/gl/gl.h"
 #include "tests/support/needs.h"
@@ -17,7 +17,7 @@
 namespace neve::app {
 namespace {
 
-using Kind = app::view::front::InputEvent::Kind;
+using Kind = app::view::frontend::InputEvent::Kind;
 
 /// One display for all tests of this file, and a window on it for each.
 class InWindow : public testing::Test {
@@ -30,8 +30,8 @@ class InWindow : public testing::Test {
     hand = std::make_unique<test::XHand>();
     if (!hand->reason().empty()) SKIP_OR_FAIL(hand->reason());
     try {
-      front = std::make_unique<app::view::front::WindowFront>(
-          "neve test", app::view::front::ScreenSize{640, 480, 1});
+      front = std::make_unique<app::view::frontend::WindowFrontend>(
+          "neve test", app::view::frontend::ScreenSize{640, 480, 1});
     } catch (const render::gl::ContextError& error) {
       const std::string reason = error.what();
       if (reason.find("built without") == std::string::npos) FAIL() << reason;
@@ -44,12 +44,12 @@ class InWindow : public testing::Test {
   /// Collects events until it is true, ten seconds at most.
   void wait_until(const std::function<bool()>& is_true) {
     for (int k = 0; k < 1000 && !is_true(); ++k)
-      for (app::view::front::InputEvent& event : front->wait(0.01))
+      for (app::view::frontend::InputEvent& event : front->wait(0.01))
         events.push_back(std::move(event));
     EXPECT_TRUE(is_true());
   }
 
-  const app::view::front::InputEvent* last(Kind kind) const {
+  const app::view::frontend::InputEvent* last(Kind kind) const {
     for (auto at = events.rbegin(); at != events.rend(); ++at)
       if (at->kind == kind) return &*at;
     return nullptr;
@@ -58,13 +58,13 @@ class InWindow : public testing::Test {
   std::size_t count(Kind kind) const {
     return static_cast<std::size_t>(
         std::count_if(events.begin(), events.end(),
-                      [&](const app::view::front::InputEvent& e) { return e.kind == kind; }));
+                      [&](const app::view::frontend::InputEvent& e) { return e.kind == kind; }));
   }
 
   static std::unique_ptr<test::Xvfb> display;
   std::unique_ptr<test::XHand> hand;
-  std::unique_ptr<app::view::front::WindowFront> front;
-  std::vector<app::view::front::InputEvent> events;
+  std::unique_ptr<app::view::frontend::WindowFrontend> front;
+  std::vector<app::view::frontend::InputEvent> events;
 };
 std::unique_ptr<test::Xvfb> InWindow::display;
 
@@ -104,7 +104,7 @@ TEST_F(InWindow, FastClicksKeepTheirPlaces) {
   wait_until([&] { return count(Kind::button) == 4 && last(Kind::move)->x == 600; });
   std::vector<float> pressed;
   float x = -1;
-  for (const app::view::front::InputEvent& event : events) {
+  for (const app::view::frontend::InputEvent& event : events) {
     if (event.kind == Kind::move) x = event.x;
     if (event.kind == Kind::button && event.is_down) pressed.push_back(x);
   }
@@ -120,7 +120,7 @@ TEST_F(InWindow, WheelCountsRightAndUp) {
   EXPECT_EQ(last(Kind::wheel)->x, 1);
   const auto first =
       std::find_if(events.begin(), events.end(),
-                   [](const app::view::front::InputEvent& e) { return e.kind == Kind::wheel; });
+                   [](const app::view::frontend::InputEvent& e) { return e.kind == Kind::wheel; });
   EXPECT_EQ(first->y, 1);
 }
 
@@ -134,35 +134,35 @@ TEST_F(InWindow, KeysTextAndModifiers) {
   hand->key(0xffe4, false);
   wait_until([&] { return count(Kind::key) == 6; });
   EXPECT_EQ(count(Kind::text), 1u) << "ctrl+Z types nothing";
-  std::vector<app::view::front::InputEvent> keys;
-  for (const app::view::front::InputEvent& event : events)
+  std::vector<app::view::frontend::InputEvent> keys;
+  for (const app::view::frontend::InputEvent& event : events)
     if (event.kind == Kind::key) keys.push_back(event);
-  EXPECT_EQ(keys[2].key, app::view::front::key::ctrl);
+  EXPECT_EQ(keys[2].key, app::view::frontend::key::ctrl);
   EXPECT_TRUE(keys[2].held.ctrl) << "from its own press on";
   EXPECT_EQ(keys[3].key, 'Z');
   EXPECT_TRUE(keys[3].held.ctrl);
-  EXPECT_EQ(keys[5].key, app::view::front::key::ctrl);
+  EXPECT_EQ(keys[5].key, app::view::frontend::key::ctrl);
   EXPECT_FALSE(keys[5].held.ctrl);
 }
 
 TEST_F(InWindow, KeysWithoutLettersHaveTheCodesOfTheSeam) {
-  const std::pair<unsigned long, int> all[] = {{0xff1b, app::view::front::key::escape},
-                                               {0xff0d, app::view::front::key::enter},
-                                               {0xff09, app::view::front::key::tab},
-                                               {0xff08, app::view::front::key::backspace},
-                                               {0xffff, app::view::front::key::del},
-                                               {0xff51, app::view::front::key::left},
-                                               {0xff53, app::view::front::key::right},
-                                               {0xff52, app::view::front::key::up},
-                                               {0xff54, app::view::front::key::down},
-                                               {0xff55, app::view::front::key::page_up},
-                                               {0xff50, app::view::front::key::home},
-                                               {0xff57, app::view::front::key::end},
-                                               {0xffbe, app::view::front::key::f1},
-                                               {0xffc9, app::view::front::key::f1 + 11},
+  const std::pair<unsigned long, int> all[] = {{0xff1b, app::view::frontend::key::escape},
+                                               {0xff0d, app::view::frontend::key::enter},
+                                               {0xff09, app::view::frontend::key::tab},
+                                               {0xff08, app::view::frontend::key::backspace},
+                                               {0xffff, app::view::frontend::key::del},
+                                               {0xff51, app::view::frontend::key::left},
+                                               {0xff53, app::view::frontend::key::right},
+                                               {0xff52, app::view::frontend::key::up},
+                                               {0xff54, app::view::frontend::key::down},
+                                               {0xff55, app::view::frontend::key::page_up},
+                                               {0xff50, app::view::frontend::key::home},
+                                               {0xff57, app::view::frontend::key::end},
+                                               {0xffbe, app::view::frontend::key::f1},
+                                               {0xffc9, app::view::frontend::key::f1 + 11},
                                                {' ', ' '},
                                                {'5', '5'},
-                                               {0xff8d, app::view::front::key::enter},
+                                               {0xff8d, app::view::frontend::key::enter},
                                                {'/', '/'}};
   for (const auto& [symbol, code] : all) {
     events.clear();
@@ -207,7 +207,7 @@ TEST_F(InWindow, PointerThatLeavesIsNowhere) {
   events.clear();
   hand->move(1000, 900);
   wait_until(
-      [&] { return saw(Kind::move) && last(Kind::move)->x == app::view::front::off_picture; });
+      [&] { return saw(Kind::move) && last(Kind::move)->x == app::view::frontend::off_picture; });
 }
 
 TEST(WindowWithoutDisplay, WindowWithoutDisplaySaysWhatIsMissing) {
@@ -218,7 +218,7 @@ TEST(WindowWithoutDisplay, WindowWithoutDisplaySaysWhatIsMissing) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
   try {
-    app::view::front::WindowFront front("neve");
+    app::view::frontend::WindowFrontend front("neve");
     ADD_FAILURE() << "a window on nothing";
   } catch (const render::gl::ContextError& error) {
     const std::string message = error.what();

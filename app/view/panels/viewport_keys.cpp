@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "app/view/front/front.h"
-#include "app/view/front/imgui_input.h"
+#include "app/view/frontend/frontend.h"
+#include "app/view/frontend/imgui_input.h"
 #include "app/view/panels/viewer_state.h"
 
 namespace neve::app::view::panels {
@@ -15,7 +15,7 @@ void use_keys(ViewerState& state) {
   if (io.WantTextInput) return;
   const session::LiveFrame& live = *state.live;
   session::Session& session = state.bench.session();
-  const auto pressed = [](int key) { return front::is_key_pressed(key); };
+  const auto pressed = [](int key) { return frontend::is_key_pressed(key); };
   if (io.KeyCtrl) {
     if (pressed('Z')) io.KeyShift ? state.bench.redo() : state.bench.undo();
     if (pressed('Y')) state.bench.redo();
@@ -41,8 +41,8 @@ void use_keys(ViewerState& state) {
   for (std::size_t k = 0; k < std::min<std::size_t>(9, views.size()); ++k)
     if (pressed('1' + static_cast<int>(k))) choose_view(state, views[k].name);
   if (pressed('/') && io.KeyShift) state.is_help_open = !state.is_help_open;
-  if (pressed('?') || pressed(front::key::f1)) state.is_help_open = !state.is_help_open;
-  if (pressed(front::key::escape)) {
+  if (pressed('?') || pressed(frontend::key::f1)) state.is_help_open = !state.is_help_open;
+  if (pressed(frontend::key::escape)) {
     if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
       ImGui::ClosePopupToLevel(0, true);
     else if (state.is_help_open)
@@ -52,21 +52,21 @@ void use_keys(ViewerState& state) {
     else
       state.selected.clear();
   }
-  if (pressed(front::key::tab)) {
+  if (pressed(frontend::key::tab)) {
     const bool is_on = state.panels.left || state.panels.right;
     state.panels = {!is_on, !is_on};
   }
-  if (front::is_key_pressed(front::key::left, true))
+  if (frontend::is_key_pressed(frontend::key::left, true))
     session.show_frame(std::max(0, live.frame - 1));
-  if (front::is_key_pressed(front::key::right, true)) {
+  if (frontend::is_key_pressed(frontend::key::right, true)) {
     const auto next = std::upper_bound(live.kept.begin(), live.kept.end(), live.frame);
     if (next == live.kept.end() || *next >= live.head)
       session.show_head();
     else
       session.show_frame(*next);
   }
-  if (pressed(front::key::home)) session.show_frame(0);
-  if (pressed(front::key::end)) session.show_head();
+  if (pressed(frontend::key::home)) session.show_frame(0);
+  if (pressed(frontend::key::end)) session.show_head();
 }
 
 }  // namespace neve::app::view::panels

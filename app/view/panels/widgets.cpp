@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "app/support/text.h"
-#include "app/view/front/imgui_input.h"
+#include "app/view/frontend/imgui_input.h"
 #include "app/view/panels/labels.h"
 #include "app/view/panels/slider_scale.h"
 
@@ -104,7 +104,7 @@ bool settle(const Knob& knob, const T& before, T& value, IsValid is_valid, Bound
   const Typing<T> typed = found->second;
   typings<T>().erase(found);
   value = before;
-  if (front::is_key_pressed(front::key::escape)) return false;
+  if (frontend::is_key_pressed(frontend::key::escape)) return false;
   if (typed.has_strange_letters || (!(typed.value == before) && !is_valid(typed.value))) {
     knob.refusal = refusal_text(knob);
     return false;

@@ -8,7 +8,7 @@
 namespace neve::app::view::replay {
 
 template <class V>
-void describe_held(V& visit, front::Modifiers& held) {
+void describe_held(V& visit, frontend::Modifiers& held) {
   using enum scene::Change;
   using scene::anything, scene::unit::none;
   visit("ctrl", held.ctrl, none, anything, restart, "Holds Ctrl during the step.");

@@ -5,14 +5,14 @@
 #include <optional>
 #include <utility>
 
-#include "app/view/front/key_names.h"
+#include "app/view/frontend/key_names.h"
 #include "app/view/panels/labels.h"
 
 namespace neve::app::view::replay {
 
 namespace {
 
-using Kind = front::InputEvent::Kind;
+using Kind = frontend::InputEvent::Kind;
 using Step = ReplayStep::Kind;
 
 constexpr double frames_per_second = 60;
@@ -52,18 +52,18 @@ bool prints(int key, const std::string& text) {
 }
 
 bool is_modifier(int key) {
-  return key >= front::key::shift && key <= front::key::super;
+  return key >= frontend::key::shift && key <= frontend::key::super;
 }
 
 }  // namespace
 
-void InputRecorder::note(const std::vector<front::InputEvent>& events, double seconds) {
+void InputRecorder::note(const std::vector<frontend::InputEvent>& events, double seconds) {
   now_ = seconds;
   if (!events.empty()) note_rest();
-  for (const front::InputEvent& event : events) note(event);
+  for (const frontend::InputEvent& event : events) note(event);
 }
 
-void InputRecorder::note(const front::InputEvent& event) {
+void InputRecorder::note(const frontend::InputEvent& event) {
   switch (event.kind) {
     case Kind::move:
       note_move(event);
@@ -101,7 +101,7 @@ void InputRecorder::note_rest() {
   add({.kind = Step::move, .places = {place_at(x_, y_)}}, rested_at);
 }
 
-void InputRecorder::note_move(const front::InputEvent& event) {
+void InputRecorder::note_move(const frontend::InputEvent& event) {
   // The mouse may leave the picture; a script has no use for that.
   if (event.x < -10'000 || event.y < -10'000) return;
   x_ = event.x;
@@ -119,7 +119,7 @@ void InputRecorder::note_move(const front::InputEvent& event) {
     path_.erase(path_.begin() + static_cast<std::ptrdiff_t>(k));
 }
 
-void InputRecorder::press(const front::InputEvent& event) {
+void InputRecorder::press(const frontend::InputEvent& event) {
   button_ = event.button;
   pressed_at_ = now_;
   pressed_held_ = event.held;
@@ -154,7 +154,7 @@ void InputRecorder::release() {
   add(std::move(step), pressed_at_);
 }
 
-void InputRecorder::note_wheel(const front::InputEvent& event) {
+void InputRecorder::note_wheel(const frontend::InputEvent& event) {
   ReplayStep* before = last(Step::wheel, 0.3);
   const ReplayPlace place = place_at(x_, y_);
   if (before && before->places[0].label == place.label &&
@@ -174,8 +174,8 @@ void InputRecorder::note_wheel(const front::InputEvent& event) {
       now_);
 }
 
-void InputRecorder::note_key(const front::InputEvent& event) {
-  if (is_modifier(event.key) || front::key_name(event.key).empty()) return;
+void InputRecorder::note_key(const frontend::InputEvent& event) {
+  if (is_modifier(event.key) || frontend::key_name(event.key).empty()) return;
   if (event.is_down) return add({.kind = Step::key, .key = event.key, .held = event.held}, now_);
   ReplayStep* before = last(Step::key, 60);
   if (!before || before->key != event.key) return;
@@ -200,7 +200,7 @@ void InputRecorder::set_progress(int frame, bool is_running) {
   awaited_frame_ = std::min(awaited_frame_, frame);  // it may have been reset
 }
 
-void InputRecorder::set_size(const front::ScreenSize& size) {
+void InputRecorder::set_size(const frontend::ScreenSize& size) {
   const bool is_same = !steps_.empty() && size.width == size_.width &&
                        size.height == size_.height && size.scale == size_.scale;
   if (is_same) return;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "app/view/front/front.h"
+#include "app/view/frontend/frontend.h"
 #include "app/view/replay/replay_script.h"
 
 namespace neve::app::view::replay {
@@ -14,24 +14,24 @@ class InputRecorder {
  public:
   /// @param events of one frame of the panels
   /// @param seconds since the first one
-  void note(const std::vector<front::InputEvent>& events, double seconds);
+  void note(const std::vector<frontend::InputEvent>& events, double seconds);
 
   /// Progress of the simulation; the steps that follow wait for it.
   void set_progress(int frame, bool is_running);
-  void set_size(const front::ScreenSize& size);
+  void set_size(const frontend::ScreenSize& size);
 
   /// Finished steps.
   const std::vector<ReplayStep>& steps() const { return steps_; }
 
  private:
-  void note(const front::InputEvent& event);
+  void note(const frontend::InputEvent& event);
   void note_rest();
-  void note_move(const front::InputEvent& event);
-  void press(const front::InputEvent& event);
+  void note_move(const frontend::InputEvent& event);
+  void press(const frontend::InputEvent& event);
   void release();
-  void note_key(const front::InputEvent& event);
+  void note_key(const frontend::InputEvent& event);
   void note_text(const std::string& text);
-  void note_wheel(const front::InputEvent& event);
+  void note_wheel(const frontend::InputEvent& event);
   /// Adds a step that began at `start`, after the steps that it waits for.
   void add(ReplayStep step, double start);
   /// The last step, when it is of this kind and ended less than so long ago.
@@ -42,11 +42,11 @@ class InputRecorder {
   double last_step_ = 0;   ///< s, when the last step ended
   double last_move_ = -1;  ///< s; < 0: none since the last step
   float x_ = 0, y_ = 0;    ///< of the mouse, px
-  front::ScreenSize size_{};
+  frontend::ScreenSize size_{};
 
   int button_ = -1;  ///< that is down, or -1
   double pressed_at_ = 0;
-  front::Modifiers pressed_held_{};
+  frontend::Modifiers pressed_held_{};
   std::vector<ReplayPlace> path_;  ///< of the mouse since the press, px
   double path_end_ = 0;            ///< s
   ReplayPlace pressed_on_;

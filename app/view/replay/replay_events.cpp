@@ -9,8 +9,8 @@ namespace neve::app::view::replay {
 
 namespace {
 
-using Kind = front::InputEvent::Kind;
-using Frames = std::vector<std::vector<front::InputEvent>>;
+using Kind = frontend::InputEvent::Kind;
+using Frames = std::vector<std::vector<frontend::InputEvent>>;
 
 /// Adds frame by frame.
 class Hand {
@@ -82,29 +82,29 @@ class Hand {
     rest();
   }
 
-  void once(front::InputEvent event) {
+  void once(frontend::InputEvent event) {
     next(std::move(event));
     rest();
   }
 
   /// The keys that are held around all of it.
   void hold(bool is_down) {
-    front::Modifiers held = is_down ? front::Modifiers{} : step_.held;
+    frontend::Modifiers held = is_down ? frontend::Modifiers{} : step_.held;
     const auto turn = [&](bool is_held, bool& state, int code) {
       if (!is_held) return;
       state = is_down;
       next({.kind = Kind::key, .key = code, .is_down = is_down, .held = held});
     };
-    turn(step_.held.ctrl, held.ctrl, front::key::ctrl);
-    turn(step_.held.shift, held.shift, front::key::shift);
-    turn(step_.held.alt, held.alt, front::key::alt);
-    turn(step_.held.super, held.super, front::key::super);
+    turn(step_.held.ctrl, held.ctrl, frontend::key::ctrl);
+    turn(step_.held.shift, held.shift, frontend::key::shift);
+    turn(step_.held.alt, held.alt, frontend::key::alt);
+    turn(step_.held.super, held.super, frontend::key::super);
   }
 
   Frames frames;
 
  private:
-  void next(front::InputEvent event) { frames.push_back({std::move(event)}); }
+  void next(frontend::InputEvent event) { frames.push_back({std::move(event)}); }
   void rest() { frames.emplace_back(); }
 
   void button(bool is_down) {
@@ -124,7 +124,7 @@ class Hand {
     if (c == ' ' || (c >= '0' && c <= '9')) return c;
     if (c >= 'a' && c <= 'z') return c - 'a' + 'A';
     if (c >= 'A' && c <= 'Z') return c;
-    return c == '\n' ? front::key::enter : 0;
+    return c == '\n' ? frontend::key::enter : 0;
   }
 
   /// Text that a key types into a text field.
@@ -140,8 +140,8 @@ class Hand {
 
 }  // namespace
 
-std::vector<std::vector<front::InputEvent>> events_of(const ReplayStep& step,
-                                                      const std::vector<ReplayPoint>& points) {
+std::vector<std::vector<frontend::InputEvent>> events_of(const ReplayStep& step,
+                                                         const std::vector<ReplayPoint>& points) {
   using Step = ReplayStep::Kind;
   Hand hand(step);
   hand.hold(true);

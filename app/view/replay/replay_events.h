@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "app/view/front/front.h"
+#include "app/view/frontend/frontend.h"
 #include "app/view/replay/replay_script.h"
 
 namespace neve::app::view::replay {
@@ -17,7 +17,7 @@ struct ReplayPoint {
 /// panels follow in a fourth.
 /// @param points where its places are now
 /// @return for each frame what happens before it; nothing for steps that are no input
-std::vector<std::vector<front::InputEvent>> events_of(const ReplayStep& step,
-                                                      const std::vector<ReplayPoint>& points);
+std::vector<std::vector<frontend::InputEvent>> events_of(const ReplayStep& step,
+                                                         const std::vector<ReplayPoint>& points);
 
 }  // namespace neve::app::view::replay

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/view/front/front.h"
+#include "app/view/frontend/frontend.h"
 
 namespace neve::app::view::replay {
 
@@ -44,10 +44,10 @@ struct ReplayStep {
   int frames = 1;
   int key = 0;
   float wheel_x = 0, wheel_y = 0;  ///< notches to the right and up
-  front::Modifiers held{};
+  frontend::Modifiers held{};
   std::string text{};
   double seconds = 120;  ///< of real time, until waiting is given up
-  front::ScreenSize size{};
+  frontend::ScreenSize size{};
   std::string crop_label{};                  ///< the part of the picture that a widget covers
   std::optional<std::array<int, 4>> crop{};  ///< x, y, width, height in px
 

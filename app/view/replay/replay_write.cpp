@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "app/support/json.h"
-#include "app/view/front/key_names.h"
+#include "app/view/frontend/key_names.h"
 #include "app/view/replay/replay_script.h"
 
 namespace neve::app::view::replay {
@@ -39,7 +39,7 @@ Json action_json(const ReplayStep& step) {
       if (step.wheel_x == 0) return rounded(step.wheel_y, 1000);
       return Json::array({rounded(step.wheel_x, 1000), rounded(step.wheel_y, 1000)});
     case Step::key:
-      return front::key_name(step.key);
+      return frontend::key_name(step.key);
     case Step::wait:
       return step.frames;
     case Step::resize: {

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "app/support/text.h"
-#include "app/view/front/key_names.h"
+#include "app/view/frontend/key_names.h"
 
 namespace neve::app::view::replay {
 
@@ -92,11 +92,11 @@ void read_leaf(const scene::Leaf& leaf, Notches& member) {
 
 void read_leaf(const scene::Leaf& leaf, KeyCode& member) {
   const std::string name = text_of(leaf, "the name of a key");
-  const std::optional<int> code = front::key_named(name);
+  const std::optional<int> code = frontend::key_named(name);
   if (!code) {
-    const std::string nearest = nearest_name(name, front::key_names());
+    const std::string nearest = nearest_name(name, frontend::key_names());
     leaf.fail("the name of a key", nearest.empty() ? "a letter, a digit, a sign, or one of " +
-                                                         joined(front::key_names(), ", ")
+                                                         joined(frontend::key_names(), ", ")
                                                    : "did you mean \"" + nearest + "\"?");
   }
   member.code = *code;

@@ -33,7 +33,7 @@ struct Crop {
   std::optional<std::array<int, 4>>& box;
 };
 struct Resolution {
-  front::ScreenSize& size;
+  frontend::ScreenSize& size;
 };
 struct MustBeTrue {};
 

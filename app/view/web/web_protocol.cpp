@@ -34,13 +34,13 @@ bool is_whole(double number, double least, double most) {
   return number >= least && number <= most && number == std::floor(number);
 }
 
-front::Modifiers modifiers_of(double bits) {
+frontend::Modifiers modifiers_of(double bits) {
   const int set = int(bits);
   return {bool(set & 1), bool(set & 2), bool(set & 4), bool(set & 8)};
 }
 
 /// The part that the messages of pointer and keys have in common.
-PageMessage event_of(front::InputEvent::Kind kind, double modifiers) {
+PageMessage event_of(frontend::InputEvent::Kind kind, double modifiers) {
   PageMessage message;
   if (!is_whole(modifiers, 0, 15)) return message;
   message.kind = PageMessage::Kind::event;
@@ -49,7 +49,7 @@ PageMessage event_of(front::InputEvent::Kind kind, double modifiers) {
   return message;
 }
 
-void set_place(front::InputEvent& event, double x, double y) {
+void set_place(frontend::InputEvent& event, double x, double y) {
   event.x = float(std::clamp(x, -far, far));
   event.y = float(std::clamp(y, -far, far));
 }
@@ -57,7 +57,7 @@ void set_place(front::InputEvent& event, double x, double y) {
 PageMessage read_move(std::string_view text) {
   const auto n = read_numbers<3>(text);  // x, y, modifiers
   if (!n) return {};
-  PageMessage message = event_of(front::InputEvent::Kind::move, (*n)[2]);
+  PageMessage message = event_of(frontend::InputEvent::Kind::move, (*n)[2]);
   set_place(message.event, (*n)[0], (*n)[1]);
   return message;
 }
@@ -65,7 +65,7 @@ PageMessage read_move(std::string_view text) {
 PageMessage read_button(std::string_view text) {
   const auto n = read_numbers<5>(text);  // button, is down, x, y, modifiers
   if (!n || !is_whole((*n)[0], 0, 2) || !is_whole((*n)[1], 0, 1)) return {};
-  PageMessage message = event_of(front::InputEvent::Kind::button, (*n)[4]);
+  PageMessage message = event_of(frontend::InputEvent::Kind::button, (*n)[4]);
   message.event.button = int((*n)[0]);
   message.event.is_down = (*n)[1] != 0;
   set_place(message.event, (*n)[2], (*n)[3]);
@@ -75,27 +75,27 @@ PageMessage read_button(std::string_view text) {
 PageMessage read_wheel(std::string_view text) {
   const auto n = read_numbers<3>(text);  // notches to the right, up, modifiers
   if (!n) return {};
-  PageMessage message = event_of(front::InputEvent::Kind::wheel, (*n)[2]);
+  PageMessage message = event_of(frontend::InputEvent::Kind::wheel, (*n)[2]);
   message.event.x = float(std::clamp((*n)[0], -max_notches, max_notches));
   message.event.y = float(std::clamp((*n)[1], -max_notches, max_notches));
   return message;
 }
 
 bool is_key(double number) {
-  if (!is_whole(number, ' ', front::key::last)) return false;
-  return number <= '~' ? !(number >= 'a' && number <= 'z') : number >= front::key::escape;
+  if (!is_whole(number, ' ', frontend::key::last)) return false;
+  return number <= '~' ? !(number >= 'a' && number <= 'z') : number >= frontend::key::escape;
 }
 
 PageMessage read_key(std::string_view text) {
   const auto n = read_numbers<3>(text);  // key, is down, modifiers
   if (!n || !is_key((*n)[0]) || !is_whole((*n)[1], 0, 1)) return {};
-  PageMessage message = event_of(front::InputEvent::Kind::key, (*n)[2]);
+  PageMessage message = event_of(frontend::InputEvent::Kind::key, (*n)[2]);
   message.event.key = int((*n)[0]);
   message.event.is_down = (*n)[1] != 0;
   return message;
 }
 
-PageMessage read_text(std::string_view text, front::InputEvent::Kind kind) {
+PageMessage read_text(std::string_view text, frontend::InputEvent::Kind kind) {
   if (text.size() < 2 || text[0] != ' ') return {};
   PageMessage message = event_of(kind, 0);
   message.event.text = text.substr(1);
@@ -134,7 +134,7 @@ PageMessage read_visible(std::string_view text) {
 
 }  // namespace
 
-front::ScreenSize limited_size(front::ScreenSize size) {
+frontend::ScreenSize limited_size(frontend::ScreenSize size) {
   size.width = std::clamp(size.width, 64, 16384);
   size.height = std::clamp(size.height, 64, 16384);
   size.scale = std::clamp(size.scale, 0.25f, 8.0f);
@@ -161,9 +161,9 @@ PageMessage read_page_message(std::string_view text) {
     case 'k':
       return read_key(rest);
     case 't':
-      return read_text(rest, front::InputEvent::Kind::text);
+      return read_text(rest, frontend::InputEvent::Kind::text);
     case 'p':
-      return read_text(rest, front::InputEvent::Kind::paste);
+      return read_text(rest, frontend::InputEvent::Kind::paste);
     case 's':
       return read_size(rest);
     case 'a':

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/view/front/front.h"
+#include "app/view/frontend/frontend.h"
 
 namespace neve::app::view::web {
 
@@ -22,8 +22,8 @@ struct PageMessage {
     visible,  ///< its tab came to the front, or left it
   };
   Kind kind = Kind::none;
-  front::InputEvent event;
-  front::ScreenSize size;
+  frontend::InputEvent event;
+  frontend::ScreenSize size;
   std::uint32_t number = 0;  ///< of the picture
   bool is_visible = true;
 };
@@ -33,7 +33,7 @@ PageMessage read_page_message(std::string_view text);
 
 /// A size that pictures may have: not tiny, not above max_web_pixels; what is too large keeps its
 /// shape and is scaled up by the browser.
-front::ScreenSize limited_size(front::ScreenSize size);
+frontend::ScreenSize limited_size(frontend::ScreenSize size);
 
 /// A message to the page: {"title": "..."}; bytes that are not UTF-8 are replaced.
 std::string page_text(const char* key, const std::string& value);

@@ -1,8 +1,8 @@
-#include "app/view/front/key_names.h"
+#include "app/view/frontend/key_names.h"
 
-#include "app/view/front/front.h"
+#include "app/view/frontend/frontend.h"
 
-namespace neve::app::view::front {
+namespace neve::app::view::frontend {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::vector<std::string> key_names() {
   return names;
 }
 
-}  // namespace neve::app::view::front
+}  // namespace neve::app::view::frontend

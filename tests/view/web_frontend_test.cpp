@@ -8,7 +8,7 @@
 namespace neve::test {
 namespace {
 
-using app::view::front::InputEvent;
+using app::view::frontend::InputEvent;
 using app::view::web::FramePacing;
 
 TEST(Jpeg, JpegKeepsThePicture) {

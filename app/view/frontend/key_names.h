@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace neve::app::view::front {
+namespace neve::app::view::frontend {
 
 /// "a" to "z", digits, signs, "space", "escape", "f1" ...; capitals count as small letters.
 /// @return its code, see namespace key
@@ -17,4 +17,4 @@ std::string key_name(int key);
 /// Every name, for a misspelt one.
 std::vector<std::string> key_names();
 
-}  // namespace neve::app::view::front
+}  // namespace neve::app::view::frontend

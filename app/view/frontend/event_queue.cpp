@@ -1,9 +1,9 @@
-#include "app/view/front/event_queue.h"
+#include "app/view/frontend/event_queue.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace neve::app::view::front {
+namespace neve::app::view::frontend {
 
 bool EventQueue::join(const InputEvent& event) {
   if (events_.empty()) return false;
@@ -73,4 +73,4 @@ std::vector<InputEvent> EventQueue::take() {
   return std::exchange(events_, {});
 }
 
-}  // namespace neve::app::view::front
+}  // namespace neve::app::view::frontend

@@ -6,7 +6,7 @@
 
 #include "render/screen.h"
 
-namespace neve::app::view::front {
+namespace neve::app::view::frontend {
 
 struct Modifiers {
   bool ctrl = false, shift = false, alt = false, super = false;
@@ -40,9 +40,9 @@ struct ScreenSize {
   float scale = 1;                 ///< px per point: 2 on a screen with high resolution
 };
 
-class Front {
+class Frontend {
  public:
-  virtual ~Front() = default;
+  virtual ~Frontend() = default;
 
   /// Address of the device: "http://127.0.0.1:40123/?token=..." or "window".
   virtual std::string where() const = 0;
@@ -75,4 +75,4 @@ class Front {
   virtual std::string clipboard() const = 0;
 };
 
-}  // namespace neve::app::view::front
+}  // namespace neve::app::view::frontend

@@ -1,4 +1,4 @@
-#include "app/view/replay/recording_front.h"
+#include "app/view/replay/recording_frontend.h"
 
 #include "app/output/atomic_file.h"
 #include "app/support/errors.h"
@@ -8,13 +8,13 @@ namespace neve::app::view::replay {
 
 using Clock = std::chrono::steady_clock;
 
-RecordingFront::RecordingFront(front::Front& front, std::filesystem::path file)
+RecordingFrontend::RecordingFrontend(frontend::Frontend& front, std::filesystem::path file)
     : front_(front), file_(std::move(file)), start_(Clock::now()) {
   recorder_.set_size(front_.size());
   save();
 }
 
-RecordingFront::~RecordingFront() {
+RecordingFrontend::~RecordingFrontend() {
   try {
     save();
   } catch (const IoError&) {
@@ -22,24 +22,24 @@ RecordingFront::~RecordingFront() {
   }
 }
 
-std::vector<front::InputEvent> RecordingFront::wait(double seconds) {
-  std::vector<front::InputEvent> events = front_.wait(seconds);
+std::vector<frontend::InputEvent> RecordingFrontend::wait(double seconds) {
+  std::vector<frontend::InputEvent> events = front_.wait(seconds);
   const auto now = Clock::now();
   recorder_.set_size(front_.size());
   recorder_.note(events, std::chrono::duration<double>(now - start_).count());
-  const bool is_over = !events.empty() && events.back().kind == front::InputEvent::Kind::close;
+  const bool is_over = !events.empty() && events.back().kind == frontend::InputEvent::Kind::close;
   const bool is_due =
       recorder_.steps().size() != saved_steps_ && now - saved_ > std::chrono::seconds(1);
   if (is_over || is_due) save();
   return events;
 }
 
-void RecordingFront::set_progress(int frame, bool is_running) {
+void RecordingFrontend::set_progress(int frame, bool is_running) {
   recorder_.set_progress(frame, is_running);
   front_.set_progress(frame, is_running);
 }
 
-void RecordingFront::save() {
+void RecordingFrontend::save() {
   output::write_file(file_, replay_text(recorder_.steps()));
   saved_ = Clock::now();
   saved_steps_ = recorder_.steps().size();

@@ -1,4 +1,4 @@
-#include "app/view/front/imgui_input.h"
+#include "app/view/frontend/imgui_input.h"
 
 #include <imgui.h>
 
@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-namespace neve::app::view::front {
+namespace neve::app::view::frontend {
 
 namespace {
 
@@ -124,7 +124,7 @@ struct ImGuiInput::Portion {
   }
 };
 
-ImGuiInput::ImGuiInput(Front& front)
+ImGuiInput::ImGuiInput(Frontend& front)
     : front_(front), is_key_down_(key::last + 1), is_button_down_(button_count) {
   ImGuiIO& io = ImGui::GetIO();
   io.ClipboardUserData = this;
@@ -308,4 +308,4 @@ bool is_key_down(int key) {
 }
 #endif
 
-}  // namespace neve::app::view::front
+}  // namespace neve::app::view::frontend

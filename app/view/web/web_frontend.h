@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/view/front/event_queue.h"
-#include "app/view/front/front.h"
+#include "app/view/frontend/event_queue.h"
+#include "app/view/frontend/frontend.h"
 #include "app/view/web/frame_pacing.h"
 #include "app/view/web/web_server.h"
 #include "render/image/image.h"
@@ -18,9 +18,9 @@ namespace neve::app::view::web {
 struct PageMessage;
 
 struct WebOptions {
-  std::string address = "127.0.0.1";     ///< a number, or localhost
-  int port = 0;                          ///< 0: a free one
-  front::ScreenSize size{1280, 800, 1};  ///< until a page connects
+  std::string address = "127.0.0.1";        ///< a number, or localhost
+  int port = 0;                             ///< 0: a free one
+  frontend::ScreenSize size{1280, 800, 1};  ///< until a page connects
   /// The user has seen risk_of(address) and accepts it.
   bool is_risk_taken = false;
   WebLimits limits{};
@@ -42,19 +42,19 @@ enum class Cursor {
 
 /// Only one page is connected at a time: the one opened last. All but where(), wake() and the
 /// destructor belong to one thread, the program's; the server's thread only fills queues.
-class WebFront final : public front::Front, private WebListener {
+class WebFrontend final : public frontend::Frontend, private WebListener {
  public:
   /// @throws Error when the build has no JPEG or the address is reached by others and nobody took
   /// the risk; IoError when it cannot be listened at
-  explicit WebFront(const WebOptions& options);
-  ~WebFront() override;
+  explicit WebFrontend(const WebOptions& options);
+  ~WebFrontend() override;
 
   std::string where() const override;
   int port() const { return server_.port(); }
   const std::string& token() const { return guard_.token(); }
 
-  front::ScreenSize size() const override;
-  std::vector<front::InputEvent> wait(double seconds) override;
+  frontend::ScreenSize size() const override;
+  std::vector<frontend::InputEvent> wait(double seconds) override;
   void wake() override;
   bool is_ready() const override;
   bool is_picture_wanted() const override;
@@ -94,9 +94,9 @@ class WebFront final : public front::Front, private WebListener {
 
   mutable std::mutex mutex_;  ///< of all that follows but the picture and the server
   std::condition_variable changed_;
-  front::EventQueue events_;
+  frontend::EventQueue events_;
   FramePacing pacing_;
-  front::ScreenSize size_;
+  frontend::ScreenSize size_;
   std::string clipboard_, cursor_ = "default", title_ = "neve";
   std::uint64_t viewer_ = 0;  ///< 0: no page is connected
   bool has_told_size_ = false, is_visible_ = true;

@@ -1,26 +1,26 @@
 #pragma once
-/// Writes down what is done at another front, as a script that `neve view --replay` plays.
+/// Writes down what is done at another frontend, as a script that `neve view --replay` plays.
 
 #include <chrono>
 #include <filesystem>
 
-#include "app/view/front/front.h"
+#include "app/view/frontend/frontend.h"
 #include "app/view/replay/input_recorder.h"
 
 namespace neve::app::view::replay {
 
-class RecordingFront : public front::Front {
+class RecordingFrontend : public frontend::Frontend {
  public:
   /// @param front must live longer
   /// @param file of the script; rewritten while it grows, so that a crash loses nothing
   /// @throws IoError when it cannot be written
-  RecordingFront(front::Front& front, std::filesystem::path file);
-  ~RecordingFront() override;
+  RecordingFrontend(frontend::Frontend& front, std::filesystem::path file);
+  ~RecordingFrontend() override;
 
   std::string where() const override { return front_.where(); }
-  front::ScreenSize size() const override { return front_.size(); }
+  frontend::ScreenSize size() const override { return front_.size(); }
   /// @throws IoError when the script cannot be written any more
-  std::vector<front::InputEvent> wait(double seconds) override;
+  std::vector<frontend::InputEvent> wait(double seconds) override;
   void wake() override { front_.wake(); }
   bool is_ready() const override { return front_.is_ready(); }
   bool is_picture_wanted() const override { return front_.is_picture_wanted(); }
@@ -33,7 +33,7 @@ class RecordingFront : public front::Front {
   void save();
 
  private:
-  front::Front& front_;
+  frontend::Frontend& front_;
   std::filesystem::path file_;
   InputRecorder recorder_;
   std::chrono::steady_clock::time_point start_, saved_;

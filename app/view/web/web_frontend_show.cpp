@@ -1,11 +1,11 @@
 /// Apart, so that what only shows images needs no OpenGL.
 
-#include "app/view/web/web_front.h"
+#include "app/view/web/web_frontend.h"
 #include "render/screen.h"
 
 namespace neve::app::view::web {
 
-void WebFront::show(render::Screen& screen) {
+void WebFrontend::show(render::Screen& screen) {
   show_image(screen.pixels());
 }
 

@@ -1,13 +1,13 @@
-#include "app/view/front/window_front.h"
+#include "app/view/frontend/window_frontend.h"
 
 #include <imgui.h>
 
 #include <utility>
 
-#include "app/view/front/imgui_input.h"
+#include "app/view/frontend/imgui_input.h"
 #include "render/screen.h"
 
-namespace neve::app::view::front {
+namespace neve::app::view::frontend {
 
 namespace {
 
@@ -79,25 +79,25 @@ render::CursorShape cursor_of_panels() {
 
 }  // namespace
 
-WindowFront::WindowFront(const std::string& title, const ScreenSize& size)
+WindowFrontend::WindowFrontend(const std::string& title, const ScreenSize& size)
     : window_({title, size.width, size.height}) {}
 
-ScreenSize WindowFront::size() const {
+ScreenSize WindowFrontend::size() const {
   return {window_.width(), window_.height(), window_.scale()};
 }
 
-std::vector<InputEvent> WindowFront::wait(double seconds) {
+std::vector<InputEvent> WindowFrontend::wait(double seconds) {
   std::vector<InputEvent> events;
   for (render::WindowEvent& event : window_.wait(seconds))
     events.push_back(translated(std::move(event)));
   return events;
 }
 
-void WindowFront::show(render::Screen& screen) {
+void WindowFrontend::show(render::Screen& screen) {
   screen.select_panels();
   window_.set_cursor(cursor_of_panels());
   screen.present();
   window_.swap();
 }
 
-}  // namespace neve::app::view::front
+}  // namespace neve::app::view::frontend

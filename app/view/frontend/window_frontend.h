@@ -3,15 +3,15 @@
 
 #include <string>
 
-#include "app/view/front/front.h"
+#include "app/view/frontend/frontend.h"
 #include "render/window.h"
 
-namespace neve::app::view::front {
+namespace neve::app::view::frontend {
 
-class WindowFront : public Front {
+class WindowFrontend : public Frontend {
  public:
   /// Opens the window. @throws render::ContextError
-  explicit WindowFront(const std::string& title, const ScreenSize& size = {});
+  explicit WindowFrontend(const std::string& title, const ScreenSize& size = {});
 
   /// Context for renderer and screen; valid as long as this object.
   render::gl::Context& context() { return window_.context(); }
@@ -32,4 +32,4 @@ class WindowFront : public Front {
   render::Window window_;
 };
 
-}  // namespace neve::app::view::front
+}  // namespace neve::app::view::frontend

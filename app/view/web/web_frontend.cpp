@@ -1,4 +1,4 @@
-#include "app/view/web/web_front.h"
+#include "app/view/web/web_frontend.h"
 
 #include <algorithm>
 #include <chrono>
@@ -67,15 +67,15 @@ bool shows_same(const render::Image& a, const render::Image& b) {
 
 }  // namespace
 
-WebFront::WebFront(const WebOptions& options)
+WebFrontend::WebFrontend(const WebOptions& options)
     : options_(checked(options)),
       guard_(options.address, make_token()),
       size_(limited_size(options.size)),
       server_(server_options(options), guard_, *this) {}
 
-WebFront::~WebFront() = default;
+WebFrontend::~WebFrontend() = default;
 
-std::string WebFront::where() const {
+std::string WebFrontend::where() const {
   const std::string& address = options_.address;
   const bool is_ipv6 = address.find(':') != std::string::npos;
   // "Every network" is no place to go to; this machine has a name.
@@ -85,12 +85,12 @@ std::string WebFront::where() const {
   return "http://" + name + ':' + std::to_string(port()) + "/?token=" + token();
 }
 
-front::ScreenSize WebFront::size() const {
+frontend::ScreenSize WebFrontend::size() const {
   const std::lock_guard lock(mutex_);
   return size_;
 }
 
-void WebFront::wake() {
+void WebFrontend::wake() {
   {
     const std::lock_guard lock(mutex_);
     is_woken_ = true;
@@ -98,34 +98,34 @@ void WebFront::wake() {
   changed_.notify_all();
 }
 
-bool WebFront::is_ready_now() const {
+bool WebFrontend::is_ready_now() const {
   // Unsent bytes are in flight too, whatever pictures the page has confirmed.
   return viewer_ != 0 && has_told_size_ && is_visible_ && pacing_.can_send() &&
          server_.unsent(viewer_) < FramePacing::max_in_flight;
 }
 
-bool WebFront::is_ready() const {
+bool WebFrontend::is_ready() const {
   const std::lock_guard lock(mutex_);
   return has_told_ready_ = is_ready_now();
 }
 
-bool WebFront::is_picture_wanted() const {
+bool WebFrontend::is_picture_wanted() const {
   const std::lock_guard lock(mutex_);
   return is_wanted_ && is_ready_now();
 }
 
-bool WebFront::has_news() const {
+bool WebFrontend::has_news() const {
   const bool is_ready = is_ready_now();
   // The last reported value decides, not the value at the beginning of the wait.
   if (!is_ready) has_told_ready_ = false;
   return !events_.empty() || is_woken_ || (is_ready && (!has_told_ready_ || is_wanted_));
 }
 
-bool WebFront::is_sharp_due(double now) const {
+bool WebFrontend::is_sharp_due(double now) const {
   return sent_ == Sent::quick && now >= sent_time_ + still_seconds;
 }
 
-std::vector<front::InputEvent> WebFront::wait(double seconds) {
+std::vector<frontend::InputEvent> WebFrontend::wait(double seconds) {
   const double end = clock_seconds() + std::clamp(seconds, 0.0, 1e6);
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -138,14 +138,14 @@ std::vector<front::InputEvent> WebFront::wait(double seconds) {
   }
   is_woken_ = false;
   has_told_ready_ = is_ready_now();
-  std::vector<front::InputEvent> happened = events_.take();
+  std::vector<frontend::InputEvent> happened = events_.take();
   const bool was_full = std::exchange(is_full_, false);
   lock.unlock();
   if (was_full) server_.resume();
   return happened;
 }
 
-void WebFront::send_what_is_due(std::unique_lock<std::mutex>& lock) {
+void WebFrontend::send_what_is_due(std::unique_lock<std::mutex>& lock) {
   if (image_.pixels.empty() || is_wanted_ || !is_ready_now()) return;
   if (sent_ == Sent::nothing)
     send_picture(lock, false);
@@ -153,7 +153,7 @@ void WebFront::send_what_is_due(std::unique_lock<std::mutex>& lock) {
     send_picture(lock, true);
 }
 
-void WebFront::send_picture(std::unique_lock<std::mutex>& lock, bool is_sharp) {
+void WebFrontend::send_picture(std::unique_lock<std::mutex>& lock, bool is_sharp) {
   const std::uint64_t to = viewer_;
   const int quality = is_sharp ? FramePacing::sharp_quality : pacing_.quality();
   lock.unlock();
@@ -167,7 +167,7 @@ void WebFront::send_picture(std::unique_lock<std::mutex>& lock, bool is_sharp) {
   server_.send(to, Opcode::binary, page_picture(number, bytes));
 }
 
-void WebFront::show_image(render::Image image) {
+void WebFrontend::show_image(render::Image image) {
   std::unique_lock lock(mutex_);
   is_wanted_ = false;
   if (!shows_same(image, image_)) {
@@ -177,41 +177,41 @@ void WebFront::show_image(render::Image image) {
   send_what_is_due(lock);
 }
 
-void WebFront::tell(const std::string& text) {
+void WebFrontend::tell(const std::string& text) {
   server_.send(viewer_, Opcode::text, text);
 }
 
-void WebFront::set_clipboard(const std::string& text) {
+void WebFrontend::set_clipboard(const std::string& text) {
   const std::lock_guard lock(mutex_);
   clipboard_ = text;
   tell(page_text("clipboard", text));
 }
 
-std::string WebFront::clipboard() const {
+std::string WebFrontend::clipboard() const {
   const std::lock_guard lock(mutex_);
   return clipboard_;
 }
 
-void WebFront::set_cursor(Cursor cursor) {
+void WebFrontend::set_cursor(Cursor cursor) {
   const std::lock_guard lock(mutex_);
   if (cursor_ == css_of(cursor)) return;
   cursor_ = css_of(cursor);
   tell(page_text("cursor", cursor_));
 }
 
-void WebFront::set_title(const std::string& title) {
+void WebFrontend::set_title(const std::string& title) {
   const std::lock_guard lock(mutex_);
   if (title_ == title) return;
   title_ = title;
   tell(page_text("title", title_));
 }
 
-FramePacing WebFront::pacing() const {
+FramePacing WebFrontend::pacing() const {
   const std::lock_guard lock(mutex_);
   return pacing_;
 }
 
-void WebFront::on_viewer(std::uint64_t viewer) {
+void WebFrontend::on_viewer(std::uint64_t viewer) {
   {
     const std::lock_guard lock(mutex_);
     viewer_ = viewer;
@@ -225,7 +225,7 @@ void WebFront::on_viewer(std::uint64_t viewer) {
   changed_.notify_all();
 }
 
-void WebFront::on_gone(std::uint64_t) {
+void WebFrontend::on_gone(std::uint64_t) {
   {
     const std::lock_guard lock(mutex_);
     viewer_ = 0;
@@ -235,7 +235,7 @@ void WebFront::on_gone(std::uint64_t) {
   changed_.notify_all();
 }
 
-bool WebFront::on_message(std::uint64_t, std::string_view text) {
+bool WebFrontend::on_message(std::uint64_t, std::string_view text) {
   const PageMessage message = read_page_message(text);
   bool is_taken = true;
   {
@@ -247,24 +247,24 @@ bool WebFront::on_message(std::uint64_t, std::string_view text) {
   return is_taken;
 }
 
-void WebFront::on_all_sent() {
+void WebFrontend::on_all_sent() {
   // A thread about to wait has to be waiting, or it would miss the notification.
   { const std::lock_guard lock(mutex_); }
   changed_.notify_all();
 }
 
 /// @return false when there is no room for it
-bool WebFront::apply(const PageMessage& message) {
+bool WebFrontend::apply(const PageMessage& message) {
   switch (message.kind) {
     case PageMessage::Kind::none:
       return true;
     case PageMessage::Kind::event:
       if (!events_.push(message.event)) return false;
-      if (message.event.kind == front::InputEvent::Kind::paste) clipboard_ = message.event.text;
+      if (message.event.kind == frontend::InputEvent::Kind::paste) clipboard_ = message.event.text;
       return true;
     case PageMessage::Kind::size: {
-      front::InputEvent event;
-      event.kind = front::InputEvent::Kind::resize;
+      frontend::InputEvent event;
+      event.kind = frontend::InputEvent::Kind::resize;
       event.x = float(message.size.width);
       event.y = float(message.size.height);
       if (!events_.push(event)) return false;

@@ -8,7 +8,7 @@
 #include <map>
 #include <mutex>
 
-#include "app/view/front/front.h"
+#include "app/view/frontend/frontend.h"
 #include "app/view/panels/labels.h"
 #include "app/view/replay/replay_events.h"
 #include "app/view/replay/replay_script.h"
@@ -18,22 +18,22 @@ namespace neve::app::view::replay {
 /// Each wait() is one frame of the panels and brings what happens in it; for the panels it should
 /// be 1/60 s long however long it takes. A frame without input lets that time pass, unless wait()
 /// is not to take any, so that other threads can work.
-class ReplayFront : public front::Front {
+class ReplayFrontend : public frontend::Frontend {
  public:
   struct Options {
     std::filesystem::path folder = ".";  ///< of screenshots and dropped files
     int frames = 0;                      ///< so many, then close; 0: until the script ends
-    front::ScreenSize size{};
+    frontend::ScreenSize size{};
   };
 
   /// @param file of the script, for messages
-  ReplayFront(std::vector<ReplayStep> steps, std::string file, Options options);
+  ReplayFrontend(std::vector<ReplayStep> steps, std::string file, Options options);
 
   std::string where() const override { return "replay of " + file_; }
-  front::ScreenSize size() const override { return options_.size; }
+  frontend::ScreenSize size() const override { return options_.size; }
   /// @throws Error of exit code 9 at a step that cannot be done: no such label, or the simulation
   /// does not get there in time, or the frames end before the script does
-  std::vector<front::InputEvent> wait(double seconds) override;
+  std::vector<frontend::InputEvent> wait(double seconds) override;
   void wake() override;
   bool is_ready() const override { return true; }
   /// For a screenshot, and where labels are waited for.
@@ -46,7 +46,7 @@ class ReplayFront : public front::Front {
 
  private:
   struct NextFrame {
-    std::vector<front::InputEvent> events{};
+    std::vector<frontend::InputEvent> events{};
     const ReplayStep* screenshot = nullptr;  ///< that the picture of this frame is for
   };
 
@@ -58,7 +58,7 @@ class ReplayFront : public front::Front {
   [[noreturn]] void give_up(const ReplayStep& step, const std::string& message,
                             const std::string& hint) const;
   [[noreturn]] void give_up_label(const ReplayStep& step, const std::string& label) const;
-  std::vector<front::InputEvent> closing() const;
+  std::vector<frontend::InputEvent> closing() const;
 
   std::vector<ReplayStep> steps_;
   std::string file_;

@@ -1,4 +1,4 @@
-#include "app/view/replay/replay_front.h"
+#include "app/view/replay/replay_frontend.h"
 
 #include <algorithm>
 #include <chrono>
@@ -42,13 +42,13 @@ std::array<int, 4> whole_pixels(const panels::LabelPlace& place) {
 
 }  // namespace
 
-ReplayFront::ReplayFront(std::vector<ReplayStep> steps, std::string file, Options options)
+ReplayFrontend::ReplayFrontend(std::vector<ReplayStep> steps, std::string file, Options options)
     : steps_(std::move(steps)), file_(std::move(file)), options_(std::move(options)) {
   panels::Labels::of_panels().clear();
 }
 
-void ReplayFront::give_up(const ReplayStep& step, const std::string& message,
-                          const std::string& hint) const {
+void ReplayFrontend::give_up(const ReplayStep& step, const std::string& message,
+                             const std::string& hint) const {
   const std::string where =
       file_ + ":" + std::to_string(step.line) + ":" + std::to_string(step.column);
   const std::size_t number = static_cast<std::size_t>(&step - steps_.data()) + 1;
@@ -58,7 +58,7 @@ void ReplayFront::give_up(const ReplayStep& step, const std::string& message,
               where, hint);
 }
 
-void ReplayFront::give_up_label(const ReplayStep& step, const std::string& label) const {
+void ReplayFrontend::give_up_label(const ReplayStep& step, const std::string& label) const {
   const panels::Labels& labels = panels::Labels::of_panels();
   const std::string nearest = nearest_name(label, labels.names());
   std::string all;
@@ -73,14 +73,14 @@ void ReplayFront::give_up_label(const ReplayStep& step, const std::string& label
   give_up(step, "\"" + label + "\"" + what, hint);
 }
 
-bool ReplayFront::is_picture_wanted() const {
+bool ReplayFrontend::is_picture_wanted() const {
   if (screenshot_) return true;
   if (frames_waited_ == 0) return false;
   const ReplayStep& step = steps_[next_];
   return step.kind != Step::wait_for || parse_goal(step.text)->kind == ReplayGoal::Kind::label;
 }
 
-std::vector<front::InputEvent> ReplayFront::wait(double seconds) {
+std::vector<frontend::InputEvent> ReplayFrontend::wait(double seconds) {
   if (is_idle_) {
     std::unique_lock lock(mutex_);
     const auto longest = std::chrono::duration<double>(std::clamp(seconds, 0.0, frame_seconds));
@@ -105,15 +105,15 @@ std::vector<front::InputEvent> ReplayFront::wait(double seconds) {
   return std::move(next.events);
 }
 
-std::vector<front::InputEvent> ReplayFront::closing() const {
+std::vector<frontend::InputEvent> ReplayFrontend::closing() const {
   if (next_ < steps_.size())
     give_up(steps_[next_],
             "not reached after " + std::to_string(options_.frames) + " frames of the panels",
             "raise --frames");
-  return {{.kind = front::InputEvent::Kind::close}};
+  return {{.kind = frontend::InputEvent::Kind::close}};
 }
 
-bool ReplayFront::begin(const ReplayStep& step) {
+bool ReplayFrontend::begin(const ReplayStep& step) {
   if (frame_ < step.at_frame) return false;
   switch (step.kind) {
     case Step::wait_for: {
@@ -128,17 +128,17 @@ bool ReplayFront::begin(const ReplayStep& step) {
       return true;
     case Step::resize:
       options_.size = step.size;
-      frames_.push_back({{{.kind = front::InputEvent::Kind::resize,
+      frames_.push_back({{{.kind = frontend::InputEvent::Kind::resize,
                            .x = static_cast<float>(step.size.width),
                            .y = static_cast<float>(step.size.height)}}});
       return true;
     case Step::drop: {
       const std::string path = (options_.folder / step.text).lexically_normal().string();
-      frames_.push_back({{{.kind = front::InputEvent::Kind::drop, .text = path}}});
+      frames_.push_back({{{.kind = frontend::InputEvent::Kind::drop, .text = path}}});
       return true;
     }
     case Step::quit:
-      frames_.push_back({{{.kind = front::InputEvent::Kind::close}}});
+      frames_.push_back({{{.kind = frontend::InputEvent::Kind::close}}});
       next_ = steps_.size() - 1;  // what comes after it is left out
       return true;
     default:
@@ -146,7 +146,7 @@ bool ReplayFront::begin(const ReplayStep& step) {
   }
 }
 
-bool ReplayFront::begin_on_places(const ReplayStep& step) {
+bool ReplayFrontend::begin_on_places(const ReplayStep& step) {
   std::vector<ReplayPoint> points;
   bool is_found = true;
   std::string missing;
@@ -163,13 +163,13 @@ bool ReplayFront::begin_on_places(const ReplayStep& step) {
   }
   if (!is_found && ++frames_waited_ > patience) give_up_label(step, missing);
   if (!is_found) return false;
-  for (std::vector<front::InputEvent>& events : events_of(step, points))
+  for (std::vector<frontend::InputEvent>& events : events_of(step, points))
     frames_.push_back({std::move(events)});
   return true;
 }
 
 /// In sight and where it was a frame ago: panels that open move at first.
-bool ReplayFront::find(const std::string& label, panels::LabelPlace& place) {
+bool ReplayFrontend::find(const std::string& label, panels::LabelPlace& place) {
   const std::optional<panels::LabelPlace> found = panels::Labels::of_panels().find(label);
   if (!found) return false;
   if (!found->is_visible) {
@@ -182,7 +182,7 @@ bool ReplayFront::find(const std::string& label, panels::LabelPlace& place) {
   return is_at_rest;
 }
 
-bool ReplayFront::is_reached(const ReplayGoal& goal) const {
+bool ReplayFrontend::is_reached(const ReplayGoal& goal) const {
   switch (goal.kind) {
     case ReplayGoal::Kind::frame:
       return simulation_frame_ >= goal.frame;
@@ -196,23 +196,23 @@ bool ReplayFront::is_reached(const ReplayGoal& goal) const {
   return false;
 }
 
-bool ReplayFront::is_in_time(const ReplayStep& step) {
+bool ReplayFrontend::is_in_time(const ReplayStep& step) {
   if (frames_waited_ == 0) waiting_since_ = now();
   return now() - waiting_since_ < step.seconds;
 }
 
-void ReplayFront::wake() {
+void ReplayFrontend::wake() {
   const std::lock_guard lock(mutex_);
   is_woken_ = true;
   woken_.notify_all();
 }
 
-void ReplayFront::set_progress(int frame, bool is_running) {
+void ReplayFrontend::set_progress(int frame, bool is_running) {
   simulation_frame_ = frame;
   is_simulation_running_ = is_running;
 }
 
-void ReplayFront::show(render::Screen& screen) {
+void ReplayFrontend::show(render::Screen& screen) {
   if (!screenshot_) return;
   const ReplayStep& step = *std::exchange(screenshot_, nullptr);
   render::Image picture = screen.pixels();

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "app/view/front/front.h"
+#include "app/view/frontend/frontend.h"
 
 struct ImGuiIO;
 
-namespace neve::app::view::front {
+namespace neve::app::view::frontend {
 
 /// Mouse position outside the picture, for events of kind `move`.
 inline constexpr float off_picture = -100000;
@@ -22,7 +22,7 @@ class ImGuiInput {
  public:
   /// The ImGui context that is current now gets its clipboard from the front, which must live
   /// longer than this; this must live longer than the context is used.
-  explicit ImGuiInput(Front& front);
+  explicit ImGuiInput(Frontend& front);
   ImGuiInput(const ImGuiInput&) = delete;
   ImGuiInput& operator=(const ImGuiInput&) = delete;
 
@@ -51,7 +51,7 @@ class ImGuiInput {
   void push_paste(const InputEvent& event);
   const char* clipboard_text();
 
-  Front& front_;
+  Frontend& front_;
   std::deque<Waiting> waiting_;
   std::vector<std::string> pasted_;  ///< texts of pastes that are waiting, oldest first
   std::string clipboard_;            ///< keeps what was handed out last
@@ -64,4 +64,4 @@ class ImGuiInput {
 bool is_key_pressed(int key, bool is_repeating = false);
 bool is_key_down(int key);
 
-}  // namespace neve::app::view::front
+}  // namespace neve::app::view::frontend

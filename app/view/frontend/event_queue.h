@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "app/view/front/front.h"
+#include "app/view/frontend/frontend.h"
 
-namespace neve::app::view::front {
+namespace neve::app::view::frontend {
 
 /// Not protected against threads.
 class EventQueue {
@@ -34,4 +34,4 @@ class EventQueue {
   float x_ = 0, y_ = 0;              ///< last place of the pointer
 };
 
-}  // namespace neve::app::view::front
+}  // namespace neve::app::view::frontend

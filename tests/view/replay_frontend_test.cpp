@@ -1,4 +1,4 @@
-#include "app/view/replay/replay_front.h"
+#include "app/view/replay/replay_frontend.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 
 #include "app/output/atomic_file.h"
 #include "app/support/errors.h"
-#include "app/view/front/imgui_input.h"
+#include "app/view/frontend/imgui_input.h"
 #include "app/view/panels/labels.h"
-#include "app/view/replay/recording_front.h"
+#include "app/view/replay/recording_frontend.h"
 #include "panels.h"
 #include "render/image/image.h"
 #include "render/renderer.h"
@@ -29,7 +29,7 @@ struct SmallViewer {
   float hardening = 10;
   char name[64] = "";
   std::vector<std::string> dropped;
-  std::vector<app::view::front::ScreenSize> sizes;
+  std::vector<app::view::frontend::ScreenSize> sizes;
   float wheel = 0;
   int space_pressed = 0;
 
@@ -56,22 +56,24 @@ struct SmallViewer {
     }
     ImGui::EndChild();
     wheel += ImGui::GetIO().MouseWheel;
-    space_pressed += app::view::front::is_key_pressed(' ');
+    space_pressed += app::view::frontend::is_key_pressed(' ');
   }
   int clicked = -1;
 
-  /// @return how many frames it ran, until the front closed
-  void run(app::view::front::Front& front) {
-    app::view::front::ImGuiInput input(front);
+  /// @return how many frames it ran, until the frontend closed
+  void run(app::view::frontend::Frontend& front) {
+    app::view::frontend::ImGuiInput input(front);
     for (frames = 0; frames < 100'000; ++frames) {
-      const std::vector<app::view::front::InputEvent> events = front.wait(0.01);
-      for (const app::view::front::InputEvent& event : events) {
-        if (event.kind == app::view::front::InputEvent::Kind::close) return;
-        if (event.kind == app::view::front::InputEvent::Kind::drop) dropped.push_back(event.text);
-        if (event.kind == app::view::front::InputEvent::Kind::resize) sizes.push_back(front.size());
+      const std::vector<app::view::frontend::InputEvent> events = front.wait(0.01);
+      for (const app::view::frontend::InputEvent& event : events) {
+        if (event.kind == app::view::frontend::InputEvent::Kind::close) return;
+        if (event.kind == app::view::frontend::InputEvent::Kind::drop)
+          dropped.push_back(event.text);
+        if (event.kind == app::view::frontend::InputEvent::Kind::resize)
+          sizes.push_back(front.size());
       }
       const bool is_paste =
-          !events.empty() && events[0].kind == app::view::front::InputEvent::Kind::paste;
+          !events.empty() && events[0].kind == app::view::frontend::InputEvent::Kind::paste;
       input.push(events);
       EXPECT_EQ(input.feed(), is_paste) << "a script brings one thing a frame";
       panels.frame([&] { widgets(); });
@@ -81,14 +83,14 @@ struct SmallViewer {
     FAIL() << "it never closed";
   }
 
-  void run(const std::string& script, app::view::replay::ReplayFront::Options options = {}) {
-    app::view::replay::ReplayFront front(app::view::replay::parse_replay(script, "clicks.json"),
-                                         "clicks.json", std::move(options));
+  void run(const std::string& script, app::view::replay::ReplayFrontend::Options options = {}) {
+    app::view::replay::ReplayFrontend front(app::view::replay::parse_replay(script, "clicks.json"),
+                                            "clicks.json", std::move(options));
     run(front);
   }
 
   std::string failure(const std::string& script,
-                      app::view::replay::ReplayFront::Options options = {}) {
+                      app::view::replay::ReplayFrontend::Options options = {}) {
     try {
       run(script, std::move(options));
     } catch (const Error& error) {
@@ -146,7 +148,7 @@ TEST(Replay, ReplayWaitsForFramesAndForTheSimulation) {
 
 TEST(Replay, ReplayResizesDropsAndTurnsTheWheel) {
   SmallViewer viewer;
-  app::view::replay::ReplayFront::Options options;
+  app::view::replay::ReplayFrontend::Options options;
   options.folder = "/somewhere";
   viewer.run(R"([{"resize": [1920, 1080, 2]}, {"drop": "a.toml"}, {"wheel": 2.5, "at": [700, 500]},
                  {"quit": true}, {"click": "no such thing"}])",
@@ -184,7 +186,7 @@ TEST(Replay, SimulationThatDoesNotGetThereIsGivenUp) {
 
 TEST(Replay, FramesEndItAndTooFewAreSaid) {
   SmallViewer viewer;
-  app::view::replay::ReplayFront::Options options;
+  app::view::replay::ReplayFrontend::Options options;
   options.frames = 30;
   viewer.run(R"([{"click": "Run"}])", options);
   EXPECT_EQ(viewer.frames, 30);
@@ -195,7 +197,7 @@ TEST(Replay, FramesEndItAndTooFewAreSaid) {
 }
 
 TEST(Replay, WakeEndsTheWaitOfAScriptThatWaits) {
-  app::view::replay::ReplayFront front(
+  app::view::replay::ReplayFrontend front(
       app::view::replay::parse_replay(R"([{"wait_for": "simulation frame 9"}])", "a"), "a", {});
   front.wait(1);
   front.wake();
@@ -208,15 +210,15 @@ TEST(Replay, WakeEndsTheWaitOfAScriptThatWaits) {
 TEST(Replay, ScreenshotsAreTheScreenOrAPartOfIt) {
   OPEN_OR_SKIP(context, "egl");
   const test::TemporaryFolder folder;
-  app::view::replay::ReplayFront::Options options;
+  app::view::replay::ReplayFrontend::Options options;
   options.folder = folder.path();
   options.size = {640, 400, 1};
   const std::string script =
       R"([{"screenshot": "all.png"}, {"screenshot": "a/run.png", "crop": "Run"},
                                  {"screenshot": "corner.png", "crop": [0, 0, 20, 10]},
                                  {"screenshot": "beyond.png", "crop": [600, 0, 80, 10]}])";
-  app::view::replay::ReplayFront front(app::view::replay::parse_replay(script, "clicks.json"),
-                                       "clicks.json", options);
+  app::view::replay::ReplayFrontend front(app::view::replay::parse_replay(script, "clicks.json"),
+                                          "clicks.json", options);
   render::Renderer renderer(*context);
   render::Screen screen(*context);
   const auto run = [&] {
@@ -265,9 +267,9 @@ TEST(Recording, RecordedInputDoesTheSameAgain) {
     {"wheel": -3, "at": [100, 150]}, {"resize": [700, 500]}, {"drop": "/x/a.toml"}])";
   SmallViewer first;
   {
-    app::view::replay::ReplayFront hand(app::view::replay::parse_replay(script, "hand.json"),
-                                        "hand.json", {});
-    app::view::replay::RecordingFront recording(hand, folder / "recorded.json");
+    app::view::replay::ReplayFrontend hand(app::view::replay::parse_replay(script, "hand.json"),
+                                           "hand.json", {});
+    app::view::replay::RecordingFrontend recording(hand, folder / "recorded.json");
     first.run(recording);
   }
   const std::string recorded = test::read_text(folder / "recorded.json");
@@ -284,8 +286,8 @@ TEST(Recording, RecordedInputDoesTheSameAgain) {
 }
 
 TEST(Recording, UnwritableFileIsAnErrorAtOnce) {
-  ClipboardFront front;
-  EXPECT_THROW(app::view::replay::RecordingFront(front, "/proc/no/such.json"), IoError);
+  ClipboardFrontend front;
+  EXPECT_THROW(app::view::replay::RecordingFrontend(front, "/proc/no/such.json"), IoError);
 }
 
 TEST(Labels, SmallestWidgetAroundAPlaceNamesIt) {
