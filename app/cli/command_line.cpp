@@ -172,7 +172,9 @@ void add_render(CLI::App& app, Action& action) {
                    "Frames between checkpoints in DIR/checkpoint; 0: none")
       ->type_name("FRAMES")
       ->capture_default_str();
-  command->add_flag("!--no-movie", options->has_movies, "Write pictures only, no movie");
+  // Its name alone; "!--no-movie" would be listed as --no-movie{false}.
+  command->add_flag_callback(
+      "--no-movie", [options] { options->has_movies = false; }, "Write pictures only, no movie");
   command->add_option("--shader-dir", options->shader_dir, "Read shaders from this folder")
       ->type_name("DIR");
   command->add_flag("--dry-run", options->dry_run,
