@@ -7,11 +7,11 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-TEST(ElasticBalls, ReboundAsInTheReferenceWithFlip) {
+TEST(ElasticBalls, BallsReboundAsInTheReferenceWithFlip) {
   check_balls({}, {.kinetic_at_rest = 0.001, .elastic = 0.924, .total = 0.825, .rebound = 0.908});
 }
 
-TEST(ElasticBalls, ReboundAsInTheReferenceWithMlsInFloat) {
+TEST(ElasticBalls, BallsReboundAsInTheReferenceWithMlsInFloat) {
   check_balls(
       {.transfer = Transfer::mls, .kernel = Kernel::quadratic, .precision = Precision::single},
       {.kinetic_at_rest = 0.001, .elastic = 0.864, .total = 0.725, .rebound = 0.850});

@@ -46,7 +46,7 @@ double bar_period(int cells, bool is_held, Precision precision = Precision::real
   return 2 * std::numbers::pi / fit_oscillation(samples, dt, about_omega).omega;
 }
 
-TEST(FreeBar, RingsAtTwoLengthsPerWaveSpeed) {
+TEST(FreeBar, FreeBarRingsAtTwoLengthsPerWaveSpeed) {
   // T = 2 L / c, longer by the dispersion of a wave of 2 L: the free ends add next to nothing. The
   // reference has 1.033 and 1.008 T.
   const double exact = 2 / bar_c;
@@ -67,7 +67,7 @@ TEST(FreeBar, RingsAtTwoLengthsPerWaveSpeed) {
               bar_period(20, false, Precision::single) / exact, 1e-3);
 }
 
-TEST(HeldBar, RingsAtFourLengthsPerWaveSpeed) {
+TEST(HeldBar, HeldBarRingsAtFourLengthsPerWaveSpeed) {
   // T = 4 L / c. B-splines do not interpolate: particles in the cell at the wall are slowed by it,
   // the bar behaves as if longer by a share of h. So the order is 1. The reference's periods, known
   // to half of a thousandth, are used where it has them; beyond, they follow from order 1.

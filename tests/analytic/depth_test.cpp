@@ -174,7 +174,7 @@ TEST(Depth, DepthOfAQuickEdgeIsATenthOfACellWithPushOut) {
   EXPECT_LT(pushed.energy_ratio, health::limits_of(health::Law::energy).stop);
 }
 
-TEST(Depth, NothingPassesTheThinPlate) {
+TEST(Depth, NoParticlePassesTheThinPlate) {
   SolverSettings s;
   s.cell_size = cell;
   s.push_out = true;

@@ -88,7 +88,7 @@ TEST(RigidRotation, RigidRotationKeepsShapeAndSpin) {
   verify_at_most({"motion", line, "largest change of a radius / radius"}, 0.02, stretch);
 }
 
-TEST(TwoBalls, CollideWithZeroMomentumAndLoseEnergy) {
+TEST(TwoBalls, BallsCollideWithZeroMomentumAndLoseEnergy) {
   SolverSettings s;
   s.cell_size = 0.05;
   s.precision = Precision::real64;

@@ -7,7 +7,7 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-TEST(ElasticBallsLong, ReboundAsInTheReferenceWithEveryTransfer) {
+TEST(ElasticBallsLong, BallsReboundAsInTheReferenceWithEveryTransfer) {
   check_balls({.precision = Precision::single},
               {.kinetic_at_rest = 0.001, .elastic = 0.924, .total = 0.825, .rebound = 0.908});
   check_balls({.transfer = Transfer::apic},
@@ -16,7 +16,7 @@ TEST(ElasticBallsLong, ReboundAsInTheReferenceWithEveryTransfer) {
               {.kinetic_at_rest = 0.001, .elastic = 0.864, .total = 0.725, .rebound = 0.850});
 }
 
-TEST(ElasticBallsLong, FallApartWithoutAnyDampingOfFlip) {
+TEST(ElasticBallsLong, BallsFallApartWithUndampedFlip) {
   // Known of FLIP with alpha = 1: velocities that the grid does not see are never damped. Momentum
   // must hold all the same, and energy must not come from nowhere.
   const BallsCase c{.flip_ratio = 1};

@@ -82,7 +82,7 @@ TEST(CameraPath, CameraPathIsSmoothAndAtRestAtItsEnds) {
   EXPECT_GT(velocity(0.3).norm(), 1) << "it does not stop on the way";
 }
 
-TEST(CameraPath, NeverSwingsBeyondAKeyframeAndHoldsBetweenEqualOnes) {
+TEST(CameraPath, PathNeverOvershootsKeyframesAndRestsBetweenEqualOnes) {
   const app::scene::Scene scene = scene_with_camera(R"(keyframes = [
   { time = 0, eye = [0, 0, 9], target = [0, 0, 0], fov = 1 },
   { time = 0.2, eye = [5, 0, 9], target = [0, 0, 0], fov = 80 },
@@ -122,7 +122,7 @@ TEST(CameraPath, TurntableTurnsEvenlyOnceInItsTime) {
   EXPECT_DOUBLE_EQ(app::setup::turned(*scene.camera, 3, 1), 270);
 }
 
-TEST(CameraPath, OrbitTurnsWhatKeyframesGive) {
+TEST(CameraPath, OrbitTurnsTheKeyframedCamera) {
   const app::scene::Scene scene = scene_with_camera(
       "orbit = 180\neye = [1, 0, 0]\ntarget = [0, 0, 0]\n"
       "keyframes = [{ time = 0 }, { time = 1, eye = [3, 0, 0] }]");
@@ -189,7 +189,7 @@ TEST(CameraPath, KeyframesWithPlacesNeedNoFraming) {
   EXPECT_EQ(place(zoom, 1).eye, *zoom.camera->eye);
 }
 
-TEST(CameraErrors, CameraErrorsAreLocatedAndSayWhatToTry) {
+TEST(CameraErrors, CameraErrorsHaveAPlaceAndAHint) {
   EXPECT_EQ(camera_error("keyframes = [{ time = 1 }, { time = 0.5 }]"),
             "s.toml:6:37: error: keyframe 2 is at 0.5 s, the one before at 1 s; times must "
             "increase from one keyframe to the next");

@@ -45,7 +45,7 @@ sim::Simulation simulate(const app::scene::Scene& scene, bool is_empty = false) 
                          1);
 }
 
-TEST(LiveChanges, GoToJsonAndBack) {
+TEST(LiveChanges, ChangesSurviveJson) {
   const std::vector<app::scene::LiveChange> changes{{0, "solver.cfl", "0.2"},
                                                     {17, "collider.floor.contact", "\"sticky\""},
                                                     {17, "camera", "none"}};
@@ -56,7 +56,7 @@ TEST(LiveChanges, GoToJsonAndBack) {
   EXPECT_TRUE(app::scene::live_changes(Json::array()).empty());
 }
 
-TEST(LiveChanges, ChangesThatAreNoneAreRefused) {
+TEST(LiveChanges, InvalidChangesAreRefused) {
   for (const char* bad : {"{}", "[1]", "null", R"([{"step": 1, "address": "solver.cfl"}])",
                           R"([{"step": -1, "address": "solver.cfl", "value": "1"}])",
                           R"([{"step": 1.5, "address": "solver.cfl", "value": "1"}])",
@@ -68,7 +68,7 @@ TEST(LiveChanges, ChangesThatAreNoneAreRefused) {
         << bad;
 }
 
-TEST(LiveChanges, ChangesOfOneStepAndAddressOnlyTheFirstAndTheLastAreKept) {
+TEST(LiveChanges, OnlyTheFirstAndLastChangeOfAStepAndAddressAreKept) {
   std::vector<app::scene::LiveChange> changes;
   for (const char* value : {"1", "2", "3", "4"})
     app::scene::note_change(changes, {5, "light.ambient", value});
@@ -83,7 +83,7 @@ TEST(LiveChanges, ChangesOfOneStepAndAddressOnlyTheFirstAndTheLastAreKept) {
   EXPECT_EQ(changes.size(), 3u);
 }
 
-TEST(LiveChanges, MakeTheSceneUpToAStep) {
+TEST(LiveChanges, ChangesUpToAStepMakeItsScene) {
   const app::run::SceneSource source{
       changed_scene, "s.toml", "", {app::scene::parse_override("solver.cfl=0.1")}};
   const std::vector<app::scene::LiveChange> changes{{3, "solver.cfl", "0.2"},
@@ -246,7 +246,7 @@ TEST(ChangePlayer, ChangePlayerPlaysAgainTheChangesThatItMadeBetweenSteps) {
   EXPECT_EQ(hash_after_replay(), live.state_hash());
 }
 
-TEST(ChangePlayer, ChangePlayerGoesOnFromAStateAtAnyStep) {
+TEST(ChangePlayer, ChangePlayerContinuesFromAStateAtAnyStep) {
   Session session;
   play(session);
   const app::scene::Scene scene = start();
@@ -281,7 +281,7 @@ TEST(ChangePlayer, ChangePlayerGoesOnFromAStateAtAnyStep) {
 }
 
 /// A frame that holds takes the same steps with "retry": changes inside it are made at theirs.
-TEST(ChangePlayer, WithRetriesAHealthyFrameIsTheSame) {
+TEST(ChangePlayer, RetriesDoNotAffectAHealthyFrame) {
   Session session("solver.on_divergence=retry");
   play(session);
   const app::scene::Scene scene = start("solver.on_divergence=retry");
@@ -296,7 +296,7 @@ TEST(ChangePlayer, WithRetriesAHealthyFrameIsTheSame) {
 
 /// With retries, the steps of a frame are final at its end: changes inside it wait until then, in
 /// the same way however the run got there.
-TEST(ChangePlayer, WithRetriesChangesInsideABrokenFrameWaitForItsEnd) {
+TEST(ChangePlayer, ChangesInsideARetriedFrameWaitForItsEnd) {
   app::scene::Scene scene = start("solver.on_divergence=retry");
   scene.solver.time_step = sim::TimeStep::fixed;
   scene.solver.dt = 1 / 240.0;

@@ -64,7 +64,7 @@ double kept(const sim::SolverSettings& s, double dt, int steps) {
   return std::pow(sim::engine::flip_share(s, dt), steps);
 }
 
-TEST(Coarsen, CoarseningDampsAsMuchPerSecondWhateverTheRatioRefersTo) {
+TEST(Coarsen, CoarseningKeepsTheDampingPerSecond) {
   for (const char* reference : {"flip_reference_dt = 5e-4\n", "flip_reference_dt = 0\n"}) {
     const app::scene::Scene full = coarse_ball(reference);
     app::scene::Scene coarse = full;
@@ -73,7 +73,7 @@ TEST(Coarsen, CoarseningDampsAsMuchPerSecondWhateverTheRatioRefersTo) {
   }
 }
 
-TEST(Coarsen, OneChangesNothing) {
+TEST(Coarsen, AFactorOfOneChangesNothing) {
   app::scene::Scene scene = coarse_ball();
   app::scene::coarsen(scene, 1);
   EXPECT_EQ(app::scene::write_scene(scene), app::scene::write_scene(coarse_ball()));
@@ -94,13 +94,13 @@ TEST(Coarsen, TheResultIsASceneThatReadsBack) {
             app::scene::write_scene(scene));
 }
 
-TEST(Coarsen, CoarseningRefusesWhatIsNoFactor) {
+TEST(Coarsen, CoarseningRefusesInvalidFactors) {
   for (const double factor : {0.0, -2.0, 0.5, std::numeric_limits<double>::quiet_NaN(),
                               std::numeric_limits<double>::infinity()})
     EXPECT_NE(message_of(coarse_ball(), factor).find("at least 1"), std::string::npos) << factor;
 }
 
-TEST(Coarsen, CoarseningRefusesToLeaveABodyWithoutAParticleAndSaysWhatFits) {
+TEST(Coarsen, CoarseningRefusesToEmptyABodyAndNamesALimit) {
   // 4/3 pi 0.15^3 m3 of 8 per 0.02^3 m3 are 14137 particles, 24.18 cubed.
   const std::string message = message_of(coarse_ball(), 25);
   EXPECT_NE(message.find("no particle of body ball"), std::string::npos) << message;
@@ -113,7 +113,7 @@ TEST(Coarsen, CoarseningRefusesStepsOutOfRange) {
   EXPECT_NE(message.find("solver.max_dt would become 2"), std::string::npos) << message;
 }
 
-TEST(Coarsen, PicturesRememberItAndOldOnesNeedNot) {
+TEST(Coarsen, PicturesRecordTheFactorAndOldOnesDoNotNeedIt) {
   app::run::PictureRecord record;
   record.coarsening = 1.5;
   EXPECT_EQ(app::run::to_png_text(record).at("neve:coarsen"), "1.5");

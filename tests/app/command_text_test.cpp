@@ -25,7 +25,7 @@ app::setup::RenderCommand awkward() {
   return command;
 }
 
-TEST(CommandLine, CommandLineIsWhatAPersonWouldType) {
+TEST(CommandLine, CommandLineIsAsShortAsTypedByHand) {
   app::setup::RenderCommand command;
   command.scene_file = "scenes/snowball_drop.toml";
   EXPECT_EQ(app::setup::command_line(command), "neve render scenes/snowball_drop.toml");
@@ -54,7 +54,7 @@ TEST(CommandLine, CommandLineGoesThroughAShellUnharmed) {
   EXPECT_EQ(shell.output, expected);
 }
 
-TEST(ShellWord, ShellWordIsQuotedWhereItHasToBe) {
+TEST(ShellWord, ShellWordIsQuotedIfNecessary) {
   EXPECT_EQ(app::setup::shell_word("a/b-c_d.toml"), "a/b-c_d.toml");
   EXPECT_EQ(app::setup::shell_word(""), "''");
   EXPECT_EQ(app::setup::shell_word("a b"), "'a b'");

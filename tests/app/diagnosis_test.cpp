@@ -192,7 +192,7 @@ TEST(Diagnosis, DiagnosisNamesTheCauseOfEachFault) {
 }
 
 /// States that no scene can ask for, as from a damaged file.
-TEST(Diagnosis, DiagnosisNamesWhatWasWrongBeforeTheFirstStep) {
+TEST(Diagnosis, DiagnosisNamesFaultsBeforeTheFirstStep) {
   const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");
   const auto cause_with = [&](auto&& damage) {
     sim::ParticleArrays particles = app::setup::seed_scene(scene).particles;
@@ -252,7 +252,7 @@ TEST(Diagnosis, DiagnosisKeepsTheLastStepsInOrder) {
 }
 
 /// Half of a step that is just too long holds; the frames that follow may be as they were.
-TEST(Retry, RetryGoesOnWithHalfTheStepWhereThatHolds) {
+TEST(Retry, RetryContinuesWithHalfTheStepIfThatHolds) {
   app::scene::Scene scene = scene_of(fault("the same with a longer step"));
   const sim::ParticleArrays particles = app::setup::seed_scene(scene).particles;
   sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
@@ -269,7 +269,7 @@ TEST(Retry, RetryGoesOnWithHalfTheStepWhereThatHolds) {
   EXPECT_FALSE(retries[0].rule.empty());
 }
 
-TEST(Retry, RetryGivesUpWhereNoStepHelps) {
+TEST(Retry, RetryGivesUpIfNoStepHelps) {
   const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");
   sim::ParticleArrays particles = app::setup::seed_scene(scene).particles;
   particles.J_P.assign(particles.x.size(), 1);

@@ -59,7 +59,7 @@ std::string with(const std::string& part, const std::string& other,
   return text.replace(at, part.size(), other);
 }
 
-TEST(EditText, WithoutChangesNothingChanges) {
+TEST(EditText, NoChangesLeaveTheTextTheSame) {
   EXPECT_EQ(edit({}), edited_scene);
 }
 
@@ -122,12 +122,12 @@ TEST(EditText, MaterialsKeepTheirOrder) {
             with("# Rain.", "[material.snow]\nhardening = 5\n\n# Rain.", text));
 }
 
-TEST(EditText, TheFirstKeyOfADocumentStandsAboveItsFirstHeader) {
+TEST(EditText, TheFirstKeyOfADocumentIsAboveItsFirstHeader) {
   const std::string text = "# My scene.\n\n# A body.\n[[body]]\nshape = { box = {} }\n";
   EXPECT_EQ(edit({"frames=3"}, text), with("# A body.", "frames = 3\n\n# A body.", text));
 }
 
-TEST(EditText, ValuesSetToNoneGoWithTheirLine) {
+TEST(EditText, ValuesSetToNoneAreRemovedWithTheirLine) {
   EXPECT_EQ(edit({"camera=none"}), with("[camera]\nfov = 30\n", ""));
   const std::string text = with("fov = 30\n", "fov = 30\norbit = 90   # degrees\nup = [0, 1, 0]\n");
   EXPECT_EQ(edit({"camera.orbit=none"}, text), with("orbit = 90   # degrees\n", "", text));

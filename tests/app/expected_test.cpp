@@ -21,7 +21,7 @@ shape = { box = { center = [0, 0.2, 0], size = [0.3, 0.3, 0.3] } }
 )";
 
 // The sharp corners of a cube of three cells: the worst that the paper's estimate does.
-TEST(ExpectedVolume, ExpectedVolumeHasRoomForEstimatesAtCornersAndNoMoreWhereVolumesAreGiven) {
+TEST(ExpectedVolume, VolumesHaveRoomForEstimatesAtCornersOnlyIfEstimated) {
   const app::scene::Scene scene = app::scene::read_scene_text(coarse_cube, "cube.toml");
   sim::Simulation simulation =
       app::setup::make_simulation(scene, app::setup::seed_scene(scene).particles, 1);

@@ -133,7 +133,7 @@ render::Frame frame_of_slice(const FieldMoment& moment, std::size_t view,
   return frame;
 }
 
-TEST(Slice, ArrowsStandOnNodesAndHaveTheirVelocity) {
+TEST(Slice, ArrowsStartAtNodesAndHaveTheirVelocity) {
   const FieldMoment moment = moment_of(all_fields);
   const app::scene::SliceStyle& slice = moment.scene.views[2].slice;
   const app::picture::SlicePlane plane = app::picture::slice_plane(slice, 0, std::nullopt);
@@ -155,7 +155,7 @@ TEST(Slice, ArrowsStandOnNodesAndHaveTheirVelocity) {
   EXPECT_NE(frame.footnote.find("z = 0 m"), std::string::npos) << frame.footnote;
 }
 
-TEST(Slice, SliceSaysWhereThereIsNoSnow) {
+TEST(Slice, SliceMarksPointsWithoutSnow) {
   const FieldMoment moment = moment_of(all_fields);
   app::scene::SliceStyle slice = moment.scene.views[2].slice;
   slice.point = Vec3d(0, 0, 5);
@@ -165,7 +165,7 @@ TEST(Slice, SliceSaysWhereThereIsNoSnow) {
   EXPECT_NE(frame.footnote.find("no snow here"), std::string::npos) << frame.footnote;
 }
 
-TEST(Legends, StandOnceForTwoLayersOfOneQuantity) {
+TEST(Legends, TwoLayersOfOneQuantityShareALegend) {
   app::scene::View view;
   view.layers = {app::scene::Layer::particles, app::scene::Layer::smoke, app::scene::Layer::legend};
   view.particles.color_by = app::scene::ColorBy::J_P;
@@ -177,7 +177,7 @@ TEST(Legends, StandOnceForTwoLayersOfOneQuantity) {
   EXPECT_EQ(app::picture::legends_of(view).size(), 2u);
 }
 
-TEST(Slice, ArrowsStayApartOnThePicture) {
+TEST(Slice, ArrowsKeepTheirDistanceInThePicture) {
   const FieldMoment moment = moment_of(all_fields);
   const app::picture::SlicePlane plane =
       app::picture::slice_plane(moment.scene.views[2].slice, 0, std::nullopt);
@@ -194,7 +194,7 @@ TEST(Slice, ArrowsStayApartOnThePicture) {
   EXPECT_GT(distance(5000), 90);
 }
 
-TEST(Slice, AnyPlaneAndOneThatMissesTheSnow) {
+TEST(Slice, AnyPlaneWorksAndOneThatMissesTheSnowIsEmpty) {
   const FieldMoment moment = moment_of(all_fields);
   app::scene::SliceStyle slice = moment.scene.views[2].slice;
   slice.normal = {1, 2, 3};

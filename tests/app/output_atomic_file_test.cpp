@@ -61,7 +61,7 @@ TEST(AtomicFile, AtomicFileOnAFullDiskKeepsTheOldFileAndSaysWhy) {
   EXPECT_EQ(file_count(folder.path()), 1u);
 }
 
-TEST(AtomicFile, AtomicFileFailsWhereNoFileCanBe) {
+TEST(AtomicFile, AtomicFileFailsInFoldersThatCannotHoldIt) {
   const TemporaryFolder folder;
   folder.write("file", "x");
   EXPECT_THROW(app::output::write_file(folder.path() / "file" / "a.txt", std::string_view("x")),

@@ -48,7 +48,7 @@ TEST_F(Attributes, AttributesAreThoseOfTheCurrentConfiguration) {
   EXPECT_TRUE(app::picture::attribute_values(scene, app::scene::ColorBy::snow, s).empty());
 }
 
-TEST_F(Attributes, TakeTheMaterialsDensityBeforeVolumesAreKnown) {
+TEST_F(Attributes, DensityIsThatOfTheMaterialBeforeVolumesAreKnown) {
   app::picture::Snapshot s = squeezed();
   s.particles.V0 = {0};
   EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::density, s), 1000);
@@ -72,7 +72,7 @@ TEST_F(Attributes, AttributesOfABrokenStateStillMakeAPicture) {
   EXPECT_EQ(frame.legends[0].unit, "m/s");
 }
 
-TEST_F(Attributes, CaptionsSayWhatWasCoarsened) {
+TEST_F(Attributes, CaptionsShowTheCoarsening) {
   const auto last_line = [&](double coarsening) {
     const app::setup::SeededScene seeded;
     const app::picture::FrameBuilder builder(scene, seeded, {.coarsening = coarsening});

@@ -32,7 +32,7 @@ double reach(const app::scene::CameraSettings& camera, double aspect, const sim:
   return std::max(std::abs(q.dot(right)) / (half * aspect), std::abs(q.dot(up)) / half);
 }
 
-TEST(AutomaticCamera, AutomaticCameraShowsWhereTheSnowStartsAndLands) {
+TEST(AutomaticCamera, AutomaticCameraShowsTheStartAndTheLandingOfTheSnow) {
   app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
   app::setup::resolve(scene, 1000);
   ASSERT_TRUE(scene.camera && scene.camera->eye);

@@ -89,7 +89,7 @@ TEST_F(Movie, MovieHoldsEveryFrameOfOddSizeFromAStrangeFolder) {
   EXPECT_EQ(file_count(f.folder), 2u) << "a temporary file is left";
 }
 
-TEST_F(Movie, MovieGoesOnPastFrame9999) {
+TEST_F(Movie, MovieContinuesPastFrame9999) {
   const Fixture f;
   write_pictures(f.folder, 9998, 10001);
   EXPECT_EQ(app::output::write_movie(request(f.folder, 9998, 10001)).outcome,
@@ -116,7 +116,7 @@ TEST_F(Movie, MovieIsNotKeptWhenAPictureIsEmptyOrMissing) {
   }
 }
 
-TEST(MovieWithoutFfmpeg, MovieWithoutFfmpegIsNoError) {
+TEST(MovieWithoutFfmpeg, AMissingFfmpegIsNoError) {
   const TemporaryFolder folder;
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", folder.path().c_str(), 1);

@@ -53,7 +53,7 @@ TEST(Progress, QuietRunsPrintOnlyWarnings) {
   EXPECT_EQ(out.str(), "neve: warning: careful\n");
 }
 
-TEST(RoundNumber, RoundNumberIsOneThatPeopleWouldChoose) {
+TEST(RoundNumber, RoundNumbersHaveFewDigits) {
   EXPECT_EQ(round_up(4.4), 5);
   EXPECT_EQ(round_up(3), 3);
   EXPECT_EQ(round_up(8.1), 10);

@@ -26,7 +26,7 @@ TEST(Sequence, SequenceNamesFramesWithAtLeastFourDigits) {
   EXPECT_EQ(app::output::frame_path("out", "smoke", 12345), fs::path("out/smoke/12345.png"));
 }
 
-TEST(Sequence, SequenceRemovesWhatTheEarlierRunListsAndNothingElse) {
+TEST(Sequence, SequenceRemovesOnlyFilesThatTheEarlierRunLists) {
   const TemporaryFolder folder;
   folder.write("run.json", R"({"views": ["particles"], "frames": [{"frame": 0}, {"frame": 1}]})");
   for (const char* name : {"particles/0000.png", "particles/0001.png", "particles/0002.png",

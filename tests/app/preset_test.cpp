@@ -38,7 +38,7 @@ TEST(Preset, PresetOfThePaperIsTheDefault) {
   EXPECT_EQ(app::scene::preset_of(sim::Material{}), app::scene::Preset::paper);
 }
 
-TEST(Preset, EachHasNumbersOfItsOwnThatASceneMayHave) {
+TEST(Preset, EveryPresetHasDistinctValidNumbers) {
   std::set<std::string> written;
   for (const auto& name : app::scene::names(app::scene::Preset{})) {
     const app::scene::Scene scene =
@@ -67,14 +67,14 @@ TEST(Preset, PresetSetsEveryNumberOfTheSnowAndNothingElse) {
   EXPECT_EQ(changed.size(), 6u);
 }
 
-TEST(Preset, PresetGivesWayToNumbersBesideIt) {
+TEST(Preset, NumbersBesideAPresetOverrideIt) {
   const sim::Material m = preset_snow("[material.snow]\nhardening = 3\npreset = \"powder\"\n");
   EXPECT_EQ(m.hardening, 3);
   EXPECT_EQ(m.density, app::scene::snow_of(app::scene::Preset::powder).density);
   EXPECT_EQ(m.critical_stretch, app::scene::snow_of(app::scene::Preset::powder).critical_stretch);
 }
 
-TEST(Preset, PresetGivesWayToNumbersThatAreSet) {
+TEST(Preset, NumbersOfTheCommandLineOverrideAPreset) {
   for (const auto& sets : {std::vector<std::string>{"material.snow.hardening=3"},
                            {"material.snow.preset=icy", "material.snow.hardening=3"},
                            {"material.snow.hardening=3", "material.snow.preset=icy"}}) {
@@ -87,7 +87,7 @@ TEST(Preset, PresetGivesWayToNumbersThatAreSet) {
 }
 
 // The scene kept with a picture gives all its numbers; a preset set for it must not do nothing.
-TEST(Preset, PresetThatIsSetCountsMoreThanTheFile) {
+TEST(Preset, PresetOfTheCommandLineOverridesTheFile) {
   EXPECT_EQ(app::scene::preset_of(
                 preset_snow("[material.snow]\nhardening = 3\n", {"material.snow.preset=wet"})),
             app::scene::Preset::wet);
@@ -97,7 +97,7 @@ TEST(Preset, PresetThatIsSetCountsMoreThanTheFile) {
   EXPECT_EQ(app::scene::preset_of(again.materials[0]), app::scene::Preset::packed);
 }
 
-TEST(Preset, TakenAwayLeavesTheNumbersOfTheFile) {
+TEST(Preset, ARemovedPresetLeavesTheNumbersOfTheFile) {
   const sim::Material m = preset_snow(powder + "hardening = 3\n", {"material.snow.preset=none"});
   EXPECT_EQ(m.hardening, 3);
   EXPECT_EQ(m.density, sim::Material{}.density);
@@ -158,7 +158,7 @@ TEST(Preset, PresetIsDocumentedWithItsNumbers) {
   }
 }
 
-TEST(Preset, PutIntoAFileTakesThePlaceOfItsNumbers) {
+TEST(Preset, APresetSavedToAFileReplacesItsNumbers) {
   const std::string text =
       "[material.snow]   # mine\ndensity = 300   # heavy\nmodel = \"snow\"\nhardening = 4\n" + body;
   const std::string expected =

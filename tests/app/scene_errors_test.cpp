@@ -114,12 +114,12 @@ TEST(SceneErrors, APresetIsNoMaterialAndASweepNoScene) {
   EXPECT_NE(sweep.find("neve sweep s.toml makes its runs"), std::string::npos) << sweep;
 }
 
-TEST(SceneErrors, AMosaicMayNameWhatIsBuiltIn) {
+TEST(SceneErrors, AMosaicMayNameBuiltInViews) {
   const std::string mosaic = error_of(with_ball("[[mosaic]]\nviews = [\"slce\"]"));
   EXPECT_NE(mosaic.find("did you mean \"slice\"?"), std::string::npos) << mosaic;
 }
 
-TEST(SceneErrors, KeysOfOtherVersionsListWhatThereIs) {
+TEST(SceneErrors, KeysOfOtherVersionsListTheKnownOnes) {
   EXPECT_EQ(error_of(with_ball("[light]\nbloom = 0.5")),
             "s.toml:5:1: error: unknown key \"bloom\" in [light]; expected \"direction\", "
             "\"intensity\" or \"ambient\"");

@@ -114,7 +114,7 @@ views = ["NAME"]
   EXPECT_EQ(found, expected);
 }
 
-TEST(Flat, FlatListKnowsWhatMayChangeWhileASimulationRuns) {
+TEST(Flat, FlatListMarksTheParametersThatMayChangeDuringARun) {
   for (const char* live :
        {"solver.gravity", "solver.bypass", "material.snow.hardening", "material.a.model",
         "collider.floor.velocity", "collider.1.shape", "collider.1.shape.sphere.center", "camera",
@@ -137,7 +137,7 @@ std::vector<std::string> addresses(const std::vector<app::scene::Difference>& li
   return out;
 }
 
-TEST(Differences, DifferencesAreSplitByWhatCanGoOnRunning) {
+TEST(Differences, DifferencesAreSplitByTheNeedForARestart) {
   EXPECT_TRUE(app::scene::differences(read(), read()).empty());
   const app::scene::SplitDifferences split = app::scene::split_live(
       read(),
@@ -197,7 +197,7 @@ TEST(Differences, SetOneByOneMakeTheOtherScene) {
   }
 }
 
-TEST(SetNone, SettingNoneTakesAwayWhatMayBeAbsentAndNothingElse) {
+TEST(SetNone, SettingNoneRemovesOptionalValuesOnly) {
   EXPECT_FALSE(read({"view.close.camera=none"}).views[0].camera);
   EXPECT_TRUE(read({"view.close.camera.keyframes=none"}).views[0].camera->keyframes.empty());
   EXPECT_FALSE(read({"camera.orbit=90", "camera.orbit=none"}).camera->orbit);

@@ -66,7 +66,7 @@ TEST(SceneFlow, MistakesAreLocated) {
   EXPECT_NE(flow_error(spout + "rat = 3\n").find("did you mean \"rate\"?"), std::string::npos);
 }
 
-TEST(SceneFlow, ThePlanCountsWhatWillCome) {
+TEST(SceneFlow, ThePlanCountsFutureParticles) {
   app::scene::Scene scene = flow_scene(spout);
   const double share = 400 * std::pow(scene.solver.cell_size, 3) / 8;
   const app::setup::Plan plan =
@@ -171,7 +171,7 @@ std::vector<std::string> findings_of(const std::string& text) {
   return addresses;
 }
 
-TEST(SceneFlow, EmittersThatCannotBeMeantAreFound) {
+TEST(SceneFlow, ImpossibleEmittersAreFound) {
   EXPECT_TRUE(findings_of(spout).empty());
   EXPECT_EQ(findings_of(spout + "start = 100\n"), std::vector<std::string>{"emitter.spout.start"});
   std::string packed = spout;

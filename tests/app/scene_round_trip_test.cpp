@@ -334,7 +334,7 @@ TEST(SceneReader, SceneReaderAcceptsWholeFloatsAsIntegersAndBack) {
   EXPECT_EQ(scene.limits.particles, 20'000'000u);
 }
 
-TEST(SceneReader, OverridesOnlyWhatAMaterialSays) {
+TEST(SceneReader, ASceneOverridesOnlyTheNumbersThatItNames) {
   const app::scene::Scene scene = app::scene::read_scene_text(
       "[material.snow]\nhardening = 7\n[[body]]\nshape = { sphere = {} }", "s");
   EXPECT_EQ(scene.materials.at(0).hardening, 7);

@@ -73,7 +73,7 @@ TEST(Set, SettingTakesWholeTables) {
   EXPECT_EQ(scene.camera->eye->z(), 2);
 }
 
-TEST(Set, SettingTakesBareWordsAsStrings) {
+TEST(Set, SettingReadsBareWordsAsStrings) {
   EXPECT_EQ(set({"solver.kernel=quadratic"}).solver.kernel, sim::Kernel::quadratic);
   EXPECT_EQ(set({"title=Boule de névé # 2"}).title, "Boule de névé # 2");
   EXPECT_EQ(set({"title=\"quoted\""}).title, "quoted");
@@ -153,7 +153,7 @@ TEST(FindView, ViewLookupKnowsTheBuiltInOne) {
   EXPECT_THROW(app::scene::find_view(scene, "clos"), app::scene::toml::UsageError);
 }
 
-TEST(ValueAt, ValueLookupFindsWhatAnAddressMeans) {
+TEST(ValueAt, ValueLookupFindsTheValueOfAnAddress) {
   const app::scene::toml::Table root = app::scene::toml::parse_toml(
       "fps = 24\n[solver]\ncfl = 0.4\n[material.snow]\nhardening = 5\n[[body]]\nname = \"ball\"\n"
       "velocity = [0, 1, 2]\n[[body]]\nshape = { sphere = { radius = 0.1 } }\n",

@@ -37,14 +37,14 @@ std::string around(const std::string& address, const std::string& value = {}) {
       {app::scene::toml::Array(app::sweep::plan::values_around(flat_param(address, value)))});
 }
 
-TEST(ValuesAround, SpanDecadesWhereRatiosMatter) {
+TEST(ValuesAround, ValuesSpanDecadesIfRatiosMatter) {
   EXPECT_EQ(around("material.snow.youngs_modulus"), "[14000, 44300, 140000, 443000, 1400000]");
   EXPECT_EQ(around("solver.cell_size"), "[0.0125, 0.025, 0.05, 0.1, 0.2]");
   EXPECT_EQ(around("solver.max_dt"), "[0.00025, 5e-4, 0.001, 0.002, 0.004]");
   EXPECT_EQ(around("solver.cfl", "800"), "[200, 400, 800]");
 }
 
-TEST(ValuesAround, StandAtEqualDistancesElsewhereAndStayInRange) {
+TEST(ValuesAround, OtherValuesHaveEqualDistancesAndStayInRange) {
   EXPECT_EQ(around("material.snow.hardening"), "[5, 7.5, 10, 12.5, 15]");
   EXPECT_EQ(around("material.snow.poisson_ratio"), "[0.1, 0.15, 0.2, 0.25, 0.3]");
   EXPECT_EQ(around("material.snow.poisson_ratio", "0.4"), "[0.2, 0.3, 0.4, 0.445, 0.49]");
@@ -55,7 +55,7 @@ TEST(ValuesAround, StandAtEqualDistancesElsewhereAndStayInRange) {
   EXPECT_EQ(around("frames", "100000"), "[50000, 62500, 75000, 87500, 100000]");
 }
 
-TEST(ValuesAround, ValuesAroundOfChoicesAreAllOfThemAndVectorsAreStretched) {
+TEST(ValuesAround, ChoicesTakeAllValuesAndVectorsAreStretched) {
   EXPECT_EQ(around("solver.transfer"), "[\"flip\", \"apic\", \"mls\"]");
   EXPECT_EQ(around("body.ball.velocity"),
             "[[0, -2, 0], [0, -3, 0], [0, -4, 0], [0, -5, 0], [0, -6, 0]]");
@@ -66,7 +66,7 @@ TEST(ValuesAround, ValuesAroundOfChoicesAreAllOfThemAndVectorsAreStretched) {
 }
 
 /// All parameters that have values around them: each value is valid, the present one among them.
-TEST(ValuesAround, ValuesAroundAreValidAndHaveThePresentOneAmongThem) {
+TEST(ValuesAround, AllValuesAreValidAndThePresentOneIsAmongThem) {
   int count = 0;
   for (const app::scene::FlatParam& param :
        app::scene::flatten(app::scene::read_scene_text(around_scene, "s.toml"))) {
@@ -94,7 +94,7 @@ TEST(ValuesAround, ValuesAroundAreValidAndHaveThePresentOneAmongThem) {
   EXPECT_GT(count, 50);
 }
 
-TEST(SweepAround, SweepAroundIsAFileThatReadsAsTheSweep) {
+TEST(SweepAround, ASweepAroundAValueIsAFileThatReadsAsTheSweep) {
   const test::TemporaryFolder folder;
   const auto scene = folder.write("scenes/a b.toml", around_scene);
   const auto file = folder / "sweeps/hardening.toml";

@@ -75,7 +75,7 @@ TEST_F(ChildTest, ChildDiesWithItsParent) {
   EXPECT_TRUE(test::is_gone_soon(std::stoi(test::read_text(folder_ / "pid"))));
 }
 
-TEST(SweepStore, SweepStoreRemembersReportsAndSurvivesBrokenOnes) {
+TEST(SweepStore, TheStoreRemembersReportsAndSurvivesBrokenOnes) {
   test::TemporaryFolder folder;
   app::sweep::store::RunStatus status;
   status.state = app::sweep::store::RunState::out_of_memory;
@@ -107,7 +107,7 @@ TEST(SweepStore, LocksAreHeldOnce) {
   EXPECT_TRUE(app::sweep::store::RunLock(folder.path()).is_held());
 }
 
-TEST(SweepOrder, CornersComeFirstThenMiddles) {
+TEST(SweepOrder, CornersRunFirstThenMiddles) {
   std::vector<std::vector<int>> grid;
   for (int a = 0; a < 5; ++a)
     for (int b = 0; b < 5; ++b) grid.push_back({a, b});
@@ -120,7 +120,7 @@ TEST(SweepOrder, CornersComeFirstThenMiddles) {
   EXPECT_EQ(app::sweep::plan::coarse_first(row, {}), (std::vector<std::size_t>{0, 4, 2, 1, 3}));
 }
 
-TEST(SweepThreads, FillTheCoresAndFitIntoMemory) {
+TEST(SweepThreads, ThreadsFillTheCoresAndFitIntoMemory) {
   app::sweep::Run small, large;
   small.particles = 5000;
   small.memory = 5e7;
@@ -133,7 +133,7 @@ TEST(SweepThreads, FillTheCoresAndFitIntoMemory) {
   EXPECT_EQ(app::sweep::jobs::threads_for(small, 1, 8, 64e9), 1);   // too small to share
 }
 
-TEST(SweepProgress, SweepProgressEstimatesOverATrailingWindow) {
+TEST(SweepProgress, RemainingTimeIsEstimatedOverATrailingWindow) {
   using namespace std::chrono_literals;
   WorkClock clock;
   const WorkClock::Clock::time_point start{};

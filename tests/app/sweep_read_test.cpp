@@ -163,7 +163,7 @@ TEST_F(SweepFileTest, DrawnValuesDependOnTheSeedAlone) {
   }
 }
 
-TEST(SweepQuantile, SweepQuantileIsTheInverseOfTheNormalDistribution) {
+TEST(SweepQuantile, QuantilesInvertTheNormalDistribution) {
   // Tables of the normal distribution, five digits.
   EXPECT_NEAR(app::sweep::plan::normal_quantile(0.5), 0, 1e-12);
   EXPECT_NEAR(app::sweep::plan::normal_quantile(0.975), 1.95996, 1e-5);
@@ -311,7 +311,7 @@ TEST_F(SweepFileTest, TooManyRunsAreRefusedBeforeTheyAreMade) {
   EXPECT_THROW(runs(text), LimitError);
 }
 
-TEST(SweepDuration, SweepDurationReadsUnits) {
+TEST(SweepDuration, DurationsAreReadWithUnits) {
   EXPECT_EQ(app::sweep::read::seconds_of("90"), 90);
   EXPECT_EQ(app::sweep::read::seconds_of("20m"), 1200);
   EXPECT_EQ(app::sweep::read::seconds_of("1h30m"), 5400);
@@ -320,7 +320,7 @@ TEST(SweepDuration, SweepDurationReadsUnits) {
     EXPECT_FALSE(app::sweep::read::seconds_of(wrong)) << wrong;
 }
 
-TEST(SweepLabels, SweepLabelsAreAsShortAsTellsThemApart) {
+TEST(SweepLabels, LabelsHaveTheFewestWordsThatDiffer) {
   EXPECT_EQ(app::sweep::plan::short_names({"material.snow.hardening", "seed"}),
             (Strings{"hardening", "seed"}));
   EXPECT_EQ(app::sweep::plan::short_names({"material.snow.hardening", "material.ice.hardening"}),

@@ -59,7 +59,7 @@ TEST(Metrics, SpreadAndHeightAreThoseOfABox) {
   EXPECT_NEAR(metrics.height, 9.6, 0.02);  // 96 % of 10
 }
 
-TEST(Metrics, StatesThatExplodedCountWhatIsFinite) {
+TEST(Metrics, MetricsOfDivergedStatesCountFiniteParticles) {
   sim::ParticleArrays particles;
   EXPECT_EQ(app::run::measure(particles, 1).fragments, 0u);
   add_cube({0, 0, 0}, 1, particles);
@@ -101,7 +101,7 @@ app::sweep::store::Manifest manifest_of(const std::vector<int>& sizes) {
   return m;
 }
 
-TEST(SheetLayout, SheetLayoutHasEveryRunOnceAndNoTileOverAnother) {
+TEST(SheetLayout, ASheetHasEveryRunOnceAndNoOverlappingTiles) {
   for (const auto& sizes : std::vector<std::vector<int>>{
            {}, {1}, {3}, {20}, {2, 3}, {3, 2, 2}, {2, 2, 2, 2}, {2, 3, 2, 2, 2}, {12, 40}}) {
     const app::sweep::store::Manifest m = manifest_of(sizes);
@@ -139,7 +139,7 @@ TEST(SheetLayout, LastAxisGoesAcrossUnlessAskedOtherwise) {
   EXPECT_TRUE(is_across(0, 3));
 }
 
-TEST(SheetLayout, RowsSayNameAndValueInOneLineWhereBothFit) {
+TEST(SheetLayout, RowsHaveNameAndValueInOneLineIfBothFit) {
   app::sweep::store::Manifest m = manifest_of({2, 3});
   m.axes[0].name = "rate";
   m.axes[0].values = {"5 kg/s", "10 kg/s"};
@@ -181,7 +181,7 @@ std::vector<app::sweep::store::RunResult> results_of(const app::sweep::store::Ma
   return results;
 }
 
-TEST(DataCsv, DataCsvKeepsTheRulesOfCinema) {
+TEST(DataCsv, TheTableKeepsTheRulesOfCinema) {
   test::TemporaryFolder folder;
   app::sweep::store::Manifest m = manifest_of({2, 3});
   m.parameters.push_back({"body.ball.velocity", "velocity", "m/s", "vector"});
@@ -218,7 +218,7 @@ TEST(DataCsv, DataCsvKeepsTheRulesOfCinema) {
   EXPECT_TRUE(breaks("state", "FILE_x"));
 }
 
-TEST(DataCsv, DataCsvHasEveryColumnOnceWhenAnAxisIsCalledAsAMetric) {
+TEST(DataCsv, TheTableHasEveryColumnOnceIfAnAxisHasTheNameOfAMetric) {
   app::sweep::store::Manifest m = manifest_of({2});
   m.parameters = {{"frames", "frames", "", "integer"}, {"steps", "steps", "", "integer"}};
   const std::vector<test::CsvRow> rows =
@@ -227,7 +227,7 @@ TEST(DataCsv, DataCsvHasEveryColumnOnceWhenAnAxisIsCalledAsAMetric) {
     EXPECT_EQ(std::count(rows[0].begin(), rows[0].end(), name), 1) << name;
 }
 
-TEST(DataCsv, DataCsvHasNoMetricsOfRunsThatBrokeDownButWhatTheyCost) {
+TEST(DataCsv, RowsOfDivergedRunsHaveCostsAndNoMetrics) {
   const app::sweep::store::Manifest m = manifest_of({2});
   const std::vector<test::CsvRow> rows =
       test::parse_csv(app::sweep::sheet::data_csv(m, results_of(m)));
@@ -242,7 +242,7 @@ TEST(DataCsv, DataCsvHasNoMetricsOfRunsThatBrokeDownButWhatTheyCost) {
   EXPECT_EQ(cell(2, "seconds"), "0.5");
 }
 
-TEST(RunResults, CountTheStepsUntilARunDiverged) {
+TEST(RunResults, ResultsCountTheStepsUntilARunDiverged) {
   const test::TemporaryFolder folder;
   app::sweep::store::Manifest m = manifest_of({1});
   m.runs[0].key = "k";
@@ -268,7 +268,7 @@ TEST(RunResults, CountTheStepsUntilARunDiverged) {
   EXPECT_EQ(steps(), 5);
 }
 
-TEST(RunText, RunTextHasTheFolderWhereItsNumberIsAnother) {
+TEST(RunText, ARunIsNamedWithItsFolderIfTheNumbersDiffer) {
   app::sweep::Run run;
   run.index = 1;
   run.folder = "0001";
@@ -277,7 +277,7 @@ TEST(RunText, RunTextHasTheFolderWhereItsNumberIsAnother) {
   EXPECT_EQ(app::sweep::store::run_text(run), "run 1 (runs/0010)");
 }
 
-TEST(DataCsv, DataCsvLeavesOutTimesWhereTablesAreCompared) {
+TEST(DataCsv, TablesForComparisonHaveNoTimes) {
   const app::sweep::store::Manifest m = manifest_of({2});
   std::vector<app::sweep::store::RunResult> results = results_of(m);
   const std::string without = app::sweep::sheet::data_csv(m, results, false);
@@ -317,7 +317,7 @@ TEST(SweepReport, SweepReportKeepsParametersAsTheyWereWritten) {
   EXPECT_NE(html.find("\"texts\":{\"1\":\"1.40e5\"}"), std::string::npos);
 }
 
-TEST(MetricPlots, MetricPlotsHaveAPointForEachRunThatHasTheMetric) {
+TEST(MetricPlots, PlotsHaveAPointForEachRunWithTheMetric) {
   const app::sweep::store::Manifest m = manifest_of({4});
   const std::string svg = app::sweep::sheet::metric_plots_svg(m, results_of(m), true);
   const auto count = [&](const std::string& what) {
@@ -338,7 +338,7 @@ TEST(MetricPlots, MetricPlotsHaveAPointForEachRunThatHasTheMetric) {
       "");
 }
 
-TEST(RunWarnings, RunWarningsAreReadFromRunJsonAndCountedInTableAndReport) {
+TEST(RunWarnings, WarningsAreReadFromRunJsonAndCountedInTableAndReport) {
   const test::TemporaryFolder folder;
   app::sweep::store::Manifest m = manifest_of({3});
   for (app::sweep::Run& run : m.runs) {
@@ -372,7 +372,7 @@ TEST(RunWarnings, RunWarningsAreReadFromRunJsonAndCountedInTableAndReport) {
   EXPECT_NE(html.find("\"warnings\":[\"CFL \\u003c 4\",\"odd\"]"), std::string::npos);
 }
 
-TEST(RunWarnings, NameFiveRunsAndCountTheOthers) {
+TEST(RunWarnings, WarningsNameFiveRunsAndCountTheOthers) {
   const app::sweep::store::Manifest m = manifest_of({8});
   std::vector<app::sweep::store::RunResult> results = results_of(m);
   EXPECT_TRUE(app::sweep::store::warning_lines(m, results).empty());
@@ -384,7 +384,7 @@ TEST(RunWarnings, NameFiveRunsAndCountTheOthers) {
   EXPECT_EQ(app::sweep::store::warning_count_text(1), "1 warning");
 }
 
-TEST(MetricPlots, LeaveTheAxesToRunsThatGotToTheirEnd) {
+TEST(MetricPlots, DivergedRunsDoNotScaleTheAxes) {
   const app::sweep::store::Manifest m = manifest_of({4});
   std::vector<app::sweep::store::RunResult> results = results_of(m);
   const std::string svg = app::sweep::sheet::metric_plots_svg(m, results, true);
@@ -402,7 +402,7 @@ TEST(MetricPlots, LeaveTheAxesToRunsThatGotToTheirEnd) {
   EXPECT_NE(without_tooltips(svg), without_tooltips(far));
 }
 
-TEST(TileText, TileTextSaysWhatHappenedInPlace) {
+TEST(TileText, ATileNamesTheFailureOfItsRun) {
   app::sweep::store::RunStatus status;
   status.state = app::sweep::store::RunState::diverged;
   status.short_reason = "frame 17: acoustic CFL 3.1";

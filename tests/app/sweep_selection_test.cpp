@@ -10,7 +10,7 @@
 namespace neve::app {
 namespace {
 
-TEST(SweepSelection, SweepSelectionReadsNumbersAndRanges) {
+TEST(SweepSelection, SelectionsOfRunsAreNumbersAndRanges) {
   EXPECT_EQ(app::sweep::plan::parse_selection("3,7-9,1", 20), (std::vector<int>{1, 3, 7, 8, 9}));
   EXPECT_EQ(app::sweep::plan::parse_selection("2,2,1-3", 3), (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(app::sweep::plan::parse_selection("0", 0), (std::vector<int>{0}));
@@ -19,20 +19,20 @@ TEST(SweepSelection, SweepSelectionReadsNumbersAndRanges) {
         << wrong;
 }
 
-TEST(SweepSelection, SweepSelectionWritesTheShortestText) {
+TEST(SweepSelection, SelectionsOfRunsAreWrittenInTheShortestWay) {
   EXPECT_EQ(app::sweep::plan::selection_text({0, 1, 2, 3, 7, 9, 10}), "0-3,7,9-10");
   EXPECT_EQ(app::sweep::plan::selection_text({5}), "5");
   EXPECT_EQ(app::sweep::plan::selection_text({}), "");
 }
 
-TEST(SweepSelection, ShardsAreFromOne) {
+TEST(SweepSelection, ShardsAreCountedFromOne) {
   EXPECT_EQ(app::sweep::plan::parse_shard("2/8").index, 2);
   EXPECT_EQ(app::sweep::plan::parse_shard("2/8").count, 8);
   for (const char* wrong : {"", "2", "0/8", "9/8", "a/b", "1/", "/8", "-1/8", "1/0"})
     EXPECT_THROW(app::sweep::plan::parse_shard(wrong), app::scene::toml::UsageError) << wrong;
 }
 
-TEST(SlurmArrays, HoldWhatIsMissingBelowTheLimitOfTheSite) {
+TEST(SlurmArrays, ArraysHoldTheMissingRunsBelowTheLimitOfTheSite) {
   const auto one = app::sweep::jobs::split_arrays({1, 4, 10, 11, 12}, 1001);
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].offset, 0);

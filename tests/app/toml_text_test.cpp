@@ -21,7 +21,7 @@ std::string string_of(std::string_view text) {
   return std::get<std::string>(app::scene::toml::parse_toml(text, "f").entries.at(0).value.data);
 }
 
-TEST(TomlText, TomlTextIsAsciiAfterwards) {
+TEST(TomlText, CheckedTextIsAscii) {
   const app::scene::toml::AsciiToml toml = app::scene::toml::to_ascii_toml("a = \"é😀\" # ü\n", "f");
   EXPECT_EQ(toml.text, "a = \"\\u00E9\\U0001F600\" # ?\n");
 }

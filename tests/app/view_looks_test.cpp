@@ -41,7 +41,7 @@ render::Frame build(const app::scene::Scene& scene, const std::vector<Vec3d>& po
   return app::picture::FrameBuilder(scene, seeded).build(scene.views.front(), snapshot);
 }
 
-TEST(ColliderStyle, ColliderStyleDecidesWhatIsDrawn) {
+TEST(ColliderStyle, ColliderStyleSelectsTheDrawnShapes) {
   const app::scene::Scene scene = scene_with(R"([[collider]]
 shape = { sphere = {} }
 [[collider]]
@@ -80,7 +80,7 @@ TEST(ColliderStyle, ColliderStyleKeepsToTheLayersOfTheView) {
   EXPECT_EQ(frame.grounds.size(), 1u);
 }
 
-TEST(ColliderStyle, ColliderStyleIsNothingToTheSimulation) {
+TEST(ColliderStyle, ColliderStyleDoesNotAffectTheSimulation) {
   const app::scene::Scene scene =
       scene_with("[[collider]]\nfriction = 0.3\nshape = { box = {} }\nstyle = \"ghost\"");
   const std::vector<sim::shapes::Collider> colliders = app::scene::sim_colliders(scene);
@@ -118,7 +118,7 @@ TEST(Clip, ClipNeedsADirection) {
             "s.toml:4:18: error: view.1.clip.point = \"middle\"; expected three numbers [x, y, z]");
 }
 
-TEST(Background, BackgroundOfTheViewGoesBeforeThatOfTheOutput) {
+TEST(Background, BackgroundOfTheViewOverridesThatOfTheOutput) {
   const app::scene::Scene scene = scene_with(
       "[[view]]\n[[view]]\nbackground = \"gradient\"\n[output]\nbackground = \"transparent\"\n");
   EXPECT_EQ(app::scene::background_of(scene, scene.views[0]), app::scene::Background::transparent);

@@ -48,7 +48,7 @@ TEST_F(Cli, BenchSimNamesWhatScriptsDependOn) {
   EXPECT_NEAR(nanoseconds * rows["flip_cubic_float"]["median"].get<double>(), 1000, 500);
 }
 
-TEST_F(Cli, BenchCurveEndsWhereItIsTold) {
+TEST_F(Cli, BenchCurveEndsAtTheGivenParticles) {
   const auto result =
       neve({"bench", "sim", "--curve", "--rounds", "1", "--particles", "3000", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
@@ -101,7 +101,7 @@ TEST_F(Cli, BenchTablesAreTextOrMarkdown) {
   EXPECT_TRUE(contains(markdown.output, "| --- |")) << markdown.output;
 }
 
-TEST_F(Cli, BenchUsageErrorsSayWhatThereIs) {
+TEST_F(Cli, BenchUsageErrorsListTheChoices) {
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"bench"},
                                              {"bench", "paint"},
@@ -127,7 +127,7 @@ TEST_F(Cli, BenchUsageErrorsSayWhatThereIs) {
   EXPECT_TRUE(contains(neve({"bench", "sim", "--help"}).output, "--curve"));
 }
 
-TEST_F(Cli, BenchRefusesWhatDoesNotFitIntoMemory) {
+TEST_F(Cli, BenchRefusesCasesThatDoNotFitIntoMemory) {
   const auto result = neve({"bench", "sim", "--particles", "1e9"});
   EXPECT_EQ(result.exit_code, 8) << result.errors;
   EXPECT_TRUE(contains(result.errors, "--particles")) << result.errors;

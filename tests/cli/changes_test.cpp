@@ -142,7 +142,7 @@ TEST_F(Changes, ChangesAreShownByInfo) {
   EXPECT_TRUE(contains(neve({"info", "again"}).output, "changed     step "));
 }
 
-TEST_F(Changes, ChangesThatAreNoneAreRefused) {
+TEST_F(Changes, InvalidChangesAreRefused) {
   ASSERT_NO_FATAL_FAILURE(play());
   const auto image =
       render::decode_png(app::output::read_file(folder / "plain/particles/0004.png"));
@@ -163,7 +163,7 @@ TEST_F(Changes, ChangesThatAreNoneAreRefused) {
   EXPECT_TRUE(contains(value.errors, "change at step 3: solver.cfl=-5")) << value.errors;
 }
 
-TEST_F(Changes, WithRetriesTheyAreMadeAgainToo) {
+TEST_F(Changes, ChangesAreRepeatedInRunsWithRetries) {
   folder.write("scene.toml", std::string(tiny_scene));
   ASSERT_NO_FATAL_FAILURE(play("solver.on_divergence=retry"));
   const auto a = neve({"render", "session.png", "--out", "a", "--frames", "0-4"});

@@ -40,7 +40,7 @@ TEST_F(Check, AHealthySceneHasNoWarning) {
   EXPECT_EQ(findings(scene("", floor_plane)), Findings{});
 }
 
-TEST_F(Check, CheckSaysWhatEachMistakeIs) {
+TEST_F(Check, CheckNamesEachMistake) {
   EXPECT_EQ(findings(scene("time_step = \"fixed\"\ndt = 2e-3", floor_plane), 9).at(0),
             "error solver.dt");
   EXPECT_EQ(findings(scene("time_step = \"fixed\"\ndt = 5e-4", floor_plane)),
@@ -87,7 +87,7 @@ TEST_F(Check, CheckSaysWhatEachMistakeIs) {
             Findings{"warning camera"});
 }
 
-TEST_F(Check, CheckSaysWhatHasNoEffect) {
+TEST_F(Check, CheckNamesParametersWithoutEffect) {
   const auto with = [&](const std::string& more) {
     return findings(scene("", floor_plane + more));
   };
@@ -105,7 +105,7 @@ TEST_F(Check, CheckSaysWhatHasNoEffect) {
   EXPECT_EQ(with("[[view]]\nname = \"slice\"\n[view.slice]\nisolines = 6\n"), Findings{});
 }
 
-TEST_F(Check, CheckJoinsWhatIsTheSameOfManyBodies) {
+TEST_F(Check, CheckJoinsEqualFindingsOfManyBodies) {
   std::string more = floor_plane;
   for (const char* x : {"0.5", "0.8", "1.1"})
     more += "[[body]]\nshape = { box = { center = [" + std::string(x) +
@@ -154,7 +154,7 @@ TEST_F(Check, CheckForeseesTheStepsOfTheRun) {
   EXPECT_EQ(json["dt_limit"], "acoustic");
 }
 
-TEST_F(Check, CheckRefusesWhatRenderWouldAndExplainsItself) {
+TEST_F(Check, CheckRefusesTheScenesThatRenderRefuses) {
   folder.write("scene.toml", scene("", "[limits]\nparticles = 10\n"));
   const auto refused = neve({"check", "scene.toml"});
   EXPECT_EQ(refused.exit_code, 8);

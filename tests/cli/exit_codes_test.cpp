@@ -12,7 +12,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-TEST_F(Cli, WithoutArgumentsPrintsHelpAndFails) {
+TEST_F(Cli, NoArgumentsPrintHelpAndFail) {
   const auto result = neve({});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_TRUE(contains(result.errors, "render"));
@@ -85,7 +85,7 @@ TEST_F(Cli, AScenesFileIsFoundByItsName) {
 }
 
 /// neve dump ... | head
-TEST_F(Cli, NobodyHasToReadAllThatIsPrinted) {
+TEST_F(Cli, OutputMayBeCutByHead) {
   for (const std::string arguments : {"params", "dump scene.toml --quiet"}) {
     const auto result = app::output::run_process(
         "/bin/bash",

@@ -73,7 +73,7 @@ TEST_F(FlowCli, PartsOfARunAreTheWholeOne) {
   EXPECT_TRUE(x.pictures == y.pictures);
 }
 
-TEST_F(FlowCli, CheckKnowsWhatItWillCost) {
+TEST_F(FlowCli, CheckForecastsTheCostOfEmission) {
   const auto check = neve({"check", "flow.toml", "--json"});
   EXPECT_EQ(check.exit_code, 0) << check.errors;
   const app::Json json = app::parse_json(std::string_view(check.output));

@@ -25,7 +25,7 @@ TEST_F(Cli, SemiImplicitRunsSayHowWellTheyWereSolved) {
   EXPECT_GT(by_force["frames"][2]["steps"], json["frames"][2]["steps"]);
 }
 
-TEST_F(Cli, SemiImplicitRunsGoOnToTheBit) {
+TEST_F(Cli, SemiImplicitRunsContinueBitForBit) {
   const std::vector<std::string> common{"render", "scene.toml", "--set", "solver.beta=0.7"};
   const auto render = [&](std::vector<std::string> more) {
     more.insert(more.begin(), common.begin(), common.end());

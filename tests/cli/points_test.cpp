@@ -62,7 +62,7 @@ class PointFiles : public Cli {
   }
 };
 
-TEST_F(PointFiles, StartWithTheirPositionsVelocitiesAndMasses) {
+TEST_F(PointFiles, ParticlesHaveThePositionsVelocitiesAndMassesOfTheFile) {
   ASSERT_EQ(render({"--frames", "0-0"}).exit_code, 0);
   const app::Json frame = json_of("out/run.json")["frames"][0];
   EXPECT_EQ(frame["particles"], 1000);
@@ -73,14 +73,14 @@ TEST_F(PointFiles, StartWithTheirPositionsVelocitiesAndMasses) {
   EXPECT_NEAR(frame["centre_of_mass"][1].get<double>(), 0.14, 1e-6);
 }
 
-TEST_F(PointFiles, CoarsenedKeepTheirMass) {
+TEST_F(PointFiles, CoarsenedPointsKeepTheirMass) {
   ASSERT_EQ(render({"--frames", "0-0", "--coarsen", "2"}).exit_code, 0);
   const app::Json frame = json_of("out/run.json")["frames"][0];
   EXPECT_EQ(frame["particles"], 125);
   EXPECT_NEAR(frame["momentum"][1].get<double>(), -3.2, 1e-5);
 }
 
-TEST_F(PointFiles, CountForLimitsWhateverTheScenesParticlesPerCell) {
+TEST_F(PointFiles, LimitsCountPointsAndIgnoreParticlesPerCell) {
   const auto refused = render({"--set", "limits.particles=999"});
   EXPECT_EQ(refused.exit_code, 8);
   EXPECT_TRUE(contains(refused.errors, "1000 particles")) << refused.errors;

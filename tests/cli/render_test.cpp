@@ -6,7 +6,7 @@
 namespace neve::test {
 namespace {
 
-TEST_F(Cli, NeveWarnsOfWhatMakesResultsDoubtfulAndKeepsItInTheRecord) {
+TEST_F(Cli, WarningsOfDoubtfulResultsAreRecorded) {
   std::string text = tiny_scene;
   text.replace(text.find("0.12, 0]"), 8, "0.02, 0]");
   folder.write("sunk.toml", text);
@@ -119,7 +119,7 @@ TEST_F(Cli, APictureMakesItselfAgain) {
   EXPECT_FALSE(exists("out/0002-again/particles/0001.png"));
 }
 
-TEST_F(Cli, InfoSaysWhatMadeAPicture) {
+TEST_F(Cli, InfoPrintsTheSceneOfAPicture) {
   ASSERT_EQ(neve({"render", "scene.toml", "--frames", "0", "--set", "material.snow.hardening=5"})
                 .exit_code,
             0);
@@ -178,7 +178,7 @@ TEST_F(Cli, CoarsenedRunsAreSmallerAndTheirPicturesMakeThemselvesAgain) {
   EXPECT_EQ(json_of("out/0002-again/run.json")["coarsen"], 3);
 }
 
-TEST_F(Cli, DryRunSaysWhatCoarseningDoes) {
+TEST_F(Cli, DryRunShowsTheEffectOfCoarsening) {
   const auto plan = [&](const char* factor) {
     const auto result = neve({"render", "scene.toml", "--dry-run", "--json", "--coarsen", factor});
     return app::parse_json(std::string_view(result.output));

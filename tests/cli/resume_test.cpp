@@ -80,7 +80,7 @@ TEST_F(Resume, AnotherSceneIsRefusedAndNothingIsTouched) {
   EXPECT_FALSE(exists("out/checkpoint"));
 }
 
-TEST_F(Resume, WithoutACheckpointItStartsAtTheBeginning) {
+TEST_F(Resume, ARunWithoutACheckpointStartsAtTheBeginning) {
   const auto result = render("out", {"--resume", "--frames", "0-1"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_TRUE(contains(result.errors, "starts at frame 0")) << result.errors;

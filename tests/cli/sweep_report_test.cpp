@@ -61,7 +61,7 @@ TEST_F(SweepResults, SweepResultsAreACinemaDatabaseWithSheetsAndCanBeMadeAgain) 
   EXPECT_EQ(text("data.csv"), csv);
 }
 
-TEST_F(SweepResults, TellWhatIsNotThereYet) {
+TEST_F(SweepResults, ResultsNameTheMissingRuns) {
   std::filesystem::remove_all(folder / "out/study.cdb/runs/0004");
   std::filesystem::remove(folder / "out/study.cdb/runs/0002/particles/0002.png");
   folder.write("out/study.cdb/runs/0003/run.json", "{ broken");

@@ -72,7 +72,7 @@ TEST_F(SweepCli, DryRunsListRunsCostAndMemoryAndStartNothing) {
   EXPECT_EQ(plan["runs"][3]["over_memory_limit"], false);
 }
 
-TEST_F(SweepCli, DryRunsMarkWhatIsOverTheLimitAndSayFramesThatAreTrueForAll) {
+TEST_F(SweepCli, DryRunsMarkRunsOverTheLimitAndShowCommonFrames) {
   folder.write("tight.toml",
                "[sweep]\nscene = \"scene.toml\"\n[limits]\nmemory = \"60MiB\"\n[axis]\nframes = "
                "[1, 2]\n");
@@ -105,7 +105,7 @@ TEST_F(SweepCli, MistakesExitWithTheirCodesAndSuggestions) {
   EXPECT_EQ(neve({"sweep", "many.toml"}).exit_code, 8);
 }
 
-TEST_F(SweepCli, SweepRunsOnceAndGoesOnWithWhatIsNew) {
+TEST_F(SweepCli, RepeatedSweepsMakeOnlyNewRuns) {
   const auto first = neve({"sweep", "sweep.toml"});
   ASSERT_EQ(first.exit_code, 0) << first.errors;
   for (const char* run : {"0000", "0001", "0002", "0003"}) {
@@ -242,7 +242,7 @@ TEST_F(SweepCli, EmittedCommandsMakeTheSweepAnywhere) {
   EXPECT_EQ(read_text(folder / "commands.txt"), "") << "nothing is left to do";
 }
 
-TEST_F(SweepCli, InterruptedSweepsGoOnWhereTheyWere) {
+TEST_F(SweepCli, InterruptedSweepsContinue) {
   // A million steps: nobody waits for them.
   const char* const endless = R"(
 [sweep]

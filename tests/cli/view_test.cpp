@@ -89,7 +89,7 @@ TEST_F(View, ViewShowsWhyARunBroke) {
   EXPECT_TRUE(exists("viewed/incident.png"));
 }
 
-TEST_F(View, ViewRefusesWhatItCannotDoBeforeAnythingOpens) {
+TEST_F(View, ViewRefusesImpossibleOptionsBeforeAnythingOpens) {
   EXPECT_EQ(neve({"view", "nowhere.toml"}).exit_code, 3);
   EXPECT_EQ(neve({"view", "scene.toml", "--set", "material.snow.poisson_ratio=1"}).exit_code, 2);
   EXPECT_EQ(neve({"view", "scene.toml", "--listen", "127.0.0.1:99999"}).exit_code, 2);

@@ -64,7 +64,7 @@ TEST_F(Cli, SlurmMakesTheSameTableAsThisMachine) {
   EXPECT_EQ(app::parse_json(std::string_view(again.output))["started"], 0);
 }
 
-TEST_F(Cli, CancelledSlurmSweepsGoOn) {
+TEST_F(Cli, CancelledSlurmSweepsContinue) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root can start Slurm's daemons";
   if (const std::string missing = Slurm::missing(); !missing.empty()) SKIP_OR_FAIL(missing);
   const Slurm slurm;

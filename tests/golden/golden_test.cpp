@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, GoldenTest,
                          });
 
 /// Negative control: every golden is told apart from every other.
-TEST(Golden, NoTwoAreNear) {
+TEST(Golden, GoldenPicturesDifferFromEachOther) {
   std::map<std::string, render::Image> pictures;
   for (const std::string& name : names()) pictures[name] = read(goldens / (name + ".png"));
   ASSERT_GT(pictures.size(), 12u);

@@ -38,7 +38,7 @@ TEST(ColorMap, ColorMapAgreesWithThePublishedTables) {
   }
 }
 
-TEST(ColorMap, ColorMapClampsAndMarksWhatIsNotANumber) {
+TEST(ColorMap, ColorMapClampsAndMarksNan) {
   EXPECT_EQ(map_color(ColorMap::viridis, -3), map_color(ColorMap::viridis, 0));
   EXPECT_EQ(map_color(ColorMap::viridis, INFINITY), map_color(ColorMap::viridis, 1));
   EXPECT_EQ(map_value(ColorMap::viridis, 7, 7, 7), map_color(ColorMap::viridis, 0.5f));
@@ -94,7 +94,7 @@ float signed_volume(const TriangleMesh& mesh) {
   return six_volumes / 6;
 }
 
-TEST(MeshShapes, EncloseTheirVolumeWithOutwardFaces) {
+TEST(MeshShapes, ShapesEncloseTheirVolumeWithOutwardFaces) {
   EXPECT_NEAR(signed_volume(render::shapes::sphere_mesh({0, 0, 0}, 0.5f)), 4.18879f * 0.125f,
               0.003f);
   EXPECT_NEAR(signed_volume(render::shapes::box_mesh({1, 2, 3}, {1, 2, 0.5f})), 1, 1e-4f);

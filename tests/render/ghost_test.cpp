@@ -24,7 +24,7 @@ int middle_value(const Image& image) {
   return pixel(image, 80, 60).brightness();
 }
 
-TEST(Ghosts, LetTheSnowBehindThemShineThrough) {
+TEST(Ghosts, SnowShinesThroughGhosts) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = with_ball();
@@ -63,7 +63,7 @@ TEST(Ghosts, GhostsAreBrightestAtTheirRim) {
   EXPECT_GT(rim, 2 * face);
 }
 
-TEST(Ghosts, CastNoShadowAndNoTraceOutsideThemselves) {
+TEST(Ghosts, GhostsCastNoShadowAndLeaveNoTraceOutside) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = with_ball();
@@ -114,7 +114,7 @@ TEST(GhostGrounds, GhostGroundsAreSeenFromBothSidesAndWithoutFillOnlyAsLines) {
   }
 }
 
-TEST(ShapeLines, LieOnTheShape) {
+TEST(ShapeLines, LinesLieOnTheShape) {
   const Lines sphere = render::shapes::sphere_lines({1, 2, 3}, 0.5f);
   ASSERT_FALSE(sphere.ends.empty());
   ASSERT_EQ(sphere.ends.size() % 2, 0u);

@@ -90,7 +90,7 @@ TEST(LightVolume, LightVolumeDependsNeitherOnOrderNorOnThreads) {
   }
 }
 
-TEST(Lighting, LightingMakesAVolumeAnewOnlyWhenWhatItDependsOnHasChanged) {
+TEST(Lighting, LightingComputesAVolumeOnlyAfterAChangeOfItsInputs) {
   render::light::Lighting lighting;
   Frame frame = ball();
   frame.meshes.push_back(render::shapes::box_mesh({0, 0.5f, 0}, {0.4f, 0.05f, 0.4f}));

@@ -138,7 +138,7 @@ TEST(Legend, AnyRangeIsDrawn) {
   }
 }
 
-TEST(Legend, SeveralStandAboveEachOther) {
+TEST(Legend, SeveralLegendsAreStacked) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   for (const auto& [width, height] : {std::pair{640, 360}, {480, 270}, {320, 180}}) {
@@ -156,7 +156,7 @@ TEST(Legend, SeveralStandAboveEachOther) {
   }
 }
 
-TEST(Footnote, FootnoteStandsBetweenPlotsAndLegends) {
+TEST(Footnote, FootnoteIsBetweenPlotsAndLegends) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const auto place_of = [&](Frame frame) {

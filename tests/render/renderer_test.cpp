@@ -64,7 +64,7 @@ TEST(Renderer, PicturesComeBackInOrderEitherWay) {
   }
 }
 
-TEST(Renderer, WhatIsKeptFromOnePictureToTheNextDoesNotShow) {
+TEST(Renderer, CachesDoNotShowInThePicture) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = ball_over_ground();

@@ -67,7 +67,7 @@ TEST(HeatMapPass, HeatMapPassShowsTheColoursOfTheLegend) {
     }
 }
 
-TEST(HeatMapPass, HeatMapPassLeavesHolesWhereThereIsNoValue) {
+TEST(HeatMapPass, NodesWithoutAValueAreHolesInTheHeatMap) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const float none = std::numeric_limits<float>::quiet_NaN();
@@ -168,7 +168,7 @@ TEST(LinePass, ALineThroughTheEyeIsCutNotWrapped) {
   EXPECT_EQ(count_changed(nothing, renderer.draw(frame), 0, 120), 0);
 }
 
-TEST(Labels, StandAtTheirPlaceAndNotBehindTheEye) {
+TEST(Labels, LabelsAreAtTheirPointsUnlessBehindTheEye) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = small_frame(480, 360);

@@ -101,7 +101,7 @@ TEST(Smoke, SmokeIsHiddenByWhatIsInFrontAndHidesWhatIsBehind) {
   EXPECT_LT(behind, far - 5);
 }
 
-TEST(Smoke, SmokeOfNothingChangesNoPixel) {
+TEST(Smoke, EmptySmokeChangesNoPixel) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = small_frame();
@@ -344,7 +344,7 @@ TEST(SmokeGrid, WideSmokeLosesResolutionButNotItsSum) {
   EXPECT_NEAR(total(grid), 300 * 64e-6, 1e-6);
 }
 
-TEST(SmokeSpans, CoverWhatRaysMeetAndLittleElse) {
+TEST(SmokeSpans, SpansCoverTheSmokeAlongRaysAndLittleElse) {
   const Frame frame = ball_of_smoke();
   const render::light::SmokeGrid grid = render::light::make_smoke_grid(frame.smoke, nullptr);
   const render::light::SmokeVolume volume = render::light::make_smoke_volume(

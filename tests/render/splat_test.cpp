@@ -187,7 +187,7 @@ TEST(Splat, DepthAndNormalAreThoseOfTheSphere) {
   }
 }
 
-TEST(Splat, EnvironmentChoosesThePathAndErrorsSayWhatThereIs) {
+TEST(Splat, EnvironmentChoosesThePathAndErrorsListTheChoices) {
   OPEN_OR_SKIP(context, "auto");
   const char* before = std::getenv("NEVE_PARTICLES");
   const std::string kept = before ? before : "";

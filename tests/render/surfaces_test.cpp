@@ -102,7 +102,7 @@ TEST(Surfaces, TransparentPictureIsThatOfOpenGl) {
   EXPECT_LE(other, frame.width * frame.height / 1000);
 }
 
-TEST(Surfaces, WithoutALightVolumeThereIsLight) {
+TEST(Surfaces, SurfacesAreLitWithoutALightVolume) {
   OPEN_OR_SKIP(context, "auto");
   Frame frame = small_frame(200, 150);  // no points: the volume is a single cell
   frame.grounds.push_back({.point = {0, -0.3f, 0}});
@@ -208,7 +208,7 @@ TEST(SolidCache, SolidCacheHoldsOnlyWhatIsTheSame) {
   expect_new("arrow's colours", [](Frame& f) { f.arrows[0].colormap = ColorMap::magma; });
 }
 
-TEST(SmokeCache, SmokeCacheMakesAnewOnlyWhatHasChanged) {
+TEST(SmokeCache, SmokeCacheRecomputesOnlyChangedSmoke) {
   Frame frame = ball_in_smoke();
   render::light::SmokeCache cache;
   render::light::Lighting lighting;
@@ -239,7 +239,7 @@ TEST(SmokeCache, SmokeCacheMakesAnewOnlyWhatHasChanged) {
   EXPECT_EQ(ask(), 12u) << "a lattice that may be another";
 }
 
-TEST(Surfaces, WhatIsKeptFromOnePictureToTheNextDoesNotShow) {
+TEST(Surfaces, CachesDoNotShowInThePicture) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context, {}, nullptr, ParticlePath::cpu);
   Frame frame = ball_in_smoke();

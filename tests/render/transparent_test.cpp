@@ -27,7 +27,7 @@ Frame transparent_ball(int supersampling) {
   return frame;
 }
 
-TEST(Transparent, OnlyWhatIsThereCovers) {
+TEST(Transparent, OnlyDrawnObjectsCover) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const Image image = renderer.draw(transparent_ball(1));
@@ -129,7 +129,7 @@ TEST(Compose, CompositionPutsTilesWhereTheyBelongAndCutsWhatIsOutside) {
   EXPECT_TRUE(is(2, 1, 10, 20, 30));
 }
 
-TEST(DrawOver, ChangesOnlyWhereTheCaptionIs) {
+TEST(DrawOver, DrawingOverChangesOnlyTheCaption) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   const Image picture = compose(400, 200, {90, 20, 10}, {});

@@ -57,7 +57,7 @@ Simulation crushed(const World& world, int threads = 1) {
   return simulation;
 }
 
-TEST(Apply, WithNothingChangedChangesNoBit) {
+TEST(Apply, ApplyingEqualSettingsChangesNoBit) {
   World world;
   for (const Transfer transfer : {Transfer::flip, Transfer::mls}) {
     world.settings.transfer = transfer;
@@ -73,7 +73,7 @@ TEST(Apply, WithNothingChangedChangesNoBit) {
   }
 }
 
-TEST(Apply, ApplyingRefusesWhatNeedsARestartAndIsAsBefore) {
+TEST(Apply, ApplyingRefusesChangesThatNeedARestart) {
   const World world;
   Simulation simulation = crushed(world);
   const std::vector<std::uint8_t> before = simulation.save();
@@ -259,7 +259,7 @@ TEST(Apply, TheRuleOfEnergyStillHolds) {
   EXPECT_TRUE(simulation.divergence());
 }
 
-TEST(Apply, WhatWasNotWatchedIsNotHeldAgainstTheRunLater) {
+TEST(Apply, UnwatchedStepsBreakNoRuleLater) {
   World world;
   Simulation simulation = crushed(world);
   world.settings.bypass = {Stage::deformation};
@@ -308,7 +308,7 @@ TEST(Apply, ManyChangesAtOneStepAreOneChange) {
   EXPECT_EQ(at_once.state_hash(), in_pieces.state_hash());
 }
 
-TEST(Apply, ARestoredRunGoesOnToTheBit) {
+TEST(Apply, ARestoredRunContinuesBitForBit) {
   for (const Change& change : changes()) {
     World world;
     Simulation whole = crushed(world, 2);
@@ -376,7 +376,7 @@ TEST(Apply, FlipHasNoAffineVelocities) {
 
 /// Stopped in the middle of a frame, applied to or not, the frame ends with the step it would have
 /// ended with.
-TEST(Apply, AFrameStoppedAtAStepGoesOnAsIfNothingHadHappened) {
+TEST(Apply, AFrameStoppedAtAStepContinuesUnchanged) {
   const World world;
   Simulation whole = world.simulate(ball_of_two_materials()),
              stopped = world.simulate(ball_of_two_materials());
@@ -396,7 +396,7 @@ shapes::Pose pose_of(const Simulation& simulation, std::size_t k) {
   return shapes::pose_at(simulation.colliders().at(k), simulation.time());
 }
 
-TEST(AppliedCollider, AppliedColliderGoesOnFromWhereItIsWithItsNewMotion) {
+TEST(AppliedCollider, AppliedColliderContinuesFromItsPlaceWithItsNewMotion) {
   // Also where there is no snow to step.
   for (const ParticleArrays& particles : {ParticleArrays{}, ball_of_two_materials()}) {
     World world;
@@ -434,7 +434,7 @@ TEST(AppliedCollider, AppliedColliderMovesByTheEditOfItsPlace) {
   EXPECT_EQ(std::get<shapes::Sphere>(simulation.colliders()[1].shape.form).radius, 0.07);
 }
 
-TEST(AppliedCollider, AppliedColliderIsKnownByItsNameAndANewOneStandsWhereItSays) {
+TEST(AppliedCollider, AppliedColliderIsKnownByItsNameAndANewOneHasItsOwnPlace) {
   World world;
   Simulation simulation = world.simulate(ball_of_two_materials());
   advance(simulation, 10);
@@ -451,7 +451,7 @@ TEST(AppliedCollider, AppliedColliderIsKnownByItsNameAndANewOneStandsWhereItSays
   EXPECT_LT((pose_of(simulation, 0).point - Vec3d(1 + 1e-4, 2, 3)).norm(), 1e-15);
 }
 
-TEST(AppliedCollider, AppliedColliderWaitsWhileItsStageIsSkippedAndThenGoesOn) {
+TEST(AppliedCollider, AppliedColliderWaitsWhileItsStageIsSkipped) {
   World world;
   world.colliders[1].velocity = {0, -5, 0};
   Simulation simulation = world.simulate(ball_of_two_materials());

@@ -34,7 +34,7 @@ TEST(Bypass, ACollidersStageOfRestingCollidersChangesNothing) {
   EXPECT_EQ(whole.state_hash(), skipped.state_hash());
 }
 
-TEST(Bypass, WithoutAdvectionNothingMoves) {
+TEST(Bypass, SkippedAdvectionMovesNothing) {
   const BypassCase c;
   const ParticleArrays after = c.run(skipping({Stage::advection})).particles();
   for (std::size_t p = 0; p < after.x.size(); ++p)
@@ -42,7 +42,7 @@ TEST(Bypass, WithoutAdvectionNothingMoves) {
     EXPECT_LT((after.x[p] - c.particles.x[p]).norm(), 1e-8);
 }
 
-TEST(Bypass, WithoutDeformationSnowIsDust) {
+TEST(Bypass, SkippedDeformationTurnsSnowIntoDust) {
   const BypassCase c;
   const Simulation simulation = c.run(skipping({Stage::deformation}));
   for (const Mat3d& F : simulation.particles().F_E) EXPECT_EQ(F, Mat3d(Mat3d::Identity()));
@@ -50,7 +50,7 @@ TEST(Bypass, WithoutDeformationSnowIsDust) {
   EXPECT_FALSE(simulation.divergence());
 }
 
-TEST(Bypass, WithoutForcesSnowFallsAndStrainGrows) {
+TEST(Bypass, SkippedForcesLetSnowFallAndStrainGrow) {
   BypassCase c;
   c.colliders.clear();
   const Simulation simulation = c.run(skipping({Stage::elastic_forces}));
@@ -59,21 +59,21 @@ TEST(Bypass, WithoutForcesSnowFallsAndStrainGrows) {
   EXPECT_NEAR(s.momentum.y() / s.mass, -3 - 9.81 * 0.02, 1e-4);
 }
 
-TEST(Bypass, WithoutGridVelocitiesThereIsNoGravity) {
+TEST(Bypass, SkippedGridVelocitiesRemoveGravity) {
   BypassCase c;
   c.colliders.clear();
   const Summary s = c.run(skipping({Stage::grid_velocities})).summary();
   EXPECT_NEAR(s.momentum.y() / s.mass, -3, 1e-5);
 }
 
-TEST(Bypass, WithoutParticleVelocitiesTheyKeepTheirOwn) {
+TEST(Bypass, SkippedParticleVelocitiesStayTheSame) {
   BypassCase c;
   c.colliders.clear();
   const ParticleArrays after = c.run(skipping({Stage::particle_velocities})).particles();
   for (const Vec3d& v : after.v) EXPECT_EQ(v, Vec3d(0, -3, 0));
 }
 
-TEST(Bypass, WithoutCollisionsSnowFallsThroughTheFloor) {
+TEST(Bypass, SkippedCollisionsLetSnowFallThroughTheFloor) {
   const BypassCase c;
   const Summary with = c.run(skipping({}), 0.1).summary();
   const Summary without =
@@ -84,7 +84,7 @@ TEST(Bypass, WithoutCollisionsSnowFallsThroughTheFloor) {
   EXPECT_GT(c.run(skipping({Stage::particle_collisions}), 0.1).summary().centre_of_mass.y(), 0.03);
 }
 
-TEST(Bypass, WithoutRasterizingTheGridIsEmpty) {
+TEST(Bypass, SkippedRasterizingLeavesTheGridEmpty) {
   BypassCase c;
   c.colliders.clear();
   SolverSettings s = skipping({Stage::rasterize});
@@ -95,7 +95,7 @@ TEST(Bypass, WithoutRasterizingTheGridIsEmpty) {
   EXPECT_EQ(simulation.summary().elastic_energy, 0);
 }
 
-TEST(Bypass, WithoutVolumesThereIsNoStress) {
+TEST(Bypass, SkippedVolumesRemoveStress) {
   BypassCase c;
   c.particles.V0.clear();
   const Simulation simulation = c.run(skipping({Stage::volumes}));

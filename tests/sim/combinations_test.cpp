@@ -88,7 +88,7 @@ double epsilon_of(const Combination& c) {
   return c.precision == Precision::single ? 6e-8 : 1.1e-16;
 }
 
-TEST(EveryCombination, EveryCombinationConservesMassMomentumAndWhereItShouldAngularMomentum) {
+TEST(EveryCombination, EveryCombinationConservesMassMomentumAndAngularMomentumIfAffine) {
   ParticleArrays p = box_of_snow({-0.11, 0.02, 0.33}, {0.14, 0.21, 0.52}, 0.025);
   disturb(p, 0.02, 2.0);
   mix_materials(p);

@@ -214,7 +214,7 @@ TEST(ContactKernel, TiesAndCentresAreAsDocumented) {
   }
 }
 
-TEST(ContactKernel, NothingInReachIsEverLeftOut) {
+TEST(ContactKernel, EveryColliderInReachIsFound) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (const sim::shapes::Shape& shape : analytic_shapes()) {

@@ -162,7 +162,7 @@ TEST(DistanceField, DistanceFieldHasTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(std::memcmp(a.samples().distance, b.samples().distance, a.bytes()), 0);
 }
 
-TEST(DistanceField, DistanceFieldIsMadeOnceAndAnewForANewFile) {
+TEST(DistanceField, DistanceFieldIsComputedOncePerVersionOfAFile) {
   const TemporaryFolder folder;
   ThreadPool pool(2);
   const sim::shapes::Mesh mesh = written_mesh(folder, box_obj({0.4, 0.4, 0.4}));
@@ -185,7 +185,7 @@ TEST(DistanceField, SpacingFollowsCellsAndThinParts) {
   EXPECT_DOUBLE_EQ(sim::shapes::field_spacing(*thick, 0.2), 0.0125);
 }
 
-TEST(DistanceField, DistanceFieldSaysWhatIsWrongWithAMesh) {
+TEST(DistanceField, DistanceFieldNamesTheDefectOfAMesh) {
   const TemporaryFolder folder;
   const std::string box = box_obj({0.4, 0.4, 0.4});
   EXPECT_NE(

@@ -86,7 +86,7 @@ TEST(Divergence, StepOfAWholeFrameIsNamed) {
   EXPECT_NE(d.sentence.find("would have held"), std::string::npos) << d.sentence;
 }
 
-TEST(Divergence, TooStiffForAFixedStepIsFound) {
+TEST(Divergence, AFixedStepTooLongForTheStiffnessIsFound) {
   SolverSettings s;
   s.cell_size = 0.03;
   s.time_step = TimeStep::fixed;
@@ -97,7 +97,7 @@ TEST(Divergence, TooStiffForAFixedStepIsFound) {
   EXPECT_NE(rule_of(s, m, falling_ball(5)), "");
 }
 
-TEST(Divergence, NotANumberIsFoundInTheStepItAppears) {
+TEST(Divergence, NanIsFoundInTheStepThatItAppears) {
   SolverSettings s;
   s.cell_size = 0.03;
   ParticleArrays p = falling_ball(0);
@@ -182,7 +182,7 @@ TEST(Simulation, SimulationRefusesArraysThatDoNotFit) {
   EXPECT_THROW(Simulation(s, {Material{}}, {}, p), std::invalid_argument);
 }
 
-TEST(Simulation, WithoutParticlesOnlyTimePasses) {
+TEST(Simulation, AStepWithoutParticlesOnlyTakesTime) {
   Simulation simulation(SolverSettings{}, {Material{}}, {}, {}, 1);
   simulation.advance_to(0.1);
   EXPECT_EQ(simulation.time(), 0.1);

@@ -131,7 +131,7 @@ TEST(Flow, AJetHasTheDensityOfItsMaterial) {
   EXPECT_LT(std::sqrt(sum_of_squares / cells), 0.035);
 }
 
-TEST(Flow, WithoutARateTheShapeIsFilledOnce) {
+TEST(Flow, AnEmitterWithoutARateFillsItsShapeOnce) {
   seeding::Emitter e = spout(0);
   e.start = 0.2;
   const Material snow;
@@ -236,7 +236,7 @@ TEST(Flow, ThreadsAndTheLatticeChangeNothing) {
   EXPECT_EQ(hash(1, {100, -7, 31}), reference);
 }
 
-TEST(Flow, ARestoredRunGoesOnToTheBit) {
+TEST(Flow, ARestoredRunContinuesBitForBit) {
   const ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.01);
   const seeding::Flow flow{{spout(5), spout(0)}, {pit(0.25)}, 3};
   for (const double moment : {0.0, 0.1, 0.2, 0.21}) {
@@ -299,7 +299,7 @@ TEST(Flow, EnergyIsAccountedFor) {
   EXPECT_GT(gap(falling), -0.3);
 }
 
-TEST(Flow, FlowRefusesWhatCannotBe) {
+TEST(Flow, ImpossibleFlowsAreRefused) {
   seeding::Emitter e = spout(1);
   e.material = "sand";
   EXPECT_THROW(flowing({}, {}, {{e}, {}, 1}), std::invalid_argument);
@@ -341,7 +341,7 @@ TEST(Flow, SnowIsAsDenseAtTheFacesOfAnEmitter) {
   EXPECT_NEAR(outer / static_cast<double>(births.size()) / expected, 1, 0.05);
 }
 
-TEST(Flow, ShapesMuchSmallerThanASpacingAreFilled) {
+TEST(Flow, EmittersMuchSmallerThanASpacingEmit) {
   const shapes::Shape shapes[] = {{shapes::Sphere{{0, 0, 0}, 1e-4}},
                                   {shapes::Box{{0, 0, 0}, {1, 1e-5, 1}}},
                                   {shapes::Torus{{0, 0, 0}, 0.5, 0.001}},
@@ -367,7 +367,7 @@ TEST(Flow, ShapesMuchSmallerThanASpacingAreFilled) {
   EXPECT_LT(taken.count(), 20) << "100 000 candidates for each place would take half a minute";
 }
 
-TEST(Flow, WhatNeverOpensCostsNothingAndWhatWasBornIsNotBornAgain) {
+TEST(Flow, AnEmitterThatNeverOpensCostsNothingAndBirthsHappenOnce) {
   seeding::Emitter e = spout(0);
   const Material snow;
   seeding::EmitterStream whole(e, 0, snow, 1, 0.02), again(e, 0, snow, 1, 0.02);

@@ -43,7 +43,7 @@ class KeyframedRun : public testing::Test {
   std::vector<sim::shapes::Collider> colliders_;
 };
 
-TEST_F(KeyframedRun, KeyframedRunGoesOnToTheBitFromASavedState) {
+TEST_F(KeyframedRun, KeyframedRunContinuesBitForBitFromASavedState) {
   Simulation whole = made();
   step(whole, 120);
   const std::vector<std::uint8_t> half = whole.save();

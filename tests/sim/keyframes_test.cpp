@@ -91,7 +91,7 @@ TEST(Keyframes, TwoEqualOnesHoldStillAndNothingSwingsBeyond) {
   }
 }
 
-TEST(Keyframes, OneAloneStandsStill) {
+TEST(Keyframes, OneKeyframeIsAColliderAtRest) {
   const sim::shapes::RigidMotion now =
       sim::shapes::motion_at({{1, Vec3d(1, 2, 3), Vec3d(0, 90, 0)}}, own_place, {}, 7);
   EXPECT_EQ(now.point, Vec3d(1, 2, 3));
@@ -114,7 +114,7 @@ TEST(Keyframes, SurfaceOfACollidersMaterialPointMovesWithIt) {
   EXPECT_GT(difference.norm(), 0.1);
 }
 
-TEST(Keyframes, TakenAwayTheColliderGoesOnFromWhereItIs) {
+TEST(Keyframes, AColliderWithoutItsKeyframesContinuesFromItsPlace) {
   sim::shapes::Collider before;
   before.shape = {sim::shapes::Box{own_place, {0.4, 0.2, 0.6}}, own_rotation};
   before.keyframes = keyframe_path();
@@ -142,7 +142,7 @@ TEST(Keyframes, TakenAwayTheColliderGoesOnFromWhereItIs) {
       1e-14);
 }
 
-TEST(Keyframes, TurnAPlaneItself) {
+TEST(Keyframes, KeyframesTurnThePlaneItself) {
   sim::shapes::Collider c;
   c.shape = {sim::shapes::Plane{{0, 0, 0}, {0, 1, 0}}, {0, 0, 0}};
   c.keyframes = {{0, std::nullopt, Vec3d(0, 0, 0)}, {1, std::nullopt, Vec3d(0, 0, 90)}};
@@ -160,7 +160,7 @@ TEST(Keyframes, LargestSpeedIsFound) {
   EXPECT_EQ(sim::shapes::largest_speed(c), 5);
 }
 
-TEST(Keyframes, ThousandsAreNoBurden) {
+TEST(Keyframes, ThousandsOfKeyframesCostNothing) {
   sim::shapes::Collider c;
   for (int k = 0; k < 8000; ++k)
     c.keyframes.push_back({0.01 * k, Vec3d(0.01 * (k % 7), 0, 0), Vec3d(0, 5.0 * (k % 2), 0)});

@@ -6,7 +6,7 @@ namespace neve::test {
 namespace {
 
 /// tests/sim_long does the same with millions.
-TEST(MaterialLanes, FollowTheReferenceOnNastyMatrices) {
+TEST(MaterialLanes, LanesMatchTheReferenceOnNastyMatrices) {
   MaterialAccuracy<float> in_float;
   in_float.check(1, 17000);
   expect_accurate(in_float, material_error_limit<float>, false);
@@ -82,7 +82,7 @@ void check_independence(sim::kernels::SimdLevel level) {
   expect_the_same("materials apart");
 }
 
-TEST(MaterialLanes, DependNeitherOnNeighboursNorOnTheirPlace) {
+TEST(MaterialLanes, LanesDependNeitherOnNeighboursNorOnTheirPlace) {
   for (const sim::kernels::SimdLevel level :
        {sim::kernels::SimdLevel::baseline, sim::kernels::SimdLevel::avx2,
         sim::kernels::SimdLevel::avx512}) {

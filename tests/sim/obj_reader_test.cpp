@@ -40,7 +40,7 @@ TEST(ObjReader, ObjReaderAcceptsAllFormsOfIndices) {
   EXPECT_EQ(mesh.vertices[1], Vec3d(1, 0, 0));
 }
 
-TEST(ObjReader, ObjReaderIgnoresWhatItDoesNotKnow) {
+TEST(ObjReader, ObjReaderIgnoresUnknownStatements) {
   const std::string noise =
       "# v 1\nmtllib x\no a\ng b\ns off\nusemtl c\nvp 1\nl 1 2\np 1\n\n  \t\n";
   EXPECT_EQ(sim::files::parse_obj(noise + tetrahedron + noise, "m").polygons.size(), 4u);

@@ -97,7 +97,7 @@ TEST(PointReader, PointReaderReadsBinaryPlyOfBothByteOrders) {
   }
 }
 
-TEST(PointReader, PointReaderTellsWhereAndWhatIsWrong) {
+TEST(PointReader, PointReaderNamesThePlaceAndKindOfAnError) {
   const auto expect = [](const std::string& bytes, const std::string& part) {
     EXPECT_NE(point_error(bytes).find(part), std::string::npos) << point_error(bytes);
   };
@@ -190,7 +190,7 @@ TEST(PointReader, PointReaderSurvivesTruncatedAndDamagedFiles) {
   }
 }
 
-TEST(Points, StandTurnAndMoveWithTheirBody) {
+TEST(Points, PointsTurnAndMoveWithTheirBody) {
   const test::TemporaryFolder folder;
   sim::seeding::Body body;
   body.shape.form =
@@ -231,7 +231,7 @@ TEST(Points, PointsWithoutVolumesNeedASpacing) {
       2e-3, 1e-18);
 }
 
-TEST(Points, ThinnedKeepMassAndVolume) {
+TEST(Points, ThinnedPointsKeepMassAndVolume) {
   sim::files::PointCloud cloud;
   double mass = 0, volume = 0;
   for (int k = 1; k <= 1000; ++k) {

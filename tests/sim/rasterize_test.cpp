@@ -48,7 +48,7 @@ std::map<Node, std::size_t> index_of(const RasterizedNodes& nodes) {
 
 class RasterizeTest : public testing::TestWithParam<std::tuple<Transfer, Precision>> {};
 
-TEST_P(RasterizeTest, RasterizeIsWhatTheStagedStepRasterizes) {
+TEST_P(RasterizeTest, RasterizeGivesTheGridOfTheStagedStep) {
   const auto [transfer, precision] = GetParam();
   Simulation simulation = simulation_of(transfer, precision, moving_cube());
   for (int k = 0; k < 3; ++k) simulation.step(1e-4);
@@ -118,7 +118,7 @@ TEST(Rasterize, BlocksAreSortedAndAroundTheParticles) {
     EXPECT_LT(key(nodes.block[b - 1]), key(nodes.block[b]));
 }
 
-TEST(Rasterize, NothingComesFromNothingAndLengthsAreChecked) {
+TEST(Rasterize, NoParticlesGiveNoBlocksAndLengthsAreChecked) {
   const Simulation empty = simulation_of(Transfer::flip, Precision::single, {});
   EXPECT_TRUE(rasterize(empty).block.empty());
   const Simulation snow = simulation_of(Transfer::flip, Precision::single, moving_cube());

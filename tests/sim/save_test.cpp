@@ -39,7 +39,7 @@ ParticleArrays two_materials() {
 
 class Save : public testing::TestWithParam<SaveCase> {};
 
-TEST_P(Save, ARestoredRunGoesOnToTheBit) {
+TEST_P(Save, ARestoredRunContinuesBitForBit) {
   SolverSettings settings;
   settings.transfer = GetParam().transfer;
   settings.precision = GetParam().precision;
@@ -101,7 +101,7 @@ TEST(SavedState, DamagedBytesAreRefusedAndNothingChanges) {
 
 /// Interrupted within a frame, saved, restored: the steps of the rest of the frame, the last one
 /// too, which ends on it exactly, are those of the run that was not interrupted.
-TEST(SavedState, AnInterruptedFrameGoesOnToTheBit) {
+TEST(SavedState, AnInterruptedFrameContinuesBitForBit) {
   static int left = 0;
   const auto stop = [] { return --left == 0; };
   Simulation whole = simulate({}, two_materials(), 1);
@@ -124,7 +124,7 @@ TEST(SavedState, AnInterruptedFrameGoesOnToTheBit) {
   EXPECT_EQ(first.save(), whole.save());
 }
 
-TEST(SavedState, SavedStateOfNothingIsNothing) {
+TEST(SavedState, SavedStateOfNoParticlesIsRestored) {
   Simulation empty = simulate({}, {}, 1);
   Simulation again = simulate({}, two_materials(), 1);
   again.restore(empty.save());

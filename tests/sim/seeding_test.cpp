@@ -235,7 +235,7 @@ TEST(Seeding, MeshesFarFromTheirOriginAreRefused) {
   EXPECT_THROW(sim::seeding::seed_body(body, 0, 1, 0.02), ShapeError);
 }
 
-TEST(Seeding, CentreIsWhatTheShapeTurnsAbout) {
+TEST(Seeding, ShapesTurnAboutTheirCentre) {
   EXPECT_EQ(
       sim::seeding::seed_body(body_of({sim::shapes::Capsule{{0, 0, 0}, {2, 2, 2}, 0.5}, {0, 0, 0}},
                                       sim::seeding::Sampling::jittered),

@@ -23,7 +23,7 @@ TEST(SelfTests, PassWithEveryKernelTransferPrecisionAndInstructionSet) {
   });
 }
 
-TEST(SelfTests, SayWhatWasFoundWhatIsAllowedAndWhere) {
+TEST(SelfTests, ResultsHaveValueToleranceAndPlace) {
   const checks::SelfTestCase one[] = {{Kernel::quadratic, Transfer::mls, Precision::single}};
   for (const checks::SelfTestResult& result : checks::self_tests(one)) {
     EXPECT_NE(result.detail.find("allowed"), std::string::npos) << result.detail;
@@ -31,7 +31,7 @@ TEST(SelfTests, SayWhatWasFoundWhatIsAllowedAndWhere) {
   }
 }
 
-TEST(SelfTests, FailOnWhatIsNoNumber) {
+TEST(SelfTests, NanFailsASelfTest) {
   checks::self_test::Measure measure({Kernel::cubic, Transfer::flip, Precision::real64});
   measure.zero("a", 0, checks::self_test::rounding);
   EXPECT_LE(measure.worst(), 1);

@@ -27,7 +27,7 @@ std::string complaint_about(const char* value) {
   return complaint;
 }
 
-TEST(Simd, UnknownLevelsAreRefusedWithWhatThereIs) {
+TEST(Simd, UnknownLevelsAreRefusedWithTheChoices) {
   for (const char* wrong : {"foo", "AVX2", " avx2", "avx", "avx2 ", "baseline,avx2"}) {
     const std::string complaint = complaint_about(wrong);
     EXPECT_TRUE(complaint.starts_with("NEVE_SIMD=" + std::string(wrong))) << complaint;

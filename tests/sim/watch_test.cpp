@@ -87,7 +87,7 @@ TEST(Watch, WatchSeesAStepThatIsTooLongBeforeItIsTaken) {
   EXPECT_EQ(record_of(watch, checks::WatchCheck::acoustic_cfl).first_step, 0u);
 }
 
-TEST(Watch, WatchSaysAThingOnceAndCountsIt) {
+TEST(Watch, WatchReportsALawOnceAndCountsIt) {
   Drop drop;
   drop.settings.time_step = TimeStep::fixed;
   drop.settings.dt = 1.0 / 1200;
@@ -113,7 +113,7 @@ std::vector<std::string> look_at(const Drop& drop) {
   return watch.look(drop.simulation());
 }
 
-TEST(Watch, WatchNamesWhatIsWrongWithAState) {
+TEST(Watch, WatchNamesTheBrokenLawOfAState) {
   Drop lost;
   lost.particles.v[7][1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(has(look_at(lost), "particles that are not finite is 1"));
@@ -140,7 +140,7 @@ TEST(Watch, WatchNamesWhatIsWrongWithAState) {
   EXPECT_TRUE(has(look_at(fast), "speed relative to sound is 1.2"));
 }
 
-TEST(Watch, WatchDoesNotBlameTheSolverForStagesThatWereLeftOut) {
+TEST(Watch, WatchDoesNotBlameTheSolverForSkippedStages) {
   Drop drop;
   disturb(drop.particles, 0.01, 1);
   EXPECT_TRUE(look_at(drop).empty());
@@ -155,7 +155,7 @@ TEST(Watch, WatchLooksAtTheFirstStepsAndThenRarely) {
   EXPECT_EQ(due, (std::vector<std::size_t>{0, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 768}));
 }
 
-TEST(Watch, WatchHasNothingToSayAboutAnEmptyScene) {
+TEST(Watch, WatchIsSilentInAnEmptyScene) {
   Drop drop;
   drop.particles = {};
   EXPECT_TRUE(look_at(drop).empty());

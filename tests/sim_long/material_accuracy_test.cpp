@@ -12,10 +12,10 @@ void check_millions() {
   expect_accurate(accuracy, material_error_limit<Real>, true);
 }
 
-TEST(MaterialKernels, FollowTheReferenceOnMillionsOfMatricesInFloat) {
+TEST(MaterialKernels, KernelsMatchTheReferenceOnMillionsOfMatricesInFloat) {
   check_millions<float>();
 }
-TEST(MaterialKernels, FollowTheReferenceOnMillionsOfMatricesInDouble) {
+TEST(MaterialKernels, KernelsMatchTheReferenceOnMillionsOfMatricesInDouble) {
   check_millions<double>();
 }
 

@@ -69,7 +69,7 @@ TEST_F(InputOfPanels, DoubleClickWithinOneBatchIsADoubleClick) {
   EXPECT_EQ(double_clicks, 1);
 }
 
-TEST_F(InputOfPanels, ClickCountsWhereItWasThoughTheMouseMovedOn) {
+TEST_F(InputOfPanels, ClickKeepsItsPlaceIfTheMouseMovesOn) {
   play({move_to(button_middle.x, button_middle.y), button(true), button(false), move_to(700, 500)});
   EXPECT_EQ(clicks, 1);
   play({move_to(button_middle.x, button_middle.y), button(true), move_to(700, 500), button(false)});
@@ -114,7 +114,7 @@ TEST_F(InputOfPanels, SelectCopyAndPasteUseTheClipboardOfTheFrontend) {
   EXPECT_FALSE(ImGui::GetIO().KeyCtrl);
 }
 
-TEST_F(InputOfPanels, ModifierCountsFromItsOwnPressWhateverIsReportedWithIt) {
+TEST_F(InputOfPanels, ModifierIsHeldFromItsOwnPress) {
   focus_field();
   // X11 reports the state before the event.
   const app::view::frontend::Modifiers none, ctrl{.ctrl = true};
@@ -151,7 +151,7 @@ TEST_F(InputOfPanels, WheelAfterAClickWaitsForTheNextFrame) {
   EXPECT_EQ(frames, 3);
 }
 
-TEST_F(InputOfPanels, LettingGoOfAllReleasesWhatIsDownAndWhatIsAboutToBe) {
+TEST_F(InputOfPanels, LettingGoReleasesPressedAndPendingInput) {
   const app::view::frontend::Modifiers shift{.shift = true};
   play({press(app::view::frontend::key::shift, shift), press('Q', shift), button(true, 1)});
   EXPECT_TRUE(app::view::frontend::is_key_down('Q'));

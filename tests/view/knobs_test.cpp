@@ -59,7 +59,7 @@ struct Field {
   }
 };
 
-TEST(TypedNumber, TypedNumberCountsWhenItIsComplete) {
+TEST(TypedNumber, TypedNumberIsTakenWhenComplete) {
   Field<double> field(140000, app::scene::between(0.001, 1e12));
   field.type("30000");
   ASSERT_EQ(field.edits.size(), 1u);

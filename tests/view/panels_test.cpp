@@ -77,7 +77,7 @@ TEST(SliderScale, SliderScaleGivesOnlyValidValues) {
   }
 }
 
-TEST(Tip, TipStandsBesideItsWidgetAndOnTheScreen) {
+TEST(Tip, TipIsBesideItsWidgetAndOnTheScreen) {
   const ImVec2 screen(800, 600), size(200, 80);
   const ImVec2 below = app::view::panels::tip_place({100, 10}, {160, 30}, size, screen);
   EXPECT_EQ(below.x, 100);
@@ -142,7 +142,7 @@ TEST(Filter, FilterLeavesNoEmptyGroups) {
   EXPECT_FALSE(nothing_shown);
 }
 
-TEST(Columns, ShareTheRoomOfANarrowWindow) {
+TEST(Columns, ColumnsShareANarrowWindow) {
   app::view::panels::PanelSwitches panels;
   EXPECT_TRUE(panels.shows_left() && panels.shows_right());
   panels.is_narrow = true;

@@ -128,7 +128,7 @@ TEST(Replay, TypesIntoAFieldAndPressesKeys) {
   EXPECT_EQ(viewer.space_pressed, 1) << "keyboards send the key with the text";
 }
 
-TEST(Replay, ReplayScrollsToWhatIsOutOfSightAsAPersonWould) {
+TEST(Replay, ReplayScrollsToHiddenWidgets) {
   SmallViewer viewer;
   viewer.run(R"([{"click": "item 47"}])");
   EXPECT_EQ(viewer.clicked, 47);

@@ -68,7 +68,7 @@ TEST(Session, LookingChangesNothing) {
   EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
 }
 
-TEST(Session, SessionShowsAnyStageOfAStepAndWhatEachTook) {
+TEST(Session, SessionShowsAnyStageOfAStepAndItsDuration) {
   const auto scene = scene_of(tiny_scene);
   view::session::Session session(scene, {}, {});
   session.next_frame();
@@ -118,7 +118,7 @@ TEST(Session, SessionGoesThroughAllStagesOfAStepAndTakesItThen) {
   EXPECT_FALSE(live->stage);
 }
 
-TEST(Session, SessionGoesOnFromAnOlderFrameAsIfTheRestHadNotBeen) {
+TEST(Session, SessionContinuesFromAnOlderFrameAndForgetsLaterOnes) {
   const auto scene = scene_of(tiny_scene);
   view::session::Session session(scene, {}, {});
   session.run();
@@ -152,7 +152,7 @@ TEST(Session, SessionSaysWhyARunBrokeAndIsGoodForAnother) {
   EXPECT_FALSE(rest_at(session, 1)->divergence);
 }
 
-TEST(Session, SessionTellsWhatItRefusesAndGoesOn) {
+TEST(Session, SessionReportsRefusalsAndContinues) {
   view::session::Session session(scene_of(tiny_scene), {}, {});
   scene::Scene huge = *scene_of(tiny_scene);
   huge.limits.particles = 10;
@@ -177,7 +177,7 @@ TEST(Session, SessionRecordsEveryFrameOnce) {
   EXPECT_EQ(seen, (std::vector<int>{1, 2, 3, 4}));
 }
 
-TEST(KeptFrames, StayWithinTheirMemoryOldestThinnedFirst) {
+TEST(KeptFrames, KeptFramesStayWithinTheirMemory) {
   view::session::KeptFrames kept(1000);
   for (int frame = 0; frame <= 40; ++frame) {
     view::session::KeptFrame one;

@@ -63,7 +63,7 @@ TEST_F(ViewByScript, AParameterIsFoundChangedSimulatedWithAndSaved) {
   EXPECT_TRUE(contains(info.output, "material.snow.hardening")) << info.output;
 }
 
-TEST_F(ViewByScript, DroppedSceneTakesOverAndWhatIsNoneIsOnlyAMessage) {
+TEST_F(ViewByScript, ADroppedSceneIsOpenedAndAnotherFileIsAMessage) {
   folder.write("out/wrong.toml", "[material.snow]\nyoungs_modulos = 1\n");
   std::string other = tiny_scene;
   other.replace(other.find("name = \"ball\""), 13, "name = \"egg\" ");
@@ -166,7 +166,7 @@ TEST_F(ViewByScript, ImpossibleActionsEndItWithStepAndReason) {
       << result.errors;
 }
 
-TEST_F(ViewByScript, MistakeInTheScriptIsToldBeforeAnythingOpens) {
+TEST_F(ViewByScript, MistakesInTheScriptAreReportedBeforeAnythingOpens) {
   const auto result = view("[{\"clik\": \"Run\"}]");
   EXPECT_EQ(result.exit_code, app::exit_invalid_scene);
   EXPECT_TRUE(contains(result.errors, "clicks.json:1:2: error: step 1")) << result.errors;

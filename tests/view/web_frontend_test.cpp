@@ -38,7 +38,7 @@ std::vector<Received> pictures(WebClient& page, double seconds) {
   return result;
 }
 
-TEST_F(Web, NobodyIsShownAnythingBeforeHeLooks) {
+TEST_F(Web, NoPictureIsSentBeforeAPageAsks) {
   start();
   EXPECT_FALSE(front->is_ready());
   EXPECT_FALSE(front->is_picture_wanted());

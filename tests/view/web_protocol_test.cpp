@@ -13,7 +13,7 @@ namespace {
 
 using PageKind = app::view::web::PageMessage::Kind;
 
-TEST(PageMessage, PageMessageTellsWhatAPersonDid) {
+TEST(PageMessage, PageMessageIsAnInputEvent) {
   const app::view::frontend::InputEvent move =
       app::view::web::read_page_message("m 12.5 -3 3").event;
   EXPECT_EQ(move.kind, app::view::frontend::InputEvent::Kind::move);
@@ -47,7 +47,7 @@ TEST(PageMessage, PageMessageTellsWhatAPersonDid) {
   EXPECT_FALSE(app::view::web::read_page_message("v 0").is_visible);
 }
 
-TEST(PageMessage, PageMessageThatMakesNoSenseIsNothing) {
+TEST(PageMessage, MeaninglessPageMessageIsIgnored) {
   for (const char* text : {"",          "m",           "m ",           "m 1 2",
                            "m 1 2 3 4", "m  1 2 3",    "m 1 2 16",     "m 1 2 -1",
                            "m 1 2 0.5", "m nan 2 0",   "m inf 2 0",    "m 1e999 2 0",
@@ -96,7 +96,7 @@ TEST(PageSize, PageSizeStaysInItsLimits) {
   }
 }
 
-TEST(PageText, PageTextIsJsonWhateverTheText) {
+TEST(PageText, PageTextIsAlwaysJson) {
   EXPECT_EQ(app::view::web::page_text("title", "a \"b\"\n"), R"({"title":"a \"b\"\n"})");
   EXPECT_EQ(app::view::web::page_text("title", "\xFF"), "{\"title\":\"\xEF\xBF\xBD\"}");
   EXPECT_EQ(app::view::web::page_picture(0x01020304, "jpeg"), "\x04\x03\x02\x01jpeg");
@@ -134,7 +134,7 @@ TEST(EventQueue, EventQueueRefusesMoreThanItHolds) {
   EXPECT_TRUE(queue.push(event_of(pasted.c_str())));
 }
 
-TEST(EventQueue, EventQueueReleasesWhatIsHeld) {
+TEST(EventQueue, EventQueueReleasesHeldKeysAndButtons) {
   app::view::frontend::EventQueue queue;
   for (const char* text : {"k 65 1 0", "k 66 1 0", "k 65 0 0", "b 0 1 7 8 0", "k 341 1 1"})
     queue.push(event_of(text));

@@ -119,7 +119,7 @@ TEST_F(Web, LimitsRequests) {
   expect_serving();
 }
 
-TEST_F(Web, ServerRefusesBadFramesAndGoesOn) {
+TEST_F(Web, ServerRefusesBadFramesAndContinues) {
   start();
   const auto code_for = [&](const std::string& bytes) {
     auto page = connect();
@@ -346,7 +346,7 @@ TEST_F(Web, FiftyReconnectsLeaveNothingBehind) {
   expect_serving();
 }
 
-TEST(WebFrontend, WebFrontListensElsewhereOnlyWhenToldThatItIsRisky) {
+TEST(WebFrontend, OtherAddressesNeedConsentToTheRisk) {
   app::view::web::WebOptions options;
   options.address = "0.0.0.0";
   try {
@@ -361,7 +361,7 @@ TEST(WebFrontend, WebFrontListensElsewhereOnlyWhenToldThatItIsRisky) {
   EXPECT_EQ(front.where().find("0.0.0.0"), std::string::npos) << front.where();
 }
 
-TEST(WebFrontend, WebFrontSaysWhyItCannotListen) {
+TEST(WebFrontend, AnAddressThatCannotBeUsedIsExplained) {
   app::view::web::WebOptions options;
   const app::view::web::WebFrontend first(options);
   options.port = first.port();

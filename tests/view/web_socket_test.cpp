@@ -72,7 +72,7 @@ TEST(FrameReader, FrameReaderReadsLengthsInAllThreeForms) {
   }
 }
 
-TEST(FrameReader, FrameReaderRefusesWhatTheStandardForbids) {
+TEST(FrameReader, FrameReaderRefusesFramesThatTheStandardForbids) {
   EXPECT_EQ(error_of(client_frame(0x81, "unmasked", false)), 1002);
   EXPECT_EQ(error_of(client_frame(0xC1, "reserved bit")), 1002);
   EXPECT_EQ(error_of(client_frame(0x83, "unknown opcode")), 1002);

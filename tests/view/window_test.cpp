@@ -210,7 +210,7 @@ TEST_F(InWindow, PointerThatLeavesIsNowhere) {
       [&] { return saw(Kind::move) && last(Kind::move)->x == app::view::frontend::off_picture; });
 }
 
-TEST(WindowWithoutDisplay, WindowWithoutDisplaySaysWhatIsMissing) {
+TEST(WindowWithoutDisplay, AMissingDisplayIsNamed) {
   const char* before = std::getenv("DISPLAY");
   const std::string display = before ? before : "";
   const char* wayland_before = std::getenv("WAYLAND_DISPLAY");

@@ -80,7 +80,7 @@ TEST(Document, OneDragIsOneUndo) {
   EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 10);
 }
 
-TEST(Document, DocumentRefusesWhatIsInvalidAndStaysAsItWas) {
+TEST(Document, DocumentRefusesInvalidEditsAndStaysTheSame) {
   view::session::Document document("scene.toml", tiny_scene, {}, 1);
   document.set("material.snow.hardening", "5");
   EXPECT_THROW(document.set("material.snow.poisson_ratio", "0.7"), scene::toml::UsageError);
@@ -97,7 +97,7 @@ TEST(Document, DocumentKeepsTheCameraWhileKnobsAreTurned) {
 }
 
 // One list of concerns decides the time of a change and its entry in a picture.
-TEST(Document, DocumentKnowsWhatEveryParameterConcerns) {
+TEST(Document, DocumentKnowsTheScopeOfEveryParameter) {
   for (const scene::ParamInfo& info : scene::params()) {
     const bool is_drawn = scene::concern_of(info.address) == scene::Concern::pictures;
     EXPECT_EQ(view::session::effect_of(info.address) == view::session::Effect::display, is_drawn)
@@ -349,7 +349,7 @@ TEST(Workbench, AFailedReloadSaysWhereAndLeavesTheFileChanged) {
   EXPECT_EQ(work.bench.messages().back().kind, view::session::Message::Kind::note);
 }
 
-TEST(Workbench, WorkbenchTellsWhatAFieldRefused) {
+TEST(Workbench, WorkbenchReportsRefusedValues) {
   Working work;
   work.bench.edit(
       {view::session::Edit::Kind::refused, "solver.cfl", "not accepted; expected 0 < value", 0});
