@@ -29,13 +29,13 @@ class Screen {
   /// @param seconds since the last time, for ImGui
   void begin(int width, int height, int font_size, float seconds);
 
-  /// Draws the panels over what the renderer painted last, scaled to its place.
+  /// Draws the panels over the last picture of the renderer, scaled to its place.
   void end(Renderer& renderer, const PicturePlace& place);
 
   /// The last drawing, upright RGB.
   Image pixels();
 
-  /// Copies what was drawn last to the window of the context. The caller swaps its buffers.
+  /// Copies the last picture to the window of the context. The caller swaps its buffers.
   void present();
 
  private:

@@ -8,7 +8,7 @@
 
 namespace neve::render {
 
-/// @return "" or what was wrong with the picture; never throws
+/// @return "" or the defect of the picture; never throws
 std::string self_test(gl::Context& context);
 
 }  // namespace neve::render

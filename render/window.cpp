@@ -68,7 +68,7 @@ int without_twins(int key) {
   }
 }
 
-/// GLFW's codes say where a key is; shortcuts go by what it prints.
+/// GLFW's codes say where a key is; shortcuts go by the character it prints.
 int printed_key(int key, int scancode) {
   if (key > GLFW_KEY_SPACE && key < GLFW_KEY_ESCAPE) {
     const char* name = glfwGetKeyName(key, scancode);

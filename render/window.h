@@ -9,7 +9,7 @@
 
 namespace neve::render {
 
-/// Places are pixels of the picture from its upper left corner, whatever the desktop's units are.
+/// Places are pixels of the picture from its upper left corner, in any units of the desktop.
 struct WindowEvent {
   enum class Kind { move, leave, button, wheel, key, text, resize, drop, close };
 
@@ -22,7 +22,7 @@ struct WindowEvent {
   int key = 0;
   bool is_down = false;
   bool ctrl = false, shift = false, alt = false, super = false;  ///< held after it
-  std::string text{};  ///< UTF-8: what was typed; the file that was dropped
+  std::string text{};  ///< UTF-8: the typed text; the file that was dropped
 };
 
 enum class CursorShape { arrow, text, cross, hand, resize_x, resize_y, resize_both, hidden };
@@ -60,7 +60,7 @@ class Window {
   /// Ends wait(); from any thread.
   static void wake();
 
-  /// Shows what was drawn into framebuffer 0, in step with the monitor.
+  /// Shows the content of framebuffer 0, in step with the monitor.
   void swap();
 
   void set_title(const std::string& title);

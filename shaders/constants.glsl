@@ -41,7 +41,7 @@ const float snow_offset = 1.2f;
 const float entry_offset = 0.5f;     // of a ray towards the light that enters the volume
 const float sky_fade_cells = 3.5f;   // over which the sky goes over to all of it, at the edge
 
-// From linear light to what is shown.
+// From linear light to the display.
 const float exposure = 0.8f;
 const float white_point = 4.84f;
 const float shoulder = 0.55f;
@@ -66,10 +66,10 @@ const float ground_least = 0.004f;    // share over the background from which it
 // Smoke on its way through the grid.
 const int brick_side = 4;           // texels
 const int max_march_steps = 1024;
-const float march_opaque = 0.015f;  // what is left of the light where a march ends
+const float march_opaque = 0.015f;  // rest of the light at which a march ends
 
 // Smoke over surfaces.
-const float smoke_hides = 0.999f;    // opacity from which what is behind it does not matter
+const float smoke_hides = 0.999f;    // opacity that hides everything behind it
 const float smoke_falloff = 9.0f;    // up to a third of the spacing a distance hardly counts
 const float smoke_forward = 0.5f;    // of the phase function by Henyey and Greenstein
 const float smoke_direct = 1.75f;

@@ -7,7 +7,7 @@ in vec3 normal;
 
 uniform vec3 color;         // linear
 uniform vec3 toward_light;  // unit
-uniform int is_far_side;    // draws only what is turned away from the eye, otherwise only the rest
+uniform int is_far_side;    // draws only the side away from the eye, otherwise only the other
 
 out vec4 out_color;
 

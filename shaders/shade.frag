@@ -133,7 +133,7 @@ float phase(float cosine) {
   return (1.0 - g * g) / pow(1.0 + g * g - 2.0 * g * cosine, 1.5);
 }
 
-// Linear light of smoke, given what it scatters of each kind.
+// Linear light of smoke, given the scattered light of each kind.
 vec3 smoke_light(vec4 sums) {
   if (is_smoke_colored) return sums.rgb;
   float ahead = phase(dot(normalize(view_ray(gl_FragCoord.xy)), toward_light)) - 1.0;

@@ -1,4 +1,4 @@
-// Marches from the eye through smoke up to what the depth map shows. In: per texel of a box of nodes opacity, and times that the key light, the sky,
+// Marches from the eye through smoke up to the surface in the depth map. In: per texel of a box of nodes opacity, and times that the key light, the sky,
 // and light that was scattered many times, or with VALUE the place in the colour map
 // (render/light/smoke_volume.h). Out: sums along the ray, premultiplied, and the depth (m along the view)
 // where it ended. Writes no depth.
@@ -92,7 +92,7 @@ void main() {
     left -= taken;
     s *= taken / s.r;
 #ifdef VALUE
-    // s.r is what was taken: the opacity that the place was multiplied by.
+    // s.r is the opacity: the value that the place was multiplied by.
     vec3 own = taken > 0.0 ? texture(colormap, vec2(s.a / taken, 0.5)).rgb : vec3(0.0);
     sums.rgb += own * (key_light * s.g + sky_light * s.b);
 #else
@@ -101,7 +101,7 @@ void main() {
   }
   sums.a = 1.0 - left;
   if (left <= march_opaque) {
-    sums /= sums.a;  // what a march cut short left out
+    sums /= sums.a;  // the rest of a march cut short
     out_depth = min(out_depth, z);
   }
   out_sums = sums;

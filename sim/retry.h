@@ -21,10 +21,10 @@ struct Retry {
 inline constexpr int max_retries = 4;
 
 /// advance_to, and where it breaks a rule back to the state it started from with half the dt; after
-/// a frame that held, dt doubles again up to what the settings choose. After max_retries the
+/// a frame that held, dt doubles again up to the dt of the settings. After max_retries the
 /// divergence stays. Interrupted, it is back at its start, so that what is saved then knows where
 /// to go back to.
-/// @param retries  what happened is appended
+/// @param retries  are appended
 /// @return steps of the attempt that the state comes from
 AdvanceReport advance_retrying(Simulation& simulation, double time, const StepObserver& after_step,
                                std::vector<Retry>& retries);

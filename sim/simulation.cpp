@@ -128,7 +128,7 @@ std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,
   const double real = is_double ? 8 : 4;
   const double record = static_cast<double>(is_double ? sizeof(kernels::Particle<double>)
                                                       : sizeof(kernels::Particle<float>));
-  // Record, key, local, order and its neighbours in Partition, and what prepare() gathers.
+  // Record, key, local, order and its neighbours in Partition, and the data that prepare() gathers.
   const double gathered = static_cast<double>(is_double ? sizeof(kernels::Gathered<double>)
                                                         : sizeof(kernels::Gathered<float>));
   const double kept = settings.is_implicit() ? kernels::elasticity_quads * 4 * real : 0;

@@ -89,7 +89,7 @@ class Simulation {
   /// The dt that the settings would choose now, and the limit that rules it.
   DtChoice choose_dt(double remaining) const;
 
-  /// The dt that each limit would allow now, whatever the settings say about fixed steps, and why.
+  /// The dt that each limit would allow now, also with fixed steps, and why.
   StepLimits step_limits() const;
 
   /// Set once a rule of a healthy run was broken.

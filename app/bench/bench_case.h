@@ -20,7 +20,7 @@ enum class BenchMethod { mls_quadratic, flip_cubic, apic_cubic };
 /// "mls_quadratic"
 const char* name(BenchMethod method);
 
-/// h = 1 cm, fixed steps of 1e-4 s, what is not said is the default.
+/// h = 1 cm, fixed steps of 1e-4 s, defaults otherwise.
 sim::SolverSettings bench_settings(BenchMethod method, sim::Precision precision);
 
 /// Steps of one measurement: snow that is squeezed at 24 per second yields from step 31 on.

@@ -18,7 +18,7 @@ struct Statistics {
 /// @param samples at least one
 Statistics statistics_of(std::vector<double> samples);
 
-/// One figure. `name`, `unit` and what to_json() writes are a contract: scripts depend on them.
+/// One figure. `name`, `unit` and the output of to_json() are a contract: scripts depend on them.
 struct BenchRow {
   std::string name;
   int threads = 0;

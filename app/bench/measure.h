@@ -1,5 +1,5 @@
 #pragma once
-/// Clocks, and what a measurement has to be told about the machine it ran on.
+/// Clocks, and the state of the machine during a measurement.
 
 #include <chrono>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-/// `neve bench render`: milliseconds per picture, what its phases take, and OpenGL's spheres
+/// `neve bench render`: milliseconds per picture, those of its phases, and OpenGL's spheres
 /// against those of the CPU.
 
 #include <vector>

@@ -42,7 +42,7 @@ std::string name_for(const std::string& what, BenchMethod method) {
   return method == BenchMethod::flip_cubic ? what : what + "_" + name(method);
 }
 
-/// @throws LimitError when `bytes` are more than 80 % of what is available
+/// @throws LimitError when `bytes` are more than 80 % of the available memory
 void check_memory(double bytes) {
   const auto allowed = static_cast<double>(available_memory() / 10 * 8);
   if (bytes <= allowed) return;
@@ -84,7 +84,7 @@ class SimBench {
   int rounds_, threads_, cells_;
   std::size_t particles_ = 0;
   std::string simd_;
-  std::map<std::string, Samples> windows_;  ///< by name: what each round found
+  std::map<std::string, Samples> windows_;  ///< by name: one for each round
   std::map<BenchMethod, Race> races_;
   std::vector<BenchRow> rows_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// `neve bench sim`: how fast snow is pushed, and against what.
+/// `neve bench sim`: speed of the simulation, and comparison with naive code.
 
 #include <vector>
 

@@ -1,6 +1,5 @@
 #pragma once
-/// `neve bench sweep`: how well a sweep keeps the cores busy, and what a run costs besides its
-/// work.
+/// `neve bench sweep`: the share of the cores that a sweep uses, and the overhead of a run.
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// One timed run of a bench case from its start, and what several of them tell.
+/// One timed run of a bench case from its start, and statistics of several.
 
 #include <string>
 #include <vector>
@@ -33,7 +33,7 @@ class Samples {
   Statistics throughput() const;
   Statistics bytes_per_particle() const;
   sim::PhaseSeconds phases() const;  ///< per particle and step, of all rounds
-  /// A row with what the windows know themselves.
+  /// A row with the figures that windows contain.
   BenchRow throughput_row(const std::string& name) const;
 
  private:

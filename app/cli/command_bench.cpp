@@ -28,7 +28,7 @@ void print_rows(const std::vector<bench::BenchRow>& rows, const bench::BenchOpti
     bench::print_table(std::cout, rows);
 }
 
-/// Says what a reader of the figures has to know: the machine, the build, and who else was there.
+/// Prints the circumstances of the figures: the machine, the build, and the load by others.
 template <class Bench>
 int run_bench(const bench::BenchOptions& options, const Bench& bench) {
   catch_interrupts();

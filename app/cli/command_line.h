@@ -4,7 +4,7 @@
 namespace neve::app::cli {
 
 /// Parses and runs. @return the exit code
-/// @throws UsageError and whatever the subcommand throws
+/// @throws UsageError, and the errors of the subcommand
 int run_command_line(int argc, char** argv);
 
 /// True if errors are wanted as JSON too; works on command lines that do not parse.

@@ -36,7 +36,7 @@ struct RenderTexts {
 /// @throws UsageError
 run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts);
 
-/// Which scene, and how it is changed: what all commands take that read one.
+/// Options of all commands that read a scene: the scene and its changes.
 void add_scene(CLI::App& command, const std::shared_ptr<run::RenderOptions>& options,
                const std::shared_ptr<RenderTexts>& texts);
 

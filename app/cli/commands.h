@@ -19,7 +19,7 @@ struct CompareOptions {
 };
 
 int run_render(const run::RenderOptions& options);
-/// Reads only what says which scene: scene, overrides, coarsening, threads.
+/// Reads only the options that choose the scene: scene, overrides, coarsening, threads.
 int run_check(const run::RenderOptions& options);
 int run_dump(const dump::DumpOptions& options);
 int run_view(const view::ViewOptions& options);

@@ -15,7 +15,7 @@ namespace neve::app::dump {
 
 enum class DumpFormat { table, vtk };
 
-/// A particle by its id, or what is nearest to a place.
+/// A particle by its id, or the point nearest to a place.
 using Probe = std::variant<std::size_t, sim::Vec3d>;
 
 struct DumpOptions {

@@ -24,14 +24,14 @@ struct Quantity {
 
   std::size_t rows() const { return values.size() / static_cast<std::size_t>(components); }
   double magnitude(std::size_t row) const;
-  /// Outside what is expected, or no number.
+  /// Outside the expected range, or no number.
   bool is_outside_expected(std::size_t row) const;
 };
 
 /// "v_x v_y v_z", "F_E_xx F_E_xy ..."
 std::string component_name(const Quantity& quantity, int component);
 
-/// A step that is looked at: the state before it and what its stages leave.
+/// An inspected step: the state before it and the results of its stages.
 struct StepInspection {
   const scene::Scene& scene;
   const sim::Simulation& simulation;

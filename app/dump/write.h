@@ -9,7 +9,7 @@
 
 namespace neve::app::dump {
 
-/// One line per quantity: least and greatest magnitude, what is expected, how many are outside.
+/// One line per quantity: least and greatest magnitude, expected range, number outside.
 std::vector<std::string> summary_lines(const Listing& listing);
 
 /// The lines above behind '#', a header line, one line per node or particle; tabs between columns.
@@ -18,7 +18,7 @@ std::string to_table(const Listing& listing, const std::vector<std::string>& hea
 /// VTK XML PolyData (.vtp), raw little-endian float64: points with all quantities as arrays.
 std::string to_vtk(const Listing& listing);
 
-/// Quantity, value and what is expected of one row.
+/// Quantity, value and expected range of one row.
 std::vector<std::string> probe_lines(const Listing& listing, std::size_t row);
 
 Json summary_json(const Listing& listing);

@@ -30,7 +30,7 @@ struct Checkup {
   double cells = 0;         ///< that the bodies fill
   double impact_speed = 0;  ///< m/s, see auto_ranges
   sim::StepLimits start;    ///< of the initial state
-  double dt_start = 0;      ///< s, what the first step would take
+  double dt_start = 0;      ///< s, of the first step
   sim::DtLimit limit_start = sim::DtLimit::max_dt;
   std::vector<FrameForecast> forecast;  ///< frames that a coarse run reached; may be empty
   double coarse_particles = 0;          ///< of the run behind the forecast
@@ -44,7 +44,7 @@ struct Checkup {
 
 /// Seeds the scene, takes some steps, and runs a coarse copy: about three seconds.
 /// @param scene resolved is not needed
-/// @param coarsening  what --coarsen did to it
+/// @param coarsening  factor of --coarsen
 Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
                 double coarsening = 1);
 

@@ -50,7 +50,7 @@ void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene
 void check_motion(const scene::Scene& scene, const Checkup& checkup,
                   std::vector<Finding>& findings);
 
-/// Fixed steps against the limits, what the transfer damps per frame, speed against sound.
+/// Fixed steps against the limits, damping of the transfer per frame, speed against sound.
 void check_steps(const scene::Scene& scene, const Checkup& checkup, std::vector<Finding>& findings);
 
 /// Snow that cameras named by the scene do not see. @param scene resolved

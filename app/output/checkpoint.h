@@ -18,7 +18,7 @@ struct Checkpoint {
   std::string simd;                 ///< instruction set that the bits belong to
   int frame = 0;                    ///< the last one that is drawn
   std::size_t steps = 0;            ///< since the start of the run
-  Json progress;                    ///< what else the run wants to remember
+  Json progress;                    ///< further data of the run
   std::vector<std::uint8_t> state;  ///< sim::Simulation::save
 };
 

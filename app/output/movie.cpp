@@ -35,7 +35,7 @@ void append_words(std::vector<std::string>& arguments, const char* text) {
 }
 
 /// Pictures are named relative to their folder: its path may hold a '%', a pattern character.
-/// yuv420p needs even sides; players take high definition for BT.709 whatever the file says.
+/// yuv420p needs even sides; players take high definition for BT.709 and ignore the file.
 ProcessResult encode(const fs::path& ffmpeg, const MovieRequest& request, const fs::path& target) {
   std::vector<std::string> arguments;
   append_words(arguments, "-nostdin -v error -y -f image2 -framerate");

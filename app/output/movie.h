@@ -23,7 +23,7 @@ struct MovieResult {
 
 /// H.264 with even sides, written under a temporary name, decoded again to count its frames (ffmpeg
 /// exits 0 on broken input) and only then put in place. A movie of another length is not kept.
-/// Never throws for what ffmpeg does.
+/// Never throws for failures of ffmpeg.
 MovieResult write_movie(const MovieRequest& request);
 
 }  // namespace neve::app::output

@@ -18,21 +18,21 @@ struct Picture {
   render::PngText text;
 };
 
-/// Pictures that may wait for the worker; with the one it holds, what memory has to be planned for.
+/// Pictures that may wait for the worker; memory is planned for these and the one it holds.
 inline constexpr std::size_t picture_queue_capacity = 3;
 
 class PictureWriter {
  public:
   PictureWriter();
-  /// Writes what is waiting; errors not requested are dropped.
+  /// Writes the waiting pictures; errors not requested are dropped.
   ~PictureWriter();
   PictureWriter(const PictureWriter&) = delete;
   PictureWriter& operator=(const PictureWriter&) = delete;
 
-  /// Waits while the queue is full. @throws what an earlier picture failed with
+  /// Waits while the queue is full. @throws the error of an earlier picture
   void write(Picture picture);
 
-  /// Waits until everything is on disk. @throws what a picture failed with
+  /// Waits until everything is on disk. @throws the error of a picture
   void finish();
 
  private:

@@ -92,7 +92,7 @@ void set_streams(const StartOptions& options) {
   for (int stream = 0; stream < 3; ++stream) ::dup2(files[stream], stream);
 }
 
-/// Between fork and exec: only what is safe there. @return errno of the call that failed
+/// Between fork and exec: only calls that are safe there. @return errno of the call that failed
 int become(const char* folder, char* const* argv, const StartOptions& options, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -108,7 +108,7 @@ int become(const char* folder, char* const* argv, const StartOptions& options, p
   return errno;
 }
 
-/// Waits until a new process runs its program. @return 0, or errno of what failed in it
+/// Waits until a new process runs its program. @return 0, or errno of the call that failed in it
 int start_error(Pipe& report) {
   report.close_write_end();
   int reason = 0;

@@ -43,7 +43,7 @@ struct ProcessResult {
   std::string errors;  ///< stderr
 };
 
-/// Runs a program and waits for it. It gets no input, and at most 1 MiB of what it prints is kept.
+/// Runs a program and waits for it. It gets no input, and at most 1 MiB of each output is kept.
 /// Starts it as start_process() does.
 ProcessResult run_process(const std::filesystem::path& program,
                           const std::vector<std::string>& arguments,

@@ -1,5 +1,5 @@
 #pragma once
-/// Reports of a simulation as JSON: what run.json, incident.json and checkpoints share.
+/// Reports of a simulation as JSON, shared by run.json, incident.json and checkpoints.
 
 #include <vector>
 
@@ -10,7 +10,7 @@
 
 namespace neve::app::output {
 
-/// "[x, y, z]"; what is no finite number is null, and the other way round.
+/// "[x, y, z]"; a number that is not finite is null, and the other way round.
 Json vector_json(const sim::Vec3d& v);
 sim::Vec3d vector_of(const Json& json);
 /// The inverse of number_or_null.

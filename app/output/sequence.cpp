@@ -46,7 +46,7 @@ EarlierRun read_earlier_run(const fs::path& file) {
   return run;
 }
 
-/// Links are left alone: what they point to is not ours.
+/// Links are left alone: their targets are not ours.
 std::size_t remove_regular(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// The layout of an output folder, and the removal of what an earlier run left in it.
+/// The layout of an output folder, and the removal of the files of an earlier run.
 
 #include <filesystem>
 #include <string>

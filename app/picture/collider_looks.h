@@ -1,5 +1,5 @@
 #pragma once
-/// Colliders as what the renderer draws.
+/// Colliders as meshes, grounds and lines of the renderer.
 
 #include "app/scene/scene.h"
 #include "render/frame/frame.h"

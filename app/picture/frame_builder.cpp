@@ -27,7 +27,7 @@ namespace {
 /// snow has a surface.
 constexpr double radius_share = 0.6;
 constexpr std::size_t max_override_lines = 6;
-/// Rings around more particles than these hide what they point out.
+/// Rings around more particles than these hide the snow inside.
 constexpr std::size_t max_marks = 16;
 
 /// The view's camera or the scene's at a time.

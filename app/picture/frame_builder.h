@@ -1,5 +1,5 @@
 #pragma once
-/// The only place where simulation data becomes what the renderer draws, and double becomes float.
+/// The only place where simulation data becomes a frame of the renderer, and double becomes float.
 
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@ namespace neve::app::picture {
 struct PictureOptions {
   setup::Quality quality = setup::Quality::preview;
   std::vector<std::string> overrides = {};  ///< "material.snow.hardening=5", for the caption
-  double coarsening = 1;  ///< what --coarsen did to the scene, for the caption; 1: nothing
+  double coarsening = 1;                    ///< factor of --coarsen, for the caption
 };
 
 class FrameBuilder {
@@ -44,7 +44,7 @@ class FrameBuilder {
                                const health::Diagnosis& diagnosis,
                                std::optional<render::Points> points = std::nullopt) const;
 
-  /// Title, frame and time, particles and steps, and what was overridden; one line each.
+  /// Title, frame and time, particles and steps, and overrides; one line each.
   std::vector<std::string> caption(const Snapshot& snapshot) const;
 
  private:
@@ -61,7 +61,7 @@ class FrameBuilder {
   PictureOptions options_;
 };
 
-/// "hardening = 5" for "material.snow.hardening=5", "post center = ..." for what is a collider's;
+/// "hardening = 5" for "material.snow.hardening=5", "post center = ..." for a value of a collider;
 /// the whole address where two are named alike. None for other cameras, views and colours: these
 /// are seen.
 std::vector<std::string> override_lines(const std::vector<std::string>& overrides);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 3> strip_color{38, 42, 49};
 
-/// A title, what was measured, and the overrides on a line of their own.
+/// A title, measurements, and the overrides on a line of their own.
 std::vector<std::string> strip_caption(const std::vector<std::string>& lines, bool has_title) {
   const auto joined = [&](std::size_t first, std::size_t end) {
     std::string text;

@@ -1,5 +1,5 @@
 #pragma once
-/// Diagnostics over time as plots: energies, largest speed, time step and what limited it.
+/// Diagnostics over time as plots: energies, largest speed, time step and its limit.
 
 #include <optional>
 #include <span>

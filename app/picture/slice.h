@@ -16,7 +16,8 @@ struct SlicePlane {
 SlicePlane slice_plane(const scene::SliceStyle& slice, double time,
                        const std::optional<sim::Vec3d>& followed);
 
-/// Adds what the view's layers ask for of the slice. Adds nothing where the plane meets no snow.
+/// Adds the parts of the slice that the view's layers ask for. Adds nothing where the plane meets
+/// no snow.
 /// @param pixels_per_metre of the picture at the plane, decides how close arrows may be
 void add_slice(const scene::View& view, const FieldSamples& fields, const SlicePlane& plane,
                double pixels_per_metre, render::Frame& frame);

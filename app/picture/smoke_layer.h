@@ -6,7 +6,7 @@
 
 namespace neve::app::picture {
 
-/// @param fields with the mass and what colours it, see field_needs; none: no smoke
+/// @param fields with the mass and the colouring field, see field_needs; none: no smoke
 void add_smoke(const scene::Scene& scene, const scene::View& view, const FieldSamples& fields,
                render::Frame& frame);
 

@@ -33,20 +33,20 @@ struct SceneSource {
 scene::Scene with_changes(const SceneSource& source, const std::vector<scene::LiveChange>& changes,
                           std::size_t up_to_step = static_cast<std::size_t>(-1));
 
-/// The changes that concern what a scene has: those of views and mosaics that it lacks, since
+/// The changes that concern the things of a scene: those of views and mosaics that it lacks, since
 /// pictures are made again one view at a time, are left out.
 std::vector<scene::LiveChange> changes_of(const scene::Scene& scene,
                                           std::vector<scene::LiveChange> changes);
 
-/// The scene to keep with a picture: what the simulation started from, drawn as it is drawn now.
+/// The scene to keep with a picture: the start of the simulation, drawn as it is drawn now.
 /// Changes of views, cameras, light and output then need not be kept as changes.
 scene::Scene recorded_scene(const scene::Scene& start, const scene::Scene& now);
 
-/// The colliders of the scene where those of the simulation are, for what draws or measures them.
+/// The colliders of the scene where those of the simulation are, to draw or measure them.
 void follow_colliders(const sim::Simulation& simulation, scene::Scene& scene);
 
-/// Gives a simulation what it can take of a scene while it runs, and the scene the places of its
-/// colliders. @throws std::invalid_argument, see sim::Simulation::apply
+/// Gives a simulation the parts of a scene that may change in a run, and the scene the places of
+/// its colliders. @throws std::invalid_argument, see sim::Simulation::apply
 void apply_scene(scene::Scene& scene, sim::Simulation& simulation);
 
 /// Advances a simulation and makes the changes again on the way, or new ones between two steps.
@@ -58,8 +58,8 @@ void apply_scene(scene::Scene& scene, sim::Simulation& simulation);
 /// inside are made there.
 class ChangePlayer {
  public:
-  /// @param start       resolved, what the simulation was built from; its views decide which are
-  ///                    drawn: changes of others are passed over
+  /// @param start       resolved, the scene that the simulation was built from; changes of views
+  ///                    that it lacks are passed over
   /// @param changes     in the order they were made
   /// @param after_each  is told the scene after each change, in the thread that advances; may be
   ///                    empty
@@ -92,7 +92,7 @@ class ChangePlayer {
   sim::AdvanceReport advance_to(double time, const sim::StepObserver& after_step,
                                 std::vector<sim::Retry>& retries);
 
-  /// One step towards a time. It is taken as it is, whatever it breaks.
+  /// One step towards a time. It is taken even if it breaks a rule.
   sim::AdvanceReport step_towards(double time, const sim::StepObserver& after_step);
 
  private:

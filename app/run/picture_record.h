@@ -19,7 +19,7 @@ struct PictureRecord {
   std::string scene;  ///< resolved, TOML
   std::vector<std::string> overrides;
   std::vector<scene::LiveChange> changes;  ///< made while the simulation ran, up to this picture
-  double coarsening = 1;                   ///< what --coarsen did to the scene
+  double coarsening = 1;                   ///< factor of --coarsen
   std::uint64_t seed = 0;
   std::string version;
   std::string state_hash;  ///< 16 hexadecimal digits

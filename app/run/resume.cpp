@@ -26,8 +26,8 @@ std::string value_or_none(const std::optional<scene::toml::Value>& value) {
   return value ? scene::toml::toml_literal(*value, 60) : "none";
 }
 
-/// First difference between the run of a folder and this one, with both values; what may differ
-/// where run.json cannot tell.
+/// First difference between the run of a folder and this one, with both values; values that may
+/// differ where run.json cannot tell.
 std::string other_thing(const std::filesystem::path& folder, const PictureRecord& picture) {
   try {
     const Json run = parse_json(output::read_file(output::run_json_path(folder)));

@@ -26,7 +26,7 @@ struct ResumedRun {
 
 class Checkpoints {
  public:
-  /// @param picture of any view and frame: what made it makes the run
+  /// @param picture of any view and frame: its record makes the run again
   /// @param player  of the changes that the picture lists
   Checkpoints(std::filesystem::path folder, const PictureRecord& picture,
               sim::Simulation& simulation, ChangePlayer& player, Progress& progress);

@@ -1,5 +1,5 @@
 #pragma once
-/// run.json: what a run did so far, in names that scripts depend on.
+/// run.json: the record of a run so far, in names that scripts depend on.
 
 #include <cstdint>
 #include <filesystem>
@@ -35,7 +35,7 @@ struct RunRecord {
   std::string scene_file;
   std::vector<std::string> overrides;
   std::vector<scene::LiveChange> changes;  ///< made while it ran
-  double coarsening = 1;                   ///< what --coarsen did to the scene
+  double coarsening = 1;                   ///< factor of --coarsen
   std::vector<std::string> views;
   std::string backend, gl_renderer;
   int threads = 0;

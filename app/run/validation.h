@@ -15,12 +15,12 @@ class Validation {
   Validation(const sim::SolverSettings& settings, const std::vector<sim::Material>& materials,
              const sim::Simulation& simulation, Progress& progress);
 
-  /// Goes on with what was changed between steps.
+  /// Continues with settings that were changed between steps.
   void use(const sim::SolverSettings& settings, const std::vector<sim::Material>& materials) {
     watch_.use(settings, materials);
   }
 
-  /// Between steps: looks if it is time to, and warns of what was broken for the first time.
+  /// Between steps: looks if it is time to, and warns of laws that were broken for the first time.
   void after_step();
 
   const std::vector<sim::checks::WatchRecord>& records() const { return watch_.records(); }

@@ -252,7 +252,7 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
   return {};
 }
 
-/// Compares the attitudes themselves, whatever angles describe them, within 1e-4 degrees.
+/// Compares the attitudes, which several angles can describe, within 1e-4 degrees.
 bool is_half_turn(const sim::Vec3d& degrees, const sim::Vec3d& next) {
   const sim::Mat3d turn =
       sim::rotation_from_degrees(degrees).transpose() * sim::rotation_from_degrees(next);

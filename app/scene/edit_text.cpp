@@ -104,7 +104,7 @@ class Edit {
   }
   void insert(std::size_t at, const std::string& what) { text_.insert(at, what); }
 
-  /// As far as the text has what the address says.
+  /// Follows the address as far as the text has it.
   void walk() {
     node_ = &layout_.root;
     const toml::Table* table = &root_;

@@ -1,5 +1,5 @@
 #pragma once
-/// A scene as a list of addresses with values: for panels, and to tell what differs between two.
+/// A scene as a list of addresses with values: for panels, and for the differences of two scenes.
 
 #include <optional>
 #include <string>
@@ -12,17 +12,17 @@
 namespace neve::app::scene {
 
 /// A parameter of one scene. Besides those of params() with names filled in there is an entry of
-/// type "table" for what exists or has a kind as a whole, before its members: shapes, and cameras
-/// and clip planes that a scene may have or not. Keyframes are one entry, of type "tables".
+/// type "table" for a thing that exists or has a kind as a whole, before its members: shapes, and
+/// cameras and clip planes that a scene may have or not. Keyframes are one entry, of type "tables".
 struct FlatParam {
   std::string address;  ///< "material.snow.hardening", as --set takes it
   std::string type;     ///< see ParamInfo, or table, tables
   const char* unit = "";
   Valid valid;
-  std::vector<std::string> choices;  ///< of choices, what may be written
+  std::vector<std::string> choices;  ///< the values of a choice
   bool is_live = false;              ///< may change while a simulation runs
   const char* help = "";             ///< one sentence
-  std::optional<toml::Value> value;  ///< absent: nothing, the help says what then happens
+  std::optional<toml::Value> value;  ///< absent: no value; the help says what follows
   std::optional<toml::Value>
       default_value;  ///< of a new item; absent like value, or if there is none
 
@@ -42,7 +42,7 @@ bool is_live(std::string_view address);
 enum class Concern {
   simulation,  ///< every number of it
   run,         ///< its length, and whether it may: no number
-  pictures     ///< only what is drawn
+  pictures     ///< drawing only
 };
 Concern concern_of(std::string_view address);
 

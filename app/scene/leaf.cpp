@@ -11,7 +11,7 @@
 namespace neve::app::scene {
 namespace {
 
-/// A number, whole or not, within the bounds; `kind` says what was expected otherwise.
+/// A number, whole or not, within the bounds; `kind` names the expected value in messages.
 double bounded_number(const Leaf& leaf, const std::string& kind) {
   double x = 0;
   if (const auto* i = std::get_if<std::int64_t>(&leaf.value.data)) {

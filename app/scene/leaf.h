@@ -1,5 +1,5 @@
 #pragma once
-/// One parameter's value: from TOML with complaints, to TOML, and what to call its type.
+/// One parameter's value: from TOML with errors, to TOML, and the name of its type.
 
 #include <optional>
 #include <string>

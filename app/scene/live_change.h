@@ -18,7 +18,7 @@ struct LiveChange {
 };
 
 Json to_json(const std::vector<LiveChange>& changes);
-/// @throws std::runtime_error that says what is wrong with the list: no list of step, address and
+/// @throws std::runtime_error that names the error in the list: no list of step, address and
 ///         value, steps that go back, or addresses that cannot change while a simulation runs
 std::vector<LiveChange> live_changes(const Json& json);
 

@@ -146,7 +146,7 @@ toml::Value value_of(const Override& change, const std::string& type) {
   try {
     value = toml::parse_toml("value = " + text, "").entries.at(0).value;
   } catch (const toml::SceneError& error) {
-    // Words need no quotes; what starts like other TOML was meant to be that.
+    // Words need no quotes; text that starts like other TOML is read as such.
     if (!text.empty() && std::string_view("[{\"'").find(text[0]) != std::string_view::npos) {
       change.fail(change.place, error.message, error.hint);
     }
@@ -227,7 +227,7 @@ const toml::Value* value_at(const toml::Table& root, const std::string& address)
 
 namespace {
 
-/// Takes away what the document has there, if anything.
+/// Removes the value that the document has there, if any.
 void remove(toml::Table& root, const Path& path, bool is_in_item) {
   toml::Table* table = &root;
   std::size_t depth = 0;

@@ -29,7 +29,7 @@ Override parse_override(std::string_view argument);
 
 /// Puts the value into the document, creating tables on the way. Later ones win. A preset takes the
 /// place of the numbers that the document has beside it, so presets come first.
-/// @param index  of this override, kept as the location of what it sets
+/// @param index  of this override, kept as the location of the values it sets
 /// @throws UsageError when nothing has this address (with the nearest that has) or the value is
 ///         no TOML
 void apply_override(toml::Table& root, const Override& change, int index);

@@ -16,8 +16,8 @@ struct ParamInfo {
       type;  ///< boolean, number, integer, string, vector, choice, list of choices, size or range
   std::string unit;
   Valid valid;
-  std::vector<std::string> choices;          ///< of choices, what may be written
-  std::optional<toml::Value> default_value;  ///< absent: nothing, the help says what then happens
+  std::vector<std::string> choices;          ///< the values of a choice
+  std::optional<toml::Value> default_value;  ///< absent: no value; the help says what follows
   bool is_live = false;                      ///< may change while a simulation runs
   std::string help;
 };
@@ -25,7 +25,7 @@ struct ParamInfo {
 /// In the order of describe.h.
 std::vector<ParamInfo> params();
 
-/// The parameter that an address such as "material.snow.hardening" means, whatever the names in it.
+/// The parameter that an address such as "material.snow.hardening" means, with any names in it.
 std::optional<ParamInfo> param_at(const std::string& address);
 
 /// Text in aligned columns.

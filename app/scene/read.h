@@ -18,7 +18,7 @@ std::string read_toml_file(const std::string& file);
 Scene read_scene_file(const std::string& file, const std::vector<Override>& overrides = {});
 
 /// @param name      the file in messages
-/// @param base_dir  what the paths of meshes are relative to; "" for the current directory
+/// @param base_dir  folder of relative paths of meshes; "" for the current directory
 Scene read_scene_text(std::string_view text, const std::string& name,
                       const std::string& base_dir = {},
                       const std::vector<Override>& overrides = {});

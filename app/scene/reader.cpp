@@ -182,7 +182,7 @@ std::vector<std::string> Reader::unique_names(const toml::Entry& list) const {
   return names;
 }
 
-/// [[material]] is what who knows [[body]] tries first.
+/// A user who knows [[body]] tries [[material]] first.
 void Reader::require_no_list(const toml::Entry& entry) const {
   if (!std::holds_alternative<toml::Array>(entry.value.data)) return;
   const std::string address = address_of(entry.key);

@@ -105,7 +105,7 @@ struct PictureSize {
   int width = 1280, height = 720;
 };
 
-/// Axes of the plots; resolving a scene fills in what is absent.
+/// Axes of the plots; resolving a scene fills in absent ones.
 struct PlotRanges {
   std::optional<Range> energy;  ///< J
   std::optional<Range> speed;   ///< m/s
@@ -145,7 +145,7 @@ struct Mosaic {
 };
 
 struct Limits {
-  std::uint64_t memory = 0;  ///< bytes; 0: 80 % of what is available
+  std::uint64_t memory = 0;  ///< bytes; 0: 80 % of the available memory
   std::uint64_t particles = 20'000'000;
   std::uint64_t pixels = 64'000'000;
 };

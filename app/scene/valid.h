@@ -17,7 +17,7 @@ struct Valid {
   double max = std::numeric_limits<double>::infinity();
   bool is_min_open = false, is_max_open = false;
   Text text = Text::any;
-  double least_above_0 = 0;  ///< 0 is allowed, what lies between 0 and this is not
+  double least_above_0 = 0;  ///< 0 is allowed, values between 0 and this are not
 
   constexpr Valid below(double x) const { return {min, x, is_min_open, true, text}; }
   constexpr Valid at_most(double x) const { return {min, x, is_min_open, false, text}; }

@@ -1,5 +1,5 @@
 #pragma once
-/// The visitor of describe.h that turns what it visits into a TOML document.
+/// The visitor of describe.h that writes a TOML document.
 
 #include <optional>
 #include <utility>

@@ -19,7 +19,7 @@ using sim::Vec3d;
 constexpr double filled = 0.62;    // share of the picture that the subject takes
 constexpr double spread = 1.7;     // snow of many small cells scatters wider than its coarse copy
 constexpr double outliers = 0.02;  // share of particles that may leave the picture
-constexpr double largest_growth = 16;  // of the subject's size: what falls for ever is let go
+constexpr double largest_growth = 16;  // of the subject's size: snow that falls for ever is let go
 
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
@@ -117,7 +117,7 @@ void add_small_colliders(const scene::Scene& scene, std::vector<Vec3d>& points) 
     const bool is_near = ((bounds.min - margin).array() <= snow.max.array()).all() &&
                          ((bounds.max + margin).array() >= snow.min.array()).all();
     if (!is_near || (bounds.max - bounds.min).norm() > 1.5 * snow.diagonal()) continue;
-    // Half way to the corners: about what a sphere in the box fills.
+    // Half way to the corners: about the extent of a sphere in the box.
     const Vec3d center = 0.5 * (bounds.min + bounds.max), half = 0.4 * (bounds.max - bounds.min);
     for (const Vec3d& corner : corners(center - half, center + half)) points.push_back(corner);
   }
@@ -189,8 +189,8 @@ std::vector<Vec3d> turned_backwards(const std::vector<Vec3d>& points, const Lens
   return seen;
 }
 
-/// Moves the target to the middle of what is seen and the eye back until it fits. While the camera
-/// turns, the target stays above or below the middle of the points.
+/// Moves the target to the middle of the visible subject and the eye back until it fits. While the
+/// camera turns, the target stays above or below the middle of the points.
 Framing fit(const std::vector<Vec3d>& points, const Vec3d& middle, const Vec3d& towards_eye,
             const Lens& lens) {
   Vec3d right = lens.up.cross(towards_eye);

@@ -48,7 +48,7 @@ double own_speed(const sim::shapes::Shape& shape) {
   return sim::shapes::summary_of(*points, sim::rotation_from_degrees(shape.rotation)).max_speed;
 }
 
-/// Speed of snow when it meets what is below it, or at the end of the scene when nothing is.
+/// Speed of snow when it meets the surface below it, or at the end of the scene when nothing is.
 double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
   const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
   const double radius = 0.5 * (box.max - box.min).norm();

@@ -5,12 +5,12 @@
 
 namespace neve::app::setup {
 
-/// Round numbers that hold what the attribute usually does in this scene; never what was drawn.
+/// Round numbers around the usual values of the attribute in this scene, not those of a frame.
 /// @param particle_count of the whole scene
 scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
                              std::size_t particle_count);
 
-/// m/s: speed of the quickest body when it meets what is below it, or at the end of the scene.
+/// m/s: speed of the quickest body when it meets the surface below it, or at the end of the scene.
 double impact_speed(const scene::Scene& scene);
 
 /// Automatic range of a field on nodes.
@@ -18,7 +18,7 @@ scene::Range automatic_range(const scene::Scene& scene, scene::ScalarField field
 scene::Range automatic_range(const scene::Scene& scene,
                              scene::VectorField field);  ///< of its magnitude
 
-/// Kinetic energy of all bodies when they meet what is below them, J.
+/// Kinetic energy of all bodies when they meet the surface below them, J.
 double energy_of_impact(const scene::Scene& scene);
 
 /// Particle attribute that makes a field of nodes.

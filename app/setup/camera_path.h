@@ -13,7 +13,7 @@ struct CameraPlace {
 /// Each coordinate and the angle of view pass through the keyframes on monotone cubics, at rest at
 /// the first and the last: nothing swings beyond a keyframe, and two equal ones hold the camera
 /// still. Then the eye is turned around the target.
-/// @param settings resolved: whatever a keyframe leaves out is there
+/// @param settings resolved: values that keyframes leave out are filled in
 /// @param duration s, of the whole scene
 CameraPlace camera_at(const scene::CameraSettings& settings, double time, double duration);
 

@@ -14,8 +14,7 @@ namespace {
 constexpr double particles_wanted = 250;
 constexpr double work_budget = 1.6e6;  // steps x particles, a fraction of a second
 constexpr int moments = 24;
-constexpr double max_sound_speed =
-    45;  // m/s at rest: what is stiffer moves the same, in more steps
+constexpr double max_sound_speed = 45;  // m/s at rest: stiffer snow moves the same, in more steps
 
 /// Replacement for the scene's snow in a coarse run.
 enum class Substitute {

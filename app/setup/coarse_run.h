@@ -17,7 +17,7 @@ struct Moment {
 double planned_particles(const scene::Scene& scene);
 
 /// Some hundred particles over the whole scene, or as long as a fixed budget of steps times
-/// particles lasts: what comes out depends on the scene alone, never on the machine.
+/// particles lasts: the result depends on the scene alone, never on the machine.
 std::vector<Moment> coarse_run(const scene::Scene& scene);
 
 }  // namespace neve::app::setup

@@ -28,7 +28,7 @@ struct Plan {
   std::uint64_t memory_limit = 0;  ///< bytes
   double largest_picture = 0;      ///< pixels, supersamples included
   FrameRange frames;
-  double volume = 0;  ///< m3 of all bodies and of what is emitted
+  double volume = 0;  ///< m3 of all bodies and of emitted snow
 };
 
 int supersampling(Quality quality);

@@ -41,7 +41,7 @@ bool needs_shared_camera(const scene::Scene& scene) {
   return is_used && !has_place(scene.camera.value_or(scene::CameraSettings{}));
 }
 
-/// The plane goes through the middle of what the snow comes from.
+/// The plane goes through the middle of the bodies and emitters.
 sim::Vec3d middle_of_snow(const scene::Scene& scene) {
   const std::vector<SnowPiece> pieces = snow_places(scene);
   sim::shapes::Bounds all = sim::shapes::bounds(*pieces.front().shape);

@@ -1,5 +1,5 @@
 #pragma once
-/// Fills in what a scene leaves to the program, so that the scene alone makes the picture again.
+/// Fills in the automatic values of a scene, so that the scene alone makes the picture again.
 
 #include "app/scene/scene.h"
 #include "app/setup/coarse_run.h"

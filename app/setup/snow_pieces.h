@@ -22,7 +22,7 @@ struct SnowPiece {
 /// @throws sim::ShapeError for files that cannot be read
 std::vector<SnowPiece> snow_pieces(const scene::Scene& scene);
 
-/// The same without what a file has to be read for: volume, particles and mass stay 0.
+/// The same without the values that need a file to be read: volume, particles and mass stay 0.
 std::vector<SnowPiece> snow_places(const scene::Scene& scene);
 
 /// Particles of all emitters until a time, s.

@@ -31,7 +31,7 @@ struct Error : std::runtime_error {
         hint(std::move(advice)) {}
   int code;
   std::string where;  ///< file or address concerned, may be empty
-  std::string hint;   ///< what to try, may be empty
+  std::string hint;   ///< advice, may be empty
 };
 
 /// A file that could not be read or written.

@@ -14,7 +14,7 @@ std::uint64_t available_memory();
 /// Bytes of address space that this process may use (ulimit -v); the largest number when unlimited.
 std::uint64_t address_space_limit();
 
-/// "AMD EPYC, 2 cores; GCC 12.2.0": what a measurement depends on.
+/// "AMD EPYC, 2 cores; GCC 12.2.0": the circumstances of a measurement.
 std::string machine_text();
 
 /// The file of the running program. @throws IoError

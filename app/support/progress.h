@@ -32,7 +32,7 @@ class WorkClock {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// @param done so far, of the same unit as what is left
+  /// @param done so far, of the same unit as the rest
   void note(double done, Clock::time_point now = Clock::now());
   /// Over a trailing window; negative: not known yet. @param left units
   double seconds_for(double left) const;

@@ -16,7 +16,7 @@ struct ViewOptions {
   bool is_running = false;                 ///< from the start
   std::string replay, record;              ///< files of scripts
   int pictures = 0;                        ///< ends after so many; 0: never
-  std::uint64_t kept_memory = 0;           ///< bytes for kept frames; 0: a quarter of what is free
+  std::uint64_t kept_memory = 0;  ///< bytes for kept frames; 0: a quarter of the free memory
 };
 
 }  // namespace neve::app::view

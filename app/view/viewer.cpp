@@ -176,7 +176,7 @@ void Viewer::draw() {
   play(passed);
   const panels::Orbit camera_before = state_.orbit;
   lay_out();
-  // Panels are laid out and used first: what they change is in this picture already.
+  // Panels are laid out and used first: their changes are in this picture already.
   screen_.begin(size.width, size.height, font_size(), static_cast<float>(passed));
   draw_panels();
   if (!(camera_before == state_.orbit)) {

@@ -93,7 +93,7 @@ class Viewer {
   std::optional<PictureKey> painted_;  ///< empty: another picture is on the screen
   render::Points
       points_;  ///< of the last picture: the next has the same while only the camera moves
-  std::optional<StateKey> points_of_;  ///< what they belong to
+  std::optional<StateKey> points_of_;  ///< the state that they belong to
   double scale_ = 1;                   ///< of the picture last painted
   double full_seconds_ = 0;            ///< that a picture of full size takes
   Clock::time_point moved_at_{};

@@ -120,7 +120,7 @@ NEVE_INLINE V from_half(MaskOf<V> h) {
   return reinterpret_cast<V>(bits | sign);
 }
 
-/// Takes in the samples that are nearer than what the tile has.
+/// Takes in the samples that are nearer than those of the tile.
 template <class V>
 NEVE_INLINE void solid_tile_lanes(const SolidJob& job, light::GBufferTile& tile) {
   using I = MaskOf<V>;

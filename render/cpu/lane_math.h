@@ -45,7 +45,7 @@ NEVE_INLINE Points3<V> choose(MaskOf<V> first, const Points3<V>& a, const Points
   return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
 
-/// Within [low, high]; what is not a number becomes low.
+/// Within [low, high]; NaN becomes low.
 template <class V>
 NEVE_INLINE V clamp_lanes(V x, float low, float high) {
   const V raised = x > all<V>(low) ? x : all<V>(low);
@@ -141,7 +141,7 @@ template <class V>
 NEVE_INLINE V byte_share(MaskOf<V> word, int byte) {
   return __builtin_convertvector(word >> (8 * byte) & 0xff, V) * (1.0f / 255);
 }
-/// Numbers from 0 to 1 as bytes, rounded; what is beyond is cut off.
+/// Numbers from 0 to 1 as bytes, rounded; values beyond are clamped.
 template <class V>
 NEVE_INLINE MaskOf<V> to_byte(V x) {
   return __builtin_convertvector(unit_lanes(x) * 255.0f + 0.5f, MaskOf<V>);

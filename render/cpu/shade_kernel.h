@@ -122,7 +122,7 @@ NEVE_INLINE Points3<V> surface_light(const ShadeJob& job, const RowPart<V>& part
   return color;
 }
 
-/// Colour and cover of what is behind the smoke.
+/// Colour and cover of the surface behind the smoke.
 template <class V>
 struct Covered {
   Points3<V> color;

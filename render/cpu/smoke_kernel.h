@@ -1,6 +1,6 @@
 #pragma once
-/// Marches from the eye through smoke up to what the G-buffer shows: shaders/smoke.frag. Rays go
-/// one after another; lanes are the four channels of two texels side by side.
+/// Marches from the eye through smoke up to the surface in the G-buffer: shaders/smoke.frag. Rays
+/// go one after another; lanes are the four channels of two texels side by side.
 
 #include "render/cpu/lane_math.h"
 #include "render/light/shading_constants.h"
@@ -84,7 +84,7 @@ NEVE_INLINE void clip_to_box(const light::SmokeJob& job, Vec3f ray, float& z, fl
   }
 }
 
-/// A ray on its way; u and what goes with it in texels.
+/// A ray on its way; u and derived values in texels.
 struct March {
   Vec3f origin, ray;   ///< of texel 0, and per m along the view
   Vec3f per_texel;     ///< m along the view
@@ -253,11 +253,10 @@ NEVE_INLINE void march_ray(const light::SmokeJob& job, int x, int y) {
     march.extinction = job.extinction * per_z;
     const MarchResult result = march_through<V>(job, march);
     sums = result.sums;
-    if (!job.colormap)
-      sums = Channels{sums[1], sums[2], sums[3], 0};  // the first is what was taken
+    if (!job.colormap) sums = Channels{sums[1], sums[2], sums[3], 0};  // the first is the opacity
     float alpha = 1 - result.left;
     if (result.left <= light::march_opaque) {
-      sums = sums * (1 / alpha);  // what a march cut short left out
+      sums = sums * (1 / alpha);  // the rest of a march cut short
       alpha = 1;
       depth = smaller(depth, result.z);
     }

@@ -67,7 +67,7 @@ NEVE_INLINE void project_lanes(const ProjectJob& job, int first, int count) {
   const V Q = all<V>(1) + slope_x * slope_x + slope_y * slope_y;
   const V outside = Q - ratio * ratio;
 
-  // Comparisons also turn away what is not a number. A sphere around the eye is left out.
+  // Comparisons also turn away NaN. A sphere around the eye is left out.
   const V distance2 = p.x * p.x + p.y * p.y + p.z * p.z;
   I is_seen = (z > all<V>(view.near_distance)) & (z < all<V>(1e30f)) & (Q < all<V>(1e30f)) &
               (distance2 >= all<V>(1.1f * view.radius * view.radius)) & (outside > all<V>(0));

@@ -1,7 +1,7 @@
 #pragma once
-/// Draws and lights what is solid on the CPU, tile by tile: the picture of ParticlePass, GroundPass
-/// and ShadePass, where OpenGL runs on the CPU too and is slower at it. A tile is drawn, finished
-/// and lit while it is in the cache. Depends neither on the number of threads nor on the
+/// Draws and lights solid surfaces on the CPU, tile by tile: the picture of ParticlePass,
+/// GroundPass and ShadePass, where OpenGL runs on the CPU too and is slower at it. A tile is drawn,
+/// finished and lit while it is in the cache. Depends neither on the number of threads nor on the
 /// instruction set.
 
 #include <cstdint>
@@ -39,7 +39,7 @@ class Surfaces {
   void set_solids(const SolidSamples* solids) { solids_ = solids; }
 
   /// Draws all tiles and keeps them, in three steps, for who has to know depths before the light or
-  /// wants to know what each step takes. Without: tile by tile while lighting.
+  /// wants to time each step. Without: tile by tile while lighting.
   void keep_points();
   void keep_grounds();
   void keep_solids();

@@ -13,7 +13,7 @@ struct Tile {
   Image image;
 };
 
-/// A plain RGB picture with the tiles on it, later ones over earlier ones; what reaches beyond it
+/// A plain RGB picture with the tiles on it, later ones over earlier ones; parts beyond it
 /// is cut off. Alpha of a tile shows the plain colour.
 /// @param color sRGB
 Image compose(int width, int height, std::array<std::uint8_t, 3> color,

@@ -46,7 +46,7 @@ struct Smoke {
   std::vector<float> density;                ///< kg/m3, 0 and more
   std::vector<float> value;                  ///< empty: white
   float full_density = 400;                  ///< kg/m3, density of packed snow
-  float density_scale = 1;                   ///< opacity, as a factor of what packed snow has
+  float density_scale = 1;                   ///< opacity, as a factor of that of packed snow
   int samples_per_ray = 0;  ///< 1 to 4, along each axis: 1 is exact, 4 is quick; 0: at least 2, as
                             ///< many as still give every node several rays
   ColorMap colormap = ColorMap::viridis;
@@ -73,7 +73,7 @@ struct HeatMap {
   float range_min = 0, range_max = 1;
 };
 
-/// Straight lines of one colour and width, hidden by what is before them.
+/// Straight lines of one colour and width, hidden by objects before them.
 struct Lines {
   std::vector<Vec3f> ends;          ///< two per line, m
   Vec3f color{0.75f, 0.8f, 0.85f};  ///< sRGB
@@ -126,7 +126,7 @@ struct PlotSeries {
   float bar_width = 0;                               ///< s
 };
 
-/// A panel of curves over the time of the whole scene; what is later than `now` is not there yet.
+/// A panel of curves over the time of the whole scene; values later than `now` are not drawn.
 struct Plot {
   std::string title;            ///< "energy"
   std::string unit;             ///< "J", may be empty

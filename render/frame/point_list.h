@@ -1,5 +1,5 @@
 #pragma once
-/// Turns the points of a frame into what the particle pass uploads.
+/// Turns the points of a frame into the buffer that the particle pass uploads.
 
 #include <array>
 #include <cstdint>
@@ -42,10 +42,10 @@ class PointColors {
   const Points& points_;
 };
 
-/// Leaves out what lies outside the picture, behind the eye, or is not a finite position.
+/// Leaves out points outside the picture, behind the eye, or at no finite position.
 /// @param max_point_size largest point of the driver, pixels
-/// @param leave_out_hidden also leaves out what nearer spheres cover: the picture stays the same;
-/// pays where fragments are drawn on the CPU
+/// @param leave_out_hidden also leaves out spheres that nearer ones cover: the picture stays the
+/// same; pays where fragments are drawn on the CPU
 PointList list_points(const Points& points, const View& view, float max_point_size,
                       bool leave_out_hidden);
 

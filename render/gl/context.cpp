@@ -30,7 +30,7 @@ std::vector<Backend> chosen_backends(const std::string& choice) {
   throw std::invalid_argument("unknown backend \"" + choice + "\"; expected one of " + valid);
 }
 
-/// Keeps what was learnt about a backend; the context itself stays with the caller.
+/// Keeps the description of a backend; the context itself stays with the caller.
 Attempt attempt_of(const Backend& backend, const Opened& opened) {
   Attempt attempt;
   attempt.backend = backend.name;

@@ -31,7 +31,7 @@ struct Attempt {
   std::string install;  ///< packages that would help
 };
 
-/// No backend worked; what() lists what was tried and why each failed. Exit code 4.
+/// No backend worked; what() lists the attempts and why each failed. Exit code 4.
 struct ContextError : std::runtime_error {
   ContextError(const std::string& message, std::vector<Attempt> all)
       : std::runtime_error(message), attempts(std::move(all)) {}

@@ -15,7 +15,7 @@ struct PngChunk {
   std::size_t end = 0;  ///< offset of the first byte after the chunk
 };
 
-/// All chunks from IHDR to IEND; what follows IEND is ignored.
+/// All chunks from IHDR to IEND; bytes after IEND are ignored.
 /// @throws ImageError when the signature, a length or a checksum is wrong or IEND is missing
 std::vector<PngChunk> read_png_chunks(std::span<const std::uint8_t> bytes);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Part of a G-buffer on the CPU, in the order that lanes read it: what shaders/gbuffer.glsl has in
-/// textures. Plain data, for kernels.
+/// Part of a G-buffer on the CPU, in the order that lanes read it: the content of
+/// shaders/gbuffer.glsl in textures. Plain data, for kernels.
 
 namespace neve::render::light {
 

@@ -13,7 +13,7 @@ constexpr float weight_one = 4096;
 
 void add_point(const LightGrid& grid, Vec3f p, std::vector<std::uint32_t>& sums) {
   const Vec3f x = (p - grid.origin) / grid.cell - Vec3f{0.5f, 0.5f, 0.5f};
-  // The negation also turns away what is not a number.
+  // The negation also turns away NaN.
   if (!(x.x >= 0 && x.y >= 0 && x.z >= 0 && x.x < static_cast<float>(grid.size.x - 1) &&
         x.y < static_cast<float>(grid.size.y - 1) && x.z < static_cast<float>(grid.size.z - 1)))
     return;
@@ -128,7 +128,7 @@ void add_smoke(const SmokeGrid& smoke, const LightGrid& grid, ThreadPool* pool,
   const std::vector<Between> xs = between_texels(smoke, grid, 0),
                              ys = between_texels(smoke, grid, 1),
                              zs = between_texels(smoke, grid, 2);
-  // Cells of 0.8 node spacings are what the extinction of a full cell is meant for.
+  // Cells of 0.8 node spacings are the cells that the extinction is defined for.
   const float thickness = grid.cell / (smoke_spacings_per_cell * smoke.node_spacing);
   const std::size_t row = static_cast<std::size_t>(smoke.size.x),
                     slice = row * static_cast<std::size_t>(smoke.size.y);

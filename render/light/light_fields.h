@@ -42,7 +42,7 @@ void blur(const LightGrid& grid, ThreadPool* pool, LightBuffers& buffers);
 
 /// Part of the light from a direction that reaches each cell through the others.
 /// @param toward_light unit vector
-/// @param extinction what one cell of full thickness takes away (1/e at 1), per cell
+/// @param extinction of one cell of full thickness (1/e is left at 1), per cell
 /// @param light resized to the cells of the grid
 void sweep_light(const std::vector<float>& extinction, const LightGrid& grid, Vec3f toward_light,
                  std::vector<float>& light);

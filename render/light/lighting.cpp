@@ -21,7 +21,7 @@ constexpr float key_extinction = 0.55f, sky_extinction = 0.36f, solid_extinction
 constexpr std::array<Vec3f, 4> sky_directions = {
     {{0.01f, 0.9999f, 0.01f}, {0.8f, 0.6f, 0}, {-0.4f, 0.6f, 0.693f}, {-0.4f, 0.6f, -0.693f}}};
 
-/// One slice of what takes light away from the key light and from the sky.
+/// One slice of the extinction of the key light and of the sky.
 void fill_extinction(const std::vector<float>& solid, std::size_t begin, std::size_t end,
                      LightBuffers& buffers) {
   for (std::size_t i = begin; i < end; ++i) {

@@ -20,7 +20,7 @@ struct NodeBox {
 struct Blocks {
   std::vector<float> opacity;  ///< per node
   std::vector<int> seen;       ///< blocks with something to see
-  std::vector<NodeBox> box;    ///< of what is seen, for each of those
+  std::vector<NodeBox> box;    ///< of the visible smoke, for each of those
 };
 
 Vec3i node_of(Vec3i block, int node) {
@@ -64,7 +64,7 @@ Blocks look_at_blocks(const Smoke& smoke, ThreadPool* pool) {
   return blocks;
 }
 
-/// Texels along an axis: what nodes from low to high need, and an empty one at each end.
+/// Texels along an axis: those of the nodes from low to high, and an empty one at each end.
 std::int64_t texels_along(std::int64_t low, std::int64_t high, int nodes_per_texel) {
   return (high - low) / nodes_per_texel + 3;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The opacity of smoke on one box of texels: what the blocks of a node lattice become before light
+/// The opacity of smoke on one box of texels: the blocks of a node lattice before light
 /// falls on them and rays march through them. A function of the smoke alone.
 
 #include <vector>
@@ -35,7 +35,7 @@ struct SmokeGrid {
 inline constexpr int max_smoke_texels = 1 << 22, max_smoke_side = 256;
 
 /// Opacity that a density is drawn with: less than proportional, so that powder shows.
-/// @param share density over that of packed snow; what is not positive and finite has none
+/// @param share density over that of packed snow; values that are not positive and finite have none
 float smoke_opacity(float share);
 
 /// Empty where there is nothing to see. @param pool may be null

@@ -59,7 +59,7 @@ class LightReader {
   const LightVolume& volume_;
 };
 
-/// Light that leaves a texel towards the eye, as fractions of what falls on open smoke.
+/// Light that leaves a texel towards the eye, as fractions of the light on open smoke.
 struct Glow {
   float key, sky, inside;
 };

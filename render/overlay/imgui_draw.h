@@ -1,5 +1,5 @@
 #pragma once
-/// Dear ImGui on our own function table: fonts, and drawing of what ImGui produced. Its packaged
+/// Dear ImGui on our own function table: fonts, and drawing of its draw lists. Its packaged
 /// OpenGL backend loads its functions through libGL and fails under OSMesa.
 
 #include <imgui.h>

@@ -16,7 +16,7 @@ class OverlayPass {
   void draw(const Frame& frame, const View& view);
 
  private:
-  /// @return left edge of what was drawn, pixels
+  /// @return left edge of the drawing, pixels
   float draw_legends(const Frame& frame) const;
   void draw_caption(const Frame& frame, float right_limit) const;
   void draw_footnote(const Frame& frame, float left, float right) const;

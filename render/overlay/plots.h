@@ -10,7 +10,7 @@ namespace neve::render::overlay {
 /// One below the other over a common time axis. A picture too small for all of them shows the
 /// first ones. To be called between ImGuiDraw::begin and end.
 /// @param right_limit pixels; where something else begins
-/// @return right edge of what was drawn, pixels; 0: nothing was
+/// @return right edge of the drawing, pixels; 0: nothing drawn
 float draw_plots(const Frame& frame, const ImFont& font, float right_limit);
 
 }  // namespace neve::render::overlay

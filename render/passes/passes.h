@@ -13,7 +13,7 @@
 
 namespace neve::render::passes {
 
-/// For what is laid over the shaded picture: hidden by what is before it, blended by its alpha.
+/// For layers over the shaded picture: hidden by nearer surfaces, blended by their alpha.
 void set_blended_state(const gl::Gl& gl);
 
 /// Spheres; see shaders/particles.vert.

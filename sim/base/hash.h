@@ -1,5 +1,5 @@
 #pragma once
-/// Integer hashing: random numbers keyed by what they are for, and order-free state hashes.
+/// Integer hashing: random numbers keyed by their purpose, and order-free state hashes.
 
 #include <cstdint>
 #include <cstring>

@@ -190,8 +190,8 @@ NEVE_INLINE V exponential_lanes(V x) {
   constexpr bool is_float = sizeof(Real) == 4;
   constexpr Real most = is_float ? Real(80) : Real(700);
   x = smaller_lanes(larger_lanes(x, all<V>(-most)), all<V>(most));
-  // Rounding to the nearest whole number by adding what pushes the fraction out of the mantissa;
-  // the whole number then is what is left in the lowest bits.
+  // Rounding to the nearest whole number by adding a number that pushes the fraction out of the
+  // mantissa; the whole number is then in the lowest bits.
   const V shift = all<V>(is_float ? Real(12582912.0) : Real(6755399441055744.0));
   const V shifted = fused(x, all<V>(Real(1.4426950408889634)), shift);
   const V k = shifted - shift;

@@ -15,7 +15,7 @@ struct SelfTestResult {
   std::string name;  ///< one word or a few, for scripts: weights, affine_field, ...
   std::string what;  ///< claim under test, for the user
   bool passed = true;
-  std::string detail;  ///< what was asked, the worst value found, what is allowed, and where
+  std::string detail;  ///< the claim, the worst value found, the tolerance, and the place
 };
 
 /// One way to run the step.
@@ -29,7 +29,7 @@ struct SelfTestCase {
 std::vector<SelfTestCase> all_self_test_cases();
 
 /// The tests, each over all cases; always the same list in the same order. Never throws for wrong
-/// physics: what cannot be computed has failed.
+/// physics: a test that cannot be computed has failed.
 std::vector<SelfTestResult> self_tests(std::span<const SelfTestCase> cases);
 
 }  // namespace neve::sim::checks

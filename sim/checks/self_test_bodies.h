@@ -32,15 +32,15 @@ class Numbers {
   std::uint64_t state_;
 };
 
-/// Particles so far apart that none shares a node with another: what a node has is of one particle.
-/// At rest, with given volumes and F_E = I.
+/// Particles so far apart that none shares a node with another: a node has the data of one
+/// particle. At rest, with given volumes and F_E = I.
 ParticleArrays isolated_particles(int count);
 
 /// The isolated particle that a node belongs to.
 std::size_t owner(const Vec3i& node);
 
 /// Two interleaved lattices of spacing h around the origin. B-splines on such a lattice reproduce
-/// linear functions, so that in its middle the grid's velocity is exactly what the particles have.
+/// linear functions, so that in its middle the grid's velocity is exactly that of the particles.
 ParticleArrays even_lattice();
 /// True if every node around x is surrounded by the lattice.
 bool is_deep_inside(const Vec3d& x);
@@ -62,7 +62,7 @@ inline Vec3d place(const Vec3i& node) {
   return node.cast<double>() * self_test::cell_size;
 }
 
-/// Force on each node as it is felt: what changed the grid's velocity, without gravity, N.
+/// Effective force on each node: from the change of the grid's velocity, without gravity, N.
 std::vector<Vec3d> felt_forces(const StagedStep& step, double dt);
 
 /// Kirchhoff stress of isolated particles as nodes feel it: -sum f_i (x_i - x_p)^T / V0, Pa.

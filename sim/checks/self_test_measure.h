@@ -19,7 +19,7 @@ inline constexpr self_test::Tolerance rounding{1e-11, 2e-5};
 /// good to 1e-6, and random ones cancel in part.
 inline constexpr self_test::Tolerance differences{1e-6, 2e-4};
 
-/// The largest entry, whatever its sign.
+/// The entry of largest magnitude.
 inline double largest(const Mat3d& m) {
   return m.cwiseAbs().maxCoeff();
 }
@@ -36,7 +36,7 @@ class Measure {
   /// Something that could not be computed.
   void failure(const std::string& message);
 
-  /// Ratio to what is allowed; negative where nothing was measured.
+  /// Ratio to the tolerance; negative where nothing was measured.
   double worst() const { return worst_; }
   const std::string& detail() const { return detail_; }
 

@@ -10,7 +10,7 @@ namespace neve::sim::files {
 
 /// The bytes of a regular file, not allocated before its size is known to be allowed.
 /// @param max_mebibytes  larger files are refused
-/// @param whats  what messages call files of this kind: "meshes"
+/// @param whats  name of files of this kind in messages: "meshes"
 /// @throws ShapeError with the path in front
 std::string read_input_file(const std::string& path, std::uintmax_t max_mebibytes,
                             const std::string& whats);

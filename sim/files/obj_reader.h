@@ -28,7 +28,7 @@ struct PolygonMesh {
 
 /// Reads `v` and `f` (index forms v, v/vt, v//vn, v/vt/vn, negative ones count back from the last
 /// vertex), lines continued by a backslash; everything else is ignored. Independent of the locale.
-/// @param name what messages call the text: name:line: ...
+/// @param name of the text in messages: name:line: ...
 /// @throws ShapeError for malformed numbers, bad indices, polygons of less than three corners and
 ///         files without any
 PolygonMesh parse_obj(std::string_view text, const std::string& name);

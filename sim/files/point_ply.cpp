@@ -1,5 +1,5 @@
 // An own reader rather than RPly (Debian's librply), which reads numbers of ascii files by the
-// locale, tells neither the line nor the file of what is wrong, and takes values that are missing
+// locale, tells neither the line nor the file of an error, and takes values that are missing
 // from the next line; happly and miniply are no packages. Only a table of single numbers is read.
 #include <algorithm>
 #include <bit>

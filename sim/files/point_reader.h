@@ -17,11 +17,11 @@ struct PointCloud {
   std::vector<double> V;  ///< m3, > 0
 };
 
-/// Columns are found by name, whatever their order, case and punctuation: position x y z, or with
+/// Columns are found by name, in any order, case and punctuation: position x y z, or with
 /// p, pos, position before the axis, or Points:0 to 2; velocity vx vy vz, or with vel, velocity;
 /// mass m or mass; volume vol, volume or V0. Others are passed over. Independent of the locale.
-/// @param name what messages call the text, NAME:LINE: ...; of binary points NAME: point NUMBER
-/// @throws ShapeError for what is neither PLY nor CSV, without positions, with a part of a vector
+/// @param name of the text in messages, NAME:LINE: ...; of binary points NAME: point NUMBER
+/// @throws ShapeError for text neither PLY nor CSV, without positions, with a part of a vector
 ///         only or one column twice, truncated, with numbers that are missing, not finite or out of
 ///         range (|x| <= 1e6 m, |v| <= 1e6 m/s, mass and volume above 0 and up to 1e12), or without
 ///         points. Counts in a file are compared with its length before anything is allocated.

@@ -1,5 +1,5 @@
 #pragma once
-/// A table of numbers in a file as points: which columns are what, and what values they may have.
+/// A table of numbers in a file as points: the meaning of its columns, and their allowed values.
 
 #include <array>
 #include <functional>

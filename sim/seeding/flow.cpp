@@ -113,7 +113,7 @@ void EmitterStream::advance_to(double time, std::vector<Birth>& births) {
   }
 }
 
-/// Not before its time: what never opens costs nothing, and what was born is not kept.
+/// Not before its time: a closed emitter costs nothing, and births are not kept.
 void EmitterStream::fill_whole(double age, std::vector<Birth>& births) {
   const double spacing = std::cbrt(V0_);
   std::vector<Vec3d> places = sample_jittered(solid_, spacing, key_);
@@ -162,7 +162,7 @@ Birth EmitterStream::born_at(const Vec3d& local, double age) const {
   Birth birth;
   birth.v = emitter_.velocity + emitter_.angular_velocity.cross(arm);
   birth.x = solid_.center() + arm + age * birth.v;
-  // The pattern comes out with the snow: what was born earlier has moved on by the velocity.
+  // The pattern comes out with the snow: earlier births have moved on by the velocity.
   const double time = emitter_.rate == 0 ? 0
                                          : static_cast<double>(state_.born) * material_.density *
                                                V0_ / emitter_.rate;

@@ -34,7 +34,7 @@ struct Sink {
 };
 
 /// All that comes and goes. Places of births are keyed by seed, emitter and number, and times by
-/// number alone: the same snow whatever the steps.
+/// number alone: the same snow for any steps.
 struct Flow {
   std::vector<Emitter> emitters;
   std::vector<Sink> sinks;

@@ -1,5 +1,5 @@
 #pragma once
-/// The blocks of a lattice that a solid reaches, so that samplers skip what is far outside.
+/// The blocks of a lattice that a solid reaches, so that samplers skip the others.
 
 #include <array>
 #include <cstdint>

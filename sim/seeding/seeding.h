@@ -49,7 +49,7 @@ double expected_particles(const Body& body, double cell_size);
 /// The particles of one body in metres, in a frame that depends on nothing but the body.
 struct SeededBody {
   std::vector<Vec3d> x;
-  Vec3d center;       ///< what angular_velocity turns about
+  Vec3d center;       ///< of angular_velocity
   double volume = 0;  ///< m3, of the whole body
   // For points only, each empty or as long as x.
   std::vector<Vec3d> v;   ///< m/s, of the file; the body's velocity comes on top
@@ -60,8 +60,8 @@ struct SeededBody {
 /// Smallest distance in metres between two particles of poisson sampling.
 double poisson_distance(double particles_per_cell, double cell_size);
 
-/// Points keep the places in their file, whatever sampling and particles_per_cell. Other shapes are
-/// filled. Jittered: one random point in every sub-cell of edge cell_size /
+/// Points keep the places in their file and ignore sampling and particles_per_cell. Other shapes
+/// are filled. Jittered: one random point in every sub-cell of edge cell_size /
 /// cbrt(particles_per_cell). Poisson: random points no closer than poisson_distance. Lattice: a
 /// regular grid with the shape's bounds in its middle. Neighbours in the list are near each other
 /// in space.

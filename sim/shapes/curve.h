@@ -1,6 +1,6 @@
 #pragma once
-/// Monotone curves through values at increasing times: what keyframes of cameras and colliders run
-/// on.
+/// Monotone curves through values at increasing times: the motion by keyframes of cameras and
+/// colliders.
 
 #include <cstddef>
 #include <vector>

@@ -2,10 +2,10 @@
 /// Signed distances of a mesh on a dense lattice, for the solver's kernels.
 ///
 /// Dense, and no narrow band, and not OpenVDB: a lane wants the eight samples around its place by
-/// one index and no search through a tree; what is deep in a press or a boot must still find its
+/// one index and no search through a tree; points deep in a press or a boot must still find their
 /// way out, which a band says nothing about; and the lattice of an obstacle is small (a boot of 30
 /// cells takes 2 MB). OpenVDB (Debian: libopenvdb-dev, 200 MB with TBB, Boost, Blosc and Imath)
-/// would bring its own tree, its own threads and an accessor per lane for what is one array here.
+/// would bring its own tree, its own threads and an accessor per lane instead of one array.
 
 #include <memory>
 
@@ -22,7 +22,7 @@ class DistanceField {
 
   /// Exact distances at the samples, the sign by the winding number. The bits do not depend on the
   /// number of threads.
-  /// @param name  what messages call the mesh
+  /// @param name  of the mesh in messages
   /// @throws ShapeError if the samples would be too many, or no sample is inside
   DistanceField(const MeshSurface& surface, const std::string& name, double spacing,
                 ThreadPool& pool);

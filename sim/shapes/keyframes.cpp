@@ -41,7 +41,7 @@ class Attitudes {
     const std::size_t k = place_.next - 1;
     const Quat start = at(k), end = at(k + 1);
     // Three turns one after the other, in the axes of the thing: those at the ends give the angular
-    // velocities there, the middle one what is missing.
+    // velocities there, the middle one the rest.
     const Vec3d first = spin(k) * (place_.span / 3), last = spin(k + 1) * (place_.span / 3);
     const Vec3d middle =
         rotation_vector(turned_by(-first) * start.conjugate() * end * turned_by(-last));

@@ -31,7 +31,7 @@ struct RigidMotion {
 /// scheme for unit quaternion curves with simple high order derivatives, SIGGRAPH 1995, section 5
 /// (Hermite curves).
 /// @param keyframes  times increase; at least one
-/// @param position, degrees  of the shape, for what keyframes leave out
+/// @param position, degrees  of the shape, for values that keyframes leave out
 /// Check: Keyframes.VelocitiesAreTheDerivativesOfThePose
 RigidMotion motion_at(const std::vector<PoseKeyframe>& keyframes, const Vec3d& position,
                       const Vec3d& degrees, double time);

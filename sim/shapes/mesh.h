@@ -1,5 +1,5 @@
 #pragma once
-/// Closed polyhedra: what makes a mesh a solid, and its volume.
+/// Closed polyhedra: the conditions for a mesh to be a solid, and its volume.
 
 #include <array>
 #include <cstdint>
@@ -25,8 +25,8 @@ Bounds bounds_of(const ClosedMesh& mesh, const Mat3d& rotation = Mat3d::Identity
 /// Welds vertices at the very same position, checks that every edge lies between exactly two faces
 /// that agree about the outside, splits the polygons into fans, and turns the mesh inside out if
 /// its volume is negative. The mesh may intersect itself.
-/// @param name what messages call the mesh
-/// @throws ShapeError naming what is wrong, how often, where first (coordinates, face, line) and
+/// @param name of the mesh in messages
+/// @throws ShapeError naming the defect, how often, where first (coordinates, face, line) and
 ///         what to do; also for a volume that is not finite, or 0 within rounding
 ClosedMesh close_mesh(const files::PolygonMesh& mesh, const std::string& name);
 

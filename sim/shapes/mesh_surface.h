@@ -21,7 +21,7 @@ class MeshSurface {
   const ClosedMesh& mesh() const { return mesh_; }
   const Bounds& bounds() const { return bounds_; }  ///< tight
 
-  /// Exact, m; at most `most` where that is given: what is further is `most`.
+  /// Exact, m; at most `most` if given: larger distances are `most`.
   double distance(const Vec3d& y, double most = INFINITY) const;
   /// By the winding number, as bodies are filled.
   bool contains(const Vec3d& y) const { return solid_->contains(y); }

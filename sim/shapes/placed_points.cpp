@@ -16,7 +16,7 @@ namespace neve::sim::shapes {
 namespace {
 
 /// One of every `thinning` in a list, evenly, at least one. Neighbours in a file tend to be
-/// neighbours in space, so what is left is spread evenly there too.
+/// neighbours in space, so the rest is spread evenly there too.
 template <class T>
 void thin(std::vector<T>& list, double thinning) {
   if (list.empty()) return;

@@ -1,5 +1,5 @@
 #pragma once
-/// A shape made ready for many questions: how big it is and what lies inside.
+/// A shape prepared for many queries of its size and of points inside.
 
 #include <memory>
 

@@ -113,7 +113,7 @@ class Ring final : public Analytic {
   double volume() const override {
     const double R = major_, r = minor_;
     if (R >= r) return 2 * pi * pi * R * r * r;
-    // A spindle: the tube meets itself on the axis and what overlaps counts once. Pappus over the
+    // A spindle: the tube meets itself on the axis and the overlap counts once. Pappus over the
     // part of the tube's disc on one side of the axis.
     const double cut = std::sqrt(r * r - R * R);
     const double area = 0.5 * (0.5 * pi * r * r + R * cut + r * r * std::asin(R / r));

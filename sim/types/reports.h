@@ -91,7 +91,7 @@ struct Divergence {
   std::string stage;  ///< name of the stage that broke the rule
   std::string rule;   ///< energy, speed_cfl, acoustic_cfl, J_P, inverted, not_finite, overflow
   std::int64_t particle = -1;  ///< id of a culprit, -1 if unknown
-  int material = 0;            ///< of the culprit, like what follows
+  int material = 0;            ///< of the culprit, like the members below
   Vec3d x{0, 0, 0}, v{0, 0, 0};
   Mat3d F_E = Mat3d::Identity();
   Mat3d kirchhoff = Mat3d::Zero();  ///< tau = P F_E^T, Pa

@@ -18,8 +18,8 @@ struct Span {
 
 /// Consecutive keys: those of the document, or those after a [header].
 struct TomlSection {
-  std::size_t begin = 0;  ///< of the line after the header
-  Span last_line{};       ///< of the last key, with what follows it and the line's end; empty: none
+  std::size_t begin = 0;     ///< of the line after the header
+  Span last_line{};          ///< of the last key, to the end of its line; empty: none
   std::size_t last_key = 0;  ///< where the last key begins
   std::size_t column = 0;    ///< of its '=', from there
   int aligned = 0;  ///< keys in a row, the last one too, that have their '=' in this column
@@ -32,7 +32,7 @@ struct TomlNode {
 
   Kind kind = Kind::table;
   std::string key;     ///< in the table around it
-  Span written;        ///< of what is written in one place
+  Span written;        ///< of a value written in one place
   Span entry;          ///< the same with its key: "key = value"
   Span header;         ///< of a table or of an item of a list: the whole line; empty: none
   int section = -1;    ///< where its keys go; -1: it has no place for them yet

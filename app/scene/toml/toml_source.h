@@ -1,5 +1,5 @@
 #pragma once
-/// TOML text to plain data, guarded: whatever the bytes, a Table or a located SceneError.
+/// TOML text to plain data, guarded: any bytes give a Table or a located SceneError.
 
 #include <string>
 #include <string_view>

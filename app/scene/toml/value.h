@@ -57,7 +57,7 @@ std::string toml_document(const Table& root);
 /// "text" with quotes, backslashes and control bytes escaped: a TOML basic string.
 std::string toml_string(std::string_view text);
 
-/// Shortest text that reads back as the same double, whatever the locale; a TOML number.
+/// Shortest text that reads back as the same double, in any locale; a TOML number.
 std::string number_text(double x);
 
 }  // namespace neve::app::scene::toml

@@ -19,7 +19,7 @@ namespace neve::app::sweep::jobs {
 
 namespace {
 
-/// Beyond the limit on resident memory: stacks of threads and what drivers map without using it.
+/// Beyond the limit on resident memory: stacks of threads and unused mappings of drivers.
 constexpr std::uint64_t unused_data = std::uint64_t{1} << 30;
 constexpr auto memory_interval = std::chrono::milliseconds(50);
 

@@ -39,11 +39,11 @@ class Child {
   using Clock = std::chrono::steady_clock;
 
   /// Starts it as output::start_process does, without input.
-  /// @param log  what the child prints is appended to this file
+  /// @param log  takes the output of the child, appended
   /// @throws IoError when the log cannot be opened or the process cannot be made
   Child(const output::Command& command, const std::filesystem::path& log,
         const ChildLimits& limits);
-  /// Kills what still runs.
+  /// Kills the child if it still runs.
   ~Child();
   Child(Child&& other) noexcept;
   Child& operator=(Child&& other) = delete;

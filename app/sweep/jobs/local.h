@@ -27,7 +27,7 @@ struct JobsResult {
   double core_seconds = 0;              ///< time of the children times their threads
 };
 
-/// Runs what is not finished yet of the runs of these indices; each ends as a state and a reason in
+/// Runs the unfinished ones of the runs of these indices; each ends as a state and a reason in
 /// its status.json and never ends the sweep. A run in progress elsewhere is left alone. A Ctrl-C
 /// asks all children to end and waits for them.
 /// @throws IoError

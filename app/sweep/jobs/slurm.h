@@ -27,7 +27,7 @@ struct SlurmArray {
 /// Arrays for these runs with indices below the site's MaxArraySize.
 std::vector<SlurmArray> split_arrays(const std::vector<int>& indices, int max_array_size);
 
-/// Submits what is not finished of these runs, and a job that collects when all have ended; then
+/// Submits the unfinished ones of these runs, and a job that collects when all have ended; then
 /// waits for that, with progress. Jobs that an earlier call submitted and that are still there are
 /// waited for instead. A Ctrl-C cancels the jobs.
 /// @throws Error where there is no Slurm, or it refuses

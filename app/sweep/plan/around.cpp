@@ -40,7 +40,7 @@ double inside(const scene::Valid& valid, double x, double from) {
   return x;
 }
 
-/// Positive, and allowed over so many decades that ratios are what matters.
+/// Positive, and allowed over so many decades that ratios matter.
 bool spans_decades(const scene::FlatParam& param, double x) {
   return x > 0 && param.valid.min > 0 && param.valid.max / param.valid.min >= 1e3;
 }

@@ -13,7 +13,7 @@ namespace neve::app::sweep::plan {
 /// ratios where a parameter spans decades (a decade each way for pascals, otherwise up to four
 /// times and down to a quarter), at equal distances up to half of the value away elsewhere; of a
 /// choice all there is; vectors are stretched and shrunk.
-/// @throws UsageError for what has no such values: names, lists, a vector of zeros
+/// @throws UsageError for values without neighbours: names, lists, a vector of zeros
 std::vector<scene::toml::Value> values_around(const scene::FlatParam& param);
 
 /// The text of a sweep file that reads so.

@@ -1,5 +1,5 @@
 #pragma once
-/// `neve sweep --dry-run`: what would run, how long and in how much memory.
+/// `neve sweep --dry-run`: the runs, their time and their memory.
 
 #include "app/sweep/plan/sweep_plan.h"
 

@@ -21,7 +21,7 @@ namespace {
 /// Dry runs take part of a second each; the corners come first and show the extremes.
 constexpr std::size_t max_dry_runs = 8;
 
-/// A range and what it is a range of: only equal ones are shared.
+/// A range and its quantity: only ranges of equal quantities are shared.
 struct RangeSlot {
   std::optional<scene::Range>* range;
   std::string of;
@@ -52,7 +52,7 @@ void widen(scene::View& shared, scene::View own, scene::View resolved, const sce
   }
 }
 
-/// Fills in what the run leaves open.
+/// Fills in the automatic values of the run.
 void apply(const scene::Scene& shared, scene::Scene& scene) {
   if (setup::needs_framing(scene)) {
     if (!scene.camera || !scene.camera->eye) {

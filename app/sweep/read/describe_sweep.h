@@ -1,5 +1,5 @@
 #pragma once
-/// Every key of a sweep file, once; see app/scene/describe.h for what a visitor has.
+/// Every key of a sweep file, once; see app/scene/describe.h for the visitor.
 
 #include "app/scene/describe.h"
 #include "app/sweep/read/sweep.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// Puts together what the runs of a sweep have left so far.
+/// Collects the results of the finished runs of a sweep.
 
 #include <filesystem>
 

@@ -12,7 +12,7 @@ namespace neve::app::sweep::sheet {
 /// frames, metrics, and the FILE columns last. A column's type comes from the parameter, never from
 /// its values: floats always have a point or an exponent, whole numbers never. Metrics of runs that
 /// did not get to their last frame are empty, but for steps and seconds.
-/// @param with_times false leaves out what differs from one machine to the next
+/// @param with_times false leaves out values that differ between machines
 std::string data_csv(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
                      bool with_times = true);
 

@@ -65,7 +65,7 @@ render::Image read_tile(const std::filesystem::path& file, int width, int height
 }
 
 /// "hardening = 5" and so on, or the name of the run.
-/// @param has_edges  what the sheet's edges say is left out
+/// @param has_edges  leaves out the values on the sheet's edges
 std::vector<std::string> tile_lines(const store::Manifest& manifest, const Run& run,
                                     bool has_edges) {
   std::vector<std::string> lines;
@@ -93,7 +93,7 @@ std::vector<std::string> tile_lines(const store::Manifest& manifest, const Run& 
   return lines;
 }
 
-/// The name of a run, or what it sets, a line each.
+/// The name of a run, or its settings, a line each.
 std::string strip_name(const store::Manifest& manifest, const Run& run) {
   constexpr int max_lines = 5;
   if (!run.label.empty()) return run.label;
@@ -108,7 +108,7 @@ std::string strip_name(const store::Manifest& manifest, const Run& run) {
   return text.empty() ? store::run_text(run) : text;
 }
 
-/// The word in capitals, and what follows it.
+/// The word in capitals, and the text after it.
 std::pair<std::string, std::string> split_state(const std::string& text) {
   std::size_t end = 0;
   for (std::size_t k = 0; k < text.size() && !(text[k] >= 'a' && text[k] <= 'z') &&
@@ -150,7 +150,7 @@ render::Image SheetMaker::tile_picture(const Tile& tile, int width, int height,
   std::filesystem::path file;
   std::error_code error;
   const std::optional<int> frame = newest_frame(*tile.result, tile.frame);
-  // The picture of what went wrong has rings around the culprits.
+  // The picture of the divergence has rings around the culprits.
   const std::filesystem::path incident = output::diverged_path(run, manifest_.view);
   if (is_dark && tile.result->status.state == store::RunState::diverged &&
       std::filesystem::exists(incident, error))

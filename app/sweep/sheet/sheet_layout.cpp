@@ -215,7 +215,7 @@ class Layouter {
     add_row_labels();
   }
 
-  /// One line for each level, over the middle of what it holds.
+  /// One line for each level, over the middle of its columns.
   void add_column_labels() {
     const auto levels = sides_.columns.axes.size();
     for (std::size_t k = 0; k < levels; ++k) {

@@ -33,7 +33,7 @@ struct Manifest {
   double timeout = 0, memory = 0;
   std::vector<Parameter> parameters;
   std::vector<AxisLabels> axes;  ///< of a grid
-  /// Addresses of all axes, whatever the method; sorted. Nothing in files of before they had it.
+  /// Addresses of all axes, for any method; sorted. Nothing in files of before they had it.
   std::optional<std::vector<std::string>> varied;
   std::vector<Run> runs;
 

@@ -25,7 +25,7 @@ struct RunResult {
   std::vector<int> frames;  ///< that have a picture, in order
   /// One per metric_infos(), of the last frame; nothing where there is no frame.
   std::vector<std::optional<double>> metrics;
-  /// That the run ended with: its numbers may not be what they seem.
+  /// That the run ended with: its numbers may be misleading.
   std::vector<std::string> warnings{};
 
   std::optional<int> last_frame() const {

@@ -41,7 +41,7 @@ void EventQueue::note_held(const InputEvent& event) {
 }
 
 bool EventQueue::push(const InputEvent& event) {
-  // The first text goes in whatever its size, so that none waits for ever.
+  // The first text goes in at any size, so that no text waits for ever.
   const bool is_too_much = text_size_ > 0 && text_size_ + event.text.size() > text_limit;
   if (!join(event)) {
     if (events_.size() >= limit || is_too_much) return false;

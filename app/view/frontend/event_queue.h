@@ -14,7 +14,7 @@ class EventQueue {
   static constexpr std::size_t limit = 256;
   static constexpr std::size_t text_limit = 1 << 20;  ///< bytes of all texts together
 
-  /// Joins what only counts together: of moves and resizes the last is kept, wheels are added.
+  /// Joins events: the last of successive moves and resizes is kept, wheels are added.
   /// @return false when it is full and the event was not taken
   bool push(const InputEvent& event);
 

@@ -32,7 +32,7 @@ struct InputEvent {
   int key = 0;           ///< see namespace key
   bool is_down = false;  ///< of button and key
   Modifiers held{};
-  std::string text{};  ///< UTF-8: what was typed, the clipboard that is pasted, the file dropped
+  std::string text{};  ///< UTF-8: the typed text, the clipboard that is pasted, the file dropped
 };
 
 struct ScreenSize {
@@ -50,7 +50,7 @@ class Frontend {
   virtual ScreenSize size() const = 0;
 
   /// Waits until something happened, wake() is called, is_ready() turned true, or so many seconds
-  /// have passed. @return what happened, in order
+  /// have passed. @return the events, in order
   virtual std::vector<InputEvent> wait(double seconds) = 0;
 
   /// Ends wait(), from any thread.
@@ -66,7 +66,7 @@ class Frontend {
   /// Shows the present picture of the screen.
   virtual void show(render::Screen& screen) = 0;
 
-  /// Tells what the simulation has reached: scripts wait for it.
+  /// Tells the progress of the simulation: scripts wait for it.
   virtual void set_progress(int /*frame*/, bool /*is_running*/) {}
 
   /// Puts text into the user's clipboard.

@@ -69,7 +69,7 @@ ImGuiKey imgui_key(int key) {
 }
 #endif
 
-/// A modifier counts from the moment it goes down, whatever the system reports with it.
+/// A modifier is held from the moment it goes down; the state reported with events is ignored.
 Modifiers held_after(const InputEvent& event) {
   Modifiers held = event.held;
   if (event.kind != Kind::key) return held;

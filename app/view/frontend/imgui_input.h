@@ -31,7 +31,8 @@ class ImGuiInput {
   /// ctrl+V for them.
   void push(std::vector<InputEvent> events);
 
-  /// Hands over what fits into one frame, to the current ImGui context, just before it starts.
+  /// Hands over the events that fit into one frame, to the current ImGui context, just before it
+  /// starts.
   /// @return whether more is waiting for the next
   bool feed();
 
@@ -54,7 +55,7 @@ class ImGuiInput {
   Frontend& front_;
   std::deque<Waiting> waiting_;
   std::vector<std::string> pasted_;  ///< texts of pastes that are waiting, oldest first
-  std::string clipboard_;            ///< keeps what was handed out last
+  std::string clipboard_;            ///< keeps the text handed out last
   std::vector<bool> is_key_down_, is_button_down_;
   Modifiers held_{};
 };

@@ -33,7 +33,8 @@ constexpr Named named_keys[] = {
     {"super", key::super},
 };
 
-/// Keys are called by what they print without shift; GLFW's and the browsers' lists agree here.
+/// Keys are called by the character that they print without shift; GLFW's and the browsers' lists
+/// agree here.
 constexpr std::string_view signs = "'*+,-./;=[\\]`?#<";
 
 }  // namespace

@@ -45,7 +45,7 @@ class Labels {
   int frame_ = -1;
 };
 
-/// Notes the widget that ImGui drew last; what follows "##" in a name is left out, as on the
+/// Notes the widget that ImGui drew last; text after "##" in a name is left out, as on the
 /// widget.
 void note_label(const char* name);
 /// Notes any rectangle, such as that of the 3D picture.

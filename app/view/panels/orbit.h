@@ -21,7 +21,7 @@ class Orbit {
   void turn(double dx, double dy);
   /// Moves so that what is at the target follows the mouse. @param dx, dy as above
   void pan(double dx, double dy);
-  /// Nearer by so many notches, towards what is under the mouse.
+  /// Nearer by so many notches, towards the point under the mouse.
   /// @param x, y of the mouse, share of the picture's height from its middle, y up
   void zoom(double notches, double x, double y);
   /// The box fills the picture, seen from where it is seen now.

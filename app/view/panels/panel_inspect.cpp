@@ -1,4 +1,4 @@
-/// Inside the step: stages with their bypass switches, and what was clicked on.
+/// Inside the step: stages with their bypass switches, and the probed point.
 
 #include <imgui.h>
 
@@ -38,7 +38,7 @@ void draw_expected(const std::optional<scene::Range>& expected) {
   ImGui::TextDisabled("%s", text.c_str());
 }
 
-/// The second column of a row, red where something is outside of what is expected.
+/// The second column of a row, red where a value is outside its expected range.
 void draw_value(const std::string& text, bool is_outside_expected,
                 const std::optional<scene::Range>& expected) {
   ImGui::TableNextColumn();

@@ -1,4 +1,4 @@
-/// The left column: every parameter, what was changed, bodies and obstacles.
+/// The left column: every parameter, the changes, bodies and obstacles.
 
 #include <imgui.h>
 

@@ -108,7 +108,7 @@ class Chart {
   void draw_time_axis() const {
     const int most = std::clamp(static_cast<int>((to_.x - at_.x) / (4 * em())), 1, 6);
     const std::vector<render::overlay::Tick> ticks = render::overlay::nice_ticks(0, t_end_, most);
-    // The last one has the unit and comes first; what would run into it has no number.
+    // The last one has the unit and comes first; ticks that would run into it have no number.
     float free = FLT_MAX;
     for (auto tick = ticks.rbegin(); tick != ticks.rend(); ++tick) {
       const float x = at(tick->value, low_).x;

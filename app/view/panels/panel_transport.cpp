@@ -1,4 +1,4 @@
-/// The bar at the top: what the simulation does, and what goes out of the program.
+/// The bar at the top: control of the simulation, and exports.
 
 #include <imgui.h>
 

@@ -11,7 +11,7 @@ namespace neve::app::view::panels {
 
 /// The index of the nearest drawn particle. @param x, y share of the picture's height from its
 /// middle, y up
-/// @param clip what is cut away lets look through
+/// @param clip particles that it cuts away are ignored
 std::optional<std::size_t> pick_particle(const Orbit& orbit, double x, double y,
                                          const session::LiveFrame& live,
                                          const std::optional<scene::ClipPlane>& clip = {});

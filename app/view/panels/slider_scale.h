@@ -28,7 +28,7 @@ SliderScale slider_scale(const scene::Valid& valid, const std::optional<double>&
 double least(const scene::Valid& valid);
 double greatest(const scene::Valid& valid);
 
-/// The default of a parameter that is a number; of what has no such address nothing.
+/// The default of a parameter that is a number; nothing for other addresses.
 std::optional<double> usual_number(const std::string& address);
 
 }  // namespace neve::app::view::panels

@@ -17,7 +17,7 @@
 
 namespace neve::app::view::panels {
 
-/// A quantity of what is probed over simulated time.
+/// A quantity of the probed point over simulated time.
 struct ProbeTrace {
   std::string quantity;                           ///< empty: the first one
   std::vector<std::pair<double, double>> points;  ///< s, magnitude; times increase
@@ -89,7 +89,7 @@ inline constexpr std::size_t view = 0, inspect = 1, plots = 2, messages = 3;
 const scene::View& current_view(const ViewerState& state);
 /// The picture of another view from now on.
 void choose_view(ViewerState& state, const std::string& name);
-/// The session works out what the current view shows.
+/// Asks the session for the data that the current view shows.
 void announce_view(ViewerState& state);
 void set_probe(ViewerState& state, std::optional<dump::Probe> probe);
 
@@ -98,7 +98,7 @@ void toggle_run(ViewerState& state);
 void frame_all(ViewerState& state);
 /// Frames the probed or selected object; everything if there is none.
 void frame_selection(ViewerState& state);
-/// Brings what broke the rule into the picture.
+/// Brings the culprits of the broken rule into the picture.
 void show_incident(ViewerState& state);
 
 /// Panels; each draws into the current ImGui window.
@@ -117,7 +117,7 @@ void draw_offer(ViewerState& state);
 void draw_left_column(ViewerState& state);
 void draw_right_column(ViewerState& state);
 
-/// Mouse over the picture, and what is drawn over it: handles, the probed place.
+/// Mouse over the picture, and drawings over it: handles, the probed place.
 void use_viewport(ViewerState& state);
 /// Keys that are not for a text field.
 void use_keys(ViewerState& state);

@@ -1,5 +1,5 @@
 #pragma once
-/// The parts of what happens over the picture.
+/// Interaction with the picture, in parts.
 
 #include <imgui.h>
 

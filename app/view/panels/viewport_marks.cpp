@@ -1,4 +1,4 @@
-/// Words over the picture: what is probed, and why there is nothing to see.
+/// Words over the picture: the probed point, and the reason of an empty picture.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ void draw_probe_mark(const ViewerState& state) {
   const Vec3d at = state.orbit.project(probe.place);
   if (!(at.z() > 0)) return;
   const ImVec2 place = on_screen(state, at);
-  // Nodes are in the picture whatever the plane removes: it removes particles.
+  // The plane removes particles; nodes stay in the picture.
   const picture::Cut cut(current_view(state).clip, state.live->snapshot.particles.x);
   const bool is_cut = !probe.is_node && cut.removes(probe.place);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();

@@ -22,7 +22,7 @@ struct Knob {
   const scene::Valid& valid;
   const char* help;
   bool is_live;
-  mutable std::string refusal{};  ///< why the widget did not take what was typed; empty: it did
+  mutable std::string refusal{};  ///< why the widget did not take the typed text; empty: it did
 };
 
 /// @return whether the value was changed; it is valid then

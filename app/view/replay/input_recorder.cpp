@@ -110,7 +110,7 @@ void InputRecorder::note_move(const frontend::InputEvent& event) {
     last_move_ = now_;
     return;
   }
-  // One place a frame is what the panels saw.
+  // The panels saw one place a frame.
   if (path_.size() > 1 && path_end_ == now_) path_.pop_back();
   path_.push_back({{}, x_, y_});
   path_end_ = now_;

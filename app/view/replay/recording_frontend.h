@@ -1,5 +1,5 @@
 #pragma once
-/// Writes down what is done at another frontend, as a script that `neve view --replay` plays.
+/// Records the input of another frontend as a script that `neve view --replay` plays.
 
 #include <chrono>
 #include <filesystem>

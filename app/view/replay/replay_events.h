@@ -16,7 +16,7 @@ struct ReplayPoint {
 /// Events of a step. The move, press and release of a click take three frames, as by hand, and the
 /// panels follow in a fourth.
 /// @param points where its places are now
-/// @return for each frame what happens before it; nothing for steps that are no input
+/// @return the events before each frame; nothing for steps that are no input
 std::vector<std::vector<frontend::InputEvent>> events_of(const ReplayStep& step,
                                                          const std::vector<ReplayPoint>& points);
 

@@ -18,7 +18,7 @@ namespace {
 
 using Step = ReplayStep::Kind;
 
-/// Panels need some frames for what they open; more is a label that does not come.
+/// Panels need some frames to open; a label that needs more does not come.
 constexpr int patience = 120;
 constexpr double frame_seconds = 1.0 / 60;
 
@@ -139,7 +139,7 @@ bool ReplayFrontend::begin(const ReplayStep& step) {
     }
     case Step::quit:
       frames_.push_back({{{.kind = frontend::InputEvent::Kind::close}}});
-      next_ = steps_.size() - 1;  // what comes after it is left out
+      next_ = steps_.size() - 1;  // later steps are left out
       return true;
     default:
       return begin_on_places(step);

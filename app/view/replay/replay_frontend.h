@@ -15,7 +15,7 @@
 
 namespace neve::app::view::replay {
 
-/// Each wait() is one frame of the panels and brings what happens in it; for the panels it should
+/// Each wait() is one frame of the panels and brings the events in it; for the panels it should
 /// be 1/60 s long however long it takes. A frame without input lets that time pass, unless wait()
 /// is not to take any, so that other threads can work.
 class ReplayFrontend : public frontend::Frontend {

@@ -70,7 +70,7 @@ std::optional<ReplayGoal> parse_goal(const std::string& text);
 /// @throws SceneError with line and column
 std::vector<ReplayStep> parse_replay(std::string_view text, const std::string& file);
 
-/// As parse_replay reads it, one step a line; what is as usual is left out.
+/// As parse_replay reads it, one step a line; defaults are left out.
 std::string replay_text(const std::vector<ReplayStep>& steps);
 
 const char* name(ReplayStep::Kind kind);

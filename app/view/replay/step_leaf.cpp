@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t max_text = 64 << 10, max_places = 10'000;
 
-/// A number between two bounds; `what` names all that the value may be.
+/// A number between two bounds; `what` names the allowed values.
 double number(const scene::Leaf& leaf, const scene::toml::Value& value, double low, double high,
               const std::string& what) {
   double x = low - 1;

@@ -39,7 +39,7 @@ void put_edit(std::vector<scene::Override>& edits, const std::string& address,
     edits.push_back({address, value});
 }
 
-/// The numbers of a preset that differ from the scene's. They are what is remembered: a number can
+/// The numbers of a preset that differ from the scene's. They are remembered: a number can
 /// change while a simulation runs, be taken back, and be made again with pictures.
 void put_preset(const scene::Scene& scene, scene::Preset preset, const std::string& address,
                 std::vector<scene::Override>& edits) {

@@ -17,7 +17,7 @@ namespace neve::app::view::session {
 
 /// When a change takes effect.
 enum class Effect {
-  display,  ///< what is drawn; the simulation knows nothing of it
+  display,  ///< drawing; the simulation knows nothing of it
   live,     ///< from the next step on
   restart   ///< from frame 0 on
 };
@@ -34,7 +34,7 @@ class Document {
  public:
   /// Every view that the scene has or could have has a camera and ranges.
   /// @param overrides of the command line
-  /// @throws what read_scene_text throws
+  /// @throws the errors of read_scene_text
   Document(std::string file, std::string text, std::vector<scene::Override> overrides,
            double coarsening);
 
@@ -51,8 +51,8 @@ class Document {
   /// @param gesture changes with the same number, not 0, are taken back together
   /// @throws SceneError, UsageError, and then nothing has changed
   void set(const std::string& address, const std::string& value, std::uint64_t gesture = 0);
-  /// Back to what the file and the command line say: of one address, or with a '.' at its end of
-  /// all below it, or with "" of all.
+  /// Back to the value of the file and the command line: of one address, or with a '.' at its end
+  /// of all below it, or with "" of all.
   void forget(const std::string& address);
 
   bool can_undo() const { return !done_.empty(); }

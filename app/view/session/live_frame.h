@@ -65,7 +65,7 @@ struct ProbeReading {
 };
 
 struct LiveFrame {
-  std::uint64_t number = 0;                   ///< counts what was published
+  std::uint64_t number = 0;                   ///< number of published frames
   std::shared_ptr<const scene::Scene> scene;  ///< that is simulated, colliders where they are
   picture::Snapshot snapshot;
   std::vector<picture::PlotSample> history;  ///< one per frame; snapshot.history shows these

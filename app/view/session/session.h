@@ -25,7 +25,7 @@ struct SessionOptions {
   std::uint64_t kept_budget = 0;  ///< bytes of kept frames; 0: a quarter of the free memory
 };
 
-/// All functions but latest() and taken() only ask: what they do shows in the frames that follow.
+/// All functions but latest() and taken() only ask: their effect shows in the frames that follow.
 class Session {
  public:
   /// @param scene resolved
@@ -40,7 +40,7 @@ class Session {
   void pause();
   void next_step();
   void next_frame();
-  /// Does the next stage of a step on a copy, and shows what it left; after the last one the step
+  /// Does the next stage of a step on a copy, and shows its result; after the last one the step
   /// is taken.
   void next_stage();
   /// The same up to the end of this stage, wherever it is.
@@ -51,7 +51,7 @@ class Session {
   /// Starts again. On an error the old simulation continues.
   void reset(std::shared_ptr<const scene::Scene> scene);
   /// Goes on with the live changes that make this scene of the one that runs. They are listed in
-  /// the snapshots of the frames that follow, whatever they were made by.
+  /// all snapshots that follow.
   void apply(std::shared_ptr<const scene::Scene> scene);
 
   /// Shows a kept frame, the nearest at or before this number. The run waits.

@@ -1,4 +1,4 @@
-/// The part of a session that shows what the simulation does.
+/// The part of a session that publishes the state of the simulation.
 
 #include <algorithm>
 

@@ -10,7 +10,7 @@ namespace neve::app::view::session {
 
 StageSummary summarize_stage(const dump::StepInspection& inside, sim::Stage stage);
 
-/// The view with arrows of what a stage works out, where it works out a field of arrows.
+/// The view with arrows of the result of a stage, if that is a field of arrows.
 scene::View view_of_stage(const scene::Scene& scene, scene::View view, sim::Stage stage);
 
 /// The particles as a stage leaves them; stress stays that of the step's beginning.

@@ -42,8 +42,8 @@ class Workbench {
   /// That the run started with: of the command line and the document. Captions list them.
   std::vector<std::string> overrides() const;
 
-  /// Does it at once where that is possible; what needs a restart waits for reset(), but at the
-  /// very beginning of a run, where nothing is lost. Errors become messages.
+  /// Does it at once if that is possible; a change that needs a restart waits for reset(), but at
+  /// the very beginning of a run, where nothing is lost. Errors become messages.
   void edit(const Edit& edit);
   void set(const std::string& address, const std::string& value, std::uint64_t gesture = 0);
   void undo();

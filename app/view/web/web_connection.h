@@ -1,5 +1,5 @@
 #pragma once
-/// One connection to the web server: what has come, what has still to go, and how long it may take.
+/// One connection to the web server: its input, its unsent output, and its time limits.
 
 #include <cstdint>
 #include <deque>
@@ -38,12 +38,12 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  /// Reads what has come: into head() or the reader of messages.
+  /// Reads the bytes that have come: into head() or the reader of messages.
   void receive(double now);
 
   /// The bytes of the request so far.
   std::string_view head() const { return head_; }
-  /// The request was a web socket's; what came behind its head is the first of its messages.
+  /// The request was a web socket's; bytes behind its head are its first messages.
   void open(std::size_t head_size, double now);
   /// Says this and ends.
   void finish(std::string bytes, double now);
@@ -57,10 +57,10 @@ class Connection {
   /// @return messages waiting to go out
   std::size_t queued() const { return out_.size(); }
   void queue(std::string bytes, double now);
-  /// Sends what the network takes.
+  /// Sends as much as the network takes.
   void transmit(double now);
 
-  /// Ends what took too long, sends a sign of life when it is time.
+  /// Closes after a timeout; sends a ping when it is due.
   void expire(double now);
   /// When expire() has something to do next.
   double deadline() const;

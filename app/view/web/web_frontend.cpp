@@ -99,7 +99,7 @@ void WebFrontend::wake() {
 }
 
 bool WebFrontend::is_ready_now() const {
-  // Unsent bytes are in flight too, whatever pictures the page has confirmed.
+  // Unsent bytes are in flight too, even if the page has confirmed all pictures.
   return viewer_ != 0 && has_told_size_ && is_visible_ && pacing_.can_send() &&
          server_.unsent(viewer_) < FramePacing::max_in_flight;
 }

@@ -101,7 +101,7 @@ class WebFrontend final : public frontend::Frontend, private WebListener {
   std::uint64_t viewer_ = 0;  ///< 0: no page is connected
   bool has_told_size_ = false, is_visible_ = true;
   bool is_wanted_ = false, is_woken_ = false, is_full_ = false;
-  mutable bool has_told_ready_ = false;  ///< what the program knows
+  mutable bool has_told_ready_ = false;  ///< the last value told to the program
   Sent sent_ = Sent::nothing;            ///< of the picture, to this viewer
   double sent_time_ = 0;
 

@@ -1,4 +1,4 @@
-/// Apart, so that what only shows images needs no OpenGL.
+/// Apart, so that programs that only show images need no OpenGL.
 
 #include "app/view/web/web_frontend.h"
 #include "render/screen.h"

@@ -31,7 +31,7 @@ struct PageMessage {
 /// Reads a message; the text is UTF-8. Numbers out of range are brought into it.
 PageMessage read_page_message(std::string_view text);
 
-/// A size that pictures may have: not tiny, not above max_web_pixels; what is too large keeps its
+/// A size that pictures may have: not tiny, not above max_web_pixels; a larger one keeps its
 /// shape and is scaled up by the browser.
 frontend::ScreenSize limited_size(frontend::ScreenSize size);
 

@@ -180,7 +180,7 @@ void WebServer::answer_head(Connection& connection, double now) {
   open_viewer(connection, head.size, request.header("sec-websocket-key"), now);
 }
 
-/// @return what is said to the request; nothing when it opens the web socket
+/// @return the answer to the request; nothing when it opens the web socket
 std::string WebServer::answer(const HttpRequest& request) const {
   if (!guard_.is_own_host(request.header("host")))
     return plain(403, "this address does not belong to neve");

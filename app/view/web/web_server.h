@@ -2,7 +2,7 @@
 /// Serves one page and one web socket to one viewer. A thread of its own does all reading and
 /// writing; nothing that comes over the network can make anybody else wait.
 ///
-/// Why not a library: libcivetweb 1.15 takes memory for whatever length a frame announces, up to
+/// Why not a library: libcivetweb 1.15 takes memory for any length that a frame announces, up to
 /// 2 GiB, waits for ever for the rest of a frame, and accepts frames that are not masked without
 /// telling. Here every byte and every second is bounded, and a page that sends too much waits.
 
@@ -57,7 +57,7 @@ class WebServer {
   void send(std::uint64_t viewer, Opcode opcode, std::string_view payload);
   /// @return messages for the viewer that the network has not taken
   int unsent(std::uint64_t viewer) const;
-  /// There is room again for what on_message() refused. From any thread.
+  /// There is room again for a message that on_message() refused. From any thread.
   void resume();
 
  private:
@@ -89,7 +89,7 @@ class WebServer {
   std::uint64_t next_id_ = 1;
   double accept_again_ = 0;  ///< the system had no more files for us
 
-  mutable std::mutex mutex_;         ///< of what follows
+  mutable std::mutex mutex_;         ///< of the members below
   std::vector<std::string> posted_;  ///< frames for the viewer
   std::uint64_t viewer_ = 0;         ///< 0: no page is connected
   int unsent_ = 0;                   ///< of its frames, those posted included

@@ -15,7 +15,7 @@ bool is_utf8(std::string_view bytes) {
     if (more < 0 || bytes.size() - k <= std::size_t(more)) return false;
     for (int j = 1; j <= more; ++j)
       if ((static_cast<unsigned char>(bytes[k + j]) & 0xC0) != 0x80) return false;
-    // The second byte tells overlong forms, surrogates and what is beyond the last code point.
+    // The second byte tells overlong forms, surrogates and values beyond the last code point.
     const unsigned char second = more > 0 ? bytes[k + 1] : 0;
     if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
         (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F))

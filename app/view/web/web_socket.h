@@ -76,7 +76,7 @@ class FrameReader {
 
   std::size_t max_message_;
   std::string buffer_;
-  std::size_t begin_ = 0;  ///< of what has not been read, in the buffer
+  std::size_t begin_ = 0;  ///< of the unread bytes in the buffer
   std::string message_;    ///< the fragments that have come
   Opcode message_opcode_ = Opcode::text;
   bool is_fragmented_ = false;
