@@ -5,7 +5,7 @@
 /// After the parameters of a lambda.
 #define NEVE_INLINE_BODY __attribute__((always_inline))
 /// For kernels that are worth a call: the instruction set must be among their template arguments.
-#define NEVE_APART __attribute__((noinline))
+#define NEVE_NOINLINE __attribute__((noinline))
 
 namespace neve {
 

@@ -9,7 +9,6 @@
 #include "sim/engine/saved_state.h"
 #include "sim/engine/staged_step.h"
 #include "sim/engine/state_reader.h"
-#include "sim/engine/step.h"
 #include "sim/kernels/simd.h"
 
 namespace neve::sim::engine {
@@ -46,8 +45,8 @@ void Engine<Real>::take_step(double dt) {
 /// @return false: the solve failed, nothing was changed
 template <class Real>
 bool Engine<Real>::take_fused(double dt, bool is_implicit) {
-  if (!FusedDriver<Real>(state_, solver_, seconds_, dt).step(is_implicit)) return false;
-  timed(seconds_.checks, [&] { check_step(dt); });
+  if (!FusedDriver<Real>(state_, parts_, dt).step(is_implicit)) return false;
+  timed(parts_.seconds.checks, [&] { check_step(dt); });
   return true;
 }
 
@@ -55,7 +54,7 @@ bool Engine<Real>::take_fused(double dt, bool is_implicit) {
 template <class Real>
 void Engine<Real>::take_stages(double dt) {
   StageFields<Real> fields;
-  StagedDriver<Real>(state_, solver_, fields, dt).step();
+  StagedDriver<Real>(state_, parts_, fields, dt).step();
   StateLimits& limits = state_.progress.limits;
   const double sound_speed = limits.max_sound_speed;
   check_step(dt);
@@ -185,7 +184,7 @@ const char* Engine<Real>::simd() const {
 template <class Real>
 std::uint64_t Engine<Real>::memory_bytes() const {
   return state_.colliders.memory_bytes() + state_.particles.memory_bytes() +
-         state_.grid.memory_bytes() + state_.contact.memory_bytes() + solver_.memory_bytes();
+         state_.grid.memory_bytes() + parts_.contact.memory_bytes() + parts_.solver.memory_bytes();
 }
 
 template <class Real>

@@ -2,9 +2,9 @@
 /// A simulation in one precision: steps, and all that happens between them.
 
 #include "sim/engine/health_watch.h"
-#include "sim/engine/implicit_solver.h"
 #include "sim/engine/snow_flow.h"
 #include "sim/engine/state.h"
+#include "sim/engine/step.h"
 #include "sim/engine/stepper.h"
 
 namespace neve::sim::engine {
@@ -26,8 +26,8 @@ class Engine final : public Stepper {
 
   const Progress& progress() const override { return state_.progress; }
   const std::optional<Divergence>& divergence() const override { return watch_.divergence(); }
-  SolveReport last_solve() const override { return solver_.last_solve(); }
-  PhaseSeconds phase_seconds() const override { return seconds_; }
+  SolveReport last_solve() const override { return parts_.solver.last_solve(); }
+  PhaseSeconds phase_seconds() const override { return parts_.seconds; }
   DtChoice choose_dt(double remaining) const override;
   StepLimits step_limits() const override;
 
@@ -57,10 +57,9 @@ class Engine final : public Stepper {
   void advance_frame(const DtChoice& choice, AdvanceReport& report);
 
   State<Real> state_;
-  ImplicitSolver<Real> solver_;
+  StepParts<Real> parts_;
   SnowFlow<Real> flow_;
   HealthWatch watch_;
-  PhaseSeconds seconds_;
 };
 
 }  // namespace neve::sim::engine

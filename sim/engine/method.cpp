@@ -98,12 +98,6 @@ kernels::StepConstants<Real> Method<Real>::step_constants(double dt) const {
 }
 
 template <class Real>
-double Method<Real>::kept_share(double dt) const {
-  const bool keeps = settings.transfer == Transfer::flip && settings.advect == Advect::particle;
-  return keeps ? flip_share(settings, dt) : 0;
-}
-
-template <class Real>
 double Method<Real>::affine_inertia() const {
   return settings.cell_size * settings.cell_size *
          (kernel_nodes == kernels::cubic_nodes ? kernels::apic_inertia<kernels::cubic_nodes>

@@ -28,9 +28,10 @@ struct Method {
   /// For a step of dt; without colliders.
   kernels::StepConstants<Real> step_constants(double dt) const;
 
-  /// Share of its own velocity that a particle keeps in a step of dt beside that of the grid, and
-  /// moves with.
-  double kept_share(double dt) const;
+  /// True if particles keep alpha of their own velocity beside that of the grid, and move with it.
+  bool keeps_own_velocity() const {
+    return settings.transfer == Transfer::flip && settings.advect == Advect::particle;
+  }
 
   /// m2, of the weights around a particle.
   double affine_inertia() const;

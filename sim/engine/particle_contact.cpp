@@ -28,12 +28,13 @@ void ParticleContact<Real>::make_room(std::size_t particles, const Partition& pa
 }
 
 template <class Real>
-kernels::ContactArgs<Real> ParticleContact<Real>::args(const kernels::SweepArgs<Real>& step,
-                                                       double dt, const Method<Real>& method) {
+kernels::ContactArgs<Real> ParticleContact<Real>::contact_args(
+    const State<Real>& state, const kernels::SweepArgs<Real>& step) {
   kernels::ContactArgs<Real> a{};
   a.step = step;
-  a.half_spacing = method.half_spacing.data();
-  a.kept = static_cast<Real>(method.kept_share(dt));
+  a.half_spacing = state.method.half_spacing.data();
+  a.kept = state.method.keeps_own_velocity() ? step.constants.alpha : Real(0);
+  a.max_speed = static_cast<Real>(state.progress.limits.max_speed);
   a.candidates = candidates_.data();
   a.near_counts = near_counts_.data();
   a.counts = counts_.data();
@@ -42,7 +43,7 @@ kernels::ContactArgs<Real> ParticleContact<Real>::args(const kernels::SweepArgs<
   return a;
 }
 
-/// Where the contacts of each block begin. @return how many there are at most
+/// Gives the contacts of each block their place. @return how many there are at most
 template <class Real>
 std::uint64_t ParticleContact<Real>::place_contacts() {
   std::uint64_t most = 0;
@@ -71,26 +72,22 @@ void ParticleContact<Real>::list_node_blocks(const Partition& partition) {
 }
 
 template <class Real>
-void ParticleContact<Real>::act(const kernels::SweepArgs<Real>& step, double dt, double max_speed,
-                                const Method<Real>& method, const Partition& partition,
-                                ThreadPool& pool, int threads) {
+void ParticleContact<Real>::act(const State<Real>& state, const kernels::SweepArgs<Real>& step) {
   if (step.constants.collider_count == 0) return;
+  const Partition& partition = state.particles.partition;
+  const kernels::ContactSweeps<Real>& sweeps = *state.method.contact_sweeps;
   make_room(step.particle_count, partition);
-  kernels::ContactArgs<Real> a = args(step, dt, method);
-  a.max_speed = static_cast<Real>(max_speed);
-  const kernels::ContactSweeps<Real>& sweeps = *method.contact_sweeps;
-  const int parts = ThreadPool::parts_for(threads);
-  pool.run(threads, parts, [&](int part) {
-    sweeps.find(a, partition.first_block(part, parts), partition.first_block(part + 1, parts));
-  });
+  kernels::ContactArgs<Real> a = contact_args(state, step);
+  state.over_particle_blocks(sweeps.find, a);
   const std::uint64_t most = place_contacts();
   if (most == 0) return;
   if (contacts_.size() < most) contacts_.resize(2 * most);
   a.contacts = contacts_.data();
   const auto over = [&](const std::vector<std::uint32_t>& list, kernels::ContactSweep<Real> sweep) {
-    pool.ranges(list.size(), threads, [&](std::size_t begin, std::size_t end) {
-      sweep(a, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
-    });
+    state.pool->ranges(
+        list.size(), state.active_threads(), [&](std::size_t begin, std::size_t end) {
+          sweep(a, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+        });
   };
   list_blocks();
   a.blocks = blocks_.data();

@@ -5,9 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/base/thread_pool.h"
-#include "sim/engine/method.h"
-#include "sim/engine/partition.h"
+#include "sim/engine/state.h"
 #include "sim/kernels/particle_contact.h"
 
 namespace neve::sim::engine {
@@ -15,17 +13,16 @@ namespace neve::sim::engine {
 template <class Real>
 class ParticleContact {
  public:
-  /// The nodes have v_free as v_new and get v_star; the first channel of tiles is overwritten, and
-  /// the work of the colliders is added to that of the nodes.
-  /// @param max_speed  of the particles before the step, m/s
-  void act(const kernels::SweepArgs<Real>& step, double dt, double max_speed,
-           const Method<Real>& method, const Partition& partition, ThreadPool& pool, int threads);
+  /// v_star from v_free, both as v_new of the nodes. Overwrites the first channel of the tiles, and
+  /// adds the work of the colliders to that of the nodes.
+  /// @param step  whose nodes have v_free
+  void act(const State<Real>& state, const kernels::SweepArgs<Real>& step);
 
   std::size_t memory_bytes() const;
 
  private:
-  kernels::ContactArgs<Real> args(const kernels::SweepArgs<Real>& step, double dt,
-                                  const Method<Real>& method);
+  kernels::ContactArgs<Real> contact_args(const State<Real>& state,
+                                          const kernels::SweepArgs<Real>& step);
   void make_room(std::size_t particles, const Partition& partition);
   std::uint64_t place_contacts();
   void list_blocks();

@@ -57,9 +57,9 @@ template <class Real>
 StagedStep staged_step(State<Real> copy, double dt) {
   StagedStep out;
   if (copy.particles.size() == 0) return out;
-  ImplicitSolver<Real> solver;
+  StepParts<Real> parts;
   StageFields<Real> fields;
-  StagedDriver<Real>(copy, solver, fields, dt).step();
+  StagedDriver<Real>(copy, parts, fields, dt).step();
   out.nodes = node_fields(copy, fields);
   read_particle_fields(copy, fields, out);
   const StateReader<Real> reader(copy);

@@ -84,12 +84,6 @@ void State<Real>::advance_time(double dt) {
 }
 
 template <class Real>
-void State<Real>::press_particles(const kernels::SweepArgs<Real>& a, double dt) {
-  contact.act(a, dt, progress.limits.max_speed, method, particles.partition, *pool,
-              active_threads());
-}
-
-template <class Real>
 void State<Real>::push_out(kernels::SweepArgs<Real> a) const {
   if (!method.settings.push_out) return;
   a.constants.colliders = colliders.poses().data();

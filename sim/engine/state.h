@@ -7,7 +7,6 @@
 #include "sim/engine/grid_storage.h"
 #include "sim/engine/method.h"
 #include "sim/engine/moving_colliders.h"
-#include "sim/engine/particle_contact.h"
 #include "sim/engine/particle_storage.h"
 #include "sim/engine/progress.h"
 
@@ -41,8 +40,6 @@ struct State {
   void advance_time(double dt);
   /// Brings particles out of colliders, if the settings ask for it.
   void push_out(kernels::SweepArgs<Real> a) const;
-  /// Contact at particles, for a step of dt: v_star on the nodes from v_free.
-  void press_particles(const kernels::SweepArgs<Real>& a, double dt);
 
   int active_threads() const;
   Vec3d position(const kernels::Particle<Real>& p) const { return method.lattice.position(p); }
@@ -52,7 +49,6 @@ struct State {
   MovingColliders colliders;
   ParticleStorage<Real> particles;
   GridStorage<Real> grid;
-  ParticleContact<Real> contact;
   Progress progress;
 };
 

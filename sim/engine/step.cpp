@@ -7,6 +7,17 @@
 
 namespace neve::sim::engine {
 
+namespace {
+
+/// For contact that is not at the nodes.
+template <class Real>
+kernels::SweepArgs<Real> without_colliders(kernels::SweepArgs<Real> a) {
+  a.constants.collider_count = 0;
+  return a;
+}
+
+}  // namespace
+
 /// The paper's list, one stage after the other.
 template <class Real>
 void StagedDriver<Real>::step() {
@@ -120,10 +131,8 @@ void StagedDriver<Real>::solve_velocities() {
   const auto solve = [&] {
     keep_v_star();
     if (!settings.is_implicit()) return;
-    solver_.solve(state_, a_, dt_);
-    const std::size_t nodes_per_block = kernels::all_channels * kernels::block_nodes;
-    for (std::size_t b = 0; b < fields_.nodes.size(); ++b)
-      std::copy_n(a_.nodes + b * nodes_per_block, kernels::block_nodes, fields_.nodes[b].v_new);
+    parts_.solver.solve(state_, a_, dt_);
+    read_velocities(&kernels::StagedNodes<Real>::v_new);
   };
   stage(Stage::implicit_solve, solve, keep_v_star);
 }
@@ -195,17 +204,16 @@ template <class Real>
 void FusedDriver<Real>::update_grid() {
   timed(seconds_.grid_update, [&] {
     const bool at_particles = state_.method.settings.is_contact_at_particles();
-    kernels::SweepArgs<Real> of_nodes = a_;
-    if (at_particles) of_nodes.constants.collider_count = 0;
-    state_.over_node_blocks(state_.method.sweeps->grid_update, of_nodes);
-    if (at_particles) state_.press_particles(a_, dt_);
+    state_.over_node_blocks(state_.method.sweeps->grid_update,
+                            at_particles ? without_colliders(a_) : a_);
+    if (at_particles) parts_.contact.act(state_, a_);
   });
 }
 
 template <class Real>
 bool FusedDriver<Real>::solve_velocities() {
   bool is_solved = false;
-  timed(seconds_.solve, [&] { is_solved = solver_.solve(state_, a_, dt_); });
+  timed(seconds_.solve, [&] { is_solved = parts_.solver.solve(state_, a_, dt_); });
   return is_solved;
 }
 
@@ -247,14 +255,18 @@ void StagedDriver<Real>::each_node(const Change& change) {
 /// Works on the nodes as the fused driver has them: what particles gather.
 template <class Real>
 void StagedDriver<Real>::collide_at_particles() {
-  kernels::SweepArgs<Real> of_nodes = a_;
-  of_nodes.constants.collider_count = 0;
-  state_.over_node_blocks(state_.method.sweeps->grid_collisions, of_nodes);
+  state_.over_node_blocks(state_.method.sweeps->grid_collisions, without_colliders(a_));
   over_node_blocks(state_.method.sweeps->keep_velocities);
-  state_.press_particles(a_, dt_);
+  parts_.contact.act(state_, a_);
+  read_velocities(&kernels::StagedNodes<Real>::v_star);
+}
+
+template <class Real>
+void StagedDriver<Real>::read_velocities(
+    Quad<Real> (kernels::StagedNodes<Real>::*field)[kernels::block_nodes]) {
   const std::size_t nodes_per_block = kernels::all_channels * kernels::block_nodes;
   for (std::size_t b = 0; b < fields_.nodes.size(); ++b)
-    std::copy_n(a_.nodes + b * nodes_per_block, kernels::block_nodes, fields_.nodes[b].v_star);
+    std::copy_n(a_.nodes + b * nodes_per_block, kernels::block_nodes, fields_.nodes[b].*field);
 }
 
 /// See SolverSettings::resting_mass.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/engine/implicit_solver.h"
+#include "sim/engine/particle_contact.h"
 #include "sim/engine/state.h"
 #include "sim/types/reports.h"
 #include "sim/types/stage.h"
@@ -20,12 +21,20 @@ void timed(double& seconds, const Work& work) {
   seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Parts of a step with memory of their own; nothing in it lasts from one step to the next.
+template <class Real>
+struct StepParts {
+  ImplicitSolver<Real> solver;
+  ParticleContact<Real> contact;
+  PhaseSeconds seconds;  ///< of the fused driver, since the start
+};
+
 /// The fused driver, which runs: sweeps keep in registers whatever one stage hands to the next.
 template <class Real>
 class FusedDriver {
  public:
-  FusedDriver(State<Real>& state, ImplicitSolver<Real>& solver, PhaseSeconds& seconds, double dt)
-      : state_(state), solver_(solver), seconds_(seconds), dt_(dt) {}
+  FusedDriver(State<Real>& state, StepParts<Real>& parts, double dt)
+      : state_(state), parts_(parts), seconds_(parts.seconds), dt_(dt) {}
 
   /// @return false: the solve failed, nothing was changed
   bool step(bool is_implicit);
@@ -39,7 +48,7 @@ class FusedDriver {
   void move_colliders();
 
   State<Real>& state_;
-  ImplicitSolver<Real>& solver_;
+  StepParts<Real>& parts_;
   PhaseSeconds& seconds_;
   const double dt_;
   kernels::SweepArgs<Real> a_{};
@@ -58,9 +67,8 @@ struct StageFields {
 template <class Real>
 class StagedDriver {
  public:
-  StagedDriver(State<Real>& state, ImplicitSolver<Real>& solver, StageFields<Real>& fields,
-               double dt)
-      : state_(state), solver_(solver), fields_(fields), dt_(dt) {}
+  StagedDriver(State<Real>& state, StepParts<Real>& parts, StageFields<Real>& fields, double dt)
+      : state_(state), parts_(parts), fields_(fields), dt_(dt) {}
 
   void step();
 
@@ -88,13 +96,15 @@ class StagedDriver {
   template <class Change>
   void each_node(const Change& change);
   void collide_at_particles();
+  /// Fields of the nodes from what particles gather.
+  void read_velocities(Quad<Real> (kernels::StagedNodes<Real>::*field)[kernels::block_nodes]);
   void over_particle_blocks(kernels::Sweep<Real> sweep) { state_.over_particle_blocks(sweep, a_); }
   void over_node_blocks(kernels::Sweep<Real> sweep) { state_.over_node_blocks(sweep, a_); }
   void rest_light_nodes();
   void deform();
 
   State<Real>& state_;
-  ImplicitSolver<Real>& solver_;
+  StepParts<Real>& parts_;
   StageFields<Real>& fields_;
   const double dt_;
   kernels::SweepArgs<Real> a_{};

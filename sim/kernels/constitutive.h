@@ -237,9 +237,9 @@ class MaterialUpdate {
   /// @param is_projected  false leaves F_E and J_P as they are: stress of a state, at the start
   /// @param wave_modulus  per batch, out
   /// @param is_inverted   per batch, out: a bit for every lane with det F_E <= 0 before projection
-  NEVE_APART void operator()(ParticleLanes<Real, W>* batch, int count, ModelKind model,
-                             const MaterialConstants<Real>* table, bool is_projected,
-                             V* wave_modulus, unsigned* is_inverted) {
+  NEVE_NOINLINE void operator()(ParticleLanes<Real, W>* batch, int count, ModelKind model,
+                                const MaterialConstants<Real>* table, bool is_projected,
+                                V* wave_modulus, unsigned* is_inverted) {
     const bool is_plastic = is_projected && model == ModelKind::snow;
     unsigned rest[most_batches];
     int packed = 0;
@@ -288,7 +288,7 @@ class MaterialUpdate {
 
   /// N batches of packed particles from the q-th.
   template <int N>
-  NEVE_APART void decompose(int q, int packed, bool is_plastic) {
+  NEVE_NOINLINE void decompose(int q, int packed, bool is_plastic) {
     M m[N];
     Sym3<V> b[N];
     SymmetricEigen<V> eigen[N];
@@ -309,7 +309,7 @@ class MaterialUpdate {
   }
 
   /// Lanes `rest` of the batch at q again, by F_E itself.
-  NEVE_APART void decompose_rest(M& m, int q, unsigned rest, bool is_plastic) {
+  NEVE_NOINLINE void decompose_rest(M& m, int q, unsigned rest, bool is_plastic) {
     M again;
     for (int w = 0; w < M::words; ++w)
       if (!is_result(w)) again.word[w] = load_lanes<V>(packed_[w] + q);

@@ -18,7 +18,7 @@
 
 namespace neve::sim::kernels {
 
-/// What is kept of a particle in contact with a collider; numbers, or lanes.
+/// A particle in contact with a collider; numbers, or lanes.
 template <class R, class I>
 struct ContactRecord {
   R offset[3];  ///< of the particle in its cell
@@ -26,7 +26,8 @@ struct ContactRecord {
   R normal[3];
   R impulse;     ///< kg m/s, along the normal
   R surface[3];  ///< m/s, velocity of the surface
-  R friction;    ///< most of the impulse along the surface, as a share of the one along the normal
+  R friction;    ///< bound on the impulse along the surface: times the one along the normal, or,
+               ///< where the collider holds on to the particle, in kg m/s
   R sliding[3];  ///< kg m/s, impulse along the surface
   R row;         ///< D_p, 1/kg
   R own[3];      ///< m/s, what the particle keeps beside the velocity of the grid

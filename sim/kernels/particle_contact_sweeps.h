@@ -13,10 +13,11 @@ inline constexpr double touching_share = 0.75;
 inline constexpr double touching_slack = 0.1;
 /// No particle touches at more than this, cells, however few there are in a cell.
 inline constexpr double most_touching = 0.5;
-/// Of how deep it is, what a particle inside is brought out by, per step and per second at most.
+/// A particle inside is brought out by these shares of its depth, per step and per second at most.
 inline constexpr double out_per_step = 0.2, out_per_second = 50;
-/// Of how much too near it is, what a particle outside is moved away by, per second. Enough against
-/// what the iteration leaves undone, step by step in the same direction; too little to be seen.
+/// A particle outside that is too near moves away by this share of what is missing, per second.
+/// That makes up for the errors of the iteration, which have the same sign in every step; nobody
+/// sees it.
 inline constexpr double apart_per_second = 1;
 
 /// x^(1/3) of positive numbers.
@@ -47,7 +48,7 @@ struct ContactSweepsFor {
 
   /// Particles of a block lie within 4 cells of its middle. They touch within half a cell and a
   /// slack, and may come nearer by twice what they and the collider move in a step.
-  NEVE_APART static void find_near(Near& near, const Args& a, std::uint64_t key) {
+  NEVE_NOINLINE static void find_near(Near& near, const Args& a, std::uint64_t key) {
     const StepConstants<Real>& c = a.step.constants;
     int cell[3];
     for (int axis = 0; axis < 3; ++axis) cell[axis] = block_coordinate(key, axis) * block_side;
@@ -348,7 +349,7 @@ struct ContactSweepsFor {
     const Vec3<V> before{c.sliding[0], c.sliding[1], c.sliding[2]};
     Vec3<V> sliding = before - (v_rel - n * v_n) * inverse;
     const V size = square_root_lanes(dot(sliding, sliding));
-    const V most = c.friction * (is_held ? absolute_lanes(impulse) + Real(1) : impulse);
+    const V most = is_held ? c.friction : c.friction * impulse;
     sliding = select(size > most, sliding * (most / size), sliding);
     const Vec3<V> change = n * (impulse - c.impulse) + (sliding - before);
     c.impulse = impulse;
@@ -368,20 +369,11 @@ struct ContactSweepsFor {
 
   // ---- nodes ------------------------------------------------------------------------------------
 
-  /// The tiles of blocks in contact that reach a node block, in the order of NodeBlock::tile.
+  /// The tiles of blocks in contact that reach a node block.
   NEVE_INLINE static void collect_pressed(const Args& a, Index block, Quad<Real>* sum) {
-    for (int n = 0; n < block_nodes; n += 4) R::zero().store(sum + n);
-    for (int o = 0; o < 8; ++o) {
-      const std::int32_t source = a.step.node_blocks[block].tile[o];
-      if (source < 0 || a.counts[source] == 0) continue;
-      const int ox = o >> 2, oy = o >> 1 & 1, oz = o & 1;
-      const int nx = ox ? Tile<K>::overlap : block_side, ny = oy ? Tile<K>::overlap : block_side;
-      const Quad<Real>* tile = tile_of<Real, K>(a.step, static_cast<Index>(source), 0) +
-                               Tile<K>::node(4 * ox, 4 * oy, 4 * oz);
-      for (int i = 0; i < nx; ++i)
-        for (int j = 0; j < ny; ++j)
-          R::load(tile + Tile<K>::node(i, j, 0)).add_to(sum + (i * block_side + j) * block_side);
-    }
+    collect<Real, K, Set>(a.step, block, 0, sum, [&](std::int32_t source) NEVE_INLINE_BODY {
+      return a.counts[source] != 0;
+    });
   }
 
   static void weigh(const Args& a, Index begin, Index end) {

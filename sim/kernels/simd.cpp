@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "sim/base/cpu.h"
-#include "sim/kernels/row.h"
+#include "sim/kernels/kernels_at.h"
 
 namespace neve::sim::kernels {
 
@@ -11,23 +11,13 @@ namespace {
 
 constexpr SimdLevel levels[] = {SimdLevel::avx512, SimdLevel::avx2, SimdLevel::baseline};
 
-template <class Real>
-const Sweeps<Real>& choose(SimdLevel level, int nodes, TransferKind transfer) {
-#ifdef NEVE_X86_KERNELS
-  if (level == SimdLevel::avx512) return KernelSet<Avx512Set>::sweeps(nodes, transfer, Real());
-  if (level == SimdLevel::avx2) return KernelSet<Avx2Set>::sweeps(nodes, transfer, Real());
-#endif
-  (void)level;
-  return KernelSet<BaselineSet>::sweeps(nodes, transfer, Real());
-}
-
 }  // namespace
 
 const Sweeps<float>& sweeps_for(SimdLevel level, int nodes, TransferKind transfer, float) {
-  return choose<float>(level, nodes, transfer);
+  return kernels_at<KernelSet>(level, nodes, transfer, float());
 }
 const Sweeps<double>& sweeps_for(SimdLevel level, int nodes, TransferKind transfer, double) {
-  return choose<double>(level, nodes, transfer);
+  return kernels_at<KernelSet>(level, nodes, transfer, double());
 }
 
 const char* name(SimdLevel level) {

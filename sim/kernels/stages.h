@@ -245,8 +245,9 @@ NEVE_INLINE Quad<Real> node_v_free(Quad<Real> v_old, Quad<Real> force,
 /// @param work     what colliders do, impulse times the speed of their surface, J; only what is
 /// added
 template <class Set, class V, class Real>
-NEVE_APART void collide(Vec3<V>& v, const V& mass, const Vec3<V>& r, const MaskOf<V>& is_used,
-                        const LocalCollider<Real>* colliders, int count, Real depth, double& work) {
+NEVE_NOINLINE void collide(Vec3<V>& v, const V& mass, const Vec3<V>& r, const MaskOf<V>& is_used,
+                           const LocalCollider<Real>* colliders, int count, Real depth,
+                           double& work) {
   V done{};
   for (int k = 0; k < count; ++k) {
     const Vec3<V> before = v;
@@ -271,8 +272,8 @@ struct NearColliders {
 
 /// @param centre, reach  places in the block lie within `reach` cells of (centre, centre, centre)
 template <class Set, class Real>
-NEVE_APART void find_near(NearColliders<Real>& near, const StepConstants<Real>& c,
-                          std::uint64_t key, Real centre, Real reach) {
+NEVE_NOINLINE void find_near(NearColliders<Real>& near, const StepConstants<Real>& c,
+                             std::uint64_t key, Real centre, Real reach) {
   int cell[3];
   for (int a = 0; a < 3; ++a) cell[a] = block_coordinate(key, a) * block_side;
   const Vec3<Real> middle{centre * c.h, centre * c.h, centre * c.h};
@@ -424,8 +425,8 @@ inline constexpr int push_rounds = 8;
 /// @param deepest  m
 /// @return what was moved
 template <class Set, class V, class Real>
-NEVE_APART MaskOf<V> push_out(Vec3<V>& r, Real deepest, const LocalCollider<Real>* colliders,
-                              int count) {
+NEVE_NOINLINE MaskOf<V> push_out(Vec3<V>& r, Real deepest, const LocalCollider<Real>* colliders,
+                                 int count) {
   MaskOf<V> moved{};
   for (int round = 0; round < push_rounds; ++round) {
     MaskOf<V> found{};

@@ -16,16 +16,16 @@ NEVE_INLINE Quad<Real>* nodes_of(const SweepArgs<Real>& a, std::uint32_t block, 
   return a.nodes + (first + static_cast<std::size_t>(channel)) * block_nodes;
 }
 
-/// Adds the tiles that reach a node block, always in the order of NodeBlock::tile. Rows go beyond
-/// the tile's overlap along z, filled with 0.
-template <class Real, int K, class Set>
+/// Adds the tiles that reach a node block, always in the order of NodeBlock::tile; only those of
+/// particle blocks that `takes` accepts. Rows go beyond the tile's overlap along z, filled with 0.
+template <class Real, int K, class Set, class Takes>
 NEVE_INLINE void collect(const SweepArgs<Real>& a, std::uint32_t block, int channel,
-                         Quad<Real>* sum) {
+                         Quad<Real>* sum, const Takes& takes) {
   using R = Row<Real, Set>;
   bool is_first = true;
   for (int o = 0; o < 8; ++o) {
     const std::int32_t source = a.node_blocks[block].tile[o];
-    if (source < 0) continue;
+    if (source < 0 || !takes(source)) continue;
     const int ox = o >> 2, oy = o >> 1 & 1, oz = o & 1;
     const int nx = ox ? Tile<K>::overlap : block_side, ny = oy ? Tile<K>::overlap : block_side;
     const Quad<Real>* tile = tile_of<Real, K>(a, static_cast<std::uint32_t>(source), channel) +
@@ -40,6 +40,13 @@ NEVE_INLINE void collect(const SweepArgs<Real>& a, std::uint32_t block, int chan
       }
     is_first = false;
   }
+  if (is_first)
+    for (int n = 0; n < block_nodes; ++n) sum[n] = Quad<Real>{};
+}
+template <class Real, int K, class Set>
+NEVE_INLINE void collect(const SweepArgs<Real>& a, std::uint32_t block, int channel,
+                         Quad<Real>* sum) {
+  collect<Real, K, Set>(a, block, channel, sum, [](std::int32_t) NEVE_INLINE_BODY { return true; });
 }
 
 /// The inverse: a particle block's tile, filled from the node blocks around it.

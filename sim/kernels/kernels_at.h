@@ -1,0 +1,20 @@
+#pragma once
+/// The kernels of an instruction set.
+
+#include "sim/kernels/kernels.h"
+#include "sim/kernels/row.h"
+
+namespace neve::sim::kernels {
+
+/// Set<Avx2Set>::sweeps(given...), for the instruction set of a level.
+template <template <class> class Set, class... Given>
+const auto& kernels_at(SimdLevel level, Given... given) {
+#ifdef NEVE_X86_KERNELS
+  if (level == SimdLevel::avx512) return Set<Avx512Set>::sweeps(given...);
+  if (level == SimdLevel::avx2) return Set<Avx2Set>::sweeps(given...);
+#endif
+  (void)level;
+  return Set<BaselineSet>::sweeps(given...);
+}
+
+}  // namespace neve::sim::kernels
