@@ -76,9 +76,10 @@ void describe(V& visit, sim::SolverSettings& s) {
         "per step.");
   visit("advect", s.advect, unit::none, anything, live,
         "Velocity that moves particles: their own (the paper) or the grid's.");
-  visit("contact_at", s.contact_at, unit::none, anything, live,
-        "Contact in explicit steps: at particles, on the surface; at nodes (the paper), up to a "
-        "cell before it.");
+  visit(
+      "contact_at", s.contact_at, unit::none, anything, live,
+      "particles: snow touches colliders; nodes: the paper's contact, which leaves a gap of up to "
+      "a cell.");
   visit("time_step", s.time_step, unit::none, anything, live,
         "adaptive: choose each step from the limits below; fixed: use dt.");
   visit("dt", s.dt, unit::second, between(1e-9, 1), live,
@@ -99,8 +100,8 @@ void describe(V& visit, sim::SolverSettings& s) {
   visit("solve_iterations", s.solve_iterations, unit::none, between(1, 10000), live,
         "Largest number of iterations in a semi-implicit step.");
   visit("collide_after_solve", s.collide_after_solve, unit::none, anything, live,
-        "Let nodes collide again after the solve, unlike the paper; this keeps snow out of "
-        "colliders.");
+        "Let nodes collide again after the solve, unlike the paper. Only with contact_at = "
+        "\"nodes\".");
   visit("push_out", s.push_out, unit::none, anything, live,
         "Move particles deeper than 0.1 cell_size in a collider back to that depth, unlike the "
         "paper.");

@@ -2,7 +2,8 @@
 /// every 1/120 s. ./study in this folder compiles it and runs the whole study.
 ///   impact [snow=paper|dry] [n=8] [transfer=flip|mls] [acoustic_cfl=0.5] [flip_reference_dt=5e-4]
 ///          [seed=1] [speed=5] [youngs_modulus=] [model=snow|corotated]
-///          [beta=0] [dt=0] [max_dt=1e-3] [collide_after_solve=0] [time=0.125]
+///          [beta=0] [dt=0] [max_dt=1e-3] [contact_at=particles|nodes] [collide_after_solve=0]
+///          [time=0.125]
 /// n is the radius in cells. FLIP is cubic, MLS quadratic. dt > 0: fixed steps. The last line but
 /// one tells what the solve took; seconds are CPU time.
 
@@ -18,6 +19,8 @@
 #include "sim/simulation.h"
 
 using namespace neve::sim;
+using namespace neve::sim::seeding;
+using namespace neve::sim::shapes;
 
 namespace {
 
@@ -35,6 +38,7 @@ Simulation make_simulation(Arguments& a) {
   s.acoustic_cfl = number("acoustic_cfl");
   s.flip_reference_dt = number("flip_reference_dt");
   s.beta = number("beta");
+  s.contact_at = a["contact_at"] == "nodes" ? ContactAt::nodes : ContactAt::particles;
   s.collide_after_solve = number("collide_after_solve") > 0;
   s.max_dt = number("max_dt");
   if (number("dt") > 0) {
@@ -108,6 +112,7 @@ int main(int argc, char** argv) {
               {"beta", "0"},
               {"dt", "0"},
               {"max_dt", "1e-3"},
+              {"contact_at", "particles"},
               {"collide_after_solve", "0"},
               {"time", "0.125"}};
   for (int i = 1; i < argc; ++i) {

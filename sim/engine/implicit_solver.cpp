@@ -16,6 +16,14 @@ constexpr double least_tolerance = sizeof(Real) == 4 ? 1e-6 : 1e-14;
 /// length of v_star it is not taken.
 constexpr double max_growth_squared = 4;
 
+/// Contacts are as stiff as the snow that presses against them can be: in units of 1 / D_p a node's
+/// mass is 1, and the elastic part of the matrix is at most about beta (c dt / h)^2. Stiffer ones
+/// take more iterations, in proportion to the root, and change a press by a few percent.
+double contact_stiffness(const SolverSettings& settings, const StateLimits& limits, double dt) {
+  const double cfl = limits.max_sound_speed * dt / settings.cell_size;
+  return 1 + settings.beta * cfl * cfl;
+}
+
 template <class Real>
 double tolerance(const SolverSettings& settings) {
   return std::max(settings.solve_tolerance, least_tolerance<Real>);
@@ -40,16 +48,20 @@ double ImplicitSolver<Real>::sum_over_nodes(const State<Real>& state,
 /// @param size |M^1/2 v_star|^2
 template <class Real>
 SolveReport ImplicitSolver<Real>::conjugate_residuals(const State<Real>& state,
-                                                      kernels::SolveArgs<Real>& a,
-                                                      double size) const {
+                                                      kernels::SolveArgs<Real>& a, double size,
+                                                      ParticleContact<Real>* contact) const {
   const kernels::SolveSweeps<Real>& s = *state.method.solve_sweeps;
   const SolverSettings& settings = state.method.settings;
-  state.over_particle_blocks(s.apply, a);
+  const auto apply = [&](bool is_first) {
+    state.over_particle_blocks(s.apply, a);
+    if (contact) contact->hold(state, a, is_first);
+  };
+  apply(true);
   double rr = sum_over_nodes(state, s.residual, a), rAr = 0;
   const auto residual = [&] { return size > 0 ? std::sqrt(rr / size) : 0.0; };
   SolveReport report;
   while (residual() > tolerance<Real>(settings) && report.iterations < settings.solve_iterations) {
-    state.over_particle_blocks(s.apply, a);
+    apply(false);
     const double before = rAr;
     rAr = sum_over_nodes(state, s.image, a);
     a.turn = report.iterations == 0 ? Real(0) : static_cast<Real>(rAr / before);
@@ -72,27 +84,61 @@ kernels::SolveArgs<Real> ImplicitSolver<Real>::solve_args(const State<Real>& sta
   kernels::SolveArgs<Real> a{};
   a.step = step;
   a.beta_dt_squared = static_cast<Real>(settings.beta * dt * dt);
+  a.hold = static_cast<Real>(contact_stiffness(settings, state.progress.limits, dt));
   a.collides = settings.collide_after_solve;
   const std::size_t blocks = state.particles.partition.node_blocks().size();
   a.elasticity = elasticity_.at_least(kernels::elasticity_quads * state.particles.size());
   a.vectors = vectors_.at_least(blocks * kernels::solve_vectors * kernels::block_nodes);
   products_.resize(blocks);
   a.products = products_.data();
+  is_held_.assign(blocks, 0);
+  a.is_held = is_held_.data();
   return a;
 }
 
 template <class Real>
+void ImplicitSolver<Real>::add_work_on_held_nodes(const State<Real>& state,
+                                                  const kernels::SolveArgs<Real>& a) {
+  const kernels::SolveSweeps<Real>& s = *state.method.solve_sweeps;
+  const Partition& partition = state.particles.partition;
+  held_blocks_.clear();
+  reaching_blocks_.clear();
+  for (std::size_t n = 0; n < is_held_.size(); ++n) {
+    if (!is_held_[n]) continue;
+    held_blocks_.push_back(static_cast<std::uint32_t>(n));
+    for (const std::int32_t source : partition.node_blocks()[n].tile)
+      if (source >= 0) reaching_blocks_.push_back(static_cast<std::uint32_t>(source));
+  }
+  if (held_blocks_.empty()) return;
+  std::sort(reaching_blocks_.begin(), reaching_blocks_.end());
+  reaching_blocks_.erase(std::unique(reaching_blocks_.begin(), reaching_blocks_.end()),
+                         reaching_blocks_.end());
+  const auto over = [&](const std::vector<std::uint32_t>& blocks, kernels::SolveSweep<Real> sweep) {
+    state.pool->ranges(blocks.size(), state.active_threads(),
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t k = begin; k < end; ++k)
+                           sweep(a, blocks[k], blocks[k] + 1);
+                       });
+  };
+  state.over_node_blocks(s.look_at, a);
+  over(reaching_blocks_, s.apply);
+  over(held_blocks_, s.react);
+}
+
+template <class Real>
 bool ImplicitSolver<Real>::solve(State<Real>& state, const kernels::SweepArgs<Real>& step,
-                                 double dt) {
+                                 double dt, ParticleContact<Real>* contact) {
   const kernels::SolveSweeps<Real>& s = *state.method.solve_sweeps;
   kernels::SolveArgs<Real> a = solve_args(state, step, dt);
   state.over_particle_blocks(s.keep_elasticity, a);
   const double given = sum_over_nodes(state, s.start, a);
-  last_solve_ = conjugate_residuals(state, a, given);
+  last_solve_ = conjugate_residuals(state, a, given, contact);
   const double found = sum_over_nodes(state, s.size, a);
   // Snow at rest has a residual of 1. NaN is of no use either.
   const bool is_useful = last_solve_.residual < 1 && found <= max_growth_squared * given;
   if (!is_useful) {
+    a.hold = 0;
+    if (contact) contact->settle(state, a);
     last_solve_.given_up = 1;
     ++state.progress.warnings.solves_given_up;
     return false;
@@ -102,6 +148,10 @@ bool ImplicitSolver<Real>::solve(State<Real>& state, const kernels::SweepArgs<Re
     ++state.progress.warnings.solves_cut_short;
   }
   state.over_node_blocks(s.finish, a);
+  if (contact)
+    contact->settle(state, a);
+  else
+    add_work_on_held_nodes(state, a);
   return true;
 }
 

@@ -129,8 +129,8 @@ void prepare(State<Real>& state, StartState& start) {
   state.over_node_blocks(sweeps.collect_momentum, a);
   if (!state.method.settings.skips(Stage::volumes)) state.over_particle_blocks(sweeps.volumes, a);
   for (kernels::StagedNodes<Real>& nodes : staged)
-    std::copy(std::begin(nodes.v_old), std::end(nodes.v_old), std::begin(nodes.v_star));
-  state.over_node_blocks(sweeps.keep_velocities, a);
+    std::copy(std::begin(nodes.v_old), std::end(nodes.v_old), std::begin(nodes.v_new));
+  state.over_node_blocks(sweeps.lay_out_velocities, a);
   state.over_particle_blocks(sweeps.gather, a);
 
   kernels::BlockReport<Real> report = state.refresh(0, count);

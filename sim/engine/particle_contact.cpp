@@ -9,6 +9,11 @@ namespace {
 /// The first goes most of the way, the second sees what it did to the neighbours.
 constexpr int passes = 2;
 
+/// ContactArgs::apart, 1/s. It makes up for what the iteration leaves undone, step by step in the
+/// same direction, and nobody sees it. Springs give way to snow that presses against them, by about
+/// its share of their stiffness. Too little in both cases to make snow bounce.
+constexpr double apart_after_passes = 1, apart_after_solve = 20;
+
 }  // namespace
 
 /// Before the first contact, so that steps allocate nothing later: blocks of nodes are few, and an
@@ -72,36 +77,66 @@ void ParticleContact<Real>::list_node_blocks(const Partition& partition) {
 }
 
 template <class Real>
-void ParticleContact<Real>::act(const State<Real>& state, const kernels::SweepArgs<Real>& step) {
+void ParticleContact<Real>::over(const std::vector<std::uint32_t>& blocks, Sweep sweep,
+                                 const State<Real>& state) const {
+  state.pool->ranges(
+      blocks.size(), state.active_threads(), [&](std::size_t begin, std::size_t end) {
+        sweep(args_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+      });
+}
+
+template <class Real>
+void ParticleContact<Real>::act(const State<Real>& state, const kernels::SweepArgs<Real>& step,
+                                bool is_before_solve) {
+  blocks_.clear();
   if (step.constants.collider_count == 0) return;
   const Partition& partition = state.particles.partition;
   const kernels::ContactSweeps<Real>& sweeps = *state.method.contact_sweeps;
   make_room(step.particle_count, partition);
-  kernels::ContactArgs<Real> a = contact_args(state, step);
+  kernels::ContactArgs<Real>& a = args_ = contact_args(state, step);
+  a.is_before_solve = is_before_solve;
+  a.apart = is_before_solve ? Real(apart_after_solve) : Real(apart_after_passes);
   state.over_particle_blocks(sweeps.find, a);
   const std::uint64_t most = place_contacts();
   if (most == 0) return;
   if (contacts_.size() < most) contacts_.resize(2 * most);
   a.contacts = contacts_.data();
-  const auto over = [&](const std::vector<std::uint32_t>& list, kernels::ContactSweep<Real> sweep) {
-    state.pool->ranges(
-        list.size(), state.active_threads(), [&](std::size_t begin, std::size_t end) {
-          sweep(a, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
-        });
-  };
   list_blocks();
   a.blocks = blocks_.data();
-  over(blocks_, sweeps.start);
+  over(blocks_, sweeps.start, state);
   list_blocks();
   if (blocks_.empty()) return;
   list_node_blocks(partition);
   a.node_blocks = node_blocks_.data();
-  over(node_blocks_, sweeps.weigh);
+  over(node_blocks_, sweeps.weigh, state);
   for (int pass = 1; pass <= passes; ++pass) {
     a.is_last = pass == passes;
-    over(blocks_, sweeps.press);
-    over(node_blocks_, sweeps.yield);
+    over(blocks_, sweeps.press, state);
+    over(node_blocks_, sweeps.yield, state);
   }
+}
+
+template <class Real>
+void ParticleContact<Real>::hold(const State<Real>& state, const kernels::SolveArgs<Real>& solve,
+                                 bool is_first) {
+  kernels::ContactArgs<Real>& a = args_;
+  a.is_first = is_first;
+  a.u = solve.vectors + kernels::solve_u * kernels::block_nodes;
+  a.u_stride = kernels::solve_vectors * kernels::block_nodes;
+  a.hold = solve.hold;
+  a.beta_dt_squared = solve.beta_dt_squared;
+  over(blocks_, state.method.contact_sweeps->hold, state);
+}
+
+template <class Real>
+void ParticleContact<Real>::settle(const State<Real>& state,
+                                   const kernels::SolveArgs<Real>& solve) {
+  kernels::ContactArgs<Real>& a = args_;
+  a.is_first = true;
+  a.u = solve.step.nodes;
+  a.u_stride = static_cast<std::size_t>(solve.step.channels) * kernels::block_nodes;
+  a.hold = solve.hold;
+  over(blocks_, state.method.contact_sweeps->settle, state);
 }
 
 template <class Real>

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/engine/state.h"
+#include "sim/kernels/implicit.h"
 #include "sim/kernels/particle_contact.h"
 
 namespace neve::sim::engine {
@@ -16,11 +17,21 @@ class ParticleContact {
   /// v_star from v_free, both as v_new of the nodes. Overwrites the first channel of the tiles, and
   /// adds the work of the colliders to that of the nodes.
   /// @param step  whose nodes have v_free
-  void act(const State<Real>& state, const kernels::SweepArgs<Real>& step);
+  /// @param is_before_solve  the springs come into it
+  void act(const State<Real>& state, const kernels::SweepArgs<Real>& step, bool is_before_solve);
+
+  // In the semi-implicit solve of the step that `act` was called for.
+
+  /// Adds what contacts hold to H u in the tiles.
+  void hold(const State<Real>& state, const kernels::SolveArgs<Real>& solve, bool is_first);
+  /// Adds what the springs did to the impulses, and the work of the colliders to that of the nodes.
+  void settle(const State<Real>& state, const kernels::SolveArgs<Real>& solve);
 
   std::size_t memory_bytes() const;
 
  private:
+  using Sweep = kernels::ContactSweep<Real>;
+  void over(const std::vector<std::uint32_t>& blocks, Sweep sweep, const State<Real>& state) const;
   kernels::ContactArgs<Real> contact_args(const State<Real>& state,
                                           const kernels::SweepArgs<Real>& step);
   void make_room(std::size_t particles, const Partition& partition);
@@ -35,6 +46,7 @@ class ParticleContact {
   std::vector<std::uint8_t> is_reached_;             ///< per node block
   std::vector<kernels::Contact<Real>> contacts_;
   std::vector<kernels::ContactNodes<Real>> nodes_;
+  kernels::ContactArgs<Real> args_{};  ///< of the last step
 };
 
 }  // namespace neve::sim::engine

@@ -41,8 +41,8 @@ template <class Real>
 bool FusedDriver<Real>::step(bool is_implicit) {
   sort_particles();                                      //         into blocks of 4x4x4 cells
   particles_to_grid();                                   //  1, 3   m_i, v_old, f_i
-  update_grid();                                         //  4, 5   v_free, v_star
-  if (is_implicit && !solve_velocities()) return false;  //  6      v_new
+  update_grid(is_implicit);                              //  4, 5   v_free, v_star
+  if (is_implicit && !solve_velocities()) return false;  //  5, 6   v_star, v_new
   grid_to_particles();                                   //  7-10   F_E, J_P, v_p, x_p
   move_colliders();                                      // 11
   return true;
@@ -104,8 +104,7 @@ template <class Real>
 void StagedDriver<Real>::collide_grid() {
   const auto keep_v_free = [&] {
     each_node([](auto& nodes, int n) { nodes.v_star[n] = nodes.v_free[n]; });
-    std::vector<double>& work = state_.grid.node_contact_work;
-    std::fill(work.begin(), work.end(), 0.0);
+    clear_node_contact_work();
   };
   const auto collide = [&] {
     if (state_.method.settings.is_contact_at_particles())
@@ -116,22 +115,28 @@ void StagedDriver<Real>::collide_grid() {
   stage(Stage::grid_collisions, collide, keep_v_free);
 }
 
-/// Explicit steps take v_star, and so do steps whose solve fails.
+/// Explicit steps take v_star, and so do steps whose solve fails. The solve starts at v_free: it
+/// has to know what contact holds.
 template <class Real>
 void StagedDriver<Real>::solve_velocities() {
   const SolverSettings& settings = state_.method.settings;
-  const bool has_channels =
-      settings.is_contact_at_particles() && !settings.skips(Stage::grid_collisions);
+  const bool skips_contact = settings.skips(Stage::grid_collisions);
+  const bool has_channels = settings.is_contact_at_particles() && !skips_contact;
   const auto keep_v_star = [&] {
     if (has_channels)
       each_node([](auto& nodes, int n) { nodes.v_new[n] = nodes.v_star[n]; });
     else
-      over_node_blocks(state_.method.sweeps->keep_velocities);
+      write_velocities(&kernels::StagedNodes<Real>::v_star);
   };
   const auto solve = [&] {
-    keep_v_star();
-    if (!settings.is_implicit()) return;
-    parts_.solver.solve(state_, a_, dt_);
+    if (!settings.is_implicit()) return keep_v_star();
+    if (has_channels) {
+      parts_.solver.solve(state_, without_colliders(a_), dt_, &parts_.contact);
+    } else {
+      write_velocities(&kernels::StagedNodes<Real>::v_free);
+      clear_node_contact_work();
+      parts_.solver.solve(state_, skips_contact ? without_colliders(a_) : a_, dt_, nullptr);
+    }
     read_velocities(&kernels::StagedNodes<Real>::v_new);
   };
   stage(Stage::implicit_solve, solve, keep_v_star);
@@ -200,20 +205,25 @@ void FusedDriver<Real>::particles_to_grid() {
         [&] { state_.over_particle_blocks(state_.method.sweeps->particles_to_grid, a_); });
 }
 
+/// Contact is at the nodes, at particles, or a part of the solve, which starts at v_free.
 template <class Real>
-void FusedDriver<Real>::update_grid() {
+void FusedDriver<Real>::update_grid(bool is_implicit) {
   timed(seconds_.grid_update, [&] {
     const bool at_particles = state_.method.settings.is_contact_at_particles();
     state_.over_node_blocks(state_.method.sweeps->grid_update,
-                            at_particles ? without_colliders(a_) : a_);
-    if (at_particles) parts_.contact.act(state_, a_);
+                            at_particles || is_implicit ? without_colliders(a_) : a_);
+    if (at_particles) parts_.contact.act(state_, a_, is_implicit);
   });
 }
 
 template <class Real>
 bool FusedDriver<Real>::solve_velocities() {
+  const bool at_particles = state_.method.settings.is_contact_at_particles();
   bool is_solved = false;
-  timed(seconds_.solve, [&] { is_solved = parts_.solver.solve(state_, a_, dt_); });
+  timed(seconds_.solve, [&] {
+    is_solved = parts_.solver.solve(state_, at_particles ? without_colliders(a_) : a_, dt_,
+                                    at_particles ? &parts_.contact : nullptr);
+  });
   return is_solved;
 }
 
@@ -256,17 +266,28 @@ void StagedDriver<Real>::each_node(const Change& change) {
 template <class Real>
 void StagedDriver<Real>::collide_at_particles() {
   state_.over_node_blocks(state_.method.sweeps->grid_collisions, without_colliders(a_));
-  over_node_blocks(state_.method.sweeps->keep_velocities);
-  parts_.contact.act(state_, a_);
+  write_velocities(&kernels::StagedNodes<Real>::v_free);
+  parts_.contact.act(state_, a_, state_.method.settings.is_implicit());
   read_velocities(&kernels::StagedNodes<Real>::v_star);
 }
 
 template <class Real>
-void StagedDriver<Real>::read_velocities(
-    Quad<Real> (kernels::StagedNodes<Real>::*field)[kernels::block_nodes]) {
+void StagedDriver<Real>::write_velocities(NodeVelocities field) {
+  each_node([field](auto& nodes, int n) { nodes.v_new[n] = (nodes.*field)[n]; });
+  over_node_blocks(state_.method.sweeps->lay_out_velocities);
+}
+
+template <class Real>
+void StagedDriver<Real>::read_velocities(NodeVelocities field) {
   const std::size_t nodes_per_block = kernels::all_channels * kernels::block_nodes;
   for (std::size_t b = 0; b < fields_.nodes.size(); ++b)
     std::copy_n(a_.nodes + b * nodes_per_block, kernels::block_nodes, fields_.nodes[b].*field);
+}
+
+template <class Real>
+void StagedDriver<Real>::clear_node_contact_work() {
+  std::vector<double>& work = state_.grid.node_contact_work;
+  std::fill(work.begin(), work.end(), 0.0);
 }
 
 /// See SolverSettings::resting_mass.

@@ -36,13 +36,13 @@ class FusedDriver {
   FusedDriver(State<Real>& state, StepParts<Real>& parts, double dt)
       : state_(state), parts_(parts), seconds_(parts.seconds), dt_(dt) {}
 
-  /// @return false: the solve failed, nothing was changed
+  /// @return false: the solve failed, and the particles are as they were
   bool step(bool is_implicit);
 
  private:
   void sort_particles();
   void particles_to_grid();
-  void update_grid();
+  void update_grid(bool is_implicit);
   bool solve_velocities();
   void grid_to_particles();
   void move_colliders();
@@ -86,6 +86,7 @@ class StagedDriver {
   void move_particles();
   void move_colliders();
 
+  using NodeVelocities = Quad<Real> (kernels::StagedNodes<Real>::*)[kernels::block_nodes];
   struct Nothing {
     void operator()() const {}
   };
@@ -96,10 +97,13 @@ class StagedDriver {
   template <class Change>
   void each_node(const Change& change);
   void collide_at_particles();
+  /// What particles gather, from a field of the nodes.
+  void write_velocities(NodeVelocities field);
   /// Fields of the nodes from what particles gather.
-  void read_velocities(Quad<Real> (kernels::StagedNodes<Real>::*field)[kernels::block_nodes]);
+  void read_velocities(NodeVelocities field);
   void over_particle_blocks(kernels::Sweep<Real> sweep) { state_.over_particle_blocks(sweep, a_); }
   void over_node_blocks(kernels::Sweep<Real> sweep) { state_.over_node_blocks(sweep, a_); }
+  void clear_node_contact_work();
   void rest_light_nodes();
   void deform();
 

@@ -291,27 +291,47 @@ NEVE_INLINE Vec3<V> surface_velocity(const LocalCollider<Real>& c, const Vec3<V>
   return widened<V>(c.velocity) + cross(widened<V>(c.omega), widened<V>(c.to_block) + r);
 }
 
+/// Contact with one collider, a value per lane.
+template <class V>
+struct Response {
+  Vec3<V> v;         ///< after it
+  MaskOf<V> acts;    ///< v is held along the normal
+  MaskOf<V> sticks;  ///< v is held along the surface as well
+  Vec3<V> n;         ///< outward normal
+};
+
 /// Velocity after contact.
 /// sticky: v_co. slip: no motion along the normal, free sliding. separate: leaves freely, otherwise
 /// slides with Coulomb friction, v_t (1 + mu v_n / |v_t|), or sticks where friction would reverse
 /// it.
 /// @param depth  from which contact acts, m
 template <class V, class Real>
-NEVE_INLINE Vec3<V> respond(const LocalCollider<Real>& c, const Vec3<V>& r, const Vec3<V>& v,
-                            Real depth = 0) {
-  Vec3<V> n;
-  const MaskOf<V> is_inside = touch(c, r, n, depth);
-  if (!any_lane(is_inside)) return v;
-  const Vec3<V> v_co = surface_velocity(c, r);
-  if (c.contact == ContactLaw::sticky) return select(is_inside, v_co, v);
+NEVE_INLINE Response<V> respond(const LocalCollider<Real>& c, const Vec3<V>& r, const Vec3<V>& v,
+                                Real depth = 0) {
+  Response<V> out{v, {}, {}, {}};
+  const MaskOf<V> is_inside = touch(c, r, out.n, depth);
+  if (!any_lane(is_inside)) return out;
+  const Vec3<V> n = out.n, v_co = surface_velocity(c, r);
+  out.acts = is_inside;
+  if (c.contact == ContactLaw::sticky) {
+    out.v = select(is_inside, v_co, v);
+    out.sticks = is_inside;
+    return out;
+  }
   const Vec3<V> v_rel = v - v_co;
   const V v_n = dot(v_rel, n);
-  if (c.contact == ContactLaw::slip) return select(is_inside, v - n * v_n, v);
+  if (c.contact == ContactLaw::slip) {
+    out.v = select(is_inside, v - n * v_n, v);
+    return out;
+  }
   const Vec3<V> v_t = v_rel - n * v_n;
   const V speed_t = square_root_lanes(dot(v_t, v_t));
   const MaskOf<V> sticks = speed_t <= -c.friction * v_n;
   const Vec3<V> slides = v_t * (Real(1) + c.friction * v_n / speed_t) + v_co;
-  return select(is_inside & (v_n < V{}), select(sticks, v_co, slides), v);
+  out.acts = is_inside & (v_n < V{});
+  out.v = select(out.acts, select(sticks, v_co, slides), v);
+  if (c.friction > Real(0)) out.sticks = out.acts & sticks;
+  return out;
 }
 
 }  // namespace neve::sim::kernels

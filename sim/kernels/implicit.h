@@ -4,6 +4,9 @@
 /// with H the Hessian of the elastic energy at the start of the step, never put together. Solved
 /// for y = M^1/2 v_new, where the system is symmetric:
 ///   A y = M^1/2 v_star,  A = I + beta dt^2 M^-1/2 H M^-1/2.
+/// A collider is a wall and not an initial velocity: nodes that touch one keep v_star in the
+/// directions that it holds. With P the part along the others, v_new = (I - P) v_star + M^-1/2 y:
+///   P A P y = P M^1/2 v_star - beta dt^2 P M^-1/2 H (I - P) v_star,  y = P y.
 /// Plain data, as in kernels.h.
 
 #include "sim/kernels/kernels.h"
@@ -12,20 +15,31 @@ namespace neve::sim::kernels {
 
 /// Vectors of a node during a solve. u is the displacement that particles gather next, M^-1/2 times
 /// the vector that A is applied to; its fourth number is m^-1/2, 0 where there is no mass.
-enum SolveVector { solve_y, solve_r, solve_q, solve_Ar, solve_Aq, solve_u, solve_vectors };
+enum SolveVector {
+  solve_y,
+  solve_r,
+  solve_q,
+  solve_Ar,
+  solve_Aq,
+  solve_u,
+  solve_held,  ///< see held.h
+  solve_vectors
+};
 
 /// Quads that a particle keeps, in the order of the blocks: Elasticity.
 inline constexpr int elasticity_quads = 2;
 
 template <class Real>
 struct SolveArgs {
-  SweepArgs<Real> step;    ///< nodes have v_star and get v_new
+  SweepArgs<Real> step;    ///< nodes have v_free and get v_star, then v_new
   Real beta_dt_squared;    ///< s2
   Real along, turn;        ///< the step's length and the share of the last direction
+  Real hold;               ///< stiffness of contacts at particles, see particle_contact.h
   bool collides;           ///< nodes meet colliders again
   Quad<Real>* elasticity;  ///< per sorted position
   Quad<Real>* vectors;     ///< per node block: solve_vectors x 64
   double* products;        ///< per node block: its part of the sum that a sweep asks for
+  std::uint8_t* is_held;   ///< per node block: some of its nodes are
 };
 
 template <class Real>
@@ -35,13 +49,15 @@ using SolveSweep = void (*)(const SolveArgs<Real>&, std::uint32_t begin, std::ui
 template <class Real>
 struct SolveSweeps {
   SolveSweep<Real> keep_elasticity, apply;
-  SolveSweep<Real> start;     ///< y = M^1/2 v_star; |y|^2
-  SolveSweep<Real> residual;  ///< r = y - A y; |r|^2
-  SolveSweep<Real> image;     ///< A r; r . A r
+  SolveSweep<Real> start;     ///< v_star and what is held, y = P M^1/2 v_star; |M^1/2 v_star|^2
+  SolveSweep<Real> residual;  ///< r, of the first y; |r|^2
+  SolveSweep<Real> image;     ///< P A r; r . A r
   SolveSweep<Real> direct;    ///< q = r + turn q, A q likewise; |A q|^2
   SolveSweep<Real> advance;   ///< y += along q, r -= along A q; |r|^2
   SolveSweep<Real> size;      ///< |y|^2, no number where a velocity is none
-  SolveSweep<Real> finish;    ///< v_new = M^-1/2 y, collisions, and what FLIP wants of them
+  SolveSweep<Real> finish;    ///< v_new, collisions if asked for, and the change for FLIP
+  SolveSweep<Real> look_at;   ///< u = v_new
+  SolveSweep<Real> react;     ///< from H v_new: the work of what holds the nodes
 };
 
 /// The sweeps of an instruction set. MLS has its own gradient, FLIP and APIC share one.

@@ -4,6 +4,7 @@
 /// scatter of the forces.
 
 #include "sim/kernels/differential.h"
+#include "sim/kernels/held.h"
 #include "sim/kernels/implicit.h"
 #include "sim/kernels/sweeps.h"
 
@@ -140,19 +141,56 @@ struct SolveSweepsFor {
   }
 
   static void start(const Args& a, Index begin, Index end) {
+    Quad<Real> v_star[block_nodes];
     for (Index b = begin; b < end; ++b) {
-      const Quad<Real>* v_star = nodes_of(a.step, b, channel_v_new);
+      const Quad<Real>* v_free = nodes_of(a.step, b, channel_v_new);
+      for (int n = 0; n < block_nodes; ++n) v_star[n] = v_free[n];
+      Quad<Real>* held = vector(a, b, solve_held);
+      collide_and_hold(a, b, v_star, held);
       Quad<Real>*y = vector(a, b, solve_y), *u = vector(a, b, solve_u);
       Quad<Real>*q = vector(a, b, solve_q), *Aq = vector(a, b, solve_Aq);
       each_node(a, b, [&](int n, Products& sum) {
         const Real mass = v_star[n][3];
         const Real root = mass > Real(0) ? square_root(mass) : Real(0);
-        y[n] = with_fourth(v_star[n] * root, 0);
+        const Quad<Real> whole = with_fourth(v_star[n] * root, 0);
+        y[n] = free_part(held[n], whole);
         u[n] = with_fourth(v_star[n], mass > Real(0) ? Real(1) / root : Real(0));
         q[n] = Aq[n] = Quad<Real>{};
-        sum += product(y[n], y[n]);
+        sum += product(whole, whole);
       });
+      take(a, b, v_star);
     }
+  }
+
+  /// Step 5: v_star of a block's nodes from v_free, and the directions that it holds.
+  NEVE_INLINE static void collide_and_hold(const Args& a, Index block, Quad<Real>* v,
+                                           Quad<Real>* held) {
+    const StepConstants<Real>& c = a.step.constants;
+    for (int n = 0; n < block_nodes; ++n) held[n] = Quad<Real>{};
+    NearColliders<Real> near;
+    find_near_nodes<Set>(near, c, a.step.node_blocks[block].key);
+    if (near.count == 0) return;
+    Held<V> of[block_nodes / W];
+    double work = 0;
+    collide_nodes<Set>(v, c, near, work, [&](int n, const Response<V>& response) NEVE_INLINE_BODY {
+      of[n / W].add(response);
+    });
+    for (int n = 0; n < block_nodes; n += W) {
+      const Held<V>& h = of[n / W];
+      store_quads(FourWords<V>{{h.axis.x, h.axis.y, h.axis.z, h.count}}, held + n);
+      if (any_lane(h.count > V{})) a.is_held[block] = 1;
+    }
+    a.step.node_contact_work[block] += work;
+  }
+
+  /// The nodes of a block get a velocity.
+  NEVE_INLINE static void take(const Args& a, Index block, const Quad<Real>* v) {
+    Quad<Real>* v_new = nodes_of(a.step, block, channel_v_new);
+    if (a.step.channels > channel_change) {
+      Quad<Real>* change = nodes_of(a.step, block, channel_change);
+      for (int n = 0; n < block_nodes; ++n) change[n] += v[n] - v_new[n];
+    }
+    for (int n = 0; n < block_nodes; ++n) v_new[n] = v[n];
   }
 
   /// beta dt^2 M^-1/2 H u of a block's nodes, from the tiles.
@@ -163,13 +201,15 @@ struct SolveSweepsFor {
       change[n] = with_fourth(change[n] * (a.beta_dt_squared * u[n][3]), 0);
   }
 
+  /// Of y = P M^1/2 v_star, with u = v_star.
   static void residual(const Args& a, Index begin, Index end) {
     Quad<Real> change[block_nodes];
     for (Index b = begin; b < end; ++b) {
       Quad<Real>*r = vector(a, b, solve_r), *u = vector(a, b, solve_u);
+      const Quad<Real>* held = vector(a, b, solve_held);
       collect_change(a, b, u, change);
       each_node(a, b, [&](int n, Products& sum) {
-        r[n] = -change[n];
+        r[n] = -free_part(held[n], change[n]);
         u[n] = with_fourth(r[n] * u[n][3], u[n][3]);
         sum += product(r[n], r[n]);
       });
@@ -180,10 +220,11 @@ struct SolveSweepsFor {
     Quad<Real> change[block_nodes];
     for (Index b = begin; b < end; ++b) {
       const Quad<Real>*r = vector(a, b, solve_r), *u = vector(a, b, solve_u);
+      const Quad<Real>* held = vector(a, b, solve_held);
       Quad<Real>* Ar = vector(a, b, solve_Ar);
       collect_change(a, b, u, change);
       each_node(a, b, [&](int n, Products& sum) {
-        Ar[n] = r[n] + change[n];
+        Ar[n] = r[n] + free_part(held[n], change[n]);
         sum += product(r[n], Ar[n]);
       });
     }
@@ -230,8 +271,12 @@ struct SolveSweepsFor {
     Quad<Real> v[block_nodes];
     for (Index b = begin; b < end; ++b) {
       const Quad<Real>*y = vector(a, b, solve_y), *u = vector(a, b, solve_u);
-      Quad<Real>* v_new = nodes_of(a.step, b, channel_v_new);
-      for (int n = 0; n < block_nodes; ++n) v[n] = with_fourth(y[n] * u[n][3], v_new[n][3]);
+      const Quad<Real>*held = vector(a, b, solve_held),
+            *v_star = nodes_of(a.step, b, channel_v_new);
+      for (int n = 0; n < block_nodes; ++n) {
+        const Quad<Real> v_held = v_star[n] - free_part(held[n], v_star[n]);
+        v[n] = with_fourth(v_held + y[n] * u[n][3], v_star[n][3]);
+      }
       double work = 0;
       if (a.collides) {
         NearColliders<Real> near;
@@ -239,16 +284,38 @@ struct SolveSweepsFor {
         collide_nodes<Set>(v, c, near, work);
       }
       a.step.node_contact_work[b] += work;
-      if (a.step.channels > channel_change) {
-        Quad<Real>* change = nodes_of(a.step, b, channel_change);
-        for (int n = 0; n < block_nodes; ++n) change[n] += v[n] - v_new[n];
-      }
-      for (int n = 0; n < block_nodes; ++n) v_new[n] = v[n];
+      take(a, b, v);
     }
   }
 
-  static constexpr SolveSweeps<Real> table{keep_elasticity, apply,   start, residual, image,
-                                           direct,          advance, size,  finish};
+  static void look_at(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      const Quad<Real>* v_new = nodes_of(a.step, b, channel_v_new);
+      Quad<Real>* u = vector(a, b, solve_u);
+      for (int n = 0; n < block_nodes; ++n) u[n] = v_new[n];
+    }
+  }
+
+  /// Held directions keep their momentum in the solve: what acts there is beta dt^2 H v_new.
+  static void react(const Args& a, Index begin, Index end) {
+    Quad<Real> force[block_nodes];
+    for (Index b = begin; b < end; ++b) {
+      collect<Real, K, Set>(a.step, b, 0, force);
+      const Quad<Real>*held = vector(a, b, solve_held), *v_new = nodes_of(a.step, b, channel_v_new);
+      double work = 0;
+      for (int n = 0; n < block_nodes; ++n) {
+        if (!(v_new[n][3] > Real(0))) continue;
+        const Quad<Real> v_held = v_new[n] - free_part(held[n], v_new[n]);
+        const Quad<Real> done = force[n] * v_held * a.beta_dt_squared;
+        const Real sum = done[0] + done[1] + done[2];
+        if (sum > Real(0)) work += static_cast<double>(sum);
+      }
+      a.step.node_contact_work[b] += work;
+    }
+  }
+
+  static constexpr SolveSweeps<Real> table{keep_elasticity, apply, start,  residual, image, direct,
+                                           advance,         size,  finish, look_at,  react};
 };
 
 template <class Real, class Set>

@@ -110,7 +110,7 @@ struct Sweeps {
   // First step of a body: masses to the nodes (channel_momentum), then back to volumes.
   Sweep<Real> rasterize, collect_momentum, volumes;
   // Staged, one stage each.
-  Sweep<Real> elastic_forces, collect_force, grid_velocities, grid_collisions, keep_velocities;
+  Sweep<Real> elastic_forces, collect_force, grid_velocities, grid_collisions, lay_out_velocities;
   Sweep<Real> gather, deformation, particle_velocities, particle_collisions, advection;
   // After either, where settings ask for it.
   Sweep<Real> push_out;

@@ -12,6 +12,11 @@
 /// step never goes too far, however many particles share a node, and one is enough where all of
 /// them want the same.
 ///
+/// The semi-implicit solve starts from the velocities that this leaves, and each contact that
+/// pushes then acts as a spring of stiffness `hold` / D_p between v_p and the velocity that it
+/// wants: along the normal, and along the surface where friction or the collider holds on to it.
+/// What the springs do is added to the impulses.
+///
 /// Plain data, as in kernels.h.
 
 #include "sim/kernels/kernels.h"
@@ -27,11 +32,11 @@ struct ContactRecord {
   R impulse;     ///< kg m/s, along the normal
   R surface[3];  ///< m/s, velocity of the surface
   R friction;    ///< bound on the impulse along the surface: times the one along the normal, or,
-               ///< where the collider holds on to the particle, in kg m/s
+                 ///< where the collider holds on to the particle, in kg m/s
   R sliding[3];  ///< kg m/s, impulse along the surface
   R row;         ///< D_p, 1/kg
   R own[3];      ///< m/s, what the particle keeps beside the velocity of the grid
-  R unused;
+  R holds;       ///< in the solve: 0 nothing, 1 along the normal, 2 in all directions
   I cell[3];
   I collider;  ///< its index; negative (-1 - index) if it holds on to the particle
 };
@@ -52,6 +57,7 @@ struct ContactArgs {
   const Real* half_spacing;  ///< per material: of particles of 1 kg, m
   Real kept;       ///< share of its own velocity that a particle keeps: alpha of FLIP, otherwise 0
   Real max_speed;  ///< m/s, of all particles before the step
+  Real apart;      ///< 1/s: share of what a particle outside is too near by that it moves away by
   std::uint32_t* candidates;    ///< per sorted position: those of a block come first in its range
   std::uint32_t* near_counts;   ///< per particle block: candidates
   std::uint32_t* counts;        ///< per particle block: contacts; until `start`, the most there are
@@ -61,6 +67,13 @@ struct ContactArgs {
   Contact<Real>* contacts;
   ContactNodes<Real>* nodes;  ///< per node block
   bool is_last;               ///< of the passes
+  // In the semi-implicit solve.
+  bool is_before_solve;  ///< the passes are: their impulses are not the last word
+  bool is_first;         ///< u are velocities, otherwise a change of them
+  const Quad<Real>* u;   ///< per node block, `u_stride` apart
+  std::size_t u_stride;
+  Real hold;  ///< stiffness of contacts, as a share of 1 / D_p
+  Real beta_dt_squared;
 };
 
 template <class Real>
@@ -69,11 +82,13 @@ using ContactSweep = void (*)(const ContactArgs<Real>&, std::uint32_t begin, std
 /// Over blocks of particles and of nodes in turn.
 template <class Real>
 struct ContactSweeps {
-  ContactSweep<Real> find;   ///< all particle blocks: candidates
-  ContactSweep<Real> start;  ///< contacts of candidates, c into the tiles
-  ContactSweep<Real> weigh;  ///< nodes: velocities and c / m
-  ContactSweep<Real> press;  ///< change of the impulses into the tiles
-  ContactSweep<Real> yield;  ///< nodes: velocities after it, after the last pass v_star
+  ContactSweep<Real> find;    ///< all particle blocks: candidates
+  ContactSweep<Real> start;   ///< contacts of candidates, c into the tiles
+  ContactSweep<Real> weigh;   ///< nodes: velocities and c / m
+  ContactSweep<Real> press;   ///< change of the impulses into the tiles
+  ContactSweep<Real> yield;   ///< nodes: velocities after it, after the last pass v_star
+  ContactSweep<Real> hold;    ///< adds the springs' part of H u to the tiles
+  ContactSweep<Real> settle;  ///< adds the springs' impulses at v_new
 };
 
 /// The sweeps of an instruction set.

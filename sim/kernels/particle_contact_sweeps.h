@@ -15,11 +15,6 @@ inline constexpr double touching_slack = 0.1;
 inline constexpr double most_touching = 0.5;
 /// A particle inside is brought out by these shares of its depth, per step and per second at most.
 inline constexpr double out_per_step = 0.2, out_per_second = 50;
-/// A particle outside that is too near moves away by this share of what is missing, per second.
-/// That makes up for the errors of the iteration, which have the same sign in every step; nobody
-/// sees it.
-inline constexpr double apart_per_second = 1;
-
 /// x^(1/3) of positive numbers.
 template <class V>
 NEVE_INLINE V cube_root_lanes(V x) {
@@ -218,7 +213,7 @@ struct ContactSweepsFor {
     const bool lets_go = collider.contact == ContactLaw::separate;
     const Real out =
         lets_go ? smaller(static_cast<Real>(out_per_step) / c.dt, Real(out_per_second)) : Real(0);
-    const V apart = -gap * static_cast<Real>(apart_per_second);
+    const V apart = -gap * a.apart;
     const V inside = lets_go ? larger_lanes(-distance * out, apart) : V{};
     const V least = gap > V{} ? -gap / c.dt : distance > V{} ? apart : inside;
     const V v_n = dot(v.of_grid + v.own - surface, normal);
@@ -276,7 +271,7 @@ struct ContactSweepsFor {
     put(1, c.normal[0], c.normal[1], c.normal[2], c.impulse);
     put(2, c.surface[0], c.surface[1], c.surface[2], c.friction);
     put(3, c.sliding[0], c.sliding[1], c.sliding[2], c.row);
-    put(4, c.own[0], c.own[1], c.own[2], V{});
+    put(4, c.own[0], c.own[1], c.own[2], c.holds);
     put(5, reinterpret_cast<V>(c.cell[0]), reinterpret_cast<V>(c.cell[1]),
         reinterpret_cast<V>(c.cell[2]), reinterpret_cast<V>(c.collider));
   }
@@ -298,6 +293,7 @@ struct ContactSweepsFor {
     c.impulse = q[1].w[3];
     c.friction = q[2].w[3];
     c.row = q[3].w[3];
+    c.holds = q[4].w[3];
     c.collider = reinterpret_cast<I>(q[5].w[3]);
   }
 
@@ -326,7 +322,7 @@ struct ContactSweepsFor {
         const Vec3<V> change = respond_to(gathered(s, v), contact);
         write(contact, records, used);
         scatter(s, FourWords<V>{{change.x, change.y, change.z, V{}}}, used, tile);
-        if (a.is_last) work += work_of(contact, used);
+        if (a.is_last && !a.is_before_solve) work += work_of(contact, used);
       }
       if (a.is_last) a.step.node_contact_work[a.step.blocks[b].node_block[0]] += work;
     }
@@ -353,8 +349,79 @@ struct ContactSweepsFor {
     sliding = select(size > most, sliding * (most / size), sliding);
     const Vec3<V> change = n * (impulse - c.impulse) + (sliding - before);
     c.impulse = impulse;
+    const I pushes = is_held | (impulse > V{});
+    const I sticks = pushes & (c.friction > V{}) & (size <= most);
+    c.holds = sticks ? all<V>(2) : pushes ? all<V>(1) : V{};
     for (int x = 0; x < 3; ++x) c.sliding[x] = sliding[x];
     return change;
+  }
+
+  // ---- in the semi-implicit solve ---------------------------------------------------------------
+
+  /// Contacts of a batch, and the part of u that each holds, over D.
+  struct Springs {
+    Lanes contact;
+    Contact<Real>* record[W];
+    int used;
+    Vec3<V> u;
+  };
+
+  static void hold(const Args& a, Index begin, Index end) {
+    Stencils<Real, K, W> s;
+    each_spring(a, begin, end, s, [&](Index b, Springs& springs) NEVE_INLINE_BODY {
+      const Vec3<V> force = springs.u * all<V>(a.hold / a.beta_dt_squared);
+      scatter(s, FourWords<V>{{force.x, force.y, force.z, V{}}}, springs.used,
+              tile_of<Real, K>(a.step, b, 0));
+    });
+  }
+
+  static void settle(const Args& a, Index begin, Index end) {
+    Stencils<Real, K, W> s;
+    each_spring(a, begin, end, s, [&](Index b, Springs& springs) NEVE_INLINE_BODY {
+      Lanes& c = springs.contact;
+      const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
+      const V along = dot(springs.u, n);
+      c.impulse -= along * a.hold;
+      for (int x = 0; x < 3; ++x) c.sliding[x] -= (springs.u[x] - n[x] * along) * a.hold;
+      write(c, springs.record, springs.used);
+      a.step.node_contact_work[a.step.blocks[b].node_block[0]] += work_of(c, springs.used);
+    });
+  }
+
+  /// body(block, springs) for the contacts of some blocks; s has their stencils.
+  template <class Body>
+  NEVE_INLINE static void each_spring(const Args& a, Index begin, Index end,
+                                      Stencils<Real, K, W>& s, const Body& body) {
+    Quad<Real> u[Tile<K>::nodes];
+    for (Index n = begin; n < end; ++n) {
+      const Index b = a.blocks[n];
+      load_tile<Real, K, Set>(
+          a.step.blocks[b], [&](Index m) { return a.u + m * a.u_stride; }, u);
+      Contact<Real>* first = a.contacts + a.first[b];
+      const Index count = a.counts[b];
+      for (Index q = 0; q < count; q += W) {
+        Springs springs;
+        for (int l = 0; l < W; ++l)
+          springs.record[l] = first + smaller<Index>(q + static_cast<Index>(l), count - 1);
+        springs.used = static_cast<int>(smaller<Index>(W, count - q));
+        read(springs.contact, springs.record);
+        s.template set<false, false>(0, springs.contact.offset, springs.contact.cell);
+        springs.u = spring_of(gathered(s, u), springs.contact, a.is_first);
+        body(b, springs);
+      }
+    }
+  }
+
+  NEVE_INLINE static Vec3<V> spring_of(const FourWords<V>& on_grid, const Lanes& c, bool is_first) {
+    const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
+    Vec3<V> u{on_grid.w[0], on_grid.w[1], on_grid.w[2]};
+    if (is_first)
+      for (int x = 0; x < 3; ++x) u[x] += c.own[x] - c.surface[x];
+    const V u_n = dot(u, n), wanted = is_first ? c.least : V{};
+    const V inverse = all<V>(1) / c.row;
+    const V normal = c.holds > V{} ? (u_n - wanted) * inverse : V{};
+    const V surface = c.holds > all<V>(1) ? inverse : V{};
+    return n * normal + (u - n * u_n) * surface;
   }
 
   /// What colliders do to the first `count` lanes, J; only what is added.
@@ -414,7 +481,7 @@ struct ContactSweepsFor {
     }
   }
 
-  static constexpr ContactSweeps<Real> table{find, start, weigh, press, yield};
+  static constexpr ContactSweeps<Real> table{find, start, weigh, press, yield, hold, settle};
 };
 
 template <class Real, class Set>

@@ -365,13 +365,11 @@ struct SweepsFor {
     }
   }
 
-  /// Explicit steps take v_new = v_star; what particles gather is laid out as the fused driver
-  /// does.
-  static void keep_velocities(const Args& a, Index begin, Index end) {
+  /// v_new as particles gather it, laid out as the fused driver does.
+  static void lay_out_velocities(const Args& a, Index begin, Index end) {
     for (Index b = begin; b < end; ++b) {
-      StagedNodes<Real>& nodes = a.staged[b];
+      const StagedNodes<Real>& nodes = a.staged[b];
       for (int n = 0; n < block_nodes; ++n) {
-        nodes.v_new[n] = nodes.v_star[n];
         nodes_of(a, b, channel_v_new)[n] = nodes.v_new[n];
         nodes_of(a, b, channel_change)[n] = nodes.v_new[n] - nodes.v_old[n];
       }
@@ -543,7 +541,7 @@ struct SweepsFor {
                                       collect_force,
                                       grid_velocities,
                                       grid_collisions,
-                                      keep_velocities,
+                                      lay_out_velocities,
                                       gather,
                                       deformation,
                                       particle_velocities,

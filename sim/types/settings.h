@@ -56,9 +56,7 @@ struct SolverSettings {
   Vec3i period{0, 0, 0};
 
   bool takes_stages() const { return !bypass.empty() || resting_mass > 0; }
-  bool is_contact_at_particles() const {
-    return contact_at == ContactAt::particles && !is_implicit();
-  }
+  bool is_contact_at_particles() const { return contact_at == ContactAt::particles; }
   bool is_implicit() const { return beta > 0 && !skips(Stage::implicit_solve); }
   bool skips(Stage stage) const {
     return std::find(bypass.begin(), bypass.end(), stage) != bypass.end();

@@ -53,6 +53,20 @@ TEST(Rest, SnowRestsOnPlanesAnywhereInACellAndTilted) {
   }
 }
 
+/// Contact is a part of the solve: springs of contacts bring it to the same place.
+TEST(Rest, SnowRestsOnPlanesInSemiImplicitSteps) {
+  for (Method method : {flip_cubic(), mls_quadratic()}) {
+    method.beta = 1;
+    const std::string transfer = method.transfer == Transfer::flip ? "FLIP cubic" : "MLS quadratic";
+    for (const auto& [fraction, degrees] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.25, 20.0}}) {
+      const RestingPlace place = tilted_place(fraction, degrees);
+      verify_rest(
+          transfer + ", beta = 1, " + in_digits(fraction) + " cells, " + in_digits(degrees) + "°",
+          rest_on(plane(place.point, place.normal, 0.5), place, method));
+    }
+  }
+}
+
 /// Snow that lay still for long has not crept into the floor either.
 TEST(Rest, SnowRestsForSeconds) {
   const RestingPlace place = tilted_place(0.5, 0);

@@ -180,8 +180,12 @@ void compare_trajectories(Precision precision, const TrajectoryTolerance& tolera
     ++counter.compared;
     Simulation simulation(s.settings, {s.material}, s.colliders, particles(scene["particles"]), 1);
     const auto curves = read_csv(path / "curves.csv");
+    // One for every step, where they differ.
+    const auto dts = scene.value("dts", std::vector<double>());
+    const auto dt = [&](std::size_t step) { return dts.empty() ? s.dt : dts.at(step); };
     for (const int snapshot : scene["snapshots"].get<std::vector<int>>()) {
-      while (simulation.steps() < static_cast<std::size_t>(snapshot)) simulation.step(s.dt);
+      while (simulation.steps() < static_cast<std::size_t>(snapshot))
+        simulation.step(dt(simulation.steps()));
       SCOPED_TRACE("step " + std::to_string(snapshot));
       char name[32];
       std::snprintf(name, sizeof name, "step_%04d.csv", snapshot);

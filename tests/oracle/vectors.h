@@ -105,7 +105,7 @@ inline Setup setup(const Json& scene, neve::sim::Precision precision) {
                         : transfer == "apic" ? Transfer::apic
                                              : Transfer::mls;
   s.settings.flip_ratio = scene["alpha"].get<double>();
-  s.settings.flip_reference_dt = 0;
+  s.settings.flip_reference_dt = scene.value("flip_reference_dt", 0.0);
   s.settings.contact_at = ContactAt::nodes;
   s.settings.advect = scene["advect"] == "pic" ? Advect::pic : Advect::particle;
   s.settings.time_step = TimeStep::fixed;

@@ -280,7 +280,7 @@ TEST(ContactKernel, EveryShapeHasFrictionSlipAndStickiness) {
         const auto lanes = [](const Vec3d& a) {
           return Vec3<V>{all<V>(a[0]), all<V>(a[1]), all<V>(a[2])};
         };
-        const Vec3<V> out = sim::kernels::respond(local, lanes(r), lanes(v));
+        const Vec3<V> out = sim::kernels::respond(local, lanes(r), lanes(v)).v;
         const sim::shapes::Surface surface = sim::shapes::surface_at(c, 0.3, x);
         const Vec3d expected = after_contact(c, surface, v), found(out.x[3], out.y[3], out.z[3]);
         EXPECT_LT((found - expected).norm(), 1e-11);

@@ -7,6 +7,7 @@
 
 #include "sim/checks/self_test_bodies.h"
 #include "sim/health/diagnostics.h"
+#include "sim/kernels/held.h"
 #include "sim/staged.h"
 #include "tests/support/simd_levels.h"
 #include "tests/support/snow.h"
@@ -245,7 +246,9 @@ Simulation impact(const SolverSettings& s, double speed) {
 TEST(ImplicitStep, ImplicitStepHoldsAtTenTimesTheExplicitStep) {
   // c = 19.7 m/s at rest, so 0.5 ms has c dt/h = 0.5; the impact hardens the snow besides.
   for (const double dt : {2.5e-3, 5e-3}) {
-    Simulation held = impact(impact_settings(1, dt), 2);
+    SolverSettings settings = impact_settings(1, dt);
+    settings.solve_iterations = 100;  // springs at contacts take twice as many as a free body
+    Simulation held = impact(settings, 2);
     const double start = held.summary().kinetic_energy;
     const AdvanceReport report = held.advance_to(0.1);
     EXPECT_FALSE(held.divergence()) << held.divergence()->sentence;
@@ -261,15 +264,56 @@ TEST(ImplicitStep, ImplicitStepHoldsAtTenTimesTheExplicitStep) {
   }
 }
 
+double mean_J_P(const Simulation& simulation) {
+  const ParticleArrays p = simulation.particles();
+  double sum = 0;
+  for (const double J_P : p.J_P) sum += J_P;
+  return sum / static_cast<double>(p.J_P.size());
+}
+
 TEST(ImplicitStep, ImplicitStepEndsWhereSmallExplicitStepsDo) {
-  SolverSettings explicit_steps = impact_settings(0, 1e-4);
-  explicit_steps.contact_at = ContactAt::nodes;  // as implicit ones have it
-  Simulation small = impact(explicit_steps, 1), large = impact(impact_settings(1, 1e-3), 1);
-  small.advance_to(0.1);
-  large.advance_to(0.1);
-  // c dt/h is 0.1 and 1: some of the impact is taken as elastic that yields in small steps.
-  EXPECT_NEAR(large.summary().centre_of_mass[1], small.summary().centre_of_mass[1], 0.005);
-  EXPECT_NEAR(large.summary().min_J_P, small.summary().min_J_P, 0.05);
+  for (const ContactAt contact_at : {ContactAt::nodes, ContactAt::particles}) {
+    SolverSettings explicit_steps = impact_settings(0, 1e-4);
+    SolverSettings implicit_steps = impact_settings(1, 1e-3);
+    explicit_steps.contact_at = implicit_steps.contact_at = contact_at;
+    Simulation small = impact(explicit_steps, 1), large = impact(implicit_steps, 1);
+    small.advance_to(0.1);
+    large.advance_to(0.1);
+    // c dt/h is 0.1 and 1: some of the impact is taken as elastic that yields in small steps.
+    EXPECT_NEAR(large.summary().centre_of_mass[1], small.summary().centre_of_mass[1], 0.005);
+    EXPECT_NEAR(mean_J_P(large), mean_J_P(small), 0.03);
+  }
+}
+
+/// Several normals of several colliders, against the space that they span.
+TEST(Held, HeldDirectionsAreThoseThatNormalsSpan) {
+  using V = Lanes<double, 4>;
+  const auto lanes = [](const Vec3d& x) {
+    return neve::Vec3<V>{all<V>(x[0]), all<V>(x[1]), all<V>(x[2])};
+  };
+  const Vec3d a = Vec3d(1, 2, -1).normalized(), b = Vec3d(0.3, -1, 0.2).normalized();
+  const Vec3d c = Vec3d(-0.5, 0.1, 2).normalized(), x(0.7, -0.4, 1.3);
+  const std::vector<std::vector<Vec3d>> cases{
+      {},       {a}, {a, a}, {a, (a + 5e-4 * b).normalized()}, {a, b}, {a, b, (a + b).normalized()},
+      {a, b, c}};
+  for (const std::vector<Vec3d>& normals : cases) {
+    kernels::Held<V> held;
+    Eigen::MatrixXd span(3, 0);
+    for (const Vec3d& n : normals) {
+      const auto every = all<V>(0.0) <= all<V>(0.0);
+      held.add({lanes(x), every, all<V>(1.0) < all<V>(0.0), lanes(n)});
+      Vec3d rest = n;
+      for (Eigen::Index k = 0; k < span.cols(); ++k) rest -= span.col(k) * span.col(k).dot(rest);
+      if (rest.norm() < 1e-3) continue;
+      span.conservativeResize(3, span.cols() + 1);
+      span.rightCols(1) = rest.normalized();
+    }
+    const Vec3d expected = x - span * (span.transpose() * x);
+    EXPECT_EQ(held.count[2], static_cast<double>(span.cols()));
+    const Quad<double> node{held.axis.x[2], held.axis.y[2], held.axis.z[2], held.count[2]};
+    const Quad<double> found = kernels::free_part(node, Quad<double>{x[0], x[1], x[2], 0});
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 1e-14);
+  }
 }
 
 TEST(ImplicitStep, SoundDoesNotLimitIt) {
@@ -342,10 +386,10 @@ TEST(CollideAfterSolve, CollisionAfterTheSolveKeepsNodesOutOfColliders) {
   const double height = -0.53 * checks::self_test::cell_size;
   const auto fastest_into = [&](bool collides) {
     SolverSettings s = implicit_settings(test, 1);
+    s.contact_at = ContactAt::nodes;
     s.collide_after_solve = collides;
-    ParticleArrays p = sim::checks::self_test::small_ball();
-    p.v.assign(p.x.size(), {0.5, -3, 0});
-    const Simulation simulation(s, {Material{}}, {plane({0, height, 0}, {0, 1, 0}, 0)}, p, 1);
+    const Simulation simulation(s, three_models(), {plane({0, height, 0}, {0, 1, 0}, 0)},
+                                strained(160), 1);
     const NodeFields nodes = staged_step(simulation, 4e-3).nodes;
     double fastest = 0;
     for (std::size_t i = 0; i < nodes.node.size(); ++i)
@@ -353,8 +397,8 @@ TEST(CollideAfterSolve, CollisionAfterTheSolveKeepsNodesOutOfColliders) {
         fastest = std::max(fastest, -nodes.v_new[i][1]);
     return fastest;
   };
-  // The solve mixes velocities of nodes again, as in the paper.
-  EXPECT_GT(fastest_into(false), 0.1);
+  // Nodes that were leaving are not held: the solve can draw them in.
+  EXPECT_GT(fastest_into(false), 1e-3);
   EXPECT_LE(fastest_into(true), 0);
 }
 

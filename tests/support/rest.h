@@ -113,6 +113,7 @@ struct Method {
   sim::Kernel kernel = sim::Kernel::cubic;
   sim::ContactAt contact_at = sim::ContactAt::particles;
   sim::Precision precision = sim::Precision::single;
+  double beta = 0;
 };
 
 inline Method flip_cubic() {
@@ -129,6 +130,7 @@ inline sim::SolverSettings rest_settings(const Method& method) {
   s.kernel = method.kernel;
   s.contact_at = method.contact_at;
   s.precision = method.precision;
+  s.beta = method.beta;
   return s;
 }
 
