@@ -22,12 +22,12 @@ Mat3d capsule_axes(const Capsule& capsule) {
 
 struct MakeForm {
   using Result = std::shared_ptr<const Form>;
-  Result operator()(const Sphere& s) const { return make_ball(s.radius); }
-  Result operator()(const Box& s) const { return make_cuboid(s.size); }
-  Result operator()(const Capsule& s) const { return make_rod((s.b - s.a).norm(), s.radius); }
-  Result operator()(const Cylinder& s) const { return make_drum(s.radius, s.height); }
-  Result operator()(const Cone& s) const { return make_peak(s.radius, s.height); }
-  Result operator()(const Torus& s) const { return make_ring(s.major_radius, s.minor_radius); }
+  Result operator()(const Sphere& s) const { return make_sphere(s.radius); }
+  Result operator()(const Box& s) const { return make_box(s.size); }
+  Result operator()(const Capsule& s) const { return make_capsule((s.b - s.a).norm(), s.radius); }
+  Result operator()(const Cylinder& s) const { return make_cylinder(s.radius, s.height); }
+  Result operator()(const Cone& s) const { return make_cone(s.radius, s.height); }
+  Result operator()(const Torus& s) const { return make_torus(s.major_radius, s.minor_radius); }
   Result operator()(const Plane&) const {
     throw std::invalid_argument("a plane has no volume: it can only be a collider");
   }

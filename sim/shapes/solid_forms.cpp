@@ -31,9 +31,9 @@ class Analytic : public Form {
   Vec3d inner_point() const override { return Vec3d::Zero(); }
 };
 
-class Ball final : public Analytic {
+class SphereForm final : public Analytic {
  public:
-  explicit Ball(double radius) : radius_(radius) {}
+  explicit SphereForm(double radius) : radius_(radius) {}
   double volume() const override { return 4.0 / 3.0 * pi * radius_ * radius_ * radius_; }
   double clearance(const Vec3d& y) const override { return y.norm() - radius_; }
   Bounds bounds_after(const Mat3d&) const override { return centred(Vec3d::Constant(radius_)); }
@@ -42,9 +42,9 @@ class Ball final : public Analytic {
   double radius_;
 };
 
-class Cuboid final : public Analytic {
+class BoxForm final : public Analytic {
  public:
-  explicit Cuboid(const Vec3d& size) : half_(0.5 * size) {}
+  explicit BoxForm(const Vec3d& size) : half_(0.5 * size) {}
   double volume() const override { return 8 * half_.prod(); }
   double clearance(const Vec3d& y) const override { return (y.cwiseAbs() - half_).maxCoeff(); }
   Bounds bounds_after(const Mat3d& rotation) const override {
@@ -55,9 +55,9 @@ class Cuboid final : public Analytic {
   Vec3d half_;
 };
 
-class Rod final : public Analytic {
+class CapsuleForm final : public Analytic {
  public:
-  Rod(double length, double radius) : half_length_(0.5 * length), radius_(radius) {}
+  CapsuleForm(double length, double radius) : half_length_(0.5 * length), radius_(radius) {}
   double volume() const override {
     return pi * radius_ * radius_ * (2 * half_length_ + 4.0 / 3.0 * radius_);
   }
@@ -73,9 +73,9 @@ class Rod final : public Analytic {
   double half_length_, radius_;
 };
 
-class Drum final : public Analytic {
+class CylinderForm final : public Analytic {
  public:
-  Drum(double radius, double height) : radius_(radius), half_height_(0.5 * height) {}
+  CylinderForm(double radius, double height) : radius_(radius), half_height_(0.5 * height) {}
   double volume() const override { return pi * radius_ * radius_ * 2 * half_height_; }
   double clearance(const Vec3d& y) const override {
     return std::max(radial(y) - radius_, std::abs(y.y()) - half_height_);
@@ -88,9 +88,9 @@ class Drum final : public Analytic {
   double radius_, half_height_;
 };
 
-class Peak final : public Analytic {
+class ConeForm final : public Analytic {
  public:
-  Peak(double radius, double height) : radius_(radius), half_height_(0.5 * height) {}
+  ConeForm(double radius, double height) : radius_(radius), half_height_(0.5 * height) {}
   double volume() const override { return pi * radius_ * radius_ * 2 * half_height_ / 3; }
   double clearance(const Vec3d& y) const override {
     // The wall falls from the apex by the height over the radius; its normal is (height, radius).
@@ -107,9 +107,10 @@ class Peak final : public Analytic {
   double radius_, half_height_;
 };
 
-class Ring final : public Analytic {
+class TorusForm final : public Analytic {
  public:
-  Ring(double major_radius, double minor_radius) : major_(major_radius), minor_(minor_radius) {}
+  TorusForm(double major_radius, double minor_radius)
+      : major_(major_radius), minor_(minor_radius) {}
   double volume() const override {
     const double R = major_, r = minor_;
     if (R >= r) return 2 * pi * pi * R * r * r;
@@ -133,23 +134,23 @@ class Ring final : public Analytic {
 
 }  // namespace
 
-std::unique_ptr<const Form> make_ball(double radius) {
-  return std::make_unique<Ball>(radius);
+std::unique_ptr<const Form> make_sphere(double radius) {
+  return std::make_unique<SphereForm>(radius);
 }
-std::unique_ptr<const Form> make_cuboid(const Vec3d& size) {
-  return std::make_unique<Cuboid>(size);
+std::unique_ptr<const Form> make_box(const Vec3d& size) {
+  return std::make_unique<BoxForm>(size);
 }
-std::unique_ptr<const Form> make_rod(double length, double radius) {
-  return std::make_unique<Rod>(length, radius);
+std::unique_ptr<const Form> make_capsule(double length, double radius) {
+  return std::make_unique<CapsuleForm>(length, radius);
 }
-std::unique_ptr<const Form> make_drum(double radius, double height) {
-  return std::make_unique<Drum>(radius, height);
+std::unique_ptr<const Form> make_cylinder(double radius, double height) {
+  return std::make_unique<CylinderForm>(radius, height);
 }
-std::unique_ptr<const Form> make_peak(double radius, double height) {
-  return std::make_unique<Peak>(radius, height);
+std::unique_ptr<const Form> make_cone(double radius, double height) {
+  return std::make_unique<ConeForm>(radius, height);
 }
-std::unique_ptr<const Form> make_ring(double major_radius, double minor_radius) {
-  return std::make_unique<Ring>(major_radius, minor_radius);
+std::unique_ptr<const Form> make_torus(double major_radius, double minor_radius) {
+  return std::make_unique<TorusForm>(major_radius, minor_radius);
 }
 
 }  // namespace neve::sim::shapes

@@ -7,12 +7,13 @@
 
 namespace neve::sim::shapes {
 
-std::unique_ptr<const Form> make_ball(double radius);
-std::unique_ptr<const Form> make_cuboid(const Vec3d& size);
-std::unique_ptr<const Form> make_rod(double length,
-                                     double radius);  ///< capsule; length of its axis
-std::unique_ptr<const Form> make_drum(double radius, double height);              ///< cylinder
-std::unique_ptr<const Form> make_peak(double radius, double height);              ///< cone, apex up
-std::unique_ptr<const Form> make_ring(double major_radius, double minor_radius);  ///< torus
+std::unique_ptr<const Form> make_sphere(double radius);
+std::unique_ptr<const Form> make_box(const Vec3d& size);
+/// @param length of its axis
+std::unique_ptr<const Form> make_capsule(double length, double radius);
+std::unique_ptr<const Form> make_cylinder(double radius, double height);
+/// With the apex up.
+std::unique_ptr<const Form> make_cone(double radius, double height);
+std::unique_ptr<const Form> make_torus(double major_radius, double minor_radius);
 
 }  // namespace neve::sim::shapes
