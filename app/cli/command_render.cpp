@@ -212,7 +212,7 @@ int run_render(const run::RenderOptions& options) {
 
   run::RenderRun run(job, simulation, *context, renderer, seeded, progress);
   const run::RenderResult result = run.run();
-  for (const std::string& warning : run::step_warnings(job.scene.solver, simulation.warnings()))
+  for (const std::string& warning : run::step_warnings(job.scene, simulation))
     progress.warning(warning);
   if (const std::size_t trials = simulation.warnings().inverted_trials; trials > 0)
     progress.detail(fmt::format("{} trial deformations were inverted and repaired", trials));

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/health/findings.h"
+#include "app/health/softness.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/auto_ranges.h"
 #include "app/support/text.h"
@@ -71,6 +72,10 @@ struct Case {
   /// Speed of the snow before trouble began, m/s.
   double speed_before_failure() const {
     return std::max(d.start.max_speed, setup::impact_speed(scene));
+  }
+  bool is_crushed() const { return d.rule == "J_P" || d.rule == "packed"; }
+  bool is_hardened() const {
+    return d.rule == "acoustic_cfl" || d.rule == "time_step" || d.rule == "not_finite";
   }
   /// Sound speed of snow at rest, m/s.
   double start_sound() const { return d.start.max_sound_speed; }
@@ -269,7 +274,7 @@ Hypothesis hardened_beyond_fixed_step(const Case& c) {
   if (!c.is_fixed) return std::nullopt;
   const sim::StepRecord* step = c.sound_beyond(cause(Law::acoustic_cfl));
   if (!step) return std::nullopt;
-  const double factor = std::exp(c.material.hardening * (1 - step->min_J_P));
+  const double factor = sim::health::hardening_factor(c.material, step->min_J_P);
   return Diagnosis{
       Cause::hardening,
       fmt::format(
@@ -295,24 +300,41 @@ Hypothesis incompressible(const Case& c) {
 
 Hypothesis shock(const Case& c) {
   const double speed = c.speed_before_failure(), mach = speed / std::max(1e-9, c.start_sound());
-  const bool is_crushed = c.d.rule == "J_P" || c.d.rule == "acoustic_cfl" ||
-                          c.d.rule == "time_step" || c.d.rule == "not_finite";
-  if (!is_crushed || mach < cause(Law::impact_mach)) return std::nullopt;
+  if (!(c.is_crushed() || c.is_hardened()) || mach < cause(Law::impact_mach)) return std::nullopt;
   return Diagnosis{
       Cause::shock,
       fmt::format("snow hits something at {} m/s, {} times the speed of its sound, and is crushed "
                   "to J_P = {}",
                   rough_text(speed), rough_text(mach), rough_text(c.d.J_P)),
-      fmt::format("stay below {} m/s, or make the snow stiffer (youngs_modulus) or denser",
-                  rough_text(c.start_sound())),
+      fmt::format("stay below {} m/s, or make the snow stiffer: {} = {}",
+                  rough_text(c.start_sound()), c.at("youngs_modulus"),
+                  rough_text(stiffness_that_holds(c.material, c.d.J_P, speed))),
+      c.at("youngs_modulus")};
+}
+
+Hypothesis too_soft(const Case& c) {
+  if (!c.is_crushed()) return std::nullopt;
+  const double speed = std::max(c.d.start.max_speed, load_speed(c.scene));
+  const sim::Material usual;
+  const std::string stiffer =
+      fmt::format("{} = {}", c.at("youngs_modulus"),
+                  rough_text(stiffness_that_holds(c.material, c.d.J_P, speed)));
+  return Diagnosis{
+      Cause::too_soft,
+      fmt::format("snow of youngs_modulus = {} and hardening = {} is too soft for its impact at {} "
+                  "m/s: it was packed to {} kg/m3",
+                  rough_text(c.material.youngs_modulus), rough_text(c.material.hardening),
+                  rough_text(speed), rough_text(c.material.density / c.d.J_P)),
+      c.material.min_J_P < usual.min_J_P
+          ? fmt::format("{}, or {} = {}, where snow yields without hardening further", stiffer,
+                        c.at("min_J_P"), rough_text(usual.min_J_P))
+          : stiffer,
       c.at("youngs_modulus")};
 }
 
 Hypothesis hardening(const Case& c) {
-  const double factor = std::exp(c.material.hardening * (1 - c.d.J_P));
-  const bool is_sound = c.d.rule == "J_P" || c.d.rule == "acoustic_cfl" ||
-                        c.d.rule == "time_step" || c.d.rule == "not_finite";
-  if (!is_sound || !(factor > cause(Law::hardening))) return std::nullopt;
+  const double factor = sim::health::hardening_factor(c.material, c.d.J_P);
+  if (!c.is_hardened() || !(factor > cause(Law::hardening))) return std::nullopt;
   return Diagnosis{
       Cause::hardening,
       fmt::format("snow was packed to J_P = {} and hardened {} times: hardening = {}, "
@@ -353,7 +375,7 @@ Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence)
   const Case c(scene, divergence);
   for (const auto hypothesis : {bypass, initial_state, units, raised_limits, too_long_at_rest,
                                 collider_speed, colliders_closing, incompressible,
-                                hardened_beyond_fixed_step, shock, hardening, far_flight})
+                                hardened_beyond_fixed_step, shock, too_soft, hardening, far_flight})
     if (Hypothesis found = hypothesis(c)) return *found;
   return unexplained(c);
 }

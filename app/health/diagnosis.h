@@ -23,6 +23,7 @@ enum class Cause {
   colliders_closing,  ///< colliders leave the snow no room
   incompressible,     ///< Poisson's ratio next to 0.5
   shock,              ///< an impact faster than sound
+  too_soft,           ///< snow crushed by its own impact
   far_flight,         ///< out of the lattice, in good health
   unexplained
 };
@@ -41,6 +42,7 @@ constexpr auto names(Cause) {
                     scene::Name{colliders_closing, "colliders_closing"},
                     scene::Name{incompressible, "incompressible"},
                     scene::Name{shock, "shock"},
+                    scene::Name{too_soft, "too_soft"},
                     scene::Name{far_flight, "far_flight"},
                     scene::Name{unexplained, "unexplained"}};
 }

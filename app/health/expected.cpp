@@ -7,6 +7,7 @@
 
 #include "app/setup/auto_ranges.h"
 #include "app/support/text.h"
+#include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"
 
 namespace neve::app::health {
@@ -45,7 +46,7 @@ Expected::Expected(const scene::Scene& scene, const sim::ParticleArrays& state, 
     compression_ = std::max(compression_, m.critical_compression);
     stretch_ = std::max(stretch_, m.critical_stretch);
     stiffest_ = std::max(stiffest_, 2 * lame.mu + 3 * lame.lambda);
-    hardening_ = std::max(hardening_, m.hardening);
+    hardened_ = std::max(hardened_, sim::health::hardening_factor(m, min_J_P_));
     is_bounded_ = is_bounded_ && m.model == sim::Model::snow;
   }
 }
@@ -78,7 +79,7 @@ Expectation Expected::momentum() const {
 double Expected::stress_limit() const {
   if (!is_bounded_) return no_limit;
   const double strain = std::max(compression_, stretch_) * (1 + stretch_);
-  return std::sqrt(3.0) * stiffest_ * strain * std::exp(hardening_ * (1 - min_J_P_));
+  return std::sqrt(3.0) * stiffest_ * strain * hardened_;
 }
 
 Expectation Expected::stress() const {

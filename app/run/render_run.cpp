@@ -277,7 +277,7 @@ void RenderRun::add_frame_record(const FrameRecord& frame) {
 /// The simulation of a resumed run has the warnings of the steps before.
 void RenderRun::note_warnings() {
   record_.warnings = job_.warnings;
-  for (std::string& warning : step_warnings(scene_.solver, simulation_.warnings()))
+  for (std::string& warning : step_warnings(scene_, simulation_))
     record_.warnings.push_back(std::move(warning));
 }
 

@@ -1,5 +1,6 @@
 #include "app/run/step_warnings.h"
 
+#include "app/health/softness.h"
 #include "app/support/text.h"
 
 namespace neve::app::run {
@@ -12,8 +13,10 @@ std::string semi_implicit_steps(std::size_t count) {
 
 }  // namespace
 
-std::vector<std::string> step_warnings(const sim::SolverSettings& settings,
-                                       const sim::Warnings& warnings) {
+std::vector<std::string> step_warnings(const scene::Scene& scene,
+                                       const sim::Simulation& simulation) {
+  const sim::Warnings& warnings = simulation.warnings();
+  const sim::SolverSettings& settings = scene.solver;
   std::vector<std::string> list;
   if (settings.time_step == sim::TimeStep::fixed && warnings.worst_acoustic_cfl > 1.5)
     list.push_back("fixed steps: the acoustic CFL reached " +
@@ -29,6 +32,7 @@ std::vector<std::string> step_warnings(const sim::SolverSettings& settings,
     list.push_back(semi_implicit_steps(warnings.solves_given_up) +
                    "could not be solved, and explicit steps replaced them; try a smaller dt "
                    "(solver.max_dt, solver.dt)");
+  if (const auto softness = health::softness_warning(scene, simulation)) list.push_back(*softness);
   return list;
 }
 

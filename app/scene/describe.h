@@ -164,6 +164,12 @@ void describe(V& visit, sim::Material& m) {
   visit("model", m.model, unit::none, anything, Change::live,
         "Elastic law; all harden when compacted, only snow also yields.");
   describe_snow_numbers(visit, m);
+  visit("min_J_P", m.min_J_P, unit::none, above(0).at_most(1), Change::live,
+        "Smallest plastic volume ratio: snow packed further yields on and hardens no more.");
+  visit("max_J_P", m.max_J_P, unit::none, between(1, 1e6), Change::live,
+        "Largest plastic volume ratio: how loose torn snow becomes before it is packed again.");
+  visit("max_hardening", m.max_hardening, unit::none, between(1, 1e12), Change::live,
+        "Largest factor by which packed snow stiffens: e^(xi (1 - J_P)) ends there.");
   visit.section("variation", "Unevenness of the snow.", [&](auto& v) { describe(v, m.variation); });
 }
 

@@ -48,7 +48,7 @@ void measure_particles(const ParticleArrays& p, const std::vector<Material>& mat
     min_J_E = std::min(min_J_E, p.F_E[q].determinant());
     min_J_P = std::min(min_J_P, p.J_P[q]);
     max_J_P = std::max(max_J_P, p.J_P[q]);
-    const double hardening = std::exp(material.hardening * (1 - p.J_P[q]));
+    const double hardening = health::hardening_factor(material, p.J_P[q]);
     out[WatchCheck::hardening] = std::max(out[WatchCheck::hardening], hardening);
     // Torn snow has hardly any stiffness left; what counts is the sound in packed snow.
     const double c = sound_speed(material) * std::sqrt(std::max(1.0, hardening));

@@ -69,14 +69,14 @@ void Engine<Real>::check_step(double dt) {
   diverge_if(watch_.check_step(state_.method.settings, dt, state_.grid.step_report(), progress));
   ++progress.steps_since_sink_check;
   progress.distance_since_sink_check += dt * std::max(speed_before, progress.limits.max_speed);
-  if (progress.steps % HealthWatch::steps_between_energy_checks == 0) check_energy();
+  if (progress.steps % HealthWatch::steps_between_sums == 0) check_sums();
 }
 
 template <class Real>
-void Engine<Real>::check_energy() {
+void Engine<Real>::check_sums() {
   const SolverSettings& settings = state_.method.settings;
   if (divergence() || state_.particles.size() == 0 || !settings.bypass.empty()) return;
-  diverge_if(watch_.check_energy(settings, summary(), state_.progress));
+  diverge_if(watch_.check_sums(settings, summary(), state_.progress));
 }
 
 template <class Real>
@@ -117,7 +117,7 @@ AdvanceReport Engine<Real>::advance_to(double time, const StepObserver& after_st
   }
   if (frame.done >= whole) {
     progress.time = time;
-    check_energy();
+    check_sums();
   }
   return report;
 }

@@ -52,7 +52,7 @@ class Engine final : public Stepper {
   bool take_fused(double dt, bool is_implicit);
   void take_stages(double dt);
   void check_step(double dt);
-  void check_energy();
+  void check_sums();
   void diverge_if(const std::optional<BrokenRule>& broken);
   void advance_frame(const DtChoice& choice, AdvanceReport& report);
 

@@ -59,6 +59,7 @@ std::optional<BrokenRule> HealthWatch::check_step(const SolverSettings& settings
   progress.limits.max_sound_speed = report.max_sound_speed;
   progress.limits.max_strain_rate = report.max_strain_rate;
   progress.warnings.inverted_trials += report.inverted;
+  progress.warnings.least_J_P = std::min(progress.warnings.least_J_P, report.min_J_P);
   progress.energy.contact_work += report.contact_work;
   progress.last_dt = dt;
   record_step(dt, report, progress);
@@ -105,16 +106,21 @@ EnergyAccount energy_account(const SolverSettings& settings, const EnergyBudget&
   return account;
 }
 
-std::optional<BrokenRule> HealthWatch::check_energy(const SolverSettings& settings,
-                                                    const Summary& now, Progress& progress) const {
+std::optional<BrokenRule> HealthWatch::check_sums(const SolverSettings& settings,
+                                                  const Summary& now, Progress& progress) const {
+  const auto broken = [&](const char* rule, const char* stage, double value, double limit) {
+    const double holds = stable_dt(settings, progress.limits);
+    return BrokenRule{rule, stage, progress.last_dt, holds, value, limit};
+  };
   const EnergyAccount account = energy_account(settings, progress.energy, now);
   progress.energy.largest = std::max(progress.energy.largest, account.explained);
   const double allowed =
       account.explained + (health::limits_of(Law::energy).stop - 1) * account.scale;
-  if (account.found <= allowed) return std::nullopt;
-  return BrokenRule{"energy",         "particle_velocities",
-                    progress.last_dt, stable_dt(settings, progress.limits),
-                    account.found,    allowed};
+  if (!(account.found <= allowed))
+    return broken("energy", "particle_velocities", account.found, allowed);
+  const double most_packed = health::limits_of(Law::packed).stop;
+  if (now.packed > most_packed) return broken("packed", "deformation", now.packed, most_packed);
+  return std::nullopt;
 }
 
 void HealthWatch::diverge(const BrokenRule& broken, const Progress& progress,

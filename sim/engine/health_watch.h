@@ -34,8 +34,8 @@ class HealthWatch {
  public:
   StartState start;  ///< of the particles that the run was given
 
-  /// Energy is summed this often, and whenever a frame ends.
-  static constexpr std::uint64_t steps_between_energy_checks = 256;
+  /// Particles are summed this often, and whenever a frame ends.
+  static constexpr std::uint64_t steps_between_sums = 256;
 
   /// Sets the limit that rules the next step; its record says so.
   void set_limit(DtLimit limit) { limit_ = limit; }
@@ -46,9 +46,10 @@ class HealthWatch {
                                        const StepReport& report, Progress& progress);
 
   /// Kinetic plus elastic energy may exceed the energy at the start plus the work of gravity and
-  /// colliders only by the share that the law of energy allows.
-  std::optional<BrokenRule> check_energy(const SolverSettings& settings, const Summary& now,
-                                         Progress& progress) const;
+  /// colliders only by the share that the law of energy allows, and only so much of the snow may be
+  /// packed to the limit.
+  std::optional<BrokenRule> check_sums(const SolverSettings& settings, const Summary& now,
+                                       Progress& progress) const;
 
   /// Ends the run with a report about the rule, its culprits and the last steps.
   void diverge(const BrokenRule& broken, const Progress& progress, const SolverSettings& settings,

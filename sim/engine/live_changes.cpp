@@ -32,7 +32,8 @@ bool same_law(const Material& a, const Material& b) {
   return a.model == b.model && a.youngs_modulus == b.youngs_modulus &&
          a.poisson_ratio == b.poisson_ratio && a.hardening == b.hardening &&
          a.critical_compression == b.critical_compression &&
-         a.critical_stretch == b.critical_stretch;
+         a.critical_stretch == b.critical_stretch && a.min_J_P == b.min_J_P &&
+         a.max_J_P == b.max_J_P && a.max_hardening == b.max_hardening;
 }
 
 /// The collider that continues as `after`, which has number k: the one of its name, of several the

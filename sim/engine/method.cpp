@@ -33,7 +33,8 @@ std::vector<kernels::MaterialConstants<Real>> constants_of(const std::vector<Mat
     const Lame rest = lame(m.youngs_modulus, m.poisson_ratio);
     constants.push_back({static_cast<Real>(rest.mu), static_cast<Real>(rest.lambda),
                          static_cast<Real>(m.hardening), static_cast<Real>(m.critical_compression),
-                         static_cast<Real>(m.critical_stretch)});
+                         static_cast<Real>(m.critical_stretch), static_cast<Real>(m.min_J_P),
+                         static_cast<Real>(m.max_J_P), static_cast<Real>(m.max_hardening)});
   }
   return constants;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sim/base/hash.h"
+#include "sim/health/limits.h"
 
 namespace neve::sim::engine {
 
@@ -139,6 +140,7 @@ Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
     s.max_speed = std::max(s.max_speed, v.norm());
     s.min_J_P = q == begin ? J_P : std::min(s.min_J_P, J_P);
     s.max_J_P = q == begin ? J_P : std::max(s.max_J_P, J_P);
+    if (J_P <= health::packed_J_P) s.packed += m;
   }
   return s;
 }
@@ -164,13 +166,14 @@ Summary StateReader<Real>::summary() const {
     all.max_speed = std::max(all.max_speed, s.max_speed);
     all.min_J_P = c == 0 ? s.min_J_P : std::min(all.min_J_P, s.min_J_P);
     all.max_J_P = c == 0 ? s.max_J_P : std::max(all.max_J_P, s.max_J_P);
+    all.packed += s.packed;
   }
   all.max_depth = max_depth();
   all.time = state_.progress.time;
   all.particles = count;
   all.emitted = state_.progress.flow.emitted;
   all.removed = state_.progress.flow.removed;
-  if (all.mass > 0) all.centre_of_mass /= all.mass;
+  if (all.mass > 0) all.centre_of_mass /= all.mass, all.packed /= all.mass;
   return all;
 }
 

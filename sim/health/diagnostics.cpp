@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "sim/health/limits.h"
-#include "sim/kernels/decompose.h"
+#include "sim/kernels/constitutive.h"
 #include "sim/types/number_text.h"
 
 namespace neve::sim::health {
@@ -39,7 +39,7 @@ Principal decompose(const Mat3d& F) {
 
 Lame hardened(const Material& m, double J_P) {
   Lame l = lame(m.youngs_modulus, m.poisson_ratio);
-  const double factor = std::exp(m.hardening * (1 - J_P));
+  const double factor = hardening_factor(m, J_P);
   return {l.mu * factor, l.lambda * factor};
 }
 
@@ -65,7 +65,7 @@ double badness(const std::string& rule, const ParticleArrays& p, std::size_t id,
   const bool is_finite = p.x[id].allFinite() && p.v[id].allFinite() && p.F_E[id].allFinite() &&
                          std::isfinite(p.J_P[id]);
   if (!is_finite) return worst;
-  if (rule == "J_P") return -p.J_P[id];
+  if (rule == "J_P" || rule == "packed") return -p.J_P[id];
   if (rule == "inverted") return -p.F_E[id].determinant();
   if (rule == "acoustic_cfl" || rule == "time_step")
     return p.V0[id] > 0
@@ -91,6 +91,10 @@ std::string what(const Divergence& d, double acoustic_cfl) {
   else if (d.rule == "J_P")
     text +=
         "J_P of " + who + " fell to " + number_text(d.value) + ", below " + number_text(d.limit);
+  else if (d.rule == "packed")
+    text += number_text(100 * d.value) +
+            " % of the snow is packed to J_P = " + number_text(limits_of(Law::compaction).stop) +
+            ", a tenth of its volume";
   else if (d.rule == "acoustic_cfl")
     text += "sound crossed " + number_text(d.value) + " cells in one step at " + who;
   else if (d.rule == "time_step")
@@ -104,6 +108,11 @@ std::string what(const Divergence& d, double acoustic_cfl) {
 }
 
 }  // namespace
+
+double hardening_factor(const Material& material, double J_P) {
+  return std::clamp(std::exp(material.hardening * (1 - J_P)), kernels::least_hardening,
+                    material.max_hardening);
+}
 
 double energy_density(const Material& material, const Mat3d& F_E, double J_P) {
   const Lame l = hardened(material, J_P);

@@ -7,6 +7,9 @@
 
 namespace neve::sim::health {
 
+/// e^(xi (1 - J_P)) between the least and the largest factor: how much stiffer than at rest.
+double hardening_factor(const Material& material, double J_P);
+
 /// Elastic energy per initial volume, J/m3 (the paper, equation 1, hardened by equation 2).
 /// @param F_E elastic deformation gradient, any determinant; neo-Hookean needs det F_E > 0
 /// @param J_P det of the plastic part, dimensionless
@@ -24,7 +27,7 @@ struct ElasticResponse {
 };
 ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P);
 
-/// sqrt((2 mu s_max^2 + lambda J_E^2) e^(xi(1 - J_P)) / rho0): speed of the fastest elastic wave,
+/// sqrt((2 mu s_max^2 + lambda J_E^2) e^(xi (1 - J_P)) / rho0): speed of the fastest elastic wave,
 /// as the acoustic limit sees it, m/s. @param rho0 mass / initial volume, kg/m3
 double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0);
 

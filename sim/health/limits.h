@@ -49,8 +49,9 @@ enum class Law {
   extent,              ///< m, of a piece of snow
   particles_per_cell,  ///< fewer leave gaps
   light_node,          ///< mass over rho h^3: lighter nodes have velocities that mean nothing
+  packed,              ///< share of the snow at J_P <= packed_J_P
 };
-inline constexpr std::size_t law_count = 34;
+inline constexpr std::size_t law_count = 35;
 inline constexpr int watched_laws = 18;
 
 /// A reader that draws no line at a law: no value is beyond it.
@@ -138,8 +139,8 @@ inline constexpr std::array<Limits, law_count> laws = {{
      .stop = 0.1,
      .at_start = 0.5,
      .expected = 0.2,
-     .meaning = "snow is packed to a fifth of its volume; hardening grows without limit",
-     .remedy = "less hardening, a smaller critical_compression, or a smaller dt"},
+     .meaning = "snow is packed to a fifth of its volume: it is too soft for its impact",
+     .remedy = "a larger youngs_modulus or hardening, or less speed"},
     {.law = Law::dilation,
      .name = "dilation",
      .quantity = "the largest J_P",
@@ -314,6 +315,11 @@ inline constexpr std::array<Limits, law_count> laws = {{
      .quantity = "the mass of a node over rho h^3",
      .is_below = true,
      .expected = 1e-4},
+    // Some particles of an impact may be crushed; snow that is has no room, or no stiffness.
+    {.law = Law::packed,
+     .name = "packed",
+     .quantity = "the share of the snow that is packed to a tenth of its volume",
+     .stop = 0.1},
 }};
 
 constexpr const Limits& limits_of(Law law) {
@@ -331,6 +337,10 @@ constexpr const char* quantity(Law law) {
 constexpr const char* meaning(Law law) {
   return limits_of(law).meaning;
 }
+
+/// Snow is packed as far as it may be, within rounding of float: below, the law of compaction stops
+/// the run; the default range of J_P ends here.
+inline constexpr double packed_J_P = limits_of(Law::compaction).stop * (1 + 1e-6);
 
 /// False for no_line, which is NaN.
 constexpr bool is_line(double value) {

@@ -1,8 +1,9 @@
 #pragma once
 /// Stress and plastic projection of particles of one model, in lanes.
 ///
-/// All models take mu = mu0 e^(xi (1 - J_P)) and lambda likewise (the paper, equation 2). Stress is
-/// the Kirchhoff stress tau = P F_E^T: the force of a particle is -V0 tau grad_w, J cancels.
+/// All models take mu = mu0 e^(xi (1 - J_P)) and lambda likewise (the paper, equation 2), with the
+/// factor held between least_hardening and the material's max_hardening. Stress is the Kirchhoff
+/// stress tau = P F_E^T: the force of a particle is -V0 tau grad_w, J cancels.
 
 #include "sim/kernels/decompose.h"
 #include "sim/kernels/particle_lanes.h"
@@ -10,12 +11,21 @@
 
 namespace neve::sim::kernels {
 
-/// A row of the material table as kernels see it.
+/// Torn snow is at least this stiff, relative to snow at rest. Its forces are far below the
+/// rounding of its weight, but no product of them is so small that processors slow down
+/// (denormals).
+inline constexpr double least_hardening = 1e-12;
+
+/// No bound on a number, in float and in double.
+inline constexpr double no_bound = 3e38;
+
+/// A row of the material table as kernels see it. By default J_P and hardening have no bounds.
 template <class Real>
 struct MaterialConstants {
   Real mu0, lambda0;  ///< Pa
   Real xi;
   Real theta_c, theta_s;
+  Real min_J_P = 0, max_J_P = Real(no_bound), max_hardening = Real(no_bound);
 };
 
 /// Eigenvalues of b = F_E F_E^T between which its own decomposition is good to a few units in the
@@ -40,6 +50,9 @@ struct MaterialLanes {
     word_xi,
     word_lo,
     word_hi,
+    word_min_J_P,
+    word_max_J_P,
+    word_max_hardening,
     words
   };
   V word[words];
@@ -58,7 +71,9 @@ struct MaterialLanes {
 
   /// Moduli after hardening.
   NEVE_INLINE void harden(V& mu, V& lambda) {
-    const V hardening = exponential_lanes(word[word_xi] * (Real(1) - J_P()));
+    const V grown = exponential_lanes(word[word_xi] * (Real(1) - J_P()));
+    const V hardening =
+        smaller_lanes(larger_lanes(grown, all<V>(Real(least_hardening))), word[word_max_hardening]);
     mu = hardening * word[word_mu];
     lambda = hardening * word[word_lambda];
   }
@@ -71,17 +86,20 @@ NEVE_INLINE void take_lanes(const Record<V, I>& p, const MaterialConstants<Eleme
   using M = MaterialLanes<V>;
   for (int q = 0; q < 9; ++q) m.F()[q] = p.F_E[q];
   m.J_P() = p.J_P;
-  V k[5];
+  constexpr int constants = 8;
+  V k[constants];
   const I material = p.material();
   if (!any_lane(material != all<I>(material[0]))) {
     const MaterialConstants<Real>& row = table[material[0]];
-    const Real constant[5] = {row.mu0, row.lambda0, row.xi, row.theta_c, row.theta_s};
-    for (int q = 0; q < 5; ++q) k[q] = all<V>(constant[q]);
+    const Real constant[constants] = {row.mu0,     row.lambda0, row.xi,      row.theta_c,
+                                      row.theta_s, row.min_J_P, row.max_J_P, row.max_hardening};
+    for (int q = 0; q < constants; ++q) k[q] = all<V>(constant[q]);
   } else {
     for (int l = 0; l < lane_count<V>; ++l) {
       const MaterialConstants<Real>& row = table[material[l]];
       k[0][l] = row.mu0, k[1][l] = row.lambda0, k[2][l] = row.xi;
       k[3][l] = row.theta_c, k[4][l] = row.theta_s;
+      k[5][l] = row.min_J_P, k[6][l] = row.max_J_P, k[7][l] = row.max_hardening;
     }
   }
   m.word[M::word_mu] = p.stiffness * k[0];
@@ -89,6 +107,9 @@ NEVE_INLINE void take_lanes(const Record<V, I>& p, const MaterialConstants<Eleme
   m.word[M::word_xi] = k[2];
   m.word[M::word_lo] = Real(1) - k[3] * p.threshold;
   m.word[M::word_hi] = Real(1) + k[4] * p.threshold;
+  m.word[M::word_min_J_P] = k[5];
+  m.word[M::word_max_J_P] = k[6];
+  m.word[M::word_max_hardening] = k[7];
 }
 
 /// Fixed-corotated stress of particles whose strain is small (and, for snow, inside the
@@ -137,12 +158,26 @@ NEVE_INLINE void corotated_stress(MaterialLanes<V>& m, const V* s, const V* U) {
 }
 
 /// The snow's projection of one stretch: clamped to [1 - theta_c, 1 + theta_s]; what is cut off
-/// goes into J_P (the paper, section 7, equations 11 and 12).
+/// goes into J_P (the paper, section 7, equations 11 and 12). A negative stretch, of a particle
+/// turned inside out, is turned back: it counts by its size, so that J_P stays positive.
 template <class V>
 NEVE_INLINE V clamp_stretch(MaterialLanes<V>& m, V s, V& cut) {
   const V clamped = smaller_lanes(larger_lanes(s, m.lo()), m.hi());
-  cut = s != clamped ? cut * (s / clamped) : cut;
+  cut = s != clamped ? cut * (absolute_lanes(s) / clamped) : cut;
   return clamped;
+}
+
+/// J_P after a projection that cut off `cut`, where it did: J_P' = J_P |s1 s2 s3| / (s1' s2' s3'),
+/// held in the range of the material. Beyond the range F_P is forgotten, F_E and its stress are
+/// not: snow yields on at constant stiffness. NaN stays NaN.
+template <class V>
+NEVE_INLINE void move_J_P(MaterialLanes<V>& m, V cut, MaskOf<V> is_cut) {
+  using M = MaterialLanes<V>;
+  const V least = m.word[M::word_min_J_P], most = m.word[M::word_max_J_P];
+  V moved = m.J_P() * cut;
+  moved = moved < least ? least : moved;
+  moved = moved > most ? most : moved;
+  m.J_P() = is_cut ? moved : m.J_P();
 }
 
 /// The lanes whose F_E is well enough conditioned for the eigenvalues of b.
@@ -169,7 +204,7 @@ NEVE_INLINE void corotated_by_eigenvalues(MaterialLanes<V>& m, const SymmetricEi
     change[i] = s[i] / found - Real(1);
   }
   if (is_plastic) {
-    m.J_P() = m.J_P() * cut;
+    move_J_P(m, cut, cut != all<V>(1));
     // U^T F, stretched, and back.
     for (int column = 0; column < 3; ++column) {
       V* F = m.F();
@@ -196,7 +231,7 @@ NEVE_INLINE void corotated_by_decomposition(MaterialLanes<V>& m, bool is_plastic
       s[i] = clamp_stretch(m, svd.s[i], cut);
       is_cut |= s[i] != svd.s[i];
     }
-    m.J_P() = is_cut ? m.J_P() * cut : m.J_P();
+    move_J_P(m, cut, is_cut);
     for (int a = 0; a < 3; ++a)
       for (int c = 0; c < 3; ++c) {
         const V F = svd.U[3 * a] * s[0] * svd.V[3 * c] +

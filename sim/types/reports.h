@@ -41,6 +41,7 @@ struct Summary {
   Vec3d momentum{0, 0, 0}, centre_of_mass{0, 0, 0};
   Vec3d angular_momentum{0, 0, 0};  ///< about the lattice origin
   double max_speed = 0, min_J_P = 1, max_J_P = 1;
+  double packed = 0;     ///< share of the mass that is packed as far as health::Law::packed allows
   double max_depth = 0;  ///< m, of the particle that is deepest in a collider
 };
 
@@ -88,8 +89,8 @@ struct StartState {
 struct Divergence {
   std::size_t step = 0;
   double time = 0;
-  std::string stage;  ///< name of the stage that broke the rule
-  std::string rule;   ///< energy, speed_cfl, acoustic_cfl, J_P, inverted, not_finite, overflow
+  std::string stage;           ///< name of the stage that broke the rule
+  std::string rule;            ///< energy, speed_cfl, acoustic_cfl, J_P, packed, inverted, ...
   std::int64_t particle = -1;  ///< id of a culprit, -1 if unknown
   int material = 0;            ///< of the culprit, like the members below
   Vec3d x{0, 0, 0}, v{0, 0, 0};
@@ -113,6 +114,7 @@ struct Warnings {
   double worst_acoustic_cfl = 0;     ///< of fixed steps
   std::size_t solves_cut_short = 0;  ///< taken as they were after solve_iterations
   std::size_t solves_given_up = 0;   ///< of no use: explicit steps in their place
+  double least_J_P = 1;              ///< of the most packed particle so far
 };
 
 /// Seconds spent in each phase of the steps so far.

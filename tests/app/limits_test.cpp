@@ -91,7 +91,7 @@ TEST(Limits, LimitsAreThoseOfTheCheck) {
 TEST(Limits, LimitsAreThoseOfTheDiagnosis) {
   scene::Scene scene = ball();
   sim::Divergence divergence;
-  divergence.rule = "J_P";
+  divergence.rule = "time_step";
   divergence.start.max_sound_speed = 20;
   const auto cause_at = [&](double factor) {
     divergence.J_P = 1 - std::log(factor) / scene.materials[0].hardening;

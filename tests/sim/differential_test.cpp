@@ -68,6 +68,27 @@ TEST(StressChange, StressChangeIsTheDerivativeOfTheStress) {
   }
 }
 
+/// e^(10 * 0.7) is beyond the bound, e^(10 * -5) below the least factor.
+TEST(StressChange, StressChangeIsTheDerivativeAtTheBoundsOfHardening) {
+  Material material = material_of(Model::snow);
+  material.hardening = 10;
+  material.max_hardening = 50;
+  for (const double J_P : {0.3, 6.0})
+    for (const Mat3d& F_E : deformations(Model::snow)) {
+      const Mat3d G = random_matrix();
+      constexpr double e = 1e-3;
+      const auto P = [&](double by) {
+        return health::first_piola(material, (Mat3d::Identity() + by * G) * F_E, J_P);
+      };
+      const Mat3d dP = (8 * (P(e) - P(-e)) - (P(2 * e) - P(-2 * e))) / (12 * e);
+      const Mat3d expected = dP * F_E.transpose();
+      const double factor = J_P < 1 ? 50 : kernels::least_hardening;
+      const double scale = factor * material.youngs_modulus + expected.norm();
+      EXPECT_LE((stress_change_of<double>(material, F_E, J_P, G) - expected).norm() / scale, 2e-8);
+      EXPECT_LE((stress_change_of<float>(material, F_E, J_P, G) - expected).norm() / scale, 2e-5);
+    }
+}
+
 TEST(StressChange, StressChangeIsSymmetric) {
   for (const Model model : differentiated_models) {
     const Material material = material_of(model);

@@ -46,6 +46,59 @@ TEST(Divergence, HealthyImpactsOfElasticModelsPass) {
   }
 }
 
+Material soft_snow() {
+  Material m;
+  m.youngs_modulus = 4.8e4;
+  m.hardening = 5;
+  return m;
+}
+
+/// Held nodes make the hardest impact.
+SolverSettings with_held_nodes() {
+  SolverSettings s;
+  s.cell_size = 0.03;
+  s.contact_at = ContactAt::nodes;
+  return s;
+}
+
+TEST(Divergence, SoftSnowIsCrushedAndRunsOn) {
+  Material m = soft_snow();
+  Simulation simulation(with_held_nodes(), {m}, floor_plane(), falling_ball(30), 1);
+  simulation.advance_to(0.1);
+  ASSERT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
+  EXPECT_FLOAT_EQ(static_cast<float>(simulation.warnings().least_J_P), 0.1F);
+  // Without the range it ends here.
+  m.min_J_P = 1e-6;
+  EXPECT_EQ(rule_of(with_held_nodes(), m, falling_ball(30)), "J_P");
+}
+
+/// e^(xi (1 - J_P)) of a J_P that changed its sign would be more than float holds.
+TEST(Divergence, TornParticleTurnedInsideOutPoisonsNoOther) {
+  for (const Precision precision : {Precision::single, Precision::real64}) {
+    SolverSettings s;
+    s.cell_size = 0.03;
+    s.precision = precision;
+    ParticleArrays p = falling_ball(3);
+    p.F_E.assign(p.x.size(), Mat3d::Identity());
+    p.J_P.assign(p.x.size(), 1);
+    p.J_P[7] = 20;
+    p.F_E[7] = Vec3d(1, 1, -0.5).asDiagonal();
+    EXPECT_EQ(rule_of(s, Material{}, p), "");
+  }
+}
+
+TEST(Divergence, SnowWithoutRoomIsFound) {
+  std::vector<shapes::Collider> press = floor_plane();
+  press.push_back(plane({0, 0.27, 0}, {0, -1, 0}, 0.5));
+  press.back().velocity = Vec3d(0, -8, 0);
+  Simulation simulation(with_held_nodes(), {soft_snow()}, press, falling_ball(0), 1);
+  simulation.advance_to(0.1);
+  ASSERT_TRUE(simulation.divergence());
+  const Divergence& d = *simulation.divergence();
+  EXPECT_EQ(d.rule, "packed");
+  EXPECT_NE(d.what.find("of the snow is packed to J_P = 0.1"), std::string::npos) << d.what;
+}
+
 /// A plate that moves slowly does work on every step, mostly against stress that slows the nodes
 /// down by more than the plate's speed.
 TEST(Divergence, SlowPressesAreHealthy) {

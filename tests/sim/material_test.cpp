@@ -7,6 +7,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 
 #include "sim/health/diagnostics.h"
@@ -67,8 +68,14 @@ Mat3d tau_of(const kernels::Particle<Real>& p) {
 template <class Real>
 kernels::MaterialConstants<Real> constants(const Material& m) {
   const Lame l = lame(m.youngs_modulus, m.poisson_ratio);
-  return {Real(l.mu), Real(l.lambda), Real(m.hardening), Real(m.critical_compression),
-          Real(m.critical_stretch)};
+  return {Real(l.mu),
+          Real(l.lambda),
+          Real(m.hardening),
+          Real(m.critical_compression),
+          Real(m.critical_stretch),
+          Real(m.min_J_P),
+          Real(m.max_J_P),
+          Real(m.max_hardening)};
 }
 
 constexpr Model models[] = {Model::snow, Model::corotated, Model::neo_hookean};
@@ -194,6 +201,79 @@ TEST(Snow, HardeningGrowsUnderCompressionOnly) {
   update_material(pulled, constants<double>(m));
   EXPECT_NEAR(pressed.J_P, 0.9 / 0.975, 1e-12);
   EXPECT_NEAR(pulled.J_P, 1.1 / 1.0075, 1e-12);
+}
+
+/// A stretch of -0.5 is projected to 1 - theta_c, and J_P takes |-0.5| / (1 - theta_c).
+template <class Real>
+void expect_inverted_is_repaired() {
+  const Material m;
+  auto p = particle<Real>(Vec3d(1, 1, -0.5).asDiagonal(), 8, kernels::ModelKind::snow);
+  update_material(p, constants<Real>(m));
+  EXPECT_NEAR(static_cast<double>(p.J_P), 8 * 0.5 / 0.975, 1e-5);
+  EXPECT_NEAR(std::abs(F_of(p).determinant()), 0.975, 1e-5);
+  EXPECT_TRUE(tau_of(p).allFinite());
+}
+
+TEST(Snow, JOfAnInvertedParticleStaysPositive) {
+  at_every_simd_level([] {
+    expect_inverted_is_repaired<float>();
+    expect_inverted_is_repaired<double>();
+  });
+}
+
+/// The range holds J_P alone: F_E is the same with and without it.
+TEST(Snow, PlasticVolumeStaysInItsRange) {
+  Material narrow;
+  narrow.min_J_P = 0.5, narrow.max_J_P = 2;
+  Random random(9);
+  at_every_simd_level([&] {
+    for (const double size : {0.1, 0.3, 3.0, 20.0})
+      for (const double J_P : {0.5, 0.7, 1.0, 2.0}) {
+        const Mat3d F = size * random.rotation() * (Mat3d::Identity() + 0.1 * random.matrix());
+        auto held = particle<double>(F, J_P, kernels::ModelKind::snow), free = held;
+        update_material(held, constants<double>(narrow));
+        update_material(free, kernels::MaterialConstants<double>{1, 1, 1, 0.025, 0.0075});
+        EXPECT_EQ(held.J_P, std::clamp(free.J_P, 0.5, 2.0)) << size << " " << J_P;
+        EXPECT_EQ(0, std::memcmp(held.F_E, free.F_E, sizeof held.F_E));
+      }
+  });
+}
+
+TEST(Snow, PlasticVolumeThatIsNoNumberStaysNone) {
+  for (const double s : {0.99, 0.9, -0.5}) {
+    auto p = particle<float>(Vec3d(1, s, 1).asDiagonal(), std::numeric_limits<double>::quiet_NaN(),
+                             kernels::ModelKind::snow);
+    update_material(p, constants<float>(Material{}));
+    EXPECT_TRUE(std::isnan(p.J_P)) << s;
+  }
+}
+
+template <class Real>
+double stress_at(const Material& m, double J_P) {
+  auto p = particle<Real>(Vec3d(1, 0.99, 1).asDiagonal(), J_P, kernels::ModelKind::snow);
+  update_material(p, constants<Real>(m));
+  return tau_of(p).norm();
+}
+
+template <class Real>
+void expect_bounded_hardening() {
+  Material m;
+  m.hardening = 100;  // e^90 is more than float holds
+  m.max_hardening = 50;
+  const double at_rest = stress_at<Real>(m, 1);
+  EXPECT_NEAR(stress_at<Real>(m, 0.1) / at_rest, 50, 1e-4);
+  EXPECT_NEAR(stress_at<Real>(m, 0.99) / at_rest, std::exp(1), 1e-4);
+  EXPECT_NEAR(stress_at<Real>(m, 9) / at_rest / kernels::least_hardening, 1, 1e-4);
+  m.max_hardening = 1e12;
+  EXPECT_TRUE(std::isfinite(stress_at<Real>(m, 0.1)));
+  EXPECT_NEAR(health::hardening_factor(m, 9), kernels::least_hardening, 0);
+}
+
+TEST(Snow, HardeningEndsAtItsBounds) {
+  at_every_simd_level([] {
+    expect_bounded_hardening<float>();
+    expect_bounded_hardening<double>();
+  });
 }
 
 TEST(Decomposition, DecompositionRebuildsAnyMatrixInFloatAndDouble) {

@@ -112,7 +112,7 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
     const auto margin = static_cast<Wide>(100 * epsilon * std::max(1.0, largest));
     for (int i = 0; i < 3; ++i) {
       c[i] = std::clamp(s[i], lo, hi);
-      cut *= s[i] / c[i];
+      cut *= std::abs(s[i]) / c[i];
       cut_bound *=
           (std::abs(static_cast<double>(s[i])) + epsilon * largest) / static_cast<double>(c[i]);
       if (s[i] < lo + margin || s[i] > hi - margin) out.is_untouched = false;
@@ -127,6 +127,8 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
   }
   const auto J_P_before = static_cast<double>(p.J_P);
   out.J_P = static_cast<Wide>(p.J_P) * cut;
+  if (c != s)
+    out.J_P = std::clamp(out.J_P, static_cast<Wide>(k.min_J_P), static_cast<Wide>(k.max_J_P));
   out.J_P_unit = out.is_untouched
                      ? 0
                      : std::abs(J_P_before) * (cut_bound - std::abs(static_cast<double>(cut))) +
@@ -134,7 +136,10 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
 
   const Wide xi = static_cast<Wide>(k.xi), most = sizeof(Real) == 4 ? 80 : 700;
   const Wide exponent = std::clamp(xi * (1 - out.J_P), -most, most);
-  const Wide H = std::exp(exponent) * static_cast<Wide>(p.stiffness);
+  const Wide factor =
+      std::clamp(std::exp(exponent), static_cast<Wide>(Real(sim::kernels::least_hardening)),
+                 static_cast<Wide>(k.max_hardening));
+  const Wide H = factor * static_cast<Wide>(p.stiffness);
   const Wide mu = H * static_cast<Wide>(k.mu0), lambda = H * static_cast<Wide>(k.lambda0);
   // Error of the factor e^(xi (1 - J_P)): its argument is rounded, and J_P is uncertain.
   const auto softening = static_cast<double>(xi) * out.J_P_unit;

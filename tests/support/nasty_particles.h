@@ -22,7 +22,8 @@ inline constexpr const char* nasty_kinds[] = {
 inline constexpr int nasty_kind_count = static_cast<int>(std::size(nasty_kinds));
 
 /// Materials of all sorts: the paper's; thresholds that the series does not cover; none at all; of
-/// one side only; without hardening; much of it.
+/// one side only; without hardening; much of it; much of it with a range of J_P, which all
+/// particles start in, and a bound.
 template <class Real>
 std::vector<sim::kernels::MaterialConstants<Real>> nasty_materials() {
   return {{Real(58333.3), Real(38888.9), 10, Real(0.025), Real(0.0075)},
@@ -31,7 +32,8 @@ std::vector<sim::kernels::MaterialConstants<Real>> nasty_materials() {
           {Real(3e3), Real(0), 20, 0, Real(0.5)},
           {Real(7e5), Real(7e5), 0, Real(0.049), 0},
           {Real(1e4), Real(2e4), 2, Real(0.9), 2},
-          {Real(40), Real(60), 40, Real(0.01), Real(0.02)}};
+          {Real(40), Real(60), 40, Real(0.01), Real(0.02)},
+          {Real(5e4), Real(4e4), 15, Real(0.025), Real(0.0075), Real(0.05), 20, 500}};
 }
 
 /// Makes them one after the other from a seed, the kinds in turn.

@@ -15,7 +15,8 @@ Mat3d stress_change_of(const sim::Material& material, const Mat3d& F_E, double J
   const sim::Lame rest = sim::lame(material.youngs_modulus, material.poisson_ratio);
   const sim::kernels::MaterialConstants<Real> table[] = {
       {static_cast<Real>(rest.mu), static_cast<Real>(rest.lambda),
-       static_cast<Real>(material.hardening), 0, 0}};
+       static_cast<Real>(material.hardening), 0, 0, static_cast<Real>(material.min_J_P),
+       static_cast<Real>(material.max_J_P), static_cast<Real>(material.max_hardening)}};
   const sim::kernels::ModelKind model = material.model == sim::Model::neo_hookean
                                             ? sim::kernels::ModelKind::neo_hookean
                                             : sim::kernels::ModelKind::corotated;

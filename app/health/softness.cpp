@@ -1,0 +1,54 @@
+#include "app/health/softness.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "app/setup/auto_ranges.h"
+#include "app/support/round_number.h"
+#include "app/support/text.h"
+#include "sim/health/diagnostics.h"
+#include "sim/health/limits.h"
+
+namespace neve::app::health {
+
+double stiffness_that_holds(const sim::Material& material, double J_P, double speed) {
+  constexpr double kept = 0.25, focus = 3, least_threshold = 0.005;
+  sim::Material unit = material;
+  unit.youngs_modulus = 1;
+  const double s = 1 - std::max(least_threshold, material.critical_compression), J = kept * s;
+  const sim::Mat3d F_E = sim::Vec3d(1, s, 1).asDiagonal();
+  const double pressure_per_E = -sim::health::first_piola(unit, F_E, kept)(1, 1) * s / J;
+  const double shock = focus * material.density * speed * speed / (1 - J);
+  // J_P of a state that is no number says nothing.
+  const double from = J_P > 0 ? std::min(J_P, kept) : kept;
+  const double packed = sim::health::hardening_factor(material, from) / from;
+  const double wanted = sim::health::hardening_factor(material, kept) / kept;
+  return round_up(std::max(material.youngs_modulus * packed / wanted, shock / pressure_per_E));
+}
+
+double load_speed(const scene::Scene& scene) {
+  double speed = setup::impact_speed(scene);
+  for (const scene::Collider& collider : scene.colliders)
+    speed = std::max(speed, sim::shapes::largest_speed(collider));
+  return speed;
+}
+
+std::optional<std::string> softness_warning(const scene::Scene& scene,
+                                            const sim::Simulation& simulation) {
+  const double J_P = simulation.warnings().least_J_P;
+  if (J_P > sim::health::packed_J_P || simulation.divergence()) return std::nullopt;
+  const auto is_softer = [](const sim::Material& a, const sim::Material& b) {
+    return a.youngs_modulus < b.youngs_modulus;
+  };
+  const sim::Material& snow =
+      *std::min_element(scene.materials.begin(), scene.materials.end(), is_softer);
+  const double speed = load_speed(scene);
+  return fmt::format(
+      "snow was packed to J_P = {}, {} kg/m3, and yielded without hardening further: it is too "
+      "soft for its impact at {} m/s; try material.{}.youngs_modulus = {}",
+      rough_text(J_P), rough_text(snow.density / J_P), rough_text(speed), snow.name,
+      rough_text(stiffness_that_holds(snow, J_P, speed)));
+}
+
+}  // namespace neve::app::health

@@ -1,0 +1,29 @@
+#pragma once
+/// Snow that is too soft for its impact, and the stiffness that would hold.
+
+#include <optional>
+#include <string>
+
+#include "app/scene/scene.h"
+#include "sim/simulation.h"
+
+namespace neve::app::health {
+
+/// Young's modulus, in Pa, with which snow that a body's impact packed to J_P stays above a quarter
+/// of its volume. Yielding snow bears p(J_P) = g E e^(xi (1 - J_P)) / J_P, where g depends on the
+/// threshold and Poisson's ratio. At J_P = 1/4 it has to bear
+///   - as much as when it was packed to J_P;
+///   - three times the pressure rho v^2 / (1 - J) behind a plane shock that stops snow of the given
+///     speed: edges, and nodes held by a collider, focus it.
+/// Check: Softness.ImpactHoldsWithTheStiffnessThatIsAdvised
+double stiffness_that_holds(const sim::Material& material, double J_P, double speed);
+
+/// m/s, of the fastest body that hits something, or collider.
+double load_speed(const scene::Scene& scene);
+
+/// For a run whose snow was packed to the limit and yielded on. Empty if none was, and if the run
+/// diverged: its diagnosis says more.
+std::optional<std::string> softness_warning(const scene::Scene& scene,
+                                            const sim::Simulation& simulation);
+
+}  // namespace neve::app::health

@@ -1,0 +1,112 @@
+/// Soft snow under an impact: it runs, the user is told, and the advised stiffness holds.
+
+#include "app/health/softness.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "app/health/diagnosis.h"
+#include "app/run/step_warnings.h"
+#include "app/scene/read.h"
+#include "app/setup/seed_scene.h"
+
+namespace neve::app {
+namespace {
+
+struct Impact {
+  double youngs_modulus, hardening, speed;
+  const char* contact_at;
+};
+
+scene::Scene impact_scene(const Impact& impact, double min_J_P) {
+  return scene::read_scene_text(fmt::format(R"(
+[solver]
+cell_size = 0.04
+contact_at = "{}"
+[material.snow]
+youngs_modulus = {}
+hardening = {}
+min_J_P = {}
+[[body]]
+name = "ball"
+shape = {{ sphere = {{ center = [0, 0.18, 0], radius = 0.16 }} }}
+velocity = [0, -{}, 0]
+[[collider]]
+name = "floor"
+shape = {{ plane = {{ point = [0, 0.001, 0], normal = [0, 1, 0] }} }}
+)",
+                                            impact.contact_at, impact.youngs_modulus,
+                                            impact.hardening, min_J_P, impact.speed),
+                                "soft.toml");
+}
+
+sim::Simulation run_impact(const scene::Scene& scene) {
+  sim::Simulation simulation = setup::make_simulation(scene, setup::seed_scene(scene).particles, 2);
+  for (int frame = 1; frame <= 4 && !simulation.divergence(); ++frame)
+    simulation.advance_to(frame / 24.0);
+  return simulation;
+}
+
+const std::vector<Impact>& impacts() {
+  static const std::vector<Impact> all{{1e4, 5, 10, "nodes"},     {4.8e4, 2, 20, "nodes"},
+                                       {4.8e4, 0, 10, "nodes"},   {1e4, 5, 30, "particles"},
+                                       {1e4, 1, 6, "particles"},  {4.8e4, 5, 60, "nodes"},
+                                       {2e4, 2, 15, "particles"}, {4.8e4, 5, 30, "nodes"}};
+  return all;
+}
+
+constexpr double unbounded = 1e-6;
+
+TEST(Softness, ImpactHoldsWithTheStiffnessThatIsAdvised) {
+  for (Impact impact : impacts()) {
+    SCOPED_TRACE(fmt::format("{} Pa, xi {}, {} m/s, contact at {}", impact.youngs_modulus,
+                             impact.hardening, impact.speed, impact.contact_at));
+    const scene::Scene scene = impact_scene(impact, unbounded);
+    const sim::Simulation crushed = run_impact(scene);
+    ASSERT_TRUE(crushed.divergence());
+    const sim::Divergence& d = *crushed.divergence();
+    ASSERT_EQ(d.rule, "J_P");
+    const health::Diagnosis diagnosis = health::diagnose(scene, d);
+    EXPECT_TRUE(diagnosis.cause == health::Cause::too_soft ||
+                diagnosis.cause == health::Cause::shock)
+        << diagnosis.evidence;
+    EXPECT_EQ(diagnosis.address, "material.snow.youngs_modulus");
+    const double speed = health::load_speed(scene);
+    impact.youngs_modulus = health::stiffness_that_holds(scene.materials[0], d.J_P, speed);
+    EXPECT_NE(diagnosis.remedy.find(
+                  fmt::format("material.snow.youngs_modulus = {:.3g}", impact.youngs_modulus)),
+              std::string::npos)
+        << diagnosis.remedy;
+    const sim::Simulation held = run_impact(impact_scene(impact, unbounded));
+    EXPECT_FALSE(held.divergence()) << held.divergence()->sentence;
+  }
+}
+
+TEST(Softness, CrushedSnowRunsOnAndTheRunSaysSo) {
+  for (Impact impact : impacts()) {
+    SCOPED_TRACE(fmt::format("{} Pa, xi {}, {} m/s, contact at {}", impact.youngs_modulus,
+                             impact.hardening, impact.speed, impact.contact_at));
+    const scene::Scene scene = impact_scene(impact, sim::Material{}.min_J_P);
+    const sim::Simulation crushed = run_impact(scene);
+    if (crushed.divergence()) {
+      // Too much of it, and not just an edge.
+      EXPECT_EQ(crushed.divergence()->rule, "packed");
+      continue;
+    }
+    const std::vector<std::string> warnings = run::step_warnings(scene, crushed);
+    ASSERT_EQ(warnings.size(), 1u);
+    impact.youngs_modulus = health::stiffness_that_holds(
+        scene.materials[0], crushed.warnings().least_J_P, health::load_speed(scene));
+    const std::string advice =
+        fmt::format("try material.snow.youngs_modulus = {:.3g}", impact.youngs_modulus);
+    EXPECT_NE(warnings[0].find(advice), std::string::npos) << warnings[0];
+    const scene::Scene stiffer = impact_scene(impact, sim::Material{}.min_J_P);
+    EXPECT_TRUE(run::step_warnings(stiffer, run_impact(stiffer)).empty());
+  }
+}
+
+}  // namespace
+}  // namespace neve::app
