@@ -12,8 +12,8 @@ namespace neve::sim {
 enum class Kernel { cubic, quadratic };
 enum class Transfer { flip, apic, mls };
 enum class Advect { particle, pic };
-/// Points that an explicit step stops at colliders: particles, by impulses through the grid, or
-/// nodes, as in the paper. Semi-implicit steps always stop nodes.
+/// Points that a step stops at colliders: particles, by impulses through the grid, or nodes, as in
+/// the paper.
 enum class ContactAt { particles, nodes };
 enum class TimeStep { adaptive, fixed };
 /// Reaction to a broken rule: end the run, or go back and try with half the dt.
