@@ -43,10 +43,10 @@ struct Thin {
   double cells;  ///< across its thinnest part
 };
 
-/// All of a kind in one finding, of the thinnest.
+/// All of a kind in one finding, of the thinnest: a warning if it is thinner than `warned` cells.
 /// @param size_per_cell  m, of the cells that would do, for each cell that it is thick
 void report_thin(const std::vector<Thin>& thin, const std::string& bound, const std::string& remedy,
-                 double size_per_cell, std::vector<Finding>& findings) {
+                 double size_per_cell, double warned, std::vector<Finding>& findings) {
   if (thin.empty()) return;
   const auto worst = std::min_element(
       thin.begin(), thin.end(), [](const Thin& a, const Thin& b) { return a.cells < b.cells; });
@@ -60,7 +60,7 @@ void report_thin(const std::vector<Thin>& thin, const std::string& bound, const 
     what += fmt::format(" (also under {}: {}{})", bound, joined(others, ", "),
                         left > 0 ? fmt::format(" and {} more", left) : "");
   findings.push_back(
-      {Severity::warning, worst->address + ".shape", what,
+      {worst->cells < warned ? Severity::warning : Severity::note, worst->address + ".shape", what,
        fmt::format("{}; solver.cell_size = {}", remedy, rough_text(worst->cells * size_per_cell))});
 }
 
@@ -290,6 +290,9 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings) {
 
 void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings) {
   const double h = scene.solver.cell_size;
+  // From this thickness on, nodes have hardly any weight on both sides of a wall.
+  const double apart = scene.solver.kernel == sim::Kernel::cubic ? 3 : 2.5;
+  constexpr double coupled = 2;
   std::vector<Thin> bodies, colliders;
   for (const sim::seeding::Body& body : scene.bodies) {
     if (thickness(body.shape) < 4 * h)
@@ -305,12 +308,16 @@ void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings)
     }
   }
   for (const sim::shapes::Collider& collider : scene.colliders)
-    if (!is_plane(collider.shape) && thickness(collider.shape) < 2 * h)
+    if (!is_plane(collider.shape) && thickness(collider.shape) < apart * h)
       colliders.push_back({"collider." + collider.name, display_name("collider", collider.name),
                            thickness(collider.shape) / h});
-  report_thin(bodies, "4", "weights reach 2 cells; use at least 6 to show its shape", h / 6,
+  report_thin(bodies, "4", "weights reach 2 cells; use at least 6 to show its shape", h / 6, 4,
               findings);
-  report_thin(colliders, "2", "snow leaks through less than 2; make it thicker", h / 2, findings);
+  report_thin(colliders, rough_text(apart),
+              "if snow lies on both of its sides, what slides on one side drags what lies on the "
+              "other, because nodes reach over less than " +
+                  rough_text(apart) + "; make it thicker",
+              h / apart, coupled, findings);
 }
 
 void check_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,

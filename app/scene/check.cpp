@@ -12,6 +12,7 @@
 #include "sim/kernels/contact.h"
 #include "sim/shapes/mesh_surface.h"
 #include "sim/shapes/solid.h"
+#include "sim/shapes/variation.h"
 
 namespace neve::app::scene {
 namespace {
@@ -117,6 +118,19 @@ Found shape_problem(const Scene& scene, const sim::shapes::Shape& shape,
     const sim::shapes::Bounds b = sim::shapes::Solid(shape).bounds();
     return too_far(scene, b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs()), at);
   });
+}
+
+/// The factors of variation leave every particle a stretch to which it can be compressed.
+Found variation_problem(const sim::Material& material) {
+  const double factor = sim::shapes::max_factor(material.variation.thresholds);
+  const double theta_c = material.critical_compression;
+  if (theta_c * factor < 1) return {};
+  return Problem{"material." + material.name + ".variation.thresholds",
+                 "thresholds = " + rough_text(material.variation.thresholds) +
+                     " gives some particles a critical_compression of " +
+                     rough_text(theta_c * factor) + ": snow cannot be compressed to nothing",
+                 "use thresholds below " + rough_text(sim::shapes::deviation_of(1 / theta_c)) +
+                     ", or critical_compression below " + rough_text(1 / factor)};
 }
 
 Found body_problem(const Scene& scene, const sim::seeding::Body& body) {
@@ -326,6 +340,9 @@ std::optional<Problem> find_problem(const Scene& scene) {
   if (scene.bodies.empty() && scene.emitters.empty()) {
     return Problem{"", "the scene has no body and no emitter",
                    "add [[body]] with shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }"};
+  }
+  for (const sim::Material& material : scene.materials) {
+    if ((found = variation_problem(material))) return found;
   }
   for (const sim::seeding::Body& body : scene.bodies) {
     if ((found = body_problem(scene, body))) return found;

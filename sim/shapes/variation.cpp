@@ -58,6 +58,17 @@ double factor(double deviation, double z) {
 
 }  // namespace
 
+double max_factor(double deviation) {
+  return factor(deviation, max_deviations);
+}
+
+double deviation_of(double largest) {
+  // ln f = k sigma - sigma^2 / 2, the smaller root.
+  constexpr double k = max_deviations, highest = 2;
+  const double sigma = k - std::sqrt(std::max(0.0, k * k - 2 * std::log(largest)));
+  return std::min(highest, std::sqrt(std::expm1(sigma * sigma)));
+}
+
 Factors vary(const Variation& variation, std::uint64_t key, std::uint64_t number, const Vec3d& y) {
   const auto one = [&](Quantity quantity, double deviation) {
     if (deviation == 0) return 1.0;

@@ -13,6 +13,11 @@ struct Factors {
   double density = 1, stiffness = 1, threshold = 1;
 };
 
+/// The largest factor that particles get for a relative deviation.
+double max_factor(double deviation);
+/// The deviation, at most 2, with that largest factor.
+double deviation_of(double largest);
+
 /// Log-normal noise with the relative deviations of the material, cut at three of them; smooth over
 /// `size`, or each particle on its own where that is 0.
 /// @param y       m, in a frame that moves with the snow

@@ -51,6 +51,21 @@ TEST(SceneErrors, PartsOfAnErrorAreKept) {
   }
 }
 
+TEST(SceneErrors, VariationThatLeavesNoVolumeIsRefused) {
+  const auto with = [](const char* numbers) {
+    return error_of(
+        with_ball("[material.snow]\ncritical_compression = 0.2\n"
+                  "variation = { thresholds = " +
+                  std::string(numbers) + " }"));
+  };
+  EXPECT_EQ(with("0.6"), "no error");
+  EXPECT_EQ(
+      with("1"),
+      "s.toml:6:28: error: thresholds = 1 gives some particles a critical_compression of 1.72: "
+      "snow cannot be compressed to nothing; use thresholds below 0.653, or "
+      "critical_compression below 0.116");
+}
+
 TEST(SceneErrors, UnknownKeysNameTheNearest) {
   EXPECT_EQ(error_of("frame = 3"),
             "s.toml:1:1: error: unknown key \"frame\"; did you mean \"frames\"?");

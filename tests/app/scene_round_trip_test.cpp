@@ -250,6 +250,7 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
     auto& torus = std::get<sim::shapes::Torus>(shape->form);
     torus.minor_radius = torus.major_radius / 3;
   }
+  for (sim::Material& material : scene.materials) material.critical_compression = 1.0 / 300;
   scene.emitters[0].end = scene.emitters[0].start + 1.0 / 3;
   app::scene::Collider& moved = scene.colliders.back();
   moved.velocity.setZero();

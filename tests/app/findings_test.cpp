@@ -1,0 +1,53 @@
+/// Findings about shapes that the cells do not resolve.
+
+#include "app/health/findings.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "app/scene/read.h"
+
+namespace neve::app {
+namespace {
+
+/// The findings about a wall between two bodies.
+std::vector<health::Finding> findings_of_wall(const char* kernel, double cells) {
+  const scene::Scene scene = scene::read_scene_text(fmt::format(R"(
+[solver]
+cell_size = 0.02
+kernel = "{}"
+[[body]]
+shape = {{ box = {{ center = [0, 0.3, 0], size = [0.4, 0.2, 0.4] }} }}
+[[collider]]
+name = "wall"
+shape = {{ box = {{ center = [0, 0, 0], size = [1, {}, 1] }} }}
+)",
+                                                                kernel, 0.02 * cells),
+                                                    "wall.toml");
+  std::vector<health::Finding> findings;
+  health::check_resolution(scene, findings);
+  return findings;
+}
+
+TEST(Findings, WallThroughWhichSnowIsDraggedIsFound) {
+  EXPECT_TRUE(findings_of_wall("cubic", 3.01).empty());
+  EXPECT_TRUE(findings_of_wall("quadratic", 2.51).empty());
+  // With snow on one side only such a wall is as good as any.
+  ASSERT_EQ(findings_of_wall("quadratic", 2.4).size(), 1u);
+  EXPECT_EQ(findings_of_wall("quadratic", 2.4)[0].severity, health::Severity::note);
+  const std::vector<health::Finding> thin = findings_of_wall("cubic", 1.5);
+  ASSERT_EQ(thin.size(), 1u);
+  EXPECT_EQ(thin[0].severity, health::Severity::warning);
+  EXPECT_EQ(thin[0].address, "collider.wall.shape");
+  EXPECT_EQ(thin[0].what, "wall is 1.5 cells thick");
+  EXPECT_EQ(thin[0].hint,
+            "if snow lies on both of its sides, what slides on one side drags what lies on the "
+            "other, because nodes reach over less than 3; make it thicker; solver.cell_size = "
+            "0.01");
+}
+
+}  // namespace
+}  // namespace neve::app
