@@ -102,5 +102,25 @@ TEST(Structure, TheReadmeCountsTheRowsOfTheTableOfMistakes) {
   EXPECT_GT(counts, 0) << "no page says how many mistakes there are";
 }
 
+/// Rows of a table that the page leaves out would stop docs/verification/make.
+TEST(Structure, ThePageOfVerificationShowsEveryTableOfTheTests) {
+  std::set<std::string> shown;
+  for (const SourceLine& line : lines_of("docs/verification/page.md"))
+    for (const std::string& table : found_in(line.text, "^@table (.+)$")) shown.insert(table);
+  int rows = 0;
+  for (const std::string& file : sources_below({"tests/analytic", "tests/analytic_long"})) {
+    std::string text;
+    for (const SourceLine& line : lines_of(file)) text += line.text + " ";
+    for (const std::string& table :
+         found_in(text, R"re((?:verify_[a-z_]+\( *|Quantity [a-z_]+)\{"([a-z_ ]+)")re")) {
+      ++rows;
+      EXPECT_TRUE(shown.contains(table))
+          << file << " has rows for the table \"" << table << "\"; add \"@table " << table
+          << "\" to docs/verification/page.md";
+    }
+  }
+  EXPECT_GT(rows, 20) << "the tests are not read as they are written";
+}
+
 }  // namespace
 }  // namespace neve::test
