@@ -76,7 +76,7 @@ plot curve("manufactured_flip") with linespoints ls 1 title "FLIP 1.0", \
      curve("manufactured_apic") with linespoints ls 2 title "APIC", \
      curve("manufactured_mls") with linespoints ls 3 title "MLS", \
      12 * x**2 with lines ls 4 title "order 2"
-set title "where schemes end"
+set title "limits of schemes"
 set yrange [5e-4:300]
 plot curve("manufactured_flip_particle") with linespoints ls 1 \
        title "FLIP 1.0 moved by v_p, 31 %" noenhanced, \
