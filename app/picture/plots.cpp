@@ -23,9 +23,10 @@ struct LimitStyle {
   Rgb color;
 };
 constexpr LimitStyle limit_styles[] = {
-    {sim::DtLimit::max_dt, "max_dt", white},      {sim::DtLimit::cfl, "cfl", sky_blue},
-    {sim::DtLimit::acoustic, "acoustic", orange}, {sim::DtLimit::strain, "strain", purple},
-    {sim::DtLimit::fixed, "fixed", yellow},       {sim::DtLimit::frame_end, "frame end", green}};
+    {sim::DtLimit::max_dt, "max_dt", white},         {sim::DtLimit::cfl, "cfl", sky_blue},
+    {sim::DtLimit::acoustic, "acoustic", orange},    {sim::DtLimit::strain, "strain", purple},
+    {sim::DtLimit::fixed, "fixed", yellow},          {sim::DtLimit::frame_end, "frame end", green},
+    {sim::DtLimit::collider, "collider", vermillion}};
 static_assert(std::size(limit_styles) == sim::dt_limit_count);
 
 render::PlotSeries curve(const char* name, Rgb color, std::span<const PlotSample> history,

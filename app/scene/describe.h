@@ -86,7 +86,7 @@ void describe(V& visit, sim::SolverSettings& s) {
         "Length of a step if time_step is fixed.");
   visit("max_dt", s.max_dt, unit::second, between(1e-9, 1), live, "Longest adaptive step.");
   visit("cfl", s.cfl, unit::none, between(1e-3, 1e3), live,
-        "Cells that snow may cross in an adaptive step.");
+        "Cells that snow, and a collider near snow, may cross in an adaptive step.");
   visit("acoustic_cfl", s.acoustic_cfl, unit::none, between(1e-3, 1e3), live,
         "Cells that sound may cross in an adaptive step.");
   visit("strain_limit", s.strain_limit, unit::none, between(1e-3, 1e3), live,

@@ -96,7 +96,7 @@ template <class Real>
 StepLimits Engine<Real>::step_limits() const {
   const StateLimits& limits = state_.progress.limits;
   return {limits_on_dt(state_.method.settings, limits), limits.max_speed, limits.max_sound_speed,
-          limits.max_strain_rate};
+          limits.max_strain_rate, limits.max_collider_speed};
 }
 
 // ---- frames -------------------------------------------------------------------------------------

@@ -183,6 +183,7 @@ void apply(const SolverSettings& settings, const std::vector<Material>& material
     for (kernels::Particle<Real>& p : state.particles.records)
       std::fill(std::begin(p.C), std::end(p.C), Real(0));
   if (has_new_stress) recompute_stress(is_changed, state);
+  state.note_near_colliders();
   if (has_new_accounts) rebase_energy(before, account, found, state);
   // Which step is too short was said by the parameters of the start.
   const double ratio = longest_step(settings, progress.limits) / longest_before;

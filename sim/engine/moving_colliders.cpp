@@ -1,5 +1,7 @@
 #include "sim/engine/moving_colliders.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -7,6 +9,32 @@
 #include "sim/types/errors.h"
 
 namespace neve::sim::engine {
+
+namespace {
+
+bool moves(const kernels::ColliderPose& pose) {
+  return std::any_of(pose.velocity, pose.velocity + 3, [](double v) { return v != 0; }) ||
+         std::any_of(pose.omega, pose.omega + 3, [](double w) { return w != 0; });
+}
+
+/// Speed of the surface at a block of particles; 0 if the two cannot meet within dt.
+double speed_near(const kernels::ColliderPose& pose, std::uint64_t key, double h, double dt,
+                  double snow_speed) {
+  int cell[3];
+  for (int axis = 0; axis < 3; ++axis)
+    cell[axis] = kernels::block_coordinate(key, axis) * kernels::block_side;
+  const auto c = kernels::localize<double>(pose, cell, h);
+  // Particles lie within 4 cells of the middle; they touch within half a cell of the surface, and
+  // the block is where they were before the last step.
+  const double around = 4 * h;
+  const Vec3<double> middle{2.75 * h, 2.75 * h, 2.75 * h}, arm = c.to_block + middle;
+  const double turning = std::sqrt(dot(c.omega, c.omega)) * (std::sqrt(dot(arm, arm)) + around);
+  const double speed = std::sqrt(dot(c.velocity, c.velocity)) + turning;
+  const double reach = around + 1.5 * h + (speed + snow_speed) * dt;
+  return kernels::is_out_of_reach(c, middle, reach) ? 0 : speed;
+}
+
+}  // namespace
 
 MovingColliders::MovingColliders(const std::vector<shapes::Collider>& colliders,
                                  const Lattice& lattice, double time, ThreadPool& pool)
@@ -30,6 +58,23 @@ void MovingColliders::place(const Lattice& lattice, double time) {
     if (const auto pose =
             kernel_pose(list_[k], time, lattice.cell_size, lattice.origin, fields_[k].get()))
       poses_.push_back(*pose);
+}
+
+double MovingColliders::fastest_near(const std::vector<kernels::ParticleBlock>& blocks,
+                                     const Lattice& lattice, double time, double dt,
+                                     double snow_speed) const {
+  double fastest = 0;
+  for (std::size_t k = 0; k < list_.size(); ++k)
+    // One that rests now may start within the step.
+    for (const double when : {time, time + dt}) {
+      const auto pose =
+          kernel_pose(list_[k], when, lattice.cell_size, lattice.origin, fields_[k].get());
+      if (!pose || !moves(*pose)) continue;
+      for (const kernels::ParticleBlock& block : blocks)
+        fastest =
+            std::max(fastest, speed_near(*pose, block.key, lattice.cell_size, dt, snow_speed));
+    }
+  return fastest;
 }
 
 std::uint64_t MovingColliders::memory_bytes() const {

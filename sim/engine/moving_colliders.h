@@ -7,6 +7,7 @@
 
 #include "sim/base/thread_pool.h"
 #include "sim/engine/lattice.h"
+#include "sim/kernels/blocks.h"
 #include "sim/kernels/contact.h"
 #include "sim/shapes/collider.h"
 #include "sim/shapes/distance_field.h"
@@ -24,6 +25,13 @@ class MovingColliders {
   void set_offset(std::size_t k, const shapes::PoseOffset& offset) {
     list_[k].pose_offset = offset;
   }
+
+  /// Largest speed of a surface that snow may meet in a step of dt from `time`, m/s; 0 if those
+  /// within reach rest.
+  /// @param blocks      of the snow
+  /// @param snow_speed  m/s, of the fastest particle
+  double fastest_near(const std::vector<kernels::ParticleBlock>& blocks, const Lattice& lattice,
+                      double time, double dt, double snow_speed) const;
 
   const std::vector<shapes::Collider>& list() const { return list_; }
   /// Poses of the colliders in reach of the lattice.

@@ -81,6 +81,14 @@ void State<Real>::advance_time(double dt) {
   if (method.settings.skips(Stage::colliders)) return;
   progress.colliders_time = progress.time;
   colliders.place(method.lattice, progress.time);
+  note_near_colliders();
+}
+
+template <class Real>
+void State<Real>::note_near_colliders() {
+  progress.limits.max_collider_speed =
+      colliders.fastest_near(particles.partition.blocks(), method.lattice, progress.colliders_time,
+                             method.settings.max_dt, progress.limits.max_speed);
 }
 
 template <class Real>

@@ -38,6 +38,8 @@ struct State {
 
   /// Time passes, and colliders move unless the settings skip that.
   void advance_time(double dt);
+  /// Makes the speed of colliders that snow may meet a limit of the next step.
+  void note_near_colliders();
   /// Brings particles out of colliders, if the settings ask for it.
   void push_out(kernels::SweepArgs<Real> a) const;
 

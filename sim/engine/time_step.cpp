@@ -56,13 +56,15 @@ std::array<double, dt_limit_count> limits_on_dt(const SolverSettings& s,
   const auto of = [&](DtLimit limit) -> double& { return dt[static_cast<std::size_t>(limit)]; };
   of(DtLimit::max_dt) = s.max_dt;
   of(DtLimit::cfl) = ratio(s.cfl * s.cell_size, limits.max_speed);
+  of(DtLimit::collider) = ratio(s.cfl * s.cell_size, limits.max_collider_speed);
   of(DtLimit::acoustic) = acoustic_dt(s, limits);
   of(DtLimit::strain) = ratio(s.strain_limit, limits.max_strain_rate);
   return dt;
 }
 
 double stable_dt(const SolverSettings& s, const StateLimits& limits) {
-  return std::min(ratio(s.cfl * s.cell_size, limits.max_speed), acoustic_dt(s, limits));
+  const double speed = std::max(limits.max_speed, limits.max_collider_speed);
+  return std::min(ratio(s.cfl * s.cell_size, speed), acoustic_dt(s, limits));
 }
 
 int explicit_parts(const SolverSettings& s, const StateLimits& limits, double dt) {

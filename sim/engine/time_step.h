@@ -11,10 +11,11 @@ namespace neve::sim::engine {
 
 /// Extremes of a state that limit the next step.
 struct StateLimits {
-  double max_speed = 0;        ///< m/s
-  double max_sound_speed = 0;  ///< m/s, of the stiffest particle, hardened
-  double max_strain_rate = 0;  ///< 1/s, largest |entry| of grad v
-  double max_hardening = 0;    ///< largest xi of the materials in use
+  double max_speed = 0;           ///< m/s
+  double max_sound_speed = 0;     ///< m/s, of the stiffest particle, hardened
+  double max_strain_rate = 0;     ///< 1/s, largest |entry| of grad v
+  double max_hardening = 0;       ///< largest xi of the materials in use
+  double max_collider_speed = 0;  ///< m/s, of colliders that snow may meet in the next step
 };
 
 /// dt of the next step and the limit that rules it. `remaining` is the time to the end of the

@@ -5,8 +5,8 @@
 namespace neve::sim {
 
 const char* name(DtLimit limit) {
-  static constexpr const char* names[dt_limit_count] = {"max_dt", "cfl",   "acoustic",
-                                                        "strain", "fixed", "frame_end"};
+  static constexpr const char* names[dt_limit_count] = {"max_dt", "cfl",       "acoustic", "strain",
+                                                        "fixed",  "frame_end", "collider"};
   return names[static_cast<int>(limit)];
 }
 

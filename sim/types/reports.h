@@ -13,8 +13,8 @@
 namespace neve::sim {
 
 /// Limit of a time step.
-enum class DtLimit { max_dt, cfl, acoustic, strain, fixed, frame_end };
-inline constexpr int dt_limit_count = 6;
+enum class DtLimit { max_dt, cfl, acoustic, strain, fixed, frame_end, collider };
+inline constexpr int dt_limit_count = 7;
 const char* name(DtLimit limit);
 
 /// The dt that the settings would choose now, and which limit rules it.
@@ -29,6 +29,7 @@ struct StepLimits {
   double max_speed = 0;                     ///< m/s
   double max_sound_speed = 0;               ///< m/s, of the stiffest particle, hardened
   double max_strain_rate = 0;               ///< 1/s
+  double max_collider_speed = 0;            ///< m/s, of colliders that snow may meet
 };
 
 /// Sums and extremes over all particles at one time.

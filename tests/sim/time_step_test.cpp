@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "sim/engine/time_step.h"
 #include "tests/support/snow.h"
@@ -33,6 +34,42 @@ TEST(TimeStep, SmallestLimitRules) {
   strained.max_strain_rate = 3000;
   EXPECT_EQ(engine::choose_dt(s, strained, 1).limit, DtLimit::strain);
   EXPECT_NEAR(engine::choose_dt(s, strained, 1).dt, 0.3 / 3000, 1e-15);
+}
+
+/// A plate at 80 m/s crosses four cells in the longest step; it hits a block within 0.5 ms.
+TEST(TimeStep, FastCollidersLimitTheStepOfSnowThatTheyMeet) {
+  const auto collider_limit = static_cast<std::size_t>(DtLimit::collider);
+  for (const ContactAt contact_at : {ContactAt::nodes, ContactAt::particles})
+    for (const double beta : {0.0, 1.0}) {
+      SolverSettings s;
+      s.contact_at = contact_at;
+      s.beta = beta;
+      shapes::Collider plate;
+      plate.shape.form = shapes::Box{{-0.15, 0.1, 0}, {0.04, 0.6, 0.6}};
+      plate.velocity = {80, 0, 0};
+      Simulation simulation(s, {Material{}}, {plate},
+                            box_of_snow({-0.1, 0, -0.1}, {0.1, 0.2, 0.1}, 0.01), 1);
+      EXPECT_NEAR(simulation.step_limits().dt[collider_limit], 0.4 * 0.02 / 80, 1e-12);
+      const AdvanceReport report = simulation.advance_to(4.0 / 240);
+      EXPECT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
+      EXPECT_GT(report.ruled[collider_limit], 0u);
+      EXPECT_GT(simulation.summary().momentum[0], 60 * simulation.summary().mass);
+    }
+}
+
+TEST(TimeStep, CollidersOutOfReachAndThoseThatRestLimitNothing) {
+  const auto collider_limit = static_cast<std::size_t>(DtLimit::collider);
+  const auto limit_of = [&](const Vec3d& velocity, double x) {
+    shapes::Collider ball;
+    ball.shape.form = shapes::Sphere{{x, 0.1, 0}, 0.05};
+    ball.velocity = velocity;
+    const Simulation simulation(SolverSettings{}, {Material{}}, {ball},
+                                box_of_snow({-0.1, 0, -0.1}, {0.1, 0.2, 0.1}, 0.01), 1);
+    return simulation.step_limits().dt[collider_limit];
+  };
+  EXPECT_EQ(limit_of({0, 0, 0}, -0.16), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(limit_of({40, 0, 0}, -2), std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(limit_of({40, 0, 0}, -0.16), 0.4 * 0.02 / 40, 1e-12);
 }
 
 TEST(TimeStep, FastSnowTakesStepsThatItsHardeningCannotOutrun) {

@@ -38,6 +38,8 @@ ImU32 limit_color(sim::DtLimit limit) {
       return IM_COL32(170, 220, 130, 255);
     case sim::DtLimit::frame_end:
       return IM_COL32(110, 120, 130, 255);
+    case sim::DtLimit::collider:
+      return IM_COL32(225, 110, 60, 255);
   }
   return IM_COL32_WHITE;
 }
