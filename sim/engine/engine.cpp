@@ -65,6 +65,7 @@ void Engine<Real>::take_stages(double dt) {
 template <class Real>
 void Engine<Real>::check_step(double dt) {
   Progress& progress = state_.progress;
+  state_.grid.add_loads(state_.method.load_unit, loads_);
   const double speed_before = progress.limits.max_speed;
   diverge_if(watch_.check_step(state_.method.settings, dt, state_.grid.step_report(), progress));
   ++progress.steps_since_sink_check;
@@ -105,6 +106,7 @@ template <class Real>
 AdvanceReport Engine<Real>::advance_to(double time, const StepObserver& after_step,
                                        std::size_t last_step) {
   AdvanceReport report;
+  loads_.clear();
   Progress& progress = state_.progress;
   FrameProgress& frame = progress.frame;
   if (!(frame.end == time && progress.time == frame.start + frame.done))
@@ -115,6 +117,7 @@ AdvanceReport Engine<Real>::advance_to(double time, const StepObserver& after_st
     advance_frame(choose_dt(whole - frame.done), report);
     if (after_step && after_step()) break;
   }
+  report.loads = loads_;
   if (frame.done >= whole) {
     progress.time = time;
     check_sums();
@@ -149,6 +152,7 @@ void Engine<Real>::advance_frame(const DtChoice& choice, AdvanceReport& report) 
   const DtLimit limit = steps > 1 ? explicit_limit(settings, progress.limits) : choice.limit;
   report.ruled[static_cast<std::size_t>(limit)] += steps;
   report.steps += steps;
+  report.seconds += choice.dt;
 }
 
 // ---- changes ------------------------------------------------------------------------------------

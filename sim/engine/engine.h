@@ -58,6 +58,7 @@ class Engine final : public Stepper {
 
   State<Real> state_;
   StepParts<Real> parts_;
+  std::vector<ColliderLoad> loads_;  ///< since advance_to was called
   SnowFlow<Real> flow_;
   HealthWatch watch_;
 };

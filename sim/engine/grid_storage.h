@@ -50,15 +50,28 @@ struct GridStorage {
   LaneBuffer<Real> tiles, nodes;
   std::vector<kernels::BlockReport<Real>> reports;  ///< per particle block
   std::vector<double> node_contact_work;            ///< per node block, J
+  std::vector<kernels::LoadSum> loads;              ///< per collider, of a step
 
+  /// Adds what snow did to colliders in a step.
+  void add_loads(double unit, std::vector<ColliderLoad>& to) const;
   /// Combines the reports of all blocks.
   StepReport step_report() const;
 
   std::uint64_t memory_bytes() const {
     return tiles.bytes() + nodes.bytes() + sizeof(kernels::BlockReport<Real>) * reports.capacity() +
-           8 * node_contact_work.capacity();
+           8 * node_contact_work.capacity() + sizeof(kernels::LoadSum) * loads.capacity();
   }
 };
+
+template <class Real>
+void GridStorage<Real>::add_loads(double unit, std::vector<ColliderLoad>& to) const {
+  to.resize(loads.size());
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    for (int a = 0; a < 3; ++a) {
+      to[k].impulse[a] -= static_cast<double>(loads[k].impulse[a]) * unit;
+      to[k].angular_impulse[a] -= static_cast<double>(loads[k].moment[a]) * unit;
+    }
+}
 
 template <class Real>
 StepReport GridStorage<Real>::step_report() const {

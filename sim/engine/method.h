@@ -43,6 +43,7 @@ struct Method {
   Lattice lattice;
   std::vector<kernels::MaterialConstants<Real>> material_constants;
   std::vector<Real> half_spacing;  ///< per material: of particles of 1 kg, m
+  double load_unit = 0;            ///< N s: impulses on colliders are whole numbers of it
   kernels::SimdLevel simd = kernels::SimdLevel::baseline;
   int kernel_nodes = kernels::cubic_nodes;
   const kernels::Sweeps<Real>* sweeps = nullptr;

@@ -55,9 +55,11 @@ MovingColliders::MovingColliders(const std::vector<shapes::Collider>& colliders,
 void MovingColliders::place(const Lattice& lattice, double time) {
   poses_.clear();
   for (std::size_t k = 0; k < list_.size(); ++k)
-    if (const auto pose =
-            kernel_pose(list_[k], time, lattice.cell_size, lattice.origin, fields_[k].get()))
+    if (auto pose =
+            kernel_pose(list_[k], time, lattice.cell_size, lattice.origin, fields_[k].get())) {
+      pose->index = static_cast<int>(k);
       poses_.push_back(*pose);
+    }
 }
 
 double MovingColliders::fastest_near(const std::vector<kernels::ParticleBlock>& blocks,

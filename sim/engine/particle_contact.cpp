@@ -37,6 +37,7 @@ kernels::ContactArgs<Real> ParticleContact<Real>::contact_args(
     const State<Real>& state, const kernels::SweepArgs<Real>& step) {
   kernels::ContactArgs<Real> a{};
   a.step = step;
+  a.poses = step.constants.colliders;
   a.half_spacing = state.method.half_spacing.data();
   a.kept = state.method.keeps_own_velocity() ? step.constants.alpha : Real(0);
   a.max_speed = static_cast<Real>(state.progress.limits.max_speed);

@@ -63,6 +63,10 @@ kernels::SweepArgs<Real> State<Real>::sweep_args(double dt, int channels) {
   grid.node_contact_work.resize(node_block_count);
   a.reports = grid.reports.data();
   a.node_contact_work = grid.node_contact_work.data();
+  grid.loads.assign(colliders.list().size(), kernels::LoadSum{});
+  a.loads = grid.loads.data();
+  a.load_count = static_cast<int>(grid.loads.size());
+  a.load_unit = method.load_unit;
   return a;
 }
 

@@ -17,6 +17,7 @@ enum class ContactLaw : int { separate, slip, sticky };
 /// A collider at one time. The point is cell and offset, like a particle's position. What is round
 /// is so about the second of its axes.
 struct ColliderPose {
+  int index;  ///< in the list of colliders; those out of reach have no pose
   ColliderShape shape;
   ContactLaw contact;
   double friction;
@@ -34,6 +35,7 @@ struct ColliderPose {
 /// The same, seen from a block: distances inside the block keep full precision wherever it is.
 template <class Real>
 struct LocalCollider {
+  int index;
   ColliderShape shape;
   ContactLaw contact;
   Real friction;
@@ -51,6 +53,7 @@ struct LocalCollider {
 template <class Real>
 NEVE_INLINE LocalCollider<Real> localize(const ColliderPose& c, const int* block_cell, double h) {
   LocalCollider<Real> out;
+  out.index = c.index;
   out.shape = c.shape;
   out.contact = c.contact;
   out.friction = static_cast<Real>(c.friction);

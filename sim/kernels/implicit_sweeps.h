@@ -172,14 +172,16 @@ struct SolveSweepsFor {
     if (near.count == 0) return;
     Held<V> of[block_nodes / W];
     double work = 0;
-    collide_nodes<Set>(v, c, near, work, [&](int n, const Response<V>& response) NEVE_INLINE_BODY {
-      of[n / W].add(response);
-    });
+    BlockLoads<Set> loads(a.step.load_count);
+    collide_nodes<Set>(v, c, near, work, loads,
+                       [&](int n, const Response<V>& response)
+                           NEVE_INLINE_BODY { of[n / W].add(response); });
     for (int n = 0; n < block_nodes; n += W) {
       const Held<V>& h = of[n / W];
       store_quads(FourWords<V>{{h.axis.x, h.axis.y, h.axis.z, h.count}}, held + n);
       if (any_lane(h.count > V{})) a.is_held[block] = 1;
     }
+    loads.give(a.step.loads, a.step.load_unit);
     a.step.node_contact_work[block] += work;
   }
 
@@ -281,7 +283,9 @@ struct SolveSweepsFor {
       if (a.collides) {
         NearColliders<Real> near;
         find_near_nodes<Set>(near, c, a.step.node_blocks[b].key);
-        collide_nodes<Set>(v, c, near, work);
+        BlockLoads<Set> loads(a.step.load_count);
+        collide_nodes<Set>(v, c, near, work, loads);
+        loads.give(a.step.loads, a.step.load_unit);
       }
       a.step.node_contact_work[b] += work;
       take(a, b, v);
@@ -296,22 +300,49 @@ struct SolveSweepsFor {
     }
   }
 
-  /// Held directions keep their momentum in the solve: what acts there is beta dt^2 H v_new.
+  /// Held directions keep their momentum in the solve: what acts there is beta dt^2 H v_new. It is
+  /// the doing of the collider that the node is deepest in.
   static void react(const Args& a, Index begin, Index end) {
     Quad<Real> force[block_nodes];
     for (Index b = begin; b < end; ++b) {
       collect<Real, K, Set>(a.step, b, 0, force);
       const Quad<Real>*held = vector(a, b, solve_held), *v_new = nodes_of(a.step, b, channel_v_new);
+      NearColliders<Real> near;
+      find_near_nodes<Set>(near, a.step.constants, a.step.node_blocks[b].key);
+      BlockLoads<Set> loads(a.step.load_count);
       double work = 0;
       for (int n = 0; n < block_nodes; ++n) {
-        if (!(v_new[n][3] > Real(0))) continue;
-        const Quad<Real> v_held = v_new[n] - free_part(held[n], v_new[n]);
-        const Quad<Real> done = force[n] * v_held * a.beta_dt_squared;
+        if (!(v_new[n][3] > Real(0)) || held[n][3] == Real(0)) continue;
+        const Quad<Real> impulse = with_fourth(force[n] * a.beta_dt_squared, 0);
+        const Quad<Real> on_held = impulse - free_part(held[n], impulse);
+        const Quad<Real> done = on_held * v_new[n];
         const Real sum = done[0] + done[1] + done[2];
         if (sum > Real(0)) work += static_cast<double>(sum);
+        add_load(near, n, a.step.constants.h, on_held, loads);
       }
+      loads.give(a.step.loads, a.step.load_unit);
       a.step.node_contact_work[b] += work;
     }
+  }
+
+  NEVE_INLINE static void add_load(const NearColliders<Real>& near, int n, Real h,
+                                   const Quad<Real>& impulse, BlockLoads<Set>& loads) {
+    using One = Lanes<Real, 4>;
+    const Vec3<One> r{all<One>(static_cast<Real>(n >> 4) * h),
+                      all<One>(static_cast<Real>(n >> 2 & 3) * h),
+                      all<One>(static_cast<Real>(n & 3) * h)};
+    const LocalCollider<Real>* deepest = nullptr;
+    Real least = 0;
+    for (int k = 0; k < near.count; ++k) {
+      Vec3<One> normal;
+      const Real distance = surface_distance(near.local[k], r, normal)[0];
+      if (deepest && !(distance < least)) continue;
+      deepest = near.local + k;
+      least = distance;
+    }
+    if (deepest)
+      loads.add(*deepest,
+                Vec3<One>{all<One>(impulse[0]), all<One>(impulse[1]), all<One>(impulse[2])}, r, 1u);
   }
 
   static constexpr SolveSweeps<Real> table{keep_elasticity, apply, start,  residual, image, direct,

@@ -8,6 +8,7 @@
 #include "sim/kernels/blocks.h"
 #include "sim/kernels/constitutive.h"
 #include "sim/kernels/contact.h"
+#include "sim/kernels/loads.h"
 #include "sim/kernels/particles.h"
 
 namespace neve::sim::kernels {
@@ -89,6 +90,9 @@ struct SweepArgs {
   Quad<Real>* nodes;           ///< per node block: `channels` x 64
   BlockReport<Real>* reports;  ///< per particle block
   double* node_contact_work;   ///< per node block, J
+  LoadSum* loads;              ///< per collider of the list
+  int load_count;
+  double load_unit;  ///< N s
   // Staged driver only.
   StagedNodes<Real>* staged;  ///< per node block
   Gathered<Real>* gathered;   ///< per storage index

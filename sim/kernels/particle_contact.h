@@ -53,8 +53,9 @@ struct alignas(64) ContactNodes {
 
 template <class Real>
 struct ContactArgs {
-  SweepArgs<Real> step;      ///< nodes have v_free and get v_star
-  const Real* half_spacing;  ///< per material: of particles of 1 kg, m
+  SweepArgs<Real> step;       ///< nodes have v_free and get v_star
+  const ColliderPose* poses;  ///< those of `step`, which the solve does not show to the nodes
+  const Real* half_spacing;   ///< per material: of particles of 1 kg, m
   Real kept;       ///< share of its own velocity that a particle keeps: alpha of FLIP, otherwise 0
   Real max_speed;  ///< m/s, of all particles before the step
   Real apart;      ///< 1/s: share of what a particle outside is too near by that it moves away by

@@ -310,6 +310,7 @@ struct ContactSweepsFor {
       Base::clear(tile);
       Contact<Real>* first = a.contacts + a.first[b];
       const Index count = a.counts[b];
+      BlockLoads<Set> loads(a.is_last ? a.step.load_count : 0);
       double work = 0;
       for (Index q = 0; q < count; q += W) {
         Contact<Real>* records[W];
@@ -322,8 +323,12 @@ struct ContactSweepsFor {
         const Vec3<V> change = respond_to(gathered(s, v), contact);
         write(contact, records, used);
         scatter(s, FourWords<V>{{change.x, change.y, change.z, V{}}}, used, tile);
-        if (a.is_last && !a.is_before_solve) work += work_of(contact, used);
+        if (a.is_last && !a.is_before_solve) {
+          work += work_of(contact, used);
+          add_loads(a, contact, used, loads);
+        }
       }
+      loads.give(a.step.loads, a.step.load_unit);
       if (a.is_last) a.step.node_contact_work[a.step.blocks[b].node_block[0]] += work;
     }
   }
@@ -385,6 +390,9 @@ struct ContactSweepsFor {
       for (int x = 0; x < 3; ++x) c.sliding[x] -= (springs.u[x] - n[x] * along) * a.hold;
       write(c, springs.record, springs.used);
       a.step.node_contact_work[a.step.blocks[b].node_block[0]] += work_of(c, springs.used);
+      BlockLoads<Set> loads(a.step.load_count);
+      add_loads(a, c, springs.used, loads);
+      loads.give(a.step.loads, a.step.load_unit);
     });
   }
 
@@ -422,6 +430,24 @@ struct ContactSweepsFor {
     const V normal = c.holds > V{} ? (u_n - wanted) * inverse : V{};
     const V surface = c.holds > all<V>(1) ? inverse : V{};
     return n * normal + (u - n * u_n) * surface;
+  }
+
+  /// The impulses of the first `count` lanes.
+  NEVE_NOINLINE static void add_loads(const Args& a, const Lanes& c, int count,
+                                      BlockLoads<Set>& loads) {
+    const StepConstants<Real>& constants = a.step.constants;
+    for (int l = 0; l < count; ++l) {
+      const auto number = c.collider[l] < 0 ? -1 - c.collider[l] : c.collider[l];
+      const ColliderPose& pose = a.poses[number];
+      double impulse[3], arm[3];
+      for (int x = 0; x < 3; ++x) {
+        impulse[x] = static_cast<double>(c.normal[x][l] * c.impulse[l] + c.sliding[x][l]);
+        arm[x] = (static_cast<double>(c.cell[x][l] - pose.cell[x]) +
+                  (static_cast<double>(c.offset[x][l]) - pose.offset[x])) *
+                 constants.h_double;
+      }
+      loads.add(pose.index, impulse, arm);
+    }
   }
 
   /// What colliders do to the first `count` lanes, J; only what is added.

@@ -244,17 +244,20 @@ NEVE_INLINE Quad<Real> node_v_free(Quad<Real> v_old, Quad<Real> force,
 /// @param depth    from which contact acts, m
 /// @param work     what colliders do, impulse times the speed of their surface, J; only what is
 /// added
+/// @param loads    impulses of the colliders
 /// @param note     called with the Response of each collider
 template <class Set, class V, class Real, class Note>
 NEVE_NOINLINE void collide(Vec3<V>& v, const V& mass, const Vec3<V>& r, const MaskOf<V>& is_used,
                            const LocalCollider<Real>* colliders, int count, Real depth,
-                           double& work, const Note& note) {
+                           double& work, BlockLoads<Set>& loads, const Note& note) {
   V done{};
   for (int k = 0; k < count; ++k) {
     const Vec3<V> before = v;
     const Response<V> response = respond(colliders[k], r, v, depth);
     v = response.v;
     note(response);
+    if (const unsigned acted = lane_bits(is_used & response.acts); acted != 0)
+      loads.add(colliders[k], (v - before) * mass, r, acted);
     done += mass * dot(v - before, surface_velocity(colliders[k], r));
   }
   const MaskOf<V> counts = is_used & (done > V{});
@@ -308,7 +311,8 @@ NEVE_INLINE void find_near_moved(NearColliders<Real>& near, const StepConstants<
 /// @param note  called with the first node of some lanes and the Response of each collider
 template <class Set, class Real, class Note>
 NEVE_INLINE void collide_nodes(Quad<Real>* v, const StepConstants<Real>& c,
-                               const NearColliders<Real>& near, double& work, const Note& note) {
+                               const NearColliders<Real>& near, double& work,
+                               BlockLoads<Set>& loads, const Note& note) {
   constexpr int W = Set::template lanes<Real>;
   using V = Lanes<Real, W>;
   if (near.count == 0) return;
@@ -324,7 +328,7 @@ NEVE_INLINE void collide_nodes(Quad<Real>* v, const StepConstants<Real>& c,
     const Vec3<V> r{load_lanes<V>(place[0]), load_lanes<V>(place[1]), load_lanes<V>(place[2])};
     const MaskOf<V> has_mass = words.w[3] > V{};
     collide<Set>(velocity, words.w[3], r * all<V>(c.h), has_mass, near.local, near.count,
-                 static_cast<Real>(node_depth) * c.h, work,
+                 static_cast<Real>(node_depth) * c.h, work, loads,
                  [&](const Response<V>& response) NEVE_INLINE_BODY { note(n, response); });
     for (int a = 0; a < 3; ++a) words.w[a] = has_mass ? velocity[a] : V{};
     store_quads(words, v + n);
@@ -332,8 +336,9 @@ NEVE_INLINE void collide_nodes(Quad<Real>* v, const StepConstants<Real>& c,
 }
 template <class Set, class Real>
 NEVE_INLINE void collide_nodes(Quad<Real>* v, const StepConstants<Real>& c,
-                               const NearColliders<Real>& near, double& work) {
-  collide_nodes<Set>(v, c, near, work, [](int, const auto&) NEVE_INLINE_BODY {});
+                               const NearColliders<Real>& near, double& work,
+                               BlockLoads<Set>& loads) {
+  collide_nodes<Set>(v, c, near, work, loads, [](int, const auto&) NEVE_INLINE_BODY {});
 }
 
 // ---- node to particle ---------------------------------------------------------------------------
@@ -419,10 +424,11 @@ NEVE_INLINE Vec3<V> places_in_block(const Record<V, I>& p, std::uint64_t key, Re
 template <class Set, class V, class I, class Real>
 NEVE_INLINE void collide_particles(const Record<V, I>& p, Vec3<V>& v, MaskOf<V> is_used,
                                    std::uint64_t key, const StepConstants<Real>& c,
-                                   const NearColliders<Real>& near, double& work) {
+                                   const NearColliders<Real>& near, double& work,
+                                   BlockLoads<Set>& loads) {
   if (near.count == 0) return;
   const Vec3<V> r = places_in_block(p, key, c.h);
-  collide<Set>(v, p.m, r, is_used, near.local, near.count, Real(0), work,
+  collide<Set>(v, p.m, r, is_used, near.local, near.count, Real(0), work, loads,
                [](const Response<V>&) NEVE_INLINE_BODY {});
 }
 

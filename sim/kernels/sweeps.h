@@ -246,7 +246,9 @@ struct SweepsFor {
       double work = 0;
       NearColliders<Real> near;
       find_near_nodes<Set>(near, c, a.node_blocks[b].key);
-      collide_nodes<Set>(v_new, c, near, work);
+      BlockLoads<Set> loads(near.count > 0 ? a.load_count : 0);
+      collide_nodes<Set>(v_new, c, near, work, loads);
+      loads.give(a.loads, a.load_unit);
       if constexpr (is_flip) {
         Quad<Real>* change = nodes_of(a, b, channel_change);
         for (int n = 0; n < block_nodes; ++n) change[n] = v_new[n] - momentum[n];
@@ -269,6 +271,7 @@ struct SweepsFor {
         load_tile<Real, K, Set>(block, channel_source(a, channel_change), change);
       NearColliders<Real> near;
       find_near_particles<Set>(near, c, block.key);
+      BlockLoads<Set> loads(near.count > 0 ? a.load_count : 0);
       ReportLanes report;
       each_group<gather_group>(a, block, [&](const Group<gather_group>& group) {
         for (int q = 0; q < group.count; q += W) {
@@ -288,10 +291,11 @@ struct SweepsFor {
           const Gathered<V>& g = gathered[q / W];
           Vec3<V> v = particle_velocity<transfer>(p, g, c.alpha);
           collide_particles<Set>(p, v, group.used_lanes(q), block.key, c, near,
-                                 report.sum.contact_work);
+                                 report.sum.contact_work, loads);
           finish(a, group, q, p, v, g, block.key, report);
         }
       });
+      loads.give(a.loads, a.load_unit);
       a.reports[b] = report.reduced();
     }
   }
@@ -360,7 +364,9 @@ struct SweepsFor {
       for (int n = 0; n < block_nodes; ++n) nodes.v_star[n] = nodes.v_free[n];
       NearColliders<Real> near;
       find_near_nodes<Set>(near, a.constants, a.node_blocks[b].key);
-      collide_nodes<Set>(nodes.v_star, a.constants, near, work);
+      BlockLoads<Set> loads(near.count > 0 ? a.load_count : 0);
+      collide_nodes<Set>(nodes.v_star, a.constants, near, work, loads);
+      loads.give(a.loads, a.load_unit);
       a.node_contact_work[b] = work;
     }
   }
@@ -442,14 +448,16 @@ struct SweepsFor {
       const std::uint64_t key = a.blocks[b].key;
       NearColliders<Real> near;
       find_near_particles<Set>(near, a.constants, key);
+      BlockLoads<Set> loads(near.count > 0 ? a.load_count : 0);
       each_batch(a, a.blocks[b], [&](const auto& group, int q, Batch& p) {
         load_whole(p, group.record + q);
         Vec3<V> v{p.v[0], p.v[1], p.v[2]};
         collide_particles<Set>(p, v, group.used_lanes(q), key, a.constants, near,
-                               a.reports[b].contact_work);
+                               a.reports[b].contact_work, loads);
         for (int axis = 0; axis < 3; ++axis) p.v[axis] = v[axis];
         keep(p, group, q);
       });
+      loads.give(a.loads, a.load_unit);
     }
   }
 

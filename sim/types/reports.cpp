@@ -27,6 +27,12 @@ void AdvanceReport::append(const AdvanceReport& later) {
   dt_max = std::max(dt_max, later.dt_max);
   steps += later.steps;
   for (std::size_t k = 0; k < ruled.size(); ++k) ruled[k] += later.ruled[k];
+  seconds += later.seconds;
+  loads.resize(std::max(loads.size(), later.loads.size()));
+  for (std::size_t k = 0; k < later.loads.size(); ++k) {
+    loads[k].impulse += later.loads[k].impulse;
+    loads[k].angular_impulse += later.loads[k].angular_impulse;
+  }
   if (!later.solve) return;
   if (!solve) solve.emplace();
   solve->add(*later.solve);

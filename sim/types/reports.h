@@ -56,6 +56,13 @@ struct SolveReport {
   void add(const SolveReport& other);
 };
 
+/// Contact of snow with a collider over some steps. Divided by their time: force and torque.
+struct ColliderLoad {
+  Vec3d impulse{0, 0, 0};  ///< on the collider, N s
+  /// N m s, about the point of the collider's shape as it moves (of a box: its centre).
+  Vec3d angular_impulse{0, 0, 0};
+};
+
 /// Steps taken by one call of advance_to.
 struct AdvanceReport {
   std::size_t steps = 0;
@@ -63,6 +70,8 @@ struct AdvanceReport {
   std::array<std::size_t, dt_limit_count> ruled{};  ///< steps that each limit ruled
   DtLimit limit() const;                            ///< the one that ruled most
   std::optional<SolveReport> solve;                 ///< the worst; empty in explicit steps
+  double seconds = 0;                               ///< of all steps
+  std::vector<ColliderLoad> loads;                  ///< per collider; empty before the first step
   /// Adds the steps that followed in the same frame.
   void append(const AdvanceReport& later);
 };
