@@ -31,7 +31,10 @@ Json to_json(const sim::AdvanceReport& advance) {
   Json json = {{"steps", advance.steps},
                {"dt_min", advance.dt_min},
                {"dt_max", advance.dt_max},
-               {"ruled", advance.ruled}};
+               {"ruled", advance.ruled},
+               {"seconds", advance.seconds}};
+  for (const sim::ColliderLoad& load : advance.loads)
+    json["loads"].push_back({vector_json(load.impulse), vector_json(load.angular_impulse)});
   if (advance.solve)
     json["solve"] = {{"iterations", advance.solve->iterations},
                      {"residual", number_or_null(advance.solve->residual)},
@@ -46,6 +49,10 @@ sim::AdvanceReport advance_report(const Json& json) {
   advance.dt_min = json.at("dt_min").get<double>();
   advance.dt_max = json.at("dt_max").get<double>();
   advance.ruled = json.at("ruled").get<decltype(advance.ruled)>();
+  advance.seconds = json.value("seconds", 0.0);
+  if (json.contains("loads"))
+    for (const Json& load : json.at("loads"))
+      advance.loads.push_back({vector_of(load.at(0)), vector_of(load.at(1))});
   if (json.contains("solve"))
     advance.solve = {json.at("solve").at("iterations").get<int>(),
                      number_or_nan(json.at("solve").at("residual")),

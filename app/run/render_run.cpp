@@ -252,7 +252,7 @@ void RenderRun::draw_frame(int frame) {
   Metrics metrics = measure(snapshot.particles, job_.scene.solver.cell_size);
   metrics.max_depth_cells = summary_.max_depth / job_.scene.solver.cell_size;
   add_frame_record({frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start),
-                    summary_, state_hash, metrics});
+                    summary_, state_hash, metrics, forces_of(advance_, scene_.colliders)});
   // Listed first and written then: whenever the process is killed, the next run knows every picture
   // that it has to remove.
   write_run_json(job_.folder, record_);

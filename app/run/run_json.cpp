@@ -76,8 +76,23 @@ Json to_json(const FrameRecord& frame) {
   json["mean_J_P"] = number_or_null(frame.metrics.mean_J_P);
   json["fragments"] = frame.metrics.fragments;
   json["largest_fragment"] = number_or_null(frame.metrics.largest_fragment);
+  json["forces"] = Json::array();
+  for (const ColliderForce& f : frame.forces)
+    json["forces"].push_back({{"collider", f.collider},
+                              {"force", output::vector_json(f.force)},
+                              {"torque", output::vector_json(f.torque)}});
   json["state_hash"] = hash_text(frame.state_hash);
   return json;
+}
+
+std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance,
+                                     const std::vector<scene::Collider>& colliders) {
+  std::vector<ColliderForce> forces;
+  if (!(advance.seconds > 0)) return forces;
+  for (std::size_t k = 0; k < std::min(colliders.size(), advance.loads.size()); ++k)
+    forces.push_back({colliders[k].name, advance.loads[k].impulse / advance.seconds,
+                      advance.loads[k].angular_impulse / advance.seconds});
+  return forces;
 }
 
 FrameRecord frame_record(const Json& json) {
@@ -123,6 +138,10 @@ FrameRecord frame_record(const Json& json) {
   if (!json.contains("max_depth")) return frame;
   s.max_depth = output::number_or_nan(json.at("max_depth"));
   frame.metrics.max_depth_cells = output::number_or_nan(json.at("max_depth_cells"));
+  if (!json.contains("forces")) return frame;
+  for (const Json& f : json.at("forces"))
+    frame.forces.push_back({f.at("collider").get<std::string>(), output::vector_of(f.at("force")),
+                            output::vector_of(f.at("torque"))});
   return frame;
 }
 

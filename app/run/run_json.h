@@ -20,6 +20,13 @@ namespace neve::app::run {
 enum class RunStatus { running, ok, diverged, interrupted, failed };
 const char* name(RunStatus status);
 
+/// Of snow on a collider, the mean since the frame before.
+struct ColliderForce {
+  std::string collider;
+  sim::Vec3d force{0, 0, 0};   ///< N
+  sim::Vec3d torque{0, 0, 0};  ///< N m, about the point of the collider's shape
+};
+
 struct FrameRecord {
   int frame = 0;
   double time = 0;  ///< s, frame / fps
@@ -28,7 +35,12 @@ struct FrameRecord {
   sim::Summary summary;
   std::uint64_t state_hash = 0;
   Metrics metrics;
+  std::vector<ColliderForce> forces;  ///< of all colliders; empty where there was no step
 };
+
+/// Of the steps of a frame. @param colliders  of the scene
+std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance,
+                                     const std::vector<scene::Collider>& colliders);
 
 struct RunRecord {
   std::string scene;  ///< resolved, TOML

@@ -52,6 +52,7 @@ TEST(RunJson, RunJsonHasTheFieldsOfTheContract) {
                                           "mean_J_P",
                                           "fragments",
                                           "largest_fragment",
+                                          "forces",
                                           "state_hash"};
   EXPECT_EQ(keys(json["frames"][0]), expected);
 }

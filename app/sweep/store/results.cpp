@@ -23,10 +23,12 @@ std::vector<std::optional<double>> metrics_of(const std::vector<run::FrameRecord
                                               std::optional<double> diverged_at) {
   if (frames.empty()) return std::vector<std::optional<double>>(metric_infos().size());
   const run::FrameRecord& last = frames.back();
-  double steps = 0, max_speed = 0;
+  double steps = 0, max_speed = 0, max_force = 0;
   for (const run::FrameRecord& frame : frames) {
     steps += static_cast<double>(frame.advance.steps);
     max_speed = std::max(max_speed, frame.summary.max_speed);
+    for (const run::ColliderForce& f : frame.forces)
+      max_force = std::max(max_force, f.force.norm());
   }
   // Steps after the last frame count too.
   if (diverged_at) steps = std::max(steps, *diverged_at);
@@ -40,6 +42,7 @@ std::vector<std::optional<double>> metrics_of(const std::vector<run::FrameRecord
           finite(last.summary.min_J_P),
           finite(last.summary.max_J_P),
           finite(max_speed),
+          finite(max_force),
           steps,
           finite(status.seconds)};
 }
@@ -75,6 +78,7 @@ const std::vector<MetricInfo>& metric_infos() {
       {"min_J_P", "", "least J_P", false, false},
       {"max_J_P", "", "greatest J_P", false, false},
       {"max_speed", "m/s", "top speed", false, false},
+      {"max_force", "N", "top force", false, false},
       {"steps", "", "steps", true, false, true},
       {"seconds", "s", "time", false, true, true}};
   return infos;
