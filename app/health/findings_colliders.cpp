@@ -112,7 +112,8 @@ void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene
 void check_motion(const scene::Scene& scene, const Checkup& checkup,
                   std::vector<Finding>& findings) {
   const sim::SolverSettings& s = scene.solver;
-  const double dt = s.time_step == sim::TimeStep::fixed ? s.dt : s.max_dt;
+  // Adaptive steps are short enough.
+  const double dt = s.time_step == sim::TimeStep::fixed ? s.dt : 0;
   for (const sim::shapes::Collider& collider : scene.colliders) {
     const double speed = sim::shapes::largest_speed(collider), cells = speed * dt / s.cell_size;
     const double c = checkup.start.max_sound_speed;
@@ -127,7 +128,7 @@ void check_motion(const scene::Scene& scene, const Checkup& checkup,
            fmt::format("{} moves up to {} m/s: {} cells in a step and runs over snow at rest",
                        display_name("collider", collider.name), rough_text(speed),
                        rough_text(cells)),
-           fmt::format("solver.{} = {}", s.time_step == sim::TimeStep::fixed ? "dt" : "max_dt",
+           fmt::format("solver.dt = {}, or time_step = \"adaptive\"",
                        rough_text(0.4 * s.cell_size / speed))});
     else if (c > 0 &&
              speed > sim::health::limits_of(sim::health::Law::collider_mach).check_warning * c)

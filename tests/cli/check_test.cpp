@@ -66,12 +66,16 @@ TEST_F(Check, CheckNamesEachMistake) {
                                    "center = [0, -0.1, 0], size = [0.2, 0.16, 0.2] } }\n"))
                 .at(0),
             "warning emitter.well.shape");
-  EXPECT_EQ(
-      findings(scene("", std::string(floor_plane) +
-                             "[[collider]]\nname = \"ram\"\nshape = { box = { center = [1, 1, "
-                             "1] } }\nkeyframes = [{ time = 0 }, { time = 0.05, position = "
-                             "[1, 1.8, 1] }]\n")),
-      Findings{"warning collider.ram.keyframes"});
+  const auto ram_to = [](const std::string& y) {
+    return std::string(floor_plane) +
+           "[[collider]]\nname = \"ram\"\nshape = { box = { center = [1, 1, 1] } }\n"
+           "keyframes = [{ time = 0 }, { time = 0.05, position = [1, " +
+           y + ", 1] }]\n";
+  };
+  EXPECT_EQ(findings(scene("time_step = \"fixed\"\ndt = 5e-4", ram_to("2.2"))),
+            (Findings{"warning solver.dt", "warning collider.ram.keyframes"}));
+  // Adaptive steps are short enough.
+  EXPECT_EQ(findings(scene("", ram_to("1.8"))), Findings{});
   EXPECT_EQ(findings(scene("",
                            "[[body]]\nname = \"other\"\nshape = { sphere = { center = [0.05, "
                            "0.2, 0], radius = 0.08 } }\nvelocity = [0, -3, 0]\n"))
@@ -92,6 +96,11 @@ TEST_F(Check, CheckNamesParametersWithoutEffect) {
     return findings(scene("", floor_plane + more));
   };
   EXPECT_EQ(findings(scene("dt = 1e-4", floor_plane)), Findings{"warning solver.dt"});
+  EXPECT_EQ(findings(scene("beta = 1\ncollide_after_solve = true", floor_plane)),
+            Findings{"warning solver.collide_after_solve"});
+  EXPECT_EQ(
+      findings(scene("beta = 1\ncontact_at = \"nodes\"\ncollide_after_solve = true", floor_plane)),
+      Findings{});
   EXPECT_EQ(with("[[sink]]\nshape = { box = { center = [0, 0.2, 0], size = [1, 1, 1] } }\n").at(0),
             "warning body.ball.shape");
   EXPECT_EQ(with("[[emitter]]\nshape = { box = { center = [1, 0.5, 0], size = [0.1, 0.1, 0.1] } }\n"
