@@ -256,7 +256,7 @@ TEST(RunResults, ResultsCountTheStepsUntilARunDiverged) {
   app::sweep::store::write_status(folder.path() / "runs/0000", status);
   const auto steps = [&] {
     const app::sweep::store::RunResult result =
-        app::sweep::store::read_result(folder.path(), m.runs[0]);
+        app::sweep::store::read_result(folder.path(), m.runs[0], m.view);
     for (std::size_t k = 0; k < app::sweep::store::metric_infos().size(); ++k)
       if (app::sweep::store::metric_infos()[k].name == std::string("steps"))
         return result.metrics[k];
@@ -266,6 +266,28 @@ TEST(RunResults, ResultsCountTheStepsUntilARunDiverged) {
   run.erase("divergence");
   folder.write("runs/0000/run.json", to_text(run));
   EXPECT_EQ(steps(), 5);
+}
+
+TEST(RunResults, FramesOfKilledRunsHaveTheirPictures) {
+  const test::TemporaryFolder folder;
+  app::sweep::store::Manifest m = manifest_of({1});
+  m.view = "particles";
+  m.runs[0].key = "k";
+  Json frames = Json::array();
+  for (const int number : {0, 1, 2}) {
+    app::run::FrameRecord frame;
+    frame.frame = number;
+    frames.push_back(app::run::to_json(frame));
+    if (number < 2)
+      folder.write("runs/0000/particles/000" + std::to_string(number) + ".png", "a picture");
+  }
+  folder.write("runs/0000/run.json", to_text(Json{{"frames", frames}}));
+  app::sweep::store::RunStatus status;
+  status.state = app::sweep::store::RunState::crashed;
+  status.key = "k";
+  app::sweep::store::write_status(folder.path() / "runs/0000", status);
+  EXPECT_EQ(app::sweep::store::read_result(folder.path(), m.runs[0], m.view).frames,
+            (std::vector<int>{0, 1}));
 }
 
 TEST(RunText, ARunIsNamedWithItsFolderIfTheNumbersDiffer) {

@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 
+#include "app/output/sequence.h"
 #include "app/run/run_json.h"
 
 namespace neve::app::sweep::store {
@@ -89,7 +90,8 @@ bool is_whole(const Run& run, const RunResult& result) {
          (!result.frames.empty() && result.frames.back() >= run.frames.last);
 }
 
-RunResult read_result(const std::filesystem::path& folder, const Run& run) {
+RunResult read_result(const std::filesystem::path& folder, const Run& run,
+                      const std::string& view) {
   RunResult result;
   const std::filesystem::path run_folder = runs_folder(folder) / run.folder;
   result.status = read_status(run_folder);
@@ -103,14 +105,17 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run) {
     notes = notes_of(record);
     result.warnings = notes.warnings;
   }
-  for (const run::FrameRecord& frame : frames) result.frames.push_back(frame.frame);
+  // run.json lists a frame before its pictures are written: a run that was killed lacks the last.
+  for (const run::FrameRecord& frame : frames)
+    if (std::filesystem::exists(output::frame_path(run_folder, view, frame.frame)))
+      result.frames.push_back(frame.frame);
   result.metrics = metrics_of(frames, result.status, notes.diverged_at);
   return result;
 }
 
 std::vector<RunResult> read_results(const std::filesystem::path& folder, const Manifest& manifest) {
   std::vector<RunResult> results;
-  for (const Run& run : manifest.runs) results.push_back(read_result(folder, run));
+  for (const Run& run : manifest.runs) results.push_back(read_result(folder, run, manifest.view));
   return results;
 }
 

@@ -37,7 +37,8 @@ struct RunResult {
 bool is_whole(const Run& run, const RunResult& result);
 
 /// @param folder of the sweep
-RunResult read_result(const std::filesystem::path& folder, const Run& run);
+/// @param view   whose pictures count
+RunResult read_result(const std::filesystem::path& folder, const Run& run, const std::string& view);
 std::vector<RunResult> read_results(const std::filesystem::path& folder, const Manifest& manifest);
 
 /// "1 warning", "2 warnings"
