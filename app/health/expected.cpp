@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "app/health/softness.h"
 #include "app/setup/auto_ranges.h"
 #include "app/support/text.h"
 #include "sim/health/diagnostics.h"
@@ -66,9 +67,7 @@ Expectation Expected::node_mass() const {
 }
 
 Expectation Expected::speed() const {
-  double most = setup::impact_speed(scene_);
-  for (const scene::Collider& collider : scene_.colliders)
-    most = std::max(most, sim::shapes::largest_speed(collider));
+  const double most = load_speed(scene_);
   return {{0, 1.5 * most}, "the fastest body or collider has " + rough_text(most) + " m/s"};
 }
 

@@ -164,15 +164,6 @@ void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
            speed, "snow at impact", s.cfl * h / checkup.impact_speed);
 }
 
-void check_unused(const sim::SolverSettings& s, std::vector<Finding>& findings) {
-  if (!s.collide_after_solve) return;
-  if (s.is_implicit() && s.contact_at == sim::ContactAt::nodes) return;
-  findings.push_back(
-      {Severity::warning, "solver.collide_after_solve",
-       "collide_after_solve has no effect: it is for semi-implicit steps with contact at nodes",
-       "solver.collide_after_solve = false"});
-}
-
 /// Reports the damping of semi-implicit steps: a wave loses beta w^2 dt of its energy per second.
 void check_implicit_steps(const sim::SolverSettings& s, const Checkup& checkup,
                           std::vector<Finding>& findings) {
@@ -342,7 +333,6 @@ void check_steps(const scene::Scene& scene, const Checkup& checkup,
   if (scene.solver.time_step == sim::TimeStep::fixed)
     check_fixed_steps(scene.solver, checkup, findings);
   check_implicit_steps(scene.solver, checkup, findings);
-  check_unused(scene.solver, findings);
   check_damping(scene, checkup, findings);
   const double c = checkup.start.max_sound_speed;
   if (c > 0 && checkup.impact_speed > line(Law::impact_mach) * c)

@@ -101,6 +101,12 @@ void check_unused(const scene::Scene& scene, double coarsening, std::vector<Find
                         fmt::format("adaptive steps do not use dt = {} s",
                                     scene::toml::number_text(dt / coarsening)),
                         "set time_step = \"fixed\"; solver.max_dt limits adaptive steps"});
+  const sim::SolverSettings& s = scene.solver;
+  if (s.collide_after_solve && !(s.is_implicit() && s.contact_at == sim::ContactAt::nodes))
+    findings.push_back(
+        {Severity::warning, "solver.collide_after_solve",
+         "collide_after_solve has no effect: it is for semi-implicit steps with contact at nodes",
+         "solver.collide_after_solve = false"});
 }
 
 }  // namespace neve::app::health
