@@ -18,16 +18,16 @@ bool moves(const kernels::ColliderPose& pose) {
 }
 
 /// Speed of the surface at a block of particles; 0 if the two cannot meet within dt.
-double speed_near(const kernels::ColliderPose& pose, std::uint64_t key, double h, double dt,
+/// @param c  seen from cell 0
+double speed_near(const kernels::LocalCollider<double>& c, std::uint64_t key, double h, double dt,
                   double snow_speed) {
-  int cell[3];
+  Vec3<double> middle;
   for (int axis = 0; axis < 3; ++axis)
-    cell[axis] = kernels::block_coordinate(key, axis) * kernels::block_side;
-  const auto c = kernels::localize<double>(pose, cell, h);
+    middle[axis] = (kernels::block_coordinate(key, axis) * kernels::block_side + 2.75) * h;
   // Particles lie within 4 cells of the middle; they touch within half a cell of the surface, and
   // the block is where they were before the last step.
   const double around = 4 * h;
-  const Vec3<double> middle{2.75 * h, 2.75 * h, 2.75 * h}, arm = c.to_block + middle;
+  const Vec3<double> arm = c.to_block + middle;
   const double turning = std::sqrt(dot(c.omega, c.omega)) * (std::sqrt(dot(arm, arm)) + around);
   const double speed = std::sqrt(dot(c.velocity, c.velocity)) + turning;
   const double reach = around + 1.5 * h + (speed + snow_speed) * dt;
@@ -72,9 +72,10 @@ double MovingColliders::fastest_near(const std::vector<kernels::ParticleBlock>& 
       const auto pose =
           kernel_pose(list_[k], when, lattice.cell_size, lattice.origin, fields_[k].get());
       if (!pose || !moves(*pose)) continue;
+      constexpr int cell_0[3] = {0, 0, 0};
+      const auto c = kernels::localize<double>(*pose, cell_0, lattice.cell_size);
       for (const kernels::ParticleBlock& block : blocks)
-        fastest =
-            std::max(fastest, speed_near(*pose, block.key, lattice.cell_size, dt, snow_speed));
+        fastest = std::max(fastest, speed_near(c, block.key, lattice.cell_size, dt, snow_speed));
     }
   return fastest;
 }
