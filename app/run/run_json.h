@@ -20,7 +20,7 @@ namespace neve::app::run {
 enum class RunStatus { running, ok, diverged, interrupted, failed };
 const char* name(RunStatus status);
 
-/// Of snow on a collider, the mean since the frame before.
+/// Snow presses on a collider: the mean since the frame before.
 struct ColliderForce {
   std::string collider;
   sim::Vec3d force{0, 0, 0};   ///< N
@@ -38,7 +38,7 @@ struct FrameRecord {
   std::vector<ColliderForce> forces;  ///< of all colliders; empty where there was no step
 };
 
-/// Of the steps of a frame. @param colliders  of the scene
+/// Divides the impulses of a frame by its time. @param colliders  of the scene
 std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance,
                                      const std::vector<scene::Collider>& colliders);
 

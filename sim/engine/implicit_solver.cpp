@@ -89,6 +89,8 @@ kernels::SolveArgs<Real> ImplicitSolver<Real>::solve_args(const State<Real>& sta
   const std::size_t blocks = state.particles.partition.node_blocks().size();
   a.elasticity = elasticity_.at_least(kernels::elasticity_quads * state.particles.size());
   a.vectors = vectors_.at_least(blocks * kernels::solve_vectors * kernels::block_nodes);
+  a.u = a.vectors + kernels::solve_u * kernels::block_nodes;
+  a.u_stride = kernels::solve_vectors * kernels::block_nodes;
   products_.resize(blocks);
   a.products = products_.data();
   is_held_.assign(blocks, 0);
@@ -120,7 +122,6 @@ void ImplicitSolver<Real>::add_work_on_held_nodes(const State<Real>& state,
                            sweep(a, blocks[k], blocks[k] + 1);
                        });
   };
-  state.over_node_blocks(s.look_at, a);
   over(reaching_blocks_, s.apply);
   over(held_blocks_, s.react);
 }
@@ -136,6 +137,9 @@ bool ImplicitSolver<Real>::solve(State<Real>& state, const kernels::SweepArgs<Re
   const double found = sum_over_nodes(state, s.size, a);
   // Snow at rest has a residual of 1. NaN is of no use either.
   const bool is_useful = last_solve_.residual < 1 && found <= max_growth_squared * given;
+  // From here on the velocities of the nodes count.
+  a.u = step.nodes;
+  a.u_stride = static_cast<std::size_t>(step.channels) * kernels::block_nodes;
   if (!is_useful) {
     a.hold = 0;
     if (contact) contact->settle(state, a);

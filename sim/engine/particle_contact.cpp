@@ -118,26 +118,26 @@ void ParticleContact<Real>::act(const State<Real>& state, const kernels::SweepAr
 }
 
 template <class Real>
+void ParticleContact<Real>::over_springs(Sweep sweep, const State<Real>& state,
+                                         const kernels::SolveArgs<Real>& solve, bool is_first) {
+  args_.is_first = is_first;
+  args_.u = solve.u;
+  args_.u_stride = solve.u_stride;
+  args_.hold = solve.hold;
+  args_.beta_dt_squared = solve.beta_dt_squared;
+  over(blocks_, sweep, state);
+}
+
+template <class Real>
 void ParticleContact<Real>::hold(const State<Real>& state, const kernels::SolveArgs<Real>& solve,
                                  bool is_first) {
-  kernels::ContactArgs<Real>& a = args_;
-  a.is_first = is_first;
-  a.u = solve.vectors + kernels::solve_u * kernels::block_nodes;
-  a.u_stride = kernels::solve_vectors * kernels::block_nodes;
-  a.hold = solve.hold;
-  a.beta_dt_squared = solve.beta_dt_squared;
-  over(blocks_, state.method.contact_sweeps->hold, state);
+  over_springs(state.method.contact_sweeps->hold, state, solve, is_first);
 }
 
 template <class Real>
 void ParticleContact<Real>::settle(const State<Real>& state,
                                    const kernels::SolveArgs<Real>& solve) {
-  kernels::ContactArgs<Real>& a = args_;
-  a.is_first = true;
-  a.u = solve.step.nodes;
-  a.u_stride = static_cast<std::size_t>(solve.step.channels) * kernels::block_nodes;
-  a.hold = solve.hold;
-  over(blocks_, state.method.contact_sweeps->settle, state);
+  over_springs(state.method.contact_sweeps->settle, state, solve, true);
 }
 
 template <class Real>

@@ -22,9 +22,10 @@ class ParticleContact {
 
   // In the semi-implicit solve of the step that `act` was called for.
 
-  /// Adds what contacts hold to H u in the tiles.
+  /// Adds the forces of the springs to H u in the tiles. @param is_first  u are velocities
   void hold(const State<Real>& state, const kernels::SolveArgs<Real>& solve, bool is_first);
-  /// Adds what the springs did to the impulses, and the work of the colliders to that of the nodes.
+  /// Adds the impulses of the springs at u = v_new, and the work of the colliders to that of the
+  /// nodes.
   void settle(const State<Real>& state, const kernels::SolveArgs<Real>& solve);
 
   std::size_t memory_bytes() const;
@@ -32,6 +33,8 @@ class ParticleContact {
  private:
   using Sweep = kernels::ContactSweep<Real>;
   void over(const std::vector<std::uint32_t>& blocks, Sweep sweep, const State<Real>& state) const;
+  void over_springs(Sweep sweep, const State<Real>& state, const kernels::SolveArgs<Real>& solve,
+                    bool is_first);
   kernels::ContactArgs<Real> contact_args(const State<Real>& state,
                                           const kernels::SweepArgs<Real>& step);
   void make_room(std::size_t particles, const Partition& partition);

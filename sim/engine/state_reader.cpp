@@ -173,7 +173,10 @@ Summary StateReader<Real>::summary() const {
   all.particles = count;
   all.emitted = state_.progress.flow.emitted;
   all.removed = state_.progress.flow.removed;
-  if (all.mass > 0) all.centre_of_mass /= all.mass, all.packed /= all.mass;
+  if (all.mass > 0) {
+    all.centre_of_mass /= all.mass;
+    all.packed /= all.mass;
+  }
   return all;
 }
 

@@ -97,9 +97,9 @@ class StagedDriver {
   template <class Change>
   void each_node(const Change& change);
   void collide_at_particles();
-  /// What particles gather, from a field of the nodes.
+  /// Lays a field of the nodes out as particles gather it.
   void write_velocities(NodeVelocities field);
-  /// Fields of the nodes from what particles gather.
+  /// Reads a field of the nodes back from there.
   void read_velocities(NodeVelocities field);
   void over_particle_blocks(kernels::Sweep<Real> sweep) { state_.over_particle_blocks(sweep, a_); }
   void over_node_blocks(kernels::Sweep<Real> sweep) { state_.over_node_blocks(sweep, a_); }

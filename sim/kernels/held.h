@@ -10,13 +10,13 @@ namespace neve::sim::kernels {
 /// A normal of which less than this lies outside the held directions adds none.
 inline constexpr double same_direction = 1e-3;
 
-/// Of some nodes, a value per lane.
+/// Held directions of some nodes, a value per lane.
 template <class V>
 struct Held {
   Vec3<V> axis{};  ///< the held direction if there is one, the free one if there are two held
   V count{};       ///< of held directions: 0 to 3
 
-  /// What a collider holds, after those before it.
+  /// Adds the directions that the next collider holds.
   NEVE_INLINE void add(const Response<V>& contact) {
     using Real = ElementOf<V>;
     const V one = all<V>(1), two = all<V>(2), three = all<V>(3);

@@ -38,8 +38,10 @@ struct SolveArgs {
   bool collides;           ///< nodes meet colliders again
   Quad<Real>* elasticity;  ///< per sorted position
   Quad<Real>* vectors;     ///< per node block: solve_vectors x 64
-  double* products;        ///< per node block: its part of the sum that a sweep asks for
-  std::uint8_t* is_held;   ///< per node block: some of its nodes are
+  const Quad<Real>* u;     ///< of the nodes, that H is applied to; per node block, u_stride apart
+  std::size_t u_stride;
+  double* products;       ///< per node block: its part of the sum that a sweep asks for
+  std::uint8_t* is_held;  ///< per node block: some of its nodes are
 };
 
 template <class Real>
@@ -56,7 +58,6 @@ struct SolveSweeps {
   SolveSweep<Real> advance;   ///< y += along q, r -= along A q; |r|^2
   SolveSweep<Real> size;      ///< |y|^2, no number where a velocity is none
   SolveSweep<Real> finish;    ///< v_new, collisions if asked for, and the change for FLIP
-  SolveSweep<Real> look_at;   ///< u = v_new
   SolveSweep<Real> react;     ///< from H v_new: the work of what holds the nodes
 };
 

@@ -72,7 +72,7 @@ struct SolveSweepsFor {
     for (Index b = begin; b < end; ++b) {
       const ParticleBlock& block = a.step.blocks[b];
       load_tile<Real, K, Set>(
-          block, [&](Index n) { return vector(a, n, solve_u); }, u);
+          block, [&](Index n) { return a.u + n * a.u_stride; }, u);
       Quad<Real>* tile = tile_of<Real, K>(a.step, b, 0);
       Base::clear(tile);
       Base::template each_group<scatter_group>(a.step, block, [&](const auto& group) {
@@ -158,7 +158,7 @@ struct SolveSweepsFor {
         q[n] = Aq[n] = Quad<Real>{};
         sum += product(whole, whole);
       });
-      take(a, b, v_star);
+      set_velocities(a.step, b, v_star);
     }
   }
 
@@ -185,16 +185,6 @@ struct SolveSweepsFor {
     a.step.node_contact_work[block] += work;
   }
 
-  /// The nodes of a block get a velocity.
-  NEVE_INLINE static void take(const Args& a, Index block, const Quad<Real>* v) {
-    Quad<Real>* v_new = nodes_of(a.step, block, channel_v_new);
-    if (a.step.channels > channel_change) {
-      Quad<Real>* change = nodes_of(a.step, block, channel_change);
-      for (int n = 0; n < block_nodes; ++n) change[n] += v[n] - v_new[n];
-    }
-    for (int n = 0; n < block_nodes; ++n) v_new[n] = v[n];
-  }
-
   /// beta dt^2 M^-1/2 H u of a block's nodes, from the tiles.
   NEVE_INLINE static void collect_change(const Args& a, Index block, const Quad<Real>* u,
                                          Quad<Real>* change) {
@@ -203,7 +193,7 @@ struct SolveSweepsFor {
       change[n] = with_fourth(change[n] * (a.beta_dt_squared * u[n][3]), 0);
   }
 
-  /// Of y = P M^1/2 v_star, with u = v_star.
+  /// Takes y = P M^1/2 v_star and u = v_star.
   static void residual(const Args& a, Index begin, Index end) {
     Quad<Real> change[block_nodes];
     for (Index b = begin; b < end; ++b) {
@@ -288,15 +278,7 @@ struct SolveSweepsFor {
         loads.give(a.step.loads, a.step.load_unit);
       }
       a.step.node_contact_work[b] += work;
-      take(a, b, v);
-    }
-  }
-
-  static void look_at(const Args& a, Index begin, Index end) {
-    for (Index b = begin; b < end; ++b) {
-      const Quad<Real>* v_new = nodes_of(a.step, b, channel_v_new);
-      Quad<Real>* u = vector(a, b, solve_u);
-      for (int n = 0; n < block_nodes; ++n) u[n] = v_new[n];
+      set_velocities(a.step, b, v);
     }
   }
 
@@ -345,8 +327,8 @@ struct SolveSweepsFor {
                 Vec3<One>{all<One>(impulse[0]), all<One>(impulse[1]), all<One>(impulse[2])}, r, 1u);
   }
 
-  static constexpr SolveSweeps<Real> table{keep_elasticity, apply, start,  residual, image, direct,
-                                           advance,         size,  finish, look_at,  react};
+  static constexpr SolveSweeps<Real> table{keep_elasticity, apply,   start, residual, image,
+                                           direct,          advance, size,  finish,   react};
 };
 
 template <class Real, class Set>

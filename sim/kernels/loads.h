@@ -8,13 +8,14 @@
 
 namespace neve::sim::kernels {
 
-/// Of a collider in a step, in units of SweepArgs::load_unit.
+/// Sums of a collider in a step, in units of SweepArgs::load_unit.
 struct LoadSum {
   std::int64_t impulse[3];  ///< on the snow, N s
   std::int64_t moment[3];   ///< about the collider's point, N m s
 };
 
-/// Of one block; of an instruction set, so that no two files of kernels share it.
+/// Adds up the impulses of one block. It has an instruction set, so that no two files of kernels
+/// share it.
 template <class Set>
 class BlockLoads {
  public:

@@ -15,7 +15,7 @@
 /// The semi-implicit solve starts from the velocities that this leaves, and each contact that
 /// pushes then acts as a spring of stiffness `hold` / D_p between v_p and the velocity that it
 /// wants: along the normal, and along the surface where friction or the collider holds on to it.
-/// What the springs do is added to the impulses.
+/// The impulses of the springs are added to the others.
 ///
 /// Plain data, as in kernels.h.
 

@@ -197,7 +197,7 @@ struct ContactSweepsFor {
     Vec3<V> of_grid, own;  ///< their sum is what the particle moves with
   };
 
-  /// Of a batch with a collider: those that would come nearer than they may.
+  /// Finds the particles of a batch that would come nearer to a collider than they may.
   /// @return 1 in their lanes
   NEVE_INLINE static V add_contacts(const Args& a, const Batch& p, std::uint64_t key,
                                     const Velocities& v, const I& is_used,
@@ -299,37 +299,47 @@ struct ContactSweepsFor {
 
   // ---- passes -----------------------------------------------------------------------------------
 
-  static void press(const Args& a, Index begin, Index end) {
-    Quad<Real> v[Tile<K>::nodes];
+  /// Contacts of a block that are worked on together.
+  struct Group {
+    Lanes contact;
+    Contact<Real>* record[W];
+    int used;
     Stencils<Real, K, W> s;
+  };
+
+  /// body(group) for the contacts of a block.
+  template <class Body>
+  NEVE_INLINE static void each_group(const Args& a, Index b, const Body& body) {
+    Group group;
+    Contact<Real>* first = a.contacts + a.first[b];
+    const Index count = a.counts[b];
+    for (Index q = 0; q < count; q += W) {
+      for (int l = 0; l < W; ++l)
+        group.record[l] = first + smaller<Index>(q + static_cast<Index>(l), count - 1);
+      group.used = static_cast<int>(smaller<Index>(W, count - q));
+      read(group.contact, group.record);
+      group.s.template set<false, false>(0, group.contact.offset, group.contact.cell);
+      body(group);
+    }
+  }
+
+  static void press(const Args& a, Index begin, Index end) {
+    const bool is_final = a.is_last && !a.is_before_solve;
+    Quad<Real> v[Tile<K>::nodes];
     for (Index n = begin; n < end; ++n) {
       const Index b = a.blocks[n];
       load_tile<Real, K, Set>(
           a.step.blocks[b], [&](Index m) { return a.nodes[m].velocity; }, v);
       Quad<Real>* tile = tile_of<Real, K>(a.step, b, 0);
       Base::clear(tile);
-      Contact<Real>* first = a.contacts + a.first[b];
-      const Index count = a.counts[b];
-      BlockLoads<Set> loads(a.is_last ? a.step.load_count : 0);
-      double work = 0;
-      for (Index q = 0; q < count; q += W) {
-        Contact<Real>* records[W];
-        for (int l = 0; l < W; ++l)
-          records[l] = first + smaller<Index>(q + static_cast<Index>(l), count - 1);
-        const int used = static_cast<int>(smaller<Index>(W, count - q));
-        Lanes contact;
-        read(contact, records);
-        s.template set<false, false>(0, contact.offset, contact.cell);
-        const Vec3<V> change = respond_to(gathered(s, v), contact);
-        write(contact, records, used);
-        scatter(s, FourWords<V>{{change.x, change.y, change.z, V{}}}, used, tile);
-        if (a.is_last && !a.is_before_solve) {
-          work += work_of(contact, used);
-          add_loads(a, contact, used, loads);
-        }
-      }
-      loads.give(a.step.loads, a.step.load_unit);
-      if (a.is_last) a.step.node_contact_work[a.step.blocks[b].node_block[0]] += work;
+      Account account(a);
+      each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
+        const Vec3<V> change = respond_to(gathered(group.s, v), group.contact);
+        write(group.contact, group.record, group.used);
+        scatter(group.s, FourWords<V>{{change.x, change.y, change.z, V{}}}, group.used, tile);
+        if (is_final) account.add(group.contact, group.used);
+      });
+      if (is_final) account.give(b);
     }
   }
 
@@ -363,63 +373,47 @@ struct ContactSweepsFor {
 
   // ---- in the semi-implicit solve ---------------------------------------------------------------
 
-  /// Contacts of a batch, and the part of u that each holds, over D.
-  struct Springs {
-    Lanes contact;
-    Contact<Real>* record[W];
-    int used;
-    Vec3<V> u;
-  };
-
   static void hold(const Args& a, Index begin, Index end) {
-    Stencils<Real, K, W> s;
-    each_spring(a, begin, end, s, [&](Index b, Springs& springs) NEVE_INLINE_BODY {
-      const Vec3<V> force = springs.u * all<V>(a.hold / a.beta_dt_squared);
-      scatter(s, FourWords<V>{{force.x, force.y, force.z, V{}}}, springs.used,
-              tile_of<Real, K>(a.step, b, 0));
-    });
-  }
-
-  static void settle(const Args& a, Index begin, Index end) {
-    Stencils<Real, K, W> s;
-    each_spring(a, begin, end, s, [&](Index b, Springs& springs) NEVE_INLINE_BODY {
-      Lanes& c = springs.contact;
-      const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
-      const V along = dot(springs.u, n);
-      c.impulse -= along * a.hold;
-      for (int x = 0; x < 3; ++x) c.sliding[x] -= (springs.u[x] - n[x] * along) * a.hold;
-      write(c, springs.record, springs.used);
-      a.step.node_contact_work[a.step.blocks[b].node_block[0]] += work_of(c, springs.used);
-      BlockLoads<Set> loads(a.step.load_count);
-      add_loads(a, c, springs.used, loads);
-      loads.give(a.step.loads, a.step.load_unit);
-    });
-  }
-
-  /// body(block, springs) for the contacts of some blocks; s has their stencils.
-  template <class Body>
-  NEVE_INLINE static void each_spring(const Args& a, Index begin, Index end,
-                                      Stencils<Real, K, W>& s, const Body& body) {
+    const Real stiffness = a.hold / a.beta_dt_squared;
     Quad<Real> u[Tile<K>::nodes];
     for (Index n = begin; n < end; ++n) {
       const Index b = a.blocks[n];
-      load_tile<Real, K, Set>(
-          a.step.blocks[b], [&](Index m) { return a.u + m * a.u_stride; }, u);
-      Contact<Real>* first = a.contacts + a.first[b];
-      const Index count = a.counts[b];
-      for (Index q = 0; q < count; q += W) {
-        Springs springs;
-        for (int l = 0; l < W; ++l)
-          springs.record[l] = first + smaller<Index>(q + static_cast<Index>(l), count - 1);
-        springs.used = static_cast<int>(smaller<Index>(W, count - q));
-        read(springs.contact, springs.record);
-        s.template set<false, false>(0, springs.contact.offset, springs.contact.cell);
-        springs.u = spring_of(gathered(s, u), springs.contact, a.is_first);
-        body(b, springs);
-      }
+      load_u(a, b, u);
+      each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
+        const Vec3<V> force =
+            spring_of(gathered(group.s, u), group.contact, a.is_first) * all<V>(stiffness);
+        scatter(group.s, FourWords<V>{{force.x, force.y, force.z, V{}}}, group.used,
+                tile_of<Real, K>(a.step, b, 0));
+      });
     }
   }
 
+  static void settle(const Args& a, Index begin, Index end) {
+    Quad<Real> u[Tile<K>::nodes];
+    for (Index n = begin; n < end; ++n) {
+      const Index b = a.blocks[n];
+      load_u(a, b, u);
+      Account account(a);
+      each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
+        Lanes& c = group.contact;
+        const Vec3<V> spring = spring_of(gathered(group.s, u), c, a.is_first);
+        const Vec3<V> normal{c.normal[0], c.normal[1], c.normal[2]};
+        const V along = dot(spring, normal);
+        c.impulse -= along * a.hold;
+        for (int x = 0; x < 3; ++x) c.sliding[x] -= (spring[x] - normal[x] * along) * a.hold;
+        write(c, group.record, group.used);
+        account.add(c, group.used);
+      });
+      account.give(b);
+    }
+  }
+
+  NEVE_INLINE static void load_u(const Args& a, Index b, Quad<Real>* u) {
+    load_tile<Real, K, Set>(
+        a.step.blocks[b], [&](Index m) { return a.u + m * a.u_stride; }, u);
+  }
+
+  /// The part of u that each contact holds, over D.
   NEVE_INLINE static Vec3<V> spring_of(const FourWords<V>& on_grid, const Lanes& c, bool is_first) {
     const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
     Vec3<V> u{on_grid.w[0], on_grid.w[1], on_grid.w[2]};
@@ -432,33 +426,52 @@ struct ContactSweepsFor {
     return n * normal + (u - n * u_n) * surface;
   }
 
-  /// The impulses of the first `count` lanes.
-  NEVE_NOINLINE static void add_loads(const Args& a, const Lanes& c, int count,
-                                      BlockLoads<Set>& loads) {
-    const StepConstants<Real>& constants = a.step.constants;
-    for (int l = 0; l < count; ++l) {
-      const auto number = c.collider[l] < 0 ? -1 - c.collider[l] : c.collider[l];
-      const ColliderPose& pose = a.poses[number];
-      double impulse[3], arm[3];
-      for (int x = 0; x < 3; ++x) {
-        impulse[x] = static_cast<double>(c.normal[x][l] * c.impulse[l] + c.sliding[x][l]);
-        arm[x] = (static_cast<double>(c.cell[x][l] - pose.cell[x]) +
-                  (static_cast<double>(c.offset[x][l]) - pose.offset[x])) *
-                 constants.h_double;
-      }
-      loads.add(pose.index, impulse, arm);
-    }
-  }
+  /// What the contacts of a block did.
+  class Account {
+   public:
+    NEVE_INLINE explicit Account(const Args& a) : a_(a), loads_(a.step.load_count) {}
 
-  /// What colliders do to the first `count` lanes, J; only what is added.
-  NEVE_INLINE static double work_of(const Lanes& c, int count) {
-    V done = c.impulse * larger_lanes(c.least, V{});
-    for (int x = 0; x < 3; ++x) done += (c.normal[x] * c.impulse + c.sliding[x]) * c.surface[x];
-    double work = 0;
-    for (int l = 0; l < count; ++l)
-      if (done[l] > Real(0)) work += static_cast<double>(done[l]);
-    return work;
-  }
+    /// The first `count` lanes.
+    NEVE_INLINE void add(const Lanes& c, int count) {
+      work_ += work_of(c, count);
+      add_loads(c, count);
+    }
+
+    NEVE_INLINE void give(Index b) const {
+      a_.step.node_contact_work[a_.step.blocks[b].node_block[0]] += work_;
+      loads_.give(a_.step.loads, a_.step.load_unit);
+    }
+
+   private:
+    NEVE_NOINLINE void add_loads(const Lanes& c, int count) {
+      for (int l = 0; l < count; ++l) {
+        const auto number = c.collider[l] < 0 ? -1 - c.collider[l] : c.collider[l];
+        const ColliderPose& pose = a_.poses[number];
+        double impulse[3], arm[3];
+        for (int x = 0; x < 3; ++x) {
+          impulse[x] = static_cast<double>(c.normal[x][l] * c.impulse[l] + c.sliding[x][l]);
+          arm[x] = (static_cast<double>(c.cell[x][l] - pose.cell[x]) +
+                    (static_cast<double>(c.offset[x][l]) - pose.offset[x])) *
+                   a_.step.constants.h_double;
+        }
+        loads_.add(pose.index, impulse, arm);
+      }
+    }
+
+    /// J, of the colliders; only the work that is added.
+    NEVE_INLINE static double work_of(const Lanes& c, int count) {
+      V done = c.impulse * larger_lanes(c.least, V{});
+      for (int x = 0; x < 3; ++x) done += (c.normal[x] * c.impulse + c.sliding[x]) * c.surface[x];
+      double work = 0;
+      for (int l = 0; l < count; ++l)
+        if (done[l] > Real(0)) work += static_cast<double>(done[l]);
+      return work;
+    }
+
+    const Args& a_;
+    BlockLoads<Set> loads_;
+    double work_ = 0;
+  };
 
   // ---- nodes ------------------------------------------------------------------------------------
 
@@ -488,22 +501,15 @@ struct ContactSweepsFor {
     for (Index k = begin; k < end; ++k) {
       const Index b = a.node_blocks[k];
       collect_pressed(a, b, sum);
-      Quad<Real>* v_new = nodes_of(a.step, b, channel_v_new);
+      const Quad<Real>* v_new = nodes_of(a.step, b, channel_v_new);
       Quad<Real>* v = a.nodes[b].velocity;
       for (int n = 0; n < block_nodes; ++n) {
         const Real mass = v_new[n][3];
         if (mass > Real(0)) v[n] += sum[n] / mass;  // the fourth of sum is 0
       }
       if (!a.is_last) continue;
-      const bool has_change = a.step.channels > channel_change;
-      Quad<Real>* change = has_change ? nodes_of(a.step, b, channel_change) : nullptr;
-      for (int n = 0; n < block_nodes; ++n) {
-        const Real mass = v_new[n][3];
-        v_new[n][3] = v[n][3];
-        if (has_change) change[n] += v[n] - v_new[n];
-        v_new[n] = v[n];
-        v_new[n][3] = mass;
-      }
+      for (int n = 0; n < block_nodes; ++n) v[n][3] = v_new[n][3];
+      set_velocities(a.step, b, v);
     }
   }
 

@@ -16,6 +16,18 @@ NEVE_INLINE Quad<Real>* nodes_of(const SweepArgs<Real>& a, std::uint32_t block, 
   return a.nodes + (first + static_cast<std::size_t>(channel)) * block_nodes;
 }
 
+/// The nodes of a block get a velocity, and FLIP its change. @param v  with the mass of the nodes
+template <class Real>
+NEVE_INLINE void set_velocities(const SweepArgs<Real>& a, std::uint32_t block,
+                                const Quad<Real>* v) {
+  Quad<Real>* v_new = nodes_of(a, block, channel_v_new);
+  if (a.channels > channel_change) {
+    Quad<Real>* change = nodes_of(a, block, channel_change);
+    for (int n = 0; n < block_nodes; ++n) change[n] += v[n] - v_new[n];
+  }
+  for (int n = 0; n < block_nodes; ++n) v_new[n] = v[n];
+}
+
 /// Adds the tiles that reach a node block, always in the order of NodeBlock::tile; only those of
 /// particle blocks that `takes` accepts. Rows go beyond the tile's overlap along z, filled with 0.
 template <class Real, int K, class Set, class Takes>
