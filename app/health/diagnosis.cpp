@@ -95,20 +95,20 @@ Hypothesis bypass(const Case& c) {
 Hypothesis initial_state(const Case& c) {
   const sim::StartState& s = c.d.start;
   const bool is_strange =
-      s.strangest >= 0 &&
+      s.worst_particle >= 0 &&
       (s.min_J_E < at_start(Law::small_J_E) || s.max_J_E > at_start(Law::large_J_E) ||
        s.min_J_P < at_start(Law::compaction) || s.max_J_P > at_start(Law::dilation));
   // NaN leaves no mark on the extremes; a particle that is named and breaks the first steps does.
-  const bool is_no_number = s.strangest >= 0 && c.d.rule == "not_finite" && c.d.step <= 2;
+  const bool is_no_number = s.worst_particle >= 0 && c.d.rule == "not_finite" && c.d.step <= 2;
   if (!is_strange && !is_no_number) return std::nullopt;
   return Diagnosis{
       Cause::initial_state,
       is_strange
           ? fmt::format(
                 "particle {} did not start at rest: det F_E from {} to {}, J_P from {} to {}",
-                s.strangest, rough_text(s.min_J_E), rough_text(s.max_J_E), rough_text(s.min_J_P),
-                rough_text(s.max_J_P))
-          : fmt::format("particle {} did not start with finite numbers", s.strangest),
+                s.worst_particle, rough_text(s.min_J_E), rough_text(s.max_J_E),
+                rough_text(s.min_J_P), rough_text(s.max_J_P))
+          : fmt::format("particle {} did not start with finite numbers", s.worst_particle),
       "start with F_E = I and J_P = 1", ""};
 }
 

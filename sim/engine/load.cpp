@@ -36,7 +36,7 @@ StartState start_state(const ParticleArrays& in) {
     const double found = distance_from_rest(in, q, start);
     if (found <= most) continue;
     most = found;
-    start.strangest = static_cast<std::int64_t>(q);
+    start.worst_particle = static_cast<std::int64_t>(q);
   }
   return start;
 }

@@ -261,7 +261,7 @@ NEVE_INLINE void neo_hookean(MaterialLanes<V>& m) {
 /// Projects F_E (snow) and recomputes tau from it, for batches of one model. Most particles take
 /// the cheap way; those that yield or are far from the identity are moved together into full lanes.
 /// The grouping of lanes changes no bit.
-template <class Real, class Set, int most_batches>
+template <class Real, class Set, int max_batches>
 class MaterialUpdate {
  public:
   static constexpr int W = Set::template lanes<Real>;
@@ -276,7 +276,7 @@ class MaterialUpdate {
                                 const MaterialConstants<Real>* table, bool is_projected,
                                 V* wave_modulus, unsigned* is_inverted) {
     const bool is_plastic = is_projected && model == ModelKind::snow;
-    unsigned rest[most_batches];
+    unsigned rest[max_batches];
     int packed = 0;
     for (int k = 0; k * W < count; ++k) {
       M m;
@@ -355,7 +355,7 @@ class MaterialUpdate {
     for (int w = 0; w < M::word_mu; ++w) m.word[w] = mask ? again.word[w] : m.word[w];
   }
 
-  Real packed_[M::words][(most_batches + 1) * W] = {};
+  Real packed_[M::words][(max_batches + 1) * W] = {};
 };
 
 }  // namespace neve::sim::kernels

@@ -12,7 +12,7 @@ inline constexpr double touching_share = 0.75;
 /// A particle counts as touching up to this distance beyond, cells.
 inline constexpr double touching_slack = 0.1;
 /// No particle touches at more than this, cells, however few there are in a cell.
-inline constexpr double most_touching = 0.5;
+inline constexpr double max_touching = 0.5;
 /// A particle inside is brought out by these shares of its depth, per step and per second at most.
 inline constexpr double out_per_step = 0.2, out_per_second = 50;
 /// x^(1/3) of positive numbers.
@@ -48,7 +48,7 @@ struct ContactSweepsFor {
     int cell[3];
     for (int axis = 0; axis < 3; ++axis) cell[axis] = block_coordinate(key, axis) * block_side;
     const Vec3<Real> middle{Real(2.75) * c.h, Real(2.75) * c.h, Real(2.75) * c.h};
-    const Real still = static_cast<Real>(4 + most_touching + touching_slack) * c.h;
+    const Real still = static_cast<Real>(4 + max_touching + touching_slack) * c.h;
     int& count = near.colliders.count;
     for (int k = 0; k < c.collider_count; ++k) {
       const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
@@ -67,7 +67,7 @@ struct ContactSweepsFor {
     V half{};
     for (int l = 0; l < W; ++l) half[l] = a.half_spacing[p.kind[l] & 0xffff];
     return smaller_lanes(half * cube_root_lanes(p.m) * static_cast<Real>(touching_share),
-                         all<V>(static_cast<Real>(most_touching) * a.step.constants.h));
+                         all<V>(static_cast<Real>(max_touching) * a.step.constants.h));
   }
 
   /// The lanes of a batch that may come to touch a collider in this step.
@@ -80,7 +80,7 @@ struct ContactSweepsFor {
     const V closing = larger_lanes(-dot(v - surface_velocity(collider, r), normal), V{});
     const V room = distance - closing * (2 * c.dt) - static_cast<Real>(touching_slack) * c.h;
     // Most are further away than any particle touches.
-    if (!any_lane(room <= all<V>(static_cast<Real>(most_touching) * c.h))) return 0;
+    if (!any_lane(room <= all<V>(static_cast<Real>(max_touching) * c.h))) return 0;
     return lane_bits(room <= touching_distance(a, p));
   }
 

@@ -91,8 +91,8 @@ struct StepRecord {
 struct StartState {
   double max_speed = 0, max_sound_speed = 0;  ///< m/s
   double min_J_E = 1, max_J_E = 1, min_J_P = 1, max_J_P = 1;
-  std::int64_t strangest = -1;  ///< id of the particle whose F_E or J_P is furthest from rest, or
-                                ///< is no number; -1: all are at rest
+  std::int64_t worst_particle = -1;  ///< id of the particle whose F_E or J_P is furthest from rest,
+                                     ///< or is no number; -1: all are at rest
 };
 
 /// Why a run had to stop. Numerical trouble is data, not an exception.
