@@ -290,18 +290,22 @@ void add_report(CLI::App& app, Action& action, const char* name, const char* hel
 }
 
 void add_params(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("params", "List every parameter: address, unit, range, default");
-  const auto is_json = std::make_shared<bool>(false), is_sweep = std::make_shared<bool>(false);
-  const auto filter = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(
+      "params", "List parameters: address, unit, range, default; or look for them");
+  const auto options = std::make_shared<ParamsOptions>();
   command
-      ->add_option("FILTER", *filter,
-                   "List only parameters with this text in their address, as in camera")
+      ->add_option("WORD", options->filter,
+                   "List only parameters with this in their address or description, or that it "
+                   "means in everyday words, as in camera, \"time step\", sticky")
       ->type_name("");
-  command->add_flag("--sweep", *is_sweep, "List the parameters of sweep files instead of scenes");
-  command->add_flag("--json", *is_json, "Print JSON");
-  command->final_callback(
-      [=, &action] { action = [=] { return run_params(*filter, *is_sweep, *is_json); }; });
+  command->add_flag("--looks", options->is_looks,
+                    "Print the table from looks (stickier, heavier, ...) to parameters");
+  command->add_flag("--markdown", options->is_markdown,
+                    "With --looks, print it as in docs/looks.md");
+  command->add_flag("--sweep", options->is_sweep,
+                    "List the parameters of sweep files instead of scenes");
+  command->add_flag("--json", options->is_json, "Print JSON");
+  command->final_callback([=, &action] { action = [options] { return run_params(*options); }; });
 }
 
 void add_info(CLI::App& app, Action& action) {

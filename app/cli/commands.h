@@ -18,6 +18,14 @@ struct CompareOptions {
   bool is_json = false;
 };
 
+struct ParamsOptions {
+  std::string filter;     ///< "" for all
+  bool is_sweep = false;  ///< parameters of sweep files
+  bool is_looks = false;  ///< the table from wishes to parameters
+  bool is_markdown = false;
+  bool is_json = false;
+};
+
 int run_render(const run::RenderOptions& options);
 /// Reads only the options that choose the scene: scene, overrides, coarsening, threads.
 int run_check(const run::RenderOptions& options);
@@ -31,9 +39,8 @@ int run_bench_sweep(const bench::BenchOptions& options);
 int run_bench_view(const bench::BenchOptions& options);
 int run_info(const std::string& path, bool is_json);
 int run_doctor(bool is_json);
-/// @param filter  only addresses with this in them; "" for all
-/// @throws UsageError if it is missing
-int run_params(const std::string& filter, bool is_sweep, bool is_json);
+/// @throws UsageError if nothing has the filter in it
+int run_params(const ParamsOptions& options);
 int run_sweep(const sweep::plan::SweepOptions& options);
 int run_sweep_run(const sweep::plan::SweepRunOptions& options);
 int run_sweep_collect(const sweep::plan::CollectOptions& options);

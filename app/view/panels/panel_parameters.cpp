@@ -137,7 +137,7 @@ void draw_parameters(ViewerState& state) {
   scene::describe(knobs, scene);
   if (!panel.has_shown()) {
     ImGui::PushTextWrapPos(0);
-    ImGui::TextDisabled("No parameter here has \"%s\" in its name or description.",
+    ImGui::TextDisabled("No parameter here is called \"%s\" or has it in its description.",
                         state.filter.c_str());
     ImGui::PopTextWrapPos();
   }

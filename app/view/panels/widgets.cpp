@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
@@ -27,11 +26,6 @@ namespace {
 const ImVec4 changed_color{1.0f, 0.72f, 0.35f, 1.0f};
 /// Share of a row that the widget takes; its name takes the rest.
 constexpr float widget_share = 0.48f;
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 /// A pixel of dragging changes a value by this much.
 float speed_of(double value) {
@@ -289,10 +283,7 @@ bool edit_choices(const Knob&, const std::vector<std::string>& choices, std::vec
 }
 
 bool KnobPanel::shows(const std::string& address, const char* help) const {
-  if (filter_.empty()) return true;
-  const std::string wanted = lower(filter_);
-  return lower(address).find(wanted) != std::string::npos ||
-         lower(help).find(wanted) != std::string::npos;
+  return search_.finds(address, help);
 }
 
 bool KnobPanel::is_changed(const std::string& address) const {

@@ -9,6 +9,7 @@
 
 #include "app/scene/describe.h"
 #include "app/scene/leaf.h"
+#include "app/scene/search.h"
 #include "app/scene/toml/value.h"
 #include "app/view/panels/tip.h"
 #include "app/view/session/edit.h"
@@ -67,13 +68,13 @@ bool edit_value(const Knob& knob, std::vector<E>& value) {
 /// Context of the widgets of one panel.
 class KnobPanel {
  public:
-  /// @param filter only knobs whose address or help has these words; "": all
+  /// @param filter only knobs that these words mean; "": all
   /// @param is_changed, what the document knows of an address
-  KnobPanel(std::string filter, std::vector<std::string> changed)
-      : filter_(std::move(filter)), changed_(std::move(changed)) {}
+  KnobPanel(const std::string& filter, std::vector<std::string> changed)
+      : search_(filter), changed_(std::move(changed)) {}
 
   bool shows(const std::string& address, const char* help) const;
-  bool is_filtered() const { return !filter_.empty(); }
+  bool is_filtered() const { return !search_.is_empty(); }
   /// A title that is drawn with the first knob below it, or never.
   void open_title(const std::string& title);
   void close_title();
@@ -90,7 +91,7 @@ class KnobPanel {
   const std::vector<session::Edit>& edits() const { return edits_; }
 
  private:
-  std::string filter_;
+  scene::Search search_;
   std::vector<std::string> changed_;
   std::vector<session::Edit> edits_;
   std::vector<std::string> titles_;  ///< that wait for a knob
