@@ -33,6 +33,8 @@ inline constexpr const char *none = "", *metre = "m", *second = "s", *per_second
 /// Beyond these, single precision and 64-bit counts stop making sense.
 inline constexpr Valid position = within(1e6);
 inline constexpr Valid length = above(0).at_most(1e6);
+/// Sizes of a shape have no default: one that is forgotten is a mistake.
+inline constexpr Valid needed_length = length.required(), needed_position = position.required();
 inline constexpr Valid speed = within(1e6);
 inline constexpr double max_count = 0x1p53;  // JSON and double keep whole numbers up to here
 
@@ -176,43 +178,43 @@ void describe(V& visit, sim::Material& m) {
 template <class V>
 void describe(V& visit, sim::shapes::Sphere& s, Change change) {
   visit("center", s.center, unit::metre, position, change, "Centre.");
-  visit("radius", s.radius, unit::metre, length, change, "Radius.");
+  visit("radius", s.radius, unit::metre, needed_length, change, "Radius.");
 }
 
 template <class V>
 void describe(V& visit, sim::shapes::Box& b, Change change) {
   visit("center", b.center, unit::metre, position, change, "Centre.");
-  visit("size", b.size, unit::metre, length, change, "Edge lengths.");
+  visit("size", b.size, unit::metre, needed_length, change, "Edge lengths.");
 }
 
 template <class V>
 void describe(V& visit, sim::shapes::Capsule& c, Change change) {
-  visit("a", c.a, unit::metre, position, change, "One end of the axis.");
-  visit("b", c.b, unit::metre, position, change, "The other end of the axis.");
-  visit("radius", c.radius, unit::metre, length, change, "Radius.");
+  visit("a", c.a, unit::metre, needed_position, change, "One end of the axis.");
+  visit("b", c.b, unit::metre, needed_position, change, "The other end of the axis.");
+  visit("radius", c.radius, unit::metre, needed_length, change, "Radius.");
 }
 
 template <class V>
 void describe(V& visit, sim::shapes::Cylinder& c, Change change) {
   visit("center", c.center, unit::metre, position, change, "Middle of the axis, along y.");
-  visit("radius", c.radius, unit::metre, length, change, "Radius.");
-  visit("height", c.height, unit::metre, length, change, "Length of the axis.");
+  visit("radius", c.radius, unit::metre, needed_length, change, "Radius.");
+  visit("height", c.height, unit::metre, needed_length, change, "Length of the axis.");
 }
 
 template <class V>
 void describe(V& visit, sim::shapes::Cone& c, Change change) {
   visit("center", c.center, unit::metre, position, change,
         "Middle of the axis, along y; the apex is up.");
-  visit("radius", c.radius, unit::metre, length, change, "Radius of the base.");
-  visit("height", c.height, unit::metre, length, change, "Distance from base to apex.");
+  visit("radius", c.radius, unit::metre, needed_length, change, "Radius of the base.");
+  visit("height", c.height, unit::metre, needed_length, change, "Distance from base to apex.");
 }
 
 template <class V>
 void describe(V& visit, sim::shapes::Torus& t, Change change) {
   visit("center", t.center, unit::metre, position, change, "Centre; the axis is y.");
-  visit("major_radius", t.major_radius, unit::metre, length, change,
+  visit("major_radius", t.major_radius, unit::metre, needed_length, change,
         "Distance from the centre to the middle of the tube.");
-  visit("minor_radius", t.minor_radius, unit::metre, length, change, "Radius of the tube.");
+  visit("minor_radius", t.minor_radius, unit::metre, needed_length, change, "Radius of the tube.");
 }
 
 template <class V>

@@ -16,9 +16,10 @@ struct ParamInfo {
       type;  ///< boolean, number, integer, string, vector, choice, list of choices, size or range
   std::string unit;
   Valid valid;
-  std::vector<std::string> choices;          ///< the values of a choice
-  std::optional<toml::Value> default_value;  ///< absent: no value; the help says what follows
-  bool is_live = false;                      ///< may change while a simulation runs
+  std::vector<std::string> choices;  ///< the values of a choice
+  /// Absent: no value; the help says what follows. Of a required parameter only an example.
+  std::optional<toml::Value> default_value;
+  bool is_live = false;  ///< may change while a simulation runs
   std::string help;
 };
 
@@ -31,7 +32,8 @@ std::optional<ParamInfo> param_at(const std::string& address);
 /// Text in aligned columns.
 std::string params_table(const std::vector<ParamInfo>& list = params());
 /// A list of objects: address, type, unit, min, max, default, live, help; and choices where there
-/// are some, min_open or max_open where the bound itself is not allowed.
+/// are some, required where a scene has to give it, min_open or max_open where the bound itself is
+/// not allowed.
 std::string params_json(const std::vector<ParamInfo>& list = params());
 
 }  // namespace neve::app::scene

@@ -39,6 +39,11 @@ bool is_bounded(const Valid& valid) {
   return std::isfinite(valid.min) || std::isfinite(valid.max);
 }
 
+std::string default_text(const ParamInfo& info) {
+  if (info.valid.is_required) return "required";
+  return info.default_value ? toml::toml_literal(*info.default_value) : "-";
+}
+
 std::string range_text(const ParamInfo& info) {
   if (!info.choices.empty()) return joined(info.choices, " ");
   return is_bounded(info.valid) ? info.valid.text_of_bounds() : "-";
@@ -52,8 +57,7 @@ std::string params_table(const std::vector<ParamInfo>& list) {
   };
   std::vector<Row> rows{{"ADDRESS", "TYPE", "DEFAULT", "UNIT", "RANGE", "CHANGE", "MEANING"}};
   for (const ParamInfo& info : list) {
-    rows.push_back({info.address, info.type,
-                    info.default_value ? toml::toml_literal(*info.default_value) : "-",
+    rows.push_back({info.address, info.type, default_text(info),
                     info.unit.empty() ? "-" : info.unit, range_text(info),
                     info.is_live ? "live" : "restart", info.help});
   }
@@ -90,10 +94,12 @@ std::string params_json(const std::vector<ParamInfo>& params) {
     item["unit"] = info.unit;
     item["min"] = bound(info.valid.min);
     item["max"] = bound(info.valid.max);
-    item["default"] = info.default_value ? std::visit(ToJson{}, info.default_value->data) : Json();
+    const bool has_default = info.default_value && !info.valid.is_required;
+    item["default"] = has_default ? std::visit(ToJson{}, info.default_value->data) : Json();
     item["live"] = info.is_live;
     item["help"] = info.help;
     if (!info.choices.empty()) item["choices"] = info.choices;
+    if (info.valid.is_required) item["required"] = true;
     if (info.valid.is_min_open) item["min_open"] = true;
     if (info.valid.least_above_0 > 0) item["least_above_0"] = info.valid.least_above_0;
     if (info.valid.is_max_open) item["max_open"] = true;

@@ -243,6 +243,20 @@ void Reader::refuse_unknown(const std::vector<std::string>& known) const {
   }
 }
 
+std::string Reader::example_of(const sim::Vec3d& member) {
+  return toml::toml_literal(to_value(member));
+}
+
+void Reader::fail_without(const char* key, const char* unit, const char* help,
+                          const std::string& example) const {
+  std::string wanted = help;
+  if (wanted.ends_with('.')) wanted.pop_back();
+  if (unit[0] != '\0') wanted += std::string(", in ") + unit;
+  std::string hint = "expected " + std::string(key) + " (" + wanted + ")";
+  if (!example.empty()) hint += ", for example " + std::string(key) + " = " + example;
+  reading_.source.fail(reading_.place_of(address_), address_ + " has no " + key, hint);
+}
+
 void Reader::fail_without_shape(const char* key) const {
   reading_.source.fail(reading_.place_of(address_), address_ + " has no " + key,
                        "for example shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }");

@@ -79,9 +79,11 @@ class Reader {
 
   template <class T>
   void operator()(const char* key, T& member, const char* unit, const Valid& valid, Change,
-                  const char*) {
+                  const char* help) {
     if (const toml::Entry* entry = given(key)) {
       read_leaf(Leaf{reading_.source, entry->value, address_of(key), unit, valid}, member);
+    } else if (valid.is_required) {
+      fail_without(key, unit, help, example_of(member));
     }
   }
 
@@ -212,6 +214,15 @@ class Reader {
   void require_name(const toml::Entry& item, const std::string& list) const;
   void require_one_form(const toml::Entry& shape, const std::vector<std::string>& forms) const;
   void refuse_unknown(const std::vector<std::string>& known) const;
+  /// @param example a value of the same kind; empty: none
+  [[noreturn]] void fail_without(const char* key, const char* unit, const char* help,
+                                 const std::string& example) const;
+  static std::string example_of(const double& member) { return toml::number_text(member); }
+  static std::string example_of(const sim::Vec3d& member);
+  template <class T>
+  static std::string example_of(const T&) {
+    return {};
+  }
   [[noreturn]] void fail_without_shape(const char* key) const;
 
   Reading& reading_;

@@ -18,10 +18,17 @@ struct Valid {
   bool is_min_open = false, is_max_open = false;
   Text text = Text::any;
   double least_above_0 = 0;  ///< 0 is allowed, values between 0 and this are not
+  bool is_required = false;  ///< a scene has to give it: there is no default
 
   constexpr Valid below(double x) const { return {min, x, is_min_open, true, text}; }
   constexpr Valid at_most(double x) const { return {min, x, is_min_open, false, text}; }
   constexpr Valid at_most_or_0(double x) const { return {0, x, false, false, text, min}; }
+
+  constexpr Valid required() const {
+    Valid valid = *this;
+    valid.is_required = true;
+    return valid;
+  }
 
   /// False for NaN and infinities as well.
   bool contains(double x) const;

@@ -29,8 +29,8 @@ class ColliderLooks : public testing::Test {
 
   app::scene::Scene scene_with(const std::string& form, const std::string& style) const {
     return app::scene::read_scene_text(
-        "[[body]]\nshape = { sphere = {} }\n[[collider]]\nshape = { " + form + " }\nstyle = \"" +
-            style +
+        "[[body]]\nshape = { sphere = { radius = 0.1 } }\n[[collider]]\nshape = { " + form +
+            " }\nstyle = \"" + style +
             "\"\nkeyframes = [{ time = 0 }, { time = 1, position = [0.5, 0.2, 0.1], rotation = "
             "[30, 0, 60] }]\n",
         "s.toml", folder_.path().string());

@@ -76,8 +76,9 @@ TEST(EditText, OnlyTheValueOfAKeyIsReplaced) {
   EXPECT_EQ(edit({"body.2.shape.box.size=[2, 1, 1]"}), with("[1, 1, 1]", "[2, 1, 1]"));
   EXPECT_EQ(edit({"body.2.velocity=[0, -5, 0]"}), with("[0,0,0]", "[0, -5, 0]"));
   EXPECT_EQ(edit({"collider.1.friction=0"}), with("friction = 0.5", "friction = 0"));
-  EXPECT_EQ(edit({"body.ball.shape={ box = {} }"}),
-            with("{ sphere = { center = [0, 0.5, 0], radius = 0.1 } }", "{ box = {} }"));
+  EXPECT_EQ(edit({"body.ball.shape={ box = { size = [0.2, 0.2, 0.2] } }"}),
+            with("{ sphere = { center = [0, 0.5, 0], radius = 0.1 } }",
+                 "{ box = { size = [0.2, 0.2, 0.2] } }"));
 }
 
 TEST(EditText, NewKeysGoBelowTheLastOneOfTheirTable) {
@@ -108,7 +109,7 @@ TEST(EditText, NewTablesGetASectionAtTheEnd) {
             text +
                 "\n[[view]]\nname = \"particles\"\n\n[[view]]\nname = \"smoke\"\n"
                 "smoke = { density_scale = 2 }\n");
-  const std::string bare = "[[body]]\nshape = { box = {} }";
+  const std::string bare = "[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }";
   EXPECT_EQ(edit({"material.snow.hardening=5"}, bare), bare + "\n\n[material.snow]\nhardening = 5");
   EXPECT_EQ(edit({"camera={ fov = 20 }"}, bare), bare + "\n\n[camera]\nfov = 20");
 }
@@ -116,14 +117,16 @@ TEST(EditText, NewTablesGetASectionAtTheEnd) {
 /// The snow that every scene has comes first, so its section does too.
 TEST(EditText, MaterialsKeepTheirOrder) {
   const std::string text =
-      "[[body]]\nmaterial = \"wet\"\nshape = { box = {} }\n\n# Rain.\n[material.wet]\ndensity = "
+      "[[body]]\nmaterial = \"wet\"\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n\n# "
+      "Rain.\n[material.wet]\ndensity = "
       "500\n";
   EXPECT_EQ(edit({"material.snow.hardening=5"}, text),
             with("# Rain.", "[material.snow]\nhardening = 5\n\n# Rain.", text));
 }
 
 TEST(EditText, TheFirstKeyOfADocumentIsAboveItsFirstHeader) {
-  const std::string text = "# My scene.\n\n# A body.\n[[body]]\nshape = { box = {} }\n";
+  const std::string text =
+      "# My scene.\n\n# A body.\n[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n";
   EXPECT_EQ(edit({"frames=3"}, text), with("# A body.", "frames = 3\n\n# A body.", text));
 }
 
@@ -142,9 +145,9 @@ TEST(EditText, ValuesSetToNoneAreRemovedWithTheirLine) {
 TEST(EditText, SectionsAndDottedKeysGiveWayToAWholeTable) {
   EXPECT_EQ(edit({"camera={ fov = 20, orbit = 9 }"}),
             with("[camera]\nfov = 30\n", "\n[camera]\nfov = 20\norbit = 9\n"));
-  EXPECT_EQ(edit({"body.2.shape={ sphere = {} }"}),
+  EXPECT_EQ(edit({"body.2.shape={ sphere = { radius = 0.1 } }"}),
             with("shape.box.size = [1, 1, 1]\nvelocity = [0,0,0]\n",
-                 "velocity = [0,0,0]\nshape = { sphere = {} }\n"));
+                 "velocity = [0,0,0]\nshape = { sphere = { radius = 0.1 } }\n"));
 }
 
 TEST(EditText, EditingKeepsLineEndsAndTheLackOfALastOne) {
@@ -160,15 +163,16 @@ TEST(EditText, EditingKeepsLineEndsAndTheLackOfALastOne) {
   const std::string cut(edited_scene, std::string(edited_scene).size() - 1);
   EXPECT_EQ(edit({"camera.fov=20"}, cut), with("fov = 30", "fov = 20", cut));
   EXPECT_EQ(edit({"camera.orbit=20"}, cut), cut + "\norbit = 20");
-  EXPECT_EQ(edit({"fps=30"}, "\xEF\xBB\xBF# b\n[[body]]\nshape = { box = {} }\n"),
-            "\xEF\xBB\xBF"
-            "fps = 30\n\n# b\n[[body]]\nshape = { box = {} }\n");
+  EXPECT_EQ(
+      edit({"fps=30"}, "\xEF\xBB\xBF# b\n[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n"),
+      "\xEF\xBB\xBF"
+      "fps = 30\n\n# b\n[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n");
 }
 
 TEST(EditText, StringsAndCommentsThatLookLikeTomlAreLeftAlone) {
   const std::string text =
       "title = '''\n[solver]\ncfl = 1 # no\n'''\n# [camera]\n# fov = 3\n[[body]] # [camera]\n"
-      "shape = { box = {} } # } ]\nname = \"a#b\\\"]\" \n";
+      "shape = { box = { size = [0.2, 0.2, 0.2] } } # } ]\nname = \"a#b\\\"]\" \n";
   // A name must be a word: such a file is refused, not damaged.
   EXPECT_THROW(edit({"frames=3"}, text), app::scene::toml::SceneError);
   const std::string good = with("name = \"a#b\\\"]\" \n", "material = \"snow\"\n", text);
@@ -178,10 +182,12 @@ TEST(EditText, StringsAndCommentsThatLookLikeTomlAreLeftAlone) {
 
 TEST(EditText, AKeyOfTheSameNameElsewhereIsNotTakenForIt) {
   const std::string text =
-      "body = [{ shape = { box = {} }, velocity = [1, 0, 0] }, { name = \"b\", shape = { sphere = "
-      "{} } }]\n";
+      "body = [{ shape = { box = { size = [0.2, 0.2, 0.2] } }, velocity = [1, 0, 0] }, { name = "
+      "\"b\", shape = { sphere = "
+      "{ radius = 0.1 } } }]\n";
   EXPECT_EQ(edit({"body.b.velocity=[2, 0, 0]"}, text),
-            with("{ sphere = {} } }]", "{ sphere = {} }, velocity = [2, 0, 0] }]", text));
+            with("{ sphere = { radius = 0.1 } } }]",
+                 "{ sphere = { radius = 0.1 } }, velocity = [2, 0, 0] }]", text));
   EXPECT_EQ(edit({"body.1.velocity=[2, 0, 0]"}, text), with("[1, 0, 0]", "[2, 0, 0]", text));
 }
 
@@ -191,9 +197,9 @@ TEST(EditText, BadChangesAndFilesAreRefused) {
   EXPECT_THROW(edit({"frames=1"}, "[[body]"), app::scene::toml::SceneError);
   EXPECT_THROW(edit({"frames=1"}, "frames = 1"), app::scene::toml::SceneError);
   // Views as one array cannot be added to line by line.
-  EXPECT_THROW(
-      edit({"view.smoke.smoke.density_scale=2"}, "view = [{}]\n[[body]]\nshape = { box = {} }\n"),
-      app::scene::toml::UsageError);
+  EXPECT_THROW(edit({"view.smoke.smoke.density_scale=2"},
+                    "view = [{}]\n[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n"),
+               app::scene::toml::UsageError);
 }
 
 /// Another value that is valid; nothing for what cannot be told.

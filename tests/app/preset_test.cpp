@@ -19,7 +19,7 @@
 namespace neve::app {
 namespace {
 
-const std::string body = "\n[[body]]\nshape = { box = {} }\n";
+const std::string body = "\n[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n";
 
 app::scene::Scene preset_scene(const std::string& material,
                                const std::vector<std::string>& sets = {}) {

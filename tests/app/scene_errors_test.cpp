@@ -99,7 +99,7 @@ TEST(SceneErrors, HintsStayInTheirTable) {
   const std::string capsule = error_of(in_body("shape = { capsule = { center = [0, 0, 0] } }"));
   EXPECT_NE(capsule.find("expected \"a\", \"b\", \"radius\""), std::string::npos) << capsule;
   const std::string key =
-      error_of(with_ball("[[collider]]\nshape = { box = {} }\n"
+      error_of(with_ball("[[collider]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n"
                          "keyframes = [{ time = 0 }, { time = 1, center = [0, 1, 0] }]"));
   EXPECT_NE(key.find("[collider.1.keyframes[2]]; did you mean \"position\"?"), std::string::npos)
       << key;
@@ -219,11 +219,11 @@ TEST(SceneErrors, ChoicesAreListed) {
 }
 
 TEST(SceneErrors, NamesAreUnique) {
-  const std::string ball = "[[body]]\nname = \"x\"\nshape = { box = {} }\n";
+  const std::string ball = "[[body]]\nname = \"x\"\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n";
   EXPECT_EQ(error_of(ball + ball),
             "s.toml:5:8: error: duplicate body name \"x\"; names must be unique");
   EXPECT_EQ(
-      error_of("[[body]]\nshape = { box = {} }\n[[body]]\nname = \"1\""),
+      error_of("[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n[[body]]\nname = \"1\""),
       "s.toml:4:8: error: duplicate body name \"1\"; the unnamed one has its number for a name");
   EXPECT_EQ(
       error_of("[[view]]\nname = \"2\"\n[[view]]"),
@@ -278,8 +278,29 @@ TEST(SceneErrors, AShapeHasExactlyOneForm) {
             "\"mesh\"");
 }
 
+TEST(SceneErrors, ShapesWithoutASizeAreRefused) {
+  EXPECT_EQ(
+      error_of(in_body("shape = { sphere = { center = [0, 1, 0] } }")),
+      "s.toml:2:20: error: body.1.shape.sphere has no radius; expected radius (Radius, in m), "
+      "for example radius = 0.1");
+  EXPECT_EQ(error_of(with_ball("[[collider]]\nname = \"wall\"\nshape = { box = {} }")),
+            "s.toml:6:17: error: collider.wall.shape.box has no size; expected size (Edge lengths, "
+            "in m), for example size = [0.2, 0.2, 0.2]");
+  for (const char* shape :
+       {"capsule = { a = [0, 0, 0], b = [0, 1, 0] }", "capsule = { a = [0, 0, 0], radius = 1 }",
+        "cylinder = { radius = 1 }", "cone = { height = 1 }", "torus = { major_radius = 1 }"}) {
+    const std::string said = error_of(in_body("shape = { " + std::string(shape) + " }"));
+    EXPECT_NE(said.find(" has no "), std::string::npos) << shape << ": " << said;
+  }
+  // Given on the command line it is there.
+  const std::string text = in_body("shape = { sphere = {} }");
+  const app::scene::Scene scene = app::scene::read_scene_text(
+      text, "s.toml", {}, {app::scene::parse_override("body.1.shape.sphere.radius=0.3")});
+  EXPECT_EQ(std::get<sim::shapes::Sphere>(scene.bodies[0].shape.form).radius, 0.3);
+}
+
 TEST(SceneErrors, DegenerateShapesAreRefused) {
-  EXPECT_EQ(error_of(in_body("shape = { torus = { minor_radius = 0.2 } }")),
+  EXPECT_EQ(error_of(in_body("shape = { torus = { minor_radius = 0.2, major_radius = 0.15 } }")),
             "s.toml:2:36: error: minor_radius is larger than major_radius; a tube thicker than its "
             "ring overlaps itself");
   EXPECT_EQ(error_of(with_ball("[[collider]]\nshape = { plane = { normal = [0, 0, 0] } }")),
@@ -292,14 +313,15 @@ TEST(SceneErrors, DegenerateShapesAreRefused) {
             "s.toml:2:30: error: body.1.shape.box.size[1] = 0; expected 0 < value <= 1000000");
   EXPECT_EQ(
       error_of("[solver]\ncell_size = 1e-9\n" + in_body("shape = { box = { center = [9, 0, "
-                                                        "0] } }")),
+                                                        "0], size = [0.2, 0.2, 0.2] } }")),
       "s.toml:4:28: error: more than 4194280 cells from the origin; move it closer or enlarge "
       "solver.cell_size");
 }
 
 TEST(SceneErrors, KeyframesOfCollidersAreLocated) {
   const auto error_with = [](const std::string& line) {
-    return error_of(with_ball("[[collider]]\nshape = { box = {} }\n" + line));
+    return error_of(
+        with_ball("[[collider]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n" + line));
   };
   EXPECT_EQ(error_with("keyframes = [{ time = 1 }, { time = 0.5 }]"),
             "s.toml:6:37: error: keyframe 2 is at 0.5 s, the one before at 1 s; times must "

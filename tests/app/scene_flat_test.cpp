@@ -75,13 +75,13 @@ name = "NAME"
 shape = { sphere = { radius = 0.1 } }
 [[emitter]]
 name = "NAME"
-shape = { cone = {} }
+shape = { cone = { radius = 0.1, height = 0.2 } }
 [[sink]]
 name = "NAME"
-shape = { torus = {} }
+shape = { torus = { major_radius = 0.15, minor_radius = 0.05 } }
 [[collider]]
 name = "NAME"
-shape = { box = {} }
+shape = { box = { size = [0.2, 0.2, 0.2] } }
 [camera]
 fov = 20
 [[view]]
@@ -152,9 +152,9 @@ TEST(Differences, DifferencesAreSplitByTheNeedForARestart) {
 }
 
 TEST(Differences, DifferencesOfTablesThatComeGoOrChangeKindAreWhole) {
-  const auto found = app::scene::differences(
-      read({"view.close.clip.normal=[1,0,0]"}),
-      read({"camera.fov=40", "view.close.camera=none", "collider.1.shape={sphere={}}"}));
+  const auto found = app::scene::differences(read({"view.close.clip.normal=[1,0,0]"}),
+                                             read({"camera.fov=40", "view.close.camera=none",
+                                                   "collider.1.shape={sphere={ radius = 0.1 }}"}));
   EXPECT_EQ(addresses(found), (std::vector<std::string>{"collider.1.shape", "camera",
                                                         "view.close.clip", "view.close.camera"}));
   EXPECT_TRUE(std::all_of(found.begin(), found.end(), [](const auto& d) { return d.is_live; }));
@@ -163,7 +163,8 @@ TEST(Differences, DifferencesOfTablesThatComeGoOrChangeKindAreWhole) {
 }
 
 TEST(Differences, DifferencesOfItemsNeedARestart) {
-  const std::string more = std::string(flat_scene) + "[[collider]]\nshape = { sphere = {} }\n";
+  const std::string more =
+      std::string(flat_scene) + "[[collider]]\nshape = { sphere = { radius = 0.1 } }\n";
   const app::scene::SplitDifferences split = app::scene::split_live(read(), read({}, more));
   EXPECT_TRUE(split.live.empty());
   EXPECT_EQ(addresses(split.restart), std::vector<std::string>{"collider"});

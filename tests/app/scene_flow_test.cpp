@@ -223,7 +223,7 @@ TEST(SceneFlow, ShapesThatCannotBeAreLocated) {
     EXPECT_NE(said.find(part), std::string::npos) << said;
   };
   const std::string no_volume = "the volume of the shape is 0 m3";
-  const std::string cone = "shape = { cone = { radius = 1e-300 } }\n";
+  const std::string cone = "shape = { cone = { radius = 1e-300, height = 0.2 } }\n";
   for (const char* piece : {"body", "sink", "collider"})
     expect_error(std::string("[[") + piece + "]]\n" + cone, "scene.toml:8:9: error: " + no_volume);
   const test::TemporaryFolder folder;
@@ -233,10 +233,13 @@ TEST(SceneFlow, ShapesThatCannotBeAreLocated) {
                  "open.obj:4: the mesh is open");
   const std::string far = "center = [1e6, 0, 0]";
   for (const char* piece : {"body", "collider", "emitter"})
-    expect_error(std::string("[[") + piece + "]]\nshape = { box = { " + far + " } }\n",
-                 "more than 4194280 cells from the origin");
-  expect_error("[[collider]]\nshape = { box = {} }\nkeyframes = [{ position = [1e6, 0, 0] }]\n",
-               "scene.toml:9:27: error: more than 4194280 cells from the origin");
+    expect_error(
+        std::string("[[") + piece + "]]\nshape = { box = { " + far + ", size = [1, 1, 1] } }\n",
+        "more than 4194280 cells from the origin");
+  expect_error(
+      "[[collider]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\nkeyframes = [{ position = [1e6, "
+      "0, 0] }]\n",
+      "scene.toml:9:27: error: more than 4194280 cells from the origin");
   expect_error("[[body]]\nshape = { box = { size = [1e6, 1, 1] } }\n", "more than 4194280 cells");
   EXPECT_EQ(flow_error(spout + "[[collider]]\nshape = { plane = { point = [-1e6, 0, 0] } }\n"), "");
 }

@@ -206,23 +206,42 @@ Flatten::Values values_of(app::scene::Scene scene) {
   return values;
 }
 
+/// A form with the sizes that it needs.
+std::string sized(const std::string& form) {
+  const std::map<std::string, const char*> sizes{
+      {"sphere", "radius = 0.1"},
+      {"box", "size = [0.2, 0.2, 0.2]"},
+      {"capsule", "a = [0, 0, 0], b = [0, 0.2, 0], radius = 0.1"},
+      {"cylinder", "radius = 0.1, height = 0.2"},
+      {"cone", "radius = 0.1, height = 0.2"},
+      {"torus", "major_radius = 0.15, minor_radius = 0.05"}};
+  const auto found = sizes.find(form);
+  return form + " = { " + (found == sizes.end() ? "" : found->second) + " }";
+}
+
 /// A scene with every optional part and every form, named and unnamed things.
 app::scene::Scene full_scene(const std::string& mesh_file) {
   std::string text =
       "[camera]\neye = [0, 1, 2]\ntarget = [0, 0, 0]\nkeyframes = [{ time = 1 }, { time = 2 }]\n"
       "[material.ice]\n";
   for (const char* form : {"sphere", "box", "capsule", "cylinder", "cone", "torus"}) {
-    text += "[[body]]\nmaterial = \"ice\"\nshape = { " + std::string(form) + " = {} }\n";
+    text += "[[body]]\nmaterial = \"ice\"\nshape = { " + sized(form) + " }\n";
   }
-  text += "[[emitter]]\nname = \"spout\"\nshape = { box = {} }\nrate = 1\nend = 1\n";
-  text += "[[sink]]\nname = \"pit\"\nshape = { torus = {} }\n";
+  text +=
+      "[[emitter]]\nname = \"spout\"\nshape = { box = { size = [0.2, 0.2, 0.2] } }\nrate = 1\nend "
+      "= 1\n";
+  text +=
+      "[[sink]]\nname = \"pit\"\nshape = { torus = { major_radius = 0.15, minor_radius = 0.05 } "
+      "}\n";
   text += "[[body]]\nname = \"points\"\nshape = { points = { file = \"" + mesh_file + "\" } }\n";
   text += "[[body]]\nname = \"mesh\"\nshape = { mesh = { file = \"" + mesh_file + "\" } }\n";
   for (const char* form : {"plane", "sphere", "box", "capsule", "cylinder", "cone", "torus"}) {
-    text += "[[collider]]\nshape = { " + std::string(form) + " = {} }\n";
+    text += "[[collider]]\nshape = { " + sized(form) + " }\n";
   }
   text += "[[collider]]\nname = \"mesh\"\nshape = { mesh = { file = \"" + mesh_file + "\" } }\n";
-  text += "[[collider]]\nshape = { box = {} }\nkeyframes = [{ time = 1 }, { time = 2 }]\n";
+  text +=
+      "[[collider]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\nkeyframes = [{ time = 1 }, { "
+      "time = 2 }]\n";
   text +=
       "[[view]]\n[[view]]\nname = \"close\"\ncamera = { eye = [1,1,1], target = [0,0,0] }\n"
       "clip = { point = [1, 2, 3] }\n[[mosaic]]\nname = \"wall\"\nviews = [\"close\"]\n";
@@ -279,8 +298,8 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
 }
 
 TEST_F(RoundTrip, RoundTripKeepsAnAutomaticScene) {
-  const app::scene::Scene scene =
-      app::scene::read_scene_text("[camera]\nfov = 20\n[[body]]\nshape = {box = {}}", "s");
+  const app::scene::Scene scene = app::scene::read_scene_text(
+      "[camera]\nfov = 20\n[[body]]\nshape = {box = { size = [0.2, 0.2, 0.2] }}", "s");
   const app::scene::Scene again =
       app::scene::read_scene_text(app::scene::write_scene(scene), "written");
   EXPECT_EQ(values_of(scene), values_of(again));
@@ -312,7 +331,7 @@ TEST(NumberText, NumberTextReadsBackExactly) {
 
 TEST(SceneDefaults, SceneDefaultsAreThoseOfTheStructs) {
   const app::scene::Scene scene =
-      app::scene::read_scene_text("[[body]]\nshape = { box = {} }", "s");
+      app::scene::read_scene_text("[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }", "s");
   EXPECT_EQ(scene.frames, app::scene::Scene{}.frames);
   ASSERT_EQ(scene.materials.size(), 1u);
   EXPECT_EQ(scene.materials[0].name, "snow");
@@ -337,7 +356,7 @@ TEST(SceneReader, SceneReaderAcceptsWholeFloatsAsIntegersAndBack) {
 
 TEST(SceneReader, ASceneOverridesOnlyTheNumbersThatItNames) {
   const app::scene::Scene scene = app::scene::read_scene_text(
-      "[material.snow]\nhardening = 7\n[[body]]\nshape = { sphere = {} }", "s");
+      "[material.snow]\nhardening = 7\n[[body]]\nshape = { sphere = { radius = 0.1 } }", "s");
   EXPECT_EQ(scene.materials.at(0).hardening, 7);
   EXPECT_EQ(scene.materials.at(0).density, sim::Material{}.density);
 }

@@ -15,7 +15,7 @@ density = 500
 name = "ball"
 shape = { sphere = { radius = 0.1 } }
 [[body]]
-shape = { box = {} }
+shape = { box = { size = [0.2, 0.2, 0.2] } }
 [[collider]]
 name = "floor"
 shape = { plane = {} }
@@ -57,7 +57,7 @@ TEST(Set, SettingReachesEveryKindOfAddress) {
 }
 
 TEST(Set, SettingReachesTheBuiltInView) {
-  const char* text = "[[body]]\nshape = { box = {} }";
+  const char* text = "[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }";
   EXPECT_EQ(set({"view.particles.particles.color_by=id"}, text).views[0].particles.color_by,
             app::scene::ColorBy::id);
 }

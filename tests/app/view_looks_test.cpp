@@ -43,12 +43,12 @@ render::Frame build(const app::scene::Scene& scene, const std::vector<Vec3d>& po
 
 TEST(ColliderStyle, ColliderStyleSelectsTheDrawnShapes) {
   const app::scene::Scene scene = scene_with(R"([[collider]]
-shape = { sphere = {} }
+shape = { sphere = { radius = 0.1 } }
 [[collider]]
-shape = { sphere = {} }
+shape = { sphere = { radius = 0.1 } }
 style = "ghost"
 [[collider]]
-shape = { box = {} }
+shape = { box = { size = [0.2, 0.2, 0.2] } }
 style = "wire"
 [[collider]]
 shape = { plane = {} }
@@ -71,7 +71,8 @@ style = "ghost"
 
 TEST(ColliderStyle, ColliderStyleKeepsToTheLayersOfTheView) {
   const app::scene::Scene scene = scene_with(
-      "[[collider]]\nshape = { sphere = {} }\nstyle = \"wire\"\n[[collider]]\nshape = { plane = {} "
+      "[[collider]]\nshape = { sphere = { radius = 0.1 } }\nstyle = \"wire\"\n[[collider]]\nshape "
+      "= { plane = {} "
       "}\n"
       "[[view]]\nlayers = [\"ground\"]\n");
   render::Frame frame;
@@ -81,14 +82,16 @@ TEST(ColliderStyle, ColliderStyleKeepsToTheLayersOfTheView) {
 }
 
 TEST(ColliderStyle, ColliderStyleDoesNotAffectTheSimulation) {
-  const app::scene::Scene scene =
-      scene_with("[[collider]]\nfriction = 0.3\nshape = { box = {} }\nstyle = \"ghost\"");
+  const app::scene::Scene scene = scene_with(
+      "[[collider]]\nfriction = 0.3\nshape = { box = { size = [0.2, 0.2, 0.2] } }\nstyle = "
+      "\"ghost\"");
   const std::vector<sim::shapes::Collider> colliders = app::scene::sim_colliders(scene);
   ASSERT_EQ(colliders.size(), 1u);
   EXPECT_EQ(colliders[0].friction, 0.3);
-  EXPECT_EQ(view_error("[[collider]]\nshape = { box = {} }\nstyle = \"glass\""),
-            "s.toml:5:9: error: collider.1.style = \"glass\"; expected \"solid\", \"wire\" or "
-            "\"ghost\"");
+  EXPECT_EQ(
+      view_error("[[collider]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\nstyle = \"glass\""),
+      "s.toml:5:9: error: collider.1.style = \"glass\"; expected \"solid\", \"wire\" or "
+      "\"ghost\"");
 }
 
 TEST(Clip, ClipRemovesTheParticlesOnItsSide) {

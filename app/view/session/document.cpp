@@ -231,7 +231,7 @@ std::optional<std::string> Document::in_file(const std::string& address) const {
 
 std::optional<std::string> Document::default_of(const std::string& address) const {
   const std::optional<scene::ParamInfo> info = scene::param_at(address);
-  if (!info || !info->default_value) return std::nullopt;
+  if (!info || !info->default_value || info->valid.is_required) return std::nullopt;
   return scene::toml::toml_literal(*info->default_value);
 }
 
