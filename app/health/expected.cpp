@@ -46,6 +46,7 @@ Expected::Expected(const scene::Scene& scene, const sim::ParticleArrays& state, 
     lightest_density_ = std::min(lightest_density_, m.density);
     compression_ = std::max(compression_, m.critical_compression);
     stretch_ = std::max(stretch_, m.critical_stretch);
+    loosest_ = std::max(loosest_, m.max_J_P);
     stiffest_ = std::max(stiffest_, 2 * lame.mu + 3 * lame.lambda);
     hardened_ = std::max(hardened_, sim::health::hardening_factor(m, min_J_P_));
     is_bounded_ = is_bounded_ && m.model == sim::Model::snow;
@@ -117,9 +118,11 @@ Expectation Expected::J_E() const {
 }
 
 Expectation Expected::J_P() const {
-  return {{sim::health::limits_of(Law::compaction).expected,
-           sim::health::limits_of(Law::dilation).expected},
-          "packed to five times the density, or torn to a fifth of it"};
+  // Spray is loose and well; what matters is whether it could be packed again.
+  const double loosest = std::min(loosest_, sim::health::limits_of(Law::dilation).expected);
+  return {{sim::health::limits_of(Law::compaction).expected, loosest},
+          "packed to five times the density at most; torn snow and spray are loose, up to J_P = " +
+              rough_text(loosest)};
 }
 
 Expectation Expected::volume() const {

@@ -42,6 +42,7 @@ class Expected {
   double min_J_P_ = 1;
   double compression_ = 0, stretch_ = 0;  ///< largest theta_c, theta_s of materials in use
   double stiffest_ = 0;                   ///< Pa, largest mu and lambda together
+  double loosest_ = 1;                    ///< largest max_J_P
   double hardened_ = 1;                   ///< largest factor of hardening at min_J_P_
   double lightest_density_ = 0;           ///< kg/m3
   bool is_bounded_ = true;                ///< all snow: elastic models have no limit
