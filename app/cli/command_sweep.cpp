@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -38,14 +39,11 @@ int core_count(int threads) {
   return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// The runs of --only and --shard, otherwise all.
-std::vector<int> chosen_runs(const sweep::plan::SweepOptions& options,
-                             const sweep::store::Manifest& manifest) {
-  std::vector<int> indices;
-  if (options.only.empty())
-    for (const sweep::Run& run : manifest.runs) indices.push_back(run.index);
-  else
-    indices = sweep::plan::parse_selection(options.only, manifest.runs.back().index);
+/// The runs of --only and --shard, otherwise all: 0 to `last`. @throws UsageError
+std::vector<int> chosen_runs(const sweep::plan::SweepOptions& options, int last) {
+  std::vector<int> indices(static_cast<std::size_t>(last) + 1);
+  std::iota(indices.begin(), indices.end(), 0);
+  if (!options.only.empty()) indices = sweep::plan::parse_selection(options.only, last);
   if (options.shard)
     std::erase_if(indices, [&](int index) {
       return index % options.shard->count != options.shard->index - 1;
@@ -60,7 +58,7 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
                     where = setup::shell_word(std::filesystem::absolute(folder).string());
   std::string text;
   int count = 0;
-  for (const int index : chosen_runs(options, manifest)) {
+  for (const int index : chosen_runs(options, manifest.runs.back().index)) {
     const sweep::Run& run = manifest.runs[static_cast<std::size_t>(index)];
     const sweep::store::RunState state =
         sweep::store::read_status(sweep::store::runs_folder(folder) / run.folder).state;
@@ -79,7 +77,7 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
 sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
                                    const std::filesystem::path& folder,
                                    const sweep::store::Manifest& manifest, Progress& progress) {
-  const std::vector<int> indices = chosen_runs(options, manifest);
+  const std::vector<int> indices = chosen_runs(options, manifest.runs.back().index);
   if (options.engine == "slurm") {
     const sweep::jobs::SlurmOptions slurm{this_program(), options.backend, options.jobs,
                                           std::max(1, options.threads), options.sbatch};
@@ -135,6 +133,31 @@ void warn_of_equal_runs(const sweep::plan::SweepPlan& plan, Progress& progress) 
   }
 }
 
+/// An axis of one value compares nothing.
+void warn_of_single_values(const sweep::read::Sweep& sweep, Progress& progress) {
+  for (const sweep::read::Axis& axis : sweep.axes) {
+    if (axis.size() != 1) continue;
+    const sweep::read::Axis::Parameter& parameter = axis.parameters.front();
+    progress.warning(
+        fmt::format("{} has one value: no run differs in it; give several, as in "
+                    "-p {}={},..., or use --set",
+                    parameter.address, parameter.address, parameter.values.front().value));
+  }
+}
+
+/// Keeps the runs of --only and --shard in a plan that is only printed. @throws UsageError
+void choose_runs(const sweep::plan::SweepOptions& options, sweep::plan::SweepPlan& plan,
+                 Progress& progress) {
+  const std::vector<int> chosen = chosen_runs(options, plan.runs.back().run.index);
+  if (chosen.empty())
+    progress.warning(fmt::format("the share {}/{} of {} runs has none", options.shard->index,
+                                 options.shard->count, plan.runs.size()));
+  if (!options.is_dry_run || chosen.empty()) return;
+  std::erase_if(plan.runs, [&](const sweep::plan::PlannedRun& item) {
+    return std::find(chosen.begin(), chosen.end(), item.run.index) == chosen.end();
+  });
+}
+
 }  // namespace
 
 int run_sweep(const sweep::plan::SweepOptions& options) {
@@ -143,7 +166,9 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
   for (const std::string& value : sweep::read::repeated_values(plan.sweep))
     progress.warning(value + " is in its list twice: the run is made once and shown twice");
+  warn_of_single_values(plan.sweep, progress);
   warn_of_equal_runs(plan, progress);
+  choose_runs(options, plan, progress);
   if (options.is_dry_run) {
     sweep::plan::print_sweep_plan(plan, cores, options.is_json);
     return exit_ok;

@@ -59,8 +59,8 @@ sim::DtChoice allowed(const scene::Scene& scene, const sim::StepLimits& state,
 /// The steps of a frame at the scene's resolution: those that the coarse copy took, in proportion
 /// to what both may take in the worst state that the copy had at the frame's ends. That state alone
 /// says little of the frame: it may last a single step.
-FrameForecast foresee(const scene::Scene& scene, const scene::Scene& coarse, int frame,
-                      const sim::StepLimits& worst, const sim::AdvanceReport& ran) {
+FrameForecast foresee_frame(const scene::Scene& scene, const scene::Scene& coarse, int frame,
+                            const sim::StepLimits& worst, const sim::AdvanceReport& ran) {
   // A frame that the copy does in a step or two does not tell how long these might have been.
   constexpr std::size_t telling = 3;
   const double duration = 1 / scene.fps, cell = coarse.solver.cell_size;
@@ -104,21 +104,41 @@ std::optional<scene::Scene> coarse_copy(const scene::Scene& scene, double partic
   }
 }
 
+sim::StepLimits worst_of(const sim::StepLimits& before, sim::StepLimits after) {
+  after.max_speed = std::max(after.max_speed, before.max_speed);
+  after.max_sound_speed = std::max(after.max_sound_speed, before.max_sound_speed);
+  after.max_strain_rate = std::max(after.max_strain_rate, before.max_strain_rate);
+  return after;
+}
+
 /// @return s per step and particle, on one thread
 double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
-  const std::optional<scene::Scene> coarse = coarse_copy(scene, checkup.plan.particles);
-  if (!coarse) return 0;
+  const Forecast forecast = foresee(scene, checkup.plan.particles, scene.frames, coarse_seconds);
+  checkup.coarse_particles = forecast.particles;
+  checkup.forecast = forecast.frames;
+  if (!forecast.divergence.empty())
+    checkup.findings.push_back({Severity::warning, "", forecast.divergence,
+                                "run the scene itself to see if it diverges too"});
+  return forecast.seconds_per_particle_step;
+}
+
+}  // namespace
+
+Forecast foresee(const scene::Scene& scene, double particle_count, int last, double limit) {
+  Forecast result;
+  const std::optional<scene::Scene> coarse = coarse_copy(scene, particle_count);
+  if (!coarse) return result;
   const sim::ParticleArrays particles = setup::seed_scene(*coarse).particles;
-  checkup.coarse_particles = static_cast<double>(particles.x.size()) +
-                             setup::planned_emission(*coarse, scene.frames / scene.fps);
+  result.particles =
+      static_cast<double>(particles.x.size()) + setup::planned_emission(*coarse, last / scene.fps);
   sim::Simulation simulation = setup::make_simulation(*coarse, particles, 1);
   const auto start = Clock::now();
-  FrameForecast forecast = foresee(scene, *coarse, 1, simulation.step_limits(), {});
+  FrameForecast frame_forecast = foresee_frame(scene, *coarse, 1, simulation.step_limits(), {});
   double particle_steps = 0, seconds = 0;
-  for (int frame = 1; frame <= scene.frames; ++frame) {
+  for (int frame = 1; frame <= last; ++frame) {
     // The frame's start and end both count; where time runs out the last frames are as the one
     // before.
-    if (seconds_since(start) < coarse_seconds && !is_interrupted()) {
+    if (seconds_since(start) < limit && !is_interrupted()) {
       const sim::StepLimits before = simulation.step_limits();
       const auto before_frame = Clock::now();
       const sim::AdvanceReport report = simulation.advance_to(frame / scene.fps, is_interrupted);
@@ -126,24 +146,27 @@ double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
       particle_steps +=
           static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());
       if (simulation.divergence()) break;  // a broken state foretells nothing
-      sim::StepLimits worst = simulation.step_limits();
-      worst.max_speed = std::max(worst.max_speed, before.max_speed);
-      worst.max_sound_speed = std::max(worst.max_sound_speed, before.max_sound_speed);
-      worst.max_strain_rate = std::max(worst.max_strain_rate, before.max_strain_rate);
-      forecast = foresee(scene, *coarse, frame, worst, report);
+      frame_forecast =
+          foresee_frame(scene, *coarse, frame, worst_of(before, simulation.step_limits()), report);
     }
-    forecast.frame = frame;
-    checkup.forecast.push_back(forecast);
+    frame_forecast.frame = frame;
+    result.frames.push_back(frame_forecast);
   }
   if (simulation.divergence())
-    checkup.findings.push_back({Severity::warning, "",
-                                "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) +
-                                    " m diverges: " + simulation.divergence()->sentence,
-                                "run the scene itself to see if it diverges too"});
-  return particle_steps > 0 ? seconds / particle_steps : 0;
+    result.divergence = "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) +
+                        " m diverges: " + simulation.divergence()->what;
+  if (particle_steps > 0) result.seconds_per_particle_step = seconds / particle_steps;
+  return result;
 }
 
-}  // namespace
+double Forecast::steps_until(int frame) const {
+  double sum = 0;
+  for (const FrameForecast& forecast : frames)
+    if (forecast.frame <= frame) sum += forecast.steps;
+  // Frames that the copy did not reach are as its last one.
+  const int reached = frames.empty() ? 0 : frames.back().frame;
+  return frames.empty() ? 0 : sum + std::max(0, frame - reached) * frames.back().steps;
+}
 
 double Checkup::steps() const {
   double sum = 0;
@@ -159,12 +182,14 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
                 double coarsening) {
   Checkup checkup;
   checkup.plan = plan;
+  checkup.coarsening = coarsening;
   checkup.cells = plan.volume / std::pow(scene.solver.cell_size, 3);
   checkup.impact_speed = setup::impact_speed(scene);
   int used_threads = 1;
-  check_units(scene, checkup.findings);
-  check_resolution(scene, checkup.findings);
-  check_emitters(scene, checkup.findings);
+  check_units(scene, checkup.findings, coarsening);
+  check_gravity(scene, checkup.findings);
+  check_resolution(scene, checkup.findings, coarsening);
+  check_emitters(scene, checkup.findings, coarsening);
   check_sinks(scene, checkup.impact_speed, checkup.findings);
   check_unused(scene, coarsening, checkup.findings);
   if (plan.particles <= max_seeded && plan.memory <= plan.memory_limit) {
@@ -172,6 +197,7 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
     const sim::ParticleArrays& particles = seeded.particles;
     checkup.plan.particles = static_cast<double>(particles.x.size()) + plan.emitted;
     check_overlaps(scene, seeded, checkup.findings);
+    check_meetings(scene, seeded, checkup.findings);
     sim::Simulation simulation = setup::make_simulation(scene, particles, threads);
     used_threads = simulation.threads();
     checkup.start = simulation.step_limits();
@@ -186,7 +212,8 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
     checkup.findings.push_back(
         {Severity::note, "",
          "too large for a check of its particles: overlaps, dt and time per step are not known",
-         "try neve check with --coarsen 2"});
+         "try neve check with --coarsen " +
+             fixed_text(std::ceil(std::cbrt(plan.particles / max_seeded)), 0)});
   }
   const double particle_step = foresee_frames(scene, checkup);
   // Emitted particles cannot be timed at the start: count half of them, as in the coarse copy.

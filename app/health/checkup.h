@@ -25,6 +25,21 @@ struct FrameForecast {
   sim::DtLimit limit = sim::DtLimit::max_dt;
 };
 
+/// The steps of a run, foretold by a coarse copy of it.
+struct Forecast {
+  std::vector<FrameForecast> frames;     ///< that the copy reached; those after are as the last
+  double particles = 0;                  ///< of the copy; 0: there is none
+  double seconds_per_particle_step = 0;  ///< of the copy, on one thread
+  std::string divergence;                ///< of the copy, a sentence; empty if it holds
+
+  double steps_until(int frame) const;
+};
+
+/// @param particles of the scene
+/// @param last the last frame of the run
+/// @param seconds that the copy may take
+Forecast foresee(const scene::Scene& scene, double particles, int last, double seconds);
+
 struct Checkup {
   setup::Plan plan;
   double cells = 0;         ///< that the bodies fill
@@ -36,6 +51,7 @@ struct Checkup {
   double coarse_particles = 0;          ///< of the run behind the forecast
   double seconds_per_step = 0;          ///< measured on this machine; 0: not measured
   sim::SolveReport solve;               ///< of these steps; zero where they are explicit
+  double coarsening = 1;                ///< of --coarsen, for advice
   std::vector<Finding> findings;
 
   double steps() const;    ///< forecast for the whole run

@@ -54,6 +54,46 @@ class SweepCli : public Cli {
   }
 };
 
+/// The times of a dry run come from a coarse copy of each run: stiff snow takes more steps.
+TEST_F(SweepCli, DryRunsForeseeTheCostOfEachRun) {
+  const auto result = neve({"sweep", "scene.toml", "-p", "material.snow.youngs_modulus=2e4,5e6",
+                            "--frames", "4", "--dry-run", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const app::Json plan = app::parse_json(std::string_view(result.output));
+  constexpr double drawn = 5 * 0.02;  // tiles
+  const double soft = plan["runs"][0]["seconds"].get<double>() - drawn,
+               stiff = plan["runs"][1]["seconds"].get<double>() - drawn;
+  EXPECT_GT(stiff, 2 * soft) << result.output;
+  EXPECT_GE(plan["seconds"].get<double>(), stiff);
+}
+
+TEST_F(SweepCli, RunsThatAreNotThereAreRefusedBeforeAnythingStarts) {
+  const std::vector<std::string> sweep{"sweep", "sweep.toml", "--only", "99"};
+  std::vector<std::string> dry = sweep;
+  dry.emplace_back("--dry-run");
+  for (const std::vector<std::string>& words : {sweep, dry}) {
+    const auto result = neve(words);
+    EXPECT_EQ(result.exit_code, 2) << result.errors;
+    EXPECT_TRUE(contains(result.errors, "--only: there is no run 99; expected numbers from 0 to 3"))
+        << result.errors;
+    EXPECT_FALSE(exists("out"));
+  }
+  const auto one = neve({"sweep", "sweep.toml", "--only", "3", "--dry-run", "--json"});
+  const app::Json plan = app::parse_json(std::string_view(one.output));
+  ASSERT_EQ(plan["runs"].size(), 1u);
+  EXPECT_EQ(plan["runs"][0]["run"], 3);
+  EXPECT_TRUE(contains(neve({"sweep", "sweep.toml", "--shard", "7/8", "--dry-run"}).errors,
+                       "the share 7/8 of 4 runs has none"));
+}
+
+TEST_F(SweepCli, AnAxisOfOneValueIsAWarning) {
+  const auto result = neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5", "--dry-run"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(
+      contains(result.errors, "material.snow.hardening has one value: no run differs in it"))
+      << result.errors;
+}
+
 TEST_F(SweepCli, DryRunsListRunsCostAndMemoryAndStartNothing) {
   const auto result = neve({"sweep", "sweep.toml", "--dry-run"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;

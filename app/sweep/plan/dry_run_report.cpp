@@ -3,7 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <atomic>
+#include <future>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "app/health/checkup.h"
 #include "app/support/json.h"
@@ -15,20 +19,50 @@ namespace neve::app::sweep::plan {
 
 namespace {
 
-/// Seconds of one thread per unit of work, from a few steps of the costliest run; 0: not known.
-double seconds_per_work(const SweepPlan& plan) {
+bool is_possible(const PlannedRun& item) {
+  return item.plan.memory <= item.plan.memory_limit &&
+         item.plan.particles <= static_cast<double>(item.scene.limits.particles);
+}
+
+/// Drawing a tile takes about as long as it takes for one: 20 ms.
+constexpr double seconds_per_tile = 0.02;
+/// Coarse copies of all runs together take no longer; one is worth no less, and no more.
+constexpr double all_forecasts = 40, least_forecast = 0.15, longest_forecast = 2;
+
+/// Seconds of one thread for each run, measured now: the time of a particle and step in the
+/// costliest run, and the steps of a coarse copy of each. Copies of very many runs would take too
+/// long: these are compared by the steps that snow at rest allows. 0: not known.
+std::vector<double> seconds_of_runs(const SweepPlan& plan, int cores) {
+  std::vector<double> seconds(plan.runs.size(), 0);
   const PlannedRun* costliest = nullptr;
-  for (const PlannedRun& item : plan.runs) {
-    const bool is_possible =
-        item.plan.memory <= item.plan.memory_limit &&
-        item.plan.particles <= static_cast<double>(item.scene.limits.particles);
-    if (is_possible && (!costliest || item.run.work > costliest->run.work)) costliest = &item;
-  }
-  if (!costliest) return 0;
+  for (const PlannedRun& item : plan.runs)
+    if (is_possible(item) && (!costliest || item.run.work > costliest->run.work)) costliest = &item;
+  if (!costliest) return seconds;
   const health::Checkup checkup = health::examine(costliest->scene, costliest->plan, 1);
-  // Drawing a tile takes about as long as it takes for one: 20 ms.
-  constexpr double drawn = 0.02;
-  return (checkup.seconds() + drawn * costliest->run.frames.count()) / costliest->run.work;
+  const double per_particle_step = checkup.seconds_per_step / std::max(1.0, checkup.plan.particles);
+  const double per_run =
+      std::min(longest_forecast, all_forecasts * cores / static_cast<double>(plan.runs.size()));
+  const auto estimate = [&](std::size_t k) {
+    const PlannedRun& item = plan.runs[k];
+    const double drawn = seconds_per_tile * item.run.frames.count();
+    if (per_run < least_forecast || !is_possible(item)) {
+      seconds[k] = checkup.seconds() * item.run.work / costliest->run.work + drawn;
+      return;
+    }
+    const health::Forecast forecast =
+        health::foresee(item.scene, item.plan.particles, item.run.frames.last, per_run);
+    seconds[k] =
+        forecast.steps_until(item.run.frames.last) * item.plan.particles * per_particle_step +
+        drawn;
+  };
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::future<void>> workers;
+  for (int worker = 0; worker < cores; ++worker)
+    workers.push_back(std::async(std::launch::async, [&] {
+      for (std::size_t k = next++; k < plan.runs.size(); k = next++) estimate(k);
+    }));
+  for (std::future<void>& worker : workers) worker.get();
+  return seconds;
 }
 
 struct Totals {
@@ -47,28 +81,28 @@ std::uint64_t whole_bytes(double bytes) {
   return static_cast<std::uint64_t>(bytes);
 }
 
-Totals totals_of(const SweepPlan& plan, double seconds_per_unit) {
+Totals totals_of(const SweepPlan& plan, const std::vector<double>& seconds) {
   Totals totals;
-  for (const PlannedRun& item : plan.runs) {
-    const Run& run = item.run;
-    totals.seconds += run.work * seconds_per_unit;
-    totals.longest = std::max(totals.longest, run.work * seconds_per_unit);
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const Run& run = plan.runs[k].run;
+    totals.seconds += seconds[k];
+    totals.longest = std::max(totals.longest, seconds[k]);
     totals.largest = std::max(totals.largest, run.memory);
     totals.too_large += is_over_limit(plan, run);
   }
   return totals;
 }
 
-void print_json(const SweepPlan& plan, double seconds_per_unit, double seconds) {
-  const Totals totals = totals_of(plan, seconds_per_unit);
+void print_json(const SweepPlan& plan, const std::vector<double>& seconds, double seconds_of_all) {
+  const Totals totals = totals_of(plan, seconds);
   Json json;
   json["title"] = plan.title;
   json["scene"] = plan.sweep.scene_file;
   json["out"] = plan.folder.string();
   json["view"] = plan.view;
   json["runs"] = Json::array();
-  for (const PlannedRun& item : plan.runs) {
-    const Run& run = item.run;
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const Run& run = plan.runs[k].run;
     Json settings = Json::object();
     for (const scene::Override& setting : run.settings) settings[setting.address] = setting.value;
     json["runs"].push_back({{"run", run.index},
@@ -79,10 +113,10 @@ void print_json(const SweepPlan& plan, double seconds_per_unit, double seconds) 
                             {"particles", run.particles},
                             {"memory_bytes", whole_bytes(run.memory)},
                             {"over_memory_limit", is_over_limit(plan, run)},
-                            {"seconds", run.work * seconds_per_unit}});
+                            {"seconds", seconds[k]}});
   }
   json["memory_bytes"] = whole_bytes(totals.largest);
-  json["seconds"] = seconds;
+  json["seconds"] = seconds_of_all;
   std::cout << to_text(json) << "\n";
 }
 
@@ -104,7 +138,7 @@ std::string frames_text(const SweepPlan& plan) {
                  : fmt::format("up to frame {}", all.last);
 }
 
-void print_table(const SweepPlan& plan, double seconds_per_unit) {
+void print_table(const SweepPlan& plan, const std::vector<double>& seconds) {
   std::size_t width = 4;
   std::vector<std::string> what;
   for (const PlannedRun& item : plan.runs) {
@@ -119,7 +153,7 @@ void print_table(const SweepPlan& plan, double seconds_per_unit) {
     std::cout << padded(std::to_string(run.index), 6) << padded(what[k], width)
               << padded(fixed_text(run.particles, 0), 12, true)
               << padded(bytes_text(whole_bytes(run.memory)), 11, true)
-              << padded(duration_text(run.work * seconds_per_unit), 11, true)
+              << padded(duration_text(seconds[k]), 11, true)
               << (is_over_limit(plan, run) ? "  over [limits] memory" : "") << "\n";
   }
 }
@@ -127,11 +161,11 @@ void print_table(const SweepPlan& plan, double seconds_per_unit) {
 }  // namespace
 
 void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
-  const double unit = seconds_per_work(plan);
-  const Totals totals = totals_of(plan, unit);
+  const std::vector<double> each = seconds_of_runs(plan, cores);
+  const Totals totals = totals_of(plan, each);
   const double seconds = std::max(totals.longest, totals.seconds / cores);
-  if (is_json) return print_json(plan, unit, seconds);
-  print_table(plan, unit);
+  if (is_json) return print_json(plan, each, seconds);
+  print_table(plan, each);
   std::cout << fmt::format("\n{} {} of {}, {}, view {} in tiles of {}x{}\n", plan.runs.size(),
                            plan.runs.size() == 1 ? "run" : "runs", plan.sweep.scene_file,
                            frames_text(plan), plan.view, plan.base.size.width,
