@@ -152,7 +152,7 @@ int run_check(const run::RenderOptions& options) {
     print_checkup(checkup, job);
   std::cout.flush();
   if (is_interrupted()) return exit_interrupted;
-  setup::check_limits(job.scene, checkup.plan);
+  setup::check_limits(job.scene, checkup.plan, job.coarsening);
   const bool has_error =
       std::any_of(checkup.findings.begin(), checkup.findings.end(),
                   [](const health::Finding& f) { return f.severity == health::Severity::error; });

@@ -154,7 +154,7 @@ int run_dump(const dump::DumpOptions& options) {
   const run::RenderJob job = run::make_job(options.run);
   const setup::Plan plan =
       setup::make_plan(job.scene, job.frames, job.quality, options.run.threads);
-  setup::check_limits(job.scene, plan);
+  setup::check_limits(job.scene, plan, job.coarsening);
   if (options.format == dump::DumpFormat::vtk && options.file.empty() && ::isatty(STDOUT_FILENO))
     throw scene::toml::UsageError("--format", "vtk is binary and standard output is a terminal",
                                   "give a file with --out, as in --out fields.vtp");

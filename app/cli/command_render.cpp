@@ -131,10 +131,11 @@ void print_result(const run::RenderJob& job, const run::RenderRun& run,
   std::cout << to_text(json) << "\n";
 }
 
-/// Snow that starts inside colliders: nothing else about the run would show it.
+/// Snow that starts inside colliders or flies past everything: nothing else tells before the run.
 void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Progress& progress) {
   std::vector<health::Finding> findings;
   health::check_collider_overlaps(job.scene, seeded, findings);
+  health::check_meetings(job.scene, seeded, findings);
   for (const health::Finding& finding : findings) {
     job.warnings.push_back(finding.what);
     progress.warning(fmt::format("{}: {}; {}", finding.address, finding.what, finding.hint));
@@ -186,10 +187,10 @@ int run_render(const run::RenderOptions& options) {
   const setup::Plan plan = setup::make_plan(job.scene, job.frames, job.quality, options.threads);
   if (options.dry_run) {
     print_plan(job, plan, options.is_json);
-    setup::check_limits(job.scene, plan);
+    setup::check_limits(job.scene, plan, job.coarsening);
     return exit_ok;
   }
-  setup::check_limits(job.scene, plan);
+  setup::check_limits(job.scene, plan, job.coarsening);
   std::optional<render::Image> reference;
   if (!options.reference.empty()) reference = read_reference(options.reference);
 

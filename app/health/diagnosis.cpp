@@ -9,8 +9,10 @@
 
 #include "app/health/findings.h"
 #include "app/health/softness.h"
+#include "app/scene/coarsen.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/auto_ranges.h"
+#include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
 #include "sim/engine/time_step.h"
 #include "sim/health/diagnostics.h"
@@ -42,15 +44,17 @@ double at_start(Law law) {
 struct Case {
   const scene::Scene& scene;
   const sim::Divergence& d;
+  double coarsening;
   double h;
   bool is_fixed;
   double dt;       ///< of the steps before the end of the frame shortened one
   double stretch;  ///< what semi-implicit steps make of the limits that sound sets; infinite: none
   const sim::Material& material;
 
-  Case(const scene::Scene& s, const sim::Divergence& divergence)
+  Case(const scene::Scene& s, const sim::Divergence& divergence, double coarsened)
       : scene(s),
         d(divergence),
+        coarsening(coarsened),
         h(s.solver.cell_size),
         is_fixed(s.solver.time_step == sim::TimeStep::fixed),
         dt(longest_step()),
@@ -63,6 +67,10 @@ struct Case {
     return longest;
   }
   std::string at(const char* key) const { return "material." + material.name + "." + key; }
+  /// Advice on the fixed step.
+  std::string dt_text(double seconds) const {
+    return scene::setting_text("solver.dt", seconds, coarsening);
+  }
   /// The first remembered step at which sound crossed so many cells; null if none did.
   const sim::StepRecord* sound_beyond(double cells) const {
     for (const sim::StepRecord& step : d.last_steps)
@@ -113,7 +121,7 @@ Hypothesis initial_state(const Case& c) {
 }
 
 Hypothesis units(const Case& c) {
-  const double g = c.scene.solver.gravity.norm(), largest = largest_extent(c.scene);
+  const double g = c.scene.solver.gravity.norm(), largest = setup::largest_extent(c.scene);
   if (g <= cause(Law::gravity) && largest <= cause(Law::extent)) return std::nullopt;
   return Diagnosis{
       Cause::units,
@@ -163,8 +171,7 @@ Hypothesis too_long_at_rest(const Case& c) {
   if (sound < at_start(Law::acoustic_cfl) && speed < at_start(Law::speed_cfl)) return std::nullopt;
   const double holds =
       0.5 * c.h / std::max(c.start_sound() / c.stretch, 1.25 * c.d.start.max_speed);
-  const std::string remedy =
-      fmt::format("solver.dt = {} or time_step = \"adaptive\"", rough_text(holds));
+  const std::string remedy = fmt::format("{} or time_step = \"adaptive\"", c.dt_text(holds));
   if (sound >= speed) {
     const std::string crossed =
         fmt::format("sound runs at {} m/s and crosses {} cells in a step of {} s",
@@ -283,8 +290,8 @@ Hypothesis hardened_beyond_fixed_step(const Case& c) {
           rough_text(step->min_J_P), rough_text(factor), rough_text(c.material.hardening),
           rough_text(c.start_sound()), rough_text(step->max_sound_speed),
           rough_text(step->max_sound_speed * step->dt / c.h)),
-      fmt::format("time_step = \"adaptive\", or solver.dt = {}, or a smaller hardening",
-                  rough_text(0.5 * c.h / step->max_sound_speed)),
+      fmt::format("time_step = \"adaptive\", or {}, or a smaller hardening",
+                  c.dt_text(0.5 * c.h / step->max_sound_speed)),
       "solver.dt"};
 }
 
@@ -371,20 +378,27 @@ Diagnosis unexplained(const Case& c) {
 
 }  // namespace
 
-Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence) {
-  const Case c(scene, divergence);
+Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence,
+                   double coarsening) {
+  const Case c(scene, divergence, coarsening);
   for (const auto hypothesis : {bypass, initial_state, units, raised_limits, too_long_at_rest,
                                 collider_speed, colliders_closing, incompressible,
                                 hardened_beyond_fixed_step, shock, too_soft, hardening, far_flight})
-    if (Hypothesis found = hypothesis(c)) return *found;
-  return unexplained(c);
+    if (Hypothesis found = hypothesis(c)) {
+      found->coarsening = coarsening;
+      return *found;
+    }
+  Diagnosis unknown = unexplained(c);
+  unknown.coarsening = coarsening;
+  return unknown;
 }
 
 std::string sentence(const sim::Divergence& d, const Diagnosis& diagnosis) {
-  // One advice on dt is enough; that of the cause looks at where trouble began.
-  return fmt::format("{}. Cause: {}. Try: {}",
-                     diagnosis.cause == Cause::unexplained ? d.sentence : d.what,
-                     diagnosis.evidence, diagnosis.remedy);
+  // One advice on dt is enough; that of the cause looks at where trouble began. The engine's own is
+  // in seconds of the run, not in those of the scene file.
+  const bool is_engines = diagnosis.cause == Cause::unexplained && diagnosis.coarsening == 1;
+  return fmt::format("{}. Cause: {}. Try: {}", is_engines ? d.sentence : d.what, diagnosis.evidence,
+                     diagnosis.remedy);
 }
 
 }  // namespace neve::app::health

@@ -49,14 +49,17 @@ constexpr auto names(Cause) {
 
 struct Diagnosis {
   Cause cause = Cause::unexplained;
-  std::string evidence;  ///< numbers of this run, a clause
-  std::string remedy;    ///< what to change, a clause
-  std::string address;   ///< of the parameter to change, may be empty
+  std::string evidence;   ///< numbers of this run, a clause
+  std::string remedy;     ///< what to change, a clause
+  std::string address;    ///< of the parameter to change, may be empty
+  double coarsening = 1;  ///< of the run
 };
 
 /// The first cause whose evidence this run shows, from what was wrong before the first step to what
 /// only happened on the way: later trouble is mostly a symptom of earlier one.
-Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence);
+/// @param coarsening done to the scene by --coarsen: a remedy has the numbers that --set takes
+Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence,
+                   double coarsening = 1);
 
 /// For people: step, what the rule saw, evidence and remedy.
 std::string sentence(const sim::Divergence& divergence, const Diagnosis& diagnosis);

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "app/health/point_findings.h"
+#include "app/scene/coarsen.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
@@ -43,10 +44,17 @@ struct Thin {
   double cells;  ///< across its thinnest part
 };
 
-/// All of a kind in one finding, of the thinnest: a warning if it is thinner than `warned` cells.
-/// @param size_per_cell  m, of the cells that would do, for each cell that it is thick
-void report_thin(const std::vector<Thin>& thin, const std::string& bound, const std::string& remedy,
-                 double size_per_cell, double warned, std::vector<Finding>& findings) {
+struct ThinAdvice {
+  std::string bound;     ///< cells that would do, as text
+  std::string remedy;    ///< before the cells that would do
+  double size_per_cell;  ///< m, of those cells, for each cell that it is thick
+  double warned;         ///< cells; a thinner one is a warning
+  double coarsening;     ///< of the scene
+};
+
+/// All of a kind in one finding, of the thinnest.
+void report_thin(const std::vector<Thin>& thin, const ThinAdvice& advice,
+                 std::vector<Finding>& findings) {
   if (thin.empty()) return;
   const auto worst = std::min_element(
       thin.begin(), thin.end(), [](const Thin& a, const Thin& b) { return a.cells < b.cells; });
@@ -57,11 +65,14 @@ void report_thin(const std::vector<Thin>& thin, const std::string& bound, const 
   const std::size_t left = thin.size() - 1 - others.size();
   std::string what = fmt::format("{} is {} cells thick", worst->name, rough_text(worst->cells));
   if (!others.empty())
-    what += fmt::format(" (also under {}: {}{})", bound, joined(others, ", "),
+    what += fmt::format(" (also under {}: {}{})", advice.bound, joined(others, ", "),
                         left > 0 ? fmt::format(" and {} more", left) : "");
   findings.push_back(
-      {worst->cells < warned ? Severity::warning : Severity::note, worst->address + ".shape", what,
-       fmt::format("{}; solver.cell_size = {}", remedy, rough_text(worst->cells * size_per_cell))});
+      {worst->cells < advice.warned ? Severity::warning : Severity::note, worst->address + ".shape",
+       what,
+       advice.remedy + "; " +
+           scene::setting_text("solver.cell_size", worst->cells * advice.size_per_cell,
+                               advice.coarsening)});
 }
 
 void check_material_units(const sim::Material& m, std::vector<Finding>& findings) {
@@ -145,23 +156,23 @@ void check_body_overlaps(const scene::Scene& scene, const setup::SeededScene& se
 void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
                        std::vector<Finding>& findings) {
   const double h = s.cell_size;
-  const auto report = [&](Severity severity, double cfl, const char* what, double holds) {
-    findings.push_back(
-        {severity, "solver.dt",
-         fmt::format("fixed steps of {} s: {} crosses {} cells in a step{}", rough_text(s.dt), what,
-                     rough_text(cfl), severity == Severity::error ? ", the run will diverge" : ""),
-         fmt::format("solver.dt = {} holds, or time_step = \"adaptive\"", rough_text(holds))});
-  };
   // As an explicit step would feel it.
   const double sound_speed = checkup.start.max_sound_speed / sim::engine::acoustic_stretch(s);
-  const double sound = sound_speed * s.dt / h;
-  const double speed = checkup.impact_speed * s.dt / h;
-  if (sound > line(Law::acoustic_cfl))
-    report(sound > limits_of(Law::acoustic_cfl).check_error ? Severity::error : Severity::warning,
-           sound, "sound", line(Law::acoustic_cfl) * h / sound_speed);
-  if (speed > line(Law::speed_cfl))
-    report(speed > limits_of(Law::speed_cfl).check_error ? Severity::error : Severity::warning,
-           speed, "snow at impact", s.cfl * h / checkup.impact_speed);
+  // One step that keeps both limits: the advice of either finding is enough.
+  const double holds = std::min(line(Law::acoustic_cfl) * h / std::max(1e-9, sound_speed),
+                                s.cfl * h / std::max(1e-9, checkup.impact_speed));
+  const auto report = [&](Law law, double cfl, const char* what) {
+    if (!(cfl > line(law))) return;
+    const bool is_error = cfl > limits_of(law).check_error;
+    findings.push_back(
+        {is_error ? Severity::error : Severity::warning, "solver.dt",
+         fmt::format("fixed steps of {} s: {} crosses {} cells in a step{}", rough_text(s.dt), what,
+                     rough_text(cfl), is_error ? ", the run will diverge" : ""),
+         scene::setting_text("solver.dt", holds, checkup.coarsening) +
+             " holds, or time_step = \"adaptive\""});
+  };
+  report(Law::acoustic_cfl, sound_speed * s.dt / h, "sound");
+  report(Law::speed_cfl, checkup.impact_speed * s.dt / h, "snow at impact");
 }
 
 /// Reports the damping of semi-implicit steps: a wave loses beta w^2 dt of its energy per second.
@@ -257,14 +268,7 @@ double thickness(const sim::shapes::Shape& shape) {
   return extent(level).minCoeff();
 }
 
-double largest_extent(const scene::Scene& scene) {
-  double largest = 0;
-  for (const setup::SnowPiece& piece : setup::snow_places(scene))
-    largest = std::max(largest, extent(*piece.shape).maxCoeff());
-  return largest;
-}
-
-void check_units(const scene::Scene& scene, std::vector<Finding>& findings) {
+void check_units(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening) {
   const std::vector<setup::SnowPiece> pieces = setup::snow_places(scene);
   for (const sim::Material& material : scene.materials) {
     const bool is_used =
@@ -278,18 +282,21 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings) {
                         fmt::format("gravity of {} m/s2 is {} times that of the earth",
                                     rough_text(g), rough_text(g / 9.81)),
                         "981 would be cm/s2; lengths are in metres"});
-  const double largest = largest_extent(scene);
-  if (largest > line(Law::extent))
-    findings.push_back(
-        {Severity::warning, pieces.front().address + ".shape",
-         fmt::format("the largest piece of snow is {} m across", rough_text(largest)),
-         fmt::format("lengths are in metres: in centimetres it would be {} m, with "
-                     "solver.cell_size = {}",
-                     rough_text(0.01 * largest),
-                     scene::toml::number_text(0.01 * scene.solver.cell_size))});
+  const double largest = setup::largest_extent(scene), cells = scene.solver.cell_size / coarsening;
+  if (largest <= line(Law::extent)) return;
+  // Cells that are few across the snow are in the same unit as it.
+  constexpr double few = 200;
+  std::string hint = fmt::format("lengths are in metres: in centimetres it would be {} m",
+                                 rough_text(0.01 * largest));
+  if (largest < few * cells)
+    hint += fmt::format(", with solver.cell_size = {}", scene::toml::number_text(0.01 * cells));
+  findings.push_back({Severity::warning, pieces.front().address + ".shape",
+                      fmt::format("the largest piece of snow is {} m across", rough_text(largest)),
+                      hint});
 }
 
-void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings) {
+void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings,
+                      double coarsening) {
   const double h = scene.solver.cell_size;
   // From this thickness on, nodes have hardly any weight on both sides of a wall.
   const double apart = scene.solver.kernel == sim::Kernel::cubic ? 3 : 2.5;
@@ -300,7 +307,7 @@ void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings)
       bodies.push_back(
           {"body." + body.name, display_name("body", body.name), thickness(body.shape) / h});
     if (is_from_points(body)) {
-      check_point_distance(body, h, findings);
+      check_point_distance(body, h, coarsening, findings);
     } else if (body.particles_per_cell < line(Law::particles_per_cell)) {
       findings.push_back({Severity::warning, "body." + body.name + ".particles_per_cell",
                           rough_text(body.particles_per_cell) +
@@ -312,13 +319,17 @@ void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings)
     if (!is_plane(collider.shape) && thickness(collider.shape) < apart * h)
       colliders.push_back({"collider." + collider.name, display_name("collider", collider.name),
                            thickness(collider.shape) / h});
-  report_thin(bodies, "4", "weights reach 2 cells; use at least 6 to show its shape", h / 6, 4,
+  report_thin(
+      bodies,
+      {"4", "weights reach 2 cells; use at least 6 to show its shape", h / 6, 4, coarsening},
+      findings);
+  report_thin(colliders,
+              {rough_text(apart),
+               "if snow lies on both of its sides, what slides on one side drags what lies on the "
+               "other, because nodes reach over less than " +
+                   rough_text(apart) + "; make it thicker",
+               h / apart, coupled, coarsening},
               findings);
-  report_thin(colliders, rough_text(apart),
-              "if snow lies on both of its sides, what slides on one side drags what lies on the "
-              "other, because nodes reach over less than " +
-                  rough_text(apart) + "; make it thicker",
-              h / apart, coupled, findings);
 }
 
 void check_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,

@@ -14,21 +14,22 @@ std::string percent_text(double share);
 /// "ball", or "body 1" of a body that has a number for a name.
 std::string display_name(const std::string& kind, const std::string& name);
 
-/// The longest edge of the boxes around bodies and emitters, m.
-double largest_extent(const scene::Scene& scene);
-
 /// The thinnest part of a shape, m.
 double thickness(const sim::shapes::Shape& shape);
 
 /// Numbers that look like centimetres, grams or kilopascals.
-void check_units(const scene::Scene& scene, std::vector<Finding>& findings);
+/// @param coarsening the N of --coarsen, for advice
+void check_units(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening = 1);
 
 /// Bodies and colliders a few cells thick, too few particles in a cell.
-void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings);
+/// @param coarsening the N of --coarsen, for advice
+void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings,
+                      double coarsening = 1);
 
 /// Emitters that never open, are thinner than particles are apart, or pack more snow than their
 /// velocity, or gravity, carries away.
-void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings);
+void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings,
+                    double coarsening = 1);
 
 /// Sinks that fast snow crosses between two tests. @param speed m/s, of the fastest snow
 void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& findings);
@@ -41,6 +42,13 @@ void check_unused(const scene::Scene& scene, double coarsening, std::vector<Find
 /// Bodies in one another and in colliders, points that weigh too much.
 void check_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
                     std::vector<Finding>& findings);
+
+/// Bodies that meet no collider and no other body, in free flight until the scene ends.
+void check_meetings(const scene::Scene& scene, const setup::SeededScene& seeded,
+                    std::vector<Finding>& findings);
+
+/// Gravity that does not point down, along -y, for the cameras of the scene.
+void check_gravity(const scene::Scene& scene, std::vector<Finding>& findings);
 
 /// Bodies and emitters in colliders.
 void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/health/findings.h"
+#include "app/scene/coarsen.h"
 #include "app/support/text.h"
 #include "sim/shapes/solid.h"
 
@@ -128,8 +129,8 @@ void check_motion(const scene::Scene& scene, const Checkup& checkup,
            fmt::format("{} moves up to {} m/s: {} cells in a step and runs over snow at rest",
                        display_name("collider", collider.name), rough_text(speed),
                        rough_text(cells)),
-           fmt::format("solver.dt = {}, or time_step = \"adaptive\"",
-                       rough_text(0.4 * s.cell_size / speed))});
+           scene::setting_text("solver.dt", 0.4 * s.cell_size / speed, checkup.coarsening) +
+               ", or time_step = \"adaptive\""});
     else if (c > 0 &&
              speed > sim::health::limits_of(sim::health::Law::collider_mach).check_warning * c)
       findings.push_back(

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/health/findings.h"
+#include "app/scene/coarsen.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/text.h"
 #include "sim/seeding/sampling.h"
@@ -31,7 +32,7 @@ double falling_rate(const sim::seeding::Emitter& emitter, const sim::Material& m
 }
 
 void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitter, double end,
-                   std::vector<Finding>& findings) {
+                   double coarsening, std::vector<Finding>& findings) {
   const sim::Material& material = scene.materials[setup::material_index(scene, emitter.material)];
   const std::string at = "emitter." + emitter.name;
   const double h = scene.solver.cell_size;
@@ -43,8 +44,8 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
          fmt::format("{} is {} m thick, thinner than the {} m between particles: the snow comes "
                      "out in single particles",
                      emitter.name, rough_text(thick), rough_text(spacing)),
-         fmt::format("make it thicker, or solver.cell_size = {}",
-                     rough_text(0.25 * thick / spacing * h))});
+         "make it thicker, or " +
+             scene::setting_text("solver.cell_size", 0.25 * thick / spacing * h, coarsening)});
   if (emitter.rate == 0) return;
   const double carried = sim::seeding::carried_rate(emitter, material);
   const double falling = falling_rate(emitter, material, scene.solver.gravity);
@@ -70,7 +71,7 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
 
 }  // namespace
 
-void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings) {
+void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening) {
   const double end = scene.frames / scene.fps;
   for (const sim::seeding::Emitter& emitter : scene.emitters) {
     if (emitter.start >= end && end > 0)
@@ -80,7 +81,7 @@ void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings) {
                                       rough_text(emitter.start), rough_text(end)),
                           "make start earlier, or frames larger"});
     else
-      check_opening(scene, emitter, end, findings);
+      check_opening(scene, emitter, end, coarsening, findings);
   }
 }
 

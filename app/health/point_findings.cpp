@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/health/findings.h"
+#include "app/scene/coarsen.h"
 #include "app/support/text.h"
 
 namespace neve::app::health {
@@ -29,20 +30,22 @@ double particles_in_cell(const sim::seeding::Body& body, double cell_size) {
   return static_cast<double>(plan.particle_count) * std::pow(cell_size, 3) / plan.volume;
 }
 
-void check_point_distance(const sim::seeding::Body& body, double cell_size,
+void check_point_distance(const sim::seeding::Body& body, double cell_size, double coarsening,
                           std::vector<Finding>& findings) {
   const double per_cell = particles_in_cell(body, cell_size);
   const bool is_too_few = per_cell < sim::health::limits_of(Law::particles_per_cell).check_warning;
   if (!is_too_few && per_cell <= max_useful) return;
-  const std::string eight = rough_text(cell_size * std::cbrt(8 / per_cell));
-  findings.push_back({is_too_few ? Severity::warning : Severity::note,
-                      "body." + body.name + ".shape.points",
-                      "the points of " + display_name("body", body.name) + " are " +
-                          rough_text(per_cell) + " in a cell, from their volumes" +
-                          (is_too_few ? ": they leave gaps, and snow breaks at them"
-                                      : ": more than the grid resolves"),
-                      "solver.cell_size = " + eight + " has 8" +
-                          (is_too_few ? "" : ", or thinning = " + rough_text(per_cell / 8))});
+  const std::string eight =
+      scene::setting_text("solver.cell_size", cell_size * std::cbrt(8 / per_cell), coarsening);
+  findings.push_back(
+      {is_too_few ? Severity::warning : Severity::note, "body." + body.name + ".shape.points",
+       "the points of " + display_name("body", body.name) + " are " + rough_text(per_cell) +
+           " in a cell, from their volumes" +
+           (is_too_few ? ": they leave gaps, and snow breaks at them"
+                       : ": more than the grid resolves"),
+       eight + " has 8" +
+           (is_too_few ? ""
+                       : ", or thinning = " + rough_text(per_cell / 8 / std::pow(coarsening, 3)))});
 }
 
 namespace {

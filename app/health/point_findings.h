@@ -15,7 +15,8 @@ bool is_from_points(const sim::seeding::Body& body);
 double particles_in_cell(const sim::seeding::Body& body, double cell_size);
 
 /// Points that are too far apart for the cells, or needlessly close.
-void check_point_distance(const sim::seeding::Body& body, double cell_size,
+/// @param coarsening the N of --coarsen, for advice
+void check_point_distance(const sim::seeding::Body& body, double cell_size, double coarsening,
                           std::vector<Finding>& findings);
 
 /// Points that weigh where they lie something else than their material says: masses, volumes and

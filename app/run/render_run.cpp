@@ -292,7 +292,7 @@ void RenderRun::note_retries(const std::vector<sim::Retry>& retries) {
 /// no frames. The report first: pictures of a broken state are the more delicate part.
 void RenderRun::report_incident() {
   const sim::Divergence& divergence = *record_.divergence;
-  const health::Diagnosis diagnosis = health::diagnose(scene_, divergence);
+  const health::Diagnosis diagnosis = health::diagnose(scene_, divergence, job_.coarsening);
   result_.diagnosis = diagnosis;
   record_.cause = scene::name(diagnosis.cause);
   const Json incident =

@@ -44,6 +44,17 @@ std::string text_below(double x) {
   return fixed_text(std::floor(100 * x) / 100, 2);
 }
 
+/// Points that one stands for, and lengths and times of the solver, in a scene with cells `factor`
+/// times as large.
+void scale_settings(Scene& scene, double factor) {
+  for (sim::seeding::Body& body : scene.bodies)
+    if (auto* points = std::get_if<sim::shapes::Points>(&body.shape.form))
+      points->thinning = tidy(points->thinning * factor * factor * factor);
+  sim::SolverSettings& s = scene.solver;
+  for (double* grows : {&s.cell_size, &s.dt, &s.max_dt}) *grows = tidy(*grows * factor);
+  if (s.flip_reference_dt == 0) s.flip_ratio = tidy(std::pow(s.flip_ratio, factor));
+}
+
 void refuse_empty_bodies(const Scene& scene, double factor) {
   for (const sim::seeding::Body& body : scene.bodies) {
     const double full = sim::seeding::expected_particles(body, scene.solver.cell_size);
@@ -62,14 +73,19 @@ void coarsen(Scene& scene, double factor) {
                            "expected a number of at least 1, as in --coarsen 2");
   if (factor == 1) return;
   refuse_empty_bodies(scene, factor);
-  for (sim::seeding::Body& body : scene.bodies)
-    if (auto* points = std::get_if<sim::shapes::Points>(&body.shape.form))
-      points->thinning = tidy(points->thinning * factor * factor * factor);
-  sim::SolverSettings& s = scene.solver;
-  for (double* grows : {&s.cell_size, &s.dt, &s.max_dt}) *grows = tidy(*grows * factor);
-  if (s.flip_reference_dt == 0) s.flip_ratio = tidy(std::pow(s.flip_ratio, factor));
+  scale_settings(scene, factor);
   RangeCheck check{factor};
-  describe(check, s);
+  describe(check, scene.solver);
+}
+
+void refine_settings(Scene& scene, double factor) {
+  if (factor > 1) scale_settings(scene, 1 / factor);
+}
+
+std::string setting_text(const std::string& address, double value, double factor) {
+  const std::string text = address + " = " + rough_text(value / factor);
+  return factor > 1 ? text + " (" + argument(factor) + " makes it " + rough_text(value) + ")"
+                    : text;
 }
 
 std::string coarsening_text(double factor) {

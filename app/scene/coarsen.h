@@ -14,6 +14,14 @@ namespace neve::app::scene {
 ///         range, or leaves a body without a particle
 void coarsen(Scene& scene, double factor);
 
+/// The scene with the numbers that its file and --set take, for panels and messages: coarsen with
+/// the same factor gives it back, within rounding.
+void refine_settings(Scene& scene, double factor);
+
+/// "solver.dt = 0.00068": advice on a length of cells or steps, in the numbers that --set takes. A
+/// factor above 1 is told: "solver.dt = 0.00034 (--coarsen 2 makes it 0.00068)".
+std::string setting_text(const std::string& address, double value, double factor);
+
 /// "2x", "1.5x"
 std::string coarsening_text(double factor);
 

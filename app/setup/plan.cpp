@@ -6,12 +6,16 @@
 #include <limits>
 
 #include "app/output/picture_writer.h"
+#include "app/scene/coarsen.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/mosaic_layout.h"
 #include "app/setup/seed_scene.h"
+#include "app/setup/snow_pieces.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
+#include "app/support/round_number.h"
 #include "app/support/text.h"
+#include "sim/health/limits.h"
 #include "sim/simulation.h"
 #include "sim/types/number_text.h"
 
@@ -54,6 +58,30 @@ std::uint64_t whole_bytes(double bytes) {
 
 std::string count_text(double count) {
   return count < 1e15 ? fixed_text(count, 0) : sim::number_text(count);
+}
+
+/// Cells so much larger that a limit is kept, as --set takes them.
+/// @param excess  of the particles over those that the limit allows
+std::string fitting_cells(const scene::Scene& scene, double excess, double coarsening) {
+  const double cells = scene.solver.cell_size * std::cbrt(excess);
+  return scene::setting_text("solver.cell_size", round_up(cells / coarsening) * coarsening,
+                             coarsening) +
+         " keeps it";
+}
+
+/// Advice on too much snow for a limit. Numbers that look like centimetres come first; a limit that
+/// this machine has no memory for is never proposed.
+/// @param raised  setting that raises the limit
+std::string size_advice(const scene::Scene& scene, const Plan& plan, const std::string& raised,
+                        double excess, double coarsening) {
+  const std::string fitting = fitting_cells(scene, excess, coarsening);
+  const double largest = largest_extent(scene);
+  if (largest > sim::health::limits_of(sim::health::Law::extent).check_warning)
+    return "the largest piece of snow is " + rough_text(largest) +
+           " m across: lengths are in metres, and in centimetres it would be " +
+           rough_text(0.01 * largest) + " m. If metres are meant, " + fitting;
+  const bool is_possible = plan.memory <= available_memory();
+  return (is_possible ? "raise it with --set " + raised + ", or " : std::string()) + fitting;
 }
 
 }  // namespace
@@ -119,18 +147,17 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
   return plan;
 }
 
-void check_limits(const scene::Scene& scene, const Plan& plan) {
+void check_limits(const scene::Scene& scene, const Plan& plan, double coarsening) {
   const auto refuse = [](const std::string& what, const char* address, const std::string& hint) {
     throw LimitError("refused: " + what + "; " + hint, address, hint);
   };
   if (plan.particles > static_cast<double>(scene.limits.particles))
-    refuse("about " + count_text(plan.particles) + " particles are more than limits.particles = " +
-               std::to_string(scene.limits.particles),
-           "limits.particles",
-           (plan.particles < 1e12 ? "raise it with --set limits.particles=" +
-                                        count_text(std::ceil(plan.particles * 1.1)) + ", or "
-                                  : std::string()) +
-               "make solver.cell_size larger");
+    refuse(
+        "about " + count_text(plan.particles) +
+            " particles are more than limits.particles = " + std::to_string(scene.limits.particles),
+        "limits.particles",
+        size_advice(scene, plan, "limits.particles=" + count_text(std::ceil(plan.particles * 1.1)),
+                    plan.particles / static_cast<double>(scene.limits.particles), coarsening));
   if (plan.largest_picture > static_cast<double>(scene.limits.pixels))
     refuse("a picture of " + count_text(plan.largest_picture) +
                " pixels (supersamples included) is more than limits.pixels = " +
@@ -143,8 +170,9 @@ void check_limits(const scene::Scene& scene, const Plan& plan) {
                " of memory are more than limits.memory = " + bytes_text(plan.memory_limit) +
                (scene.limits.memory > 0 ? "" : ", 80 % of the available memory"),
            "limits.memory",
-           "raise it with --set limits.memory=" + std::to_string(plan.memory) +
-               ", or make solver.cell_size larger");
+           size_advice(scene, plan, "limits.memory=" + std::to_string(plan.memory),
+                       static_cast<double>(plan.memory) / static_cast<double>(plan.memory_limit),
+                       coarsening));
   if (address_space_limit() < plan.memory + driver_address_space)
     refuse("about " + bytes_text(plan.memory + driver_address_space) +
                " of address space are needed, including drivers; ulimit -v allows " +

@@ -38,8 +38,9 @@ scene::PictureSize size_of(const scene::Scene& scene, const scene::View& view);
 /// @throws sim::ShapeError for meshes that cannot be read
 Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality quality, int threads);
 
-/// @throws LimitError naming the limit and how to raise it
-void check_limits(const scene::Scene& scene, const Plan& plan);
+/// @param coarsening of --coarsen, for advice
+/// @throws LimitError naming the limit and how to keep it, or to raise it where this machine can
+void check_limits(const scene::Scene& scene, const Plan& plan, double coarsening = 1);
 
 Json to_json(const Plan& plan);
 

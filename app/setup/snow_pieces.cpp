@@ -53,6 +53,15 @@ std::vector<SnowPiece> snow_pieces(const scene::Scene& scene) {
   return pieces;
 }
 
+double largest_extent(const scene::Scene& scene) {
+  double largest = 0;
+  for (const SnowPiece& piece : snow_places(scene)) {
+    const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
+    largest = std::max(largest, (box.max - box.min).maxCoeff());
+  }
+  return largest;
+}
+
 double planned_emission(const scene::Scene& scene, double time) {
   double count = 0;
   for (const sim::seeding::Emitter& emitter : scene.emitters)

@@ -25,6 +25,9 @@ std::vector<SnowPiece> snow_pieces(const scene::Scene& scene);
 /// The same without the values that need a file to be read: volume, particles and mass stay 0.
 std::vector<SnowPiece> snow_places(const scene::Scene& scene);
 
+/// The longest edge of the boxes around bodies and emitters, m.
+double largest_extent(const scene::Scene& scene);
+
 /// Particles of all emitters until a time, s.
 double planned_emission(const scene::Scene& scene, double time);
 

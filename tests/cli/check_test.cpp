@@ -45,8 +45,11 @@ TEST_F(Check, CheckNamesEachMistake) {
             "error solver.dt");
   EXPECT_EQ(findings(scene("time_step = \"fixed\"\ndt = 5e-4", floor_plane)),
             Findings{"warning solver.dt"});
-  EXPECT_EQ(findings(scene("flip_reference_dt = 0")), Findings{"warning solver.flip_reference_dt"});
-  EXPECT_EQ(findings(scene("", "[material.snow]\ndensity = 0.4\n")),
+  const auto with_floor = [&](const std::string& solver, const std::string& more) {
+    return findings(scene(solver, floor_plane + more));
+  };
+  EXPECT_EQ(with_floor("flip_reference_dt = 0", ""), Findings{"warning solver.flip_reference_dt"});
+  EXPECT_EQ(with_floor("", "[material.snow]\ndensity = 0.4\n"),
             Findings{"warning material.snow.density"});
   EXPECT_EQ(findings(scene("", "[material.snow]\nyoungs_modulus = 140\n")).at(0),
             "warning material.snow.youngs_modulus");
@@ -68,7 +71,8 @@ TEST_F(Check, CheckNamesEachMistake) {
             "warning emitter.well.shape");
   const auto ram_to = [](const std::string& y) {
     return std::string(floor_plane) +
-           "[[collider]]\nname = \"ram\"\nshape = { box = { center = [1, 1, 1] } }\n"
+           "[[collider]]\nname = \"ram\"\nshape = { box = { center = [1, 1, 1], size = [0.2, 0.2, "
+           "0.2] } }\n"
            "keyframes = [{ time = 0 }, { time = 0.05, position = [1, " +
            y + ", 1] }]\n";
   };
@@ -106,12 +110,115 @@ TEST_F(Check, CheckNamesParametersWithoutEffect) {
   EXPECT_EQ(with("[[emitter]]\nshape = { box = { center = [1, 0.5, 0], size = [0.1, 0.1, 0.1] } }\n"
                  "[[sink]]\nshape = { box = { center = [1.5, 0.5, 0], size = [1, 1, 1] } }\n"),
             Findings{"warning emitter.1.shape"});
-  EXPECT_EQ(with("[[collider]]\nname = \"lid\"\nshape = { box = { center = [1, 1, 1] } }\n"
+  EXPECT_EQ(with("[[collider]]\nname = \"lid\"\nshape = { box = { center = [1, 1, 1], size = [0.2, "
+                 "0.2, 0.2] } }\n"
                  "keyframes = [{ time = 0 }, { time = 9, position = [1, 1.2, 1] }]\n"),
             Findings{"warning collider.lid.keyframes"});
   EXPECT_EQ(with("[[view]]\nname = \"side\"\n[view.slice]\nisolines = 6\n"),
             Findings{"warning view.side.slice"});
   EXPECT_EQ(with("[[view]]\nname = \"slice\"\n[view.slice]\nisolines = 6\n"), Findings{});
+}
+
+TEST_F(Check, CheckFindsSnowThatMeetsNothing) {
+  EXPECT_EQ(findings(scene("", "")), Findings{"warning body.ball"});
+  const std::string wall =
+      "[[collider]]\nname = \"wall\"\nshape = { box = { center = [0.3, 0, 0], size = [0.1, 0.6, "
+      "0.6] } }\n";
+  EXPECT_EQ(findings(scene("", wall)), Findings{"warning body.ball"});
+  const auto text = neve({"check", "scene.toml"});
+  EXPECT_TRUE(contains(text.output, "nearest is wall, 0.177 m away at 0 s")) << text.output;
+  EXPECT_EQ(findings(scene("", wall), 0).size(), 1u);
+  // Thrown at it, the ball meets it.
+  folder.write("scene.toml", scene("", wall));
+  EXPECT_FALSE(
+      contains(neve({"check", "scene.toml", "--set", "body.ball.velocity=[3, 1, 0]"}).output,
+               "meets nothing"));
+  // A ball that only meets the other one, which rests on the floor, and one that flies over it.
+  const std::string pile = floor_plane + std::string(
+                                             "[[body]]\nname = \"pile\"\nshape = { cone = { center "
+                                             "= [1, 0.1, 0], radius = 0.2, height = "
+                                             "0.2 } }\n");
+  folder.write("scene.toml", scene("", pile));
+  const std::vector<std::string> flat{"check", "scene.toml", "--set",
+                                      "body.ball.velocity=[9, 0, 0]"};
+  EXPECT_FALSE(contains(neve(flat).output, "meets nothing"));
+  const std::vector<std::string> high{"check", "scene.toml", "--set",
+                                      "body.ball.velocity=[9, 5, 0]"};
+  EXPECT_TRUE(contains(neve(high).output,
+                       "ball meets nothing until the scene ends, at 0.25 s; "
+                       "nearest is"));
+  // neve render says it too, before it starts.
+  const auto render = neve({"render", "scene.toml", "--set", "body.ball.velocity=[9, 5, 0]",
+                            "--frames", "0", "--size", "64x36"});
+  EXPECT_TRUE(contains(render.errors, "ball meets nothing")) << render.errors;
+  EXPECT_EQ(json_of("out/scene/run.json")["warnings"].size(), 1u);
+}
+
+TEST_F(Check, CheckFindsGravityThatIsNotDown) {
+  EXPECT_EQ(findings(scene("gravity = [0, 0, -9.81]", floor_plane)).at(0),
+            "warning solver.gravity");
+  EXPECT_EQ(findings(scene("gravity = [0, 9.81, 0]", "")).at(0), "warning solver.gravity");
+  EXPECT_EQ(findings(scene("gravity = [0, -9.81, 0]", floor_plane)), Findings{});
+  // A slope, and a scene that says where up is.
+  EXPECT_EQ(findings(scene("gravity = [5, -8.4, 0]", floor_plane)), Findings{});
+  EXPECT_EQ(findings(scene("gravity = [0, 0, -9.81]",
+                           "[camera]\nup = [0, 0, 1]\n[[collider]]\nname = \"floor\"\nshape = { "
+                           "plane = { point = [0, 0, 0], normal = [0, 0, 1] } }\n"))
+                .size(),
+            1u);  // of the ball in the floor
+}
+
+/// Under --coarsen the number that is proposed is the one to type.
+TEST_F(Check, AdviceIsInTheNumbersThatSetTakes) {
+  folder.write("scene.toml", scene("", floor_plane));
+  const std::vector<std::string> coarse{"--coarsen", "2", "--set", "solver.time_step=fixed"};
+  const auto run = [&](const char* command, const std::string& dt) {
+    std::vector<std::string> words{command, "scene.toml", "--set", "solver.dt=" + dt};
+    words.insert(words.end(), coarse.begin(), coarse.end());
+    if (std::string_view(command) == "render")
+      for (const char* word : {"--size", "64x36", "--frames", "2", "--no-movie"})
+        words.emplace_back(word);
+    return neve(words);
+  };
+  const auto advice_in = [](const std::string& text) {
+    const std::string before = "solver.dt = ";
+    const std::size_t at = text.rfind(before);
+    EXPECT_NE(at, std::string::npos) << text;
+    const std::string rest = text.substr(at + before.size());
+    EXPECT_TRUE(contains(rest, "(--coarsen 2 makes it ")) << text;
+    return rest.substr(0, rest.find(' '));
+  };
+  const auto diverged = run("render", "4e-3");
+  ASSERT_EQ(diverged.exit_code, 5) << diverged.errors;
+  const auto mended = run("render", advice_in(diverged.errors));
+  EXPECT_EQ(mended.exit_code, 0) << mended.errors;
+  EXPECT_FALSE(contains(mended.errors, "acoustic CFL")) << mended.errors;
+  const auto check = run("check", "4e-3");
+  EXPECT_EQ(check.exit_code, 9) << check.output;
+  const auto fine = run("check", advice_in(check.output));
+  EXPECT_FALSE(contains(fine.output, "fixed steps")) << fine.output;
+  // Cells too.
+  const auto thin = neve(
+      {"check", "scene.toml", "--coarsen", "2", "--set", "body.ball.shape.sphere.radius=0.03"});
+  EXPECT_TRUE(contains(thin.output, "solver.cell_size = 0.005 (--coarsen 2 makes it 0.01)"))
+      << thin.output;
+}
+
+TEST_F(Check, CentimetresAreToldBeforeALimitSpeaks) {
+  folder.write("cm.toml",
+               "[solver]\ncell_size = 0.04\n[[body]]\nshape = { sphere = { center = [0, 30, 0], "
+               "radius = 15 } }\n");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"check", "cm.toml"},
+                                                {"render", "cm.toml"},
+                                                {"render", "cm.toml", "--dry-run"}}) {
+    const auto result = neve(words);
+    EXPECT_EQ(result.exit_code, 8) << result.errors;
+    EXPECT_TRUE(contains(result.errors,
+                         "the largest piece of snow is 30 m across: lengths are in "
+                         "metres, and in centimetres it would be 0.3 m"))
+        << result.errors;
+    EXPECT_FALSE(contains(result.errors, "raise it")) << result.errors;
+  }
 }
 
 TEST_F(Check, CheckJoinsEqualFindingsOfManyBodies) {

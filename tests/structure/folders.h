@@ -50,7 +50,7 @@ inline constexpr Folder folders[] = {
      "app/scene/toml"},
     {"app/output", "sim/base sim/types sim sim/checks render/image app/support"},
     {"app/setup",
-     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/engine sim app/support "
+     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health sim/engine sim app/support "
      "app/scene/toml app/scene app/output"},
     {"app/health",
      "sim/base sim/types sim/shapes sim/seeding sim/health sim/engine sim app/support "

@@ -22,6 +22,7 @@ namespace neve::app::view::session {
 
 struct SessionOptions {
   int threads = 0;                ///< 0: one per core
+  double coarsening = 1;          ///< of --coarsen, for advice
   std::uint64_t kept_budget = 0;  ///< bytes of kept frames; 0: a quarter of the free memory
 };
 

@@ -16,7 +16,7 @@ constexpr int sampling_share = 20;
 void Session::start(const std::shared_ptr<const scene::Scene>& scene) {
   const setup::Plan plan =
       setup::make_plan(*scene, {0, scene->frames}, setup::Quality::preview, options_.threads);
-  setup::check_limits(*scene, plan);
+  setup::check_limits(*scene, plan, options_.coarsening);
   auto seeded = std::make_shared<setup::SeededScene>(setup::seed_scene(*scene));
   auto simulation = std::make_unique<sim::Simulation>(
       setup::make_simulation(*scene, seeded->particles, options_.threads));
@@ -128,7 +128,7 @@ void Session::advance() {
   advance_.append(report);
   if (simulation_->divergence()) {
     note_sample();
-    diagnosis_ = health::diagnose(scene(), *simulation_->divergence());
+    diagnosis_ = health::diagnose(scene(), *simulation_->divergence(), options_.coarsening);
     goal_ = Goal::none;
     return;
   }

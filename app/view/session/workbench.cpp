@@ -51,7 +51,13 @@ Workbench::Workbench(Document document, WorkbenchOptions options, std::function<
     : document_(std::move(document)),
       options_(std::move(options)),
       file_time_(time_of(document_.file())),
-      session_(std::make_unique<Session>(document_.scene(), options_.session, std::move(wake))) {}
+      session_(std::make_unique<Session>(document_.scene(), session_options(), std::move(wake))) {}
+
+SessionOptions Workbench::session_options() const {
+  SessionOptions options = options_.session;
+  options.coarsening = document_.coarsening();
+  return options;
+}
 
 std::vector<std::string> Workbench::overrides() const {
   std::vector<std::string> all = options_.overrides;

@@ -82,6 +82,7 @@ class Workbench {
   std::uint64_t errors_said() const { return errors_said_; }
 
  private:
+  SessionOptions session_options() const;
   void take_over(const std::vector<scene::Override>& before);
   std::vector<std::string> changed_while_running() const;
   void apply_running();

@@ -1,0 +1,236 @@
+/// Findings about the flight of the snow: what it meets, and where down is.
+
+#include <fmt/core.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "app/health/findings.h"
+#include "app/support/text.h"
+
+namespace neve::app::health {
+
+namespace {
+
+using sim::Vec3d;
+
+constexpr double never_met = std::numeric_limits<double>::infinity();
+/// Particles of a body that stand for all of them.
+constexpr std::size_t max_sampled = 400;
+constexpr int least_looks = 24, most_looks = 240;
+
+struct Box {
+  Vec3d min = Vec3d::Constant(never_met), max = Vec3d::Constant(-never_met);
+  void add(const Vec3d& x) {
+    min = min.cwiseMin(x);
+    max = max.cwiseMax(x);
+  }
+  /// From face to face; 0 where they overlap.
+  double distance_to(const Vec3d& low, const Vec3d& high) const {
+    return (low - max).cwiseMax(min - high).cwiseMax(Vec3d::Zero()).norm();
+  }
+};
+
+/// A body in free flight until it meets a collider; there it stays.
+class Flight {
+ public:
+  Flight(const scene::Scene& scene, const setup::SeededScene& seeded, std::size_t index)
+      : body_(&scene.bodies[index]), gravity_(scene.solver.gravity) {
+    const std::size_t first = seeded.body_begin(index), end = seeded.body_end[index];
+    const std::size_t stride = (end - first) / max_sampled + 1;
+    for (std::size_t p = first; p < end; p += stride) start_.push_back(seeded.particles.x[p]);
+    center_ = sim::shapes::center(body_->shape);
+    for (const Vec3d& x : start_) box_.add(x);
+    const double volume = (box_.max - box_.min).prod();
+    spacing_ = start_.empty() ? 0 : std::cbrt(volume / static_cast<double>(start_.size()));
+  }
+
+  const sim::seeding::Body& body() const { return *body_; }
+  bool is_empty() const { return start_.empty(); }
+  /// m, between the particles that are looked at.
+  double spacing() const { return spacing_; }
+  bool moves() const {
+    return gravity_.norm() > 0 || body_->velocity.norm() > 0 || body_->angular_velocity.norm() > 0;
+  }
+  /// m/s, at the end of a flight.
+  double speed_at(double time) const { return (body_->velocity + time * gravity_).norm(); }
+  /// m
+  double size() const { return (box_.max - box_.min).norm(); }
+
+  double stopped = never_met;  ///< s; at a collider
+
+  std::vector<Vec3d> at(double time, Box& box) const {
+    const double t = std::min(time, stopped);
+    const Vec3d& spin = body_->angular_velocity;
+    const sim::Mat3d turn =
+        spin.norm() > 0 ? Eigen::AngleAxisd(spin.norm() * t, spin.normalized()).toRotationMatrix()
+                        : sim::Mat3d::Identity();
+    const Vec3d moved = center_ + t * body_->velocity + 0.5 * t * t * gravity_;
+    std::vector<Vec3d> places;
+    places.reserve(start_.size());
+    for (const Vec3d& x : start_) {
+      places.push_back(moved + turn * (x - center_));
+      box.add(places.back());
+    }
+    return places;
+  }
+
+ private:
+  const sim::seeding::Body* body_;
+  Vec3d gravity_, center_;
+  double spacing_ = 0;
+  std::vector<Vec3d> start_;
+  Box box_;
+};
+
+/// The nearest that something came to a body, and when.
+struct Nearest {
+  double distance = never_met, time = 0;
+  std::string name;
+  void note(double other, double when, const std::string& who) {
+    if (other < distance) distance = other, time = when, name = who;
+  }
+};
+
+double distance_to(const sim::shapes::Collider& collider, double time, const Box& box,
+                   const std::vector<Vec3d>& places, double reach) {
+  if (!std::holds_alternative<sim::shapes::Plane>(collider.shape.form)) {
+    const sim::shapes::Bounds bounds = sim::shapes::bounds_at(collider, time);
+    const double apart = box.distance_to(bounds.min, bounds.max);
+    if (apart > reach) return apart;
+  }
+  double least = never_met;
+  for (const Vec3d& x : places)
+    least = std::min(least, sim::shapes::surface_at(collider, time, x).distance);
+  return least;
+}
+
+double distance_between(const std::vector<Vec3d>& a, const Box& box_a, const std::vector<Vec3d>& b,
+                        const Box& box_b, double reach) {
+  const double apart = box_a.distance_to(box_b.min, box_b.max);
+  if (apart > reach) return apart;
+  double least = never_met;
+  for (const Vec3d& x : a)
+    for (const Vec3d& y : b) least = std::min(least, (x - y).squaredNorm());
+  return std::sqrt(least);
+}
+
+/// Times at which bodies are looked at: none crosses another between two.
+std::vector<double> times_of(const std::vector<Flight>& flights, double end) {
+  double looks = least_looks;
+  for (const Flight& flight : flights)
+    looks = std::max(looks, 3 * flight.speed_at(end) * end / std::max(1e-6, flight.size()));
+  const int count = static_cast<int>(std::min<double>(looks, most_looks));
+  std::vector<double> times;
+  for (int k = 0; k <= count; ++k) times.push_back(end * k / count);
+  return times;
+}
+
+/// How far one may be from the next and still touch it: snow reaches over cells, and colliders are
+/// crossed between two looks.
+double reach_of(const scene::Scene& scene, const Flight& flight, double time, double between) {
+  return scene.solver.cell_size + 0.5 * flight.spacing() + 0.5 * flight.speed_at(time) * between;
+}
+
+void fly_to_colliders(const scene::Scene& scene, const std::vector<double>& times, Flight& flight,
+                      Nearest& nearest) {
+  const double between = times.size() > 1 ? times[1] - times[0] : 0;
+  for (const double time : times) {
+    Box box;
+    const std::vector<Vec3d> places = flight.at(time, box);
+    const double reach = reach_of(scene, flight, time, between);
+    for (const sim::shapes::Collider& collider : scene.colliders) {
+      const double distance = distance_to(collider, time, box, places, reach);
+      nearest.note(distance, time, display_name("collider", collider.name));
+      if (distance > reach) continue;
+      flight.stopped = time;
+      return;
+    }
+  }
+}
+
+/// True if another body is met.
+bool fly_past_bodies(const scene::Scene& scene, const std::vector<double>& times,
+                     const std::vector<Flight>& flights, const Flight& flight, Nearest& nearest) {
+  const double between = times.size() > 1 ? times[1] - times[0] : 0;
+  for (const double time : times) {
+    Box box;
+    const std::vector<Vec3d> places = flight.at(time, box);
+    for (const Flight& other : flights) {
+      if (&other == &flight || other.is_empty()) continue;
+      Box other_box;
+      const std::vector<Vec3d> other_places = other.at(time, other_box);
+      const double reach = reach_of(scene, flight, time, between) + other.spacing();
+      const double distance = distance_between(places, box, other_places, other_box, reach);
+      nearest.note(distance, time, display_name("body", other.body().name));
+      if (distance <= reach) return true;
+    }
+  }
+  return false;
+}
+
+constexpr const char* floor_advice =
+    "a floor is [[collider]] with shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }";
+
+Finding free_fall(const Flight& flight, const Nearest& nearest, double end) {
+  const std::string name = display_name("body", flight.body().name);
+  if (nearest.name.empty())
+    return {Severity::warning, "body." + flight.body().name,
+            fmt::format("nothing stops {}: it flies freely and has {} m/s when the scene ends, at "
+                        "{} s",
+                        name, rough_text(flight.speed_at(end)), rough_text(end)),
+            floor_advice};
+  return {Severity::warning, "body." + flight.body().name,
+          fmt::format("{} meets nothing until the scene ends, at {} s; nearest is {}, {} m away at "
+                      "{} s",
+                      name, rough_text(end), nearest.name, rough_text(nearest.distance),
+                      rough_text(nearest.time)),
+          "change its place or velocity, make frames larger, or put something in its way"};
+}
+
+}  // namespace
+
+void check_meetings(const scene::Scene& scene, const setup::SeededScene& seeded,
+                    std::vector<Finding>& findings) {
+  const double end = scene.frames / scene.fps;
+  // A stream of snow fills the way of others.
+  if (end <= 0 || !scene.emitters.empty()) return;
+  std::vector<Flight> flights;
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) flights.emplace_back(scene, seeded, k);
+  const std::vector<double> times = times_of(flights, end);
+  std::vector<Nearest> nearest(flights.size());
+  for (std::size_t k = 0; k < flights.size(); ++k)
+    if (!flights[k].is_empty()) fly_to_colliders(scene, times, flights[k], nearest[k]);
+  for (std::size_t k = 0; k < flights.size(); ++k) {
+    const Flight& flight = flights[k];
+    if (flight.is_empty() || !flight.moves() || flight.stopped < never_met) continue;
+    if (fly_past_bodies(scene, times, flights, flight, nearest[k])) continue;
+    findings.push_back(free_fall(flight, nearest[k], end));
+  }
+}
+
+void check_gravity(const scene::Scene& scene, std::vector<Finding>& findings) {
+  const Vec3d& g = scene.solver.gravity;
+  if (g.norm() == 0) return;
+  const Vec3d up =
+      scene.camera ? scene.camera->up.normalized() : scene::CameraSettings{}.up.normalized();
+  // A slope may be made by tilted gravity.
+  constexpr double steepest = 0.5;
+  if (-g.dot(up) > steepest * g.norm()) return;
+  int axis = 0;
+  g.cwiseAbs().maxCoeff(&axis);
+  const std::string along = std::string(g[axis] < 0 ? "-" : "+") + "xyz"[axis];
+  findings.push_back(
+      {Severity::warning, "solver.gravity",
+       fmt::format("gravity points along {}, and up is {} in the pictures", along,
+                   up.isApprox(Vec3d::UnitY()) ? "+y" : "another way"),
+       axis == 1 ? "on earth it is [0, -9.81, 0]"
+                 : fmt::format("turn the scene so that y is up and gravity = [0, {}, 0], or set "
+                               "camera.up",
+                               rough_text(-g.norm()))});
+}
+
+}  // namespace neve::app::health
