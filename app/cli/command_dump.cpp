@@ -1,6 +1,8 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <iostream>
 
 #include "app/cli/commands.h"
@@ -11,6 +13,7 @@
 #include "app/output/atomic_file.h"
 #include "app/run/render_job.h"
 #include "app/run/run_json.h"
+#include "app/run/walk.h"
 #include "app/scene/names.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/seed_scene.h"
@@ -21,37 +24,6 @@
 namespace neve::app::cli {
 
 namespace {
-
-bool is_broken(const sim::Simulation& simulation) {
-  return simulation.divergence() || is_interrupted();
-}
-
-/// Takes the run's own steps: the state is one that the run passes through, before the step that
-/// contains the time.
-/// @return the end of the frame that the time is in, s
-double run_to(double at, double fps, sim::Simulation& simulation, Progress& progress) {
-  const int last = static_cast<int>(std::floor(at * fps * (1 + 1e-12)));
-  progress.start(last);
-  for (int frame = 1; frame <= last && !is_broken(simulation); ++frame) {
-    simulation.advance_to(frame / fps, [&] {
-      progress.step();
-      return is_interrupted();
-    });
-    progress.frame(frame, frame / fps);
-  }
-  const double frame_end = (last + 1) / fps;
-  const auto end_of_next_step = [&] {
-    return simulation.time() + simulation.choose_dt(frame_end - simulation.time()).dt;
-  };
-  const bool is_between = at > simulation.time() * (1 + 1e-12);
-  if (is_between && !is_broken(simulation) && end_of_next_step() <= at)
-    simulation.advance_to(frame_end, [&] {
-      progress.step();
-      return is_interrupted() || end_of_next_step() > at * (1 + 1e-12);
-    });
-  progress.clear();
-  return frame_end;
-}
 
 std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOptions& options,
                                  const dump::StepInspection& inside, const dump::Listing& listing) {
@@ -121,31 +93,90 @@ Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
   return json;
 }
 
-void print_dump(const run::RenderJob& job, const dump::DumpOptions& options,
-                const dump::StepInspection& inside, const dump::Listing& listing) {
-  std::vector<std::size_t> probed;
-  for (const dump::Probe& probe : options.probes)
-    probed.push_back(probed_row(inside, listing, probe));
+/// The text of one moment that is no JSON.
+std::string dump_text(const run::RenderJob& job, const dump::DumpOptions& options,
+                      const dump::StepInspection& inside, const dump::Listing& listing,
+                      const std::vector<std::size_t>& probed) {
   const std::vector<std::string> head = heading(job, options, inside, listing);
-  std::string text;
-  if (options.run.is_json) {
-    text = to_text(dump_json(job, options, inside, listing, probed)) + "\n";
-  } else if (!probed.empty()) {
+  if (!probed.empty()) {
+    std::string text;
     for (const std::string& line : head) text += line + "\n";
     for (const std::size_t row : probed) {
       text += "\n";
       for (const std::string& line : dump::probe_lines(listing, row)) text += line + "\n";
     }
-  } else {
-    text = options.format == dump::DumpFormat::vtk ? dump::to_vtk(listing)
-                                                   : dump::to_table(listing, head);
+    return text;
   }
-  if (options.file.empty()) {
-    std::cout << text;
+  return options.format == dump::DumpFormat::vtk ? dump::to_vtk(listing)
+                                                 : dump::to_table(listing, head);
+}
+
+/// "fields_0002.vtp" for "fields.vtp".
+std::filesystem::path numbered(const std::filesystem::path& file, std::size_t number) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "_%04zu", number);
+  return file.parent_path() / (file.stem().string() + digits + file.extension().string());
+}
+
+/// Collects the moments that are asked for, and puts them where they are wanted.
+class DumpOutput {
+ public:
+  DumpOutput(const run::RenderJob& job, const dump::DumpOptions& options)
+      : job_(job), options_(options) {}
+
+  void add(const dump::StepInspection& inside, const dump::Listing& listing) {
+    std::vector<std::size_t> probed;
+    for (const dump::Probe& probe : options_.probes)
+      probed.push_back(probed_row(inside, listing, probe));
+    if (options_.run.is_json) {
+      list_.push_back(dump_json(job_, options_, inside, listing, probed));
+      return;
+    }
+    put(dump_text(job_, options_, inside, listing, probed));
+  }
+
+  void finish() {
+    if (options_.run.is_json) {
+      const std::string text = to_text(options_.at.size() == 1 ? list_.at(0) : list_) + "\n";
+      if (options_.file.empty())
+        std::cout << text;
+      else
+        output::write_file(options_.file, text);
+    }
     finish_output();
-    return;
   }
-  output::write_file(options.file, text);
+
+ private:
+  void put(const std::string& text) {
+    if (options_.file.empty())
+      std::cout << (count_ > 0 ? "\n" : "") << text;
+    else
+      output::write_file(
+          options_.at.size() == 1 ? options_.file : numbered(options_.file, count_).string(), text);
+    ++count_;
+  }
+
+  const run::RenderJob& job_;
+  const dump::DumpOptions& options_;
+  Json list_ = Json::array();
+  std::size_t count_ = 0;
+};
+
+void check_dump_output(const dump::DumpOptions& options) {
+  if (options.format != dump::DumpFormat::vtk || !options.file.empty()) return;
+  if (options.at.size() > 1)
+    throw scene::toml::UsageError("--format", "vtk has one time in a file",
+                                  "give a file with --out, as in --out fields.vtp");
+  if (::isatty(STDOUT_FILENO))
+    throw scene::toml::UsageError("--format", "vtk is binary and standard output is a terminal",
+                                  "give a file with --out, as in --out fields.vtp");
+}
+
+dump::Listing listing_of(const dump::DumpOptions& options, const dump::StepInspection& inside) {
+  dump::Listing listing =
+      options.stage ? dump::list_stage(inside, *options.stage) : dump::list_state(inside);
+  dump::keep_only(listing, options.fields);
+  return listing;
 }
 
 }  // namespace
@@ -155,27 +186,32 @@ int run_dump(const dump::DumpOptions& options) {
   const setup::Plan plan =
       setup::make_plan(job.scene, job.frames, job.quality, options.run.threads);
   setup::check_limits(job.scene, plan, job.coarsening);
-  if (options.format == dump::DumpFormat::vtk && options.file.empty() && ::isatty(STDOUT_FILENO))
-    throw scene::toml::UsageError("--format", "vtk is binary and standard output is a terminal",
-                                  "give a file with --out, as in --out fields.vtp");
+  check_dump_output(options);
   catch_interrupts();
   Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO));
   sim::Simulation simulation = setup::make_simulation(
       job.scene, setup::seed_scene(job.scene).particles, options.run.threads);
-  if (const double end = job.scene.frames / job.scene.fps; options.at > end * (1 + 1e-12))
-    progress.warning("--at " + rough_text(options.at) + " s is after the end of the scene, " +
-                     rough_text(end) + " s; Ctrl-C stops");
-  const double frame_end = run_to(options.at, job.scene.fps, simulation, progress);
-  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the requested time");
-  if (simulation.divergence())
-    progress.warning(simulation.divergence()->sentence + "; this is its last state");
-  const double left = frame_end - simulation.time();
-  const dump::StepInspection inside =
-      dump::inspect_step(job.scene, simulation, left > 0 ? left : 1 / job.scene.fps);
-  dump::Listing listing =
-      options.stage ? dump::list_stage(inside, *options.stage) : dump::list_state(inside);
-  dump::keep_only(listing, options.fields);
-  print_dump(job, options, inside, listing);
+  if (const double end = job.scene.frames / job.scene.fps; options.at.back() > end * (1 + 1e-12))
+    progress.warning("--at " + rough_text(options.at.back()) +
+                     " s is after the end of the scene, " + rough_text(end) + " s; Ctrl-C stops");
+  run::ChangePlayer player(job.scene, job.changes, simulation);
+  player.begin();
+  run::Walk walk(job.scene.fps, simulation, player, progress);
+  progress.start(static_cast<int>(std::floor(options.at.back() * job.scene.fps)));
+  DumpOutput out(job, options);
+  for (const double at : options.at) {
+    walk.go_to(at);
+    progress.clear();
+    if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the requested time");
+    if (simulation.divergence())
+      progress.warning(simulation.divergence()->sentence + "; this is its last state");
+    const double left = walk.frame_end() - simulation.time();
+    const dump::StepInspection inside =
+        dump::inspect_step(player.scene(), simulation, left > 0 ? left : 1 / job.scene.fps);
+    out.add(inside, listing_of(options, inside));
+    if (simulation.divergence()) break;
+  }
+  out.finish();
   return simulation.divergence() ? exit_diverged : exit_ok;
 }
 

@@ -20,7 +20,7 @@ struct DumpTexts {
 dump::DumpOptions finished_dump(dump::DumpOptions options, const run::RenderOptions& run,
                                 const RenderTexts& run_texts, const DumpTexts& texts) {
   options.run = finished(run, run_texts);
-  options.at = setup::parse_time(texts.at);
+  options.at = setup::parse_times(texts.at);
   options.format = dump::parse_format(texts.format);
   if (texts.stage) options.stage = dump::parse_stage(*texts.stage);
   for (const std::string& probe : texts.probes) options.probes.push_back(dump::parse_probe(probe));
@@ -39,8 +39,12 @@ void add_dump(CLI::App& app, Action& action) {
   const auto run_texts = std::make_shared<RenderTexts>();
   const auto texts = std::make_shared<DumpTexts>();
   add_scene(*command, run, run_texts);
-  command->add_option("--at", texts->at, "Time in seconds; neve shows the step that contains it")
-      ->type_name("TIME")
+  command
+      ->add_option(
+          "--at", texts->at,
+          "Times in seconds, as in 0.1,0.2, all of one simulation; neve shows the step that "
+          "contains each")
+      ->type_name("T,T")
       ->capture_default_str();
   command
       ->add_option("--stage", texts->stage,
@@ -54,7 +58,11 @@ void add_dump(CLI::App& app, Action& action) {
   command->add_option("--format", texts->format, "table (tabs), or vtk for ParaView")
       ->type_name("NAME")
       ->capture_default_str();
-  command->add_option("--out", options->file, "Write to a file instead of standard output")
+  command
+      ->add_option(
+          "--out", options->file,
+          "Write to a file instead of standard output; of several times into FILE_0000 and so "
+          "on")
       ->type_name("FILE");
   command->add_flag("--json", run->is_json, "Print summary and probes as JSON");
   command->add_flag("--quiet,-q", run_texts->is_quiet, "Print only errors and warnings");

@@ -20,12 +20,12 @@ using Probe = std::variant<std::size_t, sim::Vec3d>;
 
 struct DumpOptions {
   run::RenderOptions run;           ///< scene, overrides, coarsening, threads, verbosity, is_json
-  double at = 0;                    ///< s
+  std::vector<double> at;           ///< s, increasing, at least one
   std::optional<sim::Stage> stage;  ///< without: the state before the step
   std::vector<std::string> fields;  ///< empty: all
   std::vector<Probe> probes;
   DumpFormat format = DumpFormat::table;
-  std::string file;  ///< empty: standard output
+  std::string file;  ///< empty: standard output; of several times each has its number in the name
 };
 
 /// A stage of the step by its name. @throws UsageError with the nearest

@@ -1,5 +1,6 @@
 #include "app/setup/argument_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -66,6 +67,30 @@ double parse_time(const std::string& text) {
     throw scene::toml::UsageError("--at", "cannot use \"" + text + "\"",
                                   "expected seconds from 0 to 1000000, as in --at 0.25s");
   return *value;
+}
+
+std::vector<double> parse_times(const std::string& text) {
+  std::vector<double> times;
+  for (const std::string& word : comma_separated(text)) {
+    const double time = parse_time(word);
+    if (!times.empty() && !(time > times.back()))
+      throw scene::toml::UsageError("--at", "\"" + word + "\" is not after the time before it",
+                                    "expected times that increase, as in --at 0.1,0.2,0.5");
+    times.push_back(time);
+  }
+  if (times.empty()) parse_time(text);
+  return times;
+}
+
+std::vector<std::string> comma_separated(const std::string& text) {
+  std::vector<std::string> words;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end > begin) words.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
 }
 
 }  // namespace neve::app::setup

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/setup/plan.h"
 
@@ -25,5 +26,11 @@ scene::PictureSize parse_size(const std::string& text);
 
 /// "0.25s", "0.25": seconds, at least 0. @throws UsageError
 double parse_time(const std::string& text);
+
+/// "0.1,0.2s": such times, each later than the one before. @throws UsageError
+std::vector<double> parse_times(const std::string& text);
+
+/// "a,b" without empty words.
+std::vector<std::string> comma_separated(const std::string& text);
 
 }  // namespace neve::app::setup

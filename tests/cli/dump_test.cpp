@@ -143,6 +143,21 @@ TEST_F(Dump, VtkBlocksAreWhereTheHeaderSays) {
   EXPECT_TRUE(text.substr(data + next).starts_with("\n</AppendedData>"));
 }
 
+TEST_F(Dump, WritesSeveralTimesIntoNumberedFiles) {
+  ASSERT_EQ(
+      neve({"dump", "scene.toml", "--at", "0,0.05", "--format", "vtk", "--out", "s.vtp"}).exit_code,
+      0);
+  ASSERT_EQ(
+      neve({"dump", "scene.toml", "--at", "0.05", "--format", "vtk", "--out", "one.vtp"}).exit_code,
+      0);
+  EXPECT_TRUE(exists("s_0000.vtp"));
+  EXPECT_EQ(read_text(folder / "s_0001.vtp"), read_text(folder / "one.vtp"));
+  EXPECT_EQ(neve({"dump", "scene.toml", "--at", "0.1,0.05"}).exit_code, 2);
+  const auto piped = neve({"dump", "scene.toml", "--at", "0,0.05", "--format", "vtk"});
+  EXPECT_EQ(piped.exit_code, 2);
+  EXPECT_TRUE(contains(piped.errors, "one time in a file")) << piped.errors;
+}
+
 TEST_F(Dump, MistakesAreExplained) {
   const auto wrong = [&](std::vector<std::string> arguments, const std::string& hint) {
     arguments.insert(arguments.begin(), {"dump", "scene.toml"});
