@@ -42,6 +42,7 @@ void add_scene(CLI::App& command, const std::shared_ptr<run::RenderOptions>& opt
 
 void add_sweep(CLI::App& app, Action& action);
 void add_dump(CLI::App& app, Action& action);
+void add_export(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
 
 }  // namespace neve::app::cli

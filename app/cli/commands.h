@@ -5,6 +5,7 @@
 
 #include "app/bench/bench_options.h"
 #include "app/dump/dump_options.h"
+#include "app/run/export_run.h"
 #include "app/run/render_options.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/view/view_options.h"
@@ -30,6 +31,7 @@ int run_render(const run::RenderOptions& options);
 /// Reads only the options that choose the scene: scene, overrides, coarsening, threads.
 int run_check(const run::RenderOptions& options);
 int run_dump(const dump::DumpOptions& options);
+int run_export_command(const run::ExportOptions& options);
 int run_view(const view::ViewOptions& options);
 int run_compare(const CompareOptions& options);
 int run_bench_sim(const bench::BenchOptions& options);

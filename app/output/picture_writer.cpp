@@ -1,5 +1,7 @@
 #include "app/output/picture_writer.h"
 
+#include <memory>
+
 #include "app/output/atomic_file.h"
 
 namespace neve::app::output {
@@ -16,10 +18,16 @@ PictureWriter::~PictureWriter() {
 }
 
 void PictureWriter::write(Picture picture) {
+  // Tasks are copied; pictures are large.
+  const auto shared = std::make_shared<const Picture>(std::move(picture));
+  write([shared] { write_file(shared->file, render::encode_png(shared->image, shared->text)); });
+}
+
+void PictureWriter::write(std::function<void()> task) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return failure_ || queue_.size() < picture_queue_capacity; });
   rethrow_failure();
-  queue_.push_back(std::move(picture));
+  queue_.push_back(std::move(task));
   changed_.notify_all();
 }
 
@@ -34,17 +42,18 @@ void PictureWriter::work() {
   while (true) {
     changed_.wait(lock, [&] { return is_closing_ || !queue_.empty(); });
     if (queue_.empty()) return;
-    const Picture picture = std::move(queue_.front());
+    std::function<void()> task = std::move(queue_.front());
     queue_.pop_front();
     is_writing_ = true;
     lock.unlock();
 
     std::exception_ptr failure;
     try {
-      write_file(picture.file, render::encode_png(picture.image, picture.text));
+      task();
     } catch (...) {
       failure = std::current_exception();
     }
+    task = nullptr;  // its memory is free before the next frame needs it
 
     lock.lock();
     is_writing_ = false;

@@ -1,10 +1,12 @@
 #pragma once
-/// Encodes and writes pictures on a worker thread while the next frame is simulated.
+/// Encodes and writes pictures and other files on a worker thread while the next frame is
+/// simulated.
 
 #include <condition_variable>
 #include <deque>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -32,6 +34,9 @@ class PictureWriter {
   /// Waits while the queue is full. @throws the error of an earlier picture
   void write(Picture picture);
 
+  /// The same for any other file. @param task  encodes and writes it
+  void write(std::function<void()> task);
+
   /// Waits until everything is on disk. @throws the error of a picture
   void finish();
 
@@ -41,7 +46,7 @@ class PictureWriter {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Picture> queue_;
+  std::deque<std::function<void()>> queue_;
   bool is_writing_ = false, is_closing_ = false;
   std::exception_ptr failure_;
   std::thread worker_;

@@ -9,6 +9,9 @@ namespace neve::app::output {
 /// Name of the slice through the culprit of a diverged run, next to the pictures of its views.
 inline constexpr const char* culprit_view = "culprit_slice";
 
+/// Folder of the geometry that a run writes beside its pictures.
+inline constexpr const char* exports_folder = "exports";
+
 /// [A-Za-z0-9_-]+: safe as the name of a folder.
 bool is_plain_name(const std::string& name);
 

@@ -131,6 +131,18 @@ void add_other(const sim::shapes::Shape& shape, const sim::shapes::Pose& pose,
 
 }  // namespace
 
+render::TriangleMesh local_mesh(const sim::shapes::Shape& shape) {
+  const render::shapes::Rotation axes = to_rotation(sim::shapes::form_axes(shape));
+  if (const auto* sphere = std::get_if<sim::shapes::Sphere>(&shape.form))
+    return render::shapes::sphere_mesh({0, 0, 0}, static_cast<float>(sphere->radius));
+  if (const auto* box = std::get_if<sim::shapes::Box>(&shape.form))
+    return render::shapes::box_mesh({0, 0, 0}, to_float(box->size), axes);
+  if (const std::optional<render::shapes::Profile> profile = profile_of(shape))
+    return render::shapes::round_mesh(*profile, {0, 0, 0}, axes);
+  const std::shared_ptr<const MeshLook> look = look_of(std::get<sim::shapes::Mesh>(shape.form));
+  return render::shapes::moved_mesh(look->mesh, {0, 0, 0}, axes);
+}
+
 void add_colliders(const scene::Scene& scene, const scene::View& view, double time,
                    float line_spacing, render::Frame& frame) {
   for (const scene::Collider& collider : scene.colliders) {

@@ -89,6 +89,7 @@ RenderJob job_from_picture(const RenderOptions& options) {
   job.changes = record.changes;
   job.coarsening = record.coarsening;
   choose_views({record.view}, job);
+  job.scene.exports.clear();
   check_changes(job);
   return job;
 }

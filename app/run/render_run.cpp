@@ -73,6 +73,7 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
                 if (validation_) validation_->use(scene.solver, scene.materials);
               }),
       builder_(scene_, seeded, {job.quality, job.overrides, job.coarsening}),
+      exporter_(job.scene, job.folder / output::exports_folder, seeded.body_end),
       record_(run_record(job, simulation, context)),
       picture_record_(picture_record(job, record_.scene)),
       checkpoints_(job.folder, picture_record_, simulation, player_, progress) {
@@ -94,9 +95,11 @@ int RenderRun::begin() {
     history_ = std::move(resumed->history);
     advance_ = resumed->advance;
     record_.retries = std::move(resumed->retries);
+    exporter_.resume(earlier_exports(job_.folder), resumed->frame);
     result_.has_checkpoint = true;
   } else {
     player_.begin();
+    exports::remove_earlier_exports(job_.folder, earlier_exports(job_.folder));
     output::remove_earlier_run(job_.folder);
     output::remove_checkpoints(job_.folder);
   }
@@ -113,6 +116,7 @@ RenderResult RenderRun::run() {
     make_frames(first);
     writer_.finish();
     write_movies();
+    exporter_.finish();
     record_.status = result_.status;
     write_run_json(job_.folder, record_);
   } catch (const std::exception& error) {
@@ -227,6 +231,7 @@ void RenderRun::draw_frame(int frame) {
   const std::uint64_t state_hash = simulation_.state_hash();
   note_state(state_hash);
   snapshot.changes = picture_record_.changes;
+  std::vector<exports::Exporter::Work> work = read_exports(frame);
   begin_next(frame);
   std::vector<output::Picture> pictures;
   const auto add = [&](const std::string& name, render::Image image) {
@@ -257,10 +262,19 @@ void RenderRun::draw_frame(int frame) {
   // that it has to remove.
   write_run_json(job_.folder, record_);
   for (output::Picture& picture : pictures) writer_.write(std::move(picture));
+  for (exports::Exporter::Work& file : work) writer_.write(std::move(file));
   progress_.detail("frame " + std::to_string(frame) + ": " + std::to_string(advance_.steps) +
                    " steps, simulated in " + fixed_text(seconds_sim_, 2) + " s, drawn in " +
                    fixed_text(seconds_since(start), 2) + " s, deepest in a collider " +
                    rough_text(metrics.max_depth_cells) + " cells");
+}
+
+std::vector<exports::Exporter::Work> RenderRun::read_exports(int frame) {
+  if (!exporter_.is_due(frame)) return {};
+  std::vector<exports::Exporter::Work> work =
+      exporter_.add(scene_.colliders, simulation_, frame, true);
+  record_.exports = exporter_.to_json(std::string(output::exports_folder) + "/");
+  return work;
 }
 
 /// In the place of the one that a run before this one made.

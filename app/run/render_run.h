@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/exports/exporter.h"
 #include "app/health/diagnosis.h"
 #include "app/output/picture_writer.h"
 #include "app/picture/frame_builder.h"
@@ -62,6 +63,8 @@ class RenderRun {
   /// @return whether to stop
   bool after_step();
   bool advance_to_frame(int frame);
+  /// Reads the state for the exports of a frame, before the next one is begun.
+  std::vector<exports::Exporter::Work> read_exports(int frame);
   /// Lets the next frame be simulated while this one is drawn, where there are cores for both.
   void begin_next(int frame);
   void draw_frame(int frame);
@@ -84,6 +87,7 @@ class RenderRun {
   scene::Scene scene_;  ///< the job's with the changes made so far
   ChangePlayer player_;
   picture::FrameBuilder builder_;
+  exports::Exporter exporter_;
   RunRecord record_;
   PictureRecord picture_record_;
   Checkpoints checkpoints_;

@@ -153,6 +153,11 @@ Json read_run_json(const std::filesystem::path& folder) {
   }
 }
 
+Json earlier_exports(const std::filesystem::path& folder) {
+  const Json run = read_run_json(folder);
+  return run.is_object() ? run.value("exports", Json()) : Json();
+}
+
 std::vector<FrameRecord> frame_records(const Json& run) {
   std::vector<FrameRecord> frames;
   try {
@@ -176,6 +181,7 @@ Json to_json(const RunRecord& run) {
   json["changes"] = scene::to_json(run.changes);
   json["coarsen"] = run.coarsening;
   json["views"] = run.views;
+  if (!run.exports.is_null()) json["exports"] = run.exports;
   json["backend"] = run.backend;
   json["gl_renderer"] = run.gl_renderer;
   json["threads"] = run.threads;

@@ -49,6 +49,7 @@ struct RunRecord {
   std::vector<scene::LiveChange> changes;  ///< made while it ran
   double coarsening = 1;                   ///< factor of --coarsen
   std::vector<std::string> views;
+  Json exports;  ///< of [[export]], see app/exports/exporter.h; null without
   std::string backend, gl_renderer;
   int threads = 0;
   std::string simd;
@@ -72,6 +73,9 @@ FrameRecord frame_record(const Json& json);
 
 /// DIR/run.json; null where there is no such file or it cannot be read.
 Json read_run_json(const std::filesystem::path& folder);
+
+/// The exports that DIR/run.json lists; null where there are none.
+Json earlier_exports(const std::filesystem::path& folder);
 
 /// The frames that it lists; none where they cannot be read.
 std::vector<FrameRecord> frame_records(const Json& run);

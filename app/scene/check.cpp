@@ -266,6 +266,41 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
   return {};
 }
 
+bool names_attribute(const Export& e, ExportAttribute attribute) {
+  return std::find(e.attributes.begin(), e.attributes.end(), attribute) != e.attributes.end();
+}
+
+/// Names of bodies and emitters that an export may have.
+std::vector<std::string> sources_of_snow(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const sim::seeding::Body& body : scene.bodies) names.push_back(body.name);
+  for (const sim::seeding::Emitter& emitter : scene.emitters) names.push_back(emitter.name);
+  return names;
+}
+
+Found export_problem(const Scene& scene, const Export& e) {
+  const std::string at = "export." + e.name;
+  for (const Export& other : scene.exports) {
+    if (&other == &e) break;
+    if (folder_of(other) == folder_of(e))
+      return Problem{at + ".name", "two exports write into the folder exports/" + folder_of(e),
+                     "give one of them another name"};
+  }
+  const std::vector<std::string> names = sources_of_snow(scene);
+  for (const std::string& name : e.bodies) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    return Problem{at + ".bodies", "there is no body or emitter " + toml::toml_string(name),
+                   names_advice(name, names)};
+  }
+  if (scene.emitters.size() < 2) return {};
+  const bool needs_origin =
+      names_attribute(e, ExportAttribute::body) || names_attribute(e, ExportAttribute::age);
+  if (!needs_origin && e.bodies.empty()) return {};
+  return Problem{at + (needs_origin ? ".attributes" : ".bodies"),
+                 "the state does not say which of several emitters a particle comes from",
+                 "leave out body and age, and name no bodies, or use one emitter"};
+}
+
 /// Compares the attitudes, which several angles can describe, within 1e-4 degrees.
 bool is_half_turn(const sim::Vec3d& degrees, const sim::Vec3d& next) {
   const sim::Mat3d turn =
@@ -372,6 +407,9 @@ std::optional<Problem> find_problem(const Scene& scene) {
   }
   for (const Mosaic& mosaic : scene.mosaics) {
     if ((found = mosaic_problem(scene, mosaic))) return found;
+  }
+  for (const Export& e : scene.exports) {
+    if ((found = export_problem(scene, e))) return found;
   }
   return {};
 }

@@ -512,6 +512,25 @@ void describe(V& visit, Mosaic& m) {
 }
 
 template <class V>
+void describe(V& visit, Export& e) {
+  using enum Change;
+  visit("name", e.name, unit::none, identifier, restart,
+        "Name of its folder in exports, and in addresses; default: its number, from 1, and the "
+        "format as the folder.");
+  visit("format", e.format, unit::none, anything, restart, "Format of the files.");
+  visit("every", e.every, unit::none, between(1, 100000), restart,
+        "Frames from one file to the next.");
+  visit("attributes", e.attributes, unit::none, anything, restart,
+        "Attributes of the particles; x is always there. vti has the mass and velocity of nodes.");
+  visit("bodies", e.bodies, unit::none, identifier, restart,
+        "Names of bodies and emitters whose particles are written; default: all.");
+  visit("up", e.up, unit::none, anything, restart,
+        "Axis that points up in the files: (x, y, z) becomes (x, -z, y) for z.");
+  visit("scale", e.scale, unit::none, at_least(1e-6).at_most(1e6), restart,
+        "Units of the files per metre, of lengths and velocities; all else stays in SI units.");
+}
+
+template <class V>
 void describe_output(V& visit, Scene& s) {
   describe_size(visit, "size", s.size, "Width and height.");
   visit("background", s.background, unit::none, anything, Change::live,
@@ -539,6 +558,7 @@ void describe(V& visit, Scene& s) {
   visit.section("light", "The sun and the sky.", [&](auto& v) { describe(v, s.light); });
   visit.list("view", s.views, "One picture per frame.");
   visit.list("mosaic", s.mosaics, "Several views in one picture.");
+  visit.list("export", s.exports, "Geometry for other programs, in files beside the pictures.");
   visit.section("output", "The pictures.", [&](auto& v) { describe_output(v, s); });
 }
 

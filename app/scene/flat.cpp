@@ -121,7 +121,7 @@ class Flattener {
 /// "material.NAME.hardening" for "material.snow.hardening".
 std::string pattern_of(std::string_view address) {
   static const std::set<std::string, std::less<>> named{"material", "body", "emitter", "sink",
-                                                        "collider", "view", "mosaic"};
+                                                        "collider", "view", "mosaic",  "export"};
   const auto first = address.find('.');
   if (first == std::string_view::npos || !named.contains(address.substr(0, first)))
     return std::string(address);
@@ -151,6 +151,7 @@ std::vector<std::string> item_names_of(const Scene& scene, const std::string& li
   if (list == "collider") take(scene.colliders);
   if (list == "view") take(scene.views);
   if (list == "mosaic") take(scene.mosaics);
+  if (list == "export") take(scene.exports);
   return names;
 }
 
@@ -212,7 +213,8 @@ Concern concern_of(std::string_view address) {
   for (const char* part : {"solver.", "material.", "body.", "emitter.", "sink.", "collider."})
     if (address.starts_with(part)) return Concern::simulation;
   if (address == "fps" || address == "seed") return Concern::simulation;
-  if (address == "frames" || address.starts_with("limits.")) return Concern::run;
+  if (address == "frames" || address.starts_with("limits.") || address.starts_with("export."))
+    return Concern::run;
   return Concern::pictures;
 }
 
@@ -223,7 +225,8 @@ bool same_value(const std::optional<toml::Value>& a, const std::optional<toml::V
 
 std::vector<Difference> differences(const Scene& before, const Scene& after) {
   std::vector<Difference> found;
-  for (const char* list : {"material", "body", "emitter", "sink", "collider", "view", "mosaic"}) {
+  for (const char* list :
+       {"material", "body", "emitter", "sink", "collider", "view", "mosaic", "export"}) {
     const auto old_names = item_names_of(before, list), new_names = item_names_of(after, list);
     // The order counts too: unnamed items are numbered, and materials are known by their place.
     if (old_names == new_names) continue;

@@ -126,6 +126,34 @@ constexpr auto names(Layer) {
       Name{blocks, "blocks"},   Name{bounds, "bounds"},       Name{legend, "legend"},
       Name{caption, "caption"}, Name{plots, "plots"}};
 }
+constexpr auto names(ExportFormat) {
+  using enum ExportFormat;
+  return std::array{Name{ply, "ply"},   Name{vtp, "vtp"}, Name{vti, "vti"}, Name{bgeo, "bgeo"},
+                    Name{usda, "usda"}, Name{npz, "npz"}, Name{csv, "csv"}};
+}
+constexpr auto names(ExportAttribute) {
+  using enum ExportAttribute;
+  return std::array{Name{id, "id"},
+                    Name{x, "x"},
+                    Name{v, "v"},
+                    Name{m, "m"},
+                    Name{V0, "V0"},
+                    Name{density, "density"},
+                    Name{J_E, "J_E"},
+                    Name{J_P, "J_P"},
+                    Name{F_E, "F_E"},
+                    Name{stress, "stress"},
+                    Name{kirchhoff, "kirchhoff"},
+                    Name{C, "C"},
+                    Name{material, "material"},
+                    Name{body, "body"},
+                    Name{radius, "radius"},
+                    Name{age, "age"}};
+}
+constexpr auto names(UpAxis) {
+  using enum UpAxis;
+  return std::array{Name{y, "y"}, Name{z, "z"}};
+}
 
 template <class E>
 concept Choice = requires(E e) {

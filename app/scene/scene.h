@@ -144,6 +144,41 @@ struct Mosaic {
   std::optional<int> width;        ///< px; the output's when absent
 };
 
+enum class ExportFormat { ply, vtp, vti, bgeo, usda, npz, csv };
+enum class ExportAttribute {
+  id,
+  x,
+  v,
+  m,
+  V0,
+  density,
+  J_E,
+  J_P,
+  F_E,
+  stress,
+  kirchhoff,
+  C,
+  material,
+  body,
+  radius,
+  age
+};
+enum class UpAxis { y, z };
+
+/// Geometry of every n-th frame in files for other programs.
+struct Export {
+  std::string name;
+  ExportFormat format = ExportFormat::ply;
+  int every = 1;  ///< frames from one file to the next
+  /// x is always written.
+  std::vector<ExportAttribute> attributes{
+      ExportAttribute::id, ExportAttribute::x,   ExportAttribute::v,       ExportAttribute::m,
+      ExportAttribute::V0, ExportAttribute::J_P, ExportAttribute::density, ExportAttribute::radius};
+  std::vector<std::string> bodies;  ///< bodies and emitters by name; empty: all
+  UpAxis up = UpAxis::y;
+  double scale = 1;  ///< units of the file per metre, of lengths and velocities
+};
+
 struct Limits {
   std::uint64_t memory = 0;  ///< bytes; 0: 80 % of the available memory
   std::uint64_t particles = 20'000'000;
@@ -166,6 +201,7 @@ struct Scene {
   LightSettings light;
   std::vector<View> views;
   std::vector<Mosaic> mosaics;
+  std::vector<Export> exports;
   PictureSize size;
   Background background = Background::gradient;
 };
@@ -173,6 +209,10 @@ struct Scene {
 inline Background background_of(const Scene& scene, const View& view) {
   return view.background.value_or(scene.background);
 }
+
+/// The folder of an export, in the folder of all: its name, or the format where it has none but
+/// its number.
+std::string folder_of(const Export& e);
 
 /// The scene's colliders without their looks.
 inline std::vector<sim::shapes::Collider> sim_colliders(const Scene& scene) {

@@ -137,7 +137,9 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
   // The plain arrays that go in at the start and come out for every picture.
   const double arrays =
       counted * static_cast<double>(sizeof(sim::Mat3d) * 3 + sizeof(sim::Vec3d) * 3);
-  plan.memory = whole_bytes(simulated + arrays + picture_memory(scene, quality));
+  // States of exports wait for the worker as pictures do, and are text or bytes while it writes.
+  const double exported = scene.exports.empty() ? 0 : arrays * (output::picture_queue_capacity + 2);
+  plan.memory = whole_bytes(simulated + arrays + exported + picture_memory(scene, quality));
   plan.memory_limit = scene.limits.memory > 0 ? scene.limits.memory : available_memory() / 10 * 8;
   for (const scene::PictureSize& size : picture_sizes(scene)) {
     const double samples = supersampling(quality) * supersampling(quality);

@@ -91,6 +91,8 @@ clip = {}
 [[mosaic]]
 name = "M"
 views = ["NAME"]
+[[export]]
+name = "NAME"
 )";
   std::vector<std::string> found;
   for (const app::scene::FlatParam& param : app::scene::flatten(read({}, text))) {

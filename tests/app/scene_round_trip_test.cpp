@@ -244,7 +244,9 @@ app::scene::Scene full_scene(const std::string& mesh_file) {
       "time = 2 }]\n";
   text +=
       "[[view]]\n[[view]]\nname = \"close\"\ncamera = { eye = [1,1,1], target = [0,0,0] }\n"
-      "clip = { point = [1, 2, 3] }\n[[mosaic]]\nname = \"wall\"\nviews = [\"close\"]\n";
+      "clip = { point = [1, 2, 3] }\n[[mosaic]]\nname = \"wall\"\nviews = "
+      "[\"close\"]\n[[export]]\nname = \"geometry\"\n"
+      "bodies = [\"points\"]\n";
   return app::scene::read_scene_text(text, "full",
                                      std::filesystem::path(mesh_file).parent_path().string());
 }
@@ -293,7 +295,7 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   int same = 0;
   for (const auto& [address, bits] : before)
     same += unchanged.contains(address) && unchanged.at(address) == bits;
-  EXPECT_EQ(same, 19 + 8 + 3 + 2 + 2 + 2 + 3)
+  EXPECT_EQ(same, 21 + 8 + 3 + 2 + 2 + 2 + 3)
       << "only names, materials, files, the turns not taken and velocities beside keyframes stay";
 }
 

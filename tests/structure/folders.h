@@ -58,9 +58,12 @@ inline constexpr Folder folders[] = {
     {"app/picture",
      "sim/base sim/types sim/shapes sim/health sim/engine sim render/frame render/shapes render "
      "app/support app/scene/toml app/scene app/setup app/health"},
+    {"app/exports",
+     "sim/base sim/types sim render/frame app/support app/scene/toml app/scene app/output "
+     "app/setup app/picture"},
     {"app/run",
      "sim/base sim/types sim sim/checks render/image render/frame render/gl render app/support "
-     "app/scene/toml app/scene app/output app/setup app/health app/picture"},
+     "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports"},
     {"app/dump",
      "sim/base sim/types sim/health sim app/support app/scene/toml app/scene app/setup "
      "app/health app/run"},
@@ -96,7 +99,8 @@ inline constexpr Folder folders[] = {
      "app/run app/sweep/plan app/sweep/store app/sweep/jobs app/view"},
     {"app/cli",
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
-     "app/scene/toml app/scene app/output app/setup app/health app/picture app/run app/dump "
+     "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports app/run "
+     "app/dump "
      "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet "
      "app/view/frontend app/view/web app/view/replay app/view app/bench"},
     {"app", "app/output app/cli", "neve::app"},

@@ -1,0 +1,42 @@
+#include <unistd.h>
+
+#include <iostream>
+
+#include "app/cli/commands.h"
+#include "app/cli/report_error.h"
+#include "app/exports/encode.h"
+#include "app/support/errors.h"
+#include "app/support/interrupt.h"
+
+namespace neve::app::cli {
+
+int run_export_command(const run::ExportOptions& options) {
+  const run::ExportJob job = run::make_export_job(options);
+  const setup::Plan plan =
+      setup::make_plan(job.run.scene, job.run.frames, setup::Quality::draft, options.run.threads);
+  setup::check_limits(job.run.scene, plan, job.run.coarsening);
+  for (const scene::Export& e : job.run.scene.exports)
+    exports::check_capacity(e, exports::empty_table(job.run.scene, e), plan.particles);
+  catch_interrupts();
+  Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO));
+  const run::ExportResult result = run::run_export(job, options.run.threads, progress);
+  const std::string folder = job.run.folder.string();
+  if (options.run.is_json) {
+    Json json;
+    json["out"] = folder;
+    json["is_whole"] = result.is_whole;
+    json["exports"] = result.exports;
+    std::cout << to_text(json) << "\n";
+    finish_output();
+  }
+  const std::string written = std::to_string(result.moments) +
+                              (result.moments == 1 ? " moment" : " moments") + " in " + folder;
+  if (result.divergence)
+    throw Error(exit_diverged, result.divergence->sentence + "; wrote " + written,
+                job.run.scene_file, "neve render explains the cause");
+  if (!result.is_whole) throw Error(exit_interrupted, "interrupted; wrote " + written, folder);
+  progress.note(written);
+  return exit_ok;
+}
+
+}  // namespace neve::app::cli

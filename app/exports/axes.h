@@ -1,0 +1,41 @@
+#pragma once
+/// From the simulation's metres, y up, to the units and the axes of a file.
+
+#include "app/scene/scene.h"
+
+namespace neve::app::exports {
+
+/// Axes only change places and signs: every number keeps its bits at scale 1.
+class Axes {
+ public:
+  explicit Axes(const scene::Export& e) : is_z_up_(e.up == scene::UpAxis::z), scale_(e.scale) {}
+
+  bool is_z_up() const { return is_z_up_; }
+  double scale() const { return scale_; }
+
+  sim::Vec3d direction(const sim::Vec3d& v) const {
+    return is_z_up_ ? sim::Vec3d(v.x(), -v.z(), v.y()) : v;
+  }
+  /// Of places and velocities.
+  sim::Vec3d scaled(const sim::Vec3d& v) const { return scale_ * direction(v); }
+  /// Of a tensor: R A R^T.
+  sim::Mat3d tensor(const sim::Mat3d& a) const {
+    if (!is_z_up_) return a;
+    sim::Mat3d rows, both;
+    for (int c = 0; c < 3; ++c) rows.col(c) = direction(a.col(c));
+    for (int r = 0; r < 3; ++r) both.row(r) = direction(rows.row(r).transpose()).transpose();
+    return both;
+  }
+  /// Columns of a rotation, turned: R A.
+  sim::Mat3d turned(const sim::Mat3d& a) const {
+    sim::Mat3d out;
+    for (int c = 0; c < 3; ++c) out.col(c) = direction(a.col(c));
+    return out;
+  }
+
+ private:
+  bool is_z_up_;
+  double scale_;
+};
+
+}  // namespace neve::app::exports

@@ -1,0 +1,51 @@
+#pragma once
+/// Attributes of particles as columns of numbers, in the precision of the state.
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/exports/axes.h"
+#include "app/exports/origins.h"
+#include "app/exports/state.h"
+
+namespace neve::app::exports {
+
+/// Numbers that the state has in single precision are float, so that every bit is there and none
+/// is invented. Places, and all that is computed from several numbers, are double.
+using Numbers = std::variant<std::vector<float>, std::vector<double>, std::vector<std::int32_t>>;
+
+struct Column {
+  scene::ExportAttribute attribute;
+  std::string name, unit;  ///< the unit may be empty
+  int components = 1;      ///< 1, 3, or 9: row by row
+  Numbers numbers;
+};
+
+/// "x", "vy", "F_E_xz", "J_P"
+std::string component_name(const Column& column, int component);
+
+/// "float32", "float64" or "int32"
+const char* type_name(const Column& column);
+std::size_t number_size(const Column& column);
+
+/// Particles for one file.
+struct Table {
+  std::size_t rows = 0;
+  std::vector<Column> columns;
+
+  /// Null where there is none.
+  const Column* find(scene::ExportAttribute attribute) const;
+  /// x, 3 numbers a row.
+  const std::vector<double>& places() const;
+};
+
+/// The attributes of an export in its order, with x in front where it is not named.
+Table make_table(const scene::Scene& scene, const scene::Export& e, const Origins& origins,
+                 const State& state);
+
+/// The same without rows: names, types and units. They depend on the scene alone.
+Table empty_table(const scene::Scene& scene, const scene::Export& e);
+
+}  // namespace neve::app::exports

@@ -1,0 +1,99 @@
+#include "app/exports/encode.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "app/exports/bytes.h"
+#include "app/scene/names.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
+#include "app/support/version.h"
+
+namespace neve::app::exports {
+
+namespace {
+
+const char* ply_type(const Column& column) {
+  static constexpr const char* types[] = {"float", "double", "int"};
+  return types[column.numbers.index()];
+}
+
+/// Bytes of the largest array that a zip archive without extensions holds, headers aside.
+constexpr double zip_limit = 4294967295.0 - 4096;
+
+}  // namespace
+
+std::string encode_ply(const Moment& moment) {
+  const Table& table = moment.table;
+  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment neve " + std::string(version) +
+                      "\ncomment time ";
+  append_text(moment.state.time, bytes);
+  bytes += " s, frame ";
+  append_text(moment.frame(), bytes);
+  bytes += "\ncomment up " + std::string(scene::name(moment.spec.up)) + ", units per metre ";
+  append_text(moment.spec.scale, bytes);
+  bytes += "\nelement vertex " + std::to_string(table.rows) + "\n";
+  for (const Column& column : table.columns)
+    for (int c = 0; c < column.components; ++c)
+      bytes += std::string("property ") + ply_type(column) + " " + component_name(column, c) + "\n";
+  bytes += "end_header\n";
+  bytes.reserve(bytes.size() + table.rows * row_size(table));
+  for (std::size_t row = 0; row < table.rows; ++row)
+    for (const Column& column : table.columns)
+      for_row(column, row, [&](auto number) { append_little(number, bytes); });
+  return bytes;
+}
+
+std::string encode_csv(const Moment& moment) {
+  const Table& table = moment.table;
+  std::string text;
+  for (const Column& column : table.columns)
+    for (int c = 0; c < column.components; ++c)
+      text += (text.empty() ? "" : ",") + component_name(column, c);
+  text += "\n";
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    for (const Column& column : table.columns)
+      for_row(column, row, [&](auto number) {
+        append_text(number, text);
+        text += ',';
+      });
+    text.back() = '\n';
+  }
+  return text;
+}
+
+std::string encode(const Moment& moment) {
+  switch (moment.spec.format) {
+    case scene::ExportFormat::ply:
+      return encode_ply(moment);
+    case scene::ExportFormat::vtp:
+      return encode_vtp(moment);
+    case scene::ExportFormat::vti:
+      return encode_vti(moment);
+    case scene::ExportFormat::bgeo:
+      return encode_bgeo(moment);
+    case scene::ExportFormat::usda:
+      return encode_usda(moment);
+    case scene::ExportFormat::npz:
+      return encode_npz(moment);
+    case scene::ExportFormat::csv:
+      return encode_csv(moment);
+  }
+  return {};
+}
+
+void check_capacity(const scene::Export& spec, const Table& columns, double particles) {
+  double most = std::numeric_limits<double>::infinity();
+  if (spec.format == scene::ExportFormat::bgeo) most = std::numeric_limits<std::int32_t>::max();
+  if (spec.format == scene::ExportFormat::npz)
+    for (const Column& column : columns.columns)
+      most =
+          std::min(most, zip_limit / static_cast<double>(number_size(column)) / column.components);
+  if (particles <= most) return;
+  throw LimitError("refused: a file of format " + std::string(scene::name(spec.format)) +
+                       " holds at most " + fixed_text(most, 0) +
+                       " of these particles, and there are " + fixed_text(particles, 0),
+                   scene::name(spec.format), "use ply or vtp, or write fewer attributes");
+}
+
+}  // namespace neve::app::exports

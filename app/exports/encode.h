@@ -1,0 +1,53 @@
+#pragma once
+/// One moment as the bytes of one file, a function per format.
+
+#include <string>
+
+#include "app/exports/columns.h"
+
+namespace neve::app::exports {
+
+/// All that a file may tell of its moment.
+struct Moment {
+  const scene::Scene& scene;
+  const scene::Export& spec;
+  const State& state;
+  const Table& table;
+
+  /// Time in frames of the scene.
+  double frame() const { return state.time * scene.fps; }
+};
+
+/// Binary little endian; a property per number: x y z vx vy vz F_E_xx ...
+/// Source: Turk, The PLY Polygon File Format.
+std::string encode_ply(const Moment& moment);
+
+/// A line of names, then a line per particle; every number reads as the same bits.
+std::string encode_csv(const Moment& moment);
+
+/// A zip archive of arrays, uncompressed: one per attribute, and time, frame, fps, scale, up.
+/// Source: numpy.lib.format, version 1.0.
+std::string encode_npz(const Moment& moment);
+
+/// VTK XML PolyData: a vertex per particle, raw appended arrays.
+std::string encode_vtp(const Moment& moment);
+
+/// VTK XML ImageData: mass and velocity of all nodes in the box around the snow.
+/// @throws LimitError when particles far apart make the box too large
+std::string encode_vti(const Moment& moment);
+
+/// Houdini's classic binary geometry, version 5, which has single precision only.
+/// Source: read by partio (Walt Disney Animation Studios), src/lib/io/BGEO.cpp.
+std::string encode_bgeo(const Moment& moment);
+
+/// A layer with the particles as Points at one time code; places and velocities are in single
+/// precision, as the schema says.
+/// Source: OpenUSD, UsdGeomPoints.
+std::string encode_usda(const Moment& moment);
+
+std::string encode(const Moment& moment);
+
+/// @throws LimitError when so many particles cannot be in a file of the format
+void check_capacity(const scene::Export& spec, const Table& columns, double particles);
+
+}  // namespace neve::app::exports

@@ -1,0 +1,168 @@
+#include "app/exports/exporter.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <system_error>
+
+#include "app/output/atomic_file.h"
+#include "app/scene/names.h"
+
+namespace neve::app::exports {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string hash_digits(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+Json attributes_json(const Table& columns) {
+  Json list = Json::array();
+  for (const Column& column : columns.columns)
+    list.push_back({{"name", column.name},
+                    {"type", type_name(column)},
+                    {"components", column.components},
+                    {"unit", column.unit}});
+  return list;
+}
+
+/// Below the folder: no absolute path, nothing that leads out of it, no link on the way.
+bool is_safe(const fs::path& folder, const fs::path& path) {
+  fs::path at = folder;
+  std::error_code error;
+  for (const fs::path& part : path) {
+    const std::string name = part.string();
+    if (name.empty() || name == "." || name == ".." || name == "/") return false;
+    at /= part;
+    if (fs::is_symlink(fs::symlink_status(at, error))) return false;
+  }
+  return !path.empty() && fs::is_regular_file(fs::symlink_status(at, error));
+}
+
+void remove_listed(const fs::path& folder, const Json& path) {
+  if (!path.is_string()) return;
+  const fs::path file = path.get<std::string>();
+  std::error_code error;
+  if (is_safe(folder, file)) fs::remove(folder / file, error);
+}
+
+}  // namespace
+
+Exporter::Exporter(const scene::Scene& scene, fs::path folder,
+                   const std::vector<std::size_t>& body_end)
+    : scene_(scene), folder_(std::move(folder)), origins_(scene, body_end) {
+  for (const scene::Export& spec : scene.exports)
+    jobs_.push_back({{spec, empty_table(scene, spec), {}}, {}});
+}
+
+bool Exporter::is_due(int frame) const {
+  return std::any_of(jobs_.begin(), jobs_.end(),
+                     [&](const Job& job) { return frame % job.record.spec.every == 0; });
+}
+
+std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& colliders,
+                                          const sim::Simulation& simulation, int number,
+                                          bool is_frame) {
+  std::vector<scene::Export> due;
+  for (const Job& job : jobs_)
+    if (!is_frame || number % job.record.spec.every == 0) due.push_back(job.record.spec);
+  std::vector<Work> works;
+  if (due.empty()) return works;
+  const std::shared_ptr<const State> state = read_state(due, colliders, simulation);
+  for (Job& job : jobs_)
+    if (!is_frame || number % job.record.spec.every == 0) works.push_back(work(job, state, number));
+  return works;
+}
+
+Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int number) {
+  const scene::Export& spec = job.record.spec;
+  job.record.files.push_back({number, state->time, state->hash});
+  job.samples.push_back({number, state->time, state->poses});
+  const bool has_pvd = series_name(spec).ends_with(".pvd");
+  std::string series = has_pvd ? encode_pvd(spec, job.samples) : std::string();
+  return [this, &spec, state = std::move(state), number, series = std::move(series)] {
+    const Table table = make_table(scene_, spec, origins_, *state);
+    check_capacity(spec, table, static_cast<double>(table.rows));
+    const fs::path folder = folder_ / scene::folder_of(spec);
+    output::make_folder(folder);
+    output::write_file(folder / file_name(spec, number), encode({scene_, spec, *state, table}));
+    if (!series.empty()) output::write_file(folder_ / series_name(spec), series);
+  };
+}
+
+void Exporter::finish() const {
+  for (const Job& job : jobs_) {
+    const scene::Export& spec = job.record.spec;
+    if (spec.format != scene::ExportFormat::usda || job.samples.empty()) continue;
+    output::write_file(folder_ / scene::folder_of(spec) / "manifest.usda",
+                       encode_manifest(scene_, spec, job.record.columns));
+    output::write_file(folder_ / series_name(spec),
+                       encode_stage(scene_, spec, job.record.columns, job.samples));
+  }
+}
+
+void Exporter::resume(const Json& list, int last_number) {
+  for (Job& job : jobs_) {
+    const std::string folder = scene::folder_of(job.record.spec);
+    for (const Json& e : list) {
+      if (e.value("name", "") != folder) continue;
+      for (const Json& file : e.at("files")) {
+        const int number = file.at("number").get<int>();
+        if (number > last_number) continue;
+        const double time = file.at("time").get<double>();
+        job.record.files.push_back(
+            {number, time, std::stoull(file.at("state_hash").get<std::string>(), nullptr, 16)});
+        Sample sample{number, time, {}};
+        for (const scene::Collider& collider : scene_.colliders)
+          sample.poses.push_back(sim::shapes::pose_at(collider, time));
+        job.samples.push_back(std::move(sample));
+      }
+    }
+  }
+}
+
+Json Exporter::to_json(const std::string& below) const {
+  Json list = Json::array();
+  for (const Job& job : jobs_) {
+    const scene::Export& spec = job.record.spec;
+    const std::string series = series_name(spec), folder = below + scene::folder_of(spec) + "/";
+    Json json = {{"name", scene::folder_of(spec)},
+                 {"format", scene::name(spec.format)},
+                 {"up", scene::name(spec.up)},
+                 {"scale", spec.scale},
+                 {"attributes", spec.format == scene::ExportFormat::vti
+                                    ? Json::array()
+                                    : attributes_json(job.record.columns)}};
+    json["series"] = series.empty() ? Json() : Json(below + series);
+    json["files"] = Json::array();
+    for (const Record::File& file : job.record.files)
+      json["files"].push_back({{"file", folder + file_name(spec, file.number)},
+                               {"number", file.number},
+                               {"time", number_or_null(file.time)},
+                               {"state_hash", hash_digits(file.hash)}});
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+void remove_earlier_exports(const fs::path& folder, const Json& list) {
+  if (!list.is_array()) return;
+  for (const Json& e : list) {
+    if (!e.is_object()) continue;
+    remove_listed(folder, e.value("series", Json()));
+    if (!e.contains("files") || !e["files"].is_array()) continue;
+    fs::path below;
+    for (const Json& file : e["files"]) {
+      if (!file.is_object() || !file.contains("file")) continue;
+      remove_listed(folder, file["file"]);
+      if (file["file"].is_string()) below = fs::path(file["file"].get<std::string>()).parent_path();
+    }
+    if (e.value("format", Json()) == "usda")
+      remove_listed(folder, Json((below / "manifest.usda").string()));
+  }
+}
+
+}  // namespace neve::app::exports

@@ -1,0 +1,73 @@
+#pragma once
+/// The exports of a run: read between two steps, made into files by a worker.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/exports/encode.h"
+#include "app/exports/series.h"
+#include "app/support/json.h"
+
+namespace neve::app::exports {
+
+/// An export and the files that it has written so far.
+struct Record {
+  struct File {
+    int number = 0;
+    double time = 0;         ///< s
+    std::uint64_t hash = 0;  ///< of the state
+  };
+  scene::Export spec;
+  Table columns;  ///< without rows
+  std::vector<File> files;
+};
+
+class Exporter {
+ public:
+  using Work = std::function<void()>;
+
+  /// @param folder    of all exports; each writes into one of its own in it
+  /// @param body_end  see Origins
+  Exporter(const scene::Scene& scene, std::filesystem::path folder,
+           const std::vector<std::size_t>& body_end);
+
+  bool is_due(int frame) const;
+
+  /// Reads the state. @return writes its files; to be called once each, in order, by any thread,
+  /// while this object lives
+  /// @param colliders  of the scene, followed to this moment
+  /// @param number     of the files
+  /// @param is_frame   only exports whose `every` divides the number
+  std::vector<Work> add(const std::vector<scene::Collider>& colliders,
+                        const sim::Simulation& simulation, int number, bool is_frame);
+
+  /// Writes the series that are written once. @throws IoError
+  void finish() const;
+
+  /// Takes the files of a run that is resumed from the list of its run.json.
+  void resume(const Json& list, int last_number);
+
+  /// For run.json and export.json. @param below  put in front of paths: "exports/"
+  Json to_json(const std::string& below) const;
+
+ private:
+  struct Job {
+    Record record;
+    std::vector<Sample> samples;
+  };
+  Work work(Job& job, std::shared_ptr<const State> state, int number);
+
+  scene::Scene scene_;
+  std::filesystem::path folder_;
+  Origins origins_;
+  std::vector<Job> jobs_;
+};
+
+/// Removes the files that such a list names, and no others: names that could lead out of the
+/// folder, links and unknown files are left alone.
+/// @param folder  that the paths in the list start from
+void remove_earlier_exports(const std::filesystem::path& folder, const Json& list);
+
+}  // namespace neve::app::exports

@@ -1,0 +1,226 @@
+#include "app/exports/series.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <set>
+
+#include "app/exports/usda.h"
+#include "app/picture/collider_looks.h"
+#include "app/scene/names.h"
+#include "app/setup/camera_path.h"
+
+namespace neve::app::exports {
+
+namespace {
+
+using sim::Mat3d;
+using sim::Vec3d;
+
+/// Half the side of the square that stands for a plane, m.
+constexpr double half_plane = 5;
+
+/// A pose as USD has it: rows, so that a row vector is turned and moved.
+std::string usd_matrix(const Mat3d& rotation, const Vec3d& place) {
+  std::string text = "( ";
+  for (int r = 0; r < 4; ++r) {
+    text += "(";
+    for (int c = 0; c < 3; ++c) text += usd_number(r < 3 ? rotation(c, r) : place[c]) + ", ";
+    text += r < 3 ? "0), " : "1) )";
+  }
+  return text;
+}
+
+/// Corners and triangles of a collider about its point, in the axes of the simulation.
+struct Surface {
+  std::vector<Vec3d> points;
+  std::vector<std::uint32_t> corners;  ///< three a triangle
+};
+
+Surface surface_of(const sim::shapes::Shape& shape) {
+  Surface surface;
+  if (const auto* plane = std::get_if<sim::shapes::Plane>(&shape.form)) {
+    const Vec3d up = plane->normal.normalized();
+    const Vec3d across = up.unitOrthogonal(), along = up.cross(across);
+    for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+      surface.points.push_back(half_plane * (a * across + b * along));
+    surface.corners = {0, 1, 2, 0, 2, 3};
+    return surface;
+  }
+  const render::TriangleMesh mesh = picture::local_mesh(shape);
+  for (const Vec3f& p : mesh.position) surface.points.emplace_back(p.x, p.y, p.z);
+  surface.corners = mesh.index;
+  return surface;
+}
+
+std::string joined_numbers(const std::vector<std::uint32_t>& numbers) {
+  std::string text = "[";
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    text += (k > 0 ? ", " : "") + std::to_string(numbers[k]);
+  return text + "]";
+}
+
+std::string stage_times(const scene::Scene& scene, const std::vector<Sample>& samples,
+                        const auto& value) {
+  std::string text;
+  for (const Sample& sample : samples)
+    text += "                " + usd_number(sample.time * scene.fps) + ": " + value(sample) + ",\n";
+  return text;
+}
+
+std::string transform_samples(const scene::Scene& scene, const std::vector<Sample>& samples,
+                              const auto& matrix) {
+  return "            matrix4d xformOp:transform.timeSamples = {\n" +
+         stage_times(scene, samples, matrix) +
+         "            }\n            uniform token[] xformOpOrder = [\"xformOp:transform\"]\n";
+}
+
+/// @param index  of the collider in the scene
+std::string usd_collider(const scene::Scene& scene, const Axes& axes, std::size_t index,
+                         const std::string& name, const std::vector<Sample>& samples) {
+  const Surface surface = surface_of(scene.colliders[index].shape);
+  std::string points = "[";
+  for (std::size_t k = 0; k < surface.points.size(); ++k)
+    points += (k > 0 ? ", " : "") + usd_tuple(axes.scale() * surface.points[k]);
+  const std::vector<std::uint32_t> counts(surface.corners.size() / 3, 3);
+  return "        def Mesh \"" + name + "\"\n        {\n" +
+         "            uniform token subdivisionScheme = \"none\"\n" +
+         "            int[] faceVertexCounts = " + joined_numbers(counts) + "\n" +
+         "            int[] faceVertexIndices = " + joined_numbers(surface.corners) + "\n" +
+         "            point3f[] points = " + points + "]\n" +
+         transform_samples(scene, samples,
+                           [&](const Sample& sample) {
+                             const sim::shapes::Pose& pose = sample.poses[index];
+                             return usd_matrix(axes.turned(pose.rotation), axes.scaled(pose.point));
+                           }) +
+         "        }\n";
+}
+
+std::string usd_colliders(const scene::Scene& scene, const Axes& axes,
+                          const std::vector<Sample>& samples) {
+  std::string text = "    def Xform \"colliders\"\n    {\n";
+  std::set<std::string> names;
+  for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
+    std::string name = usd_name(scene.colliders[k].name);
+    while (!names.insert(name).second) name += "_";
+    text += usd_collider(scene, axes, k, name, samples);
+  }
+  return text + "    }\n";
+}
+
+/// A frame whose third axis points away from where one looks.
+Mat3d looking(const Vec3d& forward, const Vec3d& up) {
+  Mat3d rotation;
+  rotation.col(2) = -forward.normalized();
+  rotation.col(0) = up.cross(rotation.col(2)).normalized();
+  rotation.col(1) = rotation.col(2).cross(rotation.col(0));
+  return rotation;
+}
+
+/// Nothing where the camera has no place yet.
+std::string usd_camera(const scene::Scene& scene, const Axes& axes,
+                       const std::vector<Sample>& samples) {
+  if (!scene.camera || !scene.camera->eye || !scene.camera->target) return {};
+  constexpr double height = 24;  // tenths of a unit, as film has millimetres
+  const double width = height * scene.size.width / scene.size.height;
+  const auto place_at = [&](const Sample& sample) {
+    return setup::camera_at(*scene.camera, sample.time, scene.frames / scene.fps);
+  };
+  const auto focal_length = [&](const Sample& sample) {
+    const double half = 0.5 * place_at(sample).fov * std::numbers::pi / 180;
+    return usd_number(0.5 * height / std::tan(half));
+  };
+  const auto matrix = [&](const Sample& sample) {
+    const setup::CameraPlace place = place_at(sample);
+    const Mat3d rotation = looking(place.target - place.eye, scene.camera->up);
+    return usd_matrix(axes.turned(rotation), axes.scaled(place.eye));
+  };
+  return "    def Xform \"view\"\n    {\n        def Camera \"camera\"\n        {\n" +
+         std::string("            float horizontalAperture = ") + usd_number(width) +
+         "\n            float verticalAperture = " + usd_number(height) +
+         "\n            float focalLength.timeSamples = {\n" +
+         stage_times(scene, samples, focal_length) + "            }\n" +
+         transform_samples(scene, samples, matrix) + "        }\n    }\n";
+}
+
+std::string usd_light(const scene::Scene& scene, const Axes& axes) {
+  const Vec3d towards = scene.light.direction.normalized();
+  const Mat3d rotation = looking(-towards, towards.unitOrthogonal());
+  return "    def DistantLight \"sun\"\n    {\n        float inputs:intensity = " +
+         usd_number(scene.light.intensity) + "\n        matrix4d xformOp:transform = " +
+         usd_matrix(axes.turned(rotation), Vec3d::Zero()) +
+         "\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }\n";
+}
+
+std::string usd_clips(const scene::Scene& scene, const scene::Export& spec,
+                      const std::vector<Sample>& samples) {
+  const std::string folder = "./" + scene::folder_of(spec) + "/";
+  std::string paths, active, times;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const std::string between = k > 0 ? ", " : "", time = usd_number(samples[k].time * scene.fps);
+    paths += between + "@" + folder + file_name(spec, samples[k].number) + "@";
+    active += between + "(" + time + ", " + std::to_string(k) + ")";
+    times += between + "(" + time + ", " + time + ")";
+  }
+  return "        clips = {\n            dictionary default = {\n                asset[] "
+         "assetPaths = [" +
+         paths + "]\n                double2[] active = [" + active +
+         "]\n                double2[] times = [" + times +
+         "]\n                asset manifestAssetPath = @" + folder +
+         "manifest.usda@\n                string primPath = \"/neve/snow\"\n            }\n        "
+         "}\n";
+}
+
+}  // namespace
+
+std::string file_name(const scene::Export& spec, int number) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%04d.", number);
+  return digits + std::string(scene::name(spec.format));
+}
+
+std::string series_name(const scene::Export& spec) {
+  switch (spec.format) {
+    case scene::ExportFormat::vtp:
+    case scene::ExportFormat::vti:
+      return scene::folder_of(spec) + ".pvd";
+    case scene::ExportFormat::usda:
+      return scene::folder_of(spec) + ".usda";
+    default:
+      return {};
+  }
+}
+
+std::string encode_pvd(const scene::Export& spec, const std::vector<Sample>& samples) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (const Sample& sample : samples) {
+    text += "<DataSet timestep=\"";
+    append_text(sample.time, text);
+    text += "\" part=\"0\" file=\"" + scene::folder_of(spec) + "/" +
+            file_name(spec, sample.number) + "\"/>\n";
+  }
+  return text + "</Collection>\n</VTKFile>\n";
+}
+
+std::string encode_stage(const scene::Scene& scene, const scene::Export& spec, const Table& columns,
+                         const std::vector<Sample>& samples) {
+  const Axes axes(spec);
+  const double first = samples.empty() ? 0 : samples.front().time * scene.fps;
+  const double last = samples.empty() ? 0 : samples.back().time * scene.fps;
+  return usd_header(scene, spec, first, last) +
+         "def Xform \"neve\"\n{\n    def Points \"snow\" (\n" + usd_clips(scene, spec, samples) +
+         "    )\n    {\n" + usd_declarations(columns, std::string(8, ' ')) + "    }\n" +
+         usd_colliders(scene, axes, samples) + usd_camera(scene, axes, samples) +
+         usd_light(scene, axes) + "}\n";
+}
+
+std::string encode_manifest(const scene::Scene& scene, const scene::Export& spec,
+                            const Table& columns) {
+  return usd_header(scene, spec, 0, 0) + "over \"neve\"\n{\n    over \"snow\"\n    {\n" +
+         usd_declarations(columns, std::string(8, ' ')) + "    }\n}\n";
+}
+
+}  // namespace neve::app::exports

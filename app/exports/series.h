@@ -1,0 +1,38 @@
+#pragma once
+/// Files that put the moments of an export in a row, for programs that do not count files.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/exports/columns.h"
+
+namespace neve::app::exports {
+
+/// A file of an export, and where the colliders were.
+struct Sample {
+  int number = 0;   ///< of the file
+  double time = 0;  ///< s
+  std::vector<sim::shapes::Pose> poses;
+};
+
+/// "0024.ply"
+std::string file_name(const scene::Export& spec, int number);
+
+/// "vtp.pvd" or "usda.usda", beside the folder; "" for formats without.
+std::string series_name(const scene::Export& spec);
+
+/// A ParaView collection: every file with its time.
+std::string encode_pvd(const scene::Export& spec, const std::vector<Sample>& samples);
+
+/// A USD stage: the particles as value clips of the layers, colliders as meshes that move, the
+/// camera of the scene if it has a place, and its light.
+/// Source: OpenUSD, UsdClipsAPI.
+std::string encode_stage(const scene::Scene& scene, const scene::Export& spec, const Table& columns,
+                         const std::vector<Sample>& samples);
+
+/// The layer that tells the stage the names and types of the properties in the clips.
+std::string encode_manifest(const scene::Scene& scene, const scene::Export& spec,
+                            const Table& columns);
+
+}  // namespace neve::app::exports

@@ -1,0 +1,30 @@
+#pragma once
+/// The state of a simulation at one moment, as far as exports want to see it.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "sim/simulation.h"
+#include "sim/types/grid_fields.h"
+
+namespace neve::app::exports {
+
+/// Read while the simulation stands still, used while it continues.
+struct State {
+  double time = 0;  ///< s
+  std::uint64_t hash = 0;
+  sim::ParticleArrays particles;              ///< id order
+  std::vector<sim::Mat3d> kirchhoff;          ///< Pa; empty unless an export has stress
+  std::optional<sim::RasterizedNodes> nodes;  ///< absent unless an export has the grid
+  std::vector<sim::shapes::Pose> poses;       ///< of the scene's colliders
+};
+
+/// @param colliders  where their drawn places come from: the scene's, followed to this moment
+std::shared_ptr<const State> read_state(std::span<const scene::Export> exports,
+                                        const std::vector<scene::Collider>& colliders,
+                                        const sim::Simulation& simulation);
+
+}  // namespace neve::app::exports

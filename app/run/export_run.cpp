@@ -1,0 +1,190 @@
+#include "app/run/export_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/output/atomic_file.h"
+#include "app/output/checkpoint.h"
+#include "app/output/picture_writer.h"
+#include "app/output/sequence.h"
+#include "app/run/picture_record.h"
+#include "app/run/run_json.h"
+#include "app/run/walk.h"
+#include "app/scene/check.h"
+#include "app/scene/read.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/resolve.h"
+#include "app/setup/seed_scene.h"
+#include "app/support/errors.h"
+#include "app/support/interrupt.h"
+#include "app/support/version.h"
+
+namespace neve::app::run {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The job of a run that exists, from its run.json.
+RenderJob job_from_run(const RenderOptions& options) {
+  if (!options.overrides.empty() || options.coarsening)
+    throw scene::toml::UsageError(options.overrides.empty() ? "--coarsen" : "--set",
+                                  "a run has the scene it was made from",
+                                  "give the scene file instead of the folder to write another run");
+  const fs::path file = output::run_json_path(options.scene);
+  RenderJob job;
+  try {
+    const Json run = parse_json(output::read_file(file));
+    job.scene =
+        scene::read_scene_text(run.at("scene").get<std::string>(), file.string() + " (its scene)");
+    job.changes = scene::live_changes(run.value("changes", Json::array()));
+    job.coarsening = run.value("coarsen", 1.0);
+  } catch (const nlohmann::json::exception&) {
+    throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
+                file.string());
+  }
+  job.scene_file = options.scene;
+  job.folder = options.out.empty() ? fs::path(options.scene) : fs::path(options.out);
+  job.frames = options.frames.value_or(setup::FrameRange{0, job.scene.frames});
+  return job;
+}
+
+bool is_folder(const std::string& path) {
+  std::error_code error;
+  return !path.empty() && fs::is_directory(path, error);
+}
+
+/// Problems of the exports of the command line, as those of a scene file are found.
+void check_exports(const scene::Scene& scene) {
+  const std::optional<scene::Problem> problem = scene::find_problem(scene);
+  if (!problem) return;
+  const bool is_origin = problem->address.ends_with(".attributes");
+  throw scene::toml::UsageError(is_origin ? "--attributes" : "--body", problem->message,
+                                problem->hint);
+}
+
+/// Brings the simulation to the newest checkpoint of a run, where that is not too late and fits.
+/// @return its frame; 0: the start
+int go_to_checkpoint(const ExportJob& job, ChangePlayer& player, sim::Simulation& simulation,
+                     Progress& progress) {
+  if (job.run_folder.empty()) return 0;
+  const output::FoundCheckpoint found = output::find_checkpoint(job.run_folder);
+  if (!found.checkpoint) return 0;
+  const output::Checkpoint& checkpoint = *found.checkpoint;
+  const bool is_early = checkpoint.frame / job.run.scene.fps <= job.times.front() * (1 + 1e-12);
+  const bool is_ours = read_run_json(job.run_folder).value("version", "") == version;
+  if (!is_early || !is_ours || checkpoint.simd != simulation.simd()) return 0;
+  try {
+    player.go_to(checkpoint.steps);
+    simulation.restore(checkpoint.state);
+  } catch (const sim::SavedStateError& error) {
+    throw Error(
+        exit_invalid_scene,
+        job.run_folder.string() + ": error: the checkpoint is not of this run: " + error.what(),
+        job.run_folder.string(), "remove its folder checkpoint; the run starts at frame 0");
+  }
+  progress.note("continues from the checkpoint of frame " + std::to_string(checkpoint.frame));
+  return checkpoint.frame;
+}
+
+/// Cameras that frame the snow, for formats that have cameras.
+void place_camera(scene::Scene& scene) {
+  const bool has_camera =
+      std::any_of(scene.exports.begin(), scene.exports.end(),
+                  [](const scene::Export& e) { return e.format == scene::ExportFormat::usda; });
+  if (has_camera && setup::needs_framing(scene))
+    setup::resolve_cameras(scene, setup::coarse_run(scene));
+}
+
+/// A run in a folder and this one have to be the same: its frames have hashes.
+void compare_with_run(const ExportJob& job, int frame, std::uint64_t hash, Progress& progress) {
+  for (const FrameRecord& record : job.run_frames)
+    if (record.frame == frame && record.state_hash != hash)
+      progress.warning("frame " + std::to_string(frame) + " has another state than the run in " +
+                       job.run_folder.string() +
+                       ": its bits came from another version or other instructions, or files that "
+                       "the scene names have changed");
+}
+
+void write_list(const ExportJob& job, const Json& exports, bool is_whole) {
+  Json json;
+  json["version"] = version;
+  json["scene_file"] = job.run.scene_file;
+  json["fps"] = job.run.scene.fps;
+  json["is_whole"] = is_whole;
+  json["exports"] = exports;
+  output::write_file(job.run.folder / "export.json", to_text(json) + "\n");
+}
+
+void remove_earlier_list(const fs::path& folder) {
+  std::error_code error;
+  const fs::path file = folder / "export.json";
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return;
+  try {
+    exports::remove_earlier_exports(folder, parse_json(output::read_file(file)).at("exports"));
+  } catch (const std::exception&) {
+    // No list of ours: nothing is removed.
+  }
+}
+
+}  // namespace
+
+ExportJob make_export_job(const ExportOptions& options) {
+  ExportJob job;
+  const bool is_run = is_folder(options.run.scene);
+  job.run = is_run ? job_from_run(options.run) : make_job(options.run);
+  if (is_run) {
+    job.run_folder = options.run.scene;
+    job.run_frames = read_frame_records(job.run_folder);
+  }
+  if (options.run.out.empty()) job.run.folder /= "exports";
+  job.run.scene.exports = options.exports;
+  check_exports(job.run.scene);
+  job.are_frames = options.at.empty();
+  if (!job.are_frames) {
+    job.times = options.at;
+    const double last = std::ceil(job.times.back() * job.run.scene.fps);
+    job.run.frames = {0, static_cast<int>(std::min(last, 1e9))};
+    return job;
+  }
+  job.first_number = job.run.frames.first;
+  for (int frame = job.run.frames.first; frame <= job.run.frames.last; ++frame)
+    job.times.push_back(frame / job.run.scene.fps);
+  return job;
+}
+
+ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
+  scene::Scene scene = job.run.scene;
+  place_camera(scene);
+  const setup::SeededScene seeded = setup::seed_scene(scene);
+  sim::Simulation simulation = setup::make_simulation(scene, seeded.particles, threads);
+  ChangePlayer player(scene, job.run.changes, simulation);
+  player.begin();
+  Walk walk(scene.fps, simulation, player, progress,
+            go_to_checkpoint(job, player, simulation, progress));
+  output::make_folder(job.run.folder);
+  remove_earlier_list(job.run.folder);
+  exports::Exporter exporter(scene, job.run.folder, seeded.body_end);
+  output::PictureWriter writer;
+  ExportResult result;
+  progress.start(static_cast<int>(std::floor(job.times.back() * scene.fps * (1 + 1e-12))));
+  for (const double time : job.times) {
+    if (!walk.go_to(time)) break;
+    const int number = job.first_number + static_cast<int>(result.moments++);
+    scene::Scene now = player.scene();
+    follow_colliders(simulation, now);
+    if (job.are_frames) compare_with_run(job, number, simulation.state_hash(), progress);
+    for (exports::Exporter::Work& work : exporter.add(now.colliders, simulation, number, false))
+      writer.write(std::move(work));
+  }
+  writer.finish();
+  exporter.finish();
+  progress.clear();
+  result.is_whole = result.moments == job.times.size();
+  result.divergence = simulation.divergence();
+  result.exports = exporter.to_json("");
+  write_list(job, result.exports, result.is_whole);
+  return result;
+}
+
+}  // namespace neve::app::run

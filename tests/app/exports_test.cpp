@@ -1,0 +1,141 @@
+/// Exports: limits of formats, mistakes in [[export]], axes of files.
+
+#include <gtest/gtest.h>
+
+#include "app/exports/encode.h"
+#include "app/exports/series.h"
+#include "app/scene/read.h"
+#include "app/support/errors.h"
+
+namespace {
+
+using namespace neve;
+using app::scene::ExportAttribute;
+using app::scene::ExportFormat;
+
+app::scene::Scene scene_with(const std::string& exports) {
+  return app::scene::read_scene_text(
+      "[[body]]\nname = \"ball\"\nshape = { sphere = {} }\n" + exports, "scene");
+}
+
+std::string error_of_export(const std::string& exports) {
+  try {
+    scene_with(exports);
+  } catch (const app::scene::toml::SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+app::scene::Export spec_of(ExportFormat format, std::vector<ExportAttribute> attributes) {
+  app::scene::Export e;
+  e.format = format;
+  e.attributes = std::move(attributes);
+  return e;
+}
+
+/// @return the hint, "" where it holds
+std::string refusal(ExportFormat format, ExportAttribute attribute, double particles) {
+  const auto e = spec_of(format, {attribute});
+  try {
+    app::exports::check_capacity(e, app::exports::empty_table(scene_with(""), e), particles);
+  } catch (const app::LimitError& error) {
+    EXPECT_EQ(error.code, app::exit_refused);
+    return error.hint;
+  }
+  return "";
+}
+
+TEST(Exports, MoreParticlesThanAFormatHoldsAreRefused) {
+  constexpr double many = 4294967296;
+  for (const auto format : {ExportFormat::bgeo, ExportFormat::npz})
+    EXPECT_NE(refusal(format, ExportAttribute::J_P, many).find("use ply or vtp"),
+              std::string::npos);
+  for (const auto format : {ExportFormat::ply, ExportFormat::vtp, ExportFormat::csv})
+    EXPECT_EQ(refusal(format, ExportAttribute::J_P, many), "");
+  EXPECT_EQ(refusal(ExportFormat::bgeo, ExportAttribute::F_E, 2147483647), "");
+  EXPECT_NE(refusal(ExportFormat::bgeo, ExportAttribute::F_E, 2147483648.0), "");
+  // 4 GiB hold 119 million tensors of nine floats, and 178 million places, which are always there.
+  EXPECT_EQ(refusal(ExportFormat::npz, ExportAttribute::F_E, 119e6), "");
+  EXPECT_NE(refusal(ExportFormat::npz, ExportAttribute::F_E, 120e6), "");
+  EXPECT_EQ(refusal(ExportFormat::npz, ExportAttribute::id, 178e6), "");
+  EXPECT_NE(refusal(ExportFormat::npz, ExportAttribute::id, 179e6), "");
+}
+
+TEST(Exports, AGridAroundSnowThatIsFarApartIsRefused) {
+  const app::scene::Scene scene = scene_with("");
+  const auto e = spec_of(ExportFormat::vti, {});
+  app::exports::State state;
+  state.nodes.emplace();
+  state.nodes->spacing = 0.1;
+  state.nodes->block = {{-2, 0, 0}, {5, 1, 3}};
+  state.nodes->mass.assign(128, 1.0);
+  state.nodes->velocity.assign(128, sim::Vec3d(1, 2, 3));
+  const app::exports::Table none;
+  const std::string small = app::exports::encode_vti({scene, e, state, none});
+  EXPECT_NE(small.find("WholeExtent=\"0 31 0 7 0 15\" Origin=\"-0.8 0 0\" Spacing=\"0.1 0.1 0.1\""),
+            std::string::npos)
+      << small.substr(0, 400);
+  state.nodes->block = {{-100000, -100000, -100000}, {100000, 100000, 100000}};
+  try {
+    app::exports::encode_vti({scene, e, state, none});
+    FAIL() << "was written";
+  } catch (const app::LimitError& error) {
+    EXPECT_NE(error.hint.find("[[sink]]"), std::string::npos);
+  }
+}
+
+TEST(Exports, AxesKeepTheirHandedness) {
+  app::scene::Export e;
+  e.up = app::scene::UpAxis::z;
+  e.scale = 100;
+  const app::exports::Axes axes(e);
+  EXPECT_EQ(axes.scaled({1, 2, 3}), sim::Vec3d(100, -300, 200));
+  EXPECT_EQ(axes.direction({1, 0, 0}).cross(axes.direction({0, 1, 0})), axes.direction({0, 0, 1}));
+  sim::Mat3d a;
+  a << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  const sim::Vec3d v(0.3, -2, 5);
+  EXPECT_EQ(axes.tensor(a) * axes.direction(v), axes.direction(a * v));
+}
+
+TEST(Exports, FoldersAreCalledLikeTheExportOrItsFormat) {
+  const app::scene::Scene scene =
+      scene_with("[[export]]\nformat = \"vtp\"\n[[export]]\nname = \"fine\"\nformat = \"vtp\"\n");
+  ASSERT_EQ(scene.exports.size(), 2u);
+  EXPECT_EQ(app::scene::folder_of(scene.exports[0]), "vtp");
+  EXPECT_EQ(app::scene::folder_of(scene.exports[1]), "fine");
+  EXPECT_EQ(app::exports::series_name(scene.exports[1]), "fine.pvd");
+  EXPECT_EQ(app::exports::file_name(scene.exports[1], 24), "0024.vtp");
+}
+
+TEST(Exports, MistakesInASceneAreLocated) {
+  EXPECT_NE(error_of_export("[[export]]\nformat = \"vpt\"\n").find("did you mean \"vtp\"?"),
+            std::string::npos);
+  EXPECT_NE(error_of_export("[[export]]\nattributes = [\"speed\"]\n").find("\"kirchhoff\""),
+            std::string::npos);
+  EXPECT_NE(error_of_export("[[export]]\nbodies = [\"bal\"]\n").find("did you mean ball?"),
+            std::string::npos);
+  const std::string twice = error_of_export("[[export]]\n[[export]]\n");
+  EXPECT_NE(twice.find("exports/ply"), std::string::npos) << twice;
+  const std::string emitters =
+      "[[emitter]]\nname = \"a\"\nshape = { sphere = {} }\nrate = 1\nvelocity = [0, -1, 0]\n"
+      "[[emitter]]\nname = \"b\"\nshape = { sphere = {} }\nrate = 1\nvelocity = [0, -1, 0]\n";
+  EXPECT_EQ(error_of_export(emitters + "[[export]]\n"), "");
+  const std::string age = error_of_export(emitters + "[[export]]\nattributes = [\"age\"]\n");
+  EXPECT_NE(age.find("which of several emitters"), std::string::npos) << age;
+}
+
+TEST(Exports, AgeOfEmittedSnowIsTheTimeSinceItsBirth) {
+  const app::scene::Scene scene = scene_with(
+      "[[emitter]]\nname = \"hose\"\nshape = { sphere = {} }\nrate = 2\nstart = 0.5\n"
+      "velocity = [0, -1, 0]\n");
+  const app::exports::Origins origins(scene, {10});
+  EXPECT_EQ(origins.body_of(9), 0);
+  EXPECT_EQ(origins.body_of(10), 1);
+  EXPECT_EQ(origins.birth_of(9), 0);
+  const double h = scene.solver.cell_size, mass = 400 * h * h * h / 8;
+  EXPECT_NEAR(origins.birth_of(10), 0.5 + 0.5 * mass / 2, 1e-12);
+  EXPECT_NEAR(origins.birth_of(13), 0.5 + 3.5 * mass / 2, 1e-12);
+}
+
+}  // namespace

@@ -1,0 +1,257 @@
+/// neve export: every format holds the state to the bit, all times are of one simulation.
+
+#include "app/output/atomic_file.h"
+#include "tests/cli/run_neve.h"
+#include "tests/support/needs.h"
+#include "tests/support/python.h"
+
+namespace neve::test {
+namespace {
+
+constexpr const char* all_attributes =
+    "id,x,v,m,V0,density,J_E,J_P,F_E,stress,kirchhoff,C,material,body,radius,age";
+
+/// Two bodies of two materials, a spinning one with APIC so that C is not zero, and a post that
+/// moves.
+constexpr const char* pair_scene = R"(
+frames = 6
+[solver]
+cell_size = 0.04
+transfer = "apic"
+[material.snow]
+[material.ice]
+youngs_modulus = 3e5
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.12, 0.3], radius = 0.08 } }
+velocity = [0, -2, 0]
+angular_velocity = [0, 20, 0]
+[[body]]
+name = "cube"
+material = "ice"
+shape = { box = { center = [0.2, 0.15, 0.3], size = [0.12, 0.12, 0.12] } }
+[[collider]]
+name = "floor"
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[[collider]]
+name = "2-post"
+shape = { cylinder = { center = [0.1, 0.1, 0], radius = 0.02, height = 0.2 } }
+velocity = [0.1, 0, 0]
+[output]
+size = [160, 90]
+)";
+
+class Export : public Cli {
+ protected:
+  Export() { folder.write("pair.toml", pair_scene); }
+
+  app::Json json_of_export(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "export");
+    arguments.push_back("--json");
+    const auto result = neve(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return app::parse_json(std::string_view(result.output));
+  }
+
+  void expect_refused(std::vector<std::string> arguments, int code, const std::string& part) {
+    arguments.insert(arguments.begin(), "export");
+    const auto result = neve(arguments);
+    EXPECT_EQ(result.exit_code, code) << result.errors;
+    EXPECT_TRUE(contains(result.errors, part)) << result.errors;
+  }
+};
+
+TEST_F(Export, EveryFormatHoldsTheStateToTheBit) {
+  const auto python = python_with("numpy");
+  if (!python) SKIP_OR_FAIL("no Python with numpy; install python3-numpy");
+  const std::string formats = "ply,vtp,vti,bgeo,usda,npz,csv";
+  json_of_export({"pair.toml", "--format", formats, "--attributes", all_attributes, "--out", "all",
+                  "--frames", "3-5"});
+  json_of_export({"pair.toml", "--format", formats, "--attributes", all_attributes, "--out",
+                  "turned", "--frames", "5-5", "--up", "z", "--scale", "100"});
+  // A frame, as text that is the same number.
+  const auto dump = neve({"dump", "pair.toml", "--at", "0.20833333333333334", "--format", "vtk",
+                          "--out", "state.vtp"});
+  ASSERT_EQ(dump.exit_code, 0) << dump.errors;
+  const auto same =
+      run_script(*python, "check_formats.py", {"all", "5", "state.vtp"}, folder.path());
+  EXPECT_EQ(same.output, "same\n") << same.errors;
+  const auto turned = run_script(*python, "check_formats.py",
+                                 {"turned", "5", "state.vtp", "z", "100"}, folder.path());
+  EXPECT_EQ(turned.output, "same\n") << turned.errors;
+}
+
+TEST_F(Export, FramesAreThoseOfTheRun) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--quiet"}).exit_code, 0);
+  const app::Json run = json_of("out/scene/run.json");
+  const app::Json all = json_of_export({"scene.toml", "--format", "npz", "--out", "all"});
+  const app::Json& files = all["exports"][0]["files"];
+  ASSERT_EQ(files.size(), 5u);
+  for (std::size_t k = 0; k < files.size(); ++k)
+    EXPECT_EQ(files[k]["state_hash"], run["frames"][k]["state_hash"]) << k;
+  // Frames that begin later, the folder of the run with its checkpoint, and its picture give the
+  // same bytes.
+  json_of_export({"scene.toml", "--format", "npz", "--out", "late", "--frames", "4-4"});
+  json_of_export({"out/scene", "--format", "npz", "--frames", "4-4", "--out", "of_run"});
+  json_of_export({"out/scene/particles/0004.png", "--format", "npz", "--out", "of_picture"});
+  const auto bytes = app::output::read_file(folder / "all/npz/0004.npz");
+  for (const char* other : {"late", "of_run", "of_picture"})
+    EXPECT_EQ(app::output::read_file(folder / other / "npz" / "0004.npz"), bytes) << other;
+}
+
+TEST_F(Export, ARunContinuesFromItsCheckpoint) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--quiet", "--checkpoint-every", "3", "--frames", "0-3"})
+                .exit_code,
+            0);
+  const auto late =
+      neve({"export", "out/scene", "--format", "csv", "--frames", "3-4", "--out", "late"});
+  EXPECT_EQ(late.exit_code, 0) << late.errors;
+  EXPECT_TRUE(contains(late.errors, "continues from the checkpoint of frame 3")) << late.errors;
+  const auto early =
+      neve({"export", "out/scene", "--format", "csv", "--frames", "1-4", "--out", "early"});
+  EXPECT_FALSE(contains(early.errors, "continues from")) << early.errors;
+  for (const char* frame : {"0003.csv", "0004.csv"})
+    EXPECT_EQ(read_text(folder / "late/csv" / frame), read_text(folder / "early/csv" / frame));
+}
+
+TEST_F(Export, TimesInsideAFrameAreThoseOfDump) {
+  const app::Json list = json_of_export(
+      {"scene.toml", "--format", "csv", "--at", "0.01,0.05,0.1s,0.125", "--out", "times"});
+  const auto dump =
+      neve({"dump", "scene.toml", "--at", "0.01,0.05,0.1s,0.125", "--json", "--field", "x"});
+  ASSERT_EQ(dump.exit_code, 0) << dump.errors;
+  const app::Json moments = app::parse_json(std::string_view(dump.output));
+  ASSERT_EQ(moments.size(), 4u);
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    const app::Json& file = list["exports"][0]["files"][k];
+    EXPECT_EQ(file["state_hash"], moments[k]["state_hash"]);
+    EXPECT_EQ(file["time"], moments[k]["time"]);
+    EXPECT_EQ(file["number"], k);
+    EXPECT_TRUE(exists("times/" + file["file"].get<std::string>()));
+  }
+}
+
+TEST_F(Export, BodiesAreWrittenByName) {
+  const app::Json all = json_of_export({"pair.toml", "--format", "csv", "--frames", "0-0",
+                                        "--attributes", "id,body", "--out", "all"});
+  json_of_export({"pair.toml", "--format", "csv", "--frames", "0-0", "--attributes", "body",
+                  "--body", "cube", "--out", "cube"});
+  EXPECT_TRUE(read_text(folder / "all/csv/0000.csv").starts_with("x,y,z,id,body\n"));
+  const std::string cube = read_text(folder / "cube/csv/0000.csv");
+  const auto lines = std::count(cube.begin(), cube.end(), '\n');
+  EXPECT_GT(lines, 100);
+  std::size_t found = 0;
+  for (std::size_t at = cube.find(",1\n"); at != std::string::npos; at = cube.find(",1\n", at + 1))
+    ++found;
+  EXPECT_EQ(found + 1, static_cast<std::size_t>(lines));
+}
+
+TEST_F(Export, TheNextExportRemovesTheFilesOfTheOneBefore) {
+  json_of_export({"scene.toml", "--format", "vtp,usda", "--out", "x"});
+  folder.write("x/vtp/mine.txt", "kept");
+  json_of_export({"scene.toml", "--format", "vtp", "--frames", "0-1", "--out", "x"});
+  EXPECT_TRUE(exists("x/vtp/0001.vtp"));
+  EXPECT_TRUE(exists("x/vtp/mine.txt"));
+  for (const char* gone :
+       {"x/vtp/0002.vtp", "x/usda.usda", "x/usda/0000.usda", "x/usda/manifest.usda"})
+    EXPECT_FALSE(exists(gone)) << gone;
+}
+
+/// The list may be forged: it removes nothing outside its folder.
+TEST_F(Export, AForgedListRemovesNothingElse) {
+  folder.write("precious.txt", "kept");
+  folder.write("x/export.json", R"({"exports": [{"format": "ply", "series": "../precious.txt",
+      "files": [{"file": "../precious.txt"}, {"file": ")" +
+                                    (folder / "precious.txt").string() + R"("}, {"file": 7}]}]})");
+  json_of_export({"scene.toml", "--format", "ply", "--frames", "0-0", "--out", "x"});
+  EXPECT_TRUE(exists("precious.txt"));
+}
+
+TEST_F(Export, MistakesAreExplained) {
+  expect_refused({"scene.toml"}, 2, "--format");
+  expect_refused({"scene.toml", "--format", "ply,obj"}, 2, "expected ply, vtp, vti, bgeo");
+  expect_refused({"scene.toml", "--format", "ply", "--attributes", "id,JP"}, 2,
+                 "did you mean J_P?");
+  expect_refused({"scene.toml", "--format", "ply", "--body", "bal"}, 2, "did you mean ball?");
+  expect_refused({"scene.toml", "--format", "ply", "--at", "0.1", "--frames", "0-1"}, 2,
+                 "cannot be combined");
+  expect_refused({"scene.toml", "--format", "ply", "--up", "x"}, 2, "expected y, z");
+  expect_refused({"scene.toml", "--format", "ply", "--scale", "0"}, 2, "--scale 100");
+  expect_refused({"out/none", "--format", "ply"}, 3, "out/none");
+  folder.write("empty/run.json", "{}");
+  expect_refused({"empty", "--format", "ply"}, 3, "not a run.json");
+  expect_refused({"scene.toml", "--format", "ply", "--out", "/proc/none"}, 6, "/proc/none");
+  folder.write("file", "no folder");
+  expect_refused({"scene.toml", "--format", "ply", "--out", "file"}, 6, "file");
+  expect_refused({"scene.toml", "--format", "ply", "--set", "limits.particles=10"}, 8,
+                 "limits.particles");
+}
+
+TEST_F(Export, ADivergedRunKeepsTheFilesBeforeIt) {
+  folder.write("explode.toml", exploding_scene);
+  const auto result = neve({"export", "explode.toml", "--format", "ply", "--out", "x"});
+  EXPECT_EQ(result.exit_code, 5) << result.errors;
+  EXPECT_TRUE(exists("x/ply/0000.ply"));
+  EXPECT_EQ(json_of("x/export.json")["is_whole"], false);
+}
+
+TEST_F(Export, AFullDiskIsReportedAndLeavesNoHalfFile) {
+  const auto result = app::output::run_process(
+      "/bin/sh", {"-c", "ulimit -f 8; exec " NEVE_BINARY " export scene.toml --format ply --out x"},
+      folder.path());
+  EXPECT_EQ(result.exit_code, 6) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "0000.ply")) << result.errors;
+  EXPECT_EQ(file_count(folder / "x/ply"), 0u);
+}
+
+constexpr const char* exporting = R"(
+[[export]]
+format = "npz"
+every = 2
+attributes = ["id", "v"]
+[[export]]
+name = "for_paraview"
+format = "vtp"
+bodies = ["ball"]
+)";
+
+TEST_F(Export, ARunWritesTheExportsOfItsScene) {
+  folder.write("both.toml", std::string(tiny_scene) + exporting);
+  ASSERT_EQ(neve({"render", "both.toml", "--quiet"}).exit_code, 0);
+  const app::Json list = json_of("out/both/run.json")["exports"];
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0]["files"].size(), 3u);
+  EXPECT_EQ(list[1]["files"].size(), 5u);
+  for (const app::Json& e : list)
+    for (const app::Json& file : e["files"])
+      EXPECT_TRUE(exists("out/both/" + file["file"].get<std::string>())) << file;
+  EXPECT_TRUE(exists("out/both/exports/for_paraview.pvd"));
+  json_of_export({"scene.toml", "--format", "npz", "--attributes", "id,v", "--out", "alone"});
+  EXPECT_EQ(app::output::read_file(folder / "out/both/exports/npz/0004.npz"),
+            app::output::read_file(folder / "alone/npz/0004.npz"));
+  // A picture is drawn again without them; a new run without them removes them.
+  ASSERT_EQ(neve({"render", "out/both/particles/0002.png", "--quiet"}).exit_code, 0);
+  EXPECT_FALSE(exists("out/0002-again/exports"));
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "out/both", "--quiet"}).exit_code, 0);
+  EXPECT_FALSE(exists("out/both/exports/npz/0004.npz"));
+  EXPECT_FALSE(exists("out/both/exports/for_paraview.pvd"));
+}
+
+TEST_F(Export, AResumedRunListsAllItsExports) {
+  folder.write("both.toml", std::string(tiny_scene) + exporting);
+  ASSERT_EQ(neve({"render", "both.toml", "--quiet", "--out", "whole"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", "both.toml", "--quiet", "--frames", "0-2", "--out", "parts",
+                  "--checkpoint-every", "2"})
+                .exit_code,
+            0);
+  ASSERT_EQ(neve({"render", "both.toml", "--quiet", "--resume", "--out", "parts",
+                  "--checkpoint-every", "2"})
+                .exit_code,
+            0);
+  EXPECT_EQ(json_of("parts/run.json")["exports"], json_of("whole/run.json")["exports"]);
+  EXPECT_EQ(read_text(folder / "parts/exports/for_paraview.pvd"),
+            read_text(folder / "whole/exports/for_paraview.pvd"));
+}
+
+}  // namespace
+}  // namespace neve::test
