@@ -23,15 +23,24 @@ inline std::optional<std::filesystem::path> python_with(const std::string& modul
   return std::nullopt;
 }
 
-/// Runs tests/python/NAME in a folder.
+/// Runs tests/python/NAME in a folder. @param variables  of the environment: "NAME=VALUE"
+inline app::output::ProcessResult run_script_with(const std::filesystem::path& python,
+                                                  const std::vector<std::string>& variables,
+                                                  const std::string& name,
+                                                  const std::vector<std::string>& arguments,
+                                                  const std::filesystem::path& folder) {
+  std::vector<std::string> words = variables;
+  words.insert(words.end(),
+               {python.string(), "-B", std::string(NEVE_SOURCE_DIR "/tests/python/") + name});
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return app::output::run_process("/usr/bin/env", words, folder);
+}
+
 inline app::output::ProcessResult run_script(const std::filesystem::path& python,
                                              const std::string& name,
-                                             std::vector<std::string> arguments,
+                                             const std::vector<std::string>& arguments,
                                              const std::filesystem::path& folder) {
-  arguments.insert(
-      arguments.begin(),
-      {"-B", (std::filesystem::path(NEVE_SOURCE_DIR) / "tests/python" / name).string()});
-  return app::output::run_process(python, arguments, folder);
+  return run_script_with(python, {}, name, arguments, folder);
 }
 
 }  // namespace neve::test

@@ -1,0 +1,319 @@
+"""neve from Python: run scenes, read runs, states and sweeps as numpy arrays.
+
+Needs numpy and the program; imports nothing else and has no binding of the library. The program is
+`neve` of the environment variable NEVE, else that of this checkout, else that in PATH.
+
+    import neve
+    run = neve.render("scenes/snowball_drop.toml", coarsen=2)
+    print(run["max_speed"])                  # one value per frame
+    state = run.state(24)                    # arrays of all particles
+    print(state["J_P"].min(), state.time)
+
+docs/python.md has recipes.
+"""
+
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+
+import numpy as np
+
+
+class NeveError(RuntimeError):
+    """The program refused or failed: `code` is its exit code (README, "Exit codes"), `where` and
+    `hint` are the place and the advice of its message."""
+
+    def __init__(self, message, code, where="", hint=""):
+        super().__init__(f"{message}; {hint}" if hint and hint not in message else message)
+        self.code, self.where, self.hint = code, where, hint
+
+
+def program():
+    """Path of the program. The one that NEVE names is taken as it is."""
+    if "NEVE" in os.environ:
+        return os.environ["NEVE"]
+    launcher = pathlib.Path(__file__).resolve().parent.parent / "neve"
+    found = str(launcher) if launcher.is_file() else shutil.which("neve")
+    if not found:
+        raise FileNotFoundError("no program neve in PATH; set the environment variable NEVE to it")
+    return found
+
+
+def call(*arguments, results=(0,)):
+    """Runs the program with --json and returns its answer, as in call("check", "scene.toml").
+
+    Exit codes other than those in `results` raise NeveError."""
+    words = [program(), *map(str, arguments), "--json"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    try:
+        answer = json.loads(done.stdout)
+    except ValueError:
+        answer = {}
+    if done.returncode in results:
+        return answer
+    lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
+    error = answer if isinstance(answer, dict) else {}
+    raise NeveError(error.get("error", lines[-1]), done.returncode, error.get("where", ""),
+                    error.get("hint", ""))
+
+
+def _literal(value):
+    """A value as --set takes it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return "[" + ", ".join(_literal(v) for v in value) + "]"
+    return repr(value) if isinstance(value, (int, float)) else str(value)
+
+
+def _scene_flags(set, coarsen, threads):
+    flags = [word for address, value in (set or {}).items()
+             for word in ("--set", f"{address}={_literal(value)}")]
+    if coarsen is not None:
+        flags += ["--coarsen", coarsen]
+    if threads is not None:
+        flags += ["--threads", threads]
+    return flags
+
+
+def _frames(frames):
+    """"3-9" of 3, (3, 9) or "3-9"."""
+    if isinstance(frames, str):
+        return frames
+    return f"{frames[0]}-{frames[1]}" if isinstance(frames, (list, tuple)) else f"{frames}-{frames}"
+
+
+def _number(value):
+    """None of JSON is not a number."""
+    return np.nan if value is None else value
+
+
+class State(dict):
+    """Particles at one time: arrays by attribute, a row per particle. `time` is in seconds."""
+
+    def __init__(self, arrays, time=np.nan, frame=np.nan):
+        super().__init__(arrays)
+        self.time, self.frame = float(time), float(frame)
+
+    @property
+    def count(self):
+        return len(self["x"])
+
+
+def read_npz(path):
+    """A state that neve export wrote as npz."""
+    with np.load(path) as archive:
+        arrays = {name: archive[name] for name in archive.files}
+    about = {name: arrays.pop(name) for name in ("time", "frame", "fps", "scale", "up")}
+    return State(arrays, about["time"], about["frame"])
+
+
+def _joined(table):
+    """x y z, vx vy vz and F_E_xx ... F_E_zz as arrays."""
+    names = list(table.dtype.names)
+    arrays = {}
+    for what, parts in (("x", ["x", "y", "z"]), ("v", ["vx", "vy", "vz"])):
+        if all(part in names for part in parts):
+            arrays[what] = np.stack([table[part] for part in parts], axis=1)
+            names = [name for name in names if name not in parts]
+    for name in names:
+        tensor = name[:-3]
+        if not name.endswith("_xx"):
+            if name[-3:-2] != "_" or f"{name[:-3]}_xx" not in names:
+                arrays[name] = table[name]
+            continue
+        parts = [f"{tensor}_{a}{b}" for a in "xyz" for b in "xyz"]
+        arrays[tensor] = np.stack([table[part] for part in parts], axis=1).reshape(-1, 3, 3)
+    return arrays
+
+
+def read_ply(path):
+    """The points of a binary PLY file without lists, as neve export writes it."""
+    types = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4",
+             "float": "f4", "double": "f8"}
+    with open(path, "rb") as file:
+        fields, count, order, time = [], 0, "<", np.nan
+        for line in iter(file.readline, b""):
+            words = line.decode("ascii", "replace").split()
+            if words[:1] == ["end_header"]:
+                break
+            if words[:1] == ["format"]:
+                order = {"binary_little_endian": "<", "binary_big_endian": ">"}[words[1]]
+            elif words[:2] == ["element", "vertex"]:
+                count = int(words[2])
+            elif words[:1] == ["property"]:
+                fields.append((words[2], order + types[words[1]]))
+            elif words[:2] == ["comment", "time"]:
+                time = float(words[2])
+        table = np.fromfile(file, fields, count)
+    return State(_joined(table), time)
+
+
+def read_csv(path):
+    """A state that neve export wrote as csv."""
+    return State(_joined(np.genfromtxt(path, delimiter=",", names=True, deletechars="")))
+
+
+_readers = {"npz": read_npz, "ply": read_ply, "csv": read_csv}
+
+
+class Export:
+    """Files of one export in the order of their times: `times`, and states by index."""
+
+    def __init__(self, folder, listed):
+        self.folder, self.format = pathlib.Path(folder), listed["format"]
+        self.attributes = listed["attributes"]
+        self.files = [self.folder / file["file"] for file in listed["files"]]
+        self.numbers = [file["number"] for file in listed["files"]]
+        self.times = np.array([_number(file["time"]) for file in listed["files"]])
+
+    def __len__(self):
+        return len(self.files)
+
+    def __getitem__(self, index):
+        if self.format not in _readers:
+            raise NeveError(f"no reader of {self.format} here; expected npz, ply or csv", 2)
+        state = _readers[self.format](self.files[index])
+        state.time = float(self.times[index])
+        return state
+
+    def __iter__(self):
+        return (self[index] for index in range(len(self)))
+
+
+def _exports_in(folder, listed):
+    return {e["name"]: Export(folder, e) for e in listed.get("exports", [])}
+
+
+class Run:
+    """The folder of a run: run.json as `json`, its frames as arrays by name."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        with open(self.folder / "run.json", encoding="utf-8") as file:
+            self.json = json.load(file)
+
+    @property
+    def status(self):
+        return self.json["status"]
+
+    @property
+    def frames(self):
+        """Numbers of the frames."""
+        return np.array([frame["frame"] for frame in self.json["frames"]])
+
+    @property
+    def exports(self):
+        """Exports of [[export]], by name."""
+        return _exports_in(self.folder, self.json)
+
+    def __getitem__(self, name):
+        """A value of every frame, as in run["kinetic_energy"]: a number, a vector, or text."""
+        return np.array([_number(frame[name]) for frame in self.json["frames"]])
+
+    def force(self, collider):
+        """Force of the snow on a collider in every frame, N; not a number where there was no step."""
+        rows = []
+        for frame in self.json["frames"]:
+            found = [f["force"] for f in frame["forces"] if f["collider"] == collider]
+            rows.append(found[0] if found else [np.nan] * 3)
+        return np.array(rows, dtype=float)
+
+    def state(self, frame, attributes=("id", "x", "v", "m", "V0", "J_P", "density", "radius")):
+        """The particles at a frame: simulated again, from a checkpoint where one is early enough."""
+        with tempfile.TemporaryDirectory() as folder:
+            states = export(self.folder, folder, frames=frame, attributes=attributes)
+            return states["npz"][0]
+
+
+def render(scene, out=None, set=None, frames=None, coarsen=None, threads=None, flags=()):
+    """Simulates and draws a scene. `set` has parameters by address, as in
+    {"material.snow.hardening": 5}; `flags` are passed on as they are. A run that diverges is
+    returned, with the status "diverged"."""
+    words = ["render", scene, *_scene_flags(set, coarsen, threads), *flags]
+    folder = pathlib.Path(out) if out else pathlib.Path("out") / pathlib.Path(scene).stem
+    words += ["--out", folder]
+    if frames is not None:
+        words += ["--frames", _frames(frames)]
+    call(*words, results=(0, 5))
+    return Run(folder)
+
+
+def export(source, out, formats=("npz",), frames=None, at=None, attributes=None, set=None,
+           coarsen=None, threads=None, flags=()):
+    """Writes the particles of a scene, of a run (a Run or its folder) or of a picture into a folder,
+    in one simulation. @return exports by format"""
+    source = source.folder if isinstance(source, Run) else source
+    words = ["export", source, "--out", out, "--format", ",".join(formats), *flags]
+    words += _scene_flags(set, coarsen, threads)
+    if frames is not None:
+        words += ["--frames", _frames(frames)]
+    if at is not None:
+        words += ["--at", ",".join(repr(float(time)) for time in np.atleast_1d(at))]
+    if attributes is not None:
+        words += ["--attributes", ",".join(attributes)]
+    return _exports_in(out, call(*words))
+
+
+class Sweep:
+    """The folder of a sweep: data.csv as arrays by column, and its runs."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        with open(self.folder / "data.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        self.columns = rows[0]
+        self.table = {name: _column([row[k] for row in rows[1:]])
+                      for k, name in enumerate(self.columns)}
+
+    def __len__(self):
+        return len(self.table["run"])
+
+    def __getitem__(self, column):
+        """A column: numbers where all of it is, else text; "-" is not a number."""
+        return self.table[column]
+
+    def run(self, index):
+        """The run of a row."""
+        return Run(self.folder / "runs" / f"{int(self['run'][index]):04d}")
+
+
+def _column(words):
+    try:
+        return np.array([np.nan if word in ("", "-") else float(word) for word in words])
+    except ValueError:
+        return np.array(words)
+
+
+def sweep(file, out, parameters=None, set=None, frames=None, coarsen=None, threads=None, flags=()):
+    """Runs a sweep file, or a scene with many values: `parameters` has lists by address, as in
+    {"material.snow.hardening": [5, 10]}. Failed runs are rows of the table."""
+    words = ["sweep", file, "--out", out, *_scene_flags(set, coarsen, threads), *flags]
+    for address, values in (parameters or {}).items():
+        # As the flag has it: a list of numbers or words without brackets.
+        words += ["-p", f"{address}=" + ",".join(_literal(value) for value in values)]
+    if frames is not None:
+        words += ["--frames", _frames(frames)]
+    call(*words, results=(0, 7))
+    return Sweep(out)
+
+
+def check(scene, **changes):
+    """The forecast of neve check: particles, memory_bytes, dt_limits, warnings ..."""
+    return call("check", scene, *_scene_flags(changes.get("set"), changes.get("coarsen"), None))
+
+
+def info(path):
+    """The record of a picture or of a run."""
+    return call("info", path)
+
+
+def params():
+    """Every parameter: address, type, unit, min, max, default, help."""
+    return call("params")

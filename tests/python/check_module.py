@@ -1,0 +1,71 @@
+"""python/neve.py on a small scene. NEVE names the program.
+
+    check_module.py FOLDER_OF_neve.py
+"""
+
+import os
+import sys
+
+import numpy as np
+
+sys.path.insert(0, sys.argv[1])
+import neve
+
+# A run: its frames as arrays.
+run = neve.render("scene.toml", set={"body.ball.velocity": [0, -3, 0]}, flags=["--no-movie"])
+assert run.status == "ok" and list(run.frames) == [0, 1, 2, 3, 4], run.status
+assert run["max_speed"][0] == 3 and run["momentum"].shape == (5, 3)
+assert np.isnan(run["dt_min"][0]) and run["dt_min"][1] > 0
+assert np.isnan(run.force("floor")[0, 0]) and np.nanmin(run.force("floor")[:, 1]) < 0
+assert neve.Run("out/scene").json == run.json
+
+# States: of a run, and exports in every format that the module reads, are the same.
+names = ["id", "x", "v", "m", "J_P", "F_E"]
+state = run.state(3, attributes=names)
+assert state.count == run["particles"][3] and state.time == run["time"][3] == 0.125
+assert state["F_E"].shape == (state.count, 3, 3) and state["v"].dtype == "f4"
+kinetic = 0.5 * (state["m"].astype("f8") * (state["v"].astype("f8") ** 2).sum(axis=1)).sum()
+np.testing.assert_allclose(kinetic, run["kinetic_energy"][3], rtol=1e-5)
+exports = neve.export(run, "states", formats=["npz", "ply", "csv"], frames=(2, 3), attributes=names)
+assert set(exports) == {"npz", "ply", "csv"}
+for format, series in exports.items():
+    assert len(series) == 2 and list(series.times) == [run["time"][2], 0.125]
+    for name in names:
+        read = series[1][name].astype(state[name].dtype)
+        assert read.tobytes() == state[name].tobytes(), (format, name)
+at = neve.export("scene.toml", "at", at=[0.01, 0.1])["npz"]
+assert [round(s.time, 2) for s in at] == [0.01, 0.1] and at.numbers == [0, 1]
+
+# A sweep as a table.
+sweep = neve.sweep("scene.toml", "s.cdb", {"material.snow.hardening": [5, 10]}, frames=(0, 2))
+assert len(sweep) == 2 and list(sweep["material_snow_hardening"]) == [5, 10]
+assert list(sweep["state"]) == ["ok", "ok"] and sweep["height"].dtype == float
+assert sweep.run(1)["max_speed"].shape == (3,)
+
+# Answers and mistakes of the program.
+assert neve.check("scene.toml", coarsen=2)["particles"] < neve.check("scene.toml")["particles"]
+assert any(p["address"] == "material.NAME.hardening" for p in neve.params())
+assert neve.info("out/scene")["status"] == "ok"
+assert len(neve.call("dump", "scene.toml", "--at", "0,0.1")) == 2
+for mistake, code, part in (
+    (lambda: neve.render("none.toml"), 3, "none.toml"),
+    (lambda: neve.render("scene.toml", set={"material.snow.hardness": 1}), 2, "hardening"),
+    (lambda: run.state(3, attributes=["JP"]), 2, "J_P"),
+):
+    try:
+        mistake()
+        raise AssertionError(part)
+    except neve.NeveError as error:
+        assert error.code == code and part in f"{error} {error.where}", (error, error.code)
+try:
+    neve.export("scene.toml", "grid", formats=["vti"], frames=0)["vti"][0]
+    raise AssertionError("read a grid")
+except neve.NeveError as error:
+    assert "npz" in str(error)
+os.environ["NEVE"] = "/none"
+try:
+    neve.params()
+    raise AssertionError("no program")
+except FileNotFoundError:
+    pass
+print("same")
