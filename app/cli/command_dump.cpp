@@ -10,7 +10,7 @@
 #include "app/dump/quantities.h"
 #include "app/dump/write.h"
 #include "app/health/expected.h"
-#include "app/output/atomic_file.h"
+#include "app/output/named_file.h"
 #include "app/run/render_job.h"
 #include "app/run/run_json.h"
 #include "app/run/walk.h"
@@ -141,7 +141,7 @@ class DumpOutput {
       if (options_.file.empty())
         std::cout << text;
       else
-        output::write_file(options_.file, text);
+        output::write_named_file(options_.file, text);
     }
     finish_output();
   }
@@ -151,7 +151,7 @@ class DumpOutput {
     if (options_.file.empty())
       std::cout << (count_ > 0 ? "\n" : "") << text;
     else
-      output::write_file(
+      output::write_named_file(
           options_.at.size() == 1 ? options_.file : numbered(options_.file, count_).string(), text);
     ++count_;
   }

@@ -320,6 +320,18 @@ void add_info(CLI::App& app, Action& action) {
   command->final_callback([=, &action] { action = [=] { return run_info(*path, *is_json); }; });
 }
 
+void add_verify(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "verify", "Check that every file of a run or a sweep is there, as it was written");
+  const auto folder = std::make_shared<std::string>();
+  const auto is_json = std::make_shared<bool>(false);
+  command->add_option("DIR", *folder, "Output folder of a run or a sweep")
+      ->required()
+      ->type_name("");
+  command->add_flag("--json", *is_json, "Print JSON");
+  command->final_callback([=, &action] { action = [=] { return run_verify(*folder, *is_json); }; });
+}
+
 int print_version() {
   std::cout << "neve " << version << "\n";
   return exit_ok;
@@ -340,6 +352,7 @@ int run_command_line(int argc, char** argv) {
              "self-tests of the physics",
              run_doctor);
   add_info(app, action);
+  add_verify(app, action);
   add_params(app, action);
   add_compare(app, action);
   add_sweep(app, action);

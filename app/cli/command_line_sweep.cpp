@@ -7,6 +7,7 @@
 #include "app/cli/commands.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/sweep/store/store.h"
 
 namespace neve::app::cli {
 
@@ -29,6 +30,7 @@ sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
   if (texts.size) options.size = setup::parse_size(*texts.size);
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
+  if (!options.retry_failed.empty()) sweep::store::parse_retry(options.retry_failed);
   if (texts.shard) options.shard = sweep::plan::parse_shard(*texts.shard);
   if (options.engine != "local" && options.engine != "slurm")
     throw scene::toml::UsageError(
@@ -118,7 +120,9 @@ void add_run(CLI::App& sweep, Action& action) {
       "run", "Make one run of an existing sweep; --emit and --engine slurm use this");
   const auto options = std::make_shared<sweep::plan::SweepRunOptions>();
   command->add_option("--index", options->index, "Number of the run")->required()->type_name("N");
-  command->add_flag("--retry-failed", options->retry_failed, "Repeat the run if it failed before");
+  command->add_flag("--retry-failed{all}", options->retry_failed,
+                    "Repeat the run if it failed before, or ended in one of these states, as in "
+                    "--retry-failed=timeout,crashed");
   add_folder(*command, action, options, run_sweep_run);
 }
 
@@ -145,8 +149,9 @@ void add_sweep(CLI::App& app, Action& action) {
       ->type_name("N");
   command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
       ->type_name("NAME");
-  command->add_flag("--retry-failed", options->retry_failed,
-                    "Repeat the runs that failed, timed out, crashed or took too much memory");
+  command->add_flag("--retry-failed{all}", options->retry_failed,
+                    "Repeat the runs that failed, timed out, crashed or took too much memory, or "
+                    "only those in some states, as in --retry-failed=timeout,crashed");
   command->add_flag("--dry-run", options->is_dry_run,
                     "Print the runs, their cost and memory; start nothing");
   command->add_flag("--json", options->is_json, "Print the result, or the error, as JSON");

@@ -7,6 +7,7 @@
 #include "app/cli/commands.h"
 #include "app/health/findings.h"
 #include "app/output/atomic_file.h"
+#include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
 #include "app/run/render_job.h"
@@ -202,6 +203,8 @@ int run_render(const run::RenderOptions& options) {
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, options.shader_dir, &pool);
   check_picture_sizes(job.scene, job.quality, renderer.max_size());
+  // Before anything else of the run: another one may be writing there.
+  const output::FolderLock lock(job.folder, "neve render");
 
   const setup::SeededScene seeded = setup::seed_scene(job.scene);
   warn_about_start(job, seeded, progress);

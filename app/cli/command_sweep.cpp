@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "app/cli/commands.h"
-#include "app/output/atomic_file.h"
+#include "app/output/folder_lock.h"
+#include "app/output/named_file.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/command_text.h"
@@ -51,6 +52,10 @@ std::vector<int> chosen_runs(const sweep::plan::SweepOptions& options, int last)
   return indices;
 }
 
+sweep::store::Retry retry_of(const std::string& states) {
+  return states.empty() ? sweep::store::Retry{} : sweep::store::parse_retry(states);
+}
+
 /// One command a line, each makes one run that is not finished.
 void emit_commands(const sweep::plan::SweepOptions& options, const std::filesystem::path& folder,
                    const sweep::store::Manifest& manifest, Progress& progress) {
@@ -58,18 +63,17 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
                     where = setup::shell_word(std::filesystem::absolute(folder).string());
   std::string text;
   int count = 0;
+  const sweep::store::Retry retry = retry_of(options.retry_failed);
   for (const int index : chosen_runs(options, manifest.runs.back().index)) {
     const sweep::Run& run = manifest.runs[static_cast<std::size_t>(index)];
     const sweep::store::RunState state =
         sweep::store::read_status(sweep::store::runs_folder(folder) / run.folder).state;
-    if (sweep::store::is_finished(state) &&
-        !(options.retry_failed && sweep::store::has_failed(state)))
-      continue;
+    if (sweep::store::is_finished(state) && !retry.contains(state)) continue;
     text += fmt::format("{} sweep run {} --index {} --threads 1 --quiet{}\n", program, where, index,
-                        options.retry_failed ? " --retry-failed" : "");
+                        retry.empty() ? "" : " --retry-failed=" + options.retry_failed);
     ++count;
   }
-  output::write_file(options.emit, text);
+  output::write_named_file(options.emit, text);
   progress.note(fmt::format("{} {} in {}; then: neve sweep collect {}", count,
                             count == 1 ? "command" : "commands", options.emit, folder.string()));
 }
@@ -87,9 +91,15 @@ sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
   engine.cores = core_count(options.threads);
   engine.jobs = options.jobs;
   engine.backend = options.backend;
-  engine.retry_failed = options.retry_failed;
+  engine.retry_failed = retry_of(options.retry_failed);
   engine.program = this_program();
   return sweep::jobs::run_local(folder, manifest, indices, engine, progress);
+}
+
+[[noreturn]] void fail_by_machine(const sweep::jobs::MachineFailure& failure,
+                                  const std::filesystem::path& folder) {
+  throw Error(failure.code, "the sweep stopped: " + failure.reason, folder.string(),
+              "the same command continues when this is mended; no run is lost");
 }
 
 void print_sweep_result(const sweep::plan::SweepOptions& options,
@@ -174,6 +184,10 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
     return exit_ok;
   }
   sweep::store::check_folder(plan);
+  // Shards of a sweep work side by side.
+  const output::FolderLock lock(
+      plan.folder, "neve sweep",
+      options.shard ? output::FolderLock::Kind::shared : output::FolderLock::Kind::alone);
   catch_interrupts();
   sweep::plan::share_camera_and_ranges(plan, cores);
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first run");
@@ -183,12 +197,18 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
     return exit_ok;
   }
   const sweep::jobs::JobsResult result = run_engine(options, plan.folder, manifest, progress);
+  if (result.failure) fail_by_machine(*result.failure, plan.folder);
   sweep::sheet::collect_sweep(plan.folder, options.backend, cores, progress);
   print_sweep_result(options, plan.folder, result, progress);
-  if (result.is_interrupted || is_interrupted()) {
+  if (result.elsewhere > 0)
+    std::cerr << fmt::format(
+                     "neve: not finished: {}{}; the same command completes the sweep later",
+                     result.elsewhere_text,
+                     result.elsewhere > 1 ? fmt::format(" and {} more", result.elsewhere - 1) : "")
+              << std::endl;
+  else if (result.is_interrupted || is_interrupted())
     std::cerr << "neve: interrupted; the same command continues from here" << std::endl;
-    return exit_resumable;
-  }
+  if (result.elsewhere > 0 || result.is_interrupted || is_interrupted()) return exit_resumable;
   return result.failed > 0 ? exit_runs_failed : exit_ok;
 }
 
@@ -204,10 +224,12 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   engine.cores = core_count(options.threads);
   engine.jobs = 1;
   engine.backend = options.backend;
-  engine.retry_failed = options.retry_failed;
+  engine.retry_failed = retry_of(options.retry_failed);
   engine.program = this_program();
   const sweep::jobs::JobsResult result =
       sweep::jobs::run_local(options.folder, manifest, {options.index}, engine, progress);
+  if (result.failure) fail_by_machine(*result.failure, options.folder);
+  if (result.elsewhere > 0) throw IoError(result.elsewhere_text, options.folder, "wait for it");
   if (result.is_interrupted) return exit_resumable;
   return result.failed > 0 ? exit_runs_failed : exit_ok;
 }

@@ -40,6 +40,8 @@ int run_bench_render(const bench::BenchOptions& options);
 int run_bench_sweep(const bench::BenchOptions& options);
 int run_bench_view(const bench::BenchOptions& options);
 int run_info(const std::string& path, bool is_json);
+/// @param folder  of a run or a sweep
+int run_verify(const std::string& folder, bool is_json);
 int run_doctor(bool is_json);
 /// @throws UsageError if nothing has the filter in it
 int run_params(const ParamsOptions& options);

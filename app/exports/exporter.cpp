@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "app/output/atomic_file.h"
+#include "app/output/file_hash.h"
 #include "app/scene/names.h"
 
 namespace neve::app::exports {
@@ -49,6 +50,17 @@ void remove_listed(const fs::path& folder, const Json& path) {
   if (is_safe(folder, file)) fs::remove(folder / file, error);
 }
 
+/// In the place of the one of the same number, or after all others.
+template <class Item>
+void put(std::vector<Item>& items, Item item) {
+  for (Item& other : items)
+    if (other.number == item.number) {
+      other = std::move(item);
+      return;
+    }
+  items.push_back(std::move(item));
+}
+
 }  // namespace
 
 Exporter::Exporter(const scene::Scene& scene, fs::path folder,
@@ -79,8 +91,9 @@ std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& co
 
 Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int number) {
   const scene::Export& spec = job.record.spec;
-  job.record.files.push_back({number, state->time, state->hash});
-  job.samples.push_back({number, state->time, state->poses});
+  // A frame that is made again keeps its place.
+  put(job.record.files, {number, state->time, state->hash});
+  put(job.samples, {number, state->time, state->poses});
   const bool has_pvd = series_name(spec).ends_with(".pvd");
   std::string series = has_pvd ? encode_pvd(spec, job.samples) : std::string();
   return [this, &spec, state = std::move(state), number, series = std::move(series)] {
@@ -88,20 +101,29 @@ Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int 
     check_capacity(spec, table, static_cast<double>(table.rows));
     const fs::path folder = folder_ / scene::folder_of(spec);
     output::make_folder(folder);
-    output::write_file(folder / file_name(spec, number), encode({scene_, spec, *state, table}));
-    if (!series.empty()) output::write_file(folder_ / series_name(spec), series);
+    std::vector<output::WrittenFile> written{output::write_hashed(
+        folder / file_name(spec, number), encode({scene_, spec, *state, table}))};
+    if (!series.empty())
+      written.push_back(output::write_hashed(folder_ / series_name(spec), series));
+    return written;
   };
 }
 
-void Exporter::finish() const {
+std::vector<output::WrittenFile> Exporter::finish() const {
+  std::vector<output::WrittenFile> written;
   for (const Job& job : jobs_) {
     const scene::Export& spec = job.record.spec;
-    if (spec.format != scene::ExportFormat::usda || job.samples.empty()) continue;
-    output::write_file(folder_ / scene::folder_of(spec) / "manifest.usda",
-                       encode_manifest(scene_, spec, job.record.columns));
-    output::write_file(folder_ / series_name(spec),
-                       encode_stage(scene_, spec, job.record.columns, job.samples));
+    const std::string series = series_name(spec);
+    if (job.samples.empty()) continue;
+    if (series.ends_with(".pvd"))
+      written.push_back(output::write_hashed(folder_ / series, encode_pvd(spec, job.samples)));
+    if (spec.format != scene::ExportFormat::usda) continue;
+    written.push_back(output::write_hashed(folder_ / scene::folder_of(spec) / "manifest.usda",
+                                           encode_manifest(scene_, spec, job.record.columns)));
+    written.push_back(output::write_hashed(
+        folder_ / series, encode_stage(scene_, spec, job.record.columns, job.samples)));
   }
+  return written;
 }
 
 void Exporter::resume(const Json& list, int last_number) {

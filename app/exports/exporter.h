@@ -8,6 +8,7 @@
 
 #include "app/exports/encode.h"
 #include "app/exports/series.h"
+#include "app/output/file_hash.h"
 #include "app/support/json.h"
 
 namespace neve::app::exports {
@@ -26,7 +27,7 @@ struct Record {
 
 class Exporter {
  public:
-  using Work = std::function<void()>;
+  using Work = std::function<std::vector<output::WrittenFile>()>;
 
   /// @param folder    of all exports; each writes into one of its own in it
   /// @param body_end  see Origins
@@ -43,8 +44,8 @@ class Exporter {
   std::vector<Work> add(const std::vector<scene::Collider>& colliders,
                         const sim::Simulation& simulation, int number, bool is_frame);
 
-  /// Writes the series that are written once. @throws IoError
-  void finish() const;
+  /// Writes the series, as they are in the end. @return their files @throws IoError
+  std::vector<output::WrittenFile> finish() const;
 
   /// Takes the files of a run that is resumed from the list of its run.json.
   void resume(const Json& list, int last_number);

@@ -4,46 +4,69 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <set>
 #include <string>
 #include <system_error>
+#include <thread>
+
+#include "app/output/descriptor.h"
+#include "app/output/temporary.h"
 
 namespace neve::app::output {
 
 namespace {
 
-/// Owns a descriptor until it is closed on purpose.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return fd_; }
+constexpr std::size_t most_at_once = 16;
 
-  /// 0 or errno. Network file systems report a full disk only here.
-  int close() {
-    const int fd = fd_;
-    fd_ = -1;
-    return ::close(fd) == 0 || errno == EINTR ? 0 : errno;
-  }
+int open_temporary(const std::filesystem::path& temporary) {
+  return ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+}
 
- private:
-  int fd_;
-};
+/// "link", "folder", "device"; nothing for regular files and where there is none.
+const char* special_kind(const std::filesystem::path& path) {
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode)) return nullptr;
+  return S_ISLNK(status.st_mode) ? "link" : S_ISDIR(status.st_mode) ? "folder" : "device";
+}
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what, int reason) {
+/// @return errno
+int sync_at(const std::filesystem::path& path, int flags) {
+  const Descriptor file(::open(path.c_str(), flags | O_CLOEXEC));
+  if (file.get() < 0) return errno;
+  // Some file systems keep folders in order by themselves and refuse this.
+  return ::fsync(file.get()) == 0 || errno == EINVAL || errno == EOPNOTSUPP ? 0 : errno;
+}
+
+void rename_or_fail(const std::filesystem::path& temporary, const std::filesystem::path& path) {
+  if (std::rename(temporary.c_str(), path.c_str()) == 0) return;
+  const int reason = errno;
+  ::unlink(temporary.c_str());
+  fail_writing(path, "cannot rename the finished file", reason);
+}
+
+void refuse_special(const std::filesystem::path& path) {
+  const char* kind = special_kind(path);
+  if (!kind) return;
+  throw IoError(path.string() + ": is a " + kind + ", where a file is to be written", path.string(),
+                "move it away, or choose another folder with --out");
+}
+
+}  // namespace
+
+[[noreturn]] void fail_writing(const std::filesystem::path& path, const std::string& sentence,
+                               int reason) {
   const char* hint = reason == ENOSPC || reason == EDQUOT || reason == EFBIG
                          ? "make room there, or choose another folder with --out"
                          : "choose another folder with --out";
-  throw IoError(path.string() + ": " + what + ": " + std::strerror(reason), path.string(), hint);
+  throw IoError(path.string() + ": " + sentence + ": " + std::strerror(reason), path.string(),
+                hint);
 }
 
-/// 0 or errno.
 int write_all(int fd, std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(fd, bytes.data(), bytes.size());
@@ -55,67 +78,93 @@ int write_all(int fd, std::span<const std::uint8_t> bytes) {
   return 0;
 }
 
-int open_temporary(const std::filesystem::path& temporary) {
-  const int flags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
-  const int fd = ::open(temporary.c_str(), flags, 0666);
-  if (fd >= 0 || errno != EEXIST) return fd;
-  // Ours by its process number: left by a process that had the same number and was killed.
-  ::unlink(temporary.c_str());
-  return ::open(temporary.c_str(), flags, 0666);
-}
-
-}  // namespace
-
-void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
-                Durability durability) {
+void replace_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
+                  Durability durability, const Prepare& prepare) {
   const std::filesystem::path temporary = temporary_name(path);
   Descriptor file(open_temporary(temporary));
-  if (file.get() < 0) fail(path, "cannot create", errno);
+  if (file.get() < 0) fail_writing(path, "cannot create", errno);
 
   int reason = write_all(file.get(), bytes);
+  if (reason == 0 && prepare) reason = prepare(file.get());
   if (reason == 0 && durability == Durability::synced && ::fsync(file.get()) != 0) reason = errno;
   const int close_reason = file.close();
   if (reason == 0) reason = close_reason;
   if (reason != 0) {
     ::unlink(temporary.c_str());
-    fail(path, "cannot write " + std::to_string(bytes.size()) + " bytes", reason);
+    fail_writing(path, "cannot write " + std::to_string(bytes.size()) + " bytes", reason);
   }
-  move_into_place(temporary, path);
+  rename_or_fail(temporary, path);
+  if (durability == Durability::synced) sync_folder(path.parent_path());
+}
+
+void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
+                Durability durability) {
+  refuse_special(path);
+  replace_file(path, bytes, durability);
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text, Durability durability) {
   write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, durability);
 }
 
-std::filesystem::path temporary_name(const std::filesystem::path& path) {
-  std::string name(1, '.');
-  name += path.filename().string();
-  name += '.';
-  name += std::to_string(::getpid());
-  name += ".tmp";
-  return path.parent_path() / name;
+void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path) {
+  try {
+    refuse_special(path);
+  } catch (const IoError&) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+  rename_or_fail(temporary, path);
 }
 
-void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path) {
-  if (std::rename(temporary.c_str(), path.c_str()) == 0) return;
-  const int reason = errno;
-  ::unlink(temporary.c_str());
-  fail(path, "cannot rename the finished file", reason);
+void sync_files(const std::vector<std::filesystem::path>& files) {
+  std::set<std::filesystem::path> folders;
+  for (const std::filesystem::path& file : files) folders.insert(file.parent_path());
+  std::atomic<std::size_t> next = 0;
+  std::atomic<int> failed = -1, reason = 0;
+  const auto sync_some = [&] {
+    for (std::size_t k = next++; k < files.size(); k = next++)
+      if (const int error = sync_at(files[k], O_RDONLY); error != 0) {
+        reason = error;
+        failed = static_cast<int>(k);
+      }
+  };
+  // The journal of a file system writes down together what is asked for at the same time.
+  std::vector<std::thread> others;
+  try {
+    while (others.size() + 1 < std::min(files.size(), most_at_once)) others.emplace_back(sync_some);
+  } catch (const std::system_error&) {
+    // Fewer threads only take longer.
+  }
+  sync_some();
+  for (std::thread& other : others) other.join();
+  if (failed >= 0)
+    fail_writing(files[static_cast<std::size_t>(failed)], "cannot bring it to the disk", reason);
+  for (const std::filesystem::path& folder : folders) sync_folder(folder);
+}
+
+void sync_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder.empty() ? "." : folder;
+  if (const int reason = sync_at(path, O_RDONLY | O_DIRECTORY); reason != 0)
+    fail_writing(path, "cannot bring the folder to the disk", reason);
 }
 
 void make_folder(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error) fail(path, "cannot create the folder", error.value());
+  if (error) fail_writing(path, "cannot create the folder", error.value());
 }
 
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint64_t limit) {
   const auto fail_reading = [&](const std::string& reason) {
     throw IoError(path.string() + ": cannot read: " + reason, path.string());
   };
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) fail_reading(std::strerror(errno));
   struct stat status {};
+  // Before it is opened: a pipe waits for its writer, and a device may do anything.
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    fail_reading("not a regular file");
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (file.get() < 0) fail_reading(std::strerror(errno));
   if (::fstat(file.get(), &status) != 0) fail_reading(std::strerror(errno));
   if (!S_ISREG(status.st_mode)) fail_reading("not a regular file");
   const auto size = static_cast<std::uint64_t>(status.st_size);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -14,21 +15,32 @@ namespace neve::app::output {
 /// Durability of written bytes: synced bytes survive a power cut after the call returns.
 enum class Durability { cached, synced };
 
-/// Writes to `.name.PID.tmp` in the same folder, then renames.
+/// Writes a temporary file in the same folder, then renames. For names that the program chooses:
+/// a link, device or folder of that name is refused.
 /// @throws IoError with path, bytes and the system's reason; nothing is left behind
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
                 Durability durability = Durability::cached);
 void write_file(const std::filesystem::path& path, std::string_view text,
                 Durability durability = Durability::cached);
 
-/// The temporary name that belongs to a path, for programs that write it for us.
-std::filesystem::path temporary_name(const std::filesystem::path& path);
+/// Sets up a temporary file before it replaces another one. @return 0 or errno
+using Prepare = std::function<int(int fd)>;
 
-/// Puts a file that was written under its temporary name in place. @throws IoError
+/// As write_file, without a look at the file that is replaced.
+void replace_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
+                  Durability durability, const Prepare& prepare = {});
+
+/// Puts a file that was written under its temporary name in place; the temporary file is gone in
+/// any case. @throws IoError, also where a link, device or folder has the name
 void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
 /// Creates a folder and those above it. @throws IoError
 void make_folder(const std::filesystem::path& path);
+
+/// What was written to files, and which files a folder has, survives a power cut after these calls.
+/// Many files at once take little longer than one. @throws IoError
+void sync_files(const std::vector<std::filesystem::path>& files);
+void sync_folder(const std::filesystem::path& folder);
 
 /// The whole of a regular file. @throws IoError, also when it is larger than `limit` bytes
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path,

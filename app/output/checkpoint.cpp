@@ -1,5 +1,6 @@
 #include "app/output/checkpoint.h"
 
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -8,6 +9,8 @@
 #include <system_error>
 
 #include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
+#include "app/output/temporary.h"
 
 namespace neve::app::output {
 
@@ -72,6 +75,7 @@ Checkpoint read(const fs::path& file) {
   c.simd = json.at("simd").get<std::string>();
   c.frame = json.at("frame").get<int>();
   c.steps = json.at("steps").get<std::size_t>();
+  if (c.frame < 0 || c.frame > max_frame) refuse("has an impossible frame");
   c.progress = json.at("progress");
   c.state.assign(bytes.begin() + static_cast<std::ptrdiff_t>(json_start + length),
                  bytes.begin() + static_cast<std::ptrdiff_t>(body));
@@ -79,6 +83,14 @@ Checkpoint read(const fs::path& file) {
 }
 
 }  // namespace
+
+void check_checkpoint_folder(const fs::path& folder) {
+  const fs::path path = folder_of(folder);
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(path, error)) || fs::is_directory(path, error)) return;
+  throw IoError(path.string() + ": is no folder, but checkpoints are to go there", path.string(),
+                "rename it, choose another folder with --out, or --checkpoint-every 0");
+}
 
 void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
   const std::string text = to_text({{"identity", checkpoint.identity},
@@ -95,18 +107,23 @@ void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
   append_bytes(bytes, checkpoint.state.data(), checkpoint.state.size());
   const std::uint64_t sum = checksum(bytes);
   append_bytes(bytes, &sum, number_bytes);
-  make_folder(folder_of(folder));
-  write_file(folder_of(folder) / file_name(checkpoint), bytes, Durability::synced);
-  const std::vector<fs::path> files = list(folder);
   std::error_code error;
+  const bool is_new = !fs::exists(folder_of(folder), error);
+  make_folder(folder_of(folder));
+  if (is_new) sync_folder(folder);
+  write_file(folder_of(folder) / file_name(checkpoint), bytes, Durability::synced);
+  remove_abandoned(folder_of(folder));
+  const std::vector<fs::path> files = list(folder);
   for (std::size_t k = kept; k < files.size(); ++k) fs::remove(files[k], error);
 }
 
-FoundCheckpoint find_checkpoint(const fs::path& folder) {
+FoundCheckpoint find_checkpoint(const fs::path& folder, int before) {
   FoundCheckpoint found;
   for (const fs::path& file : list(folder)) {
     try {
-      found.checkpoint = read(file);
+      Checkpoint checkpoint = read(file);
+      if (checkpoint.frame >= before) continue;
+      found.checkpoint = std::move(checkpoint);
       return found;
     } catch (const std::exception& error) {
       found.damaged.push_back(file.string() + ": " + error.what());
@@ -118,7 +135,9 @@ FoundCheckpoint find_checkpoint(const fs::path& folder) {
 void remove_checkpoints(const fs::path& folder) {
   std::error_code error;
   for (const fs::path& file : list(folder)) fs::remove(file, error);
-  fs::remove(folder_of(folder), error);  // only when nothing else is in it
+  remove_abandoned(folder_of(folder));
+  // Only a folder, and only when nothing else is in it.
+  ::rmdir(folder_of(folder).c_str());
 }
 
 }  // namespace neve::app::output

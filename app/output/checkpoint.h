@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,11 @@ struct Checkpoint {
   std::vector<std::uint8_t> state;  ///< sim::Simulation::save
 };
 
-/// Writes one and removes all but the newest two, in this order. @throws IoError
+/// @throws IoError when something that is no folder has the place of the checkpoints
+void check_checkpoint_folder(const std::filesystem::path& folder);
+
+/// Writes one and removes all but the newest two, in this order. It is on the disk when this
+/// returns. @throws IoError
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
 struct FoundCheckpoint {
@@ -31,9 +36,11 @@ struct FoundCheckpoint {
 };
 
 /// Nothing where the folder has none. Damaged ones are passed over and named.
-FoundCheckpoint find_checkpoint(const std::filesystem::path& folder);
+/// @param before  frame that the checkpoint is to be before
+FoundCheckpoint find_checkpoint(const std::filesystem::path& folder,
+                                int before = std::numeric_limits<int>::max());
 
-/// Removes the checkpoints before a new run. Other files stay.
+/// Removes the checkpoints before a new run. Other files stay, also one called `checkpoint`.
 void remove_checkpoints(const std::filesystem::path& folder);
 
 }  // namespace neve::app::output

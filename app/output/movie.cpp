@@ -1,13 +1,16 @@
 #include "app/output/movie.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <sstream>
 #include <system_error>
 #include <vector>
 
 #include "app/output/atomic_file.h"
 #include "app/output/process.h"
+#include "app/output/temporary.h"
 
 namespace neve::app::output {
 
@@ -73,6 +76,27 @@ long count_frames(const fs::path& ffmpeg, const fs::path& movie) {
   return count;
 }
 
+/// Whether a message is about the disk rather than about the pictures.
+bool is_disk_error(const std::string& message) {
+  const auto names = [&](int reason) {
+    return message.find(std::strerror(reason)) != std::string::npos;
+  };
+  return names(ENOSPC) || names(EDQUOT) || names(EFBIG) || names(EROFS);
+}
+
+/// Of an earlier run. @throws IoError where something else has the name
+void remove_movie(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(file, error);
+  if (!fs::exists(status)) return;
+  if (!fs::is_regular_file(status))
+    throw IoError(file.string() + ": is no regular file, where a movie is to be written",
+                  file.string());
+  if (!fs::remove(file, error))
+    throw IoError(file.string() + ": cannot remove the earlier movie: " + error.message(),
+                  file.string());
+}
+
 }  // namespace
 
 MovieResult write_movie(const MovieRequest& request) {
@@ -83,8 +107,16 @@ MovieResult write_movie(const MovieRequest& request) {
   const auto fail = [&](const std::string& reason) {
     std::error_code error;
     fs::remove(temporary, error);
-    return MovieResult{MovieOutcome::failed, reason};
+    return MovieResult{is_disk_error(reason) ? MovieOutcome::unwritable : MovieOutcome::failed,
+                       reason};
   };
+  try {
+    remove_movie(request.file);
+    // Whether the folder takes a file at all: ffmpeg would not say why in a way that can be told.
+    replace_file(temporary, {}, Durability::cached);
+  } catch (const IoError& error) {
+    return {MovieOutcome::unwritable, error.what()};
+  }
   const ProcessResult result = encode(*ffmpeg, request, temporary);
   if (!result.has_started) return fail("ffmpeg does not start: " + result.errors);
   if (result.exit_code != 0)
@@ -100,8 +132,10 @@ MovieResult write_movie(const MovieRequest& request) {
   }
   try {
     move_into_place(temporary, request.file);
+    sync_files({request.file});
   } catch (const IoError& error) {
-    return fail(error.what());
+    fail({});
+    return {MovieOutcome::unwritable, error.what()};
   }
   return {MovieOutcome::written, {}};
 }

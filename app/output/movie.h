@@ -14,7 +14,12 @@ struct MovieRequest {
   bool has_alpha = false;  ///< of the pictures, which are then laid over a plain colour
 };
 
-enum class MovieOutcome { written, no_ffmpeg, failed };
+enum class MovieOutcome {
+  written,
+  no_ffmpeg,
+  failed,     ///< of ffmpeg
+  unwritable  ///< of the disk
+};
 
 struct MovieResult {
   MovieOutcome outcome = MovieOutcome::failed;
@@ -23,7 +28,8 @@ struct MovieResult {
 
 /// H.264 with even sides, written under a temporary name, decoded again to count its frames (ffmpeg
 /// exits 0 on broken input) and only then put in place. A movie of another length is not kept.
-/// Never throws for failures of ffmpeg.
+/// An earlier movie of that name is removed first. A written one is on the disk.
+/// Never throws for failures of ffmpeg and of the disk.
 MovieResult write_movie(const MovieRequest& request);
 
 }  // namespace neve::app::output

@@ -1,8 +1,8 @@
 #include "app/output/picture_writer.h"
 
+#include <iterator>
 #include <memory>
-
-#include "app/output/atomic_file.h"
+#include <utility>
 
 namespace neve::app::output {
 
@@ -20,10 +20,13 @@ PictureWriter::~PictureWriter() {
 void PictureWriter::write(Picture picture) {
   // Tasks are copied; pictures are large.
   const auto shared = std::make_shared<const Picture>(std::move(picture));
-  write([shared] { write_file(shared->file, render::encode_png(shared->image, shared->text)); });
+  write([shared] {
+    return std::vector<WrittenFile>{
+        write_hashed(shared->file, render::encode_png(shared->image, shared->text))};
+  });
 }
 
-void PictureWriter::write(std::function<void()> task) {
+void PictureWriter::write(WriteTask task) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return failure_ || queue_.size() < picture_queue_capacity; });
   rethrow_failure();
@@ -37,19 +40,25 @@ void PictureWriter::finish() {
   rethrow_failure();
 }
 
+std::vector<WrittenFile> PictureWriter::take_written() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(written_, {});
+}
+
 void PictureWriter::work() {
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] { return is_closing_ || !queue_.empty(); });
     if (queue_.empty()) return;
-    std::function<void()> task = std::move(queue_.front());
+    WriteTask task = std::move(queue_.front());
     queue_.pop_front();
     is_writing_ = true;
     lock.unlock();
 
     std::exception_ptr failure;
+    std::vector<WrittenFile> written;
     try {
-      task();
+      written = task();
     } catch (...) {
       failure = std::current_exception();
     }
@@ -61,6 +70,8 @@ void PictureWriter::work() {
       // Waiting pictures would most likely fail in the same way.
       if (!failure_) failure_ = failure;
       queue_.clear();
+    } else {
+      std::move(written.begin(), written.end(), std::back_inserter(written_));
     }
     changed_.notify_all();
   }

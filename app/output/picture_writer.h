@@ -9,7 +9,9 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <vector>
 
+#include "app/output/file_hash.h"
 #include "render/image/image.h"
 
 namespace neve::app::output {
@@ -19,6 +21,9 @@ struct Picture {
   render::Image image;
   render::PngText text;
 };
+
+/// Writes files. @return them
+using WriteTask = std::function<std::vector<WrittenFile>()>;
 
 /// Pictures that may wait for the worker; memory is planned for these and the one it holds.
 inline constexpr std::size_t picture_queue_capacity = 3;
@@ -34,11 +39,14 @@ class PictureWriter {
   /// Waits while the queue is full. @throws the error of an earlier picture
   void write(Picture picture);
 
-  /// The same for any other file. @param task  encodes and writes it
-  void write(std::function<void()> task);
+  /// The same for any other file. @param task  encodes and writes it, or several
+  void write(WriteTask task);
 
-  /// Waits until everything is on disk. @throws the error of a picture
+  /// Waits until everything is written. @throws the error of a picture
   void finish();
+
+  /// Those that were written since the last call.
+  std::vector<WrittenFile> take_written();
 
  private:
   void work();
@@ -46,7 +54,8 @@ class PictureWriter {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::function<void()>> queue_;
+  std::deque<WriteTask> queue_;
+  std::vector<WrittenFile> written_;
   bool is_writing_ = false, is_closing_ = false;
   std::exception_ptr failure_;
   std::thread worker_;

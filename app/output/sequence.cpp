@@ -15,8 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int max_frame = 99'999'999;
-
 /// Files that an earlier run.json claims to have written.
 struct EarlierRun {
   std::set<std::string> views;

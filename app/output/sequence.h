@@ -12,6 +12,9 @@ inline constexpr const char* culprit_view = "culprit_slice";
 /// Folder of the geometry that a run writes beside its pictures.
 inline constexpr const char* exports_folder = "exports";
 
+/// Largest number of a frame that a file may name.
+inline constexpr int max_frame = 99'999'999;
+
 /// [A-Za-z0-9_-]+: safe as the name of a folder.
 bool is_plain_name(const std::string& name);
 

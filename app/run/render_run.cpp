@@ -6,8 +6,10 @@
 #include "app/health/incident.h"
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
+#include "app/output/file_hash.h"
 #include "app/output/movie.h"
 #include "app/output/sequence.h"
+#include "app/output/temporary.h"
 #include "app/picture/mosaic.h"
 #include "app/run/step_warnings.h"
 #include "app/scene/read.h"
@@ -88,15 +90,12 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
 /// run.json knows every picture that is there.
 int RenderRun::begin() {
   output::make_folder(job_.folder);
-  std::optional<ResumedRun> resumed;
-  if (job_.resume) resumed = checkpoints_.resume();
-  if (resumed) {
-    record_.frames = std::move(resumed->frames);
-    history_ = std::move(resumed->history);
-    advance_ = resumed->advance;
-    record_.retries = std::move(resumed->retries);
-    exporter_.resume(earlier_exports(job_.folder), resumed->frame);
-    result_.has_checkpoint = true;
+  if (job_.checkpoint_every > 0) output::check_checkpoint_folder(job_.folder);
+  std::optional<Resumption> found;
+  if (job_.resume) found = checkpoints_.find(record_.views, job_.frames);
+  int first = 0;
+  if (found) {
+    first = resume(std::move(*found));
   } else {
     player_.begin();
     exports::remove_earlier_exports(job_.folder, earlier_exports(job_.folder));
@@ -105,9 +104,79 @@ int RenderRun::begin() {
   }
   scene_ = player_.scene();
   note_warnings();
-  for (const std::string& view : record_.views) output::make_folder(job_.folder / view);
+  for (const std::string& view : record_.views) {
+    output::make_folder(job_.folder / view);
+    output::remove_abandoned(job_.folder / view);
+  }
   write_run_json(job_.folder, record_);
-  return resumed ? resumed->frame + 1 : 0;
+  return first;
+}
+
+int RenderRun::resume(Resumption found) {
+  record_.frames = std::move(found.run.frames);
+  record_.files = std::move(found.run.files);
+  exporter_.resume(found.run.exports, found.run.frame);
+  note_exports();
+  result_.has_checkpoint = true;
+  const int reached = found.run.frame;
+  if (found.flawed.empty()) {
+    continue_from(std::move(found.run));
+    return reached + 1;
+  }
+  repair_ = {{found.flawed.begin(), found.flawed.end()}, std::move(found.run)};
+  if (!found.repair) {
+    player_.begin();
+    return 0;
+  }
+  const int before = found.repair->frame;
+  continue_from(std::move(*found.repair));
+  return before + 1;
+}
+
+void RenderRun::continue_from(ResumedRun run) {
+  checkpoints_.go_to(run);
+  history_ = std::move(run.history);
+  advance_ = run.advance;
+  record_.retries = std::move(run.retries);
+  scene_ = player_.scene();
+  progress_.note("resumed after frame " + std::to_string(run.frame) + ", step " +
+                 std::to_string(run.steps));
+}
+
+int RenderRun::end_repair() {
+  ResumedRun then = std::move(repair_->then);
+  repair_.reset();
+  const int frame = then.frame;
+  continue_from(std::move(then));
+  // Its sums begin with the state it is given first.
+  if (validation_) validation_.emplace(scene_.solver, scene_.materials, simulation_, progress_);
+  return frame;
+}
+
+int RenderRun::last_frame() const {
+  return repair_ ? *repair_->frames.rbegin() : job_.frames.last;
+}
+
+bool RenderRun::is_to_draw(int frame) const {
+  return repair_ ? repair_->frames.contains(frame) : frame >= job_.frames.first;
+}
+
+void RenderRun::note_written() {
+  for (const output::WrittenFile& file : writer_.take_written()) note_file(file);
+}
+
+void RenderRun::note_file(const output::WrittenFile& file) {
+  record_.files[file.file.lexically_relative(job_.folder).generic_string()] = hash_text(file.hash);
+  unsynced_.insert(file.file);
+}
+
+void RenderRun::bring_to_disk() {
+  writer_.finish();
+  note_written();
+  write_run_json(job_.folder, record_);
+  unsynced_.insert(output::run_json_path(job_.folder));
+  output::sync_files({unsynced_.begin(), unsynced_.end()});
+  unsynced_.clear();
 }
 
 RenderResult RenderRun::run() {
@@ -115,15 +184,17 @@ RenderResult RenderRun::run() {
   try {
     make_frames(first);
     writer_.finish();
+    note_written();
     write_movies();
-    exporter_.finish();
+    for (const output::WrittenFile& file : exporter_.finish()) note_file(file);
     record_.status = result_.status;
-    write_run_json(job_.folder, record_);
+    bring_to_disk();
   } catch (const std::exception& error) {
     is_abandoned_ = true;
     if (next_.valid()) next_.wait();
     record_.status = RunStatus::failed;
     record_.error = error.what();
+    note_written();
     forget_unwritten_frames();
     try {
       write_run_json(job_.folder, record_);
@@ -141,7 +212,7 @@ void RenderRun::make_frames(int first) {
     validation_->after_step();
     record_.validation = validation_->records();
   }
-  for (int frame = first; frame <= job_.frames.last; ++frame) {
+  for (int frame = first; frame <= last_frame(); ++frame) {
     seconds_sim_ = 0;
     if (frame > 0 && !advance_to_frame(frame)) {
       if (result_.status == RunStatus::interrupted) write_checkpoint(frame - 1);
@@ -149,29 +220,30 @@ void RenderRun::make_frames(int first) {
     }
     summary_ = simulation_.summary();
     history_.push_back(picture::plot_sample(frame / job_.scene.fps, summary_, advance_));
-    if (frame >= job_.frames.first) draw_frame(frame);
+    if (is_to_draw(frame)) draw_frame(frame);
     advance_ = {};
     progress_.frame(frame, frame / job_.scene.fps);
     // A frame that was begun is picked up first: its steps belong to the checkpoint.
-    if (is_interrupted() && frame < job_.frames.last && !next_.valid()) {
+    if (is_interrupted() && frame < last_frame() && !next_.valid()) {
       result_.status = RunStatus::interrupted;
       write_checkpoint(frame);
       return;
     }
     if (checkpoint_is_due(frame)) write_checkpoint(frame);
+    if (repair_ && frame == last_frame()) frame = end_repair();
   }
 }
 
 bool RenderRun::checkpoint_is_due(int frame) const {
   const int every = job_.checkpoint_every;
-  return every > 0 && (frame == job_.frames.last || (frame > 0 && frame % every == 0));
+  return every > 0 && !repair_ && (frame == job_.frames.last || (frame > 0 && frame % every == 0));
 }
 
-/// Pictures first: what a checkpoint says was reached is on disk.
+/// Pictures and run.json first: what a checkpoint says was reached is on disk.
 void RenderRun::write_checkpoint(int frame) {
-  if (job_.checkpoint_every == 0) return;
-  writer_.finish();
-  checkpoints_.write(frame, advance_, history_, record_.retries);
+  if (job_.checkpoint_every == 0 || repair_) return;
+  bring_to_disk();
+  checkpoints_.write(frame, advance_, history_, record_);
   result_.has_checkpoint = true;
 }
 
@@ -195,7 +267,7 @@ RenderRun::Advanced RenderRun::simulate_to(int frame) {
 
 void RenderRun::begin_next(int frame) {
   // A checkpoint of this frame needs the simulation as it is.
-  if (simulation_.threads() < threads_for_overlap || frame >= job_.frames.last ||
+  if (simulation_.threads() < threads_for_overlap || frame >= last_frame() ||
       checkpoint_is_due(frame) || is_interrupted())
     return;
   next_ = std::async(std::launch::async, [this, frame] { return simulate_to(frame + 1); });
@@ -256,10 +328,13 @@ void RenderRun::draw_frame(int frame) {
     add(mosaic.name, picture::draw_mosaic(scene_, mosaic, builder_, snapshot, renderer_));
   Metrics metrics = measure(snapshot.particles, job_.scene.solver.cell_size);
   metrics.max_depth_cells = summary_.max_depth / job_.scene.solver.cell_size;
-  add_frame_record({frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start),
-                    summary_, state_hash, metrics, forces_of(advance_, scene_.colliders)});
+  add_frame(record_.frames,
+            {frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start), summary_,
+             state_hash, metrics, forces_of(advance_, scene_.colliders)});
   // Listed first and written then: whenever the process is killed, the next run knows every picture
-  // that it has to remove.
+  // that it has to remove. The hash follows when it is written.
+  note_written();
+  for (const std::string& view : record_.views) record_.files.erase(picture_name(view, frame));
   write_run_json(job_.folder, record_);
   for (output::Picture& picture : pictures) writer_.write(std::move(picture));
   for (exports::Exporter::Work& file : work) writer_.write(std::move(file));
@@ -273,19 +348,13 @@ std::vector<exports::Exporter::Work> RenderRun::read_exports(int frame) {
   if (!exporter_.is_due(frame)) return {};
   std::vector<exports::Exporter::Work> work =
       exporter_.add(scene_.colliders, simulation_, frame, true);
-  record_.exports = exporter_.to_json(std::string(output::exports_folder) + "/");
+  note_exports();
   return work;
 }
 
-/// In the place of the one that a run before this one made.
-void RenderRun::add_frame_record(const FrameRecord& frame) {
-  const auto place =
-      std::lower_bound(record_.frames.begin(), record_.frames.end(), frame.frame,
-                       [](const FrameRecord& other, int number) { return other.frame < number; });
-  if (place != record_.frames.end() && place->frame == frame.frame)
-    *place = frame;
-  else
-    record_.frames.insert(place, frame);
+void RenderRun::note_exports() {
+  if (!job_.scene.exports.empty())
+    record_.exports = exporter_.to_json(std::string(output::exports_folder) + "/");
 }
 
 /// The simulation of a resumed run has the warnings of the steps before.
@@ -311,7 +380,7 @@ void RenderRun::report_incident() {
   record_.cause = scene::name(diagnosis.cause);
   const Json incident =
       health::incident_json(divergence, diagnosis, record_.scene, job_.scene.solver.cell_size);
-  output::write_file(output::incident_path(job_.folder), to_text(incident) + "\n");
+  note_file(output::write_hashed(output::incident_path(job_.folder), to_text(incident) + "\n"));
   const int frame = static_cast<int>(divergence.time * job_.scene.fps);
   std::vector<scene::View> views = scene_.views;
   if (const auto slice = health::culprit_slice(scene_, divergence, simulation_.particles()))
@@ -341,23 +410,36 @@ void RenderRun::report_incident() {
 void RenderRun::write_movies() {
   // One picture is no movie.
   if (!job_.has_movies || record_.frames.size() < 2) return;
-  for (const std::string& view : record_.views) {
-    const output::MovieRequest request{job_.folder / view,
-                                       output::movie_path(job_.folder, view),
-                                       record_.frames.front().frame,
-                                       record_.frames.back().frame,
-                                       job_.scene.fps,
-                                       has_alpha(job_.scene, view)};
-    const output::MovieResult movie = output::write_movie(request);
-    if (movie.outcome == output::MovieOutcome::no_ffmpeg) {
-      progress_.note("no movie: ffmpeg is not installed; the pictures are in " +
-                     job_.folder.string());
-      return;
-    }
-    if (movie.outcome == output::MovieOutcome::written)
+  for (const std::string& view : record_.views) write_movie(view);
+}
+
+void RenderRun::write_movie(const std::string& view) {
+  const output::MovieRequest request{job_.folder / view,
+                                     output::movie_path(job_.folder, view),
+                                     record_.frames.front().frame,
+                                     record_.frames.back().frame,
+                                     job_.scene.fps,
+                                     has_alpha(job_.scene, view)};
+  const output::MovieResult movie = output::write_movie(request);
+  const std::string failure = "no movie " + request.file.string() + ": " + movie.reason;
+  switch (movie.outcome) {
+    case output::MovieOutcome::written:
       result_.movies.push_back(request.file);
-    else
-      progress_.warning("no movie " + request.file.string() + ": " + movie.reason);
+      record_.files[request.file.filename().string()] = hash_text(output::hash_file(request.file));
+      return;
+    case output::MovieOutcome::no_ffmpeg:
+      if (view == record_.views.front())
+        progress_.note("no movie: ffmpeg is not installed; the pictures are in " +
+                       job_.folder.string());
+      return;
+    case output::MovieOutcome::failed:
+      record_.warnings.push_back(failure);
+      progress_.warning(failure);
+      return;
+    case output::MovieOutcome::unwritable:
+      record_.warnings.push_back(failure);
+      throw IoError(failure, request.file.string(),
+                    "the pictures are whole; --resume makes the movie when there is room");
   }
 }
 

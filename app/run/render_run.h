@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <future>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,13 @@ class RenderRun {
  private:
   /// @return the first frame to make
   int begin();
+  /// The same for a run that goes on.
+  int resume(Resumption found);
+  void continue_from(ResumedRun run);
+  /// Back to the newest checkpoint, once its flawed pictures are made. @return its frame
+  int end_repair();
+  int last_frame() const;
+  bool is_to_draw(int frame) const;
   void make_frames(int first);
   bool checkpoint_is_due(int frame) const;
   void write_checkpoint(int frame);
@@ -68,11 +76,17 @@ class RenderRun {
   /// Lets the next frame be simulated while this one is drawn, where there are cores for both.
   void begin_next(int frame);
   void draw_frame(int frame);
-  void add_frame_record(const FrameRecord& frame);
+  /// Takes the hashes of the files that were written in the meantime.
+  void note_written();
+  void note_exports();
+  void note_file(const output::WrittenFile& file);
+  /// Writes everything made so far, and waits until it would survive a power cut.
+  void bring_to_disk();
   void note_warnings();
   void note_retries(const std::vector<sim::Retry>& retries);
   void report_incident();
   void write_movies();
+  void write_movie(const std::string& view);
   void forget_unwritten_frames();
   /// By itself, not only in a mosaic.
   bool is_drawn(const scene::View& view) const;
@@ -92,14 +106,21 @@ class RenderRun {
   PictureRecord picture_record_;
   Checkpoints checkpoints_;
   std::optional<Validation> validation_;
+  /// Frames with missing or damaged pictures, and the run that goes on when they are made.
+  struct Repair {
+    std::set<int> frames;
+    ResumedRun then;
+  };
+  std::optional<Repair> repair_;
   RenderResult result_;
   sim::AdvanceReport advance_;                ///< of the frame being made
   sim::Summary summary_;                      ///< of the frame being made
   std::vector<picture::PlotSample> history_;  ///< of all frames simulated
   double seconds_sim_ = 0;
   std::atomic<bool> is_abandoned_ = false;  ///< nobody waits for the frame being simulated
-  std::future<Advanced> next_;    ///< the frame after the one being drawn, if it was begun
-  output::PictureWriter writer_;  ///< last: stops before its inputs are destroyed
+  std::future<Advanced> next_;  ///< the frame after the one being drawn, if it was begun
+  std::set<std::filesystem::path> unsynced_;  ///< files that a power cut may still take
+  output::PictureWriter writer_;                 ///< last: stops before its inputs are destroyed
 };
 
 }  // namespace neve::app::run

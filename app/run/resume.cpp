@@ -1,8 +1,10 @@
 #include "app/run/resume.h"
 
+#include <algorithm>
+
 #include "app/output/atomic_file.h"
-#include "app/output/checkpoint.h"
 #include "app/output/sequence.h"
+#include "app/run/verify.h"
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
@@ -62,6 +64,12 @@ Json history_json(std::span<const picture::PlotSample> history) {
   return rows;
 }
 
+sim::DtLimit limit_of(int number) {
+  if (number < 0 || number >= sim::dt_limit_count)
+    throw std::runtime_error("a limit of the time step has no such number");
+  return static_cast<sim::DtLimit>(number);
+}
+
 std::vector<picture::PlotSample> history_of(const Json& rows) {
   std::vector<picture::PlotSample> history;
   for (const Json& row : rows) {
@@ -71,10 +79,29 @@ std::vector<picture::PlotSample> history_of(const Json& rows) {
     s.elastic_energy = row.at(2).get<double>();
     s.max_speed = row.at(3).get<double>();
     s.steps = row.at(4).get<std::size_t>();
-    s.limit = static_cast<sim::DtLimit>(row.at(5).get<int>());
+    s.limit = limit_of(row.at(5).get<int>());
     history.push_back(s);
   }
   return history;
+}
+
+/// The checksum of the checkpoint is right, so it was written so.
+[[noreturn]] void fail_resuming(const std::exception& error) {
+  throw scene::toml::UsageError("--resume", std::string("cannot resume: ") + error.what(),
+                                "remove --resume to start the run again");
+}
+
+/// Adds the frames that run.json lists and the checkpoint does not: those after it, and all of an
+/// earlier version. Their pictures stay listed until they are made again.
+void add_listed(const Json& run_json, ResumedRun& run) {
+  const bool has_none = run.frames.empty();
+  if (has_none && run_json.is_object()) run.exports = run_json.value("exports", Json());
+  for (const FrameRecord& frame : frame_records(run_json))
+    if (has_none || frame.frame > run.frame) add_frame(run.frames, frame);
+  for (const auto& [file, hash] : file_hashes(run_json)) run.files.emplace(file, hash);
+  // Movies are made again at the end: only pictures are in folders.
+  std::erase_if(run.files,
+                [](const auto& file) { return file.first.find('/') == std::string::npos; });
 }
 
 }  // namespace
@@ -89,8 +116,7 @@ Checkpoints::Checkpoints(std::filesystem::path folder, const PictureRecord& pict
       progress_(progress) {}
 
 void Checkpoints::write(int frame, const sim::AdvanceReport& advance,
-                        std::span<const picture::PlotSample> history,
-                        std::span<const sim::Retry> retries) {
+                        std::span<const picture::PlotSample> history, const RunRecord& record) {
   output::Checkpoint checkpoint;
   checkpoint.identity = identity_;
   checkpoint.simd = simulation_.simd();
@@ -98,22 +124,19 @@ void Checkpoints::write(int frame, const sim::AdvanceReport& advance,
   checkpoint.steps = simulation_.steps();
   checkpoint.progress = {{"advance", output::to_json(advance)},
                          {"history", history_json(history)},
-                         {"retries", Json::array()}};
-  for (const sim::Retry& retry : retries)
+                         {"retries", Json::array()},
+                         {"frames", Json::array()},
+                         {"files", record.files},
+                         {"exports", record.exports}};
+  for (const sim::Retry& retry : record.retries)
     checkpoint.progress["retries"].push_back(output::to_json(retry));
+  for (const FrameRecord& made : record.frames)
+    if (made.frame <= frame) checkpoint.progress["frames"].push_back(to_json(made));
   checkpoint.state = simulation_.save();
   output::write_checkpoint(folder_, checkpoint);
 }
 
-std::optional<ResumedRun> Checkpoints::resume() {
-  const output::FoundCheckpoint found = output::find_checkpoint(folder_);
-  for (const std::string& damaged : found.damaged)
-    progress_.warning(damaged + "; using an older checkpoint");
-  if (!found.checkpoint) {
-    progress_.note("no checkpoint in " + folder_.string() + ": the run starts at frame 0");
-    return std::nullopt;
-  }
-  const output::Checkpoint& checkpoint = *found.checkpoint;
+void Checkpoints::check_identity(const output::Checkpoint& checkpoint) {
   if (checkpoint.identity != identity_)
     throw scene::toml::UsageError(
         "--resume",
@@ -124,24 +147,77 @@ std::optional<ResumedRun> Checkpoints::resume() {
                       " instructions, this part uses " + simulation_.simd() +
                       ": the last bits will differ; use NEVE_SIMD=" + checkpoint.simd +
                       " if this machine has it");
+}
+
+ResumedRun Checkpoints::read(const output::Checkpoint& checkpoint) const {
   ResumedRun run;
+  run.frame = checkpoint.frame;
+  run.steps = checkpoint.steps;
+  run.state = checkpoint.state;
   try {
-    player_.go_to(checkpoint.steps);
-    simulation_.restore(checkpoint.state);
-    run.frame = checkpoint.frame;
     run.advance = output::advance_report(checkpoint.progress.at("advance"));
     run.history = history_of(checkpoint.progress.at("history"));
     for (const Json& retry : checkpoint.progress.at("retries"))
       run.retries.push_back(output::retry_record(retry));
+    // Checkpoints of earlier versions have neither.
+    if (!checkpoint.progress.contains("frames")) return run;
+    for (const Json& frame : checkpoint.progress.at("frames"))
+      run.frames.push_back(frame_record(frame));
+    run.files = file_hashes(checkpoint.progress);
+    run.exports = checkpoint.progress.value("exports", Json());
   } catch (const std::exception& error) {
-    // Its checksum is right, so it was written so.
-    throw scene::toml::UsageError("--resume", std::string("cannot resume: ") + error.what(),
-                                  "remove --resume to start the run again");
+    fail_resuming(error);
   }
-  run.frames = read_frame_records(folder_);
-  progress_.note("resumed after frame " + std::to_string(run.frame) + ", step " +
-                 std::to_string(checkpoint.steps));
   return run;
+}
+
+std::optional<Resumption> Checkpoints::find(const std::vector<std::string>& views,
+                                            setup::FrameRange frames) {
+  const output::FoundCheckpoint found = output::find_checkpoint(folder_);
+  for (const std::string& damaged : found.damaged)
+    progress_.warning(damaged + "; using an older checkpoint");
+  if (!found.checkpoint) {
+    progress_.note("no checkpoint in " + folder_.string() + ": the run starts at frame 0");
+    return std::nullopt;
+  }
+  check_identity(*found.checkpoint);
+  Resumption resumption{read(*found.checkpoint), {}, {}};
+  ResumedRun& run = resumption.run;
+  add_listed(read_run_json(folder_), run);
+  const int last = std::min(run.frame, frames.last);
+  Pictures pictures{views, run.frames, run.files};
+  std::erase_if(pictures.frames, [&](const FrameRecord& made) { return made.frame > run.frame; });
+  std::vector<Flaw> flaws =
+      picture_flaws(folder_, pictures, frames.first, last, resumption.flawed);
+  try {
+    for (Flaw& flaw : export_flaws(folder_, run.exports, run.files, run.frame, resumption.flawed))
+      flaws.push_back(std::move(flaw));
+  } catch (const std::exception& error) {
+    fail_resuming(error);
+  }
+  std::sort(resumption.flawed.begin(), resumption.flawed.end());
+  if (flaws.empty()) return resumption;
+  run.state.clear();  // read again when the pictures are whole: it may be large
+  const int before = resumption.flawed.front();
+  if (const auto older = output::find_checkpoint(folder_, before).checkpoint;
+      older && older->identity == identity_)
+    resumption.repair = read(*older);
+  progress_.warning(folder_.string() + ": " + flaw_text(flaws) + "; made again from frame " +
+                    std::to_string(resumption.repair ? resumption.repair->frame : 0) + " on");
+  return resumption;
+}
+
+void Checkpoints::go_to(const ResumedRun& run) {
+  try {
+    player_.go_to(run.steps);
+    if (!run.state.empty()) return simulation_.restore(run.state);
+    const std::optional<output::Checkpoint> again = output::find_checkpoint(folder_).checkpoint;
+    if (!again || again->identity != identity_ || again->steps != run.steps)
+      throw std::runtime_error("the checkpoint in " + folder_.string() + " has changed");
+    simulation_.restore(again->state);
+  } catch (const std::exception& error) {
+    fail_resuming(error);
+  }
 }
 
 }  // namespace neve::app::run

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/output/checkpoint.h"
 #include "app/picture/plots.h"
 #include "app/run/picture_record.h"
 #include "app/run/run_json.h"
@@ -17,11 +18,26 @@ namespace neve::app::run {
 
 /// A run as it was when the checkpoint was written.
 struct ResumedRun {
-  int frame = 0;                             ///< the last one that was reached
+  int frame = 0;  ///< the last one that was reached
+  std::size_t steps = 0;
+  std::vector<std::uint8_t> state;           ///< of the simulation; empty: as the newest checkpoint
   sim::AdvanceReport advance;                ///< steps taken since then
   std::vector<picture::PlotSample> history;  ///< of all frames reached
   std::vector<sim::Retry> retries;           ///< so far
-  std::vector<FrameRecord> frames;           ///< that run.json lists
+  /// That the run has made, with the hashes of its files. Those up to the checkpoint are from it,
+  /// so that a damaged run.json loses none.
+  std::vector<FrameRecord> frames;
+  FileHashes files;
+  Json exports = Json::array();  ///< as run.json lists them
+};
+
+/// The way back into a run.
+struct Resumption {
+  ResumedRun run;
+  /// Frames before its checkpoint with pictures that are missing or damaged, in order. They are
+  /// made again first: from `repair` on, or from the start without one.
+  std::vector<int> flawed;
+  std::optional<ResumedRun> repair;
 };
 
 class Checkpoints {
@@ -33,15 +49,24 @@ class Checkpoints {
 
   /// @param advance steps since the frame
   /// @throws IoError
+  /// @param record of the run so far: its frames and files are kept too
   void write(int frame, const sim::AdvanceReport& advance,
-             std::span<const picture::PlotSample> history, std::span<const sim::Retry> retries);
+             std::span<const picture::PlotSample> history, const RunRecord& record);
 
-  /// Brings the simulation to the newest checkpoint that is whole; damaged ones are named and
-  /// passed over. Nothing without a checkpoint: the run starts at its beginning.
+  /// Finds the newest checkpoint that is whole; damaged ones are named and passed over. Compares
+  /// the pictures up to it with the run's own list. Nothing without a checkpoint: the run starts at
+  /// its beginning.
+  /// @param views  that have pictures @param frames  that are to have some
   /// @throws UsageError when the run in the folder is another one
-  std::optional<ResumedRun> resume();
+  std::optional<Resumption> find(const std::vector<std::string>& views, setup::FrameRange frames);
+
+  /// Brings the simulation to a checkpoint that was found.
+  void go_to(const ResumedRun& run);
 
  private:
+  ResumedRun read(const output::Checkpoint& checkpoint) const;
+  void check_identity(const output::Checkpoint& checkpoint);
+
   std::filesystem::path folder_;
   PictureRecord picture_;
   std::string identity_;

@@ -1,11 +1,13 @@
 #include "app/run/run_json.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
 #include "app/support/version.h"
+#include "sim/base/hash.h"
 
 namespace neve::app::run {
 
@@ -15,6 +17,10 @@ sim::DtLimit limit_named(const std::string& text) {
   for (int k = 0; k < sim::dt_limit_count; ++k)
     if (const auto limit = static_cast<sim::DtLimit>(k); text == sim::name(limit)) return limit;
   return sim::DtLimit::max_dt;
+}
+
+std::string hash_of(const std::string& text) {
+  return hash_text(hash_bytes(text.data(), text.size()));
 }
 
 }  // namespace
@@ -95,6 +101,20 @@ std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance,
   return forces;
 }
 
+void add_frame(std::vector<FrameRecord>& frames, const FrameRecord& frame) {
+  const auto place =
+      std::lower_bound(frames.begin(), frames.end(), frame.frame,
+                       [](const FrameRecord& other, int number) { return other.frame < number; });
+  if (place != frames.end() && place->frame == frame.frame)
+    *place = frame;
+  else
+    frames.insert(place, frame);
+}
+
+std::string picture_name(const std::string& view, int frame) {
+  return output::frame_path({}, view, frame).generic_string();
+}
+
 FrameRecord frame_record(const Json& json) {
   FrameRecord frame;
   frame.frame = json.at("frame").get<int>();
@@ -168,6 +188,22 @@ std::vector<FrameRecord> frame_records(const Json& run) {
   return frames;
 }
 
+FileHashes file_hashes(const Json& run) {
+  FileHashes files;
+  if (!run.is_object() || !run.contains("files") || !run["files"].is_object()) return files;
+  for (const auto& [file, hash] : run["files"].items())
+    if (hash.is_string()) files[file] = hash.get<std::string>();
+  return files;
+}
+
+bool is_untouched(Json run) {
+  if (!run.is_object()) return false;
+  if (!run.contains("hash")) return !run.contains("files");
+  const Json hash = run["hash"];
+  run.erase("hash");
+  return hash == hash_of(to_text(run));
+}
+
 std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder) {
   return frame_records(read_run_json(folder));
 }
@@ -190,6 +226,7 @@ Json to_json(const RunRecord& run) {
   if (!run.error.empty()) json["error"] = run.error;
   json["frames"] = Json::array();
   for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
+  json["files"] = run.files;
   json["warnings"] = run.warnings;
   if (!run.validation.empty()) json["validation"] = output::to_json(run.validation);
   if (!run.retries.empty()) json["retries"] = Json::array();
@@ -202,7 +239,10 @@ Json to_json(const RunRecord& run) {
 }
 
 void write_run_json(const std::filesystem::path& folder, const RunRecord& run) {
-  output::write_file(output::run_json_path(folder), to_text(to_json(run)) + "\n");
+  std::string text = to_text(to_json(run));
+  // Becomes the last entry: the text is long, and made once.
+  text.replace(text.size() - 2, 2, ",\n  \"hash\": \"" + hash_of(text) + "\"\n}\n");
+  output::write_file(output::run_json_path(folder), text);
 }
 
 }  // namespace neve::app::run

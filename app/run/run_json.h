@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,9 @@ struct FrameRecord {
 std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance,
                                      const std::vector<scene::Collider>& colliders);
 
+/// Files of a run, by their path in its folder, with the hash of their bytes as hash_text.
+using FileHashes = std::map<std::string, std::string>;
+
 struct RunRecord {
   std::string scene;  ///< resolved, TOML
   std::string scene_file;
@@ -56,6 +60,7 @@ struct RunRecord {
   RunStatus status = RunStatus::running;
   std::string error;  ///< of a run that failed
   std::vector<FrameRecord> frames;
+  FileHashes files;  ///< pictures and movies; a picture that is just being written is not in it yet
   std::vector<std::string> warnings;                 ///< of the start and of the steps so far
   std::vector<sim::checks::WatchRecord> validation;  ///< of --validate; empty without it
   std::vector<sim::Retry> retries;                   ///< times that it went back
@@ -71,6 +76,12 @@ Json to_json(const FrameRecord& frame);
 /// @throws nlohmann::json::exception
 FrameRecord frame_record(const Json& json);
 
+/// In the order of frames; in the place of an earlier record of the same frame.
+void add_frame(std::vector<FrameRecord>& frames, const FrameRecord& frame);
+
+/// "particles/0003.png"
+std::string picture_name(const std::string& view, int frame);
+
 /// DIR/run.json; null where there is no such file or it cannot be read.
 Json read_run_json(const std::filesystem::path& folder);
 
@@ -80,7 +91,14 @@ Json earlier_exports(const std::filesystem::path& folder);
 /// The frames that it lists; none where they cannot be read.
 std::vector<FrameRecord> frame_records(const Json& run);
 
-/// Both at once.
+/// The files that it lists; none where they cannot be read.
+FileHashes file_hashes(const Json& run);
+
+/// Whether run.json is as write_run_json wrote it: its last entry, `hash`, is the hash of the rest.
+/// Those of earlier versions have none and pass.
+bool is_untouched(Json run);
+
+/// The frames that DIR/run.json lists.
 std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder);
 
 Json to_json(const RunRecord& run);

@@ -12,7 +12,8 @@ namespace {
 
 volatile std::sig_atomic_t interrupt_count = 0;
 
-void on_signal(int) {
+void on_signal(int signal) {
+  if (signal == SIGHUP && interrupt_count > 0) return;
   interrupt_count = interrupt_count + 1;
   if (interrupt_count > 1) ::_exit(exit_interrupted);
 }
@@ -26,6 +27,9 @@ void catch_interrupts() {
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before {};
+  if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &action, nullptr);
 }
 
 bool is_interrupted() {

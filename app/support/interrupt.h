@@ -3,7 +3,8 @@
 
 namespace neve::app {
 
-/// From now on SIGINT and SIGTERM set a flag; the second of them ends the process with code 130.
+/// From now on SIGINT, SIGTERM and SIGHUP set a flag; the second of the first two ends the process
+/// with code 130. A terminal that closes may send several SIGHUP; under nohup it has no effect.
 void catch_interrupts();
 
 /// True after a request to stop.

@@ -116,6 +116,12 @@ std::string machine_text() {
          compiler;
 }
 
+std::string host_name() {
+  char name[256] = "";
+  ::gethostname(name, sizeof name - 1);
+  return name;
+}
+
 fs::path this_program() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);

@@ -14,6 +14,9 @@ std::uint64_t available_memory();
 /// Bytes of address space that this process may use (ulimit -v); the largest number when unlimited.
 std::uint64_t address_space_limit();
 
+/// The name of this machine; "" where it has none.
+std::string host_name();
+
 /// "AMD EPYC, 2 cores; GCC 12.2.0": the circumstances of a measurement.
 std::string machine_text();
 

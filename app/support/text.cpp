@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <numeric>
 
 namespace neve::app {
@@ -58,6 +59,22 @@ std::string nearest_name(const std::string& wrong, const std::vector<std::string
     if (distance < best) best = distance, nearest = name;
   }
   return nearest;
+}
+
+std::string printable_text(const std::string& text) {
+  std::string printable;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const auto c = static_cast<unsigned char>(text[k]);
+    // U+0080 to U+009F, which terminals obey too, are c2 80 to c2 9f in UTF-8.
+    const auto next = k + 1 < text.size() ? static_cast<unsigned char>(text[k + 1]) : 0;
+    const bool is_long_control = c == 0xc2 && next >= 0x80 && next < 0xa0;
+    const bool is_control = (c < ' ' && c != '\n' && c != '\t') || c == 0x7f || is_long_control;
+    char code[8];
+    std::snprintf(code, sizeof code, "\\x%02x", is_long_control ? next : c);
+    printable += is_control ? std::string(code) : std::string(1, text[k]);
+    k += is_long_control;
+  }
+  return printable;
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {

@@ -13,6 +13,9 @@ std::string fixed_text(double value, int digits);
 std::string rough_text(double value);
 /// "1.2 GiB"
 std::string bytes_text(std::uint64_t bytes);
+/// With control characters as \x1b and the like: those of a stranger's file do nothing to a
+/// terminal. Line feeds and tabs stay.
+std::string printable_text(const std::string& text);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
 /// The name closest to a misspelt one, or empty when none is close.
 std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/output/folder_lock.h"
 #include "app/output/picture_writer.h"
 #include "app/support/clock.h"
 #include "app/view/frontend/frontend.h"
@@ -85,6 +86,7 @@ class Viewer {
   frontend::ImGuiInput input_;
   panels::ViewerState state_;
   output::PictureWriter writer_;
+  std::optional<output::FolderLock> lock_;  ///< while frames are recorded
   bool is_closed_ = false;
   int pictures_ = 0;
   float styled_scale_ = 0;  ///< that the panels' distances are for

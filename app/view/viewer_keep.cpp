@@ -78,6 +78,8 @@ void Viewer::record_frame() {
   recorded_frame_ = live.frame;
   try {
     const std::string& view = panels::current_view(state_).name;
+    // Frames have the names that neve render gives them.
+    if (!lock_) lock_.emplace(bench_.folder(), "neve view");
     output::make_folder(bench_.folder() / view);
     writer_.write(picture_to_keep(output::frame_path(bench_.folder(), view, live.frame)));
     ++state_.recorded;

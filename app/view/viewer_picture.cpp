@@ -91,7 +91,10 @@ void Viewer::paint_picture() {
   scale_ = scale;
   painted_number_ = state_.live->number;
   painted_ = std::move(key);
-  if (state_.is_recording) record_frame();
+  if (state_.is_recording)
+    record_frame();
+  else
+    lock_.reset();
 }
 
 /// The current view; inside a step its arrows show the result of the stage.

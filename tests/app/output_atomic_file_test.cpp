@@ -2,13 +2,20 @@
 
 #include "app/output/atomic_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <functional>
 
+#include "app/output/folder_lock.h"
+#include "app/output/named_file.h"
+#include "app/output/temporary.h"
+#include "app/support/machine.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -71,13 +78,135 @@ TEST(AtomicFile, AtomicFileFailsInFoldersThatCannotHoldIt) {
                IoError);
 }
 
-TEST(AtomicFile, AtomicFileOverwritesATemporaryThatAKilledProcessLeft) {
+TEST(AtomicFile, AtomicFileNeverReplacesALinkAFolderOrADevice) {
   const TemporaryFolder folder;
-  const std::filesystem::path file = folder / "a.txt";
-  folder.write(app::output::temporary_name(file).filename().string(), "half");
-  app::output::write_file(file, std::string_view("whole"));
-  EXPECT_EQ(read_text(file), "whole");
-  EXPECT_EQ(file_count(folder.path()), 1u);
+  const std::filesystem::path other = folder.write("other", "mine");
+  std::filesystem::create_symlink(other, folder / "link");
+  std::filesystem::create_symlink(folder / "nothing", folder / "dangling");
+  std::filesystem::create_directory(folder / "sub");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const char* name : {"link", "dangling", "sub", "pipe"})
+    EXPECT_THROW(app::output::write_file(folder / name, std::string_view("x")), IoError) << name;
+  EXPECT_EQ(read_text(other), "mine");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  EXPECT_EQ(file_count(folder.path()), 5u);
+}
+
+TEST(Temporary, TemporaryFilesOfDeadProcessesAreRemovedAndOthersStay) {
+  const TemporaryFolder folder;
+  const pid_t dead = ::fork();
+  if (dead == 0) {
+    folder.write(app::output::temporary_name(folder / "a.txt").filename().string(), "half");
+    ::_exit(0);
+  }
+  ::waitpid(dead, nullptr, 0);
+  const std::filesystem::path living = app::output::temporary_name(folder / "b.txt");
+  folder.write(living.filename().string(), "half");
+  for (const char* name :
+       {".a.tmp", ".a.host.x.00000000.tmp", "notes.tmp", ".a.elsewhere.1.0123abcd.tmp"})
+    folder.write(name, "x");
+  EXPECT_EQ(file_count(folder.path()), 6u);
+  app::output::remove_abandoned(folder.path());
+  EXPECT_EQ(file_count(folder.path()), 5u);
+  EXPECT_TRUE(std::filesystem::exists(living));
+  // A process of another machine cannot be asked: after a day it is gone.
+  std::filesystem::last_write_time(
+      folder / ".a.elsewhere.1.0123abcd.tmp",
+      std::filesystem::file_time_type::clock::now() - std::chrono::hours(25));
+  app::output::remove_abandoned(folder.path());
+  EXPECT_EQ(file_count(folder.path()), 4u);
+}
+
+TEST(Temporary, TemporaryNamesDifferAndFitIntoAFolder) {
+  const std::filesystem::path file = std::string(255, 'x');
+  EXPECT_NE(app::output::temporary_name("a/b"), app::output::temporary_name("a/b"));
+  EXPECT_EQ(app::output::temporary_name("a/b").parent_path(), "a");
+  EXPECT_LE(app::output::temporary_name(file).native().size(), 255u);
+}
+
+TEST(NamedFile, NamedFileFollowsLinksAndKeepsModeAndNames) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("real.toml", "old, and longer");
+  ::chmod(file.c_str(), 0640);
+  std::filesystem::create_symlink("real.toml", folder / "link.toml");
+  app::output::write_named_file(folder / "link.toml", "new");
+  EXPECT_EQ(read_text(file), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.toml"));
+  EXPECT_EQ(std::filesystem::status(file).permissions(), std::filesystem::perms(0640));
+  std::filesystem::create_hard_link(file, folder / "second.toml");
+  app::output::write_named_file(file, "x");
+  EXPECT_EQ(read_text(folder / "second.toml"), "x") << "both names still mean one file";
+  std::filesystem::create_symlink("to come", folder / "ahead");
+  app::output::write_named_file(folder / "ahead", "there");
+  EXPECT_EQ(read_text(folder / "to come"), "there");
+  EXPECT_EQ(file_count(folder.path()), 5u);
+}
+
+TEST(NamedFile, NamedFileWritesIntoPipesAndDevicesAndRefusesTheRest) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const int reader = ::open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  app::output::write_named_file(folder / "pipe", "text");
+  char text[8] = "";
+  EXPECT_EQ(::read(reader, text, sizeof text), 4);
+  EXPECT_STREQ(text, "text");
+  ::close(reader);
+  std::filesystem::create_symlink("/dev/null", folder / "null");
+  app::output::write_named_file(folder / "null", "gone");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "null"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  std::filesystem::create_directory(folder / "sub");
+  EXPECT_THROW(app::output::write_named_file(folder / "sub", "x"), IoError);
+  std::filesystem::create_symlink("circle", folder / "circle");
+  EXPECT_THROW(app::output::write_named_file(folder / "circle", "x"), IoError);
+}
+
+TEST(NamedFile, NamedFileOfAnOpenDescriptorIsWrittenWhereItIs) {
+  const TemporaryFolder folder;
+  const int fd = ::open((folder / "log").c_str(), O_WRONLY | O_CREAT, 0600);
+  ASSERT_EQ(::write(fd, "before ", 7), 7);
+  app::output::write_named_file("/dev/fd/" + std::to_string(fd), "after");
+  ::close(fd);
+  EXPECT_EQ(read_text(folder / "log"), "before after");
+}
+
+TEST(FolderLock, FolderLockIsHeldOnceAndSaysByWhom) {
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder / "out";
+  {
+    const app::output::FolderLock first(out, "neve render");
+    try {
+      const app::output::FolderLock second(out, "neve view");
+      FAIL() << "two have it";
+    } catch (const IoError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(
+          message.find("neve render, process " + std::to_string(::getpid()) + " on " + host_name()),
+          std::string::npos)
+          << message;
+    }
+    EXPECT_FALSE(app::output::FolderLock::try_lock(out, "x"));
+  }
+  EXPECT_TRUE(app::output::FolderLock::try_lock(out, "x"));
+}
+
+TEST(FolderLock, FolderLockIsSharedAmongThoseWhoShare) {
+  const TemporaryFolder folder;
+  using app::output::FolderLock;
+  const auto first = FolderLock::try_lock(folder.path(), "a", FolderLock::Kind::shared);
+  const auto second = FolderLock::try_lock(folder.path(), "b", FolderLock::Kind::shared);
+  EXPECT_TRUE(first && second);
+  EXPECT_FALSE(FolderLock::try_lock(folder.path(), "c"));
+}
+
+TEST(FolderLock, FolderLockThatCannotBeIsAnErrorAndNotSomebodyElse) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / ".lock");
+  EXPECT_THROW(app::output::FolderLock::try_lock(folder.path(), "x"), IoError);
+  const TemporaryFolder other;
+  ASSERT_EQ(::mkfifo((other / ".lock").c_str(), 0600), 0);
+  EXPECT_THROW(app::output::FolderLock::try_lock(other.path(), "x"), IoError);
 }
 
 TEST(ReadFile, ReaderRefusesFoldersMissingFilesAndTooLargeOnes) {
@@ -87,6 +216,9 @@ TEST(ReadFile, ReaderRefusesFoldersMissingFilesAndTooLargeOnes) {
   EXPECT_THROW(app::output::read_file(folder / "missing"), IoError);
   EXPECT_THROW(app::output::read_file(folder / "a", 4), IoError);
   EXPECT_EQ(app::output::read_file(folder / "a", 5).size(), 5u);
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(app::output::read_file(folder / "pipe"), IoError) << "it must not wait for a writer";
+  EXPECT_THROW(app::output::read_file("/dev/zero"), IoError);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <thread>
 
+#include "app/scene/toml/error.h"
 #include "app/support/progress.h"
 #include "app/sweep/jobs/child.h"
 #include "app/sweep/jobs/local.h"
@@ -97,14 +98,15 @@ TEST(SweepStore, TheStoreRemembersReportsAndSurvivesBrokenOnes) {
   }
 }
 
-TEST(SweepStore, LocksAreHeldOnce) {
-  test::TemporaryFolder folder;
-  {
-    const app::sweep::store::RunLock first(folder.path());
-    EXPECT_TRUE(first.is_held());
-    EXPECT_FALSE(app::sweep::store::RunLock(folder.path()).is_held());
-  }
-  EXPECT_TRUE(app::sweep::store::RunLock(folder.path()).is_held());
+TEST(SweepStore, FailedRunsAreRepeatedByTheirState) {
+  using app::sweep::store::parse_retry;
+  using app::sweep::store::RunState;
+  EXPECT_EQ(parse_retry("timeout,crashed"),
+            (app::sweep::store::Retry{RunState::timeout, RunState::crashed}));
+  EXPECT_EQ(parse_retry("all").size(), 6u);
+  EXPECT_FALSE(parse_retry("all").contains(RunState::ok));
+  for (const char* wrong : {"", "ok", ",crashed", "timeout;crashed", "pending"})
+    EXPECT_THROW(parse_retry(wrong), app::scene::toml::UsageError) << wrong;
 }
 
 TEST(SweepOrder, CornersRunFirstThenMiddles) {

@@ -65,7 +65,10 @@ TEST_F(SweepResults, ResultsNameTheMissingRuns) {
   std::filesystem::remove_all(folder / "out/study.cdb/runs/0004");
   std::filesystem::remove(folder / "out/study.cdb/runs/0002/particles/0002.png");
   folder.write("out/study.cdb/runs/0003/run.json", "{ broken");
-  ASSERT_EQ(neve({"sweep", "collect", "out/study.cdb"}).exit_code, 0);
+  const auto collected = neve({"sweep", "collect", "out/study.cdb"});
+  EXPECT_EQ(collected.exit_code, 9) << "a run called ok is not whole";
+  EXPECT_TRUE(contains(collected.errors, "run 2: particles/0002.png is missing; and 1 more runs"))
+      << collected.errors;
   EXPECT_TRUE(contains(text("report.html"), "1 not finished"));
   EXPECT_EQ(neve({"sweep", "collect", "out"}).exit_code, 6);
   folder.write("out/study.cdb/manifest.json", "{}");

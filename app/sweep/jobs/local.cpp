@@ -1,7 +1,6 @@
 #include "app/sweep/jobs/local.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +12,16 @@
 #include <thread>
 
 #include "app/output/checkpoint.h"
+#include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
+#include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
 #include "app/sweep/jobs/child.h"
 #include "app/sweep/jobs/outcome.h"
 #include "app/sweep/plan/order.h"
+#include "app/sweep/store/results.h"
 #include "app/sweep/store/store.h"
 
 namespace neve::app::sweep::jobs {
@@ -29,12 +31,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto poll_interval = std::chrono::milliseconds(5);
-
-std::string host_name() {
-  char name[256] = "";
-  ::gethostname(name, sizeof name - 1);
-  return name;
-}
 
 /// In which the next runs are started.
 std::deque<const Run*> queue_of(const store::Manifest& manifest, const std::vector<int>& indices) {
@@ -65,17 +61,22 @@ class LocalJobs {
     queue_ = queue_of(manifest_, indices);
     counts_.all = static_cast<int>(queue_.size());
     skip_finished();
+    put_failed_by_machine_last();
     for (const Run* run : queue_) work_left_ += run->work;
     clock_.note(0);
     while (!active_.empty() || !queue_.empty()) {
       if (is_interrupted()) stop();
-      start_what_fits();
-      collect_ended();
+      try {
+        start_what_fits();
+        collect_ended();
+      } catch (const IoError& error) {
+        give_up({error.code, error.what()});
+      }
       show();
       if (!active_.empty()) std::this_thread::sleep_for(poll_interval);
     }
     progress_.clear();
-    result_.is_interrupted |= is_interrupted();
+    result_.is_interrupted |= is_interrupted() || result_.failure.has_value();
     result_.seconds = std::chrono::duration<double>(Child::Clock::now() - start).count();
     return result_;
   }
@@ -84,7 +85,7 @@ class LocalJobs {
   struct Active {
     const Run* run;
     fs::path folder;
-    store::RunLock lock;
+    output::FolderLock lock;
     store::RunStatus status;
     Child child;
     int threads;
@@ -104,11 +105,28 @@ class LocalJobs {
   void skip_finished() {
     std::erase_if(queue_, [&](const Run* run) {
       const store::RunStatus status = store::read_status(folder_of(*run));
-      const bool is_again = options_.retry_failed && store::has_failed(status.state);
-      if (!store::is_finished(status.state) || is_again) return false;
+      if (!store::is_finished(status.state) || options_.retry_failed.contains(status.state))
+        return false;
+      if (const std::string flaws = store::flaws_of_run(folder_, *run, status); !flaws.empty()) {
+        progress_.warning(fmt::format("{}: {}; it is made again", store::run_text(*run), flaws));
+        return false;
+      }
       count(status);
       return true;
     });
+  }
+
+  /// One that fails for ever must not keep others from being made.
+  void put_failed_by_machine_last() {
+    std::stable_partition(queue_.begin(), queue_.end(), [&](const Run* run) {
+      return !is_machine_failure(store::read_status(folder_of(*run)).exit_code);
+    });
+  }
+
+  /// Runs in progress may end.
+  void give_up(const MachineFailure& failure) {
+    if (!result_.failure) result_.failure = failure;
+    queue_.clear();
   }
 
   void stop() {
@@ -150,9 +168,13 @@ class LocalJobs {
 
   void start(const Run& run, int threads) {
     const fs::path folder = folder_of(run);
-    store::RunLock lock(folder);
-    if (!lock.is_held()) {
-      progress_.warning(fmt::format("{} is in progress in another sweep", store::run_text(run)));
+    std::optional<output::FolderLock> lock = output::FolderLock::try_lock(
+        folder, "neve sweep", output::FolderLock::Kind::alone, store::run_lock);
+    if (!lock) {
+      ++result_.elsewhere;
+      result_.elsewhere_text = fmt::format("{} is in progress: {}", store::run_text(run),
+                                           output::FolderLock::holder_of(folder, store::run_lock));
+      progress_.warning(result_.elsewhere_text);
       --counts_.all;
       work_left_ -= run.work;
       return;
@@ -175,7 +197,7 @@ class LocalJobs {
     ++result_.started;
     progress_.detail(fmt::format("{} starts on {} {}", store::run_text(run), threads,
                                  threads == 1 ? "thread" : "threads"));
-    active_.push_back({&run, folder, std::move(lock), std::move(status), std::move(child), threads,
+    active_.push_back({&run, folder, std::move(*lock), std::move(status), std::move(child), threads,
                        run.frames.first});
   }
 
@@ -222,10 +244,12 @@ class LocalJobs {
       }
       result_.cpu_seconds += ended->cpu_seconds;
       result_.core_seconds += ended->seconds * active->threads;
-      judge(*ended, manifest_, *active->run, active->folder, active->status);
-      finish(*active->run, active->folder, active->status);
-      if (active->status.state == store::RunState::ok) output::remove_checkpoints(active->folder);
+      // Off the list first: its status may find no room on the disk.
+      Active done = std::move(*active);
       active = active_.erase(active);
+      judge(*ended, manifest_, *done.run, done.folder, done.status);
+      finish(*done.run, done.folder, done.status);
+      if (done.status.state == store::RunState::ok) output::remove_checkpoints(done.folder);
     }
   }
 
@@ -234,6 +258,8 @@ class LocalJobs {
     if (store::is_finished(status.state)) count(status);
     // Also by another process: then the sweep is not done either.
     if (status.state == store::RunState::interrupted) result_.is_interrupted = true;
+    if (is_machine_failure(status.exit_code))
+      give_up({status.exit_code, store::run_text(run) + ": " + status.reason});
     work_done_ += run.work;
     work_left_ -= run.work;
     clock_.note(work_done_);

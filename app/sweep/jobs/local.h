@@ -2,11 +2,13 @@
 /// Runs of a sweep side by side on this machine.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/support/progress.h"
 #include "app/sweep/store/manifest.h"
+#include "app/sweep/store/store.h"
 
 namespace neve::app::sweep::jobs {
 
@@ -14,23 +16,33 @@ struct LocalOptions {
   int cores = 1;
   int jobs = 0;  ///< runs side by side; 0: as many as keep the cores busy and fit into memory
   std::string backend = "auto";
-  bool retry_failed = false;      ///< runs those that failed before once more
+  store::Retry retry_failed;      ///< states of runs that are made once more
   double grace = 20;              ///< s that a run has to end when it is asked to
   std::filesystem::path program;  ///< whose `render` makes the runs
 };
 
+/// The machine failed, as by a full disk: this says nothing about a run.
+struct MachineFailure {
+  int code = 0;  ///< exit_io, exit_no_backend
+  std::string reason;
+};
+
 struct JobsResult {
-  int ok = 0, failed = 0;               ///< of all that were asked for, earlier ones included
-  int started = 0;                      ///< now
-  bool is_interrupted = false;          ///< some run waits for the next time
+  int ok = 0, failed = 0;       ///< of all that were asked for, earlier ones included
+  int started = 0;              ///< now
+  bool is_interrupted = false;  ///< some run waits for the next time
+  int elsewhere = 0;            ///< runs that another process is making
+  std::string elsewhere_text;   ///< which, and who makes it, of the last of them
+  std::optional<MachineFailure> failure;
   double seconds = 0, cpu_seconds = 0;  ///< of the whole; of all children
   double core_seconds = 0;              ///< time of the children times their threads
 };
 
 /// Runs the unfinished ones of the runs of these indices; each ends as a state and a reason in
-/// its status.json and never ends the sweep. A run in progress elsewhere is left alone. A Ctrl-C
-/// asks all children to end and waits for them.
-/// @throws IoError
+/// its status.json and never ends the sweep. A run in progress elsewhere is left alone. A finished
+/// run with missing or damaged pictures is made again. A Ctrl-C asks all children to end and waits
+/// for them. When the machine fails, no further run is started: the next call goes on, beginning
+/// with those that have not met the failure.
 JobsResult run_local(const std::filesystem::path& folder, const store::Manifest& manifest,
                      const std::vector<int>& indices, const LocalOptions& options,
                      Progress& progress);

@@ -88,6 +88,10 @@ void judge_exit(const ChildResult& result, const store::Manifest& manifest, cons
     default:
       status.reason = last_message(folder / "log");
   }
+  if (is_machine_failure(result.code)) {
+    status.state = store::RunState::interrupted;
+    return;
+  }
   const bool is_memory = status.reason.find("memory") != std::string::npos;
   if (result.code == exit_refused && status.reason.find("out of memory") != std::string::npos)
     status.state = store::RunState::out_of_memory;
@@ -148,6 +152,10 @@ void judge(const ChildResult& result, const store::Manifest& manifest, const Run
       status.state = store::RunState::interrupted;
       status.reason = "interrupted";
   }
+}
+
+bool is_machine_failure(int exit_code) {
+  return exit_code == exit_io || exit_code == exit_no_backend;
 }
 
 std::string tile_text(const store::RunStatus& status) {

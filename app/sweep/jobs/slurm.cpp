@@ -128,7 +128,7 @@ std::vector<std::string> living(const std::vector<std::string>& jobs) {
 
 std::vector<std::string> submit(const fs::path& folder, const store::Manifest& manifest,
                                 const std::vector<int>& indices, const SlurmOptions& options,
-                                bool retry_failed) {
+                                const std::string& retry_failed) {
   output::make_folder(folder / "slurm");
   write_scripts(folder, options);
   const std::string log = (fs::absolute(folder) / "slurm" / "%A_%a.log").string();
@@ -141,7 +141,7 @@ std::vector<std::string> submit(const fs::path& folder, const store::Manifest& m
     words.push_back("--output=" + log);
     words.push_back((folder / "slurm" / "run.sh").string());
     words.push_back(std::to_string(array.offset));
-    if (retry_failed) words.push_back("--retry-failed");
+    if (!retry_failed.empty()) words.push_back("--retry-failed=" + retry_failed);
     jobs.push_back(job_id(call("sbatch", words)));
     after += ":" + jobs.back();
   }
@@ -183,14 +183,16 @@ std::vector<SlurmArray> split_arrays(const std::vector<int>& indices, int max_ar
 
 JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
                      const std::vector<int>& indices, const SlurmOptions& options,
-                     bool retry_failed, Progress& progress) {
+                     const std::string& retry_failed, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
+  const store::Retry retry =
+      retry_failed.empty() ? store::Retry{} : store::parse_retry(retry_failed);
   std::vector<int> missing;
   std::set<std::string> keys;
   for (const int index : indices) {
     const Run& run = manifest.runs[static_cast<std::size_t>(index)];
     const store::RunState state = store::read_status(store::runs_folder(folder) / run.folder).state;
-    const bool is_wanted = !store::is_finished(state) || (retry_failed && store::has_failed(state));
+    const bool is_wanted = !store::is_finished(state) || retry.contains(state);
     if (is_wanted && keys.insert(run.key).second) missing.push_back(index);
   }
   JobsResult result;
@@ -220,6 +222,8 @@ JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
   const RunCounts counts = count(folder, manifest, indices);
   result.ok = counts.finished - counts.failed;
   result.failed = counts.failed;
+  // Jobs that ended without making their runs.
+  result.is_interrupted |= counts.finished < counts.all;
   const std::chrono::duration<double> span = std::chrono::steady_clock::now() - start;
   result.seconds = span.count();
   return result;

@@ -33,6 +33,6 @@ std::vector<SlurmArray> split_arrays(const std::vector<int>& indices, int max_ar
 /// @throws Error where there is no Slurm, or it refuses
 JobsResult run_slurm(const std::filesystem::path& folder, const store::Manifest& manifest,
                      const std::vector<int>& indices, const SlurmOptions& options,
-                     bool retry_failed, Progress& progress);
+                     const std::string& retry_failed, Progress& progress);
 
 }  // namespace neve::app::sweep::jobs

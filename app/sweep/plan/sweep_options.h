@@ -22,7 +22,7 @@ struct SweepOptions {
   int threads = 0;  ///< cores in all; 0: as many as there are
   int jobs = 0;     ///< runs side by side; 0: as many as keep the cores busy
   std::string backend = "auto";
-  bool retry_failed = false;
+  std::string retry_failed;  ///< "all", or states as in "timeout,crashed"; "": none
   std::optional<Shard> shard;
   std::string only;                 ///< "3,7-12"; "": all
   std::string engine = "local";     ///< local | slurm
@@ -39,7 +39,7 @@ struct SweepRunOptions {
   int index = 0;
   int threads = 0;  ///< 0: as many as there are
   std::string backend = "auto";
-  bool retry_failed = false;
+  std::string retry_failed;  ///< "all", or states as in "timeout,crashed"; "": none
   Verbosity verbosity = Verbosity::normal;
 };
 

@@ -8,6 +8,7 @@
 #include "app/output/sequence.h"
 #include "app/picture/legends.h"
 #include "app/scene/read.h"
+#include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/sweep/plan/shared_view.h"
 #include "app/sweep/sheet/data_csv.h"
@@ -40,6 +41,21 @@ bool has_pictures(const std::vector<store::RunResult>& results) {
   return false;
 }
 
+/// Everything is written by then, with what there is.
+void refuse_flaws(const fs::path& folder, const store::Manifest& manifest,
+                  const std::vector<store::RunResult>& results) {
+  std::string text;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    if (results[k].flaws.empty()) continue;
+    if (count++ == 0) text = store::run_text(manifest.runs[k]) + ": " + results[k].flaws;
+  }
+  if (count > 1) text += "; and " + std::to_string(count - 1) + " more runs";
+  if (count > 0)
+    throw Error(exit_check_failed, text, folder.string(),
+                "the sweep's own command makes these runs again");
+}
+
 void write_sheets(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
                   Progress& progress) {
   const int first = manifest.first_frame(), last = manifest.last_frame();
@@ -59,8 +75,11 @@ void write_sheets(const fs::path& folder, const store::Manifest& manifest, Sheet
   const output::MovieResult movie = output::write_movie(request);
   if (movie.outcome == output::MovieOutcome::no_ffmpeg)
     progress.note("no sheet.mp4: ffmpeg is not installed");
-  if (movie.outcome == output::MovieOutcome::failed)
-    progress.warning("no movie " + request.file.string() + ": " + movie.reason);
+  const std::string failure = "no movie " + request.file.string() + ": " + movie.reason;
+  if (movie.outcome == output::MovieOutcome::failed) progress.warning(failure);
+  if (movie.outcome == output::MovieOutcome::unwritable)
+    throw IoError(failure, request.file.string(),
+                  "neve sweep collect makes the movie when there is room");
 }
 
 }  // namespace
@@ -68,7 +87,9 @@ void write_sheets(const fs::path& folder, const store::Manifest& manifest, Sheet
 void collect_sweep(const fs::path& folder, const std::string& backend, int threads,
                    Progress& progress) {
   const store::Manifest manifest = store::read_manifest(folder);
-  const std::vector<store::RunResult> results = store::read_results(folder, manifest);
+  std::vector<store::RunResult> results = store::read_results(folder, manifest);
+  for (store::RunResult& result : results)
+    if (!result.flaws.empty()) result.warnings.push_back(result.flaws);
   output::write_file(folder / "data.csv", data_csv(manifest, results));
   if (const std::string plots = metric_plots_svg(manifest, results, true); !plots.empty())
     output::write_file(folder / "plots.svg", plots);
@@ -92,6 +113,7 @@ void collect_sweep(const fs::path& folder, const std::string& backend, int threa
   output::write_file(folder / "report.html",
                      report_html(folder.string(), manifest, results, maker.layout(), sheet));
   progress.clear();
+  refuse_flaws(folder, manifest, results);
 }
 
 }  // namespace neve::app::sweep::sheet

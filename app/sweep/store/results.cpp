@@ -9,6 +9,7 @@
 
 #include "app/output/sequence.h"
 #include "app/run/run_json.h"
+#include "app/run/verify.h"
 
 namespace neve::app::sweep::store {
 
@@ -90,6 +91,17 @@ bool is_whole(const Run& run, const RunResult& result) {
          (!result.frames.empty() && result.frames.back() >= run.frames.last);
 }
 
+std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
+                         const RunStatus& status) {
+  const bool is_made = status.state == RunState::ok || status.state == RunState::diverged;
+  if (!is_made) return {};
+  const run::Verification found = run::verify_run(runs_folder(folder) / run.folder);
+  if (!found.flaws.empty()) return run::flaw_text(found.flaws);
+  if (status.state == RunState::ok && found.last_frame != run.frames.last)
+    return "run.json does not reach frame " + std::to_string(run.frames.last);
+  return {};
+}
+
 RunResult read_result(const std::filesystem::path& folder, const Run& run,
                       const std::string& view) {
   RunResult result;
@@ -109,6 +121,7 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   for (const run::FrameRecord& frame : frames)
     if (std::filesystem::exists(output::frame_path(run_folder, view, frame.frame)))
       result.frames.push_back(frame.frame);
+  result.flaws = result.status.key == run.key ? flaws_of_run(folder, run, result.status) : "";
   result.metrics = metrics_of(frames, result.status, notes.diverged_at);
   return result;
 }

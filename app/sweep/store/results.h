@@ -27,11 +27,17 @@ struct RunResult {
   std::vector<std::optional<double>> metrics;
   /// That the run ended with: its numbers may be misleading.
   std::vector<std::string> warnings{};
+  std::string flaws{};  ///< see flaws_of_run
 
   std::optional<int> last_frame() const {
     return frames.empty() ? std::nullopt : std::optional(frames.back());
   }
 };
+
+/// Files of a run that ended as ok or diverged which are missing or damaged; "" where all are
+/// whole, and for other runs, whose pictures are not relied on.
+std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
+                         const RunStatus& status);
 
 /// True if the metrics belong to the last frame, at which all runs are compared.
 bool is_whole(const Run& run, const RunResult& result);

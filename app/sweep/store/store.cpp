@@ -1,15 +1,14 @@
 #include "app/sweep/store/store.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <sstream>
 #include <system_error>
 
 #include "app/output/atomic_file.h"
+#include "app/scene/leaf.h"
+#include "app/scene/toml/error.h"
 
 namespace neve::app::sweep::store {
 
@@ -92,6 +91,31 @@ void write_status(const fs::path& run_folder, const RunStatus& status) {
   output::write_file(status_path(run_folder), to_text(json) + "\n");
 }
 
+Retry parse_retry(const std::string& text) {
+  Retry retry;
+  std::vector<std::string> failures;
+  for (std::size_t k = 0; k < states.size(); ++k)
+    if (const auto state = static_cast<RunState>(k); has_failed(state)) {
+      failures.push_back(name(state));
+      if (text == "all") retry.insert(state);
+    }
+  if (text == "all") return retry;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto found = std::find(failures.begin(), failures.end(), word);
+    if (found == failures.end())
+      throw scene::toml::UsageError("--retry-failed",
+                                    "no failed run has the state \"" + word + "\"",
+                                    "expected " + scene::list_of(failures));
+    retry.insert(
+        static_cast<RunState>(std::find(states.begin(), states.end(), word) - states.begin()));
+  }
+  if (retry.empty())
+    throw scene::toml::UsageError("--retry-failed", "names no state",
+                                  "expected " + scene::list_of(failures));
+  return retry;
+}
+
 std::map<std::string, std::string> known_runs(const fs::path& sweep) {
   std::map<std::string, std::string> known;
   std::error_code error;
@@ -102,22 +126,6 @@ std::map<std::string, std::string> known_runs(const fs::path& sweep) {
     if (!status.key.empty()) known.emplace(status.key, folder);
   }
   return known;
-}
-
-RunLock::RunLock(const fs::path& run_folder) {
-  file_ = ::open((run_folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-  if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0) {
-    ::close(file_);
-    file_ = -1;
-  }
-}
-
-RunLock::RunLock(RunLock&& other) noexcept : file_(other.file_) {
-  other.file_ = -1;
-}
-
-RunLock::~RunLock() {
-  if (file_ >= 0) ::close(file_);
 }
 
 }  // namespace neve::app::sweep::store

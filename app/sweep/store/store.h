@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 #include "app/support/json.h"
@@ -50,20 +51,15 @@ bool is_finished(RunState state);
 /// Ended otherwise than ok.
 bool has_failed(RunState state);
 
+/// States of runs that are to be made again.
+using Retry = std::set<RunState>;
+/// "all", or names of states as in "timeout,crashed". @throws UsageError
+Retry parse_retry(const std::string& text);
+
 /// Keys of all runs that the folder has, with the names of their folders.
 std::map<std::string, std::string> known_runs(const std::filesystem::path& sweep);
 
-/// Held by the process that makes the run; released when the process ends.
-class RunLock {
- public:
-  explicit RunLock(const std::filesystem::path& run_folder);
-  ~RunLock();
-  RunLock(RunLock&& other) noexcept;
-  RunLock& operator=(RunLock&&) = delete;
-  bool is_held() const { return file_ >= 0; }
-
- private:
-  int file_ = -1;
-};
+/// Name of the lock that the sweep which makes a run has on its folder; the run has one of its own.
+inline constexpr const char* run_lock = ".sweep.lock";
 
 }  // namespace neve::app::sweep::store

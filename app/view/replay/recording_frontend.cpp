@@ -1,6 +1,6 @@
 #include "app/view/replay/recording_frontend.h"
 
-#include "app/output/atomic_file.h"
+#include "app/output/named_file.h"
 #include "app/support/errors.h"
 #include "app/view/replay/replay_script.h"
 
@@ -40,7 +40,7 @@ void RecordingFrontend::set_progress(int frame, bool is_running) {
 }
 
 void RecordingFrontend::save() {
-  output::write_file(file_, replay_text(recorder_.steps()));
+  output::write_named_file(file_, replay_text(recorder_.steps()));
   saved_ = Clock::now();
   saved_steps_ = recorder_.steps().size();
 }

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "app/output/atomic_file.h"
+#include "app/output/named_file.h"
 #include "app/run/run_json.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/flat.h"
@@ -209,7 +210,7 @@ void Workbench::save_scene(const std::filesystem::path& file) {
         scene::edit_scene_text(document_.text(), document_.all_overrides(), document_.file(),
                                std::filesystem::path(document_.file()).parent_path().string());
     output::make_folder(file.parent_path());
-    output::write_file(file, text);
+    output::write_named_file(file, text);
     std::error_code error;
     if (std::filesystem::equivalent(file, document_.file(), error))
       file_time_ = time_of(document_.file());

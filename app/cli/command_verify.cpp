@@ -1,0 +1,103 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "app/cli/commands.h"
+#include "app/run/verify.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
+#include "app/sweep/store/manifest.h"
+#include "app/sweep/store/store.h"
+
+namespace neve::app::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Findings {
+  std::string status;
+  std::size_t files = 0;
+  std::vector<run::Flaw> flaws;
+  /// Why a folder without flaws is not finished; "" where it is.
+  std::string unfinished;
+
+  bool is_whole() const { return flaws.empty() && unfinished.empty(); }
+};
+
+Findings verify_run_folder(const fs::path& folder) {
+  run::Verification found = run::verify_run(folder);
+  Findings findings{found.status, found.files, std::move(found.flaws), {}};
+  if (found.status != "ok" && found.status != "diverged" && !found.status.empty())
+    findings.unfinished = fmt::format("the run is not finished: its status is {}", found.status);
+  return findings;
+}
+
+/// The runs of a sweep, each at its path in the folder.
+Findings verify_sweep_folder(const fs::path& folder) {
+  const sweep::store::Manifest manifest = sweep::store::read_manifest(folder);
+  Findings findings;
+  std::size_t left = 0;
+  for (const sweep::Run& item : manifest.runs) {
+    const fs::path place = fs::path("runs") / item.folder;
+    const sweep::store::RunStatus status = sweep::store::read_status(folder / place);
+    if (status.key != item.key || !sweep::store::is_finished(status.state)) ++left;
+    const bool is_made = status.state == sweep::store::RunState::ok ||
+                         status.state == sweep::store::RunState::diverged;
+    if (status.key != item.key || !is_made) continue;
+    const run::Verification found = run::verify_run(folder / place);
+    findings.files += found.files;
+    for (const run::Flaw& flaw : found.flaws)
+      findings.flaws.push_back({(place / flaw.file).generic_string(), flaw.what});
+    if (status.state == sweep::store::RunState::ok && found.flaws.empty() &&
+        found.last_frame < item.frames.last)
+      findings.flaws.push_back({(place / "run.json").generic_string(),
+                                fmt::format("ends before frame {}", item.frames.last)});
+  }
+  if (left > 0)
+    findings.unfinished = fmt::format("{} of {} runs are not finished", left, manifest.runs.size());
+  findings.status = left > 0 ? "unfinished" : "ok";
+  return findings;
+}
+
+void print_json(const std::string& folder, const Findings& findings) {
+  Json json;
+  json["folder"] = folder;
+  json["status"] = findings.status;
+  json["whole"] = findings.is_whole();
+  json["files"] = findings.files;
+  json["flaws"] = Json::array();
+  for (const run::Flaw& flaw : findings.flaws)
+    json["flaws"].push_back({{"file", flaw.file}, {"what", flaw.what}});
+  std::cout << to_text(json) << "\n";
+}
+
+void print_text(const std::string& folder, bool is_sweep, const Findings& findings) {
+  for (const run::Flaw& flaw : findings.flaws)
+    std::cout << printable_text((fs::path(folder) / flaw.file).string()) << " "
+              << printable_text(flaw.what) << "\n";
+  if (!findings.unfinished.empty()) std::cout << folder << ": " << findings.unfinished << "\n";
+  if (findings.is_whole())
+    std::cout << folder << ": whole, " << findings.files << " files as they were written\n";
+  else
+    std::cout << (is_sweep ? "the sweep's own command makes the rest\n"
+                           : "the command that made it, with --resume, makes the rest\n");
+}
+
+}  // namespace
+
+int run_verify(const std::string& folder, bool is_json) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw IoError(folder + ": is no folder", folder, "name the output folder of a run or a sweep");
+  const bool is_sweep = fs::exists(fs::path(folder) / "manifest.json", error);
+  const Findings findings = is_sweep ? verify_sweep_folder(folder) : verify_run_folder(folder);
+  if (is_json)
+    print_json(folder, findings);
+  else
+    print_text(folder, is_sweep, findings);
+  return findings.is_whole() ? exit_ok : exit_check_failed;
+}
+
+}  // namespace neve::app::cli

@@ -1,0 +1,101 @@
+#include "app/output/folder_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <exception>
+#include <string_view>
+
+#include "app/output/atomic_file.h"
+#include "app/output/temporary.h"
+#include "app/support/errors.h"
+#include "app/support/machine.h"
+
+namespace neve::app::output {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t longest_holder = 400;
+
+[[noreturn]] void fail_locking(const fs::path& file, int reason) {
+  throw IoError(file.string() + ": cannot lock the folder: " + std::strerror(reason), file.string(),
+                reason == ENOLCK || reason == ENOSYS || reason == EOPNOTSUPP
+                    ? "its file system has no locks; choose a folder on another one with --out"
+                    : "choose another folder with --out");
+}
+
+std::string now_text() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  char text[32] = "";
+  if (::gmtime_r(&now, &parts)) std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S UTC", &parts);
+  return text;
+}
+
+Descriptor open_lock(const fs::path& file) {
+  Descriptor lock(
+      ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
+  if (lock.get() < 0) fail_locking(file, errno);
+  struct stat status {};
+  if (::fstat(lock.get(), &status) != 0) fail_locking(file, errno);
+  if (!S_ISREG(status.st_mode)) fail_locking(file, EINVAL);
+  return lock;
+}
+
+void write_holder(const fs::path& file, int fd, const std::string& holder) {
+  const std::string text = holder + ", process " + std::to_string(::getpid()) + " on " +
+                           host_name() + ", since " + now_text() + "\n";
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
+  int reason = ::ftruncate(fd, 0) == 0 ? 0 : errno;
+  if (reason == 0) reason = write_all(fd, {bytes, text.size()});
+  if (reason != 0) fail_writing(file, "cannot write", reason);
+}
+
+}  // namespace
+
+std::optional<FolderLock> FolderLock::try_lock(const fs::path& folder, const std::string& holder,
+                                               Kind kind, const char* name) {
+  make_folder(folder);
+  const fs::path file = folder / name;
+  Descriptor lock = open_lock(file);
+  int result = 0;
+  do result = ::flock(lock.get(), (kind == Kind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB);
+  while (result != 0 && errno == EINTR);
+  if (result != 0 && errno == EWOULDBLOCK) return std::nullopt;
+  if (result != 0) fail_locking(file, errno);
+  write_holder(file, lock.get(), holder);
+  remove_abandoned(folder);
+  return FolderLock(std::move(lock));
+}
+
+FolderLock::FolderLock(const fs::path& folder, const std::string& holder, Kind kind) : file_(-1) {
+  std::optional<FolderLock> lock = try_lock(folder, holder, kind);
+  if (!lock)
+    throw IoError(folder.string() + ": is in use by " + holder_of(folder), folder.string(),
+                  "wait for it, or choose another folder with --out");
+  file_ = std::move(lock->file_);
+}
+
+std::string FolderLock::holder_of(const fs::path& folder, const char* name) {
+  std::string text;
+  try {
+    const std::vector<std::uint8_t> bytes = read_file(folder / name, longest_holder);
+    text.assign(bytes.begin(), bytes.end());
+  } catch (const std::exception&) {
+    // It is being written, or is no text of ours.
+  }
+  text.resize(std::min(text.size(), text.find('\n')));
+  const bool is_plain =
+      std::all_of(text.begin(), text.end(), [](unsigned char c) { return c >= ' ' && c < 127; });
+  return text.empty() || !is_plain ? "another process" : text;
+}
+
+}  // namespace neve::app::output

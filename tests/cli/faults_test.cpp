@@ -1,0 +1,134 @@
+/// A machine that fails: nothing is lost, nothing is called ok, and the same command goes on.
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include "tests/support/resume.h"
+
+namespace neve::test {
+namespace {
+
+class Faults : public Cli {
+ protected:
+  /// The program with calls that fail, see tests/faults/faults.cpp.
+  app::output::ProcessResult failing(const std::string& fault, const std::string& arguments) {
+    return app::output::run_process("/bin/bash",
+                                    {"-c",
+                                     "export NEVE_CALLS=$PWD/calls NEVE_FAULT='" + fault +
+                                         "' LD_PRELOAD=" NEVE_FAULTS "; exec \"$0\" " + arguments,
+                                     NEVE_BINARY},
+                                    folder.path());
+  }
+  std::string state(const std::string& run) {
+    return json_of("s/runs/" + run + "/status.json")["state"].get<std::string>();
+  }
+  std::string fault(const char* operation, int error, const std::string& part, int skip = 0) {
+    return std::string(operation) + ":" + std::to_string(error) + ":" + part + ":" +
+           std::to_string(skip);
+  }
+  const std::string sweep = "sweep scene.toml -p seed=1,2,3 --frames 0-2 --out s --jobs 1";
+};
+
+TEST_F(Faults, PicturesAndRunJsonReachTheDiskBeforeTheCheckpoint) {
+  const auto result = failing("", "render scene.toml --out out --frames 0-2 --checkpoint-every 2");
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const std::string calls = read_text(folder / "calls");
+  const std::size_t checkpoint = calls.find("rename out/checkpoint/000002-");
+  ASSERT_NE(checkpoint, std::string::npos) << calls;
+  const std::string out = "fsync " + (folder / "out").string();
+  for (const char* name : {"/particles/0000.png\n", "/particles/0001.png\n",
+                           "/particles/0002.png\n", "/particles\n", "/run.json\n", "\n"})
+    EXPECT_LT(calls.find(out + name), checkpoint) << name << calls;
+  EXPECT_NE(calls.find("fsync " + (folder / "out/checkpoint").string() + "\n", checkpoint),
+            std::string::npos)
+      << calls;
+}
+
+TEST_F(Faults, AFullDiskStopsASweepAndTheSameCommandGoesOn) {
+  for (const int error : {ENOSPC, EIO, EDQUOT}) {
+    const auto stopped = failing(fault("write", error, "runs/0001/particles", 1), sweep);
+    EXPECT_EQ(stopped.exit_code, 6) << stopped.errors;
+    EXPECT_TRUE(contains(stopped.errors, "the sweep stopped: run ")) << stopped.errors;
+    EXPECT_TRUE(contains(stopped.errors, std::strerror(error))) << stopped.errors;
+    EXPECT_EQ(state("0001"), "interrupted");
+    for (const char* run : {"0000", "0002"})
+      EXPECT_TRUE(state(run) == "ok" || state(run) == "pending") << run << " " << state(run);
+    const auto more = failing("", sweep);
+    EXPECT_EQ(more.exit_code, 0) << more.errors;
+    for (const char* run : {"0000", "0001", "0002"}) EXPECT_EQ(state(run), "ok");
+    EXPECT_EQ(neve({"verify", "s"}).exit_code, 0);
+    std::filesystem::remove_all(folder / "s");
+  }
+}
+
+TEST_F(Faults, AStatusThatCannotBeWrittenStopsASweepAndTheSameCommandGoesOn) {
+  const auto stopped = failing(fault("write", ENOSPC, "runs/0001/.status", 1), sweep);
+  EXPECT_EQ(stopped.exit_code, 6) << stopped.errors;
+  EXPECT_EQ(failing("", sweep).exit_code, 0);
+  EXPECT_EQ(neve({"verify", "s"}).exit_code, 0);
+}
+
+TEST_F(Faults, ARunThatCannotBeLockedIsNotSkipped) {
+  for (const int error : {ENOLCK, EIO}) {
+    const auto stopped = failing(fault("flock", error, "runs/0001/"), sweep);
+    EXPECT_EQ(stopped.exit_code, 6) << stopped.errors;
+    EXPECT_TRUE(contains(stopped.errors, "cannot lock the folder")) << stopped.errors;
+    EXPECT_NE(state("0001"), "failed");
+  }
+  const auto opened = failing(fault("open", EMFILE, "runs/0001/.sweep.lock"), sweep);
+  EXPECT_EQ(opened.exit_code, 6) << opened.errors;
+  EXPECT_EQ(failing("", sweep).exit_code, 0);
+}
+
+TEST_F(Faults, ARunInProgressElsewhereIsNotCalledFinished) {
+  ASSERT_EQ(neve({"sweep", "scene.toml", "-p", "seed=1,2", "--frames", "0-2", "--out", "s",
+                  "--emit", "commands"})
+                .exit_code,
+            0);
+  const auto busy = app::output::run_process(
+      "/bin/bash",
+      {"-c",
+       "exec 9>s/runs/0001/.sweep.lock; flock 9; \"$0\" sweep run s --index 1 9>&-; echo $?;"
+       "\"$0\" sweep scene.toml -p seed=1,2 --frames 0-2 --out s 9>&-; echo $?",
+       NEVE_BINARY},
+      folder.path());
+  EXPECT_EQ(busy.output, "6\n75\n") << busy.errors;
+  EXPECT_TRUE(contains(busy.errors, "run 1 is in progress")) << busy.errors;
+}
+
+TEST_F(Faults, TwoSweepsInOneFolderAreOneSweep) {
+  const pid_t first =
+      start_program({NEVE_BINARY, "sweep", folder / "scene.toml", "-p", "solver.max_dt=1e-6,1.1e-6",
+                     "--out", folder / "s", "--quiet"});
+  ASSERT_TRUE(wait_for_file(folder / "s/runs/0001/particles/0000.png"));
+  const auto second = neve({"sweep", "scene.toml", "-p", "solver.max_dt=1e-6", "--out", "s"});
+  EXPECT_EQ(second.exit_code, 6);
+  EXPECT_TRUE(contains(second.errors, "is in use by neve sweep, process " + std::to_string(first)))
+      << second.errors;
+  ::kill(first, SIGTERM);
+  EXPECT_EQ(wait_for(first), 75);
+  EXPECT_EQ(json_of("s/manifest.json")["runs"].size(), 2u);
+}
+
+TEST_F(Faults, FailedRunsAreRepeatedByTheirState) {
+  folder.write("sweep.toml", std::string("[sweep]\nscene = \"scene.toml\"\nframes = \"0-2\"\n") +
+                                 exploding_run + "[[run]]\nlabel = \"calm\"\n");
+  const auto made = neve({"sweep", "sweep.toml", "--out", "s"});
+  ASSERT_EQ(made.exit_code, 7) << made.errors;
+  const auto attempts = [&] { return json_of("s/runs/0000/status.json")["attempts"].get<int>(); };
+  EXPECT_EQ(attempts(), 1);
+  EXPECT_EQ(neve({"sweep", "sweep.toml", "--out", "s", "--retry-failed=timeout,crashed"}).exit_code,
+            7);
+  EXPECT_EQ(attempts(), 1);
+  EXPECT_EQ(neve({"sweep", "--retry-failed=diverged", "sweep.toml", "--out", "s"}).exit_code, 7);
+  EXPECT_EQ(attempts(), 2);
+  EXPECT_EQ(neve({"sweep", "--retry-failed", "sweep.toml", "--out", "s"}).exit_code, 7);
+  EXPECT_EQ(attempts(), 3);
+  const auto wrong = neve({"sweep", "sweep.toml", "--out", "s", "--retry-failed=pending"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_TRUE(contains(wrong.errors, "timeout")) << wrong.errors;
+}
+
+}  // namespace
+}  // namespace neve::test

@@ -1,0 +1,126 @@
+/// Calls of the C library that fail on demand and are listed, for programs that are started with
+/// this library in LD_PRELOAD:
+///
+///   NEVE_FAULT  OPERATION:ERRNO:PART[:SKIP]  the operation (open, write, fsync, rename, flock,
+///   close)
+///               fails with this number on files with this part in their path, after SKIP times
+///   NEVE_CALLS  FILE  gets a line for each: "fsync /path"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace {
+
+template <class Function>
+Function* next(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+struct Fault {
+  std::string operation, part;
+  int error = 0;
+  std::atomic<long> skip{0};
+
+  Fault() {
+    const char* text = std::getenv("NEVE_FAULT");
+    char name[32] = "", where[256] = "";
+    long count = 0;
+    if (!text || std::sscanf(text, "%31[^:]:%d:%255[^:]:%ld", name, &error, where, &count) < 3)
+      return;
+    operation = name;
+    part = where;
+    skip = count;
+  }
+};
+
+Fault& fault() {
+  static Fault instance;
+  return instance;
+}
+
+std::string path_of(int fd) {
+  char link[64], path[PATH_MAX];
+  std::snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
+  const ssize_t size = ::readlink(link, path, sizeof path);
+  return size > 0 ? std::string(path, static_cast<std::size_t>(size)) : std::string();
+}
+
+void note(const char* operation, const std::string& path) {
+  static const char* file = std::getenv("NEVE_CALLS");
+  if (!file || path == file) return;
+  const int fd =
+      next<int(const char*, int, ...)>("open")(file, O_WRONLY | O_CREAT | O_APPEND, 0666);
+  const std::string line = std::string(operation) + " " + path + "\n";
+  (void)!next<ssize_t(int, const void*, size_t)>("write")(fd, line.data(), line.size());
+  next<int(int)>("close")(fd);
+}
+
+/// Whether this call fails; errno is set then.
+bool fails(const char* operation, const std::string& path) {
+  Fault& f = fault();
+  if (f.operation != operation || path.find(f.part) == std::string::npos) return false;
+  if (f.skip.fetch_sub(1) > 0) return false;
+  errno = f.error;
+  return true;
+}
+
+int open_file(const char* name, const char* path, int flags, unsigned mode) {
+  const bool writes = (flags & O_ACCMODE) != O_RDONLY;
+  if (writes && fails("open", path)) return -1;
+  return next<int(const char*, int, ...)>(name)(path, flags, mode);
+}
+
+}  // namespace
+
+extern "C" {
+
+int open(const char* path, int flags, ...) {
+  va_list list;
+  va_start(list, flags);
+  const unsigned mode = va_arg(list, unsigned);
+  va_end(list);
+  return open_file("open", path, flags, mode);
+}
+
+int open64(const char* path, int flags, ...) {
+  va_list list;
+  va_start(list, flags);
+  const unsigned mode = va_arg(list, unsigned);
+  va_end(list);
+  return open_file("open64", path, flags, mode);
+}
+
+ssize_t write(int fd, const void* data, size_t size) {
+  if (!fault().operation.empty() && fails("write", path_of(fd))) return -1;
+  return next<ssize_t(int, const void*, size_t)>("write")(fd, data, size);
+}
+
+int fsync(int fd) {
+  const std::string path = path_of(fd);
+  note("fsync", path);
+  return fails("fsync", path) ? -1 : next<int(int)>("fsync")(fd);
+}
+
+int rename(const char* from, const char* to) {
+  if (fails("rename", to)) return -1;
+  const int result = next<int(const char*, const char*)>("rename")(from, to);
+  note("rename", to);
+  return result;
+}
+
+int flock(int fd, int operation) {
+  return fails("flock", path_of(fd)) ? -1 : next<int(int, int)>("flock")(fd, operation);
+}
+
+}  // extern "C"
