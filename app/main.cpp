@@ -1,13 +1,27 @@
 /// neve: parse, dispatch, turn exceptions into exit codes.
 
+#include <fcntl.h>
+
 #include <iostream>
 
 #include "app/cli/command_line.h"
 #include "app/cli/report_error.h"
 #include "app/output/atomic_file.h"
 
+namespace {
+
+/// A standard stream that is closed is opened on nothing, the wrong way round: no file that is
+/// opened later takes its place, and using it is still an error.
+void hold_standard_streams() {
+  for (int stream = 0; stream < 3; ++stream)
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace neve::app;
+  hold_standard_streams();
   output::ignore_write_signals();
   try {
     const int code = cli::run_command_line(argc, argv);

@@ -1,4 +1,5 @@
 #include <iostream>
+#include <sstream>
 
 #include "app/cli/commands.h"
 #include "app/output/atomic_file.h"
@@ -6,6 +7,7 @@
 #include "app/run/picture_record.h"
 #include "app/scene/coarsen.h"
 #include "app/support/errors.h"
+#include "app/support/text.h"
 
 namespace neve::app::cli {
 
@@ -13,21 +15,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What is printed is from a file of anyone.
 void print_picture(const run::PictureRecord& record) {
-  std::cout << "neve        " << record.version << "\n"
-            << "view        " << record.view << "\n"
-            << "frame       " << record.frame << "\n"
-            << "quality     " << record.quality << "\n"
-            << "seed        " << record.seed << "\n"
-            << "state hash  " << record.state_hash << "\n";
-  for (const std::string& change : record.overrides) std::cout << "override    " << change << "\n";
+  std::ostringstream out;
+  out << "neve        " << record.version << "\n"
+      << "view        " << record.view << "\n"
+      << "frame       " << record.frame << "\n"
+      << "quality     " << record.quality << "\n"
+      << "seed        " << record.seed << "\n"
+      << "state hash  " << record.state_hash << "\n";
+  for (const std::string& change : record.overrides) out << "override    " << change << "\n";
   for (const scene::LiveChange& change : record.changes)
-    std::cout << "changed     " << scene::text_of(change) << "\n";
+    out << "changed     " << scene::text_of(change) << "\n";
   if (record.coarsening > 1)
-    std::cout << "coarsened   " << scene::coarsening_text(record.coarsening) << "\n";
+    out << "coarsened   " << scene::coarsening_text(record.coarsening) << "\n";
   for (const auto& [path, hash] : record.files)
-    std::cout << "file        " << path << " (" << hash << ")\n";
-  std::cout << "\n" << record.scene;
+    out << "file        " << path << " (" << hash << ")\n";
+  out << "\n" << record.scene;
+  std::cout << printable_text(out.str());
 }
 
 Json read_run(const fs::path& file) {
@@ -41,32 +46,32 @@ Json read_run(const fs::path& file) {
               file.string());
 }
 
-void print_changes(const Json& run) {
+void print_changes(const Json& run, std::ostream& out) {
   try {
     for (const scene::LiveChange& change : scene::live_changes(run.value("changes", Json::array())))
-      std::cout << "changed     " << scene::text_of(change) << "\n";
+      out << "changed     " << scene::text_of(change) << "\n";
   } catch (const std::runtime_error& error) {
-    std::cout << "changed     " << error.what() << "\n";
+    out << "changed     " << error.what() << "\n";
   }
 }
 
-void print_run(const Json& run) {
+void print_run(const Json& run, std::ostream& out) {
   const auto text = [&](const char* key) {
     return run.contains(key) && run[key].is_string() ? run[key].get<std::string>() : std::string();
   };
-  std::cout << "neve        " << text("version") << "\n"
-            << "scene       " << text("scene_file") << "\n"
-            << "status      " << text("status") << "\n"
-            << "backend     " << text("backend") << ", " << text("gl_renderer") << "\n";
-  print_changes(run);
+  out << "neve        " << text("version") << "\n"
+      << "scene       " << text("scene_file") << "\n"
+      << "status      " << text("status") << "\n"
+      << "backend     " << text("backend") << ", " << text("gl_renderer") << "\n";
+  print_changes(run, out);
   if (!run.contains("frames") || !run["frames"].is_array()) return;
   const Json& frames = run["frames"];
-  std::cout << "frames      " << frames.size() << "\n";
+  out << "frames      " << frames.size() << "\n";
   if (frames.empty() || !frames.back().is_object()) return;
   for (const char* key :
        {"frame", "time", "particles", "kinetic_energy", "max_speed", "state_hash"})
     if (frames.back().contains(key))
-      std::cout << "last " << key << "  " << to_text(frames.back()[key], -1) << "\n";
+      out << "last " << key << "  " << to_text(frames.back()[key], -1) << "\n";
 }
 
 }  // namespace
@@ -79,7 +84,9 @@ int run_info(const std::string& path, bool is_json) {
     if (is_json) {
       std::cout << to_text(run) << "\n";
     } else {
-      print_run(run);
+      std::ostringstream out;
+      print_run(run, out);
+      std::cout << printable_text(out.str());
     }
     return exit_ok;
   }

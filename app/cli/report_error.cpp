@@ -9,6 +9,7 @@
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
+#include "app/support/text.h"
 #include "render/gl/context.h"
 #include "render/renderer.h"
 #include "sim/kernels/simd.h"
@@ -74,7 +75,7 @@ Report describe_current_error() {
 
 int report_current_error(bool is_json) {
   const Report report = describe_current_error();
-  std::cerr << report.line << std::endl;
+  std::cerr << printable_text(report.line) << std::endl;
   if (is_json) {
     Json json;
     json["error"] = report.message;

@@ -157,6 +157,9 @@ void check_files(const PictureRecord& record) {
 }
 
 bool is_png(const std::filesystem::path& file) {
+  // What is read from a pipe is gone for the reader of the scene.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
   std::ifstream in(file, std::ios::binary);
   std::array<char, 4> start{};
   in.read(start.data(), start.size());

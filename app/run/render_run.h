@@ -120,7 +120,7 @@ class RenderRun {
   std::atomic<bool> is_abandoned_ = false;  ///< nobody waits for the frame being simulated
   std::future<Advanced> next_;  ///< the frame after the one being drawn, if it was begun
   std::set<std::filesystem::path> unsynced_;  ///< files that a power cut may still take
-  output::PictureWriter writer_;                 ///< last: stops before its inputs are destroyed
+  output::PictureWriter writer_;              ///< last: stops before its inputs are destroyed
 };
 
 }  // namespace neve::app::run

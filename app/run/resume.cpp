@@ -187,8 +187,7 @@ std::optional<Resumption> Checkpoints::find(const std::vector<std::string>& view
   const int last = std::min(run.frame, frames.last);
   Pictures pictures{views, run.frames, run.files};
   std::erase_if(pictures.frames, [&](const FrameRecord& made) { return made.frame > run.frame; });
-  std::vector<Flaw> flaws =
-      picture_flaws(folder_, pictures, frames.first, last, resumption.flawed);
+  std::vector<Flaw> flaws = picture_flaws(folder_, pictures, frames.first, last, resumption.flawed);
   try {
     for (Flaw& flaw : export_flaws(folder_, run.exports, run.files, run.frame, resumption.flawed))
       flaws.push_back(std::move(flaw));
@@ -207,14 +206,26 @@ std::optional<Resumption> Checkpoints::find(const std::vector<std::string>& view
   return resumption;
 }
 
+void Checkpoints::check_place(const ResumedRun& run) const {
+  const double fps = player_.scene().fps, time = simulation_.time();
+  const double start = run.frame / fps, end = (run.frame + 1.0) / fps, rounding = 1e-9 * (1 + end);
+  if (simulation_.steps() != run.steps || !(time >= start - rounding && time <= end + rounding))
+    throw std::runtime_error("the checkpoint of frame " + std::to_string(run.frame) +
+                             " holds another moment");
+}
+
 void Checkpoints::go_to(const ResumedRun& run) {
   try {
     player_.go_to(run.steps);
-    if (!run.state.empty()) return simulation_.restore(run.state);
+    if (!run.state.empty()) {
+      simulation_.restore(run.state);
+      return check_place(run);
+    }
     const std::optional<output::Checkpoint> again = output::find_checkpoint(folder_).checkpoint;
     if (!again || again->identity != identity_ || again->steps != run.steps)
       throw std::runtime_error("the checkpoint in " + folder_.string() + " has changed");
     simulation_.restore(again->state);
+    check_place(run);
   } catch (const std::exception& error) {
     fail_resuming(error);
   }

@@ -65,6 +65,8 @@ class Checkpoints {
 
  private:
   ResumedRun read(const output::Checkpoint& checkpoint) const;
+  /// That the restored state is of this frame. @throws std::runtime_error
+  void check_place(const ResumedRun& run) const;
   void check_identity(const output::Checkpoint& checkpoint);
 
   std::filesystem::path folder_;

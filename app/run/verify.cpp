@@ -121,9 +121,8 @@ std::vector<Flaw> picture_flaws(const fs::path& folder, const Pictures& pictures
   return flaws;
 }
 
-std::vector<Flaw> export_flaws(const fs::path& folder, const Json& exports,
-                               const FileHashes& files, int last,
-                               std::vector<int>& flawed_frames) {
+std::vector<Flaw> export_flaws(const fs::path& folder, const Json& exports, const FileHashes& files,
+                               int last, std::vector<int>& flawed_frames) {
   std::vector<Flaw> flaws;
   if (!exports.is_array()) return flaws;
   for (const Json& item : exports)

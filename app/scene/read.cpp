@@ -10,6 +10,7 @@
 #include "app/scene/reader.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/scene/toml/toml_text.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
@@ -135,6 +136,21 @@ std::string nearest_file(const std::string& file) {
   return "did you mean " + (wanted.parent_path() / (nearest + ".toml")).string() + "?";
 }
 
+/// A pipe with a name in a folder has no writer until somebody comes. Those of `<(command)`, which
+/// have none, are read.
+void refuse_waiting_pipe(const std::string& file) {
+  std::error_code no_pipe, no_name;
+  if (!std::filesystem::is_fifo(file, no_pipe)) return;
+  if (!std::filesystem::canonical(file, no_name).empty())
+    throw toml::SceneError(file, 0, 0, "is a pipe", "name a file, or give <(cat " + file + ")");
+}
+
+/// @throws IoError where errno says that another try may succeed: it is no mistake in the scene
+void refuse_failing_machine(const std::string& file) {
+  for (const int reason : {EIO, EMFILE, ENFILE, ENOMEM, ESTALE})
+    if (errno == reason) throw IoError(file + ": cannot read: " + std::strerror(reason), file);
+}
+
 }  // namespace
 
 std::string read_toml_file(const std::string& file) {
@@ -142,14 +158,17 @@ std::string read_toml_file(const std::string& file) {
   if (std::filesystem::is_directory(file, error)) {
     throw toml::SceneError(file, 0, 0, "is a directory", "name a scene file");
   }
+  refuse_waiting_pipe(file);
   errno = 0;
   std::ifstream in(file, std::ios::binary);
+  if (!in) refuse_failing_machine(file);
   if (!in)
     throw toml::SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be opened",
                            nearest_file(file));
   // One byte more than allowed tells an oversized file without reading all of it.
   std::string text(toml::max_toml_bytes + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad()) refuse_failing_machine(file);
   if (in.bad()) throw toml::SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be read");
   text.resize(static_cast<std::size_t>(in.gcount()));
   if (text.empty())

@@ -39,16 +39,17 @@ std::vector<scene::PictureSize> picture_sizes(const scene::Scene& scene) {
   return sizes;
 }
 
-/// Pictures while they are drawn and while they wait for the encoder.
+/// Pictures while they are drawn, all of a frame, and while they wait for the encoder.
 double picture_memory(const scene::Scene& scene, Quality quality) {
-  double drawn = 0, waiting = 0;
+  double drawn = 0, together = 0, waiting = 0;
   const double samples = supersampling(quality) * supersampling(quality);
   for (const scene::PictureSize& size : picture_sizes(scene)) {
     const double pixels = static_cast<double>(size.width) * size.height;
     drawn = std::max(drawn, pixels * samples * bytes_per_sample);
-    waiting = std::max(waiting, pixels * bytes_per_pixel * (output::picture_queue_capacity + 2));
+    together += pixels * bytes_per_pixel;
+    waiting = std::max(waiting, pixels * bytes_per_pixel * (output::picture_queue_capacity + 1));
   }
-  return drawn + waiting;
+  return drawn + together + waiting;
 }
 
 std::uint64_t whole_bytes(double bytes) {

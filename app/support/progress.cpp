@@ -130,7 +130,7 @@ void Progress::clear_line() {
 
 void Progress::print(const std::string& message) {
   clear_line();
-  out_ << message << std::endl;
+  out_ << printable_text(message) << std::endl;
 }
 
 void Progress::clear() {

@@ -10,6 +10,7 @@
 #include "app/scene/reader.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/setup/argument_text.h"
+#include "app/support/errors.h"
 #include "app/sweep/read/describe_sweep.h"
 #include "app/sweep/read/read_axis.h"
 #include "app/sweep/read/sweep_leaf.h"
@@ -19,6 +20,8 @@ namespace neve::app::sweep::read {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t most_values = 100'000;  ///< of all axes of a sweep
 
 /// Takes a key that is no address out of a table of addresses.
 std::optional<scene::toml::Value> take(scene::toml::Table& table, const char* key) {
@@ -46,7 +49,7 @@ class SweepReader {
     for (const scene::toml::Entry& entry : addresses_in(file.set))
       sweep.fixed.push_back(setting_of(source(), entry));
     for (const scene::toml::Entry& entry : addresses_in(file.axis))
-      sweep.axes.push_back({{read_axis(source(), entry)}, {}});
+      sweep.axes.push_back({{counted_axis(entry)}, {}});
     for (const scene::toml::Table& table : file.links) sweep.axes.push_back(link(table));
     for (const scene::toml::Table& table : file.runs) sweep.rows.push_back(run(table));
     // In the order of the file, links among the others.
@@ -94,7 +97,20 @@ class SweepReader {
     return label;
   }
 
-  Axis link(scene::toml::Table table) const {
+  /// Before all values of all axes are there: a few bytes of a file can ask for any number.
+  Axis::Parameter counted_axis(const scene::toml::Entry& entry) {
+    Axis::Parameter parameter = read_axis(source(), entry);
+    values_ += parameter.values.size();
+    if (values_ > most_values)
+      throw LimitError(fmt::format("{}:{}:{}: error: refused: the axes up to {} have {} values "
+                                   "together; at most {} are allowed",
+                                   source().file, entry.where.line, entry.where.column, entry.key,
+                                   values_, most_values),
+                       entry.key, "make num smaller, or draw samples with method = \"lhs\"");
+    return parameter;
+  }
+
+  Axis link(scene::toml::Table table) {
     Axis axis;
     const std::optional<scene::toml::Value> labels = take(table, "labels");
     if (labels) {
@@ -102,7 +118,7 @@ class SweepReader {
       scene::read_leaf(scene::Leaf{source(), *labels, "link.labels", "", any}, axis.value_labels);
     }
     for (const scene::toml::Entry& entry : addresses_in(table)) {
-      axis.parameters.push_back(read_axis(source(), entry));
+      axis.parameters.push_back(counted_axis(entry));
       const Axis::Parameter &first = axis.parameters.front(), &last = axis.parameters.back();
       if (last.drawn)
         source().fail(entry.value.where, entry.key + " is drawn, but linked axes move together",
@@ -166,6 +182,7 @@ class SweepReader {
   }
 
   scene::Reading reading_;
+  std::size_t values_ = 0;  ///< of all axes so far
 };
 
 /// Puts an axis of the command line in the place of one of the same address, or behind them.

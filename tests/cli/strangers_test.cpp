@@ -1,0 +1,120 @@
+/// Files of strangers: read as they are or refused, whatever they hold.
+
+#include <sys/stat.h>
+
+#include <chrono>
+
+#include "app/output/checkpoint.h"
+#include "tests/support/resume.h"
+
+namespace neve::test {
+namespace {
+
+class Strangers : public Cli {
+ protected:
+  app::output::ProcessResult shell(const std::string& line) {
+    return app::output::run_process("/bin/bash", {"-c", line, NEVE_BINARY}, folder.path());
+  }
+};
+
+TEST_F(Strangers, PipesAndDevicesAsInputsEndAtOnce) {
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(neve({"info", "pipe"}).exit_code, 6);
+  EXPECT_EQ(neve({"info", "/dev/zero"}).exit_code, 6);
+  const auto scene = neve({"render", "pipe"});
+  EXPECT_EQ(scene.exit_code, 3);
+  EXPECT_TRUE(contains(scene.errors, "is a pipe")) << scene.errors;
+  EXPECT_EQ(neve({"render", "/dev/zero"}).exit_code, 3);
+  EXPECT_EQ(neve({"compare", "pipe", "pipe"}).exit_code, 6);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+}
+
+TEST_F(Strangers, ASceneFromACommandIsReadWhole) {
+  std::string text = "frames = 3\n" + std::string(tiny_scene).substr(std::string("\n").size());
+  text.replace(text.find("frames = 4"), 10, "");
+  std::string comments;
+  while (comments.size() < 20'000) comments += "# a comment of some length, to fill the pipe\n";
+  folder.write("long.toml", comments + text);
+  const auto result = shell("\"$0\" render <(cat long.toml) --dry-run");
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(contains(result.output, "frames     0 to 3")) << result.output;
+}
+
+TEST_F(Strangers, EscapesInTextsAreWrittenOut) {
+  std::string text = tiny_scene;
+  text.replace(text.find("Tiny"), 4, "\\u001b]0;owned\\u0007\\u009b31m");
+  folder.write("scene.toml", text);
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "out", "--frames", "0"}).exit_code, 0);
+  const auto is_clean = [](const std::string& output) {
+    return output.find_first_of("\x1b\x07") == std::string::npos && !contains(output, "\xc2\x9b");
+  };
+  const std::string forged = "{\"status\": \"ok\", \"version\": \"\\u001b]0;owned\\u0007\"}";
+  folder.write("forged/run.json", forged);
+  const auto info = neve({"info", "forged"});
+  EXPECT_TRUE(is_clean(info.output)) << info.output;
+  EXPECT_TRUE(contains(info.output, "\\x1b]0;owned\\x07")) << info.output;
+  EXPECT_TRUE(is_clean(neve({"info", "out/particles/0000.png"}).output));
+  const auto missing = neve({"info", "\x1b]0;owned\x07.png"});
+  EXPECT_TRUE(is_clean(missing.errors)) << missing.errors;
+}
+
+TEST_F(Strangers, ClosedStandardStreamsAreNoFiles) {
+  EXPECT_EQ(shell("\"$0\" params --json >&-").exit_code, 6);
+  EXPECT_EQ(
+      shell("\"$0\" render scene.toml --frames 0-1 --quiet --no-movie <&- >&- 2>&-").exit_code, 0);
+  EXPECT_EQ(neve({"verify", "out/scene"}).exit_code, 0);
+}
+
+TEST_F(Strangers, CheckpointsOfAnotherMomentAreRefused) {
+  ASSERT_EQ(
+      neve({"render", "scene.toml", "--out", "out", "--frames", "0-2", "--no-movie"}).exit_code, 0);
+  const app::output::Checkpoint good = *app::output::find_checkpoint(folder / "out").checkpoint;
+  const auto resumed = [&](const app::output::Checkpoint& forged) {
+    app::output::remove_checkpoints(folder / "out");
+    app::output::write_checkpoint(folder / "out", forged);
+    return neve({"render", "scene.toml", "--out", "out", "--resume", "--no-movie"}).exit_code;
+  };
+  app::output::Checkpoint forged = good;
+  forged.frame = 3;
+  EXPECT_EQ(resumed(forged), 2);
+  forged.frame = 0;
+  EXPECT_EQ(resumed(forged), 2);
+  forged = good;
+  forged.steps = std::size_t{1} << 60;
+  EXPECT_EQ(resumed(forged), 2);
+  forged = good;
+  forged.progress["history"][0][5] = 77;
+  EXPECT_EQ(resumed(forged), 2);
+  forged = good;
+  forged.progress["frames"] = "none";
+  EXPECT_EQ(resumed(forged), 2);
+  EXPECT_EQ(resumed(good), 0);
+}
+
+TEST_F(Strangers, AxesWithTooManyValuesAreRefusedBeforeTheyAreThere) {
+  std::string text = "[sweep]\nscene = \"scene.toml\"\n[axis]\n";
+  for (int k = 0; k < 400; ++k)
+    text += "\"view.v" + std::to_string(k) + ".size\" = { linspace = [1, 2], num = 99999 }\n";
+  folder.write("wide.toml", text);
+  const auto result = shell("ulimit -v 4000000; \"$0\" sweep wide.toml --dry-run");
+  EXPECT_EQ(result.exit_code, 8) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "at most 100000 are allowed")) << result.errors;
+}
+
+TEST_F(Strangers, TheMemoryOfManyViewsIsForeseen) {
+  const auto memory_with = [&](int views) {
+    std::string text = tiny_scene;
+    for (int k = 0; k < views; ++k)
+      text += "[[view]]\nname = \"v" + std::to_string(k) + "\"\nlayers = [\"particles\"]\n" +
+              "size = [1280, 720]\n";
+    folder.write("views.toml", text);
+    const auto plan = neve({"render", "views.toml", "--dry-run", "--json"});
+    return app::parse_json(std::string_view(plan.output))["memory_bytes"].get<double>();
+  };
+  EXPECT_GE(memory_with(201) - memory_with(1), 200 * 1280 * 720 * 3.0);
+  EXPECT_LE(memory_with(201) - memory_with(1), 200 * 1280 * 720 * 4.5);
+}
+
+}  // namespace
+}  // namespace neve::test
