@@ -123,6 +123,26 @@ TEST(SheetLayout, ASheetHasEveryRunOnceAndNoOverlappingTiles) {
   }
 }
 
+TEST(SheetLayout, ASheetOfAnyNumberOfRunsEndsAsPages) {
+  constexpr int largest = 2048;
+  for (const auto& sizes : std::vector<std::vector<int>>{{2, 3}, {100, 5}}) {
+    const app::sweep::store::Manifest m = manifest_of(sizes);
+    std::size_t next = 0;
+    const auto pages = app::sweep::sheet::layout_pages(m, true, largest);
+    for (const app::sweep::sheet::SheetPage& page : pages) {
+      EXPECT_EQ(page.first, next);
+      next += page.count;
+      EXPECT_TRUE(app::sweep::sheet::fits(page.layout, largest)) << page.layout.width;
+      ASSERT_EQ(page.layout.tiles.size(), page.count);
+      for (std::size_t k = 0; k < page.count; ++k)
+        EXPECT_EQ(page.layout.tiles[k].run, page.first + k);
+    }
+    EXPECT_EQ(next, m.runs.size());
+    EXPECT_EQ(pages.size() == 1, sizes[0] == 2);
+    EXPECT_EQ(pages.front().layout.has_edges, sizes[0] == 2) << "pages name values on their tiles";
+  }
+}
+
 TEST(SheetLayout, LastAxisGoesAcrossUnlessAskedOtherwise) {
   app::sweep::store::Manifest m = manifest_of({2, 3});
   const auto is_across = [&](std::size_t a, std::size_t b) {

@@ -56,30 +56,52 @@ void refuse_flaws(const fs::path& folder, const store::Manifest& manifest,
                 "the sweep's own command makes these runs again");
 }
 
-void write_sheets(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
-                  Progress& progress) {
-  const int first = manifest.first_frame(), last = manifest.last_frame();
-  output::make_folder(folder / "sheet");
-  output::PictureWriter writer;
-  for (int frame = first; frame <= last && !is_interrupted(); ++frame) {
-    render::Image image = maker.sheet(frame);
-    if (frame == last) writer.write({folder / "sheet.png", image, {}});
-    writer.write({output::frame_path(folder, "sheet", frame), std::move(image), {}});
-    progress.line("sheet " + std::to_string(frame) + "/" + std::to_string(last));
-  }
-  if (!is_interrupted() && last > first) writer.write({folder / "strips.png", maker.strips(), {}});
-  writer.finish();
-  if (is_interrupted() || last == first) return;
-  const output::MovieRequest request{
-      folder / "sheet", folder / "sheet.mp4", first, last, manifest.fps, false};
+/// "sheet", and "sheet_2" of the second page.
+std::string page_name(const std::string& name, std::size_t page) {
+  return page == 0 ? name : name + "_" + std::to_string(page + 1);
+}
+
+void write_sheet_movie(const fs::path& folder, const store::Manifest& manifest,
+                       const std::string& name, Progress& progress) {
+  const output::MovieRequest request{folder / name,          folder / (name + ".mp4"),
+                                     manifest.first_frame(), manifest.last_frame(),
+                                     manifest.fps,           false};
   const output::MovieResult movie = output::write_movie(request);
   if (movie.outcome == output::MovieOutcome::no_ffmpeg)
-    progress.note("no sheet.mp4: ffmpeg is not installed");
+    progress.note("no " + name + ".mp4: ffmpeg is not installed");
   const std::string failure = "no movie " + request.file.string() + ": " + movie.reason;
   if (movie.outcome == output::MovieOutcome::failed) progress.warning(failure);
   if (movie.outcome == output::MovieOutcome::unwritable)
     throw IoError(failure, request.file.string(),
                   "neve sweep collect makes the movie when there is room");
+}
+
+void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
+                      std::size_t page, Progress& progress) {
+  const int first = manifest.first_frame(), last = manifest.last_frame();
+  const std::string name = page_name("sheet", page);
+  output::make_folder(folder / name);
+  output::PictureWriter writer;
+  for (int frame = first; frame <= last && !is_interrupted(); ++frame) {
+    render::Image image = maker.sheet(frame, page);
+    if (frame == last) writer.write({folder / (name + ".png"), image, {}});
+    writer.write({output::frame_path(folder, name, frame), std::move(image), {}});
+    progress.line(name + " " + std::to_string(frame) + "/" + std::to_string(last));
+  }
+  writer.finish();
+  if (!is_interrupted() && last > first) write_sheet_movie(folder, manifest, name, progress);
+}
+
+void write_sheets(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
+                  Progress& progress) {
+  for (std::size_t page = 0; page < maker.pages().size(); ++page)
+    write_sheet_page(folder, manifest, maker, page, progress);
+  if (is_interrupted() || manifest.last_frame() == manifest.first_frame()) return;
+  output::PictureWriter writer;
+  std::size_t page = 0;
+  for (render::Image& image : maker.strips())
+    writer.write({folder / (page_name("strips", page++) + ".png"), std::move(image), {}});
+  writer.finish();
 }
 
 }  // namespace
@@ -111,7 +133,8 @@ void collect_sweep(const fs::path& folder, const std::string& backend, int threa
     sheet = output::read_file(folder / "sheet.png");
   }
   output::write_file(folder / "report.html",
-                     report_html(folder.string(), manifest, results, maker.layout(), sheet));
+                     report_html(folder.string(), manifest, results, maker.pages().front().layout,
+                                 sheet, maker.pages().size()));
   progress.clear();
   refuse_flaws(folder, manifest, results);
 }

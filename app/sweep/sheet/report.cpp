@@ -126,6 +126,13 @@ std::string sheet_section(const store::Manifest& manifest, const SheetLayout& la
   return html + "</div>\n";
 }
 
+/// Where the runs are that the picture above does not have.
+std::string pages_hint(std::size_t pages) {
+  if (pages < 2) return {};
+  return "<p class=\"hint\">Page 1 of " + std::to_string(pages) +
+         "; the others are sheet_2.png to sheet_" + std::to_string(pages) + ".png.</p>\n";
+}
+
 std::string commands_section(const std::string& folder, const store::Manifest& manifest) {
   std::string html =
       "<div class=\"wide\"><table><thead><tr><th>run</th><th "
@@ -150,7 +157,7 @@ std::string repeat_command(const std::string& folder, const Run& run) {
 
 std::string report_html(const std::string& folder, const store::Manifest& manifest,
                         const std::vector<store::RunResult>& results, const SheetLayout& layout,
-                        const std::vector<std::uint8_t>& sheet_png) {
+                        const std::vector<std::uint8_t>& sheet_png, std::size_t pages) {
   Json data;
   data["columns"] = column_names(manifest);
   data["rows"] = Json::array();
@@ -169,7 +176,7 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>" +
          xml_text(manifest.title) + "</title>\n<style>" + report_style + "</style></head><body>\n" +
          "<h1>" + xml_text(manifest.title) + "</h1>\n<p class=\"sub\">" + xml_text(sub) + "</p>\n" +
-         sheet_section(manifest, layout, sheet_png) +
+         sheet_section(manifest, layout, sheet_png) + pages_hint(pages) +
          "<h2>Runs</h2>\n<p class=\"hint\">Metrics are those of the last frame of each run. Click "
          "a column head to sort.</p>\n<div class=\"wide\"><table id=\"table\"></table></div>\n" +
          "<h2>Parallel coordinates</h2>\n<p class=\"hint\">One line per run; hover over a line, a "

@@ -142,7 +142,7 @@ SheetMaker::SheetMaker(std::filesystem::path folder, const store::Manifest& mani
       results_(results),
       legends_(legends),
       renderer_(renderer),
-      layout_(layout_sheet(manifest, !legends.empty(), renderer.max_size())) {}
+      pages_(layout_pages(manifest, !legends.empty(), renderer.max_size())) {}
 
 render::Image SheetMaker::tile_picture(const Tile& tile, int width, int height,
                                        bool is_dark) const {
@@ -221,26 +221,43 @@ render::Image SheetMaker::compose(const SheetLayout& layout, const std::vector<T
   return renderer_.draw_over(render::compose(layout.width, layout.height, paper, pictures), words);
 }
 
-render::Image SheetMaker::sheet(int frame) {
+render::Image SheetMaker::sheet(int frame, std::size_t page) {
+  const SheetLayout& layout = pages_[page].layout;
   std::vector<Tile> tiles;
-  for (const SheetTile& place : layout_.tiles)
+  for (const SheetTile& place : layout.tiles)
     tiles.push_back({&manifest_.runs[place.run], &results_[place.run], frame, place.x, place.y});
-  const std::string line = "frame " + std::to_string(frame) +
-                           "   t = " + fixed_text(frame / manifest_.fps, 3) + " s" + dot +
-                           run_count_text(results_);
-  render::Frame words = frame_of(layout_, line);
-  return compose(layout_, tiles, words);
+  const std::string line =
+      "frame " + std::to_string(frame) + "   t = " + fixed_text(frame / manifest_.fps, 3) + " s" +
+      dot + run_count_text(results_) +
+      (pages_.size() > 1
+           ? dot + ("page " + std::to_string(page + 1)) + " of " + std::to_string(pages_.size())
+           : "");
+  render::Frame words = frame_of(layout, line);
+  return compose(layout, tiles, words);
 }
 
-render::Image SheetMaker::strips() {
+std::vector<render::Image> SheetMaker::strips() {
   const std::vector<int> frames = moments();
-  const SheetLayout layout =
-      layout_sheet(strip_grid(frames), !legends_.empty(), renderer_.max_size());
+  const int largest = renderer_.max_size();
+  const auto layout_of = [&](std::size_t first, std::size_t count) {
+    return layout_sheet(strip_grid(frames, first, count), !legends_.empty(), largest);
+  };
+  const std::size_t runs = manifest_.runs.size();
+  std::size_t count = runs;
+  while (count > 1 && !fits(layout_of(0, count), largest)) count = (count + 1) / 2;
+  std::vector<render::Image> images;
+  for (std::size_t first = 0; first < runs; first += count)
+    images.push_back(strips_of(frames, first, layout_of(first, std::min(count, runs - first))));
+  return images;
+}
+
+render::Image SheetMaker::strips_of(const std::vector<int>& frames, std::size_t first,
+                                    const SheetLayout& layout) {
   render::Frame words =
       frame_of(layout, "moments of every run" + std::string(dot) + run_count_text(results_));
   std::vector<render::Tile> pictures;
   for (const SheetTile& place : layout.tiles) {
-    const std::size_t run = place.run / frames.size();
+    const std::size_t run = first + place.run / frames.size();
     const Tile tile{&manifest_.runs[run], &results_[run], frames[place.run % frames.size()],
                     place.x, place.y};
     const bool is_dark = is_late(*tile.run, *tile.result, tile.frame);
@@ -263,7 +280,8 @@ std::vector<int> SheetMaker::moments() const {
 }
 
 /// Runs as rows and moments as columns: a sheet of two axes.
-store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames) const {
+store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames, std::size_t first,
+                                       std::size_t count) const {
   store::Manifest grid = manifest_;
   grid.columns = 1;
   grid.rows = 0;
@@ -275,8 +293,8 @@ store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames) const {
   for (const int frame : frames)
     times.values.push_back(fixed_text(frame / manifest_.fps, 3) + " s");
   grid.runs.clear();
-  for (std::size_t r = 0; r < manifest_.runs.size(); ++r) {
-    names.values.push_back(strip_name(manifest_, manifest_.runs[r]));
+  for (std::size_t r = 0; r < count; ++r) {
+    names.values.push_back(strip_name(manifest_, manifest_.runs[first + r]));
     for (std::size_t k = 0; k < frames.size(); ++k)
       grid.runs.emplace_back().coordinates = {static_cast<int>(r), static_cast<int>(k)};
   }

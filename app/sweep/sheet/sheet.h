@@ -20,13 +20,15 @@ class SheetMaker {
              const std::vector<store::RunResult>& results,
              const std::vector<render::Legend>& legends, render::Renderer& renderer);
 
-  /// Every run at a frame. A run that got less far shows where it stopped, dark, and says why.
-  render::Image sheet(int frame);
+  /// Every run of a page at a frame. A run that got less far shows where it stopped, dark, and says
+  /// why.
+  render::Image sheet(int frame, std::size_t page);
 
-  const SheetLayout& layout() const { return layout_; }
+  const std::vector<SheetPage>& pages() const { return pages_; }
 
-  /// Some moments of every run side by side, one run below the other.
-  render::Image strips();
+  /// Some moments of every run side by side, one run below the other; several pictures where one
+  /// cannot hold all runs.
+  std::vector<render::Image> strips();
 
  private:
   struct Tile {
@@ -44,7 +46,11 @@ class SheetMaker {
   void add_state(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
   /// Frames that strips show.
   std::vector<int> moments() const;
-  store::Manifest strip_grid(const std::vector<int>& frames) const;
+  /// @param first, count  runs
+  store::Manifest strip_grid(const std::vector<int>& frames, std::size_t first,
+                             std::size_t count) const;
+  render::Image strips_of(const std::vector<int>& frames, std::size_t first,
+                          const SheetLayout& layout);
   render::Frame frame_of(const SheetLayout& layout, const std::string& line) const;
 
   std::filesystem::path folder_;
@@ -52,7 +58,7 @@ class SheetMaker {
   const std::vector<store::RunResult>& results_;
   const std::vector<render::Legend>& legends_;
   render::Renderer& renderer_;
-  SheetLayout layout_;
+  std::vector<SheetPage> pages_;
 };
 
 }  // namespace neve::app::sweep::sheet

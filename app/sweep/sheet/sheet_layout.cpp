@@ -282,18 +282,48 @@ class Layouter {
 
 }  // namespace
 
-SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest) {
+bool fits(const SheetLayout& layout, int largest) {
   constexpr double max_pixels = 48e6;
+  return layout.width <= largest && layout.height <= largest &&
+         1.0 * layout.width * layout.height <= max_pixels;
+}
+
+SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest) {
   constexpr int smallest_tile = 64;
   int tile = manifest.tile_width;
   while (true) {
     SheetLayout layout = Layouter(manifest, has_legend, tile).make();
-    const double pixels = 1.0 * layout.width * layout.height;
-    if ((layout.width <= largest && layout.height <= largest && pixels <= max_pixels) ||
-        tile <= smallest_tile)
-      return layout;
+    if (fits(layout, largest) || tile <= smallest_tile) return layout;
     tile = std::max(smallest_tile, tile * 9 / 10);
   }
+}
+
+std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest) {
+  constexpr int readable_tile = 160;
+  SheetLayout whole = layout_sheet(manifest, has_legend, largest);
+  if (fits(whole, largest)) return {{0, manifest.runs.size(), std::move(whole)}};
+
+  store::Manifest part = manifest;
+  part.axes.clear();
+  part.columns = part.rows = -1;
+  const auto layout_of = [&](std::size_t first, std::size_t count) {
+    const auto begin = manifest.runs.begin() + static_cast<std::ptrdiff_t>(first);
+    part.runs.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    return layout_sheet(part, has_legend, largest);
+  };
+  const auto is_readable = [&](const SheetLayout& layout) {
+    return fits(layout, largest) &&
+           layout.tile_width >= std::min(readable_tile, manifest.tile_width);
+  };
+  std::size_t count = manifest.runs.size();
+  while (count > 1 && !is_readable(layout_of(0, count))) count = (count + 1) / 2;
+  std::vector<SheetPage> pages;
+  for (std::size_t first = 0; first < manifest.runs.size(); first += count) {
+    const std::size_t here = std::min(count, manifest.runs.size() - first);
+    pages.push_back({first, here, layout_of(first, here)});
+    for (SheetTile& tile : pages.back().layout.tiles) tile.run += first;
+  }
+  return pages;
 }
 
 }  // namespace neve::app::sweep::sheet

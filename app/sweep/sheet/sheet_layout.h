@@ -32,4 +32,17 @@ struct SheetLayout {
 /// @param largest side of a picture, px
 SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest);
 
+/// Runs that share a picture.
+struct SheetPage {
+  std::size_t first = 0, count = 0;  ///< runs of the manifest
+  SheetLayout layout;                ///< its tiles name runs of the manifest
+};
+
+/// One page where all runs fit into a picture. Otherwise as many as it takes: without axes along
+/// their edges, so that each tile names its own values.
+std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest);
+
+/// True if a sheet of this layout can be a picture.
+bool fits(const SheetLayout& layout, int largest);
+
 }  // namespace neve::app::sweep::sheet
