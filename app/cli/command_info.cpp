@@ -3,6 +3,7 @@
 
 #include "app/cli/commands.h"
 #include "app/output/atomic_file.h"
+#include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
 #include "app/run/picture_record.h"
 #include "app/scene/coarsen.h"
@@ -55,13 +56,20 @@ void print_changes(const Json& run, std::ostream& out) {
   }
 }
 
-void print_run(const Json& run, std::ostream& out) {
+/// A run that was killed had no time to say so.
+std::string life_of(const std::string& status, const fs::path& folder) {
+  if (status != "running") return {};
+  return output::FolderLock::is_held(folder) ? ", by " + output::FolderLock::holder_of(folder)
+                                             : ", but its process has ended; --resume continues it";
+}
+
+void print_run(const Json& run, const fs::path& folder, std::ostream& out) {
   const auto text = [&](const char* key) {
     return run.contains(key) && run[key].is_string() ? run[key].get<std::string>() : std::string();
   };
   out << "neve        " << text("version") << "\n"
       << "scene       " << text("scene_file") << "\n"
-      << "status      " << text("status") << "\n"
+      << "status      " << text("status") << life_of(text("status"), folder) << "\n"
       << "backend     " << text("backend") << ", " << text("gl_renderer") << "\n";
   print_changes(run, out);
   if (!run.contains("frames") || !run["frames"].is_array()) return;
@@ -79,13 +87,14 @@ void print_run(const Json& run, std::ostream& out) {
 int run_info(const std::string& path, bool is_json) {
   std::error_code error;
   if (fs::is_directory(path, error) || fs::path(path).extension() == ".json") {
-    const Json run =
-        read_run(fs::is_directory(path, error) ? output::run_json_path(path) : fs::path(path));
+    const fs::path file =
+        fs::is_directory(path, error) ? output::run_json_path(path) : fs::path(path);
+    const Json run = read_run(file);
     if (is_json) {
       std::cout << to_text(run) << "\n";
     } else {
       std::ostringstream out;
-      print_run(run, out);
+      print_run(run, file.parent_path(), out);
       std::cout << printable_text(out.str());
     }
     return exit_ok;

@@ -84,6 +84,12 @@ FolderLock::FolderLock(const fs::path& folder, const std::string& holder, Kind k
   file_ = std::move(lock->file_);
 }
 
+bool FolderLock::is_held(const fs::path& folder) {
+  const Descriptor lock(
+      ::open((folder / default_name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  return lock.get() >= 0 && ::flock(lock.get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
 std::string FolderLock::holder_of(const fs::path& folder, const char* name) {
   std::string text;
   try {

@@ -31,6 +31,9 @@ class FolderLock {
                                             const std::string& holder, Kind kind = Kind::alone,
                                             const char* name = default_name);
 
+  /// Whether a process has it now. Changes nothing.
+  static bool is_held(const std::filesystem::path& folder);
+
   /// Who has or had it last: "neve render, process 4711 on snow, since 2026-01-31 12:00:00".
   static std::string holder_of(const std::filesystem::path& folder,
                                const char* name = default_name);

@@ -84,6 +84,14 @@ bool is_disk_error(const std::string& message) {
   return names(ENOSPC) || names(EDQUOT) || names(EFBIG) || names(EROFS);
 }
 
+/// The one about the disk, or the last one.
+std::string telling_line(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (is_disk_error(line)) return line;
+  return last_line(text);
+}
+
 /// Of an earlier run. @throws IoError where something else has the name
 void remove_movie(const fs::path& file) {
   std::error_code error;
@@ -121,12 +129,12 @@ MovieResult write_movie(const MovieRequest& request) {
   if (!result.has_started) return fail("ffmpeg does not start: " + result.errors);
   if (result.exit_code != 0)
     return fail("ffmpeg failed (" + std::to_string(result.exit_code) +
-                "): " + last_line(result.errors));
+                "): " + telling_line(result.errors));
 
   const long expected = request.last_frame - request.first_frame + 1;
   const long counted = count_frames(*ffmpeg, temporary);
   if (counted != expected) {
-    const std::string said = last_line(result.errors);
+    const std::string said = telling_line(result.errors);
     return fail("ffmpeg made " + std::to_string(std::max(counted, 0L)) + " of " +
                 std::to_string(expected) + " frames" + (said.empty() ? "" : ": " + said));
   }

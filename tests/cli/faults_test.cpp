@@ -62,6 +62,42 @@ TEST_F(Faults, AFullDiskStopsASweepAndTheSameCommandGoesOn) {
   }
 }
 
+TEST_F(Faults, AMovieOnAFullDiskIsNoSuccessAndResumeMakesIt) {
+  if (!app::output::find_program("ffmpeg")) GTEST_SKIP() << "no ffmpeg";
+  const std::string render = "render scene.toml --out out --frames 0-2";
+  for (const char* operation : {"open", "write", "rename"}) {
+    const auto full = failing(fault(operation, ENOSPC, "particles.mp4"), render);
+    EXPECT_EQ(full.exit_code, 6) << operation << full.errors;
+    EXPECT_FALSE(exists("out/particles.mp4")) << operation;
+    EXPECT_EQ(json_of("out/run.json")["warnings"].size(), 1u) << operation;
+    EXPECT_EQ(failing("", render + " --resume").exit_code, 0);
+    EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
+  }
+}
+
+TEST_F(Faults, EveryWriteOfARunFailsOnceAndTheSameCommandEndsWithTheSameBits) {
+  const std::string render =
+      "render scene.toml --out out --frames 0-2 --checkpoint-every 1 --resume";
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "whole", "--frames", "0-2"}).exit_code, 0);
+  const RunFiles whole = files_of(folder / "whole");
+  for (const char* operation : {"write", "rename", "fsync"})
+    for (int skip = 0; skip < 100; skip += skip < 6 ? 1 : 3) {
+      std::filesystem::remove_all(folder / "out");
+      const auto result = failing(fault(operation, skip % 2 ? ENOSPC : EIO, "out/", skip), render);
+      if (result.exit_code == 0) {
+        EXPECT_EQ(neve({"verify", "out"}).exit_code, 0) << operation << skip << result.errors;
+        break;
+      }
+      EXPECT_EQ(result.exit_code, 6) << operation << skip << result.errors;
+      const auto more = failing("", render);
+      ASSERT_EQ(more.exit_code, 0) << operation << skip << more.errors;
+      const RunFiles found = files_of(folder / "out");
+      EXPECT_EQ(found.hashes, whole.hashes);
+      EXPECT_TRUE(found.pictures == whole.pictures) << operation << skip;
+      EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
+    }
+}
+
 TEST_F(Faults, AStatusThatCannotBeWrittenStopsASweepAndTheSameCommandGoesOn) {
   const auto stopped = failing(fault("write", ENOSPC, "runs/0001/.status", 1), sweep);
   EXPECT_EQ(stopped.exit_code, 6) << stopped.errors;

@@ -35,6 +35,9 @@ TEST_F(Store, OfTwoRunsInAFolderOneWinsAndTheOtherTouchesNothing) {
   EXPECT_EQ(second.exit_code, 6);
   EXPECT_TRUE(contains(second.errors, "is in use by neve render, process " + std::to_string(first)))
       << second.errors;
+  const auto alive = neve({"info", "out"});
+  EXPECT_TRUE(contains(alive.output, "running, by neve render, process " + std::to_string(first)))
+      << alive.output;
   ::kill(first, SIGHUP);
   EXPECT_EQ(wait_for(first), 75) << "a terminal that closes stops it like Ctrl-C";
   const app::Json run = json_of("out/run.json");
@@ -52,6 +55,7 @@ TEST_F(Store, AKilledRunLeavesNothingForTheNextOne) {
     ASSERT_TRUE(wait_for_file(out / ("particles/000" + std::to_string(k) + ".png")));
     ::kill(child, SIGKILL);
     EXPECT_EQ(wait_for(child), 128 + SIGKILL);
+    EXPECT_TRUE(contains(neve({"info", "out"}).output, "running, but its process has ended"));
   }
   ASSERT_EQ(render("out", {"--frames", "0-2", "--resume"}).exit_code, 0);
   for (const auto& entry : fs::recursive_directory_iterator(out))
