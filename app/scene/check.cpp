@@ -38,7 +38,7 @@ Found problem(const sim::shapes::Plane& plane, const std::string& at) {
 
 Found problem(const sim::shapes::Mesh& mesh, const std::string& at) {
   if (!mesh.file.empty()) return {};
-  return Problem{at + ".mesh", "mesh has no file", "give file = \"NAME.obj\""};
+  return Problem{at + ".mesh", "mesh has no file", "give file = \"NAME.obj\", .ply or .stl"};
 }
 
 Found problem(const sim::shapes::Points& points, const std::string& at) {

@@ -227,7 +227,7 @@ void describe(V& visit, sim::shapes::Plane& p, Change change) {
 template <class V>
 void describe(V& visit, sim::shapes::Mesh& m, Change change) {
   visit("file", m.file, unit::none, file_path, change,
-        "Closed triangle mesh, OBJ; path relative to the scene file.");
+        "Closed mesh, OBJ, PLY or STL; path relative to the scene file.");
   visit("scale", m.scale, unit::none, length, change, "Metres per unit of the file.");
   visit("center", m.center, unit::metre, position, change, "Place of the file's origin.");
 }
@@ -235,8 +235,8 @@ void describe(V& visit, sim::shapes::Mesh& m, Change change) {
 template <class V>
 void describe(V& visit, sim::shapes::Points& p, Change change) {
   visit("file", p.file, unit::none, file_path, change,
-        "Particles, PLY or CSV, with columns x y z and optionally vx vy vz, mass and volume; path "
-        "relative to the scene file.");
+        "Particles, PLY or CSV, with columns x y z and optionally vx vy vz, mass, V0 or volume, "
+        "J_P, F_E, C, stiffness and threshold; path relative to the scene file.");
   visit("spacing", p.spacing, unit::metre, at_least(1e-9).at_most_or_0(1e6), change,
         "Distance between neighbours in a file without volumes; each particle has spacing^3.");
   visit("thinning", p.thinning, unit::none, between(1, 1e9), change,

@@ -41,6 +41,38 @@ void vary_body(const scene::Scene& scene, std::size_t index, const sim::seeding:
   }
 }
 
+/// Appends values of the last particles, or the default where there are none; the list stays empty
+/// while all have the default.
+template <class T>
+void append_or_default(const std::vector<T>& values, const T& usual, std::size_t first,
+                       std::size_t end, std::vector<T>& all) {
+  if (values.empty() && all.empty()) return;
+  all.resize(first, usual);
+  all.insert(all.end(), values.begin(), values.end());
+  all.resize(end, usual);
+}
+
+void multiply(const std::vector<double>& factors, std::size_t first, std::size_t end,
+              std::vector<double>& all) {
+  if (factors.empty()) return;
+  all.resize(end, 1.0);
+  for (std::size_t p = first; p < end; ++p) all[p] *= factors[p - first];
+}
+
+/// All that the snow of a file has been through, of the particles that were appended last.
+void append_history(const sim::seeding::SeededBody& seeded, sim::ParticleArrays& particles) {
+  const std::size_t end = particles.x.size(), first = end - seeded.x.size();
+  append_or_default(seeded.J_P, 1.0, first, end, particles.J_P);
+  append_or_default(seeded.F_E, sim::Mat3d(sim::Mat3d::Identity()), first, end, particles.F_E);
+  append_or_default(seeded.C, sim::Mat3d(sim::Mat3d::Zero()), first, end, particles.C);
+  multiply(seeded.stiffness, first, end, particles.stiffness);
+  multiply(seeded.threshold, first, end, particles.threshold);
+  if (particles.stiffness.size() != particles.threshold.size()) {
+    particles.stiffness.resize(end, 1.0);
+    particles.threshold.resize(end, 1.0);
+  }
+}
+
 /// Particles of a body, within the lattice. @throws sim::ShapeError that names the body
 sim::seeding::SeededBody seed_checked(const scene::Scene& scene, std::size_t index) {
   const sim::seeding::Body& body = scene.bodies[index];
@@ -74,7 +106,9 @@ void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArra
   const sim::seeding::SeededBody seeded = seed_checked(scene, index);
   const std::size_t material = material_index(scene, body.material);
   const double share = seeded.volume / static_cast<double>(seeded.x.size());
-  const bool is_given = body.volumes == sim::seeding::Volumes::given;
+  // The density on the grid says nothing about the volume before a deformation.
+  const bool is_given =
+      body.volumes == sim::seeding::Volumes::given || !seeded.J_P.empty() || !seeded.F_E.empty();
   for (std::size_t p = 0; p < seeded.x.size(); ++p) {
     const sim::Vec3d& x_p = seeded.x[p];
     const double volume = seeded.V.empty() ? share : seeded.V[p];
@@ -88,6 +122,7 @@ void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArra
     particles.material.push_back(static_cast<int>(material));
   }
   vary_body(scene, index, seeded, particles);
+  append_history(seeded, particles);
 }
 
 sim::Simulation make_simulation(const scene::Scene& scene, const sim::ParticleArrays& particles,

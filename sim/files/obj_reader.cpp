@@ -135,7 +135,7 @@ class Parser {
   void check_indices() const {
     if (mesh_.polygons.empty())
       refuse_input(name_,
-                   "no faces; neve reads only OBJ, with lines f 1 2 3. Export the mesh as OBJ");
+                   "no faces; expected an OBJ with lines f 1 2 3. neve reads OBJ, PLY and STL");
     for (std::size_t p = 0; p < mesh_.polygons.size(); ++p)
       for (std::size_t c = mesh_.polygons[p].first; c < mesh_.corner_end(p); ++c)
         if (mesh_.corners[c] >= mesh_.vertices.size())
@@ -153,10 +153,6 @@ class Parser {
 
 PolygonMesh parse_obj(std::string_view text, const std::string& name) {
   return Parser(text, name).run();
-}
-
-PolygonMesh read_obj(const std::string& path) {
-  return parse_obj(read_input_file(path, 256, "meshes"), path);
 }
 
 }  // namespace neve::sim::files

@@ -1,5 +1,5 @@
 #pragma once
-/// Vertices and polygons of a Wavefront OBJ file.
+/// Vertices and polygons of a mesh, and their reader from Wavefront OBJ files.
 
 #include <cstdint>
 #include <string>
@@ -12,7 +12,8 @@ namespace neve::sim::files {
 
 /// Polygons over shared vertices, in file order.
 struct PolygonMesh {
-  /// Corners first to first of the next polygon; line in the file, from 1.
+  /// Corners first to first of the next polygon; line in the file, from 1; 0: the file has no
+  /// lines.
   struct Polygon {
     std::size_t first;
     std::size_t line;
@@ -32,8 +33,5 @@ struct PolygonMesh {
 /// @throws ShapeError for malformed numbers, bad indices, polygons of less than three corners and
 ///         files without any
 PolygonMesh parse_obj(std::string_view text, const std::string& name);
-
-/// @throws ShapeError also when the file cannot be read or is larger than 256 MiB
-PolygonMesh read_obj(const std::string& path);
 
 }  // namespace neve::sim::files

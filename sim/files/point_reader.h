@@ -9,21 +9,28 @@
 
 namespace neve::sim::files {
 
-/// Points in file order. v, m and V are as long as x, or empty if the file has none.
+/// Points in file order. All but x are as long as x, or empty if the file has none.
 struct PointCloud {
-  std::vector<Vec3d> x;   ///< m
-  std::vector<Vec3d> v;   ///< m/s
-  std::vector<double> m;  ///< kg, > 0
-  std::vector<double> V;  ///< m3, > 0
+  std::vector<Vec3d> x;           ///< m
+  std::vector<Vec3d> v;           ///< m/s
+  std::vector<double> m;          ///< kg, > 0
+  std::vector<double> V;          ///< m3, > 0
+  std::vector<double> J_P;        ///< > 0
+  std::vector<Mat3d> F_E;         ///< det > 0
+  std::vector<Mat3d> C;           ///< 1/s
+  std::vector<double> stiffness;  ///< factor, > 0
+  std::vector<double> threshold;  ///< factor, > 0
 };
 
 /// Columns are found by name, in any order, case and punctuation: position x y z, or with
-/// p, pos, position before the axis, or Points:0 to 2; velocity vx vy vz, or with vel, velocity;
-/// mass m or mass; volume vol, volume or V0. Others are passed over. Independent of the locale.
+/// p, x, pos, position before the axis, or Points:0 to 2; velocity vx vy vz, or with vel, velocity;
+/// mass m or mass; volume V0, or where there is none vol or volume; J_P, stiffness, threshold; F_E
+/// and C with xx to zz. Others are passed over. Independent of the locale.
 /// @param name of the text in messages, NAME:LINE: ...; of binary points NAME: point NUMBER
 /// @throws ShapeError for text neither PLY nor CSV, without positions, with a part of a vector
 ///         only or one column twice, truncated, with numbers that are missing, not finite or out of
-///         range (|x| <= 1e6 m, |v| <= 1e6 m/s, mass and volume above 0 and up to 1e12), or without
+///         range (|x| <= 1e6 m, |v| <= 1e6 m/s, mass and volume above 0 and up to 1e12, J_P and
+///         factors from 1e-6 to 1e6, det F_E above 0), or without
 ///         points. Counts in a file are compared with its length before anything is allocated.
 PointCloud parse_points(std::string_view bytes, const std::string& name);
 

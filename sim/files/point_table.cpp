@@ -1,5 +1,6 @@
 #include "sim/files/point_table.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 
@@ -9,13 +10,40 @@
 namespace neve::sim::files {
 namespace {
 
-/// The places of x y z, vx vy vz, mass and volume in one list.
-enum PointQuantity : std::size_t { position, velocity = 3, mass = 6, volume = 7 };
-constexpr std::array quantity_names{"x", "y", "z", "vx", "vy", "vz", "mass", "volume"};
+/// The places of all quantities in one list; tensors have nine.
+enum PointQuantity : std::size_t {
+  position,
+  velocity = 3,
+  mass = 6,
+  rest_volume,
+  volume,
+  plastic_volume,
+  stiffness,
+  threshold,
+  deformation = 12,
+  affine = 21
+};
+constexpr std::array quantity_names{
+    "x",      "y",      "z",         "vx",        "vy",     "vz",     "mass",   "V0",
+    "volume", "J_P",    "stiffness", "threshold", "F_E_xx", "F_E_xy", "F_E_xz", "F_E_yx",
+    "F_E_yy", "F_E_yz", "F_E_zx",    "F_E_zy",    "F_E_zz", "C_xx",   "C_xy",   "C_xz",
+    "C_yx",   "C_yy",   "C_yz",      "C_zx",      "C_zy",   "C_zz"};
 
-constexpr double max_coordinate = 1e6;  // m and m/s
-constexpr double max_amount = 1e12;     // kg and m3
-constexpr double min_amount = 1e-30;    // single precision ends at 1e-38
+/// Numbers that a quantity may have, and how a message says so.
+struct AllowedNumbers {
+  double least, most;
+  const char* text;
+};
+
+AllowedNumbers allowed_numbers(std::size_t quantity) {
+  // m and m/s
+  if (quantity < mass) return {-1e6, 1e6, "a finite number, at most 1e6 from 0"};
+  // kg and m3; single precision ends at 1e-38
+  if (quantity <= volume) return {1e-30, 1e12, "a number from 1e-30 to 1e12"};
+  if (quantity < deformation) return {1e-6, 1e6, "a number from 1e-6 to 1e6"};
+  if (quantity < affine) return {-1e6, 1e6, "a finite number, at most 1e6 from 0"};
+  return {-1e9, 1e9, "a finite number, at most 1e9 from 0"};
+}
 
 /// "velocity_x", "Velocity.X" and "velocityx" are the same.
 std::string plain_column_name(std::string_view name) {
@@ -27,11 +55,31 @@ std::string plain_column_name(std::string_view name) {
   return text;
 }
 
+/// "fexy" or "cxy": the place of the component.
+std::optional<std::size_t> tensor_component(std::string_view name) {
+  const std::size_t first = name.starts_with("fe") ? deformation : affine;
+  if (name.starts_with("fe"))
+    name.remove_prefix(2);
+  else if (name.starts_with("c"))
+    name.remove_prefix(1);
+  else
+    return std::nullopt;
+  const auto is_axis = [](char c) { return c >= 'x' && c <= 'z'; };
+  if (name.size() != 2 || !is_axis(name[0]) || !is_axis(name[1])) return std::nullopt;
+  return first + 3 * static_cast<std::size_t>(name[0] - 'x') +
+         static_cast<std::size_t>(name[1] - 'x');
+}
+
 std::optional<std::size_t> quantity_called(const std::string& name) {
-  static constexpr std::array positions{"", "p", "pos", "position", "points"};
+  static constexpr std::array positions{"", "p", "x", "pos", "position", "points"};
   static constexpr std::array velocities{"v", "vel", "velocity"};
   if (name == "m" || name == "mass") return mass;
-  if (name == "vol" || name == "volume" || name == "v0") return volume;
+  if (name == "v0") return rest_volume;
+  if (name == "vol" || name == "volume") return volume;
+  if (name == "jp") return plastic_volume;
+  if (name == "stiffness") return stiffness;
+  if (name == "threshold") return threshold;
+  if (const auto component = tensor_component(name)) return component;
   if (name.empty()) return std::nullopt;
   const std::string vector = name.substr(0, name.size() - 1);
   const char last = name.back();
@@ -77,6 +125,16 @@ PointTable::PointTable(const std::vector<std::string>& columns, const std::strin
   require(position, columns, where, "no");
   if (column_[velocity] || column_[velocity + 1] || column_[velocity + 2])
     require(velocity, columns, where, "a velocity without");
+  for (const std::size_t tensor : {deformation, affine}) {
+    const auto* first = column_.data() + tensor;
+    const auto count = std::count_if(first, first + 9, [](const auto& c) { return c.has_value(); });
+    if (count > 0 && count < 9)
+      refuse_input(where, std::string("a part of ") + (tensor == affine ? "C" : "F_E") +
+                              " only; expected nine columns, " + quantity_names[tensor] + " to " +
+                              quantity_names[tensor + 8]);
+  }
+  // The volume before deformation is the one that counts.
+  if (column_[rest_volume]) column_[volume].reset();
 }
 
 void PointTable::require(std::size_t first, const std::vector<std::string>& columns,
@@ -96,19 +154,17 @@ void PointTable::reserve(std::size_t count) {
   cloud_.x.reserve(count);
   if (column_[velocity]) cloud_.v.reserve(count);
   if (column_[mass]) cloud_.m.reserve(count);
-  if (column_[volume]) cloud_.V.reserve(count);
+  if (column_[volume] || column_[rest_volume]) cloud_.V.reserve(count);
+  if (column_[deformation]) cloud_.F_E.reserve(count);
 }
 
 double PointTable::value(const std::vector<double>& row, std::size_t quantity,
                          const std::function<std::string()>& where) const {
   const double value = row[*column_[quantity]];
-  const bool is_amount = quantity >= mass;
-  const bool is_allowed = is_amount ? value >= min_amount && value <= max_amount
-                                    : value >= -max_coordinate && value <= max_coordinate;
-  if (!is_allowed)
+  const AllowedNumbers allowed = allowed_numbers(quantity);
+  if (!(value >= allowed.least && value <= allowed.most))
     refuse_input(where(), std::string(quantity_names[quantity]) + " = " + number_text(value, 6) +
-                              (is_amount ? "; expected a number from 1e-30 to 1e12"
-                                         : "; expected a finite number, at most 1e6 from 0"));
+                              "; expected " + allowed.text);
   return value;
 }
 
@@ -117,11 +173,37 @@ Vec3d PointTable::vector(const std::vector<double>& row, std::size_t first,
   return {value(row, first, where), value(row, first + 1, where), value(row, first + 2, where)};
 }
 
+Mat3d PointTable::tensor(const std::vector<double>& row, std::size_t first,
+                         const std::function<std::string()>& where) const {
+  Mat3d a;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c)
+      a(r, c) = value(row, first + static_cast<std::size_t>(3 * r + c), where);
+  return a;
+}
+
+/// All that the snow has been through.
+void PointTable::add_history(const std::vector<double>& row,
+                             const std::function<std::string()>& where) {
+  if (column_[plastic_volume]) cloud_.J_P.push_back(value(row, plastic_volume, where));
+  if (column_[stiffness]) cloud_.stiffness.push_back(value(row, stiffness, where));
+  if (column_[threshold]) cloud_.threshold.push_back(value(row, threshold, where));
+  if (column_[affine]) cloud_.C.push_back(tensor(row, affine, where));
+  if (!column_[deformation]) return;
+  const Mat3d F_E = tensor(row, deformation, where);
+  if (!(F_E.determinant() > 0))
+    refuse_input(where(), "det F_E = " + number_text(F_E.determinant(), 6) +
+                              "; expected a number above 0: snow that is not turned inside out");
+  cloud_.F_E.push_back(F_E);
+}
+
 void PointTable::add(const std::vector<double>& row, const std::function<std::string()>& where) {
   cloud_.x.push_back(vector(row, position, where));
   if (column_[velocity]) cloud_.v.push_back(vector(row, velocity, where));
   if (column_[mass]) cloud_.m.push_back(value(row, mass, where));
+  if (column_[rest_volume]) cloud_.V.push_back(value(row, rest_volume, where));
   if (column_[volume]) cloud_.V.push_back(value(row, volume, where));
+  add_history(row, where);
 }
 
 PointCloud PointTable::take(const std::string& name) {

@@ -48,7 +48,7 @@ class PointTable {
   PointCloud take(const std::string& name);
 
  private:
-  static constexpr std::size_t quantity_count = 8;  ///< x y z, vx vy vz, mass, volume
+  static constexpr std::size_t quantity_count = 30;  ///< see point_table.cpp
 
   void require(std::size_t first, const std::vector<std::string>& columns, const std::string& where,
                const std::string& what) const;
@@ -56,6 +56,9 @@ class PointTable {
                const std::function<std::string()>& where) const;
   Vec3d vector(const std::vector<double>& row, std::size_t first,
                const std::function<std::string()>& where) const;
+  Mat3d tensor(const std::vector<double>& row, std::size_t first,
+               const std::function<std::string()>& where) const;
+  void add_history(const std::vector<double>& row, const std::function<std::string()>& where);
 
   std::array<std::optional<std::size_t>, quantity_count> column_{};
   PointCloud cloud_;

@@ -29,10 +29,22 @@ std::size_t saturated(double count) {
 SeededBody seed_points(const Body& body, const shapes::Points& points) {
   shapes::PlacedPoints placed(points);
   const Mat3d R = rotation_from_degrees(body.shape.rotation);
-  SeededBody seeded{std::move(placed.x), points.center,       placed.volume,
-                    std::move(placed.v), std::move(placed.m), std::move(placed.V)};
+  SeededBody seeded{.x = std::move(placed.x),
+                    .center = points.center,
+                    .volume = placed.volume,
+                    .v = std::move(placed.v),
+                    .m = std::move(placed.m),
+                    .V = std::move(placed.V),
+                    .J_P = std::move(placed.J_P),
+                    .F_E = std::move(placed.F_E),
+                    .C = std::move(placed.C),
+                    .stiffness = std::move(placed.stiffness),
+                    .threshold = std::move(placed.threshold)};
   for (Vec3d& x : seeded.x) x = seeded.center + R * x;
   for (Vec3d& v : seeded.v) v = R * v;
+  // The undeformed snow is not turned: F maps it to the snow that is.
+  for (Mat3d& F_E : seeded.F_E) F_E = R * F_E;
+  for (Mat3d& C : seeded.C) C = R * C * R.transpose();
   return seeded;
 }
 
@@ -75,7 +87,9 @@ SeededBody seed_body(const Body& body, std::uint64_t body_index, std::uint64_t s
     throw ShapeError("body " + body.name + ": more than 2^32 particles fit into it");
 
   const std::uint64_t key = mix64(mix64(seed), body_index);
-  SeededBody seeded{{}, solid.center(), solid.volume(), {}, {}, {}};
+  SeededBody seeded;
+  seeded.center = solid.center();
+  seeded.volume = solid.volume();
   switch (body.sampling) {
     case Sampling::jittered:
       seeded.x = sample_jittered(solid, spacing, key);

@@ -52,9 +52,14 @@ struct SeededBody {
   Vec3d center;       ///< of angular_velocity
   double volume = 0;  ///< m3, of the whole body
   // For points only, each empty or as long as x.
-  std::vector<Vec3d> v;   ///< m/s, of the file; the body's velocity comes on top
-  std::vector<double> m;  ///< kg; empty: density times volume
-  std::vector<double> V;  ///< m3; empty: all have the same
+  std::vector<Vec3d> v;           ///< m/s, of the file; the body's velocity comes on top
+  std::vector<double> m;          ///< kg; empty: density times volume
+  std::vector<double> V;          ///< m3; empty: all have the same
+  std::vector<double> J_P;        ///< empty: 1
+  std::vector<Mat3d> F_E;         ///< empty: I
+  std::vector<Mat3d> C;           ///< 1/s; empty: 0
+  std::vector<double> stiffness;  ///< factor; empty: 1
+  std::vector<double> threshold;  ///< factor; empty: 1
 };
 
 /// Smallest distance in metres between two particles of poisson sampling.

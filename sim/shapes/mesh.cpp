@@ -8,7 +8,9 @@
 #include <tuple>
 #include <utility>
 
+#include "sim/files/mesh_reader.h"
 #include "sim/shapes/mesh_surface.h"
+#include "sim/shapes/triangulate.h"
 #include "sim/types/number_text.h"
 
 namespace neve::sim::shapes {
@@ -87,7 +89,8 @@ struct Defect {
   const Vec3d a = mesh.vertices[defect.first.low], b = mesh.vertices[defect.first.high];
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << name << ":" << mesh.polygons[defect.first.polygon].line << ": " << defect.what << ": "
+  const std::size_t line = mesh.polygons[defect.first.polygon].line;
+  text << name << (line > 0 ? ":" + std::to_string(line) : "") << ": " << defect.what << ": "
        << defect.count << (defect.count == 1 ? " edge" : " edges") << ", the first of face "
        << defect.first.polygon + 1 << " between (" << a.x() << ", " << a.y() << ", " << a.z()
        << ") and (" << b.x() << ", " << b.y() << ", " << b.z() << "). " << defect.advice;
@@ -115,6 +118,23 @@ void check_edges(const files::PolygonMesh& mesh, const std::vector<Edge>& edges,
     if (defect->count > 0) report(*defect, mesh, name);
 }
 
+/// @return whether the triangles cover the polygon and nothing else
+bool add_triangles(const std::vector<Corner>& corners, ClosedMesh& closed) {
+  std::vector<Vec3d> polygon;
+  for (const Corner corner : corners) polygon.push_back(closed.vertices[corner]);
+  if (corners.size() > 3 && !is_convex(polygon))
+    if (const auto triangles = cut_ears(polygon)) {
+      for (const auto& [i, j, k] : *triangles)
+        closed.triangles.push_back({corners[i], corners[j], corners[k]});
+      return true;
+    }
+  // A fan is right for winding numbers and volumes even where sides cross: triangles that overlap
+  // are wound in opposite directions and cancel.
+  for (std::size_t k = 2; k < corners.size(); ++k)
+    closed.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+  return corners.size() <= 3 || is_convex(polygon);
+}
+
 }  // namespace
 
 Bounds bounds_of(const ClosedMesh& mesh, const Mat3d& rotation) {
@@ -132,14 +152,11 @@ ClosedMesh close_mesh(const files::PolygonMesh& mesh, const std::string& name) {
   const std::vector<Corner> representative = weld(mesh.vertices);
   check_edges(mesh, sorted_edges(mesh, representative), name);
 
-  ClosedMesh closed{mesh.vertices, {}, 0};
+  ClosedMesh closed{mesh.vertices, {}, 0, 0};
   std::vector<Corner> corners;
   for (std::size_t p = 0; p < mesh.polygons.size(); ++p) {
     welded_corners(mesh, representative, p, corners);
-    // A fan is right for concave polygons too: where its triangles overlap, they are wound in
-    // opposite directions and cancel in winding numbers and volumes.
-    for (std::size_t k = 2; k < corners.size(); ++k)
-      closed.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+    if (!add_triangles(corners, closed) && closed.crossed_face == 0) closed.crossed_face = p + 1;
   }
 
   if (closed.triangles.empty())
@@ -182,7 +199,7 @@ ClosedMesh scaled(ClosedMesh mesh, double scale, const std::string& name) {
 std::shared_ptr<const Form> read_mesh_solid(const std::string& path, double scale) {
   static Recent<Form> recent;
   return recent.get(file_stamp(path) + "|" + number_text(scale, 17), [&] {
-    return make_mesh_solid(scaled(close_mesh(files::read_obj(path), path), scale, path));
+    return make_mesh_solid(scaled(close_mesh(files::read_mesh(path), path), scale, path));
   });
 }
 

@@ -17,14 +17,15 @@ struct ClosedMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   double volume = 0;  ///< m3, divergence theorem; where parts of the mesh overlap they count twice
+  std::size_t crossed_face = 0;  ///< number, from 1, of the first face whose sides cross; 0: none
 };
 
 /// Tight bounds of the rotated mesh.
 Bounds bounds_of(const ClosedMesh& mesh, const Mat3d& rotation = Mat3d::Identity());
 
 /// Welds vertices at the very same position, checks that every edge lies between exactly two faces
-/// that agree about the outside, splits the polygons into fans, and turns the mesh inside out if
-/// its volume is negative. The mesh may intersect itself.
+/// that agree about the outside, splits the polygons into triangles, and turns the mesh inside out
+/// if its volume is negative. The mesh may intersect itself.
 /// @param name of the mesh in messages
 /// @throws ShapeError naming the defect, how often, where first (coordinates, face, line) and
 ///         what to do; also for a volume that is not finite, or 0 within rounding
@@ -35,7 +36,7 @@ ClosedMesh close_mesh(const files::PolygonMesh& mesh, const std::string& name);
 ///         can tell or smaller than a nanometre
 ClosedMesh scaled(ClosedMesh mesh, double scale, const std::string& name);
 
-/// A mesh from an OBJ file as a solid: inside is where the winding number is above 0. Read once:
+/// A mesh from a file as a solid: inside is where the winding number is above 0. Read once:
 /// later calls return the same one, unless the file was written since.
 /// @throws ShapeError
 std::shared_ptr<const Form> read_mesh_solid(const std::string& path, double scale);

@@ -8,6 +8,8 @@
 #include <system_error>
 #include <unsupported/Eigen/BVH>
 
+#include "sim/files/mesh_reader.h"
+
 namespace neve::sim::shapes {
 namespace {
 
@@ -32,28 +34,6 @@ Vec3d nearest_on_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const 
   if (va <= 0 && u >= 0 && w >= 0) return b + (u + w > 0 ? u / (u + w) : 0.0) * (c - b);
   const double sum = va + vb + vc;
   return sum > 0 ? Vec3d(a + (vb / sum) * ab + (vc / sum) * ac) : a;
-}
-
-/// Faces of more than three corners are split into fans; that is right for distances only where
-/// they are convex.
-void require_convex_faces(const files::PolygonMesh& mesh, const std::string& name) {
-  for (std::size_t p = 0; p < mesh.polygons.size(); ++p) {
-    const std::size_t first = mesh.polygons[p].first, end = mesh.corner_end(p);
-    const auto at = [&](std::size_t k) { return mesh.vertices[mesh.corners[k]]; };
-    Vec3d sum = Vec3d::Zero();
-    for (std::size_t k = first + 2; k < end; ++k)
-      sum += (at(k - 1) - at(first)).cross(at(k) - at(first));
-    for (std::size_t k = first; end - first > 3 && k < end; ++k) {
-      const Vec3d here = at(k), next = at(k + 1 < end ? k + 1 : first),
-                  after = at(k + 2 < end ? k + 2 : first + (k + 2 - end));
-      const Vec3d turn = (next - here).cross(after - next);
-      if (turn.dot(sum) >= -1e-6 * sum.squaredNorm()) continue;
-      std::ostringstream text;
-      text << name << ":" << mesh.polygons[p].line << ": face " << p + 1
-           << " is concave: a collider needs convex faces. Triangulate the mesh";
-      throw ShapeError(text.str());
-    }
-  }
 }
 
 }  // namespace
@@ -143,9 +123,14 @@ std::shared_ptr<const MeshSurface> mesh_surface(const Mesh& mesh) {
   name.precision(17);
   name << file_stamp(mesh.file) << "|" << mesh.scale;
   return recent.get(name.str(), [&] {
-    const files::PolygonMesh polygons = files::read_obj(mesh.file);
+    const files::PolygonMesh polygons = files::read_mesh(mesh.file);
     ClosedMesh closed = close_mesh(polygons, mesh.file);
-    require_convex_faces(polygons, mesh.file);
+    if (const std::size_t face = closed.crossed_face; face > 0) {
+      const std::size_t line = polygons.polygons[face - 1].line;
+      throw ShapeError(mesh.file + (line > 0 ? ":" + std::to_string(line) : "") + ": face " +
+                       std::to_string(face) +
+                       " crosses itself: it has no triangles. Triangulate the mesh");
+    }
     return std::make_shared<const MeshSurface>(scaled(std::move(closed), mesh.scale, mesh.file));
   });
 }

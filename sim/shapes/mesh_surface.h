@@ -43,8 +43,7 @@ class MeshSurface {
 /// The surface of a mesh in metres about the origin of its file. Read and prepared once: later
 /// calls return the same one while it is in use or was used lately. A file that was written since
 /// is read again. Threads may call at the same time.
-/// @throws ShapeError when the file cannot be read, the mesh is open, or a face is concave (its
-///         triangles would reach beyond it)
+/// @throws ShapeError when the file cannot be read, the mesh is open, or a face crosses itself
 std::shared_ptr<const MeshSurface> mesh_surface(const Mesh& mesh);
 
 /// Tells one content of a file from another: path, size and time of the last change.

@@ -94,7 +94,15 @@ PlacedPoints::PlacedPoints(const Points& points)
     : PlacedPoints(files::read_points(points.file), points, points.file) {}
 
 PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const std::string& name)
-    : x(std::move(cloud.x)), v(std::move(cloud.v)), m(std::move(cloud.m)), V(std::move(cloud.V)) {
+    : x(std::move(cloud.x)),
+      v(std::move(cloud.v)),
+      m(std::move(cloud.m)),
+      V(std::move(cloud.V)),
+      J_P(std::move(cloud.J_P)),
+      stiffness(std::move(cloud.stiffness)),
+      threshold(std::move(cloud.threshold)),
+      F_E(std::move(cloud.F_E)),
+      C(std::move(cloud.C)) {
   const auto count = static_cast<double>(x.size());
   if (V.empty() && !(points.spacing > 0))
     throw ShapeError(name +
@@ -109,6 +117,8 @@ PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const 
   thin(v, points.thinning);
   thin(m, points.thinning);
   thin(V, points.thinning);
+  for (std::vector<double>* list : {&J_P, &stiffness, &threshold}) thin(*list, points.thinning);
+  for (std::vector<Mat3d>* list : {&F_E, &C}) thin(*list, points.thinning);
   scale_to(mass, m);
   scale_to(volume, V);
 }

@@ -17,10 +17,13 @@ struct PlacedPoints {
   /// Tight, but for half the edge of a cube that an average point fills.
   Bounds bounds_after(const Mat3d& rotation) const;
 
-  std::vector<Vec3d> x;       ///< m, about the file's origin; at least one
-  std::vector<Vec3d> v;       ///< m/s; empty: the file has none
-  std::vector<double> m;      ///< kg; empty: the file has none
-  std::vector<double> V;      ///< m3; empty: all have the same share of the volume
+  std::vector<Vec3d> x;   ///< m, about the file's origin; at least one
+  std::vector<Vec3d> v;   ///< m/s; empty: the file has none
+  std::vector<double> m;  ///< kg; empty: the file has none
+  std::vector<double> V;  ///< m3; empty: all have the same share of the volume
+  // As in the file, each empty or as long as x.
+  std::vector<double> J_P, stiffness, threshold;
+  std::vector<Mat3d> F_E, C;
   double volume = 0;          ///< m3, of all
   double expected_count = 0;  ///< points over thinning, which may be less than the one there is
 };

@@ -306,7 +306,7 @@ TEST(SceneErrors, DegenerateShapesAreRefused) {
   EXPECT_EQ(error_of(with_ball("[[collider]]\nshape = { plane = { normal = [0, 0, 0] } }")),
             "s.toml:5:30: error: normal is zero; it must point out of the solid side");
   EXPECT_EQ(error_of(in_body("shape = { mesh = { scale = 2 } }")),
-            "s.toml:2:18: error: mesh has no file; give file = \"NAME.obj\"");
+            "s.toml:2:18: error: mesh has no file; give file = \"NAME.obj\", .ply or .stl");
   EXPECT_EQ(error_of(in_body("shape = { points = { spacing = 0.1 } }")),
             "s.toml:2:20: error: points have no file; give file = \"NAME.ply\" or .csv");
   EXPECT_EQ(error_of(in_body("shape = { box = { size = [1, 0, 1] } }")),

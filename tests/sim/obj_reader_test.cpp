@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "sim/base/hash.h"
+#include "sim/files/mesh_reader.h"
 #include "sim/shapes/mesh.h"
 #include "tests/support/temporary_folder.h"
 
@@ -90,14 +91,14 @@ TEST(ObjReader, FilesWithoutFacesAreErrors) {
 
 TEST(ObjReader, FilesThatCannotBeReadAreErrors) {
   const neve::test::TemporaryFolder folder;
-  EXPECT_THROW(sim::files::read_obj(folder.path().string()), ShapeError);
-  EXPECT_THROW(sim::files::read_obj((folder / "neve no such file.obj").string()), ShapeError);
-  EXPECT_THROW(sim::files::read_obj("/dev/zero"), ShapeError);
-  EXPECT_THROW(sim::files::read_obj(""), ShapeError);
+  EXPECT_THROW(sim::files::read_mesh(folder.path().string()), ShapeError);
+  EXPECT_THROW(sim::files::read_mesh((folder / "neve no such file.obj").string()), ShapeError);
+  EXPECT_THROW(sim::files::read_mesh("/dev/zero"), ShapeError);
+  EXPECT_THROW(sim::files::read_mesh(""), ShapeError);
   const std::string large = (folder / "large.obj").string();
   std::ofstream(large).flush();
   std::filesystem::resize_file(large, (256u << 20) + 1);
-  EXPECT_THROW(sim::files::read_obj(large), ShapeError);
+  EXPECT_THROW(sim::files::read_mesh(large), ShapeError);
 }
 
 /// Breaks a text in a few places.

@@ -77,6 +77,32 @@ TEST(PointReader, PointReaderTakesQuotedFieldsOfACsvAsTheyAre) {
   EXPECT_EQ(cloud.x[1], Vec3d(4, 5, 6));
 }
 
+TEST(PointReader, PointReaderReadsThePastOfTheSnow) {
+  const std::string F = "F_E_xx,F_E_xy,F_E_xz,F_E_yx,F_E_yy,F_E_yz,F_E_zx,F_E_zy,F_E_zz";
+  const sim::files::PointCloud cloud = sim::files::parse_points(
+      "x_x,x_y,x_z,volume,V0,J_P,stiffness,threshold,C_zx,C_zy,C_zz,C_xx,C_xy,C_xz,C_yx,C_yy,C_"
+      "yz," +
+          F + "\n1,2,3,9,8,0.9,2,0.5,7,8,9,1,2,3,4,5,6,1,2,0,0,1,0,0,0,1\n",
+      "p");
+  ASSERT_EQ(cloud.x.size(), 1u);
+  EXPECT_EQ(cloud.x[0], Vec3d(1, 2, 3));
+  EXPECT_EQ(cloud.V, std::vector<double>{8}) << "the volume before deformation";
+  EXPECT_EQ(cloud.J_P, std::vector<double>{0.9});
+  EXPECT_EQ(cloud.stiffness, std::vector<double>{2});
+  EXPECT_EQ(cloud.threshold, std::vector<double>{0.5});
+  Mat3d deformation, affine;
+  deformation << 1, 2, 0, 0, 1, 0, 0, 0, 1;
+  affine << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  EXPECT_EQ(cloud.F_E[0], deformation);
+  EXPECT_EQ(cloud.C[0], affine);
+  const auto expect = [](const std::string& bytes, const std::string& part) {
+    EXPECT_NE(point_error(bytes).find(part), std::string::npos) << point_error(bytes);
+  };
+  expect("x,y,z,F_E_xx\n1,2,3,4\n", "p:1: a part of F_E only; expected nine columns, F_E_xx to");
+  expect("x,y,z,J_P\n1,2,3,0\n", "p:2: J_P = 0; expected a number from 1e-6 to 1e6");
+  expect("x,y,z," + F + "\n1,2,3,1,0,0,0,1,0,0,0,-1\n", "p:2: det F_E = -1");
+}
+
 TEST(PointReader, PointReaderReadsAsciiPly) {
   const sim::files::PointCloud cloud = sim::files::parse_points(
       "ply\r\nformat ascii 1.0\r\nelement vertex 2\r\nproperty float x\r\nproperty float y\r\n"

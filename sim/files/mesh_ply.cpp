@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "sim/files/mesh_reader.h"
+#include "sim/files/ply_types.h"
+#include "sim/files/point_table.h"
+
+namespace neve::sim::files {
+namespace {
+
+struct MeshProperty {
+  std::string name;
+  PlyType type;
+  std::optional<PlyType> count;  ///< of a list
+};
+
+struct MeshElement {
+  std::string name;
+  std::uint64_t count = 0;  ///< as the header claims
+  std::vector<MeshProperty> properties;
+};
+
+/// The numbers behind the header, one after the other.
+class PlyNumbers {
+ public:
+  enum class Form { none, ascii, little, big };
+
+  PlyNumbers(std::string_view bytes, Form form, const std::string& name)
+      : bytes_(bytes), form_(form), name_(name) {}
+
+  std::size_t left() const { return bytes_.size(); }
+
+  double next(PlyType type) { return form_ == Form::ascii ? next_text() : next_binary(type); }
+
+ private:
+  double next_text() {
+    while (!bytes_.empty() && (is_blank(bytes_.front()) || bytes_.front() == '\n'))
+      bytes_.remove_prefix(1);
+    std::size_t end = 0;
+    while (end < bytes_.size() && !is_blank(bytes_[end]) && bytes_[end] != '\n') ++end;
+    if (end == 0) refuse_input(name_, "truncated: the mesh is not all there");
+    const std::optional<double> value = number_in(bytes_.substr(0, end));
+    if (!value) refuse_input(name_, quoted_input(bytes_.substr(0, end)) + " is not a number");
+    bytes_.remove_prefix(end);
+    return *value;
+  }
+
+  double next_binary(PlyType type) {
+    if (bytes_.size() < type.size) refuse_input(name_, "truncated: the mesh is not all there");
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < type.size; ++k) {
+      const std::size_t place = form_ == Form::little ? k : type.size - 1 - k;
+      bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes_[k])) << (8 * place);
+    }
+    bytes_.remove_prefix(type.size);
+    return number_of(bits, type);
+  }
+
+  std::string_view bytes_;
+  Form form_;
+  const std::string& name_;
+};
+
+class MeshPly {
+ public:
+  MeshPly(std::string_view bytes, const std::string& name) : lines_(bytes), name_(name) {}
+
+  PolygonMesh read() {
+    while (read_header_line()) {
+    }
+    if (form_ == PlyNumbers::Form::none)
+      refuse_input(name_, "the header of the PLY names no format");
+    PlyNumbers numbers(lines_.rest(), form_, name_);
+    for (const MeshElement& element : elements_) read_element(element, numbers);
+    check();
+    return std::move(mesh_);
+  }
+
+ private:
+  std::string here() const { return name_ + ":" + std::to_string(lines_.number()); }
+
+  /// @return whether more follows
+  bool read_header_line() {
+    if (lines_.at_end()) refuse_input(name_, "the header of the PLY ends without end_header");
+    std::string_view line = lines_.next();
+    const std::string_view keyword = next_ply_word(line);
+    if (keyword == "end_header") return false;
+    if (keyword == "format") {
+      const std::string_view word = next_ply_word(line);
+      if (word == "ascii") form_ = PlyNumbers::Form::ascii;
+      if (word == "binary_little_endian") form_ = PlyNumbers::Form::little;
+      if (word == "binary_big_endian") form_ = PlyNumbers::Form::big;
+    }
+    if (keyword == "element") begin_element(line);
+    if (keyword == "property") add_property(line);
+    return true;
+  }
+
+  void begin_element(std::string_view line) {
+    if (elements_.size() == max_columns) refuse_input(here(), "more than 256 elements");
+    MeshElement& element = elements_.emplace_back();
+    element.name = next_ply_word(line);
+    const std::string_view count = next_ply_word(line);
+    const char* end = count.data() + count.size();
+    const auto [stop, error] = std::from_chars(count.data(), end, element.count);
+    if (count.empty() || error != std::errc{} || stop != end)
+      refuse_input(here(), quoted_input(count) + " is not a number of elements");
+  }
+
+  PlyType type_in(std::string_view& line) const {
+    const std::string_view word = next_ply_word(line);
+    const std::optional<PlyType> type = type_called(word);
+    if (!type) refuse_input(here(), quoted_input(word) + " is not a type of PLY");
+    return *type;
+  }
+
+  void add_property(std::string_view line) {
+    if (elements_.empty()) refuse_input(here(), "a property before the first element");
+    if (elements_.back().properties.size() == max_columns)
+      refuse_input(here(), "more than 256 properties");
+    std::string_view rest = line;
+    const bool is_list = next_ply_word(rest) == "list";
+    if (is_list) line = rest;
+    std::optional<PlyType> count;
+    if (is_list) count = type_in(line);
+    const PlyType type = type_in(line);
+    elements_.back().properties.push_back({std::string(next_ply_word(line)), type, count});
+  }
+
+  void read_element(const MeshElement& element, PlyNumbers& numbers) {
+    if (element.properties.empty()) return;
+    // Each has a byte at least.
+    if (element.count > numbers.left())
+      refuse_input(name_, "truncated: the header promises " + std::to_string(element.count) +
+                              " of " + quoted_input(element.name));
+    for (std::uint64_t k = 0; k < element.count; ++k) {
+      if (element.name == "vertex") mesh_.vertices.emplace_back(Vec3d::Zero());
+      for (const MeshProperty& property : element.properties)
+        read_property(element, property, numbers);
+    }
+  }
+
+  void read_property(const MeshElement& element, const MeshProperty& property,
+                     PlyNumbers& numbers) {
+    if (!property.count) {
+      const double value = numbers.next(property.type);
+      const std::size_t axis = std::string_view("xyz").find(property.name);
+      if (element.name == "vertex" && property.name.size() == 1 && axis < 3)
+        mesh_.vertices.back()[static_cast<Eigen::Index>(axis)] = value;
+      return;
+    }
+    const double count = numbers.next(*property.count);
+    if (!(count >= 0 && count <= static_cast<double>(numbers.left())))
+      refuse_input(name_, "truncated: a list is longer than the file");
+    const bool is_face = element.name == "face" &&
+                         (property.name == "vertex_indices" || property.name == "vertex_index");
+    if (is_face) mesh_.polygons.push_back({mesh_.corners.size(), 0});
+    for (double k = 0; k < count; ++k) {
+      const double corner = numbers.next(property.type);
+      if (!is_face) continue;
+      if (!(corner >= 0 && corner < 4294967295.0 && corner == std::floor(corner)))
+        refuse_input(name_, "face " + std::to_string(mesh_.polygons.size()) +
+                                " names a vertex that is no number from 0");
+      mesh_.corners.push_back(static_cast<std::uint32_t>(corner));
+    }
+  }
+
+  void check() const {
+    if (mesh_.polygons.empty())
+      refuse_input(name_,
+                   "no faces: the PLY has points only. shape = { points = { file = ... } } "
+                   "makes a body of them");
+    for (const Vec3d& x : mesh_.vertices)
+      if (!x.allFinite()) refuse_input(name_, "a coordinate is not a finite number");
+    for (std::size_t p = 0; p < mesh_.polygons.size(); ++p) {
+      const std::size_t first = mesh_.polygons[p].first, end = mesh_.corner_end(p);
+      const std::string face = "face " + std::to_string(p + 1);
+      if (end - first < 3)
+        refuse_input(name_,
+                     face + " has " + std::to_string(end - first) + " corners; expected 3 or more");
+      for (std::size_t c = first; c < end; ++c)
+        if (mesh_.corners[c] >= mesh_.vertices.size())
+          refuse_input(name_, face + " names vertex " + std::to_string(mesh_.corners[c]) +
+                                  "; the file has " + std::to_string(mesh_.vertices.size()) +
+                                  ", counted from 0");
+    }
+  }
+
+  TableLines lines_;
+  const std::string& name_;
+  PlyNumbers::Form form_ = PlyNumbers::Form::none;
+  std::vector<MeshElement> elements_;
+  PolygonMesh mesh_;
+};
+
+}  // namespace
+
+PolygonMesh parse_ply_mesh(std::string_view bytes, const std::string& name) {
+  return MeshPly(bytes, name).read();
+}
+
+}  // namespace neve::sim::files

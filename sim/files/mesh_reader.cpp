@@ -1,0 +1,133 @@
+#include "sim/files/mesh_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "sim/files/ply_types.h"
+#include "sim/files/point_table.h"
+
+namespace neve::sim::files {
+namespace {
+
+constexpr std::size_t stl_header = 84, stl_triangle = 50;
+
+/// A binary STL says its length; many begin with "solid" all the same.
+bool is_binary_stl(std::string_view bytes) {
+  if (bytes.size() < stl_header) return false;
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, sizeof count);
+  return bytes.size() == stl_header + stl_triangle * std::size_t{count};
+}
+
+bool is_ascii_stl(std::string_view bytes) {
+  const std::string_view start = trimmed(bytes.substr(0, 4096));
+  return start.starts_with("solid") && start.find("facet") != std::string_view::npos;
+}
+
+/// Formats of other programs: no text of theirs is an OBJ.
+void refuse_other_formats(const std::string& name) {
+  static constexpr std::array others{".fbx",  ".glb",  ".gltf", ".dae",   ".abc", ".usd", ".usda",
+                                     ".usdc", ".usdz", ".3ds",  ".blend", ".3mf", ".step"};
+  std::string end = name.substr(std::min(name.rfind('.'), name.size()));
+  for (char& c : end)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  for (const char* other : others)
+    if (end == other)
+      refuse_input(name, "neve reads meshes as OBJ, PLY and STL; in Blender, File > Import reads " +
+                             end.substr(1) + " and File > Export > Wavefront writes OBJ");
+}
+
+class AsciiStl {
+ public:
+  AsciiStl(std::string_view text, const std::string& name) : lines_(text), name_(name) {}
+
+  PolygonMesh read() {
+    while (!lines_.at_end()) read_line(lines_.next());
+    if (corners_ != 0) fail("the file ends inside a triangle");
+    return std::move(mesh_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    refuse_input(name_ + ":" + std::to_string(lines_.number()), what);
+  }
+
+  void read_line(std::string_view line) {
+    const std::string_view keyword = next_ply_word(line);
+    if (keyword == "endfacet" && corners_ != 3)
+      fail("a triangle of " + std::to_string(corners_) + " corners");
+    if (keyword == "endfacet") corners_ = 0;
+    if (keyword != "vertex") return;
+    if (corners_ == 0) mesh_.polygons.push_back({mesh_.corners.size(), lines_.number()});
+    if (++corners_ > 3) fail("a triangle of more than 3 corners");
+    Vec3d x;
+    for (double& value : x) {
+      const std::string_view word = next_ply_word(line);
+      const std::optional<double> number = number_in(word);
+      if (!number || !std::isfinite(*number))
+        fail("the coordinate " + quoted_input(word) + " is not a finite number");
+      value = *number;
+    }
+    mesh_.corners.push_back(static_cast<std::uint32_t>(mesh_.vertices.size()));
+    mesh_.vertices.push_back(x);
+  }
+
+  TableLines lines_;
+  const std::string& name_;
+  PolygonMesh mesh_;
+  int corners_ = 0;  ///< of the triangle so far
+};
+
+PolygonMesh parse_binary_stl(std::string_view bytes, const std::string& name) {
+  PolygonMesh mesh;
+  const std::size_t count = (bytes.size() - stl_header) / stl_triangle;
+  for (std::size_t t = 0; t < count; ++t) {
+    std::array<float, 9> numbers;
+    // Behind the normal.
+    std::memcpy(numbers.data(), bytes.data() + stl_header + stl_triangle * t + 12, sizeof numbers);
+    mesh.polygons.push_back({mesh.corners.size(), 0});
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3d x(static_cast<double>(numbers[3 * c]), static_cast<double>(numbers[3 * c + 1]),
+                    static_cast<double>(numbers[3 * c + 2]));
+      if (!x.allFinite())
+        refuse_input(
+            name, "a coordinate of triangle " + std::to_string(t + 1) + " is not a finite number");
+      mesh.corners.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back(x);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+PolygonMesh parse_stl(std::string_view bytes, const std::string& name) {
+  const bool is_binary = is_binary_stl(bytes);
+  if (!is_binary && !is_ascii_stl(bytes))
+    refuse_input(name,
+                 "neither an ascii STL, which begins with \"solid\", nor a binary one, of 84 "
+                 "bytes and 50 for each triangle");
+  PolygonMesh mesh = is_binary ? parse_binary_stl(bytes, name) : AsciiStl(bytes, name).read();
+  if (mesh.polygons.empty()) refuse_input(name, "no triangles");
+  return mesh;
+}
+
+PolygonMesh parse_mesh(std::string_view bytes, const std::string& name) {
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n"))
+    return parse_ply_mesh(bytes, name);
+  if (name.ends_with(".ply"))
+    refuse_input(name, "it does not begin with a line \"ply\"; expected a PLY file");
+  if (is_binary_stl(bytes) || is_ascii_stl(bytes) || name.ends_with(".stl"))
+    return parse_stl(bytes, name);
+  refuse_other_formats(name);
+  return parse_obj(bytes, name);
+}
+
+PolygonMesh read_mesh(const std::string& path) {
+  return parse_mesh(read_input_file(path, 256, "meshes"), path);
+}
+
+}  // namespace neve::sim::files
