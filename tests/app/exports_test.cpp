@@ -15,7 +15,7 @@ using app::scene::ExportFormat;
 
 app::scene::Scene scene_with(const std::string& exports) {
   return app::scene::read_scene_text(
-      "[[body]]\nname = \"ball\"\nshape = { sphere = {} }\n" + exports, "scene");
+      "[[body]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\n" + exports, "scene");
 }
 
 std::string error_of_export(const std::string& exports) {
@@ -118,8 +118,8 @@ TEST(Exports, MistakesInASceneAreLocated) {
   const std::string twice = error_of_export("[[export]]\n[[export]]\n");
   EXPECT_NE(twice.find("exports/ply"), std::string::npos) << twice;
   const std::string emitters =
-      "[[emitter]]\nname = \"a\"\nshape = { sphere = {} }\nrate = 1\nvelocity = [0, -1, 0]\n"
-      "[[emitter]]\nname = \"b\"\nshape = { sphere = {} }\nrate = 1\nvelocity = [0, -1, 0]\n";
+      "[[emitter]]\nname = \"a\"\nshape = { sphere = { radius = 0.1 } }\nrate = 1\nvelocity = [0, -1, 0]\n"
+      "[[emitter]]\nname = \"b\"\nshape = { sphere = { radius = 0.1 } }\nrate = 1\nvelocity = [0, -1, 0]\n";
   EXPECT_EQ(error_of_export(emitters + "[[export]]\n"), "");
   const std::string age = error_of_export(emitters + "[[export]]\nattributes = [\"age\"]\n");
   EXPECT_NE(age.find("which of several emitters"), std::string::npos) << age;
@@ -127,7 +127,7 @@ TEST(Exports, MistakesInASceneAreLocated) {
 
 TEST(Exports, AgeOfEmittedSnowIsTheTimeSinceItsBirth) {
   const app::scene::Scene scene = scene_with(
-      "[[emitter]]\nname = \"hose\"\nshape = { sphere = {} }\nrate = 2\nstart = 0.5\n"
+      "[[emitter]]\nname = \"hose\"\nshape = { sphere = { radius = 0.1 } }\nrate = 2\nstart = 0.5\n"
       "velocity = [0, -1, 0]\n");
   const app::exports::Origins origins(scene, {10});
   EXPECT_EQ(origins.body_of(9), 0);
