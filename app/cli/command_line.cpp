@@ -8,6 +8,7 @@
 
 #include "app/cli/command_line_parts.h"
 #include "app/cli/commands.h"
+#include "app/cli/manual.h"
 #include "app/cli/usage_hints.h"
 #include "app/run/picture_record.h"
 #include "app/scene/toml/error.h"
@@ -332,6 +333,22 @@ void add_verify(CLI::App& app, Action& action) {
   command->final_callback([=, &action] { action = [=] { return run_verify(*folder, *is_json); }; });
 }
 
+/// Written for `cmake --install`, and for anyone who copies the program by hand.
+void add_manual(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "manual", "Write man pages, and completions for bash, zsh and fish, into a folder");
+  const auto folder = std::make_shared<std::string>();
+  command->add_option("DIR", *folder, "The folder; it gets man1, bash, zsh and fish")
+      ->required()
+      ->type_name("");
+  command->final_callback([&app, &action, folder] {
+    action = [&app, folder] {
+      write_manual(app, *folder);
+      return static_cast<int>(exit_ok);
+    };
+  });
+}
+
 int print_version() {
   std::cout << "neve " << version << "\n";
   return exit_ok;
@@ -358,6 +375,7 @@ int run_command_line(int argc, char** argv) {
   add_sweep(app, action);
   add_view(app, action);
   add_bench(app, action);
+  add_manual(app, action);
   CLI::App* version_command = app.add_subcommand("version", "Print the version");
   version_command->final_callback([&] { action = print_version; });
   app.add_subcommand("help", "Print this help, or the help of a subcommand");

@@ -1,0 +1,35 @@
+# cmake --install puts neve into a prefix that may be moved: the program finds its scenes from where
+# it is. Man pages and completions come from the program itself, when it is installed.
+include(GNUInstallDirs)
+# The program alone: tests need not be built first.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+set(neve_data ${CMAKE_INSTALL_DATADIR}/neve)
+install(TARGETS neve RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY scenes shaders DESTINATION ${neve_data})
+install(FILES python/neve.py DESTINATION ${neve_data}/python)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
+set(manual ${PROJECT_BINARY_DIR}/manual)
+install(CODE "execute_process(COMMAND \"$<TARGET_FILE:neve>\" manual \"${manual}\"
+  COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${manual}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(FILES ${manual}/bash/neve
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${manual}/zsh/_neve DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES ${manual}/fish/neve.fish
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+
+# cpack -G DEB, in the build folder. What is loaded at run time has to be named.
+set(CPACK_PACKAGE_NAME neve)
+set(CPACK_PACKAGE_CONTACT "The authors of neve <neve@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libegl-mesa0 | libosmesa6, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, libosmesa6, python3-numpy")
+include(CPack)

@@ -1,0 +1,76 @@
+/// neve where cmake --install puts it: anywhere, with man pages and completions.
+
+#include <regex>
+
+#include "tests/cli/run_neve.h"
+#include "tests/support/needs.h"
+
+namespace neve::test {
+namespace {
+
+class Install : public Cli {};
+
+TEST_F(Install, InstalledProgramFindsItsFilesWhereverItIsMoved) {
+  const auto cmake = app::output::find_program("cmake");
+  if (!cmake) SKIP_OR_FAIL("no cmake in PATH; install cmake");
+  const std::filesystem::path build = std::filesystem::path(NEVE_BINARY).parent_path();
+  const auto installed = app::output::run_process(
+      *cmake, {"--install", build.string(), "--prefix", (folder / "first").string()},
+      folder.path());
+  ASSERT_EQ(installed.exit_code, 0) << installed.errors;
+  std::filesystem::rename(folder / "first", folder / "moved");
+  for (const char* file :
+       {"bin/neve", "share/neve/scenes/snowball_drop.toml", "share/neve/python/neve.py",
+        "share/doc/neve/README.md", "share/doc/neve/docs/scenes.md", "share/doc/neve/copyright",
+        "share/man/man1/neve-render.1", "share/man/man1/neve.1", "share/man/man1/neve-bench-sim.1",
+        "share/bash-completion/completions/neve", "share/zsh/vendor-completions/_neve",
+        "share/fish/vendor_completions.d/neve.fish"})
+    EXPECT_TRUE(exists(std::string("moved/") + file)) << file;
+  const auto check = app::output::run_process(folder / "moved/bin/neve",
+                                              {"check", "--coarsen", "3"}, folder.path());
+  EXPECT_EQ(check.exit_code, 0) << check.errors;
+  EXPECT_TRUE(contains(check.output, (folder / "moved").string())) << check.output;
+}
+
+TEST_F(Install, ManPagesHaveEveryFlagOfTheHelp) {
+  ASSERT_EQ(neve({"manual", "m"}).exit_code, 0);
+  for (const char* command : {"render", "check", "export", "dump", "sweep", "view", "compare"}) {
+    const auto help = neve({command, "--help"});
+    std::string page = read_text(folder / ("m/man1/neve-" + std::string(command) + ".1"));
+    page = std::regex_replace(page, std::regex("\\\\-"), "-");
+    const std::string bash = read_text(folder / "m/bash/neve"),
+                      fish = read_text(folder / "m/fish/neve.fish");
+    const std::regex flag("\n  (?:-[a-z],)?(--[a-z-]+)");
+    int flags = 0;
+    for (std::sregex_iterator at(help.output.begin(), help.output.end(), flag), end; at != end;
+         ++at) {
+      const std::string name = (*at)[1];
+      ++flags;
+      EXPECT_TRUE(contains(page, "\\fB" + name + "\\fR")) << command << " " << name;
+      EXPECT_TRUE(contains(bash, name)) << command << " " << name;
+      EXPECT_TRUE(contains(fish, " -l " + name.substr(2) + " ")) << command << " " << name;
+    }
+    EXPECT_GT(flags, 1) << command;
+  }
+}
+
+TEST_F(Install, BashCompletesCommandsFlagsAndFiles) {
+  ASSERT_EQ(neve({"manual", "m"}).exit_code, 0);
+  const auto completed = [&](const std::string& words, int index) {
+    return app::output::run_process("/bin/bash",
+                                    {"-c", "source m/bash/neve; COMP_WORDS=(" + words +
+                                               "); COMP_CWORD=" + std::to_string(index) +
+                                               "; _neve; echo ${COMPREPLY[@]}"},
+                                    folder.path())
+        .output;
+  };
+  EXPECT_EQ(completed("neve ren", 1), "render\n");
+  EXPECT_EQ(completed("neve export --att", 2), "--attributes\n");
+  EXPECT_EQ(completed("neve check sce", 2), "scene.toml\n");
+  EXPECT_EQ(neve({"manual"}).exit_code, 2);
+  folder.write("file", "");
+  EXPECT_EQ(neve({"manual", "file"}).exit_code, 6);
+}
+
+}  // namespace
+}  // namespace neve::test
