@@ -92,6 +92,27 @@ TEST_F(Strangers, CheckpointsOfAnotherMomentAreRefused) {
   EXPECT_EQ(resumed(good), 0);
 }
 
+TEST_F(Strangers, ManifestsWithImpossibleNumbersAreRefused) {
+  ASSERT_EQ(neve({"sweep", "scene.toml", "-p", "seed=1,2", "--frames", "0-1", "--out", "s",
+                  "--emit", "commands"})
+                .exit_code,
+            0);
+  const app::Json good = json_of("s/manifest.json");
+  const auto code = [&](const char* place, const app::Json& value) {
+    app::Json forged = good;
+    forged[app::Json::json_pointer(place)] = value;
+    folder.write("s/manifest.json", app::to_text(forged));
+    const int collected = neve({"sweep", "collect", "s"}).exit_code;
+    return collected == neve({"verify", "s"}).exit_code ? collected : -1;
+  };
+  for (const char* place : {"/tile/0", "/tile/1", "/fps", "/runs/1/run", "/runs/0/last_frame",
+                            "/runs/1/coordinates/0", "/columns"})
+    for (const app::Json& value : {app::Json(-7), app::Json(2'000'000'000), app::Json("x")})
+      EXPECT_EQ(code(place, value), 3) << place << " " << value;
+  EXPECT_EQ(code("/runs", app::Json::array()), 3);
+  EXPECT_EQ(code("/title", "the same"), -1) << "unfinished, but read: collect is 0, verify is 9";
+}
+
 TEST_F(Strangers, AxesWithTooManyValuesAreRefusedBeforeTheyAreThere) {
   std::string text = "[sweep]\nscene = \"scene.toml\"\n[axis]\n";
   for (int k = 0; k < 400; ++k)

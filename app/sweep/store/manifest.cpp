@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
@@ -160,6 +161,35 @@ std::optional<Manifest> earlier_manifest(const std::filesystem::path& folder) {
   }
 }
 
+/// Whatever is used as an index or a size later; the file may be from anyone.
+void check_numbers(const Manifest& m) {
+  constexpr int largest_tile = 1 << 16;
+  const auto check = [](bool is_right, const char* what) {
+    if (!is_right) throw std::runtime_error(what);
+  };
+  const auto is_side = [](int size) { return size > 0 && size <= largest_tile; };
+  const auto is_axis = [&](int axis) {
+    return axis >= -1 && axis < static_cast<int>(m.axes.size());
+  };
+  check(is_side(m.tile_width) && is_side(m.tile_height), "the size of its tiles is impossible");
+  check(m.fps > 0 && m.fps < 1e9, "its frames per second are impossible");
+  check(is_axis(m.columns) && is_axis(m.rows) && m.wrap >= 0, "its columns or rows are no axis");
+  check(!m.runs.empty(), "it has no runs");
+  for (std::size_t k = 0; k < m.runs.size(); ++k) {
+    const Run& run = m.runs[k];
+    check(run.index == static_cast<int>(k), "its runs are not numbered in order");
+    check(run.frames.first >= 0 && run.frames.first <= run.frames.last &&
+              run.frames.last <= output::max_frame,
+          "the frames of a run are impossible");
+    if (m.axes.empty() || run.coordinates.empty()) continue;
+    check(run.coordinates.size() == m.axes.size(), "a run has no place on each axis");
+    for (std::size_t a = 0; a < m.axes.size(); ++a)
+      check(
+          run.coordinates[a] >= 0 && run.coordinates[a] < static_cast<int>(m.axes[a].values.size()),
+          "a run is beyond the end of an axis");
+  }
+}
+
 }  // namespace
 
 std::string run_text(const Run& run) {
@@ -284,6 +314,7 @@ Manifest read_manifest(const std::filesystem::path& folder) {
                         axis.value("addresses", std::vector<std::string>{})});
     if (json.contains("varied")) m.varied = json.at("varied").get<std::vector<std::string>>();
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
+    check_numbers(m);
     return m;
   } catch (const std::exception& error) {
     throw Error(exit_invalid_scene,
