@@ -118,8 +118,10 @@ TEST(Exports, MistakesInASceneAreLocated) {
   const std::string twice = error_of_export("[[export]]\n[[export]]\n");
   EXPECT_NE(twice.find("exports/ply"), std::string::npos) << twice;
   const std::string emitters =
-      "[[emitter]]\nname = \"a\"\nshape = { sphere = { radius = 0.1 } }\nrate = 1\nvelocity = [0, -1, 0]\n"
-      "[[emitter]]\nname = \"b\"\nshape = { sphere = { radius = 0.1 } }\nrate = 1\nvelocity = [0, -1, 0]\n";
+      "[[emitter]]\nname = \"a\"\nshape = { sphere = { radius = 0.1 } }\nrate = 1\nvelocity = [0, "
+      "-1, 0]\n"
+      "[[emitter]]\nname = \"b\"\nshape = { sphere = { radius = 0.1 } }\nrate = 1\nvelocity = [0, "
+      "-1, 0]\n";
   EXPECT_EQ(error_of_export(emitters + "[[export]]\n"), "");
   const std::string age = error_of_export(emitters + "[[export]]\nattributes = [\"age\"]\n");
   EXPECT_NE(age.find("which of several emitters"), std::string::npos) << age;
