@@ -234,9 +234,10 @@ void describe(V& visit, sim::shapes::Mesh& m, Change change) {
 
 template <class V>
 void describe(V& visit, sim::shapes::Points& p, Change change) {
-  visit("file", p.file, unit::none, file_path, change,
-        "Particles, PLY or CSV, with columns x y z and optionally vx vy vz, mass, V0 or volume, "
-        "J_P, F_E, C, stiffness and threshold; path relative to the scene file.");
+  visit(
+      "file", p.file, unit::none, file_path, change,
+      "Particles, PLY or CSV: x y z and, if wanted, vx vy vz, mass, V0, J_P, F_E, C; path relative "
+      "to the scene file.");
   visit("spacing", p.spacing, unit::metre, at_least(1e-9).at_most_or_0(1e6), change,
         "Distance between neighbours in a file without volumes; each particle has spacing^3.");
   visit("thinning", p.thinning, unit::none, between(1, 1e9), change,
