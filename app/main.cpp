@@ -28,6 +28,6 @@ int main(int argc, char** argv) {
     cli::finish_output();
     return code;
   } catch (...) {
-    return cli::report_current_error(cli::wants_json(argc, argv));
+    return cli::report_current_error(cli::error_output(argc, argv));
   }
 }

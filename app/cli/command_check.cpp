@@ -47,7 +47,7 @@ const health::FrameForecast& busiest(const health::Checkup& checkup) {
 
 Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job) {
   Json json = setup::to_json(checkup.plan);
-  json["cells"] = checkup.cells;
+  json["cells"] = count_json(std::round(checkup.cells));
   json["cell_size"] = job.scene.solver.cell_size;
   json["coarsen"] = job.coarsening;
   json["impact_speed"] = checkup.impact_speed;
@@ -63,9 +63,9 @@ Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job) {
   for (const health::FrameForecast& frame : checkup.forecast)
     json["frames"].push_back({{"frame", frame.frame},
                               {"dt", frame.dt},
-                              {"steps", frame.steps},
+                              {"steps", count_json(frame.steps)},
                               {"limit", sim::name(frame.limit)}});
-  json["steps"] = checkup.steps();
+  json["steps"] = count_json(checkup.steps());
   const double frames = std::max<double>(1, static_cast<double>(checkup.forecast.size()));
   json["steps_per_frame"] = checkup.steps() / frames;
   json["seconds_per_frame"] = checkup.seconds() / frames;

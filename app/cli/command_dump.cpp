@@ -188,7 +188,8 @@ int run_dump(const dump::DumpOptions& options) {
   setup::check_limits(job.scene, plan, job.coarsening);
   check_dump_output(options);
   catch_interrupts();
-  Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO));
+  Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),
+                    options.run.progress);
   sim::Simulation simulation = setup::make_simulation(
       job.scene, setup::seed_scene(job.scene).particles, options.run.threads);
   if (const double end = job.scene.frames / job.scene.fps; options.at.back() > end * (1 + 1e-12))

@@ -14,6 +14,7 @@
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
 #include "app/support/errors.h"
+#include "app/support/json.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "render/gl/context.h"
@@ -48,6 +49,26 @@ std::string with_toml_suffix(const std::string& file) {
   return is_short && std::filesystem::is_regular_file(longer, error) ? longer : file;
 }
 
+void add_progress(CLI::App& command, std::optional<std::string>& progress,
+                  ProgressOptions& options) {
+  command
+      .add_option(
+          "--progress", progress,
+          "text: lines for people (default); json: one JSON object a line on standard error")
+      ->type_name("NAME");
+  command
+      .add_option("--log", options.log,
+                  "Append all messages to a file, with times, details and every frame")
+      ->type_name("FILE");
+}
+
+bool parse_progress(const std::string& text) {
+  if (text != "text" && text != "json")
+    throw scene::toml::UsageError("--progress", "cannot use \"" + text + "\"",
+                                  "expected text or json");
+  return text == "json";
+}
+
 run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts) {
   if (texts.frames) options.frames = setup::parse_frames(*texts.frames);
   if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);
@@ -58,6 +79,7 @@ run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts
                                   "expected a folder with the files of shaders/");
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
+  if (texts.progress) options.progress.is_json = parse_progress(*texts.progress);
   options.scene = with_toml_suffix(options.scene);
   check_threads(options.threads);
   if (options.checkpoint_every < 0 || options.checkpoint_every > 1000000)
@@ -176,11 +198,15 @@ void add_render(CLI::App& app, Action& action) {
   // Its name alone; "!--no-movie" would be listed as --no-movie{false}.
   command->add_flag_callback(
       "--no-movie", [options] { options->has_movies = false; }, "Write pictures only, no movie");
+  command->add_flag_callback(
+      "--no-caption", [options] { options->has_caption = false; },
+      "Leave the words over the pictures out: for films; the layers counter and slate stay");
   command->add_option("--shader-dir", options->shader_dir, "Read shaders from this folder")
       ->type_name("DIR");
   command->add_flag("--dry-run", options->dry_run,
                     "Print particles, memory, pixels and frames, without a run");
   command->add_flag("--json", options->is_json, "Print the result, or the error, as JSON");
+  add_progress(*command, texts->progress, options->progress);
   CLI::Option* quiet =
       command->add_flag("--quiet,-q", texts->is_quiet, "Print only errors and warnings");
   command->add_flag("--verbose,-v", texts->is_verbose, "Print more about each frame")
@@ -299,10 +325,10 @@ void add_params(CLI::App& app, Action& action) {
                    "List only parameters with this in their address or description, or that it "
                    "means in everyday words, as in camera, \"time step\", sticky")
       ->type_name("");
-  command->add_flag("--looks", options->is_looks,
-                    "Print the table from looks (stickier, heavier, ...) to parameters");
+  command->add_flag("--wishes", options->is_wishes,
+                    "Print the table from wishes (stickier, heavier, ...) to parameters");
   command->add_flag("--markdown", options->is_markdown,
-                    "With --looks, print it as in docs/looks.md");
+                    "With --wishes, print it as in docs/wishes.md");
   command->add_flag("--sweep", options->is_sweep,
                     "List the parameters of sweep files instead of scenes");
   command->add_flag("--json", options->is_json, "Print JSON");
@@ -349,8 +375,11 @@ void add_manual(CLI::App& app, Action& action) {
   });
 }
 
-int print_version() {
-  std::cout << "neve " << version << "\n";
+int print_version(bool is_json) {
+  if (is_json)
+    std::cout << to_text({{"name", "neve"}, {"version", version}}) << "\n";
+  else
+    std::cout << "neve " << version << "\n";
   return exit_ok;
 }
 
@@ -376,8 +405,7 @@ int run_command_line(int argc, char** argv) {
   add_view(app, action);
   add_bench(app, action);
   add_manual(app, action);
-  CLI::App* version_command = app.add_subcommand("version", "Print the version");
-  version_command->final_callback([&] { action = print_version; });
+  add_report(app, action, "version", "Print the version", print_version);
   app.add_subcommand("help", "Print this help, or the help of a subcommand");
   app.set_version_flag("--version", std::string("neve ") + version);
   app.footer(footer);
@@ -409,9 +437,17 @@ int run_command_line(int argc, char** argv) {
   return action();
 }
 
-bool wants_json(int argc, char** argv) {
-  return std::any_of(argv, argv + argc,
-                     [](const char* word) { return std::string_view(word) == "--json"; });
+ErrorOutput error_output(int argc, char** argv) {
+  ErrorOutput output;
+  for (int k = 1; k < argc; ++k) {
+    const std::string_view word = argv[k], next = k + 1 < argc ? argv[k + 1] : "";
+    output.is_json = output.is_json || word == "--json";
+    output.is_progress_json = output.is_progress_json || word == "--progress=json" ||
+                              (word == "--progress" && next == "json");
+    if (word == "--log") output.log = next;
+    if (word.starts_with("--log=")) output.log = word.substr(6);
+  }
+  return output;
 }
 
 }  // namespace neve::app::cli

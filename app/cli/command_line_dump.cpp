@@ -65,6 +65,7 @@ void add_dump(CLI::App& app, Action& action) {
           "on")
       ->type_name("FILE");
   command->add_flag("--json", run->is_json, "Print summary and probes as JSON");
+  add_progress(*command, run_texts->progress, run->progress);
   command->add_flag("--quiet,-q", run_texts->is_quiet, "Print only errors and warnings");
   command->final_callback([=, &action] {
     action = [=] { return run_dump(finished_dump(*options, *run, *run_texts, *texts)); };

@@ -29,9 +29,15 @@ std::string with_toml_suffix(const std::string& file);
 
 /// Values that CLI11 hands over as text; turned into options when parsing is done.
 struct RenderTexts {
-  std::optional<std::string> frames, size, quality, coarsening;
+  std::optional<std::string> frames, size, quality, coarsening, progress;
   bool is_quiet = false, is_verbose = false;
 };
+
+/// Adds --progress and --log.
+void add_progress(CLI::App& command, std::optional<std::string>& progress,
+                  ProgressOptions& options);
+/// @throws UsageError
+bool parse_progress(const std::string& text);
 
 /// @throws UsageError
 run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts);

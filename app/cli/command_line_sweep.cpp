@@ -15,7 +15,7 @@ namespace {
 
 /// Values that CLI11 hands over as text.
 struct SweepTexts {
-  std::optional<std::string> frames, size, coarsening, shard;
+  std::optional<std::string> frames, size, coarsening, shard, progress;
   bool is_quiet = false, is_verbose = false;
 };
 
@@ -31,6 +31,7 @@ sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
   if (!options.retry_failed.empty()) sweep::store::parse_retry(options.retry_failed);
+  if (texts.progress) options.progress.is_json = parse_progress(*texts.progress);
   if (texts.shard) options.shard = sweep::plan::parse_shard(*texts.shard);
   if (options.engine != "local" && options.engine != "slurm")
     throw scene::toml::UsageError(
@@ -104,10 +105,14 @@ void add_folder(CLI::App& command, Action& action, const std::shared_ptr<Options
       ->type_name("N");
   command.add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
       ->type_name("NAME");
+  const auto progress = std::make_shared<std::optional<std::string>>();
+  command.add_flag("--json", options->is_json, "Print the result, or the error, as JSON");
+  add_progress(command, *progress, options->progress);
   command.add_flag("--quiet,-q", *is_quiet, "Print only errors and warnings");
   command.final_callback([=, &action] {
     check_threads(options->threads);
     check_backend(options->backend);
+    if (*progress) options->progress.is_json = parse_progress(**progress);
     action = [=] {
       if (*is_quiet) options->verbosity = Verbosity::quiet;
       return run(*options);
@@ -155,6 +160,7 @@ void add_sweep(CLI::App& app, Action& action) {
   command->add_flag("--dry-run", options->is_dry_run,
                     "Print the runs, their cost and memory; start nothing");
   command->add_flag("--json", options->is_json, "Print the result, or the error, as JSON");
+  add_progress(*command, texts->progress, options->progress);
   CLI::Option* quiet =
       command->add_flag("--quiet,-q", texts->is_quiet, "Print only errors and warnings");
   command->add_flag("--verbose,-v", texts->is_verbose, "Print a line for each run")

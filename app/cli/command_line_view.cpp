@@ -96,6 +96,7 @@ void add_view(CLI::App& app, Action& action) {
       ->type_name("N");
   command->add_option("--shader-dir", run->shader_dir, "Read shaders from this folder")
       ->type_name("DIR");
+  command->add_flag("--json", run->is_json, "Print the address, or the error, as JSON");
   command->add_flag("--quiet,-q", run_texts->is_quiet,
                     "Print only errors, warnings and the address");
   command->final_callback([=, &action] {

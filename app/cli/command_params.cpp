@@ -2,10 +2,10 @@
 #include <iostream>
 
 #include "app/cli/commands.h"
-#include "app/scene/looks.h"
 #include "app/scene/params.h"
 #include "app/scene/search.h"
 #include "app/scene/toml/error.h"
+#include "app/scene/wishes.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/sweep/read/read_sweep.h"
@@ -22,8 +22,8 @@ std::string nearest_filter(const std::string& filter, const std::vector<scene::P
     names.push_back(info.address.substr(info.address.rfind('.') + 1));
     names.push_back(info.address.substr(0, info.address.find('.')));
   }
-  for (const scene::Look& look : scene::looks())
-    for (const std::string& word : scene::words_in(std::string(look.wish) + " " + look.words))
+  for (const scene::Wish& wish : scene::wishes())
+    for (const std::string& word : scene::words_in(std::string(wish.name) + " " + wish.words))
       names.push_back(word);
   for (const scene::EverydayName& name : scene::everyday_names())
     for (const std::string& word : scene::words_in(name.words)) names.push_back(word);
@@ -36,25 +36,25 @@ std::string nearest_filter(const std::string& filter, const std::vector<scene::P
                                 nearest.empty() ? otherwise : "did you mean " + nearest + "?");
 }
 
-void print_looks(const ParamsOptions& options) {
-  std::vector<const scene::Look*> looks = scene::looks_for(options.filter);
+void print_wishes(const ParamsOptions& options) {
+  std::vector<const scene::Wish*> wishes = scene::wishes_for(options.filter);
   if (options.filter.empty())
-    for (const scene::Look& look : scene::looks()) looks.push_back(&look);
-  if (looks.empty()) {
-    std::vector<std::string> wishes;
-    for (const scene::Look& look : scene::looks()) wishes.emplace_back(look.wish);
-    fail_unfound("no look is called", options.filter, "", "expected " + joined(wishes, ", "));
+    for (const scene::Wish& wish : scene::wishes()) wishes.push_back(&wish);
+  if (wishes.empty()) {
+    std::vector<std::string> names;
+    for (const scene::Wish& wish : scene::wishes()) names.emplace_back(wish.name);
+    fail_unfound("no wish is called", options.filter, "", "expected " + joined(names, ", "));
   }
-  std::cout << (options.is_json       ? scene::looks_json(looks)
-                : options.is_markdown ? scene::looks_markdown(looks)
-                                      : scene::looks_table(looks));
+  std::cout << (options.is_json       ? scene::wishes_json(wishes)
+                : options.is_markdown ? scene::wishes_markdown(wishes)
+                                      : scene::wishes_table(wishes));
 }
 
 }  // namespace
 
 int run_params(const ParamsOptions& options) {
-  if (options.is_looks) {
-    print_looks(options);
+  if (options.is_wishes) {
+    print_wishes(options);
     return exit_ok;
   }
   std::vector<scene::ParamInfo> list =
@@ -70,9 +70,9 @@ int run_params(const ParamsOptions& options) {
   std::stable_partition(list.begin(), list.end(),
                         [&](const scene::ParamInfo& info) { return search.names(info.address); });
   std::cout << (options.is_json ? scene::params_json(list) : scene::params_table(list));
-  const std::vector<const scene::Look*> looks = scene::looks_for(options.filter);
-  if (!options.is_json && !options.is_sweep && !looks.empty())
-    std::cout << "\n" << scene::looks_table(looks);
+  const std::vector<const scene::Wish*> wishes = scene::wishes_for(options.filter);
+  if (!options.is_json && !options.is_sweep && !wishes.empty())
+    std::cout << "\n" << scene::wishes_table(wishes);
   return exit_ok;
 }
 

@@ -120,10 +120,13 @@ int compare_with_reference(const run::RenderOptions& options, const run::RenderJ
 }
 
 void print_result(const run::RenderJob& job, const run::RenderRun& run,
-                  const run::RenderResult& result) {
+                  const run::RenderResult& result, int code) {
   Json json;
   json["status"] = run::name(result.status);
+  json["exit_code"] = code;
   json["out"] = job.folder.string();
+  json["run_json"] = output::run_json_path(job.folder).string();
+  json["warnings"] = run.record().warnings;
   json["frames"] = run.record().frames.size();
   json["movies"] = Json::array();
   for (const auto& movie : result.movies) json["movies"].push_back(movie.string());
@@ -164,16 +167,22 @@ void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t 
 int finish(const run::RenderOptions& options, const run::RenderJob& job, const run::RenderRun& run,
            const run::RenderResult& result, Progress& progress) {
   progress.clear();
-  if (result.status == run::RunStatus::diverged)
-    throw Error(exit_diverged, health::sentence(*run.record().divergence, *result.diagnosis),
+  if (result.status == run::RunStatus::diverged) {
+    Error error(exit_diverged, health::sentence(*run.record().divergence, *result.diagnosis),
                 job.scene_file, "incident.json and diverged_*.png are in " + job.folder.string());
-  if (options.is_json) print_result(job, run, result);
-  if (result.status == run::RunStatus::interrupted) {
-    std::cerr << "neve: interrupted; " << run.record().frames.size() << " frames are in "
-              << job.folder.string() << std::endl;
-    if (!result.has_checkpoint) return exit_interrupted;
-    std::cerr << "neve: --resume continues from here" << std::endl;
-    return exit_resumable;
+    error.warnings = run.record().warnings;
+    throw error;
+  }
+  const bool is_interrupted = result.status == run::RunStatus::interrupted;
+  const int code = !is_interrupted         ? exit_ok
+                   : result.has_checkpoint ? exit_resumable
+                                           : exit_interrupted;
+  if (options.is_json) print_result(job, run, result, code);
+  if (is_interrupted) {
+    progress.say(fmt::format("interrupted; {} frames are in {}", run.record().frames.size(),
+                             job.folder.string()));
+    if (result.has_checkpoint) progress.say("--resume continues from here");
+    return code;
   }
   const std::size_t frames = run.record().frames.size();
   progress.note(
@@ -196,7 +205,8 @@ int run_render(const run::RenderOptions& options) {
   if (!options.reference.empty()) reference = read_reference(options.reference);
 
   catch_interrupts();
-  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
+                    options.progress);
   const auto context = render::gl::open_context(options.backend);
   progress.note(
       fmt::format("OpenGL: {}, {}, {}", context->backend, context->renderer, context->version));

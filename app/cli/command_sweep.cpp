@@ -102,19 +102,26 @@ sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
               "the same command continues when this is mended; no run is lost");
 }
 
+int exit_code_of(const sweep::jobs::JobsResult& result) {
+  if (result.is_interrupted) return exit_resumable;
+  return result.failed > 0 ? exit_runs_failed : exit_ok;
+}
+
+void print_json_result(const std::filesystem::path& folder, const sweep::jobs::JobsResult& result) {
+  std::cout << to_text({{"out", folder.string()},
+                        {"exit_code", exit_code_of(result)},
+                        {"ok", result.ok},
+                        {"failed", result.failed},
+                        {"started", result.started},
+                        {"interrupted", result.is_interrupted},
+                        {"seconds", result.seconds}})
+            << "\n";
+}
+
 void print_sweep_result(const sweep::plan::SweepOptions& options,
                         const std::filesystem::path& folder, const sweep::jobs::JobsResult& result,
                         Progress& progress) {
-  if (options.is_json) {
-    Json json;
-    json["out"] = folder.string();
-    json["ok"] = result.ok;
-    json["failed"] = result.failed;
-    json["started"] = result.started;
-    json["interrupted"] = result.is_interrupted;
-    json["seconds"] = result.seconds;
-    std::cout << to_text(json) << "\n";
-  }
+  if (options.is_json) print_json_result(folder, result);
   progress.note(fmt::format("{} {} ok{}, in {}", result.ok, result.ok == 1 ? "run" : "runs",
                             result.failed > 0 ? fmt::format(", {} failed", result.failed) : "",
                             folder.string()));
@@ -173,7 +180,8 @@ void choose_runs(const sweep::plan::SweepOptions& options, sweep::plan::SweepPla
 int run_sweep(const sweep::plan::SweepOptions& options) {
   sweep::plan::SweepPlan plan = sweep::plan::plan_sweep(options);
   const int cores = core_count(options.threads);
-  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
+                    options.progress);
   for (const std::string& value : sweep::read::repeated_values(plan.sweep))
     progress.warning(value + " is in its list twice: the run is made once and shown twice");
   warn_of_single_values(plan.sweep, progress);
@@ -201,20 +209,19 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   sweep::sheet::collect_sweep(plan.folder, options.backend, cores, progress);
   print_sweep_result(options, plan.folder, result, progress);
   if (result.elsewhere > 0)
-    std::cerr << fmt::format(
-                     "neve: not finished: {}{}; the same command completes the sweep later",
-                     result.elsewhere_text,
-                     result.elsewhere > 1 ? fmt::format(" and {} more", result.elsewhere - 1) : "")
-              << std::endl;
+    progress.say(fmt::format(
+        "not finished: {}{}; the same command completes the sweep later", result.elsewhere_text,
+        result.elsewhere > 1 ? fmt::format(" and {} more", result.elsewhere - 1) : ""));
   else if (result.is_interrupted || is_interrupted())
-    std::cerr << "neve: interrupted; the same command continues from here" << std::endl;
+    progress.say("interrupted; the same command continues from here");
   if (result.elsewhere > 0 || result.is_interrupted || is_interrupted()) return exit_resumable;
   return result.failed > 0 ? exit_runs_failed : exit_ok;
 }
 
 int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   catch_interrupts();
-  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
+                    options.progress);
   const sweep::store::Manifest manifest = sweep::store::read_manifest(options.folder);
   if (options.index < 0 || options.index >= static_cast<int>(manifest.runs.size()))
     throw scene::toml::UsageError(
@@ -230,17 +237,20 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
       sweep::jobs::run_local(options.folder, manifest, {options.index}, engine, progress);
   if (result.failure) fail_by_machine(*result.failure, options.folder);
   if (result.elsewhere > 0) throw IoError(result.elsewhere_text, options.folder, "wait for it");
-  if (result.is_interrupted) return exit_resumable;
-  return result.failed > 0 ? exit_runs_failed : exit_ok;
+  if (options.is_json) print_json_result(options.folder, result);
+  return exit_code_of(result);
 }
 
 int run_sweep_collect(const sweep::plan::CollectOptions& options) {
   catch_interrupts();
-  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
+                    options.progress);
   sweep::sheet::collect_sweep(options.folder, options.backend, core_count(options.threads),
                               progress);
   if (is_interrupted()) return exit_interrupted;
   progress.note("collected in " + options.folder);
+  if (options.is_json)
+    std::cout << to_text({{"out", options.folder}, {"exit_code", exit_ok}}) << "\n";
   return exit_ok;
 }
 

@@ -9,7 +9,9 @@
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
+#include "app/support/json.h"
 #include "app/support/machine.h"
+#include "app/support/out_folder.h"
 #include "app/view/frontend/window_frontend.h"
 #include "app/view/replay/recording_frontend.h"
 #include "app/view/replay/replay_frontend.h"
@@ -92,7 +94,15 @@ Place open_place(const view::ViewOptions& options) {
   }
 }
 
-void announce(const Place& place, bool is_quiet) {
+void announce(const Place& place, bool is_json, bool is_quiet) {
+  if (is_json) {
+    const char* mode = place.web ? "web" : place.window ? "window" : "replay";
+    Json json{{"mode", mode}};
+    if (place.web) json["url"] = place.front->where();
+    if (place.web) json["port"] = place.web->port();
+    std::cout << to_text(json) << std::endl;
+    return;
+  }
   if (!place.web) return;
   std::cout << place.front->where() << std::endl;
   if (is_quiet) return;
@@ -114,7 +124,7 @@ std::optional<view::session::Document> look_at(view::session::Document document,
   bench_options.overrides = overrides;
   bench_options.folder =
       options.run.out.empty()
-          ? std::filesystem::path("out") / (std::filesystem::path(file).stem().string() + "-view")
+          ? out_folder() / (std::filesystem::path(file).stem().string() + "-view")
           : std::filesystem::path(options.run.out);
   view::session::Workbench bench(std::move(document), std::move(bench_options),
                                  [&place] { place.front->wake(); });
@@ -146,7 +156,7 @@ int run_view(const view::ViewOptions& options) {
   std::optional<view::session::Document> document =
       view::session::open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
   Place place = open_place(options);
-  announce(place, options.run.verbosity == Verbosity::quiet);
+  announce(place, options.run.is_json, options.run.verbosity == Verbosity::quiet);
   std::unique_ptr<view::replay::RecordingFrontend> recording;
   if (!options.record.empty())
     recording = std::make_unique<view::replay::RecordingFrontend>(*place.front, options.record);

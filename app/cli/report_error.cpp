@@ -3,12 +3,16 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <iostream>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
+#include "app/support/progress.h"
 #include "app/support/text.h"
 #include "render/gl/context.h"
 #include "render/renderer.h"
@@ -23,6 +27,9 @@ struct Report {
   int code = exit_internal;
   std::string line;  ///< as printed
   std::string message, where, hint;
+  std::string file{};                   ///< with the place of the mistake; empty: not in a file
+  int row = 0, column = 0;              ///< from 1; 0: not known
+  std::vector<std::string> warnings{};  ///< before the error
 };
 
 Report plain_report(int code, const std::string& message, const std::string& where = {},
@@ -32,9 +39,12 @@ Report plain_report(int code, const std::string& message, const std::string& whe
 
 Report of_error(const Error& error) {
   Report report = plain_report(error.code, error.what(), error.where, error.hint);
+  report.warnings = error.warnings;
   // Errors in files start with the file already.
-  if (!error.where.empty() && report.message.starts_with(error.where + ": error: "))
-    report.line = report.message;
+  const std::string start = error.where + ": error: ";
+  if (error.where.empty() || !report.message.starts_with(start)) return report;
+  report.line = report.message;
+  report.message.erase(0, start.size());
   return report;
 }
 
@@ -44,7 +54,8 @@ Report describe_current_error() {
   } catch (const scene::toml::SceneError& error) {
     const std::string place =
         error.line > 0 ? ":" + std::to_string(error.line) + ":" + std::to_string(error.column) : "";
-    return {exit_invalid_scene, error.what(), error.message, error.file + place, error.hint};
+    return {exit_invalid_scene, error.what(), error.message, error.file + place,
+            error.hint,         error.file,   error.line,    error.column};
   } catch (const scene::toml::UsageError& error) {
     const std::string hint = error.hint.empty() ? "" : "; " + error.hint;
     const std::string where = error.where.empty() ? "" : error.where + ": ";
@@ -73,16 +84,27 @@ Report describe_current_error() {
 
 }  // namespace
 
-int report_current_error(bool is_json) {
+int report_current_error(const ErrorOutput& output) {
   const Report report = describe_current_error();
-  std::cerr << printable_text(report.line) << std::endl;
-  if (is_json) {
-    Json json;
-    json["error"] = report.message;
-    json["where"] = report.where;
-    json["hint"] = report.hint;
-    std::cout << to_text(json) << std::endl;
+  Json json;
+  json["error"] = report.message;
+  json["exit_code"] = report.code;
+  json["where"] = report.where;
+  if (!report.file.empty()) json["file"] = report.file;
+  if (report.row > 0) json["line"] = report.row;
+  if (report.row > 0) json["column"] = report.column;
+  json["hint"] = report.hint;
+  json["warnings"] = report.warnings;
+  if (output.is_progress_json) {
+    Json event{{"event", "error"}};
+    event.update(json);
+    std::cerr << to_text(event, -1) << std::endl;
+  } else {
+    std::cerr << printable_text(report.line) << std::endl;
   }
+  if (!output.log.empty())
+    std::ofstream(output.log, std::ios::app) << time_text() << "  " << report.line << std::endl;
+  if (output.is_json) std::cout << to_text(json) << std::endl;
   return report.code;
 }
 

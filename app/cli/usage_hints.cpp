@@ -101,6 +101,12 @@ void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
   const auto [command, name] = called(app);
   const std::string help = "see " + name + " --help", conversion = "Could not convert: ";
   std::string text = error.what();
+  // "--at: At Most 1 required but received 2"
+  const std::string too_many = ": At Most 1 required but received ";
+  if (const std::size_t at = text.find(too_many); at != std::string::npos)
+    throw scene::toml::UsageError(
+        text.substr(0, at), "takes one value and was given " + text.substr(at + too_many.size()),
+        help);
   if (!text.starts_with(conversion)) throw scene::toml::UsageError("", text, help);
   // "Could not convert: --threads = x"
   text.erase(0, conversion.size());

@@ -97,14 +97,14 @@ std::vector<std::string> summary_lines(const Listing& listing) {
 }
 
 std::string to_table(const Listing& listing, const std::vector<std::string>& heading) {
+  // Names first: numpy takes them from the first line, and comments anywhere below.
   std::string text;
-  for (const std::string& line : heading) text += "# " + line + "\n";
-  for (const std::string& line : summary_lines(listing)) text += "# " + line + "\n";
-  std::string header;
   for (const Quantity& q : listing.quantities)
     for (int c = 0; c < q.components; ++c)
-      header += (header.empty() ? "" : "\t") + component_name(q, c);
-  text += header + "\n";
+      text += (text.empty() ? "" : "\t") + component_name(q, c);
+  text += "\n";
+  for (const std::string& line : heading) text += "# " + line + "\n";
+  for (const std::string& line : summary_lines(listing)) text += "# " + line + "\n";
   for (std::size_t row = 0; row < listing.place.size(); ++row) {
     bool is_first = true;
     for (const Quantity& q : listing.quantities)

@@ -359,7 +359,7 @@ void check_cameras(const scene::Scene& scene, const std::vector<setup::Moment>& 
   for (const scene::View& view : scene.views) {
     const scene::CameraSettings camera =
         view.camera ? *view.camera : scene.camera.value_or(scene::CameraSettings{});
-    if (!camera.eye || !camera.target) continue;
+    if (!camera.eye || !camera.target || !camera.follow.empty()) continue;
     const scene::PictureSize size = setup::size_of(scene, view);
     const double aspect = static_cast<double>(size.width) / size.height;
     double worst = 0, when = 0;

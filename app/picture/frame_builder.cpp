@@ -30,11 +30,12 @@ constexpr std::size_t max_override_lines = 6;
 /// Rings around more particles than these hide the snow inside.
 constexpr std::size_t max_marks = 16;
 
-/// The view's camera or the scene's at a time.
-render::Camera camera_of(const scene::Scene& scene, const scene::View& view, double time) {
-  const scene::CameraSettings& settings =
-      view.camera ? *view.camera : scene.camera.value_or(scene::CameraSettings{});
-  const setup::CameraPlace place = setup::camera_at(settings, time, scene.frames / scene.fps);
+const scene::CameraSettings& settings_of(const scene::Scene& scene, const scene::View& view) {
+  static const scene::CameraSettings usual;
+  return view.camera ? *view.camera : scene.camera ? *scene.camera : usual;
+}
+
+render::Camera to_camera(const setup::CameraPlace& place, const scene::CameraSettings& settings) {
   return {to_float(place.eye), to_float(place.target), to_float(settings.up),
           static_cast<float>(place.fov)};
 }
@@ -87,12 +88,13 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   frame.height = size.height;
   frame.supersampling = setup::supersampling(options_.quality);
   frame.is_transparent = scene::background_of(scene_, view) == scene::Background::transparent;
-  frame.camera = camera_of(scene_, view, snapshot.time);
+  const scene::CameraSettings& camera = settings_of(scene_, view);
+  frame.camera = to_camera(camera_place(scene_, view, seeded_, snapshot), camera);
   frame.light = {to_float(scene_.light.direction), static_cast<float>(scene_.light.intensity),
                  static_cast<float>(scene_.light.ambient)};
   // The camera at the start: grid lines do not change while the camera moves.
-  const render::Camera first = camera_of(scene_, view, 0);
-  const double spacing = round_down(0.1 * static_cast<double>(length(first.eye - first.target)));
+  const setup::CameraPlace first = setup::camera_at(camera, 0, scene_.frames / scene_.fps);
+  const double spacing = round_down(0.1 * (first.eye - first.target).norm());
   add_colliders(scene_, view, snapshot.time, static_cast<float>(spacing), frame);
   if (points)
     frame.points = std::move(*points);
@@ -104,7 +106,7 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   if (scene::has_layer(view, scene::Layer::plots))
     frame.plots = make_plots(view.plots, snapshot.history, snapshot.time, 1 / scene_.fps,
                              scene_.frames / scene_.fps);
-  if (scene::has_layer(view, scene::Layer::caption)) frame.caption = caption(snapshot);
+  frame.caption = words(view, snapshot);
   return frame;
 }
 
@@ -208,19 +210,75 @@ std::pair<std::size_t, std::size_t> FrameBuilder::particles_of(std::size_t body,
 
 std::optional<sim::Vec3d> FrameBuilder::centre_of_mass(const std::string& name,
                                                        const Snapshot& snapshot) const {
-  for (std::size_t body = 0; body < seeded_.body_end.size(); ++body) {
-    if (scene_.bodies[body].name != name) continue;
-    const auto [first, end] = particles_of(body, snapshot);
+  return centre_of_body(scene_, seeded_, snapshot, name);
+}
+
+std::optional<sim::Vec3d> centre_of_body(const scene::Scene& scene,
+                                         const setup::SeededScene& seeded, const Snapshot& snapshot,
+                                         const std::string& name) {
+  const sim::ParticleArrays& particles = snapshot.particles;
+  for (std::size_t body = 0; body < seeded.body_end.size(); ++body) {
+    if (scene.bodies[body].name != name) continue;
+    const std::size_t first = particles.first_from(seeded.body_begin(body)),
+                      end = particles.first_from(seeded.body_end[body]);
     sim::Vec3d moment = sim::Vec3d::Zero();
     double mass = 0;
     for (std::size_t p = first; p < end; ++p) {
-      if (!snapshot.particles.x[p].allFinite()) continue;
-      moment += snapshot.particles.m[p] * snapshot.particles.x[p];
-      mass += snapshot.particles.m[p];
+      if (!particles.x[p].allFinite()) continue;
+      moment += particles.m[p] * particles.x[p];
+      mass += particles.m[p];
     }
     if (mass > 0) return sim::Vec3d(moment / mass);
   }
   return std::nullopt;
+}
+
+setup::CameraPlace camera_place(const scene::Scene& scene, const scene::View& view,
+                                const setup::SeededScene& seeded, const Snapshot& snapshot) {
+  const scene::CameraSettings& settings = settings_of(scene, view);
+  setup::CameraPlace place = setup::camera_at(settings, snapshot.time, scene.frames / scene.fps);
+  if (settings.follow.empty()) return place;
+  const auto body = std::find_if(
+      scene.bodies.begin(), scene.bodies.end(),
+      [&](const sim::seeding::Body& candidate) { return candidate.name == settings.follow; });
+  // A body that a sink has removed is looked for where it was.
+  const sim::Vec3d start =
+      body == scene.bodies.end() ? sim::Vec3d::Zero() : sim::shapes::center(body->shape);
+  const sim::Vec3d moved = centre_of_body(scene, seeded, snapshot, settings.follow).value_or(start);
+  place.eye += moved;
+  place.target += moved;
+  return place;
+}
+
+std::vector<std::string> FrameBuilder::words(const scene::View& view,
+                                             const Snapshot& snapshot) const {
+  std::vector<std::string> lines;
+  if (scene::has_layer(view, scene::Layer::caption)) lines = caption(snapshot);
+  if (scene::has_layer(view, scene::Layer::counter)) {
+    const std::string last = std::to_string(scene_.frames);
+    std::string now = std::to_string(snapshot.frame);
+    now.insert(0, last.size() > now.size() ? last.size() - now.size() : 0, '0');
+    lines.push_back(now + " / " + last);
+  }
+  if (scene::has_layer(view, scene::Layer::slate) && snapshot.frame == 0)
+    for (std::string& line : slate()) lines.push_back(std::move(line));
+  return lines;
+}
+
+/// What a picture is of, for the first frame of a film.
+std::vector<std::string> FrameBuilder::slate() const {
+  std::vector<std::string> lines;
+  if (!scene_.title.empty()) lines.push_back(scene_.title);
+  lines.push_back("frames 0 to " + std::to_string(scene_.frames) + ", " + rough_text(scene_.fps) +
+                  " a second; cells of " + rough_text(scene_.solver.cell_size) + " m; seed " +
+                  std::to_string(scene_.seed));
+  for (const sim::Material& m : scene_.materials)
+    lines.push_back(m.name + ": " + rough_text(m.density) + " kg/m3, E " +
+                    rough_text(m.youngs_modulus) + " Pa, hardening " + rough_text(m.hardening) +
+                    ", theta " + rough_text(m.critical_compression) + " and " +
+                    rough_text(m.critical_stretch));
+  for (std::string& line : override_lines(options_.overrides)) lines.push_back(std::move(line));
+  return lines;
 }
 
 std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {

@@ -8,6 +8,7 @@
 
 #include "app/health/diagnosis.h"
 #include "app/picture/snapshot.h"
+#include "app/setup/camera_path.h"
 #include "app/setup/plan.h"
 #include "app/setup/seed_scene.h"
 #include "render/frame/frame.h"
@@ -55,11 +56,23 @@ class FrameBuilder {
   std::pair<std::size_t, std::size_t> particles_of(std::size_t body,
                                                    const Snapshot& snapshot) const;
   std::optional<sim::Vec3d> centre_of_mass(const std::string& body, const Snapshot& snapshot) const;
+  /// Caption, counter and slate, as the layers say.
+  std::vector<std::string> words(const scene::View& view, const Snapshot& snapshot) const;
+  std::vector<std::string> slate() const;
 
   const scene::Scene& scene_;
   const setup::SeededScene& seeded_;
   PictureOptions options_;
 };
+
+/// The centre of a body's mass; of a body without particles nothing.
+std::optional<sim::Vec3d> centre_of_body(const scene::Scene& scene,
+                                         const setup::SeededScene& seeded, const Snapshot& snapshot,
+                                         const std::string& name);
+
+/// The place of the view's camera, or the scene's, at the time of a snapshot.
+setup::CameraPlace camera_place(const scene::Scene& scene, const scene::View& view,
+                                const setup::SeededScene& seeded, const Snapshot& snapshot);
 
 /// "hardening = 5" for "material.snow.hardening=5", "post center = ..." for a value of a collider;
 /// the whole address where two are named alike. None for other cameras, views and colours: these

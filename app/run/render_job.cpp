@@ -9,6 +9,7 @@
 #include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
+#include "app/support/out_folder.h"
 
 namespace neve::app::run {
 
@@ -27,7 +28,7 @@ RenderJob job_from_scene(const RenderOptions& options) {
   RenderJob job;
   job.scene_file = options.scene.empty() ? default_scene().string() : options.scene;
   job.scene = scene::read_scene_file(job.scene_file, parse_overrides(options.overrides));
-  job.folder = fs::path("out") / fs::path(job.scene_file).stem();
+  job.folder = out_folder() / fs::path(job.scene_file).stem();
   job.frames = {0, job.scene.frames};
   return job;
 }
@@ -82,7 +83,7 @@ RenderJob job_from_picture(const RenderOptions& options) {
                                      parse_overrides(options.overrides));
   char name[32];
   std::snprintf(name, sizeof name, "%04d-again", record.frame);
-  job.folder = fs::path("out") / name;
+  job.folder = out_folder() / name;
   job.frames = {record.frame, record.frame};
   job.quality = setup::quality_named(record.quality);
   job.overrides = record.overrides;
@@ -123,6 +124,8 @@ RenderJob make_job(const RenderOptions& options) {
     job.coarsening *= *options.coarsening;
   }
   if (!options.views.empty()) choose_views(options.views, job);
+  if (!options.has_caption)
+    for (scene::View& view : job.scene.views) std::erase(view.layers, scene::Layer::caption);
   set_sizes(options, job.scene);
   if (options.frames) job.frames = *options.frames;
   if (options.quality) job.quality = *options.quality;

@@ -31,7 +31,9 @@ struct RenderOptions {
   bool resume = false;
   int checkpoint_every = 10;  ///< frames; 0: none
   bool has_movies = true;
+  bool has_caption = true;
   Verbosity verbosity = Verbosity::normal;
+  ProgressOptions progress;
   bool dry_run = false;
   bool is_json = false;
 };

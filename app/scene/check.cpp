@@ -221,19 +221,24 @@ Found light_problem(const LightSettings& light) {
   return Problem{"light.direction", "direction is zero", "it must point towards the light"};
 }
 
+/// Problem of the name of a body that something moves along with.
+Found follow_problem(const Scene& scene, const std::string& follow, const std::string& at) {
+  if (follow.empty()) return {};
+  std::vector<std::string> names;
+  for (const sim::seeding::Body& body : scene.bodies) {
+    if (body.name == follow) return {};
+    names.push_back(body.name);
+  }
+  const std::string nearest = nearest_name(follow, names);
+  return Problem{at + ".follow", "there is no body " + toml::toml_string(follow),
+                 nearest.empty() ? "expected " + list_of(names)
+                                 : "did you mean " + toml::toml_string(nearest) + "?"};
+}
+
 Found slice_problem(const Scene& scene, const SliceStyle& slice, const std::string& at) {
   if (slice.normal.norm() <= negligible)
     return Problem{at + ".normal", "normal is zero", "it must point across the plane"};
-  if (slice.follow.empty()) return {};
-  std::vector<std::string> names;
-  for (const sim::seeding::Body& body : scene.bodies) {
-    if (body.name == slice.follow) return {};
-    names.push_back(body.name);
-  }
-  const std::string nearest = nearest_name(slice.follow, names);
-  return Problem{at + ".follow", "there is no body " + toml::toml_string(slice.follow),
-                 nearest.empty() ? "expected " + list_of(names)
-                                 : "did you mean " + toml::toml_string(nearest) + "?"};
+  return follow_problem(scene, slice.follow, at);
 }
 
 Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
@@ -396,11 +401,14 @@ std::optional<Problem> find_problem(const Scene& scene) {
     if ((found = collider_problem(scene, collider))) return found;
   }
   if (scene.camera && (found = camera_problem(*scene.camera, "camera"))) return found;
+  if (scene.camera && (found = follow_problem(scene, scene.camera->follow, "camera"))) return found;
   if ((found = light_problem(scene.light))) return found;
   for (const View& view : scene.views) {
     const std::string at = "view." + view.name;
     if ((found = slice_problem(scene, view.slice, at + ".slice"))) return found;
     if (view.camera && (found = camera_problem(*view.camera, at + ".camera"))) return found;
+    if (view.camera && (found = follow_problem(scene, view.camera->follow, at + ".camera")))
+      return found;
     if (view.clip && view.clip->normal.norm() <= negligible)
       return Problem{at + ".clip.normal", "normal is zero",
                      "it must point towards the side to cut away"};

@@ -380,6 +380,9 @@ void describe(V& visit, CameraSettings& c) {
         "to rest.");
   visit("turntable", c.turntable, unit::second, between(1e-3, 1e6), live,
         "Time of one turn of the eye around the target, about up, at constant speed.");
+  visit("follow", c.follow, unit::none, anything, live,
+        "Name of a body that the camera moves along with: eye and target are relative to its "
+        "centre of mass.");
   visit.sequence("keyframes", c.keyframes, "Path of eye, target and fov.");
 }
 

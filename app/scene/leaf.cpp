@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <string_view>
 
+#include "app/scene/presets.h"
 #include "app/scene/toml/error.h"
+#include "app/scene/wishes.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
@@ -243,11 +245,29 @@ std::string list_of(const std::vector<std::string>& names) {
   return text;
 }
 
+namespace {
+
+/// Advice for words that are right elsewhere; empty: none.
+std::string advice_on_choice(const Leaf& leaf, const std::string& text) {
+  if (leaf.address == "solver.transfer" && text == "pic")
+    return "PIC is transfer = \"flip\" with flip_ratio = 0";
+  if (!is_preset_address(leaf.address)) return {};
+  for (const Wish* wish : wishes_for(text)) {
+    const WishChange& change = wish->changes.front();
+    return "for snow that is " + std::string(wish->name) + " see " + change.address +
+           " (neve params " + text + ")";
+  }
+  return {};
+}
+
+}  // namespace
+
 void fail_choice(const Leaf& leaf, const std::vector<std::string>& allowed) {
   const auto* text = std::get_if<std::string>(&leaf.value.data);
+  std::string hint = text ? advice_on_choice(leaf, *text) : "";
   const std::string nearest = text ? nearest_name(*text, allowed) : "";
-  leaf.fail(list_of(allowed),
-            nearest.empty() ? "" : "did you mean " + toml::toml_string(nearest) + "?");
+  if (hint.empty() && !nearest.empty()) hint = "did you mean " + toml::toml_string(nearest) + "?";
+  leaf.fail(list_of(allowed), hint);
 }
 
 }  // namespace neve::app::scene

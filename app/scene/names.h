@@ -124,7 +124,8 @@ constexpr auto names(Layer) {
       Name{ground, "ground"},   Name{colliders, "colliders"}, Name{particles, "particles"},
       Name{arrows, "arrows"},   Name{heatmap, "heatmap"},     Name{smoke, "smoke"},
       Name{blocks, "blocks"},   Name{bounds, "bounds"},       Name{legend, "legend"},
-      Name{caption, "caption"}, Name{plots, "plots"}};
+      Name{caption, "caption"}, Name{plots, "plots"},         Name{counter, "counter"},
+      Name{slate, "slate"}};
 }
 constexpr auto names(ExportFormat) {
   using enum ExportFormat;

@@ -183,6 +183,9 @@ void Override::fail(toml::Location where, const std::string& message,
 Override parse_override(std::string_view text) {
   const auto equals = text.find('=');
   if (equals == std::string_view::npos || trimmed(text.substr(0, equals)).empty()) {
+    if (text.starts_with("--"))
+      throw toml::UsageError("--set", "has no value: the flag " + std::string(text) + " follows it",
+                             "expected ADDRESS=VALUE, as in --set material.snow.hardening=5");
     throw toml::UsageError("--set " + std::string(text), "expected ADDRESS=VALUE",
                            "for example --set material.snow.hardening=5");
   }

@@ -11,6 +11,7 @@
 #include "app/scene/toml/toml_source.h"
 #include "app/scene/toml/toml_text.h"
 #include "app/support/errors.h"
+#include "app/support/machine.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
@@ -118,22 +119,51 @@ void add_built_ins(toml::Table& root, const std::vector<Override>& overrides) {
   add_views(root, overrides);
 }
 
-/// Advice for a missing file: a similar name in its folder, or the missing folder.
-std::string nearest_file(const std::string& file) {
-  namespace fs = std::filesystem;
-  const fs::path wanted(file);
-  const fs::path folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
-  std::error_code error;
-  if (fs::exists(wanted, error)) return "";
-  if (!fs::is_directory(folder, error)) return "there is no folder " + folder.string();
+namespace fs = std::filesystem;
+
+/// The scene in a folder whose name is nearest; empty: none is near.
+fs::path nearest_scene(const fs::path& folder, const std::string& stem) {
   std::vector<std::string> names;
+  std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
     if (at->path().extension() == ".toml" && names.size() < 10'000)
       names.push_back(at->path().stem().string());
   std::sort(names.begin(), names.end());
-  const std::string nearest = nearest_name(wanted.stem().string(), names);
-  if (nearest.empty()) return "";
-  return "did you mean " + (wanted.parent_path() / (nearest + ".toml")).string() + "?";
+  const std::string nearest = nearest_name(stem, names);
+  return nearest.empty() ? fs::path() : folder / (nearest + ".toml");
+}
+
+/// The folder of the scenes that came with the program; empty where they are gone.
+fs::path own_scenes() {
+  try {
+    return default_scene().parent_path();
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+/// As it would be typed here: relative where that is no detour.
+std::string typed(const fs::path& file) {
+  std::error_code error;
+  const fs::path near = fs::relative(file, error);
+  const bool is_below = !error && !near.empty() && *near.begin() != "..";
+  return (is_below ? near : file).string();
+}
+
+/// Advice for a missing file: a similar name in its folder, in scenes/ or among the examples, or
+/// the missing folder.
+std::string nearest_file(const std::string& file) {
+  const fs::path wanted(file);
+  const fs::path folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
+  std::error_code error;
+  if (fs::exists(wanted, error)) return "";
+  for (const fs::path& place : {folder, fs::path("scenes"), own_scenes()}) {
+    if (place.empty()) continue;
+    const fs::path nearest = nearest_scene(place, wanted.stem().string());
+    if (!nearest.empty()) return "did you mean " + typed(nearest) + "?";
+  }
+  if (!fs::is_directory(folder, error)) return "there is no folder " + folder.string();
+  return "neve render without a file draws an example";
 }
 
 /// A pipe with a name in a folder has no writer until somebody comes. Those of `<(command)`, which
@@ -172,7 +202,7 @@ std::string read_toml_file(const std::string& file) {
   if (in.bad()) throw toml::SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be read");
   text.resize(static_cast<std::size_t>(in.gcount()));
   if (text.empty())
-    throw toml::SceneError(file, 0, 0, "is empty", "a scene needs at least one [[body]]");
+    throw toml::SceneError(file, 0, 0, "the file is empty", "a scene needs at least one [[body]]");
   return text;
 }
 

@@ -32,7 +32,9 @@ enum class Layer {
   bounds,
   legend,
   caption,
-  plots
+  plots,
+  counter,
+  slate
 };
 
 /// Absent range: "auto". Resolving a scene fills it in.
@@ -92,6 +94,7 @@ struct CameraSettings {
   double fov = 30;                        ///< vertical, degrees
   std::optional<double> orbit;            ///< degrees over the whole scene; not with turntable
   std::optional<double> turntable;        ///< s of a full turn
+  std::string follow;                     ///< body that moves eye and target along; "": none
   std::vector<CameraKeyframe> keyframes;  ///< times increase
 };
 

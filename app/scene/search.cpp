@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "app/scene/looks.h"
+#include "app/scene/wishes.h"
 
 namespace neve::app::scene {
 
@@ -64,8 +64,8 @@ bool same_parameter(std::string_view pattern, std::string_view address) {
 
 Search::Search(const std::string& text) : text_(lower(text)), words_(words_in(text)) {
   if (words_.empty()) return;
-  for (const Look* look : looks_for(text))
-    for (const LookChange& change : look->changes) meant_.emplace_back(change.address);
+  for (const Wish* wish : wishes_for(text))
+    for (const WishChange& change : wish->changes) meant_.emplace_back(change.address);
   for (const EverydayName& name : everyday_names())
     if (has_all(words_in(name.words), words_))
       meant_.insert(meant_.end(), name.addresses.begin(), name.addresses.end());

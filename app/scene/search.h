@@ -10,7 +10,7 @@ namespace neve::app::scene {
 /// Lower-case words of a text: "Longest time_step." has longest, time and step.
 std::vector<std::string> words_in(std::string_view text);
 
-/// A text that somebody looks for, prepared once for many parameters.
+/// A text that somebody wishes for, prepared once for many parameters.
 class Search {
  public:
   explicit Search(const std::string& text);

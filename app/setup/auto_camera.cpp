@@ -20,6 +20,9 @@ constexpr double filled = 0.62;    // share of the picture that the subject take
 constexpr double spread = 1.7;     // snow of many small cells scatters wider than its coarse copy
 constexpr double outliers = 0.02;  // share of particles that may leave the picture
 constexpr double largest_growth = 16;  // of the subject's size: snow that falls for ever is let go
+// A small part of the snow that flies away is let go where the picture would have to grow so much
+// for it; the rest is the subject.
+constexpr double growth_for_few = 2.2, share_of_few = 0.45;
 
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
@@ -78,6 +81,43 @@ std::vector<Vec3d> scattered(std::vector<Vec3d> points) {
   return points;
 }
 
+std::array<Vec3d, 8> corners(const Vec3d& min, const Vec3d& max) {
+  std::array<Vec3d, 8> result;
+  for (unsigned k = 0; k < 8; ++k)
+    result[k] = {k & 1 ? max.x() : min.x(), k & 2 ? max.y() : min.y(), k & 4 ? max.z() : min.z()};
+  return result;
+}
+
+/// The snow that stays within its own size of where all of it was, if most of it does and the rest
+/// would make it small in the picture; otherwise all of it.
+std::vector<Vec3d> without_flown(std::vector<Vec3d> points, const Box& start) {
+  const Vec3d reach = Vec3d::Constant(start.diagonal());
+  std::vector<Vec3d> near;
+  for (const Vec3d& x : points)
+    if (((x - start.min + reach).array() >= 0).all() &&
+        ((start.max + reach - x).array() >= 0).all())
+      near.push_back(x);
+  const double far_share = 1 - static_cast<double>(near.size()) /
+                                   static_cast<double>(std::max<std::size_t>(1, points.size()));
+  const bool is_few = far_share > 0 && far_share < share_of_few;
+  const bool is_large = box_of(points).diagonal() > growth_for_few * box_of(near).diagonal();
+  return is_few && is_large ? near : points;
+}
+
+/// The start of a body that the camera moves along with, and room for it to burst.
+std::vector<Vec3d> followed(const scene::Scene& scene, const std::string& name) {
+  constexpr double room = 1.6;
+  std::vector<Vec3d> points;
+  for (const sim::seeding::Body& body : scene.bodies) {
+    if (body.name != name) continue;
+    const sim::shapes::Bounds box = sim::shapes::bounds(body.shape);
+    const Vec3d center = 0.5 * (box.min + box.max);
+    for (const Vec3d& corner : corners(box.min, box.max))
+      points.push_back(center + room * (corner - center));
+  }
+  return points;
+}
+
 /// Everything that should be seen at some time.
 std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<Moment>& moments) {
   std::vector<Vec3d> points;
@@ -86,7 +126,8 @@ std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<Moment>&
     points.push_back(bounds.min);
     points.push_back(bounds.max);
   }
-  const double first_size = std::max(box_of(points).diagonal(), 1e-6);
+  const Box start = box_of(points);
+  const double first_size = std::max(start.diagonal(), 1e-6);
   Box seen;
   for (const Moment& moment : moments) {
     const std::vector<Vec3d> kept =
@@ -97,14 +138,7 @@ std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<Moment>&
     seen = grown;
     points.insert(points.end(), kept.begin(), kept.end());
   }
-  return points;
-}
-
-std::array<Vec3d, 8> corners(const Vec3d& min, const Vec3d& max) {
-  std::array<Vec3d, 8> result;
-  for (unsigned k = 0; k < 8; ++k)
-    result[k] = {k & 1 ? max.x() : min.x(), k & 2 ? max.y() : min.y(), k & 4 ? max.z() : min.z()};
-  return result;
+  return without_flown(std::move(points), start);
 }
 
 /// Obstacles that the snow meets belong in the picture unless they would dwarf it.
@@ -259,8 +293,10 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
                                        const std::vector<Moment>& moments,
                                        const scene::CameraSettings& settings, double aspect,
                                        const std::optional<Vec3d>& normal) {
-  std::vector<Vec3d> points = subject(scene, moments);
-  add_small_colliders(scene, points);
+  const bool is_following = !settings.follow.empty();
+  std::vector<Vec3d> points =
+      is_following ? followed(scene, settings.follow) : subject(scene, moments);
+  if (!is_following) add_small_colliders(scene, points);
   const Lens lens{settings.up.normalized(), std::tan(radians(settings.fov / 2)), aspect,
                   turns_of(settings, scene.frames / scene.fps)};
 
@@ -283,6 +319,7 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
 
   scene::CameraSettings camera = settings;
   Vec3d target = framing.target, eye = framing.target + framing.distance * towards_eye;
+  if (is_following) target -= middle, eye -= middle;
   for (int axis = 0; axis < 3; ++axis) {
     target[axis] = round_to(target[axis], framing.distance, 3);
     eye[axis] = round_to(eye[axis], framing.distance, 3);

@@ -93,9 +93,17 @@ const char* name(Quality quality) {
 
 Quality quality_named(const std::string& name) {
   const auto found = std::find(quality_names.begin(), quality_names.end(), name);
-  if (found == quality_names.end())
+  if (found == quality_names.end()) {
+    const bool is_best = name == "high" || name == "best" || name == "ultra" || name == "full";
+    const bool is_quick = name == "low" || name == "fast" || name == "quick";
+    const std::string meant =
+        is_best    ? "final"
+        : is_quick ? "draft"
+                   : nearest_name(name, {quality_names.begin(), quality_names.end()});
     throw scene::toml::UsageError("--quality", "unknown quality \"" + name + "\"",
-                                  "expected draft, preview or final");
+                                  (meant.empty() ? "" : "did you mean " + meant + "? ") +
+                                      std::string("expected draft, preview or final"));
+  }
   return static_cast<Quality>(found - quality_names.begin());
 }
 
@@ -185,11 +193,11 @@ void check_limits(const scene::Scene& scene, const Plan& plan, double coarsening
 
 Json to_json(const Plan& plan) {
   Json json;
-  json["particles"] = plan.particles;
-  json["emitted_particles"] = plan.emitted;
+  json["particles"] = count_json(plan.particles);
+  json["emitted_particles"] = count_json(plan.emitted);
   json["memory_bytes"] = plan.memory;
   json["memory_limit_bytes"] = plan.memory_limit;
-  json["largest_picture_pixels"] = plan.largest_picture;
+  json["largest_picture_pixels"] = count_json(plan.largest_picture);
   json["first_frame"] = plan.frames.first;
   json["last_frame"] = plan.frames.last;
   return json;

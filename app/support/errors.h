@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace neve::app {
 
@@ -30,8 +31,9 @@ struct Error : std::runtime_error {
         where(std::move(place)),
         hint(std::move(advice)) {}
   int code;
-  std::string where;  ///< file or address concerned, may be empty
-  std::string hint;   ///< advice, may be empty
+  std::string where;                    ///< file or address concerned, may be empty
+  std::string hint;                     ///< advice, may be empty
+  std::vector<std::string> warnings{};  ///< said before it, for `--json`
 };
 
 /// A file that could not be read or written.

@@ -27,6 +27,13 @@ inline Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
+/// A count that is kept as a double, as a whole number where it is one: 19393, not 19393.0.
+inline Json count_json(double count) {
+  const bool is_whole =
+      std::isfinite(count) && std::abs(count) < 9e15 && count == std::floor(count);
+  return is_whole ? Json(static_cast<std::int64_t>(count)) : number_or_null(count);
+}
+
 /// JSON as text; invalid UTF-8 becomes U+FFFD instead of an exception.
 inline std::string to_text(const Json& json, int indent = 2) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);

@@ -2,10 +2,13 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app {
@@ -15,9 +18,19 @@ namespace {
 constexpr std::size_t window = 8;  // frames; an average since the start would mislead
 constexpr auto update_interval = std::chrono::milliseconds(200);
 constexpr auto line_interval = std::chrono::seconds(10);
+constexpr auto event_interval = std::chrono::seconds(1);
 constexpr auto work_window = std::chrono::seconds(120);
 
 }  // namespace
+
+std::string time_text() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long>(seconds + 0.5);
@@ -71,8 +84,19 @@ bool can_update_lines(int fd) {
   return ::isatty(fd) == 1 && terminal && std::strcmp(terminal, "dumb") != 0;
 }
 
-Progress::Progress(std::ostream& out, Verbosity verbosity, bool updates)
-    : out_(out), verbosity_(verbosity), updates_(updates), shown_at_(Clock::now()) {}
+Progress::Progress(std::ostream& out, Verbosity verbosity, bool updates,
+                   const ProgressOptions& options)
+    : out_(out),
+      verbosity_(verbosity),
+      updates_(updates && !options.is_json),
+      is_json_(options.is_json),
+      shown_at_(Clock::now()) {
+  if (options.log.empty()) return;
+  log_.open(options.log, std::ios::app);
+  if (!log_)
+    throw IoError(options.log + ": error: cannot be written: " + std::strerror(errno), options.log,
+                  "give --log a file in a folder that exists");
+}
 
 Progress::~Progress() {
   clear();
@@ -83,21 +107,39 @@ void Progress::start(int last_frame) {
   state_ = {};
   state_.last_frame = last_frame;
   finished_at_.assign(1, Clock::now());
+  if (is_json_) print_event({{"event", "start"}, {"last_frame", last_frame}});
+}
+
+bool Progress::is_due(Clock::time_point now) const {
+  return now - shown_at_ >= (updates_   ? Clock::duration(update_interval)
+                             : is_json_ ? Clock::duration(event_interval)
+                                        : Clock::duration(line_interval));
 }
 
 void Progress::step() {
   const std::lock_guard lock(mutex_);
   ++state_.steps;
   const auto now = Clock::now();
-  if (now - shown_at_ >= (updates_ ? Clock::duration(update_interval) : line_interval))
-    show(now, progress_text(state_));
+  if (is_due(now)) show_frame(now);
 }
 
 void Progress::line(const std::string& text) {
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
-  if (now - shown_at_ >= (updates_ ? Clock::duration(update_interval) : line_interval))
-    show(now, text);
+  if (is_due(now)) show(now, text, {{"event", "progress"}, {"text", text}});
+}
+
+void Progress::runs(const RunCounts& counts) {
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  if (!is_due(now)) return;
+  show(now, runs_text(counts),
+       {{"event", "runs"},
+        {"finished", counts.finished},
+        {"failed", counts.failed},
+        {"running", counts.running},
+        {"all", counts.all},
+        {"seconds_left", counts.seconds_left < 0 ? Json() : Json(counts.seconds_left)}});
 }
 
 void Progress::frame(int frame, double time) {
@@ -109,13 +151,30 @@ void Progress::frame(int frame, double time) {
   if (finished_at_.size() > window + 1) finished_at_.pop_front();
   const std::chrono::duration<double> span = finished_at_.back() - finished_at_.front();
   state_.seconds_per_frame = span.count() / static_cast<double>(finished_at_.size() - 1);
-  if (updates_ || now - shown_at_ >= line_interval) show(now, progress_text(state_));
+  log(progress_text(state_));
+  // A program wants to know of every frame.
+  if (updates_ || is_json_ || now - shown_at_ >= line_interval) show_frame(now);
 }
 
-void Progress::show(Clock::time_point now, const std::string& text) {
+void Progress::show_frame(Clock::time_point now) {
+  const double each = state_.seconds_per_frame;
+  const int left = state_.last_frame - state_.frame;
+  show(now, progress_text(state_),
+       {{"event", "frame"},
+        {"frame", state_.frame},
+        {"last_frame", state_.last_frame},
+        {"time", state_.time},
+        {"steps", state_.steps},
+        {"seconds_per_frame", each < 0 ? Json() : Json(each)},
+        {"seconds_left", each < 0 ? Json() : Json(left * each)}});
+}
+
+void Progress::show(Clock::time_point now, const std::string& text, const Json& event) {
   shown_at_ = now;
   if (verbosity_ == Verbosity::quiet) return;
-  if (updates_) {
+  if (is_json_) {
+    print_event(event);
+  } else if (updates_) {
     out_ << "\r\033[K" << text << std::flush;
     has_line_ = true;
   } else {
@@ -128,9 +187,19 @@ void Progress::clear_line() {
   has_line_ = false;
 }
 
-void Progress::print(const std::string& message) {
+void Progress::print_event(const Json& event) {
+  out_ << to_text(event, -1) << std::endl;
+}
+
+/// @param text of the event, without "neve: warning: "
+void Progress::print(const std::string& message, const char* event, const std::string& text) {
+  if (is_json_) return print_event({{"event", event}, {"text", text}});
   clear_line();
   out_ << printable_text(message) << std::endl;
+}
+
+void Progress::log(const std::string& message) {
+  if (log_.is_open()) log_ << time_text() << "  " << message << std::endl;
 }
 
 void Progress::clear() {
@@ -140,16 +209,26 @@ void Progress::clear() {
 
 void Progress::note(const std::string& message) {
   const std::lock_guard lock(mutex_);
-  if (verbosity_ != Verbosity::quiet) print(message);
+  log(message);
+  if (verbosity_ != Verbosity::quiet) print(message, "note", message);
 }
 
 void Progress::detail(const std::string& message) {
-  if (verbosity_ == Verbosity::verbose) note(message);
+  const std::lock_guard lock(mutex_);
+  log(message);
+  if (verbosity_ == Verbosity::verbose) print(message, "note", message);
 }
 
 void Progress::warning(const std::string& message) {
   const std::lock_guard lock(mutex_);
-  print("neve: warning: " + message);
+  log("warning: " + message);
+  print("neve: warning: " + message, "warning", message);
+}
+
+void Progress::say(const std::string& message) {
+  const std::lock_guard lock(mutex_);
+  log(message);
+  print("neve: " + message, "note", message);
 }
 
 }  // namespace neve::app

@@ -4,14 +4,23 @@
 #include <chrono>
 #include <cstddef>
 #include <deque>
+#include <fstream>
 #include <mutex>
 #include <ostream>
 #include <string>
 #include <utility>
 
+#include "app/support/json.h"
+
 namespace neve::app {
 
 enum class Verbosity { quiet, normal, verbose };
+
+/// Where else progress goes, and as what.
+struct ProgressOptions {
+  bool is_json = false;  ///< one JSON object a line instead of text, for programs that watch
+  std::string log;       ///< file to append all messages to, with times; empty: none
+};
 
 /// Contents of a progress line.
 struct ProgressState {
@@ -23,6 +32,9 @@ struct ProgressState {
 
 /// "frame 12/48  t = 0.500 s  320 steps  0.42 s/frame  15 s left"
 std::string progress_text(const ProgressState& state);
+
+/// The time now, "2026-11-23T06:10:00Z".
+std::string time_text();
 
 /// "8 s", "3 min 20 s", "2 h 05 min"
 std::string duration_text(double seconds);
@@ -59,7 +71,9 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   /// @param updates one line that is rewritten; otherwise a plain line every 10 s
-  Progress(std::ostream& out, Verbosity verbosity, bool updates);
+  /// @throws IoError for a log that cannot be opened
+  Progress(std::ostream& out, Verbosity verbosity, bool updates,
+           const ProgressOptions& options = {});
   ~Progress();
 
   void start(int last_frame);
@@ -70,6 +84,8 @@ class Progress {
 
   /// The line of something that counts otherwise than in frames; cheap.
   void line(const std::string& text);
+  /// The line of a sweep; cheap.
+  void runs(const RunCounts& counts);
 
   /// A message between the lines; not in quiet runs.
   void note(const std::string& message);
@@ -77,19 +93,27 @@ class Progress {
   void detail(const std::string& message);
   /// A warning; always printed.
   void warning(const std::string& message);
+  /// Words that are printed always, as they are: the end of an interrupted run.
+  void say(const std::string& message);
   /// Removes the updating line.
   void clear();
 
  private:
   // Callers hold the mutex.
-  void show(Clock::time_point now, const std::string& text);
+  void show(Clock::time_point now, const std::string& text, const Json& event);
+  void show_frame(Clock::time_point now);
+  bool is_due(Clock::time_point now) const;
   void clear_line();
-  void print(const std::string& message);
+  void print(const std::string& message, const char* event, const std::string& text);
+  void print_event(const Json& event);
+  void log(const std::string& message);
 
   std::mutex mutex_;
   std::ostream& out_;
   Verbosity verbosity_;
   bool updates_;
+  bool is_json_;
+  std::ofstream log_;
   bool has_line_ = false;
   ProgressState state_;
   Clock::time_point shown_at_;

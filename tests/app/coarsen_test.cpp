@@ -43,6 +43,20 @@ TEST(Coarsen, CellsAndLongestStepsGrowParticlesPerCellStay) {
   EXPECT_EQ(scene.solver.flip_ratio, 0.95);
 }
 
+TEST(Coarsen, SettingsAreThoseThatTheFileHasAndSetTakes) {
+  app::scene::Scene scene = coarse_ball("dt = 1e-4\nflip_reference_dt = 0\n");
+  const double ratio = scene.solver.flip_ratio;
+  app::scene::coarsen(scene, 3);
+  app::scene::refine_settings(scene, 3);
+  EXPECT_DOUBLE_EQ(scene.solver.cell_size, 0.02);
+  EXPECT_DOUBLE_EQ(scene.solver.dt, 1e-4);
+  EXPECT_DOUBLE_EQ(scene.solver.max_dt, 1e-3);
+  EXPECT_NEAR(scene.solver.flip_ratio, ratio, 1e-11);
+  EXPECT_EQ(app::scene::setting_text("solver.dt", 6e-4, 1), "solver.dt = 0.0006");
+  EXPECT_EQ(app::scene::setting_text("solver.dt", 6e-4, 3),
+            "solver.dt = 0.0002 (--coarsen 3 makes it 0.0006)");
+}
+
 TEST(Coarsen, CoarseningLeavesAnEighthOfTheParticlesAndAllOfTheMass) {
   app::scene::Scene coarse = coarse_ball();
   app::scene::coarsen(coarse, 2);

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/picture/frame_builder.h"
 #include "app/scene/read.h"
+#include "app/scene/toml/error.h"
 #include "app/setup/auto_ranges.h"
 #include "app/setup/coarse_run.h"
 #include "app/setup/resolve.h"
+#include "app/setup/seed_scene.h"
 
 namespace neve::app {
 namespace {
@@ -48,6 +51,50 @@ TEST(AutomaticCamera, AutomaticCameraShowsTheStartAndTheLandingOfTheSnow) {
 double width_seen(const app::scene::CameraSettings& camera, double aspect) {
   return 2 * aspect * std::tan(camera.fov * std::numbers::pi / 360) *
          (*camera.target - *camera.eye).norm();
+}
+
+/// A ball that misses the pile and flies on for 30 m does not make the pile small.
+TEST(AutomaticCamera, AFlyingBallDoesNotMakeTheSubjectSmall) {
+  const std::string pile =
+      "frames = 48\n[[body]]\nname = \"pile\"\nshape = { cone = { center = [0, 0.3, 0], radius = "
+      "0.5, "
+      "height = 0.6 } }\n[[collider]]\nshape = { plane = {} }\n";
+  const std::string ball =
+      "[[body]]\nname = \"ball\"\nshape = { sphere = { center = [-0.8, 0.9, 0], radius = 0.12 } }\n"
+      "velocity = [15, 4, 0]\n";
+  app::scene::Scene alone = app::scene::read_scene_text(pile, "pile.toml");
+  app::scene::Scene with_ball = app::scene::read_scene_text(pile + ball, "ball.toml");
+  app::setup::resolve(alone, 1000);
+  app::setup::resolve(with_ball, 1000);
+  const double aspect = 16.0 / 9;
+  EXPECT_LT(width_seen(*with_ball.camera, aspect), 3 * width_seen(*alone.camera, aspect));
+  EXPECT_LT(reach(*with_ball.camera, aspect, {-0.8, 0.9, 0}), 1) << "the start of the ball";
+  EXPECT_LT(reach(*with_ball.camera, aspect, {0.4, 0, 0}), 1);
+}
+
+TEST(AutomaticCamera, ACameraThatFollowsABodyFramesIt) {
+  app::scene::Scene scene = app::scene::read_scene_text(
+      "[camera]\nfollow = \"ball\"\n[[body]]\nname = \"ball\"\nshape = { sphere = { center = [5, "
+      "3, "
+      "0], radius = 0.1 } }\n[[body]]\nname = \"wall\"\nshape = { box = { center = [0, 1, 0], size "
+      "= "
+      "[1, 2, 4] } }\n",
+      "follow.toml");
+  app::setup::resolve(scene, 1000);
+  // Relative to the middle of the ball.
+  EXPECT_LT(scene.camera->target->norm(), 0.1);
+  EXPECT_LT(width_seen(*scene.camera, 16.0 / 9), 1);
+  const app::setup::SeededScene seeded = app::setup::seed_scene(scene);
+  app::picture::Snapshot snapshot;
+  snapshot.particles = seeded.particles;
+  for (sim::Vec3d& x : snapshot.particles.x) x += sim::Vec3d(0, 10, 0);
+  const app::setup::CameraPlace place =
+      app::picture::camera_place(scene, scene.views[0], seeded, snapshot);
+  EXPECT_LT((place.target - sim::Vec3d(5, 13, 0)).norm(), 0.1);
+  EXPECT_THROW(app::scene::read_scene_text(
+                   "[camera]\nfollow = \"egg\"\n[[body]]\nshape = { box = { size = [1, 1, 1] } }\n",
+                   "follow.toml"),
+               app::scene::toml::SceneError);
 }
 
 TEST(AutomaticCamera, FramesUprightPicturesByThemselves) {

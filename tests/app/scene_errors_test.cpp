@@ -424,7 +424,8 @@ TEST(SceneErrors, FilesThatAreNoScenesAreExplained) {
   EXPECT_EQ(file_error_of(directory), directory + ": error: is a directory; name a scene file");
   const std::string empty = directory + "/empty.toml";
   std::ofstream(empty).close();
-  EXPECT_EQ(file_error_of(empty), empty + ": error: is empty; a scene needs at least one [[body]]");
+  EXPECT_EQ(file_error_of(empty),
+            empty + ": error: the file is empty; a scene needs at least one [[body]]");
   EXPECT_EQ(file_error_of("/dev/zero"), "/dev/zero: error: larger than 1 MiB");
 }
 

@@ -1,4 +1,4 @@
-/// Parameters are found by their words, their sentences and everyday names; looks name parameters
+/// Parameters are found by their words, their sentences and everyday names; wishes name parameters
 /// that exist, with values that they take.
 
 #include "app/scene/search.h"
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/looks.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
+#include "app/scene/wishes.h"
 #include "app/support/json.h"
 
 namespace neve::app {
@@ -68,19 +68,19 @@ TEST(Search, EverydayNamesMeanParametersThatExist) {
   for (const scene::EverydayName& name : scene::everyday_names())
     for (const char* address : name.addresses)
       EXPECT_TRUE(exists(address)) << name.words << ": " << address;
-  for (const scene::Look& look : scene::looks())
-    for (const scene::LookChange& change : look.changes)
-      EXPECT_TRUE(exists(change.address)) << look.wish << ": " << change.address;
+  for (const scene::Wish& wish : scene::wishes())
+    for (const scene::WishChange& change : wish.changes)
+      EXPECT_TRUE(exists(change.address)) << wish.name << ": " << change.address;
 }
 
 /// Both ends of every row can be set, and say something else than each other.
-TEST(Looks, ValuesOfLooksAreTaken) {
+TEST(Wishes, ValuesOfLooksAreTaken) {
   const std::string text =
       "[[body]]\nname = \"ball\"\nshape = { sphere = { center = [0, 1, 0], radius = 0.1 } }\n"
       "[[collider]]\nname = \"floor\"\nshape = { plane = {} }\n";
-  for (const scene::Look& look : scene::looks()) {
-    EXPECT_GE(look.changes.size(), 1u);
-    for (const scene::LookChange& change : look.changes) {
+  for (const scene::Wish& wish : scene::wishes()) {
+    EXPECT_GE(wish.changes.size(), 1u);
+    for (const scene::WishChange& change : wish.changes) {
       std::string address = change.address;
       const std::string item = address.starts_with("material") ? "snow"
                                : address.starts_with("body")   ? "ball"
@@ -96,21 +96,21 @@ TEST(Looks, ValuesOfLooksAreTaken) {
   }
 }
 
-TEST(Looks, TablesHaveALineForEachChange) {
-  std::vector<const scene::Look*> all;
+TEST(Wishes, TablesHaveALineForEachChange) {
+  std::vector<const scene::Wish*> all;
   std::size_t changes = 0;
-  for (const scene::Look& look : scene::looks()) {
-    all.push_back(&look);
-    changes += look.changes.size();
+  for (const scene::Wish& wish : scene::wishes()) {
+    all.push_back(&wish);
+    changes += wish.changes.size();
   }
   const auto lines = [](const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
   };
-  EXPECT_EQ(lines(scene::looks_table(all)), changes + 1);
-  EXPECT_EQ(lines(scene::looks_markdown(all)), changes + 2);
-  EXPECT_EQ(parse_json(std::string_view(scene::looks_json(all))).size(), all.size());
-  ASSERT_EQ(scene::looks_for("stick").size(), 1u);
-  EXPECT_STREQ(scene::looks_for("stick")[0]->wish, "stickier");
+  EXPECT_EQ(lines(scene::wishes_table(all)), changes + 1);
+  EXPECT_EQ(lines(scene::wishes_markdown(all)), changes + 2);
+  EXPECT_EQ(parse_json(std::string_view(scene::wishes_json(all))).size(), all.size());
+  ASSERT_EQ(scene::wishes_for("stick").size(), 1u);
+  EXPECT_STREQ(scene::wishes_for("stick")[0]->name, "stickier");
 }
 
 }  // namespace

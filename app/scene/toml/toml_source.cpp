@@ -68,6 +68,20 @@ std::string message_of(const ::toml::parse_error& error) {
   return text.starts_with(prefix) ? "cannot parse " + text.substr(prefix.size()) : text;
 }
 
+/// Advice where a number has a decimal comma: "cell_size = 0,04".
+std::string advice_on(std::string_view text, int line) {
+  for (int k = 1; k < line && text.find('\n') != text.npos; ++k)
+    text.remove_prefix(text.find('\n') + 1);
+  text = text.substr(0, text.find('\n'));
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::size_t equals = text.find('='), comma = text.find(',', std::min(equals, text.size()));
+  if (comma == text.npos || comma + 1 >= text.size()) return {};
+  const std::string_view before = text.substr(equals + 1, comma - equals - 1);
+  if (before.find_first_not_of(" +-0123456789") != before.npos) return {};
+  if (!is_digit(text[comma - 1]) || !is_digit(text[comma + 1])) return {};
+  return "decimals have a point, as in 0.04";
+}
+
 }  // namespace
 
 Table parse_toml(std::string_view text, const std::string& file) {
@@ -77,7 +91,7 @@ Table parse_toml(std::string_view text, const std::string& file) {
     return convert.table(::toml::parse(source.text));
   } catch (const ::toml::parse_error& error) {
     const Location at = convert.where(error.source());
-    throw SceneError(file, at.line, at.column, message_of(error));
+    throw SceneError(file, at.line, at.column, message_of(error), advice_on(text, at.line));
   }
 }
 

@@ -289,7 +289,7 @@ class LocalJobs {
     }
     clock_.note(work_done_ + begun);
     counts_.seconds_left = clock_.seconds_for(std::max(0.0, work_left_ - begun));
-    progress_.line(runs_text(counts_));
+    progress_.runs(counts_);
   }
 
   const fs::path& folder_;

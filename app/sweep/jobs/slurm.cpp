@@ -210,7 +210,7 @@ JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
     RunCounts counts = count(folder, manifest, indices);
     clock.note(counts.finished);
     counts.seconds_left = clock.seconds_for(counts.all - counts.finished);
-    progress.line(runs_text(counts));
+    progress.runs(counts);
     std::this_thread::sleep_for(check_interval);
     jobs = living(jobs);
   }

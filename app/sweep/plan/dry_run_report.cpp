@@ -110,7 +110,7 @@ void print_json(const SweepPlan& plan, const std::vector<double>& seconds, doubl
                             {"settings", settings},
                             {"first_frame", run.frames.first},
                             {"last_frame", run.frames.last},
-                            {"particles", run.particles},
+                            {"particles", count_json(run.particles)},
                             {"memory_bytes", whole_bytes(run.memory)},
                             {"over_memory_limit", is_over_limit(plan, run)},
                             {"seconds", seconds[k]}});

@@ -29,6 +29,7 @@ struct SweepOptions {
   std::vector<std::string> sbatch;  ///< further options of sbatch
   std::string emit;                 ///< file for the commands of the runs; nothing is started
   Verbosity verbosity = Verbosity::normal;
+  ProgressOptions progress{};
   bool is_dry_run = false;
   bool is_json = false;
 };
@@ -40,14 +41,18 @@ struct SweepRunOptions {
   int threads = 0;  ///< 0: as many as there are
   std::string backend = "auto";
   std::string retry_failed;  ///< "all", or states as in "timeout,crashed"; "": none
+  bool is_json = false;
   Verbosity verbosity = Verbosity::normal;
+  ProgressOptions progress{};
 };
 
 struct CollectOptions {
   std::string folder;  ///< of a sweep
   std::string backend = "auto";
   int threads = 0;
+  bool is_json = false;
   Verbosity verbosity = Verbosity::normal;
+  ProgressOptions progress{};
 };
 
 }  // namespace neve::app::sweep::plan

@@ -8,6 +8,7 @@
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
 #include "app/setup/auto_ranges.h"
+#include "app/support/out_folder.h"
 #include "app/sweep/plan/expand.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/read/read_sweep.h"
@@ -113,7 +114,7 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   plan.sweep = read::read_sweep(options.file, {options.axes, options.overrides});
   refuse_two_frames(options, plan.sweep);
   plan.folder =
-      options.out.empty() ? fs::path("out") / (plan.sweep.name + ".cdb") : fs::path(options.out);
+      options.out.empty() ? out_folder() / (plan.sweep.name + ".cdb") : fs::path(options.out);
   const SceneMaker maker(options, plan.sweep);
   plan.base = maker.make({});
   plan.view = plan.base.views.front().name;

@@ -1,4 +1,4 @@
-#include "app/scene/looks.h"
+#include "app/scene/wishes.h"
 
 #include <fmt/core.h>
 
@@ -11,7 +11,7 @@ namespace neve::app::scene {
 
 namespace {
 
-std::vector<Look> make_looks() {
+std::vector<Wish> make_wishes() {
   return {
       {"stickier",
        "sticky stickiness cohesion cohesive clumps clumpy chunky together glue",
@@ -67,20 +67,20 @@ std::vector<Look> make_looks() {
 }
 
 /// "less of", "more of": what a wish asks of a parameter.
-const char* direction(const LookChange& change) {
+const char* direction(const WishChange& change) {
   return change.is_more ? "larger" : "smaller";
 }
 
-bool has_no_number(const LookChange& change) {
+bool has_no_number(const WishChange& change) {
   return std::string_view(change.less).find_first_of("0123456789") == std::string_view::npos;
 }
 
-std::string advice(const LookChange& change) {
+std::string advice(const WishChange& change) {
   return has_no_number(change) ? std::string(change.more) : std::string(direction(change));
 }
 
 /// The end of the scale that the wish asks for.
-const char* wished(const LookChange& change) {
+const char* wished(const WishChange& change) {
   return change.is_more ? change.more : change.less;
 }
 
@@ -90,8 +90,8 @@ std::string padded(const std::string& text, std::size_t width) {
 
 }  // namespace
 
-const std::vector<Look>& looks() {
-  static const std::vector<Look> all = make_looks();
+const std::vector<Wish>& wishes() {
+  static const std::vector<Wish> all = make_wishes();
   return all;
 }
 
@@ -130,64 +130,64 @@ const std::vector<EverydayName>& everyday_names() {
   return all;
 }
 
-std::vector<const Look*> looks_for(const std::string& text) {
+std::vector<const Wish*> wishes_for(const std::string& text) {
   const std::vector<std::string> wanted = words_in(text);
-  std::vector<const Look*> found;
-  for (const Look& look : looks()) {
-    const std::vector<std::string> words = words_in(std::string(look.wish) + " " + look.words);
+  std::vector<const Wish*> found;
+  for (const Wish& wish : wishes()) {
+    const std::vector<std::string> words = words_in(std::string(wish.name) + " " + wish.words);
     const bool is_meant = std::all_of(wanted.begin(), wanted.end(), [&](const std::string& start) {
       return start.size() >= 3 &&
              std::any_of(words.begin(), words.end(),
                          [&](const std::string& word) { return word.starts_with(start); });
     });
-    if (is_meant && !wanted.empty()) found.push_back(&look);
+    if (is_meant && !wanted.empty()) found.push_back(&wish);
   }
   return found;
 }
 
-std::string looks_table(const std::vector<const Look*>& looks) {
+std::string wishes_table(const std::vector<const Wish*>& wishes) {
   constexpr std::size_t wish_width = 12, address_width = 38, advice_width = 9, value_width = 14;
   std::string text = padded("I WANT IT", wish_width) + padded("PARAMETER", address_width) +
                      padded("MAKE IT", advice_width) + padded("AS IN", value_width) +
                      "MORE OF IT MEANS\n";
-  for (const Look* look : looks) {
-    std::string wish = look->wish;
-    for (const LookChange& change : look->changes) {
-      text += padded(wish, wish_width) + padded(change.address, address_width) +
+  for (const Wish* wish : wishes) {
+    std::string name = wish->name;
+    for (const WishChange& change : wish->changes) {
+      text += padded(name, wish_width) + padded(change.address, address_width) +
               padded(advice(change), advice_width) + padded(wished(change), value_width) +
               change.effect + "\n";
-      wish.clear();
+      name.clear();
     }
   }
   return text;
 }
 
-std::string looks_markdown(const std::vector<const Look*>& looks) {
+std::string wishes_markdown(const std::vector<const Wish*>& wishes) {
   std::string text =
       "| I want it | parameter | make it | less | more | more of it means |\n"
       "| --- | --- | --- | --- | --- | --- |\n";
-  for (const Look* look : looks)
-    for (const LookChange& change : look->changes) {
-      const bool is_first = &change == &look->changes.front();
+  for (const Wish* wish : wishes)
+    for (const WishChange& change : wish->changes) {
+      const bool is_first = &change == &wish->changes.front();
       const auto picture = [&](const char* side, const char* value) {
         const std::string shown = fmt::format("`{}`", value);
-        return is_first ? fmt::format("{}<br>![{}, {}](looks/{}_{}.jpg)", shown, look->wish, side,
-                                      look->wish, side)
+        return is_first ? fmt::format("{}<br>![{}, {}](wishes/{}_{}.png)", shown, wish->name, side,
+                                      wish->name, side)
                         : shown;
       };
       text += fmt::format("| {} | `{}` | {} | {} | {} | {} |\n",
-                          is_first ? fmt::format("**{}**", look->wish) : "", change.address,
+                          is_first ? fmt::format("**{}**", wish->name) : "", change.address,
                           advice(change), picture("less", change.less),
                           picture("more", change.more), change.effect);
     }
   return text;
 }
 
-std::string looks_json(const std::vector<const Look*>& looks) {
+std::string wishes_json(const std::vector<const Wish*>& wishes) {
   Json list = Json::array();
-  for (const Look* look : looks) {
-    Json item{{"wish", look->wish}, {"words", words_in(look->words)}, {"changes", Json::array()}};
-    for (const LookChange& change : look->changes)
+  for (const Wish* wish : wishes) {
+    Json item{{"wish", wish->name}, {"words", words_in(wish->words)}, {"changes", Json::array()}};
+    for (const WishChange& change : wish->changes)
       item["changes"].push_back({{"address", change.address},
                                  {"direction", advice(change)},
                                  {"less", change.less},
