@@ -31,6 +31,9 @@ void style_panels(float scale) {
   style.Colors[ImGuiCol_FrameBg] = ImVec4(0.16f, 0.18f, 0.22f, 1);
   style.Colors[ImGuiCol_Button] = ImVec4(0.20f, 0.23f, 0.29f, 1);
   style.Colors[ImGuiCol_PlotHistogram] = ImVec4(0.24f, 0.45f, 0.70f, 1);
+  // The number of a slider is written over its grab.
+  style.Colors[ImGuiCol_SliderGrab] = ImVec4(0.20f, 0.36f, 0.56f, 1);
+  style.Colors[ImGuiCol_SliderGrabActive] = ImVec4(0.24f, 0.45f, 0.70f, 1);
   style.Colors[ImGuiCol_Header] = ImVec4(0.18f, 0.27f, 0.38f, 1);
   style.ScaleAllSizes(scale);
   ImGui::GetStyle() = style;
@@ -187,6 +190,7 @@ void Viewer::draw() {
   screen_.end(renderer_, state_.viewport);
   if (state_.wants_picture && has_picture_to_save()) save_picture();
   front_.set_progress(state_.live->frame, state_.live->is_running);
+  front_.set_typing(ImGui::GetIO().WantTextInput);
   front_.show(screen_);
   state_.picture_ms = 1e3 * seconds_since(start);
   state_.frames_per_second = 0.9 * state_.frames_per_second + 0.1 / std::max(passed, 1e-3);
@@ -204,7 +208,7 @@ void Viewer::lay_out() {
   panels.is_narrow = static_cast<float>(size.width) < narrow * unit;
   if (state_.go_to_tab) panels.prefers_right = true;
   constexpr float row = 1.75f;  // a button and the gap below it
-  const int line = static_cast<int>(2.6f * unit);
+  const int line = line_height();
   const int bar = line + static_cast<int>(row * unit * static_cast<float>(state_.bar_rows - 1));
   const bool has_panels = panels.left || panels.right;
   const float share = panels.is_narrow ? 0.45f : 1 / 3.0f;
@@ -212,10 +216,18 @@ void Viewer::lay_out() {
     return is_on ? static_cast<int>(std::min(share * static_cast<float>(size.width), width * unit))
                  : 0;
   };
-  const int left = column(panels.shows_left(), 23), right = column(panels.shows_right(), 24);
+  // Of a phone held upright, the lower half is for the panels.
+  panels.is_stacked = panels.is_narrow && size.height > size.width;
+  const int left = panels.is_stacked ? 0 : column(panels.shows_left(), 23),
+            right = panels.is_stacked ? 0 : column(panels.shows_right(), 24);
   const int top = has_panels ? bar : 0, bottom = has_panels ? line : 0;
+  const int height = size.height - top - bottom;
   state_.viewport = {left, top, std::max(16, size.width - left - right),
-                     std::max(16, size.height - top - bottom)};
+                     std::max(16, panels.is_stacked && has_panels ? height / 2 : height)};
+}
+
+int Viewer::line_height() const {
+  return static_cast<int>(2.6f * static_cast<float>(font_size()));
 }
 
 void Viewer::draw_panels() {
@@ -238,14 +250,23 @@ void Viewer::draw_panels() {
   const auto bar = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
   window(
       "transport", ImVec2(0, 0), ImVec2(all.x, y), [&] { panels::draw_transport(state_); }, bar);
-  window("left", ImVec2(0, y), ImVec2(x, all.y - y), [&] { panels::draw_left_column(state_); });
-  window("right", ImVec2(x + w, y), ImVec2(all.x - x - w, all.y - y),
+  const panels::PanelSwitches& switches = state_.panels;
+  const bool is_stacked = switches.is_stacked && (switches.left || switches.right);
+  const float line = is_stacked ? static_cast<float>(line_height()) : all.y - y - h;
+  const ImVec2 below(0, y + h + line), rest(all.x, all.y - y - h - line);
+  const auto column = [&](const char* name, bool is_on, ImVec2 at, ImVec2 size, auto draw_inside) {
+    if (is_on) window(name, is_stacked ? below : at, is_stacked ? rest : size, draw_inside);
+  };
+  column("left", switches.shows_left(), ImVec2(0, y), ImVec2(x, all.y - y),
+         [&] { panels::draw_left_column(state_); });
+  column("right", switches.shows_right(), ImVec2(x + w, y), ImVec2(all.x - x - w, all.y - y),
          [&] { panels::draw_right_column(state_); });
   window(
-      "time", ImVec2(x, y + h), ImVec2(w, all.y - y - h), [&] { panels::draw_time_line(state_); },
-      bar);
+      "time", ImVec2(x, y + h), ImVec2(w, line), [&] { panels::draw_time_line(state_); }, bar);
+  panels::draw_panel_switch(state_);
   panels::draw_offer(state_);
   panels::draw_help(state_);
+  panels::draw_tour(state_);
   panels::use_viewport(state_);
   panels::use_keys(state_);
 }

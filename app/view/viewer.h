@@ -65,7 +65,8 @@ class Viewer {
   scene::View shown_view() const;
   render::Frame picture_frame(scene::View view);
   void keep_points(render::Points points);
-  int font_size() const;  ///< px
+  int font_size() const;    ///< px
+  int line_height() const;  ///< px, of the time line
   void lay_out();
   void draw_panels();
   void play(double seconds);

@@ -36,12 +36,6 @@ bool has_all(const picture::Snapshot& snapshot, const scene::View& view) {
                      [&](scene::VectorField field) { return fields.vectors.contains(field); });
 }
 
-/// Vertical angle of view of a picture that many times narrower, with the same left and right.
-double widened(double fov, double narrower) {
-  constexpr double radians = 3.14159265358979323846 / 180;
-  return 2 * std::atan(narrower * std::tan(0.5 * fov * radians)) / radians;
-}
-
 }  // namespace
 
 StateKey Viewer::state_key() const {
@@ -60,13 +54,17 @@ void Viewer::paint_picture() {
     const scene::View& view = panels::current_view(state_);
     const scene::CameraSettings settings =
         view.camera ? *view.camera : *bench_.document().scene()->camera;
+    scene::View placed = view;
+    placed.camera = settings;
     const setup::CameraPlace place =
-        setup::camera_at(settings, state_.live->snapshot.time, scene.frames / scene.fps);
+        picture::camera_place(scene, placed, *state_.live->seeded, state_.live->snapshot);
     const scene::PictureSize framed = setup::size_of(*bench_.document().scene(), view);
     const double narrower = (static_cast<double>(framed.width) / framed.height) /
                             (static_cast<double>(state_.viewport.width) / state_.viewport.height);
-    state_.orbit = panels::Orbit(place.eye, place.target, settings.up,
-                                 widened(place.fov, std::max(1.0, narrower)));
+    // A narrow picture is taken from further away, with the same left and right: a wider angle
+    // would stay, as a fish-eye, when the window grows.
+    const sim::Vec3d eye = place.target + std::max(1.0, narrower) * (place.eye - place.target);
+    state_.orbit = panels::Orbit(eye, place.target, settings.up, place.fov);
   }
   const bool is_moving = seconds_since(moved_at_) < still_after;
   double scale = 1;

@@ -187,6 +187,13 @@ TEST_F(Browser, FingersAreButtonsAndWheel) {
   browser->touch("touchEnd", {});
   EXPECT_TRUE(wait_for_button(0, true, 100, 90));
   EXPECT_TRUE(wait_for_button(0, false, 100, 90));
+  EXPECT_TRUE(wait_for_move(-100000, -100000)) << "nothing stays lit";
+  // A second one at once has ctrl.
+  browser->touch("touchStart", {{102, 91}});
+  browser->touch("touchEnd", {});
+  EXPECT_TRUE(wait_for([](const InputEvent& event) {
+    return event.kind == Kind::button && event.button == 0 && event.is_down && event.held.ctrl;
+  }));
   // One finger drags with the left button.
   events.clear();
   browser->touch("touchStart", {{200, 150}});
@@ -207,7 +214,9 @@ TEST_F(Browser, FingersAreButtonsAndWheel) {
     if (event.kind == Kind::wheel) notches += event.y;
     EXPECT_FALSE(event.kind == Kind::button && event.button == 0) << "no click on the way";
   }
-  EXPECT_NEAR(notches, 10, 0.5);  // twice as far apart
+  // Twice as far apart is twice as large: a notch makes it 1 / 0.88 times as large.
+  EXPECT_NEAR(std::pow(0.88, -notches), 2, 0.05);
+  EXPECT_TRUE(wait_for_move(-100000, -100000)) << "the fingers have left";
   browser->call("Emulation.setTouchEmulationEnabled", {{"enabled", false}});
 }
 

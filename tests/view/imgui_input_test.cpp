@@ -56,6 +56,42 @@ struct InputOfPanels : testing::Test {
   }
 };
 
+/// A finger moves and presses at once, and leaves no place where it stays: without that, tabs
+/// ignore the next tap, because what it hovered last is still lit.
+TEST_F(InputOfPanels, TapsOnTabsAllCount) {
+  int open = -1;
+  ImVec2 tabs[3];
+  const auto tap = [&](ImVec2 place) {
+    for (const auto& batch : std::vector<std::vector<app::view::frontend::InputEvent>>{
+             {move_to(place.x, place.y), button(true), button(false)},
+             {move_to(-100000, -100000)}}) {
+      input.push(batch);
+      bool is_more = true;
+      while (is_more) {
+        is_more = input.feed();
+        panels.frame([&] {
+          if (!ImGui::BeginTabBar("bar")) return;
+          for (int k = 0; k < 3; ++k) {
+            if (ImGui::BeginTabItem(("tab " + std::to_string(k)).c_str())) {
+              open = k;
+              ImGui::EndTabItem();
+            }
+            tabs[k] = middle();
+          }
+          ImGui::EndTabBar();
+        });
+      }
+    }
+  };
+  tap({700, 500});
+  tap({700, 500});
+  for (const int wanted : {1, 2, 0, 2, 1, 0, 1}) {
+    tap(tabs[wanted]);
+    tap({700, 500});
+    EXPECT_EQ(open, wanted);
+  }
+}
+
 TEST_F(InputOfPanels, ClickWithinOneBatchIsOneClick) {
   play({move_to(button_middle.x, button_middle.y), button(true), button(false)});
   EXPECT_EQ(clicks, 1);

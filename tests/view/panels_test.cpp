@@ -1,6 +1,7 @@
 /// Decisions of panels: scales of sliders, places of tips, parameters that pass a filter.
 
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 
@@ -109,6 +110,30 @@ TEST(Tip, TipWaitsUntilTheMouseRests) {
     EXPECT_FALSE(app::view::panels::wants_tip());
   });
   EXPECT_FALSE(app::view::panels::is_tip_coming());
+}
+
+/// ImGui hides a new window in its first frame: a viewer that draws no more then never shows it.
+TEST(Tip, APausedViewerDrawsUntilTheTipIsVisible) {
+  Panels panels;
+  ImGui::GetIO().MousePos = ImVec2(30, 20);
+  int first = -1, drawn_after = 0;
+  // As the viewer: while a tip is coming, and some frames after input.
+  for (int k = 0; k < 200 && (k < 3 || app::view::panels::is_tip_coming()); ++k)
+    panels.frame([&] {
+      ImGui::Button("a button that is wide");
+      if (!app::view::panels::wants_tip()) return;
+      app::view::panels::show_tip({{"what it does"}});
+      if (first < 0) first = k;
+      drawn_after = k - first;
+    });
+  EXPECT_GT(first, 0);
+  EXPECT_GE(drawn_after, 2);
+  EXPECT_LT(drawn_after, 10) << "and rests then";
+  const ImGuiWindow* tip = nullptr;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+    if (window->Flags & ImGuiWindowFlags_Tooltip) tip = window;
+  ASSERT_TRUE(tip);
+  EXPECT_TRUE(tip->Active && !tip->Hidden);
 }
 
 /// The labels that a scene's parameters leave with a filter, and whether something was shown.

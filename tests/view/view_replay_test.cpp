@@ -172,5 +172,65 @@ TEST_F(ViewByScript, MistakesInTheScriptAreReportedBeforeAnythingOpens) {
   EXPECT_TRUE(contains(result.errors, "clicks.json:1:2: error: step 1")) << result.errors;
 }
 
+/// The curve is bright on the dark of its frame, from one end of it to the other.
+TEST_F(ViewByScript, AProbedParticleHasAPlotOverTime) {
+  const auto result = view(R"([
+    {"click": "Inspect"}, {"wait_for": "label Probe"}, {"key": "1"}, {"wait": 3},
+    {"click": "picture"}, {"wait_for": "label Clear"},
+    {"key": "."}, {"wait_for": "simulation frame 1"}, {"wait_for": "simulation paused"},
+    {"key": "."}, {"wait_for": "simulation frame 2"}, {"wait_for": "simulation paused"},
+    {"wait_for": "label probe plot"}, {"wait": 5},
+    {"screenshot": "plot.png", "crop": "probe plot"}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const render::Image plot =
+      render::decode_png(app::output::read_file(folder / "out" / "plot.png"));
+  ASSERT_GT(plot.width, 100) << "the plot has no width";
+  int bright_columns = 0;
+  for (int x = 0; x < plot.width; ++x) {
+    bool is_bright = false;
+    for (int y = 0; y < plot.height; ++y)
+      is_bright = is_bright ||
+                  plot.pixels[(static_cast<std::size_t>(y) * plot.width + x) * plot.channels] > 110;
+    bright_columns += is_bright;
+  }
+  EXPECT_GT(bright_columns, plot.width / 2);
+}
+
+/// Also in a narrow window, where widgets of some steps are in the other column.
+TEST_F(ViewByScript, TheTourHasTenStepsAndEnds) {
+  for (const char* size : {"[1280, 760]", "[390, 844]"}) {
+    std::string script =
+        std::string(R"([{"resize": )") + size + R"(}, {"wait": 3}, {"click": "Tour"})";
+    for (int step = 0; step < 9; ++step)
+      script += R"(, {"wait_for": "label End the tour"}, {"click": "Next"}, {"wait": 3})";
+    script += R"(, {"wait_for": "label Done"}, {"screenshot": "tour.png"}, {"click": "Previous"},
+      {"wait_for": "label End the tour"}, {"click": "Next"}, {"wait_for": "label Done"},
+      {"click": "Done"}, {"wait": 3}])";
+    const auto result = view(script);
+    SKIP_WITHOUT_GL(result);
+    EXPECT_EQ(result.exit_code, 0) << size << ": " << result.errors;
+  }
+}
+
+/// The lower half is for the panels, which a button hides and brings back.
+TEST_F(ViewByScript, APhoneHeldUprightHasThePanelsBelow) {
+  const auto result = view(R"([
+    {"resize": [390, 844]}, {"wait": 3}, {"screenshot": "phone.png", "crop": "picture"},
+    {"click": "Hide"}, {"wait_for": "label Panels"}, {"wait": 2},
+    {"screenshot": "alone.png", "crop": "picture"}, {"click": "Panels"},
+    {"wait_for": "label Parameters"}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto size_of = [&](const char* name) {
+    const render::Image image = render::decode_png(app::output::read_file(folder / "out" / name));
+    return std::pair(image.width, image.height);
+  };
+  EXPECT_EQ(size_of("phone.png").first, 390);
+  EXPECT_GT(size_of("phone.png").second, 300);
+  EXPECT_LT(size_of("phone.png").second, 500);
+  EXPECT_EQ(size_of("alone.png"), std::pair(390, 844));
+}
+
 }  // namespace
 }  // namespace neve::test

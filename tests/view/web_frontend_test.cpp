@@ -38,6 +38,18 @@ std::vector<Received> pictures(WebClient& page, double seconds) {
   return result;
 }
 
+TEST_F(Web, APageIsToldThatATextFieldWaits) {
+  start();
+  auto page = connect();
+  front->set_typing(true);
+  bool is_told = false;
+  for (int k = 0; k < 4 && !is_told; ++k)
+    if (const auto frame = page->receive(WebClient::text, 3))
+      is_told = frame->payload.find("\"typing\"") != std::string::npos &&
+                frame->payload.find("on") != std::string::npos;
+  EXPECT_TRUE(is_told);
+}
+
 TEST_F(Web, NoPictureIsSentBeforeAPageAsks) {
   start();
   EXPECT_FALSE(front->is_ready());

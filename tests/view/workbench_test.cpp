@@ -358,6 +358,36 @@ TEST(Workbench, WorkbenchReportsRefusedValues) {
   EXPECT_TRUE(work.bench.document().changes().empty());
 }
 
+/// As the advice after a divergence says: change a parameter, and reset or go back.
+TEST(Workbench, AChangeAfterADivergenceWaitsAndIsNoError) {
+  Working work(exploding_scene);
+  work.session().run();
+  wait_for(work.session(), [](const view::session::LiveFrame& live) {
+    return live.divergence.has_value() && !live.is_running;
+  });
+  const std::uint64_t errors = work.bench.errors_said();
+  work.bench.set("solver.dt", "1e-5");
+  EXPECT_EQ(work.bench.waiting_for_reset(), std::vector<std::string>{"solver.dt"});
+  EXPECT_EQ(work.bench.messages().back().text,
+            "solver.dt: this run has diverged; the change takes effect at Reset, or after going "
+            "back to an earlier frame");
+  // The same while an older frame is shown, and continued from there it counts.
+  work.session().show_frame(0);
+  wait_for(work.session(), [](const view::session::LiveFrame& live) { return live.is_older; });
+  work.bench.set("material.snow.youngs_modulus", "1e5");
+  EXPECT_EQ(work.bench.waiting_for_reset().size(), 2u);
+  work.bench.continue_from_here();
+  const auto live = wait_for(work.session(), [](const view::session::LiveFrame& shown) {
+    return !shown.is_older && shown.scene->solver.dt == 1e-5;
+  });
+  EXPECT_EQ(live->scene->materials[0].youngs_modulus, 1e5);
+  EXPECT_TRUE(work.bench.waiting_for_reset().empty());
+  EXPECT_FALSE(live->divergence);
+  work.go_to(1);
+  EXPECT_EQ(work.bench.errors_said(), errors);
+  EXPECT_TRUE(work.session().latest()->error.empty()) << work.session().latest()->error;
+}
+
 TEST(Workbench, FailuresAreErrorsToBeSeen) {
   Working work;
   const std::uint64_t before = work.bench.errors_said();

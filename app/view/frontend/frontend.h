@@ -69,6 +69,9 @@ class Frontend {
   /// Tells the progress of the simulation: scripts wait for it.
   virtual void set_progress(int /*frame*/, bool /*is_running*/) {}
 
+  /// Tells whether a text field waits for input: a phone shows its keyboard.
+  virtual void set_typing(bool /*is_wanted*/) {}
+
   /// Puts text into the user's clipboard.
   virtual void set_clipboard(const std::string& text) = 0;
   /// The last text known to be in it.

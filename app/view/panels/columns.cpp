@@ -28,6 +28,20 @@ void add_tab(const char* name, Draw draw, ImGuiTabItemFlags flags = 0,
 
 }  // namespace
 
+void draw_panel_switch(ViewerState& state) {
+  const PanelSwitches& panels = state.panels;
+  if (!panels.is_narrow || panels.left || panels.right) return;
+  ImGui::SetNextWindowPos(ImVec2(0, 0));
+  if (ImGui::Begin("panels", nullptr,
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
+                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                       ImGuiWindowFlags_NoBackground)) {
+    if (ImGui::Button("Panels")) state.panels.left = state.panels.right = true;
+    note_label("Panels");
+  }
+  ImGui::End();
+}
+
 void draw_left_column(ViewerState& state) {
   if (!ImGui::BeginTabBar("left")) return;
   add_tab("Parameters", [&] { draw_parameters(state); });
@@ -41,7 +55,8 @@ void draw_left_column(ViewerState& state) {
 }
 
 void draw_right_column(ViewerState& state) {
-  if (!ImGui::BeginTabBar("right")) return;
+  // Names of tabs are scrolled where they have no room, not cut.
+  if (!ImGui::BeginTabBar("right", ImGuiTabBarFlags_FittingPolicyScroll)) return;
   const auto flags = [&](std::size_t tab) {
     return state.go_to_tab == tab ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
   };

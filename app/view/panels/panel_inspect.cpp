@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "app/health/meanings.h"
 #include "app/scene/leaf.h"
 #include "app/scene/names.h"
 #include "app/support/text.h"
@@ -42,10 +43,13 @@ void draw_expected(const std::optional<scene::Range>& expected) {
 void draw_value(const std::string& text, bool is_outside_expected,
                 const std::optional<scene::Range>& expected) {
   ImGui::TableNextColumn();
+  // A tensor has more than a narrow panel shows in a line.
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x);
   if (is_outside_expected)
     ImGui::TextColored(strange_color, "%s", text.c_str());
   else
     ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
   draw_expected(expected);
 }
 
@@ -58,6 +62,18 @@ bool begin_quantities(const char* name) {
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
   return true;
+}
+
+/// The meaning of a symbol, and the range that is expected.
+void show_quantity_tip(const session::QuantitySummary& quantity) {
+  std::vector<TipLine> lines;
+  if (std::string meaning = health::meaning_of(quantity.name); !meaning.empty())
+    lines.push_back({std::move(meaning)});
+  if (!quantity.why.empty())
+    lines.push_back(
+        {std::to_string(quantity.outside_expected) + " outside the expected range: " + quantity.why,
+         true});
+  if (!lines.empty()) show_tip(lines);
 }
 
 void draw_stage_table(const session::StageSummary& look) {
@@ -74,9 +90,7 @@ void draw_stage_table(const session::StageSummary& look) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(with_unit(quantity.name, quantity.unit).c_str());
-    if (!quantity.why.empty() && wants_tip())
-      show_tip({{std::to_string(quantity.outside_expected) +
-                 " outside the expected range: " + quantity.why}});
+    if (wants_tip()) show_quantity_tip(quantity);
     draw_value(rough_text(quantity.min) + " to " + rough_text(quantity.max),
                quantity.outside_expected > 0, quantity.expected);
   }
@@ -114,7 +128,7 @@ std::string stage_time_text(const session::LiveFrame& live, sim::Stage stage) {
       p.partition + p.particles_to_grid + p.grid_update + p.solve + p.grid_to_particles + p.checks;
   const StagePhase phase = phase_of(stage, p);
   if (!(phase.seconds > 0)) return "";
-  if (stage != phase.first) return "|";
+  if (stage != phase.first) return "as above";
   return fixed_text(100 * phase.seconds / all, 0) + " %, " + phase.name;
 }
 
@@ -147,8 +161,14 @@ void draw_stage(ViewerState& state, sim::Stage stage, const char* name) {
   }
   if (is_past) ImGui::PopStyleColor();
   note_label(name);
-  tip("click to take a step on a copy, up to the end of this stage; click again to return to the "
-      "frame");
+  if (wants_tip()) {
+    const health::StageMeaning& meaning = health::meaning_of(stage);
+    show_tip({{meaning.sentence},
+              {std::string("the paper, ") + meaning.paper, true},
+              {"click to take a step on a copy, up to the end of this stage; click again to return "
+               "to the frame",
+               true}});
+  }
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", is_done ? stage_time_text(live, stage).c_str() : "skipped");
@@ -201,8 +221,10 @@ void draw_trace(ViewerState& state) {
                            rough_text(static_cast<double>(high)) +
                            ", t = " + fixed_text(state.trace.points.front().first, 3) + " to " +
                            fixed_text(state.trace.points.back().first, 3) + " s";
+  // ImGui 1.86 takes a negative width as it is, and draws nothing.
   ImGui::PlotLines("##trace", values.data(), static_cast<int>(values.size()), 0, nullptr, low, high,
-                   ImVec2(-FLT_MIN, 5 * em()));
+                   ImVec2(ImGui::GetContentRegionAvail().x, 5 * em()));
+  note_label("probe plot");
   ImGui::TextDisabled("%s", text.c_str());
 }
 
@@ -249,8 +271,10 @@ void draw_probe(ViewerState& state) {
     note_label(("probe " + row.name).c_str());
     if (wants_tip()) {
       std::vector<TipLine> lines;
-      if (!row.why.empty()) lines.push_back({row.why});
-      lines.push_back({"click to plot it over time"});
+      if (std::string meaning = health::meaning_of(row.name); !meaning.empty())
+        lines.push_back({std::move(meaning)});
+      if (!row.why.empty()) lines.push_back({"expected: " + row.why, true});
+      lines.push_back({"click to plot it over time", true});
       show_tip(lines);
     }
     draw_value(values_text(row), row.is_outside_expected, row.expected);

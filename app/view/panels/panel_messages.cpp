@@ -76,7 +76,7 @@ void draw_ticks(const session::LiveFrame& live, int last) {
 void draw_messages(ViewerState& state) {
   draw_incident(state);
   const std::deque<session::Message>& messages = state.bench.messages();
-  if (messages.empty()) ImGui::TextDisabled("Nothing to report.");
+  if (messages.empty() && !state.live->divergence) ImGui::TextDisabled("Nothing to report.");
   ImGui::PushTextWrapPos(0);
   for (auto message = messages.rbegin(); message != messages.rend(); ++message) {
     ImGui::PushStyleColor(ImGuiCol_Text, message_color(message->kind));

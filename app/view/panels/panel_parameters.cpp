@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/picture/attributes.h"
+#include "app/scene/coarsen.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "app/view/panels/labels.h"
@@ -36,6 +37,14 @@ void take_edits(ViewerState& state, const KnobPanel& panel) {
       state.bench.edit(edit);
   }
   if (!panel.edits().empty()) announce_view(state);
+}
+
+/// The scene with the numbers that its file has and --set takes: under --coarsen those that the
+/// simulation uses are others. A copy: visitors take members that they could change.
+scene::Scene settings_of(const ViewerState& state) {
+  scene::Scene scene = *state.bench.document().scene();
+  scene::refine_settings(scene, state.bench.document().coarsening());
+  return scene;
 }
 
 void draw_waiting(ViewerState& state) {
@@ -130,8 +139,7 @@ void draw_parameters(ViewerState& state) {
     state.filter = text;
   note_label("find a parameter");
   ImGui::BeginChild("list");
-  scene::Scene scene =
-      *state.bench.document().scene();  // visitors take members that they could change
+  scene::Scene scene = settings_of(state);
   KnobPanel panel(state.filter, changed_addresses(state.bench.document()));
   Knobs knobs(panel, "");
   scene::describe(knobs, scene);
@@ -177,7 +185,7 @@ void draw_changes(ViewerState& state) {
 }
 
 void draw_objects(ViewerState& state) {
-  scene::Scene scene = *state.bench.document().scene();
+  scene::Scene scene = settings_of(state);
   const auto entry = [&](const std::string& address, const sim::shapes::Shape& shape) {
     const bool is_selected = state.selected == address;
     if (ImGui::Selectable(address.c_str(), is_selected))

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/run/run_json.h"
+#include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "app/view/panels/labels.h"
 #include "app/view/panels/tip.h"
@@ -70,8 +71,16 @@ void draw_out_menu(ViewerState& state) {
   ImGui::EndPopup();
 }
 
-/// "frame 12 of 48   t = 0.512 s   step 812   0.21 x real time", or as much of it as there is room
-/// for.
+/// "250 times slower than real time"
+std::string speed_text(double speed) {
+  if (speed >= 0.95) return rough_text(speed) + " times real time";
+  const double slower = 1 / speed;
+  return (slower < 10 ? rough_text(round_to(slower, slower, 2)) : fixed_text(slower, 0)) +
+         " times slower than real time";
+}
+
+/// "frame 12 of 48   t = 0.512 s   step 812   5 times slower than real time", or as much of it as
+/// there is room for.
 std::string status_text(const session::LiveFrame& live, float room) {
   std::string text;
   const auto add = [&](const std::string& more) {
@@ -80,7 +89,7 @@ std::string status_text(const session::LiveFrame& live, float room) {
   };
   add("frame " + std::to_string(live.frame) + " of " + std::to_string(live.scene->frames));
   add("t = " + fixed_text(live.snapshot.time, 4) + " s");
-  if (live.is_running && live.speed > 0) add(rough_text(live.speed) + " x real time");
+  if (live.is_running && live.speed > 0) add(speed_text(live.speed));
   add("step " + std::to_string(live.steps));
   return text;
 }
@@ -124,12 +133,15 @@ void draw_transport(ViewerState& state) {
   gap();
   draw_out_menu(state);
   if (button("?", "keys and mouse")) state.is_help_open = !state.is_help_open;
+  if (button("Tour", "a guided tour of ten steps", true, state.tour_step >= 0)) start_tour(state);
   PanelSwitches& panels = state.panels;
   if (panels.is_one_of_two() &&
       button(panels.prefers_right ? "Parameters" : "View",
              panels.prefers_right ? "show parameters, objects and changes in the column"
                                   : "show view, inspection, plots and messages in the column"))
     panels.prefers_right = !panels.prefers_right;
+  if (panels.is_narrow && button("Hide", "show the picture alone (tab)"))
+    panels.left = panels.right = false;
   state.bar_rows = 1 + static_cast<int>(std::lround((ImGui::GetCursorPosY() - first_row) /
                                                     ImGui::GetFrameHeightWithSpacing()));
   gap();

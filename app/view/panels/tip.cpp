@@ -8,12 +8,15 @@ namespace {
 
 constexpr float rest_before_tip = 0.4f;  // s
 constexpr float tip_gap = 3;             // px between widget and tip
+/// ImGui hides a new window in its first frame, to learn its size.
+constexpr int frames_to_appear = 3;
 
 /// On which widget the mouse rests. There is one mouse, as there is one current ImGui context.
 struct Rest {
   ImVec2 widget{-1, -1};
   int frame = -1;
   float seconds = 0;
+  int shown = 0;  ///< frames that had its tip
 };
 Rest rest;
 
@@ -40,13 +43,17 @@ bool wants_tip() {
   const int frame = ImGui::GetFrameCount();
   const bool is_same = widget.x == rest.widget.x && widget.y == rest.widget.y &&
                        (frame == rest.frame || frame == rest.frame + 1) && !ImGui::IsAnyMouseDown();
-  rest = {widget, frame, is_same ? rest.seconds + ImGui::GetIO().DeltaTime : 0};
-  return rest.seconds >= rest_before_tip;
+  const bool is_next = is_same && frame != rest.frame;
+  rest = {widget, frame, is_same ? rest.seconds + ImGui::GetIO().DeltaTime : 0,
+          is_same ? rest.shown : 0};
+  const bool is_due = rest.seconds >= rest_before_tip;
+  if (is_due && is_next) ++rest.shown;
+  return is_due;
 }
 
 bool is_tip_coming() {
-  return rest.frame == ImGui::GetFrameCount() && rest.seconds < rest_before_tip &&
-         !ImGui::IsAnyMouseDown();
+  const bool is_on_its_way = rest.seconds < rest_before_tip || rest.shown < frames_to_appear;
+  return rest.frame == ImGui::GetFrameCount() && is_on_its_way && !ImGui::IsAnyMouseDown();
 }
 
 ImVec2 tip_place(ImVec2 from, ImVec2 to, ImVec2 size, ImVec2 screen) {

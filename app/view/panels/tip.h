@@ -20,7 +20,8 @@ void show_tip(const std::vector<TipLine>& lines);
 /// Both of one line.
 void tip(const char* text);
 
-/// True if a tip is due soon without further input, so the panels must be drawn again.
+/// True if a tip is due soon without further input, or has just been drawn for the first time and
+/// is not yet visible: the panels must be drawn again.
 bool is_tip_coming();
 
 /// Place of a tip, px from the upper left corner.

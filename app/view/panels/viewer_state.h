@@ -28,6 +28,7 @@ struct ProbeTrace {
 struct PanelSwitches {
   bool left = true, right = true;
   bool is_narrow = false;      ///< there is room for one
+  bool is_stacked = false;     ///< it is below the picture, not beside it
   bool prefers_right = false;  ///< of both this one
 
   bool is_one_of_two() const { return is_narrow && left && right; }
@@ -52,6 +53,7 @@ struct ViewerState {
   render::PicturePlace viewport{};  ///< px
   PanelSwitches panels{};
   bool is_help_open = false;
+  int tour_step = -1;  ///< of the guided tour; -1: it is over
   int bar_rows = 1;  ///< of buttons at the top, in the last picture
 
   std::string filter{};    ///< of the parameters
@@ -112,8 +114,12 @@ void draw_plots_panel(ViewerState& state);
 void draw_messages(ViewerState& state);
 void draw_time_line(ViewerState& state);
 void draw_help(ViewerState& state);
+void start_tour(ViewerState& state);
+void draw_tour(ViewerState& state);
 /// Draws a pending question: a file that changed.
 void draw_offer(ViewerState& state);
+/// Draws the button that brings hidden panels back, where there may be no key for it.
+void draw_panel_switch(ViewerState& state);
 void draw_left_column(ViewerState& state);
 void draw_right_column(ViewerState& state);
 

@@ -26,6 +26,7 @@ class RecordingFrontend : public frontend::Frontend {
   bool is_picture_wanted() const override { return front_.is_picture_wanted(); }
   void show(render::Screen& screen) override { front_.show(screen); }
   void set_progress(int frame, bool is_running) override;
+  void set_typing(bool is_wanted) override { front_.set_typing(is_wanted); }
   void set_clipboard(const std::string& text) override { front_.set_clipboard(text); }
   std::string clipboard() const override { return front_.clipboard(); }
 

@@ -77,8 +77,9 @@ struct LiveFrame {
   bool is_frame_end = true;
   std::size_t steps = 0;  ///< since the start
   bool is_running = false;
-  bool is_older = false;  ///< not where the run is: a kept frame
-  int head = 0;           ///< frame where the run is
+  bool is_older = false;        ///< not where the run is: a kept frame
+  int head = 0;                 ///< frame where the run is
+  bool is_head_broken = false;  ///< the run broke a rule there
   std::vector<int> kept;
   std::uint64_t kept_bytes = 0, kept_budget = 0;
 

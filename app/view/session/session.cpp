@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <exception>
 #include <future>
+#include <stdexcept>
 #include <utility>
 
 #include "app/support/machine.h"
@@ -137,6 +138,11 @@ void Session::reset(std::shared_ptr<const scene::Scene> scene) {
 void Session::apply(std::shared_ptr<const scene::Scene> scene) {
   ask([this, scene = std::move(scene)] {
     leave_older();
+    // A race: the run broke a rule after the change was asked for.
+    if (simulation_->divergence())
+      throw std::runtime_error(
+          "this run has diverged: the change takes effect at Reset, or after going back to an "
+          "earlier frame");
     player_->make_now(scene);
     colliders_ = simulation_->colliders();
     // The kept copy of this moment must include the change.
@@ -151,7 +157,10 @@ void Session::show_frame(int frame) {
     const KeptFrame* kept = kept_.at_or_before(frame);
     if (!kept) return;
     if (!head_ && kept->frame == frame_ && simulation_->steps() == steps_of_frame_) return;
-    if (!head_) head_ = state_now();
+    if (!head_) {
+      head_is_broken_ = simulation_->divergence().has_value();
+      head_ = state_now();
+    }
     load(*kept);
   });
 }

@@ -116,6 +116,7 @@ class Session {
   std::shared_ptr<std::vector<RunSample>> samples_;
   KeptFrames kept_{0};
   std::optional<KeptFrame> head_;  ///< where the run is, while an older frame is shown
+  bool head_is_broken_ = false;    ///< it broke a rule there
   Goal goal_ = Goal::none;
   std::optional<int> stage_;  ///< of a step that is looked at: the last one done
   std::vector<scene::View> views_;

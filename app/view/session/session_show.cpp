@@ -72,6 +72,7 @@ void Session::publish() {
   live->is_running = goal_ != Goal::none;
   live->is_older = head_.has_value();
   live->head = head_ ? head_->frame : frame_;
+  live->is_head_broken = head_ ? head_is_broken_ : simulation_->divergence().has_value();
   live->kept = kept_.numbers();
   live->kept_bytes = kept_.bytes();
   live->kept_budget = kept_.budget();

@@ -124,14 +124,20 @@ void Workbench::forget(const std::string& address) {
 /// Applies the live part of the difference to the simulation.
 void Workbench::take_over(const std::vector<scene::Override>& before) {
   bool needs_restart = false, is_live = false;
+  const std::shared_ptr<const LiveFrame> frame = session_->latest();
+  const bool is_broken = frame && frame->is_head_broken;
   for (const std::string& address : Document::difference(before, document_.edits())) {
     const Effect effect = effect_of(address);
     needs_restart = needs_restart || effect == Effect::restart;
     if (effect != Effect::live) continue;
+    if (is_broken) {
+      say(Message::Kind::note, address + ": this run has diverged; the change takes effect at " +
+                                   "Reset, or after going back to an earlier frame");
+      continue;
+    }
     put(running_, address, document_.edits());
     is_live = true;
   }
-  const std::shared_ptr<const LiveFrame> frame = session_->latest();
   if (needs_restart && frame && frame->steps == 0 && !frame->is_older && frame->head == 0) {
     reset();
     return;
@@ -159,8 +165,11 @@ void Workbench::reset() {
   session_->reset(document_.scene());
 }
 
+/// Takes the live changes that waited because the run had diverged too.
 void Workbench::continue_from_here() {
   session_->continue_from_here();
+  for (const std::string& address : waiting_for_reset())
+    if (effect_of(address) == Effect::live) put(running_, address, document_.edits());
   apply_running();
 }
 

@@ -199,6 +199,13 @@ void WebFrontend::set_cursor(Cursor cursor) {
   tell(page_text("cursor", cursor_));
 }
 
+void WebFrontend::set_typing(bool is_wanted) {
+  const std::lock_guard lock(mutex_);
+  if (is_typing_ == is_wanted) return;
+  is_typing_ = is_wanted;
+  tell(page_text("typing", is_typing_ ? "on" : "off"));
+}
+
 void WebFrontend::set_title(const std::string& title) {
   const std::lock_guard lock(mutex_);
   if (title_ == title) return;
@@ -221,6 +228,7 @@ void WebFrontend::on_viewer(std::uint64_t viewer) {
     is_visible_ = is_wanted_ = true;
     tell(page_text("title", title_));
     tell(page_text("cursor", cursor_));
+    if (is_typing_) tell(page_text("typing", "on"));
   }
   changed_.notify_all();
 }

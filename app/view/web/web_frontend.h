@@ -66,6 +66,7 @@ class WebFrontend final : public frontend::Frontend, private WebListener {
   /// changes it is sent once more in full quality, by wait().
   void show_image(render::Image image);
 
+  void set_typing(bool is_wanted) override;
   void set_cursor(Cursor cursor);
   /// Sets the title of the page, shown in the browser's tab.
   void set_title(const std::string& title);
@@ -100,6 +101,7 @@ class WebFrontend final : public frontend::Frontend, private WebListener {
   std::string clipboard_, cursor_ = "default", title_ = "neve";
   std::uint64_t viewer_ = 0;  ///< 0: no page is connected
   bool has_told_size_ = false, is_visible_ = true;
+  bool is_typing_ = false;  ///< a text field waits for input
   bool is_wanted_ = false, is_woken_ = false, is_full_ = false;
   mutable bool has_told_ready_ = false;  ///< the last value told to the program
   Sent sent_ = Sent::nothing;            ///< of the picture, to this viewer
