@@ -1,0 +1,123 @@
+/// Every command of the README and of docs/ runs: with fewer frames and pixels, where that is all
+/// that is saved.
+
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Command {
+  std::string place, text;
+};
+
+/// "./neve render a.toml \" and the lines after it, without comments.
+std::vector<Command> commands_of(const fs::path& page) {
+  std::vector<Command> found;
+  std::istringstream lines(read_text(page));
+  bool is_code = false;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.starts_with("```")) is_code = !is_code;
+    const bool is_ours = line.starts_with("./neve ") || line.starts_with("neve ");
+    if (!is_code || !is_ours) continue;
+    while (line.ends_with('\\')) {
+      std::string more;
+      std::getline(lines, more);
+      ++number;
+      line.pop_back();
+      line += more;
+    }
+    line = line.substr(line.find("neve ") + 5);
+    if (const std::size_t comment = line.find(" #"); comment != std::string::npos)
+      line.resize(comment);
+    found.push_back({page.filename().string() + ":" + std::to_string(number), line});
+  }
+  return found;
+}
+
+std::vector<Command> commands_of_pages() {
+  std::vector<Command> all = commands_of(fs::path(NEVE_SOURCE_DIR) / "README.md");
+  for (const auto& entry : fs::directory_iterator(fs::path(NEVE_SOURCE_DIR) / "docs"))
+    if (entry.path().extension() == ".md")
+      for (Command& command : commands_of(entry.path())) all.push_back(std::move(command));
+  return all;
+}
+
+/// The command with what makes it short; empty for one that cannot be run here.
+std::string shortened(std::string command) {
+  const std::string name = command.substr(0, command.find(' '));
+  if (name == "test" || name == "export") return "";
+  command = std::regex_replace(command, std::regex("--out [^ ]+"), "--out elsewhere");
+  const auto add = [&](const std::string& flag, const std::string& value = "") {
+    if (command.find(flag) == std::string::npos)
+      command += " " + flag + (value.empty() ? "" : " " + value);
+  };
+  if (name == "bench") add("--help");
+  if (name == "sweep") add("--dry-run");
+  if (name == "view") add("--replay", "wait.json");
+  if (name == "view" || name == "dump" || name == "check" || name == "sweep") add("--coarsen", "3");
+  if (name != "render") return command;
+  const bool is_picture = command.find(".png") != std::string::npos;
+  if (!is_picture) add("--frames", "0");
+  add("--coarsen", "3");
+  add("--size", "64x36");
+  add("--no-movie");
+  return command;
+}
+
+/// The scene of the tutorial: its first block of TOML.
+std::string scene_of_tutorial() {
+  const std::string page = read_text(fs::path(NEVE_SOURCE_DIR) / "docs/tutorial.md");
+  const std::size_t start = page.find("```toml\n") + 8;
+  return page.substr(start, page.find("```", start) - start);
+}
+
+class CommandsOfDocs : public Cli {
+ protected:
+  CommandsOfDocs() {
+    for (const char* name : {"scenes", "docs"})
+      fs::create_directory_symlink(fs::path(NEVE_SOURCE_DIR) / name, folder / name);
+    folder.write("my_scene.toml", scene_of_tutorial());
+    folder.write("wait.json", "[{\"wait\": 1}]");
+  }
+
+  /// Runs and pictures that commands start from.
+  void make_outputs(const std::vector<Command>& commands) {
+    for (const char* out : {"out/a", "out/b"})
+      EXPECT_EQ(neve({"render", "scene.toml", "--frames", "0", "--out", out, "--quiet"}).exit_code,
+                0);
+    const std::regex picture("out/[^ ]+\\.png");
+    for (const Command& command : commands) {
+      std::smatch found;
+      if (!std::regex_search(command.text, found, picture)) continue;
+      const fs::path file = folder / found.str();
+      fs::create_directories(file.parent_path());
+      fs::copy_file(folder / "out/a/particles/0000.png", file,
+                    fs::copy_options::overwrite_existing);
+    }
+  }
+};
+
+TEST_F(CommandsOfDocs, EveryCommandOfTheDocumentationRuns) {
+  const std::vector<Command> commands = commands_of_pages();
+  EXPECT_GT(commands.size(), 40u) << "the pages are not read as they are written";
+  make_outputs(commands);
+  for (const Command& command : commands) {
+    const std::string text = shortened(command.text);
+    if (text.empty()) continue;
+    const auto result = app::output::run_process(
+        "/bin/sh", {"-c", "exec '" NEVE_BINARY "' " + text}, folder.path());
+    EXPECT_EQ(result.exit_code, 0) << command.place << ": neve " << text << "\n" << result.errors;
+  }
+}
+
+}  // namespace
+}  // namespace neve::test
