@@ -18,7 +18,8 @@ int run_export_command(const run::ExportOptions& options) {
   for (const scene::Export& e : job.run.scene.exports)
     exports::check_capacity(e, exports::empty_table(job.run.scene, e), plan.particles);
   catch_interrupts();
-  Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO));
+  Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),
+                    options.run.progress);
   const run::ExportResult result = run::run_export(job, options.run.threads, progress);
   const std::string folder = job.run.folder.string();
   if (options.run.is_json) {

@@ -123,6 +123,7 @@ void add_export(CLI::App& app, Action& action) {
                    "Write to DIR/<format>/0000.<ext> instead of out/<scene name>/exports")
       ->type_name("DIR");
   command->add_flag("--json", run->is_json, "Print the list of files as JSON");
+  add_progress(*command, run_texts->progress, run->progress);
   CLI::Option* quiet =
       command->add_flag("--quiet,-q", run_texts->is_quiet, "Print only errors and warnings");
   command->add_flag("--verbose,-v", run_texts->is_verbose, "Print more")->excludes(quiet);

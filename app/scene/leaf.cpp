@@ -248,10 +248,12 @@ std::string list_of(const std::vector<std::string>& names) {
 namespace {
 
 /// Advice for words that are right elsewhere; empty: none.
-std::string advice_on_choice(const Leaf& leaf, const std::string& text) {
+/// @param nearest of the allowed words; empty: none is near
+std::string advice_on_choice(const Leaf& leaf, const std::string& text,
+                             const std::string& nearest) {
   if (leaf.address == "solver.transfer" && text == "pic")
     return "PIC is transfer = \"flip\" with flip_ratio = 0";
-  if (!is_preset_address(leaf.address)) return {};
+  if (!is_preset_address(leaf.address) || !nearest.empty()) return {};
   for (const Wish* wish : wishes_for(text)) {
     const WishChange& change = wish->changes.front();
     return "for snow that is " + std::string(wish->name) + " see " + change.address +
@@ -264,8 +266,8 @@ std::string advice_on_choice(const Leaf& leaf, const std::string& text) {
 
 void fail_choice(const Leaf& leaf, const std::vector<std::string>& allowed) {
   const auto* text = std::get_if<std::string>(&leaf.value.data);
-  std::string hint = text ? advice_on_choice(leaf, *text) : "";
   const std::string nearest = text ? nearest_name(*text, allowed) : "";
+  std::string hint = text ? advice_on_choice(leaf, *text, nearest) : "";
   if (hint.empty() && !nearest.empty()) hint = "did you mean " + toml::toml_string(nearest) + "?";
   leaf.fail(list_of(allowed), hint);
 }

@@ -83,7 +83,7 @@ TEST(AutomaticCamera, ACameraThatFollowsABodyFramesIt) {
   app::setup::resolve(scene, 1000);
   // Relative to the middle of the ball.
   EXPECT_LT(scene.camera->target->norm(), 0.1);
-  EXPECT_LT(width_seen(*scene.camera, 16.0 / 9), 1);
+  EXPECT_LT(width_seen(*scene.camera, 16.0 / 9), 1.5);
   const app::setup::SeededScene seeded = app::setup::seed_scene(scene);
   app::picture::Snapshot snapshot;
   snapshot.particles = seeded.particles;

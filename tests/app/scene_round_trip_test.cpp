@@ -279,7 +279,11 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   moved.keyframes[1].time = moved.keyframes[0].time + 1.0 / 3;
   moved.keyframes[1].rotation = *moved.keyframes[0].rotation + sim::Vec3d(10.0 / 3, 20, 30);
   scene.solver.cell_size = 10.1;
-  for (app::scene::View& view : scene.views) view.slice.follow = "mesh";
+  for (app::scene::View& view : scene.views) {
+    view.slice.follow = "mesh";
+    if (view.camera) view.camera->follow = "mesh";
+  }
+  scene.camera->follow = "mesh";
   scene.camera->turntable.reset();  // there is an orbit
   scene.views[1].camera->orbit.reset();
   scene.camera->keyframes[1].time = scene.camera->keyframes[0].time + 1.0 / 3;

@@ -125,14 +125,15 @@ TEST_F(Cli, MisspeltNamesGetTheRightOnes) {
   said({"render", "snowball_drop"}, "did you mean scenes/snowball_drop.toml?");
   said({"render", "scenes/snowbal_drop.toml"}, "did you mean scenes/snowball_drop.toml?");
   // An example that came with the program.
-  said({"render", "snowplow.toml"}, "scenes/snowplough.toml?");
+  said({"render", "snowplouhg.toml"}, "scenes/snowplough.toml?");
   said({"render", "scene.toml", "--quality", "high"}, "did you mean final?");
   said({"render", "scene.toml", "--set", "solver.transfer=pic"},
        "PIC is transfer = \"flip\" with flip_ratio = 0");
   said({"render", "scene.toml", "--set", "material.snow.preset=sticky"},
        "for snow that is stickier see material.NAME.critical_stretch");
   said({"render", "scene.toml", "--set=", "--dry-run"}, "has no value");
-  said({"dump", "scene.toml", "--at", "0.1", "--at", "0.2"}, "takes one value and was given 2");
+  said({"render", "scene.toml", "--frames", "1", "--frames", "2"},
+       "takes one value and was given 2");
   folder.write("comma.toml", "[solver]\ncell_size = 0,04\n");
   said({"render", "comma.toml"}, "decimals have a point, as in 0.04");
 }
@@ -165,7 +166,7 @@ TEST_F(Cli, WordsOverPicturesAreLayersAndAFlagLeavesThemOut) {
 }
 
 /// docs/wishes.md shows the table of neve params --wishes.
-TEST_F(Cli, ThePageOfLooksHasTheTableOfTheProgram) {
+TEST_F(Cli, ThePageOfWishesHasTheTableOfTheProgram) {
   const auto table = neve({"params", "--wishes", "--markdown"});
   ASSERT_EQ(table.exit_code, 0) << table.errors;
   EXPECT_TRUE(

@@ -43,9 +43,10 @@ TEST_F(FlowCli, SnowThatComesAndGoesIsCounted) {
 TEST_F(FlowCli, AProbeIsToldById) {
   const auto table = neve({"dump", "flow.toml", "--at", "0.25", "--field", "id", "--quiet"});
   ASSERT_EQ(table.exit_code, 0) << table.errors;
-  const std::size_t header = table.output.find("\nid\n");
-  ASSERT_NE(header, std::string::npos) << table.output;
-  const int first = std::stoi(table.output.substr(header + 4));
+  ASSERT_TRUE(table.output.starts_with("id\n")) << table.output;
+  // The first row comes after the last comment.
+  const std::size_t comment = table.output.rfind("\n#");
+  const int first = std::stoi(table.output.substr(table.output.find('\n', comment + 1) + 1));
   ASSERT_GT(first, 0);
   EXPECT_FALSE(contains(table.output, "e+0")) << table.output;
   const auto probe = [&](int id) {

@@ -33,7 +33,7 @@ float speed_of(double value) {
 }
 
 std::string format_of(const char* unit) {
-  return std::string("%.4g") + (unit[0] ? std::string(" ") + unit : "");
+  return std::string("%.6g") + (unit[0] ? std::string(" ") + unit : "");
 }
 
 /// Text typed so far into a field with a value of this type.
