@@ -103,7 +103,7 @@ sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
 }
 
 int exit_code_of(const sweep::jobs::JobsResult& result) {
-  if (result.is_interrupted) return exit_resumable;
+  if (result.is_interrupted || result.elsewhere > 0) return exit_resumable;
   return result.failed > 0 ? exit_runs_failed : exit_ok;
 }
 
