@@ -20,8 +20,8 @@ struct CompareOptions {
 };
 
 struct ParamsOptions {
-  std::string filter;     ///< "" for all
-  bool is_sweep = false;  ///< parameters of sweep files
+  std::string filter;      ///< "" for all
+  bool is_sweep = false;   ///< parameters of sweep files
   bool is_wishes = false;  ///< the table from wishes to parameters
   bool is_markdown = false;
   bool is_json = false;

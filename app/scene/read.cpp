@@ -192,9 +192,11 @@ std::string read_toml_file(const std::string& file) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in) refuse_failing_machine(file);
-  if (!in)
-    throw toml::SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be opened",
-                           nearest_file(file));
+  if (!in) {
+    // The search for a similar name changes errno.
+    const std::string reason = errno ? std::strerror(errno) : "cannot be opened";
+    throw toml::SceneError(file, 0, 0, reason, nearest_file(file));
+  }
   // One byte more than allowed tells an oversized file without reading all of it.
   std::string text(toml::max_toml_bytes + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));

@@ -121,7 +121,8 @@ TEST_F(Cli, MisspeltNamesGetTheRightOnes) {
     EXPECT_TRUE(contains(result.errors, part)) << result.errors;
   };
   folder.write("scenes/snowball_drop.toml", tiny_scene);
-  said({"render", "snowbal_drop.toml"}, "did you mean scenes/snowball_drop.toml?");
+  said({"render", "snowbal_drop.toml"},
+       "No such file or directory; did you mean scenes/snowball_drop.toml?");
   said({"render", "snowball_drop"}, "did you mean scenes/snowball_drop.toml?");
   said({"render", "scenes/snowbal_drop.toml"}, "did you mean scenes/snowball_drop.toml?");
   // An example that came with the program.

@@ -54,7 +54,7 @@ struct ViewerState {
   PanelSwitches panels{};
   bool is_help_open = false;
   int tour_step = -1;  ///< of the guided tour; -1: it is over
-  int bar_rows = 1;  ///< of buttons at the top, in the last picture
+  int bar_rows = 1;    ///< of buttons at the top, in the last picture
 
   std::string filter{};    ///< of the parameters
   std::string selected{};  ///< "body.ball", "collider.floor" or ""
