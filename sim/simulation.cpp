@@ -38,6 +38,9 @@ double Simulation::dt_scale() const {
 seeding::FlowTotals Simulation::flow_totals() const {
   return stepper_->progress().flow;
 }
+std::vector<std::uint64_t> Simulation::withheld() const {
+  return stepper_->withheld();
+}
 const Warnings& Simulation::warnings() const {
   return stepper_->progress().warnings;
 }

@@ -47,6 +47,8 @@ class Simulation {
   std::size_t steps() const;
   std::size_t particle_count() const;
   seeding::FlowTotals flow_totals() const;
+  /// Births of each emitter that found no room so far.
+  std::vector<std::uint64_t> withheld() const;
   int threads() const;
   const char* simd() const;
   PhaseSeconds phase_seconds() const;

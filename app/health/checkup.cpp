@@ -1,5 +1,7 @@
 #include "app/health/checkup.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -111,11 +113,34 @@ sim::StepLimits worst_of(const sim::StepLimits& before, sim::StepLimits after) {
   return after;
 }
 
+/// Reports emitters that snow blocks in the coarse copy.
+void check_withheld(const scene::Scene& coarse, const sim::Simulation& copy,
+                    std::vector<Finding>& findings) {
+  const std::vector<std::uint64_t> withheld = copy.withheld();
+  for (std::size_t k = 0; k < withheld.size(); ++k) {
+    const sim::seeding::Emitter& emitter = coarse.emitters[k];
+    const sim::Material& material =
+        coarse.materials[setup::material_index(coarse, emitter.material)];
+    const auto all = static_cast<double>(
+        sim::seeding::count_emitted(emitter, material, coarse.solver.cell_size, copy.time()));
+    const double share = static_cast<double>(withheld[k]) / std::max(1.0, all);
+    if (share < 0.02) continue;
+    findings.push_back(
+        {Severity::warning, "emitter." + emitter.name + ".rate",
+         fmt::format("in a coarse copy {} % of its snow finds no room until {} s, because snow "
+                     "fills the emitter",
+                     rough_text(100 * share), rough_text(copy.time())),
+         "make rate lower, velocity higher or the way out wider; run.json counts it as withheld"});
+  }
+}
+
 /// @return s per step and particle, on one thread
 double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
   const Forecast forecast = foresee(scene, checkup.plan.particles, scene.frames, coarse_seconds);
   checkup.coarse_particles = forecast.particles;
   checkup.forecast = forecast.frames;
+  checkup.findings.insert(checkup.findings.end(), forecast.findings.begin(),
+                          forecast.findings.end());
   if (!forecast.divergence.empty())
     checkup.findings.push_back({Severity::warning, "", forecast.divergence,
                                 "run the scene itself to see if it diverges too"});
@@ -152,6 +177,7 @@ Forecast foresee(const scene::Scene& scene, double particle_count, int last, dou
     frame_forecast.frame = frame;
     result.frames.push_back(frame_forecast);
   }
+  check_withheld(*coarse, simulation, result.findings);
   if (simulation.divergence())
     result.divergence = "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) +
                         " m diverges: " + simulation.divergence()->what;

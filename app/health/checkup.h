@@ -31,6 +31,7 @@ struct Forecast {
   double particles = 0;                  ///< of the copy; 0: there is none
   double seconds_per_particle_step = 0;  ///< of the copy, on one thread
   std::string divergence;                ///< of the copy, a sentence; empty if it holds
+  std::vector<Finding> findings;         ///< about the scene, from the copy
 
   double steps_until(int frame) const;
 };

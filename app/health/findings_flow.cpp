@@ -28,7 +28,8 @@ double falling_rate(const sim::seeding::Emitter& emitter, const sim::Material& m
   const double g = gravity.norm();
   if (!(g > 0)) return 0;
   const sim::shapes::Solid solid(emitter.shape);
-  return material.density * solid.volume() * std::sqrt(g / (1.5 * solid.extent(gravity)));
+  return density_at_birth(emitter, material) * solid.volume() *
+         std::sqrt(g / (1.5 * solid.extent(gravity)));
 }
 
 void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitter, double end,
@@ -53,16 +54,17 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
     findings.push_back(
         {Severity::warning, at + ".rate",
          fmt::format("its velocity carries away only about {} kg/s at the density of "
-                     "{}; new snow will overlap old snow",
+                     "{}; the rest finds no room",
                      rough_text(carried), material.name),
          "lower the rate, or make the velocity or the shape larger"});
   const double last = std::min(end, emitter.end.value_or(end));
   const double mass = emitter.rate * (last - emitter.start);
-  const bool is_filled = mass > material.density * sim::shapes::volume(emitter.shape);
+  const bool is_filled =
+      mass > density_at_birth(emitter, material) * sim::shapes::volume(emitter.shape);
   if (carried == 0 && is_filled && emitter.rate > max_packing * falling)
     findings.push_back(
         {Severity::warning, at + ".rate",
-         fmt::format("new snow is at rest: {}; the rest will overlap old snow",
+         fmt::format("new snow is at rest: {}; the rest finds no room",
                      falling > 0
                          ? fmt::format("about {} kg/s fall out of the emitter", rough_text(falling))
                          : "gravity does not move it away"),

@@ -330,7 +330,7 @@ void RenderRun::draw_frame(int frame) {
   metrics.max_depth_cells = summary_.max_depth / job_.scene.solver.cell_size;
   add_frame(record_.frames,
             {frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start), summary_,
-             state_hash, metrics, forces_of(advance_, scene_.colliders)});
+             state_hash, metrics, forces_of(advance_, summary_, scene_.colliders)});
   // Listed first and written then: whenever the process is killed, the next run knows every picture
   // that it has to remove. The hash follows when it is written.
   note_written();

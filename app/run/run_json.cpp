@@ -67,6 +67,7 @@ Json to_json(const FrameRecord& frame) {
   json["particles"] = s.particles;
   json["emitted"] = s.emitted;
   json["removed"] = s.removed;
+  json["withheld"] = s.withheld;
   json["mass"] = number_or_null(s.mass);
   json["kinetic_energy"] = number_or_null(s.kinetic_energy);
   json["elastic_energy"] = number_or_null(s.elastic_energy);
@@ -86,18 +87,19 @@ Json to_json(const FrameRecord& frame) {
   for (const ColliderForce& f : frame.forces)
     json["forces"].push_back({{"collider", f.collider},
                               {"force", output::vector_json(f.force)},
-                              {"torque", output::vector_json(f.torque)}});
+                              {"torque", output::vector_json(f.torque)},
+                              {"max_pressure", number_or_null(f.max_pressure)}});
   json["state_hash"] = hash_text(frame.state_hash);
   return json;
 }
 
-std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance,
+std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance, const sim::Summary& summary,
                                      const std::vector<scene::Collider>& colliders) {
   std::vector<ColliderForce> forces;
   if (!(advance.seconds > 0)) return forces;
   for (std::size_t k = 0; k < std::min(colliders.size(), advance.loads.size()); ++k)
     forces.push_back({colliders[k].name, advance.loads[k].impulse / advance.seconds,
-                      advance.loads[k].angular_impulse / advance.seconds});
+                      advance.loads[k].angular_impulse / advance.seconds, summary.max_pressure[k]});
   return forces;
 }
 
@@ -140,6 +142,7 @@ FrameRecord frame_record(const Json& json) {
   // Runs of earlier versions knew no emitters.
   s.emitted = json.value("emitted", std::uint64_t(0));
   s.removed = json.value("removed", std::uint64_t(0));
+  s.withheld = json.value("withheld", std::uint64_t(0));
   s.mass = json.contains("mass") ? output::number_or_nan(json.at("mass")) : std::nan("");
   s.kinetic_energy = output::number_or_nan(json.at("kinetic_energy"));
   s.elastic_energy = output::number_or_nan(json.at("elastic_energy"));
@@ -160,8 +163,10 @@ FrameRecord frame_record(const Json& json) {
   frame.metrics.max_depth_cells = output::number_or_nan(json.at("max_depth_cells"));
   if (!json.contains("forces")) return frame;
   for (const Json& f : json.at("forces"))
-    frame.forces.push_back({f.at("collider").get<std::string>(), output::vector_of(f.at("force")),
-                            output::vector_of(f.at("torque"))});
+    frame.forces.push_back(
+        {f.at("collider").get<std::string>(), output::vector_of(f.at("force")),
+         output::vector_of(f.at("torque")),
+         f.contains("max_pressure") ? output::number_or_nan(f.at("max_pressure")) : std::nan("")});
   return frame;
 }
 

@@ -21,11 +21,12 @@ namespace neve::app::run {
 enum class RunStatus { running, ok, diverged, interrupted, failed };
 const char* name(RunStatus status);
 
-/// Snow presses on a collider: the mean since the frame before.
+/// Snow presses on a collider: force and torque are means since the frame before.
 struct ColliderForce {
   std::string collider;
   sim::Vec3d force{0, 0, 0};   ///< N
   sim::Vec3d torque{0, 0, 0};  ///< N m, about the point of the collider's shape
+  double max_pressure = 0;     ///< Pa, at the frame's end, see sim::Summary
 };
 
 struct FrameRecord {
@@ -39,8 +40,9 @@ struct FrameRecord {
   std::vector<ColliderForce> forces;  ///< of all colliders; empty where there was no step
 };
 
-/// Divides the impulses of a frame by its time. @param colliders  of the scene
-std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance,
+/// Divides the impulses of a frame by its time.
+/// @param summary  of the frame's end @param colliders  of the scene
+std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance, const sim::Summary& summary,
                                      const std::vector<scene::Collider>& colliders);
 
 /// Files of a run, by their path in its folder, with the hash of their bytes as hash_text.

@@ -32,6 +32,13 @@ std::vector<std::string> step_warnings(const scene::Scene& scene,
     list.push_back(semi_implicit_steps(warnings.solves_given_up) +
                    "could not be solved, and explicit steps replaced them; try a smaller dt "
                    "(solver.max_dt, solver.dt)");
+  const std::vector<std::uint64_t> withheld = simulation.withheld();
+  for (std::size_t k = 0; k < withheld.size(); ++k)
+    if (withheld[k] > 0)
+      list.push_back(
+          "emitter." + scene.emitters[k].name + ": " + std::to_string(withheld[k]) +
+          " particles found no room, because snow fills the emitter; make rate lower, velocity "
+          "higher or the way out wider");
   if (const auto softness = health::softness_warning(scene, simulation)) list.push_back(*softness);
   return list;
 }

@@ -303,6 +303,9 @@ void describe(V& visit, sim::seeding::Body& b) {
   visit("volumes", b.volumes, unit::none, anything, restart,
         "estimated: particle volumes from the density on the grid (the paper); given: body volume "
         "/ particles.");
+  visit(
+      "J_P", b.J_P, unit::none, between(0.1, 100), restart,
+      "Plastic volume ratio at the start; above 1: loose snow, softer, less dense by that factor.");
 }
 
 template <class V>
@@ -323,6 +326,8 @@ void describe(V& visit, sim::seeding::Emitter& e) {
         "Time at which it closes; default: never.");
   visit("particles_per_cell", e.particles_per_cell, unit::none, between(0.1, 1000), restart,
         "Number of particles in a cell of snow.");
+  visit("J_P", e.J_P, unit::none, between(0.1, 100), restart,
+        "Plastic volume ratio at birth; above 1: loose snow, softer, less dense by that factor.");
 }
 
 template <class V>

@@ -116,9 +116,11 @@ void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArra
     if (!seeded.v.empty()) v_p += seeded.v[p];
     particles.x.push_back(x_p);
     particles.v.push_back(v_p);
-    particles.m.push_back(seeded.m.empty() ? scene.materials[material].density * volume
-                                           : seeded.m[p]);
-    particles.V0.push_back(is_given ? volume : 0.0);
+    const double V0 = volume / body.J_P;
+    particles.m.push_back(seeded.m.empty() ? scene.materials[material].density * V0 : seeded.m[p]);
+    particles.V0.push_back(is_given ? V0 : 0.0);
+    if (body.J_P != 1) particles.J_P.resize(particles.x.size() - 1, 1.0);
+    if (body.J_P != 1 || !particles.J_P.empty()) particles.J_P.push_back(body.J_P);
     particles.material.push_back(static_cast<int>(material));
   }
   vary_body(scene, index, seeded, particles);

@@ -40,14 +40,14 @@ std::vector<SnowPiece> snow_pieces(const scene::Scene& scene) {
   for (const sim::seeding::Body& body : scene.bodies) {
     const sim::seeding::SeedingPlan plan = sim::seeding::plan_seeding(body, h);
     piece->volume = plan.volume;
-    piece->mass = plan.mass > 0 ? plan.mass : piece->material->density * plan.volume;
+    piece->mass = plan.mass > 0 ? plan.mass : piece->material->density / body.J_P * plan.volume;
     piece->particles = sim::seeding::expected_particles(body, h);
     ++piece;
   }
   for (const sim::seeding::Emitter& emitter : scene.emitters) {
     piece->particles = emission(scene, emitter, scene.frames / scene.fps);
     piece->volume = piece->particles * cell / emitter.particles_per_cell;
-    piece->mass = piece->material->density * piece->volume;
+    piece->mass = density_at_birth(emitter, *piece->material) * piece->volume;
     ++piece;
   }
   return pieces;

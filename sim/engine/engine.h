@@ -25,6 +25,7 @@ class Engine final : public Stepper {
   void set_dt_scale(double scale) override { state_.progress.dt_scale = scale; }
 
   const Progress& progress() const override { return state_.progress; }
+  std::vector<std::uint64_t> withheld() const override { return flow_.withheld(); }
   const std::optional<Divergence>& divergence() const override { return watch_.divergence(); }
   SolveReport last_solve() const override { return parts_.solver.last_solve(); }
   PhaseSeconds phase_seconds() const override { return parts_.seconds; }

@@ -20,6 +20,7 @@ class Partition {
   /// In blocks per axis, 0: open. One block is enough: a stencil is no wider.
   void set_period(const Vec3i& period) { period_ = period; }
 
+  std::uint64_t wrapped(std::uint64_t key) const;
   /// Brings keys of particles into the first period.
   void wrap(std::vector<std::uint64_t>& keys, ThreadPool& pool, int threads) const;
 
@@ -92,7 +93,6 @@ class Partition {
   void fill(const kernels::ParticleBlock& block, const Kept& kept, Part& part);
   void link_node_blocks(ThreadPool& pool, int threads);
   void unite(const std::vector<std::uint64_t>& keys, int axis, Union& out) const;
-  std::uint64_t wrapped(std::uint64_t key) const;
 
   Vec3i period_{0, 0, 0};
 

@@ -11,10 +11,11 @@
 
 namespace neve::sim::engine {
 
-/// The energy that the run may have: at its start, and from gravity and colliders.
+/// The energy that the run may have: at its start, and from gravity and colliders. Friction and
+/// plastic flow only lower it.
 struct EnergyBudget {
   double start = 0;         ///< J, kinetic and elastic; emitted snow added, removed snow subtracted
-  double contact_work = 0;  ///< J, only what contacts added
+  double contact_work = 0;  ///< J, of the colliders on the snow; negative where they take energy
   double largest = 0;       ///< J, the largest budget so far: the scale of the rule
   std::array<double, 3> moment{};  ///< kg m, sum m x at the start, and of snow that came and went
 };
@@ -43,6 +44,6 @@ struct Progress {
 };
 static_assert(std::is_trivially_copyable_v<Progress>);
 // Only numbers of 8 bytes: padding would put stray bytes into files.
-static_assert(sizeof(std::size_t) == 8 && sizeof(Progress) == 8 * 32);
+static_assert(sizeof(std::size_t) == 8 && sizeof(Progress) == 8 * 33);
 
 }  // namespace neve::sim::engine

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 
 #include "sim/engine/records.h"
+#include "sim/engine/room.h"
 
 namespace neve::sim::engine {
 
@@ -41,7 +43,7 @@ kernels::Particle<Real> born_record(const seeding::Birth& birth, std::uint16_t m
   p.V0 = static_cast<Real>(birth.V0);
   p.kind = kernels::kind_of<Real>(material, model_kind(method.materials[material].model), 0);
   store_matrix(Mat3d(Mat3d::Identity()), p.F_E);
-  p.J_P = 1;
+  p.J_P = static_cast<Real>(birth.J_P);
   p.stiffness = static_cast<Real>(birth.stiffness);
   p.threshold = static_cast<Real>(birth.threshold);
   return p;
@@ -101,9 +103,9 @@ void SnowFlow<Real>::open(State<Real>& state, StartState& start) {
 
 template <class Real>
 void SnowFlow<Real>::run(State<Real>& state, StartState& start) {
+  emit(state, start);  // first: after particles left, the blocks of the step are not known
   if (!sinks_.empty() && is_sink_check_due(state.progress, state.method.settings.cell_size))
     remove_in_sinks(state);
-  emit(state, start);
 }
 
 template <class Real>
@@ -111,9 +113,19 @@ void SnowFlow<Real>::emit(State<Real>& state, StartState& start) {
   Progress& progress = state.progress;
   const std::size_t before = state.particles.size();
   std::vector<seeding::Birth> births;
+  std::optional<Room<Real>> room;
+  progress.flow.withheld = 0;
   for (Emitter& emitter : emitters_) {
     births.clear();
-    emitter.births.advance_to(progress.time, births);
+    emitter.births.advance_to(progress.time, births, [&](const seeding::Birth& birth) {
+      if (!room) room.emplace(state);
+      if (!room->has_room(birth)) return false;
+      if (!emitter.births.fills_whole()) room->take(birth);
+      return true;
+    });
+    if (emitter.births.fills_whole())
+      for (const seeding::Birth& birth : births) room->take(birth);
+    progress.flow.withheld += emitter.births.state().withheld;
     for (const seeding::Birth& birth : births) {
       kernels::Particle<Real> p = born_record(birth, emitter.material, state.method);
       if (progress.next_id >= max_ids)
@@ -176,6 +188,13 @@ void SnowFlow<Real>::remove_in_sinks(State<Real>& state) const {
   }
   progress.flow.removed += gone.size();
   particles.partition.forget();
+}
+
+template <class Real>
+std::vector<std::uint64_t> SnowFlow<Real>::withheld() const {
+  std::vector<std::uint64_t> counts;
+  for (const Emitter& emitter : emitters_) counts.push_back(emitter.births.state().withheld);
+  return counts;
 }
 
 template <class Real>

@@ -22,6 +22,8 @@ class SnowFlow {
   /// Does the same after every step.
   void run(State<Real>& state, StartState& start);
 
+  /// Births of each emitter that found no room so far.
+  std::vector<std::uint64_t> withheld() const;
   std::vector<seeding::EmitterStream::State> emitter_states() const;
   void restore(const std::vector<seeding::EmitterStream::State>& states);
 

@@ -1,6 +1,7 @@
 #include "sim/engine/state_reader.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "sim/base/hash.h"
@@ -16,6 +17,20 @@ constexpr std::size_t chunk = 4096;
 
 constexpr std::size_t chunks_of(std::size_t count) {
   return (count + chunk - 1) / chunk;
+}
+
+template <class Real>
+Mat3d kirchhoff_of(const kernels::Particle<Real>& p) {
+  const Real* t = p.tau;
+  const Real full[9] = {t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2]};
+  return matrix(full);
+}
+
+/// Of a particle on a surface with that normal, Pa: -n (tau / J) n.
+template <class Real>
+double pressure(const kernels::Particle<Real>& p, const Vec3d& n) {
+  const double J = matrix(p.F_E).determinant() * static_cast<double>(p.J_P);
+  return J > 0 ? -n.dot(kirchhoff_of(p) * n) / J : 0;
 }
 
 }  // namespace
@@ -79,11 +94,7 @@ template <class Real>
 std::vector<Mat3d> StateReader<Real>::kirchhoff() const {
   std::vector<Mat3d> out(state_.particles.size());
   const Ranks rank = ranks();
-  for (const kernels::Particle<Real>& p : state_.particles.records) {
-    const Real* t = p.tau;
-    const Real full[9] = {t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2]};
-    out[rank[p]] = matrix(full);
-  }
+  for (const kernels::Particle<Real>& p : state_.particles.records) out[rank[p]] = kirchhoff_of(p);
   return out;
 }
 
@@ -168,11 +179,14 @@ Summary StateReader<Real>::summary() const {
     all.max_J_P = c == 0 ? s.max_J_P : std::max(all.max_J_P, s.max_J_P);
     all.packed += s.packed;
   }
-  all.max_depth = max_depth();
+  const AtSurfaces surfaces = at_surfaces();
+  all.max_depth = surfaces.max_depth;
+  all.max_pressure = surfaces.max_pressure;
   all.time = state_.progress.time;
   all.particles = count;
   all.emitted = state_.progress.flow.emitted;
   all.removed = state_.progress.flow.removed;
+  all.withheld = state_.progress.flow.withheld;
   if (all.mass > 0) {
     all.centre_of_mass /= all.mass;
     all.packed /= all.mass;
@@ -180,43 +194,61 @@ Summary StateReader<Real>::summary() const {
   return all;
 }
 
-/// In double, as the kernels see it: four particles at a time.
 template <class Real>
-double StateReader<Real>::max_depth() const {
-  using V = Quad<double>;
+typename StateReader<Real>::AtSurfaces StateReader<Real>::at_surfaces() const {
   const Lattice& lattice = state_.method.lattice;
-  const std::vector<kernels::Particle<Real>>& records = state_.particles.records;
+  const std::size_t count = state_.particles.size();
   const int origin[3] = {kernels::block_side * lattice.origin[0],
                          kernels::block_side * lattice.origin[1],
                          kernels::block_side * lattice.origin[2]};
   std::vector<kernels::LocalCollider<double>> colliders;
   for (const kernels::ColliderPose& pose : state_.colliders.poses())
     colliders.push_back(kernels::localize<double>(pose, origin, lattice.cell_size));
-  std::vector<double> deepest(chunks_of(records.size()), 0.0);
-  if (colliders.empty() || deepest.empty()) return 0;
-  const auto deepest_of = [&](std::size_t begin, std::size_t end) {
-    V least{};
-    for (std::size_t q = begin; q < end; q += 4) {
-      Vec3<V> r;
-      for (int l = 0; l < 4; ++l) {
-        const Vec3d x =
-            state_.position(records[std::min(q + static_cast<std::size_t>(l), end - 1)]);
-        for (int a = 0; a < 3; ++a) r[a][l] = x[a];
-      }
-      for (const kernels::LocalCollider<double>& collider : colliders) {
-        Vec3<V> normal;
-        least = smaller_lanes(least, kernels::surface_distance(collider, r, normal));
-      }
-    }
-    // Not -smallest: nothing is 0 deep, never -0.
-    return 0 - smallest_lane(least);
-  };
+  AtSurfaces all{0, std::vector<double>(state_.colliders.list().size(), 0.0)};
+  if (colliders.empty()) return all;
+  std::vector<AtSurfaces> found(chunks_of(count), all);
   state_.pool->ranges(
-      deepest.size(), state_.active_threads(), [&](std::size_t begin, std::size_t end) {
+      found.size(), state_.active_threads(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c)
-          deepest[c] = deepest_of(c * chunk, std::min(records.size(), (c + 1) * chunk));
+          look_at_surfaces(c * chunk, std::min(count, (c + 1) * chunk), colliders, found[c]);
       });
-  return *std::max_element(deepest.begin(), deepest.end());
+  for (const AtSurfaces& part : found) {
+    all.max_depth = std::max(all.max_depth, part.max_depth);
+    for (std::size_t k = 0; k < all.max_pressure.size(); ++k)
+      all.max_pressure[k] = std::max(all.max_pressure[k], part.max_pressure[k]);
+  }
+  return all;
+}
+
+/// In double, as the kernels see it: four particles at a time.
+template <class Real>
+void StateReader<Real>::look_at_surfaces(
+    std::size_t begin, std::size_t end,
+    const std::vector<kernels::LocalCollider<double>>& colliders, AtSurfaces& found) const {
+  using V = Quad<double>;
+  const std::vector<kernels::Particle<Real>>& records = state_.particles.records;
+  const double near = state_.method.lattice.cell_size;
+  V least{};
+  for (std::size_t q = begin; q < end; q += 4) {
+    const kernels::Particle<Real>* p[4];
+    Vec3<V> r;
+    for (int l = 0; l < 4; ++l) {
+      p[l] = &records[std::min(q + static_cast<std::size_t>(l), end - 1)];
+      const Vec3d x = state_.position(*p[l]);
+      for (int a = 0; a < 3; ++a) r[a][l] = x[a];
+    }
+    for (const kernels::LocalCollider<double>& collider : colliders) {
+      Vec3<V> normal;
+      const V distance = kernels::surface_distance(collider, r, normal);
+      least = smaller_lanes(least, distance);
+      double& most = found.max_pressure[static_cast<std::size_t>(collider.index)];
+      for (int l = 0; l < 4; ++l)
+        if (distance[l] < near)
+          most = std::max(most, pressure(*p[l], {normal.x[l], normal.y[l], normal.z[l]}));
+    }
+  }
+  // Not -smallest: nothing is 0 deep, never -0.
+  found.max_depth = 0 - smallest_lane(least);
 }
 
 template class StateReader<float>;

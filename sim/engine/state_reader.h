@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/engine/state.h"
+#include "sim/kernels/contact.h"
 #include "sim/types/particle_arrays.h"
 #include "sim/types/reports.h"
 
@@ -41,8 +42,15 @@ class StateReader {
 
  private:
   Summary sum_of(std::size_t begin, std::size_t end) const;
-  /// Depth of the deepest particle in a collider, m; 0 where all are outside.
-  double max_depth() const;
+  /// Snow at the surfaces of colliders.
+  struct AtSurfaces {
+    double max_depth = 0;              ///< m, of the deepest particle; 0 where all are outside
+    std::vector<double> max_pressure;  ///< Pa, per collider; see Summary
+  };
+  AtSurfaces at_surfaces() const;
+  void look_at_surfaces(std::size_t begin, std::size_t end,
+                        const std::vector<kernels::LocalCollider<double>>& colliders,
+                        AtSurfaces& found) const;
 
   const State<Real>& state_;
 };

@@ -34,6 +34,7 @@ class Stepper {
   virtual void set_dt_scale(double scale) = 0;
 
   virtual const Progress& progress() const = 0;
+  virtual std::vector<std::uint64_t> withheld() const = 0;
   virtual const std::optional<Divergence>& divergence() const = 0;
   virtual SolveReport last_solve() const = 0;
   virtual PhaseSeconds phase_seconds() const = 0;

@@ -298,8 +298,7 @@ struct SolveSweepsFor {
         const Quad<Real> impulse = with_fourth(force[n] * a.beta_dt_squared, 0);
         const Quad<Real> on_held = impulse - free_part(held[n], impulse);
         const Quad<Real> done = on_held * v_new[n];
-        const Real sum = done[0] + done[1] + done[2];
-        if (sum > Real(0)) work += static_cast<double>(sum);
+        work += static_cast<double>(done[0] + done[1] + done[2]);
         add_load(near, n, a.step.constants.h, on_held, loads);
       }
       loads.give(a.step.loads, a.step.load_unit);

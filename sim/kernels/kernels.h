@@ -46,7 +46,7 @@ struct BlockReport {
   Real max_sound_squared = 0;  ///< m2/s2, hardened
   Real max_strain_rate = 0;    ///< 1/s, largest |entry| of grad v
   Real min_J_P = 1, max_J_P = 1;
-  double contact_work = 0;                 ///< J, energy that contacts added
+  double contact_work = 0;                 ///< J, of the colliders on the snow
   std::uint32_t inverted = 0;              ///< trial det F_E <= 0
   std::uint32_t inverted_unprojected = 0;  ///< of those, in models that cannot repair it
   std::uint32_t not_finite = 0;

@@ -458,13 +458,12 @@ struct ContactSweepsFor {
       }
     }
 
-    /// J, of the colliders; only the work that is added.
+    /// J, of the colliders.
     NEVE_INLINE static double work_of(const Lanes& c, int count) {
       V done = c.impulse * larger_lanes(c.least, V{});
       for (int x = 0; x < 3; ++x) done += (c.normal[x] * c.impulse + c.sliding[x]) * c.surface[x];
       double work = 0;
-      for (int l = 0; l < count; ++l)
-        if (done[l] > Real(0)) work += static_cast<double>(done[l]);
+      for (int l = 0; l < count; ++l) work += static_cast<double>(done[l]);
       return work;
     }
 

@@ -206,7 +206,7 @@ NEVE_INLINE Columns<V> operator+(const Columns<V>& a, const Columns<V>& b) {
   return sum;
 }
 
-/// Step 2, once per body: rho_p = sum m_i w_ip / h^3, V0 = m_p / rho_p.
+/// Step 2, once per body: rho_p = sum m_i w_ip / h^3, the volume m_p / rho_p; over J_P it is V0.
 template <class Set, class Real, int K, int G>
 NEVE_INLINE Real estimated_volume(Real m, const Stencils<Real, K, G>& s, int q, Real h,
                                   const Quad<Real>* momentum) {
@@ -242,8 +242,7 @@ NEVE_INLINE Quad<Real> node_v_free(Quad<Real> v_old, Quad<Real> force,
 /// Steps 5 and 9: contact at places r in the block, collider after collider.
 /// @param is_used  lanes that count
 /// @param depth    from which contact acts, m
-/// @param work     what colliders do, impulse times the speed of their surface, J; only what is
-/// added
+/// @param work     gets the work of the colliders, impulse times the speed of their surface, J
 /// @param loads    impulses of the colliders
 /// @param note     called with the Response of each collider
 template <class Set, class V, class Real, class Note>
@@ -260,7 +259,7 @@ NEVE_NOINLINE void collide(Vec3<V>& v, const V& mass, const Vec3<V>& r, const Ma
       loads.add(colliders[k], (v - before) * mass, r, acted);
     done += mass * dot(v - before, surface_velocity(colliders[k], r));
   }
-  const MaskOf<V> counts = is_used & (done > V{});
+  const MaskOf<V> counts = is_used & (done != V{});
   if (!any_lane(counts)) return;
   for (int l = 0; l < lane_count<V>; ++l)
     if (counts[l]) work += static_cast<double>(done[l]);

@@ -341,7 +341,7 @@ struct SweepsFor {
         for (int l = 0; l < W && q + l < group.count; ++l) {
           Particle<Real>& record = *group.record[q + l];
           if (!(record.flags() & needs_volume)) continue;
-          record.V0 = estimated_volume<Set>(record.m, s, l, a.constants.h, momentum);
+          record.V0 = estimated_volume<Set>(record.m, s, l, a.constants.h, momentum) / record.J_P;
           record.kind &= ~(Integer<Real>(needs_volume) << 24);
         }
       });
@@ -511,7 +511,7 @@ struct SweepsFor {
         move<K>(p, shift, c.inv_h, group.used(q), a.reports[b], at);
         keep(p, group, q);
         each_lane(group, q, [&](int l, Index storage) {
-          if (work[l] > Real(0)) a.reports[b].contact_work += static_cast<double>(work[l]);
+          a.reports[b].contact_work += static_cast<double>(work[l]);
           write_location(a, storage, at, l);
         });
       });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "sim/base/hash.h"
@@ -33,10 +34,19 @@ double share_of(const Emitter& emitter, double cell_size) {
   return cell_size * cell_size * cell_size / emitter.particles_per_cell;
 }
 
+/// Places that a birth tries.
+constexpr int tries_per_birth = 8;
+
+/// Until a time at most.
+double open_until(const Emitter& emitter, double time) {
+  return emitter.end ? std::min(time, *emitter.end) : time;
+}
+
 /// Births until a time: the k-th, from 0, is half a period after the k-th period began, so that the
 /// first and the last are inside start to end.
-double births_until(const Emitter& emitter, double mass, double time) {
-  const double until = emitter.end ? std::min(time, *emitter.end) : time;
+/// @param waited  s, for which the clock of the emitter stood still
+double births_until(const Emitter& emitter, double mass, double time, double waited = 0) {
+  const double until = open_until(emitter, time) - waited;
   if (!(until > emitter.start)) return 0;
   return std::floor(emitter.rate / mass * (until - emitter.start) + 0.5);
 }
@@ -64,6 +74,25 @@ Vec3d even_point(std::uint64_t key, std::uint64_t c) {
   return point;
 }
 
+/// Evenly spread over the unit ball.
+std::vector<Vec3d> points_in_ball() {
+  constexpr std::size_t wanted = 32;
+  std::vector<Vec3d> points;
+  for (std::uint64_t c = 0; points.size() < wanted; ++c) {
+    const Vec3d point = 2 * even_point(0, c) - Vec3d::Ones();
+    if (point.squaredNorm() <= 1) points.push_back(point);
+  }
+  return points;
+}
+
+/// Packed snow of 33 particles at random places has up to so much more than the mean, and an
+/// undisturbed stream is not to be withheld. A body appears up to where other snow begins.
+constexpr double max_packing = 1.15, max_filled_of_body = 0.5;
+
+/// A stream is looked for as far as this from its shape, in radii, in so many steps.
+constexpr double max_shift = 2;
+constexpr int shifts = 8;
+
 }  // namespace
 
 double carried_rate(const Emitter& emitter, const Material& material) {
@@ -71,7 +100,8 @@ double carried_rate(const Emitter& emitter, const Material& material) {
   const double speed = emitter.velocity.norm();
   if (!(speed > 0)) return 0;
   const shapes::Solid solid(emitter.shape);
-  return material.density * solid.volume() / solid.extent(emitter.velocity) * speed;
+  return density_at_birth(emitter, material) * solid.volume() / solid.extent(emitter.velocity) *
+         speed;
 }
 
 std::uint64_t count_emitted(const Emitter& emitter, const Material& material, double cell_size,
@@ -79,7 +109,7 @@ std::uint64_t count_emitted(const Emitter& emitter, const Material& material, do
   const double share = share_of(emitter, cell_size);
   double count = 0;
   if (emitter.rate > 0)
-    count = births_until(emitter, material.density * share, time);
+    count = births_until(emitter, density_at_birth(emitter, material) * share, time);
   else if (time >= emitter.start)
     count = std::max(1.0, std::ceil(shapes::Solid(emitter.shape).volume() / share));
   return static_cast<std::uint64_t>(std::min(count, max_particles));
@@ -92,42 +122,64 @@ EmitterStream::EmitterStream(const Emitter& emitter, std::size_t number, const M
       key_(mix64(mix64(mix64(seed), emitter_key), number)),
       solid_(emitter.shape),
       box_(solid_.local_bounds()),
-      V0_(share_of(emitter, cell_size)) {
+      volume_(share_of(emitter, cell_size)) {
   if (emitter.rate > 0) return;
-  if (!(solid_.volume() / V0_ < max_particles))
+  if (!(solid_.volume() / volume_ < max_particles))
     throw ShapeError("emitter " + emitter.name + ": more than 2^32 particles fit into it");
-  require_few_blocks(solid_, Vec3d::Zero(), std::cbrt(V0_));
+  require_few_blocks(solid_, Vec3d::Zero(), std::cbrt(volume_));
 }
 
-void EmitterStream::advance_to(double time, std::vector<Birth>& births) {
+void EmitterStream::advance_to(double time, std::vector<Birth>& births, const HasRoom& has_room) {
   if (emitter_.rate == 0) {
-    if (time >= emitter_.start && state_.born == 0) fill_whole(time - emitter_.start, births);
+    if (time >= emitter_.start && state_.born == 0)
+      fill_whole(time - emitter_.start, births, has_room);
     return;
   }
-  const double mass = material_.density * V0_, period = mass / emitter_.rate;
-  const auto until =
-      static_cast<std::uint64_t>(std::min(births_until(emitter_, mass, time), max_particles));
-  for (; state_.born < until; ++state_.born) {
+  const double mass = density_at_birth(emitter_, material_) * volume_;
+  const double period = mass / emitter_.rate;
+  const auto due = [&](double waited) {
+    return static_cast<std::uint64_t>(
+        std::min(births_until(emitter_, mass, time, waited), max_particles));
+  };
+  for (const std::uint64_t until = due(state_.waited); state_.born < until; ++state_.born) {
     const double birth = emitter_.start + (static_cast<double>(state_.born) + 0.5) * period;
-    births.push_back(born_at(next_place(), std::max(0.0, time - birth)));
+    const double age = std::max(0.0, time - state_.waited - birth);
+    const std::optional<Birth> born = next_birth(age, has_room);
+    if (!born) {
+      state_.waited = open_until(emitter_, time) - birth;
+      break;
+    }
+    births.push_back(*born);
   }
+  state_.withheld = due(0) - state_.born;
+}
+
+std::optional<Birth> EmitterStream::next_birth(double age, const HasRoom& has_room) {
+  for (int tries = 0; tries < tries_per_birth; ++tries)
+    if (const Birth birth = born_at(next_place(), age); has_room(birth)) return birth;
+  return std::nullopt;
 }
 
 /// Not before its time: a closed emitter costs nothing, and births are not kept.
-void EmitterStream::fill_whole(double age, std::vector<Birth>& births) {
-  const double spacing = std::cbrt(V0_);
+void EmitterStream::fill_whole(double age, std::vector<Birth>& births, const HasRoom& has_room) {
+  const double spacing = std::cbrt(volume_);
   std::vector<Vec3d> places = sample_jittered(solid_, spacing, key_);
   if (places.empty()) places.push_back(solid_.inner_point());
-  V0_ = solid_.volume() / static_cast<double>(places.size());
-  for (; state_.born < places.size(); ++state_.born)
-    births.push_back(born_at(places[state_.born], age));
+  volume_ = solid_.volume() / static_cast<double>(places.size());
+  for (; state_.born < places.size(); ++state_.born) {
+    const Birth birth = born_at(places[state_.born], age);
+    if (has_room(birth))
+      births.push_back(birth);
+    else
+      ++state_.withheld;
+  }
 }
 
 /// In the box around the shape, evenly spread and shaken by up to half a spacing, so that no rows
 /// are seen. Places shaken out on one side come in on the other: the density is even.
 Vec3d EmitterStream::next_candidate() {
   const Vec3d size = box_.max - box_.min;
-  const double spacing = std::cbrt(V0_);
+  const double spacing = std::cbrt(volume_);
   const std::uint64_t c = state_.candidate++, shake = mix64(key_, c);
   const Vec3d even = even_point(key_, c);
   Vec3d y;
@@ -163,16 +215,40 @@ Birth EmitterStream::born_at(const Vec3d& local, double age) const {
   birth.v = emitter_.velocity + emitter_.angular_velocity.cross(arm);
   birth.x = solid_.center() + arm + age * birth.v;
   // The pattern comes out with the snow: earlier births have moved on by the velocity.
-  const double time = emitter_.rate == 0 ? 0
-                                         : static_cast<double>(state_.born) * material_.density *
-                                               V0_ / emitter_.rate;
+  const double mass = density_at_birth(emitter_, material_) * volume_;
+  const double time =
+      emitter_.rate == 0 ? 0 : static_cast<double>(state_.born) * mass / emitter_.rate;
   const shapes::Factors factors =
       shapes::vary(material_.variation, key_, state_.born, arm - time * emitter_.velocity);
-  birth.V0 = V0_;
-  birth.m = material_.density * V0_ * factors.density;
+  birth.V0 = volume_ / emitter_.J_P;
+  birth.J_P = emitter_.J_P;
+  birth.room = room_around(local);
+  birth.m = mass * factors.density;
   birth.stiffness = factors.stiffness;
   birth.threshold = factors.threshold;
   return birth;
+}
+
+/// The stream is the shape, drawn out along the velocity.
+double EmitterStream::room_around(const Vec3d& local) const {
+  static const std::vector<Vec3d> ball = points_in_ball();
+  const double radius = room_radius * std::cbrt(volume_);
+  const Vec3d along = solid_.rotation().transpose() * emitter_.velocity.stableNormalized();
+  const auto is_in_stream = [&](const Vec3d& y) {
+    if (solid_.contains_local(y)) return true;
+    if (emitter_.rate == 0) return false;
+    for (int k = 1; k <= shifts; ++k) {
+      const Vec3d shift = (k * max_shift / shifts) * radius * along;
+      if (solid_.contains_local(y + shift) || solid_.contains_local(y - shift)) return true;
+    }
+    return false;
+  };
+  std::size_t inside = 0;
+  for (const Vec3d& place : ball) inside += is_in_stream(local + radius * place);
+  const double share =
+      static_cast<double>(std::max<std::size_t>(1, inside)) / static_cast<double>(ball.size());
+  return (fills_whole() ? max_filled_of_body : max_packing) * share * 4.0 / 3.0 * std::numbers::pi *
+         radius * radius * radius;
 }
 
 }  // namespace neve::sim::seeding

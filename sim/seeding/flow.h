@@ -2,6 +2,7 @@
 /// Snow that comes and goes while a simulation runs: emitters, and solids that remove it.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@
 namespace neve::sim::seeding {
 
 /// Particles are born inside a shape, unstrained, each with an equal share of the snow:
-/// V0 = h^3 / particles_per_cell, m = density V0.
+/// V0 = h^3 / particles_per_cell / J_P, m = density V0.
 struct Emitter {
   std::string name;      ///< unnamed emitters are called by their number from 1
   std::string material;  ///< name of a material
@@ -21,6 +22,7 @@ struct Emitter {
   Vec3d velocity{0, 0, 0};          ///< m/s
   Vec3d angular_velocity{0, 0, 0};  ///< rad/s about the shape's centre
   double particles_per_cell = 8.0;
+  double J_P = 1;             ///< det F_P at birth; more than 1: loose, less dense by that factor
   double rate = 0;            ///< kg/s; 0: the whole shape once, at `start`
   double start = 0;           ///< s
   std::optional<double> end;  ///< s; absent: stays open. Ignored at rate 0
@@ -44,8 +46,14 @@ struct Flow {
 /// Emitted and removed particles since the start.
 struct FlowTotals {
   std::uint64_t emitted = 0, removed = 0;     ///< particles
+  std::uint64_t withheld = 0;                 ///< particles that found no room so far
   double emitted_mass = 0, removed_mass = 0;  ///< kg
 };
+
+/// kg/m3 of an emitter's snow at birth, without variation.
+inline double density_at_birth(const Emitter& emitter, const Material& material) {
+  return material.density / emitter.J_P;
+}
 
 /// kg/s that leave the shape of an emitter at packed density, by its velocity: more packs snow into
 /// snow. Infinite where the whole shape is filled at once, 0 where nothing carries the snow away.
@@ -57,14 +65,27 @@ double carried_rate(const Emitter& emitter, const Material& material);
 std::uint64_t count_emitted(const Emitter& emitter, const Material& material, double cell_size,
                             double time);
 
+/// Births look for room within so many cube roots of their volume: 33 particles of packed snow.
+inline constexpr double room_radius = 2;
+
 /// A particle at the moment of its birth.
 struct Birth {
   Vec3d x, v;    ///< m, m/s; where it is at the time that was asked for
   double m, V0;  ///< kg, m3
+  double J_P;
+  double room;  ///< m3 that particles within room_radius of it may fill, for it to be born
   double stiffness, threshold;
 };
 
-/// The births of one emitter, in order.
+/// True if snow may be born there.
+using HasRoom = std::function<bool(const Birth&)>;
+inline bool has_room_everywhere(const Birth&) {
+  return true;
+}
+
+/// The births of one emitter, in order. A birth looks for room at several places; if there is none
+/// it waits, and so do those after it: the clock of the emitter stops. An emitter that fills its
+/// shape once leaves out the places without room.
 class EmitterStream {
  public:
   /// @throws ShapeError
@@ -73,28 +94,35 @@ class EmitterStream {
 
   /// Appends the births since the last call, up to and with `time`. A particle born between two
   /// steps has moved on since.
-  void advance_to(double time, std::vector<Birth>& births);
+  void advance_to(double time, std::vector<Birth>& births,
+                  const HasRoom& has_room = has_room_everywhere);
 
   /// State needed to resume a run.
   struct State {
     std::uint64_t born = 0, candidate = 0;  ///< candidates for places, looked at so far
+    std::uint64_t withheld = 0;             ///< births that an empty grid would have seen by now
+    double waited = 0;                      ///< s, for which its clock stood still
   };
   const State& state() const { return state_; }
+  /// True if its births are the particles of one body: they are not in each other's way.
+  bool fills_whole() const { return emitter_.rate == 0; }
   void restore(const State& state) { state_ = state; }
 
  private:
-  void fill_whole(double age, std::vector<Birth>& births);
+  void fill_whole(double age, std::vector<Birth>& births, const HasRoom& has_room);
+  std::optional<Birth> next_birth(double age, const HasRoom& has_room);
   Vec3d next_candidate();
   Vec3d next_place();
   void fill_pool();
   Birth born_at(const Vec3d& local, double age) const;
+  double room_around(const Vec3d& local) const;
 
   Emitter emitter_;
   Material material_;
   std::uint64_t key_;
   shapes::Solid solid_;
   shapes::Bounds box_;       ///< local
-  double V0_;                ///< m3
+  double volume_;            ///< m3, of one particle at birth
   std::vector<Vec3d> pool_;  ///< local places, of a shape that fills next to nothing of its box
   State state_;
 };

@@ -26,6 +26,7 @@ struct Body {
   double particles_per_cell = 8.0;
   Sampling sampling = Sampling::jittered;
   Volumes volumes = Volumes::estimated;
+  double J_P = 1;  ///< det F_P at the start; more than 1: loose, less dense by that factor
 };
 
 /// Properties of a body's particles before they are placed.

@@ -37,6 +37,7 @@ struct Summary {
   double time = 0;
   std::size_t particles = 0;
   std::uint64_t emitted = 0, removed = 0;  ///< particles that came and went since the start
+  std::uint64_t withheld = 0;              ///< particles of emitters that found no room so far
   double mass = 0;
   double kinetic_energy = 0, elastic_energy = 0;  ///< J
   Vec3d momentum{0, 0, 0}, centre_of_mass{0, 0, 0};
@@ -44,6 +45,9 @@ struct Summary {
   double max_speed = 0, min_J_P = 1, max_J_P = 1;
   double packed = 0;     ///< share of the mass that is packed as far as health::Law::packed allows
   double max_depth = 0;  ///< m, of the particle that is deepest in a collider
+  /// Pa, per collider: the most that snow within a cell of its surface presses on it, -n sigma n
+  /// with the Cauchy stress sigma of a particle; 0 where it only pulls.
+  std::vector<double> max_pressure;
 };
 
 /// Accuracy of the velocities of semi-implicit steps.

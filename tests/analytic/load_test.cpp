@@ -12,6 +12,10 @@ using namespace neve::test;
 
 constexpr double load_cell = 0.02;
 
+std::string name_of(ContactAt contact_at) {
+  return contact_at == ContactAt::nodes ? "nodes" : "particles";
+}
+
 /// An elastic block of 6 x 5 x 6 cells that stands on a slippery floor.
 constexpr double height = 5 * load_cell, width = 6 * load_cell;
 
@@ -92,6 +96,43 @@ TEST(Load, AColumnSagsInSemiImplicitStepsByItsWeight) {
           {"load", "contact at " + where + ", beta = " + in_digits(beta), "sag of a column, cells"},
           expected / load_cell, sag / load_cell, 0.04);
     }
+}
+
+/// A piston presses the block by 5 % and lets go: its work is the energy of the block on the way
+/// in, and it takes the work back on the way out. A tenth of the most: elastic snow loses the waves
+/// of the start and the end.
+TEST(Load, APistonTakesBackTheWorkThatItDid) {
+  for (const ContactAt contact_at : {ContactAt::nodes, ContactAt::particles}) {
+    SolverSettings s = load_settings(0, contact_at);
+    s.gravity.setZero();
+    s.precision = Precision::real64;
+    const Vec3d above{width / 2, height + 2.5 * load_cell, width / 2};
+    const Vec3d down = above - Vec3d(0, 0.05 * height, 0);
+    shapes::Collider plate;
+    plate.shape.form = shapes::Box{above, {3 * width, 5 * load_cell, 3 * width}};
+    plate.keyframes = {
+        {0, above, std::nullopt}, {0.2, down, std::nullopt}, {0.4, above, std::nullopt}};
+    Simulation simulation(s, {elastic(1e5, 0.2, 400)}, {floor_below(), plate}, block(), 1);
+    simulation.advance_to(0.195);
+    const AdvanceReport report = simulation.advance_to(0.2);
+    const EnergyAccount pressed = energy_account(simulation);
+    // Uniaxial stress, but for what the edges of the block do: the pressure of a particle is the
+    // force over the area.
+    for (const std::size_t k : {std::size_t(0), std::size_t(1)})
+      verify_ratio({"load", "contact at " + name_of(contact_at),
+                    "largest pressure on collider " + std::to_string(k) + ", Pa"},
+                   report.loads[k].impulse.norm() / report.seconds / (width * width),
+                   simulation.summary().max_pressure[k], 0.15);
+    simulation.advance_to(0.4);
+    const EnergyAccount released = energy_account(simulation);
+    ASSERT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
+    const std::string where = name_of(contact_at);
+    verify_ratio({"load", "contact at " + where, "work of a piston on the way in, J"},
+                 pressed.found, pressed.explained, 0.1);
+    // Nothing made energy, to the error of the steps, and little of the work is still there.
+    EXPECT_GE(released.explained, released.found - 0.01 * pressed.explained) << where;
+    EXPECT_LT(released.explained, 0.15 * pressed.explained) << where;
+  }
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "sim/checks/watch.h"
@@ -412,6 +414,177 @@ TEST(Flow, AParticleAtTheFarCornerOfItsBlockIsSeen) {
   EXPECT_EQ(simulation.particle_count(), 1u);
   simulation.step(1e-3);
   EXPECT_EQ(simulation.particle_count(), 0u);
+}
+
+// ---- room ---------------------------------------------------------------------------------------
+
+/// A nozzle 0.3 m above a floor, as fast as its velocity carries snow away: the pile reaches it.
+seeding::Emitter pouring_nozzle() {
+  seeding::Emitter e;
+  e.name = "nozzle";
+  e.material = "snow";
+  e.shape.form = shapes::Box{{0, 0.2, 0}, {0.12, 0.04, 0.12}};
+  e.velocity = {0, -1.5, 0};
+  e.rate = 1;  // 0 fills the shape once
+  e.rate = seeding::carried_rate(e, Material{});
+  return e;
+}
+
+shapes::Collider floor_at(double y) {
+  shapes::Collider floor;
+  floor.shape.form = shapes::Plane{{0, y, 0}, {0, 1, 0}};
+  floor.friction = 0.5;
+  return floor;
+}
+
+Simulation pouring(const SolverSettings& settings, int threads = 1) {
+  return Simulation(settings, {Material{}}, {floor_at(0.003)}, {}, threads, sim::Vec3i::Zero(),
+                    {{pouring_nozzle()}, {}, 1});
+}
+
+/// kg/m3, of the cell that holds most.
+double densest_cell(const Simulation& simulation, double h) {
+  std::map<std::array<long, 3>, double> mass;
+  const ParticleArrays particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.x.size(); ++p) {
+    std::array<long, 3> cell;
+    for (int a = 0; a < 3; ++a)
+      cell[static_cast<std::size_t>(a)] = std::lround(std::floor(particles.x[p][a] / h));
+    mass[cell] += particles.m[p];
+  }
+  double most = 0;
+  for (const auto& [cell, m] : mass) most = std::max(most, m / (h * h * h));
+  return most;
+}
+
+/// Births that did not look reached 9900 kg/m3 here, eleven times as dense as ice.
+TEST(FlowRoom, AnEmitterThatItsOwnPileFillsWaits) {
+  Simulation simulation = pouring(SolverSettings{});
+  simulation.advance_to(0.8);
+  ASSERT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
+  const seeding::FlowTotals totals = simulation.flow_totals();
+  EXPECT_GT(totals.withheld, totals.emitted / 10);
+  EXPECT_EQ(totals.emitted + totals.withheld,
+            seeding::count_emitted(pouring_nozzle(), Material{}, 0.02, 0.8));
+  EXPECT_EQ(simulation.withheld(), std::vector<std::uint64_t>{totals.withheld});
+  EXPECT_EQ(simulation.summary().withheld, totals.withheld);
+  // Eight particles a cell at random places leave some cells with twice the mean, and the pile
+  // packs what lies at its foot.
+  EXPECT_LT(densest_cell(simulation, 0.02), 1000);
+}
+
+TEST(FlowRoom, AFreeStreamIsNotWithheld) {
+  for (const Transfer transfer : {Transfer::flip, Transfer::mls}) {
+    SolverSettings settings;
+    settings.transfer = transfer;
+    settings.kernel = transfer == Transfer::mls ? Kernel::quadratic : Kernel::cubic;
+    Simulation simulation = flowing(settings, {}, {{pouring_nozzle()}, {}, 1});
+    simulation.advance_to(0.5);
+    EXPECT_EQ(simulation.flow_totals().withheld, 0u);
+    EXPECT_EQ(simulation.flow_totals().emitted,
+              seeding::count_emitted(pouring_nozzle(), Material{}, 0.02, 0.5));
+  }
+}
+
+TEST(FlowRoom, TheClockOfAnEmitterStopsWhileABirthWaits) {
+  seeding::Emitter e = spout(3);
+  e.end = 1.0;
+  const Material snow;
+  const double period = snow.density * std::pow(0.02, 3) / e.particles_per_cell / e.rate;
+  seeding::EmitterStream stream(e, 0, snow, 1, 0.02), free(e, 0, snow, 1, 0.02);
+  std::vector<seeding::Birth> births;
+  const auto none = [](const seeding::Birth&) { return false; };
+  stream.advance_to(0.1, births);
+  const std::size_t before = births.size();
+  for (const double t : {0.15, 0.2, 0.3}) stream.advance_to(t, births, none);
+  EXPECT_EQ(births.size(), before);
+  EXPECT_EQ(stream.state().withheld, births_of(free, 0.3).size() - before);
+  births.clear();
+  // No flood of what has waited: as much per second as before.
+  stream.advance_to(0.4, births);
+  EXPECT_NEAR(static_cast<double>(births.size()), 0.1 / period, 1.01);
+  // It closes when it would have closed. One birth more or less: rounding.
+  births.clear();
+  stream.advance_to(7, births);
+  EXPECT_NEAR(static_cast<double>(births.size()), 0.6 / period, 1.01);
+  EXPECT_NEAR(static_cast<double>(stream.state().withheld), 0.2 / period, 1.01);
+}
+
+/// A body that appears where half of its shape is full.
+TEST(FlowRoom, AnEmitterThatFillsItsShapeOnceLeavesOutPlacesThatAreFull) {
+  const ParticleArrays block = box_of_snow({0, 0, 0}, {0.2, 0.2, 0.2}, 0.01);
+  seeding::Emitter e;
+  e.name = "late";
+  e.material = "snow";
+  e.shape.form = shapes::Box{{0.2, 0.1, 0.1}, {0.2, 0.2, 0.2}};
+  for (const double start : {0.0, 0.01}) {
+    e.start = start;
+    Simulation simulation = flowing(without_gravity(), block, {{e}, {}, 1});
+    simulation.advance_to(0.02);
+    const seeding::FlowTotals totals = simulation.flow_totals();
+    const auto whole = static_cast<double>(totals.emitted + totals.withheld);
+    EXPECT_EQ(whole, 8000);
+    // Room begins at the face of the block, to a fraction of a spacing in ten.
+    EXPECT_NEAR(static_cast<double>(totals.withheld) / whole, 0.5, 0.05) << start;
+    EXPECT_LT(densest_cell(simulation, 0.02), 700) << start;
+  }
+}
+
+TEST(FlowRoom, ThreadsAndInterruptionsChangeNothing) {
+  for (const TimeStep time_step : {TimeStep::adaptive, TimeStep::fixed}) {
+    SolverSettings settings;
+    settings.time_step = time_step;
+    settings.dt = 2e-4;
+    Simulation whole = pouring(settings, 2);
+    whole.advance_to(0.25);
+    ASSERT_GT(whole.flow_totals().withheld, 0u);
+    const std::vector<std::uint8_t> bytes = whole.save();
+    Simulation again = pouring(settings, 1);
+    again.restore(bytes);
+    EXPECT_EQ(again.flow_totals().withheld, whole.flow_totals().withheld);
+    whole.advance_to(0.3);
+    again.advance_to(0.3);
+    EXPECT_EQ(again.save(), whole.save());
+  }
+}
+
+TEST(FlowRoom, StagesAndSweepsSeeTheSameRoom) {
+  SolverSettings settings;
+  settings.precision = Precision::real64;
+  settings.time_step = TimeStep::fixed;
+  settings.dt = 2e-4;
+  Simulation fused = pouring(settings);
+  settings.bypass = {Stage::volumes};  // all are given: it changes nothing
+  Simulation staged = pouring(settings);
+  fused.advance_to(0.22);
+  staged.advance_to(0.22);
+  ASSERT_GT(fused.flow_totals().withheld, 0u);
+  EXPECT_EQ(staged.flow_totals().withheld, fused.flow_totals().withheld);
+}
+
+// ---- loose snow ---------------------------------------------------------------------------------
+
+TEST(FlowRoom, LooseSnowIsLessDense) {
+  seeding::Emitter e = spout(3);
+  e.J_P = 1.5;
+  const Material snow;
+  seeding::EmitterStream stream(e, 0, snow, 1, 0.02);
+  const double volume = std::pow(0.02, 3) / e.particles_per_cell;
+  double mass = 0;
+  for (const seeding::Birth& b : births_of(stream, 0.25)) {
+    EXPECT_EQ(b.J_P, 1.5);
+    EXPECT_DOUBLE_EQ(b.V0, volume / 1.5);
+    EXPECT_DOUBLE_EQ(b.m, snow.density * b.V0);
+    mass += b.m;
+  }
+  EXPECT_NEAR(mass, 3 * 0.25, snow.density * volume);
+  e.rate = 0;
+  seeding::EmitterStream whole(e, 0, snow, 1, 0.02);
+  mass = 0;
+  for (const seeding::Birth& b : births_of(whole, 0)) mass += b.m;
+  EXPECT_NEAR(mass, 400 / 1.5 * 0.2 * 0.04 * 0.2, 1e-9);
+  Simulation simulation = flowing(without_gravity(), {}, {{e}, {}, 1});
+  EXPECT_DOUBLE_EQ(simulation.summary().max_J_P, 1.5);
 }
 
 }  // namespace

@@ -25,12 +25,14 @@ std::vector<std::optional<double>> metrics_of(const std::vector<run::FrameRecord
                                               std::optional<double> diverged_at) {
   if (frames.empty()) return std::vector<std::optional<double>>(metric_infos().size());
   const run::FrameRecord& last = frames.back();
-  double steps = 0, max_speed = 0, max_force = 0;
+  double steps = 0, max_speed = 0, max_force = 0, max_pressure = 0;
   for (const run::FrameRecord& frame : frames) {
     steps += static_cast<double>(frame.advance.steps);
     max_speed = std::max(max_speed, frame.summary.max_speed);
-    for (const run::ColliderForce& f : frame.forces)
+    for (const run::ColliderForce& f : frame.forces) {
       max_force = std::max(max_force, f.force.norm());
+      max_pressure = std::max(max_pressure, f.max_pressure);
+    }
   }
   // Steps after the last frame count too.
   if (diverged_at) steps = std::max(steps, *diverged_at);
@@ -45,6 +47,7 @@ std::vector<std::optional<double>> metrics_of(const std::vector<run::FrameRecord
           finite(last.summary.max_J_P),
           finite(max_speed),
           finite(max_force),
+          finite(max_pressure),
           steps,
           finite(status.seconds)};
 }
@@ -81,6 +84,7 @@ const std::vector<MetricInfo>& metric_infos() {
       {"max_J_P", "", "greatest J_P", false, false},
       {"max_speed", "m/s", "top speed", false, false},
       {"max_force", "N", "top force", false, false},
+      {"max_pressure", "Pa", "top pressure", false, false},
       {"steps", "", "steps", true, false, true},
       {"seconds", "s", "time", false, true, true}};
   return infos;

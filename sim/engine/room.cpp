@@ -1,0 +1,110 @@
+#include "sim/engine/room.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neve::sim::engine {
+
+namespace {
+
+/// Particles of few per cell look no farther than this, cells.
+constexpr double max_radius = 2;
+
+/// J_P of loose snow that still takes its volume; torn snow is in nobody's way.
+constexpr double max_loose = 2;
+
+/// Blocks list particles by where they were before the step, by the first node of their stencil:
+/// which is up to one cell before their own, and they moved by less than a cell.
+constexpr int block_cells_below = 2, block_cells_above = 1;
+
+/// Cells far apart may share a key: distances tell.
+std::uint64_t cell_key(const Vec3i& cell) {
+  constexpr std::uint64_t bits = (1 << 21) - 1;
+  std::uint64_t key = 0;
+  for (int a = 0; a < 3; ++a) key = key << 21 | (static_cast<std::uint64_t>(cell[a]) & bits);
+  return key;
+}
+
+}  // namespace
+
+template <class Real>
+Room<Real>::Room(const State<Real>& state)
+    : state_(state), cell_size_(state.method.lattice.cell_size) {
+  if (!state.particles.partition.blocks().empty()) return;
+  for (const kernels::Particle<Real>& p : state.particles.records) add(p);
+}
+
+template <class Real>
+bool Room<Real>::has_room(const seeding::Birth& birth) {
+  const double wanted = seeding::room_radius * std::cbrt(birth.V0 * birth.J_P);
+  const double radius = std::min(wanted, max_radius * cell_size_);
+  const int reach = static_cast<int>(std::ceil(radius / cell_size_));
+  const Vec3i middle = cell_of(birth.x);
+  add_blocks_around(middle, reach);
+  double filled = 0;
+  for (int i = -reach; i <= reach; ++i)
+    for (int j = -reach; j <= reach; ++j)
+      for (int k = -reach; k <= reach; ++k) {
+        const auto cell = places_.find(cell_key(middle + Vec3i(i, j, k)));
+        if (cell == places_.end()) continue;
+        for (const Place& other : cell->second)
+          if ((other.x - birth.x).squaredNorm() < radius * radius) filled += other.volume;
+      }
+  return filled <= birth.room * std::pow(radius / wanted, 3);
+}
+
+template <class Real>
+void Room<Real>::take(const seeding::Birth& birth) {
+  add(birth.x, birth.V0 * birth.J_P);
+}
+
+template <class Real>
+void Room<Real>::add(const Vec3d& x, double volume) {
+  places_[cell_key(cell_of(x))].push_back({x, volume});
+}
+
+template <class Real>
+void Room<Real>::add(const kernels::Particle<Real>& p) {
+  const double J_P = std::clamp(static_cast<double>(p.J_P), 1.0, max_loose);
+  add(state_.position(p), static_cast<double>(p.V0) * J_P);
+}
+
+template <class Real>
+void Room<Real>::add_block(std::uint64_t key) {
+  if (!blocks_.insert(key).second) return;
+  const Partition& partition = state_.particles.partition;
+  const std::vector<kernels::ParticleBlock>& list = partition.blocks();
+  const auto found = std::lower_bound(
+      list.begin(), list.end(), key,
+      [](const kernels::ParticleBlock& block, std::uint64_t wanted) { return block.key < wanted; });
+  if (found == list.end() || found->key != key) return;
+  for (std::uint32_t k = found->begin; k < found->end; ++k)
+    add(state_.particles.records[partition.order()[k]]);
+}
+
+template <class Real>
+void Room<Real>::add_blocks_around(const Vec3i& cell, int cells) {
+  const auto block_of = [](int first_node) { return first_node >> 2; };
+  Vec3i first, last;
+  for (int a = 0; a < 3; ++a) {
+    const int on_lattice = cell[a] + kernels::block_side * state_.method.lattice.origin[a];
+    first[a] = block_of(on_lattice - cells - block_cells_below);
+    last[a] = block_of(on_lattice + cells + block_cells_above);
+  }
+  for (int i = first[0]; i <= last[0]; ++i)
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int k = first[2]; k <= last[2]; ++k)
+        add_block(state_.particles.partition.wrapped(kernels::block_key(i, j, k)));
+}
+
+template <class Real>
+Vec3i Room<Real>::cell_of(const Vec3d& x) const {
+  Vec3i cell;
+  for (int a = 0; a < 3; ++a) cell[a] = static_cast<int>(std::floor(x[a] / cell_size_));
+  return cell;
+}
+
+template class Room<float>;
+template class Room<double>;
+
+}  // namespace neve::sim::engine
