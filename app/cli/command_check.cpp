@@ -41,8 +41,12 @@ std::string time_text(double seconds) {
 const health::FrameForecast& busiest(const health::Checkup& checkup) {
   return *std::max_element(checkup.forecast.begin(), checkup.forecast.end(),
                            [](const health::FrameForecast& a, const health::FrameForecast& b) {
-                             return a.steps < b.steps;
+                             return a.steps * a.cost < b.steps * b.cost;
                            });
+}
+
+Json range_json(const health::Range& range) {
+  return {range.low, range.high};
 }
 
 Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job) {
@@ -66,6 +70,7 @@ Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job) {
                               {"steps", count_json(frame.steps)},
                               {"limit", sim::name(frame.limit)}});
   json["steps"] = count_json(checkup.steps());
+  json["steps_range"] = range_json(checkup.steps_range());
   const double frames = std::max<double>(1, static_cast<double>(checkup.forecast.size()));
   json["steps_per_frame"] = checkup.steps() / frames;
   json["seconds_per_frame"] = checkup.seconds() / frames;
@@ -73,6 +78,7 @@ Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job) {
   json["solve_iterations"] =
       job.scene.solver.is_implicit() ? Json(checkup.solve.iterations) : Json();
   json["seconds"] = checkup.seconds();
+  json["seconds_range"] = range_json(checkup.seconds_range());
   json["warnings"] = Json::array();
   for (const health::Finding& finding : checkup.findings)
     if (finding.severity != health::Severity::note) json["warnings"].push_back(finding.what);
@@ -102,7 +108,9 @@ void print_limits(const health::Checkup& checkup) {
 void print_forecast(const health::Checkup& checkup) {
   if (checkup.forecast.empty()) return;
   const health::FrameForecast& worst = busiest(checkup);
-  std::cout << "steps      about " << about_count_text(checkup.steps()) << " in "
+  const health::Range steps = checkup.steps_range(), seconds = checkup.seconds_range();
+  std::cout << "steps      about " << about_count_text(checkup.steps()) << " ("
+            << about_count_text(steps.low) << " to " << about_count_text(steps.high) << ") in "
             << checkup.forecast.size() << " frames: ";
   if (worst.frame != 1)
     std::cout << about_count_text(checkup.forecast.front().steps) << " in frame 1, ";
@@ -113,8 +121,9 @@ void print_forecast(const health::Checkup& checkup) {
     std::cout << ", from a copy of " << about_count_text(checkup.coarse_particles) << " particles";
   std::cout << "\n";
   if (checkup.seconds_per_step <= 0) return;
-  std::cout << "time       about " << time_text(checkup.seconds()) << " of simulation, "
-            << time_text(worst.steps * checkup.seconds_per_step) << " for the busiest frame; "
+  std::cout << "time       about " << time_text(checkup.seconds()) << " (" << time_text(seconds.low)
+            << " to " << time_text(seconds.high) << ") of simulation, "
+            << time_text(checkup.seconds_of(worst)) << " for the busiest frame; "
             << rough_text(1000 * checkup.seconds_per_step)
             << " ms a step, measured now on this machine\n";
 }

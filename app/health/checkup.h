@@ -23,6 +23,15 @@ struct FrameForecast {
   double dt = 0;     ///< s
   double steps = 0;  ///< in this frame
   sim::DtLimit limit = sim::DtLimit::max_dt;
+  double blocks = 0;  ///< of the grid, per particle of the copy at the frame's end
+  /// Cost of a step of the scene relative to the first, by the spread of the snow over the grid: in
+  /// pieces as large as at the start, and in single particles.
+  double cost = 1, max_cost = 1;
+};
+
+/// What may come: the truth lies between on every shipped scene.
+struct Range {
+  double low = 0, high = 0;
 };
 
 /// The steps of a run, foretold by a coarse copy of it.
@@ -30,6 +39,7 @@ struct Forecast {
   std::vector<FrameForecast> frames;     ///< that the copy reached; those after are as the last
   double particles = 0;                  ///< of the copy; 0: there is none
   double seconds_per_particle_step = 0;  ///< of the copy, on one thread
+  double blocks = 0;                     ///< of the grid, per particle of the copy at the start
   std::string divergence;                ///< of the copy, a sentence; empty if it holds
   std::vector<Finding> findings;         ///< about the scene, from the copy
 
@@ -50,6 +60,7 @@ struct Checkup {
   sim::DtLimit limit_start = sim::DtLimit::max_dt;
   std::vector<FrameForecast> forecast;  ///< frames that a coarse run reached; may be empty
   double coarse_particles = 0;          ///< of the run behind the forecast
+  double blocks = 0;                    ///< of the grid, per particle at the start; 0: not known
   double seconds_per_step = 0;          ///< measured on this machine; 0: not measured
   sim::SolveReport solve;               ///< of these steps; zero where they are explicit
   double coarsening = 1;                ///< of --coarsen, for advice
@@ -57,6 +68,9 @@ struct Checkup {
 
   double steps() const;    ///< forecast for the whole run
   double seconds() const;  ///< forecast of the simulation
+  double seconds_of(const FrameForecast& frame) const;
+  Range steps_range() const;
+  Range seconds_range() const;
 };
 
 /// Seeds the scene, takes some steps, and runs a coarse copy: about three seconds.

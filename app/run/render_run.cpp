@@ -11,6 +11,7 @@
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
 #include "app/picture/mosaic.h"
+#include "app/run/slowdown.h"
 #include "app/run/step_warnings.h"
 #include "app/scene/read.h"
 #include "app/support/clock.h"
@@ -331,6 +332,10 @@ void RenderRun::draw_frame(int frame) {
   add_frame(record_.frames,
             {frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start), summary_,
              state_hash, metrics, forces_of(advance_, summary_, scene_.colliders)});
+  if (const auto slowdown = slowdown_warning(record_.frames); slowdown && !said_slow_) {
+    progress_.warning(*slowdown);
+    said_slow_ = true;
+  }
   // Listed first and written then: whenever the process is killed, the next run knows every picture
   // that it has to remove. The hash follows when it is written.
   note_written();
@@ -362,6 +367,8 @@ void RenderRun::note_warnings() {
   record_.warnings = job_.warnings;
   for (std::string& warning : step_warnings(scene_, simulation_))
     record_.warnings.push_back(std::move(warning));
+  if (auto slowdown = slowdown_warning(record_.frames))
+    record_.warnings.push_back(std::move(*slowdown));
 }
 
 void RenderRun::note_retries(const std::vector<sim::Retry>& retries) {

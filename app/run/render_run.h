@@ -117,6 +117,7 @@ class RenderRun {
   sim::Summary summary_;                      ///< of the frame being made
   std::vector<picture::PlotSample> history_;  ///< of all frames simulated
   double seconds_sim_ = 0;
+  bool said_slow_ = false;
   std::atomic<bool> is_abandoned_ = false;  ///< nobody waits for the frame being simulated
   std::future<Advanced> next_;  ///< the frame after the one being drawn, if it was begun
   std::set<std::filesystem::path> unsynced_;  ///< files that a power cut may still take

@@ -266,8 +266,34 @@ TEST_F(Check, CheckForeseesTheStepsOfTheRun) {
   EXPECT_TRUE(json["warnings"].is_array());
   EXPECT_GT(json["steps"].get<double>(), 0.5 * steps);
   EXPECT_LT(json["steps"].get<double>(), 2 * steps);
+  EXPECT_LE(json["steps_range"][0].get<double>(), steps);
+  EXPECT_GE(json["steps_range"][1].get<double>(), steps);
+  EXPECT_LT(json["seconds_range"][0].get<double>(), json["seconds"].get<double>());
+  EXPECT_GT(json["seconds_range"][1].get<double>(), json["seconds"].get<double>());
   EXPECT_GT(json["seconds_per_step"].get<double>(), 0);
   EXPECT_EQ(json["dt_limit"], "acoustic");
+}
+
+/// A ball that scatters as single particles: each then costs as much as a block of packed ones.
+TEST_F(Check, CheckForeseesThatSprayIsDear) {
+  const std::string burst =
+      "frames = 12\n[solver]\ncell_size = 0.02\ngravity = [0, 0, 0]\n"
+      "[[body]]\nname = \"ball\"\nmaterial = \"snow\"\n"
+      "shape = { sphere = { center = [0, 1, 0], radius = 0.15 } }\nangular_velocity = [0, 120, "
+      "0]\n";
+  folder.write("burst.toml", burst);
+  const app::Json spray =
+      app::parse_json(std::string_view(neve({"check", "burst.toml", "--json"}).output));
+  const app::Json still = app::parse_json(std::string_view(
+      neve({"check", "burst.toml", "--json", "--set", "body.ball.angular_velocity=[0,0,0]"})
+          .output));
+  const auto dearest = [](const app::Json& json) {
+    return json["seconds_range"][1].get<double>() / json["steps_range"][1].get<double>() /
+           json["seconds_per_step"].get<double>();
+  };
+  // Nothing spreads: a step costs what the first one costs.
+  EXPECT_NEAR(dearest(still), 1, 0.2);
+  EXPECT_GT(dearest(spray), 2);
 }
 
 TEST_F(Check, CheckRefusesTheScenesThatRenderRefuses) {

@@ -206,6 +206,8 @@ void draw_plots_panel(ViewerState& state) {
                {"greatest", blue, [](const session::RunSample& s) { return s.max_J_P; }}});
   draw_curves(state, "deepest in a collider", "m",
               {{"depth", pink, [](const session::RunSample& s) { return s.max_depth; }}});
+  draw_curves(state, "largest pressure on a collider", "Pa",
+              {{"pressure", blue, [](const session::RunSample& s) { return s.max_pressure; }}});
   draw_phases(*state.live);
   const session::LiveFrame& live = *state.live;
   ImGui::TextDisabled("%s particles, %s, %d threads, %s",

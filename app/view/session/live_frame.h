@@ -26,6 +26,7 @@ struct RunSample {
   double dt = 0;                              ///< s, that the settings choose next
   sim::DtLimit limit = sim::DtLimit::max_dt;  ///< that rules it
   double max_depth = 0;                       ///< m, of the particle deepest in a collider
+  double max_pressure = 0;                    ///< Pa, of snow on a collider
 };
 
 /// A quantity of many nodes or particles in a few numbers.

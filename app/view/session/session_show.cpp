@@ -14,6 +14,10 @@ namespace {
 constexpr auto publish_interval = std::chrono::milliseconds(30);
 constexpr std::size_t max_samples = 4000;
 
+double largest(const std::vector<double>& pressures) {
+  return pressures.empty() ? 0 : *std::max_element(pressures.begin(), pressures.end());
+}
+
 }  // namespace
 
 /// Needs a decomposition per particle, for the elastic energy.
@@ -29,7 +33,7 @@ sim::Summary Session::note_sample() {
   while (!list.empty() && list.back().time >= summary.time) list.pop_back();
   list.push_back({summary.time, summary.kinetic_energy, summary.elastic_energy, summary.momentum,
                   summary.max_speed, summary.min_J_P, summary.max_J_P, choice.dt, choice.limit,
-                  summary.max_depth});
+                  summary.max_depth, largest(summary.max_pressure)});
   if (list.size() <= max_samples) return summary;
   std::size_t kept = 0;  // every other one: the plot covers the whole run with half the detail
   for (std::size_t k = 0; k < list.size(); k += 2) list[kept++] = list[k];

@@ -1,0 +1,76 @@
+#include "app/run/slowdown.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "app/support/text.h"
+
+namespace neve::app::run {
+
+namespace {
+
+constexpr double worth_a_word = 10;  ///< times as long as the first frame
+constexpr double short_frame = 2;    ///< s; nobody waits for it
+constexpr double notable = 1.5;      ///< a cause that explains less is left out
+
+double steps_of(const FrameRecord& frame) {
+  return static_cast<double>(frame.advance.steps);
+}
+
+double particle_steps(const FrameRecord& frame) {
+  return steps_of(frame) * static_cast<double>(frame.summary.particles);
+}
+
+/// Why dt is what it is.
+std::string cause_of(const FrameRecord& frame) {
+  switch (frame.advance.limit()) {
+    case sim::DtLimit::acoustic:
+      return fmt::format(
+          "acoustic: the stiffest snow is packed to J_P = {}; a smaller hardening or "
+          "max_hardening of the material makes steps longer",
+          rough_text(frame.summary.min_J_P));
+    case sim::DtLimit::cfl:
+      return fmt::format("cfl: the fastest particle has {} m/s",
+                         rough_text(frame.summary.max_speed));
+    case sim::DtLimit::strain:
+      return "strain: neighbours differ much in velocity; solver.strain_limit makes steps longer";
+    default:
+      return sim::name(frame.advance.limit());
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> slowdown_warning(const std::vector<FrameRecord>& frames) {
+  const auto moves = [](const FrameRecord& frame) {
+    return frame.advance.steps > 0 && frame.summary.particles > 0;
+  };
+  const auto first = std::find_if(frames.begin(), frames.end(), moves);
+  if (first == frames.end()) return std::nullopt;
+  const FrameRecord& slow = *std::max_element(
+      first, frames.end(),
+      [](const FrameRecord& a, const FrameRecord& b) { return a.seconds_sim < b.seconds_sim; });
+  const double ratio = slow.seconds_sim / first->seconds_sim;
+  if (!(ratio >= worth_a_word && slow.seconds_sim >= short_frame)) return std::nullopt;
+  std::string text = fmt::format("frame {} took {} s, {} times as long as frame {}", slow.frame,
+                                 rough_text(slow.seconds_sim), rough_text(ratio), first->frame);
+  const double more_steps = steps_of(slow) / steps_of(*first);
+  if (more_steps > notable)
+    text +=
+        fmt::format("; it has {} times as many steps ({})", rough_text(more_steps), cause_of(slow));
+  const auto more_snow =
+      static_cast<double>(slow.summary.particles) / static_cast<double>(first->summary.particles);
+  if (more_snow > notable)
+    text += fmt::format("; {} times as many particles", rough_text(more_snow));
+  const double dearer =
+      (slow.seconds_sim / particle_steps(slow)) / (first->seconds_sim / particle_steps(*first));
+  if (dearer > notable)
+    text += fmt::format(
+        "; each step of a particle costs {} times as much, because the snow is spread over more of "
+        "the grid ({} pieces); a sink removes spray that nobody sees",
+        rough_text(dearer), slow.metrics.fragments);
+  return text;
+}
+
+}  // namespace neve::app::run
