@@ -116,13 +116,13 @@ TEST(Load, APistonTakesBackTheWorkThatItDid) {
     simulation.advance_to(0.195);
     const AdvanceReport report = simulation.advance_to(0.2);
     const EnergyAccount pressed = energy_account(simulation);
-    // Uniaxial stress, but for what the edges of the block do: the pressure of a particle is the
-    // force over the area.
-    for (const std::size_t k : {std::size_t(0), std::size_t(1)})
-      verify_ratio({"load", "contact at " + name_of(contact_at),
-                    "largest pressure on collider " + std::to_string(k) + ", Pa"},
-                   report.loads[k].impulse.norm() / report.seconds / (width * width),
-                   simulation.summary().max_pressure[k], 0.15);
+    // Where the pressure is largest it is more than the force over the area: at the edges of the
+    // block, and at nodes, which press on a layer up to a cell thick.
+    for (const std::size_t k : {std::size_t(0), std::size_t(1)}) {
+      const double mean = report.loads[k].impulse.norm() / report.seconds / (width * width);
+      EXPECT_GT(simulation.summary().max_pressure[k], mean) << k;
+      EXPECT_LT(simulation.summary().max_pressure[k], 1.8 * mean) << k;
+    }
     simulation.advance_to(0.4);
     const EnergyAccount released = energy_account(simulation);
     ASSERT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
