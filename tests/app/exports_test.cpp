@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "app/exports/encode.h"
 #include "app/exports/series.h"
 #include "app/scene/read.h"

@@ -37,6 +37,7 @@ TEST(RunJson, RunJsonHasTheFieldsOfTheContract) {
                                           "particles",
                                           "emitted",
                                           "removed",
+                                          "withheld",
                                           "mass",
                                           "kinetic_energy",
                                           "elastic_energy",
