@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/cli/commands.h"
+#include "app/run/picture_record.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
@@ -155,6 +156,12 @@ int run_view(const view::ViewOptions& options) {
   // A scene that cannot be read is told before a window opens.
   std::optional<view::session::Document> document =
       view::session::open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
+  if (run::is_png(file))
+    if (const std::size_t changes = run::read_picture_record(file).changes.size(); changes > 0)
+      std::cerr
+          << "neve: warning: " << changes
+          << " changes were made while the run of this picture ran; the view starts without them"
+          << std::endl;
   Place place = open_place(options);
   announce(place, options.run.is_json, options.run.verbosity == Verbosity::quiet);
   std::unique_ptr<view::replay::RecordingFrontend> recording;

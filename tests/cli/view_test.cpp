@@ -65,6 +65,24 @@ TEST_F(View, APictureIsFramedAsRenderFramesIt) {
   }
 }
 
+TEST_F(View, APictureOpensTheSceneInIt) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--set", "material.snow.density=250", "--frames", "0-1",
+                  "--out", "rendered", "--no-movie"})
+                .exit_code,
+            0);
+  folder.write("script.json", R"([
+    {"click": "Frame"}, {"wait_for": "simulation frame 1"}, {"wait": 5},
+    {"key": "p"}, {"wait": 10}, {"quit": true}])");
+  const auto result = neve({"view", "rendered/particles/0000.png", "--replay", "script.json",
+                            "--out", "viewed", "--size", "1100x700"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  std::string picture;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "viewed"))
+    if (entry.path().extension() == ".png") picture = "viewed/" + entry.path().filename().string();
+  ASSERT_FALSE(picture.empty());
+  EXPECT_EQ(info_of(picture)["state_hash"], info_of("rendered/particles/0001.png")["state_hash"]);
+}
+
 TEST_F(View, ViewRecordsASequenceThatRenderWouldMake) {
   const auto result = view(R"([
     {"click": "Save ..."}, {"wait": 3}, {"click": "Record every frame"}, {"wait": 3},

@@ -5,6 +5,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/named_file.h"
+#include "app/run/picture_record.h"
 #include "app/run/run_json.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/flat.h"
@@ -45,7 +46,11 @@ Document open_document(const std::string& file, const std::vector<std::string>& 
                        double coarsening) {
   std::vector<scene::Override> parsed;
   for (const std::string& argument : overrides) parsed.push_back(scene::parse_override(argument));
-  return Document(file, scene::read_toml_file(file), std::move(parsed), coarsening);
+  if (!run::is_png(file))
+    return Document(file, scene::read_toml_file(file), std::move(parsed), coarsening);
+  // Saved, it lies beside the picture, which holds the scene as it was drawn: coarsened already.
+  const std::string beside = std::filesystem::path(file).replace_extension(".toml").string();
+  return Document(beside, run::read_picture_record(file).scene, std::move(parsed), coarsening);
 }
 
 Workbench::Workbench(Document document, WorkbenchOptions options, std::function<void()> wake)

@@ -101,7 +101,7 @@ class Workbench {
   std::unique_ptr<Session> session_;  ///< last: its thread calls back
 };
 
-/// The scene in a file, the views in it, as `neve view` starts with it.
+/// The scene in a file or in a picture, the views in it, as `neve view` starts with it.
 Document open_document(const std::string& file, const std::vector<std::string>& overrides,
                        double coarsening);
 
