@@ -90,7 +90,7 @@ std::array<Vec3d, 8> corners(const Vec3d& min, const Vec3d& max) {
 
 /// The snow that stays within its own size of where all of it was, if most of it does and the rest
 /// would make it small in the picture; otherwise all of it.
-std::vector<Vec3d> without_flown(std::vector<Vec3d> points, const Box& start) {
+std::vector<Vec3d> without_flown(const std::vector<Vec3d>& points, const Box& start) {
   const Vec3d reach = Vec3d::Constant(start.diagonal());
   std::vector<Vec3d> near;
   for (const Vec3d& x : points)
@@ -138,7 +138,7 @@ std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<Moment>&
     seen = grown;
     points.insert(points.end(), kept.begin(), kept.end());
   }
-  return without_flown(std::move(points), start);
+  return without_flown(points, start);
 }
 
 /// Obstacles that the snow meets belong in the picture unless they would dwarf it.
