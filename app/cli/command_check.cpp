@@ -34,7 +34,7 @@ std::string about_count_text(double x) {
   return fixed_text(unit * std::round(x / unit), 0);
 }
 
-std::string time_text(double seconds) {
+std::string seconds_text(double seconds) {
   return seconds < 0.95 ? fixed_text(seconds, 2) + " s" : duration_text(seconds);
 }
 
@@ -121,10 +121,10 @@ void print_forecast(const health::Checkup& checkup) {
     std::cout << ", from a copy of " << about_count_text(checkup.coarse_particles) << " particles";
   std::cout << "\n";
   if (checkup.seconds_per_step <= 0) return;
-  std::cout << "time       about " << time_text(checkup.seconds()) << " (" << time_text(seconds.low)
-            << " to " << time_text(seconds.high) << ") of simulation, "
-            << time_text(checkup.seconds_of(worst)) << " for the busiest frame; "
-            << rough_text(1000 * checkup.seconds_per_step)
+  std::cout << "time       about " << seconds_text(checkup.seconds()) << " ("
+            << seconds_text(seconds.low) << " to " << seconds_text(seconds.high)
+            << ") of simulation, " << seconds_text(checkup.seconds_of(worst))
+            << " for the busiest frame; " << rough_text(1000 * checkup.seconds_per_step)
             << " ms a step, measured now on this machine\n";
 }
 
