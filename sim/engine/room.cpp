@@ -38,17 +38,19 @@ template <class Real>
 bool Room<Real>::has_room(const seeding::Birth& birth) {
   const double wanted = seeding::room_radius * std::cbrt(birth.V0 * birth.J_P);
   const double radius = std::min(wanted, max_radius * cell_size_);
-  const int reach = static_cast<int>(std::ceil(radius / cell_size_));
+  // A little less: eight per cell reach one cell, however the root is rounded.
+  const int reach = static_cast<int>(std::ceil(radius / cell_size_ - 1e-9));
   const Vec3i middle = cell_of(birth.x);
   add_blocks_around(middle, reach);
   double filled = 0;
   for (int i = -reach; i <= reach; ++i)
     for (int j = -reach; j <= reach; ++j)
       for (int k = -reach; k <= reach; ++k) {
-        const auto cell = places_.find(cell_key(middle + Vec3i(i, j, k)));
-        if (cell == places_.end()) continue;
-        for (const Place& other : cell->second)
-          if ((other.x - birth.x).squaredNorm() < radius * radius) filled += other.volume;
+        const auto cell = first_.find(cell_key(middle + Vec3i(i, j, k)));
+        if (cell == first_.end()) continue;
+        for (std::uint32_t at = cell->second; at != none; at = places_[at].next)
+          if ((places_[at].x - birth.x).squaredNorm() < radius * radius)
+            filled += places_[at].volume;
       }
   return filled <= birth.room * std::pow(radius / wanted, 3);
 }
@@ -60,7 +62,13 @@ void Room<Real>::take(const seeding::Birth& birth) {
 
 template <class Real>
 void Room<Real>::add(const Vec3d& x, double volume) {
-  places_[cell_key(cell_of(x))].push_back({x, volume});
+  const std::uint64_t key = cell_key(cell_of(x));
+  if (!last_first_ || key != last_key_) {
+    last_key_ = key;
+    last_first_ = &first_.try_emplace(key, none).first->second;
+  }
+  places_.push_back({x, volume, *last_first_});
+  *last_first_ = static_cast<std::uint32_t>(places_.size() - 1);
 }
 
 template <class Real>

@@ -25,9 +25,11 @@ class Room {
   void take(const seeding::Birth& birth);
 
  private:
+  static constexpr std::uint32_t none = 0xffffffff;
   struct Place {
     Vec3d x;
-    double volume;  ///< m3
+    double volume;       ///< m3
+    std::uint32_t next;  ///< in the same cell
   };
 
   void add(const Vec3d& x, double volume);
@@ -38,8 +40,12 @@ class Room {
 
   const State<Real>& state_;
   double cell_size_;
-  std::unordered_map<std::uint64_t, std::vector<Place>> places_;  ///< by cell
-  std::unordered_set<std::uint64_t> blocks_;                      ///< that were added
+  std::vector<Place> places_;
+  std::unordered_map<std::uint64_t, std::uint32_t> first_;  ///< place of each cell
+  std::unordered_set<std::uint64_t> blocks_;                ///< that were added
+  /// Particles come sorted by cell: most follow one of the same.
+  std::uint64_t last_key_ = 0;
+  std::uint32_t* last_first_ = nullptr;
 };
 
 }  // namespace neve::sim::engine
