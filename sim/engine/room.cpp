@@ -108,7 +108,10 @@ void Room<Real>::add_blocks_around(const Vec3i& cell, int cells) {
 template <class Real>
 Vec3i Room<Real>::cell_of(const Vec3d& x) const {
   Vec3i cell;
-  for (int a = 0; a < 3; ++a) cell[a] = static_cast<int>(std::floor(x[a] / cell_size_));
+  // Births outside of the lattice are refused elsewhere.
+  constexpr double last = 4.0 * kernels::block_limit;
+  for (int a = 0; a < 3; ++a)
+    cell[a] = static_cast<int>(std::clamp(std::floor(x[a] / cell_size_), -last, last));
   return cell;
 }
 
