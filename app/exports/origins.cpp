@@ -12,10 +12,8 @@ Origins::Origins(const scene::Scene& scene, const std::vector<std::size_t>& body
   const sim::seeding::Emitter& emitter = scene.emitters.front();
   start_ = emitter.start;
   if (!(emitter.rate > 0)) return;
-  const double h = scene.solver.cell_size;
-  const double V0 = h * h * h / emitter.particles_per_cell;
   const sim::Material& material = scene.materials[setup::material_index(scene, emitter.material)];
-  period_ = material.density * V0 / emitter.rate;
+  period_ = sim::seeding::birth_period(emitter, material, scene.solver.cell_size);
 }
 
 int Origins::body_of(std::uint32_t id) const {
@@ -23,22 +21,10 @@ int Origins::body_of(std::uint32_t id) const {
                           body_end_.begin());
 }
 
-/// The k-th birth, from 0, is in the middle of the k-th period; see sim/seeding/flow.h.
 double Origins::birth_of(std::uint32_t id) const {
   const std::size_t first = body_end_.empty() ? 0 : body_end_.back();
   if (id < first) return 0;
   return period_ > 0 ? start_ + (static_cast<double>(id - first) + 0.5) * period_ : start_;
-}
-
-std::vector<std::string> origin_names(const scene::Scene& scene) {
-  std::vector<std::string> names;
-  for (const sim::seeding::Body& body : scene.bodies) names.push_back(body.name);
-  for (const sim::seeding::Emitter& emitter : scene.emitters) names.push_back(emitter.name);
-  return names;
-}
-
-bool knows_emitters(const scene::Scene& scene) {
-  return scene.emitters.size() <= 1;
 }
 
 }  // namespace neve::app::exports

@@ -42,8 +42,8 @@ double open_until(const Emitter& emitter, double time) {
   return emitter.end ? std::min(time, *emitter.end) : time;
 }
 
-/// Births until a time: the k-th, from 0, is half a period after the k-th period began, so that the
-/// first and the last are inside start to end.
+/// Births until a time; the first and the last are inside start to end.
+/// @param mass    kg, of each
 /// @param waited  s, for which the clock of the emitter stood still
 double births_until(const Emitter& emitter, double mass, double time, double waited = 0) {
   const double until = open_until(emitter, time) - waited;
@@ -102,6 +102,10 @@ double carried_rate(const Emitter& emitter, const Material& material) {
   const shapes::Solid solid(emitter.shape);
   return density_at_birth(emitter, material) * solid.volume() / solid.extent(emitter.velocity) *
          speed;
+}
+
+double birth_period(const Emitter& emitter, const Material& material, double cell_size) {
+  return density_at_birth(emitter, material) * share_of(emitter, cell_size) / emitter.rate;
 }
 
 std::uint64_t count_emitted(const Emitter& emitter, const Material& material, double cell_size,

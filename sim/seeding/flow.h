@@ -60,6 +60,10 @@ inline double density_at_birth(const Emitter& emitter, const Material& material)
 /// @throws ShapeError
 double carried_rate(const Emitter& emitter, const Material& material);
 
+/// s from one birth of an emitter with a rate to the next, while none waits. The k-th, from 0, is
+/// due half of it after the k-th period began.
+double birth_period(const Emitter& emitter, const Material& material, double cell_size);
+
 /// Particles that an emitter has until a time, at most 2^32.
 /// @throws ShapeError
 std::uint64_t count_emitted(const Emitter& emitter, const Material& material, double cell_size,

@@ -142,4 +142,13 @@ TEST(Exports, AgeOfEmittedSnowIsTheTimeSinceItsBirth) {
   EXPECT_NEAR(origins.birth_of(13), 0.5 + 3.5 * mass / 2, 1e-12);
 }
 
+/// Loose snow is less dense, so its particles weigh less and come more often.
+TEST(Exports, AgeOfLooseEmittedSnowFollowsItsOwnPeriod) {
+  const app::scene::Scene scene = scene_with(
+      "[[emitter]]\nname = \"hose\"\nshape = { sphere = { radius = 0.1 } }\nrate = 2\nJ_P = 1.6\n"
+      "velocity = [0, -1, 0]\n");
+  const double h = scene.solver.cell_size, mass = 400 / 1.6 * h * h * h / 8;
+  EXPECT_NEAR(app::exports::Origins(scene, {10}).birth_of(13), 3.5 * mass / 2, 1e-12);
+}
+
 }  // namespace
