@@ -45,8 +45,8 @@ const health::FrameForecast& busiest(const health::Checkup& checkup) {
                            });
 }
 
-Json range_json(const health::Range& range) {
-  return {range.low, range.high};
+Json range_json(const scene::Range& range) {
+  return {range.min, range.max};
 }
 
 Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job) {
@@ -108,9 +108,9 @@ void print_limits(const health::Checkup& checkup) {
 void print_forecast(const health::Checkup& checkup) {
   if (checkup.forecast.empty()) return;
   const health::FrameForecast& worst = busiest(checkup);
-  const health::Range steps = checkup.steps_range(), seconds = checkup.seconds_range();
+  const scene::Range steps = checkup.steps_range(), seconds = checkup.seconds_range();
   std::cout << "steps      about " << about_count_text(checkup.steps()) << " ("
-            << about_count_text(steps.low) << " to " << about_count_text(steps.high) << ") in "
+            << about_count_text(steps.min) << " to " << about_count_text(steps.max) << ") in "
             << checkup.forecast.size() << " frames: ";
   if (worst.frame != 1)
     std::cout << about_count_text(checkup.forecast.front().steps) << " in frame 1, ";
@@ -122,7 +122,7 @@ void print_forecast(const health::Checkup& checkup) {
   std::cout << "\n";
   if (checkup.seconds_per_step <= 0) return;
   std::cout << "time       about " << seconds_text(checkup.seconds()) << " ("
-            << seconds_text(seconds.low) << " to " << seconds_text(seconds.high)
+            << seconds_text(seconds.min) << " to " << seconds_text(seconds.max)
             << ") of simulation, " << seconds_text(checkup.seconds_of(worst))
             << " for the busiest frame; " << rough_text(1000 * checkup.seconds_per_step)
             << " ms a step, measured now on this machine\n";

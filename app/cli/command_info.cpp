@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is printed is from a file of anyone.
+/// Prints the record as plain text: the file may be from anyone.
 void print_picture(const run::PictureRecord& record) {
   std::ostringstream out;
   out << "neve        " << record.version << "\n"

@@ -9,7 +9,7 @@ namespace neve::app::cli {
 /// @throws UsageError, and the errors of the subcommand
 int run_command_line(int argc, char** argv);
 
-/// Where the flags want errors; works on command lines that do not parse.
+/// Finds out where the flags want errors; works on command lines that do not parse.
 ErrorOutput error_output(int argc, char** argv);
 
 }  // namespace neve::app::cli

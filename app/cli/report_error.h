@@ -5,7 +5,7 @@
 
 namespace neve::app::cli {
 
-/// Where an error is written.
+/// Says where an error is written.
 struct ErrorOutput {
   bool is_json = false;           ///< on stdout too, as JSON
   bool is_progress_json = false;  ///< on stderr as an event of --progress json

@@ -16,9 +16,9 @@ class Axes {
   sim::Vec3d direction(const sim::Vec3d& v) const {
     return is_z_up_ ? sim::Vec3d(v.x(), -v.z(), v.y()) : v;
   }
-  /// Of places and velocities.
+  /// Turns and scales places and velocities.
   sim::Vec3d scaled(const sim::Vec3d& v) const { return scale_ * direction(v); }
-  /// Of a tensor: R A R^T.
+  /// Turns a tensor: R A R^T.
   sim::Mat3d tensor(const sim::Mat3d& a) const {
     if (!is_z_up_) return a;
     sim::Mat3d rows, both;
@@ -26,7 +26,7 @@ class Axes {
     for (int r = 0; r < 3; ++r) both.row(r) = direction(rows.row(r).transpose()).transpose();
     return both;
   }
-  /// Columns of a rotation, turned: R A.
+  /// Turns the columns of a rotation: R A.
   sim::Mat3d turned(const sim::Mat3d& a) const {
     sim::Mat3d out;
     for (int c = 0; c < 3; ++c) out.col(c) = direction(a.col(c));

@@ -154,11 +154,11 @@ bool is_single(const scene::Scene& scene) {
   return scene.solver.precision == sim::Precision::single;
 }
 
-/// Of the bodies and emitters that an export names.
+/// Lists the particles of the bodies and emitters that an export names.
 std::vector<std::size_t> rows_of(const scene::Scene& scene, const scene::Export& e,
                                  const Origins& origins, const sim::ParticleArrays& particles) {
   std::vector<bool> is_wanted;
-  for (const std::string& name : origin_names(scene))
+  for (const std::string& name : scene::snow_sources(scene))
     is_wanted.push_back(e.bodies.empty() ||
                         std::find(e.bodies.begin(), e.bodies.end(), name) != e.bodies.end());
   const bool has_all = e.bodies.empty();

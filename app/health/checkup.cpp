@@ -241,11 +241,11 @@ double Checkup::seconds() const {
   return sum;
 }
 
-Range Checkup::steps_range() const {
+scene::Range Checkup::steps_range() const {
   return {least_of_steps * steps(), most_of_steps * steps()};
 }
 
-Range Checkup::seconds_range() const {
+scene::Range Checkup::seconds_range() const {
   double high = 0;
   for (const FrameForecast& frame : forecast) high += frame.steps * frame.max_cost;
   return {least_of_steps * seconds(), most_of_steps * high * seconds_per_step};

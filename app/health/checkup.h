@@ -29,11 +29,6 @@ struct FrameForecast {
   double cost = 1, max_cost = 1;
 };
 
-/// What may come: the truth lies between on every shipped scene.
-struct Range {
-  double low = 0, high = 0;
-};
-
 /// The steps of a run, foretold by a coarse copy of it.
 struct Forecast {
   std::vector<FrameForecast> frames;     ///< that the copy reached; those after are as the last
@@ -69,8 +64,9 @@ struct Checkup {
   double steps() const;    ///< forecast for the whole run
   double seconds() const;  ///< forecast of the simulation
   double seconds_of(const FrameForecast& frame) const;
-  Range steps_range() const;
-  Range seconds_range() const;
+  /// The truth lies between on every shipped scene.
+  scene::Range steps_range() const;
+  scene::Range seconds_range() const;
 };
 
 /// Seeds the scene, takes some steps, and runs a coarse copy: about three seconds.

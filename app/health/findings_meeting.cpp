@@ -129,7 +129,7 @@ std::vector<double> times_of(const std::vector<Flight>& flights, double end) {
   return times;
 }
 
-/// How far one may be from the next and still touch it: snow reaches over cells, and colliders are
+/// Distance from which one touches the next: snow reaches over cells, and colliders are
 /// crossed between two looks.
 double reach_of(const scene::Scene& scene, const Flight& flight, double time, double between) {
   return scene.solver.cell_size + 0.5 * flight.spacing() + 0.5 * flight.speed_at(time) * between;

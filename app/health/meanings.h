@@ -1,5 +1,5 @@
 #pragma once
-/// What a stage of the step does, and what a symbol stands for: for tips, messages and docs/mpm.md.
+/// Meanings of the stages of a step and of symbols, for tips, messages and docs/mpm.md.
 
 #include <string>
 

@@ -37,7 +37,8 @@ void move_into_place(const std::filesystem::path& temporary, const std::filesyst
 /// Creates a folder and those above it. @throws IoError
 void make_folder(const std::filesystem::path& path);
 
-/// What was written to files, and which files a folder has, survives a power cut after these calls.
+/// These bring the bytes of files, and the list of files in a folder, to the disk: both survive a
+/// power cut afterwards.
 /// Many files at once take little longer than one. @throws IoError
 void sync_files(const std::vector<std::filesystem::path>& files);
 void sync_folder(const std::filesystem::path& folder);

@@ -18,7 +18,7 @@ struct WrittenFile {
 WrittenFile write_hashed(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 WrittenFile write_hashed(const std::filesystem::path& file, std::string_view text);
 
-/// Of the bytes of a regular file of any size. @throws IoError
+/// Hashes the bytes of a regular file of any size. @throws IoError
 std::uint64_t hash_file(const std::filesystem::path& file);
 
 }  // namespace neve::app::output

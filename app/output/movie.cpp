@@ -92,7 +92,7 @@ std::string telling_line(const std::string& text) {
   return last_line(text);
 }
 
-/// Of an earlier run. @throws IoError where something else has the name
+/// Removes the movie of an earlier run. @throws IoError where something else has the name
 void remove_movie(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(file, error);

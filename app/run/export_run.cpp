@@ -68,12 +68,13 @@ void check_exports(const scene::Scene& scene) {
 int go_to_checkpoint(const ExportJob& job, ChangePlayer& player, sim::Simulation& simulation,
                      Progress& progress) {
   if (job.run_folder.empty()) return 0;
-  const output::FoundCheckpoint found = output::find_checkpoint(job.run_folder);
+  const double first = std::floor(job.times.front() * job.run.scene.fps * (1 + 1e-12));
+  const output::FoundCheckpoint found =
+      output::find_checkpoint(job.run_folder, static_cast<int>(std::min(first, 1e9)) + 1);
   if (!found.checkpoint) return 0;
   const output::Checkpoint& checkpoint = *found.checkpoint;
-  const bool is_early = checkpoint.frame / job.run.scene.fps <= job.times.front() * (1 + 1e-12);
   const bool is_ours = read_run_json(job.run_folder).value("version", "") == version;
-  if (!is_early || !is_ours || checkpoint.simd != simulation.simd()) return 0;
+  if (!is_ours || checkpoint.simd != simulation.simd()) return 0;
   try {
     player.go_to(checkpoint.steps);
     simulation.restore(checkpoint.state);
@@ -137,7 +138,7 @@ ExportJob make_export_job(const ExportOptions& options) {
     job.run_folder = options.run.scene;
     job.run_frames = read_frame_records(job.run_folder);
   }
-  if (options.run.out.empty()) job.run.folder /= "exports";
+  if (options.run.out.empty()) job.run.folder /= output::exports_folder;
   job.run.scene.exports = options.exports;
   check_exports(job.run.scene);
   job.are_frames = options.at.empty();

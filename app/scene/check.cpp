@@ -275,14 +275,6 @@ bool names_attribute(const Export& e, ExportAttribute attribute) {
   return std::find(e.attributes.begin(), e.attributes.end(), attribute) != e.attributes.end();
 }
 
-/// Names of bodies and emitters that an export may have.
-std::vector<std::string> sources_of_snow(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const sim::seeding::Body& body : scene.bodies) names.push_back(body.name);
-  for (const sim::seeding::Emitter& emitter : scene.emitters) names.push_back(emitter.name);
-  return names;
-}
-
 Found export_problem(const Scene& scene, const Export& e) {
   const std::string at = "export." + e.name;
   for (const Export& other : scene.exports) {
@@ -291,7 +283,7 @@ Found export_problem(const Scene& scene, const Export& e) {
       return Problem{at + ".name", "two exports write into the folder exports/" + folder_of(e),
                      "give one of them another name"};
   }
-  const std::vector<std::string> names = sources_of_snow(scene);
+  const std::vector<std::string> names = snow_sources(scene);
   for (const std::string& name : e.bodies) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     return Problem{at + ".bodies", "there is no body or emitter " + toml::toml_string(name),

@@ -11,4 +11,11 @@ std::string folder_of(const Export& e) {
   return has_name ? e.name : name(e.format);
 }
 
+std::vector<std::string> snow_sources(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const sim::seeding::Body& body : scene.bodies) names.push_back(body.name);
+  for (const sim::seeding::Emitter& emitter : scene.emitters) names.push_back(emitter.name);
+  return names;
+}
+
 }  // namespace neve::app::scene

@@ -217,6 +217,9 @@ inline Background background_of(const Scene& scene, const View& view) {
 /// its number.
 std::string folder_of(const Export& e);
 
+/// Names of the bodies, then of the emitters.
+std::vector<std::string> snow_sources(const Scene& scene);
+
 /// The scene's colliders without their looks.
 inline std::vector<sim::shapes::Collider> sim_colliders(const Scene& scene) {
   return {scene.colliders.begin(), scene.colliders.end()};

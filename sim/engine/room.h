@@ -1,7 +1,6 @@
 #pragma once
 /// Room for newborn snow: births wait where particles are in their way.
 
-#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <unordered_set>
