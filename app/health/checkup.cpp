@@ -23,7 +23,9 @@ namespace {
 
 /// A coarse copy large enough to yield as the scene does.
 constexpr double coarse_particles_wanted = 1500;
-constexpr double coarse_seconds = 2;
+constexpr ForecastBudget coarse_budget{2, 1e12};
+/// An iteration of the solve over an explicit step (docs/performance.md, "Semi-implicit steps").
+constexpr double work_of_iteration = 0.25;
 constexpr double calibration_seconds = 1;
 constexpr int calibration_steps = 40;
 /// Above this many particles seeding alone takes too long for a look.
@@ -75,8 +77,7 @@ sim::DtChoice allowed(const scene::Scene& scene, const sim::StepLimits& state,
   limits.max_sound_speed = state.max_sound_speed;
   // The same difference of velocity over smaller cells.
   limits.max_strain_rate = state.max_strain_rate * cell_of_state / scene.solver.cell_size;
-  for (const sim::Material& m : scene.materials)
-    limits.max_hardening = std::max(limits.max_hardening, m.hardening);
+  for (const sim::Material& m : scene.materials) sim::engine::include_hardening(m, limits);
   return sim::engine::choose_dt(scene.solver, limits, 1e9);
 }
 
@@ -96,6 +97,10 @@ FrameForecast foresee_frame(const scene::Scene& scene, const scene::Scene& coars
     forecast.dt = duration / forecast.steps;
     if (ran.limit() != sim::DtLimit::frame_end) forecast.limit = ran.limit();
   }
+  // They grow as the time of a step over that of sound through a cell.
+  if (ran.solve && ran.steps > 0)
+    forecast.iterations = static_cast<double>(ran.solve->all_iterations) /
+                          static_cast<double>(ran.steps) * cell / scene.solver.cell_size;
   if (forecast.steps == 1) forecast.limit = sim::DtLimit::frame_end;
   return forecast;
 }
@@ -106,7 +111,7 @@ sim::DtChoice first_emission(const scene::Scene& scene, sim::StepLimits& start) 
   for (const setup::SnowPiece& piece : setup::snow_places(scene)) {
     limits.max_speed = std::max(limits.max_speed, piece.velocity.norm());
     limits.max_sound_speed = std::max(limits.max_sound_speed, sim::sound_speed(*piece.material));
-    limits.max_hardening = std::max(limits.max_hardening, piece.material->hardening);
+    sim::engine::include_hardening(*piece.material, limits);
   }
   start = {sim::engine::limits_on_dt(scene.solver, limits), limits.max_speed,
            limits.max_sound_speed, 0};
@@ -158,7 +163,7 @@ void check_withheld(const scene::Scene& coarse, const sim::Simulation& copy,
 
 /// @return s per step and particle, on one thread
 double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
-  const Forecast forecast = foresee(scene, checkup.plan.particles, scene.frames, coarse_seconds);
+  const Forecast forecast = foresee(scene, checkup.plan.particles, scene.frames, coarse_budget);
   checkup.coarse_particles = forecast.particles;
   checkup.forecast = forecast.frames;
   if (checkup.blocks > 0 && forecast.blocks > 0)
@@ -178,7 +183,8 @@ double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
 
 }  // namespace
 
-Forecast foresee(const scene::Scene& scene, double particle_count, int last, double limit) {
+Forecast foresee(const scene::Scene& scene, double particle_count, int last,
+                 const ForecastBudget& budget) {
   Forecast result;
   const std::optional<scene::Scene> coarse = coarse_copy(scene, particle_count);
   if (!coarse) return result;
@@ -193,7 +199,8 @@ Forecast foresee(const scene::Scene& scene, double particle_count, int last, dou
   for (int frame = 1; frame <= last; ++frame) {
     // The frame's start and end both count; where time runs out the last frames are as the one
     // before.
-    if (seconds_since(start) < limit && !is_interrupted()) {
+    if (seconds_since(start) < budget.seconds && particle_steps < budget.particle_steps &&
+        !is_interrupted()) {
       const sim::StepLimits before = simulation.step_limits();
       const auto before_frame = Clock::now();
       const sim::AdvanceReport report = simulation.advance_to(frame / scene.fps, is_interrupted);
@@ -216,13 +223,28 @@ Forecast foresee(const scene::Scene& scene, double particle_count, int last, dou
   return result;
 }
 
-double Forecast::steps_until(int frame) const {
+namespace {
+
+/// Of the frames until one; those that the copy did not reach are as its last one.
+template <class Number>
+double sum_until(const std::vector<FrameForecast>& frames, int frame, const Number& number) {
   double sum = 0;
   for (const FrameForecast& forecast : frames)
-    if (forecast.frame <= frame) sum += forecast.steps;
-  // Frames that the copy did not reach are as its last one.
-  const int reached = frames.empty() ? 0 : frames.back().frame;
-  return frames.empty() ? 0 : sum + std::max(0, frame - reached) * frames.back().steps;
+    if (forecast.frame <= frame) sum += number(forecast);
+  if (frames.empty()) return 0;
+  return sum + std::max(0, frame - frames.back().frame) * number(frames.back());
+}
+
+}  // namespace
+
+double Forecast::steps_until(int frame) const {
+  return sum_until(frames, frame, [](const FrameForecast& f) { return f.steps; });
+}
+
+double Forecast::work_until(int frame) const {
+  return sum_until(frames, frame, [](const FrameForecast& f) {
+    return f.steps * (1 + work_of_iteration * f.iterations);
+  });
 }
 
 double Checkup::steps() const {

@@ -23,7 +23,8 @@ struct FrameForecast {
   double dt = 0;     ///< s
   double steps = 0;  ///< in this frame
   sim::DtLimit limit = sim::DtLimit::max_dt;
-  double blocks = 0;  ///< of the grid, per particle of the copy at the frame's end
+  double iterations = 0;  ///< of the solve of a semi-implicit step, the mean; 0: explicit
+  double blocks = 0;      ///< of the grid, per particle of the copy at the frame's end
   /// Cost of a step of the scene relative to the first, by the spread of the snow over the grid: in
   /// pieces as large as at the start, and in single particles.
   double cost = 1, max_cost = 1;
@@ -39,12 +40,19 @@ struct Forecast {
   std::vector<Finding> findings;         ///< about the scene, from the copy
 
   double steps_until(int frame) const;
+  /// In explicit steps: an iteration of a semi-implicit step costs a quarter of one.
+  double work_until(int frame) const;
+};
+
+/// What the coarse copy of a forecast may cost. Particle-steps are the same on every machine.
+struct ForecastBudget {
+  double seconds, particle_steps;
 };
 
 /// @param particles of the scene
 /// @param last the last frame of the run
-/// @param seconds that the copy may take
-Forecast foresee(const scene::Scene& scene, double particles, int last, double seconds);
+Forecast foresee(const scene::Scene& scene, double particles, int last,
+                 const ForecastBudget& budget);
 
 struct Checkup {
   setup::Plan plan;

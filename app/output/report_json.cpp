@@ -39,7 +39,8 @@ Json to_json(const sim::AdvanceReport& advance) {
     json["solve"] = {{"iterations", advance.solve->iterations},
                      {"residual", number_or_null(advance.solve->residual)},
                      {"cut_short", advance.solve->cut_short},
-                     {"given_up", advance.solve->given_up}};
+                     {"given_up", advance.solve->given_up},
+                     {"all_iterations", advance.solve->all_iterations}};
   return json;
 }
 
@@ -57,7 +58,8 @@ sim::AdvanceReport advance_report(const Json& json) {
     advance.solve = {json.at("solve").at("iterations").get<int>(),
                      number_or_nan(json.at("solve").at("residual")),
                      json.at("solve").value("cut_short", std::size_t(0)),
-                     json.at("solve").value("given_up", std::size_t(0))};
+                     json.at("solve").value("given_up", std::size_t(0)),
+                     json.at("solve").value("all_iterations", std::uint64_t(0))};
   return advance;
 }
 

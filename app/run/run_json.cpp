@@ -68,6 +68,7 @@ Json to_json(const FrameRecord& frame) {
   json["emitted"] = s.emitted;
   json["removed"] = s.removed;
   json["withheld"] = s.withheld;
+  json["grid_blocks"] = s.grid_blocks;
   json["mass"] = number_or_null(s.mass);
   json["kinetic_energy"] = number_or_null(s.kinetic_energy);
   json["elastic_energy"] = number_or_null(s.elastic_energy);
@@ -143,6 +144,7 @@ FrameRecord frame_record(const Json& json) {
   s.emitted = json.value("emitted", std::uint64_t(0));
   s.removed = json.value("removed", std::uint64_t(0));
   s.withheld = json.value("withheld", std::uint64_t(0));
+  s.grid_blocks = json.value("grid_blocks", std::size_t(0));
   s.mass = json.contains("mass") ? output::number_or_nan(json.at("mass")) : std::nan("");
   s.kinetic_energy = output::number_or_nan(json.at("kinetic_energy"));
   s.elastic_energy = output::number_or_nan(json.at("elastic_energy"));

@@ -23,6 +23,11 @@ double particle_steps(const FrameRecord& frame) {
   return steps_of(frame) * static_cast<double>(frame.summary.particles);
 }
 
+double blocks_per_particle(const FrameRecord& frame) {
+  return static_cast<double>(frame.summary.grid_blocks) /
+         static_cast<double>(frame.summary.particles);
+}
+
 /// Why dt is what it is.
 std::string cause_of(const FrameRecord& frame) {
   switch (frame.advance.limit()) {
@@ -67,10 +72,12 @@ std::optional<std::string> slowdown_warning(const std::vector<FrameRecord>& fram
   const double dearer =
       (slow.seconds_sim / particle_steps(slow)) / (first->seconds_sim / particle_steps(*first));
   if (dearer > notable_cost)
-    text += fmt::format(
-        "; each step of a particle costs {} times as much, because the snow is spread over more of "
-        "the grid; a sink removes spray that nobody sees",
-        rough_text(dearer));
+    text += fmt::format("; each step of a particle costs {} times as much, {}", rough_text(dearer),
+                        blocks_per_particle(slow) > notable * blocks_per_particle(*first)
+                            ? "because the snow is spread over more of the grid; a sink removes "
+                              "spray that nobody sees"
+                            : "though the snow is as dense on the grid as before; other programs "
+                              "may have used the processor");
   return text;
 }
 

@@ -97,8 +97,8 @@ void describe(V& visit, sim::SolverSettings& s) {
         "0: explicit; up to 1: the paper's semi-implicit steps, for a longer dt (from 0.5 on no "
         "acoustic limit); they damp.");
   visit("solve_tolerance", s.solve_tolerance, unit::none, between(1e-14, 0.1), live,
-        "Residual of a semi-implicit step over its right side at which the solve ends; float "
-        "reaches 1e-6 at best.");
+        "Residual that ends the solve of a semi-implicit step, as a share of the motion within the "
+        "snow.");
   visit("solve_iterations", s.solve_iterations, unit::none, between(1, 10000), live,
         "Largest number of iterations in a semi-implicit step.");
   visit("collide_after_solve", s.collide_after_solve, unit::none, anything, live,

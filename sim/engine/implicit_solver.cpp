@@ -24,6 +24,21 @@ double contact_stiffness(const SolverSettings& settings, const StateLimits& limi
   return 1 + settings.beta * cfl * cfl;
 }
 
+/// Square of what residuals are measured by: |M^1/2 (v_star - V)|, with V the velocity of the
+/// centre of mass, and with what gravity adds in a step, |M^1/2 g dt|. Snow that falls together
+/// must be solved as well as the same snow at rest; a residual of the whole velocity would grow
+/// with the fall. Below a share of the whole velocity rounding is all that is left.
+/// @param sums  of SolveSweeps::start
+double motion_squared(const std::array<double, kernels::solve_sums>& sums,
+                      const SolverSettings& settings, double dt) {
+  constexpr double least_share = 1e-4;
+  const double whole = sums[0], mass = sums[4];
+  if (!(mass > 0)) return 0;
+  const double mean = (sums[1] * sums[1] + sums[2] * sums[2] + sums[3] * sums[3]) / mass;
+  return std::max(whole - mean, least_share * least_share * whole) +
+         mass * dt * dt * settings.gravity.squaredNorm();
+}
+
 template <class Real>
 double tolerance(const SolverSettings& settings) {
   return std::max(settings.solve_tolerance, least_tolerance<Real>);
@@ -32,23 +47,25 @@ double tolerance(const SolverSettings& settings) {
 }  // namespace
 
 template <class Real>
-double ImplicitSolver<Real>::sum_over_nodes(const State<Real>& state,
-                                            kernels::SolveSweep<Real> sweep,
-                                            const kernels::SolveArgs<Real>& a) const {
+typename ImplicitSolver<Real>::Sums ImplicitSolver<Real>::sum_over_nodes(
+    const State<Real>& state, kernels::SolveSweep<Real> sweep,
+    const kernels::SolveArgs<Real>& a) const {
   state.over_node_blocks(sweep, a);
   // One after the other: the same bits at any number of threads.
-  double sum = 0;
-  for (const double product : products_) sum += product;
-  return sum;
+  Sums all{};
+  for (std::size_t k = 0; k < sums_.size(); ++k) all[k % all.size()] += sums_[k];
+  return all;
 }
 
 /// Conjugate residuals (Saad, Iterative Methods for Sparse Linear Systems, section 6.8) from
 /// y = M^1/2 v_star: |r| never grows, also where A is indefinite. Ends where A r is orthogonal to r
-/// or no number; y then is the best so far.
-/// @param size |M^1/2 v_star|^2
+/// or no number; y then is the best so far. |A q|^2 of the next direction q = r + turn q follows
+/// from sums over A r and the last A q: one sweep over the nodes less.
+/// @param scale_squared  see motion_squared
 template <class Real>
 SolveReport ImplicitSolver<Real>::conjugate_residuals(const State<Real>& state,
-                                                      kernels::SolveArgs<Real>& a, double size,
+                                                      kernels::SolveArgs<Real>& a,
+                                                      double scale_squared,
                                                       ParticleContact<Real>* contact) const {
   const kernels::SolveSweeps<Real>& s = *state.method.solve_sweeps;
   const SolverSettings& settings = state.method.settings;
@@ -57,22 +74,24 @@ SolveReport ImplicitSolver<Real>::conjugate_residuals(const State<Real>& state,
     if (contact) contact->hold(state, a, is_first);
   };
   apply(true);
-  double rr = sum_over_nodes(state, s.residual, a), rAr = 0;
-  const auto residual = [&] { return size > 0 ? std::sqrt(rr / size) : 0.0; };
+  double rr = sum_over_nodes(state, s.residual, a)[0], rAr = 0, AqAq = 0;
+  const auto residual = [&] { return scale_squared > 0 ? std::sqrt(rr / scale_squared) : 0.0; };
   SolveReport report;
   while (residual() > tolerance<Real>(settings) && report.iterations < settings.solve_iterations) {
     apply(false);
-    const double before = rAr;
-    rAr = sum_over_nodes(state, s.image, a);
-    a.turn = report.iterations == 0 ? Real(0) : static_cast<Real>(rAr / before);
-    const double AqAq = sum_over_nodes(state, s.direct, a);
+    const Sums sums = sum_over_nodes(state, s.image, a);
+    const double turn = report.iterations == 0 ? 0 : sums[0] / rAr;
+    rAr = sums[0];
+    AqAq = sums[1] + turn * (2 * sums[2] + turn * AqAq);
     const double along = rAr / AqAq;
     if (rAr == 0 || !std::isfinite(along)) break;
+    a.turn = static_cast<Real>(turn);
     a.along = static_cast<Real>(along);
-    rr = sum_over_nodes(state, s.advance, a);
+    rr = sum_over_nodes(state, s.advance, a)[0];
     ++report.iterations;
   }
   report.residual = residual();
+  report.all_iterations = static_cast<std::uint64_t>(report.iterations);
   return report;
 }
 
@@ -91,8 +110,8 @@ kernels::SolveArgs<Real> ImplicitSolver<Real>::solve_args(const State<Real>& sta
   a.vectors = vectors_.at_least(blocks * kernels::solve_vectors * kernels::block_nodes);
   a.u = a.vectors + kernels::solve_u * kernels::block_nodes;
   a.u_stride = kernels::solve_vectors * kernels::block_nodes;
-  products_.resize(blocks);
-  a.products = products_.data();
+  sums_.resize(blocks * kernels::solve_sums);
+  a.sums = sums_.data();
   is_held_.assign(blocks, 0);
   a.is_held = is_held_.data();
   return a;
@@ -132,11 +151,13 @@ bool ImplicitSolver<Real>::solve(State<Real>& state, const kernels::SweepArgs<Re
   const kernels::SolveSweeps<Real>& s = *state.method.solve_sweeps;
   kernels::SolveArgs<Real> a = solve_args(state, step, dt);
   state.over_particle_blocks(s.keep_elasticity, a);
-  const double given = sum_over_nodes(state, s.start, a);
-  last_solve_ = conjugate_residuals(state, a, given, contact);
-  const double found = sum_over_nodes(state, s.size, a);
-  // Snow at rest has a residual of 1. NaN is of no use either.
-  const bool is_useful = last_solve_.residual < 1 && found <= max_growth_squared * given;
+  const Sums start = sum_over_nodes(state, s.start, a);
+  const double given = start[0], scale = motion_squared(start, state.method.settings, dt);
+  last_solve_ = conjugate_residuals(state, a, scale, contact);
+  const double found = sum_over_nodes(state, s.size, a)[0];
+  // A velocity of zero has a residual of |M^1/2 v_star|. NaN is of no use either.
+  const bool is_useful = last_solve_.residual * last_solve_.residual * scale <= given &&
+                         found <= max_growth_squared * given;
   // From here on the velocities of the nodes count.
   a.u = step.nodes;
   a.u_stride = static_cast<std::size_t>(step.channels) * kernels::block_nodes;

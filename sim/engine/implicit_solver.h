@@ -1,6 +1,7 @@
 #pragma once
 /// Step 6 of the paper: v_new of semi-implicit steps, by conjugate residuals.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,22 +26,24 @@ class ImplicitSolver {
   const SolveReport& last_solve() const { return last_solve_; }
 
   std::uint64_t memory_bytes() const {
-    return elasticity_.bytes() + vectors_.bytes() + 8 * products_.capacity() + is_held_.capacity() +
+    return elasticity_.bytes() + vectors_.bytes() + 8 * sums_.capacity() + is_held_.capacity() +
            4 * (held_blocks_.capacity() + reaching_blocks_.capacity());
   }
 
  private:
+  using Sums = std::array<double, kernels::solve_sums>;
+
   kernels::SolveArgs<Real> solve_args(const State<Real>& state,
                                       const kernels::SweepArgs<Real>& step, double dt);
   SolveReport conjugate_residuals(const State<Real>& state, kernels::SolveArgs<Real>& a,
-                                  double size, ParticleContact<Real>* contact) const;
+                                  double scale_squared, ParticleContact<Real>* contact) const;
   /// The colliders' work on the nodes that they hold, from v_new.
   void add_work_on_held_nodes(const State<Real>& state, const kernels::SolveArgs<Real>& a);
-  double sum_over_nodes(const State<Real>& state, kernels::SolveSweep<Real> sweep,
-                        const kernels::SolveArgs<Real>& a) const;
+  Sums sum_over_nodes(const State<Real>& state, kernels::SolveSweep<Real> sweep,
+                      const kernels::SolveArgs<Real>& a) const;
 
   LaneBuffer<Real> elasticity_, vectors_;
-  std::vector<double> products_;       ///< per node block, like the next
+  std::vector<double> sums_;           ///< per node block, like the next
   std::vector<std::uint8_t> is_held_;  ///< see SolveArgs
   std::vector<std::uint32_t> held_blocks_, reaching_blocks_;
   SolveReport last_solve_;

@@ -178,7 +178,7 @@ void apply(const SolverSettings& settings, const std::vector<Material>& material
   state.method = std::move(method);
   state.colliders = std::move(moving);
   progress.colliders_time = colliders_time;
-  progress.limits.max_hardening = state.method.max_hardening();
+  state.method.limit_hardening(progress.limits);
   if ((before.transfer == Transfer::flip) != (settings.transfer == Transfer::flip))
     for (kernels::Particle<Real>& p : state.particles.records)
       std::fill(std::begin(p.C), std::end(p.C), Real(0));

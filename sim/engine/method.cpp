@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/engine/time_step.h"
 #include "sim/health/diagnostics.h"
 #include "sim/kernels/simd.h"
 
@@ -74,10 +73,9 @@ void Method<Real>::change(const SolverSettings& given,
 }
 
 template <class Real>
-double Method<Real>::max_hardening() const {
-  double most = 0;
-  for (const Material& m : materials) most = std::max(most, m.hardening);
-  return most;
+void Method<Real>::limit_hardening(StateLimits& limits) const {
+  limits.max_xi = limits.max_hardened_speed = 0;
+  for (const Material& material : materials) include_hardening(material, limits);
 }
 
 template <class Real>
@@ -122,6 +120,23 @@ double Method<Real>::elastic_energy(const kernels::Particle<Real>& p) const {
   return static_cast<double>(p.V0) * static_cast<double>(p.stiffness) *
          health::energy_density(materials[static_cast<std::size_t>(p.material())], matrix(p.F_E),
                                 static_cast<double>(p.J_P));
+}
+
+template <class Real>
+std::array<double, 4> Method<Real>::elastic_energies(
+    const std::array<const kernels::Particle<Real>*, 4>& p) const {
+  std::array<const Material*, 4> of;
+  std::array<Mat3d, 4> F_E;
+  std::array<double, 4> J_P;
+  for (std::size_t l = 0; l < 4; ++l) {
+    of[l] = &materials[static_cast<std::size_t>(p[l]->material())];
+    F_E[l] = matrix(p[l]->F_E);
+    J_P[l] = static_cast<double>(p[l]->J_P);
+  }
+  std::array<double, 4> energy = health::energy_densities(of, F_E, J_P);
+  for (std::size_t l = 0; l < 4; ++l)
+    energy[l] = static_cast<double>(p[l]->V0) * static_cast<double>(p[l]->stiffness) * energy[l];
+  return energy;
 }
 
 template struct Method<float>;

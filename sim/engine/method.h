@@ -1,9 +1,11 @@
 #pragma once
 /// The method of a run: settings and materials, and the kernels that they choose.
 
+#include <array>
 #include <vector>
 
 #include "sim/engine/lattice.h"
+#include "sim/engine/time_step.h"
 #include "sim/kernels/implicit.h"
 #include "sim/kernels/kernels.h"
 #include "sim/kernels/particle_contact.h"
@@ -23,7 +25,8 @@ struct Method {
 
   /// True if skipped stages, or a material, force the staged driver.
   bool takes_stages() const { return settings.takes_stages() || materials[0].yields; }
-  double max_hardening() const;
+  /// Of the materials; the other limits stay.
+  void limit_hardening(StateLimits& limits) const;
   std::size_t tile_nodes() const;
   /// For a step of dt; without colliders.
   kernels::StepConstants<Real> step_constants(double dt) const;
@@ -37,6 +40,9 @@ struct Method {
   double affine_inertia() const;
   double kinetic_energy(const kernels::Particle<Real>& p) const;
   double elastic_energy(const kernels::Particle<Real>& p) const;
+  /// The same of four particles, at a third of the cost.
+  std::array<double, 4> elastic_energies(
+      const std::array<const kernels::Particle<Real>*, 4>& p) const;
 
   SolverSettings settings;
   std::vector<Material> materials;

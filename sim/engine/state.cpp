@@ -22,7 +22,7 @@ State<Real>::State(const SolverSettings& settings, const std::vector<Material>& 
       pool(std::make_shared<ThreadPool>(threads)),
       colliders(given, method.lattice, 0, *pool) {
   particles.partition.set_period(settings.period);
-  progress.limits.max_hardening = method.max_hardening();
+  method.limit_hardening(progress.limits);
 }
 
 template <class Real>

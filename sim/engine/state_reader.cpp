@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 
 #include "sim/base/hash.h"
 #include "sim/health/limits.h"
@@ -132,9 +133,16 @@ Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
   const Method<Real>& method = state_.method;
   const bool has_C = method.settings.transfer != Transfer::flip;
   const double inertia = method.affine_inertia();
+  const std::vector<kernels::Particle<Real>>& records = state_.particles.records;
   Summary s;
+  std::array<double, 4> elastic_energy{};
   for (std::size_t q = begin; q < end; ++q) {
-    const kernels::Particle<Real>& p = state_.particles.records[q];
+    const kernels::Particle<Real>& p = records[q];
+    const std::size_t lane = (q - begin) % 4;
+    if (lane == 0)
+      elastic_energy = method.elastic_energies({&p, &records[std::min(q + 1, end - 1)],
+                                                &records[std::min(q + 2, end - 1)],
+                                                &records[std::min(q + 3, end - 1)]});
     const double m = static_cast<double>(p.m), J_P = static_cast<double>(p.J_P);
     const Vec3d x = state_.position(p), v = vector(p.v);
     s.mass += m;
@@ -147,7 +155,7 @@ Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
       s.angular_momentum +=
           m * inertia * Vec3d(C(2, 1) - C(1, 2), C(0, 2) - C(2, 0), C(1, 0) - C(0, 1));
     }
-    s.elastic_energy += method.elastic_energy(p);
+    s.elastic_energy += elastic_energy[lane];
     s.max_speed = std::max(s.max_speed, v.norm());
     s.min_J_P = q == begin ? J_P : std::min(s.min_J_P, J_P);
     s.max_J_P = q == begin ? J_P : std::max(s.max_J_P, J_P);
@@ -184,6 +192,7 @@ Summary StateReader<Real>::summary() const {
   all.max_pressure = surfaces.max_pressure;
   all.time = state_.progress.time;
   all.particles = count;
+  all.grid_blocks = state_.particles.partition.node_blocks().size();
   all.emitted = state_.progress.flow.emitted;
   all.removed = state_.progress.flow.removed;
   all.withheld = state_.progress.flow.withheld;

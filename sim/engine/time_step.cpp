@@ -16,14 +16,18 @@ double ratio(double numerator, double denominator) {
 
 /// dt so that sound crosses acoustic_cfl cells. Snow that hits something at speed v compresses by
 /// up to 0.7 v dt/h within the step (the steepest slope of the cubic weights) and hardens by e^(xi
-/// 0.7 v dt/h): the step is shortened until sound still crosses less than a cell afterwards.
+/// 0.7 v dt/h), but no more than its material lets it: the step is shortened until sound still
+/// crosses less than a cell afterwards.
 double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
-  const double h = s.cell_size, c = limits.max_sound_speed / acoustic_stretch(s);
+  const double h = s.cell_size, stretch = acoustic_stretch(s);
+  const double c = limits.max_sound_speed / stretch,
+               c_hardest = limits.max_hardened_speed / stretch;
   double dt = ratio(s.acoustic_cfl * h, c);
   if (!(dt < unlimited)) return dt;
   for (int round = 0; round < 40; ++round) {
     const double squeeze = 0.7 * limits.max_speed * dt / h;
-    const double c_after = c * std::exp(0.5 * limits.max_hardening * squeeze);
+    const double hardened = c * std::exp(0.5 * limits.max_xi * squeeze);
+    const double c_after = std::min(hardened, std::max(c, c_hardest));
     if (c_after * dt <= std::max(1.0, s.acoustic_cfl) * h) break;
     dt *= 0.8;
   }
@@ -31,6 +35,12 @@ double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
 }
 
 }  // namespace
+
+void include_hardening(const Material& material, StateLimits& limits) {
+  limits.max_xi = std::max(limits.max_xi, material.hardening);
+  limits.max_hardened_speed = std::max(limits.max_hardened_speed,
+                                       sound_speed(material) * std::sqrt(material.max_hardening));
+}
 
 DtChoice choose_dt(const SolverSettings& s, const StateLimits& limits, double remaining,
                    double scale) {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "sim/types/material.h"
 #include "sim/types/particle_arrays.h"
 #include "sim/types/reports.h"
 #include "sim/types/settings.h"
@@ -11,12 +12,17 @@ namespace neve::sim::engine {
 
 /// Extremes of a state that limit the next step.
 struct StateLimits {
-  double max_speed = 0;           ///< m/s
-  double max_sound_speed = 0;     ///< m/s, of the stiffest particle, hardened
-  double max_strain_rate = 0;     ///< 1/s, largest |entry| of grad v
-  double max_hardening = 0;       ///< largest xi of the materials in use
+  double max_speed = 0;        ///< m/s
+  double max_sound_speed = 0;  ///< m/s, of the stiffest particle, hardened
+  double max_strain_rate = 0;  ///< 1/s, largest |entry| of grad v
+  double max_xi = 0;           ///< largest hardening coefficient of the materials in use
+  double max_hardened_speed =
+      0;  ///< m/s, of sound where max_hardening of a material ends hardening
   double max_collider_speed = 0;  ///< m/s, of colliders that snow may meet in the next step
 };
+
+/// Extends the limits to a material that may harden.
+void include_hardening(const Material& material, StateLimits& limits);
 
 /// dt of the next step and the limit that rules it. `remaining` is the time to the end of the
 /// frame; the last two steps before it share what is left, so that none is tiny. `scale` is a

@@ -43,9 +43,10 @@ Lame hardened(const Material& m, double J_P) {
   return {l.mu * factor, l.lambda * factor};
 }
 
-double corotated_energy(const Lame& l, const Principal& F_E) {
-  const double J = F_E.s.prod();
-  return l.mu * (F_E.s.array() - 1).square().sum() + 0.5 * l.lambda * (J - 1) * (J - 1);
+/// @param s the stretches of F_E
+double corotated_energy(const Lame& l, const Vec3d& s) {
+  const double J = s.prod();
+  return l.mu * (s.array() - 1).square().sum() + 0.5 * l.lambda * (J - 1) * (J - 1);
 }
 
 Mat3d corotated_piola(const Lame& l, const Mat3d& F_E, const Principal& p) {
@@ -122,7 +123,24 @@ double energy_density(const Material& material, const Mat3d& F_E, double J_P) {
     const double log_J = std::log(J);
     return 0.5 * l.mu * (F_E.squaredNorm() - 3) - l.mu * log_J + 0.5 * l.lambda * log_J * log_J;
   }
-  return corotated_energy(l, decompose(F_E));
+  return corotated_energy(l, decompose(F_E).s);
+}
+
+std::array<double, 4> energy_densities(const std::array<const Material*, 4>& materials,
+                                       const std::array<Mat3d, 4>& F_E,
+                                       const std::array<double, 4>& J_P) {
+  Quad<double> rows[9];
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      for (std::size_t l = 0; l < 4; ++l) rows[3 * a + b][l] = F_E[l](a, b);
+  const kernels::SignedSvd<Quad<double>> svd = kernels::signed_svd_lanes(rows);
+  std::array<double, 4> out;
+  for (std::size_t l = 0; l < 4; ++l)
+    out[l] = materials[l]->model == Model::neo_hookean
+                 ? energy_density(*materials[l], F_E[l], J_P[l])
+                 : corotated_energy(hardened(*materials[l], J_P[l]),
+                                    Vec3d(svd.s[0][l], svd.s[1][l], svd.s[2][l]));
+  return out;
 }
 
 Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P) {
@@ -140,7 +158,7 @@ ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, dou
     return {energy_density(material, F_E, J_P), first_piola(material, F_E, J_P)};
   const Lame l = hardened(material, J_P);
   const Principal p = decompose(F_E);
-  return {corotated_energy(l, p), corotated_piola(l, F_E, p)};
+  return {corotated_energy(l, p.s), corotated_piola(l, F_E, p)};
 }
 
 double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0) {

@@ -26,6 +26,9 @@ enum SolveVector {
   solve_vectors
 };
 
+/// Numbers that a sweep sums over a block of nodes, at most.
+inline constexpr int solve_sums = 5;
+
 /// Quads that a particle keeps, in the order of the blocks: Elasticity.
 inline constexpr int elasticity_quads = 2;
 
@@ -40,7 +43,7 @@ struct SolveArgs {
   Quad<Real>* vectors;     ///< per node block: solve_vectors x 64
   const Quad<Real>* u;     ///< of the nodes, that H is applied to; per node block, u_stride apart
   std::size_t u_stride;
-  double* products;       ///< per node block: its part of the sum that a sweep asks for
+  double* sums;           ///< per node block: solve_sums, its part of what a sweep sums
   std::uint8_t* is_held;  ///< per node block: some of its nodes are
 };
 
@@ -51,12 +54,12 @@ using SolveSweep = void (*)(const SolveArgs<Real>&, std::uint32_t begin, std::ui
 template <class Real>
 struct SolveSweeps {
   SolveSweep<Real> keep_elasticity, apply;
-  SolveSweep<Real> start;     ///< v_star and what is held, y = P M^1/2 v_star; |M^1/2 v_star|^2
-  SolveSweep<Real> residual;  ///< r, of the first y; |r|^2
-  SolveSweep<Real> image;     ///< P A r; r . A r
-  SolveSweep<Real> direct;    ///< q = r + turn q, A q likewise; |A q|^2
-  SolveSweep<Real> advance;   ///< y += along q, r -= along A q; |r|^2
-  SolveSweep<Real> size;      ///< |y|^2, no number where a velocity is none
+  /// v_star and what is held, y = P M^1/2 v_star; sums m v_star^2, m v_star (three), m
+  SolveSweep<Real> start;
+  SolveSweep<Real> residual;  ///< r, of the first y; sums r^2
+  SolveSweep<Real> image;     ///< P A r; sums r . A r, (A r)^2, A r . A q
+  SolveSweep<Real> advance;   ///< q = r + turn q, y += along q, r -= along A q; sums r^2
+  SolveSweep<Real> size;      ///< sums y^2; no number where a velocity is none
   SolveSweep<Real> finish;    ///< v_new, collisions if asked for, and the change for FLIP
   SolveSweep<Real> react;     ///< from H v_new: the work of what holds the nodes
 };

@@ -132,12 +132,17 @@ struct SolveSweepsFor {
     return x;
   }
 
-  /// body(n, sum) for the nodes of each block; the sums become its products.
+  NEVE_INLINE static double total(Products sum) { return (sum[0] + sum[1]) + sum[2]; }
+  NEVE_INLINE static double* sums_of(const Args& a, Index block) {
+    return a.sums + static_cast<std::size_t>(block) * solve_sums;
+  }
+
+  /// body(n, sum) for the nodes of a block, whose first sum it is.
   template <class Body>
   NEVE_INLINE static void each_node(const Args& a, Index block, const Body& body) {
     Products sum{};
     for (int n = 0; n < block_nodes; ++n) body(n, sum);
-    a.products[block] = (sum[0] + sum[1]) + sum[2];
+    sums_of(a, block)[0] = total(sum);
   }
 
   static void start(const Args& a, Index begin, Index end) {
@@ -149,15 +154,20 @@ struct SolveSweepsFor {
       collide_and_hold(a, b, v_star, held);
       Quad<Real>*y = vector(a, b, solve_y), *u = vector(a, b, solve_u);
       Quad<Real>*q = vector(a, b, solve_q), *Aq = vector(a, b, solve_Aq);
-      each_node(a, b, [&](int n, Products& sum) {
+      Products squares{}, momentum{};
+      for (int n = 0; n < block_nodes; ++n) {
         const Real mass = v_star[n][3];
         const Real root = mass > Real(0) ? square_root(mass) : Real(0);
         const Quad<Real> whole = with_fourth(v_star[n] * root, 0);
         y[n] = free_part(held[n], whole);
         u[n] = with_fourth(v_star[n], mass > Real(0) ? Real(1) / root : Real(0));
         q[n] = Aq[n] = Quad<Real>{};
-        sum += product(whole, whole);
-      });
+        squares += product(whole, whole);
+        momentum += product(with_fourth(whole, root), with_fourth(Quad<Real>{} + root, root));
+      }
+      double* sums = sums_of(a, b);
+      sums[0] = total(squares);
+      for (int k = 0; k < 4; ++k) sums[1 + k] = momentum[k];
       set_velocities(a.step, b, v_star);
     }
   }
@@ -214,32 +224,31 @@ struct SolveSweepsFor {
       const Quad<Real>*r = vector(a, b, solve_r), *u = vector(a, b, solve_u);
       const Quad<Real>* held = vector(a, b, solve_held);
       Quad<Real>* Ar = vector(a, b, solve_Ar);
+      const Quad<Real>* Aq = vector(a, b, solve_Aq);
       collect_change(a, b, u, change);
-      each_node(a, b, [&](int n, Products& sum) {
+      Products rAr{}, ArAr{}, ArAq{};
+      for (int n = 0; n < block_nodes; ++n) {
         Ar[n] = r[n] + free_part(held[n], change[n]);
-        sum += product(r[n], Ar[n]);
-      });
-    }
-  }
-
-  static void direct(const Args& a, Index begin, Index end) {
-    for (Index b = begin; b < end; ++b) {
-      const Quad<Real>*r = vector(a, b, solve_r), *Ar = vector(a, b, solve_Ar);
-      Quad<Real>*q = vector(a, b, solve_q), *Aq = vector(a, b, solve_Aq);
-      each_node(a, b, [&](int n, Products& sum) {
-        q[n] = r[n] + q[n] * a.turn;
-        Aq[n] = Ar[n] + Aq[n] * a.turn;
-        sum += product(Aq[n], Aq[n]);
-      });
+        rAr += product(r[n], Ar[n]);
+        ArAr += product(Ar[n], Ar[n]);
+        ArAq += product(Ar[n], Aq[n]);
+      }
+      double* sums = sums_of(a, b);
+      sums[0] = total(rAr);
+      sums[1] = total(ArAr);
+      sums[2] = total(ArAq);
     }
   }
 
   static void advance(const Args& a, Index begin, Index end) {
     for (Index b = begin; b < end; ++b) {
-      const Quad<Real>*q = vector(a, b, solve_q), *Aq = vector(a, b, solve_Aq);
+      const Quad<Real>* Ar = vector(a, b, solve_Ar);
+      Quad<Real>*q = vector(a, b, solve_q), *Aq = vector(a, b, solve_Aq);
       Quad<Real>*y = vector(a, b, solve_y), *r = vector(a, b, solve_r);
       Quad<Real>* u = vector(a, b, solve_u);
       each_node(a, b, [&](int n, Products& sum) {
+        q[n] = r[n] + q[n] * a.turn;
+        Aq[n] = Ar[n] + Aq[n] * a.turn;
         y[n] += q[n] * a.along;
         r[n] -= Aq[n] * a.along;
         u[n] = with_fourth(r[n] * u[n][3], u[n][3]);
@@ -326,8 +335,8 @@ struct SolveSweepsFor {
                 Vec3<One>{all<One>(impulse[0]), all<One>(impulse[1]), all<One>(impulse[2])}, r, 1u);
   }
 
-  static constexpr SolveSweeps<Real> table{keep_elasticity, apply,   start, residual, image,
-                                           direct,          advance, size,  finish,   react};
+  static constexpr SolveSweeps<Real> table{keep_elasticity, apply, start,  residual, image,
+                                           advance,         size,  finish, react};
 };
 
 template <class Real, class Set>

@@ -16,6 +16,7 @@ DtLimit AdvanceReport::limit() const {
 
 void SolveReport::add(const SolveReport& other) {
   iterations = std::max(iterations, other.iterations);
+  all_iterations += other.all_iterations;
   residual = std::max(residual, other.residual);
   cut_short += other.cut_short;
   given_up += other.given_up;

@@ -38,6 +38,7 @@ struct Summary {
   std::size_t particles = 0;
   std::uint64_t emitted = 0, removed = 0;  ///< particles that came and went since the start
   std::uint64_t withheld = 0;              ///< particles of emitters that found no room so far
+  std::size_t grid_blocks = 0;             ///< of 4^3 nodes, in the last step; 0 before the first
   double mass = 0;
   double kinetic_energy = 0, elastic_energy = 0;  ///< J
   Vec3d momentum{0, 0, 0}, centre_of_mass{0, 0, 0};
@@ -52,11 +53,14 @@ struct Summary {
 
 /// Accuracy of the velocities of semi-implicit steps.
 struct SolveReport {
-  int iterations = 0;   ///< of conjugate residuals
-  double residual = 0;  ///< |v_star - (I + beta dt^2 M^-1 H) v_new| / |v_star|, weighted by mass
-  std::size_t cut_short = 0;  ///< solves taken as they were after solve_iterations
-  std::size_t given_up = 0;   ///< solves of no use: explicit steps in their place
-  /// The worst of both, and how many of both ended early.
+  int iterations = 0;  ///< of conjugate residuals
+  /// |v_star - (I + beta dt^2 M^-1 H) v_new|, weighted by mass, over the same norm of v_star less
+  /// the velocity of the centre of mass and of what gravity adds in the step
+  double residual = 0;
+  std::size_t cut_short = 0;         ///< solves taken as they were after solve_iterations
+  std::size_t given_up = 0;          ///< solves of no use: explicit steps in their place
+  std::uint64_t all_iterations = 0;  ///< of all solves
+  /// The worst of both, all iterations, and how many of both ended early.
   void add(const SolveReport& other);
 };
 

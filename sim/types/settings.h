@@ -35,7 +35,7 @@ struct SolverSettings {
   double acoustic_cfl = 0.5;         ///< c dt / h with the hardened c
   double strain_limit = 0.3;         ///< |dt grad v|
   double beta = 0.0;                 ///< 0: explicit; (0, 1]: the paper's semi-implicit step
-  double solve_tolerance = 1e-4;     ///< of the solve for v_new: |residual| / |right side|
+  double solve_tolerance = 1e-2;     ///< of the solve for v_new: see SolveReport::residual
   int solve_iterations = 50;         ///< of the solve, at most
   bool collide_after_solve = false;  ///< nodes meet colliders again, after the solve
   /// Particles deeper than a tenth of a cell in a collider are moved out to there after the step,

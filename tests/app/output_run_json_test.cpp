@@ -38,6 +38,7 @@ TEST(RunJson, RunJsonHasTheFieldsOfTheContract) {
                                           "emitted",
                                           "removed",
                                           "withheld",
+                                          "grid_blocks",
                                           "mass",
                                           "kinetic_energy",
                                           "elastic_energy",

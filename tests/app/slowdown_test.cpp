@@ -9,13 +9,15 @@ namespace {
 using namespace neve;
 using namespace neve::app;
 
-run::FrameRecord frame(int number, double seconds, std::size_t steps, std::size_t particles) {
+run::FrameRecord frame(int number, double seconds, std::size_t steps, std::size_t particles,
+                       std::size_t grid_blocks = 100) {
   run::FrameRecord record;
   record.frame = number;
   record.seconds_sim = seconds;
   record.advance.steps = steps;
   if (steps > 0) record.advance.ruled[static_cast<std::size_t>(sim::DtLimit::acoustic)] = steps;
   record.summary.particles = particles;
+  record.summary.grid_blocks = grid_blocks;
   record.summary.min_J_P = 0.55;
   return record;
 }
@@ -30,6 +32,17 @@ TEST(Slowdown, SaysHowMuchAndWhy) {
   EXPECT_NE(text->find("J_P = 0.55"), std::string::npos) << *text;
   EXPECT_NE(text->find("costs 5 times as much"), std::string::npos) << *text;
   EXPECT_EQ(text->find("as many particles"), std::string::npos) << *text;
+}
+
+TEST(Slowdown, SnowThatIsNotSpreadIsNotBlamed) {
+  const auto spread =
+      run::slowdown_warning({frame(1, 0.5, 100, 1000), frame(2, 20, 100, 1000, 900)});
+  ASSERT_TRUE(spread);
+  EXPECT_NE(spread->find("spread over more of the grid"), std::string::npos) << *spread;
+  const auto starved = run::slowdown_warning({frame(1, 0.5, 100, 1000), frame(2, 20, 100, 1000)});
+  ASSERT_TRUE(starved);
+  EXPECT_EQ(starved->find("spread over more"), std::string::npos) << *starved;
+  EXPECT_NE(starved->find("other programs"), std::string::npos) << *starved;
 }
 
 TEST(Slowdown, MoreSnowIsACauseOfItsOwn) {

@@ -14,7 +14,7 @@ using namespace neve::sim;
 using namespace neve::test;
 
 engine::StateLimits slow() {
-  return {0.1, 1.0, 0.1, 10};
+  return {0.1, 1.0, 0.1, 10, 100};
 }
 
 TEST(TimeStep, SmallestLimitRules) {
@@ -23,7 +23,7 @@ TEST(TimeStep, SmallestLimitRules) {
   EXPECT_EQ(engine::choose_dt(s, slow(), 1).dt, s.max_dt);
   engine::StateLimits fast = slow();
   fast.max_speed = 100;
-  fast.max_hardening = 0;
+  fast.max_xi = 0;
   EXPECT_EQ(engine::choose_dt(s, fast, 1).limit, DtLimit::cfl);
   EXPECT_NEAR(engine::choose_dt(s, fast, 1).dt, 0.4 * 0.02 / 100, 1e-15);
   engine::StateLimits stiff = slow();
@@ -74,17 +74,36 @@ TEST(TimeStep, CollidersOutOfReachAndThoseThatRestLimitNothing) {
 
 TEST(TimeStep, FastSnowTakesStepsThatItsHardeningCannotOutrun) {
   SolverSettings s;
-  engine::StateLimits impact{20, 19.7, 0, 10};
+  engine::StateLimits impact{20, 19.7, 0, 10, 1970};
   const double dt = engine::choose_dt(s, impact, 1).dt;
   const double c_after = 19.7 * std::exp(0.5 * 10 * 0.7 * 20 * dt / s.cell_size);
   EXPECT_LE(c_after * dt, 1.0 * s.cell_size);
+}
+
+/// Snow whose material ends hardening cannot become stiffer than that: its steps are those of the
+/// speed of sound, however fast it moves.
+TEST(TimeStep, FastSnowThatHardlyHardensKeepsItsLongSteps) {
+  SolverSettings s;
+  s.cfl = 10;
+  Material material;
+  material.max_hardening = 3;
+  engine::StateLimits impact{20, 19.7};
+  engine::include_hardening(material, impact);
+  EXPECT_EQ(impact.max_xi, 10);
+  EXPECT_NEAR(impact.max_hardened_speed, std::sqrt(3) * sound_speed(material), 1e-12);
+  // 1.74 of 19.7 m/s: sound crosses 0.87 of a cell after the step.
+  EXPECT_NEAR(engine::choose_dt(s, impact, 1).dt, 0.5 * 0.02 / 19.7, 1e-15);
+  impact.max_hardened_speed = 3 * 19.7;
+  const double dt = engine::choose_dt(s, impact, 1).dt;
+  EXPECT_LE(3 * 19.7 * dt, s.cell_size);
+  EXPECT_GE(3 * 19.7 * dt, 0.8 * s.cell_size) << "shorter than it must be";
 }
 
 TEST(TimeStep, FixedIsTakenAsItIs) {
   SolverSettings s;
   s.time_step = TimeStep::fixed;
   s.dt = 7e-3;
-  engine::StateLimits impact{20, 190, 900, 10};
+  engine::StateLimits impact{20, 190, 900, 10, 1970};
   EXPECT_EQ(engine::choose_dt(s, impact, 1).dt, 7e-3);
   EXPECT_EQ(engine::choose_dt(s, impact, 1).limit, DtLimit::fixed);
   EXPECT_EQ(engine::choose_dt(s, impact, 2e-3).dt, 2e-3);

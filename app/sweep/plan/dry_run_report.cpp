@@ -50,7 +50,7 @@ std::vector<double> seconds_of_runs(const SweepPlan& plan, int cores) {
       return;
     }
     const health::Forecast forecast =
-        health::foresee(item.scene, item.plan.particles, item.run.frames.last, per_run);
+        health::foresee(item.scene, item.plan.particles, item.run.frames.last, {per_run, 1e12});
     seconds[k] =
         forecast.steps_until(item.run.frames.last) * item.plan.particles * per_particle_step +
         drawn;
