@@ -6,6 +6,7 @@
 #include "app/health/checkup.h"
 #include "app/run/render_job.h"
 #include "app/scene/coarsen.h"
+#include "app/scene/override.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -49,7 +50,8 @@ Json range_json(const scene::Range& range) {
   return {range.min, range.max};
 }
 
-Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job) {
+Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job,
+                  const health::FastLook& look) {
   Json json = setup::to_json(checkup.plan);
   json["cells"] = count_json(std::round(checkup.cells));
   json["cell_size"] = job.scene.solver.cell_size;
@@ -79,6 +81,9 @@ Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job) {
       job.scene.solver.is_implicit() ? Json(checkup.solve.iterations) : Json();
   json["seconds"] = checkup.seconds();
   json["seconds_range"] = range_json(checkup.seconds_range());
+  json["fast"] = {{"is_set", job.fast.has_value()},
+                  {"overrides", look.overrides},
+                  {"work", look.work_before > 0 ? Json(look.work / look.work_before) : Json()}};
   json["warnings"] = Json::array();
   for (const health::Finding& finding : checkup.findings)
     if (finding.severity != health::Severity::note) json["warnings"].push_back(finding.what);
@@ -128,7 +133,8 @@ void print_forecast(const health::Checkup& checkup) {
             << " ms a step, measured now on this machine\n";
 }
 
-void print_checkup(const health::Checkup& checkup, const run::RenderJob& job) {
+void print_checkup(const health::Checkup& checkup, const run::RenderJob& job,
+                   const health::FastLook& look) {
   const double h = job.scene.solver.cell_size;
   std::cout << "scene      " << job.scene_file
             << (job.coarsening > 1 ? ", coarsened " + scene::coarsening_text(job.coarsening) : "")
@@ -141,11 +147,21 @@ void print_checkup(const health::Checkup& checkup, const run::RenderJob& job) {
             << bytes_text(checkup.plan.memory_limit) << " allowed\n";
   print_limits(checkup);
   print_forecast(checkup);
+  std::cout << (job.fast ? "fast       " : "faster     ") << look.sentence() << "\n";
   if (!checkup.findings.empty()) std::cout << "\n";
   for (const health::Finding& finding : checkup.findings)
     std::cout << name(finding.severity) << ": "
               << (finding.address.empty() ? "" : finding.address + ": ") << finding.what
               << (finding.hint.empty() ? "" : "; " + finding.hint) << "\n";
+}
+
+/// The gain of --fast, for who has not asked for it.
+health::FastLook possible_look(const run::RenderOptions& options, const run::RenderJob& job) {
+  if (job.fast) return *job.fast;
+  std::vector<std::string> chosen;
+  for (const std::string& change : options.overrides)
+    chosen.push_back(scene::parse_override(change).address);
+  return health::fast_look(job.scene, job.frames.last, chosen);
 }
 
 }  // namespace
@@ -155,10 +171,11 @@ int run_check(const run::RenderOptions& options) {
   const setup::Plan plan = setup::make_plan(job.scene, job.frames, job.quality, options.threads);
   catch_interrupts();
   const health::Checkup checkup = health::examine(job.scene, plan, options.threads, job.coarsening);
+  const health::FastLook look = possible_look(options, job);
   if (options.is_json)
-    std::cout << to_text(checkup_json(checkup, job)) << "\n";
+    std::cout << to_text(checkup_json(checkup, job, look)) << "\n";
   else
-    print_checkup(checkup, job);
+    print_checkup(checkup, job, look);
   std::cout.flush();
   if (is_interrupted()) return exit_interrupted;
   setup::check_limits(job.scene, checkup.plan, job.coarsening);

@@ -110,6 +110,9 @@ void add_scene(CLI::App& command, const std::shared_ptr<run::RenderOptions>& opt
                   "Make cells N times as large, for previews: 1/N^3 of the particles and longer "
                   "steps, about N^4 times cheaper")
       ->type_name("N");
+  command.add_flag("--fast", options->is_fast,
+                   "Take longer steps for a quick look, by settings that are recorded as --set is; "
+                   "neve check says what they gain");
   command.add_option("--threads", options->threads, "Number of threads; 0: one per core")
       ->type_name("N");
 }

@@ -66,6 +66,9 @@ void add_what(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts&
       ->type_name("WxH");
   command.add_option("--coarsen", texts.coarsening, "Make cells N times as large in all runs")
       ->type_name("N");
+  command.add_flag("--fast", options.is_fast,
+                   "Take longer steps in all runs for a quick look, by settings that are recorded "
+                   "as --set is");
   command.add_option("--out", options.out, "Output folder instead of out/<name of the file>.cdb")
       ->type_name("DIR");
 }

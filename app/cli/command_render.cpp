@@ -160,6 +160,7 @@ void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t 
   const std::string coarsened =
       job.coarsening > 1 ? fmt::format(", coarsened {}", scene::coarsening_text(job.coarsening))
                          : "";
+  if (job.fast) progress.note(job.fast->sentence());
   progress.note(fmt::format("{}: {} particles{}, about {} of memory{}", job.scene_file, particles,
                             to_come, bytes_text(plan.memory), coarsened));
 }

@@ -182,6 +182,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   const int cores = core_count(options.threads);
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
                     options.progress);
+  if (plan.fast) progress.note(plan.fast->sentence());
   for (const std::string& value : sweep::read::repeated_values(plan.sweep))
     progress.warning(value + " is in its list twice: the run is made once and shown twice");
   warn_of_single_values(plan.sweep, progress);

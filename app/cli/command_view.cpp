@@ -6,6 +6,7 @@
 
 #include "app/cli/commands.h"
 #include "app/run/picture_record.h"
+#include "app/run/render_job.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
@@ -150,8 +151,16 @@ std::optional<view::session::Document> look_at(view::session::Document document,
 
 }  // namespace
 
-int run_view(const view::ViewOptions& options) {
+int run_view(const view::ViewOptions& given) {
   catch_interrupts();
+  view::ViewOptions options = given;
+  if (options.run.is_fast) {
+    const health::FastLook look = *run::make_job(options.run).fast;
+    if (options.run.verbosity != Verbosity::quiet)
+      std::cerr << "neve: " << look.sentence() << std::endl;
+    options.run.overrides.insert(options.run.overrides.end(), look.overrides.begin(),
+                                 look.overrides.end());
+  }
   const std::string file = options.run.scene.empty() ? default_scene().string() : options.run.scene;
   // A scene that cannot be read is told before a window opens.
   std::optional<view::session::Document> document =

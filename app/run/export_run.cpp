@@ -27,8 +27,10 @@ namespace fs = std::filesystem;
 
 /// The job of a run that exists, from its run.json.
 RenderJob job_from_run(const RenderOptions& options) {
-  if (!options.overrides.empty() || options.coarsening)
-    throw scene::toml::UsageError(options.overrides.empty() ? "--coarsen" : "--set",
+  if (!options.overrides.empty() || options.coarsening || options.is_fast)
+    throw scene::toml::UsageError(!options.overrides.empty() ? "--set"
+                                  : options.coarsening       ? "--coarsen"
+                                                             : "--fast",
                                   "a run has the scene it was made from",
                                   "give the scene file instead of the folder to write another run");
   const fs::path file = output::run_json_path(options.scene);

@@ -24,10 +24,36 @@ std::vector<scene::Override> parse_overrides(const std::vector<std::string>& arg
   return overrides;
 }
 
+/// Reads the scene with the changes of the user, and with those of --fast where it was given.
+/// @param read  scene(overrides)
+template <class Read>
+void read_scene(const RenderOptions& options, const Read& read, RenderJob& job) {
+  job.overrides.insert(job.overrides.end(), options.overrides.begin(), options.overrides.end());
+  std::vector<scene::Override> changes = parse_overrides(options.overrides);
+  job.scene = read(changes);
+  if (!options.is_fast) return;
+  scene::Scene coarse = job.scene;
+  if (options.coarsening) scene::coarsen(coarse, *options.coarsening);
+  std::vector<std::string> chosen;
+  for (const scene::Override& change : changes) chosen.push_back(change.address);
+  const int last = options.frames ? options.frames->last : job.scene.frames;
+  job.fast = health::fast_look(coarse, last, chosen);
+  for (const std::string& change : job.fast->overrides) {
+    changes.push_back(scene::parse_override(change));
+    job.overrides.push_back(change);
+  }
+  job.scene = read(changes);
+}
+
 RenderJob job_from_scene(const RenderOptions& options) {
   RenderJob job;
   job.scene_file = options.scene.empty() ? default_scene().string() : options.scene;
-  job.scene = scene::read_scene_file(job.scene_file, parse_overrides(options.overrides));
+  read_scene(
+      options,
+      [&](const std::vector<scene::Override>& changes) {
+        return scene::read_scene_file(job.scene_file, changes);
+      },
+      job);
   job.folder = out_folder() / fs::path(job.scene_file).stem();
   job.frames = {0, job.scene.frames};
   return job;
@@ -79,14 +105,18 @@ RenderJob job_from_picture(const RenderOptions& options) {
   check_files(record);
   RenderJob job;
   job.scene_file = options.scene;
-  job.scene = scene::read_scene_text(record.scene, options.scene + " (its scene)", {},
-                                     parse_overrides(options.overrides));
+  job.overrides = record.overrides;
+  read_scene(
+      options,
+      [&](const std::vector<scene::Override>& changes) {
+        return scene::read_scene_text(record.scene, options.scene + " (its scene)", {}, changes);
+      },
+      job);
   char name[32];
   std::snprintf(name, sizeof name, "%04d-again", record.frame);
   job.folder = out_folder() / name;
   job.frames = {record.frame, record.frame};
   job.quality = setup::quality_named(record.quality);
-  job.overrides = record.overrides;
   job.changes = record.changes;
   job.coarsening = record.coarsening;
   choose_views({record.view}, job);
@@ -118,7 +148,6 @@ void set_sizes(const RenderOptions& options, scene::Scene& scene) {
 RenderJob make_job(const RenderOptions& options) {
   const bool is_picture = !options.scene.empty() && is_png(options.scene);
   RenderJob job = is_picture ? job_from_picture(options) : job_from_scene(options);
-  job.overrides.insert(job.overrides.end(), options.overrides.begin(), options.overrides.end());
   if (options.coarsening) {
     scene::coarsen(job.scene, *options.coarsening);
     job.coarsening *= *options.coarsening;

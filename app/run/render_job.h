@@ -2,9 +2,11 @@
 /// Job of `neve render`, assembled from the scene, the flags, or a picture.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/health/fast.h"
 #include "app/run/changes.h"
 #include "app/run/render_options.h"
 #include "app/scene/scene.h"
@@ -18,6 +20,7 @@ struct RenderJob {
   setup::FrameRange frames;
   setup::Quality quality = setup::Quality::preview;
   std::vector<std::string> overrides;      ///< for the caption; those of a picture come first
+  std::optional<health::FastLook> fast;    ///< of --fast; its overrides are among those above
   std::vector<scene::LiveChange> changes;  ///< to be made while it runs, as they were in a picture
   std::vector<std::string> only_tiles;  ///< views that are drawn in a mosaic and not by themselves
   bool validate = false;                ///< with the checks of sim/checks/watch.h

@@ -14,6 +14,7 @@ struct RenderOptions {
   std::string scene;  ///< a scene file or a picture; empty: the default scene
   std::vector<std::string> overrides;
   std::optional<double> coarsening;
+  bool is_fast = false;  ///< with the settings of health::fast_look
   std::optional<setup::FrameRange> frames;
   std::vector<std::string> views;
   std::optional<scene::PictureSize> size;

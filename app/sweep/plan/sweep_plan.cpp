@@ -107,6 +107,23 @@ void refuse_two_frames(const SweepOptions& options, const read::Sweep& sweep) {
                "remove one of them");
 }
 
+/// The settings of --fast for all runs; what the sweep sets or varies stays.
+health::FastLook take_fast_look(const SweepOptions& options, const scene::Scene& base,
+                                read::Sweep& sweep) {
+  std::vector<std::string> chosen;
+  for (const scene::Override& setting : sweep.fixed) chosen.push_back(setting.address);
+  for (const read::Axis& axis : sweep.axes)
+    for (const read::Axis::Parameter& parameter : axis.parameters)
+      chosen.push_back(parameter.address);
+  for (const Run& row : sweep.rows)
+    for (const scene::Override& setting : row.settings) chosen.push_back(setting.address);
+  const health::FastLook look =
+      health::fast_look(base, frames_of(options, sweep, base).last, chosen);
+  for (const std::string& change : look.overrides)
+    sweep.fixed.push_back(scene::parse_override(change));
+  return look;
+}
+
 }  // namespace
 
 SweepPlan plan_sweep(const SweepOptions& options) {
@@ -117,6 +134,10 @@ SweepPlan plan_sweep(const SweepOptions& options) {
       options.out.empty() ? out_folder() / (plan.sweep.name + ".cdb") : fs::path(options.out);
   const SceneMaker maker(options, plan.sweep);
   plan.base = maker.make({});
+  if (options.is_fast) {
+    plan.fast = take_fast_look(options, plan.base, plan.sweep);
+    plan.base = maker.make({});
+  }
   plan.view = plan.base.views.front().name;
   plan.title = plan.sweep.settings.title;
   if (plan.title.empty()) plan.title = plan.base.title;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/health/fast.h"
 #include "app/setup/plan.h"
 #include "app/sweep/read/sweep.h"
 
@@ -33,6 +34,7 @@ struct SweepPlan {
   std::string view;   ///< that the tiles show
   scene::Scene base;  ///< with the fixed settings alone
   std::vector<PlannedRun> runs;
+  std::optional<health::FastLook> fast;  ///< of --fast; its overrides are among the fixed settings
 };
 
 /// Reads the scene of every run; starts nothing.

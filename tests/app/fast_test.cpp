@@ -1,0 +1,134 @@
+/// The settings of --fast.
+
+#include "app/health/fast.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/run/render_job.h"
+#include "app/scene/read.h"
+#include "app/sweep/plan/sweep_options.h"
+#include "app/sweep/plan/sweep_plan.h"
+#include "tests/support/temporary_folder.h"
+
+namespace neve::app {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// A ball that meets the floor in the second frame.
+std::string falling_ball(const std::string& solver, const std::string& material = "",
+                         double speed = 4) {
+  return fmt::format(R"(
+frames = 6
+[solver]
+cell_size = 0.03
+{}
+[material.snow]
+{}
+[[body]]
+shape    = {{ sphere = {{ center = [0, 0.4, 0], radius = 0.2 }} }}
+velocity = [0, {}, 0]
+[[collider]]
+shape = {{ plane = {{}} }}
+)",
+                     solver, material, -speed);
+}
+
+health::FastLook look_at(const std::string& text, const Lines& chosen = {}) {
+  return health::fast_look(scene::read_scene_text(text, "scene.toml"), 6, chosen);
+}
+
+TEST(Fast, StepsGrowAndHardeningGetsACeiling) {
+  const health::FastLook look = look_at(falling_ball(""));
+  EXPECT_EQ(look.overrides, Lines({"solver.acoustic_cfl=0.85", "material.snow.max_hardening=20"}));
+  EXPECT_FALSE(look.is_implicit);
+  // 0.85 / 0.5 at the most, where nothing hardens.
+  EXPECT_LT(look.work, 0.75 * look.work_before);
+  EXPECT_GT(look.work, 0.3 * look.work_before);
+  EXPECT_NE(look.sentence().find("solver.acoustic_cfl=0.85, material.snow.max_hardening=20"),
+            std::string::npos)
+      << look.sentence();
+}
+
+TEST(Fast, AffineTransfersTakeShorterStepsBecauseTheyDriftMore) {
+  for (const char* transfer : {"apic", "mls"}) {
+    const health::FastLook look = look_at(falling_ball(fmt::format("transfer = \"{}\"", transfer)));
+    ASSERT_FALSE(look.overrides.empty());
+    EXPECT_EQ(look.overrides[0], "solver.acoustic_cfl=0.7");
+  }
+}
+
+TEST(Fast, SettingsOfTheUserStay) {
+  const health::FastLook look =
+      look_at(falling_ball("", "", 14), {"solver.acoustic_cfl", "solver.beta"});
+  EXPECT_EQ(look.overrides, Lines({"material.snow.max_hardening=20"}));
+  // Values that go further than those of --fast stay as well.
+  EXPECT_EQ(look_at(falling_ball("acoustic_cfl = 1", "max_hardening = 5")).overrides, Lines());
+}
+
+TEST(Fast, NothingIsSetWhereNothingIsGained) {
+  const health::FastLook look =
+      look_at(falling_ball("time_step = \"fixed\"\ndt = 1e-4", "hardening = 0"));
+  EXPECT_TRUE(look.overrides.empty());
+  EXPECT_EQ(look.sentence(), "--fast finds no longer steps for this scene");
+}
+
+/// Snow a thousand times as stiff, set down slowly: explicit steps resolve sound that nobody sees.
+TEST(Fast, StiffSlowSnowTakesSemiImplicitSteps) {
+  const health::FastLook look = look_at(falling_ball("", "youngs_modulus = 1.4e8", 0.5));
+  EXPECT_TRUE(look.is_implicit);
+  EXPECT_EQ(look.overrides[0], "solver.beta=0.5");
+  EXPECT_LT(look.work, 0.3 * look.work_before);
+  const health::FastLook kept =
+      look_at(falling_ball("beta = 1\nmax_dt = 2e-3", "youngs_modulus = 1.4e8", 0.5));
+  EXPECT_TRUE(std::none_of(kept.overrides.begin(), kept.overrides.end(), [](const auto& change) {
+    return change.starts_with("solver.");
+  })) << kept.sentence();
+}
+
+TEST(Fast, TheChoiceDependsOnTheSceneAlone) {
+  const health::FastLook a = look_at(falling_ball("")), b = look_at(falling_ball(""));
+  EXPECT_EQ(a.overrides, b.overrides);
+  EXPECT_EQ(a.work, b.work);
+  EXPECT_EQ(a.work_before, b.work_before);
+}
+
+TEST(Fast, AJobRecordsTheSettingsLikeThoseOfTheUserWhichWin) {
+  const test::TemporaryFolder folder;
+  folder.write("ball.toml", falling_ball(""));
+  run::RenderOptions options;
+  options.scene = (folder / "ball.toml").string();
+  options.is_fast = true;
+  options.overrides = {"material.snow.max_hardening=7"};
+  const run::RenderJob job = run::make_job(options);
+  EXPECT_EQ(job.overrides, Lines({"material.snow.max_hardening=7", "solver.acoustic_cfl=0.85"}));
+  EXPECT_EQ(job.scene.solver.acoustic_cfl, 0.85);
+  EXPECT_EQ(job.scene.materials[0].max_hardening, 7);
+}
+
+TEST(Fast, ASweepKeepsWhatItVaries) {
+  const test::TemporaryFolder folder;
+  folder.write("ball.toml", falling_ball("", "", 14));
+  sweep::plan::SweepOptions options;
+  options.file = (folder / "ball.toml").string();
+  options.out = (folder / "out").string();
+  options.axes = {"solver.acoustic_cfl=0.3,0.6"};
+  options.overrides = {"solver.beta=0"};
+  options.is_fast = true;
+  const sweep::plan::SweepPlan plan = sweep::plan::plan_sweep(options);
+  ASSERT_TRUE(plan.fast);
+  EXPECT_EQ(plan.fast->overrides, Lines({"material.snow.max_hardening=20"}));
+  ASSERT_EQ(plan.runs.size(), 2u);
+  EXPECT_EQ(plan.runs[0].scene.solver.acoustic_cfl, 0.3);
+  EXPECT_EQ(plan.runs[1].scene.solver.acoustic_cfl, 0.6);
+  for (const sweep::plan::PlannedRun& run : plan.runs)
+    EXPECT_EQ(run.scene.materials[0].max_hardening, 20);
+}
+
+}  // namespace
+}  // namespace neve::app
