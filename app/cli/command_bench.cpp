@@ -5,6 +5,7 @@
 #include "app/bench/frame_bench.h"
 #include "app/bench/measure.h"
 #include "app/bench/render_bench.h"
+#include "app/bench/scene_bench.h"
 #include "app/bench/sim_bench.h"
 #include "app/bench/sweep_bench.h"
 #include "app/bench/view_bench.h"
@@ -62,6 +63,10 @@ int run_bench_frame(const bench::BenchOptions& options) {
 
 int run_bench_render(const bench::BenchOptions& options) {
   return run_bench(options, bench::bench_render);
+}
+
+int run_bench_scenes(const bench::BenchOptions& options) {
+  return run_bench(options, bench::bench_scenes);
 }
 
 int run_bench_sweep(const bench::BenchOptions& options) {

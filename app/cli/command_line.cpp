@@ -130,6 +130,9 @@ bench::BenchOptions finished_bench(const CLI::App& command, bench::BenchOptions 
   if (command.count("--rounds") > 0 && (options.rounds < 1 || options.rounds > 1000))
     throw scene::toml::UsageError("--rounds", "cannot use " + std::to_string(options.rounds),
                                   "expected 1 to 1000");
+  if (options.frames < 0 || options.frames > 1000000)
+    throw scene::toml::UsageError("--frames", "cannot use " + std::to_string(options.frames),
+                                  "expected a number of frames, or 0 for all");
   if (options.is_json && options.is_markdown)
     throw scene::toml::UsageError("--markdown", "cannot be combined with --json",
                                   "give one of the two");
@@ -269,6 +272,7 @@ void add_bench(CLI::App& app, Action& action) {
   const auto sim = std::make_shared<bench::BenchOptions>(),
              frame = std::make_shared<bench::BenchOptions>(),
              render = std::make_shared<bench::BenchOptions>(),
+             scenes = std::make_shared<bench::BenchOptions>(),
              sweep = std::make_shared<bench::BenchOptions>(),
              view = std::make_shared<bench::BenchOptions>();
   CLI::App* sim_command =
@@ -293,6 +297,16 @@ void add_bench(CLI::App& app, Action& action) {
       "Measure milliseconds per picture at 1280x720: 4000 to a million particles, all layers, each "
       "phase, spheres by OpenGL against spheres by the CPU, PNG encoding",
       render, run_bench_render);
+  CLI::App* scenes_command =
+      add_bench_part(*bench, action, "scenes",
+                     "Measure seconds per second of film of the shipped scenes, also with "
+                     "--coarsen 2 and --fast; steps, throughput and the share of drawing",
+                     scenes, run_bench_scenes);
+  scenes_command
+      ->add_option("--only", scenes->only, "Measure only the scene of this name, as in press")
+      ->type_name("NAME");
+  scenes_command->add_option("--frames", scenes->frames, "Measure the first N frames of each film")
+      ->type_name("N");
   CLI::App* sweep_command = add_bench_part(
       *bench, action, "sweep",
       "Measure the share of the cores that many small runs use, and the overhead of each run",
@@ -304,6 +318,7 @@ void add_bench(CLI::App& app, Action& action) {
                      view, run_bench_view);
   for (const auto& [command, options] : {std::pair{frame_command, frame},
                                          {render_command, render},
+                                         {scenes_command, scenes},
                                          {sweep_command, sweep},
                                          {view_command, view}})
     command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")

@@ -70,6 +70,21 @@ TEST_F(Cli, BenchFrameNamesWhatScriptsDependOn) {
   EXPECT_FALSE(exists("out")) << "the first picture is made elsewhere";
 }
 
+TEST_F(Cli, BenchScenesNamesWhatScriptsDependOn) {
+  const auto result = neve({"bench", "scenes", "--quick", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  auto rows = by_name(result.output);
+  for (const std::string way : {"", "_coarsen_2", "_fast", "_coarsen_2_fast"})
+    for (const char* what : {"", "_steps", "_throughput", "_slowest_frame", "_drawing"})
+      EXPECT_TRUE(rows.contains("snowball_drop" + way + what)) << way << what;
+  EXPECT_LT(rows["snowball_drop_fast_steps"]["median"], rows["snowball_drop_steps"]["median"]);
+  EXPECT_LT(rows["snowball_drop_coarsen_2"]["particles"], rows["snowball_drop"]["particles"]);
+  EXPECT_FALSE(exists("out"));
+  const auto unknown = neve({"bench", "scenes", "--only", "castle"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_TRUE(contains(unknown.errors, "there is no scene castle")) << unknown.errors;
+}
+
 TEST_F(Cli, BenchRenderNamesWhatScriptsDependOn) {
   const auto result = neve({"bench", "render", "--quick", "--json", "--threads", "2"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
@@ -121,7 +136,7 @@ TEST_F(Cli, BenchUsageErrorsListTheChoices) {
     EXPECT_EQ(result.exit_code, 2) << arguments.back() << ": " << result.errors;
     EXPECT_TRUE(result.errors.starts_with("neve: error: ")) << result.errors;
   }
-  EXPECT_TRUE(contains(neve({"bench", "paint"}).errors, "sim, frame, render"));
+  EXPECT_TRUE(contains(neve({"bench", "paint"}).errors, "sim, frame, render, scenes"));
   EXPECT_TRUE(contains(neve({"bench", "sim", "--round", "3"}).errors, "did you mean --rounds?"));
   EXPECT_EQ(neve({"bench", "--help"}).exit_code, 0);
   EXPECT_TRUE(contains(neve({"bench", "sim", "--help"}).output, "--curve"));
