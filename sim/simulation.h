@@ -71,11 +71,12 @@ class Simulation {
   /// limits of the next step) is computed again, and the energy that the change put in or took out
   /// is accounted for, so that no change alone breaks a rule.
   ///
-  /// C starts from zero when the transfer changes from or to FLIP, which has none, and stays
-  /// between APIC and MLS. A collider keeps its place when its velocity or spin changes, moves by
-  /// the edit when its place in the scene changes, and is the one of the same name (of several the
-  /// one of the same number); a new one starts where its shape is and moves from now on. The pose
-  /// offsets of the colliders given are ignored.
+  /// C starts from zero when the transfer changes from or to FLIP, which has none (of AFLIP and
+  /// ASFLIP from the fit to the velocities), and stays between the others. A collider keeps its
+  /// place when its velocity or spin changes, moves by the edit when its place in the scene
+  /// changes, and is the one of the same name (of several the one of the same number); a new one
+  /// starts where its shape is and moves from now on. The pose offsets of the colliders given are
+  /// ignored.
   ///
   /// Values that are all as before change no bit of the run. save() includes the effects of the
   /// change: restore() into a simulation built with the present parameters takes the same steps to

@@ -71,7 +71,9 @@ constexpr std::array symbols{
     std::pair{"dv_solve", "Change of v_star by the semi-implicit solve."},
     std::pair{"grad_v",
               "Velocity gradient at the particle: how fast its surroundings stretch and turn."},
-    std::pair{"C", "Affine velocity of APIC and MLS: how the velocity varies around the particle."},
+    std::pair{
+        "C",
+        "Affine velocity of all transfers but FLIP: how the velocity varies around the particle."},
     std::pair{"node", "Number of the node along each axis, in cells."}};
 
 }  // namespace

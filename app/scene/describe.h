@@ -70,14 +70,22 @@ void describe(V& visit, sim::SolverSettings& s) {
   visit("kernel", s.kernel, unit::none, anything, live,
         "B-spline that carries data between particles and grid.");
   visit("transfer", s.transfer, unit::none, anything, live,
-        "Transfer of velocity from the grid to the particles.");
+        "Transfer of velocity between particles and grid; all but flip keep the spin of small "
+        "pieces.");
   visit("flip_ratio", s.flip_ratio, unit::none, between(0, 1), live,
-        "The paper's alpha: share of FLIP, the rest is PIC.");
+        "The paper's alpha: share of FLIP in flip, aflip and asflip, the rest is PIC.");
   visit("flip_reference_dt", s.flip_reference_dt, unit::second, between(0, 1), live,
         "Step to which flip_ratio refers, so that damping does not depend on dt; 0: the ratio acts "
         "per step.");
   visit("advect", s.advect, unit::none, anything, live,
-        "Velocity that moves particles: their own (the paper) or the grid's.");
+        "Velocity that moves particles of flip, apic and mls: their own (the paper) or the "
+        "grid's.");
+  visit("separation_min", s.separation_min, unit::none, between(0, 1), live,
+        "Share of its own velocity, beside the grid's, that moves compressed snow of asflip.");
+  visit("separation_max", s.separation_max, unit::none, between(0, 1), live,
+        "Share of its own velocity that moves other snow of asflip: 1 lets it part, 0 is aflip.");
+  visit("separation_J_E", s.separation_J_E, unit::none, between(0.5, 2), live,
+        "Elastic volume ratio below which snow of asflip counts as compressed.");
   visit(
       "contact_at", s.contact_at, unit::none, anything, live,
       "particles: snow touches colliders; nodes: the paper's contact, which leaves a gap of up to "

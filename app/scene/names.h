@@ -25,7 +25,8 @@ constexpr auto names(sim::Kernel) {
 }
 constexpr auto names(sim::Transfer) {
   using enum sim::Transfer;
-  return std::array{Name{flip, "flip"}, Name{apic, "apic"}, Name{mls, "mls"}};
+  return std::array{Name{flip, "flip"}, Name{apic, "apic"}, Name{mls, "mls"}, Name{aflip, "aflip"},
+                    Name{asflip, "asflip"}};
 }
 constexpr auto names(sim::Advect) {
   using enum sim::Advect;

@@ -124,6 +124,7 @@ const std::vector<EverydayName>& everyday_names() {
       {"theta_s", {"material.NAME.critical_stretch"}},
       {"rho", {"material.NAME.density"}},
       {"alpha, pic, flip", {"solver.flip_ratio", "solver.transfer"}},
+      {"spin, tumble, tumbling, rotation, rotate, turning", {"solver.transfer"}},
       {"implicit", {"solver.beta"}},
       {"memory, RAM, limit", {"limits.memory", "limits.particles", "limits.pixels"}},
   };

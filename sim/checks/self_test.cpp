@@ -35,7 +35,8 @@ std::vector<SelfTestCase> all_self_test_cases() {
   std::vector<SelfTestCase> cases;
   for (const Precision precision : {Precision::single, Precision::real64})
     for (const Kernel kernel : {Kernel::cubic, Kernel::quadratic})
-      for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls})
+      for (const Transfer transfer :
+           {Transfer::flip, Transfer::apic, Transfer::mls, Transfer::aflip, Transfer::asflip})
         cases.push_back({kernel, transfer, precision});
   return cases;
 }

@@ -11,7 +11,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 std::string text(const SelfTestCase& test) {
-  static constexpr const char* transfers[] = {"flip", "apic", "mls"};
+  static constexpr const char* transfers[] = {"flip", "apic", "mls", "aflip", "asflip"};
   return std::string(transfers[static_cast<int>(test.transfer)]) +
          (test.kernel == Kernel::cubic ? " cubic" : " quadratic") +
          (test.precision == Precision::single ? " float" : " double");

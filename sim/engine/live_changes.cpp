@@ -7,6 +7,7 @@
 
 #include "sim/engine/records.h"
 #include "sim/engine/state_reader.h"
+#include "sim/engine/still_grid.h"
 
 namespace neve::sim::engine {
 
@@ -179,10 +180,13 @@ void apply(const SolverSettings& settings, const std::vector<Material>& material
   state.colliders = std::move(moving);
   progress.colliders_time = colliders_time;
   state.method.limit_hardening(progress.limits);
-  if ((before.transfer == Transfer::flip) != (settings.transfer == Transfer::flip))
+  const bool has_new_affine = before.has_affine_velocity() != settings.has_affine_velocity();
+  if (has_new_affine)
     for (kernels::Particle<Real>& p : state.particles.records)
       std::fill(std::begin(p.C), std::end(p.C), Real(0));
   if (has_new_stress) recompute_stress(is_changed, state);
+  if (has_new_affine && state.method.fits_affine_velocity() && state.particles.size() > 0)
+    StillGrid<Real>(state).fit_affine_velocities();
   state.note_near_colliders();
   if (has_new_accounts) rebase_energy(before, account, found, state);
   // Which step is too short was said by the parameters of the start.

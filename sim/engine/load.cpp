@@ -9,6 +9,7 @@
 
 #include "sim/engine/records.h"
 #include "sim/engine/state_reader.h"
+#include "sim/engine/still_grid.h"
 
 namespace neve::sim::engine {
 
@@ -118,30 +119,20 @@ void prepare(State<Real>& state, StartState& start) {
   if (count == 0) return;
 
   // Volumes and the velocity gradient need the rasterised mass and velocity.
-  const kernels::Sweeps<Real>& sweeps = *state.method.sweeps;
-  state.partition();
-  kernels::SweepArgs<Real> a = state.sweep_args(0, kernels::all_channels);
-  std::vector<kernels::StagedNodes<Real>> staged(state.particles.partition.node_blocks().size());
-  std::vector<kernels::Gathered<Real>> gathered(count);
-  a.staged = staged.data();
-  a.gathered = gathered.data();
-  state.over_particle_blocks(sweeps.rasterize, a);
-  state.over_node_blocks(sweeps.collect_momentum, a);
-  if (!state.method.settings.skips(Stage::volumes)) state.over_particle_blocks(sweeps.volumes, a);
-  for (kernels::StagedNodes<Real>& nodes : staged)
-    std::copy(std::begin(nodes.v_old), std::end(nodes.v_old), std::begin(nodes.v_new));
-  state.over_node_blocks(sweeps.lay_out_velocities, a);
-  state.over_particle_blocks(sweeps.gather, a);
+  StillGrid<Real> grid(state);
+  grid.rasterize();
+  if (!state.method.settings.skips(Stage::volumes)) grid.estimate_volumes();
+  Real max_strain_rate = 0;
+  for (const kernels::Gathered<Real>& g : grid.gather())
+    for (const Real entry : g.grad_v) max_strain_rate = std::max(max_strain_rate, std::abs(entry));
+  if (state.method.fits_affine_velocity()) grid.fit_affine_velocities();
 
-  kernels::BlockReport<Real> report = state.refresh(0, count);
-  for (const kernels::Gathered<Real>& g : gathered)
-    for (const Real entry : g.grad_v)
-      report.max_strain_rate = std::max(report.max_strain_rate, std::abs(entry));
+  const kernels::BlockReport<Real> report = state.refresh(0, count);
   Progress& progress = state.progress;
   StateLimits& limits = progress.limits;
   limits.max_speed = std::sqrt(static_cast<double>(report.max_speed_squared));
   limits.max_sound_speed = std::sqrt(static_cast<double>(report.max_sound_squared));
-  limits.max_strain_rate = static_cast<double>(report.max_strain_rate);
+  limits.max_strain_rate = static_cast<double>(std::max(report.max_strain_rate, max_strain_rate));
   state.note_near_colliders();
   StateLimits at_rest = limits;
   at_rest.max_strain_rate = 0;

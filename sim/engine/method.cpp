@@ -17,9 +17,22 @@ kernels::TransferKind transfer_kind(Transfer transfer) {
       return kernels::TransferKind::apic;
     case Transfer::mls:
       return kernels::TransferKind::mls;
+    case Transfer::aflip:
+    case Transfer::asflip:
+      return kernels::TransferKind::aflip;
     default:
       return kernels::TransferKind::flip;
   }
+}
+
+/// Shares of its own velocity that a particle moves with.
+struct OwnShares {
+  double compressed, separating;
+};
+OwnShares own_shares(const SolverSettings& s) {
+  if (s.transfer == Transfer::asflip) return {s.separation_min, s.separation_max};
+  const bool moves_by_itself = s.transfer == Transfer::flip && s.advect == Advect::particle;
+  return moves_by_itself ? OwnShares{1, 1} : OwnShares{0, 0};
 }
 
 template <class Real>
@@ -94,6 +107,10 @@ kernels::StepConstants<Real> Method<Real>::step_constants(double dt) const {
   c.dt = static_cast<Real>(dt);
   c.dt_over_h = static_cast<Real>(dt / h);
   c.alpha = static_cast<Real>(flip_share(settings, dt));
+  const OwnShares shares = own_shares(settings);
+  c.beta_min = static_cast<Real>(shares.compressed);
+  c.beta_max = static_cast<Real>(shares.separating);
+  c.separating_J_E = static_cast<Real>(settings.separation_J_E);
   for (int axis = 0; axis < 3; ++axis) c.gravity[axis] = static_cast<Real>(settings.gravity[axis]);
   c.moves_with_grid = settings.advect == Advect::pic;
   c.h_double = h;
@@ -111,7 +128,7 @@ double Method<Real>::affine_inertia() const {
 template <class Real>
 double Method<Real>::kinetic_energy(const kernels::Particle<Real>& p) const {
   const double m = static_cast<double>(p.m), energy = 0.5 * m * vector(p.v).squaredNorm();
-  if (settings.transfer == Transfer::flip) return energy;
+  if (!settings.has_affine_velocity()) return energy;
   return energy + 0.5 * m * affine_inertia() * matrix(p.C).squaredNorm();
 }
 

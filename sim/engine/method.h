@@ -31,9 +31,9 @@ struct Method {
   /// For a step of dt; without colliders.
   kernels::StepConstants<Real> step_constants(double dt) const;
 
-  /// True if particles keep alpha of their own velocity beside that of the grid, and move with it.
-  bool keeps_own_velocity() const {
-    return settings.transfer == Transfer::flip && settings.advect == Advect::particle;
+  /// True if particles keep velocities of their own and have an affine one: it has to fit them.
+  bool fits_affine_velocity() const {
+    return settings.transfer == Transfer::aflip || settings.transfer == Transfer::asflip;
   }
 
   /// m2, of the weights around a particle.

@@ -39,7 +39,8 @@ kernels::ContactArgs<Real> ParticleContact<Real>::contact_args(
   a.step = step;
   a.poses = step.constants.colliders;
   a.half_spacing = state.method.half_spacing.data();
-  a.kept = state.method.keeps_own_velocity() ? step.constants.alpha : Real(0);
+  a.kept_min = step.constants.alpha * step.constants.beta_min;
+  a.kept_max = step.constants.alpha * step.constants.beta_max;
   a.max_speed = static_cast<Real>(state.progress.limits.max_speed);
   a.candidates = candidates_.data();
   a.near_counts = near_counts_.data();

@@ -131,7 +131,7 @@ std::uint64_t StateReader<Real>::state_hash() const {
 template <class Real>
 Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
   const Method<Real>& method = state_.method;
-  const bool has_C = method.settings.transfer != Transfer::flip;
+  const bool has_C = method.settings.has_affine_velocity();
   const double inertia = method.affine_inertia();
   const std::vector<kernels::Particle<Real>>& records = state_.particles.records;
   Summary s;

@@ -60,10 +60,12 @@ void StagedDriver<Real>::sort_particles() {
   fields_.gathered.resize(count);
   fields_.F_trial.resize(9 * count);
   fields_.v_before_collision.resize(3 * count);
+  fields_.carrier.resize(3 * count);
   a_.staged = fields_.nodes.data();
   a_.gathered = fields_.gathered.data();
   a_.F_trial = fields_.F_trial.data();
   a_.v_before_collision = fields_.v_before_collision.data();
+  a_.carrier = fields_.carrier.data();
 }
 
 /// Skipped, it leaves a grid without mass.

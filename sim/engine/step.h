@@ -60,6 +60,7 @@ struct StageFields {
   std::vector<kernels::StagedNodes<Real>> nodes;     ///< per node block
   std::vector<kernels::Gathered<Real>> gathered;     ///< per record, like those below
   std::vector<Real> F_trial, v_before_collision;     ///< 9 and 3 numbers
+  std::vector<Real> carrier;                         ///< 3 numbers, see SweepArgs
   std::array<double, stage_names.size()> seconds{};  ///< see StagedStep
 };
 

@@ -64,7 +64,7 @@ struct SolveSweeps {
   SolveSweep<Real> react;     ///< from H v_new: the work of what holds the nodes
 };
 
-/// The sweeps of an instruction set. MLS has its own gradient, FLIP and APIC share one.
+/// The sweeps of an instruction set. MLS has its own gradient, the others share one.
 const SolveSweeps<float>& solve_sweeps_for(SimdLevel level, int nodes, bool is_mls, float);
 const SolveSweeps<double>& solve_sweeps_for(SimdLevel level, int nodes, bool is_mls, double);
 

@@ -21,7 +21,17 @@ inline constexpr int all_channels = 2;
 /// and through steps 1 to 3, so that those of a cell reach its nodes together.
 inline constexpr int gather_group = 64, scatter_group = 32;
 
-enum class TransferKind : int { flip, apic, mls };
+/// ASFLIP and AFLIP are one: the second moves by the grid alone.
+enum class TransferKind : int { flip, apic, mls, aflip };
+
+/// True if particles have an affine velocity C.
+constexpr bool has_affine(TransferKind transfer) {
+  return transfer != TransferKind::flip;
+}
+/// True if particles keep a velocity of their own, and gather how much that of the grid changed.
+constexpr bool keeps_own(TransferKind transfer) {
+  return transfer == TransferKind::flip || transfer == TransferKind::aflip;
+}
 
 /// Everything a step needs besides particles and nodes.
 template <class Real>
@@ -30,6 +40,10 @@ struct StepConstants {
   Real dt;        ///< s
   Real dt_over_h;
   Real alpha;  ///< FLIP share of this step
+  /// Shares beta of what a particle keeps of its own velocity that it moves with: compressed, and
+  /// from separating_J_E on. FLIP's are equal.
+  Real beta_min, beta_max;
+  Real separating_J_E;
   Real gravity[3];
   bool moves_with_grid;  ///< advect = pic
   double h_double;       ///< for placing colliders exactly
@@ -69,9 +83,9 @@ struct alignas(64) StagedNodes {
 template <class R>
 struct Gathered {
   R v[3];       ///< sum w v_new (PIC)
-  R change[3];  ///< sum w (v_new - v_old); FLIP
+  R change[3];  ///< sum w (v_new - v_old); FLIP and AFLIP
   R grad_v[9];  ///< 1/s, row by row
-  R C[9];       ///< 1/s, affine velocity (APIC, MLS), row by row
+  R C[9];       ///< 1/s, affine velocity (all but FLIP), row by row
 };
 
 /// One state of the world, seen by a sweep.
@@ -96,6 +110,7 @@ struct SweepArgs {
   // Staged driver only.
   StagedNodes<Real>* staged;  ///< per node block
   Gathered<Real>* gathered;   ///< per storage index
+  Real* carrier;              ///< 3 per storage index, see carrier_velocity; null: not wanted
   Real* F_trial;              ///< 9 per storage index, before projection
   Real* v_before_collision;   ///< 3 per storage index
 };
@@ -107,8 +122,9 @@ using Sweep = void (*)(const SweepArgs<Real>&, std::uint32_t begin, std::uint32_
 /// The sweeps for one kernel and transfer.
 template <class Real>
 struct Sweeps {
-  // Fused: two particle sweeps and a grid sweep. FLIP keeps momentum and force apart, since
-  // particles want to know how much the velocity changed; the others add dt f to the momentum.
+  // Fused: two particle sweeps and a grid sweep. FLIP and AFLIP keep momentum and force apart,
+  // since particles want to know how much the velocity changed; the others add dt f to the
+  // momentum.
   int fused_channels;
   Sweep<Real> particles_to_grid, grid_update, grid_to_particles;
   // First step of a body: masses to the nodes (channel_momentum), then back to volumes.

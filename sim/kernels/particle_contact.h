@@ -5,7 +5,8 @@
 /// every particle that comes too near to a surface gets an impulse j_p, along the normal and by
 /// friction, that is scattered to its nodes as the stress is: v_i += sum w_ip j_p / m_i. Each is
 /// such that the velocity v_p that the particle will move with closes its gap and no more. FLIP
-/// particles keep alpha (v_p - sum w_ip v_i) of before the step beside what the grid gives them.
+/// particles keep alpha (v_p - sum w_ip v_i) of before the step beside what the grid gives them,
+/// ASFLIP particles move with beta of that, AFLIP particles with nothing of it.
 /// The impulses are found by a projected Jacobi iteration
 ///   j_p <- project(j_p + (wanted - v_p) / D_p),  D_p = sum_i w_ip c_i / m_i,  c_i = sum_q w_iq
 /// with c over the particles in contact. D is the sum of a row of the system, not its diagonal: a
@@ -56,7 +57,9 @@ struct ContactArgs {
   SweepArgs<Real> step;       ///< nodes have v_free and get v_star
   const ColliderPose* poses;  ///< those of `step`, which the solve does not show to the nodes
   const Real* half_spacing;   ///< per material: of particles of 1 kg, m
-  Real kept;       ///< share of its own velocity that a particle keeps: alpha of FLIP, otherwise 0
+  /// Shares of its own velocity that a particle moves with, compressed and separating: alpha beta,
+  /// see StepConstants.
+  Real kept_min, kept_max;
   Real max_speed;  ///< m/s, of all particles before the step
   Real apart;      ///< 1/s: share of what a particle outside is too near by that it moves away by
   std::uint32_t* candidates;    ///< per sorted position: those of a block come first in its range

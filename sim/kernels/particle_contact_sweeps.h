@@ -121,8 +121,9 @@ struct ContactSweepsFor {
   // ---- contacts ---------------------------------------------------------------------------------
 
   /// The candidates [q, q + W) of a block; lanes without one repeat the last.
-  NEVE_INLINE static void load_candidates(const Args& a, const ParticleBlock& block, Index q,
-                                          Index count, Batch& p) {
+  /// @return the share of their own velocity that they move with
+  NEVE_INLINE static V load_candidates(const Args& a, const ParticleBlock& block, Index q,
+                                       Index count, Batch& p) {
     const Particle<Real>* record[W];
     for (int l = 0; l < W; ++l) {
       const Index at = smaller<Index>(q + static_cast<Index>(l), count - 1);
@@ -131,6 +132,10 @@ struct ContactSweepsFor {
     RecordReader<V, I> read(record, p);
     read.place();
     read.motion();
+    if (a.kept_min == a.kept_max) return all<V>(a.kept_max);
+    read.deformation();
+    read.volume();
+    return separation_share(determinant(p.F_E), a.step.constants) * a.step.constants.alpha;
   }
 
   template <int G>
@@ -154,7 +159,7 @@ struct ContactSweepsFor {
   }
 
   static void start(const Args& a, Index begin, Index end) {
-    const bool keeps = a.kept > Real(0);
+    const bool keeps = a.kept_min > Real(0) || a.kept_max > Real(0);
     Quad<Real> v_free[Tile<K>::nodes], change[Tile<K>::nodes];
     Stencils<Real, K, W> s;
     for (Index n = begin; n < end; ++n) {
@@ -173,13 +178,13 @@ struct ContactSweepsFor {
       const Index count = a.near_counts[b];
       for (Index q = 0; q < count; q += W) {
         Batch p;
-        load_candidates(a, block, q, count, p);
+        const V kept = load_candidates(a, block, q, count, p);
         s.template set<false, false>(0, p.offset, p.cell);
         const FourWords<V> on_grid = gathered(s, v_free);
         Velocities v{{on_grid.w[0], on_grid.w[1], on_grid.w[2]}, {}};
         if (keeps) {
           const FourWords<V> changed = gathered(s, change);
-          for (int x = 0; x < 3; ++x) v.own[x] = (p.v[x] - (on_grid.w[x] - changed.w[x])) * a.kept;
+          for (int x = 0; x < 3; ++x) v.own[x] = (p.v[x] - (on_grid.w[x] - changed.w[x])) * kept;
         }
         V touches{};
         const I is_used = first_lanes<I>(static_cast<int>(count - q));

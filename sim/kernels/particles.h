@@ -31,7 +31,7 @@ struct Record {
   R stiffness;  ///< factor on mu and lambda
   R threshold;  ///< factor on theta_c and theta_s
   I id;
-  R C[9];  ///< 1/s, affine velocity of APIC and MLS, row by row
+  R C[9];  ///< 1/s, affine velocity of all transfers but FLIP, row by row
 
   NEVE_INLINE I material() const { return kind & 0xffff; }
   NEVE_INLINE I model() const { return (kind >> 16) & 0xff; }

@@ -189,7 +189,7 @@ NEVE_INLINE Columns<V> elastic_force(V V0, const V* tau, ElementOf<V> inv_h, Ele
            {{factor * xz, factor * yz, factor * zz, V{}}}}};
 }
 
-/// Step 1, APIC and MLS: the momentum of v_p + C (x_i - x_p) besides that of v_p.
+/// Step 1, all transfers but FLIP: the momentum of v_p + C (x_i - x_p) besides that of v_p.
 template <class V>
 NEVE_INLINE Columns<V> affine_momentum(V m, const V* C, ElementOf<V> h) {
   const V factor = m * h;
@@ -343,12 +343,14 @@ NEVE_INLINE void collide_nodes(Quad<Real>* v, const StepConstants<Real>& c,
 // ---- node to particle ---------------------------------------------------------------------------
 
 /// Gathers the input of steps 7 and 8 from the grid, for particles [q, q + W) of the stencils.
-/// @param change  v_new - v_old on the tile; FLIP only
+/// @param change  v_new - v_old on the tile; FLIP and AFLIP only
 template <class Set, TransferKind transfer, class V, class Real, int K, int G>
 NEVE_INLINE void gather(const Stencils<Real, K, G>& s, int q, int count, Real inv_h,
                         const Quad<Real>* v_new, const Quad<Real>* change, Gathered<V>& out) {
   constexpr int W = lane_count<V>;
-  constexpr bool is_mls = transfer == TransferKind::mls, is_flip = transfer == TransferKind::flip;
+  constexpr bool is_mls = transfer == TransferKind::mls, has_change = keeps_own(transfer);
+  // The gradient of MLS is its C.
+  constexpr bool has_own_C = has_affine(transfer) && !is_mls;
   constexpr Real arm_scale = Real(1 / apic_inertia<K>);
   Quad<Real> gradient[4 * W], affine[4 * W], moved[W];
   for (int l = 0; l < W; ++l) {
@@ -357,23 +359,21 @@ NEVE_INLINE void gather(const Stencils<Real, K, G>& s, int q, int count, Real in
       gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, gradient + 4 * l);
     else
       gather_tensor<Set>(s, s.dw, s.dz, p, v_new, gradient + 4 * l);
-    if constexpr (is_flip) moved[l] = gather_value<Set>(s, p, change);
-    if constexpr (transfer == TransferKind::apic)
-      gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, affine + 4 * l);
+    if constexpr (has_change) moved[l] = gather_value<Set>(s, p, change);
+    if constexpr (has_own_C) gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, affine + 4 * l);
   }
   const auto take = [](const Quad<Real>* from, Real scale, V* to, int stride) NEVE_INLINE_BODY {
     const FourWords<V> words = gather_words<V>([&](int l) NEVE_INLINE_BODY { return from[4 * l]; });
     for (int a = 0; a < 3; ++a) to[stride * a] = words.w[a] * scale;
   };
   take(gradient, Real(1), out.v, 1);
-  if constexpr (is_flip) {
+  if constexpr (has_change) {
     const FourWords<V> words = load_quads<V>(moved);
     for (int a = 0; a < 3; ++a) out.change[a] = words.w[a];
   }
   for (int c = 0; c < 3; ++c) {
     take(gradient + 1 + c, is_mls ? inv_h * arm_scale : inv_h, out.grad_v + c, 3);
-    if constexpr (transfer == TransferKind::apic)
-      take(affine + 1 + c, inv_h * arm_scale, out.C + c, 3);
+    if constexpr (has_own_C) take(affine + 1 + c, inv_h * arm_scale, out.C + c, 3);
     if constexpr (is_mls)
       for (int a = 0; a < 3; ++a) out.C[3 * a + c] = out.grad_v[3 * a + c];
   }
@@ -393,17 +393,55 @@ NEVE_INLINE void strain(V* F_E, const V* grad_v, ElementOf<V> dt) {
   for (int q = 0; q < 9; ++q) F_E[q] = F[q];
 }
 
-/// Step 8: FLIP v_p = (1 - alpha) PIC + alpha (v_p + change); APIC and MLS take v and C.
+/// alpha (v_p - sum w_ip v_old): what a particle of AFLIP keeps beside the velocity of the grid.
+/// @param p  with v_p as before the step
+template <class V, class I>
+NEVE_INLINE Vec3<V> own_velocity(const Record<V, I>& p, const Gathered<V>& g, ElementOf<V> alpha) {
+  Vec3<V> own;
+  for (int a = 0; a < 3; ++a) own[a] = (p.v[a] - (g.v[a] - g.change[a])) * alpha;
+  return own;
+}
+
+/// beta of particles: of the paper below, between beta_min in compressed snow and beta_max. The
+/// paper asks whether det F grows in the step; here J_E before the step decides, so that contact,
+/// which comes before the deformation, knows how particles will move.
+template <class V>
+NEVE_INLINE V separation_share(const V& J_E, const StepConstants<ElementOf<V>>& c) {
+  return J_E >= all<V>(c.separating_J_E) ? all<V>(c.beta_max) : all<V>(c.beta_min);
+}
+
+/// Step 10, AFLIP and ASFLIP: the velocity that moves a particle, sum w_ip v_new + beta own.
+/// Source: Fei, Guo, Wu, Huang, Gao 2021, Revisiting Integration in the Material Point Method: A
+/// Scheme for Easier Separation and Less Dissipation, ACM Transactions on Graphics 40 (4). AFLIP is
+/// beta = 0.
+/// @param p  as before the step
+template <class V, class I>
+NEVE_INLINE Vec3<V> carrier_velocity(const Record<V, I>& p, const Gathered<V>& g,
+                                     const StepConstants<ElementOf<V>>& c) {
+  const V beta = separation_share(determinant(p.F_E), c);
+  const Vec3<V> own = own_velocity(p, g, c.alpha);
+  Vec3<V> v;
+  for (int a = 0; a < 3; ++a) v[a] = fused(beta, own[a], g.v[a]);
+  return v;
+}
+
+/// Step 8: FLIP v_p = (1 - alpha) PIC + alpha (v_p + change). APIC and MLS take v and C. AFLIP
+/// takes C too, and v_p = PIC + alpha (v_p - sum w_ip v_old), which is FLIP's v_p.
 template <TransferKind transfer, class V, class I>
 NEVE_INLINE Vec3<V> particle_velocity(Record<V, I>& p, const Gathered<V>& g, ElementOf<V> alpha) {
   using Real = ElementOf<V>;
   Vec3<V> v;
-  for (int a = 0; a < 3; ++a) {
-    v[a] = g.v[a];
-    if constexpr (transfer == TransferKind::flip)
-      v[a] = g.v[a] * (Real(1) - alpha) + (p.v[a] + g.change[a]) * alpha;
+  if constexpr (transfer == TransferKind::aflip) {
+    v = own_velocity(p, g, alpha);
+    for (int a = 0; a < 3; ++a) v[a] += g.v[a];
+  } else {
+    for (int a = 0; a < 3; ++a) {
+      v[a] = g.v[a];
+      if constexpr (transfer == TransferKind::flip)
+        v[a] = g.v[a] * (Real(1) - alpha) + (p.v[a] + g.change[a]) * alpha;
+    }
   }
-  if constexpr (transfer != TransferKind::flip)
+  if constexpr (has_affine(transfer))
     for (int q = 0; q < 9; ++q) p.C[q] = g.C[q];
   return v;
 }
@@ -429,6 +467,15 @@ NEVE_INLINE void collide_particles(const Record<V, I>& p, Vec3<V>& v, MaskOf<V> 
   const Vec3<V> r = places_in_block(p, key, c.h);
   collide<Set>(v, p.m, r, is_used, near.local, near.count, Real(0), work, loads,
                [](const Response<V>&) NEVE_INLINE_BODY {});
+}
+
+/// Step 9 on the velocities that move particles of AFLIP: neither impulse nor work, they are those
+/// of v_p.
+template <class Set, class V, class I, class Real>
+NEVE_NOINLINE void collide_carriers(const Record<V, I>& p, Vec3<V>& carrier, std::uint64_t key,
+                                    const StepConstants<Real>& c, const NearColliders<Real>& near) {
+  const Vec3<V> r = places_in_block(p, key, c.h);
+  for (int k = 0; k < near.count; ++k) carrier = respond(near.local[k], r, carrier, Real(0)).v;
 }
 
 /// push_out moves particles deeper than this back to this depth, cells. Slightly less than the

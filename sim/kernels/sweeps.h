@@ -16,7 +16,8 @@ NEVE_INLINE Quad<Real>* nodes_of(const SweepArgs<Real>& a, std::uint32_t block, 
   return a.nodes + (first + static_cast<std::size_t>(channel)) * block_nodes;
 }
 
-/// The nodes of a block get a velocity, and FLIP its change. @param v  with the mass of the nodes
+/// The nodes of a block get a velocity, and FLIP and AFLIP its change. @param v  with the mass of
+/// the nodes
 template <class Real>
 NEVE_INLINE void set_velocities(const SweepArgs<Real>& a, std::uint32_t block,
                                 const Quad<Real>* v) {
@@ -85,9 +86,11 @@ struct SweepsFor {
   using I = Lanes<Integer<Real>, W>;
   using R = Row<Real, Set>;
   using Batch = ParticleLanes<Real, W>;
-  static constexpr bool is_flip = transfer == TransferKind::flip;
+  static constexpr bool is_affine = has_affine(transfer);
   static constexpr bool is_mls = transfer == TransferKind::mls;
-  static constexpr int fused_channels = is_flip ? 2 : 1;
+  static constexpr bool is_aflip = transfer == TransferKind::aflip;
+  static constexpr bool has_change = keeps_own(transfer);
+  static constexpr int fused_channels = has_change ? 2 : 1;
 
   /// Some particles of a block, in its order; records beyond the last repeat it, so that batches
   /// are always full.
@@ -164,14 +167,14 @@ struct SweepsFor {
                                   Quad<Real>* force) {
     // MLS carries both tensors on the same weights: one row for both, where both go to one tile.
     constexpr bool is_joined = is_mls && jobs == (momentum_job | force_job);
-    constexpr bool has_affine = !is_flip && (jobs & momentum_job) != 0;
+    constexpr bool with_affine = is_affine && (jobs & momentum_job) != 0;
     constexpr bool has_force = (jobs & force_job) != 0 && !is_joined;
     ScatterRows rows;
     auto& s = rows.s;
     each_group<scatter_group>(a, block, [&](const Group<scatter_group>& group) {
       for (int q = 0; q < group.count; q += W) prepare<jobs>(a, group, q, rows);
       each_cell(s, group.count, [&](int begin, int end) {
-        if constexpr (has_affine)
+        if constexpr (with_affine)
           scatter_tensor<Real, K, scatter_group, Set>(s, s.arm, rows.affine, begin, end, momentum);
         else if constexpr ((jobs & momentum_job) != 0)
           scatter_value<Real, K, scatter_group, Set>(s, rows.value, begin, end, momentum);
@@ -187,14 +190,14 @@ struct SweepsFor {
                                   ScatterRows& rows) {
     const StepConstants<Real>& c = a.constants;
     constexpr bool both = jobs == (momentum_job | force_job);
-    constexpr bool has_affine = !is_flip && (jobs & momentum_job) != 0;
+    constexpr bool with_affine = is_affine && (jobs & momentum_job) != 0;
     constexpr bool has_force = (jobs & force_job) != 0;
     constexpr bool is_joined = is_mls && both;
     auto& s = rows.s;
     Batch p;
     fetch_ahead(a, group, q);
-    load_for_scatter<has_affine, has_force>(p, group.record + q);
-    s.template set<!is_mls, !is_flip>(q, p.offset, p.cell);
+    load_for_scatter<with_affine, has_force>(p, group.record + q);
+    s.template set<!is_mls, is_affine>(q, p.offset, p.cell);
     Quad<Real> value[W], affine[3][W], force[3][W];
     if constexpr ((jobs & momentum_job) != 0)
       store_quads(FourWords<V>{{p.v[0] * p.m, p.v[1] * p.m, p.v[2] * p.m, p.m}}, value);
@@ -202,13 +205,13 @@ struct SweepsFor {
       unrolled<3>([&](auto k) NEVE_INLINE_BODY { store_quads(A.column[k], to[k]); });
     };
     // Added to the momentum, a force acts for dt.
-    const Real duration = both && !is_flip ? c.dt : Real(1);
+    const Real duration = both && !has_change ? c.dt : Real(1);
     if constexpr (is_joined) {
       keep(affine_momentum(p.m, p.C, c.h) +
                elastic_force<K, transfer>(p.V0, p.tau, c.inv_h, duration),
            affine);
     } else {
-      if constexpr (has_affine) keep(affine_momentum(p.m, p.C, c.h), affine);
+      if constexpr (with_affine) keep(affine_momentum(p.m, p.C, c.h), affine);
       if constexpr (has_force)
         keep(elastic_force<K, transfer>(p.V0, p.tau, c.inv_h, duration), force);
     }
@@ -216,7 +219,7 @@ struct SweepsFor {
     for (int l = 0; l < last; ++l) {
       const R z = R::spread(s.z[q + l]);
       if constexpr ((jobs & momentum_job) != 0) rows.value[q + l] = R::repeat(value[l]) * z;
-      if constexpr (has_affine) {
+      if constexpr (with_affine) {
         rows.affine[q + l] = tensor_rows(affine, l, z, s.arm_z[q + l]);
         rows.affine[q + l].z = rows.affine[q + l].z + rows.value[q + l];
       }
@@ -236,9 +239,9 @@ struct SweepsFor {
   static void particles_to_grid(const Args& a, Index begin, Index end) {
     for (Index b = begin; b < end; ++b) {
       Quad<Real>* momentum = tile_of<Real, K>(a, b, channel_momentum);
-      Quad<Real>* force = is_flip ? tile_of<Real, K>(a, b, channel_force) : momentum;
+      Quad<Real>* force = has_change ? tile_of<Real, K>(a, b, channel_force) : momentum;
       clear(momentum);
-      if constexpr (is_flip) clear(force);
+      if constexpr (has_change) clear(force);
       scatter<momentum_job | force_job>(a, a.blocks[b], momentum, force);
     }
   }
@@ -249,7 +252,7 @@ struct SweepsFor {
     for (int n = 0; n < block_nodes; ++n) force[n] = Quad<Real>{};
     for (Index b = begin; b < end; ++b) {
       collect<Real, K, Set>(a, b, channel_momentum, momentum);
-      if constexpr (is_flip) collect<Real, K, Set>(a, b, channel_force, force);
+      if constexpr (has_change) collect<Real, K, Set>(a, b, channel_force, force);
       Quad<Real>* v_new = nodes_of(a, b, channel_v_new);
       for (int n = 0; n < block_nodes; ++n) {
         momentum[n] = node_v_old<Real>(momentum[n]);
@@ -261,7 +264,7 @@ struct SweepsFor {
       BlockLoads<Set> loads(near.count > 0 ? a.load_count : 0);
       collide_nodes<Set>(v_new, c, near, work, loads);
       loads.give(a.loads, a.load_unit);
-      if constexpr (is_flip) {
+      if constexpr (has_change) {
         Quad<Real>* change = nodes_of(a, b, channel_change);
         for (int n = 0; n < block_nodes; ++n) change[n] = v_new[n] - momentum[n];
       }
@@ -271,15 +274,16 @@ struct SweepsFor {
 
   static void grid_to_particles(const Args& a, Index begin, Index end) {
     const StepConstants<Real>& c = a.constants;
-    Quad<Real> v_new[Tile<K>::nodes], change[is_flip ? Tile<K>::nodes : 1];
+    Quad<Real> v_new[Tile<K>::nodes], change[has_change ? Tile<K>::nodes : 1];
     MaterialUpdate<Real, Set, gather_group / W> update;
     Stencils<Real, K, W> s;
     Batch batch[gather_group / W];
     Gathered<V> gathered[gather_group / W];
+    Vec3<V> carrier[is_aflip ? gather_group / W : 1];
     for (Index b = begin; b < end; ++b) {
       const ParticleBlock& block = a.blocks[b];
       load_tile<Real, K, Set>(block, channel_source(a, channel_v_new), v_new);
-      if constexpr (is_flip)
+      if constexpr (has_change)
         load_tile<Real, K, Set>(block, channel_source(a, channel_change), change);
       NearColliders<Real> near;
       find_near_particles<Set>(near, c, block.key);
@@ -291,10 +295,11 @@ struct SweepsFor {
           Gathered<V>& g = gathered[q / W];
           fetch_ahead(a, group, q);
           load(p, group.record + q);
-          s.template set<!is_mls, !is_flip>(0, p.offset, p.cell);
+          s.template set<!is_mls, is_affine>(0, p.offset, p.cell);
           kernels::gather<Set, transfer>(s, 0, smaller(W, group.count - q), c.inv_h, v_new, change,
                                          g);
           report.note_strain_rate(g);
+          if constexpr (is_aflip) carrier[q / W] = carrier_velocity(p, g, c);
           strain(p.F_E, g.grad_v, c.dt);
         }
         project(group, batch, c, update, report);
@@ -304,7 +309,11 @@ struct SweepsFor {
           Vec3<V> v = particle_velocity<transfer>(p, g, c.alpha);
           collide_particles<Set>(p, v, group.used_lanes(q), block.key, c, near,
                                  report.sum.contact_work, loads);
-          finish(a, group, q, p, v, g, block.key, report);
+          if constexpr (!is_aflip)
+            carrier[0] = carrier_of(c, v, g);
+          else if (near.count > 0)
+            collide_carriers<Set>(p, carrier[q / W], block.key, c, near);
+          finish(a, group, q, p, v, carrier[is_aflip ? q / W : 0], block.key, report);
         }
       });
       loads.give(a.loads, a.load_unit);
@@ -401,10 +410,12 @@ struct SweepsFor {
       load_tile<Real, K, Set>(a.blocks[b], channel_source(a, channel_v_new), v_new);
       load_tile<Real, K, Set>(a.blocks[b], channel_source(a, channel_change), change);
       each_batch(a, a.blocks[b], [&](const auto& group, int q, const Batch& p) {
-        s.template set<!is_mls, !is_flip>(0, p.offset, p.cell);
+        s.template set<!is_mls, is_affine>(0, p.offset, p.cell);
         Gathered<V> g{};
         kernels::gather<Set, transfer>(s, 0, smaller(W, group.count - q), a.constants.inv_h, v_new,
                                        change, g);
+        if constexpr (is_aflip)
+          if (a.carrier) keep_carrier(a, group, q, carrier_velocity(p, g, a.constants));
         each_lane(group, q, [&](int l, Index storage) {
           Gathered<Real>& to = a.gathered[storage];
           for (int x = 0; x < 3; ++x) to.v[x] = g.v[x][l], to.change[x] = g.change[x][l];
@@ -468,6 +479,11 @@ struct SweepsFor {
                                a.reports[b].contact_work, loads);
         for (int axis = 0; axis < 3; ++axis) p.v[axis] = v[axis];
         keep(p, group, q);
+        if constexpr (is_aflip) {
+          Vec3<V> carrier = carrier_lanes(a, group, q);
+          collide_carriers<Set>(p, carrier, key, a.constants, near);
+          keep_carrier(a, group, q, carrier);
+        }
       });
       loads.give(a.loads, a.load_unit);
     }
@@ -479,8 +495,13 @@ struct SweepsFor {
       report.sum = a.reports[b];
       each_batch(a, a.blocks[b], [&](const auto& group, int q, Batch& p) {
         load_whole(p, group.record + q);
-        finish(a, group, q, p, Vec3<V>{p.v[0], p.v[1], p.v[2]}, gathered_lanes(a, group, q),
-               a.blocks[b].key, report);
+        const Vec3<V> v{p.v[0], p.v[1], p.v[2]};
+        Vec3<V> carrier;
+        if constexpr (is_aflip)
+          carrier = carrier_lanes(a, group, q);
+        else
+          carrier = carrier_of(a.constants, v, gathered_lanes(a, group, q));
+        finish(a, group, q, p, v, carrier, a.blocks[b].key, report);
       });
       a.reports[b] = report.reduced();
     }
@@ -616,6 +637,32 @@ struct SweepsFor {
   }
 
   template <class G>
+  NEVE_INLINE static Vec3<V> carrier_lanes(const Args& a, const G& group, int q) {
+    Vec3<V> carrier{};
+    each_lane(group, q, [&](int l, Index storage) {
+      for (int x = 0; x < 3; ++x)
+        carrier[x][l] =
+            a.carrier[3 * static_cast<std::size_t>(storage) + static_cast<std::size_t>(x)];
+    });
+    return carrier;
+  }
+  template <class G>
+  NEVE_INLINE static void keep_carrier(const Args& a, const G& group, int q,
+                                       const Vec3<V>& carrier) {
+    each_lane(group, q, [&](int l, Index storage) {
+      for (int x = 0; x < 3; ++x)
+        a.carrier[3 * static_cast<std::size_t>(storage) + static_cast<std::size_t>(x)] =
+            carrier[x][l];
+    });
+  }
+
+  /// The velocity that moves particles, of all transfers but AFLIP.
+  NEVE_INLINE static Vec3<V> carrier_of(const StepConstants<Real>& c, const Vec3<V>& v,
+                                        const Gathered<V>& g) {
+    return c.moves_with_grid ? Vec3<V>{g.v[0], g.v[1], g.v[2]} : v;
+  }
+
+  template <class G>
   NEVE_INLINE static void keep(const Batch& p, const G& group, int q) {
     store<true>(p, group.record + q, group.count - q);
   }
@@ -652,7 +699,7 @@ struct SweepsFor {
   /// Step 10 and the checks of finished particles, and the records written.
   template <class G>
   NEVE_INLINE static void finish(const Args& a, const G& group, int q, Batch& p, const Vec3<V>& v,
-                                 const Gathered<V>& g, std::uint64_t key, ReportLanes& report) {
+                                 const Vec3<V>& carrier, std::uint64_t key, ReportLanes& report) {
     for (int axis = 0; axis < 3; ++axis) p.v[axis] = v[axis];
     report.note_speed(v);
     // NaN passes through neither max nor min, so it is looked for by itself.
@@ -662,11 +709,9 @@ struct SweepsFor {
     const unsigned used = group.used(q);
     const unsigned lost = used & ~lane_bits(sum - sum == V{});
     report.sum.not_finite += static_cast<std::uint32_t>(__builtin_popcount(lost));
-    const bool with_grid = a.constants.moves_with_grid;
-    const Vec3<V> carrier = with_grid ? Vec3<V>{g.v[0], g.v[1], g.v[2]} : v;
     Location<I> at;
     move<K>(p, carrier, a.constants.dt_over_h, used, report.sum, at);
-    store<!is_flip>(p, group.record + q, group.count - q);
+    store<is_affine>(p, group.record + q, group.count - q);
     // Most particles stay in their block.
     I has_left{};
     for (int axis = 0; axis < 3; ++axis)
@@ -693,10 +738,12 @@ const Sweeps<Real>& choose_sweeps(int nodes, TransferKind transfer) {
   if (nodes == cubic) {
     if (transfer == flip) return SweepsFor<Real, cubic, flip, Set>::table;
     if (transfer == apic) return SweepsFor<Real, cubic, apic, Set>::table;
+    if (transfer == aflip) return SweepsFor<Real, cubic, aflip, Set>::table;
     return SweepsFor<Real, cubic, mls, Set>::table;
   }
   if (transfer == flip) return SweepsFor<Real, quadratic, flip, Set>::table;
   if (transfer == apic) return SweepsFor<Real, quadratic, apic, Set>::table;
+  if (transfer == aflip) return SweepsFor<Real, quadratic, aflip, Set>::table;
   return SweepsFor<Real, quadratic, mls, Set>::table;
 }
 

@@ -19,7 +19,7 @@ struct ParticleArrays {
   std::vector<double> V0;         ///< m3; empty or 0: estimated (the paper's step 2)
   std::vector<Mat3d> F_E;         ///< default I
   std::vector<double> J_P;        ///< det F_P, default 1
-  std::vector<Mat3d> C;           ///< 1/s, APIC and MLS, default 0
+  std::vector<Mat3d> C;           ///< 1/s, all transfers but FLIP, default 0
   std::vector<int> material;      ///< index, default 0
   std::vector<double> stiffness;  ///< factor on mu and lambda, default 1
   std::vector<double> threshold;  ///< factor on theta_c and theta_s, default 1

@@ -10,7 +10,8 @@
 namespace neve::sim {
 
 enum class Kernel { cubic, quadratic };
-enum class Transfer { flip, apic, mls };
+/// The last two are FLIP with an affine velocity; ASFLIP also lets separating snow go.
+enum class Transfer { flip, apic, mls, aflip, asflip };
 enum class Advect { particle, pic };
 /// Points that a step stops at colliders: particles, by impulses through the grid, or nodes, as in
 /// the paper.
@@ -24,9 +25,13 @@ struct SolverSettings {
   double cell_size = 0.02;        ///< h, m
   Kernel kernel = Kernel::cubic;  ///< B-spline of the transfers
   Transfer transfer = Transfer::flip;
-  double flip_ratio = 0.95;          ///< the paper's alpha
-  double flip_reference_dt = 5e-4;   ///< s; 0: alpha acts per step, as in the paper
-  Advect advect = Advect::particle;  ///< move particles with v_p (paper) or the grid's velocity
+  double flip_ratio = 0.95;         ///< the paper's alpha
+  double flip_reference_dt = 5e-4;  ///< s; 0: alpha acts per step, as in the paper
+  /// Move particles with v_p (paper) or the grid's velocity; AFLIP and ASFLIP know themselves.
+  Advect advect = Advect::particle;
+  /// ASFLIP: shares of a particle's own velocity that it moves with, compressed and separating, and
+  /// J_E from which it separates.
+  double separation_min = 0, separation_max = 1, separation_J_E = 0.999;
   ContactAt contact_at = ContactAt::particles;
   TimeStep time_step = TimeStep::adaptive;
   double dt = 2e-4;                  ///< s; used by fixed steps
@@ -55,6 +60,8 @@ struct SolverSettings {
   /// only planes along the periodic axes make sense.
   Vec3i period{0, 0, 0};
 
+  bool is_flip() const { return transfer == Transfer::flip; }
+  bool has_affine_velocity() const { return transfer != Transfer::flip; }
   bool takes_stages() const { return !bypass.empty() || resting_mass > 0; }
   bool is_contact_at_particles() const { return contact_at == ContactAt::particles; }
   bool is_implicit() const { return beta > 0 && !skips(Stage::implicit_solve); }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/staged.h"
+#include "tests/support/elastic.h"
 #include "tests/support/meshes.h"
 #include "tests/support/snow.h"
 #include "tests/support/temporary_folder.h"
@@ -39,14 +40,22 @@ TEST(Rest, SnowRestsOnPlanesAnywhereInACellAndTilted) {
   };
   Method in_double = flip_cubic();
   in_double.precision = Precision::real64;
-  const std::vector<Case> cases{{0, 0, flip_cubic()},     {0.5, 0, flip_cubic()},
-                                {0.95, 0, flip_cubic()},  {0.25, 20, flip_cubic()},
-                                {0.75, 45, flip_cubic()}, {0.05, 0, mls_quadratic()},
-                                {0, 30, mls_quadratic()}, {0.25, 10, in_double}};
+  const std::vector<Case> cases{{0, 0, flip_cubic()},
+                                {0.5, 0, flip_cubic()},
+                                {0.95, 0, flip_cubic()},
+                                {0.25, 20, flip_cubic()},
+                                {0.75, 45, flip_cubic()},
+                                {0.05, 0, mls_quadratic()},
+                                {0, 30, mls_quadratic()},
+                                {0.25, 10, in_double},
+                                {0, 0, {Transfer::aflip}},
+                                {0.25, 20, {Transfer::aflip}},
+                                {0, 0, {Transfer::asflip}},
+                                {0.25, 20, {Transfer::asflip}},
+                                {0.5, 0, {Transfer::asflip, Kernel::quadratic}}};
   for (const Case& c : cases) {
     const RestingPlace place = tilted_place(c.fraction, c.degrees);
-    const bool is_flip = c.method.transfer == Transfer::flip;
-    const std::string what = std::string(is_flip ? "FLIP cubic" : "MLS quadratic") + ", " +
+    const std::string what = name(c.method.transfer) + " " + name(c.method.kernel) + ", " +
                              in_digits(c.fraction) + " cells, " + in_digits(c.degrees) + "°" +
                              (c.method.precision == Precision::single ? "" : ", double");
     verify_rest(what, rest_on(plane(place.point, place.normal, 0.5), place, c.method));
@@ -55,9 +64,9 @@ TEST(Rest, SnowRestsOnPlanesAnywhereInACellAndTilted) {
 
 /// Contact is a part of the solve: springs of contacts bring it to the same place.
 TEST(Rest, SnowRestsOnPlanesInSemiImplicitSteps) {
-  for (Method method : {flip_cubic(), mls_quadratic()}) {
+  for (Method method : {flip_cubic(), mls_quadratic(), Method{Transfer::asflip}}) {
     method.beta = 1;
-    const std::string transfer = method.transfer == Transfer::flip ? "FLIP cubic" : "MLS quadratic";
+    const std::string transfer = name(method.transfer) + " " + name(method.kernel);
     for (const auto& [fraction, degrees] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.25, 20.0}}) {
       const RestingPlace place = tilted_place(fraction, degrees);
       verify_rest(
@@ -152,7 +161,8 @@ TEST(Rest, SnowInACornerTouchesBothSides) {
 }
 
 TEST(Impact, SnowStopsAtTheSurface) {
-  for (const Method& method : {flip_cubic(), mls_quadratic()})
+  for (const Method& method :
+       {flip_cubic(), mls_quadratic(), Method{Transfer::aflip}, Method{Transfer::asflip}})
     for (const double speed : {1.0, 5.0, 20.0, 40.0}) {
       const RestingPlace place = tilted_place(0.2, 0);
       ParticleArrays p = block_at(place, 0.5);
@@ -166,10 +176,9 @@ TEST(Impact, SnowStopsAtTheSurface) {
         deepest = std::max(deepest, simulation.summary().max_depth);
       }
       EXPECT_FALSE(simulation.divergence());
-      const bool is_flip = method.transfer == Transfer::flip;
       verify_at_most(
           {"impact",
-           std::string(is_flip ? "FLIP cubic" : "MLS quadratic") + ", " + in_digits(speed) + " m/s",
+           name(method.transfer) + " " + name(method.kernel) + ", " + in_digits(speed) + " m/s",
            "deepest particle, cells"},
           0.1, deepest / rest_cell);
     }

@@ -63,4 +63,23 @@ TEST(SpinningCube, SpinningCubeLosesWithFlipWhatTheReferenceLoses) {
   }
 }
 
+/// What a piece of snow in the air keeps of its turning in half a second.
+TEST(SpinningBall, SpinningBallKeepsItsSpinWithAnyTransferButFlip) {
+  for (const Transfer transfer :
+       {Transfer::flip, Transfer::apic, Transfer::mls, Transfer::aflip, Transfer::asflip})
+    for (const Kernel kernel : {Kernel::cubic, Kernel::quadratic})
+      for (const double radius : {3.0, 5.0, 8.0}) {
+        const BallSpin r = spin_ball(transfer, kernel, radius);
+        const Quantity q{
+            "rotation",
+            name(transfer) + (transfer == Transfer::flip ? " 0.95, " : ", ") + name(kernel),
+            "radius of " + in_digits(radius) + " cells"};
+        if (transfer == Transfer::flip)
+          keep_number(q, r.momentum);
+        else
+          verify_at_least(q, 0.99, r.momentum);
+        EXPECT_LE(r.largest_energy, 1.01) << q.line << ", " << q.name;
+      }
+}
+
 }  // namespace

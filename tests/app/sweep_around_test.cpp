@@ -56,7 +56,7 @@ TEST(ValuesAround, OtherValuesHaveEqualDistancesAndStayInRange) {
 }
 
 TEST(ValuesAround, ChoicesTakeAllValuesAndVectorsAreStretched) {
-  EXPECT_EQ(around("solver.transfer"), "[\"flip\", \"apic\", \"mls\"]");
+  EXPECT_EQ(around("solver.transfer"), "[\"flip\", \"apic\", \"mls\", \"aflip\", \"asflip\"]");
   EXPECT_EQ(around("body.ball.velocity"),
             "[[0, -2, 0], [0, -3, 0], [0, -4, 0], [0, -5, 0], [0, -6, 0]]");
   EXPECT_THROW(around("body.ball.angular_velocity"), app::scene::toml::UsageError);

@@ -212,8 +212,8 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
       {"[axis]\n\"body.bull.velocity\" = [[0, 0, 0]]\n",
        "4:1 there is no body \"bull\"; expected \"ball\""},
       {"[axis]\n\"solver.transfer\" = [\"flip\", \"apix\"]\n",
-       "4:30 solver.transfer = \"apix\"; expected \"flip\", \"apic\" or \"mls\"; did you mean "
-       "\"apic\"?"},
+       "4:30 solver.transfer = \"apix\"; expected \"flip\", \"apic\", \"mls\", \"aflip\" or "
+       "\"asflip\"; did you mean \"apic\"?"},
       {"[axis]\n\"seed\" = { linspce = [1, 2], num = 2 }\n",
        "4:12 unknown key \"linspce\" in [seed]; did you mean \"linspace\"?"},
       {"[axis]\n\"fps\" = { linspace = [1, 2] }\n",

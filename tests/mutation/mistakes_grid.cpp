@@ -43,7 +43,7 @@ constexpr const char* aside =
     "          for (int axis = 0; axis < 3; ++axis)\n"
     "            aside[axis] = p.offset[axis] < Real(0.5) ? p.offset[axis] + Real(0.5)\n"
     "                                                     : p.offset[axis] - Real(0.5);\n"
-    "          s.template set<!is_mls, !is_flip>(0, aside, p.cell);\n";
+    "          s.template set<!is_mls, is_affine>(0, aside, p.cell);\n";
 
 }  // namespace
 
@@ -180,11 +180,11 @@ std::vector<Mistake> transfer_mistakes() {
       {"half_a_cell_between_transfers",
        "half a cell between P2G and G2P",
        {{sweeps,
-         "s.template set<!is_mls, !is_flip>(0, p.offset, p.cell);\n"
+         "s.template set<!is_mls, is_affine>(0, p.offset, p.cell);\n"
          "          kernels::gather<Set, transfer>(s, 0",
          std::string(aside) + "          kernels::gather<Set, transfer>(s, 0"},
         {sweeps,
-         "s.template set<!is_mls, !is_flip>(0, p.offset, p.cell);\n"
+         "s.template set<!is_mls, is_affine>(0, p.offset, p.cell);\n"
          "        Gathered<V> g{};",
          std::string(aside) + "        Gathered<V> g{};"}},
        {},

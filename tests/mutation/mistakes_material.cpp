@@ -39,8 +39,8 @@ std::vector<Edit> stress_of(const std::string& code) {
       "        V P[9];  // tau F^-T\n"
       "        multiply(t, 3, 1, inverse, 3, 1, P);\n";
   return {
-      {"sim/kernels/sweeps.h", "load_for_scatter<has_affine, has_force>(p, group.record + q);",
-       "load_for_scatter<has_affine, has_force>(p, group.record + q);\n"
+      {"sim/kernels/sweeps.h", "load_for_scatter<with_affine, has_force>(p, group.record + q);",
+       "load_for_scatter<with_affine, has_force>(p, group.record + q);\n"
        "    RecordReader<V, I>(group.record + q, p).deformation();"},
       {"sim/kernels/sweeps.h",
        "      if constexpr (has_force)\n"

@@ -184,6 +184,8 @@ std::vector<Change> changes() {
       {"apic", [](World& w) { w.settings.transfer = Transfer::apic; }},
       {"mls", [](World& w) { w.settings.transfer = Transfer::mls; }},
       {"flip", [](World& w) { w.settings.transfer = Transfer::flip; }},
+      {"aflip", [](World& w) { w.settings.transfer = Transfer::aflip; }},
+      {"asflip", [](World& w) { w.settings.transfer = Transfer::asflip; }},
       {"quadratic", [](World& w) { w.settings.kernel = Kernel::quadratic; }},
       {"pic", [](World& w) { w.settings.advect = Advect::pic, w.settings.flip_ratio = 0; }},
       {"short steps", [](World& w) { w.settings.max_dt = 1e-8; }},
@@ -369,9 +371,21 @@ TEST(Apply, FlipHasNoAffineVelocities) {
   world.settings.transfer = Transfer::mls;
   world.apply_to(simulation);
   EXPECT_EQ(largest_C(), affine);
+  world.settings.transfer = Transfer::asflip;
+  world.apply_to(simulation);
+  EXPECT_EQ(largest_C(), affine);
   world.settings.transfer = Transfer::flip;
   world.apply_to(simulation);
   EXPECT_EQ(largest_C(), 0);
+  // Particles keep their velocities: those of APIC come with the first step, these fit at once.
+  world.settings.transfer = Transfer::apic;
+  world.apply_to(simulation);
+  EXPECT_EQ(largest_C(), 0);
+  world.settings.transfer = Transfer::flip;
+  world.apply_to(simulation);
+  world.settings.transfer = Transfer::asflip;
+  world.apply_to(simulation);
+  EXPECT_GT(largest_C(), 0.5 * affine);
 }
 
 /// Stopped in the middle of a frame, applied to or not, the frame ends with the step it would have

@@ -105,7 +105,7 @@ TEST_P(RasterizeTest, MeansArePartitionsOfTheParticles) {
 
 INSTANTIATE_TEST_SUITE_P(All, RasterizeTest,
                          testing::Combine(testing::Values(Transfer::flip, Transfer::apic,
-                                                          Transfer::mls),
+                                                          Transfer::mls, Transfer::aflip),
                                           testing::Values(Precision::single, Precision::real64)));
 
 TEST(Rasterize, BlocksAreSortedAndAroundTheParticles) {

@@ -69,7 +69,9 @@ TEST_P(Save, ARestoredRunContinuesBitForBit) {
 INSTANTIATE_TEST_SUITE_P(All, Save,
                          testing::Values(SaveCase{Transfer::flip, Precision::single},
                                          SaveCase{Transfer::apic, Precision::single},
-                                         SaveCase{Transfer::mls, Precision::real64}));
+                                         SaveCase{Transfer::mls, Precision::real64},
+                                         SaveCase{Transfer::aflip, Precision::real64},
+                                         SaveCase{Transfer::asflip, Precision::single}));
 
 TEST(SavedState, DamagedBytesAreRefusedAndNothingChanges) {
   Simulation simulation = simulate({}, two_materials(), 1);

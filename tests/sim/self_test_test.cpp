@@ -17,7 +17,7 @@ using namespace neve::test;
 TEST(SelfTests, PassWithEveryKernelTransferPrecisionAndInstructionSet) {
   at_every_simd_level([] {
     const std::vector<checks::SelfTestCase> cases = checks::all_self_test_cases();
-    ASSERT_EQ(cases.size(), 12u);
+    ASSERT_EQ(cases.size(), 20u);
     for (const checks::SelfTestResult& result : checks::self_tests(cases))
       EXPECT_TRUE(result.passed) << result.name << ": " << result.detail;
   });

@@ -42,7 +42,8 @@ bool has(const std::vector<std::string>& sentences, const std::string& part) {
 TEST(Watch, WatchIsSilentInARightRun) {
   for (const Precision precision : {Precision::single, Precision::real64})
     for (const Kernel kernel : {Kernel::cubic, Kernel::quadratic})
-      for (const Transfer transfer : {Transfer::flip, Transfer::apic, Transfer::mls}) {
+      for (const Transfer transfer :
+           {Transfer::flip, Transfer::apic, Transfer::mls, Transfer::aflip, Transfer::asflip}) {
         Drop drop(precision);
         drop.settings.kernel = kernel;
         drop.settings.transfer = transfer;

@@ -1,5 +1,5 @@
 #pragma once
-/// Every combination of transfer, kernel, advection and precision.
+/// Every combination of transfer, kernel, advection and precision that is one of its own.
 
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ struct Combination {
     s.precision = precision;
   }
   std::string name() const {
-    static constexpr const char* transfers[] = {"flip", "apic", "mls"};
+    static constexpr const char* transfers[] = {"flip", "apic", "mls", "aflip", "asflip"};
     return std::string(transfers[static_cast<int>(transfer)]) +
            (kernel == sim::Kernel::cubic ? " cubic" : " quadratic") +
            (advect == sim::Advect::pic ? " pic" : " particle") +
@@ -31,11 +31,16 @@ struct Combination {
 
 inline std::vector<Combination> all_combinations() {
   std::vector<Combination> all;
-  for (const auto transfer : {sim::Transfer::flip, sim::Transfer::apic, sim::Transfer::mls})
+  using enum sim::Transfer;
+  for (const auto transfer : {flip, apic, mls, aflip, asflip})
     for (const auto kernel : {sim::Kernel::cubic, sim::Kernel::quadratic})
       for (const auto advect : {sim::Advect::particle, sim::Advect::pic})
-        for (const auto precision : {sim::Precision::single, sim::Precision::real64})
+        for (const auto precision : {sim::Precision::single, sim::Precision::real64}) {
+          // The affine FLIPs know themselves how particles move.
+          const bool has_own_way = transfer == aflip || transfer == asflip;
+          if (has_own_way && advect == sim::Advect::pic) continue;
           all.push_back({transfer, kernel, advect, precision});
+        }
   return all;
 }
 

@@ -19,7 +19,8 @@ using sim::Transfer;
 using sim::Vec3d;
 
 inline std::string name(Transfer transfer) {
-  return transfer == Transfer::flip ? "FLIP" : transfer == Transfer::apic ? "APIC" : "MLS";
+  static constexpr const char* names[] = {"FLIP", "APIC", "MLS", "AFLIP", "ASFLIP"};
+  return names[static_cast<int>(transfer)];
 }
 inline std::string name(Kernel kernel) {
   return kernel == Kernel::cubic ? "cubic" : "quadratic";
