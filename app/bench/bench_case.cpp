@@ -28,8 +28,10 @@ const char* name(BenchMethod method) {
       return "mls_quadratic";
     case BenchMethod::flip_cubic:
       return "flip_cubic";
-    default:
+    case BenchMethod::apic_cubic:
       return "apic_cubic";
+    default:
+      return "asflip_cubic";
   }
 }
 
@@ -39,12 +41,20 @@ sim::SolverSettings bench_settings(BenchMethod method, sim::Precision precision)
   s.time_step = sim::TimeStep::fixed;
   s.dt = 1e-4;
   s.precision = precision;
-  if (method == BenchMethod::mls_quadratic) {
-    s.transfer = sim::Transfer::mls;
-    s.kernel = sim::Kernel::quadratic;
-  } else {
-    s.transfer = method == BenchMethod::flip_cubic ? sim::Transfer::flip : sim::Transfer::apic;
-    s.kernel = sim::Kernel::cubic;
+  s.kernel = sim::Kernel::cubic;
+  switch (method) {
+    case BenchMethod::mls_quadratic:
+      s.transfer = sim::Transfer::mls;
+      s.kernel = sim::Kernel::quadratic;
+      break;
+    case BenchMethod::flip_cubic:
+      s.transfer = sim::Transfer::flip;
+      break;
+    case BenchMethod::apic_cubic:
+      s.transfer = sim::Transfer::apic;
+      break;
+    default:
+      s.transfer = sim::Transfer::asflip;
   }
   return s;
 }

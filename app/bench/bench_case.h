@@ -15,7 +15,7 @@ struct BenchCase {
   sim::seeding::Flow flow{};
 };
 
-enum class BenchMethod { mls_quadratic, flip_cubic, apic_cubic };
+enum class BenchMethod { mls_quadratic, flip_cubic, apic_cubic, asflip_cubic };
 
 /// "mls_quadratic"
 const char* name(BenchMethod method);

@@ -29,6 +29,7 @@ constexpr BenchMethod main_methods[] = {BenchMethod::mls_quadratic, BenchMethod:
 constexpr Variant variants[] = {{BenchMethod::mls_quadratic, sim::Precision::single},
                                 {BenchMethod::flip_cubic, sim::Precision::single},
                                 {BenchMethod::apic_cubic, sim::Precision::single},
+                                {BenchMethod::asflip_cubic, sim::Precision::single},
                                 {BenchMethod::mls_quadratic, sim::Precision::real64},
                                 {BenchMethod::flip_cubic, sim::Precision::real64}};
 

@@ -32,9 +32,10 @@ TEST_F(Cli, BenchSimNamesWhatScriptsDependOn) {
   const auto result = neve({"bench", "sim", "--quick", "--json", "--threads", "2"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   auto rows = by_name(result.output);
-  for (const char* name : {"mls_quadratic_float", "flip_cubic_float", "apic_cubic_float",
-                           "mls_quadratic_double", "flip_cubic_double", "memory_per_particle",
-                           "spray_time", "spray_memory", "flow_time", "scaling_2_threads"})
+  for (const char* name :
+       {"mls_quadratic_float", "flip_cubic_float", "apic_cubic_float", "asflip_cubic_float",
+        "mls_quadratic_double", "flip_cubic_double", "memory_per_particle", "spray_time",
+        "spray_memory", "flow_time", "scaling_2_threads"})
     ASSERT_TRUE(rows.contains(name)) << name;
   EXPECT_TRUE(rows["flip_cubic_float"].contains("ratio_to_naive"));
   EXPECT_FALSE(rows["apic_cubic_float"].contains("ratio_to_naive")) << "there is no naive APIC";
