@@ -196,34 +196,6 @@ void check_implicit_steps(const sim::SolverSettings& s, const Checkup& checkup,
          "try more iterations, or a smaller dt"});
 }
 
-void check_damping(const scene::Scene& scene, const Checkup& checkup,
-                   std::vector<Finding>& findings) {
-  const sim::SolverSettings& s = scene.solver;
-  if (s.transfer != sim::Transfer::flip) return;
-  const double frame = 1 / scene.fps;
-  const double steps = std::max(1.0, frame / std::max(checkup.dt_start, 1e-12));
-  const double kept = std::pow(sim::engine::flip_share(s, frame / steps), steps);
-  if (s.flip_reference_dt == 0)
-    findings.push_back(
-        {Severity::warning, "solver.flip_reference_dt",
-         fmt::format("flip_ratio acts per step: with about {} steps a frame {} of "
-                     "the finest motion is left after a frame, and less with smaller "
-                     "steps",
-                     rough_text(steps), percent_text(kept)),
-         "flip_reference_dt = 5e-4 makes damping independent of dt"});
-  // The defaults are no news.
-  const sim::SolverSettings usual;
-  const bool is_usual =
-      s.flip_ratio == usual.flip_ratio && s.flip_reference_dt == usual.flip_reference_dt;
-  if (s.flip_reference_dt != 0 && !is_usual)
-    findings.push_back(
-        {Severity::note, "solver.flip_ratio",
-         percent_text(kept) +
-             " of the finest motion (a cell or less) is left after a "
-             "frame; bodies fly on undamped, but pieces a few cells across stop turning",
-         ""});
-}
-
 /// Share of a moment's particles that a camera does not see.
 double share_outside(const scene::CameraSettings& camera, double aspect,
                      const setup::Moment& moment) {
@@ -344,7 +316,7 @@ void check_steps(const scene::Scene& scene, const Checkup& checkup,
   if (scene.solver.time_step == sim::TimeStep::fixed)
     check_fixed_steps(scene.solver, checkup, findings);
   check_implicit_steps(scene.solver, checkup, findings);
-  check_damping(scene, checkup, findings);
+  check_transfer(scene, checkup, findings);
   const double c = checkup.start.max_sound_speed;
   if (c > 0 && checkup.impact_speed > line(Law::impact_mach) * c)
     findings.push_back({Severity::warning, "",

@@ -35,7 +35,7 @@ void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings,
 void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& findings);
 
 /// Settings without effect: bodies and emitters in sinks, keyframes after the last frame, slices
-/// that no layer shows, a dt that adaptive steps do not use.
+/// that no layer shows, a dt that adaptive steps do not use, settings of another transfer.
 /// @param coarsening the N of --coarsen
 void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings);
 
@@ -58,7 +58,11 @@ void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene
 void check_motion(const scene::Scene& scene, const Checkup& checkup,
                   std::vector<Finding>& findings);
 
-/// Fixed steps against the limits, damping of the transfer per frame, speed against sound.
+/// Damping of the transfer per frame, spin that it stops.
+void check_transfer(const scene::Scene& scene, const Checkup& checkup,
+                    std::vector<Finding>& findings);
+
+/// Fixed steps against the limits, the transfer, speed against sound.
 void check_steps(const scene::Scene& scene, const Checkup& checkup, std::vector<Finding>& findings);
 
 /// Snow that cameras named by the scene do not see. @param scene resolved

@@ -83,6 +83,26 @@ void check_slices(const scene::Scene& scene, std::vector<Finding>& findings) {
            fmt::format("add \"arrows\" or \"heatmap\" to view.{}.layers", view.name)});
 }
 
+/// Settings that the transfer of a scene does not read.
+void check_transfer_settings(const sim::SolverSettings& s, std::vector<Finding>& findings) {
+  const sim::SolverSettings usual;
+  const bool is_asflip = s.transfer == sim::Transfer::asflip;
+  const auto unused = [&](const char* key, const char* why, const char* advice) {
+    findings.push_back({Severity::warning, std::string("solver.") + key,
+                        fmt::format("{} has no effect: {}", key, why), advice});
+  };
+  if (s.advect != usual.advect && (is_asflip || s.transfer == sim::Transfer::aflip))
+    unused("advect",
+           "aflip moves particles with the grid's velocity, asflip with a share of theirs",
+           "remove it; solver.separation_min and separation_max are asflip's shares");
+  if (is_asflip) return;
+  const char* const why = "it is for transfer = \"asflip\"";
+  const char* const advice = "remove it, or set solver.transfer = \"asflip\"";
+  if (s.separation_min != usual.separation_min) unused("separation_min", why, advice);
+  if (s.separation_max != usual.separation_max) unused("separation_max", why, advice);
+  if (s.separation_J_E != usual.separation_J_E) unused("separation_J_E", why, advice);
+}
+
 }  // namespace
 
 void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings) {
@@ -107,6 +127,7 @@ void check_unused(const scene::Scene& scene, double coarsening, std::vector<Find
         {Severity::warning, "solver.collide_after_solve",
          "collide_after_solve has no effect: it is for semi-implicit steps with contact at nodes",
          "solver.collide_after_solve = false"});
+  check_transfer_settings(s, findings);
 }
 
 }  // namespace neve::app::health

@@ -117,6 +117,36 @@ TEST_F(Check, CheckNamesParametersWithoutEffect) {
   EXPECT_EQ(with("[[view]]\nname = \"side\"\n[view.slice]\nisolines = 6\n"),
             Findings{"warning view.side.slice"});
   EXPECT_EQ(with("[[view]]\nname = \"slice\"\n[view.slice]\nisolines = 6\n"), Findings{});
+  EXPECT_EQ(findings(scene("transfer = \"aflip\"\nadvect = \"pic\"", floor_plane)),
+            Findings{"warning solver.advect"});
+  EXPECT_EQ(findings(scene("transfer = \"aflip\"\nseparation_max = 0.5", floor_plane)),
+            Findings{"warning solver.separation_max"});
+  EXPECT_EQ(findings(scene("separation_min = 0.5\nseparation_J_E = 0.99", floor_plane)),
+            (Findings{"warning solver.separation_min", "warning solver.separation_J_E"}));
+  EXPECT_EQ(findings(scene("transfer = \"asflip\"\nseparation_min = 0.5\nseparation_max = 0.9\n"
+                           "separation_J_E = 0.99",
+                           floor_plane)),
+            Findings{});
+}
+
+TEST_F(Check, CheckSaysThatFlipStopsSpinAndWhatKeepsIt) {
+  const auto said = [&](const std::string& solver, const std::string& spin) {
+    folder.write("scene.toml", scene(solver, floor_plane));
+    const auto result =
+        neve({"check", "scene.toml", "--set", "body.ball.angular_velocity=" + spin});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return result.output;
+  };
+  const std::string flip = said("", "[0,0,8]");
+  EXPECT_TRUE(contains(flip, "FLIP halves its spin every")) << flip;
+  EXPECT_TRUE(contains(flip, "solver.transfer = \"asflip\" or \"aflip\" keeps it")) << flip;
+  EXPECT_FALSE(contains(said("", "[0,0,0]"), "spin"));
+  EXPECT_FALSE(contains(said("transfer = \"asflip\"", "[0,0,8]"), "spin"));
+  EXPECT_FALSE(contains(said("flip_ratio = 1", "[0,0,8]"), "spin"));
+  const std::string damped = said("flip_ratio = 0.9", "[0,0,0]");
+  EXPECT_TRUE(contains(damped, "pieces a few cells across stop turning")) << damped;
+  EXPECT_TRUE(contains(damped, "transfer = \"asflip\" or \"aflip\" keeps them turning")) << damped;
+  EXPECT_FALSE(contains(said("flip_ratio = 0.9\ntransfer = \"aflip\"", "[0,0,0]"), "stop turning"));
 }
 
 TEST_F(Check, CheckFindsSnowThatMeetsNothing) {

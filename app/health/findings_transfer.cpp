@@ -1,0 +1,91 @@
+/// Findings about the transfer between particles and grid: what it damps.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/health/findings.h"
+#include "app/setup/snow_pieces.h"
+#include "app/support/text.h"
+#include "sim/engine/time_step.h"
+
+namespace neve::app::health {
+
+namespace {
+
+constexpr const char* keeps_turning = "transfer = \"asflip\" or \"aflip\" keeps them turning";
+
+bool has_flip_ratio(sim::Transfer transfer) {
+  return transfer != sim::Transfer::apic && transfer != sim::Transfer::mls;
+}
+
+/// Share of the motion of a cell or less that a frame leaves.
+double kept_after(double seconds, const sim::SolverSettings& s, const Checkup& checkup) {
+  const double steps = std::max(1.0, seconds / std::max(checkup.dt_start, 1e-12));
+  return std::pow(sim::engine::flip_share(s, seconds / steps), steps);
+}
+
+void check_damping(const scene::Scene& scene, const Checkup& checkup,
+                   std::vector<Finding>& findings) {
+  const sim::SolverSettings& s = scene.solver;
+  if (!has_flip_ratio(s.transfer)) return;
+  const double frame = 1 / scene.fps;
+  const double kept = kept_after(frame, s, checkup);
+  if (s.flip_reference_dt == 0)
+    findings.push_back(
+        {Severity::warning, "solver.flip_reference_dt",
+         fmt::format("flip_ratio acts per step: with about {} steps a frame {} of "
+                     "the finest motion is left after a frame, and less with smaller "
+                     "steps",
+                     rough_text(std::max(1.0, frame / std::max(checkup.dt_start, 1e-12))),
+                     percent_text(kept)),
+         "flip_reference_dt = 5e-4 makes damping independent of dt"});
+  // The defaults are no news.
+  const sim::SolverSettings usual;
+  const bool is_usual =
+      s.flip_ratio == usual.flip_ratio && s.flip_reference_dt == usual.flip_reference_dt;
+  if (s.flip_reference_dt == 0 || is_usual) return;
+  const bool stops = s.transfer == sim::Transfer::flip && s.flip_ratio < 1;
+  findings.push_back({Severity::note, "solver.flip_ratio",
+                      percent_text(kept) +
+                          " of the finest motion (a cell or less) is left after a frame; bodies "
+                          "fly on undamped" +
+                          (stops ? ", but pieces a few cells across stop turning" : ""),
+                      stops ? keeps_turning : ""});
+}
+
+/// FLIP damps rotation at the rate of its finest motion, twice over the square of the radius in
+/// cells: measured on balls of 3 to 8 cells, see docs/transfers.md.
+void check_spin(const scene::Scene& scene, const Checkup& checkup, std::vector<Finding>& findings) {
+  const sim::SolverSettings& s = scene.solver;
+  if (s.transfer != sim::Transfer::flip) return;
+  constexpr double second = 1, longest = 0.5;
+  const double rate = -std::log(kept_after(second, s, checkup));
+  if (!(rate > 0)) return;
+  for (const setup::SnowPiece& piece : setup::snow_pieces(scene)) {
+    constexpr const char* body = "body.";
+    if (piece.angular_velocity.norm() == 0 || !piece.address.starts_with(body)) continue;
+    const double radius = std::cbrt(3 * piece.volume / (4 * std::numbers::pi)) / s.cell_size;
+    const double half_life = std::numbers::ln2 * radius * radius / (2 * rate);
+    if (!(half_life < longest)) continue;
+    findings.push_back(
+        {Severity::note, piece.address + ".angular_velocity",
+         fmt::format("{} has the volume of a ball of {} cells in radius: FLIP halves its spin "
+                     "every {} s",
+                     display_name("body", piece.address.substr(std::string(body).size())),
+                     rough_text(radius), rough_text(half_life)),
+         "solver.transfer = \"asflip\" or \"aflip\" keeps it"});
+  }
+}
+
+}  // namespace
+
+void check_transfer(const scene::Scene& scene, const Checkup& checkup,
+                    std::vector<Finding>& findings) {
+  check_damping(scene, checkup, findings);
+  check_spin(scene, checkup, findings);
+}
+
+}  // namespace neve::app::health
