@@ -60,7 +60,6 @@ struct SolverSettings {
   /// only planes along the periodic axes make sense.
   Vec3i period{0, 0, 0};
 
-  bool is_flip() const { return transfer == Transfer::flip; }
   bool has_affine_velocity() const { return transfer != Transfer::flip; }
   bool takes_stages() const { return !bypass.empty() || resting_mass > 0; }
   bool is_contact_at_particles() const { return contact_at == ContactAt::particles; }

@@ -34,14 +34,17 @@ std::string run(const fs::path& program, const std::vector<std::string>& argumen
   return result.output;
 }
 
-void compile(const std::string& source, const fs::path& object, const fs::path& copies) {
+void compile(const std::string& source, const fs::path& object, const fs::path& copies,
+             const Mistake& mistake) {
   const fs::path copy = copies / source;
   const fs::path from = fs::exists(copy) ? copy : fs::path(NEVE_SOURCE_DIR) / source;
-  run(NEVE_COMPILER,
-      {"-std=c++20", "-O1", "-w", "-ffp-contract=off", "-fno-math-errno", "-fno-var-tracking",
-       "-I" + copies.string(), "-I" NEVE_SOURCE_DIR, "-isystem", NEVE_EIGEN, "-c", from.string(),
-       "-o", object.string()},
-      copies);
+  std::vector<std::string> command{
+      "-std=c++20",        "-O1", "-w", "-ffp-contract=off", "-fno-math-errno",
+      "-fno-var-tracking", "-c",  "-o", object.string(),     from.string()};
+  command.insert(command.end(),
+                 {"-I" + copies.string(), "-I" NEVE_SOURCE_DIR, "-isystem", NEVE_EIGEN});
+  if (mistake.is_of_asflip()) command.emplace_back("-DNEVE_PROBE_ASFLIP");
+  run(NEVE_COMPILER, command, copies);
 }
 
 /// Copies the files that a mistake changes, changed.
@@ -70,7 +73,7 @@ std::vector<std::string> strings(const app::Json& json) {
 }  // namespace
 
 Laboratory::Laboratory(const fs::path& folder) : folder_(folder), kernels_(folder / "kernels.o") {
-  compile(kernels, kernels_, folder_);
+  compile(kernels, kernels_, folder_, Mistake{});
 }
 
 Finding Laboratory::examine(const Mistake& mistake) const {
@@ -82,7 +85,7 @@ Finding Laboratory::examine(const Mistake& mistake) const {
     std::vector<std::string> objects;
     const auto add = [&](const std::string& source) {
       objects.push_back((copies / (fs::path(source).stem().string() + ".o")).string());
-      compile(source, objects.back(), copies);
+      compile(source, objects.back(), copies, mistake);
     };
     // Headers with mistakes are those of the kernels; other files see the right ones.
     if (std::all_of(mistake.edits.begin(), mistake.edits.end(), is_source))

@@ -21,6 +21,8 @@ struct Mistake {
   std::vector<std::string> arguments = {};  ///< of the probe
   std::string note = {};  ///< where the edit is not the mistake to the letter: what it is instead
   bool is_in_fast_run = false;  ///< the others are built by ./neve test --all only
+
+  bool is_of_asflip() const { return arguments == std::vector<std::string>{"--asflip"}; }
 };
 
 /// All of them, in the order of the table.
@@ -32,6 +34,7 @@ std::vector<Mistake> stress_mistakes();
 std::vector<Mistake> volume_mistakes();
 std::vector<Mistake> plasticity_mistakes();
 std::vector<Mistake> transfer_mistakes();
+std::vector<Mistake> affine_mistakes();
 std::vector<Mistake> solve_mistakes();
 std::vector<Mistake> step_mistakes();
 

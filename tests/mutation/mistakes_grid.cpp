@@ -193,6 +193,37 @@ std::vector<Mistake> transfer_mistakes() {
   };
 }
 
+std::vector<Mistake> affine_mistakes() {
+  const char* about = "of `transfer = \"asflip\"`";
+  return {
+      {"own_velocity_after_the_step",
+       "ASFLIP: own velocity against the grid's after the step, v_p − Σ w v_new",
+       {{stages, "own[a] = (p.v[a] - (g.v[a] - g.change[a])) * alpha;",
+         "own[a] = (p.v[a] - g.v[a]) * alpha;"}},
+       {"--asflip"},
+       about,
+       true},
+      {"affine_velocity_transposed",
+       "ASFLIP: momentum of Cᵀ (x_i − x_p) instead of C (x_i − x_p)",
+       {{stages,
+         "  return {{{{factor * C[0], factor * C[3], factor * C[6], V{}}},\n"
+         "           {{factor * C[1], factor * C[4], factor * C[7], V{}}},\n"
+         "           {{factor * C[2], factor * C[5], factor * C[8], V{}}}}};",
+         "  return {{{{factor * C[0], factor * C[1], factor * C[2], V{}}},\n"
+         "           {{factor * C[3], factor * C[4], factor * C[5], V{}}},\n"
+         "           {{factor * C[6], factor * C[7], factor * C[8], V{}}}}};"}},
+       {"--asflip"},
+       about,
+       true},
+      {"moves_before_the_step",
+       "ASFLIP: moves by the velocity before the step",
+       {{stages, "v[a] = fused(beta, own[a], g.v[a]);",
+         "v[a] = fused(beta, own[a], g.v[a] - g.change[a]);"}},
+       {"--asflip"},
+       about},
+  };
+}
+
 std::vector<Mistake> step_mistakes() {
   return {
       {"dt_1_1200", "dt = 1/1200 s", {}, {"--dt", "0.000833333"}},
@@ -205,7 +236,7 @@ std::vector<Mistake> all_mistakes() {
   std::vector<Mistake> all;
   for (const auto& part :
        {gradient_mistakes(), stress_mistakes(), volume_mistakes(), plasticity_mistakes(),
-        transfer_mistakes(), solve_mistakes(), step_mistakes()})
+        transfer_mistakes(), affine_mistakes(), solve_mistakes(), step_mistakes()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -1,5 +1,6 @@
 /// Runs the self-tests and two scenes under the watch, and prints which checks fired, as JSON.
-///   probe [--dt SECONDS]   the first scene only, with this step
+///   probe --dt SECONDS   the first scene only, with this step
+///   probe --asflip       with that transfer
 /// Scene A throws a snowball on a sticky floor, scene B spins an elastic box in free flight: some
 /// mistakes show only in what turns.
 
@@ -31,8 +32,9 @@ void add(Scene& scene, const Vec3d& x, const Vec3d& v, double m) {
   scene.particles.m.push_back(m);
 }
 
-SolverSettings settings(double dt) {
+SolverSettings settings(double dt, Transfer transfer) {
   SolverSettings s;
+  s.transfer = transfer;
   s.cell_size = 0.05;
   s.precision = Precision::real64;
   s.time_step = TimeStep::fixed;
@@ -40,11 +42,11 @@ SolverSettings settings(double dt) {
   return s;
 }
 
-Scene drop(double dt) {
+Scene drop(double dt, Transfer transfer) {
   constexpr double radius = 0.14, pi = 3.14159265358979;
   constexpr int count = 300;
   Scene scene;
-  scene.settings = settings(dt);
+  scene.settings = settings(dt, transfer);
   scene.steps = 400;
   shapes::Collider floor;
   floor.shape.form = shapes::Plane{{0, 0, 0}, {0, 1, 0}};
@@ -60,11 +62,11 @@ Scene drop(double dt) {
   return scene;
 }
 
-Scene spin() {
+Scene spin(Transfer transfer) {
   constexpr int count = 220;
   const Vec3d half(0.16, 0.1, 0.08), omega(2, 1, 8);
   Scene scene;
-  scene.settings = settings(1e-3);
+  scene.settings = settings(1e-3, transfer);
   scene.settings.gravity.setZero();
   scene.steps = 600;
   scene.material.model = Model::corotated;
@@ -108,8 +110,8 @@ std::string list(const std::vector<std::string>& names) {
   return "[" + text + "]";
 }
 
-std::vector<std::string> failed_self_tests() {
-  const checks::SelfTestCase one[] = {{Kernel::cubic, Transfer::flip, Precision::real64}};
+std::vector<std::string> failed_self_tests(Transfer transfer) {
+  const checks::SelfTestCase one[] = {{Kernel::cubic, transfer, Precision::real64}};
   std::vector<std::string> failed;
   for (const checks::SelfTestResult& result : checks::self_tests(one)) {
     if (result.passed) continue;
@@ -124,7 +126,9 @@ std::vector<std::string> failed_self_tests() {
 int main(int argc, char** argv) {
   const bool has_dt = argc == 3 && std::string(argv[1]) == "--dt";
   const double dt = has_dt ? std::atof(argv[2]) : 1e-4;
-  std::cout << "{\"self_tests\": " << list(failed_self_tests())
-            << ", \"drop\": " << list(watch(drop(dt)))
-            << ", \"spin\": " << (has_dt ? "[]" : list(watch(spin()))) << "}\n";
+  const bool is_asflip = argc == 2 && std::string(argv[1]) == "--asflip";
+  const Transfer transfer = is_asflip ? Transfer::asflip : Transfer::flip;
+  std::cout << "{\"self_tests\": " << list(failed_self_tests(transfer))
+            << ", \"drop\": " << list(watch(drop(dt, transfer)))
+            << ", \"spin\": " << (has_dt ? "[]" : list(watch(spin(transfer)))) << "}\n";
 }

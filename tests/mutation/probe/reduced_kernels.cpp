@@ -1,16 +1,23 @@
-/// The kernels that the probe needs, and no more: double, cubic spline, FLIP, the baseline
-/// instruction set. Compiled in seconds, where all of them take minutes. Takes the place of
-/// sim/kernels/simd.cpp and sim/kernels/instruction_sets/ when it is linked before the library.
+/// The kernels that the probe needs, and no more: double, cubic spline, FLIP (NEVE_PROBE_ASFLIP:
+/// ASFLIP), the baseline instruction set. Compiled in seconds, where all of them take minutes.
+/// Takes the place of sim/kernels/simd.cpp and sim/kernels/instruction_sets/ when it is linked
+/// before the library.
 
 #include "sim/kernels/implicit_sweeps.h"
 #include "sim/kernels/sweeps.h"
 
 namespace neve::sim::kernels {
 
+#ifdef NEVE_PROBE_ASFLIP
+constexpr TransferKind probed = TransferKind::aflip;
+#else
+constexpr TransferKind probed = TransferKind::flip;
+#endif
+
 template <>
 const Sweeps<double>& KernelSet<BaselineSet>::sweeps(int nodes, TransferKind transfer, double) {
-  if (nodes != cubic_nodes || transfer != TransferKind::flip) __builtin_trap();
-  return SweepsFor<double, cubic_nodes, TransferKind::flip, BaselineSet>::table;
+  if (nodes != cubic_nodes || transfer != probed) __builtin_trap();
+  return SweepsFor<double, cubic_nodes, probed, BaselineSet>::table;
 }
 template <>
 const Sweeps<float>& KernelSet<BaselineSet>::sweeps(int, TransferKind, float) {
