@@ -63,6 +63,21 @@ TEST(SpinningCube, SpinningCubeLosesWithFlipWhatTheReferenceLoses) {
   }
 }
 
+TEST(SpinningCube, SpinningCubeKeepsItsAngularMomentumNearlyWithAflipAndAsflip) {
+  for (const Transfer transfer : {Transfer::aflip, Transfer::asflip})
+    for (const Kernel kernel : {Kernel::cubic, Kernel::quadratic})
+      for (const double flip_ratio : {0.95, 1.0}) {
+        SpinCase c;
+        c.transfer = transfer;
+        c.kernel = kernel;
+        c.flip_ratio = flip_ratio;
+        const SpinResult r = spin_cube(c);
+        verify_near({"spin", c.label(), "L / start after 0.5 s"}, 1, r.momentum, 0.01);
+        verify_at_most({"spin", c.label(), "largest energy / start"}, 1.02, r.largest_energy);
+        keep_number({"spin", c.label(), "energy / start after 0.5 s"}, r.energy);
+      }
+}
+
 /// What a piece of snow in the air keeps of its turning in half a second.
 TEST(SpinningBall, SpinningBallKeepsItsSpinWithAnyTransferButFlip) {
   for (const Transfer transfer :

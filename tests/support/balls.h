@@ -12,8 +12,8 @@ struct BallsCase {
   sim::Precision precision = sim::Precision::real64;
 
   std::string label() const {
-    return name(transfer) +
-           (transfer == Transfer::flip ? (flip_ratio == 1 ? " 1.0" : " 0.95") : "") + ", " +
+    const bool has_ratio = transfer != Transfer::apic && transfer != Transfer::mls;
+    return name(transfer) + (has_ratio ? (flip_ratio == 1 ? " 1.0" : " 0.95") : "") + ", " +
            name(kernel) + (precision == sim::Precision::single ? ", float" : "");
   }
 };
