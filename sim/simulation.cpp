@@ -89,6 +89,10 @@ std::vector<std::uint8_t> Simulation::save() const {
 void Simulation::restore(std::span<const std::uint8_t> bytes) {
   stepper_->restore(bytes);
 }
+void Simulation::restore_healthy(std::span<const std::uint8_t> bytes) {
+  stepper_->require_healthy(bytes);
+  stepper_->restore(bytes);
+}
 void Simulation::set_dt_scale(double scale) {
   stepper_->set_dt_scale(scale);
 }

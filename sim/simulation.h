@@ -124,6 +124,11 @@ class Simulation {
   /// @throws SavedStateError for bytes that no such simulation saved; nothing has changed then
   void restore(std::span<const std::uint8_t> bytes);
 
+  /// As restore(), of bytes from a file: no healthy run has these numbers, however well they fit
+  /// together. A diverged state is no healthy one.
+  /// @throws SavedStateError that names the number; nothing has changed then
+  void restore_healthy(std::span<const std::uint8_t> bytes);
+
   /// Sets the factor of every dt that the settings choose from now on, (0, 1]: a run that broke a
   /// rule continues with shorter steps.
   void set_dt_scale(double scale);

@@ -56,32 +56,6 @@ std::vector<fs::path> list(const fs::path& folder) {
   return files;
 }
 
-Checkpoint read(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = read_file(file, largest_file);
-  const auto refuse = [](const char* why) { throw std::runtime_error(why); };
-  if (bytes.size() < sizeof magic + 2 * number_bytes) refuse("is truncated");
-  if (std::memcmp(bytes.data(), magic, sizeof magic) != 0)
-    refuse("is not a checkpoint of this version");
-  const std::size_t body = bytes.size() - number_bytes;
-  std::uint64_t length = 0, sum = 0;
-  std::memcpy(&length, bytes.data() + sizeof magic, number_bytes);
-  std::memcpy(&sum, bytes.data() + body, number_bytes);
-  if (sum != checksum({bytes.data(), body})) refuse("is damaged: its checksum is wrong");
-  const std::size_t json_start = sizeof magic + number_bytes;
-  if (length > body - json_start) refuse("is damaged");
-  const Json json = parse_json(std::span(bytes.data() + json_start, length));
-  Checkpoint c;
-  c.identity = json.at("identity").get<std::string>();
-  c.simd = json.at("simd").get<std::string>();
-  c.frame = json.at("frame").get<int>();
-  c.steps = json.at("steps").get<std::size_t>();
-  if (c.frame < 0 || c.frame > max_frame) refuse("has an impossible frame");
-  c.progress = json.at("progress");
-  c.state.assign(bytes.begin() + static_cast<std::ptrdiff_t>(json_start + length),
-                 bytes.begin() + static_cast<std::ptrdiff_t>(body));
-  return c;
-}
-
 }  // namespace
 
 void check_checkpoint_folder(const fs::path& folder) {
@@ -92,7 +66,7 @@ void check_checkpoint_folder(const fs::path& folder) {
                 "rename it, choose another folder with --out, or --checkpoint-every 0");
 }
 
-void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
+std::vector<std::uint8_t> encode_checkpoint(const Checkpoint& checkpoint) {
   const std::string text = to_text({{"identity", checkpoint.identity},
                                     {"simd", checkpoint.simd},
                                     {"frame", checkpoint.frame},
@@ -107,6 +81,36 @@ void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
   append_bytes(bytes, checkpoint.state.data(), checkpoint.state.size());
   const std::uint64_t sum = checksum(bytes);
   append_bytes(bytes, &sum, number_bytes);
+  return bytes;
+}
+
+Checkpoint parse_checkpoint(std::span<const std::uint8_t> bytes) {
+  const auto refuse = [](const char* why) { throw std::runtime_error(why); };
+  if (bytes.size() < sizeof magic + 2 * number_bytes) refuse("is truncated");
+  if (std::memcmp(bytes.data(), magic, sizeof magic) != 0)
+    refuse("is not a checkpoint of this version");
+  const std::size_t body = bytes.size() - number_bytes;
+  std::uint64_t length = 0, sum = 0;
+  std::memcpy(&length, bytes.data() + sizeof magic, number_bytes);
+  std::memcpy(&sum, bytes.data() + body, number_bytes);
+  if (sum != checksum({bytes.data(), body})) refuse("is damaged: its checksum is wrong");
+  const std::size_t json_start = sizeof magic + number_bytes;
+  if (length > body - json_start) refuse("is damaged");
+  const Json json = parse_json(bytes.subspan(json_start, length));
+  Checkpoint c;
+  c.identity = json.at("identity").get<std::string>();
+  c.simd = json.at("simd").get<std::string>();
+  c.frame = json.at("frame").get<int>();
+  c.steps = json.at("steps").get<std::size_t>();
+  if (c.frame < 0 || c.frame > max_frame) refuse("has an impossible frame");
+  c.progress = json.at("progress");
+  c.state.assign(bytes.begin() + static_cast<std::ptrdiff_t>(json_start + length),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(body));
+  return c;
+}
+
+void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
+  const std::vector<std::uint8_t> bytes = encode_checkpoint(checkpoint);
   std::error_code error;
   const bool is_new = !fs::exists(folder_of(folder), error);
   make_folder(folder_of(folder));
@@ -121,7 +125,8 @@ FoundCheckpoint find_checkpoint(const fs::path& folder, int before) {
   FoundCheckpoint found;
   for (const fs::path& file : list(folder)) {
     try {
-      Checkpoint checkpoint = read(file);
+      Checkpoint checkpoint = parse_checkpoint(read_file(file, largest_file));
+      checkpoint.file = file;
       if (checkpoint.frame >= before) continue;
       found.checkpoint = std::move(checkpoint);
       return found;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,17 @@ struct Checkpoint {
   std::size_t steps = 0;            ///< since the start of the run
   Json progress;                    ///< further data of the run
   std::vector<std::uint8_t> state;  ///< sim::Simulation::save
+  std::filesystem::path file{};     ///< that it was read from
 };
 
 /// @throws IoError when something that is no folder has the place of the checkpoints
 void check_checkpoint_folder(const std::filesystem::path& folder);
+
+/// The bytes of a file.
+std::vector<std::uint8_t> encode_checkpoint(const Checkpoint& checkpoint);
+
+/// @throws std::runtime_error for bytes that are no whole checkpoint
+Checkpoint parse_checkpoint(std::span<const std::uint8_t> bytes);
 
 /// Writes one and removes all but the newest two, in this order. It is on the disk when this
 /// returns. @throws IoError

@@ -8,6 +8,7 @@
 #include "app/output/picture_writer.h"
 #include "app/output/sequence.h"
 #include "app/run/picture_record.h"
+#include "app/run/resumed_run.h"
 #include "app/run/run_json.h"
 #include "app/run/walk.h"
 #include "app/scene/check.h"
@@ -77,14 +78,12 @@ int go_to_checkpoint(const ExportJob& job, ChangePlayer& player, sim::Simulation
   const output::Checkpoint& checkpoint = *found.checkpoint;
   const bool is_ours = read_run_json(job.run_folder).value("version", "") == version;
   if (!is_ours || checkpoint.simd != simulation.simd()) return 0;
+  const ResumedRun run = read_resumed_run(checkpoint);
   try {
-    player.go_to(checkpoint.steps);
-    simulation.restore(checkpoint.state);
-  } catch (const sim::SavedStateError& error) {
-    throw Error(
-        exit_invalid_scene,
-        job.run_folder.string() + ": error: the checkpoint is not of this run: " + error.what(),
-        job.run_folder.string(), "remove its folder checkpoint; the run starts at frame 0");
+    player.go_to(run.steps);
+    restore_frame(run, job.run.scene.fps, simulation);
+  } catch (const std::exception& error) {
+    refuse_checkpoint(run.file, error);
   }
   progress.note("continues from the checkpoint of frame " + std::to_string(checkpoint.frame));
   return checkpoint.frame;

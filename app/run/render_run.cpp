@@ -116,7 +116,11 @@ int RenderRun::begin() {
 int RenderRun::resume(Resumption found) {
   record_.frames = std::move(found.run.frames);
   record_.files = std::move(found.run.files);
-  exporter_.resume(found.run.exports, found.run.frame);
+  try {
+    exporter_.resume(found.run.exports, found.run.frame);
+  } catch (const std::exception& error) {
+    refuse_checkpoint(found.run.file, error);
+  }
   note_exports();
   result_.has_checkpoint = true;
   const int reached = found.run.frame;

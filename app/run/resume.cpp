@@ -55,42 +55,6 @@ std::string other_thing(const std::filesystem::path& folder, const PictureRecord
   return "its scene, changes, views, quality or version differ";
 }
 
-Json history_json(std::span<const picture::PlotSample> history) {
-  Json rows = Json::array();
-  for (const picture::PlotSample& s : history)
-    rows.push_back({number_or_null(s.time), number_or_null(s.kinetic_energy),
-                    number_or_null(s.elastic_energy), number_or_null(s.max_speed), s.steps,
-                    static_cast<int>(s.limit)});
-  return rows;
-}
-
-sim::DtLimit limit_of(int number) {
-  if (number < 0 || number >= sim::dt_limit_count)
-    throw std::runtime_error("a limit of the time step has no such number");
-  return static_cast<sim::DtLimit>(number);
-}
-
-std::vector<picture::PlotSample> history_of(const Json& rows) {
-  std::vector<picture::PlotSample> history;
-  for (const Json& row : rows) {
-    picture::PlotSample s;
-    s.time = row.at(0).get<double>();
-    s.kinetic_energy = row.at(1).get<double>();
-    s.elastic_energy = row.at(2).get<double>();
-    s.max_speed = row.at(3).get<double>();
-    s.steps = row.at(4).get<std::size_t>();
-    s.limit = limit_of(row.at(5).get<int>());
-    history.push_back(s);
-  }
-  return history;
-}
-
-/// The checksum of the checkpoint is right, so it was written so.
-[[noreturn]] void fail_resuming(const std::exception& error) {
-  throw scene::toml::UsageError("--resume", std::string("cannot resume: ") + error.what(),
-                                "remove --resume to start the run again");
-}
-
 /// Adds the frames that run.json lists and the checkpoint does not: those after it, and all of an
 /// earlier version. Their pictures stay listed until they are made again.
 void add_listed(const Json& run_json, ResumedRun& run) {
@@ -122,16 +86,7 @@ void Checkpoints::write(int frame, const sim::AdvanceReport& advance,
   checkpoint.simd = simulation_.simd();
   checkpoint.frame = frame;
   checkpoint.steps = simulation_.steps();
-  checkpoint.progress = {{"advance", output::to_json(advance)},
-                         {"history", history_json(history)},
-                         {"retries", Json::array()},
-                         {"frames", Json::array()},
-                         {"files", record.files},
-                         {"exports", record.exports}};
-  for (const sim::Retry& retry : record.retries)
-    checkpoint.progress["retries"].push_back(output::to_json(retry));
-  for (const FrameRecord& made : record.frames)
-    if (made.frame <= frame) checkpoint.progress["frames"].push_back(to_json(made));
+  checkpoint.progress = progress_json(frame, advance, history, record);
   checkpoint.state = simulation_.save();
   output::write_checkpoint(folder_, checkpoint);
 }
@@ -149,28 +104,6 @@ void Checkpoints::check_identity(const output::Checkpoint& checkpoint) {
                       " if this machine has it");
 }
 
-ResumedRun Checkpoints::read(const output::Checkpoint& checkpoint) const {
-  ResumedRun run;
-  run.frame = checkpoint.frame;
-  run.steps = checkpoint.steps;
-  run.state = checkpoint.state;
-  try {
-    run.advance = output::advance_report(checkpoint.progress.at("advance"));
-    run.history = history_of(checkpoint.progress.at("history"));
-    for (const Json& retry : checkpoint.progress.at("retries"))
-      run.retries.push_back(output::retry_record(retry));
-    // Checkpoints of earlier versions have neither.
-    if (!checkpoint.progress.contains("frames")) return run;
-    for (const Json& frame : checkpoint.progress.at("frames"))
-      run.frames.push_back(frame_record(frame));
-    run.files = file_hashes(checkpoint.progress);
-    run.exports = checkpoint.progress.value("exports", Json());
-  } catch (const std::exception& error) {
-    fail_resuming(error);
-  }
-  return run;
-}
-
 std::optional<Resumption> Checkpoints::find(const std::vector<std::string>& views,
                                             setup::FrameRange frames) {
   const output::FoundCheckpoint found = output::find_checkpoint(folder_);
@@ -181,7 +114,7 @@ std::optional<Resumption> Checkpoints::find(const std::vector<std::string>& view
     return std::nullopt;
   }
   check_identity(*found.checkpoint);
-  Resumption resumption{read(*found.checkpoint), {}, {}};
+  Resumption resumption{read_resumed_run(*found.checkpoint), {}, {}};
   ResumedRun& run = resumption.run;
   add_listed(read_run_json(folder_), run);
   const int last = std::min(run.frame, frames.last);
@@ -192,7 +125,7 @@ std::optional<Resumption> Checkpoints::find(const std::vector<std::string>& view
     for (Flaw& flaw : export_flaws(folder_, run.exports, run.files, run.frame, resumption.flawed))
       flaws.push_back(std::move(flaw));
   } catch (const std::exception& error) {
-    fail_resuming(error);
+    refuse_checkpoint(run.file, error);
   }
   std::sort(resumption.flawed.begin(), resumption.flawed.end());
   if (flaws.empty()) return resumption;
@@ -200,34 +133,24 @@ std::optional<Resumption> Checkpoints::find(const std::vector<std::string>& view
   const int before = resumption.flawed.front();
   if (const auto older = output::find_checkpoint(folder_, before).checkpoint;
       older && older->identity == identity_)
-    resumption.repair = read(*older);
+    resumption.repair = read_resumed_run(*older);
   progress_.warning(folder_.string() + ": " + flaw_text(flaws) + "; made again from frame " +
                     std::to_string(resumption.repair ? resumption.repair->frame : 0) + " on");
   return resumption;
 }
 
-void Checkpoints::check_place(const ResumedRun& run) const {
-  const double fps = player_.scene().fps, time = simulation_.time();
-  const double start = run.frame / fps, end = (run.frame + 1.0) / fps, rounding = 1e-9 * (1 + end);
-  if (simulation_.steps() != run.steps || !(time >= start - rounding && time <= end + rounding))
-    throw std::runtime_error("the checkpoint of frame " + std::to_string(run.frame) +
-                             " holds another moment");
-}
-
 void Checkpoints::go_to(const ResumedRun& run) {
   try {
     player_.go_to(run.steps);
-    if (!run.state.empty()) {
-      simulation_.restore(run.state);
-      return check_place(run);
-    }
+    if (!run.state.empty()) return restore_frame(run, player_.scene().fps, simulation_);
     const std::optional<output::Checkpoint> again = output::find_checkpoint(folder_).checkpoint;
     if (!again || again->identity != identity_ || again->steps != run.steps)
-      throw std::runtime_error("the checkpoint in " + folder_.string() + " has changed");
-    simulation_.restore(again->state);
-    check_place(run);
+      throw std::runtime_error("it has changed");
+    ResumedRun whole = run;
+    whole.state = again->state;
+    restore_frame(whole, player_.scene().fps, simulation_);
   } catch (const std::exception& error) {
-    fail_resuming(error);
+    refuse_checkpoint(run.file, error);
   }
 }
 

@@ -7,29 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "app/output/checkpoint.h"
-#include "app/picture/plots.h"
 #include "app/run/picture_record.h"
-#include "app/run/run_json.h"
+#include "app/run/resumed_run.h"
 #include "app/support/progress.h"
 #include "sim/simulation.h"
 
 namespace neve::app::run {
-
-/// A run as it was when the checkpoint was written.
-struct ResumedRun {
-  int frame = 0;  ///< the last one that was reached
-  std::size_t steps = 0;
-  std::vector<std::uint8_t> state;           ///< of the simulation; empty: as the newest checkpoint
-  sim::AdvanceReport advance;                ///< steps taken since then
-  std::vector<picture::PlotSample> history;  ///< of all frames reached
-  std::vector<sim::Retry> retries;           ///< so far
-  /// That the run has made, with the hashes of its files. Those up to the checkpoint are from it,
-  /// so that a damaged run.json loses none.
-  std::vector<FrameRecord> frames;
-  FileHashes files;
-  Json exports = Json::array();  ///< as run.json lists them
-};
 
 /// The way back into a run.
 struct Resumption {
@@ -61,12 +44,10 @@ class Checkpoints {
   std::optional<Resumption> find(const std::vector<std::string>& views, setup::FrameRange frames);
 
   /// Brings the simulation to a checkpoint that was found.
+  /// @throws IoError when no healthy run has such a state
   void go_to(const ResumedRun& run);
 
  private:
-  ResumedRun read(const output::Checkpoint& checkpoint) const;
-  /// That the restored state is of this frame. @throws std::runtime_error
-  void check_place(const ResumedRun& run) const;
   void check_identity(const output::Checkpoint& checkpoint);
 
   std::filesystem::path folder_;

@@ -178,6 +178,11 @@ void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
   watch_.forget();
 }
 
+template <class Real>
+void Engine<Real>::require_healthy(std::span<const std::uint8_t> bytes) const {
+  engine::require_healthy(bytes, state_, flow_);
+}
+
 // ---- queries ------------------------------------------------------------------------------------
 
 template <class Real>

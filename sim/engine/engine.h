@@ -22,6 +22,7 @@ class Engine final : public Stepper {
   void apply(const SolverSettings& settings, const std::vector<Material>& materials,
              const std::vector<shapes::Collider>& colliders) override;
   void restore(std::span<const std::uint8_t> bytes) override;
+  void require_healthy(std::span<const std::uint8_t> bytes) const override;
   void set_dt_scale(double scale) override { state_.progress.dt_scale = scale; }
 
   const Progress& progress() const override { return state_.progress; }

@@ -4,7 +4,7 @@
 #include <string>
 #include <type_traits>
 
-#include "sim/engine/records.h"
+#include "sim/engine/saved_numbers.h"
 #include "sim/types/errors.h"
 
 namespace neve::sim::engine {
@@ -79,17 +79,35 @@ void require_same(const SavedHead& found, const SavedHead& expected) {
     refuse_saved("has a different lattice");
 }
 
+/// All but the head.
 template <class Real>
-void require_possible(const std::vector<kernels::Particle<Real>>& records, std::size_t materials,
-                      std::uint64_t next_id) {
-  for (const kernels::Particle<Real>& p : records) {
-    for (const Integer<Real> cell : p.cell)
-      if (cell <= -4 * kernels::block_limit || cell >= 4 * kernels::block_limit)
-        refuse_saved("has particles outside of the lattice");
-    if (static_cast<std::size_t>(p.material()) >= materials ||
-        static_cast<std::uint64_t>(p.id) >= next_id)
-      refuse_saved("names a material or a particle that is not there");
-  }
+SavedNumbers<Real> read_saved(std::span<const std::uint8_t> bytes, const State<Real>& state,
+                              const SnowFlow<Real>& flow) {
+  const std::uint8_t* next = bytes.data();
+  const auto take = [&](void* data, std::size_t size) {
+    if (size > 0) std::memcpy(data, next, size);
+    next += size;
+  };
+  SavedHead head{};
+  if (bytes.size() < sizeof head) refuse_saved("is truncated");
+  take(&head, sizeof head);
+  if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse_saved("is from another version");
+  SavedNumbers<Real> saved;
+  saved.emitters = flow.emitter_states();
+  require_same(head, head_of(state, saved.emitters.size()));
+  std::vector<SavedOffset> offsets(state.colliders.list().size());
+  if (head.particles > bytes.size() / sizeof(kernels::Particle<Real>) ||
+      bytes.size() != sizeof head + sizeof saved.progress +
+                          head.particles * sizeof(kernels::Particle<Real>) + bytes_in(offsets) +
+                          bytes_in(saved.emitters))
+    refuse_saved("has a different length than it says");
+  take(&saved.progress, sizeof saved.progress);
+  saved.records.resize(head.particles);
+  take(saved.records.data(), bytes_in(saved.records));
+  take(offsets.data(), bytes_in(offsets));
+  take(saved.emitters.data(), bytes_in(saved.emitters));
+  for (const SavedOffset& offset : offsets) saved.offsets.push_back(restored(offset));
+  return saved;
 }
 
 }  // namespace
@@ -120,49 +138,34 @@ std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& f
 
 template <class Real>
 void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<Real>& flow) {
-  const std::uint8_t* next = bytes.data();
-  const auto take = [&](void* data, std::size_t size) {
-    if (size > 0) std::memcpy(data, next, size);
-    next += size;
-  };
-  SavedHead head{};
-  Progress progress;
-  if (bytes.size() < sizeof head) refuse_saved("is truncated");
-  take(&head, sizeof head);
-  if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse_saved("is from another version");
-  std::vector<SavedOffset> offsets(state.colliders.list().size());
-  std::vector<seeding::EmitterStream::State> emitters = flow.emitter_states();
-  require_same(head, head_of(state, emitters.size()));
-  if (head.particles > bytes.size() / sizeof(kernels::Particle<Real>) ||
-      bytes.size() != sizeof head + sizeof progress +
-                          head.particles * sizeof(kernels::Particle<Real>) + bytes_in(offsets) +
-                          bytes_in(emitters))
-    refuse_saved("has a different length than it says");
-  take(&progress, sizeof progress);
-  if (progress.next_id < head.particles || progress.next_id > max_ids)
-    refuse_saved("has impossible ids");
-  std::vector<kernels::Particle<Real>> records(head.particles);
-  take(records.data(), bytes_in(records));
-  take(offsets.data(), bytes_in(offsets));
-  take(emitters.data(), bytes_in(emitters));
-  require_possible(records, state.method.materials.size(), progress.next_id);
-
-  state.progress = progress;
-  for (std::size_t k = 0; k < offsets.size(); ++k)
-    state.colliders.set_offset(k, restored(offsets[k]));
-  state.colliders.place(state.method.lattice, progress.colliders_time);
-  flow.restore(emitters);
-  state.particles.replace(records);
-  if (records.empty()) return;
+  SavedNumbers<Real> saved = read_saved(bytes, state, flow);
+  require_consistent(saved, state.method);
+  state.progress = saved.progress;
+  for (std::size_t k = 0; k < saved.offsets.size(); ++k)
+    state.colliders.set_offset(k, saved.offsets[k]);
+  state.colliders.place(state.method.lattice, saved.progress.colliders_time);
+  flow.restore(saved.emitters);
+  state.particles.replace(saved.records);
+  if (saved.records.empty()) return;
   // Keys come from a sweep that also computes the stress, perhaps with another last bit: the
   // records go back as they were.
-  state.refresh(0, records.size());
-  state.particles.records = std::move(records);
+  state.refresh(0, saved.records.size());
+  state.particles.records = std::move(saved.records);
+}
+
+template <class Real>
+void require_healthy(std::span<const std::uint8_t> bytes, const State<Real>& state,
+                     const SnowFlow<Real>& flow) {
+  require_healthy(read_saved(bytes, state, flow), state.method);
 }
 
 template std::vector<std::uint8_t> save(const State<float>&, const SnowFlow<float>&);
 template std::vector<std::uint8_t> save(const State<double>&, const SnowFlow<double>&);
 template void restore(std::span<const std::uint8_t>, State<float>&, SnowFlow<float>&);
 template void restore(std::span<const std::uint8_t>, State<double>&, SnowFlow<double>&);
+template void require_healthy(std::span<const std::uint8_t>, const State<float>&,
+                              const SnowFlow<float>&);
+template void require_healthy(std::span<const std::uint8_t>, const State<double>&,
+                              const SnowFlow<double>&);
 
 }  // namespace neve::sim::engine

@@ -17,4 +17,10 @@ std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& f
 template <class Real>
 void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<Real>& flow);
 
+/// Refuses numbers that restore() takes and a healthy run never has. For bytes from a file.
+/// @throws SavedStateError that names the number
+template <class Real>
+void require_healthy(std::span<const std::uint8_t> bytes, const State<Real>& state,
+                     const SnowFlow<Real>& flow);
+
 }  // namespace neve::sim::engine

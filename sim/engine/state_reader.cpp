@@ -16,6 +16,9 @@ namespace {
 /// threads.
 constexpr std::size_t chunk = 4096;
 
+/// With more ids, most are of particles that left: no list has a place for each.
+constexpr std::uint64_t most_ids_per_particle = 16;
+
 constexpr std::size_t chunks_of(std::size_t count) {
   return (count + chunk - 1) / chunk;
 }
@@ -40,7 +43,8 @@ template <class Real>
 Ranks StateReader<Real>::ranks() const {
   const std::uint64_t ids = state_.progress.next_id;
   // Ids grow: where none is left out they are ranks themselves.
-  if (ids == state_.particles.size()) return Ranks({});
+  if (ids == state_.particles.size()) return {};
+  if (ids / most_ids_per_particle > state_.particles.size()) return ranks_among_few();
   std::vector<std::uint32_t> rank(ids, 0);
   for (const kernels::Particle<Real>& p : state_.particles.records)
     rank[static_cast<std::size_t>(p.id)] = 1;
@@ -50,7 +54,17 @@ Ranks StateReader<Real>::ranks() const {
     r = sum;
     sum += own;
   }
-  return Ranks(std::move(rank));
+  return Ranks::by_id(std::move(rank));
+}
+
+template <class Real>
+Ranks StateReader<Real>::ranks_among_few() const {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(state_.particles.size());
+  for (const kernels::Particle<Real>& p : state_.particles.records)
+    ids.push_back(static_cast<std::uint32_t>(p.id));
+  std::sort(ids.begin(), ids.end());
+  return Ranks::among(std::move(ids));
 }
 
 template <class Real>

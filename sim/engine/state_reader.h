@@ -1,6 +1,7 @@
 #pragma once
 /// Reads particles back, in id order, and sums over them.
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -15,17 +16,27 @@ namespace neve::sim::engine {
 /// Ranks of particles in id order.
 class Ranks {
  public:
-  /// @param by_id may be empty: ids are ranks
-  explicit Ranks(std::vector<std::uint32_t> by_id) : by_id_(std::move(by_id)) {}
-  bool are_ids() const { return by_id_.empty(); }
+  /// Ids are ranks.
+  Ranks() = default;
+  /// @param by_id  ranks; those of ids without a particle are ignored
+  static Ranks by_id(std::vector<std::uint32_t> by_id) { return {std::move(by_id), {}}; }
+  /// @param ids  of all particles, in order: where most ids are of particles that left
+  static Ranks among(std::vector<std::uint32_t> ids) { return {{}, std::move(ids)}; }
+
+  bool are_ids() const { return by_id_.empty() && ids_.empty(); }
   template <class Real>
   std::size_t operator[](const kernels::Particle<Real>& p) const {
-    const auto id = static_cast<std::size_t>(p.id);
-    return by_id_.empty() ? id : by_id_[id];
+    const auto id = static_cast<std::uint32_t>(p.id);
+    if (are_ids()) return id;
+    if (!by_id_.empty()) return by_id_[id];
+    return static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin());
   }
 
  private:
-  std::vector<std::uint32_t> by_id_;
+  Ranks(std::vector<std::uint32_t> by_id, std::vector<std::uint32_t> ids)
+      : by_id_(std::move(by_id)), ids_(std::move(ids)) {}
+
+  std::vector<std::uint32_t> by_id_, ids_;
 };
 
 template <class Real>
@@ -41,6 +52,7 @@ class StateReader {
   Summary summary() const;
 
  private:
+  Ranks ranks_among_few() const;
   Summary sum_of(std::size_t begin, std::size_t end) const;
   /// Snow at the surfaces of colliders.
   struct AtSurfaces {

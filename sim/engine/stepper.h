@@ -31,6 +31,7 @@ class Stepper {
   virtual void apply(const SolverSettings& settings, const std::vector<Material>& materials,
                      const std::vector<shapes::Collider>& colliders) = 0;
   virtual void restore(std::span<const std::uint8_t> bytes) = 0;
+  virtual void require_healthy(std::span<const std::uint8_t> bytes) const = 0;
   virtual void set_dt_scale(double scale) = 0;
 
   virtual const Progress& progress() const = 0;

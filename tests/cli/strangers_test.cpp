@@ -3,8 +3,10 @@
 #include <sys/stat.h>
 
 #include <chrono>
+#include <cstring>
 
 #include "app/output/checkpoint.h"
+#include "sim/engine/progress.h"
 #include "tests/support/resume.h"
 
 namespace neve::test {
@@ -66,30 +68,80 @@ TEST_F(Strangers, ClosedStandardStreamsAreNoFiles) {
   EXPECT_EQ(neve({"verify", "out/scene"}).exit_code, 0);
 }
 
-TEST_F(Strangers, CheckpointsOfAnotherMomentAreRefused) {
-  ASSERT_EQ(
-      neve({"render", "scene.toml", "--out", "out", "--frames", "0-2", "--no-movie"}).exit_code, 0);
-  const app::output::Checkpoint good = *app::output::find_checkpoint(folder / "out").checkpoint;
-  const auto resumed = [&](const app::output::Checkpoint& forged) {
+/// Resumes from forged checkpoints, whose checksums are right.
+class ForgedCheckpoint : public Strangers {
+ protected:
+  void SetUp() override {
+    Strangers::SetUp();
+    ASSERT_EQ(render({"--frames", "0-2"}).exit_code, 0);
+    good = *app::output::find_checkpoint(folder / "out").checkpoint;
+  }
+  app::output::ProcessResult render(const std::vector<std::string>& more) {
+    std::vector<std::string> words{"render", "scene.toml", "--out", "out", "--no-movie"};
+    words.insert(words.end(), more.begin(), more.end());
+    return neve(words);
+  }
+  template <class Change>
+  void expect_refused(const Change& change, const std::string& word) {
+    app::output::Checkpoint forged = good;
+    change(forged);
     app::output::remove_checkpoints(folder / "out");
     app::output::write_checkpoint(folder / "out", forged);
-    return neve({"render", "scene.toml", "--out", "out", "--resume", "--no-movie"}).exit_code;
+    const auto result = render({"--resume"});
+    EXPECT_EQ(result.exit_code, 6) << word << ": " << result.errors;
+    EXPECT_TRUE(contains(result.errors, word)) << word << ": " << result.errors;
+    EXPECT_TRUE(contains(result.errors, "out/checkpoint/")) << result.errors;
+  }
+  template <class T>
+  void expect_state_refused(std::size_t place, T value, const std::string& word) {
+    expect_refused([&](auto& c) { std::memcpy(c.state.data() + place, &value, sizeof value); },
+                   word);
+  }
+
+  app::output::Checkpoint good;
+};
+
+TEST_F(ForgedCheckpoint, NumbersThatNoRunHasWrittenAreRefusedByName) {
+  using app::Json;
+  expect_refused([](auto& c) { c.frame = 3; }, "history has 3 rows");
+  expect_refused([](auto& c) { c.frame = 2'147'483; }, "history has 3 rows");
+  expect_refused([](auto& c) { c.steps = ~std::size_t{0}; }, "holds another moment");
+  const auto replace = [&](const char* place, const Json& value) {
+    return [=](auto& c) { c.progress[Json::json_pointer(place)] = value; };
   };
-  app::output::Checkpoint forged = good;
-  forged.frame = 3;
-  EXPECT_EQ(resumed(forged), 2);
-  forged.frame = 0;
-  EXPECT_EQ(resumed(forged), 2);
-  forged = good;
-  forged.steps = std::size_t{1} << 60;
-  EXPECT_EQ(resumed(forged), 2);
-  forged = good;
-  forged.progress["history"][0][5] = 77;
-  EXPECT_EQ(resumed(forged), 2);
-  forged = good;
-  forged.progress["frames"] = "none";
-  EXPECT_EQ(resumed(forged), 2);
-  EXPECT_EQ(resumed(good), 0);
+  expect_refused(replace("/history/0/5", 77), "history limit = 77");
+  expect_refused(replace("/history/1/4", -1), "history steps = -1");
+  expect_refused(replace("/history/1/1", nullptr), "history kinetic_energy");
+  expect_refused(replace("/advance/steps", -5), "advance steps = -5");
+  expect_refused(replace("/advance/ruled/0", 1e300), "advance ruled");
+  expect_refused(replace("/frames/1/frame", -5), "frames frame = -5");
+  expect_refused(replace("/frames/1/frame", 0), "frames in order");
+  expect_refused(replace("/frames/2/steps", 1e18), "frames steps");
+  expect_refused(replace("/frames", "none"), "cannot resume");
+  expect_refused(replace("/exports", Json::array({1})), "cannot resume");
+  const std::size_t progress = 56, records = progress + sizeof(sim::engine::Progress);
+  expect_state_refused(progress, -1e308, "time = -1e+308");
+  expect_state_refused(progress, 1e9, "another moment");
+  expect_state_refused(progress + 16, ~std::uint64_t{0}, "steps = ");
+  expect_state_refused(progress + 24, ~std::uint64_t{0}, "next_id = ");
+  expect_state_refused(records + 4 * 27, 64 << 16, "model = 64");
+  expect_state_refused(records + 4 * 27, 255 << 16, "model = 255");
+  app::output::remove_checkpoints(folder / "out");
+  app::output::write_checkpoint(folder / "out", good);
+  EXPECT_EQ(render({"--resume"}).exit_code, 0);
+}
+
+/// The frame of a file's name and JSON, which read() refuses as it refuses a wrong checksum.
+TEST_F(ForgedCheckpoint, ImpossibleFramesAreDamage) {
+  for (const int frame : {-5, 2'147'483'647}) {
+    app::output::Checkpoint forged = good;
+    forged.frame = frame;
+    app::output::remove_checkpoints(folder / "out");
+    app::output::write_checkpoint(folder / "out", forged);
+    const auto result = render({"--resume", "--frames", "0-1"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_TRUE(contains(result.errors, "impossible frame")) << result.errors;
+  }
 }
 
 TEST_F(Strangers, ManifestsWithImpossibleNumbersAreRefused) {
@@ -109,6 +161,10 @@ TEST_F(Strangers, ManifestsWithImpossibleNumbersAreRefused) {
                             "/runs/1/coordinates/0", "/columns"})
     for (const app::Json& value : {app::Json(-7), app::Json(2'000'000'000), app::Json("x")})
       EXPECT_EQ(code(place, value), 3) << place << " " << value;
+  for (const char* place : {"/timeout", "/memory", "/runs/0/memory_bytes", "/runs/1/work"})
+    for (const app::Json& value : {app::Json(-7), app::Json(1e300), app::Json("x")})
+      EXPECT_EQ(code(place, value), 3) << place << " " << value;
+  for (const char* view : {"../../x", "/etc", "", "a/b"}) EXPECT_EQ(code("/view", view), 3) << view;
   EXPECT_EQ(code("/runs", app::Json::array()), 3);
   EXPECT_EQ(code("/title", "the same"), -1) << "unfinished, but read: collect is 0, verify is 9";
 }

@@ -161,12 +161,31 @@ std::optional<Manifest> earlier_manifest(const std::filesystem::path& folder) {
   }
 }
 
-/// Whatever is used as an index or a size later; the file may be from anyone.
-void check_numbers(const Manifest& m) {
+void check(bool is_right, const char* what) {
+  if (!is_right) throw std::runtime_error(what);
+}
+
+/// An amount of seconds, bytes or particles.
+bool is_amount(double x) {
+  return x >= 0 && x <= 1e18;
+}
+
+void check_run(const Manifest& m, const Run& run) {
+  check(run.frames.first >= 0 && run.frames.first <= run.frames.last &&
+            run.frames.last <= output::max_frame,
+        "the frames of a run are impossible");
+  check(is_amount(run.particles) && is_amount(run.memory) && is_amount(run.work),
+        "the particles, memory or work of a run are impossible");
+  if (m.axes.empty() || run.coordinates.empty()) return;
+  check(run.coordinates.size() == m.axes.size(), "a run has no place on each axis");
+  for (std::size_t a = 0; a < m.axes.size(); ++a)
+    check(run.coordinates[a] >= 0 && run.coordinates[a] < static_cast<int>(m.axes[a].values.size()),
+          "a run is beyond the end of an axis");
+}
+
+/// Whatever is used as an index, a size or a path later; the file may be from anyone.
+void check_values(const Manifest& m) {
   constexpr int largest_tile = 1 << 16;
-  const auto check = [](bool is_right, const char* what) {
-    if (!is_right) throw std::runtime_error(what);
-  };
   const auto is_side = [](int size) { return size > 0 && size <= largest_tile; };
   const auto is_axis = [&](int axis) {
     return axis >= -1 && axis < static_cast<int>(m.axes.size());
@@ -174,19 +193,13 @@ void check_numbers(const Manifest& m) {
   check(is_side(m.tile_width) && is_side(m.tile_height), "the size of its tiles is impossible");
   check(m.fps > 0 && m.fps < 1e9, "its frames per second are impossible");
   check(is_axis(m.columns) && is_axis(m.rows) && m.wrap >= 0, "its columns or rows are no axis");
+  check(output::is_plain_name(m.view), "its view has no name of a folder");
+  check(is_amount(m.timeout) && is_amount(m.memory), "its limits are impossible");
   check(!m.runs.empty(), "it has no runs");
   for (std::size_t k = 0; k < m.runs.size(); ++k) {
     const Run& run = m.runs[k];
     check(run.index == static_cast<int>(k), "its runs are not numbered in order");
-    check(run.frames.first >= 0 && run.frames.first <= run.frames.last &&
-              run.frames.last <= output::max_frame,
-          "the frames of a run are impossible");
-    if (m.axes.empty() || run.coordinates.empty()) continue;
-    check(run.coordinates.size() == m.axes.size(), "a run has no place on each axis");
-    for (std::size_t a = 0; a < m.axes.size(); ++a)
-      check(
-          run.coordinates[a] >= 0 && run.coordinates[a] < static_cast<int>(m.axes[a].values.size()),
-          "a run is beyond the end of an axis");
+    check_run(m, run);
   }
 }
 
@@ -314,7 +327,7 @@ Manifest read_manifest(const std::filesystem::path& folder) {
                         axis.value("addresses", std::vector<std::string>{})});
     if (json.contains("varied")) m.varied = json.at("varied").get<std::vector<std::string>>();
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
-    check_numbers(m);
+    check_values(m);
     return m;
   } catch (const std::exception& error) {
     throw Error(exit_invalid_scene,

@@ -1,13 +1,14 @@
 #include "app/sweep/store/prepare.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
-#include <system_error>
 
 #include "app/output/atomic_file.h"
 #include "app/run/picture_record.h"
 #include "app/run/run_json.h"
 #include "app/scene/read.h"
+#include "app/support/errors.h"
 #include "app/support/version.h"
 #include "app/sweep/store/store.h"
 #include "sim/base/hash.h"
@@ -38,11 +39,21 @@ std::vector<std::string> assign_folders(const plan::SweepPlan& plan,
   return folders;
 }
 
+bool has_text(const fs::path& file, const std::string& text) {
+  try {
+    const std::vector<std::uint8_t> bytes = output::read_file(file);
+    return std::equal(bytes.begin(), bytes.end(), text.begin(), text.end());
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+/// The key is that of the planned scene: one that was edited by hand is written again.
 void write_run(const fs::path& folder, const plan::PlannedRun& item, const std::string& key) {
   output::make_folder(folder);
-  std::error_code error;
-  if (read_status(folder).key == key && fs::exists(folder / "scene.toml", error)) return;
-  output::write_file(folder / "scene.toml", scene::write_scene(item.scene));
+  const std::string text = scene::write_scene(item.scene);
+  if (!has_text(folder / "scene.toml", text)) output::write_file(folder / "scene.toml", text);
+  if (read_status(folder).key == key) return;
   RunStatus status;
   status.key = key;
   write_status(folder, status);

@@ -68,6 +68,7 @@ RunStatus read_status(const fs::path& run_folder) {
     status.peak_memory = json.value("peak_memory_bytes", std::uint64_t{0});
     status.pid = json.value("pid", 0L);
     status.host = json.value("host", "");
+    if (!(status.seconds >= 0 && status.seconds < 1e12) || status.attempts < 0) return {};
     if (found != states.end()) status.state = static_cast<RunState>(found - states.begin());
   } catch (const std::exception&) {
     return {};

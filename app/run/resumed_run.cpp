@@ -1,0 +1,137 @@
+#include "app/run/resumed_run.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "app/output/report_json.h"
+#include "app/support/errors.h"
+
+namespace neve::app::run {
+
+namespace {
+
+[[noreturn]] void refuse_value(const std::string& name, const Json& value,
+                               const std::string& expected) {
+  throw std::runtime_error(name + " = " + to_text(value, -1).substr(0, 40) + "; expected " +
+                           expected);
+}
+
+std::size_t count_of(const Json& json, const std::string& name, std::size_t most) {
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > most)
+    refuse_value(name, json, "a whole number from 0 to " + std::to_string(most));
+  return json.get<std::size_t>();
+}
+
+double number_of(const Json& json, const std::string& name) {
+  if (!json.is_number() || !std::isfinite(json.get<double>()))
+    refuse_value(name, json, "a finite number");
+  return json.get<double>();
+}
+
+Json history_json(std::span<const picture::PlotSample> history) {
+  Json rows = Json::array();
+  for (const picture::PlotSample& s : history)
+    rows.push_back({number_or_null(s.time), number_or_null(s.kinetic_energy),
+                    number_or_null(s.elastic_energy), number_or_null(s.max_speed), s.steps,
+                    static_cast<int>(s.limit)});
+  return rows;
+}
+
+/// One row a frame, from 0 to that of the checkpoint.
+std::vector<picture::PlotSample> history_of(const Json& rows, int frame, std::size_t steps) {
+  if (!rows.is_array() || rows.size() != static_cast<std::size_t>(frame) + 1)
+    throw std::runtime_error("history has " + std::to_string(rows.size()) + " rows; expected " +
+                             std::to_string(frame + 1) + ", one a frame");
+  std::vector<picture::PlotSample> history;
+  for (const Json& row : rows) {
+    picture::PlotSample s;
+    s.time = number_of(row.at(0), "history time");
+    s.kinetic_energy = number_of(row.at(1), "history kinetic_energy");
+    s.elastic_energy = number_of(row.at(2), "history elastic_energy");
+    s.max_speed = number_of(row.at(3), "history max_speed");
+    s.steps = count_of(row.at(4), "history steps", steps);
+    s.limit =
+        static_cast<sim::DtLimit>(count_of(row.at(5), "history limit", sim::dt_limit_count - 1));
+    history.push_back(s);
+  }
+  return history;
+}
+
+sim::AdvanceReport advance_of(const Json& json, std::size_t steps) {
+  count_of(json.at("steps"), "advance steps", steps);
+  for (const Json& ruled : json.at("ruled")) count_of(ruled, "advance ruled", steps);
+  for (const char* name : {"dt_min", "dt_max", "seconds"})
+    if (json.contains(name)) number_of(json.at(name), std::string("advance ") + name);
+  return output::advance_report(json);
+}
+
+std::vector<FrameRecord> frames_of(const Json& list, int last, std::size_t steps) {
+  std::vector<FrameRecord> frames;
+  int before = -1;
+  for (const Json& json : list) {
+    const auto number = static_cast<int>(
+        count_of(json.at("frame"), "frames frame", static_cast<std::size_t>(last)));
+    if (number <= before) refuse_value("frames frame", json.at("frame"), "frames in order");
+    count_of(json.at("steps"), "frames steps", steps);
+    frames.push_back(frame_record(json));
+    before = number;
+  }
+  return frames;
+}
+
+}  // namespace
+
+Json progress_json(int frame, const sim::AdvanceReport& advance,
+                   std::span<const picture::PlotSample> history, const RunRecord& record) {
+  Json progress = {{"advance", output::to_json(advance)},
+                   {"history", history_json(history)},
+                   {"retries", Json::array()},
+                   {"frames", Json::array()},
+                   {"files", record.files},
+                   {"exports", record.exports}};
+  for (const sim::Retry& retry : record.retries)
+    progress["retries"].push_back(output::to_json(retry));
+  for (const FrameRecord& made : record.frames)
+    if (made.frame <= frame) progress["frames"].push_back(to_json(made));
+  return progress;
+}
+
+ResumedRun read_resumed_run(const output::Checkpoint& checkpoint) {
+  const Json& progress = checkpoint.progress;
+  ResumedRun run;
+  run.file = checkpoint.file;
+  run.frame = checkpoint.frame;
+  run.steps = checkpoint.steps;
+  run.state = checkpoint.state;
+  try {
+    run.advance = advance_of(progress.at("advance"), run.steps);
+    run.history = history_of(progress.at("history"), run.frame, run.steps);
+    for (const Json& retry : progress.at("retries"))
+      run.retries.push_back(output::retry_record(retry));
+    // Checkpoints of earlier versions have neither.
+    if (!progress.contains("frames")) return run;
+    run.frames = frames_of(progress.at("frames"), run.frame, run.steps);
+    run.files = file_hashes(progress);
+    run.exports = progress.value("exports", Json());
+  } catch (const std::exception& error) {
+    refuse_checkpoint(run.file, error);
+  }
+  return run;
+}
+
+void restore_frame(const ResumedRun& run, double fps, sim::Simulation& simulation) {
+  simulation.restore_healthy(run.state);
+  const double time = simulation.time(), start = run.frame / fps, end = (run.frame + 1.0) / fps;
+  const double rounding = 1e-9 * (1 + end);
+  if (simulation.steps() != run.steps || !(time >= start - rounding && time <= end + rounding))
+    throw std::runtime_error("the checkpoint of frame " + std::to_string(run.frame) +
+                             " holds another moment");
+}
+
+void refuse_checkpoint(const std::filesystem::path& file, const std::exception& why) {
+  throw IoError(file.string() + ": cannot resume from it: " + why.what(), file.string(),
+                "no run has written this; remove the file to resume from an older checkpoint, or "
+                "remove --resume to start again");
+}
+
+}  // namespace neve::app::run

@@ -1,0 +1,33 @@
+#pragma once
+/// The numbers of a saved state, and which of them cannot be, however right a checksum is.
+
+#include <vector>
+
+#include "sim/engine/method.h"
+#include "sim/engine/progress.h"
+#include "sim/kernels/particles.h"
+#include "sim/seeding/flow.h"
+#include "sim/shapes/collider.h"
+
+namespace neve::sim::engine {
+
+template <class Real>
+struct SavedNumbers {
+  Progress progress;
+  std::vector<kernels::Particle<Real>> records;
+  std::vector<shapes::PoseOffset> offsets;  ///< of colliders
+  std::vector<seeding::EmitterStream::State> emitters;
+};
+
+/// Refuses numbers that would be used as places in memory: of cells, materials, models, ids.
+/// @throws SavedStateError
+template <class Real>
+void require_consistent(const SavedNumbers<Real>& saved, const Method<Real>& method);
+
+/// Refuses numbers that a run has only after it diverged, or never: times, limits of the next step,
+/// counters, and particles.
+/// @throws SavedStateError
+template <class Real>
+void require_healthy(const SavedNumbers<Real>& saved, const Method<Real>& method);
+
+}  // namespace neve::sim::engine
