@@ -13,6 +13,7 @@
 #include "app/run/picture_record.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/setup/caps.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
 #include "app/support/text.h"
@@ -114,6 +115,22 @@ void add_scene(CLI::App& command, const std::shared_ptr<run::RenderOptions>& opt
                    "Take longer steps for a quick look, by settings that are recorded as --set is; "
                    "neve check says what they gain");
   command.add_option("--threads", options->threads, "Number of threads; 0: one per core")
+      ->type_name("N");
+  add_caps(command);
+}
+
+void add_caps(CLI::App& command) {
+  command
+      .add_option_function<std::string>(
+          "--max-memory", setup::set_memory_cap,
+          "Refuse runs that need more memory, whatever the scene allows; NEVE_MAX_MEMORY does so "
+          "always")
+      ->type_name("SIZE");
+  command
+      .add_option_function<std::string>(
+          "--max-particles", setup::set_particle_cap,
+          "Refuse runs of more particles, whatever the scene allows; NEVE_MAX_PARTICLES does so "
+          "always")
       ->type_name("N");
 }
 
@@ -391,6 +408,14 @@ void add_manual(CLI::App& app, Action& action) {
       return static_cast<int>(exit_ok);
     };
   });
+}
+
+std::string simd_in_use() {
+  return sim::kernels::name(sim::kernels::chosen_simd_level());
+}
+
+std::string version_text() {
+  return std::string("neve ") + version + " (" + build_text(simd_in_use()) + ")";
 }
 
 int print_version(bool is_json) {

@@ -39,6 +39,9 @@ void add_progress(CLI::App& command, std::optional<std::string>& progress,
 /// @throws UsageError
 bool parse_progress(const std::string& text);
 
+/// Adds --max-memory and --max-particles: bounds that no scene can raise.
+void add_caps(CLI::App& command);
+
 /// @throws UsageError
 run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts);
 

@@ -131,6 +131,7 @@ void add_run(CLI::App& sweep, Action& action) {
   command->add_flag("--retry-failed{all}", options->retry_failed,
                     "Repeat the run if it failed before, or ended in one of these states, as in "
                     "--retry-failed=timeout,crashed");
+  add_caps(*command);
   add_folder(*command, action, options, run_sweep_run);
 }
 
@@ -160,6 +161,7 @@ void add_sweep(CLI::App& app, Action& action) {
   command->add_flag("--retry-failed{all}", options->retry_failed,
                     "Repeat the runs that failed, timed out, crashed or took too much memory, or "
                     "only those in some states, as in --retry-failed=timeout,crashed");
+  add_caps(*command);
   command->add_flag("--dry-run", options->is_dry_run,
                     "Print the runs, their cost and memory; start nothing");
   command->add_flag("--json", options->is_json, "Print the result, or the error, as JSON");

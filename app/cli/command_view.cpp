@@ -146,6 +146,10 @@ std::optional<view::session::Document> look_at(view::session::Document document,
   }
   view::Viewer viewer(bench, front, screen, renderer, viewer_options);
   viewer.run();
+  // Nobody reads the messages of a script.
+  if (!options.replay.empty() && !bench.not_saved().empty())
+    throw IoError(bench.not_saved(), options.replay,
+                  "the script went on; what it saved besides is there");
   return std::move(viewer.state().dropped);
 }
 

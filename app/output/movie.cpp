@@ -37,6 +37,13 @@ void append_words(std::vector<std::string>& arguments, const char* text) {
   for (std::string word; words >> word;) arguments.push_back(word);
 }
 
+/// A frame of 16384x16384 takes about 10 s to encode on one core.
+double longest_time(const MovieRequest& request) {
+  constexpr double start = 60, per_frame = 20;
+  if (request.longest > 0) return request.longest;
+  return start + per_frame * (request.last_frame - request.first_frame + 1);
+}
+
 /// Pictures are named relative to their folder: its path may hold a '%', a pattern character.
 /// yuv420p needs even sides; players take high definition for BT.709 and ignore the file.
 ProcessResult encode(const fs::path& ffmpeg, const MovieRequest& request, const fs::path& target) {
@@ -58,14 +65,14 @@ ProcessResult encode(const fs::path& ffmpeg, const MovieRequest& request, const 
                "-colorspace bt709 -color_primaries bt709 -color_trc bt709 "
                "-movflags +faststart -f mp4");
   arguments.push_back(fs::absolute(target).string());
-  return run_process(ffmpeg, arguments, request.picture_folder);
+  return run_process(ffmpeg, arguments, request.picture_folder, longest_time(request));
 }
 
 /// Frames that can be decoded, -1 when ffmpeg could not say.
-long count_frames(const fs::path& ffmpeg, const fs::path& movie) {
+long count_frames(const fs::path& ffmpeg, const fs::path& movie, double longest) {
   std::vector<std::string> arguments{"-nostdin", "-v", "error", "-i", fs::absolute(movie).string()};
   append_words(arguments, "-map 0:v:0 -f null -progress pipe:1 /dev/null");
-  const ProcessResult result = run_process(ffmpeg, arguments, "/");
+  const ProcessResult result = run_process(ffmpeg, arguments, "/", longest);
   if (!result.has_started || result.exit_code != 0) return -1;
   const std::string key = "frame=";
   const std::size_t found = result.output.rfind(key);
@@ -127,12 +134,13 @@ MovieResult write_movie(const MovieRequest& request) {
   }
   const ProcessResult result = encode(*ffmpeg, request, temporary);
   if (!result.has_started) return fail("ffmpeg does not start: " + result.errors);
+  if (result.is_too_slow) return fail("ffmpeg was stopped: it took far too long");
   if (result.exit_code != 0)
     return fail("ffmpeg failed (" + std::to_string(result.exit_code) +
                 "): " + telling_line(result.errors));
 
   const long expected = request.last_frame - request.first_frame + 1;
-  const long counted = count_frames(*ffmpeg, temporary);
+  const long counted = count_frames(*ffmpeg, temporary, longest_time(request));
   if (counted != expected) {
     const std::string said = telling_line(result.errors);
     return fail("ffmpeg made " + std::to_string(std::max(counted, 0L)) + " of " +

@@ -7,8 +7,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -39,15 +41,26 @@ struct Pipe {
   }
 };
 
+using Clock = std::chrono::steady_clock;
+
+/// Until then, for poll(): -1 where there is no end, and a second at most.
+int milliseconds_until(const std::optional<Clock::time_point>& end) {
+  if (!end) return -1;
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(*end - Clock::now()).count();
+  return static_cast<int>(std::clamp<long long>(left, 0, 1000));
+}
+
 /// Reads both pipes to their ends, whichever has something first.
-void drain(int out, int err, ProcessResult& result) {
+/// @return false when that took too long
+bool drain(int out, int err, const std::optional<Clock::time_point>& end, ProcessResult& result) {
   std::array<pollfd, 2> waiting{{{out, POLLIN, 0}, {err, POLLIN, 0}}};
   std::array<std::string*, 2> texts{&result.output, &result.errors};
   std::array<char, 4096> buffer;
   while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
-    if (::poll(waiting.data(), waiting.size(), -1) < 0) {
+    if (end && Clock::now() >= *end) return false;
+    if (::poll(waiting.data(), waiting.size(), milliseconds_until(end)) < 0) {
       if (errno == EINTR) continue;
-      return;
+      return true;
     }
     for (std::size_t k = 0; k < waiting.size(); ++k) {
       if (waiting[k].fd < 0 || waiting[k].revents == 0) continue;
@@ -60,6 +73,7 @@ void drain(int out, int err, ProcessResult& result) {
       }
     }
   }
+  return true;
 }
 
 int wait_for(pid_t child) {
@@ -140,7 +154,7 @@ pid_t start_process(const Command& command, const StartOptions& options) {
 
 ProcessResult run_process(const std::filesystem::path& program,
                           const std::vector<std::string>& arguments,
-                          const std::filesystem::path& folder) {
+                          const std::filesystem::path& folder, double longest) {
   ProcessResult result;
   Pipe out, err;
   if (out.read_end < 0 || err.read_end < 0) {
@@ -157,7 +171,12 @@ ProcessResult run_process(const std::filesystem::path& program,
   out.close_write_end();
   err.close_write_end();
   result.has_started = true;
-  drain(out.read_end, err.read_end, result);
+  std::optional<Clock::time_point> end;
+  if (longest < 1e9)
+    end = Clock::now() + std::chrono::ceil<Clock::duration>(std::chrono::duration<double>(longest));
+  result.is_too_slow = !drain(out.read_end, err.read_end, end, result);
+  // Its group is its own: what it started in turn ends too.
+  if (result.is_too_slow) ::kill(-child, SIGKILL);
   result.exit_code = wait_for(child);
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,16 +39,19 @@ pid_t start_process(const Command& command, const StartOptions& options);
 
 struct ProcessResult {
   bool has_started = false;
-  int exit_code = -1;  ///< 128 + signal when it was killed
-  std::string output;  ///< stdout
-  std::string errors;  ///< stderr
+  int exit_code = -1;        ///< 128 + signal when it was killed
+  bool is_too_slow = false;  ///< killed, with its process group, because it took too long
+  std::string output;        ///< stdout
+  std::string errors;        ///< stderr
 };
 
 /// Runs a program and waits for it. It gets no input, and at most 1 MiB of each output is kept.
 /// Starts it as start_process() does.
+/// @param longest  s that it may take
 ProcessResult run_process(const std::filesystem::path& program,
                           const std::vector<std::string>& arguments,
-                          const std::filesystem::path& folder);
+                          const std::filesystem::path& folder,
+                          double longest = std::numeric_limits<double>::infinity());
 
 /// Searches PATH for an executable file.
 std::optional<std::filesystem::path> find_program(const std::string& name);

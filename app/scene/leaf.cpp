@@ -35,7 +35,18 @@ double bounded_whole_number(const Leaf& leaf) {
   return x;
 }
 
-/// "8GiB" or "1.5 MB" in bytes.
+std::string existing_file(const Leaf& leaf, const std::string& name) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path file = fs::absolute(fs::path(leaf.source.base_dir) / name, error);
+  if (name.empty() || !fs::is_regular_file(file, error)) {
+    leaf.fail("a file that exists", "looked for " + file.lexically_normal().string());
+  }
+  return file.lexically_normal().string();
+}
+
+}  // namespace
+
 std::optional<double> bytes_of(std::string_view text) {
   struct Suffix {
     std::string_view name;
@@ -54,18 +65,6 @@ std::optional<double> bytes_of(std::string_view text) {
   }
   return std::nullopt;
 }
-
-std::string existing_file(const Leaf& leaf, const std::string& name) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::path file = fs::absolute(fs::path(leaf.source.base_dir) / name, error);
-  if (name.empty() || !fs::is_regular_file(file, error)) {
-    leaf.fail("a file that exists", "looked for " + file.lexically_normal().string());
-  }
-  return file.lexically_normal().string();
-}
-
-}  // namespace
 
 void Source::fail(toml::Location where, const std::string& message, const std::string& hint) const {
   if (where.override_index >= 0) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/scene/names.h"
@@ -40,6 +41,9 @@ struct Leaf {
   const toml::Array& array(std::size_t count, const std::string& what) const;
   const std::string& text(const std::string& what) const;
 };
+
+/// "8GiB" or "1.5 MB" in bytes.
+std::optional<double> bytes_of(std::string_view text);
 
 void read_leaf(const Leaf& leaf, bool& member);
 void read_leaf(const Leaf& leaf, double& member);

@@ -8,6 +8,7 @@
 #include "app/output/picture_writer.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/toml/error.h"
+#include "app/setup/caps.h"
 #include "app/setup/mosaic_layout.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
@@ -85,6 +86,54 @@ std::string size_advice(const scene::Scene& scene, const Plan& plan, const std::
   return (is_possible ? "raise it with --set " + raised + ", or " : std::string()) + fitting;
 }
 
+void set_limits(const scene::Scene& scene, Plan& plan) {
+  const Caps most = caps();
+  plan.memory_limit = scene.limits.memory > 0 ? scene.limits.memory : available_memory() / 10 * 8;
+  plan.particle_limit = static_cast<double>(scene.limits.particles);
+  plan.is_memory_capped = most.memory < static_cast<double>(plan.memory_limit);
+  plan.are_particles_capped = most.particles < plan.particle_limit;
+  if (plan.is_memory_capped) plan.memory_limit = static_cast<std::uint64_t>(most.memory);
+  if (plan.are_particles_capped) plan.particle_limit = most.particles;
+}
+
+/// @param excess  of what is needed over what is allowed
+std::string cap_advice(const scene::Scene& scene, const char* flag, double excess,
+                       double coarsening) {
+  return std::string("a scene cannot raise it: give a larger ") + flag + ", or " +
+         fitting_cells(scene, excess, coarsening);
+}
+
+[[noreturn]] void refuse(const std::string& what, const char* address, const std::string& hint) {
+  throw LimitError("refused: " + what + "; " + hint, address, hint);
+}
+
+void check_particles(const scene::Scene& scene, const Plan& plan, double coarsening) {
+  if (plan.particles <= plan.particle_limit) return;
+  const double excess = plan.particles / plan.particle_limit;
+  const std::string needed = "about " + count_text(plan.particles) + " particles are more than ";
+  if (plan.are_particles_capped)
+    refuse(needed + "--max-particles, " + count_text(plan.particle_limit), "--max-particles",
+           cap_advice(scene, "--max-particles or NEVE_MAX_PARTICLES", excess, coarsening));
+  refuse(needed + "limits.particles = " + std::to_string(scene.limits.particles),
+         "limits.particles",
+         size_advice(scene, plan, "limits.particles=" + count_text(std::ceil(plan.particles * 1.1)),
+                     excess, coarsening));
+}
+
+void check_memory(const scene::Scene& scene, const Plan& plan, double coarsening) {
+  if (plan.memory <= plan.memory_limit) return;
+  const double excess = static_cast<double>(plan.memory) / static_cast<double>(plan.memory_limit);
+  const std::string needed = "about " + bytes_text(plan.memory) + " of memory are more than ";
+  if (plan.is_memory_capped)
+    refuse(needed + "--max-memory, " + bytes_text(plan.memory_limit), "--max-memory",
+           cap_advice(scene, "--max-memory or NEVE_MAX_MEMORY", excess, coarsening));
+  refuse(
+      needed + "limits.memory = " + bytes_text(plan.memory_limit) +
+          (scene.limits.memory > 0 ? "" : ", 80 % of the available memory"),
+      "limits.memory",
+      size_advice(scene, plan, "limits.memory=" + std::to_string(plan.memory), excess, coarsening));
+}
+
 }  // namespace
 
 const char* name(Quality quality) {
@@ -149,7 +198,7 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
   // States of exports wait for the worker as pictures do, and are text or bytes while it writes.
   const double exported = scene.exports.empty() ? 0 : arrays * (output::picture_queue_capacity + 2);
   plan.memory = whole_bytes(simulated + arrays + exported + picture_memory(scene, quality));
-  plan.memory_limit = scene.limits.memory > 0 ? scene.limits.memory : available_memory() / 10 * 8;
+  set_limits(scene, plan);
   for (const scene::PictureSize& size : picture_sizes(scene)) {
     const double samples = supersampling(quality) * supersampling(quality);
     plan.largest_picture =
@@ -159,16 +208,7 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
 }
 
 void check_limits(const scene::Scene& scene, const Plan& plan, double coarsening) {
-  const auto refuse = [](const std::string& what, const char* address, const std::string& hint) {
-    throw LimitError("refused: " + what + "; " + hint, address, hint);
-  };
-  if (plan.particles > static_cast<double>(scene.limits.particles))
-    refuse(
-        "about " + count_text(plan.particles) +
-            " particles are more than limits.particles = " + std::to_string(scene.limits.particles),
-        "limits.particles",
-        size_advice(scene, plan, "limits.particles=" + count_text(std::ceil(plan.particles * 1.1)),
-                    plan.particles / static_cast<double>(scene.limits.particles), coarsening));
+  check_particles(scene, plan, coarsening);
   if (plan.largest_picture > static_cast<double>(scene.limits.pixels))
     refuse("a picture of " + count_text(plan.largest_picture) +
                " pixels (supersamples included) is more than limits.pixels = " +
@@ -176,14 +216,7 @@ void check_limits(const scene::Scene& scene, const Plan& plan, double coarsening
            "limits.pixels",
            "raise it with --set limits.pixels=" + count_text(plan.largest_picture) +
                ", or draw smaller pictures with --size");
-  if (plan.memory > plan.memory_limit)
-    refuse("about " + bytes_text(plan.memory) +
-               " of memory are more than limits.memory = " + bytes_text(plan.memory_limit) +
-               (scene.limits.memory > 0 ? "" : ", 80 % of the available memory"),
-           "limits.memory",
-           size_advice(scene, plan, "limits.memory=" + std::to_string(plan.memory),
-                       static_cast<double>(plan.memory) / static_cast<double>(plan.memory_limit),
-                       coarsening));
+  check_memory(scene, plan, coarsening);
   if (address_space_limit() < plan.memory + driver_address_space)
     refuse("about " + bytes_text(plan.memory + driver_address_space) +
                " of address space are needed, including drivers; ulimit -v allows " +
@@ -197,6 +230,7 @@ Json to_json(const Plan& plan) {
   json["emitted_particles"] = count_json(plan.emitted);
   json["memory_bytes"] = plan.memory;
   json["memory_limit_bytes"] = plan.memory_limit;
+  json["particle_limit"] = count_json(plan.particle_limit);
   json["largest_picture_pixels"] = count_json(plan.largest_picture);
   json["first_frame"] = plan.frames.first;
   json["last_frame"] = plan.frames.last;

@@ -26,7 +26,10 @@ struct Plan {
   double emitted = 0;        ///< of those, particles that emitters make until the last frame
   std::uint64_t memory = 0;  ///< bytes, particles, grid and pictures
   std::uint64_t memory_limit = 0;  ///< bytes
-  double largest_picture = 0;      ///< pixels, supersamples included
+  double particle_limit = 0;
+  /// The limits are caps() instead of those of the scene.
+  bool is_memory_capped = false, are_particles_capped = false;
+  double largest_picture = 0;  ///< pixels, supersamples included
   FrameRange frames;
   double volume = 0;  ///< m3 of all bodies and of emitted snow
 };

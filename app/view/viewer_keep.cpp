@@ -65,7 +65,7 @@ void Viewer::save_picture() {
                                       ", the next one: only whole frames can be made again"
                                 : ""));
   } catch (const std::exception& error) {
-    bench_.say(session::Message::Kind::error, std::string("no picture: ") + error.what());
+    bench_.say_not_saved(std::string("no picture: ") + error.what());
   }
   state_.go_to_tab = panels::tab::messages;
   settle_ = 3;
@@ -84,7 +84,7 @@ void Viewer::record_frame() {
     writer_.write(picture_to_keep(output::frame_path(bench_.folder(), view, live.frame)));
     ++state_.recorded;
   } catch (const std::exception& error) {
-    bench_.say(session::Message::Kind::error, std::string("recording stopped: ") + error.what());
+    bench_.say_not_saved(std::string("recording stopped: ") + error.what());
     state_.is_recording = false;
     bench_.session().set_recording(false);
   }

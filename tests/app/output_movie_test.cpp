@@ -116,6 +116,23 @@ TEST_F(Movie, MovieIsNotKeptWhenAPictureIsEmptyOrMissing) {
   }
 }
 
+TEST(MovieWithoutFfmpeg, AnFfmpegThatHangsIsStopped) {
+  const TemporaryFolder folder;
+  const Fixture f;
+  write_pictures(f.folder, 0, 1);
+  fs::permissions(folder.write("ffmpeg", "#!/bin/bash\nexec /bin/sleep 600\n"),
+                  fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder.path().c_str(), 1);
+  app::output::MovieRequest slow = request(f.folder, 0, 1);
+  slow.longest = 0.3;
+  const app::output::MovieResult result = app::output::write_movie(slow);
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(result.outcome, app::output::MovieOutcome::failed);
+  EXPECT_EQ(result.reason, "ffmpeg was stopped: it took far too long");
+  EXPECT_EQ(file_count(f.folder), 1u) << "something else than the pictures is left";
+}
+
 TEST(MovieWithoutFfmpeg, AMissingFfmpegIsNoError) {
   const TemporaryFolder folder;
   const std::string path = std::getenv("PATH");

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <system_error>
 
@@ -28,6 +29,19 @@ TEST(Process, PrintsIntoTwoTextsAndTellsItsExitCode) {
   EXPECT_EQ(result.output, std::filesystem::canonical(folder.path()).string() + "\n");
   EXPECT_EQ(result.errors, "bad\n");
   EXPECT_EQ(run_process("/bin/bash", {"-c", "kill -SEGV $$"}, "/").exit_code, 128 + SIGSEGV);
+}
+
+TEST(Process, ItsGroupIsStoppedWhenItTakesTooLong) {
+  const test::TemporaryFolder folder;
+  const auto start = std::chrono::steady_clock::now();
+  const auto result = run_process(
+      "/bin/bash", {"-c", "sleep 60 & echo $! > child; echo said; wait"}, folder.path(), 0.5);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_TRUE(result.is_too_slow);
+  EXPECT_EQ(result.exit_code, 128 + SIGKILL);
+  EXPECT_EQ(result.output, "said\n");
+  EXPECT_TRUE(test::is_gone_soon(std::stoi(test::read_text(folder / "child"))));
+  EXPECT_FALSE(run_process("/bin/true", {}, "/", 60).is_too_slow);
 }
 
 TEST(Process, SaysWhyItCannotStart) {

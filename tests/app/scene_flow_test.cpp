@@ -74,7 +74,9 @@ TEST(SceneFlow, ThePlanCountsFutureParticles) {
   EXPECT_NEAR(plan.emitted, 20 * 12 / scene.fps / share, 1);
   EXPECT_NEAR(plan.volume, 20 * 12 / scene.fps / 400, 1e-4);
   scene.limits.particles = 100;
-  EXPECT_THROW(app::setup::check_limits(scene, plan), std::exception);
+  EXPECT_THROW(app::setup::check_limits(
+                   scene, app::setup::make_plan(scene, {0, 12}, app::setup::Quality::preview, 1)),
+               std::exception);
 }
 
 TEST(SceneFlow, CamerasAndRangesKnowWhereSnowWillBe) {

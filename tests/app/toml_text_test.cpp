@@ -95,9 +95,23 @@ TEST(TomlText, SizeAndDepthAreBounded) {
   EXPECT_EQ(toml_error(std::string(app::scene::toml::max_toml_bytes + 1, '#')),
             "f: error: larger than 1 MiB");
   EXPECT_EQ(toml_error(std::string(app::scene::toml::max_toml_bytes, '#')), "no error");
-  EXPECT_EQ(toml_error("a" + std::string(65, '.')), "f:1:66: error: more than 64 dots in one line");
+  EXPECT_EQ(toml_error("a" + std::string(65, '.')), "f:1:66: error: more than 64 dots in one key");
   EXPECT_EQ(toml_error("# " + std::string(65, '.')), "no error");
+  EXPECT_EQ(toml_error("a.b = {" + std::string(64, '.')),
+            "f:1:71: error: more than 64 dots in one key")
+      << "keys in braces are below the key before";
   EXPECT_EQ(toml_error("a = " + std::string(33, '[')), "f:1:37: error: nested more than 32 deep");
+}
+
+TEST(TomlText, NumbersOfAnyCountFitInALine) {
+  std::string numbers = "a = [", keyframes = "k = [";
+  for (int k = 0; k < 100; ++k) {
+    numbers += (k > 0 ? ", " : "") + std::to_string(k) + ".5";
+    keyframes += std::string(k > 0 ? ", " : "") + "{ place.time = " + std::to_string(k) +
+                 ".25, place.eye = [0.5, 1.5, -2.5] }";
+  }
+  EXPECT_EQ(toml_error(numbers + "]"), "no error");
+  EXPECT_EQ(toml_error(keyframes + "]"), "no error");
 }
 
 TEST(TomlText, AssertionsOfTheParserDoNotAbort) {

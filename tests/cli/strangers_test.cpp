@@ -179,6 +179,40 @@ TEST_F(Strangers, AxesWithTooManyValuesAreRefusedBeforeTheyAreThere) {
   EXPECT_TRUE(contains(result.errors, "at most 100000 are allowed")) << result.errors;
 }
 
+TEST_F(Strangers, NoSceneRaisesTheCapsOfWhoeverStartsTheProgram) {
+  folder.write("greedy.toml",
+               std::string("limits.memory = \"1TiB\"\n") + "limits.particles = 1e9\n" + tiny_scene);
+  for (const char* command : {"render", "check", "dump", "export"}) {
+    std::vector<std::string> words{command, "greedy.toml"};
+    if (words[0] == "dump") words.insert(words.end(), {"--at", "0.01s"});
+    if (words[0] == "export") words.insert(words.end(), {"--format", "csv"});
+    if (words[0] == "render") words.emplace_back("--dry-run");
+    EXPECT_EQ(neve(words).exit_code, 0) << command;
+    const auto capped = [&](const char* flag, const char* value) {
+      std::vector<std::string> more = words;
+      more.insert(more.end(), {flag, value});
+      return neve(more);
+    };
+    for (const auto& [flag, value] :
+         {std::pair{"--max-particles", "100"}, {"--max-memory", "1MB"}}) {
+      const auto result = capped(flag, value);
+      EXPECT_EQ(result.exit_code, 8) << command << " " << flag;
+      EXPECT_TRUE(contains(result.errors, flag)) << result.errors;
+      EXPECT_TRUE(contains(result.errors, "a scene cannot raise it")) << result.errors;
+      EXPECT_EQ(capped(flag, "8e9").exit_code, 0) << command << " " << flag;
+      EXPECT_EQ(capped(flag, "many").exit_code, 2) << command << " " << flag;
+    }
+  }
+  EXPECT_EQ(shell("NEVE_MAX_PARTICLES=100 \"$0\" render greedy.toml").exit_code, 8);
+  EXPECT_EQ(shell("NEVE_MAX_MEMORY=1MB \"$0\" render greedy.toml --max-memory 8GiB").exit_code, 8)
+      << "a flag only lowers the cap";
+  EXPECT_EQ(shell("NEVE_MAX_MEMORY=some \"$0\" render greedy.toml").exit_code, 2);
+  const auto sweep =
+      shell("\"$0\" sweep greedy.toml -p seed=1,2 --frames 0-1 --out s --max-particles 100 --json");
+  EXPECT_EQ(sweep.exit_code, 7) << sweep.errors;
+  EXPECT_EQ(json_of("s/runs/0000/status.json")["state"], "refused");
+}
+
 TEST_F(Strangers, TheMemoryOfManyViewsIsForeseen) {
   const auto memory_with = [&](int views) {
     std::string text = tiny_scene;

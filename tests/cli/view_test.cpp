@@ -46,6 +46,19 @@ TEST_F(View, APictureOfAChangedRunIsMadeAgain) {
   EXPECT_EQ(info_of("again/particles/0003.png")["state_hash"], saved["state_hash"]);
 }
 
+TEST_F(View, AScriptEndsWithTheFileThatWasNotSaved) {
+  const std::string save = R"([
+    {"click": "Frame"}, {"wait_for": "simulation frame 1"}, {"wait": 5},
+    {"key": "p"}, {"wait": 10}, {"key": "s", "ctrl": true}, {"wait": 5}, {"quit": true}])";
+  folder.write("viewed", "a file where the folder is to be");
+  const auto result = view(save);
+  EXPECT_EQ(result.exit_code, 6) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "no picture: ")) << result.errors;
+  std::filesystem::remove(folder / "viewed");
+  EXPECT_EQ(view(save).exit_code, 0);
+  EXPECT_TRUE(exists("viewed/scene.toml"));
+}
+
 /// Panels leave a place for the picture that is higher than wide.
 TEST_F(View, APictureIsFramedAsRenderFramesIt) {
   const auto result = view(R"([

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <vector>
 
 #include "app/scene/toml/error.h"
 
 namespace neve::app::scene::toml {
 namespace {
 
-constexpr int max_dots_per_line = 64;  // dotted keys nest, and toml++ recurses over them
-constexpr int max_nesting = 32;        // of brackets and braces
+constexpr int max_dots = 64;     // of a key and the keys it is in: they nest, and toml++ recurses
+constexpr int max_nesting = 32;  // of brackets and braces
 
 /// One code point: its bytes and value; length 0 when they are not valid UTF-8.
 struct CodePoint {
@@ -95,7 +96,7 @@ class Rewriter {
     copy(1);
     ++line_;
     column_ = out_column_ = 1;
-    dots_ = 0;
+    dots_ = dots_around();
     is_escaped_ = false;
   }
 
@@ -119,10 +120,24 @@ class Rewriter {
   void plain(char c) {
     if (c == '"' || c == '\'') return open(c);
     if (c == '#') state_ = State::comment;
-    if (c == '.' && ++dots_ > max_dots_per_line) fail("more than 64 dots in one line");
-    if ((c == '[' || c == '{') && ++depth_ > max_nesting) fail("nested more than 32 deep");
-    if ((c == ']' || c == '}') && depth_ > 0) --depth_;
+    if (c == '.' && ++dots_ > max_dots) fail("more than 64 dots in one key");
+    if (c == '[' || c == '{') open_bracket();
+    if (c == ']' || c == '}') close_bracket();
+    if (c == ',') dots_ = dots_around();
     copy(1);
+  }
+
+  int dots_around() const { return open_dots_.empty() ? 0 : open_dots_.back(); }
+
+  /// Keys inside are below the key before.
+  void open_bracket() {
+    if (open_dots_.size() >= max_nesting) fail("nested more than 32 deep");
+    open_dots_.push_back(dots_);
+  }
+
+  void close_bracket() {
+    if (!open_dots_.empty()) open_dots_.pop_back();
+    dots_ = dots_around();
   }
 
   void open(char quote) {
@@ -199,7 +214,8 @@ class Rewriter {
   AsciiToml out_;
   std::size_t at_ = 0;
   int line_ = 1, column_ = 1, out_column_ = 1;
-  int dots_ = 0, depth_ = 0;
+  int dots_ = 0;                // since the last comma, and of the keys around
+  std::vector<int> open_dots_;  // of the keys before each open bracket
   State state_ = State::plain;
   Location opened_{};        // where the string we are in began
   bool is_escaped_ = false;  // the previous character was a backslash that escapes

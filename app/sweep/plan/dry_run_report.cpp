@@ -21,7 +21,7 @@ namespace {
 
 bool is_possible(const PlannedRun& item) {
   return item.plan.memory <= item.plan.memory_limit &&
-         item.plan.particles <= static_cast<double>(item.scene.limits.particles);
+         item.plan.particles <= item.plan.particle_limit;
 }
 
 /// Drawing a tile takes about as long as it takes for one: 20 ms.

@@ -230,7 +230,7 @@ void Workbench::save_scene(const std::filesystem::path& file) {
       file_time_ = time_of(document_.file());
     say(Message::Kind::note, "saved the scene with its changes as " + file.string());
   } catch (const std::exception& error) {
-    say(Message::Kind::error, "the scene was not saved: " + text_of(error));
+    say_not_saved("the scene was not saved: " + text_of(error));
   }
 }
 
@@ -269,7 +269,7 @@ std::filesystem::path Workbench::sweep_around(const std::string& address) {
     say(Message::Kind::note, text);
     return file;
   } catch (const std::exception& error) {
-    say(Message::Kind::error, "no sweep: " + text_of(error));
+    say_not_saved("no sweep: " + text_of(error));
     return {};
   }
 }
@@ -297,6 +297,11 @@ run::PictureRecord Workbench::picture_record(const LiveFrame& live, const scene:
   record.files = run::hash_files(scene);
   record.changes = live.snapshot.changes;
   return record;
+}
+
+void Workbench::say_not_saved(std::string text) {
+  if (not_saved_.empty()) not_saved_ = text;
+  say(Message::Kind::error, std::move(text));
 }
 
 void Workbench::say(Message::Kind kind, std::string text) {

@@ -77,6 +77,10 @@ class Workbench {
   run::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
 
   void say(Message::Kind kind, std::string text);
+  /// Says the error. A script of clicks ends with it.
+  void say_not_saved(std::string text);
+  /// The first file that was to be saved and was not; "" while there is none.
+  const std::string& not_saved() const { return not_saved_; }
   const std::deque<Message>& messages() const { return messages_; }
   /// Errors that were said so far, repeated ones too: a higher number is one to be seen.
   std::uint64_t errors_said() const { return errors_said_; }
@@ -95,6 +99,7 @@ class Workbench {
   std::vector<scene::Override> running_, at_start_;
   std::deque<Message> messages_;
   std::uint64_t errors_said_ = 0;
+  std::string not_saved_;
   std::filesystem::file_time_type file_time_{};
   std::filesystem::file_time_type failed_time_{};  ///< of the file that reload_error_ is about
   std::string reload_error_;
