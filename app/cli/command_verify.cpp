@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "app/cli/commands.h"
+#include "app/output/sequence.h"
 #include "app/run/verify.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
@@ -32,6 +33,20 @@ Findings verify_run_folder(const fs::path& folder) {
   if (found.status != "ok" && found.status != "diverged" && !found.status.empty())
     findings.unfinished = fmt::format("the run is not finished: its status is {}", found.status);
   return findings;
+}
+
+/// The folder of `neve export --out`.
+Findings verify_export_folder(const run::Verification& found) {
+  Findings findings{found.status, found.files, found.flaws, {}};
+  if (found.status == "interrupted") findings.unfinished = "the export is not finished";
+  return findings;
+}
+
+Findings verify_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(output::run_json_path(folder), error)) return verify_run_folder(folder);
+  const std::optional<run::Verification> found = run::verify_export(folder);
+  return found ? verify_export_folder(*found) : verify_run_folder(folder);
 }
 
 /// The runs of a sweep, each at its path in the folder.
@@ -92,7 +107,7 @@ int run_verify(const std::string& folder, bool is_json) {
   if (!fs::is_directory(folder, error))
     throw IoError(folder + ": is no folder", folder, "name the output folder of a run or a sweep");
   const bool is_sweep = fs::exists(fs::path(folder) / "manifest.json", error);
-  const Findings findings = is_sweep ? verify_sweep_folder(folder) : verify_run_folder(folder);
+  const Findings findings = is_sweep ? verify_sweep_folder(folder) : verify_folder(folder);
   if (is_json)
     print_json(folder, findings);
   else

@@ -83,6 +83,10 @@ fs::path run_json_path(const fs::path& folder) {
   return folder / "run.json";
 }
 
+fs::path export_list_path(const fs::path& folder) {
+  return folder / "export.json";
+}
+
 std::size_t remove_earlier_run(const fs::path& folder) {
   const EarlierRun run = read_earlier_run(run_json_path(folder));
   std::size_t removed = 0;

@@ -27,6 +27,8 @@ std::filesystem::path movie_path(const std::filesystem::path& folder, const std:
 std::filesystem::path diverged_path(const std::filesystem::path& folder, const std::string& view);
 std::filesystem::path incident_path(const std::filesystem::path& folder);
 std::filesystem::path run_json_path(const std::filesystem::path& folder);
+/// The list of the files that `neve export` wrote into a folder.
+std::filesystem::path export_list_path(const std::filesystem::path& folder);
 
 /// Removes the pictures and movies that DIR/run.json lists, and nothing else: names that could lead
 /// out of DIR, links and unknown files are left alone. No run.json, or one that cannot be read:

@@ -5,6 +5,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
+#include "app/output/folder_lock.h"
 #include "app/output/picture_writer.h"
 #include "app/output/sequence.h"
 #include "app/run/picture_record.h"
@@ -108,19 +109,24 @@ void compare_with_run(const ExportJob& job, int frame, std::uint64_t hash, Progr
                        "the scene names have changed");
 }
 
-void write_list(const ExportJob& job, const Json& exports, bool is_whole) {
+void write_list(const ExportJob& job, const ExportResult& result,
+                const std::vector<output::WrittenFile>& written) {
+  FileHashes files;
+  for (const output::WrittenFile& file : written)
+    files[file.file.lexically_relative(job.run.folder).generic_string()] = hash_text(file.hash);
   Json json;
   json["version"] = version;
   json["scene_file"] = job.run.scene_file;
   json["fps"] = job.run.scene.fps;
-  json["is_whole"] = is_whole;
-  json["exports"] = exports;
-  output::write_file(job.run.folder / "export.json", to_text(json) + "\n");
+  json["is_whole"] = result.is_whole;
+  json["exports"] = result.exports;
+  json["files"] = files;
+  output::write_file(output::export_list_path(job.run.folder), with_own_hash(json));
 }
 
 void remove_earlier_list(const fs::path& folder) {
   std::error_code error;
-  const fs::path file = folder / "export.json";
+  const fs::path file = output::export_list_path(folder);
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return;
   try {
     exports::remove_earlier_exports(folder, parse_json(output::read_file(file)).at("exports"));
@@ -139,6 +145,7 @@ ExportJob make_export_job(const ExportOptions& options) {
     job.run_folder = options.run.scene;
     job.run_frames = read_frame_records(job.run_folder);
   }
+  job.lock_folder = job.run.folder;
   if (options.run.out.empty()) job.run.folder /= output::exports_folder;
   job.run.scene.exports = options.exports;
   check_exports(job.run.scene);
@@ -156,6 +163,7 @@ ExportJob make_export_job(const ExportOptions& options) {
 }
 
 ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
+  const output::FolderLock lock(job.lock_folder, "neve export");
   scene::Scene scene = job.run.scene;
   place_camera(scene);
   const setup::SeededScene seeded = setup::seed_scene(scene);
@@ -180,12 +188,13 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
       writer.write(std::move(work));
   }
   writer.finish();
-  exporter.finish();
+  std::vector<output::WrittenFile> written = writer.take_written();
+  for (output::WrittenFile& file : exporter.finish()) written.push_back(std::move(file));
   progress.clear();
   result.is_whole = result.moments == job.times.size();
   result.divergence = simulation.divergence();
   result.exports = exporter.to_json("");
-  write_list(job, result.exports, result.is_whole);
+  write_list(job, result, written);
   return result;
 }
 

@@ -23,6 +23,7 @@ struct ExportJob {
   std::vector<double> times;
   bool are_frames = true;  ///< numbers of files are those of frames
   int first_number = 0;
+  std::filesystem::path lock_folder;    ///< no one else may write there meanwhile
   std::filesystem::path run_folder;     ///< of a run that exists; empty: none
   std::vector<FrameRecord> run_frames;  ///< that it lists
 };

@@ -172,12 +172,16 @@ FrameRecord frame_record(const Json& json) {
   return frame;
 }
 
-Json read_run_json(const std::filesystem::path& folder) {
+Json read_json(const std::filesystem::path& file) {
   try {
-    return parse_json(output::read_file(output::run_json_path(folder)));
+    return parse_json(output::read_file(file));
   } catch (const std::exception&) {
     return {};
   }
+}
+
+Json read_run_json(const std::filesystem::path& folder) {
+  return read_json(output::run_json_path(folder));
 }
 
 Json earlier_exports(const std::filesystem::path& folder) {
@@ -245,11 +249,15 @@ Json to_json(const RunRecord& run) {
   return json;
 }
 
-void write_run_json(const std::filesystem::path& folder, const RunRecord& run) {
-  std::string text = to_text(to_json(run));
+std::string with_own_hash(const Json& json) {
+  std::string text = to_text(json);
   // Becomes the last entry: the text is long, and made once.
   text.replace(text.size() - 2, 2, ",\n  \"hash\": \"" + hash_of(text) + "\"\n}\n");
-  output::write_file(output::run_json_path(folder), text);
+  return text;
+}
+
+void write_run_json(const std::filesystem::path& folder, const RunRecord& run) {
+  output::write_file(output::run_json_path(folder), with_own_hash(to_json(run)));
 }
 
 }  // namespace neve::app::run

@@ -84,6 +84,9 @@ void add_frame(std::vector<FrameRecord>& frames, const FrameRecord& frame);
 /// "particles/0003.png"
 std::string picture_name(const std::string& view, int frame);
 
+/// Null where there is no such file or it cannot be read.
+Json read_json(const std::filesystem::path& file);
+
 /// DIR/run.json; null where there is no such file or it cannot be read.
 Json read_run_json(const std::filesystem::path& folder);
 
@@ -96,7 +99,10 @@ std::vector<FrameRecord> frame_records(const Json& run);
 /// The files that it lists; none where they cannot be read.
 FileHashes file_hashes(const Json& run);
 
-/// Whether run.json is as write_run_json wrote it: its last entry, `hash`, is the hash of the rest.
+/// JSON as text, with a last entry `hash`, the hash of the rest.
+std::string with_own_hash(const Json& json);
+
+/// Whether run.json is as write_run_json wrote it: its `hash` is the one of with_own_hash().
 /// Those of earlier versions have none and pass.
 bool is_untouched(Json run);
 

@@ -88,6 +88,11 @@ void check_gaps(const std::string& name, const std::vector<FrameRecord>& frames,
       flaws.push_back({name, "lists no frame " + std::to_string(expected)});
 }
 
+/// A file that is listed with its hash.
+std::string listed_flaw(const fs::path& folder, const std::string& name, const std::string& hash) {
+  return is_inside(name) ? flaw_of(folder / name, hash) : "is not in the folder of the run";
+}
+
 /// Movies, and the pictures of a divergence.
 void check_other_files(const fs::path& folder, const Pictures& pictures, Verification& result) {
   std::set<std::string> checked;
@@ -96,10 +101,17 @@ void check_other_files(const fs::path& folder, const Pictures& pictures, Verific
   for (const auto& [name, hash] : pictures.files) {
     if (checked.contains(name)) continue;
     ++result.files;
-    const std::string what =
-        is_inside(name) ? flaw_of(folder / name, hash) : "is not in the folder of the run";
+    const std::string what = listed_flaw(folder, name, hash);
     if (!what.empty()) result.flaws.push_back({name, what});
   }
+}
+
+void check_export(const fs::path& folder, Verification& result) {
+  const std::string below = std::string(output::exports_folder) + "/";
+  const std::optional<Verification> exported = verify_export(folder / below, below);
+  if (!exported) return;
+  result.files += exported->files;
+  result.flaws.insert(result.flaws.end(), exported->flaws.begin(), exported->flaws.end());
 }
 
 }  // namespace
@@ -163,6 +175,33 @@ Verification verify_run(const fs::path& folder) {
     result.flaws.push_back(std::move(flaw));
   result.files += pictures->frames.size() * pictures->views.size();
   check_other_files(folder, *pictures, result);
+  check_export(folder, result);
+  return result;
+}
+
+std::optional<Verification> verify_export(const fs::path& folder, const std::string& below) {
+  const fs::path list = output::export_list_path(folder);
+  const std::string name = below + list.filename().string();
+  std::error_code error;
+  if (!fs::exists(list, error)) return std::nullopt;
+  Verification result;
+  ++result.files;
+  const Json json = read_json(list);
+  // Lists of earlier versions have no hashes.
+  const bool is_list = json.is_object() && json.contains("is_whole") &&
+                       json["is_whole"].is_boolean() &&
+                       (!json.contains("files") || json["files"].is_object());
+  if (!is_list) {
+    result.flaws.push_back({name, "is damaged"});
+    return result;
+  }
+  if (!is_untouched(json)) result.flaws.push_back({name, is_another});
+  result.status = json["is_whole"].get<bool>() ? "ok" : "interrupted";
+  for (const auto& [file, hash] : file_hashes(json)) {
+    ++result.files;
+    if (const std::string what = listed_flaw(folder, file, hash); !what.empty())
+      result.flaws.push_back({below + file, what});
+  }
   return result;
 }
 

@@ -2,6 +2,7 @@
 /// Whether the folder of a run is whole: every file that the run says it wrote is there, as it was.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,13 @@ struct Verification {
   std::vector<Flaw> flaws;
 };
 
-/// Reads run.json and all files that it lists.
+/// Reads run.json and all files that it lists, and those of `neve export` of this run.
 Verification verify_run(const std::filesystem::path& folder);
+
+/// Reads export.json and all files that it lists; nothing where the folder has none.
+/// @param below  put in front of names: "exports/"
+std::optional<Verification> verify_export(const std::filesystem::path& folder,
+                                          const std::string& below = "");
 
 /// "particles/0003.png is missing, particles/0004.png is empty and 12 more"
 std::string flaw_text(const std::vector<Flaw>& flaws);

@@ -2,6 +2,7 @@
 
 #include "app/output/atomic_file.h"
 #include "tests/cli/run_neve.h"
+#include "tests/support/child.h"
 #include "tests/support/needs.h"
 #include "tests/support/python.h"
 
@@ -112,6 +113,55 @@ TEST_F(Export, ARunContinuesFromItsCheckpoint) {
   EXPECT_FALSE(contains(early.errors, "continues from")) << early.errors;
   for (const char* frame : {"0003.csv", "0004.csv"})
     EXPECT_EQ(read_text(folder / "late/csv" / frame), read_text(folder / "early/csv" / frame));
+}
+
+TEST_F(Export, FilesThatAreMissingEmptyOrDamagedAreNamed) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "out", "--quiet", "--no-movie"}).exit_code, 0);
+  json_of_export({"out", "--format", "csv,vtp"});
+  json_of_export({"out", "--format", "ply", "--out", "elsewhere", "--frames", "2-3"});
+  const auto verified = [&](const std::string& place) { return neve({"verify", place}); };
+  for (const char* place : {"out", "out/exports", "elsewhere"})
+    EXPECT_EQ(verified(place).exit_code, 0) << verified(place).output;
+  const auto expect_flaw = [&](const std::string& file, const std::string& flaw) {
+    for (const char* place : {"out", "out/exports"}) {
+      const auto result = verified(place);
+      EXPECT_EQ(result.exit_code, 9) << result.output;
+      EXPECT_TRUE(contains(result.output, "out/exports/" + file + " " + flaw)) << result.output;
+    }
+  };
+  const std::string csv = read_text(folder / "out/exports/csv/0002.csv");
+  folder.write("out/exports/csv/0002.csv", "");
+  expect_flaw("csv/0002.csv", "is empty");
+  folder.write("out/exports/csv/0002.csv", csv + "1");
+  expect_flaw("csv/0002.csv", "is not the file");
+  std::filesystem::remove(folder / "out/exports/csv/0002.csv");
+  expect_flaw("csv/0002.csv", "is missing");
+  folder.write("out/exports/csv/0002.csv", csv);
+  EXPECT_EQ(verified("out").exit_code, 0);
+  std::filesystem::remove(folder / "out/exports/vtp.pvd");
+  expect_flaw("vtp.pvd", "is missing");
+  std::string list = read_text(folder / "elsewhere/export.json");
+  list.replace(list.find("\"fps\": 24"), 9, "\"fps\": 25");
+  folder.write("elsewhere/export.json", list);
+  EXPECT_EQ(verified("elsewhere").exit_code, 9);
+  folder.write("elsewhere/export.json", "{}");
+  EXPECT_EQ(verified("elsewhere").exit_code, 9);
+}
+
+TEST_F(Export, OneWritesToAFolderAtATime) {
+  const pid_t first = start_program({NEVE_BINARY, "render", folder / "scene.toml", "--out",
+                                     folder / "out", "--frames", "5000", "--quiet", "--no-movie"});
+  ASSERT_TRUE(wait_for_file(folder / "out/particles/0002.png"));
+  const std::string holder = "is in use by neve render, process " + std::to_string(first);
+  expect_refused({"out", "--format", "csv", "--frames", "0-1"}, 6, holder);
+  expect_refused({"scene.toml", "--format", "csv", "--frames", "0-1", "--out", "out"}, 6, holder);
+  EXPECT_FALSE(exists("out/exports"));
+  const auto elsewhere =
+      neve({"export", "out", "--format", "csv", "--frames", "0-1", "--out", "elsewhere"});
+  EXPECT_EQ(elsewhere.exit_code, 0) << elsewhere.errors;
+  ::kill(first, SIGKILL);
+  EXPECT_EQ(wait_for(first), 128 + SIGKILL);
+  EXPECT_EQ(neve({"export", "out", "--format", "csv", "--frames", "0-1"}).exit_code, 0);
 }
 
 TEST_F(Export, TimesInsideAFrameAreThoseOfDump) {
