@@ -124,6 +124,7 @@ std::optional<view::session::Document> look_at(view::session::Document document,
   bench_options.session.threads = options.run.threads;
   bench_options.session.kept_budget = options.kept_memory;
   bench_options.overrides = overrides;
+  bench_options.is_remote = place.web != nullptr;
   bench_options.folder =
       options.run.out.empty()
           ? out_folder() / (std::filesystem::path(file).stem().string() + "-view")

@@ -15,6 +15,8 @@ namespace neve::app::view {
 
 namespace {
 
+/// More input waits in its device: it is taken as fast as pictures are drawn.
+constexpr std::size_t max_waiting_input = 64;
 constexpr double idle_wait = 0.5;  // s; between looks at Ctrl-C and at the file
 constexpr float narrow = 64;       // text sizes; in less there is room for one column
 constexpr auto file_interval = std::chrono::seconds(1);
@@ -60,6 +62,7 @@ void Viewer::run() {
   while (!is_closed_ && !is_interrupted()) {
     const bool is_busy = settle_ > 0 || state_.is_playing || !is_still() ||
                          panels::is_tip_coming() || state_.hint.seconds > 0;
+    front_.hold_input(input_.waiting() >= max_waiting_input);
     take_events(front_.wait(is_busy ? (options_.has_own_clock ? 0 : 1.0 / 60) : idle_wait));
     if (is_closed_) break;
     if (!front_.is_ready()) continue;

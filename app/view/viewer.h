@@ -62,6 +62,8 @@ class Viewer {
   bool is_still() const;
   void draw();
   void paint_picture();
+  void paint_new_picture();
+  void follow_camera();
   scene::View shown_view() const;
   render::Frame picture_frame(scene::View view);
   void keep_points(render::Points points);

@@ -48,24 +48,41 @@ PictureKey Viewer::picture_key() const {
       state_.orbit.target(), state_.orbit.fov(),    state_.is_camera_of_scene};
 }
 
+/// A picture that cannot be drawn is a message, and the one before stays.
 void Viewer::paint_picture() {
-  if (state_.is_camera_of_scene) {
-    const scene::Scene& scene = *state_.live->scene;
-    const scene::View& view = panels::current_view(state_);
-    const scene::CameraSettings settings =
-        view.camera ? *view.camera : *bench_.document().scene()->camera;
-    scene::View placed = view;
-    placed.camera = settings;
-    const setup::CameraPlace place =
-        picture::camera_place(scene, placed, *state_.live->seeded, state_.live->snapshot);
-    const scene::PictureSize framed = setup::size_of(*bench_.document().scene(), view);
-    const double narrower = (static_cast<double>(framed.width) / framed.height) /
-                            (static_cast<double>(state_.viewport.width) / state_.viewport.height);
-    // A narrow picture is taken from further away, with the same left and right: a wider angle
-    // would stay, as a fish-eye, when the window grows.
-    const sim::Vec3d eye = place.target + std::max(1.0, narrower) * (place.eye - place.target);
-    state_.orbit = panels::Orbit(eye, place.target, settings.up, place.fov);
+  try {
+    paint_new_picture();
+  } catch (const std::exception& error) {
+    points_of_.reset();
+    painted_ = picture_key();  // not again before something changes
+    painted_number_ = state_.live->number;
+    bench_.session().taken(state_.live->number);
+    bench_.say(session::Message::Kind::error, std::string("no picture: ") + error.what());
   }
+}
+
+/// The camera of the scene at this moment, for a picture of the viewport's shape.
+void Viewer::follow_camera() {
+  if (!state_.is_camera_of_scene) return;
+  const scene::Scene& scene = *state_.live->scene;
+  const scene::View& view = panels::current_view(state_);
+  const scene::CameraSettings settings =
+      view.camera ? *view.camera : *bench_.document().scene()->camera;
+  scene::View placed = view;
+  placed.camera = settings;
+  const setup::CameraPlace place =
+      picture::camera_place(scene, placed, *state_.live->seeded, state_.live->snapshot);
+  const scene::PictureSize framed = setup::size_of(*bench_.document().scene(), view);
+  const double narrower = (static_cast<double>(framed.width) / framed.height) /
+                          (static_cast<double>(state_.viewport.width) / state_.viewport.height);
+  // A narrow picture is taken from further away, with the same left and right: a wider angle
+  // would stay, as a fish-eye, when the window grows.
+  const sim::Vec3d eye = place.target + std::max(1.0, narrower) * (place.eye - place.target);
+  state_.orbit = panels::Orbit(eye, place.target, settings.up, place.fov);
+}
+
+void Viewer::paint_new_picture() {
+  follow_camera();
   const bool is_moving = seconds_since(moved_at_) < still_after;
   double scale = 1;
   if (is_moving && full_seconds_ > quick_enough)

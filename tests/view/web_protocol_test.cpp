@@ -150,6 +150,22 @@ TEST(EventQueue, EventQueueReleasesHeldKeysAndButtons) {
   for (const app::view::frontend::InputEvent& event : events) EXPECT_FALSE(event.is_down);
 }
 
+TEST(EventQueue, EventQueueDropsTheEventsOfAViewerThatLeaves) {
+  app::view::frontend::EventQueue queue;
+  for (const char* text : {"k 65 1 0", "k 66 1 0", "k 66 0 0", "p pasted"})
+    queue.push(event_of(text));
+  EXPECT_FALSE(queue.has_left());
+  queue.leave();
+  EXPECT_TRUE(queue.has_left());
+  queue.push(event_of("k 67 1 0"));
+  const auto events = queue.take();
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[0].kind, app::view::frontend::InputEvent::Kind::gone);
+  EXPECT_EQ(events[1].key, 65);
+  EXPECT_FALSE(events[1].is_down);
+  EXPECT_EQ(events[2].key, 67);
+}
+
 /// Sends and shows pictures one after the other. @return the quality after them
 int quality_after(int pictures, double seconds_each) {
   app::view::web::FramePacing pacing;

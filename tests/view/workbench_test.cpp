@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "app/run/changes.h"
 #include "app/scene/flat.h"
 #include "app/scene/params.h"
@@ -359,6 +361,56 @@ TEST(Workbench, WorkbenchReportsRefusedValues) {
 }
 
 /// As the advice after a divergence says: change a parameter, and reset or go back.
+TEST(Workbench, AChangeBeyondTheLimitsIsAMessageAndChangesNothing) {
+  Working work(std::string("limits.particles = 5000\n") + tiny_scene);
+  const auto before = work.bench.document().scene();
+  for (const auto& [address, value, name] :
+       {std::array{"output.size", "[16384, 16384]", "limits.pixels"},
+        {"solver.cell_size", "0.005", "limits.particles"},
+        {"body.ball.particles_per_cell", "1000", "limits.particles"}}) {
+    work.bench.set(address, value);
+    const view::session::Message& last = work.bench.messages().back();
+    EXPECT_EQ(last.kind, view::session::Message::Kind::error) << address;
+    EXPECT_TRUE(contains(last.text, name)) << last.text;
+    EXPECT_EQ(work.bench.document().scene(), before) << address;
+  }
+  work.bench.set("output.size", "[320, 180]");
+  EXPECT_EQ(work.bench.document().scene()->size.width, 320);
+}
+
+TEST(Workbench, FromElsewhereNoFileIsNamedAndNoneIsWrittenOutside) {
+  const TemporaryFolder folder;
+  folder.write("secret.csv", "password\nhunter2\n");
+  folder.write("points.csv", "x,y,z,volume\n0,0.1,0,1e-6\n0,0.2,0,1e-6\n");
+  const std::string text = std::string(tiny_scene) +
+                           "[[body]]\nname = \"cloud\"\n"
+                           "shape = { points = { file = \"points.csv\" } }\n";
+  view::session::WorkbenchOptions options;
+  options.folder = folder / "out";
+  options.is_remote = true;
+  view::session::Workbench bench(
+      view::session::open_document(folder.write("scene.toml", text), {}, 1), options, {});
+  const auto refused = [&](const std::string& address, const std::string& value) {
+    const std::uint64_t before = bench.errors_said();
+    bench.set(address, value);
+    EXPECT_EQ(bench.errors_said(), before + 1) << address;
+    EXPECT_FALSE(contains(bench.messages().back().text, "hunter2"));
+    return bench.messages().back().text;
+  };
+  const std::string secret = "\"" + (folder / "secret.csv").string() + "\"";
+  EXPECT_TRUE(contains(refused("body.cloud.shape.points.file", secret), "over the web"));
+  EXPECT_TRUE(contains(refused("body.cloud.shape", "{ points = { file = " + secret + " } }"),
+                       "over the web"));
+  EXPECT_TRUE(contains(refused("limits.memory", "\"1TiB\""), "over the web"));
+  EXPECT_FALSE(bench.may_save_over_file());
+  bench.save_scene(folder / "scene.toml");
+  EXPECT_TRUE(contains(bench.not_saved(), "over the web")) << bench.not_saved();
+  EXPECT_EQ(read_text(folder / "scene.toml"), text);
+  bench.set("body.ball.velocity", "[0, -1, 0]");
+  bench.save_scene(folder / "out/scene.toml");
+  EXPECT_TRUE(contains(read_text(folder / "out/scene.toml"), "velocity = [0, -1, 0]"));
+}
+
 TEST(Workbench, AChangeAfterADivergenceWaitsAndIsNoError) {
   Working work(exploding_scene);
   work.session().run();

@@ -68,6 +68,17 @@ void EventQueue::release_all() {
   }
 }
 
+void EventQueue::leave() {
+  events_.clear();
+  text_size_ = 0;
+  events_.push_back({.kind = InputEvent::Kind::gone});
+  release_all();
+}
+
+bool EventQueue::has_left() const {
+  return !events_.empty() && events_.front().kind == InputEvent::Kind::gone;
+}
+
 std::vector<InputEvent> EventQueue::take() {
   text_size_ = 0;
   return std::exchange(events_, {});

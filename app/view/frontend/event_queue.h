@@ -21,6 +21,11 @@ class EventQueue {
   /// Releases every key and every button that is held, even if the queue is full.
   void release_all();
 
+  /// Drops what waits, says so by `gone`, and releases every key and button that is held.
+  void leave();
+  /// True if whoever sent the events before has left, and nobody has been told.
+  bool has_left() const;
+
   bool empty() const { return events_.empty(); }
   std::vector<InputEvent> take();
 

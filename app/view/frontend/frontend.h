@@ -22,9 +22,10 @@ inline constexpr int escape = 256, enter = 257, tab = 258, backspace = 259, inse
                      super = 343, last = 348;
 }
 
-/// One input event. Places are pixels of the picture from its upper left corner.
+/// One input event. Places are pixels of the picture from its upper left corner. `gone`: the events
+/// before it are of somebody who has left, and void.
 struct InputEvent {
-  enum class Kind { move, button, wheel, key, text, resize, drop, paste, close };
+  enum class Kind { move, button, wheel, key, text, resize, drop, paste, close, gone };
 
   Kind kind = Kind::move;
   float x = 0, y = 0;    ///< place; of a wheel notches to the right and up
@@ -52,6 +53,10 @@ class Frontend {
   /// Waits until something happened, wake() is called, is_ready() turned true, or so many seconds
   /// have passed. @return the events, in order
   virtual std::vector<InputEvent> wait(double seconds) = 0;
+
+  /// Lets events wait in the device: wait() gives none, but `gone`. A device that takes them from a
+  /// stranger bounds how many wait.
+  virtual void hold_input(bool /*is_held*/) {}
 
   /// Ends wait(), from any thread.
   virtual void wake() = 0;

@@ -147,6 +147,11 @@ const char* ImGuiInput::clipboard_text() {
 
 void ImGuiInput::push(std::vector<InputEvent> events) {
   for (InputEvent& event : events) {
+    if (event.kind == Kind::gone) {
+      waiting_.clear();
+      pasted_.clear();
+      release_all();
+    }
     if (!is_possible(event)) continue;
     if (event.kind == Kind::paste) {
       push_paste(event);
@@ -171,20 +176,12 @@ void ImGuiInput::push_paste(const InputEvent& event) {
 }
 
 void ImGuiInput::release_all() {
-  // Waiting events may still press a key or button: the last state of each decides.
-  std::vector<bool> keys = is_key_down_, buttons = is_button_down_;
-  for (const auto& [event, ends_paste] : waiting_) {
-    if (event.kind == Kind::key) keys[static_cast<std::size_t>(event.key)] = event.is_down;
-    if (event.kind == Kind::button) buttons[static_cast<std::size_t>(event.button)] = event.is_down;
-  }
-  for (std::size_t k = 0; k < buttons.size(); ++k) {
-    InputEvent event{.kind = Kind::button, .button = static_cast<int>(k)};
-    if (buttons[k]) waiting_.push_back({event});
-  }
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    InputEvent event{.kind = Kind::key, .key = static_cast<int>(k)};
-    if (keys[k]) waiting_.push_back({event});
-  }
+  for (int k = 0; k < button_count; ++k)
+    if (is_button_down_[static_cast<std::size_t>(k)])
+      waiting_.push_back({{.kind = Kind::button, .button = k}});
+  for (int k = 0; k <= key::last; ++k)
+    if (is_key_down_[static_cast<std::size_t>(k)])
+      waiting_.push_back({{.kind = Kind::key, .key = k}});
   // No modifier outlives its key, not even one that was only seen with another event.
   waiting_.push_back({{.kind = Kind::move, .x = off_picture, .y = off_picture}});
 }

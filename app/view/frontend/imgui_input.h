@@ -27,8 +27,8 @@ class ImGuiInput {
   ImGuiInput& operator=(const ImGuiInput&) = delete;
 
   /// Events of the kinds resize, drop and close are left out; impossible places, buttons and keys
-  /// are too. A paste becomes ctrl+V with that text in the clipboard: who sends pastes sends no
-  /// ctrl+V for them.
+  /// are too. `gone` drops what waits and releases every key and button. A paste becomes ctrl+V
+  /// with that text in the clipboard: who sends pastes sends no ctrl+V for them.
   void push(std::vector<InputEvent> events);
 
   /// Hands over the events that fit into one frame, to the current ImGui context, just before it
@@ -36,8 +36,8 @@ class ImGuiInput {
   /// @return whether more is waiting for the next
   bool feed();
 
-  /// Releases every key and button after the waiting events, for a page that disconnects.
-  void release_all();
+  /// Events that wait for a frame.
+  std::size_t waiting() const { return waiting_.size(); }
 
  private:
   struct Waiting {
@@ -50,6 +50,7 @@ class ImGuiInput {
   void apply(const InputEvent& event, ImGuiIO& io);
   void set_modifiers(const Modifiers& held, ImGuiIO& io);
   void push_paste(const InputEvent& event);
+  void release_all();
   const char* clipboard_text();
 
   Frontend& front_;

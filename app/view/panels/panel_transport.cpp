@@ -62,7 +62,7 @@ void draw_out_menu(ViewerState& state) {
   ImGui::Separator();
   if (item("Scene with the changes", "ctrl+S"))
     state.bench.save_scene(state.bench.folder() / "scene.toml");
-  if (item("Scene with the changes, over its file"))
+  if (state.bench.may_save_over_file() && item("Scene with the changes, over its file"))
     state.bench.save_scene(state.bench.document().file());
   if (item("Copy the command line")) {
     state.copy(state.bench.command());

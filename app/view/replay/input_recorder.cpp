@@ -92,6 +92,8 @@ void InputRecorder::note(const frontend::InputEvent& event) {
       break;
     case Kind::resize:
       break;  // set_size knows more
+    case Kind::gone:
+      break;  // releases follow
   }
 }
 

@@ -21,6 +21,7 @@ class RecordingFrontend : public frontend::Frontend {
   frontend::ScreenSize size() const override { return front_.size(); }
   /// @throws IoError when the script cannot be written any more
   std::vector<frontend::InputEvent> wait(double seconds) override;
+  void hold_input(bool is_held) override { front_.hold_input(is_held); }
   void wake() override { front_.wake(); }
   bool is_ready() const override { return front_.is_ready(); }
   bool is_picture_wanted() const override { return front_.is_picture_wanted(); }

@@ -10,6 +10,7 @@
 #include "app/scene/read.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/setup/coarse_run.h"
+#include "app/setup/plan.h"
 #include "app/setup/resolve.h"
 
 namespace neve::app::view::session {
@@ -126,6 +127,20 @@ void Document::become(std::vector<scene::Override> edits) {
   edits_ = std::move(edits);
 }
 
+void Document::require_within_limits(const scene::Scene& next) const {
+  const auto plan_of = [](const scene::Scene& scene) {
+    return setup::make_plan(scene, {0, scene.frames}, setup::Quality::preview, 0);
+  };
+  const setup::Plan before = plan_of(*scene_);
+  setup::Plan plan = plan_of(next);
+  const bool needs_more = plan.memory > before.memory || plan.particles > before.particles ||
+                          plan.largest_picture > before.largest_picture;
+  if (!needs_more) return;
+  // The run that is there holds some of the memory that is not available any more.
+  if (next.limits.memory == 0 && !plan.is_memory_capped) plan.memory_limit += before.memory;
+  setup::check_limits(next, plan, coarsening_);
+}
+
 void Document::set(const std::string& address, const std::string& value, std::uint64_t gesture) {
   std::vector<scene::Override> edits = edits_;
   if (const std::optional<scene::Preset> preset = preset_in({address, value}, *scene_))
@@ -133,7 +148,10 @@ void Document::set(const std::string& address, const std::string& value, std::ui
   else
     put_edit(edits, address, value);
   const std::vector<scene::Override> before = edits_;
-  become(std::move(edits));
+  std::shared_ptr<const scene::Scene> next = read(text_, edits);
+  require_within_limits(*next);
+  scene_ = std::move(next);
+  edits_ = std::move(edits);
   if (gesture == 0 || gesture != gesture_) done_.push_back(before);
   if (done_.size() > max_undos) done_.erase(done_.begin());
   gesture_ = gesture;

@@ -49,7 +49,8 @@ class Document {
   /// A material's preset is remembered as the numbers that it changes.
   /// @param value TOML
   /// @param gesture changes with the same number, not 0, are taken back together
-  /// @throws SceneError, UsageError, and then nothing has changed
+  /// @throws SceneError, UsageError; LimitError where the scene would need more than before, and
+  /// more than its limits allow; and then nothing has changed
   void set(const std::string& address, const std::string& value, std::uint64_t gesture = 0);
   /// Back to the value of the file and the command line: of one address, or with a '.' at its end
   /// of all below it, or with "" of all.
@@ -90,6 +91,7 @@ class Document {
   std::optional<std::string> in_preset(const scene::toml::Table& root,
                                        const std::string& address) const;
   void become(std::vector<scene::Override> edits);
+  void require_within_limits(const scene::Scene& next) const;
 
   std::string file_, text_;
   std::vector<scene::Override> overrides_;

@@ -9,6 +9,7 @@
 #include "app/run/run_json.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/flat.h"
+#include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/support/version.h"
@@ -111,7 +112,23 @@ void Workbench::edit(const Edit& edit) {
 }
 
 void Workbench::set(const std::string& address, const std::string& value, std::uint64_t gesture) {
-  attempt([&] { document_.set(address, value, gesture); });
+  attempt([&] {
+    require_allowed(address, value);
+    document_.set(address, value, gesture);
+  });
+}
+
+/// @throws UsageError
+void Workbench::require_allowed(const std::string& address, const std::string& value) const {
+  if (!options_.is_remote) return;
+  const char* hint = "edit the scene file on the machine where neve runs";
+  const std::optional<scene::ParamInfo> info = scene::param_at(address);
+  const bool names_file = info ? info->valid.text == scene::Valid::Text::file
+                               : value.find("file") != std::string::npos;  // a whole table
+  if (names_file)
+    throw scene::toml::UsageError("", address + " names a file: fixed over the web", hint);
+  if (address.starts_with("limits."))
+    throw scene::toml::UsageError("", address + " is fixed over the web", hint);
 }
 
 void Workbench::undo() {
@@ -220,6 +237,9 @@ void Workbench::keep_file() {
 
 void Workbench::save_scene(const std::filesystem::path& file) {
   try {
+    if (options_.is_remote && file.parent_path() != options_.folder)
+      throw scene::toml::UsageError(
+          "", "over the web, files are written into " + options_.folder.string() + " alone");
     const std::string text =
         scene::edit_scene_text(document_.text(), document_.all_overrides(), document_.file(),
                                std::filesystem::path(document_.file()).parent_path().string());

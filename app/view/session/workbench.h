@@ -22,6 +22,9 @@ struct WorkbenchOptions {
   std::vector<std::string> overrides;  ///< of the command line, as they were given
   setup::Quality quality = setup::Quality::preview;
   std::filesystem::path folder;  ///< for pictures, sequences, scenes and sweeps
+  /// Edits come from elsewhere: no file is read that the scene does not name, none is written
+  /// outside of the folder, and limits stay.
+  bool is_remote = false;
 };
 
 struct Message {
@@ -71,6 +74,7 @@ class Workbench {
 
   // Exports. Each leaves a message with the file it wrote or the error.
   void save_scene(const std::filesystem::path& file);
+  bool may_save_over_file() const { return !options_.is_remote; }
   std::filesystem::path sweep_around(const std::string& address);
   std::string command() const;
   /// Record that a picture of this moment needs to be made again.
@@ -87,6 +91,7 @@ class Workbench {
 
  private:
   SessionOptions session_options() const;
+  void require_allowed(const std::string& address, const std::string& value) const;
   void take_over(const std::vector<scene::Override>& before);
   std::vector<std::string> changed_while_running() const;
   void apply_running();

@@ -90,6 +90,16 @@ frontend::ScreenSize WebFrontend::size() const {
   return size_;
 }
 
+void WebFrontend::hold_input(bool is_held) {
+  const std::lock_guard lock(mutex_);
+  is_input_held_ = is_held;
+}
+
+/// A page that has left is told at once.
+bool WebFrontend::gives_events() const {
+  return !events_.empty() && (!is_input_held_ || events_.has_left());
+}
+
 void WebFrontend::wake() {
   {
     const std::lock_guard lock(mutex_);
@@ -118,7 +128,7 @@ bool WebFrontend::has_news() const {
   const bool is_ready = is_ready_now();
   // The last reported value decides, not the value at the beginning of the wait.
   if (!is_ready) has_told_ready_ = false;
-  return !events_.empty() || is_woken_ || (is_ready && (!has_told_ready_ || is_wanted_));
+  return gives_events() || is_woken_ || (is_ready && (!has_told_ready_ || is_wanted_));
 }
 
 bool WebFrontend::is_sharp_due(double now) const {
@@ -138,8 +148,12 @@ std::vector<frontend::InputEvent> WebFrontend::wait(double seconds) {
   }
   is_woken_ = false;
   has_told_ready_ = is_ready_now();
-  std::vector<frontend::InputEvent> happened = events_.take();
-  const bool was_full = std::exchange(is_full_, false);
+  std::vector<frontend::InputEvent> happened;
+  bool was_full = false;
+  if (gives_events()) {
+    happened = events_.take();
+    was_full = std::exchange(is_full_, false);
+  }
   lock.unlock();
   if (was_full) server_.resume();
   return happened;
@@ -238,7 +252,7 @@ void WebFrontend::on_gone(std::uint64_t) {
     const std::lock_guard lock(mutex_);
     viewer_ = 0;
     is_full_ = false;
-    events_.release_all();
+    events_.leave();
   }
   changed_.notify_all();
 }

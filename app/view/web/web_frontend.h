@@ -55,6 +55,7 @@ class WebFrontend final : public frontend::Frontend, private WebListener {
 
   frontend::ScreenSize size() const override;
   std::vector<frontend::InputEvent> wait(double seconds) override;
+  void hold_input(bool is_held) override;
   void wake() override;
   bool is_ready() const override;
   bool is_picture_wanted() const override;
@@ -84,6 +85,7 @@ class WebFrontend final : public frontend::Frontend, private WebListener {
   bool apply(const PageMessage& message);
 
   bool is_ready_now() const;
+  bool gives_events() const;
   bool has_news() const;
   bool is_sharp_due(double now) const;
   void send_what_is_due(std::unique_lock<std::mutex>& lock);
@@ -102,6 +104,7 @@ class WebFrontend final : public frontend::Frontend, private WebListener {
   std::uint64_t viewer_ = 0;  ///< 0: no page is connected
   bool has_told_size_ = false, is_visible_ = true;
   bool is_typing_ = false;  ///< a text field waits for input
+  bool is_input_held_ = false;
   bool is_wanted_ = false, is_woken_ = false, is_full_ = false;
   mutable bool has_told_ready_ = false;  ///< the last value told to the program
   Sent sent_ = Sent::nothing;            ///< of the picture, to this viewer
