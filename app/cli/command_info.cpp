@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 /// Prints the record as plain text: the file may be from anyone.
 void print_picture(const run::PictureRecord& record) {
   std::ostringstream out;
-  out << "neve        " << record.version << "\n"
+  out << "neve        " << record.version << (record.build.empty() ? "" : " (" + record.build + ")")
+      << "\n"
       << "view        " << record.view << "\n"
       << "frame       " << record.frame << "\n"
       << "quality     " << record.quality << "\n"
@@ -63,11 +64,21 @@ std::string life_of(const std::string& status, const fs::path& folder) {
                                              : ", but its process has ended; --resume continues it";
 }
 
+/// " (commit 1a2b3c4d5e6f, Release, GCC 12.2.0)"; "" in those of earlier versions.
+std::string build_of(const Json& run) {
+  const Json build = run.value("build", Json());
+  std::string all;
+  for (const char* key : {"commit", "type", "compiler"})
+    if (build.is_object() && build.contains(key) && build[key].is_string())
+      all += (all.empty() ? " (commit " : ", ") + build[key].get<std::string>();
+  return all.empty() ? all : all + ")";
+}
+
 void print_run(const Json& run, const fs::path& folder, std::ostream& out) {
   const auto text = [&](const char* key) {
     return run.contains(key) && run[key].is_string() ? run[key].get<std::string>() : std::string();
   };
-  out << "neve        " << text("version") << "\n"
+  out << "neve        " << text("version") << build_of(run) << "\n"
       << "scene       " << text("scene_file") << "\n"
       << "status      " << text("status") << life_of(text("status"), folder) << "\n"
       << "backend     " << text("backend") << ", " << text("gl_renderer") << "\n";

@@ -19,6 +19,7 @@
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "render/gl/context.h"
+#include "sim/kernels/simd.h"
 
 namespace neve::app::cli {
 
@@ -420,9 +421,13 @@ std::string version_text() {
 
 int print_version(bool is_json) {
   if (is_json)
-    std::cout << to_text({{"name", "neve"}, {"version", version}}) << "\n";
+    std::cout << to_text({{"name", "neve"},
+                          {"version", version},
+                          {"build", build_json()},
+                          {"simd", simd_in_use()}})
+              << "\n";
   else
-    std::cout << "neve " << version << "\n";
+    std::cout << version_text() << "\n";
   return exit_ok;
 }
 
@@ -448,9 +453,11 @@ int run_command_line(int argc, char** argv) {
   add_view(app, action);
   add_bench(app, action);
   add_manual(app, action);
-  add_report(app, action, "version", "Print the version", print_version);
+  add_report(app, action, "version",
+             "Print the version, and the build: commit, type, compiler, instruction set",
+             print_version);
   app.add_subcommand("help", "Print this help, or the help of a subcommand");
-  app.set_version_flag("--version", std::string("neve ") + version);
+  app.set_version_flag("--version", version_text);
   app.footer(footer);
   // After one subcommand, the name of another is an argument: neve params view.
   app.require_subcommand(0, 1);

@@ -200,6 +200,11 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   catch_interrupts();
   sweep::plan::share_camera_and_ranges(plan, cores);
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first run");
+  if (const std::size_t outdated = sweep::store::outdated_runs(plan.folder); outdated > 0)
+    progress.note(fmt::format(
+        "another build of neve made the {} finished {} here, from sources that change results: "
+        "made again",
+        outdated, outdated == 1 ? "run" : "runs"));
   const sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan);
   if (!options.emit.empty()) {
     emit_commands(options, plan.folder, manifest, progress);

@@ -73,6 +73,7 @@ render::PngText to_png_text(const PictureRecord& record) {
           {"neve:changes", to_text(scene::to_json(record.changes), -1)},
           {"neve:seed", std::to_string(record.seed)},
           {"neve:version", record.version},
+          {"neve:build", record.build},
           {"neve:state_hash", record.state_hash},
           {"neve:frame", std::to_string(record.frame)},
           {"neve:view", record.view},
@@ -88,6 +89,7 @@ Json to_json(const PictureRecord& record) {
   json["changes"] = scene::to_json(record.changes);
   json["seed"] = record.seed;
   json["version"] = record.version;
+  json["build"] = record.build;
   json["state_hash"] = record.state_hash;
   json["frame"] = record.frame;
   json["view"] = record.view;
@@ -115,6 +117,7 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
   if (!(record.coarsening >= 1)) reader.fail("its coarsening is less than 1");
   record.seed = reader.number<std::uint64_t>("neve:seed");
   record.version = reader.text("neve:version");
+  if (text.contains("neve:build")) record.build = reader.text("neve:build");
   record.state_hash = reader.text("neve:state_hash");
   record.frame = reader.number<int>("neve:frame");
   record.view = reader.text("neve:view");

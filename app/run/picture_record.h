@@ -22,6 +22,7 @@ struct PictureRecord {
   double coarsening = 1;                   ///< factor of --coarsen
   std::uint64_t seed = 0;
   std::string version;
+  std::string build;       ///< see build_text(); empty in pictures of earlier versions
   std::string state_hash;  ///< 16 hexadecimal digits
   int frame = 0;
   std::string view;

@@ -48,9 +48,10 @@ RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation,
   return record;
 }
 
-PictureRecord picture_record(const RenderJob& job, const std::string& scene) {
+PictureRecord picture_record(const RenderJob& job, const RunRecord& run) {
   PictureRecord record;
-  record.scene = scene;
+  record.scene = run.scene;
+  record.build = build_text(run.simd);
   record.overrides = job.overrides;
   record.changes = job.changes;
   record.coarsening = job.coarsening;
@@ -78,7 +79,7 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
       builder_(scene_, seeded, {job.quality, job.overrides, job.coarsening}),
       exporter_(job.scene, job.folder / output::exports_folder, seeded.body_end),
       record_(run_record(job, simulation, context)),
-      picture_record_(picture_record(job, record_.scene)),
+      picture_record_(picture_record(job, record_)),
       checkpoints_(job.folder, picture_record_, simulation, player_, progress) {
   if (job.validate)
     validation_.emplace(job.scene.solver, job.scene.materials, simulation, progress);

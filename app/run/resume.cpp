@@ -20,6 +20,7 @@ std::string identity_of(PictureRecord picture) {
   picture.frame = 0;
   picture.view.clear();
   picture.state_hash.clear();
+  picture.build.clear();
   const std::string text = to_text(to_json(picture));
   return hash_text(hash_bytes(text.data(), text.size()));
 }

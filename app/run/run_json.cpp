@@ -222,6 +222,7 @@ std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder)
 Json to_json(const RunRecord& run) {
   Json json;
   json["version"] = version;
+  json["build"] = build_json();
   json["scene"] = run.scene;
   json["scene_file"] = run.scene_file;
   json["overrides"] = run.overrides;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "app/support/errors.h"
+#include "app/support/version.h"
 
 namespace neve::app {
 
@@ -107,13 +108,8 @@ std::string machine_text() {
     break;
   }
   const unsigned cores = std::thread::hardware_concurrency();
-#if defined(__clang__)
-  const std::string compiler = "Clang " + std::string(__clang_version__);
-#else
-  const std::string compiler = "GCC " + std::string(__VERSION__);
-#endif
   return processor + ", " + std::to_string(cores) + (cores == 1 ? " core; " : " cores; ") +
-         compiler;
+         build().compiler;
 }
 
 std::string host_name() {

@@ -227,6 +227,7 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
                        const std::vector<std::string>& folders) {
   Manifest m;
   m.version = version;
+  m.sources = build().sources;
   m.name = plan.sweep.name;
   m.title = plan.title;
   m.sweep_file = plan.sweep.file;
@@ -267,9 +268,20 @@ void check_folder(const plan::SweepPlan& plan) {
       "choose another folder with --out, or remove the old one");
 }
 
+std::size_t outdated_runs(const std::filesystem::path& folder) {
+  const std::optional<Manifest> earlier = earlier_manifest(folder);
+  if (!earlier || earlier->sources == build().sources) return 0;
+  return static_cast<std::size_t>(
+      std::count_if(earlier->runs.begin(), earlier->runs.end(), [&](const Run& run) {
+        const RunStatus status = read_status(runs_folder(folder) / run.folder);
+        return status.key == run.key && is_finished(status.state);
+      }));
+}
+
 void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   Json json;
   json["version"] = m.version;
+  json["sources"] = m.sources;
   json["name"] = m.name;
   json["title"] = m.title;
   json["sweep_file"] = m.sweep_file;
@@ -298,12 +310,16 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
 }
 
 Manifest read_manifest(const std::filesystem::path& folder) {
-  const std::string file = manifest_path(folder).string();
-  const std::vector<std::uint8_t> bytes = output::read_file(file);
+  const std::filesystem::path file = manifest_path(folder);
+  return parse_manifest(output::read_file(file), file.string());
+}
+
+Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& file) {
   try {
     const Json json = parse_json(bytes);
     Manifest m;
     m.version = json.at("version").get<std::string>();
+    m.sources = json.value("sources", "");
     m.name = json.at("name").get<std::string>();
     m.title = json.at("title").get<std::string>();
     m.sweep_file = json.at("sweep_file").get<std::string>();

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct AxisLabels {
 };
 
 struct Manifest {
+  std::string sources;  ///< of the program, see Build; "" in files of before they had it
   std::string version, name, title, sweep_file, scene_file, view;
   int tile_width = 480, tile_height = 270;
   double fps = 24;
@@ -49,6 +51,13 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
 /// One sweep in a folder: its table, sheet and report replace those of another.
 /// @throws UsageError when the folder has a sweep with axes of other addresses
 void check_folder(const plan::SweepPlan& plan);
+
+/// Finished runs in the folder of a sweep that a program with other sources has made: their keys
+/// are others now.
+std::size_t outdated_runs(const std::filesystem::path& folder);
+
+/// @param file  named in errors @throws Error if it is broken
+Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& file);
 
 /// @throws Error if it is missing or broken
 Manifest read_manifest(const std::filesystem::path& folder);

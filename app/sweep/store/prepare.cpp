@@ -62,8 +62,8 @@ void write_run(const fs::path& folder, const plan::PlannedRun& item, const std::
 }  // namespace
 
 std::string key_of(const plan::PlannedRun& item) {
-  std::string text = scene::write_scene(item.scene) + "\nversion " + version + "\nframes " +
-                     std::to_string(item.run.frames.first) + "-" +
+  std::string text = scene::write_scene(item.scene) + "\nversion " + version + "\nsources " +
+                     build().sources + "\nframes " + std::to_string(item.run.frames.first) + "-" +
                      std::to_string(item.run.frames.last);
   for (const auto& [file, hash] : run::hash_files(item.scene)) text += "\n" + file + " " + hash;
   return run::hash_text(hash_bytes(text.data(), text.size()));

@@ -11,7 +11,8 @@ namespace neve::app::sweep::store {
 /// @throws IoError
 Manifest prepare_sweep(const plan::SweepPlan& plan);
 
-/// Hash of the resolved scene, the files it names, the version and the frames.
+/// Hash of the resolved scene, the files it names, the version, the sources that change results,
+/// and the frames.
 std::string key_of(const plan::PlannedRun& item);
 
 }  // namespace neve::app::sweep::store

@@ -311,6 +311,7 @@ run::PictureRecord Workbench::picture_record(const LiveFrame& live, const scene:
   record.coarsening = document_.coarsening();
   record.seed = scene.seed;
   record.version = version;
+  record.build = build_text(live.simd);
   record.frame = live.frame;
   record.view = view.name;
   record.quality = setup::name(options_.quality);
