@@ -106,7 +106,11 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
   } catch (const render::ImageError& error) {
     throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string());
   }
-  const TextReader reader(file.string(), text);
+  return picture_record_of(text, file.string());
+}
+
+PictureRecord picture_record_of(const render::PngText& text, const std::string& file) {
+  const TextReader reader(file, text);
   PictureRecord record;
   record.scene = reader.text("neve:scene");
   for (const Json& item : reader.json("neve:overrides"))

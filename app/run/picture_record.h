@@ -33,6 +33,9 @@ struct PictureRecord {
 render::PngText to_png_text(const PictureRecord& record);
 Json to_json(const PictureRecord& record);
 
+/// @param file  named in errors @throws Error when the texts are no record
+PictureRecord picture_record_of(const render::PngText& text, const std::string& file);
+
 /// @throws Error with exit_invalid_scene when the file is no PNG, or holds no or broken records
 PictureRecord read_picture_record(const std::filesystem::path& file);
 

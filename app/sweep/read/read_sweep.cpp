@@ -246,7 +246,11 @@ void Sweep::fail(const std::string& key, const std::string& message,
 }
 
 Sweep read_sweep(const std::string& file, const SweepChanges& changes) {
-  const scene::toml::Table root = scene::toml::parse_toml(scene::read_toml_file(file), file);
+  return parse_sweep(scene::read_toml_file(file), file, changes);
+}
+
+Sweep parse_sweep(const std::string& text, const std::string& file, const SweepChanges& changes) {
+  const scene::toml::Table root = scene::toml::parse_toml(text, file);
   Sweep sweep;
   const bool is_sweep = root.find("sweep") != nullptr;
   if (is_sweep) {

@@ -15,6 +15,9 @@ struct SweepChanges {
   std::vector<std::string> sets;  ///< --set ADDRESS=VALUE
 };
 
+/// @param text  of the file
+Sweep parse_sweep(const std::string& text, const std::string& file, const SweepChanges& changes);
+
 /// @param file  with a table [sweep] it is a sweep file, otherwise a scene
 /// @throws SceneError for the file, UsageError for the changes
 Sweep read_sweep(const std::string& file, const SweepChanges& changes);

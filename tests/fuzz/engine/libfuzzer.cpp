@@ -1,0 +1,50 @@
+/// The entry of libFuzzer. NEVE_FUZZ_READER names the reader; tests/fuzz/search starts one after
+/// the other. With --seeds DIR it writes the corpus into a folder instead.
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "tests/fuzz/readers.h"
+
+namespace {
+
+using namespace neve::test::fuzz;
+
+const Reader* chosen = nullptr;
+
+const Reader* reader_called(std::string_view name) {
+  for (const Reader& reader : readers())
+    if (name == reader.name) return &reader;
+  return nullptr;
+}
+
+int write_seeds(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  int number = 0;
+  for (const Bytes& bytes : corpus_of(*chosen))
+    std::ofstream(folder / ("seed" + std::to_string(number++)), std::ios::binary) << text_of(bytes);
+  return 0;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+  const char* name = std::getenv("NEVE_FUZZ_READER");
+  chosen = reader_called(name ? name : "");
+  if (!chosen) {
+    std::fprintf(stderr, "NEVE_FUZZ_READER names one of:");
+    for (const Reader& reader : readers()) std::fprintf(stderr, " %s", reader.name);
+    std::fprintf(stderr, "\n");
+    std::exit(2);
+  }
+  if (*argc == 3 && std::string_view((*argv)[1]) == "--seeds") std::exit(write_seeds((*argv)[2]));
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  chosen->read({data, size});
+  return 0;
+}

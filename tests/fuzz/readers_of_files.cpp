@@ -1,0 +1,97 @@
+#include "app/scene/override.h"
+#include "app/scene/read.h"
+#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
+#include "app/sweep/plan/expand.h"
+#include "app/sweep/read/read_sweep.h"
+#include "app/view/replay/replay_script.h"
+#include "sim/files/mesh_reader.h"
+#include "sim/files/point_reader.h"
+#include "sim/types/errors.h"
+#include "tests/fuzz/readers.h"
+
+namespace neve::test::fuzz {
+
+namespace {
+
+using namespace neve::app;
+
+constexpr const char* base_scene = R"(
+[solver]
+cell_size = 0.04
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.12, 0], radius = 0.08 } }
+[[collider]]
+name = "floor"
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+)";
+
+/// Calls a reader that may refuse what it is given.
+template <class Read>
+void try_to(const Read& read) {
+  try {
+    read();
+  } catch (const scene::toml::SceneError&) {
+  } catch (const scene::toml::UsageError&) {
+  } catch (const sim::ShapeError&) {
+  } catch (const Error&) {
+  }
+}
+
+/// A scene that was read is written so that it reads as the same one.
+void require_round_trip(const scene::Scene& scene) {
+  const std::string text = scene::write_scene(scene);
+  require(scene::write_scene(scene::read_scene_text(text, "written")) == text);
+}
+
+}  // namespace
+
+void read_scene(std::span<const std::uint8_t> bytes) {
+  std::optional<scene::Scene> scene;
+  try_to([&] { scene = scene::read_scene_text(std::string(text_of(bytes)), "scene.toml"); });
+  if (scene) require_round_trip(*scene);
+}
+
+/// One --set a line.
+void read_set(std::span<const std::uint8_t> bytes) {
+  std::optional<scene::Scene> scene;
+  try_to([&] {
+    std::vector<scene::Override> overrides;
+    std::string_view text = text_of(bytes);
+    while (!text.empty()) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      overrides.push_back(scene::parse_override(text.substr(0, end)));
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    scene = scene::read_scene_text(base_scene, "scene.toml", "", overrides);
+  });
+  if (scene) require_round_trip(*scene);
+}
+
+void read_sweep(std::span<const std::uint8_t> bytes) {
+  try_to([&] {
+    const sweep::read::Sweep sweep =
+        sweep::read::parse_sweep(std::string(text_of(bytes)), "sweep.toml", {});
+    sweep::read::repeated_values(sweep);
+    sweep::plan::expand(sweep);
+  });
+}
+
+void read_mesh(std::span<const std::uint8_t> bytes) {
+  try_to([&] { sim::files::parse_mesh(text_of(bytes), "mesh"); });
+  try_to([&] { sim::files::parse_obj(text_of(bytes), "mesh.obj"); });
+}
+
+void read_points(std::span<const std::uint8_t> bytes) {
+  try_to([&] { sim::files::parse_points(text_of(bytes), "points"); });
+}
+
+void read_script(std::span<const std::uint8_t> bytes) {
+  try_to([&] {
+    const auto steps = view::replay::parse_replay(text_of(bytes), "script.json");
+    require(!view::replay::replay_text(steps).empty());
+  });
+}
+
+}  // namespace neve::test::fuzz

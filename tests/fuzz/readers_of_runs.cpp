@@ -1,0 +1,185 @@
+#include <zlib.h>
+
+#include <cstring>
+#include <map>
+#include <stdexcept>
+
+#include "app/output/checkpoint.h"
+#include "app/run/picture_record.h"
+#include "app/run/resumed_run.h"
+#include "app/run/run_json.h"
+#include "app/scene/read.h"
+#include "app/setup/seed_scene.h"
+#include "app/support/errors.h"
+#include "app/sweep/store/manifest.h"
+#include "render/image/image.h"
+#include "tests/fuzz/readers.h"
+
+namespace neve::test::fuzz {
+
+namespace {
+
+using namespace neve::app;
+
+/// About 40 particles of two materials, an emitter and a moving collider: every part of a state.
+constexpr const char* small_scene = R"(
+[solver]
+cell_size = 0.06
+[material.snow]
+[material.ice]
+model = "corotated"
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.12, 0], radius = 0.06 } }
+[[body]]
+name = "cube"
+material = "ice"
+shape = { box = { center = [0.3, 0.15, 0], size = [0.06, 0.06, 0.06] } }
+[[emitter]]
+name = "spout"
+shape = { sphere = { center = [0, 0.5, 0], radius = 0.05 } }
+velocity = [0, -1, 0]
+rate = 0.3
+[[collider]]
+name = "post"
+shape = { cylinder = { center = [0.1, 0.1, 0], radius = 0.02, height = 0.2 } }
+velocity = [0.1, 0, 0]
+)";
+
+struct SmallRun {
+  scene::Scene scene = scene::read_scene_text(small_scene, "small.toml");
+  setup::SeededScene seeded = setup::seed_scene(scene);
+  sim::Simulation simulation = setup::make_simulation(scene, seeded.particles, 1);
+  Bytes good;
+  output::Checkpoint checkpoint;
+
+  SmallRun() {
+    std::vector<picture::PlotSample> history;
+    run::RunRecord record;
+    sim::AdvanceReport advance;
+    for (int frame = 0; frame <= 1; ++frame) {
+      if (frame > 0) advance = simulation.advance_to(frame / scene.fps);
+      const sim::Summary summary = simulation.summary();
+      history.push_back(picture::plot_sample(frame / scene.fps, summary, advance));
+      run::add_frame(
+          record.frames,
+          {frame, frame / scene.fps, advance, 0, 0, summary, simulation.state_hash(), {}, {}});
+    }
+    good = simulation.save();
+    checkpoint.identity = "identity";
+    checkpoint.simd = simulation.simd();
+    checkpoint.frame = 1;
+    checkpoint.steps = simulation.steps();
+    checkpoint.progress = run::progress_json(1, {}, history, record);
+    checkpoint.state = good;
+  }
+};
+
+SmallRun& small_run() {
+  static SmallRun instance;
+  return instance;
+}
+
+/// The checksum of a checkpoint is its last eight bytes: made right, whatever is before it.
+Bytes mended(std::span<const std::uint8_t> bytes) {
+  Bytes whole(bytes.begin(), bytes.end());
+  if (whole.size() < 8) return whole;
+  const std::uint64_t sum = crc32_z(crc32_z(0, nullptr, 0), whole.data(), whole.size() - 8);
+  std::memcpy(whole.data() + whole.size() - 8, &sum, sizeof sum);
+  return whole;
+}
+
+/// A run that is resumed from it takes two steps and tells about its particles.
+void resume(const run::ResumedRun& resumed) {
+  SmallRun& small = small_run();
+  try {
+    run::restore_frame(resumed, small.scene.fps, small.simulation);
+  } catch (const std::runtime_error&) {
+    return;
+  }
+  sim::Simulation& simulation = small.simulation;
+  simulation.advance_to(simulation.time() + 1e-4, {}, simulation.steps() + 2);
+  simulation.particles();
+  simulation.summary();
+  simulation.restore(small.good);
+}
+
+}  // namespace
+
+void read_checkpoint(std::span<const std::uint8_t> bytes) {
+  output::Checkpoint checkpoint;
+  try {
+    checkpoint = output::parse_checkpoint(mended(bytes));
+  } catch (const std::exception&) {
+    return;
+  }
+  try {
+    resume(run::read_resumed_run(checkpoint));
+  } catch (const Error&) {
+  }
+}
+
+/// As --resume and neve verify read it.
+void read_run_json(std::span<const std::uint8_t> bytes) {
+  Json json;
+  try {
+    json = parse_json(bytes);
+  } catch (const nlohmann::json::exception&) {
+    return;
+  }
+  run::frame_records(json);
+  run::file_hashes(json);
+  run::is_untouched(json);
+  try {
+    scene::live_changes(json.is_object() ? json.value("changes", Json::array()) : json);
+  } catch (const std::runtime_error&) {
+  }
+}
+
+void read_manifest(std::span<const std::uint8_t> bytes) {
+  try {
+    const sweep::store::Manifest manifest = sweep::store::parse_manifest(bytes, "manifest.json");
+    require(manifest.first_frame() <= manifest.last_frame());
+  } catch (const Error&) {
+  }
+}
+
+/// As neve info reads it, and neve compare its pixels.
+void read_picture(std::span<const std::uint8_t> bytes) {
+  try {
+    run::picture_record_of(render::read_png_text(bytes), "picture.png");
+  } catch (const render::ImageError&) {
+  } catch (const Error&) {
+  }
+  try {
+    render::decode_png(bytes);
+  } catch (const render::ImageError&) {
+  }
+}
+
+std::vector<Bytes> checkpoints() {
+  return {output::encode_checkpoint(small_run().checkpoint)};
+}
+
+std::vector<Bytes> run_records() {
+  run::RunRecord record;
+  record.scene = small_scene;
+  record.views = {"particles"};
+  for (const Json& frame : small_run().checkpoint.progress["frames"])
+    record.frames.push_back(run::frame_record(frame));
+  record.files = {{"particles/0000.png", "0123456789abcdef"}};
+  return {bytes_of(run::with_own_hash(run::to_json(record)))};
+}
+
+std::vector<Bytes> pictures() {
+  run::PictureRecord record;
+  record.scene = small_scene;
+  record.overrides = {"material.snow.hardening=5"};
+  record.view = "particles";
+  record.state_hash = "0123456789abcdef";
+  record.quality = "preview";
+  const render::Image image{2, 2, 3, std::vector<std::uint8_t>(12, 100)};
+  return {render::encode_png(image, run::to_png_text(record)), render::encode_png(image)};
+}
+
+}  // namespace neve::test::fuzz
