@@ -4,22 +4,13 @@
 #include <cstring>
 #include <string>
 
-#include "tests/support/resume.h"
+#include "tests/support/faulty_cli.h"
 
 namespace neve::test {
 namespace {
 
-class Faults : public Cli {
+class Faults : public FaultyCli {
  protected:
-  /// The program with calls that fail, see tests/faults/faults.cpp.
-  app::output::ProcessResult failing(const std::string& fault, const std::string& arguments) {
-    return app::output::run_process("/bin/bash",
-                                    {"-c",
-                                     "export NEVE_CALLS=$PWD/calls NEVE_FAULT='" + fault +
-                                         "' LD_PRELOAD=" NEVE_FAULTS "; exec \"$0\" " + arguments,
-                                     NEVE_BINARY},
-                                    folder.path());
-  }
   std::string state(const std::string& run) {
     return json_of("s/runs/" + run + "/status.json")["state"].get<std::string>();
   }
@@ -96,6 +87,10 @@ TEST_F(Faults, EveryWriteOfARunFailsOnceAndTheSameCommandEndsWithTheSameBits) {
       EXPECT_TRUE(found.pictures == whole.pictures) << operation << skip;
       EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
     }
+}
+
+TEST_F(Faults, AfterAPowerCutTheSameCommandEndsWithTheSameBits) {
+  EXPECT_EQ(cut_power(20, 1), 20);
 }
 
 TEST_F(Faults, AStatusThatCannotBeWrittenStopsASweepAndTheSameCommandGoesOn) {

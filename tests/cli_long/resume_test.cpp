@@ -1,6 +1,6 @@
 /// A hundred kills at random instants, inside of writes too.
 
-#include "tests/support/resume.h"
+#include "tests/support/faulty_cli.h"
 
 namespace neve::test {
 namespace {
@@ -17,6 +17,10 @@ TEST_F(Cli, KilledAHundredTimesItEndsWithTheSameBits) {
   const RunFiles a = files_of(folder / "whole"), b = files_of(folder / "parts");
   EXPECT_EQ(a.hashes, b.hashes);
   EXPECT_EQ(a.pictures, b.pictures);
+}
+
+TEST_F(FaultyCli, AfterTwoHundredPowerCutsItEndsWithTheSameBits) {
+  EXPECT_EQ(cut_power(200, 2), 200);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 ///   close)
 ///               fails with this number on files with this part in their path, after SKIP times
 ///   NEVE_CALLS  FILE  gets a line for each: "fsync /path"
+///   NEVE_JOURNAL  FILE  gets all that changes the disk, see tests/support/power_cut.h
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -66,6 +67,24 @@ void note(const char* operation, const std::string& path) {
   next<int(int)>("close")(fd);
 }
 
+std::string absolute(const char* path) {
+  char here[PATH_MAX];
+  if (path[0] == '/' || !::getcwd(here, sizeof here)) return path;
+  return std::string(here) + "/" + path;
+}
+
+/// One record at a time, whatever the threads do: "OPERATION BYTES\nPATH\n", and so many bytes.
+void journal(const char* operation, const std::string& path, const std::string& bytes = {}) {
+  static const char* file = std::getenv("NEVE_JOURNAL");
+  if (!file || path == file) return;
+  const int fd =
+      next<int(const char*, int, ...)>("open")(file, O_WRONLY | O_CREAT | O_APPEND, 0666);
+  const std::string record =
+      std::string(operation) + " " + std::to_string(bytes.size()) + "\n" + path + "\n" + bytes;
+  (void)!next<ssize_t(int, const void*, size_t)>("write")(fd, record.data(), record.size());
+  next<int(int)>("close")(fd);
+}
+
 /// Whether this call fails; errno is set then.
 bool fails(const char* operation, const std::string& path) {
   Fault& f = fault();
@@ -78,7 +97,9 @@ bool fails(const char* operation, const std::string& path) {
 int open_file(const char* name, const char* path, int flags, unsigned mode) {
   const bool writes = (flags & O_ACCMODE) != O_RDONLY;
   if (writes && fails("open", path)) return -1;
-  return next<int(const char*, int, ...)>(name)(path, flags, mode);
+  const int fd = next<int(const char*, int, ...)>(name)(path, flags, mode);
+  if (fd >= 0 && (flags & O_CREAT) != 0) journal("create", absolute(path));
+  return fd;
 }
 
 }  // namespace
@@ -103,19 +124,44 @@ int open64(const char* path, int flags, ...) {
 
 ssize_t write(int fd, const void* data, size_t size) {
   if (!fault().operation.empty() && fails("write", path_of(fd))) return -1;
-  return next<ssize_t(int, const void*, size_t)>("write")(fd, data, size);
+  const ssize_t written = next<ssize_t(int, const void*, size_t)>("write")(fd, data, size);
+  if (written > 0 && std::getenv("NEVE_JOURNAL"))
+    journal("write", path_of(fd),
+            std::string(static_cast<const char*>(data), static_cast<std::size_t>(written)));
+  return written;
 }
 
 int fsync(int fd) {
   const std::string path = path_of(fd);
   note("fsync", path);
-  return fails("fsync", path) ? -1 : next<int(int)>("fsync")(fd);
+  const int result = fails("fsync", path) ? -1 : next<int(int)>("fsync")(fd);
+  if (result == 0) journal("fsync", path);
+  return result;
 }
 
 int rename(const char* from, const char* to) {
   if (fails("rename", to)) return -1;
   const int result = next<int(const char*, const char*)>("rename")(from, to);
   note("rename", to);
+  if (result == 0) journal("rename", absolute(from), absolute(to));
+  return result;
+}
+
+int unlink(const char* path) {
+  const int result = next<int(const char*)>("unlink")(path);
+  if (result == 0) journal("remove", absolute(path));
+  return result;
+}
+
+int remove(const char* path) {
+  const int result = next<int(const char*)>("remove")(path);
+  if (result == 0) journal("remove", absolute(path));
+  return result;
+}
+
+int mkdir(const char* path, mode_t mode) {
+  const int result = next<int(const char*, mode_t)>("mkdir")(path, mode);
+  if (result == 0) journal("folder", absolute(path));
   return result;
 }
 
