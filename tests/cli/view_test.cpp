@@ -1,6 +1,7 @@
 /// neve view, worked by scripts: what it saves is what neve render makes of it.
 
 #include "tests/cli/run_neve.h"
+#include "tests/support/child.h"
 
 namespace neve::test {
 namespace {
@@ -44,6 +45,30 @@ TEST_F(View, APictureOfAChangedRunIsMadeAgain) {
   const auto again = neve({"render", picture, "--out", "again"});
   ASSERT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_EQ(info_of("again/particles/0003.png")["state_hash"], saved["state_hash"]);
+}
+
+/// A picture reads the mesh of a collider again, which is gone.
+TEST_F(View, APictureThatCannotBeDrawnDoesNotEndTheProgram) {
+  folder.write("mesh.obj",
+               "v 0 0 0\nv 0.3 0 0\nv 0 0.2 0\nv 0 0 0.3\n"
+               "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  folder.write("scene.toml",
+               std::string(tiny_scene) +
+                   "[[collider]]\nname = \"mesh\"\n"
+                   "shape = { mesh = { file = \"mesh.obj\", center = [1, 0, 0] } }\n");
+  folder.write("script.json", R"([
+    {"click": "Frame"}, {"wait_for": "simulation frame 1"}, {"wait": 5},
+    {"screenshot": "before.png"}, {"wait": 90}, {"wheel": 3, "at": [500, 300]}, {"wait": 20},
+    {"screenshot": "after.png"}, {"quit": true}])");
+  const pid_t program =
+      start_program({"/bin/bash", "-c",
+                     "cd \"$1\" && exec \"$0\" view scene.toml --replay script.json --out viewed "
+                     "--size 900x600 2>said",
+                     NEVE_BINARY, folder.path().string()});
+  ASSERT_TRUE(wait_for_file(folder / "viewed/before.png"));
+  std::filesystem::remove(folder / "mesh.obj");
+  EXPECT_EQ(wait_for(program), 0) << read_text(folder / "said");
+  EXPECT_TRUE(exists("viewed/after.png"));
 }
 
 TEST_F(View, AScriptEndsWithTheFileThatWasNotSaved) {
