@@ -31,10 +31,18 @@ bool is_sink_check_due(const Progress& progress, double cell_size) {
          progress.distance_since_sink_check >= cell_size;
 }
 
+/// The affine velocity of what turns.
+Mat3d affine_velocity(const Vec3d& spin) {
+  Mat3d C;
+  for (int a = 0; a < 3; ++a) C.col(a) = spin.cross(Vec3d::Unit(a));
+  return C;
+}
+
 /// The record of a particle at rest in its own deformation.
+/// @param spin  of the snow that it is born with, rad/s
 template <class Real>
 kernels::Particle<Real> born_record(const seeding::Birth& birth, std::uint16_t material,
-                                    const Method<Real>& method) {
+                                    const Vec3d& spin, const Method<Real>& method) {
   kernels::Particle<Real> p{};
   if (!method.lattice.locate(birth.x, p))
     throw std::invalid_argument("an emitter is outside the lattice");
@@ -43,6 +51,7 @@ kernels::Particle<Real> born_record(const seeding::Birth& birth, std::uint16_t m
   p.V0 = static_cast<Real>(birth.V0);
   p.kind = kernels::kind_of<Real>(material, model_kind(method.materials[material].model), 0);
   store_matrix(Mat3d(Mat3d::Identity()), p.F_E);
+  if (method.fits_affine_velocity()) store_matrix(affine_velocity(spin), p.C);
   p.J_P = static_cast<Real>(birth.J_P);
   p.stiffness = static_cast<Real>(birth.stiffness);
   p.threshold = static_cast<Real>(birth.threshold);
@@ -89,7 +98,7 @@ SnowFlow<Real>::SnowFlow(const seeding::Flow& flow, const Method<Real>& method) 
                                   ": particles per cell or rate is not positive");
     emitters_.push_back({seeding::EmitterStream(emitter, k, method.materials[material], flow.seed,
                                                 method.settings.cell_size),
-                         static_cast<std::uint16_t>(material)});
+                         static_cast<std::uint16_t>(material), emitter.angular_velocity});
   }
   for (const seeding::Sink& sink : flow.sinks)
     sinks_.push_back({shapes::Solid(sink.shape), sink.outside});
@@ -127,7 +136,7 @@ void SnowFlow<Real>::emit(State<Real>& state, StartState& start) {
       for (const seeding::Birth& birth : births) room->take(birth);
     progress.flow.withheld += emitter.births.state().withheld;
     for (const seeding::Birth& birth : births) {
-      kernels::Particle<Real> p = born_record(birth, emitter.material, state.method);
+      kernels::Particle<Real> p = born_record(birth, emitter.material, emitter.spin, state.method);
       if (progress.next_id >= max_ids)
         throw std::length_error("a simulation has at most 2^31 particles");
       p.id = static_cast<Integer<Real>>(progress.next_id++);

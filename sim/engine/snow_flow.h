@@ -31,6 +31,7 @@ class SnowFlow {
   struct Emitter {
     seeding::EmitterStream births;
     std::uint16_t material;
+    Vec3d spin;  ///< rad/s
   };
   struct Sink {
     shapes::Solid solid;

@@ -76,11 +76,14 @@ ParticleArrays spray() {
 
 TEST(Memory, StepsOfPackedSnowAllocateNothing) {
   const ParticleArrays p = ball_of_snow({0.01, 0.17, -0.02}, 0.13, 0.01, {0.3, -4, 0.1});
-  for (const int threads : {1, 2}) {
-    Simulation simulation(coarse(), {Material{}}, {plane({0, 0.013, 0}, {0, 1, 0}, 0.5)}, p,
-                          threads);
-    EXPECT_EQ(allocations_in_steps(simulation, 1e-4, 64, 64), 0u) << threads << " threads";
-  }
+  for (const Transfer transfer : {Transfer::flip, Transfer::asflip})
+    for (const int threads : {1, 2}) {
+      SolverSettings settings = coarse();
+      settings.transfer = transfer;
+      Simulation simulation(settings, {Material{}}, {plane({0, 0.013, 0}, {0, 1, 0}, 0.5)}, p,
+                            threads);
+      EXPECT_EQ(allocations_in_steps(simulation, 1e-4, 64, 64), 0u) << threads << " threads";
+    }
 }
 
 /// Blocks come and go in flight, so that a buffer may grow by a quarter once in a while.

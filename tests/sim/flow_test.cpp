@@ -486,6 +486,34 @@ TEST(FlowRoom, AFreeStreamIsNotWithheld) {
   }
 }
 
+/// Snow that turns at birth has the affine velocity of it where particles keep their own velocity:
+/// nothing is added to it in the first steps.
+TEST(Flow, SnowThatTurnsAtBirthKeepsItsSpinAndGainsNoEnergyWithAflip) {
+  seeding::Emitter e;
+  e.name = "thrower";
+  e.material = "snow";
+  e.shape.form = shapes::Sphere{{0, 0.5, 0}, 0.06};
+  e.angular_velocity = {1, -2, 12};
+  e.start = 0.001;
+  SolverSettings settings;
+  settings.transfer = Transfer::aflip;
+  settings.gravity.setZero();
+  Simulation simulation = flowing(settings, {}, {{e}, {}, 1});
+  while (simulation.particle_count() == 0) simulation.step(1e-4);
+  Mat3d C;
+  C << 0, -12, -2, 12, 0, -1, 2, 1, 0;
+  for (const Mat3d& C_p : simulation.particles().C) EXPECT_EQ(C_p, C);
+  const Summary start = simulation.summary();
+  for (int k = 0; k < 100; ++k) simulation.step(1e-4);
+  const Summary end = simulation.summary();
+  EXPECT_LT(end.kinetic_energy + end.elastic_energy, 1.001 * start.kinetic_energy);
+  EXPECT_NEAR(end.angular_momentum[2] / start.angular_momentum[2], 1, 1e-3);
+  settings.transfer = Transfer::apic;
+  Simulation apic = flowing(settings, {}, {{e}, {}, 1});
+  while (apic.particle_count() == 0) apic.step(1e-4);
+  for (const Mat3d& C_p : apic.particles().C) EXPECT_TRUE(C_p.isZero());
+}
+
 TEST(FlowRoom, TheClockOfAnEmitterStopsWhileABirthWaits) {
   seeding::Emitter e = spout(3);
   e.end = 1.0;
