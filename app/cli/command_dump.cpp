@@ -25,21 +25,35 @@ namespace neve::app::cli {
 
 namespace {
 
+std::string force_line(const run::ColliderForce& force) {
+  const auto vector = [](const sim::Vec3d& v) {
+    return rough_text(v.x()) + " " + rough_text(v.y()) + " " + rough_text(v.z());
+  };
+  return "snow on " + force.collider + " in the next step: force " + vector(force.force) +
+         " N, torque " + vector(force.torque) + " N m, pressure up to " +
+         rough_text(force.max_pressure) + " Pa";
+}
+
 std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOptions& options,
                                  const dump::StepInspection& inside, const dump::Listing& listing) {
-  return {job.scene_file + (job.scene.title.empty() ? "" : ": " + job.scene.title),
-          "t = " + rough_text(inside.simulation.time()) + " s after " +
-              std::to_string(inside.simulation.steps()) + " steps; the next has dt = " +
-              rough_text(inside.dt) + " s, ruled by " + sim::name(inside.limit),
-          (options.stage ? std::string("after the stage ") + sim::name(*options.stage)
-                         : std::string("before the step")) +
-              ": " + std::to_string(listing.place.size()) +
-              (listing.is_of_nodes
-                   ? " nodes with mass, of which " + std::to_string(listing.negligible_count()) +
-                         " are left out of the summary, lighter than " +
-                         rough_text(health::Expected::negligible_share()) + " rho h^3"
-                   : std::string(" particles")),
-          "state " + run::hash_text(inside.simulation.state_hash())};
+  std::vector<std::string> lines{
+      job.scene_file + (job.scene.title.empty() ? "" : ": " + job.scene.title),
+      "t = " + rough_text(inside.simulation.time()) + " s after " +
+          std::to_string(inside.simulation.steps()) + " steps; the next has dt = " +
+          rough_text(inside.dt) + " s, ruled by " + sim::name(inside.limit),
+      (options.stage ? std::string("after the stage ") + sim::name(*options.stage)
+                     : std::string("before the step")) +
+          ": " + std::to_string(listing.place.size()) +
+          (listing.is_of_nodes
+               ? " nodes with mass, of which " + std::to_string(listing.negligible_count()) +
+                     " are left out of the summary, lighter than " +
+                     rough_text(health::Expected::negligible_share()) + " rho h^3"
+               : std::string(" particles")),
+      "state " + run::hash_text(inside.simulation.state_hash())};
+  for (const run::ColliderForce& force : dump::forces_in_step(inside))
+    if (force.force != sim::Vec3d::Zero() || force.max_pressure > 0)
+      lines.push_back(force_line(force));
+  return lines;
 }
 
 std::size_t nearest_row(const dump::Listing& listing, const sim::Vec3d& place) {
@@ -87,6 +101,9 @@ Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
   json["stage"] = options.stage ? Json(sim::name(*options.stage)) : Json();
   json["state_hash"] = run::hash_text(inside.simulation.state_hash());
   json[listing.is_of_nodes ? "nodes" : "particles"] = listing.place.size();
+  json["forces"] = Json::array();
+  for (const run::ColliderForce& force : dump::forces_in_step(inside))
+    json["forces"].push_back(run::to_json(force));
   json["quantities"] = dump::summary_json(listing);
   json["probes"] = Json::array();
   for (const std::size_t row : probed) json["probes"].push_back(dump::probe_json(listing, row));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/run/run_json.h"
 #include "app/scene/scene.h"
 #include "sim/simulation.h"
 #include "sim/staged.h"
@@ -40,6 +41,10 @@ struct StepInspection {
   sim::StagedStep step;
   sim::ParticleArrays before;
 };
+/// Force, torque and pressure of the snow on each collider during the step; those without snow as
+/// well.
+std::vector<run::ColliderForce> forces_in_step(const StepInspection& inside);
+
 StepInspection inspect_step(const scene::Scene& scene, const sim::Simulation& simulation,
                             double remaining);
 

@@ -85,13 +85,16 @@ Json to_json(const FrameRecord& frame) {
   json["fragments"] = frame.metrics.fragments;
   json["largest_fragment"] = number_or_null(frame.metrics.largest_fragment);
   json["forces"] = Json::array();
-  for (const ColliderForce& f : frame.forces)
-    json["forces"].push_back({{"collider", f.collider},
-                              {"force", output::vector_json(f.force)},
-                              {"torque", output::vector_json(f.torque)},
-                              {"max_pressure", number_or_null(f.max_pressure)}});
+  for (const ColliderForce& force : frame.forces) json["forces"].push_back(to_json(force));
   json["state_hash"] = hash_text(frame.state_hash);
   return json;
+}
+
+Json to_json(const ColliderForce& force) {
+  return {{"collider", force.collider},
+          {"force", output::vector_json(force.force)},
+          {"torque", output::vector_json(force.torque)},
+          {"max_pressure", number_or_null(force.max_pressure)}};
 }
 
 std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance, const sim::Summary& summary,

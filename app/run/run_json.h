@@ -26,7 +26,7 @@ struct ColliderForce {
   std::string collider;
   sim::Vec3d force{0, 0, 0};   ///< N
   sim::Vec3d torque{0, 0, 0};  ///< N m, about the point of the collider's shape
-  double max_pressure = 0;     ///< Pa, at the frame's end, see sim::Summary
+  double max_pressure = 0;     ///< Pa, at the end, see sim::Summary
 };
 
 struct FrameRecord {
@@ -39,6 +39,8 @@ struct FrameRecord {
   Metrics metrics;
   std::vector<ColliderForce> forces;  ///< of all colliders; empty where there was no step
 };
+
+Json to_json(const ColliderForce& force);
 
 /// Divides the impulses of a frame by its time.
 /// @param summary  of the frame's end @param colliders  of the scene

@@ -64,6 +64,7 @@ StagedStep staged_step(State<Real> copy, double dt) {
   read_particle_fields(copy, fields, out);
   const StateReader<Real> reader(copy);
   out.after = reader.particles();
+  copy.grid.add_loads(copy.method.load_unit, out.loads);
   out.state_hash = reader.state_hash();
   out.seconds = fields.seconds;
   return out;

@@ -7,6 +7,7 @@
 
 #include "sim/types/math.h"
 #include "sim/types/particle_arrays.h"
+#include "sim/types/reports.h"
 #include "sim/types/stage.h"
 
 namespace neve::sim {
@@ -34,7 +35,8 @@ struct StagedStep {
   ParticleArrays after;  ///< id order, at the end of the step
   std::vector<Mat3d> grad_v, F_E_trial;
   std::vector<Vec3d> v_before_collision;
-  std::uint64_t state_hash = 0;  ///< of the state at the end
+  std::vector<ColliderLoad> loads;  ///< per collider, of the step
+  std::uint64_t state_hash = 0;     ///< of the state at the end
   /// s that each stage took, one after the other; deformation has the gathering of velocities for
   /// the stages after it. A copy moves no colliders.
   std::array<double, stage_names.size()> seconds{};

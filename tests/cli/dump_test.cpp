@@ -45,6 +45,25 @@ TEST_F(Dump, AHealthyStepIsAsExpected) {
   EXPECT_LT(quantity(dump, "mass")["greatest"].get<double>(), 1.5 * full);
 }
 
+/// The ball lies on the floor after half a second: the floor carries its weight, on the mean of
+/// some steps to a fifth, because it still quivers.
+TEST_F(Dump, TheForceOnTheFloorIsTheWeightOfTheSnow) {
+  std::string times;
+  for (int k = 0; k < 20; ++k) times += (k > 0 ? "," : "") + std::to_string(0.5 + 0.003 * k) + "s";
+  const app::Json list = json({"--at", times, "--set", "frames=20"});
+  double force = 0;
+  ASSERT_EQ(list.size(), 20u);
+  for (const app::Json& dump : list) {
+    ASSERT_EQ(dump["forces"].size(), 1u);
+    EXPECT_EQ(dump["forces"][0]["collider"], "floor");
+    force += dump["forces"][0]["force"][1].get<double>() / 20;
+  }
+  const double weight = 400 * 4.0 / 3 * 3.14159 * std::pow(0.08, 3) * 9.81;
+  EXPECT_NEAR(force, -weight, 0.2 * weight);
+  const auto text = neve({"dump", "scene.toml", "--at", "0.5s", "--set", "frames=20"});
+  EXPECT_TRUE(contains(text.output, "# snow on floor in the next step: force ")) << text.errors;
+}
+
 TEST_F(Dump, DumpShowsAStateThatTheRunPassesThrough) {
   ASSERT_EQ(neve({"render", "scene.toml", "--quiet"}).exit_code, 0);
   const app::Json run = json_of("out/scene/run.json");

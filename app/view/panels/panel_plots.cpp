@@ -208,6 +208,8 @@ void draw_plots_panel(ViewerState& state) {
               {{"depth", pink, [](const session::RunSample& s) { return s.max_depth; }}});
   draw_curves(state, "largest pressure on a collider", "Pa",
               {{"pressure", blue, [](const session::RunSample& s) { return s.max_pressure; }}});
+  draw_curves(state, "largest force on a collider", "N",
+              {{"force", pink, [](const session::RunSample& s) { return s.max_force; }}});
   draw_phases(*state.live);
   const session::LiveFrame& live = *state.live;
   ImGui::TextDisabled("%s particles, %s, %d threads, %s",

@@ -18,6 +18,15 @@ double largest(const std::vector<double>& pressures) {
   return pressures.empty() ? 0 : *std::max_element(pressures.begin(), pressures.end());
 }
 
+/// N, on the collider that snow presses most.
+double largest_force(const sim::AdvanceReport& advance) {
+  double most = 0;
+  if (advance.seconds > 0)
+    for (const sim::ColliderLoad& load : advance.loads)
+      most = std::max(most, load.impulse.norm() / advance.seconds);
+  return most;
+}
+
 }  // namespace
 
 /// Needs a decomposition per particle, for the elastic energy.
@@ -33,7 +42,7 @@ sim::Summary Session::note_sample() {
   while (!list.empty() && list.back().time >= summary.time) list.pop_back();
   list.push_back({summary.time, summary.kinetic_energy, summary.elastic_energy, summary.momentum,
                   summary.max_speed, summary.min_J_P, summary.max_J_P, choice.dt, choice.limit,
-                  summary.max_depth, largest(summary.max_pressure)});
+                  summary.max_depth, largest(summary.max_pressure), largest_force(advance_)});
   if (list.size() <= max_samples) return summary;
   std::size_t kept = 0;  // every other one: the plot covers the whole run with half the detail
   for (std::size_t k = 0; k < list.size(); k += 2) list[kept++] = list[k];
