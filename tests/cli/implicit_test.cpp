@@ -14,7 +14,7 @@ TEST_F(Cli, SemiImplicitRunsSayHowWellTheyWereSolved) {
   for (int frame = 1; frame <= 2; ++frame) {
     const app::Json& record = json["frames"][frame];
     EXPECT_GT(record["solve_iterations"], 0);
-    EXPECT_LE(record["solve_residual"].get<double>(), 1e-4);
+    EXPECT_LE(record["solve_residual"].get<double>(), 1e-2) << "the default of solve_tolerance";
     EXPECT_NE(record["dt_limit"], "acoustic");
   }
   EXPECT_TRUE(json["frames"][0]["solve_iterations"].is_null());
