@@ -11,7 +11,7 @@ struct BenchOptions {
   bool is_curve = false;
   std::string only;  ///< name of a scene; "": all that are shipped
   int frames = 0;    ///< of a scene's film; 0: all
-  int threads = 0;  ///< 0: one per core
+  int threads = 0;   ///< 0: one per core
   std::string backend = "auto";
   bool is_quick = false;
   bool is_json = false;
