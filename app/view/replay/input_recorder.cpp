@@ -90,10 +90,9 @@ void InputRecorder::note(const frontend::InputEvent& event) {
     case Kind::close:
       add({.kind = Step::quit}, now_);
       break;
-    case Kind::resize:
-      break;  // set_size knows more
-    case Kind::gone:
-      break;  // releases follow
+    case Kind::resize:  // set_size knows more
+    case Kind::gone:    // releases follow
+      break;
   }
 }
 
