@@ -372,8 +372,7 @@ void RenderRun::note_warnings() {
   record_.warnings = job_.warnings;
   for (std::string& warning : step_warnings(scene_, simulation_))
     record_.warnings.push_back(std::move(warning));
-  if (auto slowdown = slowdown_warning(record_.frames))
-    record_.warnings.push_back(std::move(*slowdown));
+  record_.slowdown = slowdown_warning(record_.frames);
 }
 
 void RenderRun::note_retries(const std::vector<sim::Retry>& retries) {

@@ -243,6 +243,7 @@ Json to_json(const RunRecord& run) {
   for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
   json["files"] = run.files;
   json["warnings"] = run.warnings;
+  json["slowdown"] = run.slowdown ? Json(*run.slowdown) : Json();
   if (!run.validation.empty()) json["validation"] = output::to_json(run.validation);
   if (!run.retries.empty()) json["retries"] = Json::array();
   for (const sim::Retry& retry : run.retries) json["retries"].push_back(output::to_json(retry));

@@ -65,7 +65,9 @@ struct RunRecord {
   std::string error;  ///< of a run that failed
   std::vector<FrameRecord> frames;
   FileHashes files;  ///< pictures and movies; a picture that is just being written is not in it yet
-  std::vector<std::string> warnings;                 ///< of the start and of the steps so far
+  std::vector<std::string> warnings;  ///< of the start and of the steps so far
+  /// Of the time that frames took. No warning: what else the machine does must not change a run.
+  std::optional<std::string> slowdown;
   std::vector<sim::checks::WatchRecord> validation;  ///< of --validate; empty without it
   std::vector<sim::Retry> retries;                   ///< times that it went back
   std::optional<sim::Divergence> divergence;

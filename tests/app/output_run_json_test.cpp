@@ -86,6 +86,16 @@ TEST(RunJson, RunJsonWritesNanAsNullAndHashesWithAllDigits) {
   EXPECT_EQ(json["state_hash"], "0000000000000abc");
 }
 
+/// Slow frames are told, and are no warnings: these mark tiles of sheets, which must not depend on
+/// what else the machine does.
+TEST(RunJson, SlowFramesAreToldBesideTheWarnings) {
+  app::run::RunRecord run;
+  EXPECT_TRUE(app::run::to_json(run)["slowdown"].is_null());
+  run.slowdown = "frame 5 took 20 s";
+  EXPECT_EQ(app::run::to_json(run)["slowdown"], "frame 5 took 20 s");
+  EXPECT_TRUE(app::run::to_json(run)["warnings"].empty());
+}
+
 TEST(RunJson, RunJsonSurvivesTextThatIsNoUtf8) {
   app::run::RunRecord run;
   run.scene_file = "caf\xe9.toml";
