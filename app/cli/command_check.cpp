@@ -81,9 +81,10 @@ Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job,
       job.scene.solver.is_implicit() ? Json(checkup.solve.iterations) : Json();
   json["seconds"] = checkup.seconds();
   json["seconds_range"] = range_json(checkup.seconds_range());
-  json["fast"] = {{"is_set", job.fast.has_value()},
-                  {"overrides", look.overrides},
-                  {"work", look.work_before > 0 ? Json(look.work / look.work_before) : Json()}};
+  json["fast"] = {
+      {"is_set", job.fast.has_value()},
+      {"overrides", look.overrides},
+      {"work", look.work && look.work_before ? Json(*look.work / *look.work_before) : Json()}};
   json["warnings"] = Json::array();
   for (const health::Finding& finding : checkup.findings)
     if (finding.severity != health::Severity::note) json["warnings"].push_back(finding.what);

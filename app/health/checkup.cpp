@@ -21,8 +21,6 @@ namespace neve::app::health {
 
 namespace {
 
-/// A coarse copy large enough to yield as the scene does.
-constexpr double coarse_particles_wanted = 1500;
 constexpr ForecastBudget coarse_budget{2, 1e12};
 /// An iteration of the solve over an explicit step (docs/performance.md, "Semi-implicit steps").
 constexpr double work_of_iteration = 0.25;
@@ -119,8 +117,10 @@ sim::DtChoice first_emission(const scene::Scene& scene, sim::StepLimits& start) 
 }
 
 /// A copy of the scene that runs in a moment; the largest factor that leaves every body something.
-std::optional<scene::Scene> coarse_copy(const scene::Scene& scene, double particles) {
-  double factor = std::max(1.0, std::cbrt(particles / coarse_particles_wanted));
+/// @param wanted  particles of the copy
+std::optional<scene::Scene> coarse_copy(const scene::Scene& scene, double particles,
+                                        double wanted) {
+  double factor = std::max(1.0, std::cbrt(particles / wanted));
   while (true) {
     scene::Scene copy = scene;
     try {
@@ -186,7 +186,7 @@ double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
 Forecast foresee(const scene::Scene& scene, double particle_count, int last,
                  const ForecastBudget& budget) {
   Forecast result;
-  const std::optional<scene::Scene> coarse = coarse_copy(scene, particle_count);
+  const std::optional<scene::Scene> coarse = coarse_copy(scene, particle_count, budget.particles);
   if (!coarse) return result;
   const sim::ParticleArrays particles = setup::seed_scene(*coarse).particles;
   result.particles =

@@ -47,6 +47,7 @@ struct Forecast {
 /// What the coarse copy of a forecast may cost. Particle-steps are the same on every machine.
 struct ForecastBudget {
   double seconds, particle_steps;
+  double particles = 1500;  ///< of the copy, about: enough to yield as the scene does
 };
 
 /// @param particles of the scene

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <future>
 
 #include "app/health/checkup.h"
 #include "app/scene/toml/value.h"
@@ -18,8 +19,9 @@ constexpr double flip_cfl = 0.85, affine_cfl = 0.7;
 constexpr double hardening_ceiling = 20;
 /// Semi-implicit steps damp waves and with them fracture, so they must gain much.
 constexpr double fast_beta = 0.5, fast_max_dt = 1e-3, worth_another_step = 0.5;
-/// Particle-steps of a coarse copy: about half a second.
-constexpr ForecastBudget forecast_budget{1e9, 4e6};
+/// A few hundred particles, so that the forecasts take tenths of a second and not longer than a
+/// small scene itself.
+constexpr ForecastBudget forecast_budget{1e9, 3e6, 400};
 
 /// A scene that becomes a faster one, and its changes.
 class Candidate {
@@ -58,9 +60,12 @@ class Candidate {
     limit_hardening();
   }
 
-  double work(int last) const {
-    return foresee(scene_, setup::planned_particles(scene_), last, forecast_budget)
-        .work_until(last);
+  /// None where the copy diverges: a broken state foretells nothing.
+  std::optional<double> work(int last) const {
+    const Forecast forecast =
+        foresee(scene_, setup::planned_particles(scene_), last, forecast_budget);
+    if (!forecast.divergence.empty() || forecast.frames.empty()) return std::nullopt;
+    return forecast.work_until(last);
   }
 
   bool is_implicit() const { return scene_.solver.is_implicit(); }
@@ -77,7 +82,7 @@ class Candidate {
 FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen) {
   FastLook look;
   look.is_implicit = scene.solver.is_implicit();
-  look.work = look.work_before = Candidate(scene, chosen).work(last);
+  const Candidate before(scene, chosen);
   Candidate same(scene, chosen), other(scene, chosen);
   if (look.is_implicit) {
     same.take_semi_implicit_steps();
@@ -86,23 +91,35 @@ FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::s
     same.take_explicit_steps();
     if (scene.solver.time_step == sim::TimeStep::adaptive) other.take_semi_implicit_steps();
   }
-  const auto take = [&](const Candidate& candidate, double work) {
+  const bool has_other = other.is_implicit() != scene.solver.is_implicit();
+  const auto forecast = [&](const Candidate& candidate) {
+    return std::async(std::launch::async, [&] { return candidate.work(last); });
+  };
+  using Work = std::optional<double>;
+  std::future<Work> work_before = forecast(before), same_work = forecast(same), other_work;
+  if (has_other) other_work = forecast(other);
+  look.work = look.work_before = work_before.get();
+  const auto take = [&](const Candidate& candidate, const Work& work) {
     look.overrides = candidate.overrides();
     look.work = work;
     look.is_implicit = candidate.is_implicit();
   };
-  if (const double work = same.work(last); !same.overrides().empty() && work < look.work)
+  if (const Work work = same_work.get();
+      !same.overrides().empty() && work && (!look.work || *work <= *look.work))
     take(same, work);
-  if (const double work = other.work(last);
-      other.is_implicit() != scene.solver.is_implicit() && work < worth_another_step * look.work)
+  if (!has_other) return look;
+  if (const Work work = other_work.get();
+      work && look.work && *work < worth_another_step * *look.work)
     take(other, work);
   return look;
 }
 
 std::string FastLook::sentence() const {
   if (overrides.empty()) return "--fast finds no longer steps for this scene";
-  return fmt::format("--fast sets {}: about {} % of the work", joined(overrides, ", "),
-                     rough_text(100 * work / std::max(work_before, 1.0)));
+  const std::string changes = "--fast sets " + joined(overrides, ", ");
+  if (!work || !work_before) return changes;
+  return fmt::format("{}: about {} % of the work", changes,
+                     rough_text(100 * *work / std::max(*work_before, 1.0)));
 }
 
 }  // namespace neve::app::health

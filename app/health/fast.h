@@ -1,6 +1,7 @@
 #pragma once
 /// Settings for a look at the snow in less time: see docs/time_step.md, "Fast looks".
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace neve::app::health {
 /// Changes of parameters that shorten a run.
 struct FastLook {
   std::vector<std::string> overrides;  ///< "ADDRESS=VALUE"; none where nothing would be gained
-  double work = 0, work_before = 0;    ///< of the run, in explicit steps: a forecast
+  /// Of the run, in explicit steps: a forecast; none where the coarse copy diverges.
+  std::optional<double> work, work_before;
   bool is_implicit = false;
   /// The changes and what they gain, or why there are none; a sentence.
   std::string sentence() const;

@@ -39,8 +39,8 @@ shape = {{ plane = {{}} }}
                      solver, material, -speed);
 }
 
-health::FastLook look_at(const std::string& text, const Lines& chosen = {}) {
-  return health::fast_look(scene::read_scene_text(text, "scene.toml"), 6, chosen);
+health::FastLook look_at(const std::string& text, const Lines& chosen = {}, int last = 6) {
+  return health::fast_look(scene::read_scene_text(text, "scene.toml"), last, chosen);
 }
 
 TEST(Fast, StepsGrowAndHardeningGetsACeiling) {
@@ -48,8 +48,8 @@ TEST(Fast, StepsGrowAndHardeningGetsACeiling) {
   EXPECT_EQ(look.overrides, Lines({"solver.acoustic_cfl=0.85", "material.snow.max_hardening=20"}));
   EXPECT_FALSE(look.is_implicit);
   // 0.85 / 0.5 at the most, where nothing hardens.
-  EXPECT_LT(look.work, 0.75 * look.work_before);
-  EXPECT_GT(look.work, 0.3 * look.work_before);
+  EXPECT_LT(*look.work, 0.75 * *look.work_before);
+  EXPECT_GT(*look.work, 0.3 * *look.work_before);
   EXPECT_NE(look.sentence().find("solver.acoustic_cfl=0.85, material.snow.max_hardening=20"),
             std::string::npos)
       << look.sentence();
@@ -65,7 +65,7 @@ TEST(Fast, AffineTransfersTakeShorterStepsBecauseTheyDriftMore) {
 
 TEST(Fast, SettingsOfTheUserStay) {
   const health::FastLook look =
-      look_at(falling_ball("", "", 14), {"solver.acoustic_cfl", "solver.beta"});
+      look_at(falling_ball(""), {"solver.acoustic_cfl", "solver.beta"});
   EXPECT_EQ(look.overrides, Lines({"material.snow.max_hardening=20"}));
   // Values that go further than those of --fast stay as well.
   EXPECT_EQ(look_at(falling_ball("acoustic_cfl = 1", "max_hardening = 5")).overrides, Lines());
@@ -78,17 +78,25 @@ TEST(Fast, NothingIsSetWhereNothingIsGained) {
   EXPECT_EQ(look.sentence(), "--fast finds no longer steps for this scene");
 }
 
-/// Snow a thousand times as stiff, set down slowly: explicit steps resolve sound that nobody sees.
+/// Snow a thousand times as stiff that hardly moves: explicit steps resolve sound that nobody sees.
 TEST(Fast, StiffSlowSnowTakesSemiImplicitSteps) {
-  const health::FastLook look = look_at(falling_ball("", "youngs_modulus = 1.4e8", 0.5));
-  EXPECT_TRUE(look.is_implicit);
+  const std::string stiff = "youngs_modulus = 1.4e8";
+  const health::FastLook look = look_at(falling_ball("", stiff, 0.1), {}, 2);
+  EXPECT_TRUE(look.is_implicit) << look.sentence();
   EXPECT_EQ(look.overrides[0], "solver.beta=0.5");
-  EXPECT_LT(look.work, 0.3 * look.work_before);
-  const health::FastLook kept =
-      look_at(falling_ball("beta = 1\nmax_dt = 2e-3", "youngs_modulus = 1.4e8", 0.5));
+  EXPECT_LT(*look.work, 0.3 * *look.work_before);
+  const health::FastLook kept = look_at(falling_ball("beta = 1\nmax_dt = 2e-3", stiff, 0.1), {}, 2);
   EXPECT_TRUE(std::none_of(kept.overrides.begin(), kept.overrides.end(), [](const auto& change) {
     return change.starts_with("solver.");
   })) << kept.sentence();
+}
+
+/// Snow too soft for its impact: the coarse copy diverges, and a forecast from them would say that
+/// nothing is to be done.
+TEST(Fast, CopiesThatDivergeForetellNothing) {
+  const health::FastLook look = look_at(falling_ball("", "", 14));
+  EXPECT_FALSE(look.work_before) << *look.work_before;
+  EXPECT_EQ(look.sentence().find('%'), std::string::npos) << look.sentence();
 }
 
 TEST(Fast, TheChoiceDependsOnTheSceneAlone) {
@@ -113,7 +121,7 @@ TEST(Fast, AJobRecordsTheSettingsLikeThoseOfTheUserWhichWin) {
 
 TEST(Fast, ASweepKeepsWhatItVaries) {
   const test::TemporaryFolder folder;
-  folder.write("ball.toml", falling_ball("", "", 14));
+  folder.write("ball.toml", falling_ball(""));
   sweep::plan::SweepOptions options;
   options.file = (folder / "ball.toml").string();
   options.out = (folder / "out").string();
