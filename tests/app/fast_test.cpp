@@ -64,8 +64,7 @@ TEST(Fast, AffineTransfersTakeShorterStepsBecauseTheyDriftMore) {
 }
 
 TEST(Fast, SettingsOfTheUserStay) {
-  const health::FastLook look =
-      look_at(falling_ball(""), {"solver.acoustic_cfl", "solver.beta"});
+  const health::FastLook look = look_at(falling_ball(""), {"solver.acoustic_cfl", "solver.beta"});
   EXPECT_EQ(look.overrides, Lines({"material.snow.max_hardening=20"}));
   // Values that go further than those of --fast stay as well.
   EXPECT_EQ(look_at(falling_ball("acoustic_cfl = 1", "max_hardening = 5")).overrides, Lines());
