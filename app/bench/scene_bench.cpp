@@ -14,7 +14,6 @@
 #include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
-#include "sim/base/thread_pool.h"
 #include "sim/kernels/simd.h"
 
 namespace neve::app::bench {
@@ -34,7 +33,7 @@ const std::array<Way, 4> ways{{{"", {}},
                                {"_fast", {"--fast"}},
                                {"_coarsen_2_fast", {"--coarsen", "2", "--fast"}}}};
 
-/// What a run took; one sample each for every round.
+/// The costs of a run, a sample of each for every round.
 struct FilmSamples {
   std::vector<double> film, steps, throughput, slowest, drawing;
   std::size_t particles = 0;
@@ -53,10 +52,6 @@ std::vector<fs::path> chosen_scenes(const BenchOptions& options) {
                                   "expected the name of a file in " + folder.string());
   std::sort(scenes.begin(), scenes.end());
   return scenes;
-}
-
-double particle_steps(const run::FrameRecord& frame) {
-  return static_cast<double>(frame.advance.steps) * static_cast<double>(frame.summary.particles);
 }
 
 /// Renders the scene once.
@@ -86,9 +81,9 @@ void take_sample(const fs::path& scene, const Way& way, const BenchOptions& opti
   for (const run::FrameRecord& frame : frames) {
     if (frame.advance.steps == 0 || frame.summary.particles == 0) continue;
     simulated += frame.seconds_sim;
-    work += particle_steps(frame);
+    work += run::particle_steps(frame);
     steps += static_cast<double>(frame.advance.steps);
-    const double throughput = 1e-6 * particle_steps(frame) / frame.seconds_sim;
+    const double throughput = 1e-6 * run::particle_steps(frame) / frame.seconds_sim;
     slowest = slowest > 0 ? std::min(slowest, throughput) : throughput;
     samples.particles = std::max(samples.particles, frame.summary.particles);
   }
@@ -116,7 +111,7 @@ std::vector<BenchRow> bench_scenes(const BenchOptions& options, Progress& progre
       const auto add = [&](const char* what, const std::vector<double>& values, const char* unit) {
         BenchRow row;
         row.name = scene.stem().string() + ways[k].suffix + what;
-        row.threads = ThreadPool(options.threads).thread_count();
+        row.threads = core_count(options.threads);
         row.particles = samples[k].particles;
         row.simd = sim::kernels::name(sim::kernels::chosen_simd_level());
         row.value = statistics_of(values);

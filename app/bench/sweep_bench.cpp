@@ -1,7 +1,5 @@
 #include "app/bench/sweep_bench.h"
 
-#include <thread>
-
 #include "app/bench/measure.h"
 #include "app/bench/scratch_folder.h"
 #include "app/output/atomic_file.h"
@@ -80,9 +78,7 @@ Round measure_round(const BenchOptions& options, int cores, int run_count, Progr
 
 std::vector<BenchRow> bench_sweep(const BenchOptions& options, Progress& progress) {
   progress.note("neve bench sweep");
-  const int cores = options.threads > 0
-                        ? options.threads
-                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int cores = core_count(options.threads);
   const int rounds = options.rounds > 0 ? options.rounds : options.is_quick ? 1 : 3;
   const int runs = options.is_quick ? 2 * cores : 12 * cores;
   std::vector<double> busy, overhead;

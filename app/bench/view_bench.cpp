@@ -1,11 +1,11 @@
 #include "app/bench/view_bench.h"
 
 #include <cmath>
-#include <thread>
 
 #include "app/bench/measure.h"
 #include "app/bench/scratch_folder.h"
 #include "app/output/atomic_file.h"
+#include "app/support/machine.h"
 #include "app/view/viewer.h"
 #include "render/gl/context.h"
 #include "render/image/jpeg.h"
@@ -141,9 +141,7 @@ std::vector<BenchRow> bench_view(const BenchOptions& options, Progress& progress
     particles = paused.particles;
   }
   progress.clear();
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = core_count(options.threads);
   const auto row = [&](const char* name, const std::vector<double>& samples, const char* unit) {
     BenchRow result;
     result.name = name;

@@ -159,10 +159,8 @@ void print_checkup(const health::Checkup& checkup, const run::RenderJob& job,
 /// The gain of --fast, for who has not asked for it.
 health::FastLook possible_look(const run::RenderOptions& options, const run::RenderJob& job) {
   if (job.fast) return *job.fast;
-  std::vector<std::string> chosen;
-  for (const std::string& change : options.overrides)
-    chosen.push_back(scene::parse_override(change).address);
-  return health::fast_look(job.scene, job.frames.last, chosen);
+  return health::fast_look(job.scene, job.frames.last,
+                           scene::addresses_of(scene::parse_overrides(options.overrides)));
 }
 
 }  // namespace

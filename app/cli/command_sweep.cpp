@@ -7,7 +7,6 @@
 #include <map>
 #include <numeric>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/cli/commands.h"
@@ -35,10 +34,6 @@
 namespace neve::app::cli {
 
 namespace {
-
-int core_count(int threads) {
-  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
 
 /// The runs of --only and --shard, otherwise all: 0 to `last`. @throws UsageError
 std::vector<int> chosen_runs(const sweep::plan::SweepOptions& options, int last) {

@@ -41,12 +41,12 @@ struct StepInspection {
   sim::StagedStep step;
   sim::ParticleArrays before;
 };
-/// Force, torque and pressure of the snow on each collider during the step; those without snow as
-/// well.
-std::vector<run::ColliderForce> forces_in_step(const StepInspection& inside);
-
 StepInspection inspect_step(const scene::Scene& scene, const sim::Simulation& simulation,
                             double remaining);
+
+/// Force, torque and pressure of the snow on each collider during the step; colliders without snow
+/// are listed too.
+std::vector<run::ColliderForce> forces_in_step(const StepInspection& inside);
 
 /// Either nodes (place and index known) or particles (id order).
 struct Listing {

@@ -40,11 +40,11 @@ struct Forecast {
   std::vector<Finding> findings;         ///< about the scene, from the copy
 
   double steps_until(int frame) const;
-  /// In explicit steps: an iteration of a semi-implicit step costs a quarter of one.
+  /// Counts in explicit steps; an iteration of a semi-implicit step costs a quarter of one.
   double work_until(int frame) const;
 };
 
-/// What the coarse copy of a forecast may cost. Particle-steps are the same on every machine.
+/// Bounds the cost of the coarse copy of a forecast. Particle-steps are the same on every machine.
 struct ForecastBudget {
   double seconds, particle_steps;
   double particles = 1500;  ///< of the copy, about: enough to yield as the scene does

@@ -12,7 +12,7 @@ namespace neve::app::health {
 /// Changes of parameters that shorten a run.
 struct FastLook {
   std::vector<std::string> overrides;  ///< "ADDRESS=VALUE"; none where nothing would be gained
-  /// Of the run, in explicit steps: a forecast; none where the coarse copy diverges.
+  /// Forecasts of the work of the run, in explicit steps; none where the coarse copy diverges.
   std::optional<double> work, work_before;
   bool is_implicit = false;
   /// The changes and what they gain, or why there are none; a sentence.

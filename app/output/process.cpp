@@ -17,6 +17,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "app/support/clock.h"
+
 namespace neve::app::output {
 
 namespace {
@@ -40,8 +42,6 @@ struct Pipe {
     write_end = -1;
   }
 };
-
-using Clock = std::chrono::steady_clock;
 
 /// Until then, for poll(): -1 where there is no end, and a second at most.
 int milliseconds_until(const std::optional<Clock::time_point>& end) {

@@ -17,27 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<scene::Override> parse_overrides(const std::vector<std::string>& arguments) {
-  std::vector<scene::Override> overrides;
-  for (const std::string& argument : arguments)
-    overrides.push_back(scene::parse_override(argument));
-  return overrides;
-}
-
 /// Reads the scene with the changes of the user, and with those of --fast where it was given.
 /// @param read  scene(overrides)
 template <class Read>
 void read_scene(const RenderOptions& options, const Read& read, RenderJob& job) {
   job.overrides.insert(job.overrides.end(), options.overrides.begin(), options.overrides.end());
-  std::vector<scene::Override> changes = parse_overrides(options.overrides);
+  std::vector<scene::Override> changes = scene::parse_overrides(options.overrides);
   job.scene = read(changes);
   if (!options.is_fast) return;
   scene::Scene coarse = job.scene;
   if (options.coarsening) scene::coarsen(coarse, *options.coarsening);
-  std::vector<std::string> chosen;
-  for (const scene::Override& change : changes) chosen.push_back(change.address);
   const int last = options.frames ? options.frames->last : job.scene.frames;
-  job.fast = health::fast_look(coarse, last, chosen);
+  job.fast = health::fast_look(coarse, last, scene::addresses_of(changes));
   for (const std::string& change : job.fast->overrides) {
     changes.push_back(scene::parse_override(change));
     job.overrides.push_back(change);

@@ -1,6 +1,6 @@
 #pragma once
-/// A run as a checkpoint holds it, with every number checked: a right checksum says only that the
-/// file is as somebody wrote it.
+/// A run as a checkpoint holds it, with every number checked: a right checksum only says that
+/// nobody changed the file by accident.
 
 #include <filesystem>
 #include <span>

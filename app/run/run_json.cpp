@@ -90,6 +90,10 @@ Json to_json(const FrameRecord& frame) {
   return json;
 }
 
+double particle_steps(const FrameRecord& frame) {
+  return static_cast<double>(frame.advance.steps) * static_cast<double>(frame.summary.particles);
+}
+
 Json to_json(const ColliderForce& force) {
   return {{"collider", force.collider},
           {"force", output::vector_json(force.force)},

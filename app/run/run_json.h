@@ -40,6 +40,9 @@ struct FrameRecord {
   std::vector<ColliderForce> forces;  ///< of all colliders; empty where there was no step
 };
 
+/// Steps of the frame times its particles.
+double particle_steps(const FrameRecord& frame);
+
 Json to_json(const ColliderForce& force);
 
 /// Divides the impulses of a frame by its time.
@@ -66,7 +69,8 @@ struct RunRecord {
   std::vector<FrameRecord> frames;
   FileHashes files;  ///< pictures and movies; a picture that is just being written is not in it yet
   std::vector<std::string> warnings;  ///< of the start and of the steps so far
-  /// Of the time that frames took. No warning: what else the machine does must not change a run.
+  /// Says that a frame took much longer than the first. No warning: the load of the machine must
+  /// not change a run.
   std::optional<std::string> slowdown;
   std::vector<sim::checks::WatchRecord> validation;  ///< of --validate; empty without it
   std::vector<sim::Retry> retries;                   ///< times that it went back

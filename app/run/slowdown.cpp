@@ -19,10 +19,6 @@ double steps_of(const FrameRecord& frame) {
   return static_cast<double>(frame.advance.steps);
 }
 
-double particle_steps(const FrameRecord& frame) {
-  return steps_of(frame) * static_cast<double>(frame.summary.particles);
-}
-
 double blocks_per_particle(const FrameRecord& frame) {
   return static_cast<double>(frame.summary.grid_blocks) /
          static_cast<double>(frame.summary.particles);

@@ -192,6 +192,18 @@ Override parse_override(std::string_view text) {
   return {trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1))};
 }
 
+std::vector<Override> parse_overrides(const std::vector<std::string>& arguments) {
+  std::vector<Override> changes;
+  for (const std::string& argument : arguments) changes.push_back(parse_override(argument));
+  return changes;
+}
+
+std::vector<std::string> addresses_of(const std::vector<Override>& changes) {
+  std::vector<std::string> addresses;
+  for (const Override& change : changes) addresses.push_back(change.address);
+  return addresses;
+}
+
 std::vector<std::string> item_names(const toml::Value& items) {
   std::vector<std::string> names;
   if (const toml::Table* table = std::get_if<toml::Table>(&items.data)) {

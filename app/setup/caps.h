@@ -1,6 +1,6 @@
 #pragma once
-/// Upper bounds that whoever starts the program sets and no scene can raise: NEVE_MAX_MEMORY and
-/// NEVE_MAX_PARTICLES. Runs of a sweep inherit them.
+/// Upper bounds that the user sets and no scene can raise: NEVE_MAX_MEMORY and NEVE_MAX_PARTICLES.
+/// Runs of a sweep inherit them.
 
 #include <limits>
 #include <string>

@@ -112,6 +112,10 @@ std::string machine_text() {
          build().compiler;
 }
 
+int core_count(int threads) {
+  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 std::string host_name() {
   char name[256] = "";
   ::gethostname(name, sizeof name - 1);

@@ -20,6 +20,9 @@ std::string host_name();
 /// "AMD EPYC, 2 cores; GCC 12.2.0": the circumstances of a measurement.
 std::string machine_text();
 
+/// The threads that --threads means: as given, or for 0 one per core.
+int core_count(int threads);
+
 /// The file of the running program. @throws IoError
 std::filesystem::path this_program();
 

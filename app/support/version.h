@@ -14,8 +14,8 @@ struct Build {
   std::string commit;    ///< "1a2b3c4d5e6f", "1a2b3c4d5e6f with changes", "unknown"
   std::string type;      ///< "Release"
   std::string compiler;  ///< "GCC 12.2.0"
-  /// Of the sources that change results: states, pictures and numbers. Others of the program, tests
-  /// and documentation are no part of it.
+  /// Fingerprint of the sources that change results: states, pictures and numbers. Other sources,
+  /// tests and documentation are no part of it.
   std::string sources;
 };
 const Build& build();

@@ -53,7 +53,8 @@ typename ImplicitSolver<Real>::Sums ImplicitSolver<Real>::sum_over_nodes(
   state.over_node_blocks(sweep, a);
   // One after the other: the same bits at any number of threads.
   Sums all{};
-  for (std::size_t k = 0; k < sums_.size(); ++k) all[k % all.size()] += sums_[k];
+  for (std::size_t block = 0; block < sums_.size(); block += all.size())
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] += sums_[block + k];
   return all;
 }
 

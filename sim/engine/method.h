@@ -25,7 +25,7 @@ struct Method {
 
   /// True if skipped stages, or a material, force the staged driver.
   bool takes_stages() const { return settings.takes_stages() || materials[0].yields; }
-  /// Of the materials; the other limits stay.
+  /// Sets the limits of hardening to those of the materials; the other limits stay.
   void limit_hardening(StateLimits& limits) const;
   std::size_t tile_nodes() const;
   /// For a step of dt; without colliders.

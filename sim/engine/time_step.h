@@ -12,12 +12,11 @@ namespace neve::sim::engine {
 
 /// Extremes of a state that limit the next step.
 struct StateLimits {
-  double max_speed = 0;        ///< m/s
-  double max_sound_speed = 0;  ///< m/s, of the stiffest particle, hardened
-  double max_strain_rate = 0;  ///< 1/s, largest |entry| of grad v
-  double max_xi = 0;           ///< largest hardening coefficient of the materials in use
-  double max_hardened_speed =
-      0;  ///< m/s, of sound where max_hardening of a material ends hardening
+  double max_speed = 0;           ///< m/s
+  double max_sound_speed = 0;     ///< m/s, of the stiffest particle, hardened
+  double max_strain_rate = 0;     ///< 1/s, largest |entry| of grad v
+  double max_xi = 0;              ///< largest hardening coefficient of the materials in use
+  double max_hardened_speed = 0;  ///< m/s, of sound where max_hardening ends hardening
   double max_collider_speed = 0;  ///< m/s, of colliders that snow may meet in the next step
 };
 

@@ -31,13 +31,6 @@ SolverSettings affine_settings(Transfer transfer, Kernel kernel, double alpha) {
   return s;
 }
 
-/// Strained, so that part of it is compressed; 600 particles.
-ParticleArrays strained_snow() {
-  ParticleArrays p = box_of_snow({-0.11, 0.02, 0.33}, {0.14, 0.21, 0.52}, 0.025);
-  disturb(p, 0.004, 2.0);
-  return p;
-}
-
 /// Every kind of affine FLIP, in turn.
 template <class Body>
 void each_affine_flip(const Body& body) {
@@ -53,7 +46,7 @@ void each_affine_flip(const Body& body) {
 
 TEST(AffineFlip, AffineFlipIsItsTwinStepByStep) {
   constexpr double dt = 1e-4;
-  const ParticleArrays p = strained_snow();
+  const ParticleArrays p = disturbed_snow();
   at_every_simd_level([&] {
     each_affine_flip([&](const SolverSettings& s) {
       Simulation simulation(s, {Material{}}, {}, p, 1);
@@ -92,7 +85,7 @@ TEST(AffineFlip, AffineFlipReturnsFromTheGridAsItsTwinDoes) {
         s.beta = beta;
         s.contact_at = contact_at;
         const double dt = beta > 0 ? 1e-3 : 1e-4;
-        const Simulation simulation(s, {Material{}}, {floor}, strained_snow(), 1);
+        const Simulation simulation(s, {Material{}}, {floor}, disturbed_snow(), 1);
         const ParticleArrays before = simulation.particles();
         const StagedStep step = staged_step(simulation, dt);
         AffineFlipTwin twin(s, Material{}, s.flip_ratio, before);
@@ -123,7 +116,7 @@ TEST(AffineFlip, AffineFlipMovesByTheGridAndAShareOfItsOwnVelocity) {
   SolverSettings s = affine_settings(Transfer::asflip, Kernel::cubic, 1);
   s.separation_min = 0.25;
   s.separation_max = 0.75;
-  const Simulation simulation(s, {Material{}}, {}, strained_snow(), 1);
+  const Simulation simulation(s, {Material{}}, {}, disturbed_snow(), 1);
   const ParticleArrays before = simulation.particles();
   SolverSettings by_grid = s;
   by_grid.transfer = Transfer::aflip;
@@ -151,7 +144,7 @@ TEST(AffineFlip, AffineFlipChangesAngularMomentumByTheAffinePartThatTheGridCanno
   soft.youngs_modulus = 1e-3;
   each_affine_flip([&](SolverSettings s) {
     s.gravity.setZero();
-    Simulation simulation(s, {soft}, {}, strained_snow(), 1);
+    Simulation simulation(s, {soft}, {}, disturbed_snow(), 1);
     const ParticleArrays before = simulation.particles();
     AffineFlipTwin twin(s, soft, s.flip_ratio, before);
     twin.rasterize();

@@ -78,12 +78,6 @@ SolverSettings settings_of(const TransferCase& c) {
   return s;
 }
 
-ParticleArrays disturbed_snow() {
-  ParticleArrays p = box_of_snow({-0.11, 0.02, 0.33}, {0.14, 0.21, 0.52}, 0.025);
-  disturb(p, 0.004, 2.0);
-  return p;
-}
-
 TEST(Transfer, TransferConservesMassAndMomentumBothWays) {
   for (const TransferCase& c : cases) {
     const ParticleArrays before = disturbed_snow();

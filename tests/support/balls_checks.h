@@ -18,6 +18,16 @@ inline BallsHistory recorded_balls(const BallsCase& c) {
   return h;
 }
 
+/// For cases without a reference: momentum must hold, and energy must not come from nowhere.
+inline void check_that_balls_gain_nothing(const BallsCase& c) {
+  const BallsHistory h = recorded_balls(c);
+  verify_at_most({"balls", c.label(), "momentum of the pair / of one ball"}, 1e-12,
+                 h.largest_momentum);
+  verify_at_most({"balls", c.label(), "largest total energy / start"}, 1.001, h.largest_total);
+  keep_number({"balls", c.label(), "total energy / start after 0.6 s"}, h.final_total);
+  keep_number({"balls", c.label(), "speed of rebound / of approach"}, h.rebound);
+}
+
 inline void check_balls(const BallsCase& c, const BallsExpectation& e) {
   const BallsHistory h = recorded_balls(c);
   const std::string line = c.label();

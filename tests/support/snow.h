@@ -61,6 +61,13 @@ inline void disturb(ParticleArrays& p, double strain, double speed, unsigned see
   }
 }
 
+/// Six hundred particles in the middle of a run; part of them is compressed.
+inline ParticleArrays disturbed_snow() {
+  ParticleArrays p = box_of_snow({-0.11, 0.02, 0.33}, {0.14, 0.21, 0.52}, 0.025);
+  disturb(p, 0.004, 2.0);
+  return p;
+}
+
 inline sim::shapes::Collider plane(const Vec3d& point, const Vec3d& normal, double friction,
                                    sim::shapes::Contact contact = sim::shapes::Contact::separate) {
   sim::shapes::Collider c;

@@ -110,8 +110,7 @@ void refuse_two_frames(const SweepOptions& options, const read::Sweep& sweep) {
 /// The settings of --fast for all runs; what the sweep sets or varies stays.
 health::FastLook take_fast_look(const SweepOptions& options, const scene::Scene& base,
                                 read::Sweep& sweep) {
-  std::vector<std::string> chosen;
-  for (const scene::Override& setting : sweep.fixed) chosen.push_back(setting.address);
+  std::vector<std::string> chosen = scene::addresses_of(sweep.fixed);
   for (const read::Axis& axis : sweep.axes)
     for (const read::Axis::Parameter& parameter : axis.parameters)
       chosen.push_back(parameter.address);

@@ -23,7 +23,7 @@ class EventQueue {
 
   /// Drops what waits, says so by `gone`, and releases every key and button that is held.
   void leave();
-  /// True if whoever sent the events before has left, and nobody has been told.
+  /// True if the sender of the earlier events has left and the program has not been told.
   bool has_left() const;
 
   bool empty() const { return events_.empty(); }

@@ -22,8 +22,8 @@ inline constexpr int escape = 256, enter = 257, tab = 258, backspace = 259, inse
                      super = 343, last = 348;
 }
 
-/// One input event. Places are pixels of the picture from its upper left corner. `gone`: the events
-/// before it are of somebody who has left, and void.
+/// One input event. Places are pixels of the picture from its upper left corner. `gone`: the
+/// sender of the earlier events has left, and they are void.
 struct InputEvent {
   enum class Kind { move, button, wheel, key, text, resize, drop, paste, close, gone };
 

@@ -45,8 +45,7 @@ std::filesystem::file_time_type time_of(const std::string& file) {
 
 Document open_document(const std::string& file, const std::vector<std::string>& overrides,
                        double coarsening) {
-  std::vector<scene::Override> parsed;
-  for (const std::string& argument : overrides) parsed.push_back(scene::parse_override(argument));
+  std::vector<scene::Override> parsed = scene::parse_overrides(overrides);
   if (!run::is_png(file))
     return Document(file, scene::read_toml_file(file), std::move(parsed), coarsening);
   // Saved, it lies beside the picture, which holds the scene as it was drawn: coarsened already.
