@@ -32,6 +32,7 @@ inline constexpr Folder folders[] = {
     {"render/image", "sim/base", "neve::render"},
     {"render/frame", "sim/base render/image", "neve::render"},
     {"render/shapes", "sim/base render/frame"},
+    {"render/surface", "sim/base render/frame"},
     {"render/light", "sim/base render/frame"},
     {"render/gl", "sim/base render/image render/frame"},
     {"render/cpu", "sim/base render/frame render/light"},

@@ -1,0 +1,248 @@
+#include "render/surface/field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "render/surface/filter.h"
+#include "render/surface/loops.h"
+
+namespace neve::render::surface {
+
+namespace {
+
+/// A block takes what its particles give to its own nodes and to the first two of the next blocks.
+constexpr int tile_side = block_side + 2, tile_nodes = tile_side * tile_side * tile_side;
+constexpr BlockKey no_key = ~BlockKey{0};
+
+/// Bytes a block of nodes needs until the mesh is there: its values twice, its neighbours, labels
+/// of its pieces, bits; and the tile of one with particles.
+constexpr double block_bytes = 2 * 4.0 * block_nodes + 108 + 2.0 * block_nodes + 400;
+constexpr double tile_bytes = 4.0 * tile_nodes;
+
+/// A particle that has grown without bound fills no more cells than this.
+constexpr float most_cells = 1e6f;
+
+/// Where the kernel of a particle begins, and the weights of the three nodes along each axis.
+struct Spline {
+  Vec3i node;
+  std::array<std::array<float, 3>, 3> weight;  ///< by axis
+};
+
+Vec3i spline_node(const NodePlace& p) {
+  return {p.node.x - (p.rest.x < 0.5f ? 1 : 0), p.node.y - (p.rest.y < 0.5f ? 1 : 0),
+          p.node.z - (p.rest.z < 0.5f ? 1 : 0)};
+}
+
+Spline spline_at(const NodePlace& place) {
+  Spline spline{spline_node(place), {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const float u = place.rest[axis] + (place.rest[axis] < 0.5f ? 1.0f : 0.0f);  // 0.5 to 1.5
+    spline.weight[static_cast<std::size_t>(axis)] = {
+        0.5f * (1.5f - u) * (1.5f - u), 0.75f - (u - 1) * (u - 1), 0.5f * (u - 0.5f) * (u - 0.5f)};
+  }
+  return spline;
+}
+
+/// The block of the particle's first node; no_key for one that is left out.
+BlockKey key_of(const Grains& grains, std::size_t p, float cell) {
+  NodePlace place;
+  const float volume = grains.volume[p];
+  if (!(volume > 0) || !is_finite(volume) || !find_node(grains.position[p], cell, place))
+    return no_key;
+  const Vec3i node = spline_node(place);
+  return block_key({node.x >> 3, node.y >> 3, node.z >> 3});
+}
+
+/// Blocks with particles, and how far in them their first nodes are.
+struct Occupied {
+  BlockMap map;
+  struct Reach {
+    Vec3i low{7, 7, 7}, high{0, 0, 0};
+  };
+  std::vector<Reach> reach;
+};
+
+Occupied occupied_blocks(const Grains& grains, const std::vector<BlockKey>& keys, float cell) {
+  Occupied occupied;
+  BlockKey last = no_key;
+  std::uint32_t b = no_block;
+  for (std::size_t p = 0; p < keys.size(); ++p) {
+    if (keys[p] == no_key) continue;
+    if (keys[p] != last) b = occupied.map.insert(last = keys[p]);
+    if (b >= occupied.reach.size()) occupied.reach.resize(b + 1);
+    NodePlace place;
+    find_node(grains.position[p], cell, place);
+    const Vec3i node = spline_node(place);
+    for (int axis = 0; axis < 3; ++axis) {
+      int &low = occupied.reach[b].low[axis], &high = occupied.reach[b].high[axis];
+      low = std::min(low, node[axis] & 7);
+      high = std::max(high, node[axis] & 7);
+    }
+  }
+  return occupied;
+}
+
+/// All blocks with a node that a particle reaches, or one beside such a node, in order.
+/// @param reach of the filter, cells
+std::vector<BlockKey> reached_blocks(const Occupied& occupied, int reach, std::uint64_t max_bytes) {
+  BlockMap all(2 * occupied.map.size());
+  const double tiles = tile_bytes * static_cast<double>(occupied.map.size());
+  for (std::size_t b = 0; b < occupied.map.size(); ++b) {
+    const Vec3i place = block_place(occupied.map.keys()[b]);
+    Vec3i low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = place[axis] + ((occupied.reach[b].low[axis] - reach - 1) >> 3);
+      high[axis] = place[axis] + ((occupied.reach[b].high[axis] + 2 + reach + 1) >> 3);
+    }
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) all.insert(block_key({x, y, z}));
+    const double bytes = tiles + block_bytes * static_cast<double>(all.size());
+    if (max_bytes > 0 && bytes > static_cast<double>(max_bytes)) throw MemoryError(bytes);
+  }
+  std::vector<BlockKey> keys = all.keys();
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+void find_neighbours(const std::vector<BlockKey>& keys, const BlockMap& map, Field& field,
+                     ThreadPool* pool) {
+  field.block.resize(keys.size());
+  field.near.resize(keys.size());
+  for_ranges(pool, keys.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const Vec3i place = field.block[b] = block_place(keys[b]);
+      for (int n = 0; n < 27; ++n) {
+        const Vec3i step{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+        field.near[b][static_cast<std::size_t>(n)] = map.find(block_key(place + step));
+      }
+    }
+  });
+}
+
+GrainBlocks sort_grains(const std::vector<BlockKey>& keys, const BlockMap& map) {
+  GrainBlocks blocks;
+  blocks.first.assign(map.size() + 1, 0);
+  std::vector<std::uint32_t> block_of(keys.size(), no_block);
+  BlockKey last = no_key;
+  std::uint32_t b = no_block;
+  for (std::size_t p = 0; p < keys.size(); ++p) {
+    if (keys[p] == no_key) continue;
+    if (keys[p] != last) b = map.find(last = keys[p]);
+    block_of[p] = b;
+    ++blocks.first[b + 1];
+  }
+  for (std::size_t k = 0; k < map.size(); ++k) blocks.first[k + 1] += blocks.first[k];
+  std::vector<std::uint32_t> next(blocks.first.begin(), blocks.first.end() - 1);
+  blocks.grain.resize(blocks.first.back());
+  for (std::size_t p = 0; p < keys.size(); ++p)
+    if (block_of[p] != no_block) blocks.grain[next[block_of[p]]++] = static_cast<std::uint32_t>(p);
+  return blocks;
+}
+
+/// Spreads the volume of a block's particles over a tile of nodes.
+void fill_tile(const Grains& grains, std::span<const std::uint32_t> list, float cell, float* tile) {
+  const float per_cell = 1 / (cell * cell * cell);
+  for (const std::uint32_t p : list) {
+    NodePlace place;
+    find_node(grains.position[p], cell, place);
+    const Spline spline = spline_at(place);
+    const auto& [wx, wy, wz] = spline.weight;
+    const float share = std::min(grains.volume[p] * per_cell, most_cells);
+    float* corner = tile + ((spline.node.z & 7) * tile_side + (spline.node.y & 7)) * tile_side +
+                    (spline.node.x & 7);
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j) {
+        const float w = share * wz[static_cast<std::size_t>(k)] * wy[static_cast<std::size_t>(j)];
+        float* row = corner + (k * tile_side + j) * tile_side;
+        for (int i = 0; i < 3; ++i) row[i] += w * wx[static_cast<std::size_t>(i)];
+      }
+  }
+}
+
+/// Adds the part of a tile that lies in the block `side` away from its own: 0 or 1 along each axis.
+void add_tile(const float* tile, Vec3i side, float* value) {
+  const auto count = [](int s) { return s == 0 ? block_side : 2; };
+  for (int k = 0; k < count(side.z); ++k)
+    for (int j = 0; j < count(side.y); ++j) {
+      const float* from =
+          tile + ((k + 8 * side.z) * tile_side + j + 8 * side.y) * tile_side + 8 * side.x;
+      float* to = value + (k * block_side + j) * block_side;
+      for (int i = 0; i < count(side.x); ++i) to[i] += from[i];
+    }
+}
+
+/// Every node gets its sums in one order: by particles in a block, then by blocks.
+void gather_volume(const Grains& grains, const GrainBlocks& blocks, Field& field,
+                   ThreadPool* pool) {
+  std::vector<std::uint32_t> tile_of(field.block.size(), no_block), full;
+  for (std::size_t b = 0; b < field.block.size(); ++b) {
+    if (blocks.first[b] == blocks.first[b + 1]) continue;
+    tile_of[b] = static_cast<std::uint32_t>(full.size());
+    full.push_back(static_cast<std::uint32_t>(b));
+  }
+  std::vector<float> tiles(full.size() * tile_nodes);
+  for_ranges(pool, full.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const std::uint32_t b = full[t];
+      const std::span<const std::uint32_t> list(blocks.grain.data() + blocks.first[b],
+                                                blocks.grain.data() + blocks.first[b + 1]);
+      fill_tile(grains, list, field.cell, tiles.data() + t * tile_nodes);
+    }
+  });
+  for_ranges(pool, field.block.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      for (int side = 0; side < 8; ++side) {
+        const Vec3i away{side & 1, side >> 1 & 1, side >> 2};
+        const auto n = static_cast<std::size_t>(13 - 9 * away.z - 3 * away.y - away.x);
+        const std::uint32_t other = field.near[b][n];
+        if (other == no_block || tile_of[other] == no_block) continue;
+        add_tile(tiles.data() + std::size_t{tile_of[other]} * tile_nodes, away,
+                 field.value.data() + b * block_nodes);
+      }
+  });
+}
+
+}  // namespace
+
+MemoryError::MemoryError(double bytes_needed)
+    : std::runtime_error("the lattice of a surface needs " + std::to_string(bytes_needed) +
+                         " bytes"),
+      bytes(bytes_needed) {}
+
+bool find_node(Vec3f position, float cell, NodePlace& place) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double x = static_cast<double>(position[axis]) / static_cast<double>(cell);
+    // Leaves room for the blocks around, which need places too.
+    if (!(x > -8e6 && x < 8e6)) return false;
+    const int below = floor_to_int(x);
+    place.node[axis] = below;
+    place.rest[axis] = static_cast<float>(x - below);
+  }
+  return true;
+}
+
+GrainField make_field(const Grains& grains, const Kernel& kernel, std::uint64_t max_bytes,
+                      ThreadPool* pool) {
+  GrainField made;
+  made.field.cell = kernel.cell;
+  const double cells = static_cast<double>(kernel.width) / static_cast<double>(kernel.cell);
+  const Filter filter = make_filter(cells * cells - 0.25);  // a quadratic B-spline has 1/4
+  std::vector<BlockKey> keys(grains.position.size());
+  for_ranges(pool, keys.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) keys[p] = key_of(grains, p, kernel.cell);
+  });
+  const std::vector<BlockKey> blocks =
+      reached_blocks(occupied_blocks(grains, keys, kernel.cell), filter.reach(), max_bytes);
+  BlockMap map(blocks.size());
+  for (const BlockKey key : blocks) map.insert(key);
+  find_neighbours(blocks, map, made.field, pool);
+  made.field.value.assign(blocks.size() * block_nodes, 0.0f);
+  made.grains = sort_grains(keys, map);
+  gather_volume(grains, made.grains, made.field, pool);
+  apply(filter, made.field, pool);
+  return made;
+}
+
+}  // namespace neve::render::surface
