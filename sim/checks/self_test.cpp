@@ -27,7 +27,12 @@ constexpr Test tests[] = {
     {"initial_state", "has F_E = I, J_P = 1, no stress", self_test::initial_state},
     {"free_fall", "three steps are exact and deform nothing", self_test::free_fall},
     {"volumes", "estimated volumes are right inside and bounded everywhere", self_test::volumes},
-    {"drivers", "the fused and the staged driver give the same step", self_test::drivers}};
+    {"drivers", "the fused and the staged driver give the same step", self_test::drivers},
+    {"contact", "nodes, particles and the solve keep the law of contact, impulses close",
+     self_test::contact},
+    {"time_step", "the limits of dt see hardening, density and shear", self_test::time_step},
+    {"sums", "mass, momenta and energies are those of the particles", self_test::sums},
+    {"births", "births find room or wait", self_test::births}};
 
 }  // namespace
 

@@ -34,6 +34,12 @@ double spline_slope(Kernel kernel, double x) {
 
 }  // namespace
 
+Material without_stiffness() {
+  Material m;
+  m.youngs_modulus = 0;
+  return m;
+}
+
 SolverSettings settings_of(const SelfTestCase& test) {
   SolverSettings settings;
   settings.cell_size = self_test::cell_size;

@@ -13,6 +13,8 @@ inline constexpr double cell_size = 0.05;
 /// Density of the bodies, kg/m3.
 inline constexpr double density = 400;
 
+/// Feels no strain: only what happens to v, C and F then shows.
+Material without_stiffness();
 /// Without gravity, and with a FLIP ratio that acts per step.
 SolverSettings settings_of(const SelfTestCase& test);
 

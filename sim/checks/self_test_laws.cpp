@@ -11,17 +11,6 @@
 
 namespace neve::sim::checks::self_test {
 
-namespace {
-
-/// Feels no strain: what happens to F alone is then seen.
-Material without_stiffness() {
-  Material m;
-  m.youngs_modulus = 0;
-  return m;
-}
-
-}  // namespace
-
 /// sum w = 1, sum w (x_i - x_p) = 0, sum w (x_i - x_p)(x_i - x_p)^T = D I, and for the gradients
 /// that forces use sum grad_w = 0, sum (x_i - x_p) grad_w^T = I: isolated particles, so that a
 /// node's mass is m_p w_ip and its force -V0 tau grad_w_ip with tau a known pressure.

@@ -13,6 +13,9 @@ void force(const SelfTestCase& test, self_test::Measure& measure);
 void projection(const SelfTestCase& test, self_test::Measure& measure);
 void hardening(const SelfTestCase& test, self_test::Measure& measure);
 
+// Colliders: self_test_contact.cpp.
+void contact(const SelfTestCase& test, self_test::Measure& measure);
+
 // The semi-implicit step: self_test_implicit.cpp.
 void solve(const SelfTestCase& test, self_test::Measure& measure);
 
@@ -21,5 +24,10 @@ void initial_state(const SelfTestCase& test, self_test::Measure& measure);
 void free_fall(const SelfTestCase& test, self_test::Measure& measure);
 void volumes(const SelfTestCase& test, self_test::Measure& measure);
 void drivers(const SelfTestCase& test, self_test::Measure& measure);
+
+// Around the steps: self_test_run.cpp.
+void time_step(const SelfTestCase& test, self_test::Measure& measure);
+void sums(const SelfTestCase& test, self_test::Measure& measure);
+void births(const SelfTestCase& test, self_test::Measure& measure);
 
 }  // namespace neve::sim::checks::self_test

@@ -19,6 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kernels = "tests/mutation/probe/reduced_kernels.cpp";
+/// Compiled for mistakes in its own header only.
+constexpr const char* contact = "tests/mutation/probe/reduced_contact.cpp";
+constexpr const char* contact_header = "sim/kernels/particle_contact_sweeps.h";
 
 struct Trouble : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -65,6 +68,12 @@ void make_copies(const Mistake& mistake, const fs::path& copies) {
 bool is_source(const Edit& edit) {
   return edit.file.ends_with(".cpp");
 }
+bool is_of_contact(const Edit& edit) {
+  return edit.file == contact_header;
+}
+bool is_of_kernels(const Edit& edit) {
+  return !is_source(edit) && !is_of_contact(edit);
+}
 
 std::vector<std::string> strings(const app::Json& json) {
   return json.get<std::vector<std::string>>();
@@ -88,10 +97,14 @@ Finding Laboratory::examine(const Mistake& mistake) const {
       compile(source, objects.back(), copies, mistake);
     };
     // Headers with mistakes are those of the kernels; other files see the right ones.
-    if (std::all_of(mistake.edits.begin(), mistake.edits.end(), is_source))
-      objects.push_back(kernels_.string());
-    else
+    const auto has = [&](bool (*is_there)(const Edit&)) {
+      return std::any_of(mistake.edits.begin(), mistake.edits.end(), is_there);
+    };
+    if (mistake.is_of_asflip() || has(is_of_kernels))
       add(kernels);
+    else
+      objects.push_back(kernels_.string());
+    if (has(is_of_contact)) add(contact);
     for (const Edit& edit : mistake.edits)
       if (is_source(edit) && !fs::exists(copies / (fs::path(edit.file).stem().string() + ".o")))
         add(edit.file);

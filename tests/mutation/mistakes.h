@@ -36,6 +36,8 @@ std::vector<Mistake> plasticity_mistakes();
 std::vector<Mistake> transfer_mistakes();
 std::vector<Mistake> affine_mistakes();
 std::vector<Mistake> solve_mistakes();
+std::vector<Mistake> contact_mistakes();
+std::vector<Mistake> run_mistakes();
 std::vector<Mistake> step_mistakes();
 
 }  // namespace neve::test

@@ -234,9 +234,9 @@ std::vector<Mistake> step_mistakes() {
 
 std::vector<Mistake> all_mistakes() {
   std::vector<Mistake> all;
-  for (const auto& part :
-       {gradient_mistakes(), stress_mistakes(), volume_mistakes(), plasticity_mistakes(),
-        transfer_mistakes(), affine_mistakes(), solve_mistakes(), step_mistakes()})
+  for (const auto& part : {gradient_mistakes(), stress_mistakes(), volume_mistakes(),
+                           plasticity_mistakes(), transfer_mistakes(), affine_mistakes(),
+                           solve_mistakes(), contact_mistakes(), run_mistakes(), step_mistakes()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

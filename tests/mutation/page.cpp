@@ -29,7 +29,7 @@ constexpr const char* about_self_tests = R"(
 ## The self-tests
 
 `neve doctor` runs them with every kernel, transfer and precision through the kernels of the instruction
-set in use. It prints the worst value and the tolerance. The self-tests take a tenth of a second. A
+set in use. It prints the worst value and the tolerance. The self-tests take a third of a second. A
 failure gives exit code 9.
 
 | self-test | claim | mistakes noticed |

@@ -1,0 +1,57 @@
+/// Mistakes in contact with colliders.
+
+#include "tests/mutation/mistakes.h"
+
+namespace neve::test {
+
+std::vector<Mistake> contact_mistakes() {
+  constexpr const char* contact = "sim/kernels/contact.h";
+  constexpr const char* of_nodes = "sim/kernels/stages.h";
+  constexpr const char* at_particles = "sim/kernels/particle_contact_sweeps.h";
+  return {
+      {"contact_half_a_cell_off",
+       "surface of colliders half a cell outside",
+       {{of_nodes, "static_cast<Real>(node_depth) * c.h, work, loads,",
+         "Real(-0.5) * c.h, work, loads,"}}},
+      {"reach_of_contact",
+       "colliders looked for a cell too near to a block",
+       {{of_nodes, "find_near<Set>(near, c, key, Real(1.5), Real(2.7));",
+         "find_near<Set>(near, c, key, Real(1.5), Real(1.7));"}}},
+      {"friction_on_absolute_velocity",
+       "friction on v instead of v − v_co",
+       {{contact, "const Vec3<V> v_t = v_rel - n * v_n;",
+         "const Vec3<V> v_t = v - n * dot(v, n);"}}},
+      {"late_collider",
+       "colliders one step late",
+       {{"sim/engine/state.cpp", "colliders.place(method.lattice, progress.time);",
+         "colliders.place(method.lattice, progress.time - dt);"}}},
+      {"contact_work_only_gained",
+       "work of colliders only where they give energy",
+       {{of_nodes, "done += mass * dot(v - before, surface_velocity(colliders[k], r));",
+         "done += larger_lanes(mass * dot(v - before, surface_velocity(colliders[k], r)), V{});"}}},
+      {"contact_not_held",
+       "semi-implicit: contact not held in the solve",
+       {{"sim/kernels/held.h", "if (count == Real(0)) return x;",
+         "if (count >= Real(0)) return x;"}},
+       {},
+       {},
+       true},
+      {"gap_forgotten",
+       "contact at particles: stopped where they are found, not where they touch",
+       {{at_particles,
+         "const V least = gap > V{} ? -gap / c.dt :", "const V least = gap > V{} ? V{} :"}},
+       {},
+       {},
+       true},
+      {"friction_without_impulse",
+       "contact at particles: friction bounded by the coefficient alone",
+       {{at_particles, "const V most = is_held ? c.friction : c.friction * impulse;",
+         "const V most = c.friction;"}}},
+      {"torque_about_the_cell",
+       "contact at particles: torque from the cell of a particle, not from its place",
+       {{at_particles, "(static_cast<double>(c.offset[x][l]) - pose.offset[x])",
+         "(0.0 - pose.offset[x])"}}},
+  };
+}
+
+}  // namespace neve::test
