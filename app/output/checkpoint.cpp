@@ -69,6 +69,7 @@ void check_checkpoint_folder(const fs::path& folder) {
 std::vector<std::uint8_t> encode_checkpoint(const Checkpoint& checkpoint) {
   const std::string text = to_text({{"identity", checkpoint.identity},
                                     {"simd", checkpoint.simd},
+                                    {"sources", checkpoint.sources},
                                     {"frame", checkpoint.frame},
                                     {"steps", checkpoint.steps},
                                     {"progress", checkpoint.progress}});
@@ -100,6 +101,7 @@ Checkpoint parse_checkpoint(std::span<const std::uint8_t> bytes) {
   Checkpoint c;
   c.identity = json.at("identity").get<std::string>();
   c.simd = json.at("simd").get<std::string>();
+  c.sources = json.value("sources", "");
   c.frame = json.at("frame").get<int>();
   c.steps = json.at("steps").get<std::size_t>();
   if (c.frame < 0 || c.frame > max_frame) refuse("has an impossible frame");

@@ -18,6 +18,7 @@ struct Checkpoint {
   /// contents of files.
   std::string identity;
   std::string simd;                 ///< instruction set that the bits belong to
+  std::string sources;              ///< Build::sources of the program; "" of earlier versions
   int frame = 0;                    ///< the last one that is drawn
   std::size_t steps = 0;            ///< since the start of the run
   Json progress;                    ///< further data of the run

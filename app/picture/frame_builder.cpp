@@ -104,8 +104,8 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(view);
   if (scene::has_layer(view, scene::Layer::bounds)) add_bounds(snapshot, frame);
   if (scene::has_layer(view, scene::Layer::plots))
-    frame.plots = make_plots(view.plots, snapshot.history, snapshot.time, 1 / scene_.fps,
-                             scene_.frames / scene_.fps);
+    frame.plots = make_plots(view.plots, !scene_.colliders.empty(), snapshot.history, snapshot.time,
+                             1 / scene_.fps, scene_.frames / scene_.fps);
   frame.caption = words(view, snapshot);
   return frame;
 }

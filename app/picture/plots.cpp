@@ -15,7 +15,7 @@ using Rgb = std::array<std::uint8_t, 3>;
 
 // Colours that stay apart for all kinds of colour vision (Okabe and Ito).
 constexpr Rgb sky_blue{86, 180, 233}, orange{230, 159, 0}, white{240, 244, 250}, green{0, 158, 115},
-    yellow{240, 228, 66}, purple{204, 121, 167}, vermillion{213, 94, 0};
+    yellow{240, 228, 66}, purple{204, 121, 167}, vermillion{213, 94, 0}, pink{240, 110, 150};
 
 struct LimitStyle {
   sim::DtLimit limit;
@@ -76,13 +76,16 @@ render::Plot dt_plot(const scene::PlotRanges& ranges, std::span<const PlotSample
 
 }  // namespace
 
-PlotSample plot_sample(double time, const sim::Summary& summary,
+PlotSample plot_sample(double time, double interval, const sim::Summary& summary,
                        const sim::AdvanceReport& advance) {
-  return {time,          summary.kinetic_energy, summary.elastic_energy, summary.max_speed,
-          advance.steps, advance.limit()};
+  PlotSample sample{time, summary.kinetic_energy, summary.elastic_energy, summary.max_speed,
+                    0,    advance.steps,          advance.limit()};
+  for (const sim::ColliderLoad& load : advance.loads)
+    sample.max_force = std::max(sample.max_force, load.impulse.norm() / interval);
+  return sample;
 }
 
-std::vector<render::Plot> make_plots(const scene::PlotRanges& ranges,
+std::vector<render::Plot> make_plots(const scene::PlotRanges& ranges, bool has_colliders,
                                      std::span<const PlotSample> history, double now,
                                      double interval, double duration) {
   // Half an interval: times are sums of steps and not exact.
@@ -99,7 +102,14 @@ std::vector<render::Plot> make_plots(const scene::PlotRanges& ranges,
             [](const PlotSample& s) { return s.kinetic_energy + s.elastic_energy; })};
   render::Plot speed = plot_of("largest speed", "m/s", ranges.speed, now, duration);
   speed.series = {curve("", vermillion, history, [](const PlotSample& s) { return s.max_speed; })};
-  return {energy, speed, dt_plot(ranges, history, now, interval, duration)};
+  std::vector<render::Plot> plots{energy, speed};
+  if (has_colliders) {
+    plots.push_back(plot_of("largest force on a collider", "N", ranges.force, now, duration));
+    plots.back().series = {
+        curve("", pink, history, [](const PlotSample& s) { return s.max_force; })};
+  }
+  plots.push_back(dt_plot(ranges, history, now, interval, duration));
+  return plots;
 }
 
 }  // namespace neve::app::picture

@@ -225,7 +225,8 @@ void RenderRun::make_frames(int first) {
       return;
     }
     summary_ = simulation_.summary();
-    history_.push_back(picture::plot_sample(frame / job_.scene.fps, summary_, advance_));
+    history_.push_back(
+        picture::plot_sample(frame / job_.scene.fps, 1 / job_.scene.fps, summary_, advance_));
     if (is_to_draw(frame)) draw_frame(frame);
     advance_ = {};
     progress_.frame(frame, frame / job_.scene.fps);

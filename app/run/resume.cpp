@@ -9,6 +9,7 @@
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/support/text.h"
+#include "app/support/version.h"
 #include "sim/base/hash.h"
 
 namespace neve::app::run {
@@ -85,6 +86,7 @@ void Checkpoints::write(int frame, const sim::AdvanceReport& advance,
   output::Checkpoint checkpoint;
   checkpoint.identity = identity_;
   checkpoint.simd = simulation_.simd();
+  checkpoint.sources = build().sources;
   checkpoint.frame = frame;
   checkpoint.steps = simulation_.steps();
   checkpoint.progress = progress_json(frame, advance, history, record);
@@ -98,6 +100,11 @@ void Checkpoints::check_identity(const output::Checkpoint& checkpoint) {
         "--resume",
         "the run in " + folder_.string() + " is a different run: " + other_thing(folder_, picture_),
         "remove --resume to replace it, or choose another folder with --out");
+  if (checkpoint.sources != build().sources)
+    progress_.warning(
+        "the earlier part of the run was made by a program with other sources: this "
+        "part may not be what that program would make; leave --resume out to make "
+        "all of it again");
   if (checkpoint.simd != simulation_.simd())
     progress_.warning("the earlier part of the run used " + checkpoint.simd +
                       " instructions, this part uses " + simulation_.simd() +

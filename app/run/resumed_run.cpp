@@ -1,6 +1,7 @@
 #include "app/run/resumed_run.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "app/output/report_json.h"
@@ -33,7 +34,7 @@ Json history_json(std::span<const picture::PlotSample> history) {
   for (const picture::PlotSample& s : history)
     rows.push_back({number_or_null(s.time), number_or_null(s.kinetic_energy),
                     number_or_null(s.elastic_energy), number_or_null(s.max_speed), s.steps,
-                    static_cast<int>(s.limit)});
+                    static_cast<int>(s.limit), number_or_null(s.max_force)});
   return rows;
 }
 
@@ -52,6 +53,9 @@ std::vector<picture::PlotSample> history_of(const Json& rows, int frame, std::si
     s.steps = count_of(row.at(4), "history steps", steps);
     s.limit =
         static_cast<sim::DtLimit>(count_of(row.at(5), "history limit", sim::dt_limit_count - 1));
+    // Checkpoints of earlier versions have no forces: their curve has a gap.
+    s.max_force = row.size() > 6 && !row.at(6).is_null() ? number_of(row.at(6), "history max_force")
+                                                         : std::numeric_limits<double>::quiet_NaN();
     history.push_back(s);
   }
   return history;

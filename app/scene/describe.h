@@ -27,7 +27,8 @@ namespace unit {
 inline constexpr const char *none = "", *metre = "m", *second = "s", *per_second = "1/s",
                             *velocity = "m/s", *acceleration = "m/s2", *spin = "rad/s",
                             *density = "kg/m3", *mass_rate = "kg/s", *pascal = "Pa",
-                            *degrees = "degrees", *pixels = "px", *bytes = "B", *joule = "J";
+                            *degrees = "degrees", *pixels = "px", *bytes = "B", *joule = "J",
+                            *newton = "N";
 }
 
 /// Beyond these, single precision and 64-bit counts stop making sense.
@@ -476,6 +477,8 @@ void describe(V& visit, PlotRanges& p) {
         "Ends of the axis of the energies, or \"auto\".");
   visit("speed_range", p.speed, unit::velocity, within(1e30), live,
         "Ends of the axis of the largest speed, or \"auto\".");
+  visit("force_range", p.force, unit::newton, within(1e30), live,
+        "Ends of the axis of the largest force on a collider, or \"auto\".");
   visit("dt_range", p.dt, unit::second, within(1e30), live,
         "Ends of the axis of the time step, or \"auto\".");
 }

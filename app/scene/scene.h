@@ -112,6 +112,7 @@ struct PictureSize {
 struct PlotRanges {
   std::optional<Range> energy;  ///< J
   std::optional<Range> speed;   ///< m/s
+  std::optional<Range> force;   ///< N
   std::optional<Range> dt;      ///< s
 };
 

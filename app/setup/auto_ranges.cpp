@@ -133,6 +133,13 @@ double energy_of_impact(const scene::Scene& scene) {
   return energy;
 }
 
+double force_of_impact(const scene::Scene& scene) {
+  double force = 0;
+  for (const SnowPiece& piece : snow_pieces(scene))
+    force += piece.mass * (scene.solver.gravity.norm() + impact_speed(scene, piece) * scene.fps);
+  return force;
+}
+
 scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
                              std::size_t particle_count) {
   // Packed snow is stiffer than the rest by about this factor.
@@ -217,6 +224,7 @@ void resolve_plot_ranges(const scene::Scene& scene, scene::PlotRanges& ranges) {
   };
   if (!ranges.energy) ranges.energy = from_zero(energy_of_impact(scene));
   if (!ranges.speed) ranges.speed = automatic_range(scene, scene::ColorBy::speed, 0);
+  if (!ranges.force) ranges.force = from_zero(force_of_impact(scene));
   if (!ranges.dt) ranges.dt = from_zero(1.05 * step_at_rest(scene.solver, scene.materials));
 }
 

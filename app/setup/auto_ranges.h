@@ -21,6 +21,9 @@ scene::Range automatic_range(const scene::Scene& scene,
 /// Kinetic energy of all bodies when they meet the surface below them, J.
 double energy_of_impact(const scene::Scene& scene);
 
+/// Force on the surface below that stops all bodies within a frame and carries them, N.
+double force_of_impact(const scene::Scene& scene);
+
 /// Particle attribute that makes a field of nodes.
 scene::ColorBy attribute_of(scene::ScalarField field);
 

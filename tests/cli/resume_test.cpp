@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/output/checkpoint.h"
 #include "tests/support/resume.h"
 
 namespace neve::test {
@@ -64,6 +65,21 @@ TEST_F(Resume, ADamagedCheckpointIsNamedAndTheOlderOneTaken) {
   EXPECT_TRUE(contains(more.errors, "checksum")) << more.errors;
   EXPECT_TRUE(contains(more.errors, "resumed after frame 2")) << more.errors;
   expect_same("whole", "parts");
+}
+
+/// A run of an older program goes on, but nobody takes it for one of this program.
+TEST_F(Resume, ACheckpointOfOtherSourcesIsNamed) {
+  ASSERT_EQ(render("out", {"--frames", "0-2"}).exit_code, 0);
+  app::output::Checkpoint checkpoint = *app::output::find_checkpoint(folder / "out").checkpoint;
+  checkpoint.sources = "0123456789abcdef";
+  // Earlier versions wrote no forces either.
+  for (app::Json& row : checkpoint.progress["history"]) row.erase(6);
+  app::output::write_checkpoint(folder / "out", checkpoint);
+  const auto more = render("out", {"--resume"});
+  ASSERT_EQ(more.exit_code, 0) << more.errors;
+  EXPECT_TRUE(contains(more.errors, "a program with other sources")) << more.errors;
+  const auto again = render("out", {"--resume"});
+  EXPECT_FALSE(contains(again.errors, "other sources")) << again.errors;
 }
 
 TEST_F(Resume, AnotherSceneIsRefusedAndNothingIsTouched) {

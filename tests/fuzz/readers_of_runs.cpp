@@ -60,7 +60,7 @@ struct SmallRun {
     for (int frame = 0; frame <= 1; ++frame) {
       if (frame > 0) advance = simulation.advance_to(frame / scene.fps);
       const sim::Summary summary = simulation.summary();
-      history.push_back(picture::plot_sample(frame / scene.fps, summary, advance));
+      history.push_back(picture::plot_sample(frame / scene.fps, 1 / scene.fps, summary, advance));
       run::add_frame(
           record.frames,
           {frame, frame / scene.fps, advance, 0, 0, summary, simulation.state_hash(), {}, {}});

@@ -34,6 +34,7 @@ std::vector<RangeSlot> range_slots(scene::View& view) {
           {&view.slice.scalar_range, scene::name(view.slice.scalar)},
           {&view.plots.energy, "energy"},
           {&view.plots.speed, "speed"},
+          {&view.plots.force, "force"},
           {&view.plots.dt, "dt"}};
 }
 

@@ -37,7 +37,7 @@ void Session::start(const std::shared_ptr<const scene::Scene>& scene) {
   diagnosis_.reset();
   error_.clear();
   speed_ = 0;
-  history_.push_back(picture::plot_sample(0, note_sample(), {}));
+  history_.push_back(picture::plot_sample(0, 1 / scene->fps, note_sample(), {}));
   keep();
 }
 
@@ -143,7 +143,8 @@ void Session::reach_frame() {
   ++frame_;
   history_.resize(static_cast<std::size_t>(frame_));
   const sim::Summary summary = note_sample();
-  history_.push_back(picture::plot_sample(frame_ / scene().fps, summary, advance_));
+  history_.push_back(
+      picture::plot_sample(frame_ / scene().fps, 1 / scene().fps, summary, advance_));
   advance_is_new_ = true;
   steps_of_frame_ = simulation_->steps();
   keep();
