@@ -14,6 +14,7 @@
 #include "app/output/named_file.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
+#include "app/setup/caps.h"
 #include "app/setup/command_text.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -64,8 +65,9 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
     const sweep::store::RunState state =
         sweep::store::read_status(sweep::store::runs_folder(folder) / run.folder).state;
     if (sweep::store::is_finished(state) && !retry.contains(state)) continue;
-    text += fmt::format("{} sweep run {} --index {} --threads 1 --quiet{}\n", program, where, index,
-                        retry.empty() ? "" : " --retry-failed=" + options.retry_failed);
+    text += fmt::format("{} sweep run {} --index {} --threads 1 --quiet{}{}\n", program, where,
+                        index, retry.empty() ? "" : " --retry-failed=" + options.retry_failed,
+                        setup::cap_flags());
     ++count;
   }
   output::write_named_file(options.emit, text);

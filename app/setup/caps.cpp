@@ -3,10 +3,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include "app/scene/leaf.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/setup/command_text.h"
 
 namespace neve::app::setup {
 
@@ -53,6 +55,14 @@ void set_memory_cap(const std::string& text) {
 
 void set_particle_cap(const std::string& text) {
   lower(particle_name, particles_of(text, "--max-particles"), caps().particles, text);
+}
+
+std::string cap_flags() {
+  std::string flags;
+  for (const auto& [name, flag] :
+       {std::pair{memory_name, " --max-memory "}, std::pair{particle_name, " --max-particles "}})
+    if (const char* text = std::getenv(name); text && *text) flags += flag + shell_word(text);
+  return flags;
 }
 
 }  // namespace neve::app::setup

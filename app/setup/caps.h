@@ -20,4 +20,8 @@ Caps caps();
 void set_memory_cap(const std::string& text);
 void set_particle_cap(const std::string& text);
 
+/// The flags that set the present caps, each with a space before it: commands that are written down
+/// to be started elsewhere keep them. Empty without caps.
+std::string cap_flags();
+
 }  // namespace neve::app::setup

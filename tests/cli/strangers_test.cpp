@@ -207,6 +207,13 @@ TEST_F(Strangers, NoSceneRaisesTheCapsOfWhoeverStartsTheProgram) {
   EXPECT_EQ(shell("NEVE_MAX_MEMORY=1MB \"$0\" render greedy.toml --max-memory 8GiB").exit_code, 8)
       << "a flag only lowers the cap";
   EXPECT_EQ(shell("NEVE_MAX_MEMORY=some \"$0\" render greedy.toml").exit_code, 2);
+  const auto emitted = shell(
+      "NEVE_MAX_MEMORY=2GiB \"$0\" sweep greedy.toml -p seed=1,2 --frames 0-1 --out e "
+      "--max-particles 100 --emit commands --quiet");
+  EXPECT_EQ(emitted.exit_code, 0) << emitted.errors;
+  EXPECT_TRUE(contains(read_text(folder.path() / "commands"),
+                       "--quiet --max-memory 2GiB --max-particles 100\n"))
+      << "commands that run elsewhere keep the caps";
   const auto sweep =
       shell("\"$0\" sweep greedy.toml -p seed=1,2 --frames 0-1 --out s --max-particles 100 --json");
   EXPECT_EQ(sweep.exit_code, 7) << sweep.errors;
