@@ -29,12 +29,6 @@ const char* name(health::Severity severity) {
   return "";
 }
 
-/// A count with three digits that count, written out.
-std::string about_count_text(double x) {
-  const double unit = x < 1000 ? 1 : std::pow(10, std::floor(std::log10(x)) - 2);
-  return fixed_text(unit * std::round(x / unit), 0);
-}
-
 std::string seconds_text(double seconds) {
   return seconds < 0.95 ? fixed_text(seconds, 2) + " s" : duration_text(seconds);
 }

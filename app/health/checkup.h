@@ -66,8 +66,11 @@ struct Checkup {
   double coarse_particles = 0;          ///< of the run behind the forecast
   double blocks = 0;                    ///< of the grid, per particle at the start; 0: not known
   double seconds_per_step = 0;          ///< measured on this machine; 0: not measured
-  sim::SolveReport solve;               ///< of these steps; zero where they are explicit
-  double coarsening = 1;                ///< of --coarsen, for advice
+  /// Steps of the run if its impact crushes a single particle that flies on to the end; 0: none is
+  /// to be expected.
+  double crushed_steps = 0;
+  sim::SolveReport solve;  ///< of these steps; zero where they are explicit
+  double coarsening = 1;   ///< of --coarsen, for advice
   std::vector<Finding> findings;
 
   double steps() const;    ///< forecast for the whole run

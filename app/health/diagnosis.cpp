@@ -163,6 +163,22 @@ Hypothesis raised_limits(const Case& c) {
   return std::nullopt;
 }
 
+/// The last guess: between its default and its usual end of stability acoustic_cfl holds for some
+/// materials and splines only (docs/time_step.md).
+Hypothesis raised_acoustic_limit(const Case& c) {
+  const double value = c.scene.solver.acoustic_cfl, usual = sim::SolverSettings{}.acoustic_cfl;
+  const bool has_ruled =
+      std::any_of(c.d.last_steps.begin(), c.d.last_steps.end(),
+                  [](const sim::StepRecord& step) { return step.limit == sim::DtLimit::acoustic; });
+  if (c.is_fixed || !has_ruled || value <= usual) return std::nullopt;
+  return Diagnosis{Cause::raised_limits,
+                   fmt::format("solver.acoustic_cfl = {} is above the default, {}; not every "
+                               "material and spline is stable there",
+                               rough_text(value), rough_text(usual)),
+                   fmt::format("solver.acoustic_cfl = {}", rough_text(usual)),
+                   "solver.acoustic_cfl"};
+}
+
 /// A fixed dt that does not even hold for snow at rest, and whose fault that is.
 Hypothesis too_long_at_rest(const Case& c) {
   if (!c.is_fixed) return std::nullopt;
@@ -381,9 +397,10 @@ Diagnosis unexplained(const Case& c) {
 Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence,
                    double coarsening) {
   const Case c(scene, divergence, coarsening);
-  for (const auto hypothesis : {bypass, initial_state, units, raised_limits, too_long_at_rest,
-                                collider_speed, colliders_closing, incompressible,
-                                hardened_beyond_fixed_step, shock, too_soft, hardening, far_flight})
+  for (const auto hypothesis :
+       {bypass, initial_state, units, raised_limits, too_long_at_rest, collider_speed,
+        colliders_closing, incompressible, hardened_beyond_fixed_step, shock, too_soft, hardening,
+        far_flight, raised_acoustic_limit})
     if (Hypothesis found = hypothesis(c)) {
       found->coarsening = coarsening;
       return *found;

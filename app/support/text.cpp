@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <numeric>
 
@@ -39,6 +40,11 @@ std::string rough_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
+}
+
+std::string about_count_text(double value) {
+  const double unit = value < 1000 ? 1 : std::pow(10, std::floor(std::log10(value)) - 2);
+  return fixed_text(unit * std::round(value / unit), 0);
 }
 
 std::string bytes_text(std::uint64_t bytes) {

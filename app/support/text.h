@@ -11,6 +11,8 @@ namespace neve::app {
 std::string fixed_text(double value, int digits);
 /// With three significant digits.
 std::string rough_text(double value);
+/// Three digits, written out: a count.
+std::string about_count_text(double value);
 /// "1.2 GiB"
 std::string bytes_text(std::uint64_t bytes);
 /// With control characters as \x1b and the like: those of a stranger's file do nothing to a

@@ -38,4 +38,25 @@ TEST(RestTable, SnowRestsAtEveryFractionAndTilt) {
       }
 }
 
+/// The same block in finer cells: what is left of the gap is a share of a cell.
+TEST(RestTable, TheGapShrinksWithTheCells) {
+  for (const ContactAt contact_at : {ContactAt::particles, ContactAt::nodes})
+    for (const int finer : {1, 2, 4}) {
+      const RestingPlace place = tilted_place(0.25, 20, finer);
+      Method method = flip_cubic();
+      method.contact_at = contact_at;
+      const Rest rest = rest_on(plane(place.point, place.normal, 0.5), place, method);
+      const double millimetres = 1000 * place.cell();
+      const bool is_at_particles = contact_at == ContactAt::particles;
+      const std::string line = std::string(is_at_particles ? "particles" : "nodes") +
+                               ", cells of " + in_digits(millimetres) + " mm";
+      keep_number({"rest in finer cells", line, "gap, mm"}, rest.gap * millimetres);
+      keep_number({"rest in finer cells", line, "its spread, mm"}, rest.spread * millimetres);
+      // As in Rest: less than a third of the particles' spacing at every h.
+      if (is_at_particles) {
+        EXPECT_NEAR(rest.gap, 0, 0.15) << line;
+      }
+    }
+}
+
 }  // namespace

@@ -326,6 +326,34 @@ TEST_F(Check, CheckForeseesThatSprayIsDear) {
   EXPECT_GT(dearest(spray), 2);
 }
 
+/// Which particles an impact crushes is chance: the range says what one of them would cost.
+TEST_F(Check, CheckForeseesThatAHardImpactMayCrushAParticle) {
+  const std::string ball =
+      "frames = 12\n[solver]\ncell_size = 0.02\n[material.snow]\nyoungs_modulus = 2e5\n"
+      "critical_compression = 0.03\ncritical_stretch = 0.005\n[[body]]\nname = \"ball\"\n"
+      "shape = { sphere = { center = [0, 0.6, 0], radius = 0.08 } }\nvelocity = [0, -14, 0]\n"
+      "[[collider]]\nname = \"post\"\nshape = { sphere = { center = [0, 0.3, 0], radius = 0.05 } "
+      "}\n"
+      "[[collider]]\nname = \"floor\"\nshape = { plane = { point = [0, -3, 0] } }\n";
+  folder.write("hit.toml", ball);
+  const auto check_of = [&](const char* change) {
+    return app::parse_json(
+        std::string_view(neve({"check", "hit.toml", "--json", "--set", change}).output));
+  };
+  const auto notes = [](const app::Json& json) { return json["findings"].dump(); };
+  const auto most_steps = [](const app::Json& json) {
+    return json["steps_range"][1].get<double>() / json["steps"].get<double>();
+  };
+  const app::Json hard = check_of("seed=1");
+  EXPECT_NE(notes(hard).find("may crush single particles"), std::string::npos) << notes(hard);
+  EXPECT_GT(most_steps(hard), 5);
+  const app::Json bounded = check_of("material.snow.max_hardening=5");
+  EXPECT_EQ(notes(bounded).find("may crush"), std::string::npos) << notes(bounded);
+  const app::Json slow = check_of("body.ball.velocity=[0,-3,0]");
+  EXPECT_EQ(notes(slow).find("may crush"), std::string::npos) << notes(slow);
+  EXPECT_LT(most_steps(slow), 5);
+}
+
 TEST_F(Check, CheckRefusesTheScenesThatRenderRefuses) {
   folder.write("scene.toml", scene("", "[limits]\nparticles = 10\n"));
   const auto refused = neve({"check", "scene.toml"});
