@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 
 #include "app/cli/command_line_parts.h"
+#include "app/scene/describe.h"
 #include "app/scene/leaf.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
@@ -19,7 +21,57 @@ struct ExportTexts {
   std::optional<std::string> at, attributes;
   std::vector<std::string> bodies;
   double scale = 1;
+  scene::Export surface;  ///< its keys of the surface alone
 };
+
+/// The description of a key of [[export]], for the flag of the same parameter.
+class ExportKey {
+ public:
+  ExportKey(const char* flag, const char* key) : flag_(flag), key_(key) {
+    scene::Export e;
+    scene::describe(*this, e);
+  }
+
+  template <class T>
+  void operator()(const char* key, const T&, const char*, const scene::Valid& valid, scene::Change,
+                  const char* help) {
+    if (key_ != key) return;
+    valid_ = valid;
+    help_ = help;
+    help_.pop_back();  // flags have no full stop
+  }
+
+  const char* flag() const { return flag_; }
+  const std::string& help() const { return help_; }
+  void check(double value) const {
+    if (!valid_.contains(value))
+      throw scene::toml::UsageError(flag_, "cannot use this number",
+                                    "expected " + valid_.text_of_bounds());
+  }
+
+ private:
+  const char* flag_;
+  std::string_view key_;
+  scene::Valid valid_;
+  std::string help_;
+};
+
+const ExportKey& surface_key() {
+  static const ExportKey key("--surface", "surface");
+  return key;
+}
+const ExportKey& cell_key() {
+  static const ExportKey key("--surface-cell", "surface_cell");
+  return key;
+}
+const ExportKey& smoothing_key() {
+  static const ExportKey key("--surface-smoothing", "surface_smoothing");
+  return key;
+}
+const ExportKey& piece_key() {
+  static const ExportKey key("--smallest-piece", "smallest_piece");
+  return key;
+}
 
 template <scene::Choice E>
 E choice_of(const char* flag, const std::string& word) {
@@ -42,6 +94,17 @@ std::vector<E> choices_in(const char* flag, const std::string& text) {
   return values;
 }
 
+void check_surface(const CLI::App& command, const scene::Export& e) {
+  cell_key().check(e.surface_cell);
+  smoothing_key().check(e.surface_smoothing);
+  piece_key().check(e.smallest_piece);
+  if (e.surface) return;
+  for (const ExportKey* key : {&cell_key(), &smoothing_key(), &piece_key()})
+    if (command.count(key->flag()) > 0)
+      throw scene::toml::UsageError(key->flag(), "has no use without a surface",
+                                    "give --surface too");
+}
+
 run::ExportOptions finished_export(const CLI::App& command, const run::RenderOptions& run,
                                    const RenderTexts& run_texts, const ExportTexts& texts) {
   run::ExportOptions options;
@@ -55,7 +118,8 @@ run::ExportOptions finished_export(const CLI::App& command, const run::RenderOpt
   if (!(texts.scale >= 1e-6 && texts.scale <= 1e6))
     throw scene::toml::UsageError("--scale", "cannot use this number",
                                   "expected 1e-6 to 1e6, as in --scale 100 for centimetres");
-  scene::Export common;
+  check_surface(command, texts.surface);
+  scene::Export common = texts.surface;
   common.bodies = texts.bodies;
   common.up = choice_of<scene::UpAxis>("--up", texts.up);
   common.scale = texts.scale;
@@ -101,13 +165,22 @@ void add_export_flags(CLI::App& command, const std::shared_ptr<ExportTexts>& tex
                   "Units of the files per metre, of lengths and velocities; 100: centimetres")
       ->type_name("S")
       ->capture_default_str();
+  command.add_flag(surface_key().flag(), texts->surface.surface, surface_key().help());
+  const auto add_number = [&](const ExportKey& key, auto& member) {
+    command.add_option(key.flag(), member, key.help())->type_name("N")->capture_default_str();
+  };
+  add_number(cell_key(), texts->surface.surface_cell);
+  add_number(smoothing_key(), texts->surface.surface_smoothing);
+  add_number(piece_key(), texts->surface.smallest_piece);
 }
 
 }  // namespace
 
 void add_export(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
-      "export", "Write the particles and the grid at some times for ParaView, Houdini, USD, numpy");
+      "export",
+      "Write the particles, their surface and the grid at some times for ParaView, Houdini, USD, "
+      "numpy");
   const auto run = std::make_shared<run::RenderOptions>();
   const auto run_texts = std::make_shared<RenderTexts>();
   const auto texts = std::make_shared<ExportTexts>();

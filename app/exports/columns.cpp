@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/exports/surface_table.h"
 #include "app/scene/names.h"
 
 namespace neve::app::exports {
@@ -171,6 +172,7 @@ std::vector<std::size_t> rows_of(const scene::Scene& scene, const scene::Export&
 }
 
 std::vector<ExportAttribute> attributes_of(const scene::Export& e) {
+  if (e.format == scene::ExportFormat::obj) return {ExportAttribute::x};
   std::vector<ExportAttribute> list = e.attributes;
   if (std::find(list.begin(), list.end(), ExportAttribute::x) == list.end())
     list.insert(list.begin(), ExportAttribute::x);
@@ -215,6 +217,7 @@ Table make_table(const scene::Scene& scene, const scene::Export& e, const Origin
   for (Column& column : table.columns)
     column.numbers = converted(values_of(column.attribute, source), form_of(column.attribute).kind,
                                is_single(scene));
+  if (e.surface) return surface_table(scene, e, state, rows, table);
   return table;
 }
 

@@ -2,6 +2,7 @@
 /// Attributes of particles as columns of numbers, in the precision of the state.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -30,10 +31,20 @@ std::string component_name(const Column& column, int component);
 const char* type_name(const Column& column);
 std::size_t number_size(const Column& column);
 
-/// Particles for one file.
+/// Triangles between the first rows of a table. The rows after these are points beside the mesh.
+struct MeshRows {
+  std::size_t vertices = 0;
+  std::vector<float> normal;          ///< three a row, of unit length; 0 for points
+  std::vector<std::int32_t> corners;  ///< three a triangle, counter-clockwise from outside
+
+  std::size_t triangles() const { return corners.size() / 3; }
+};
+
+/// Particles for one file, or the vertices of their surface.
 struct Table {
   std::size_t rows = 0;
   std::vector<Column> columns;
+  std::optional<MeshRows> mesh;
 
   /// Null where there is none.
   const Column* find(scene::ExportAttribute attribute) const;
@@ -42,6 +53,7 @@ struct Table {
 };
 
 /// The attributes of an export in its order, with x in front where it is not named.
+/// @throws LimitError for a surface that does not fit in memory
 Table make_table(const scene::Scene& scene, const scene::Export& e, const Origins& origins,
                  const State& state);
 

@@ -18,6 +18,20 @@ const char* ply_type(const Column& column) {
   return types[column.numbers.index()];
 }
 
+/// Says which vertices are particles beside the mesh.
+std::string spray_comment(const Table& table) {
+  if (!table.mesh) return {};
+  return "comment the last " + std::to_string(table.rows - table.mesh->vertices) +
+         " vertices are spray, in no face\n";
+}
+
+void append_faces(const MeshRows& mesh, std::string& bytes) {
+  for (std::size_t k = 0; k < mesh.corners.size(); ++k) {
+    if (k % 3 == 0) append_little(std::uint8_t{3}, bytes);
+    append_little(mesh.corners[k], bytes);
+  }
+}
+
 /// Bytes of the largest array that a zip archive without extensions holds, headers aside.
 constexpr double zip_limit = 4294967295.0 - 4096;
 
@@ -32,15 +46,23 @@ std::string encode_ply(const Moment& moment) {
   append_text(moment.frame(), bytes);
   bytes += "\ncomment up " + std::string(scene::name(moment.spec.up)) + ", units per metre ";
   append_text(moment.spec.scale, bytes);
-  bytes += "\nelement vertex " + std::to_string(table.rows) + "\n";
+  bytes += "\n" + spray_comment(table) + "element vertex " + std::to_string(table.rows) + "\n";
   for (const Column& column : table.columns)
     for (int c = 0; c < column.components; ++c)
       bytes += std::string("property ") + ply_type(column) + " " + component_name(column, c) + "\n";
+  if (table.mesh)
+    bytes += "property float nx\nproperty float ny\nproperty float nz\nelement face " +
+             std::to_string(table.mesh->triangles()) + "\nproperty list uchar int vertex_indices\n";
   bytes += "end_header\n";
-  bytes.reserve(bytes.size() + table.rows * row_size(table));
-  for (std::size_t row = 0; row < table.rows; ++row)
+  bytes.reserve(bytes.size() + table.rows * (row_size(table) + 12) +
+                (table.mesh ? 13 * table.mesh->triangles() : 0));
+  for (std::size_t row = 0; row < table.rows; ++row) {
     for (const Column& column : table.columns)
       for_row(column, row, [&](auto number) { append_little(number, bytes); });
+    if (!table.mesh) continue;
+    for (std::size_t a = 0; a < 3; ++a) append_little(table.mesh->normal[3 * row + a], bytes);
+  }
+  if (table.mesh) append_faces(*table.mesh, bytes);
   return bytes;
 }
 
@@ -62,6 +84,32 @@ std::string encode_csv(const Moment& moment) {
   return text;
 }
 
+std::string encode_obj(const Moment& moment) {
+  const Table& table = moment.table;
+  const MeshRows& mesh = *table.mesh;
+  std::string text = "# neve " + std::string(version) + ", time ";
+  append_text(moment.state.time, text);
+  text += " s, units per metre ";
+  append_text(moment.spec.scale, text);
+  const auto add_line = [&](const char* word, const auto* numbers) {
+    text += word;
+    for (int a = 0; a < 3; ++a) {
+      text += ' ';
+      append_text(static_cast<float>(numbers[a]), text);
+    }
+  };
+  for (std::size_t row = 0; row < table.rows; ++row)
+    add_line("\nv", table.places().data() + 3 * row);
+  for (std::size_t v = 0; v < mesh.vertices; ++v) add_line("\nvn", mesh.normal.data() + 3 * v);
+  for (std::size_t k = 0; k < mesh.corners.size(); ++k) {
+    const std::string corner = std::to_string(mesh.corners[k] + 1);
+    text += (k % 3 == 0 ? "\nf " : " ") + corner + "//" + corner;
+  }
+  for (std::size_t row = mesh.vertices; row < table.rows; ++row)
+    text += "\np " + std::to_string(row + 1);
+  return text + "\n";
+}
+
 std::string encode(const Moment& moment) {
   switch (moment.spec.format) {
     case scene::ExportFormat::ply:
@@ -78,6 +126,8 @@ std::string encode(const Moment& moment) {
       return encode_npz(moment);
     case scene::ExportFormat::csv:
       return encode_csv(moment);
+    case scene::ExportFormat::obj:
+      return encode_obj(moment);
   }
   return {};
 }

@@ -18,8 +18,9 @@ struct Moment {
   double frame() const { return state.time * scene.fps; }
 };
 
-/// Binary little endian; a property per number: x y z vx vy vz F_E_xx ...
-/// Source: Turk, The PLY Polygon File Format.
+/// Binary little endian; a property per number: x y z vx vy vz F_E_xx ... Vertices of a surface
+/// have normals and are in faces, but for the spray at the end. Source: Turk, The PLY Polygon File
+/// Format.
 std::string encode_ply(const Moment& moment);
 
 /// A line of names, then a line per particle; every number reads as the same bits.
@@ -29,7 +30,8 @@ std::string encode_csv(const Moment& moment);
 /// Source: numpy.lib.format, version 1.0.
 std::string encode_npz(const Moment& moment);
 
-/// VTK XML PolyData: a vertex per particle, raw appended arrays.
+/// VTK XML PolyData: a vertex per particle, or the triangles of a surface and vertices for the
+/// spray; raw appended arrays.
 std::string encode_vtp(const Moment& moment);
 
 /// VTK XML ImageData: mass and velocity of all nodes in the box around the snow.
@@ -40,10 +42,14 @@ std::string encode_vti(const Moment& moment);
 /// Source: read by partio (Walt Disney Animation Studios), src/lib/io/BGEO.cpp.
 std::string encode_bgeo(const Moment& moment);
 
-/// A layer with the particles as Points at one time code; places and velocities are in single
-/// precision, as the schema says.
-/// Source: OpenUSD, UsdGeomPoints.
+/// A layer with the particles as Points at one time code, or the surface as a Mesh and the spray as
+/// Points; places and velocities are in single precision, as the schemas say.
+/// Source: OpenUSD, UsdGeomPoints, UsdGeomMesh.
 std::string encode_usda(const Moment& moment);
+
+/// Wavefront text: vertices in single precision with normals, triangles, and a point per particle
+/// of the spray. Only for surfaces.
+std::string encode_obj(const Moment& moment);
 
 std::string encode(const Moment& moment);
 

@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 #include "app/exports/bytes.h"
 #include "app/exports/encode.h"
@@ -56,6 +57,17 @@ std::string vtk_time(const Moment& moment) {
       "format=\"ascii\">";
   append_text(moment.state.time, text);
   return text + "</DataArray>\n</FieldData>\n";
+}
+
+/// Cells of one size, by the numbers of their points.
+template <class Number>
+std::string vtk_cells(const std::string& kind, const std::vector<Number>& points, std::size_t size,
+                      AppendedArrays& arrays) {
+  std::vector<std::int64_t> ends(points.size() / size);
+  for (std::size_t k = 0; k < ends.size(); ++k) ends[k] = static_cast<std::int64_t>((k + 1) * size);
+  const std::vector<std::int64_t> numbers(points.begin(), points.end());
+  return "<" + kind + ">\n" + arrays.add("connectivity", 1, numbers) +
+         arrays.add("offsets", 1, ends) + "</" + kind + ">\n";
 }
 
 /// The smallest box of nodes around all blocks.
@@ -128,19 +140,21 @@ DenseGrid dense_grid(const sim::RasterizedNodes& nodes, const Axes& axes) {
 
 std::string encode_vtp(const Moment& moment) {
   const Table& table = moment.table;
-  const std::string count = std::to_string(table.rows);
-  std::vector<std::int64_t> vertices(table.rows), ends(table.rows);
-  for (std::size_t k = 0; k < table.rows; ++k) {
-    vertices[k] = static_cast<std::int64_t>(k);
-    ends[k] = static_cast<std::int64_t>(k + 1);
-  }
+  const std::size_t first = table.mesh ? table.mesh->vertices : 0;
+  std::vector<std::int64_t> points(table.rows - first);
+  std::iota(points.begin(), points.end(), static_cast<std::int64_t>(first));
+  const std::size_t triangles = table.mesh ? table.mesh->triangles() : 0;
   AppendedArrays arrays;
   std::string text = vtk_start("PolyData") + ">\n" + vtk_time(moment) + "<Piece NumberOfPoints=\"" +
-                     count + "\" NumberOfVerts=\"" + count +
-                     "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n";
+                     std::to_string(table.rows) + "\" NumberOfVerts=\"" +
+                     std::to_string(points.size()) +
+                     "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+                     std::to_string(triangles) + "\">\n<Points>\n";
   text += arrays.add("Points", 3, table.places());
-  text += "</Points>\n<Verts>\n" + arrays.add("connectivity", 1, vertices) +
-          arrays.add("offsets", 1, ends) + "</Verts>\n<PointData>\n";
+  text += "</Points>\n" + vtk_cells("Verts", points, 1, arrays);
+  if (table.mesh) text += vtk_cells("Polys", table.mesh->corners, 3, arrays);
+  text += table.mesh ? "<PointData Normals=\"Normals\">\n" : "<PointData>\n";
+  if (table.mesh) text += arrays.add("Normals", 3, table.mesh->normal);
   for (const Column& column : table.columns) {
     if (column.attribute == scene::ExportAttribute::x) continue;
     text += std::visit(

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "app/exports/surface_table.h"
 #include "app/output/atomic_file.h"
 #include "app/output/file_hash.h"
 #include "app/scene/names.h"
@@ -28,6 +29,14 @@ Json attributes_json(const Table& columns) {
                     {"components", column.components},
                     {"unit", column.unit}});
   return list;
+}
+
+/// Lengths in metres of the simulation.
+Json surface_json(const scene::Scene& scene, const scene::Export& spec) {
+  const double spacing = particle_spacing(scene);
+  return {{"cell", spec.surface_cell * spacing},
+          {"smoothing", spec.surface_smoothing * spacing},
+          {"smallest_piece", spec.smallest_piece}};
 }
 
 /// Below the folder: no absolute path, nothing that leads out of it, no link on the way.
@@ -158,6 +167,7 @@ Json Exporter::to_json(const std::string& below) const {
                  {"attributes", spec.format == scene::ExportFormat::vti
                                     ? Json::array()
                                     : attributes_json(job.record.columns)}};
+    json["surface"] = spec.surface ? surface_json(scene_, spec) : Json();
     json["series"] = series.empty() ? Json() : Json(below + series);
     json["files"] = Json::array();
     for (const Record::File& file : job.record.files)

@@ -33,13 +33,13 @@ std::string usd_matrix(const Mat3d& rotation, const Vec3d& place) {
 }
 
 /// Corners and triangles of a collider about its point, in the axes of the simulation.
-struct Surface {
+struct ColliderMesh {
   std::vector<Vec3d> points;
   std::vector<std::uint32_t> corners;  ///< three a triangle
 };
 
-Surface surface_of(const sim::shapes::Shape& shape) {
-  Surface surface;
+ColliderMesh collider_mesh(const sim::shapes::Shape& shape) {
+  ColliderMesh surface;
   if (const auto* plane = std::get_if<sim::shapes::Plane>(&shape.form)) {
     const Vec3d up = plane->normal.normalized();
     const Vec3d across = up.unitOrthogonal(), along = up.cross(across);
@@ -79,7 +79,7 @@ std::string transform_samples(const scene::Scene& scene, const std::vector<Sampl
 /// @param index  of the collider in the scene
 std::string usd_collider(const scene::Scene& scene, const Axes& axes, std::size_t index,
                          const std::string& name, const std::vector<Sample>& samples) {
-  const Surface surface = surface_of(scene.colliders[index].shape);
+  const ColliderMesh surface = collider_mesh(scene.colliders[index].shape);
   std::string points = "[";
   for (std::size_t k = 0; k < surface.points.size(); ++k)
     points += (k > 0 ? ", " : "") + usd_tuple(axes.scale() * surface.points[k]);
@@ -153,7 +153,7 @@ std::string usd_light(const scene::Scene& scene, const Axes& axes) {
          "\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }\n";
 }
 
-std::string usd_clips(const scene::Scene& scene, const scene::Export& spec,
+std::string usd_clips(const scene::Scene& scene, const scene::Export& spec, const std::string& prim,
                       const std::vector<Sample>& samples) {
   const std::string folder = "./" + scene::folder_of(spec) + "/";
   std::string paths, active, times;
@@ -168,8 +168,8 @@ std::string usd_clips(const scene::Scene& scene, const scene::Export& spec,
          paths + "]\n                double2[] active = [" + active +
          "]\n                double2[] times = [" + times +
          "]\n                asset manifestAssetPath = @" + folder +
-         "manifest.usda@\n                string primPath = \"/neve/snow\"\n            }\n        "
-         "}\n";
+         "manifest.usda@\n                string primPath = \"/neve/" + prim +
+         "\"\n            }\n        }\n";
 }
 
 }  // namespace
@@ -210,17 +210,25 @@ std::string encode_stage(const scene::Scene& scene, const scene::Export& spec, c
   const Axes axes(spec);
   const double first = samples.empty() ? 0 : samples.front().time * scene.fps;
   const double last = samples.empty() ? 0 : samples.back().time * scene.fps;
-  return usd_header(scene, spec, first, last) +
-         "def Xform \"neve\"\n{\n    def Points \"snow\" (\n" + usd_clips(scene, spec, samples) +
-         "    )\n    {\n" + usd_declarations(columns, std::string(8, ' ')) + "    }\n" +
+  std::string snow;
+  for (const auto& [prim, name] : usd_prims(spec)) {
+    const std::string indent(8, ' ');
+    snow += "    def " + std::string(usd_type(prim)) + " \"" + name + "\" (\n" +
+            usd_clips(scene, spec, name, samples) + "    )\n    {\n" + usd_fixed(prim, indent) +
+            usd_declarations(columns, prim, indent) + "    }\n";
+  }
+  return usd_header(scene, spec, first, last) + "def Xform \"neve\"\n{\n" + snow +
          usd_colliders(scene, axes, samples) + usd_camera(scene, axes, samples) +
          usd_light(scene, axes) + "}\n";
 }
 
 std::string encode_manifest(const scene::Scene& scene, const scene::Export& spec,
                             const Table& columns) {
-  return usd_header(scene, spec, 0, 0) + "over \"neve\"\n{\n    over \"snow\"\n    {\n" +
-         usd_declarations(columns, std::string(8, ' ')) + "    }\n}\n";
+  std::string snow;
+  for (const auto& [prim, name] : usd_prims(spec))
+    snow += "    over \"" + name + "\"\n    {\n" +
+            usd_declarations(columns, prim, std::string(8, ' ')) + "    }\n";
+  return usd_header(scene, spec, 0, 0) + "over \"neve\"\n{\n" + snow + "}\n";
 }
 
 }  // namespace neve::app::exports

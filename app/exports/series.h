@@ -25,9 +25,9 @@ std::string series_name(const scene::Export& spec);
 /// A ParaView collection: every file with its time.
 std::string encode_pvd(const scene::Export& spec, const std::vector<Sample>& samples);
 
-/// A USD stage: the particles as value clips of the layers, colliders as meshes that move, the
-/// camera of the scene if it has a place, and its light.
-/// Source: OpenUSD, UsdClipsAPI.
+/// A USD stage: the particles, or their surface, as value clips of the layers, colliders as meshes
+/// that move, the camera of the scene if it has a place, and its light. Source: OpenUSD,
+/// UsdClipsAPI.
 std::string encode_stage(const scene::Scene& scene, const scene::Export& spec, const Table& columns,
                          const std::vector<Sample>& samples);
 

@@ -2,6 +2,8 @@
 /// Parts of USD layers as text. Source: OpenUSD, the usda file format.
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/exports/bytes.h"
 
@@ -26,7 +28,22 @@ std::string usd_name(const std::string& name);
 std::string usd_header(const scene::Scene& scene, const scene::Export& spec, double first,
                        double last);
 
-/// Names and types of the properties of the particles, without values.
-std::string usd_declarations(const Table& columns, const std::string& indent);
+/// Prims of the snow in a layer: the particles are points, a surface is a mesh.
+enum class UsdPrim { points, mesh };
+
+/// With their names, below the root.
+std::vector<std::pair<UsdPrim, std::string>> usd_prims(const scene::Export& spec);
+
+inline const char* usd_type(UsdPrim prim) {
+  return prim == UsdPrim::mesh ? "Mesh" : "Points";
+}
+
+/// Properties that are the same at all times.
+inline std::string usd_fixed(UsdPrim prim, const std::string& indent) {
+  return prim == UsdPrim::mesh ? indent + "uniform token subdivisionScheme = \"none\"\n" : "";
+}
+
+/// Names and types of the properties that change, without values.
+std::string usd_declarations(const Table& columns, UsdPrim prim, const std::string& indent);
 
 }  // namespace neve::app::exports

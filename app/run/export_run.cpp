@@ -62,9 +62,10 @@ bool is_folder(const std::string& path) {
 void check_exports(const scene::Scene& scene) {
   const std::optional<scene::Problem> problem = scene::find_problem(scene);
   if (!problem) return;
-  const bool is_origin = problem->address.ends_with(".attributes");
-  throw scene::toml::UsageError(is_origin ? "--attributes" : "--body", problem->message,
-                                problem->hint);
+  std::string flag = "--body";
+  for (const char* key : {"attributes", "format", "surface"})
+    if (problem->address.ends_with(std::string(".") + key)) flag = std::string("--") + key;
+  throw scene::toml::UsageError(flag, problem->message, problem->hint);
 }
 
 /// Brings the simulation to the newest checkpoint of a run, where that is not too late and fits.

@@ -275,8 +275,26 @@ bool names_attribute(const Export& e, ExportAttribute attribute) {
   return std::find(e.attributes.begin(), e.attributes.end(), attribute) != e.attributes.end();
 }
 
+bool holds_meshes(ExportFormat format) {
+  return format == ExportFormat::ply || format == ExportFormat::vtp ||
+         format == ExportFormat::usda || format == ExportFormat::obj;
+}
+
+Found export_format_problem(const Export& e) {
+  const std::string at = "export." + e.name;
+  if (e.surface && !holds_meshes(e.format))
+    return Problem{at + ".surface",
+                   std::string("a file of format ") + name(e.format) + " cannot hold a surface",
+                   "use ply, vtp, usda or obj, or write the particles without the surface"};
+  if (!e.surface && e.format == ExportFormat::obj)
+    return Problem{at + ".format", "an obj file holds a surface and no particles",
+                   "ask for the surface too, or use ply for particles"};
+  return {};
+}
+
 Found export_problem(const Scene& scene, const Export& e) {
   const std::string at = "export." + e.name;
+  if (Found found = export_format_problem(e)) return found;
   for (const Export& other : scene.exports) {
     if (&other == &e) break;
     if (folder_of(other) == folder_of(e))

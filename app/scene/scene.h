@@ -148,7 +148,7 @@ struct Mosaic {
   std::optional<int> width;        ///< px; the output's when absent
 };
 
-enum class ExportFormat { ply, vtp, vti, bgeo, usda, npz, csv };
+enum class ExportFormat { ply, vtp, vti, bgeo, usda, npz, csv, obj };
 enum class ExportAttribute {
   id,
   x,
@@ -180,7 +180,11 @@ struct Export {
       ExportAttribute::V0, ExportAttribute::J_P, ExportAttribute::density, ExportAttribute::radius};
   std::vector<std::string> bodies;  ///< bodies and emitters by name; empty: all
   UpAxis up = UpAxis::y;
-  double scale = 1;  ///< units of the file per metre, of lengths and velocities
+  double scale = 1;              ///< units of the file per metre, of lengths and velocities
+  bool surface = false;          ///< a closed mesh around the particles instead of them
+  double surface_cell = 0.5;     ///< particle spacings
+  double surface_smoothing = 1;  ///< particle spacings
+  int smallest_piece = 8;        ///< particles
 };
 
 struct Limits {

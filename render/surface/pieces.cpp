@@ -11,6 +11,9 @@ namespace {
 
 constexpr InsideBits full_block = {~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull};
 
+/// Cells: no node that is looked for is further away than the next block.
+constexpr int most_reach = 6;
+
 /// Sets that grow together; the smallest member names each.
 class Sets {
  public:
@@ -133,30 +136,34 @@ Sets join_blocks(const Field& field, const std::vector<InsideBits>& inside, cons
   return sets;
 }
 
-/// The label that a particle belongs to; no_block: none.
-std::uint32_t label_of_grain(const Grains& grains, std::uint32_t p, std::size_t b,
-                             const Field& field, const Labels& labels) {
+/// The label of a node by its place from the corner of a block.
+std::uint32_t label_at(const Field& field, const Labels& labels, std::size_t b, Vec3i in) {
+  const int side = ((in.z + 8) >> 3) * 9 + ((in.y + 8) >> 3) * 3 + ((in.x + 8) >> 3);
+  const std::uint32_t other = field.near[b][static_cast<std::size_t>(side)];
+  if (other == no_block) return no_block;
+  return labels.at(other, static_cast<std::size_t>((in.z & 7) << 6 | (in.y & 7) << 3 | (in.x & 7)));
+}
+
+/// The label that a particle belongs to: that of the nearest node, or the first one in the smallest
+/// cube of nodes around it. @param reach half the side of the largest cube
+std::uint32_t label_of_grain(Vec3f position, std::size_t b, int reach, const Field& field,
+                             const Labels& labels) {
   NodePlace place;
-  find_node(grains.position[p], field.cell, place);
-  const auto label_at = [&](Vec3i n) {
-    const Vec3i in = n - field.block[b] * block_side;
-    const int side = ((in.z + 8) >> 3) * 9 + ((in.y + 8) >> 3) * 3 + ((in.x + 8) >> 3);
-    const std::uint32_t other = field.near[b][static_cast<std::size_t>(side)];
-    if (other == no_block) return no_block;
-    return labels.at(other,
-                     static_cast<std::size_t>((in.z & 7) << 6 | (in.y & 7) << 3 | (in.x & 7)));
-  };
+  find_node(position, field.cell, place);
   const auto rounded = [](float rest) { return rest < 0.5f ? 0 : 1; };
-  const Vec3i nearest =
-      place.node + Vec3i{rounded(place.rest.x), rounded(place.rest.y), rounded(place.rest.z)};
-  std::uint32_t label = label_at(nearest);
-  for (int n = 0; n < 27 && label == no_block; ++n)
-    label = label_at(nearest + Vec3i{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1});
+  const Vec3i nearest = place.node - field.block[b] * block_side +
+                        Vec3i{rounded(place.rest.x), rounded(place.rest.y), rounded(place.rest.z)};
+  std::uint32_t label = label_at(field, labels, b, nearest);
+  for (int r = 1; r <= reach && label == no_block; ++r)
+    for (int z = -r; z <= r && label == no_block; ++z)
+      for (int y = -r; y <= r && label == no_block; ++y)
+        for (int x = -r; x <= r && label == no_block; ++x)
+          label = label_at(field, labels, b, nearest + Vec3i{x, y, z});
   return label;
 }
 
 /// The label of each particle; no_block also for those that the field leaves out.
-std::vector<std::uint32_t> label_grains(const Grains& grains, const GrainBlocks& blocks,
+std::vector<std::uint32_t> label_grains(const Grains& grains, const GrainBlocks& blocks, int reach,
                                         const Field& field, const Labels& labels,
                                         ThreadPool* pool) {
   std::vector<std::uint32_t> label(grains.position.size(), no_block);
@@ -164,7 +171,7 @@ std::vector<std::uint32_t> label_grains(const Grains& grains, const GrainBlocks&
     for (std::size_t b = begin; b < end; ++b)
       for (std::uint32_t k = blocks.first[b]; k < blocks.first[b + 1]; ++k) {
         const std::uint32_t p = blocks.grain[k];
-        label[p] = label_of_grain(grains, p, b, field, labels);
+        label[p] = label_of_grain(grains.position[p], b, reach, field, labels);
       }
   });
   return label;
@@ -183,8 +190,8 @@ void remove_nodes(const Labels& labels, const std::vector<bool>& is_kept, std::s
 
 }  // namespace
 
-Pieces find_pieces(const Grains& grains, const GrainBlocks& blocks, int smallest, Field& field,
-                   ThreadPool* pool) {
+Pieces find_pieces(const Grains& grains, const GrainBlocks& blocks, const PieceRules& rules,
+                   Field& field, ThreadPool* pool) {
   Pieces pieces;
   pieces.inside.resize(field.block.size());
   for_ranges(pool, field.block.size(), [&](std::size_t begin, std::size_t end) {
@@ -193,14 +200,15 @@ Pieces find_pieces(const Grains& grains, const GrainBlocks& blocks, int smallest
   });
   const Labels labels = label_blocks(pieces.inside, pool);
   Sets sets = join_blocks(field, pieces.inside, labels);
-  std::vector<std::uint32_t> label = label_grains(grains, blocks, field, labels, pool);
+  std::vector<std::uint32_t> label =
+      label_grains(grains, blocks, std::clamp(rules.reach, 0, most_reach), field, labels, pool);
   std::vector<std::uint32_t> size(labels.first.back(), 0);
   for (std::uint32_t& l : label)
     if (l != no_block) ++size[l = sets.find(l)];
   std::vector<bool> is_kept(size.size());
   for (std::uint32_t l = 0; l < size.size(); ++l) {
     const std::uint32_t root = sets.find(l);
-    is_kept[l] = size[root] >= static_cast<std::uint32_t>(std::max(smallest, 0));
+    is_kept[l] = size[root] >= static_cast<std::uint32_t>(std::max(rules.smallest, 0));
     if (root == l && is_kept[l]) ++pieces.count;
   }
   for (std::size_t p = 0; p < label.size(); ++p)

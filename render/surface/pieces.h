@@ -16,15 +16,19 @@ struct InsideBits {
 };
 
 /// Takes pieces of too few particles out of a field, and lists the particles that no piece has.
-/// A particle belongs to the piece of the nearest node, or else of one around that.
+/// A particle belongs to the piece of the nearest node inside, if that is near.
 struct Pieces {
   std::size_t count = 0;             ///< that are left
   std::vector<InsideBits> inside;    ///< of the nodes that are left, for each block
   std::vector<std::uint32_t> loose;  ///< particles without a piece, ascending
 };
 
-/// @param smallest particles of the smallest piece that stays
-Pieces find_pieces(const Grains& grains, const GrainBlocks& blocks, int smallest, Field& field,
-                   ThreadPool* pool);
+struct PieceRules {
+  int smallest = 1;  ///< particles of the smallest piece that stays
+  int reach = 1;     ///< cells from a particle to the piece that it belongs to, at most 6
+};
+
+Pieces find_pieces(const Grains& grains, const GrainBlocks& blocks, const PieceRules& rules,
+                   Field& field, ThreadPool* pool);
 
 }  // namespace neve::render::surface

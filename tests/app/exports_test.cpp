@@ -117,6 +117,12 @@ TEST(Exports, MistakesInASceneAreLocated) {
             std::string::npos);
   EXPECT_NE(error_of_export("[[export]]\nbodies = [\"bal\"]\n").find("did you mean ball?"),
             std::string::npos);
+  EXPECT_NE(error_of_export("[[export]]\nformat = \"csv\"\nsurface = true\n").find("use ply, vtp"),
+            std::string::npos);
+  EXPECT_NE(error_of_export("[[export]]\nformat = \"obj\"\n").find("ask for the surface"),
+            std::string::npos);
+  EXPECT_NE(error_of_export("[[export]]\nsurface = true\nsurface_cell = 0.0\n").find("0.2"),
+            std::string::npos);
   const std::string twice = error_of_export("[[export]]\n[[export]]\n");
   EXPECT_NE(twice.find("exports/ply"), std::string::npos) << twice;
   const std::string emitters =

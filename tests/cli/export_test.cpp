@@ -82,6 +82,58 @@ TEST_F(Export, EveryFormatHoldsTheStateToTheBit) {
   EXPECT_EQ(turned.output, "same\n") << turned.errors;
 }
 
+/// The cube is a smaller piece than the smallest, and so it is spray.
+TEST_F(Export, ASurfaceIsTheSameClosedMeshInEveryFormat) {
+  const auto python = python_with("numpy");
+  if (!python) SKIP_OR_FAIL("no Python with numpy; install python3-numpy");
+  const std::string attributes = "id,v,m,density,J_P,F_E,body,material";
+  json_of_export({"pair.toml", "--format", "npz", "--frames", "1-1", "--attributes", attributes,
+                  "--out", "particles"});
+  const std::vector<std::string> surface{
+      "pair.toml", "--surface", "--smallest-piece", "240",     "--format", "ply,vtp,usda,obj",
+      "--frames",  "1-1",       "--attributes",     attributes};
+  std::vector<std::string> plain = surface, turned = surface;
+  plain.insert(plain.end(), {"--out", "plain", "--surface-smoothing", "0.8"});
+  turned.insert(turned.end(), {"--out", "turned", "--up", "z", "--scale", "100", "--surface-cell",
+                               "0.4", "--surface-smoothing", "0.8"});
+  const app::Json list = json_of_export(plain)["exports"];
+  ASSERT_EQ(list.size(), 4u);
+  EXPECT_EQ(list[0]["surface"]["smallest_piece"], 240);
+  EXPECT_NEAR(list[0]["surface"]["smoothing"].get<double>(), 0.8 * 0.02, 1e-12);
+  const auto check = [&](std::vector<std::string> arguments) {
+    const auto same = run_script(*python, "check_surface.py", arguments, folder.path());
+    EXPECT_EQ(same.output, "same\n") << same.errors;
+  };
+  check({"plain", "1", "particles/npz/0001.npz"});
+  json_of_export(turned);
+  check({"turned", "1", "particles/npz/0001.npz", "z", "100"});
+  EXPECT_EQ(neve({"verify", "plain"}).exit_code, 0);
+}
+
+TEST_F(Export, ASceneAsksForASurface) {
+  folder.write("both.toml", std::string(tiny_scene) +
+                                "[[export]]\nname = \"mesh\"\nformat = \"ply\"\nsurface = true\n"
+                                "surface_cell = 0.8\nevery = 4\n");
+  ASSERT_EQ(neve({"render", "both.toml", "--quiet"}).exit_code, 0);
+  const app::Json list = json_of("out/both/run.json")["exports"];
+  ASSERT_EQ(list[0]["files"].size(), 2u);
+  json_of_export({"scene.toml", "--format", "ply", "--surface", "--surface-cell", "0.8", "--out",
+                  "alone", "--frames", "4-4"});
+  EXPECT_EQ(app::output::read_file(folder / "out/both/exports/mesh/0004.ply"),
+            app::output::read_file(folder / "alone/ply/0004.ply"));
+}
+
+TEST_F(Export, SurfacesOfNothingAndOfOneParticleAreEmptyMeshes) {
+  folder.write("one.csv", "x,y,z\n0,0.5,0\n");
+  folder.write("one.toml",
+               "frames = 0\n[[body]]\nname = \"dot\"\n"
+               "shape = { points = { file = \"one.csv\", spacing = 0.01 } }\n");
+  json_of_export({"one.toml", "--format", "ply,vtp,usda,obj", "--surface", "--out", "one"});
+  const std::string ply = read_text(folder / "one/ply/0000.ply");
+  EXPECT_TRUE(contains(ply, "element vertex 1\n") && contains(ply, "element face 0\n")) << ply;
+  EXPECT_TRUE(contains(ply, "comment the last 1 vertices are spray"));
+}
+
 TEST_F(Export, FramesAreThoseOfTheRun) {
   ASSERT_EQ(neve({"render", "scene.toml", "--quiet"}).exit_code, 0);
   const app::Json run = json_of("out/scene/run.json");
@@ -219,7 +271,7 @@ TEST_F(Export, AForgedListRemovesNothingElse) {
 
 TEST_F(Export, MistakesAreExplained) {
   expect_refused({"scene.toml"}, 2, "--format");
-  expect_refused({"scene.toml", "--format", "ply,obj"}, 2, "expected ply, vtp, vti, bgeo");
+  expect_refused({"scene.toml", "--format", "ply,stl"}, 2, "expected ply, vtp, vti, bgeo");
   expect_refused({"scene.toml", "--format", "ply", "--attributes", "id,JP"}, 2,
                  "did you mean J_P?");
   expect_refused({"scene.toml", "--format", "ply", "--body", "bal"}, 2, "did you mean ball?");
@@ -227,6 +279,15 @@ TEST_F(Export, MistakesAreExplained) {
                  "cannot be combined");
   expect_refused({"scene.toml", "--format", "ply", "--up", "x"}, 2, "expected y, z");
   expect_refused({"scene.toml", "--format", "ply", "--scale", "0"}, 2, "--scale 100");
+  expect_refused({"scene.toml", "--format", "ply,npz", "--surface"}, 2,
+                 "--surface: a file of format npz cannot hold a surface; use ply");
+  expect_refused({"scene.toml", "--format", "obj"}, 2, "--format: an obj file holds a surface");
+  for (const char* cell : {"0", "-1", "nan", "1e-9"})
+    expect_refused({"scene.toml", "--format", "ply", "--surface", "--surface-cell", cell}, 2,
+                   "expected 0.2 <= value <= 4");
+  expect_refused({"scene.toml", "--format", "ply", "--surface-cell", "1"}, 2, "give --surface too");
+  expect_refused({"scene.toml", "--format", "ply", "--surface", "--smallest-piece", "0"}, 2,
+                 "--smallest-piece");
   expect_refused({"out/none", "--format", "ply"}, 3, "out/none");
   folder.write("empty/run.json", "{}");
   expect_refused({"empty", "--format", "ply"}, 3, "not a run.json");

@@ -29,16 +29,41 @@ def columns_to_arrays(columns):
 
 
 def read_ply(path):
+    """Vertices, and the triangles and normals of a surface."""
     types = {"float": "<f4", "double": "<f8", "int": "<i4"}
     data = open(path, "rb").read()
     head, body = data.split(b"end_header\n", 1)
     lines = head.decode().splitlines()
     assert lines[0] == "ply" and lines[1] == "format binary_little_endian 1.0", lines[:2]
     count = next(int(l.split()[2]) for l in lines if l.startswith("element vertex "))
-    fields = [(l.split()[2], types[l.split()[1]]) for l in lines if l.startswith("property ")]
-    table = np.frombuffer(body, dtype=fields)
-    assert len(table) == count, (len(table), count)
-    return columns_to_arrays({name: table[name] for name, _ in fields})
+    is_number = [l.startswith("property ") and " list " not in l for l in lines]
+    fields = [(l.split()[2], types[l.split()[1]]) for l, number in zip(lines, is_number) if number]
+    table = np.frombuffer(body, dtype=fields, count=count)
+    arrays = columns_to_arrays({name: table[name] for name, _ in fields})
+    face_count = [int(l.split()[2]) for l in lines if l.startswith("element face ")]
+    faces = np.frombuffer(body, [("size", "u1"), ("corners", "<i4", 3)], offset=table.nbytes)
+    assert len(faces) == sum(face_count), (len(faces), face_count)
+    if face_count:
+        assert "property list uchar int vertex_indices" in lines and (faces["size"] == 3).all()
+        arrays["faces"] = faces["corners"]
+        arrays["normal"] = np.stack([arrays.pop("n" + axis) for axis in "xyz"], axis=1)
+    return arrays
+
+
+def read_obj(path):
+    """Wavefront text: vertices, normals, triangles and points, counted from 0."""
+    arrays = {"v": [], "vn": [], "f": [], "p": []}
+    for line in open(path):
+        word, *rest = line.split()
+        if word == "f":
+            corners = [tuple(corner.split("/")) for corner in rest]
+            assert all(v == n and between == "" for v, between, n in corners)
+            rest = [v for v, _, _ in corners]
+        if word != "#":
+            arrays[word].append(rest)
+    vertices = {key: np.array(arrays[key], dtype="f4") for key in ("v", "vn")}
+    faces = np.array(arrays["f"], dtype="i4") - 1
+    return {**vertices, "f": faces, "p": np.array(arrays["p"], dtype="i4").ravel() - 1}
 
 
 def read_csv(path):
@@ -49,14 +74,15 @@ def read_csv(path):
 
 
 def read_vtk(path):
-    """PolyData or ImageData with raw appended arrays, and the attributes of the grid."""
+    """PolyData or ImageData with raw appended arrays, and the attributes of the grid; the cells of
+    polygons have the prefix "Polys"."""
     types = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "Int64": "<i8"}
     data = open(path, "rb").read()
     mark = data.index(b'<AppendedData encoding="raw">')
     start = data.index(b"_", mark) + 1
     root = ElementTree.fromstring(data[:mark] + b"</VTKFile>")
     arrays = {}
-    for array in root.iter("DataArray"):
+    for part, array in ((part, array) for part in root.iter() for array in part.findall("DataArray")):
         if array.get("format") != "appended":
             arrays[array.get("Name")] = float(array.text)
             continue
@@ -66,7 +92,8 @@ def read_vtk(path):
         values = np.frombuffer(data, kind, offset=at + 8, count=size // kind.itemsize)
         width = int(array.get("NumberOfComponents"))
         shape = {1: (-1,), 3: (-1, 3), 9: (-1, 3, 3)}[width]
-        arrays[array.get("Name")] = values.reshape(shape)
+        prefix = "Polys " if part.tag == "Polys" else ""
+        arrays[prefix + array.get("Name")] = values.reshape(shape)
     grid = root.find("ImageData")
     if grid is not None:
         for key in ("Origin", "Spacing", "WholeExtent"):
@@ -107,19 +134,21 @@ def read_bgeo(path):
     return arrays
 
 
-def read_usda(path):
-    """The time samples of the one Points prim of a layer, and the metadata of the layer."""
+def read_usda(path, prim='def Points "snow"'):
+    """The time samples of a prim of a layer, and the metadata of the layer."""
     text = open(path, encoding="utf-8").read()
+    head, *prims = re.split(r"(?=^    def )", text, flags=re.MULTILINE)
+    text = head + next(p for p in prims if p.startswith("    " + prim))
     assert text.startswith("#usda 1.0\n"), text[:20]
     arrays = {"metadata": dict(re.findall(r"^    (\w+) = (.+)$", text, re.MULTILINE))}
     types = {"float": "f4", "double": "f8", "int": "i4", "int64": "i8", "point3f": "f4",
-             "vector3f": "f4", "float3": "f4"}
+             "vector3f": "f4", "float3": "f4", "normal3f": "f4"}
     pattern = r"(\w+)\[\] ([\w:]+)\.timeSamples = \{\s+(\S+): \[(.*?)\],\s+\}"
     for kind, name, time, body in re.findall(pattern, text, re.DOTALL):
         words = body.replace("(", " ").replace(")", " ").replace(",", " ").split()
         arrays[name.removeprefix("primvars:")] = np.array(words, dtype=types[kind])
         arrays.setdefault("times", set()).add(float(time))
-    for name in ("points", "velocities", "extent"):
+    for name in ("points", "velocities", "extent", "normals"):
         if name in arrays:
             arrays[name] = arrays[name].reshape(-1, 3)
     count = len(arrays["points"])

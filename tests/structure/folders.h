@@ -60,8 +60,8 @@ inline constexpr Folder folders[] = {
      "sim/base sim/types sim/shapes sim/health sim/engine sim render/frame render/shapes render "
      "app/support app/scene/toml app/scene app/setup app/health"},
     {"app/exports",
-     "sim/base sim/types sim render/frame app/support app/scene/toml app/scene app/output "
-     "app/setup app/picture"},
+     "sim/base sim/types sim render/frame render/surface app/support app/scene/toml app/scene "
+     "app/output app/setup app/picture"},
     {"app/run",
      "sim/base sim/types sim sim/checks render/image render/frame render/gl render app/support "
      "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports"},
@@ -95,9 +95,9 @@ inline constexpr Folder folders[] = {
      "render/image render/frame render app/support app/scene app/output app/setup app/picture "
      "app/run app/view/session app/view/frontend app/view/panels"},
     {"app/bench",
-     "sim/base sim/types sim/kernels sim render/image render/frame render/shapes render/gl "
-     "render/cpu render app/support app/scene/toml app/scene app/output app/setup app/picture "
-     "app/run app/sweep/plan app/sweep/store app/sweep/jobs app/view"},
+     "sim/base sim/types sim/kernels sim render/image render/frame render/shapes render/surface "
+     "render/gl render/cpu render app/support app/scene/toml app/scene app/output app/setup "
+     "app/picture app/run app/sweep/plan app/sweep/store app/sweep/jobs app/view"},
     {"app/cli",
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
      "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports app/run "
