@@ -165,12 +165,13 @@ int run_check(const run::RenderOptions& options) {
   catch_interrupts();
   const health::Checkup checkup = health::examine(job.scene, plan, options.threads, job.coarsening);
   const health::FastLook look = possible_look(options, job);
+  // A forecast that was cut short is another one.
+  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the end of the forecast");
   if (options.is_json)
     std::cout << to_text(checkup_json(checkup, job, look)) << "\n";
   else
     print_checkup(checkup, job, look);
   std::cout.flush();
-  if (is_interrupted()) return exit_interrupted;
   setup::check_limits(job.scene, checkup.plan, job.coarsening);
   const bool has_error =
       std::any_of(checkup.findings.begin(), checkup.findings.end(),

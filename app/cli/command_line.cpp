@@ -436,6 +436,8 @@ int print_version(bool is_json) {
 int run_command_line(int argc, char** argv) {
   CLI::App app("neve simulates snow and draws it, as pictures and movies or live in a window.",
                "neve");
+  // --fast=no would be --fast to some and the opposite to others.
+  app.option_defaults()->disable_flag_override();
   Action action;
   add_render(app, action);
   add_check(app, action);

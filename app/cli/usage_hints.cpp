@@ -107,6 +107,10 @@ void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
     throw scene::toml::UsageError(
         text.substr(0, at), "takes one value and was given " + text.substr(at + too_many.size()),
         help);
+  // "fast was given a disallowed flag override": --fast=no
+  if (const std::size_t at = text.find(" was given a disallowed flag"); at != std::string::npos)
+    throw scene::toml::UsageError("--" + text.substr(0, at), "takes no value",
+                                  "it is on where it is given; " + help);
   if (!text.starts_with(conversion)) throw scene::toml::UsageError("", text, help);
   // "Could not convert: --threads = x"
   text.erase(0, conversion.size());

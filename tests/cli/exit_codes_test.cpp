@@ -42,6 +42,7 @@ TEST_F(Cli, OptionsOfOtherProgramsAreKnown) {
   const std::string number = hint({"render", "scene.toml", "--threads", "x"});
   EXPECT_TRUE(contains(number, "--threads: cannot use \"x\"; expected a whole number")) << number;
   EXPECT_TRUE(contains(hint({"compare", "a.png"}), "see neve compare --help"));
+  EXPECT_TRUE(contains(hint({"render", "scene.toml", "--fast=no"}), "--fast: takes no value"));
 }
 
 TEST_F(Cli, HelpIsThatOfTheCommand) {

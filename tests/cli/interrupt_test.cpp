@@ -31,5 +31,21 @@ TEST_F(Cli, AnInterruptKeepsEveryFrameAndAMovieOfThem) {
   EXPECT_EQ(exists("out/particles.mp4"), app::output::find_program("ffmpeg").has_value());
 }
 
+/// Half a forecast would be a wrong one.
+TEST_F(Cli, AnInterruptedCheckPrintsNoForecast) {
+  const std::filesystem::path printed = folder / "printed";
+  const pid_t child =
+      start_program({"/bin/sh", "-c",
+                     "exec " NEVE_BINARY " check " NEVE_SOURCE_DIR "/scenes/castle_hit.toml >" +
+                         printed.string() + " 2>" + printed.string() + ".errors"});
+  ASSERT_GT(child, 0);
+  ASSERT_TRUE(wait_for_file(printed));
+  // The check takes some seconds; sooner than this it may not listen yet, and ends as well.
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ::kill(child, SIGINT);
+  EXPECT_EQ(wait_for(child), 130);
+  EXPECT_EQ(read_text(printed), "");
+}
+
 }  // namespace
 }  // namespace neve::test
