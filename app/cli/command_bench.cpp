@@ -7,6 +7,7 @@
 #include "app/bench/render_bench.h"
 #include "app/bench/scene_bench.h"
 #include "app/bench/sim_bench.h"
+#include "app/bench/surface_bench.h"
 #include "app/bench/sweep_bench.h"
 #include "app/bench/view_bench.h"
 #include "app/cli/commands.h"
@@ -67,6 +68,10 @@ int run_bench_render(const bench::BenchOptions& options) {
 
 int run_bench_scenes(const bench::BenchOptions& options) {
   return run_bench(options, bench::bench_scenes);
+}
+
+int run_bench_surface(const bench::BenchOptions& options) {
+  return run_bench(options, bench::bench_surface);
 }
 
 int run_bench_sweep(const bench::BenchOptions& options) {

@@ -290,6 +290,7 @@ void add_bench(CLI::App& app, Action& action) {
   const auto sim = std::make_shared<bench::BenchOptions>(),
              frame = std::make_shared<bench::BenchOptions>(),
              render = std::make_shared<bench::BenchOptions>(),
+             surface = std::make_shared<bench::BenchOptions>(),
              scenes = std::make_shared<bench::BenchOptions>(),
              sweep = std::make_shared<bench::BenchOptions>(),
              view = std::make_shared<bench::BenchOptions>();
@@ -315,6 +316,11 @@ void add_bench(CLI::App& app, Action& action) {
       "Measure milliseconds per picture at 1280x720: 4000 to a million particles, all layers, each "
       "phase, spheres by OpenGL against spheres by the CPU, PNG encoding",
       render, run_bench_render);
+  add_bench_part(
+      *bench, action, "surface",
+      "Measure milliseconds per mesh of the snow's surface and for the attributes of its "
+      "vertices, from 4000 to a million particles",
+      surface, run_bench_surface);
   CLI::App* scenes_command =
       add_bench_part(*bench, action, "scenes",
                      "Measure seconds per second of film of the shipped scenes, also with "

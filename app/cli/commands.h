@@ -39,6 +39,7 @@ int run_bench_frame(const bench::BenchOptions& options);
 int run_bench_render(const bench::BenchOptions& options);
 int run_bench_sweep(const bench::BenchOptions& options);
 int run_bench_scenes(const bench::BenchOptions& options);
+int run_bench_surface(const bench::BenchOptions& options);
 int run_bench_view(const bench::BenchOptions& options);
 int run_info(const std::string& path, bool is_json);
 /// @param folder  of a run or a sweep

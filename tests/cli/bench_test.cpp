@@ -59,6 +59,18 @@ TEST_F(Cli, BenchCurveEndsAtTheGivenParticles) {
   EXPECT_EQ(sizes, (std::set<int>{1000, 2744}));
 }
 
+TEST_F(Cli, BenchSurfaceNamesWhatScriptsDependOn) {
+  const auto result = neve({"bench", "surface", "--quick", "--json", "--threads", "2"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  auto rows = by_name(result.output);
+  for (const char* name : {"surface_4k", "surface_100k", "surface_300k", "surface_1m",
+                           "attributes_300k", "surface_300k_1_thread"})
+    ASSERT_TRUE(rows.contains(name)) << name;
+  EXPECT_EQ(rows["surface_300k"]["threads"], 2);
+  EXPECT_EQ(rows["surface_300k_1_thread"]["threads"], 1);
+  EXPECT_EQ(rows["surface_300k"]["unit"], "ms");
+}
+
 TEST_F(Cli, BenchFrameNamesWhatScriptsDependOn) {
   const auto result = neve({"bench", "frame", "--quick", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
