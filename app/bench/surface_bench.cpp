@@ -71,7 +71,7 @@ void measure(const std::string& size, const SurfaceCase& snow, ThreadPool& pool,
   rows.add("surface_" + size, snow, pool.thread_count(), watch.wall());
   const Stopwatch again;
   render::surface::shares_of(surface.mesh.position, snow.grains(), surface.spray,
-                             2.5f * snow.settings.kernel.width, &pool);
+                             2 * snow.settings.kernel.width, &pool);
   rows.add("attributes_" + size, snow, pool.thread_count(), again.wall());
 }
 

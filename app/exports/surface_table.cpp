@@ -23,7 +23,7 @@ using render::surface::Surface;
 constexpr double loosest = 2;
 
 /// Distance from a vertex at which particles have no weight, over the width of the kernel.
-constexpr float nearby = 2.5f;
+constexpr float nearby = 2;
 
 std::uint64_t memory_limit(const scene::Scene& scene) {
   const std::uint64_t limit =

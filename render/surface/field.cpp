@@ -20,6 +20,9 @@ constexpr BlockKey no_key = ~BlockKey{0};
 constexpr double block_bytes = 2 * 4.0 * block_nodes + 108 + 2.0 * block_nodes + 400;
 constexpr double tile_bytes = 4.0 * tile_nodes;
 
+/// Widths of the kernel beyond which its tail of a few millionths is left out.
+constexpr double most_widths = 4.5;
+
 /// A particle that has grown without bound fills no more cells than this.
 constexpr float most_cells = 1e6f;
 
@@ -204,6 +207,26 @@ void gather_volume(const Grains& grains, const GrainBlocks& blocks, Field& field
   });
 }
 
+/// Clears the nodes of a block beside a block that is not there, in the direction of it.
+void clear_side(Vec3i away, float* value) {
+  const auto first = [](int side) { return side > 0 ? block_side - 1 : 0; };
+  const auto last = [](int side) { return side < 0 ? 0 : block_side - 1; };
+  for (int k = first(away.z); k <= last(away.z); ++k)
+    for (int j = first(away.y); j <= last(away.y); ++j)
+      for (int i = first(away.x); i <= last(away.x); ++i)
+        value[(k * block_side + j) * block_side + i] = 0;
+}
+
+/// Next to an absent block nothing is inside, whatever the kernels would leave there.
+void clear_rim(Field& field, ThreadPool* pool) {
+  for_ranges(pool, field.block.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      for (int n = 0; n < 27; ++n)
+        if (field.near[b][static_cast<std::size_t>(n)] == no_block)
+          clear_side({n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1}, field.value.data() + b * block_nodes);
+  });
+}
+
 }  // namespace
 
 MemoryError::MemoryError(double bytes_needed)
@@ -233,8 +256,10 @@ GrainField make_field(const Grains& grains, const Kernel& kernel, std::uint64_t 
   for_ranges(pool, keys.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) keys[p] = key_of(grains, p, kernel.cell);
   });
+  // Repeated filters reach further than a Gaussian of their width has any weight.
+  const int reach = std::min(filter.reach(), static_cast<int>(std::ceil(most_widths * cells)));
   const std::vector<BlockKey> blocks =
-      reached_blocks(occupied_blocks(grains, keys, kernel.cell), filter.reach(), max_bytes);
+      reached_blocks(occupied_blocks(grains, keys, kernel.cell), reach, max_bytes);
   BlockMap map(blocks.size());
   for (const BlockKey key : blocks) map.insert(key);
   find_neighbours(blocks, map, made.field, pool);
@@ -242,6 +267,7 @@ GrainField make_field(const Grains& grains, const Kernel& kernel, std::uint64_t 
   made.grains = sort_grains(keys, map);
   gather_volume(grains, made.grains, made.field, pool);
   apply(filter, made.field, pool);
+  clear_rim(made.field, pool);
   return made;
 }
 

@@ -278,6 +278,21 @@ TEST(Surface, StrangeParticlesAreSprayAndNothingElse) {
     ASSERT_TRUE(is_finite(x.x) && is_finite(x.y) && is_finite(x.z));
 }
 
+/// The kernel reaches over several blocks, and is cut where next to nothing is left of it.
+TEST(Surface, WideKernelsOnFineCellsKeepVolumeAndTopology) {
+  const Snow snow = ball(10);
+  for (const auto& [cell, width] : {std::pair{0.2f, 1.5f}, {1.0f, 0.5f}}) {
+    Settings settings = usual;
+    settings.kernel = {cell * spacing, width * spacing};
+    const Surface surface = make_surface(snow.grains(), settings, nullptr);
+    EXPECT_EQ(surface.pieces, 1u);
+    EXPECT_EQ(test::open_edges(surface.mesh), 0u);
+    // It recedes as above, by 3 (width / R)^2 of the volume.
+    const double share = double(width) / 10;
+    EXPECT_NEAR(test::enclosed_volume(surface.mesh) / snow.total(), 1 - 3 * share * share, 0.03);
+  }
+}
+
 TEST(Surface, LatticesBeyondTheMemoryAreRefused) {
   Snow scattered;
   for (int n = 0; n < 1000; ++n) scattered.add({float(n), 0, 0});
