@@ -57,6 +57,14 @@ struct GridStorage {
   /// Combines the reports of all blocks.
   StepReport step_report() const;
 
+  /// Gives the memory back: of a start, when all particles were on the grid.
+  void release() {
+    tiles.release();
+    nodes.release();
+    reports = decltype(reports)();
+    node_contact_work = decltype(node_contact_work)();
+  }
+
   std::uint64_t memory_bytes() const {
     return tiles.bytes() + nodes.bytes() + sizeof(kernels::BlockReport<Real>) * reports.capacity() +
            8 * node_contact_work.capacity() + sizeof(kernels::LoadSum) * loads.capacity();

@@ -144,9 +144,9 @@ void prepare(State<Real>& state, StartState& start) {
   progress.energy.start = now.kinetic_energy + now.elastic_energy;
   progress.energy.largest = progress.energy.start;
   Vec3d::Map(progress.energy.moment.data()) = now.mass * now.centre_of_mass;
-  // Fused steps may need fewer channels than the stages above.
-  state.grid.tiles.release();
-  state.grid.nodes.release();
+  // Fused steps may need fewer channels than the stages above, and no blocks for spray.
+  state.particles.partition.release_grid();
+  state.grid.release();
 }
 
 template StartState load(const ParticleArrays&, State<float>&);

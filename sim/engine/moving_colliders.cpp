@@ -17,19 +17,41 @@ bool moves(const kernels::ColliderPose& pose) {
          std::any_of(pose.omega, pose.omega + 3, [](double w) { return w != 0; });
 }
 
+bool is_same_place(const kernels::ColliderPose& a, const kernels::ColliderPose& b) {
+  return std::equal(a.cell, a.cell + 3, b.cell) && std::equal(a.offset, a.offset + 3, b.offset) &&
+         std::equal(a.axes, a.axes + 9, b.axes);
+}
+
+kernels::LocalCollider<double> seen_from_cell_0(const kernels::ColliderPose& pose, double h) {
+  constexpr int cell_0[3] = {0, 0, 0};
+  return kernels::localize<double>(pose, cell_0, h);
+}
+
+/// Of the particles that a block may have.
+Vec3<double> middle_of(std::uint64_t key, double h) {
+  Vec3<double> middle;
+  for (int axis = 0; axis < 3; ++axis)
+    middle[axis] = (kernels::block_coordinate(key, axis) * kernels::block_side + 2.75) * h;
+  return middle;
+}
+
+/// Largest speed of the surface around a place. @param c  seen from cell 0
+double speed_around(const kernels::LocalCollider<double>& c, const Vec3<double>& middle,
+                    double around) {
+  const Vec3<double> arm = c.to_block + middle;
+  const double turning = std::sqrt(dot(c.omega, c.omega)) * (std::sqrt(dot(arm, arm)) + around);
+  return std::sqrt(dot(c.velocity, c.velocity)) + turning;
+}
+
 /// Speed of the surface at a block of particles; 0 if the two cannot meet within dt.
 /// @param c  seen from cell 0
 double speed_near(const kernels::LocalCollider<double>& c, std::uint64_t key, double h, double dt,
                   double snow_speed) {
-  Vec3<double> middle;
-  for (int axis = 0; axis < 3; ++axis)
-    middle[axis] = (kernels::block_coordinate(key, axis) * kernels::block_side + 2.75) * h;
+  const Vec3<double> middle = middle_of(key, h);
   // Particles lie within 4 cells of the middle; they touch within half a cell of the surface, and
   // the block is where they were before the last step.
   const double around = 4 * h;
-  const Vec3<double> arm = c.to_block + middle;
-  const double turning = std::sqrt(dot(c.omega, c.omega)) * (std::sqrt(dot(arm, arm)) + around);
-  const double speed = std::sqrt(dot(c.velocity, c.velocity)) + turning;
+  const double speed = speed_around(c, middle, around);
   const double reach = around + 1.5 * h + (speed + snow_speed) * dt;
   return kernels::is_out_of_reach(c, middle, reach) ? 0 : speed;
 }
@@ -62,7 +84,7 @@ void MovingColliders::place(const Lattice& lattice, double time) {
     }
 }
 
-double MovingColliders::fastest_near(const std::vector<kernels::ParticleBlock>& blocks,
+double MovingColliders::fastest_near(const std::vector<kernels::BlockRange>& blocks,
                                      const Lattice& lattice, double time, double dt,
                                      double snow_speed) const {
   double fastest = 0;
@@ -72,12 +94,37 @@ double MovingColliders::fastest_near(const std::vector<kernels::ParticleBlock>& 
       const auto pose =
           kernel_pose(list_[k], when, lattice.cell_size, lattice.origin, fields_[k].get());
       if (!pose || !moves(*pose)) continue;
-      constexpr int cell_0[3] = {0, 0, 0};
-      const auto c = kernels::localize<double>(*pose, cell_0, lattice.cell_size);
-      for (const kernels::ParticleBlock& block : blocks)
+      const auto c = seen_from_cell_0(*pose, lattice.cell_size);
+      for (const kernels::BlockRange& block : blocks)
         fastest = std::max(fastest, speed_near(c, block.key, lattice.cell_size, dt, snow_speed));
     }
   return fastest;
+}
+
+void MovingColliders::look_ahead(const Lattice& lattice, double time, double dt) {
+  cell_size_ = lattice.cell_size;
+  dt_ = dt;
+  ahead_.clear();
+  for (std::size_t k = 0; k < list_.size(); ++k) {
+    const auto pose_at = [&](double when) {
+      return kernel_pose(list_[k], when, lattice.cell_size, lattice.origin, fields_[k].get());
+    };
+    const auto now = pose_at(time), then = pose_at(time + dt);
+    if (now) ahead_.push_back(seen_from_cell_0(*now, cell_size_));
+    if (then && !(now && is_same_place(*now, *then)))
+      ahead_.push_back(seen_from_cell_0(*then, cell_size_));
+  }
+}
+
+/// Nodes of a block lie within 5.7 cells of its middle, and so do particles wherever contact looks
+/// for them; what comes nearer in the step by more than that, they and the collider, is added.
+bool MovingColliders::is_free(std::uint64_t key, double snow_speed) const {
+  const Vec3<double> middle = middle_of(key, cell_size_);
+  const double around = 5.7 * cell_size_;
+  return std::all_of(ahead_.begin(), ahead_.end(), [&](const auto& c) {
+    const double closing = 2 * (speed_around(c, middle, around) + snow_speed) * dt_;
+    return kernels::is_out_of_reach(c, middle, around + closing);
+  });
 }
 
 std::uint64_t MovingColliders::memory_bytes() const {

@@ -30,8 +30,13 @@ class MovingColliders {
   /// within reach rest.
   /// @param blocks      of the snow
   /// @param snow_speed  m/s, of the fastest particle
-  double fastest_near(const std::vector<kernels::ParticleBlock>& blocks, const Lattice& lattice,
+  double fastest_near(const std::vector<kernels::BlockRange>& blocks, const Lattice& lattice,
                       double time, double dt, double snow_speed) const;
+
+  /// Looks where colliders are in a step of dt from `time`, for is_free().
+  void look_ahead(const Lattice& lattice, double time, double dt);
+  /// True if no collider comes near the nodes and the particles of a block in that step.
+  bool is_free(std::uint64_t key, double snow_speed) const;
 
   const std::vector<shapes::Collider>& list() const { return list_; }
   /// Poses of the colliders in reach of the lattice.
@@ -42,6 +47,8 @@ class MovingColliders {
   std::vector<shapes::Collider> list_;
   std::vector<std::shared_ptr<const shapes::DistanceField>> fields_;  ///< null but of meshes
   std::vector<kernels::ColliderPose> poses_;
+  std::vector<kernels::LocalCollider<double>> ahead_;  ///< seen from cell 0
+  double cell_size_ = 0, dt_ = 0;                      ///< of look_ahead
 };
 
 }  // namespace neve::sim::engine

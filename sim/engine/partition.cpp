@@ -53,8 +53,7 @@ std::size_t bytes_of(const std::vector<T>& v) {
 void Partition::forget() {
   order_.clear();
   locals_.clear();
-  blocks_.clear();
-  node_blocks_.clear();
+  all_.clear();
 }
 
 void Partition::build(const std::vector<std::uint64_t>& keys,
@@ -67,9 +66,8 @@ void Partition::build(const std::vector<std::uint64_t>& keys,
   next_locals_.resize(keys.size());
   parts_.resize(static_cast<std::size_t>(std::max(1, threads)));
   find_changes(keys, locals, known, pool);
-  const bool is_same_list = list_blocks();
+  list_blocks();
   place_particles(pool);
-  if (!is_same_list) link_node_blocks(pool, threads);
   // The first build moves every particle: free its buffers.
   if (known == 0)
     for (Part& part : parts_) part = Part();
@@ -79,14 +77,14 @@ void Partition::build(const std::vector<std::uint64_t>& keys,
 void Partition::find_changes(const std::vector<std::uint64_t>& keys,
                              const std::vector<std::uint16_t>& locals, std::size_t known,
                              ThreadPool& pool) {
-  kept_.resize(blocks_.size());
+  kept_.resize(all_.size());
   const int threads = static_cast<int>(parts_.size());
   pool.run(threads, threads, [&](int t) {
     Part& part = parts_[static_cast<std::size_t>(t)];
     part.arrivals.clear();
     part.groups.clear();
-    const std::uint32_t end = first_block(t + 1, threads);
-    for (std::uint32_t b = first_block(t, threads); b < end; ++b) keep(b, keys, locals, part);
+    const std::uint32_t end = first_of_all(t + 1, threads);
+    for (std::uint32_t b = first_of_all(t, threads); b < end; ++b) keep(b, keys, locals, part);
     const std::size_t added = keys.size() - known, before = part.arrivals.size();
     const std::size_t last = known + cut(added, static_cast<std::size_t>(t) + 1, parts_.size());
     for (std::size_t q = known + cut(added, static_cast<std::size_t>(t), parts_.size()); q < last;
@@ -113,7 +111,7 @@ void Partition::group_arrivals(Part& part, std::size_t begin) {
 
 void Partition::keep(std::size_t b, const std::vector<std::uint64_t>& keys,
                      const std::vector<std::uint16_t>& locals, Part& part) {
-  const kernels::ParticleBlock& block = blocks_[b];
+  const kernels::BlockRange& block = all_[b];
   const std::size_t before = part.arrivals.size();
   part.places.clear();
   std::uint32_t stay = block.begin;
@@ -138,22 +136,20 @@ void Partition::keep(std::size_t b, const std::vector<std::uint64_t>& keys,
   kept_[b] = {block.begin, stay, back, block.end};
 }
 
-/// Lists the blocks that have particles now, with their ranges. True if they are those of the step
-/// before.
-bool Partition::list_blocks() {
+/// Lists the blocks that have particles now, with their ranges.
+void Partition::list_blocks() {
   arrival_groups_.clear();
   for (const Part& part : parts_)
     arrival_groups_.insert(arrival_groups_.end(), part.groups.begin(), part.groups.end());
   std::sort(arrival_groups_.begin(), arrival_groups_.end(), is_before);
-  next_blocks_.clear();
+  next_all_.clear();
   source_.clear();
-  bool is_same_list = true;
   std::uint32_t sum = 0;
   std::size_t a = 0, b = 0;
-  while (b < blocks_.size() || a < arrival_groups_.size()) {
-    const bool is_known = b < blocks_.size() &&
-                          (a == arrival_groups_.size() || blocks_[b].key <= arrival_groups_[a].key);
-    kernels::ParticleBlock block = is_known ? blocks_[b] : kernels::ParticleBlock{};
+  while (b < all_.size() || a < arrival_groups_.size()) {
+    const bool is_known =
+        b < all_.size() && (a == arrival_groups_.size() || all_[b].key <= arrival_groups_[a].key);
+    kernels::BlockRange block = is_known ? all_[b] : kernels::BlockRange{};
     std::uint32_t count = 0;
     if (is_known)
       count = kept_[b].stay - kept_[b].begin + kept_[b].end - kept_[b].moved;
@@ -161,40 +157,38 @@ bool Partition::list_blocks() {
       block.key = arrival_groups_[a].key;
     for (; a < arrival_groups_.size() && arrival_groups_[a].key == block.key; ++a)
       count += arrival_groups_[a].count;
-    is_same_list = is_same_list && is_known && count > 0;
     if (count > 0) {
       block.begin = sum;
       block.end = sum += count;
-      next_blocks_.push_back(block);
+      next_all_.push_back(block);
       source_.push_back(is_known ? static_cast<std::int32_t>(b) : -1);
     }
     b += is_known;
   }
-  blocks_.swap(next_blocks_);
-  return is_same_list;
+  all_.swap(next_all_);
 }
 
 void Partition::place_particles(ThreadPool& pool) {
   const int threads = static_cast<int>(parts_.size());
   pool.run(threads, threads, [&](int t) {
     Part& part = parts_[static_cast<std::size_t>(t)];
-    const std::uint32_t begin = first_block(t, threads), end = first_block(t + 1, threads);
+    const std::uint32_t begin = first_of_all(t, threads), end = first_of_all(t + 1, threads);
     if (begin == end) return;
     part.next.clear();
     for (const Part& from : parts_)
       part.next.push_back(static_cast<std::size_t>(
           std::lower_bound(from.groups.begin(), from.groups.end(),
-                           ArrivalGroup{blocks_[begin].key, 0, 0}, is_before) -
+                           ArrivalGroup{all_[begin].key, 0, 0}, is_before) -
           from.groups.begin()));
     for (std::uint32_t b = begin; b < end; ++b)
-      fill(blocks_[b], source_[b] < 0 ? Kept{} : kept_[static_cast<std::size_t>(source_[b])], part);
+      fill(all_[b], source_[b] < 0 ? Kept{} : kept_[static_cast<std::size_t>(source_[b])], part);
   });
   order_.swap(next_order_);
   locals_.swap(next_locals_);
 }
 
 /// Merges those that stayed with those that changed cell or block.
-void Partition::fill(const kernels::ParticleBlock& block, const Kept& kept, Part& part) {
+void Partition::fill(const kernels::BlockRange& block, const Kept& kept, Part& part) {
   std::vector<std::uint64_t>& places = part.places;
   places.clear();
   for (std::uint32_t p = kept.moved; p < kept.end; ++p)
@@ -257,9 +251,60 @@ void Partition::wrap(std::vector<std::uint64_t>& keys, ThreadPool& pool, int thr
   });
 }
 
+void Partition::put_on_grid(ThreadPool& pool, int threads) {
+  spray_ = Spray();
+  list_grid_blocks(false);
+  link_node_blocks(pool, threads);
+}
+
+void Partition::release_grid() {
+  spray_ = Spray();
+  blocks_ = decltype(blocks_)();
+  first_particles_ = decltype(first_particles_)();
+  grid_particles_ = 0;
+  node_blocks_ = decltype(node_blocks_)();
+  is_linked_ = false;
+  for (Union& u : unions_) u = Union();
+}
+
+/// Blocks that were on the grid in the step before keep their node blocks if all of them did.
+void Partition::list_grid_blocks(bool has_spray) {
+  first_particles_.clear();
+  grid_particles_ = 0;
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < all_.size(); ++b) {
+    if (has_spray && spray_.is_spray()[b]) continue;
+    const kernels::BlockRange& block = all_[b];
+    if (count == blocks_.size()) blocks_.emplace_back();
+    is_linked_ = is_linked_ && blocks_[count].key == block.key;
+    blocks_[count].key = block.key;
+    blocks_[count].begin = block.begin;
+    blocks_[count++].end = block.end;
+    first_particles_.push_back(grid_particles_);
+    grid_particles_ += block.end - block.begin;
+  }
+  is_linked_ = is_linked_ && count == blocks_.size();
+  blocks_.resize(count);
+}
+
+void Partition::link_node_blocks(ThreadPool& pool, int threads) {
+  if (!is_linked_) find_node_blocks(pool, threads);
+  is_linked_ = true;
+}
+
+std::size_t Partition::reached_node_blocks() const {
+  if (is_linked_ && !all_.empty() && spray_.clusters().empty()) return node_blocks_.size();
+  Union lines, planes, nodes;
+  for (const kernels::BlockRange& block : all_) nodes.keys.push_back(block.key);
+  unite(nodes.keys, 2, lines);
+  unite(lines.keys, 1, planes);
+  unite(planes.keys, 0, nodes);
+  return nodes.keys.size();
+}
+
 /// Tiles reach one block up each axis: three unions, axis by axis, give all node blocks in order
 /// and which particle blocks reach them.
-void Partition::link_node_blocks(ThreadPool& pool, int threads) {
+void Partition::find_node_blocks(ThreadPool& pool, int threads) {
   std::vector<std::uint64_t>& keys = unions_[0].keys;
   keys.clear();
   for (const kernels::ParticleBlock& block : blocks_) keys.push_back(block.key);
@@ -321,9 +366,9 @@ void Partition::unite(const std::vector<std::uint64_t>& keys, int axis, Union& o
 void Partition::storage_was_sorted(std::vector<std::uint64_t>& keys,
                                    std::vector<std::uint16_t>& locals, ThreadPool& pool,
                                    int threads) const {
-  pool.ranges(blocks_.size(), threads, [&](std::size_t begin, std::size_t end) {
+  pool.ranges(all_.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      const kernels::ParticleBlock& block = blocks_[b];
+      const kernels::BlockRange& block = all_[b];
       std::fill(keys.begin() + block.begin, keys.begin() + block.end, block.key);
       std::copy(locals_.begin() + block.begin, locals_.begin() + block.end,
                 locals.begin() + block.begin);
@@ -333,9 +378,10 @@ void Partition::storage_was_sorted(std::vector<std::uint64_t>& keys,
 
 std::size_t Partition::memory_bytes() const {
   std::size_t bytes = bytes_of(order_) + bytes_of(next_order_) + bytes_of(locals_) +
-                      bytes_of(next_locals_) + bytes_of(blocks_) + bytes_of(next_blocks_) +
-                      bytes_of(kept_) + bytes_of(source_) + bytes_of(node_blocks_) +
-                      bytes_of(arrival_groups_);
+                      bytes_of(next_locals_) + bytes_of(all_) + bytes_of(next_all_) +
+                      bytes_of(kept_) + bytes_of(source_) + bytes_of(arrival_groups_) +
+                      bytes_of(blocks_) + bytes_of(first_particles_) + bytes_of(node_blocks_) +
+                      spray_.memory_bytes();
   for (const Part& part : parts_)
     bytes += bytes_of(part.arrivals) + bytes_of(part.groups) + bytes_of(part.places) +
              bytes_of(part.next) + bytes_of(part.scattered);
@@ -345,12 +391,20 @@ std::size_t Partition::memory_bytes() const {
 
 std::uint32_t Partition::first_block(int part, int parts) const {
   if (part >= parts) return static_cast<std::uint32_t>(blocks_.size());
+  const std::size_t particle =
+      cut(grid_particles_, static_cast<std::size_t>(part), static_cast<std::size_t>(parts));
+  const auto at = std::lower_bound(first_particles_.begin(), first_particles_.end(), particle);
+  return static_cast<std::uint32_t>(at - first_particles_.begin());
+}
+
+std::uint32_t Partition::first_of_all(int part, int parts) const {
+  if (part >= parts) return static_cast<std::uint32_t>(all_.size());
   const std::uint64_t particle =
       cut(order_.size(), static_cast<std::size_t>(part), static_cast<std::size_t>(parts));
   const auto at = std::partition_point(
-      blocks_.begin(), blocks_.end(),
-      [&](const kernels::ParticleBlock& block) { return block.begin < particle; });
-  return static_cast<std::uint32_t>(at - blocks_.begin());
+      all_.begin(), all_.end(),
+      [&](const kernels::BlockRange& block) { return block.begin < particle; });
+  return static_cast<std::uint32_t>(at - all_.begin());
 }
 
 }  // namespace neve::sim::engine

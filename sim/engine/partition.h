@@ -6,19 +6,23 @@
 
 #include "sim/base/thread_pool.h"
 #include "sim/engine/reorder.h"
+#include "sim/engine/spray.h"
 #include "sim/kernels/blocks.h"
 #include "sim/types/math.h"
 
 namespace neve::sim::engine {
 
-/// Particles in block order, and the blocks of nodes around them. The order is that of block key,
-/// then model and cell, then storage; it depends neither on the number of threads nor on the order
-/// before. Most particles are where they were a step ago, so only those that changed cell or block
-/// are sorted.
+/// Particles in block order, and the blocks of nodes around those on the grid. The order is that of
+/// block key, then model and cell, then storage; it depends neither on the number of threads nor on
+/// the order before. Most particles are where they were a step ago, so only those that changed cell
+/// or block are sorted.
 class Partition {
  public:
   /// In blocks per axis, 0: open. One block is enough: a stencil is no wider.
-  void set_period(const Vec3i& period) { period_ = period; }
+  void set_period(const Vec3i& period) {
+    period_ = period;
+    is_linked_ = false;
+  }
 
   std::uint64_t wrapped(std::uint64_t key) const;
   /// Brings keys of particles into the first period.
@@ -29,6 +33,19 @@ class Partition {
   /// @param keys, locals  per storage index, see SweepArgs
   void build(const std::vector<std::uint64_t>& keys, const std::vector<std::uint16_t>& locals,
              ThreadPool& pool, int threads);
+
+  /// Puts all particles on the grid.
+  void put_on_grid(ThreadPool& pool, int threads);
+  /// Puts all particles on the grid but spray. @param kernel_nodes, is_free  see Spray::find
+  template <class IsFree>
+  void put_on_grid_but_spray(int kernel_nodes, const IsFree& is_free, ThreadPool& pool,
+                             int threads) {
+    spray_.find(all_, locals_, period_, kernel_nodes, is_free, pool, threads);
+    list_grid_blocks(true);
+    link_node_blocks(pool, threads);
+  }
+  /// Forgets the grid and gives its memory back.
+  void release_grid();
 
   /// Says that the storage is another one: the next build sorts all particles.
   void forget();
@@ -44,12 +61,19 @@ class Partition {
 
   const std::vector<std::uint32_t>& order() const { return order_; }
   const std::vector<std::uint16_t>& sorted_locals() const { return locals_; }
+  /// All blocks that have particles.
+  const std::vector<kernels::BlockRange>& all_blocks() const { return all_; }
+  /// Those on the grid.
   const std::vector<kernels::ParticleBlock>& blocks() const { return blocks_; }
   const std::vector<kernels::NodeBlock>& node_blocks() const { return node_blocks_; }
+  const std::vector<kernels::SprayCluster>& spray() const { return spray_.clusters(); }
+  /// Blocks of nodes that the blocks of all particles reach, those of spray as well.
+  std::size_t reached_node_blocks() const;
 
   std::size_t memory_bytes() const;
 
-  /// First block of a part of the particles, cut by their count; part = parts gives the end.
+  /// First block on the grid of a part of its particles, cut by their count; part = parts gives the
+  /// end.
   std::uint32_t first_block(int part, int parts) const;
 
  private:
@@ -88,22 +112,31 @@ class Partition {
   void keep(std::size_t block, const std::vector<std::uint64_t>& keys,
             const std::vector<std::uint16_t>& locals, Part& part);
   static void group_arrivals(Part& part, std::size_t begin);
-  bool list_blocks();
+  void list_blocks();
   void place_particles(ThreadPool& pool);
-  void fill(const kernels::ParticleBlock& block, const Kept& kept, Part& part);
+  void fill(const kernels::BlockRange& block, const Kept& kept, Part& part);
+  std::uint32_t first_of_all(int part, int parts) const;
+  void list_grid_blocks(bool has_spray);
   void link_node_blocks(ThreadPool& pool, int threads);
+  void find_node_blocks(ThreadPool& pool, int threads);
   void unite(const std::vector<std::uint64_t>& keys, int axis, Union& out) const;
 
   Vec3i period_{0, 0, 0};
 
   std::vector<std::uint32_t> order_, next_order_;    ///< sorted position -> storage index
   std::vector<std::uint16_t> locals_, next_locals_;  ///< per sorted position
-  std::vector<kernels::ParticleBlock> blocks_, next_blocks_;
+  std::vector<kernels::BlockRange> all_, next_all_;
   std::vector<Kept> kept_;            ///< per block of the step before
   std::vector<std::int32_t> source_;  ///< per block: which it was in the step before, -1: none
-  std::vector<kernels::NodeBlock> node_blocks_;
   std::vector<Part> parts_;
   std::vector<ArrivalGroup> arrival_groups_;
+
+  Spray spray_;
+  std::vector<kernels::ParticleBlock> blocks_;
+  std::vector<std::uint32_t> first_particles_;  ///< per block on the grid: particles before it
+  std::uint32_t grid_particles_ = 0;
+  std::vector<kernels::NodeBlock> node_blocks_;
+  bool is_linked_ = false;  ///< node blocks are those of the blocks
   Union unions_[3];
 };
 

@@ -30,7 +30,7 @@ std::uint64_t cell_key(const Vec3i& cell) {
 template <class Real>
 Room<Real>::Room(const State<Real>& state)
     : state_(state), cell_size_(state.method.lattice.cell_size) {
-  if (!state.particles.partition.blocks().empty()) return;
+  if (!state.particles.partition.all_blocks().empty()) return;
   for (const kernels::Particle<Real>& p : state.particles.records) add(p);
 }
 
@@ -81,10 +81,10 @@ template <class Real>
 void Room<Real>::add_block(std::uint64_t key) {
   if (!blocks_.insert(key).second) return;
   const Partition& partition = state_.particles.partition;
-  const std::vector<kernels::ParticleBlock>& list = partition.blocks();
+  const std::vector<kernels::BlockRange>& list = partition.all_blocks();
   const auto found = std::lower_bound(
       list.begin(), list.end(), key,
-      [](const kernels::ParticleBlock& block, std::uint64_t wanted) { return block.key < wanted; });
+      [](const kernels::BlockRange& block, std::uint64_t wanted) { return block.key < wanted; });
   if (found == list.end() || found->key != key) return;
   for (std::uint32_t k = found->begin; k < found->end; ++k)
     add(state_.particles.records[partition.order()[k]]);

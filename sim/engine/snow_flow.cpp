@@ -1,5 +1,6 @@
 #include "sim/engine/snow_flow.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -177,7 +178,7 @@ void SnowFlow<Real>::remove_in_sinks(State<Real>& state) const {
   progress.steps_since_sink_check = 0;
   progress.distance_since_sink_check = 0;
   std::vector<std::uint32_t> gone;
-  for (const kernels::ParticleBlock& block : particles.partition.blocks()) {
+  for (const kernels::BlockRange& block : particles.partition.all_blocks()) {
     for (const Sink& sink : sinks_) {
       if (!may_remove(sink, block.key, state.method.lattice)) continue;
       for (std::uint32_t k = block.begin; k < block.end; ++k) {

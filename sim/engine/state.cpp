@@ -26,10 +26,26 @@ State<Real>::State(const SolverSettings& settings, const std::vector<Material>& 
 }
 
 template <class Real>
-void State<Real>::partition() {
+void State<Real>::sort_into_blocks() {
   ParticleStorage<Real>& p = particles;
   p.partition.wrap(p.keys, *pool, active_threads());
   p.partition.build(p.keys, p.locals, *pool, active_threads());
+}
+
+template <class Real>
+void State<Real>::partition() {
+  sort_into_blocks();
+  particles.partition.put_on_grid(*pool, active_threads());
+}
+
+template <class Real>
+void State<Real>::partition_but_spray(double dt) {
+  sort_into_blocks();
+  colliders.look_ahead(method.lattice, progress.colliders_time, dt);
+  const auto is_free = [&](std::uint64_t key) {
+    return colliders.is_free(key, progress.limits.max_speed);
+  };
+  particles.partition.put_on_grid_but_spray(method.kernel_nodes, is_free, *pool, active_threads());
 }
 
 template <class Real>
@@ -53,13 +69,15 @@ kernels::SweepArgs<Real> State<Real>::sweep_args(double dt, int channels) {
   a.order = blocks.order().data();
   a.blocks = blocks.blocks().data();
   a.node_blocks = blocks.node_blocks().data();
+  a.spray = blocks.spray().data();
   a.channels = channels;
   const auto planes = static_cast<std::size_t>(channels);
   const std::size_t block_count = blocks.blocks().size();
   const std::size_t node_block_count = blocks.node_blocks().size();
   a.tiles = grid.tiles.at_least(block_count * planes * method.tile_nodes());
   a.nodes = grid.nodes.at_least(node_block_count * planes * kernels::block_nodes);
-  grid.reports.resize(block_count);
+  const int spray_parts = blocks.spray().empty() ? 0 : parts();
+  grid.reports.resize(block_count + static_cast<std::size_t>(spray_parts));
   grid.node_contact_work.resize(node_block_count);
   a.reports = grid.reports.data();
   a.node_contact_work = grid.node_contact_work.data();
@@ -68,6 +86,20 @@ kernels::SweepArgs<Real> State<Real>::sweep_args(double dt, int channels) {
   a.load_count = static_cast<int>(grid.loads.size());
   a.load_unit = method.load_unit;
   return a;
+}
+
+template <class Real>
+void State<Real>::step_spray(const kernels::SweepArgs<Real>& a) const {
+  const std::size_t clusters = particles.partition.spray().size();
+  if (clusters == 0) return;
+  kernels::BlockReport<Real>* reports = a.reports + particles.partition.blocks().size();
+  const auto first = [&](int part) {
+    return static_cast<std::uint32_t>(clusters * static_cast<std::size_t>(part) /
+                                      static_cast<std::size_t>(parts()));
+  };
+  pool->run(active_threads(), parts(), [&](int part) {
+    method.sweeps->spray(a, first(part), first(part + 1), reports[part]);
+  });
 }
 
 template <class Real>
@@ -90,9 +122,9 @@ void State<Real>::advance_time(double dt) {
 
 template <class Real>
 void State<Real>::note_near_colliders() {
-  progress.limits.max_collider_speed =
-      colliders.fastest_near(particles.partition.blocks(), method.lattice, progress.colliders_time,
-                             method.settings.max_dt, progress.limits.max_speed);
+  progress.limits.max_collider_speed = colliders.fastest_near(
+      particles.partition.all_blocks(), method.lattice, progress.colliders_time,
+      method.settings.max_dt, progress.limits.max_speed);
 }
 
 template <class Real>

@@ -21,8 +21,10 @@ struct State {
   State(const SolverSettings& settings, const std::vector<Material>& materials,
         const std::vector<shapes::Collider>& colliders, int threads, const Vec3i& lattice_origin);
 
-  /// Brings particles into the order of blocks.
+  /// Brings particles into the order of blocks, all of them on the grid.
   void partition();
+  /// The same for an explicit step of dt, without the spray.
+  void partition_but_spray(double dt);
   /// Brings storage into that order too, once in a while.
   void sort_storage();
   /// For sweeps of a step of dt. Room for the grid is made: earlier arguments are void.
@@ -33,6 +35,8 @@ struct State {
   void over_particle_blocks(BlockSweep<Args> sweep, const Args& a) const;
   template <class Args>
   void over_node_blocks(BlockSweep<Args> sweep, const Args& a) const;
+  /// The step of the spray. @param a  of sweep_args
+  void step_spray(const kernels::SweepArgs<Real>& a) const;
   /// Stress, keys and limits of records [begin, end) as they are.
   kernels::BlockReport<Real> refresh(std::size_t begin, std::size_t end);
 
@@ -44,6 +48,7 @@ struct State {
   void push_out(kernels::SweepArgs<Real> a) const;
 
   int active_threads() const;
+  int parts() const { return ThreadPool::parts_for(active_threads()); }
   Vec3d position(const kernels::Particle<Real>& p) const { return method.lattice.position(p); }
 
   Method<Real> method;
@@ -52,15 +57,17 @@ struct State {
   ParticleStorage<Real> particles;
   GridStorage<Real> grid;
   Progress progress;
+
+ private:
+  void sort_into_blocks();
 };
 
 template <class Real>
 template <class Args>
 void State<Real>::over_particle_blocks(BlockSweep<Args> sweep, const Args& a) const {
-  const int threads = active_threads(), parts = ThreadPool::parts_for(threads);
-  pool->run(threads, parts, [&](int part) {
-    sweep(a, particles.partition.first_block(part, parts),
-          particles.partition.first_block(part + 1, parts));
+  pool->run(active_threads(), parts(), [&](int part) {
+    sweep(a, particles.partition.first_block(part, parts()),
+          particles.partition.first_block(part + 1, parts()));
   });
 }
 

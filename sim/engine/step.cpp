@@ -39,7 +39,7 @@ void StagedDriver<Real>::step() {
 /// the first step, see load.h.
 template <class Real>
 bool FusedDriver<Real>::step(bool is_implicit) {
-  sort_particles();                                      //         into blocks of 4x4x4 cells
+  sort_particles(is_implicit);                           //         into blocks of 4x4x4 cells
   particles_to_grid();                                   //  1, 3   m_i, v_old, f_i
   update_grid(is_implicit);                              //  4, 5   v_free, v_star
   if (is_implicit && !solve_velocities()) return false;  //  5, 6   v_star, v_new
@@ -193,9 +193,12 @@ void StagedDriver<Real>::move_colliders() {
 // ---- sweeps -------------------------------------------------------------------------------------
 
 template <class Real>
-void FusedDriver<Real>::sort_particles() {
+void FusedDriver<Real>::sort_particles(bool is_implicit) {
   timed(seconds_.partition, [&] {
-    state_.partition();
+    if (is_implicit || parts_.keeps_spray_on_grid)
+      state_.partition();
+    else
+      state_.partition_but_spray(dt_);
     state_.sort_storage();
     a_ = state_.sweep_args(dt_, state_.method.sweeps->fused_channels);
   });
@@ -229,10 +232,13 @@ bool FusedDriver<Real>::solve_velocities() {
   return is_solved;
 }
 
+/// Spray takes all of its step here.
 template <class Real>
 void FusedDriver<Real>::grid_to_particles() {
-  timed(seconds_.grid_to_particles,
-        [&] { state_.over_particle_blocks(state_.method.sweeps->grid_to_particles, a_); });
+  timed(seconds_.grid_to_particles, [&] {
+    state_.over_particle_blocks(state_.method.sweeps->grid_to_particles, a_);
+    state_.step_spray(a_);
+  });
 }
 
 /// Time passes. Particles leave the colliders where the settings ask for it.

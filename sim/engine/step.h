@@ -27,9 +27,11 @@ struct StepParts {
   ImplicitSolver<Real> solver;
   ParticleContact<Real> contact;
   PhaseSeconds seconds;  ///< of the fused driver, since the start
+  bool keeps_spray_on_grid = false;
 };
 
-/// The fused driver, which runs: sweeps keep in registers whatever one stage hands to the next.
+/// The fused driver, which runs: spray takes explicit steps without the grid, and sweeps keep in
+/// registers whatever one stage hands to the next.
 template <class Real>
 class FusedDriver {
  public:
@@ -40,7 +42,7 @@ class FusedDriver {
   bool step(bool is_implicit);
 
  private:
-  void sort_particles();
+  void sort_particles(bool is_implicit);
   void particles_to_grid();
   void update_grid(bool is_implicit);
   bool solve_velocities();

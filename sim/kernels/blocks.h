@@ -39,7 +39,13 @@ struct Tile {
   static constexpr int overlap = side - block_side;
 };
 
-/// A block of particles: a range of the sorted order, and where its eight node blocks are stored.
+/// A block of particles: a range of the sorted order.
+struct BlockRange {
+  std::uint64_t key;
+  std::uint32_t begin, end;
+};
+
+/// The same, and where its eight node blocks are stored.
 struct ParticleBlock {
   std::uint64_t key;
   std::uint32_t begin, end;
@@ -50,6 +56,17 @@ struct ParticleBlock {
 struct NodeBlock {
   std::uint64_t key;
   std::int32_t tile[8];  ///< of the particle block at minus the same offset
+};
+
+/// Particles of one model that share no node with others: of one block, or of two with a cell each.
+/// Nodes count from the first that they reach.
+struct SprayCluster {
+  std::uint32_t begin[2];   ///< in the sorted order
+  std::uint8_t count[2];    ///< [1]: 0 without a second block
+  std::int8_t shift[2][3];  ///< from nodes of the block to those of the cluster
+  std::uint8_t size[2];     ///< nodes along x and y
+  std::uint8_t rows;        ///< of four nodes along z
+  std::uint8_t model;
 };
 
 }  // namespace neve::sim::kernels

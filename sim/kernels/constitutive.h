@@ -268,13 +268,16 @@ class MaterialUpdate {
   using V = Lanes<Real, W>;
   using M = MaterialLanes<V>;
 
+  /// @param look          look(k, batch, wave modulus): called for every batch as the cheap way
+  ///                      leaves it, also of particles that need the other
   /// @param count         of particles; the last batch may have lanes to spare
   /// @param is_projected  false leaves F_E and J_P as they are: stress of a state, at the start
   /// @param wave_modulus  per batch, out
   /// @param is_inverted   per batch, out: a bit for every lane with det F_E <= 0 before projection
+  template <class Look>
   NEVE_NOINLINE void operator()(ParticleLanes<Real, W>* batch, int count, ModelKind model,
                                 const MaterialConstants<Real>* table, bool is_projected,
-                                V* wave_modulus, unsigned* is_inverted) {
+                                V* wave_modulus, unsigned* is_inverted, const Look& look) {
     const bool is_plastic = is_projected && model == ModelKind::snow;
     unsigned rest[max_batches];
     int packed = 0;
@@ -289,6 +292,7 @@ class MaterialUpdate {
       else
         rest[k] = used & ~lane_bits(corotated_near_identity(m, is_plastic));
       keep_stress(m, batch[k], wave_modulus[k]);
+      look(k, batch[k], wave_modulus[k]);
       if (rest[k] == 0) continue;
       const LanePacking<V> packing(rest[k]);
       for (int w = 0; w < M::words; ++w)

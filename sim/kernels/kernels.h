@@ -99,6 +99,7 @@ struct SweepArgs {
   std::uint16_t* locals;       ///< storage index -> model and cell in the block
   const ParticleBlock* blocks;
   const NodeBlock* node_blocks;
+  const SprayCluster* spray;   ///< particles that are in no block
   int channels;                ///< of tiles and nodes: 2, or what the fused driver needs
   Quad<Real>* tiles;           ///< per particle block: `channels` tiles
   Quad<Real>* nodes;           ///< per node block: `channels` x 64
@@ -127,6 +128,9 @@ struct Sweeps {
   // momentum.
   int fused_channels;
   Sweep<Real> particles_to_grid, grid_update, grid_to_particles;
+  // Fused: the whole step of clusters [begin, end) of spray, away from all colliders.
+  void (*spray)(const SweepArgs<Real>&, std::uint32_t begin, std::uint32_t end,
+                BlockReport<Real>& report);
   // First step of a body: masses to the nodes (channel_momentum), then back to volumes.
   Sweep<Real> rasterize, collect_momentum, volumes;
   // Staged, one stage each.

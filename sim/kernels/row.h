@@ -64,6 +64,11 @@ struct Row {
     unrolled<parts>([&](auto p) NEVE_INLINE_BODY { r.part[p] = a.part[p] + b.part[p]; });
     return r;
   }
+  friend NEVE_INLINE Row operator-(const Row& a, const Row& b) {
+    Row r;
+    unrolled<parts>([&](auto p) NEVE_INLINE_BODY { r.part[p] = a.part[p] - b.part[p]; });
+    return r;
+  }
   friend NEVE_INLINE Row operator*(const Row& a, const Row& b) {
     Row r;
     unrolled<parts>([&](auto p) NEVE_INLINE_BODY { r.part[p] = a.part[p] * b.part[p]; });

@@ -215,26 +215,47 @@ NEVE_INLINE Real estimated_volume(Real m, const Stencils<Real, K, G>& s, int q, 
 
 // ---- nodes --------------------------------------------------------------------------------------
 
-/// v_old = momentum / mass; 0 where no mass arrived. The fourth lane keeps the mass.
-template <class Real>
-NEVE_INLINE Quad<Real> node_v_old(Quad<Real> momentum) {
-  const Real mass = momentum[3];
-  if (!(mass > Real(0))) return Quad<Real>{};
-  Quad<Real> v = momentum / mass;
-  v[3] = mass;
-  return v;
+/// The fourth number of every quad, in all of its lanes.
+template <class V, int... I>
+NEVE_INLINE V fourth_of_quads(V v, Indices<I...>) {
+  return __builtin_shufflevector(v, v, (I | 3)...);
 }
 
-/// Step 4: v_free = v_old + dt (f / m + g).
-template <class Real>
-NEVE_INLINE Quad<Real> node_v_free(Quad<Real> v_old, Quad<Real> force,
-                                   const StepConstants<Real>& c) {
-  const Real mass = v_old[3];
-  if (!(mass > Real(0))) return Quad<Real>{};
-  const Quad<Real> gravity{c.gravity[0], c.gravity[1], c.gravity[2], Real(0)};
-  Quad<Real> v = v_old + (force / mass + gravity) * c.dt;
-  v[3] = mass;
-  return v;
+/// A row of nodes that gets velocities v(part, mass) where it has mass, and zeros elsewhere. The
+/// fourth number of a node stays its mass.
+template <class Real, class Set, class Velocity>
+NEVE_INLINE Row<Real, Set> velocities_with_mass(const Row<Real, Set>& row, const Velocity& v) {
+  using R = Row<Real, Set>;
+  using V = typename R::V;
+  MaskOf<V> is_mass{};
+  for (int l = 3; l < R::width; l += 4) is_mass[l] = -1;
+  R out;
+  unrolled<R::parts>([&](auto p) NEVE_INLINE_BODY {
+    const V mass = fourth_of_quads(row.part[p], Counted<R::width>{});
+    const MaskOf<V> has_mass = mass > V{};
+    const V velocity = v(p, has_mass ? mass : all<V>(1));
+    out.part[p] = has_mass ? (is_mass ? mass : velocity) : V{};
+  });
+  return out;
+}
+
+/// v_old = momentum / mass; 0 where no mass arrived.
+template <class Real, class Set>
+NEVE_INLINE Row<Real, Set> row_v_old(const Row<Real, Set>& momentum) {
+  return velocities_with_mass(
+      momentum, [&](auto p, auto mass) NEVE_INLINE_BODY { return momentum.part[p] / mass; });
+}
+
+/// Step 4: v_free = v_old + dt (f / m + g). @param force  0 without `has_force`
+template <bool has_force, class Real, class Set>
+NEVE_INLINE Row<Real, Set> row_v_free(const Row<Real, Set>& v_old, const Row<Real, Set>& force,
+                                      const StepConstants<Real>& c) {
+  const Quad<Real> g{c.gravity[0], c.gravity[1], c.gravity[2], Real(0)};
+  const auto gravity = repeat_quad<Row<Real, Set>::width>(g);
+  return velocities_with_mass(v_old, [&](auto p, auto mass) NEVE_INLINE_BODY {
+    if constexpr (has_force) return v_old.part[p] + (force.part[p] / mass + gravity) * c.dt;
+    return v_old.part[p] + (decltype(mass){} + gravity) * c.dt;
+  });
 }
 
 // ---- contact ------------------------------------------------------------------------------------
@@ -342,41 +363,73 @@ NEVE_INLINE void collide_nodes(Quad<Real>* v, const StepConstants<Real>& c,
 
 // ---- node to particle ---------------------------------------------------------------------------
 
+/// True for transfers whose affine velocity is not their gradient of v, as that of MLS is.
+constexpr bool has_own_C(TransferKind transfer) {
+  return has_affine(transfer) && transfer != TransferKind::mls;
+}
+
+/// Sums over the nodes of up to G particles: a value and the columns of its tensor each.
+template <class Real, TransferKind transfer, int G>
+struct GatheredSums {
+  Quad<Real> gradient[4 * G];
+  Quad<Real> affine[has_own_C(transfer) ? 4 * G : 1];
+  Quad<Real> moved[keeps_own(transfer) ? G : 1];
+
+  /// Particle q of the stencils as number `to`. @param change  see gather
+  template <class Set, int K, int S>
+  NEVE_INLINE void take(const Stencils<Real, K, S>& s, int q, const Quad<Real>* v_new,
+                        const Quad<Real>* change, int to) {
+    if constexpr (transfer == TransferKind::mls)
+      gather_tensor<Set>(s, s.arm, s.arm_z, q, v_new, gradient + 4 * to);
+    else
+      gather_tensor<Set>(s, s.dw, s.dz, q, v_new, gradient + 4 * to);
+    if constexpr (keeps_own(transfer)) moved[to] = gather_value<Set>(s, q, change);
+    if constexpr (has_own_C(transfer))
+      gather_tensor<Set>(s, s.arm, s.arm_z, q, v_new, affine + 4 * to);
+  }
+  NEVE_INLINE void repeat(int q, int to) {
+    for (int k = 0; k < 4; ++k) gradient[4 * to + k] = gradient[4 * q + k];
+    if constexpr (keeps_own(transfer)) moved[to] = moved[q];
+    if constexpr (has_own_C(transfer))
+      for (int k = 0; k < 4; ++k) affine[4 * to + k] = affine[4 * q + k];
+  }
+};
+
+/// Particles [q, q + W) of the sums, as lanes.
+template <TransferKind transfer, int K, class V, class Real, int G>
+NEVE_INLINE void lanes_of(const GatheredSums<Real, transfer, G>& sums, int q, Real inv_h,
+                          Gathered<V>& out) {
+  constexpr bool is_mls = transfer == TransferKind::mls;
+  constexpr Real arm_scale = Real(1 / apic_inertia<K>);
+  const Quad<Real>*gradient = sums.gradient + 4 * q, *affine = sums.affine;
+  if constexpr (has_own_C(transfer)) affine += 4 * q;
+  const auto take = [](const Quad<Real>* from, Real scale, V* to, int stride) NEVE_INLINE_BODY {
+    const FourWords<V> words = gather_words<V>([&](int l) NEVE_INLINE_BODY { return from[4 * l]; });
+    for (int a = 0; a < 3; ++a) to[stride * a] = words.w[a] * scale;
+  };
+  take(gradient, Real(1), out.v, 1);
+  if constexpr (keeps_own(transfer)) {
+    const FourWords<V> words = load_quads<V>(sums.moved + q);
+    for (int a = 0; a < 3; ++a) out.change[a] = words.w[a];
+  }
+  for (int c = 0; c < 3; ++c) {
+    take(gradient + 1 + c, is_mls ? inv_h * arm_scale : inv_h, out.grad_v + c, 3);
+    if constexpr (has_own_C(transfer)) take(affine + 1 + c, inv_h * arm_scale, out.C + c, 3);
+    if constexpr (is_mls)
+      for (int a = 0; a < 3; ++a) out.C[3 * a + c] = out.grad_v[3 * a + c];
+  }
+}
+
 /// Gathers the input of steps 7 and 8 from the grid, for particles [q, q + W) of the stencils.
 /// @param change  v_new - v_old on the tile; FLIP and AFLIP only
 template <class Set, TransferKind transfer, class V, class Real, int K, int G>
 NEVE_INLINE void gather(const Stencils<Real, K, G>& s, int q, int count, Real inv_h,
                         const Quad<Real>* v_new, const Quad<Real>* change, Gathered<V>& out) {
   constexpr int W = lane_count<V>;
-  constexpr bool is_mls = transfer == TransferKind::mls, has_change = keeps_own(transfer);
-  // The gradient of MLS is its C.
-  constexpr bool has_own_C = has_affine(transfer) && !is_mls;
-  constexpr Real arm_scale = Real(1 / apic_inertia<K>);
-  Quad<Real> gradient[4 * W], affine[4 * W], moved[W];
-  for (int l = 0; l < W; ++l) {
-    const int p = q + smaller(l, count - 1);
-    if constexpr (is_mls)
-      gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, gradient + 4 * l);
-    else
-      gather_tensor<Set>(s, s.dw, s.dz, p, v_new, gradient + 4 * l);
-    if constexpr (has_change) moved[l] = gather_value<Set>(s, p, change);
-    if constexpr (has_own_C) gather_tensor<Set>(s, s.arm, s.arm_z, p, v_new, affine + 4 * l);
-  }
-  const auto take = [](const Quad<Real>* from, Real scale, V* to, int stride) NEVE_INLINE_BODY {
-    const FourWords<V> words = gather_words<V>([&](int l) NEVE_INLINE_BODY { return from[4 * l]; });
-    for (int a = 0; a < 3; ++a) to[stride * a] = words.w[a] * scale;
-  };
-  take(gradient, Real(1), out.v, 1);
-  if constexpr (has_change) {
-    const FourWords<V> words = load_quads<V>(moved);
-    for (int a = 0; a < 3; ++a) out.change[a] = words.w[a];
-  }
-  for (int c = 0; c < 3; ++c) {
-    take(gradient + 1 + c, is_mls ? inv_h * arm_scale : inv_h, out.grad_v + c, 3);
-    if constexpr (has_own_C) take(affine + 1 + c, inv_h * arm_scale, out.C + c, 3);
-    if constexpr (is_mls)
-      for (int a = 0; a < 3; ++a) out.C[3 * a + c] = out.grad_v[3 * a + c];
-  }
+  GatheredSums<Real, transfer, W> sums;
+  for (int l = 0; l < W; ++l)
+    sums.template take<Set>(s, q + smaller(l, count - 1), v_new, change, l);
+  lanes_of<transfer, K>(sums, 0, inv_h, out);
 }
 
 /// Step 7, first half: trial F_E = (I + dt grad_v) F_E.

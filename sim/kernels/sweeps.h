@@ -78,6 +78,9 @@ NEVE_INLINE void load_tile(const ParticleBlock& block, const Source& source, Qua
 }
 
 template <class Real, int K, TransferKind transfer, class Set>
+struct SprayFor;
+
+template <class Real, int K, TransferKind transfer, class Set>
 struct SweepsFor {
   using Args = SweepArgs<Real>;
   using Index = std::uint32_t;
@@ -165,38 +168,46 @@ struct SweepsFor {
   template <int jobs>
   NEVE_INLINE static void scatter(const Args& a, const ParticleBlock& block, Quad<Real>* momentum,
                                   Quad<Real>* force) {
-    // MLS carries both tensors on the same weights: one row for both, where both go to one tile.
-    constexpr bool is_joined = is_mls && jobs == (momentum_job | force_job);
     constexpr bool with_affine = is_affine && (jobs & momentum_job) != 0;
-    constexpr bool has_force = (jobs & force_job) != 0 && !is_joined;
+    constexpr bool has_force = (jobs & force_job) != 0;
     ScatterRows rows;
-    auto& s = rows.s;
     each_group<scatter_group>(a, block, [&](const Group<scatter_group>& group) {
-      for (int q = 0; q < group.count; q += W) prepare<jobs>(a, group, q, rows);
-      each_cell(s, group.count, [&](int begin, int end) {
-        if constexpr (with_affine)
-          scatter_tensor<Real, K, scatter_group, Set>(s, s.arm, rows.affine, begin, end, momentum);
-        else if constexpr ((jobs & momentum_job) != 0)
-          scatter_value<Real, K, scatter_group, Set>(s, rows.value, begin, end, momentum);
-        if constexpr (has_force)
-          scatter_tensor<Real, K, scatter_group, Set>(s, is_mls ? s.arm : s.dw, rows.force, begin,
-                                                      end, force);
-      });
+      for (int q = 0; q < group.count; q += W) {
+        Batch p;
+        fetch_ahead(a, group, q);
+        load_for_scatter<with_affine, has_force>(p, group.record + q);
+        prepare<jobs>(a.constants, p, q, group.count, rows);
+      }
+      each_cell(rows.s, group.count,
+                [&](int begin, int end) { scatter_cell<jobs>(rows, begin, end, momentum, force); });
     });
   }
 
+  /// Particles [begin, end) of the rows, all in one cell.
   template <int jobs>
-  NEVE_INLINE static void prepare(const Args& a, const Group<scatter_group>& group, int q,
+  NEVE_INLINE static void scatter_cell(const ScatterRows& rows, int begin, int end,
+                                       Quad<Real>* momentum, Quad<Real>* force) {
+    // MLS carries both tensors on the same weights: one row for both, where both go to one tile.
+    constexpr bool is_joined = is_mls && jobs == (momentum_job | force_job);
+    const auto& s = rows.s;
+    if constexpr (is_affine && (jobs & momentum_job) != 0)
+      scatter_tensor<Real, K, scatter_group, Set>(s, s.arm, rows.affine, begin, end, momentum);
+    else if constexpr ((jobs & momentum_job) != 0)
+      scatter_value<Real, K, scatter_group, Set>(s, rows.value, begin, end, momentum);
+    if constexpr ((jobs & force_job) != 0 && !is_joined)
+      scatter_tensor<Real, K, scatter_group, Set>(s, is_mls ? s.arm : s.dw, rows.force, begin, end,
+                                                  force);
+  }
+
+  /// Rows of particles [q, q + W) of `count`.
+  template <int jobs>
+  NEVE_INLINE static void prepare(const StepConstants<Real>& c, const Batch& p, int q, int count,
                                   ScatterRows& rows) {
-    const StepConstants<Real>& c = a.constants;
     constexpr bool both = jobs == (momentum_job | force_job);
     constexpr bool with_affine = is_affine && (jobs & momentum_job) != 0;
     constexpr bool has_force = (jobs & force_job) != 0;
     constexpr bool is_joined = is_mls && both;
     auto& s = rows.s;
-    Batch p;
-    fetch_ahead(a, group, q);
-    load_for_scatter<with_affine, has_force>(p, group.record + q);
     s.template set<!is_mls, is_affine>(q, p.offset, p.cell);
     Quad<Real> value[W], affine[3][W], force[3][W];
     if constexpr ((jobs & momentum_job) != 0)
@@ -215,7 +226,7 @@ struct SweepsFor {
       if constexpr (has_force)
         keep(elastic_force<K, transfer>(p.V0, p.tau, c.inv_h, duration), force);
     }
-    const int last = smaller(W, group.count - q);
+    const int last = smaller(W, count - q);
     for (int l = 0; l < last; ++l) {
       const R z = R::spread(s.z[q + l]);
       if constexpr ((jobs & momentum_job) != 0) rows.value[q + l] = R::repeat(value[l]) * z;
@@ -248,16 +259,13 @@ struct SweepsFor {
 
   static void grid_update(const Args& a, Index begin, Index end) {
     const StepConstants<Real>& c = a.constants;
-    Quad<Real> momentum[block_nodes], force[block_nodes];
-    for (int n = 0; n < block_nodes; ++n) force[n] = Quad<Real>{};
+    Quad<Real> v_old[block_nodes], force[has_change ? block_nodes : 4];
     for (Index b = begin; b < end; ++b) {
-      collect<Real, K, Set>(a, b, channel_momentum, momentum);
+      collect<Real, K, Set>(a, b, channel_momentum, v_old);
       if constexpr (has_change) collect<Real, K, Set>(a, b, channel_force, force);
       Quad<Real>* v_new = nodes_of(a, b, channel_v_new);
-      for (int n = 0; n < block_nodes; ++n) {
-        momentum[n] = node_v_old<Real>(momentum[n]);
-        v_new[n] = node_v_free(momentum[n], force[n], c);
-      }
+      for (int n = 0; n < block_nodes; n += 4)
+        update_row(v_old + n, force + (has_change ? n : 0), v_new + n, c);
       double work = 0;
       NearColliders<Real> near;
       find_near_nodes<Set>(near, c, a.node_blocks[b].key);
@@ -266,10 +274,18 @@ struct SweepsFor {
       loads.give(a.loads, a.load_unit);
       if constexpr (has_change) {
         Quad<Real>* change = nodes_of(a, b, channel_change);
-        for (int n = 0; n < block_nodes; ++n) change[n] = v_new[n] - momentum[n];
+        for (int n = 0; n < block_nodes; ++n) change[n] = v_new[n] - v_old[n];
       }
       a.node_contact_work[b] = work;
     }
+  }
+
+  /// Steps 1 and 4 of four nodes. @param v  momentum, and then v_old
+  NEVE_INLINE static void update_row(Quad<Real>* v, const Quad<Real>* f, Quad<Real>* v_free,
+                                     const StepConstants<Real>& c) {
+    const R v_old = row_v_old(R::load(v)), force = has_change ? R::load(f) : R::zero();
+    if constexpr (has_change) v_old.store(v);
+    row_v_free<has_change>(v_old, force, c).store(v_free);
   }
 
   static void grid_to_particles(const Args& a, Index begin, Index end) {
@@ -335,7 +351,8 @@ struct SweepsFor {
     for (Index b = begin; b < end; ++b) {
       StagedNodes<Real>& nodes = a.staged[b];
       collect<Real, K, Set>(a, b, channel_momentum, nodes.momentum);
-      for (int n = 0; n < block_nodes; ++n) nodes.v_old[n] = node_v_old<Real>(nodes.momentum[n]);
+      for (int n = 0; n < block_nodes; n += 4)
+        row_v_old(R::load(nodes.momentum + n)).store(nodes.v_old + n);
     }
   }
 
@@ -373,8 +390,9 @@ struct SweepsFor {
   static void grid_velocities(const Args& a, Index begin, Index end) {
     for (Index b = begin; b < end; ++b) {
       StagedNodes<Real>& nodes = a.staged[b];
-      for (int n = 0; n < block_nodes; ++n)
-        nodes.v_free[n] = node_v_free(nodes.v_old[n], nodes.force[n], a.constants);
+      for (int n = 0; n < block_nodes; n += 4)
+        row_v_free<true>(R::load(nodes.v_old + n), R::load(nodes.force + n), a.constants)
+            .store(nodes.v_free + n);
     }
   }
 
@@ -571,32 +589,19 @@ struct SweepsFor {
     sums = report.reduced();
   }
 
-  static constexpr Sweeps<Real> table{fused_channels,
-                                      particles_to_grid,
-                                      grid_update,
-                                      grid_to_particles,
-                                      rasterize,
-                                      collect_momentum,
-                                      volumes,
-                                      elastic_forces,
-                                      collect_force,
-                                      grid_velocities,
-                                      grid_collisions,
-                                      lay_out_velocities,
-                                      gather,
-                                      deformation,
-                                      particle_velocities,
-                                      particle_collisions,
-                                      advection,
-                                      push_out,
-                                      refresh};
-
  private:
+  friend SprayFor<Real, K, transfer, Set>;
+
   /// A block's report while it is being written.
   struct ReportLanes {
     BlockReport<Real> sum;
     V speed_squared{}, sound_squared{}, strain_rate{}, min_J_P = all<V>(1), max_J_P = all<V>(1);
 
+    NEVE_INLINE void note_material(const Batch& p, const V& wave_modulus) {
+      sound_squared = larger_lanes(sound_squared, wave_modulus * p.V0 / p.m);
+      min_J_P = smaller_lanes(min_J_P, p.J_P);
+      max_J_P = larger_lanes(max_J_P, p.J_P);
+    }
     NEVE_INLINE void note_strain_rate(const Gathered<V>& g) {
       for (int q = 0; q < 9; ++q)
         strain_rate = larger_lanes(strain_rate, absolute_lanes(g.grad_v[q]));
@@ -668,26 +673,33 @@ struct SweepsFor {
   }
 
   /// Step 7, second half: projection and stress of a group, and what the report wants to know of
-  /// them.
+  /// them. @param look  see MaterialUpdate
+  template <class Look>
   NEVE_INLINE static void project(const Group<gather_group>& group, Batch* batch,
                                   const StepConstants<Real>& c,
                                   MaterialUpdate<Real, Set, gather_group / W>& update,
-                                  ReportLanes& report, bool is_projected = true) {
+                                  ReportLanes& report, bool is_projected, const Look& look) {
     V wave_modulus[gather_group / W];
     unsigned inverted[gather_group / W];
     const auto model = static_cast<ModelKind>(group.record[0]->model());
-    update(batch, group.count, model, c.materials, is_projected, wave_modulus, inverted);
+    update(batch, group.count, model, c.materials, is_projected, wave_modulus, inverted, look);
     for (int k = 0; k * W < group.count; ++k) {
-      const Batch& p = batch[k];
-      report.sound_squared = larger_lanes(report.sound_squared, wave_modulus[k] * p.V0 / p.m);
-      report.min_J_P = smaller_lanes(report.min_J_P, p.J_P);
-      report.max_J_P = larger_lanes(report.max_J_P, p.J_P);
+      report.note_material(batch[k], wave_modulus[k]);
       if (inverted[k] == 0) continue;
       const auto count = static_cast<std::uint32_t>(__builtin_popcount(inverted[k]));
       report.sum.inverted += count;
       if (model != ModelKind::snow) report.sum.inverted_unprojected += count;
     }
   }
+  NEVE_INLINE static void project(const Group<gather_group>& group, Batch* batch,
+                                  const StepConstants<Real>& c,
+                                  MaterialUpdate<Real, Set, gather_group / W>& update,
+                                  ReportLanes& report, bool is_projected = true) {
+    project(group, batch, c, update, report, is_projected, Nothing{});
+  }
+  struct Nothing {
+    NEVE_INLINE void operator()(int, const Batch&, const V&) const {}
+  };
 
   NEVE_INLINE static void write_location(const Args& a, Index storage, const Location<I>& at,
                                          int l) {
@@ -698,8 +710,9 @@ struct SweepsFor {
 
   /// Step 10 and the checks of finished particles, and the records written.
   template <class G>
-  NEVE_INLINE static void finish(const Args& a, const G& group, int q, Batch& p, const Vec3<V>& v,
-                                 const Vec3<V>& carrier, std::uint64_t key, ReportLanes& report) {
+  NEVE_INLINE static Location<I> finish_records(const Args& a, const G& group, int q, Batch& p,
+                                                const Vec3<V>& v, const Vec3<V>& carrier,
+                                                ReportLanes& report) {
     for (int axis = 0; axis < 3; ++axis) p.v[axis] = v[axis];
     report.note_speed(v);
     // NaN passes through neither max nor min, so it is looked for by itself.
@@ -712,6 +725,15 @@ struct SweepsFor {
     Location<I> at;
     move<K>(p, carrier, a.constants.dt_over_h, used, report.sum, at);
     store<is_affine>(p, group.record + q, group.count - q);
+    return at;
+  }
+
+  /// The same, and the block that each is in now.
+  template <class G>
+  NEVE_INLINE static void finish(const Args& a, const G& group, int q, Batch& p, const Vec3<V>& v,
+                                 const Vec3<V>& carrier, std::uint64_t key, ReportLanes& report) {
+    const Location<I> at = finish_records(a, group, q, p, v, carrier, report);
+    const unsigned used = group.used(q);
     // Most particles stay in their block.
     I has_left{};
     for (int axis = 0; axis < 3; ++axis)
@@ -729,22 +751,5 @@ struct SweepsFor {
     });
   }
 };
-
-/// The table of a kernel and a transfer, for the files that instantiate them.
-template <class Real, class Set>
-const Sweeps<Real>& choose_sweeps(int nodes, TransferKind transfer) {
-  constexpr int cubic = cubic_nodes, quadratic = quadratic_nodes;
-  using enum TransferKind;
-  if (nodes == cubic) {
-    if (transfer == flip) return SweepsFor<Real, cubic, flip, Set>::table;
-    if (transfer == apic) return SweepsFor<Real, cubic, apic, Set>::table;
-    if (transfer == aflip) return SweepsFor<Real, cubic, aflip, Set>::table;
-    return SweepsFor<Real, cubic, mls, Set>::table;
-  }
-  if (transfer == flip) return SweepsFor<Real, quadratic, flip, Set>::table;
-  if (transfer == apic) return SweepsFor<Real, quadratic, apic, Set>::table;
-  if (transfer == aflip) return SweepsFor<Real, quadratic, aflip, Set>::table;
-  return SweepsFor<Real, quadratic, mls, Set>::table;
-}
 
 }  // namespace neve::sim::kernels

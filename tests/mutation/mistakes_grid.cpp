@@ -23,7 +23,7 @@ Edit gathered_gradient(const std::string& scale, const std::string& to = "out.gr
 /// Replaces what FLIP adds to a particle's velocity, in both drivers; axis a, node n.
 std::vector<Edit> flip_change(const std::string& in_fused, const std::string& in_staged) {
   return {
-      {sweeps, "for (int n = 0; n < block_nodes; ++n) change[n] = v_new[n] - momentum[n];",
+      {sweeps, "for (int n = 0; n < block_nodes; ++n) change[n] = v_new[n] - v_old[n];",
        "for (int n = 0; n < block_nodes; ++n)\n          for (int a = 0; a < 3; ++a) " + in_fused},
       {sweeps, "nodes_of(a, b, channel_change)[n] = nodes.v_new[n] - nodes.v_old[n];",
        "for (int k = 0; k < 3; ++k) " + in_staged}};
@@ -156,24 +156,24 @@ std::vector<Mistake> transfer_mistakes() {
        flip_change("change[n][a] = v_new[n][a];",
                    "nodes_of(a, b, channel_change)[n][k] = nodes.v_new[n][k];")},
       {"flip_after_gravity", "FLIP difference against the velocity after gravity",
-       flip_change("change[n][a] = v_new[n][a] - momentum[n][a] - "
-                   "(momentum[n][3] > Real(0) ? c.dt * c.gravity[a] : Real(0));",
+       flip_change("change[n][a] = v_new[n][a] - v_old[n][a] - "
+                   "(v_old[n][3] > Real(0) ? c.dt * c.gravity[a] : Real(0));",
                    "nodes_of(a, b, channel_change)[n][k] = nodes.v_new[n][k] - nodes.v_old[n][k] - "
                    "(nodes.momentum[n][3] > Real(0) ? a.constants.dt * a.constants.gravity[k] : "
                    "Real(0));")},
       {"velocity_not_over_mass",
        "grid velocity not divided by mass",
-       {{stages, "Quad<Real> v = momentum / mass;", "Quad<Real> v = momentum;"}}},
+       {{stages, "return momentum.part[p] / mass;", "(void)mass;\n  return momentum.part[p];"}}},
       {"force_not_over_mass",
        "force not divided by mass",
-       {{stages, "v_old + (force / mass + gravity) * c.dt", "v_old + (force + gravity) * c.dt"}},
+       {{stages, "(force.part[p] / mass + gravity) * c.dt", "(force.part[p] + gravity) * c.dt"}},
        {},
        {},
        true},
       {"fast_force_forgotten",
        "force forgotten in the fused driver only",
-       {{sweeps, "v_new[n] = node_v_free(momentum[n], force[n], c);",
-         "v_new[n] = node_v_free(momentum[n], Quad<Real>{}, c);"}},
+       {{sweeps, "row_v_free<has_change>(v_old, force, c)",
+         "(void)force;\n    row_v_free<false>(v_old, R::zero(), c)"}},
        {},
        "not a classic: a mistake of the fused driver, while self-tests and `--validate` use the "
        "staged driver"},

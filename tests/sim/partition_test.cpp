@@ -113,6 +113,7 @@ TEST(Partition, PartitionKeepsTheOrderOfADefinitionThatKnowsNoHistory) {
         for (int step = 0; step < 12; ++step) {
           cloud.locate();
           partition.build(cloud.keys, cloud.locals, pool, threads);
+          partition.put_on_grid(pool, threads);
           expect_order(partition, cloud);
           expect_links(partition, neve::sim::Vec3i::Zero());
           if (step % 5 == 4) {
@@ -143,6 +144,7 @@ TEST(Partition, PartitionTakesParticlesThatComeAndGo) {
     cloud.move(0.3);
     cloud.locate();
     partition.build(cloud.keys, cloud.locals, pool, 2);
+    partition.put_on_grid(pool, 2);
     expect_order(partition, cloud);
     expect_links(partition, neve::sim::Vec3i::Zero());
   }
@@ -160,6 +162,7 @@ TEST(Partition, LinksBlocksAroundAPeriod) {
       cloud.locate();
       partition.wrap(cloud.keys, pool, 2);
       partition.build(cloud.keys, cloud.locals, pool, 2);
+      partition.put_on_grid(pool, 2);
       expect_order(partition, cloud);
       expect_links(partition, period);
       cloud.move(0.5);
@@ -174,9 +177,11 @@ TEST(Partition, OneParticleFarAwayCostsOneBlock) {
   cloud.locate();
   engine::Partition near, both;
   near.build(cloud.keys, cloud.locals, pool, 1);
+  near.put_on_grid(pool, 1);
   cloud.points.push_back({Vec3d(1e6, -1e6, 1e6), 0});
   cloud.locate();
   both.build(cloud.keys, cloud.locals, pool, 1);
+  both.put_on_grid(pool, 1);
   EXPECT_EQ(both.blocks().size(), near.blocks().size() + 1);
   EXPECT_EQ(both.node_blocks().size(), near.node_blocks().size() + 8);
   expect_links(both, neve::sim::Vec3i::Zero());

@@ -1,7 +1,7 @@
 /// The sweeps, compiled for AVX2 with fma (x86-64-v3).
 
 #include "sim/kernels/kernels.h"
-#include "sim/kernels/sweeps.h"
+#include "sim/kernels/sweep_table.h"
 
 namespace neve::sim::kernels {
 

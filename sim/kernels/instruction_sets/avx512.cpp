@@ -1,7 +1,7 @@
 /// The sweeps, compiled for AVX-512 (x86-64-v4).
 
 #include "sim/kernels/kernels.h"
-#include "sim/kernels/sweeps.h"
+#include "sim/kernels/sweep_table.h"
 
 namespace neve::sim::kernels {
 

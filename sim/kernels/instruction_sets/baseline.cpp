@@ -1,7 +1,7 @@
 /// The sweeps, compiled for what every machine of the architecture has.
 
 #include "sim/kernels/kernels.h"
-#include "sim/kernels/sweeps.h"
+#include "sim/kernels/sweep_table.h"
 
 namespace neve::sim::kernels {
 

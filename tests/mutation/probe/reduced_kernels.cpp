@@ -4,7 +4,7 @@
 /// before the library.
 
 #include "sim/kernels/implicit_sweeps.h"
-#include "sim/kernels/sweeps.h"
+#include "sim/kernels/sweep_table.h"
 
 namespace neve::sim::kernels {
 
@@ -17,7 +17,7 @@ constexpr TransferKind probed = TransferKind::flip;
 template <>
 const Sweeps<double>& KernelSet<BaselineSet>::sweeps(int nodes, TransferKind transfer, double) {
   if (nodes != cubic_nodes || transfer != probed) __builtin_trap();
-  return SweepsFor<double, cubic_nodes, probed, BaselineSet>::table;
+  return SweepTable<double, cubic_nodes, probed, BaselineSet>::table;
 }
 template <>
 const Sweeps<float>& KernelSet<BaselineSet>::sweeps(int, TransferKind, float) {
