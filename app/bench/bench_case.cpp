@@ -70,15 +70,19 @@ BenchCase packed_case(int cells_a_side, BenchMethod method, sim::Precision preci
   return c;
 }
 
-BenchCase spray_case(int cells_a_side, BenchMethod method, sim::Precision precision) {
+BenchCase spray_case(int particles_a_side, double cells_apart, SprayPlaces places,
+                     BenchMethod method, sim::Precision precision) {
   BenchCase c{bench_settings(method, precision), {}, {}};
-  const double side = cells_a_side * c.settings.cell_size;
+  const double spacing = cells_apart * c.settings.cell_size, side = particles_a_side * spacing;
   const sim::Vec3d middle = sim::Vec3d::Constant(0.5 * side);
-  const auto count = static_cast<std::uint64_t>(cells_a_side) * cells_a_side * cells_a_side;
-  for (std::uint64_t q = 0; q < count; ++q)
-    append_particle(side * sim::Vec3d(unit_double(mix64(3 * q)), unit_double(mix64(3 * q + 1)),
-                                      unit_double(mix64(3 * q + 2))),
-                    middle, c);
+  const auto n = static_cast<std::uint64_t>(particles_a_side);
+  for (std::uint64_t q = 0; q < n * n * n; ++q) {
+    const auto at = [&](std::uint64_t axis, std::uint64_t k) {
+      return places == SprayPlaces::at_random ? side * unit_double(mix64(3 * q + axis))
+                                              : spacing * (static_cast<double>(k) + 0.5);
+    };
+    append_particle({at(0, q / n / n), at(1, q / n % n), at(2, q % n)}, middle, c);
+  }
   return c;
 }
 

@@ -30,8 +30,13 @@ inline constexpr int bench_steps = 60;
 /// squeezed towards its middle c by v = -8 (x - c). About half of the particle steps yield.
 BenchCase packed_case(int cells_a_side, BenchMethod method, sim::Precision precision);
 
-/// Particles of the same size at random in a cube, one per cell on average, moving alike.
-BenchCase spray_case(int cells_a_side, BenchMethod method, sim::Precision precision);
+/// Where particles of spray are.
+enum class SprayPlaces { at_random, on_a_lattice };
+
+/// n^3 particles of the same size in a cube, moving alike.
+/// @param cells_apart  side of the cube over n, cells
+BenchCase spray_case(int particles_a_side, double cells_apart, SprayPlaces places,
+                     BenchMethod method, sim::Precision precision);
 
 /// The packed cube falling through a place of its size at a tenth of a cell per step.
 /// @param flows  it is emitted above and removed below, as much as passes; false: it only falls

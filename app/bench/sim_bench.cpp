@@ -18,6 +18,19 @@ namespace {
 
 constexpr double common_particles = 97336, quick_particles = 4096;
 constexpr double longest_curve = 4'913'000;
+/// Cells on a side of the packed cube that thin spray is compared with: 10 648 particles.
+constexpr int thin_cells = 11;
+
+/// Spray with more than a cell to a particle.
+struct ThinSpray {
+  const char* name;
+  double cells_apart;
+  SprayPlaces places;
+};
+/// Particles that share no node; and as many in 310^3 cells to 10 000 particles, a tenth of which
+/// share some.
+constexpr ThinSpray thin_sprays[] = {{"spray_lattice", 14, SprayPlaces::on_a_lattice},
+                                     {"spray_thin", 14.39, SprayPlaces::at_random}};
 
 struct Variant {
   BenchMethod method;
@@ -138,8 +151,15 @@ void SimBench::measure_variants() {
 void SimBench::measure_spray() {
   for (const BenchMethod method : main_methods) {
     // Twice as many cells a side: eight times the cells for the same particles.
-    const BenchCase c = spray_case(2 * cells_, method, sim::Precision::single);
-    windows_[name_for("spray", method)].add(time_window(c, threads_, "spray"));
+    const auto add = [&](const std::string& name, const BenchCase& c) {
+      windows_[name_for(name, method)].add(time_window(c, threads_, name));
+    };
+    const auto single = sim::Precision::single;
+    add("spray", spray_case(2 * cells_, 1, SprayPlaces::at_random, method, single));
+    const int cells = std::min(cells_, thin_cells);
+    add("packed", packed_case(cells, method, single));
+    for (const ThinSpray& thin : thin_sprays)
+      add(thin.name, spray_case(2 * cells, thin.cells_apart, thin.places, method, single));
   }
 }
 
@@ -222,6 +242,17 @@ void SimBench::add_memory_and_spray(BenchMethod method) {
   BenchRow bytes = row(name_for("spray_memory", method), threads_, "x packed");
   bytes.value = memory_ratio(spray, packed);
   rows_.insert(rows_.end(), {memory, time, bytes});
+  for (const ThinSpray& thin : thin_sprays) {
+    const Samples& samples = windows_.at(name_for(thin.name, method));
+    BenchRow thin_time =
+        row(name_for(std::string(thin.name) + "_time", method), threads_, "x packed");
+    thin_time.value = time_ratio(samples, windows_.at(name_for("packed", method)));
+    BenchRow thin_bytes = row(name_for(std::string(thin.name) + "_memory", method), threads_, "B");
+    thin_bytes.value = samples.bytes_per_particle();
+    thin_time.particles = thin_bytes.particles = samples.windows().back().particles;
+    thin_time.phases = samples.phases();
+    rows_.insert(rows_.end(), {thin_time, thin_bytes});
+  }
 }
 
 void SimBench::add_flow(BenchMethod method) {

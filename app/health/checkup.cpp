@@ -34,20 +34,35 @@ constexpr double max_seeded = 3e6;
 /// resolution. The copy has fewer particles, so its stiffest one, which rules dt, is less hardened.
 constexpr double least_of_steps = 0.7, most_of_steps = 2.5;
 
-/// Cost of a particle that is alone in its block, over that of packed ones (neve bench sim: 50 with
-/// quadratic weights, 90 with cubic ones).
-constexpr double cost_alone = 90;
+/// Cost of a block over that of a packed particle, measured with about a particle to a block:
+/// blocks without neighbours take no room on the grid (neve bench sim: spray_lattice), the others
+/// do, and cost 40 with quadratic weights and 90 with cubic ones.
+constexpr double cost_alone = 3, cost_on_grid = 60;
 
-/// Blocks of the grid per particle; 0 without particles.
-double blocks_per_particle(const sim::Simulation& simulation) {
-  std::set<std::array<int, 3>> blocks;
-  const std::vector<sim::Vec3i> cells = simulation.cells();
-  for (const sim::Vec3i& cell : cells) blocks.insert({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2});
-  return cells.empty() ? 0 : static_cast<double>(blocks.size()) / static_cast<double>(cells.size());
+using Block = std::array<int, 3>;
+
+bool is_alone(const Block& block, const std::set<Block>& blocks) {
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j)
+      for (int k = -1; k <= 1; ++k)
+        if ((i || j || k) && blocks.contains({block[0] + i, block[1] + j, block[2] + k}))
+          return false;
+  return true;
 }
 
-double cost_of_step(double blocks) {
-  return 1 + cost_alone * blocks;
+Spread spread_of(const sim::Simulation& simulation) {
+  std::set<Block> blocks;
+  const std::vector<sim::Vec3i> cells = simulation.cells();
+  for (const sim::Vec3i& cell : cells) blocks.insert({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2});
+  if (cells.empty()) return {};
+  const auto alone = std::count_if(blocks.begin(), blocks.end(),
+                                   [&](const Block& block) { return is_alone(block, blocks); });
+  return {static_cast<double>(blocks.size()) / static_cast<double>(cells.size()),
+          static_cast<double>(alone) / static_cast<double>(blocks.size())};
+}
+
+double cost_of_step(const Spread& spread) {
+  return 1 + spread.blocks * (cost_on_grid + spread.alone * (cost_alone - cost_on_grid));
 }
 
 /// The median of some steps, after two that warm caches up.
@@ -199,12 +214,13 @@ double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
   const Forecast forecast = foresee(scene, checkup.plan.particles, scene.frames, coarse_budget);
   checkup.coarse_particles = forecast.particles;
   checkup.forecast = forecast.frames;
-  if (checkup.blocks > 0 && forecast.blocks > 0)
+  if (checkup.spread.blocks > 0 && forecast.spread.blocks > 0)
     for (FrameForecast& frame : checkup.forecast) {
-      const double together = checkup.blocks * frame.blocks / forecast.blocks;
-      const double first = cost_of_step(checkup.blocks);
-      frame.cost = cost_of_step(std::min(1.0, together)) / first;
-      frame.max_cost = std::max(frame.cost, cost_of_step(frame.blocks) / first);
+      const double more = checkup.spread.blocks / forecast.spread.blocks;
+      const Spread together{std::min(1.0, more * frame.spread.blocks), frame.spread.alone};
+      const double first = cost_of_step(checkup.spread);
+      frame.cost = cost_of_step(together) / first;
+      frame.max_cost = std::max(frame.cost, cost_of_step(frame.spread) / first);
     }
   checkup.findings.insert(checkup.findings.end(), forecast.findings.begin(),
                           forecast.findings.end());
@@ -225,7 +241,7 @@ Forecast foresee(const scene::Scene& scene, double particle_count, int last,
   result.particles =
       static_cast<double>(particles.x.size()) + setup::planned_emission(*coarse, last / scene.fps);
   sim::Simulation simulation = setup::make_simulation(*coarse, particles, 1);
-  result.blocks = blocks_per_particle(simulation);
+  result.spread = spread_of(simulation);
   const auto start = Clock::now();
   FrameForecast frame_forecast = foresee_frame(scene, *coarse, 1, simulation.step_limits(), {});
   double particle_steps = 0, seconds = 0;
@@ -243,7 +259,7 @@ Forecast foresee(const scene::Scene& scene, double particle_count, int last,
       if (simulation.divergence()) break;  // a broken state foretells nothing
       frame_forecast =
           foresee_frame(scene, *coarse, frame, worst_of(before, simulation.step_limits()), report);
-      frame_forecast.blocks = blocks_per_particle(simulation);
+      frame_forecast.spread = spread_of(simulation);
     }
     frame_forecast.frame = frame;
     result.frames.push_back(frame_forecast);
@@ -334,7 +350,7 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
     if (particles.x.empty()) choice = first_emission(scene, checkup.start);
     checkup.dt_start = choice.dt;
     checkup.limit_start = choice.limit;
-    checkup.blocks = blocks_per_particle(simulation);
+    checkup.spread = spread_of(simulation);
     checkup.seconds_per_step = measure_step(simulation, 1 / scene.fps, checkup.solve);
     check_steps(scene, checkup, checkup.findings);
     check_motion(scene, checkup, checkup.findings);

@@ -17,6 +17,12 @@ struct Finding {
   std::string address, what, hint;
 };
 
+/// Spread of the snow over the grid.
+struct Spread {
+  double blocks = 0;  ///< per particle; 0: not known
+  double alone = 0;   ///< share of the blocks that have no neighbour
+};
+
 /// Forecast of the steps of one frame.
 struct FrameForecast {
   int frame = 0;
@@ -24,7 +30,7 @@ struct FrameForecast {
   double steps = 0;  ///< in this frame
   sim::DtLimit limit = sim::DtLimit::max_dt;
   double iterations = 0;  ///< of the solve of a semi-implicit step, the mean; 0: explicit
-  double blocks = 0;      ///< of the grid, per particle of the copy at the frame's end
+  Spread spread{};        ///< of the copy at the frame's end
   /// Cost of a step of the scene relative to the first, by the spread of the snow over the grid: in
   /// pieces as large as at the start, and in single particles.
   double cost = 1, max_cost = 1;
@@ -35,7 +41,7 @@ struct Forecast {
   std::vector<FrameForecast> frames;     ///< that the copy reached; those after are as the last
   double particles = 0;                  ///< of the copy; 0: there is none
   double seconds_per_particle_step = 0;  ///< of the copy, on one thread
-  double blocks = 0;                     ///< of the grid, per particle of the copy at the start
+  Spread spread{};                       ///< of the copy at the start
   std::string divergence;                ///< of the copy, a sentence; empty if it holds
   std::vector<Finding> findings;         ///< about the scene, from the copy
 
@@ -64,7 +70,7 @@ struct Checkup {
   sim::DtLimit limit_start = sim::DtLimit::max_dt;
   std::vector<FrameForecast> forecast;  ///< frames that a coarse run reached; may be empty
   double coarse_particles = 0;          ///< of the run behind the forecast
-  double blocks = 0;                    ///< of the grid, per particle at the start; 0: not known
+  Spread spread{};                      ///< at the start
   double seconds_per_step = 0;          ///< measured on this machine; 0: not measured
   /// Steps of the run if its impact crushes a single particle that flies on to the end; 0: none is
   /// to be expected.

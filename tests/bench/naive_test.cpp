@@ -112,7 +112,8 @@ TEST(BenchCase, BenchCaseIsTheCommonCase) {
               static_cast<double>(stream.particles.x.size()),
               0.1 * static_cast<double>(stream.particles.x.size()));
   const app::bench::BenchCase spray =
-      app::bench::spray_case(46, app::bench::BenchMethod::flip_cubic, sim::Precision::single);
+      app::bench::spray_case(46, 1, app::bench::SprayPlaces::at_random,
+                             app::bench::BenchMethod::flip_cubic, sim::Precision::single);
   EXPECT_EQ(spray.particles.x.size(), packed.particles.x.size());
   sim::Vec3d momentum = sim::Vec3d::Zero();
   for (const sim::Vec3d& v : packed.particles.v) momentum += v;

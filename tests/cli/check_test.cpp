@@ -304,7 +304,8 @@ TEST_F(Check, CheckForeseesTheStepsOfTheRun) {
   EXPECT_EQ(json["dt_limit"], "acoustic");
 }
 
-/// A ball that scatters as single particles: each then costs as much as a block of packed ones.
+/// A ball that bursts: where its particles are few, and still share nodes, each costs as much as
+/// many packed ones.
 TEST_F(Check, CheckForeseesThatSprayIsDear) {
   const std::string burst =
       "frames = 12\n[solver]\ncell_size = 0.02\ngravity = [0, 0, 0]\n"
