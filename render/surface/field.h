@@ -64,7 +64,8 @@ struct MemoryError : std::runtime_error {
   double bytes;  ///< that it would need at least
 };
 
-/// Same bits with any number of threads. All nodes beside one whose value is not 0 are there. @param max_bytes 0: no limit @param pool may be null @throws MemoryError
+/// Same bits with any number of threads. All nodes beside one whose value is not 0 are there.
+/// @param max_bytes 0: no limit @param pool may be null @throws MemoryError
 GrainField make_field(const Grains& grains, const Kernel& kernel, std::uint64_t max_bytes,
                       ThreadPool* pool);
 
