@@ -23,13 +23,13 @@ scene::Export surface_spec() {
   return e;
 }
 
-struct Moment {
+struct ReachedState {
   scene::Scene scene;
   std::vector<std::size_t> rows;
   std::shared_ptr<const State> state;
   std::vector<std::size_t> body_end;
 
-  Moment(const scene::Scene& from, double time) : scene(from) {
+  ReachedState(const scene::Scene& from, double time) : scene(from) {
     const setup::SeededScene seeded = setup::seed_scene(scene);
     body_end = seeded.body_end;
     sim::Simulation simulation = setup::make_simulation(scene, seeded.particles, 2);
@@ -48,7 +48,7 @@ struct Moment {
 TEST(SurfaceTable, IsClosedAndDoesNotCutItselfAfterAnImpact) {
   scene::Scene scene = scene::read_scene_file(NEVE_SOURCE_DIR "/scenes/snowball_drop.toml");
   scene::coarsen(scene, 2);
-  const Moment moment(scene, 9 / scene.fps);
+  const ReachedState moment(scene, 9 / scene.fps);
   for (const double smoothing : {0.6, 1.0}) {
     scene::Export e = surface_spec();
     e.surface_smoothing = smoothing;
@@ -71,7 +71,7 @@ TEST(SurfaceTable, ABodyAtRestHasTheVolumeOfItsMassOverItsDensity) {
       "[[collider]]\nname = \"floor\"\n"
       "shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }\n";
   for (const char* sampling : {"jittered", "poisson"}) {
-    const Moment moment(
+    const ReachedState moment(
         scene::read_scene_text(text, "block", {}, {{"body.block.sampling", sampling}}), 0.1);
     const sim::ParticleArrays& p = moment.state->particles;
     double volume = 0, fastest = 0;
@@ -91,7 +91,7 @@ TEST(SurfaceTable, VerticesHaveTheAttributesOfParticlesAround) {
       "[[body]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\n"
       "velocity = [1, 2, 3]\nangular_velocity = [0, 5, 0]\n",
       "ball");
-  const Moment moment(scene, 0);
+  const ReachedState moment(scene, 0);
   scene::Export e = surface_spec();
   e.up = scene::UpAxis::z;
   e.attributes = {scene::ExportAttribute::v, scene::ExportAttribute::J_P,
@@ -132,7 +132,7 @@ TEST(SurfaceTable, CellsThatNeedTooMuchMemoryAreRefused) {
       "[limits]\nmemory = \"100MB\"\n"
       "[[body]]\nname = \"ball\"\nshape = { sphere = { radius = 0.3 } }\n",
       "ball");
-  const Moment moment(scene, 0);
+  const ReachedState moment(scene, 0);
   scene::Export e = surface_spec();
   const Origins origins(scene, moment.body_end);
   EXPECT_TRUE(make_table(scene, e, origins, *moment.state).mesh);

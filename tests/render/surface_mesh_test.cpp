@@ -255,7 +255,7 @@ TEST(Surface, SmallPiecesAreSpray) {
 }
 
 TEST(Surface, StrangeParticlesAreSprayAndNothingElse) {
-  constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::nanf("");
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::nanf("");
   EXPECT_TRUE(make_surface({}, usual, nullptr).mesh.index.empty());
   Snow snow;
   snow.add({1, 2, 3});
