@@ -128,9 +128,11 @@ void add_run(CLI::App& sweep, Action& action) {
       "run", "Make one run of an existing sweep; --emit and --engine slurm use this");
   const auto options = std::make_shared<sweep::plan::SweepRunOptions>();
   command->add_option("--index", options->index, "Number of the run")->required()->type_name("N");
-  command->add_flag("--retry-failed{all}", options->retry_failed,
-                    "Repeat the run if it failed before, or ended in one of these states, as in "
-                    "--retry-failed=timeout,crashed");
+  command
+      ->add_flag("--retry-failed{all}", options->retry_failed,
+                 "Repeat the run if it failed before, or ended in one of these states, as in "
+                 "--retry-failed=timeout,crashed")
+      ->disable_flag_override(false);
   add_caps(*command);
   add_folder(*command, action, options, run_sweep_run);
 }
@@ -158,9 +160,11 @@ void add_sweep(CLI::App& app, Action& action) {
       ->type_name("N");
   command->add_option("--backend", options->backend, "OpenGL backend; neve doctor lists them")
       ->type_name("NAME");
-  command->add_flag("--retry-failed{all}", options->retry_failed,
-                    "Repeat the runs that failed, timed out, crashed or took too much memory, or "
-                    "only those in some states, as in --retry-failed=timeout,crashed");
+  command
+      ->add_flag("--retry-failed{all}", options->retry_failed,
+                 "Repeat the runs that failed, timed out, crashed or took too much memory, or "
+                 "only those in some states, as in --retry-failed=timeout,crashed")
+      ->disable_flag_override(false);
   add_caps(*command);
   command->add_flag("--dry-run", options->is_dry_run,
                     "Print the runs, their cost and memory; start nothing");

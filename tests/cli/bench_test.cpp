@@ -150,7 +150,7 @@ TEST_F(Cli, BenchUsageErrorsListTheChoices) {
     EXPECT_EQ(result.exit_code, 2) << arguments.back() << ": " << result.errors;
     EXPECT_TRUE(result.errors.starts_with("neve: error: ")) << result.errors;
   }
-  EXPECT_TRUE(contains(neve({"bench", "paint"}).errors, "sim, frame, render, scenes"));
+  EXPECT_TRUE(contains(neve({"bench", "paint"}).errors, "sim, frame, render, surface, scenes"));
   EXPECT_TRUE(contains(neve({"bench", "sim", "--round", "3"}).errors, "did you mean --rounds?"));
   EXPECT_EQ(neve({"bench", "--help"}).exit_code, 0);
   EXPECT_TRUE(contains(neve({"bench", "sim", "--help"}).output, "--curve"));
