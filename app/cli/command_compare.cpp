@@ -60,12 +60,13 @@ int compare_pictures(const CompareOptions& options) {
 /// Frame number to state hash.
 std::map<int, std::string> read_hashes(const fs::path& folder) {
   const fs::path file = output::run_json_path(folder);
+  const std::vector<std::uint8_t> bytes = output::read_file(file);
   std::map<int, std::string> hashes;
   try {
-    const Json run = parse_json(output::read_file(file));
+    const Json run = parse_json(bytes);
     for (const Json& frame : run.at("frames"))
-      hashes[frame.at("frame").get<int>()] = frame.at("state_hash").get<std::string>();
-  } catch (const nlohmann::json::exception&) {
+      hashes[whole_number<int>(frame.at("frame"))] = frame.at("state_hash").get<std::string>();
+  } catch (const std::exception&) {
     throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
                 file.string());
   }

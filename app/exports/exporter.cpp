@@ -141,7 +141,7 @@ void Exporter::resume(const Json& list, int last_number) {
     for (const Json& e : list) {
       if (e.value("name", "") != folder) continue;
       for (const Json& file : e.at("files")) {
-        const int number = file.at("number").get<int>();
+        const int number = whole_number<int>(file.at("number"));
         if (number > last_number) continue;
         const double time = file.at("time").get<double>();
         job.record.files.push_back(

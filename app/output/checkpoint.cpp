@@ -102,8 +102,8 @@ Checkpoint parse_checkpoint(std::span<const std::uint8_t> bytes) {
   c.identity = json.at("identity").get<std::string>();
   c.simd = json.at("simd").get<std::string>();
   c.sources = json.value("sources", "");
-  c.frame = json.at("frame").get<int>();
-  c.steps = json.at("steps").get<std::size_t>();
+  c.frame = whole_number<int>(json.at("frame"));
+  c.steps = whole_number<std::size_t>(json.at("steps"));
   if (c.frame < 0 || c.frame > max_frame) refuse("has an impossible frame");
   c.progress = json.at("progress");
   c.state.assign(bytes.begin() + static_cast<std::ptrdiff_t>(json_start + length),

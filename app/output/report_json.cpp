@@ -46,7 +46,7 @@ Json to_json(const sim::AdvanceReport& advance) {
 
 sim::AdvanceReport advance_report(const Json& json) {
   sim::AdvanceReport advance;
-  advance.steps = json.at("steps").get<std::size_t>();
+  advance.steps = whole_number<std::size_t>(json.at("steps"));
   advance.dt_min = json.at("dt_min").get<double>();
   advance.dt_max = json.at("dt_max").get<double>();
   advance.ruled = json.at("ruled").get<decltype(advance.ruled)>();
@@ -55,7 +55,7 @@ sim::AdvanceReport advance_report(const Json& json) {
     for (const Json& load : json.at("loads"))
       advance.loads.push_back({vector_of(load.at(0)), vector_of(load.at(1))});
   if (json.contains("solve"))
-    advance.solve = {json.at("solve").at("iterations").get<int>(),
+    advance.solve = {whole_number<int>(json.at("solve").at("iterations")),
                      number_or_nan(json.at("solve").at("residual")),
                      json.at("solve").value("cut_short", std::size_t(0)),
                      json.at("solve").value("given_up", std::size_t(0)),
@@ -107,9 +107,9 @@ Json to_json(const sim::Retry& retry) {
 }
 
 sim::Retry retry_record(const Json& json) {
-  return {json.at("step").get<std::size_t>(), json.at("time").get<double>(),
-          json.at("back_to").get<double>(),   json.at("dt_scale").get<double>(),
-          json.at("rule").get<std::string>(), json.at("sentence").get<std::string>()};
+  return {whole_number<std::size_t>(json.at("step")), json.at("time").get<double>(),
+          json.at("back_to").get<double>(),           json.at("dt_scale").get<double>(),
+          json.at("rule").get<std::string>(),         json.at("sentence").get<std::string>()};
 }
 
 }  // namespace neve::app::output

@@ -39,7 +39,7 @@ EarlierRun read_earlier_run(const fs::path& file) {
     if (!entry.is_object() || !entry.contains("frame")) continue;
     const Json& frame = entry["frame"];
     if (frame.is_number_unsigned() && frame.get<std::uint64_t>() <= max_frame)
-      run.frames.insert(frame.get<int>());
+      run.frames.insert(whole_number<int>(frame));
   }
   return run;
 }

@@ -127,9 +127,9 @@ std::string picture_name(const std::string& view, int frame) {
 
 FrameRecord frame_record(const Json& json) {
   FrameRecord frame;
-  frame.frame = json.at("frame").get<int>();
+  frame.frame = whole_number<int>(json.at("frame"));
   frame.time = output::number_or_nan(json.at("time"));
-  frame.advance.steps = json.at("steps").get<std::size_t>();
+  frame.advance.steps = whole_number<std::size_t>(json.at("steps"));
   if (frame.advance.steps > 0) {
     frame.advance.dt_min = output::number_or_nan(json.at("dt_min"));
     frame.advance.dt_max = output::number_or_nan(json.at("dt_max"));
@@ -138,7 +138,7 @@ FrameRecord frame_record(const Json& json) {
   }
   // Runs of earlier versions have none, explicit steps neither.
   if (json.contains("solve_iterations") && !json.at("solve_iterations").is_null())
-    frame.advance.solve = {json.at("solve_iterations").get<int>(),
+    frame.advance.solve = {whole_number<int>(json.at("solve_iterations")),
                            output::number_or_nan(json.at("solve_residual")),
                            json.value("solves_cut_short", std::size_t(0)),
                            json.value("solves_given_up", std::size_t(0))};
@@ -146,7 +146,7 @@ FrameRecord frame_record(const Json& json) {
   frame.seconds_render = output::number_or_nan(json.at("seconds_render"));
   sim::Summary& s = frame.summary;
   s.time = frame.time;
-  s.particles = json.at("particles").get<std::size_t>();
+  s.particles = whole_number<std::size_t>(json.at("particles"));
   // Runs of earlier versions knew no emitters.
   s.emitted = json.value("emitted", std::uint64_t(0));
   s.removed = json.value("removed", std::uint64_t(0));
@@ -165,7 +165,7 @@ FrameRecord frame_record(const Json& json) {
   if (!json.contains("spread")) return frame;
   frame.metrics = {
       output::number_or_nan(json.at("spread")), output::number_or_nan(json.at("height")),
-      output::number_or_nan(json.at("mean_J_P")), json.at("fragments").get<std::size_t>(),
+      output::number_or_nan(json.at("mean_J_P")), whole_number<std::size_t>(json.at("fragments")),
       output::number_or_nan(json.at("largest_fragment"))};
   if (!json.contains("max_depth")) return frame;
   s.max_depth = output::number_or_nan(json.at("max_depth"));

@@ -140,7 +140,7 @@ std::vector<Flaw> export_flaws(const fs::path& folder, const Json& exports, cons
   for (const Json& item : exports)
     for (const Json& file : item.at("files")) {
       const auto name = file.at("file").get<std::string>();
-      const int number = file.at("number").get<int>();
+      const int number = whole_number<int>(file.at("number"));
       const auto hash = files.find(name);
       if (number > last || hash == files.end() || !is_inside(name)) continue;
       const std::string what = flaw_of(folder / name, hash->second);

@@ -23,7 +23,7 @@ std::vector<LiveChange> live_changes(const Json& json) {
                            item["address"].is_string() && item["value"].is_string();
     if (!is_change)
       throw std::runtime_error("a change does not consist of step, address and value");
-    changes.push_back({item["step"].get<std::size_t>(), item["address"].get<std::string>(),
+    changes.push_back({whole_number<std::size_t>(item["step"]), item["address"].get<std::string>(),
                        item["value"].get<std::string>()});
     const LiveChange& change = changes.back();
     if (!is_live(change.address))

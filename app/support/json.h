@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace neve::app {
 
@@ -22,6 +24,28 @@ inline Json parse_json(std::span<const std::uint8_t> bytes) {
   return parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
+/// JSON as text; invalid UTF-8 becomes U+FFFD instead of an exception.
+inline std::string to_text(const Json& json, int indent = 2) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A whole number that an Int holds; 1e127 converted to int would have no defined value.
+/// @throws std::runtime_error for anything else
+template <class Int>
+Int whole_number(const Json& json) {
+  if (json.is_number_unsigned() && std::in_range<Int>(json.get<std::uint64_t>()))
+    return static_cast<Int>(json.get<std::uint64_t>());
+  if (json.is_number_integer() && !json.is_number_unsigned() &&
+      std::in_range<Int>(json.get<std::int64_t>()))
+    return static_cast<Int>(json.get<std::int64_t>());
+  const double value = json.is_number_float() ? json.get<double>() : 0.5;
+  if (std::abs(value) < 9e15 && value == std::floor(value) &&
+      std::in_range<Int>(static_cast<std::int64_t>(value)))
+    return static_cast<Int>(value);
+  throw std::runtime_error(to_text(json, -1).substr(0, 40) +
+                           ": expected a whole number that is not too large");
+}
+
 /// JSON has no NaN and no infinities: they become null.
 inline Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
@@ -32,11 +56,6 @@ inline Json count_json(double count) {
   const bool is_whole =
       std::isfinite(count) && std::abs(count) < 9e15 && count == std::floor(count);
   return is_whole ? Json(static_cast<std::int64_t>(count)) : number_or_null(count);
-}
-
-/// JSON as text; invalid UTF-8 becomes U+FFFD instead of an exception.
-inline std::string to_text(const Json& json, int indent = 2) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace neve::app

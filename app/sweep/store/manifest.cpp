@@ -107,14 +107,15 @@ Json run_json(const Run& run) {
 
 Run run_of(const Json& json) {
   Run run;
-  run.index = json.at("run").get<int>();
+  run.index = whole_number<int>(json.at("run"));
   run.folder = json.at("folder").get<std::string>();
   run.key = json.at("key").get<std::string>();
   run.label = json.at("label").get<std::string>();
   run.settings = settings_of(json.at("settings"));
   run.inherited = settings_of(json.at("unset"));
   run.coordinates = json.at("coordinates").get<std::vector<int>>();
-  run.frames = {json.at("first_frame").get<int>(), json.at("last_frame").get<int>()};
+  run.frames = {whole_number<int>(json.at("first_frame")),
+                whole_number<int>(json.at("last_frame"))};
   run.particles = json.at("particles").get<double>();
   run.memory = json.at("memory_bytes").get<double>();
   run.work = json.at("work").get<double>();
@@ -325,12 +326,12 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
     m.sweep_file = json.at("sweep_file").get<std::string>();
     m.scene_file = json.at("scene_file").get<std::string>();
     m.view = json.at("view").get<std::string>();
-    m.tile_width = json.at("tile").at(0).get<int>();
-    m.tile_height = json.at("tile").at(1).get<int>();
+    m.tile_width = whole_number<int>(json.at("tile").at(0));
+    m.tile_height = whole_number<int>(json.at("tile").at(1));
     m.fps = json.at("fps").get<double>();
-    m.columns = json.at("columns").get<int>();
-    m.rows = json.at("rows").get<int>();
-    m.wrap = json.at("wrap").get<int>();
+    m.columns = whole_number<int>(json.at("columns"));
+    m.rows = whole_number<int>(json.at("rows"));
+    m.wrap = whole_number<int>(json.at("wrap"));
     m.tile_label = json.at("tile_label").get<std::string>();
     m.timeout = json.at("timeout").get<double>();
     m.memory = json.at("memory").get<double>();

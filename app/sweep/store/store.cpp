@@ -61,9 +61,9 @@ RunStatus read_status(const fs::path& run_folder) {
     status.key = json.at("key").get<std::string>();
     status.reason = json.value("reason", "");
     status.short_reason = json.value("short_reason", "");
-    status.exit_code = json.value("exit_code", 0);
-    status.signal = json.value("signal", 0);
-    status.attempts = json.value("attempts", 0);
+    status.exit_code = json.contains("exit_code") ? whole_number<int>(json.at("exit_code")) : 0;
+    status.signal = json.contains("signal") ? whole_number<int>(json.at("signal")) : 0;
+    status.attempts = json.contains("attempts") ? whole_number<int>(json.at("attempts")) : 0;
     status.seconds = json.value("seconds", 0.0);
     status.peak_memory = json.value("peak_memory_bytes", std::uint64_t{0});
     status.pid = json.value("pid", 0L);
