@@ -30,7 +30,7 @@ inline constexpr int bench_steps = 60;
 /// squeezed towards its middle c by v = -8 (x - c). About half of the particle steps yield.
 BenchCase packed_case(int cells_a_side, BenchMethod method, sim::Precision precision);
 
-/// Where particles of spray are.
+/// Arrangement of the particles of spray.
 enum class SprayPlaces { at_random, on_a_lattice };
 
 /// n^3 particles of the same size in a cube, moving alike.

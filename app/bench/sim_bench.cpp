@@ -58,7 +58,7 @@ std::string name_for(const std::string& what, BenchMethod method) {
 
 /// @throws LimitError when `bytes` are more than 80 % of the available memory
 void check_memory(double bytes) {
-  const auto allowed = static_cast<double>(available_memory() / 10 * 8);
+  const auto allowed = static_cast<double>(usable_memory());
   if (bytes <= allowed) return;
   throw LimitError("refused: about " + bytes_text(static_cast<std::uint64_t>(bytes)) +
                        " of memory are more than 80 % of the available memory; measure fewer "
@@ -289,7 +289,7 @@ std::vector<BenchRow> bench_curve(const BenchOptions& options, Progress& progres
     const double particles = 8.0 * cells * cells * cells;
     if (particles > most && !rows.empty()) break;
     const double bytes = memory_of(particles, sim::Precision::single, options.threads);
-    if (bytes > static_cast<double>(available_memory() / 10 * 8)) {
+    if (bytes > static_cast<double>(usable_memory())) {
       progress.note("the curve ends before " + fixed_text(particles, 0) +
                     " particles: they need about " + bytes_text(static_cast<std::uint64_t>(bytes)) +
                     " of memory");

@@ -6,6 +6,7 @@
 
 #include "app/bench/measure.h"
 #include "app/bench/render_frames.h"
+#include "app/scene/scene.h"
 #include "app/support/text.h"
 #include "render/surface/nearby.h"
 #include "render/surface/surface.h"
@@ -30,8 +31,10 @@ struct SurfaceCase {
   explicit SurfaceCase(double particles) : points(particles_frame(particles).points) {
     const float d = points.spacing;
     volume.assign(points.position.size(), d * d * d);
-    settings.kernel = {0.5f * d, d};
-    settings.smallest_piece = 8;
+    const scene::Export usual;
+    settings.kernel = {d * static_cast<float>(usual.surface_cell),
+                       d * static_cast<float>(usual.surface_smoothing)};
+    settings.smallest_piece = usual.smallest_piece;
   }
   render::surface::Grains grains() const { return {points.position, volume}; }
 
@@ -71,7 +74,7 @@ void measure(const std::string& size, const SurfaceCase& snow, ThreadPool& pool,
   rows.add("surface_" + size, snow, pool.thread_count(), watch.wall());
   const Stopwatch again;
   render::surface::shares_of(surface.mesh.position, snow.grains(), surface.spray,
-                             2 * snow.settings.kernel.width, &pool);
+                             render::surface::attribute_reach * snow.settings.kernel.width, &pool);
   rows.add("attributes_" + size, snow, pool.thread_count(), again.wall());
 }
 

@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "app/scene/toml/value.h"
-#include "app/setup/caps.h"
+#include "app/setup/plan.h"
 #include "app/support/errors.h"
-#include "app/support/machine.h"
 #include "app/support/text.h"
 #include "render/surface/nearby.h"
 
@@ -21,16 +20,6 @@ using render::surface::Surface;
 /// Volume of the loosest snow that is a solid, over its volume at rest: a share of the surface's
 /// level is left of it then.
 constexpr double loosest = 2;
-
-/// Distance from a vertex at which particles have no weight, over the width of the kernel.
-constexpr float nearby = 2;
-
-std::uint64_t memory_limit(const scene::Scene& scene) {
-  const std::uint64_t limit =
-      scene.limits.memory > 0 ? scene.limits.memory : available_memory() / 10 * 8;
-  const double cap = setup::caps().memory;
-  return cap < static_cast<double>(limit) ? static_cast<std::uint64_t>(cap) : limit;
-}
 
 Surface make_surface(const SnowGrains& grains, const render::surface::Settings& settings,
                      const scene::Export& e) {
@@ -133,7 +122,7 @@ render::surface::Settings surface_settings(const scene::Scene& scene, const scen
   return {{static_cast<float>(e.surface_cell * spacing),
            static_cast<float>(e.surface_smoothing * spacing)},
           e.smallest_piece,
-          memory_limit(scene)};
+          setup::memory_limit(scene).bytes};
 }
 
 Table surface_table(const scene::Scene& scene, const scene::Export& e, const State& state,
@@ -148,7 +137,8 @@ Table surface_table(const scene::Scene& scene, const scene::Export& e, const Sta
   Shares shares;
   if (particles.columns.size() > 1)
     shares = render::surface::shares_of(surface.mesh.position, grains.view(), surface.spray,
-                                        nearby * settings.kernel.width, nullptr);
+                                        render::surface::attribute_reach * settings.kernel.width,
+                                        nullptr);
   for (const Column& column : particles.columns) {
     Column& out = table.columns.emplace_back(column);
     if (column.attribute == scene::ExportAttribute::x)

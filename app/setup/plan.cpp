@@ -88,11 +88,11 @@ std::string size_advice(const scene::Scene& scene, const Plan& plan, const std::
 
 void set_limits(const scene::Scene& scene, Plan& plan) {
   const Caps most = caps();
-  plan.memory_limit = scene.limits.memory > 0 ? scene.limits.memory : available_memory() / 10 * 8;
+  const MemoryLimit memory = memory_limit(scene);
+  plan.memory_limit = memory.bytes;
+  plan.is_memory_capped = memory.is_capped;
   plan.particle_limit = static_cast<double>(scene.limits.particles);
-  plan.is_memory_capped = most.memory < static_cast<double>(plan.memory_limit);
   plan.are_particles_capped = most.particles < plan.particle_limit;
-  if (plan.is_memory_capped) plan.memory_limit = static_cast<std::uint64_t>(most.memory);
   if (plan.are_particles_capped) plan.particle_limit = most.particles;
 }
 
@@ -135,6 +135,13 @@ void check_memory(const scene::Scene& scene, const Plan& plan, double coarsening
 }
 
 }  // namespace
+
+MemoryLimit memory_limit(const scene::Scene& scene) {
+  const std::uint64_t own = scene.limits.memory > 0 ? scene.limits.memory : usable_memory();
+  const double cap = caps().memory;
+  if (cap < static_cast<double>(own)) return {static_cast<std::uint64_t>(cap), true};
+  return {own, false};
+}
 
 const char* name(Quality quality) {
   return quality_names[static_cast<std::size_t>(quality)];

@@ -34,6 +34,13 @@ struct Plan {
   double volume = 0;  ///< m3 of all bodies and of emitted snow
 };
 
+/// Bytes that a run of the scene may take.
+struct MemoryLimit {
+  std::uint64_t bytes;
+  bool is_capped;  ///< by caps() instead of the scene
+};
+MemoryLimit memory_limit(const scene::Scene& scene);
+
 int supersampling(Quality quality);
 
 scene::PictureSize size_of(const scene::Scene& scene, const scene::View& view);

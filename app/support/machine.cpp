@@ -98,6 +98,10 @@ std::uint64_t available_memory() {
   return std::min(system, left_in_control_groups());
 }
 
+std::uint64_t usable_memory() {
+  return available_memory() / 10 * 8;
+}
+
 std::string machine_text() {
   std::string processor = "unknown processor";
   std::ifstream in("/proc/cpuinfo");

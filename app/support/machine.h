@@ -11,6 +11,9 @@ namespace neve::app {
 /// group still allows.
 std::uint64_t available_memory();
 
+/// Bytes that work may take where nothing else is said: 80 % of the available memory.
+std::uint64_t usable_memory();
+
 /// Bytes of address space that this process may use (ulimit -v); the largest number when unlimited.
 std::uint64_t address_space_limit();
 

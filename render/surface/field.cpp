@@ -26,7 +26,7 @@ constexpr double most_widths = 4.5;
 /// A particle that has grown without bound fills no more cells than this.
 constexpr float most_cells = 1e6f;
 
-/// Where the kernel of a particle begins, and the weights of the three nodes along each axis.
+/// First node of the kernel of a particle, and the weights of the three nodes along each axis.
 struct Spline {
   Vec3i node;
   std::array<std::array<float, 3>, 3> weight;  ///< by axis
@@ -124,9 +124,7 @@ void find_neighbours(const std::vector<BlockKey>& keys, const BlockMap& map, Fie
   });
 }
 
-GrainBlocks sort_grains(const std::vector<BlockKey>& keys, const BlockMap& map) {
-  GrainBlocks blocks;
-  blocks.first.assign(map.size() + 1, 0);
+Bins sort_grains(const std::vector<BlockKey>& keys, const BlockMap& map) {
   std::vector<std::uint32_t> block_of(keys.size(), no_block);
   BlockKey last = no_key;
   std::uint32_t b = no_block;
@@ -134,14 +132,8 @@ GrainBlocks sort_grains(const std::vector<BlockKey>& keys, const BlockMap& map) 
     if (keys[p] == no_key) continue;
     if (keys[p] != last) b = map.find(last = keys[p]);
     block_of[p] = b;
-    ++blocks.first[b + 1];
   }
-  for (std::size_t k = 0; k < map.size(); ++k) blocks.first[k + 1] += blocks.first[k];
-  std::vector<std::uint32_t> next(blocks.first.begin(), blocks.first.end() - 1);
-  blocks.grain.resize(blocks.first.back());
-  for (std::size_t p = 0; p < keys.size(); ++p)
-    if (block_of[p] != no_block) blocks.grain[next[block_of[p]]++] = static_cast<std::uint32_t>(p);
-  return blocks;
+  return sorted_into_bins(block_of, map.size());
 }
 
 /// Spreads the volume of a block's particles over a tile of nodes.
@@ -177,8 +169,7 @@ void add_tile(const float* tile, Vec3i side, float* value) {
 }
 
 /// Every node gets its sums in one order: by particles in a block, then by blocks.
-void gather_volume(const Grains& grains, const GrainBlocks& blocks, Field& field,
-                   ThreadPool* pool) {
+void gather_volume(const Grains& grains, const Bins& blocks, Field& field, ThreadPool* pool) {
   std::vector<std::uint32_t> tile_of(field.block.size(), no_block), full;
   for (std::size_t b = 0; b < field.block.size(); ++b) {
     if (blocks.first[b] == blocks.first[b + 1]) continue;

@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "render/surface/block_map.h"
+#include "render/surface/bins.h"
 #include "sim/base/thread_pool.h"
 #include "sim/base/vec.h"
 
@@ -47,15 +47,9 @@ struct Field {
   float at(std::size_t b, int i, int j, int k) const;
 };
 
-/// Particles by the block that their kernel begins in.
-struct GrainBlocks {
-  std::vector<std::uint32_t> first;  ///< for each block, and the end
-  std::vector<std::uint32_t> grain;  ///< in ascending order in each block
-};
-
 struct GrainField {
   Field field;
-  GrainBlocks grains;
+  Bins grains;  ///< by the block that their kernel begins in
 };
 
 /// A lattice that does not fit in the memory it may have.
@@ -69,7 +63,7 @@ struct MemoryError : std::runtime_error {
 GrainField make_field(const Grains& grains, const Kernel& kernel, std::uint64_t max_bytes,
                       ThreadPool* pool);
 
-/// Where a place is on the lattice.
+/// A place on the lattice.
 struct NodePlace {
   Vec3i node;  ///< the node below
   Vec3f rest;  ///< from there, 0 to 1

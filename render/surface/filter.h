@@ -14,8 +14,8 @@ struct Filter {
   int reach() const { return radius * passes; }
 };
 
-/// Of this variance, in squared cells, along an axis. Sums of three neighbours, repeated, are close
-/// to a Gaussian and never negative.
+/// Makes one of this variance, in squared cells, along an axis. Sums of three neighbours, repeated,
+/// are close to a Gaussian and never negative.
 Filter make_filter(double variance);
 
 void apply(const Filter& filter, Field& field, ThreadPool* pool);

@@ -11,9 +11,9 @@ namespace neve::render::surface {
 namespace {
 
 /// Particles in cubes as wide as the distance within which they are looked for.
-class Bins {
+class GrainCubes {
  public:
-  Bins(const Grains& grains, std::span<const std::uint32_t> left_out, float side)
+  GrainCubes(const Grains& grains, std::span<const std::uint32_t> left_out, float side)
       : grains_(grains), side_(side) {
     std::vector<std::uint32_t> bin_of(grains.position.size(), no_block);
     std::size_t next_out = 0;
@@ -25,14 +25,7 @@ class Bins {
       NodePlace place;
       if (find_node(grains.position[p], side, place)) bin_of[p] = map_.insert(key_of(place.node));
     }
-    first_.assign(map_.size() + 1, 0);
-    for (const std::uint32_t bin : bin_of)
-      if (bin != no_block) ++first_[bin + 1];
-    for (std::size_t bin = 0; bin < map_.size(); ++bin) first_[bin + 1] += first_[bin];
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    grain_.resize(first_.back());
-    for (std::size_t p = 0; p < bin_of.size(); ++p)
-      if (bin_of[p] != no_block) grain_[next[bin_of[p]]++] = static_cast<std::uint32_t>(p);
+    bins_ = sorted_into_bins(bin_of, map_.size());
   }
 
   /// use(particle, squared distance) for the particles of all bins that are at most `rings` bins
@@ -46,9 +39,9 @@ class Bins {
         for (int x = -rings; x <= rings; ++x) {
           const std::uint32_t bin = map_.find(key_of(place.node + Vec3i{x, y, z}));
           if (bin == no_block) continue;
-          for (std::uint32_t k = first_[bin]; k < first_[bin + 1]; ++k) {
-            const Vec3f away = grains_.position[grain_[k]] - vertex;
-            use(grain_[k], dot(away, away));
+          for (std::uint32_t k = bins_.first[bin]; k < bins_.first[bin + 1]; ++k) {
+            const Vec3f away = grains_.position[bins_.grain[k]] - vertex;
+            use(bins_.grain[k], dot(away, away));
           }
         }
   }
@@ -63,7 +56,7 @@ class Bins {
   const Grains& grains_;
   float side_;
   BlockMap map_;
-  std::vector<std::uint32_t> first_, grain_;
+  Bins bins_;
 };
 
 /// A run of vertices.
@@ -75,11 +68,11 @@ struct Part {
 /// Rings of bins that are searched for the nearest particle: further away than any kernel reaches.
 constexpr int most_rings = 12;
 
-void add_nearest(Vec3f vertex, const Bins& bins, Part& part) {
+void add_nearest(Vec3f vertex, const GrainCubes& cubes, Part& part) {
   float least = std::numeric_limits<float>::infinity();
   std::uint32_t nearest = no_block;
   for (int rings = 1; rings <= most_rings && nearest == no_block; ++rings)
-    bins.for_near(vertex, rings, [&](std::uint32_t p, float squared) {
+    cubes.for_near(vertex, rings, [&](std::uint32_t p, float squared) {
       if (!(squared < least)) return;
       least = squared;
       nearest = p;
@@ -89,11 +82,11 @@ void add_nearest(Vec3f vertex, const Bins& bins, Part& part) {
   part.share.push_back(1);
 }
 
-void add_vertex(Vec3f vertex, const Bins& bins, float distance, Part& part) {
+void add_vertex(Vec3f vertex, const GrainCubes& cubes, float distance, Part& part) {
   const std::size_t begin = part.grain.size();
   float sum = 0, largest = 0;
   std::size_t nearest = begin;
-  bins.for_near(vertex, 1, [&](std::uint32_t p, float squared) {
+  cubes.for_near(vertex, 1, [&](std::uint32_t p, float squared) {
     const float room = 1 - squared / (distance * distance);
     const float weight = room * room * room;
     if (!(room > 0) || !(weight > 0)) return;
@@ -106,7 +99,7 @@ void add_vertex(Vec3f vertex, const Bins& bins, float distance, Part& part) {
     sum += weight;
   });
   if (part.grain.size() == begin) {
-    add_nearest(vertex, bins, part);
+    add_nearest(vertex, cubes, part);
   } else {
     std::swap(part.grain[begin], part.grain[nearest]);
     std::swap(part.share[begin], part.share[nearest]);
@@ -119,7 +112,7 @@ void add_vertex(Vec3f vertex, const Bins& bins, float distance, Part& part) {
 
 Shares shares_of(std::span<const Vec3f> vertices, const Grains& grains,
                  std::span<const std::uint32_t> left_out, float distance, ThreadPool* pool) {
-  const Bins bins(grains, left_out, distance);
+  const GrainCubes cubes(grains, left_out, distance);
   constexpr std::size_t part_size = 4096;
   std::vector<Part> parts((vertices.size() + part_size - 1) / part_size);
   for_ranges(pool, parts.size(), [&](std::size_t begin, std::size_t end) {
@@ -127,7 +120,7 @@ Shares shares_of(std::span<const Vec3f> vertices, const Grains& grains,
       for (const Vec3f& vertex :
            vertices.subspan(part * part_size)
                .first(std::min(part_size, vertices.size() - part * part_size)))
-        add_vertex(vertex, bins, distance, parts[part]);
+        add_vertex(vertex, cubes, distance, parts[part]);
   });
   Shares shares;
   shares.first.push_back(0);

@@ -12,6 +12,9 @@ struct Shares {
   std::vector<float> share;  ///< > 0
 };
 
+/// Distance from a vertex at which particles have no weight, over the width of the kernel.
+inline constexpr float attribute_reach = 2;
+
 /// Weights fall smoothly to 0 at a distance; a vertex without particles that near has its nearest.
 /// @param left_out particles, ascending; at least one other is there @param pool may be null
 Shares shares_of(std::span<const Vec3f> vertices, const Grains& grains,

@@ -163,7 +163,7 @@ std::uint32_t label_of_grain(Vec3f position, std::size_t b, int reach, const Fie
 }
 
 /// The label of each particle; no_block also for those that the field leaves out.
-std::vector<std::uint32_t> label_grains(const Grains& grains, const GrainBlocks& blocks, int reach,
+std::vector<std::uint32_t> label_grains(const Grains& grains, const Bins& blocks, int reach,
                                         const Field& field, const Labels& labels,
                                         ThreadPool* pool) {
   std::vector<std::uint32_t> label(grains.position.size(), no_block);
@@ -190,8 +190,8 @@ void remove_nodes(const Labels& labels, const std::vector<bool>& is_kept, std::s
 
 }  // namespace
 
-Pieces find_pieces(const Grains& grains, const GrainBlocks& blocks, const PieceRules& rules,
-                   Field& field, ThreadPool* pool) {
+Pieces find_pieces(const Grains& grains, const Bins& blocks, const PieceRules& rules, Field& field,
+                   ThreadPool* pool) {
   Pieces pieces;
   pieces.inside.resize(field.block.size());
   for_ranges(pool, field.block.size(), [&](std::size_t begin, std::size_t end) {

@@ -28,7 +28,7 @@ struct PieceRules {
   int reach = 1;     ///< cells from a particle to the piece that it belongs to, at most 6
 };
 
-Pieces find_pieces(const Grains& grains, const GrainBlocks& blocks, const PieceRules& rules,
-                   Field& field, ThreadPool* pool);
+Pieces find_pieces(const Grains& grains, const Bins& blocks, const PieceRules& rules, Field& field,
+                   ThreadPool* pool);
 
 }  // namespace neve::render::surface

@@ -36,10 +36,6 @@ shapes::Collider moving_plane(int k, Contact contact) {
   return plane;
 }
 
-shapes::Surface surface_of(const shapes::Collider& collider, double time, const Vec3d& x) {
-  return shapes::surface_at(collider, time, x);
-}
-
 /// The paper, section 8, with a velocity along the normal that may be other than 0.
 /// @param least  m/s, along the normal and relative to the surface, that is not undercut
 Vec3d after_contact(const shapes::Collider& c, const shapes::Surface& surface, const Vec3d& v,
@@ -66,7 +62,7 @@ struct Impulses {
   }
 };
 
-/// What the step took from the snow is what it says that the collider got.
+/// The impulse that the step took from the snow is the one that it gives to the collider.
 void check_load(const ParticleArrays& before, const StagedStep& step, const shapes::Collider& c,
                 double time, self_test::Measure& measure) {
   const Vec3d point = shapes::pose_at(c, time).point;
@@ -120,7 +116,7 @@ void contact_at_nodes(const SelfTestCase& test, self_test::Measure& measure) {
     const NodeFields nodes = staged_step(simulation, second_dt).nodes;
     for (std::size_t i = 0; i < nodes.mass.size(); ++i) {
       const shapes::Surface surface =
-          surface_of(plane, simulation.time(), self_test::place(nodes.node[i]));
+          shapes::surface_at(plane, simulation.time(), self_test::place(nodes.node[i]));
       if (std::abs(surface.distance) < unsure) continue;
       const Vec3d expected = surface.distance < 0
                                  ? after_contact(plane, surface, nodes.v_free[i], 0)
@@ -158,7 +154,7 @@ void contact_at_particles(const SelfTestCase& test, self_test::Measure& measure)
     const StagedStep step = staged_step(simulation, second_dt);
     const double spacing = std::cbrt(before.m[0] / Material{}.density);
     for (std::size_t q = 0; q < before.x.size(); ++q) {
-      const shapes::Surface surface = surface_of(plane, simulation.time(), before.x[q]);
+      const shapes::Surface surface = shapes::surface_at(plane, simulation.time(), before.x[q]);
       const double gap = surface.distance - 0.375 * spacing;
       const Vec3d expected = after_contact(plane, surface, before.v[q], -gap / second_dt);
       measure.zero("velocity of a particle after contact", (step.after.v[q] - expected).norm(),
@@ -182,7 +178,8 @@ void contact_in_the_solve(const SelfTestCase& test, self_test::Measure& measure)
     const Simulation simulation(settings, {Material{}}, {plane}, p, 1);
     const StagedStep step = staged_step(simulation, 1e-3);
     for (std::size_t i = 0; i < step.nodes.mass.size(); ++i) {
-      const shapes::Surface surface = surface_of(plane, 0, self_test::place(step.nodes.node[i]));
+      const shapes::Surface surface =
+          shapes::surface_at(plane, 0, self_test::place(step.nodes.node[i]));
       const Vec3d v = step.nodes.v_new[i] - surface.velocity;
       const double came = (step.nodes.v_free[i] - surface.velocity).dot(surface.normal);
       if (surface.distance > -unsure) continue;

@@ -135,7 +135,7 @@ void Spray::add_block(const Blocks& blocks, std::size_t b) {
   clusters_.push_back(cluster);
 }
 
-/// Where only two cells add to a node, their order does not matter.
+/// The order of the two does not matter: a node adds up no more than two cells.
 bool Spray::add_pair(const Blocks& blocks, const std::vector<std::uint16_t>& locals,
                      std::size_t b) {
   const auto other = static_cast<std::size_t>(neighbour_[b]);
