@@ -15,6 +15,7 @@
 #include "app/picture/wires.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/flat.h"
+#include "app/scene/override.h"
 #include "app/setup/camera_path.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
@@ -337,7 +338,11 @@ std::vector<std::string> override_lines(const std::vector<std::string>& override
   std::vector<std::string> lines;
   for (const std::string& address : order) {
     const std::string name = short_name(address);
-    lines.push_back((named_alike[name] > 1 ? address : name) + " = " + by_address[address]);
+    const std::string& value = by_address[address];
+    if (scene::is_object_address(address))
+      lines.push_back((value == "none" ? "removed " : "added ") + address);
+    else
+      lines.push_back((named_alike[name] > 1 ? address : name) + " = " + value);
   }
   return lines;
 }

@@ -69,6 +69,7 @@ class Edit {
         line_end_(text.find("\r\n") == std::string::npos ? "\n" : "\r\n") {}
 
   void make() {
+    if (is_object_address(change_.address)) return make_object();
     walk();
     const bool is_there = depth_ == words_.size();
     if (takes_away(change_)) return take_away();
@@ -130,6 +131,74 @@ class Edit {
       parent_ = node_;
       node_ = next;
     }
+  }
+
+  // Whole objects.
+
+  void make_object() {
+    walk();
+    if (depth_ == words_.size()) {
+      if (name_next_object()) return Edit(text_, change_).make();
+      remove_object();
+      if (!takes_away(change_)) Edit(text_, change_).make();
+    } else if (!takes_away(change_)) {
+      add_object();
+    }
+  }
+
+  /// The first unnamed one behind the object gets its number as a name, which it would lose.
+  bool name_next_object() {
+    const toml::Entry* list = root_.find(words_[0]);
+    const auto& items = std::get<toml::Array>(list->value.data);
+    const Words names = item_names(list->value);
+    auto k =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), words_[1]) - names.begin());
+    for (++k; k < names.size(); ++k) {
+      const auto* table = std::get_if<toml::Table>(&items[k].data);
+      if (!table || table->find("name")) continue;
+      const Override name{words_[0] + "." + names[k] + ".name", toml::toml_string(names[k])};
+      Edit(text_, name).make();
+      return true;
+    }
+    return false;
+  }
+
+  void add_object() {
+    if (node_->kind == Kind::array) fail("its list is one array");
+    const toml::Value value = value_of(change_, "table");
+    std::string lines = named(words_[1]);
+    for (const toml::Entry& entry : std::get<toml::Table>(value.data).entries)
+      if (entry.key != "name")
+        lines += line_end_ + entry.key + " = " + toml::toml_literal(entry.value);
+    add_block("[[" + words_[0] + "]]" + line_end_ + lines);
+  }
+
+  /// With its comments: of an item of an array the item, else its sections.
+  void remove_object() {
+    std::vector<toml::Span> spans;
+    if (node_->is_in_one_place())
+      spans.push_back(with_comma(node_->entry));
+    else
+      collect_sections(*node_, spans);
+    erase(std::move(spans));
+    const std::string blank = line_end_ + line_end_;
+    while (text_.ends_with(blank)) text_.erase(text_.size() - line_end_.size());
+  }
+
+  /// From the comment above each header to the blank lines below its last key.
+  void collect_sections(const toml::TomlNode& node, std::vector<toml::Span>& spans) const {
+    if (node.header.size() > 0) {
+      const toml::TomlSection& section = layout_.sections[static_cast<std::size_t>(node.section)];
+      std::size_t end = std::max(section.begin, section.last_line.end);
+      while (end < text_.size()) {
+        const toml::Span line = toml::line_around(text_, end);
+        if (!is_blank(std::string_view(text_).substr(line.begin, line.size()))) break;
+        end = line.end;
+      }
+      spans.push_back({above_comment(node.header.begin), end});
+    }
+    for (const auto* nodes : {&node.members, &node.items})
+      for (const auto& inner : *nodes) collect_sections(*inner, spans);
   }
 
   // Absent entries.
@@ -260,6 +329,10 @@ class Edit {
   void remove() {
     std::vector<toml::Span> spans;
     collect(*node_, parent_, spans);
+    erase(std::move(spans));
+  }
+
+  void erase(std::vector<toml::Span> spans) {
     std::sort(spans.begin(), spans.end(),
               [](const toml::Span& a, const toml::Span& b) { return a.begin > b.begin; });
     for (const toml::Span& span : spans) replace(span, "");

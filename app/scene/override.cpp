@@ -81,6 +81,26 @@ std::string settable_part(const std::string& address) {
   return address.substr(0, address.find('['));
 }
 
+bool is_object_list(const std::string& word) {
+  for (const char* list : {"body", "emitter", "sink", "collider"})
+    if (word == list) return true;
+  return false;
+}
+
+bool same_text(const toml::Value& value, const std::string& text) {
+  const auto* own = std::get_if<std::string>(&value.data);
+  return own && *own == text;
+}
+
+/// body.velocity: somebody forgot the name of the body.
+bool is_member_of_all(const std::string& list, const std::string& word) {
+  const std::string member = list + ".NAME." + word;
+  const std::vector<ParamInfo> all = params();
+  return std::any_of(all.begin(), all.end(), [&](const ParamInfo& info) {
+    return info.address == member || info.address.starts_with(member + ".");
+  });
+}
+
 struct Target {
   std::string type;  ///< of the parameter; "table" for tables
   bool is_in_item;   ///< of a list, whose name is the second word
@@ -136,6 +156,16 @@ toml::Entry& entry_called(toml::Table& table, const std::string& key, int index)
 }
 
 }  // namespace
+
+bool is_object_address(const std::string& address) {
+  const Path words = words_of(address);
+  return words.size() == 2 && is_object_list(words[0]) && !words[1].empty();
+}
+
+std::string object_of(const std::string& address) {
+  const std::string object = address.substr(0, address.find('.', address.find('.') + 1));
+  return is_object_address(object) ? object : "";
+}
 
 toml::Value value_of(const Override& change, const std::string& type) {
   const std::string text = trimmed(change.value);
@@ -263,9 +293,69 @@ void remove(toml::Table& root, const std::string& address, bool is_in_item) {
   remove(root, words_of(address), is_in_item);
 }
 
+/// Unnamed items have their number for a name: those behind the removed one keep it.
+void remove_item(toml::Table& root, const std::string& list, std::size_t index) {
+  toml::Entry* entry = root.find(list);
+  toml::Array& items = std::get<toml::Array>(entry->value.data);
+  const Path names = item_names(entry->value);
+  for (std::size_t k = index + 1; k < items.size(); ++k)
+    if (auto* table = std::get_if<toml::Table>(&items[k].data); table && !table->find("name"))
+      table->entries.push_back({"name", {}, {names[k]}});
+  items.erase(items.begin() + static_cast<std::ptrdiff_t>(index));
+  if (items.empty())
+    std::erase_if(root.entries, [&](const toml::Entry& other) { return other.key == list; });
+}
+
+/// The table of a new object, with the name in its address.
+toml::Value object_in(const Override& change, const std::string& list, const std::string& name) {
+  toml::Value value = value_of(change, "table");
+  auto* table = std::get_if<toml::Table>(&value.data);
+  if (!table)
+    change.fail(change.place, change.address + " is a whole " + list + ": expected a table or none",
+                "for example " + change.address +
+                    "={ shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } } }");
+  if (!is_identifier(name))
+    change.fail(change.key, "bad " + list + " name " + toml::toml_string(name),
+                "expected 1 to 64 letters, digits, _ and -");
+  const toml::Entry* own = table->find("name");
+  if (own && !same_text(own->value, name))
+    change.fail(change.place, "its name is not " + toml::toml_string(name),
+                "leave the name out: it is in the address");
+  if (!own) table->entries.insert(table->entries.begin(), {"name", {}, {name}});
+  return value;
+}
+
+/// @return false where the address is none of an object, which the caller reports
+bool apply_object(toml::Table& root, const Override& change, int index) {
+  const Path path = words_of(change.address);
+  const std::string &list = path[0], &name = path[1];
+  toml::Entry* entry = root.find(list);
+  if (entry && !std::holds_alternative<toml::Array>(entry->value.data)) return true;  // told later
+  const Path names = entry ? item_names(entry->value) : Path{};
+  const auto found =
+      static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  const bool is_there = found < names.size();
+  if (!is_there && is_member_of_all(list, name)) return false;
+  if (takes_away(change)) {
+    if (!is_there)
+      change.fail(change.key, "there is no " + list + " " + toml::toml_string(name),
+                  names.empty() ? "the scene has none" : "expected " + list_of(names));
+    remove_item(root, list, found);
+    return true;
+  }
+  toml::Value object = object_in(change, list, name);
+  set_place(object, index);
+  if (is_there) remove_item(root, list, found);
+  entry = root.find(list);
+  if (!entry) entry = &root.entries.emplace_back(toml::Entry{list, {}, {toml::Array{}}});
+  std::get<toml::Array>(entry->value.data).push_back(std::move(object));
+  return true;
+}
+
 }  // namespace
 
 void apply_override(toml::Table& root, const Override& change, int index) {
+  if (is_object_address(change.address) && apply_object(root, change, index)) return;
   const Target target = resolve(change, root);
   if (takes_away(change)) return remove(root, change.address, target.is_in_item);
   // An override precedes the file, so a preset set here replaces the numbers of the file.

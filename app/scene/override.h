@@ -37,6 +37,12 @@ std::vector<std::string> addresses_of(const std::vector<Override>& changes);
 ///         no TOML
 void apply_override(toml::Table& root, const Override& change, int index);
 
+/// True for the address of a whole object, "body.ball": a table adds it to its list, in the place
+/// of one with this name; "none" removes it.
+bool is_object_address(const std::string& address);
+/// The object that an address is of or in, "body.ball" for "body.ball.velocity"; "" for others.
+std::string object_of(const std::string& address);
+
 /// The value of a change, for a parameter of this type: see ParamInfo, or "table".
 /// @throws UsageError, SceneError
 toml::Value value_of(const Override& change, const std::string& type);

@@ -47,6 +47,10 @@ int difference(const render::Image& a, const render::Image& b, const Region& reg
   return count;
 }
 
+/// Middles of the tab of objects, of its button "Add ..." and of the first and fifth of its menu.
+constexpr double objects_x = 115, objects_y = 54, add_x = 28, add_y = 78;
+constexpr double item_x = 80, ball_y = 93, sphere_y = 166;
+
 class ViewPage : public testing::Test {
  protected:
   void SetUp() override {
@@ -99,9 +103,32 @@ class ViewPage : public testing::Test {
       return difference(before, browser->screenshot(), {0, 0, 1280, 800}) == 0;
     });
   }
-  void press(const std::string& name, const std::string& code, int number) {
-    browser->key(true, name, code, number);
-    browser->key(false, name, code, number);
+  void press(const std::string& name, const std::string& code, int number, int modifiers = 0) {
+    browser->key(true, name, code, number, modifiers);
+    browser->key(false, name, code, number, modifiers);
+  }
+  void press_with_ctrl(const std::string& name, const std::string& code, int number) {
+    browser->key(true, "Control", "ControlLeft", 17, 2);
+    press(name, code, number, 2);
+    browser->key(false, "Control", "ControlLeft", 17);
+  }
+
+  /// The page of the program, 1280x800, once it rests.
+  void open_page() {
+    browser = std::make_unique<Chromium>();
+    browser->resize(1280, 800);
+    browser->open(address);
+    ASSERT_TRUE(wait_until([&] {
+      return browser->evaluate("typeof drawn !== 'undefined' && drawn > 0 && note.hidden") == true;
+    })) << "no picture comes";
+    ASSERT_TRUE(becomes_still());
+  }
+  /// A click whose effect is awaited.
+  void click_and_see(double x, double y, const Region& region, int pixels) {
+    const render::Image before = browser->screenshot();
+    browser->click(x, y);
+    EXPECT_TRUE(changes(before, region, pixels)) << "a click at " << x << ", " << y;
+    EXPECT_TRUE(becomes_still());
   }
 
   TemporaryFolder folder;
@@ -164,6 +191,24 @@ TEST_F(ViewPage, PageIsWorkedWithMouseAndKeys) {
   }));
   EXPECT_EQ(wait_for(process), 0) << read_text(folder / "messages.txt");
   process = -1;
+  EXPECT_EQ(browser->exceptions, "");
+}
+
+TEST_F(ViewPage, ObjectsAreAddedOnThePage) {
+  open_page();
+  const Region column{0, 64, 318, 790};
+  click_and_see(objects_x, objects_y, column, 500);
+  click_and_see(add_x, add_y, column, 500);
+  click_and_see(item_x, sphere_y, picture, 500);
+  click_and_see(add_x, add_y, column, 500);
+  click_and_see(item_x, ball_y, picture, 300);
+  press_with_ctrl("s", "KeyS", 83);
+  const auto saved = [&] { return read_text(folder / "saved/scene.toml"); };
+  EXPECT_TRUE(wait_until([&] { return saved().find("obstacle") != std::string::npos; }));
+  EXPECT_NE(saved().find("[[body]]\nname = \"ball_2\"\n"), std::string::npos) << saved();
+  press_with_ctrl("z", "KeyZ", 90);
+  press_with_ctrl("s", "KeyS", 83);
+  EXPECT_TRUE(wait_until([&] { return saved().find("ball_2") == std::string::npos; }));
   EXPECT_EQ(browser->exceptions, "");
 }
 

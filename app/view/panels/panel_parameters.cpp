@@ -47,6 +47,14 @@ scene::Scene settings_of(const ViewerState& state) {
   return scene;
 }
 
+bool is_removed(const ViewerState& state, const std::string& address) {
+  const std::vector<scene::Override>& edits = state.bench.document().edits();
+  return scene::is_object_address(address) &&
+         std::any_of(edits.begin(), edits.end(), [&](const scene::Override& edit) {
+           return edit.address == address && edit.value == "none";
+         });
+}
+
 void draw_waiting(ViewerState& state) {
   const std::vector<std::string> waiting = state.bench.waiting_for_reset();
   if (waiting.empty()) return;
@@ -54,7 +62,8 @@ void draw_waiting(ViewerState& state) {
   ImGui::BeginChild("waiting", ImVec2(0, 4.3f * em()), true);
   ImGui::PushTextWrapPos(0);
   std::string list;
-  for (const std::string& address : waiting) list += (list.empty() ? "" : ", ") + address;
+  for (const std::string& address : waiting)
+    list += (list.empty() ? "" : ", ") + address + (is_removed(state, address) ? " (removed)" : "");
   ImGui::TextUnformatted(("waits for Reset: " + list).c_str());
   ImGui::PopTextWrapPos();
   if (ImGui::SmallButton("Reset now")) state.bench.reset();
@@ -93,6 +102,8 @@ void fit_range(ViewerState& state, const scene::View& view) {
 }
 
 constexpr std::size_t max_view_buttons = 8;
+/// Half of the extent of an added object, of the distance from which it is seen.
+constexpr double new_object_share = 0.035;
 
 void note_view(const scene::View& view, std::size_t index) {
   note_label(("view " + view.name).c_str());
@@ -184,7 +195,61 @@ void draw_changes(ViewerState& state) {
   ImGui::EndChild();
 }
 
+namespace {
+
+void draw_add_menu(ViewerState& state) {
+  if (ImGui::Button("Add ...")) ImGui::OpenPopup("add");
+  note_label("Add ...");
+  tip("add snow, an obstacle, a source or a drain where the camera looks");
+  if (!ImGui::BeginPopup("add")) return;
+  using enum session::NewObject;
+  for (const session::NewObject object :
+       {snow_ball, snow_block, emitter, sink, sphere, box, floor}) {
+    const char* title = session::title_of(object);
+    if (ImGui::MenuItem(title)) {
+      const std::string added = state.bench.add_object(object, state.orbit.target(),
+                                                       new_object_share * state.orbit.distance());
+      if (!added.empty()) state.selected = added;
+    }
+    note_label(title);
+  }
+  ImGui::EndPopup();
+}
+
+/// Buttons that add, copy and remove.
+void draw_object_buttons(ViewerState& state) {
+  draw_add_menu(state);
+  if (state.selected.empty()) return;
+  ImGui::SameLine();
+  if (ImGui::Button("Copy")) {
+    const std::string copied = state.bench.copy_object(state.selected);
+    if (!copied.empty()) state.selected = copied;
+  }
+  note_label("Copy");
+  tip("add a copy of the selected object, with its changes, beside it");
+  ImGui::SameLine();
+  if (ImGui::Button("Remove")) state.bench.set(state.selected, "none");
+  note_label("Remove");
+  tip("remove the selected object; ctrl+Z brings it back");
+}
+
+/// Nothing is selected any more where another edit, or an undo, has removed the object.
+void forget_removed_selection(ViewerState& state, const scene::Scene& scene) {
+  const auto has = [&](const char* list, const auto& items) {
+    return std::any_of(items.begin(), items.end(),
+                       [&](const auto& item) { return state.selected == list + item.name; });
+  };
+  if (!has("body.", scene.bodies) && !has("emitter.", scene.emitters) &&
+      !has("sink.", scene.sinks) && !has("collider.", scene.colliders))
+    state.selected.clear();
+}
+
+}  // namespace
+
 void draw_objects(ViewerState& state) {
+  draw_waiting(state);
+  forget_removed_selection(state, *state.bench.document().scene());
+  draw_object_buttons(state);
   scene::Scene scene = settings_of(state);
   const auto entry = [&](const std::string& address, const sim::shapes::Shape& shape) {
     const bool is_selected = state.selected == address;

@@ -25,25 +25,8 @@ struct Movable {
 
 std::optional<Movable> movable(const sim::shapes::Shape& shape, const std::string& address) {
   Movable out;
-  const std::string base = address + ".shape.";
-  const auto add = [&](const char* key, const Vec3d& value) {
-    out.places.emplace_back(base + key, value);
-  };
-  if (const auto* s = std::get_if<sim::shapes::Sphere>(&shape.form))
-    add("sphere.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Box>(&shape.form)) add("box.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Cylinder>(&shape.form))
-    add("cylinder.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Cone>(&shape.form)) add("cone.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Torus>(&shape.form)) add("torus.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Mesh>(&shape.form)) add("mesh.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Points>(&shape.form))
-    add("points.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Plane>(&shape.form)) add("plane.point", s->point);
-  if (const auto* s = std::get_if<sim::shapes::Capsule>(&shape.form)) {
-    add("capsule.a", s->a);
-    add("capsule.b", s->b);
-  }
+  for (const auto& [place, value] : session::places_of(shape))
+    out.places.emplace_back(address + ".shape." + place, value);
   if (out.places.empty()) return std::nullopt;
   out.center = sim::shapes::center(shape);
   return out;

@@ -40,6 +40,12 @@ void put_edit(std::vector<scene::Override>& edits, const std::string& address,
     edits.push_back({address, value});
 }
 
+/// Edits inside of an object that is put or removed as a whole end with it.
+void forget_inside(std::vector<scene::Override>& edits, const std::string& object) {
+  std::erase_if(
+      edits, [&](const scene::Override& edit) { return edit.address.starts_with(object + "."); });
+}
+
 /// The numbers of a preset that differ from the scene's. They are remembered: a number can
 /// change while a simulation runs, be taken back, and be made again with pictures.
 void put_preset(const scene::Scene& scene, scene::Preset preset, const std::string& address,
@@ -141,10 +147,25 @@ void Document::require_within_limits(const scene::Scene& next) const {
   setup::check_limits(next, plan, coarsening_);
 }
 
+/// An object that only the edits added leaves no trace when it is removed.
+void Document::put_object(std::vector<scene::Override>& edits, const std::string& address,
+                          const std::string& value) const {
+  forget_inside(edits, address);
+  const std::optional<std::string> given = in_file(address);
+  const bool is_given = given && *given != "none";
+  const auto edit = find(edits, address);
+  if (value == "none" && !is_given && edit != edits.end())
+    edits.erase(edit);
+  else
+    put_edit(edits, address, value);
+}
+
 void Document::set(const std::string& address, const std::string& value, std::uint64_t gesture) {
   std::vector<scene::Override> edits = edits_;
   if (const std::optional<scene::Preset> preset = preset_in({address, value}, *scene_))
     put_preset(*scene_, *preset, address, edits);
+  else if (scene::is_object_address(address))
+    put_object(edits, address, value);
   else
     put_edit(edits, address, value);
   const std::vector<scene::Override> before = edits_;
@@ -166,6 +187,7 @@ void Document::forget(const std::string& address) {
   std::erase_if(edits, [&](const scene::Override& edit) {
     return std::find(numbers.begin(), numbers.end(), edit.address) != numbers.end() ||
            address.empty() || edit.address == address ||
+           (scene::is_object_address(address) && edit.address.starts_with(address + ".")) ||
            (address.ends_with('.') && edit.address.starts_with(address));
   });
   if (edits.size() == edits_.size()) return;

@@ -46,7 +46,8 @@ class Document {
   /// The overrides of the command line, then the edits.
   std::vector<scene::Override> all_overrides() const { return with(edits_); }
 
-  /// A material's preset is remembered as the numbers that it changes.
+  /// A material's preset is remembered as the numbers that it changes. A whole object, "body.ball",
+  /// takes the edits inside of it along.
   /// @param value TOML
   /// @param gesture changes with the same number, not 0, are taken back together
   /// @throws SceneError, UsageError; LimitError where the scene would need more than before, and
@@ -90,6 +91,8 @@ class Document {
                                            const std::vector<scene::Override>& edits) const;
   std::optional<std::string> in_preset(const scene::toml::Table& root,
                                        const std::string& address) const;
+  void put_object(std::vector<scene::Override>& edits, const std::string& address,
+                  const std::string& value) const;
   void become(std::vector<scene::Override> edits);
   void require_within_limits(const scene::Scene& next) const;
 

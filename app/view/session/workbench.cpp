@@ -72,17 +72,18 @@ std::vector<std::string> Workbench::overrides() const {
   return all;
 }
 
-/// A mistake is a message, never the end.
+/// A mistake is a message, never the end. @return false if there was one
 template <class Act>
-void Workbench::attempt(Act act) {
+bool Workbench::attempt(Act act) {
   const std::vector<scene::Override> before = document_.edits();
   try {
     act();
   } catch (const std::exception& error) {
     say(Message::Kind::error, text_of(error));
-    return;
+    return false;
   }
   take_over(before);
+  return true;
 }
 
 void Workbench::edit(const Edit& edit) {
@@ -115,6 +116,21 @@ void Workbench::set(const std::string& address, const std::string& value, std::u
     require_allowed(address, value);
     document_.set(address, value, gesture);
   });
+}
+
+std::string Workbench::add_object(NewObject object, const sim::Vec3d& near, double size) {
+  const AddedObject added = new_object(*document_.scene(), object, near, size);
+  return attempt([&] { document_.set(added.address, added.value); }) ? added.address : "";
+}
+
+/// A file in it is one that the scene names already: allowed over the web too.
+std::string Workbench::copy_object(const std::string& address) {
+  AddedObject copy;
+  const bool is_done = attempt([&] {
+    copy = copy_of(document_, address);
+    document_.set(copy.address, copy.value);
+  });
+  return is_done ? copy.address : "";
 }
 
 /// @throws UsageError
@@ -150,7 +166,7 @@ void Workbench::take_over(const std::vector<scene::Override>& before) {
   for (const std::string& address : Document::difference(before, document_.edits())) {
     const Effect effect = effect_of(address);
     needs_restart = needs_restart || effect == Effect::restart;
-    if (effect != Effect::live) continue;
+    if (effect != Effect::live || waits_with_its_object(address)) continue;
     if (is_broken) {
       say(Message::Kind::note, address + ": this run has diverged; the change takes effect at " +
                                    "Reset, or after going back to an earlier frame");
@@ -174,10 +190,19 @@ void Workbench::apply_running() {
   }
 }
 
+/// True for a value inside of an object that the run does not have, or has in another form.
+bool Workbench::waits_with_its_object(const std::string& address) const {
+  const std::string object = scene::object_of(address);
+  if (object.empty() || object == address) return false;
+  const std::vector<std::string> waiting = Document::difference(running_, document_.edits());
+  return std::find(waiting.begin(), waiting.end(), object) != waiting.end();
+}
+
 std::vector<std::string> Workbench::waiting_for_reset() const {
   std::vector<std::string> waiting;
   for (const std::string& address : Document::difference(running_, document_.edits()))
-    if (effect_of(address) != Effect::display) waiting.push_back(address);
+    if (effect_of(address) != Effect::display && !waits_with_its_object(address))
+      waiting.push_back(address);
   return waiting;
 }
 
@@ -200,8 +225,9 @@ scene::Scene Workbench::display_scene(const LiveFrame& live) const {
   scene.title = mine.title;
   scene.light = mine.light;
   scene.background = scene::Background::gradient;
-  for (std::size_t k = 0; k < std::min(scene.colliders.size(), mine.colliders.size()); ++k)
-    scene.colliders[k].style = mine.colliders[k].style;
+  for (scene::Collider& collider : scene.colliders)
+    for (const scene::Collider& other : mine.colliders)
+      if (other.name == collider.name) collider.style = other.style;
   return scene;
 }
 
@@ -300,7 +326,8 @@ std::string Workbench::command() const {
 run::PictureRecord Workbench::picture_record(const LiveFrame& live, const scene::View& view) const {
   std::vector<scene::Override> edits = at_start_;
   for (const scene::Override& edit : document_.edits())
-    if (effect_of(edit.address) == Effect::display) put(edits, edit.address, document_.edits());
+    if (effect_of(edit.address) == Effect::display && !waits_with_its_object(edit.address))
+      put(edits, edit.address, document_.edits());
   scene::Scene scene = *document_.scene_with(edits);
   scene.views = {view};
   scene.mosaics.clear();

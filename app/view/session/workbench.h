@@ -13,6 +13,7 @@
 #include "app/run/picture_record.h"
 #include "app/view/session/document.h"
 #include "app/view/session/edit.h"
+#include "app/view/session/objects.h"
 #include "app/view/session/session.h"
 
 namespace neve::app::view::session {
@@ -49,6 +50,10 @@ class Workbench {
   /// the very beginning of a run, where nothing is lost. Errors become messages.
   void edit(const Edit& edit);
   void set(const std::string& address, const std::string& value, std::uint64_t gesture = 0);
+  /// Adds an object near a place. @return its address; "" after an error
+  std::string add_object(NewObject object, const sim::Vec3d& near, double size);
+  /// The same for a copy of an object of the scene.
+  std::string copy_object(const std::string& address);
   void undo();
   void redo();
   void forget(const std::string& address);
@@ -95,8 +100,9 @@ class Workbench {
   void take_over(const std::vector<scene::Override>& before);
   std::vector<std::string> changed_while_running() const;
   void apply_running();
+  bool waits_with_its_object(const std::string& address) const;
   template <class Act>
-  void attempt(Act act);
+  bool attempt(Act act);
 
   Document document_;
   WorkbenchOptions options_;
