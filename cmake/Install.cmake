@@ -1,5 +1,5 @@
 # cmake --install puts neve into a prefix that may be moved: the program finds its scenes from where
-# it is. Man pages and completions come from the program itself, when it is installed.
+# it is. Man pages, completions and schemas come from the program itself, when it is installed.
 include(GNUInstallDirs)
 # The program alone: tests need not be built first.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
@@ -14,6 +14,11 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
 set(manual ${PROJECT_BINARY_DIR}/manual)
 install(CODE "execute_process(COMMAND \"$<TARGET_FILE:neve>\" manual \"${manual}\"
   COMMAND_ERROR_IS_FATAL ANY)")
+foreach(kind scene sweep)
+  install(CODE "execute_process(COMMAND \"$<TARGET_FILE:neve>\" schema ${kind}
+    OUTPUT_FILE \"${manual}/${kind}.schema.json\" COMMAND_ERROR_IS_FATAL ANY)")
+  install(FILES ${manual}/${kind}.schema.json DESTINATION ${neve_data}/schema)
+endforeach()
 install(DIRECTORY ${manual}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
 install(FILES ${manual}/bash/neve
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

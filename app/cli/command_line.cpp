@@ -445,6 +445,7 @@ int run_command_line(int argc, char** argv) {
   // --fast=no would be --fast to some and the opposite to others.
   app.option_defaults()->disable_flag_override();
   Action action;
+  add_new(app, action);
   add_render(app, action);
   add_check(app, action);
   add_dump(app, action);
@@ -456,6 +457,7 @@ int run_command_line(int argc, char** argv) {
   add_info(app, action);
   add_verify(app, action);
   add_params(app, action);
+  add_schema(app, action);
   add_compare(app, action);
   add_sweep(app, action);
   add_view(app, action);

@@ -53,5 +53,7 @@ void add_sweep(CLI::App& app, Action& action);
 void add_dump(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
+void add_new(CLI::App& app, Action& action);
+void add_schema(CLI::App& app, Action& action);
 
 }  // namespace neve::app::cli

@@ -2,30 +2,12 @@
 #include <cmath>
 
 #include "app/scene/params.h"
+#include "app/scene/schema_leaf.h"
 #include "app/support/json.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
 namespace {
-
-struct ToJson {
-  Json operator()(bool b) const { return b; }
-  Json operator()(std::int64_t i) const { return i; }
-  Json operator()(double x) const { return number_or_null(x); }
-  Json operator()(const std::string& s) const { return s; }
-  Json operator()(toml::Date) const { return {}; }
-  Json operator()(const toml::Array& array) const {
-    Json list = Json::array();
-    for (const toml::Value& value : array) list.push_back(std::visit(*this, value.data));
-    return list;
-  }
-  Json operator()(const toml::Table& table) const {
-    Json object = Json::object();
-    for (const toml::Entry& entry : table.entries)
-      object[entry.key] = std::visit(*this, entry.value.data);
-    return object;
-  }
-};
 
 /// Whole bounds as integers: 16, not 16.0.
 Json bound(double x) {
@@ -95,7 +77,7 @@ std::string params_json(const std::vector<ParamInfo>& params) {
     item["min"] = bound(info.valid.min);
     item["max"] = bound(info.valid.max);
     const bool has_default = info.default_value && !info.valid.is_required;
-    item["default"] = has_default ? std::visit(ToJson{}, info.default_value->data) : Json();
+    item["default"] = has_default ? to_json(*info.default_value) : Json();
     item["live"] = info.is_live;
     item["help"] = info.help;
     if (!info.choices.empty()) item["choices"] = info.choices;

@@ -24,7 +24,8 @@ TEST_F(Install, InstalledProgramFindsItsFilesWhereverItIsMoved) {
         "share/doc/neve/README.md", "share/doc/neve/docs/scenes.md", "share/doc/neve/copyright",
         "share/man/man1/neve-render.1", "share/man/man1/neve.1", "share/man/man1/neve-bench-sim.1",
         "share/bash-completion/completions/neve", "share/zsh/vendor-completions/_neve",
-        "share/fish/vendor_completions.d/neve.fish"})
+        "share/fish/vendor_completions.d/neve.fish", "share/neve/schema/scene.schema.json",
+        "share/neve/schema/sweep.schema.json"})
     EXPECT_TRUE(exists(std::string("moved/") + file)) << file;
   const auto check = app::output::run_process(folder / "moved/bin/neve",
                                               {"check", "--coarsen", "3"}, folder.path());
@@ -34,7 +35,8 @@ TEST_F(Install, InstalledProgramFindsItsFilesWhereverItIsMoved) {
 
 TEST_F(Install, ManPagesHaveEveryFlagOfTheHelp) {
   ASSERT_EQ(neve({"manual", "m"}).exit_code, 0);
-  for (const char* command : {"render", "check", "export", "dump", "sweep", "view", "compare"}) {
+  for (const char* command :
+       {"new", "render", "check", "export", "dump", "sweep", "view", "compare"}) {
     const auto help = neve({command, "--help"});
     std::string page = read_text(folder / ("m/man1/neve-" + std::string(command) + ".1"));
     page = std::regex_replace(page, std::regex("\\\\-"), "-");

@@ -102,4 +102,19 @@ std::string type_of(const Values&) {
   return "list of values";
 }
 
+Json schema_of(const Duration&, const scene::Valid& valid, const char* unit) {
+  return scene::schema_of_any(
+      {scene::schema_of(0.0, valid, unit),
+       {{"type", "string"}, {"pattern", "^([0-9.]+([eE][+-]?[0-9]+)?[smhd]?)+$"}}});
+}
+Json schema_of(const Ends&, const scene::Valid& valid, const char* unit) {
+  return scene::schema_of_numbers(scene::schema_of(0.0, valid, unit), 2, 2);
+}
+Json schema_of(const WholeRange&, const scene::Valid& valid, const char* unit) {
+  return scene::schema_of_numbers(scene::schema_of(0, valid, unit), 2, 3);
+}
+Json schema_of(const Values&, const scene::Valid&, const char*) {
+  return {{"type", "array"}};
+}
+
 }  // namespace neve::app::sweep::read

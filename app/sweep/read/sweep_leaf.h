@@ -1,7 +1,8 @@
 #pragma once
-/// Values that only sweep files have, from TOML and to TOML.
+/// Values that only sweep files have: from TOML, to TOML, as JSON Schema.
 
 #include "app/scene/leaf.h"
+#include "app/scene/schema_leaf.h"
 #include "app/sweep/read/sweep.h"
 
 namespace neve::app::sweep::read {
@@ -35,5 +36,10 @@ std::string type_of(const Duration&);
 std::string type_of(const Ends&);
 std::string type_of(const WholeRange&);
 std::string type_of(const Values&);
+
+Json schema_of(const Duration&, const scene::Valid& valid, const char* unit);
+Json schema_of(const Ends&, const scene::Valid& valid, const char* unit);
+Json schema_of(const WholeRange&, const scene::Valid& valid, const char* unit);
+Json schema_of(const Values&, const scene::Valid& valid, const char* unit);
 
 }  // namespace neve::app::sweep::read

@@ -1,0 +1,82 @@
+#include <filesystem>
+#include <iostream>
+
+#include "app/cli/commands.h"
+#include "app/output/atomic_file.h"
+#include "app/scene/first_scene.h"
+#include "app/scene/schema.h"
+#include "app/scene/toml/error.h"
+#include "app/scene/valid.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
+#include "app/sweep/read/sweep_schema.h"
+
+namespace neve::app::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* schema_name = "scene.schema.json";
+
+/// "FOLDER/NAME.toml" for "FOLDER/NAME". @throws UsageError, IoError
+fs::path new_scene_path(const std::string& name) {
+  fs::path path = name;
+  if (path.extension() == ".toml") path.replace_extension();
+  if (!scene::is_identifier(path.filename().string()))
+    throw scene::toml::UsageError("new", "cannot call a scene \"" + path.filename().string() + "\"",
+                                  "expected 1 to 64 letters, digits, _ and -, as in neve new "
+                                  "my_scene");
+  path += ".toml";
+  std::error_code error;
+  if (fs::symlink_status(path, error).type() != fs::file_type::not_found)
+    throw scene::toml::UsageError("new", path.string() + " is there already",
+                                  "choose another name, or move that file away");
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (!fs::is_directory(folder, error))
+    throw IoError(folder.string() + ": there is no such folder", folder.string(),
+                  "make it first: mkdir -p " + folder.string());
+  return path;
+}
+
+/// A schema that is there may be of this version or another; neve schema writes it again.
+void write_schema_once(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) output::write_file(path, to_text(scene::scene_schema()) + "\n");
+}
+
+}  // namespace
+
+int run_new(const std::string& name, bool is_json) {
+  const fs::path path = new_scene_path(name), schema = path.parent_path() / schema_name;
+  try {
+    output::write_file(path, scene::first_scene(path.stem().string(), path.filename().string(),
+                                                schema_name));
+    write_schema_once(schema);
+  } catch (const IoError& error) {
+    throw IoError(error.what(), error.where, "choose another folder, as in neve new FOLDER/NAME");
+  }
+  const std::string file = path.string();
+  if (is_json) {
+    std::cout << to_text({{"scene", file}, {"schema", schema.string()}}) << "\n";
+    return exit_ok;
+  }
+  std::cout << "wrote " << file << ", and " << schema.string()
+            << " for editors\nnext:\n  neve check " << file
+            << "                what it costs, and what looks wrong\n  neve render " << file
+            << " --coarsen 2   a quick preview\n  neve view " << file
+            << "                 live: change numbers while the snow moves\n  neve render " << file
+            << "               pictures and a film\n";
+  return exit_ok;
+}
+
+int run_schema(const std::string& kind) {
+  if (kind != "scene" && kind != "sweep")
+    throw scene::toml::UsageError("schema", "there is no schema of \"" + kind + "\"",
+                                  names_advice(kind, {"scene", "sweep"}));
+  const bool is_scene = kind == "scene";
+  std::cout << to_text(is_scene ? scene::scene_schema() : sweep::read::sweep_schema()) << "\n";
+  return exit_ok;
+}
+
+}  // namespace neve::app::cli
