@@ -34,8 +34,9 @@ fs::path new_scene_path(const std::string& name) {
                                   "choose another name, or move that file away");
   const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!fs::is_directory(folder, error))
-    throw IoError(folder.string() + ": there is no such folder", folder.string(),
-                  "make it first: mkdir -p " + folder.string());
+    throw IoError(
+        folder.string() + ": there is no such folder; make it first: mkdir -p " + folder.string(),
+        folder.string());
   return path;
 }
 
@@ -50,8 +51,8 @@ void write_schema_once(const fs::path& path) {
 int run_new(const std::string& name, bool is_json) {
   const fs::path path = new_scene_path(name), schema = path.parent_path() / schema_name;
   try {
-    output::write_file(path, scene::first_scene(path.stem().string(), path.filename().string(),
-                                                schema_name));
+    output::write_file(
+        path, scene::first_scene(path.stem().string(), path.filename().string(), schema_name));
     write_schema_once(schema);
   } catch (const IoError& error) {
     throw IoError(error.what(), error.where, "choose another folder, as in neve new FOLDER/NAME");

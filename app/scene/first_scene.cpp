@@ -105,16 +105,22 @@ std::string commented(const std::string& text) {
   return out + line + "\n";
 }
 
-/// "Spacing h of the grid. Unit: m; 1e-9 <= value <= 1e6; default: 0.02."
+/// Bounds that nobody meets say nothing.
+bool has_near_bounds(const Valid& valid) {
+  const bool is_bounded = std::isfinite(valid.min) || std::isfinite(valid.max);
+  return is_bounded && !(valid.max >= 1e6 && valid.min <= 1e-6);
+}
+
+/// "Spacing h of the grid. Unit: m; default: 0.02."
 std::string description(const std::string& address) {
   const std::optional<ParamInfo> info = param_at(address);
   std::vector<std::string> facts;
   if (!info->unit.empty()) facts.push_back("unit: " + info->unit);
-  if (std::isfinite(info->valid.min) || std::isfinite(info->valid.max))
-    facts.push_back(info->valid.text_of_bounds());
+  if (has_near_bounds(info->valid)) facts.push_back(info->valid.text_of_bounds());
   if (!info->choices.empty()) facts.push_back("one of " + joined(info->choices, ", "));
-  if (info->default_value)
-    facts.push_back("default: " + toml::toml_literal(*info->default_value));
+  const std::string value =
+      info->default_value ? toml::toml_literal(*info->default_value) : std::string("\"\"");
+  if (value != "\"\"") facts.push_back("default: " + value);
   std::string text = joined(facts, "; ");
   if (text.empty()) return info->help;
   if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);

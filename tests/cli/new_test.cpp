@@ -43,8 +43,8 @@ TEST_F(New, SchemaAcceptsEveryShippedSceneAndSweep) {
   if (!python) SKIP_OR_FAIL("no jsonschema in Python; install python3-jsonschema");
   ASSERT_EQ(neve({"new", "first"}).exit_code, 0);
   // Every parameter, written out.
-  ASSERT_EQ(neve({"render", "first.toml", "--frames", "0", "--coarsen", "3", "--no-movie"}).exit_code,
-            0);
+  ASSERT_EQ(
+      neve({"render", "first.toml", "--frames", "0", "--coarsen", "3", "--no-movie"}).exit_code, 0);
   folder.write("resolved.toml", json_of("out/first/run.json")["scene"].get<std::string>());
   std::vector<std::string> files = shipped();
   EXPECT_GT(files.size(), 20u);
@@ -61,7 +61,8 @@ TEST_F(New, SchemaRefusesWhatNeveRefuses) {
   const std::pair<const char*, std::string> wrong[] = {
       {"solver.cell_sise", "[solver]\ncell_sise = 0.02\n" + ball},
       {"body.0.shape.sphere", "[[body]]\nshape = { sphere = { center = [0, 1, 0] } }\n"},
-      {"body.0.shape", "[[body]]\nshape = { sphere = { radius = 1 }, box = { size = [1, 1, 1] } }\n"},
+      {"body.0.shape",
+       "[[body]]\nshape = { sphere = { radius = 1 }, box = { size = [1, 1, 1] } }\n"},
       {"body.0.shape", "[[body]]\nshape = { plane = { normal = [0, 1, 0] } }\n"},
       {"body.0", "[[body]]\nvelocity = [0, -1, 0]\n"},
       {"material.snow.poisson_ratio", "[material.snow]\npoisson_ratio = 0.5\n" + ball},
@@ -74,11 +75,14 @@ TEST_F(New, SchemaRefusesWhatNeveRefuses) {
                                         "keyframes = [{ tame = 1 }]\n"},
       {"view.0.layers.0", ball + "[[view]]\nlayers = [\"snow\"]\n"},
       {"output.size", ball + "[output]\nsize = [100]\n"},
-      {"set.solver.cell_size", "[sweep]\nscene = \"scene.toml\"\n[set]\n\"solver.cell_size\" = -1\n"
-                               "[axis]\nfps = [1, 2]\n"},
-      {"axis", "[sweep]\nscene = \"scene.toml\"\n[axis]\n\"solver.cell_sise\" = [1, 2]\n"},
-      {"axis.solver.dt", "[sweep]\nscene = \"scene.toml\"\n[axis]\n"
-                         "\"solver.dt\" = { linspace = [1e-4, 1e-3] }\n"},
+      {"set.solver.cell_size",
+       "[sweep]\nscene = \"scene.toml\"\n[set]\n\"solver.cell_size\" = -1\n"
+       "[axis]\nfps = [1, 2]\n"},
+      {"axis.solver.cell_sise",
+       "[sweep]\nscene = \"scene.toml\"\n[axis]\n\"solver.cell_sise\" = [1, 2]\n"},
+      {"axis.solver.dt",
+       "[sweep]\nscene = \"scene.toml\"\n[axis]\n"
+       "\"solver.dt\" = { linspace = [1e-4, 1e-3] }\n"},
       {"sweep.method", "[sweep]\nscene = \"scene.toml\"\nmethod = \"all\"\n[axis]\nfps = [1, 2]\n"},
       {"sweep", "[sweep]\n[axis]\nfps = [1, 2]\n"},
   };
@@ -117,12 +121,13 @@ TEST_F(New, FirstSceneExplainsEveryLineAndRenders) {
     ++keys;
     const bool is_second = line.starts_with("shape = { box");
     EXPECT_TRUE(above.starts_with("# ") || is_second || above.starts_with("[output"))
-        << above << "\n" << line;
+        << above << "\n"
+        << line;
   }
   EXPECT_GT(keys, 20);
   EXPECT_EQ(json_of("scene.schema.json"), app::parse_json(neve({"schema"}).output));
-  const auto rendered = neve({"render", "avalanche.toml", "--frames", "2", "--coarsen", "2", "--size",
-                              "64x36", "--no-movie"});
+  const auto rendered = neve({"render", "avalanche.toml", "--frames", "2", "--coarsen", "2",
+                              "--size", "64x36", "--no-movie"});
   EXPECT_EQ(rendered.exit_code, 0) << rendered.errors;
   EXPECT_FALSE(contains(rendered.errors, "warning")) << rendered.errors;
 }
@@ -142,7 +147,8 @@ TEST_F(New, NothingIsOverwritten) {
   const auto nowhere = neve({"new", "missing/scene"});
   EXPECT_EQ(nowhere.exit_code, 6);
   EXPECT_TRUE(contains(nowhere.errors, "mkdir -p missing")) << nowhere.errors;
-  for (const char* bad : {"a b", "", "..", "x\ny", "dir/"}) EXPECT_EQ(neve({"new", bad}).exit_code, 2);
+  for (const char* bad : {"a b", "", "..", "x\ny", "dir/"})
+    EXPECT_EQ(neve({"new", bad}).exit_code, 2);
   const auto schema = neve({"schema", "scenes"});
   EXPECT_EQ(schema.exit_code, 2);
   EXPECT_TRUE(contains(schema.errors, "did you mean scene?")) << schema.errors;

@@ -32,8 +32,11 @@ Json reference_to(const std::string& definition) {
   return {{"$ref", "#/definitions/" + definition}};
 }
 
-/// A value that one run has, or "none".
+/// A value that one run has, or "none". Whole tables are rare: their keys are left to neve.
 Json value_schema(const scene::AddressSchema& parameter) {
+  if (parameter.is_table)
+    return {{"description", parameter.schema.value("description", "")},
+            {"type", {"object", "array", "string"}}};
   Json schema = scene::schema_of_any({parameter.schema, {{"const", "none"}}});
   if (parameter.schema.contains("description"))
     schema["description"] = parameter.schema["description"];
@@ -42,11 +45,11 @@ Json value_schema(const scene::AddressSchema& parameter) {
 
 /// Several values: a list, or a rule for them.
 Json axis_schema(const scene::AddressSchema& parameter) {
-  const Json list = {{"type", "array"}, {"items", reference_to(parameter.address)}, {"minItems", 1}};
+  const Json list = {
+      {"type", "array"}, {"items", reference_to(parameter.address)}, {"minItems", 1}};
   // solver = { cell_size = [...] } is solver.cell_size = [...], without quotes.
   if (parameter.is_table) return scene::schema_of_any({list, {{"type", "object"}}});
-  const Json rule = {
-      {"allOf", {reference_to("rule"), {{"properties", {{"values", list}}}}}}};
+  const Json rule = {{"allOf", {reference_to("rule"), {{"properties", {{"values", list}}}}}}};
   return scene::schema_of_any({list, rule});
 }
 
