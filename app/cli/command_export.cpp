@@ -16,7 +16,7 @@ int run_export_command(const run::ExportOptions& options) {
       setup::make_plan(job.run.scene, job.run.frames, setup::Quality::draft, options.run.threads);
   setup::check_limits(job.run.scene, plan, job.run.coarsening);
   for (const scene::Export& e : job.run.scene.exports)
-    exports::check_capacity(e, exports::empty_table(job.run.scene, e), plan.particles);
+    exports::check_capacity(e, exports::empty_table(job.run.scene, e, {}), plan.particles);
   catch_interrupts();
   Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),
                     options.run.progress);

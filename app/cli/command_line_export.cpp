@@ -94,6 +94,23 @@ std::vector<E> choices_in(const char* flag, const std::string& text) {
   return values;
 }
 
+/// Names that are no attributes of neve are columns of point files, which the scene knows.
+void set_attributes(const std::string& text, scene::Export& e) {
+  std::string ours;
+  for (const std::string& word : setup::comma_separated(text)) {
+    const bool is_ours = scene::value_named<scene::ExportAttribute>(word).has_value();
+    const bool is_new = std::find(e.carried.begin(), e.carried.end(), word) == e.carried.end();
+    if (!is_ours && scene::is_identifier(word)) {
+      if (is_new) e.carried.push_back(word);
+    } else {
+      ours += (ours.empty() ? "" : ",") + word;
+    }
+  }
+  e.attributes.clear();
+  if (!ours.empty() || e.carried.empty())
+    e.attributes = choices_in<scene::ExportAttribute>("--attributes", ours);
+}
+
 void check_surface(const CLI::App& command, const scene::Export& e) {
   cell_key().check(e.surface_cell);
   smoothing_key().check(e.surface_smoothing);
@@ -123,8 +140,7 @@ run::ExportOptions finished_export(const CLI::App& command, const run::RenderOpt
   common.bodies = texts.bodies;
   common.up = choice_of<scene::UpAxis>("--up", texts.up);
   common.scale = texts.scale;
-  if (texts.attributes)
-    common.attributes = choices_in<scene::ExportAttribute>("--attributes", *texts.attributes);
+  if (texts.attributes) set_attributes(*texts.attributes, common);
   for (const auto format : choices_in<scene::ExportFormat>("--format", texts.formats)) {
     common.format = format;
     options.exports.push_back(common);
@@ -153,7 +169,8 @@ void add_export_flags(CLI::App& command, const std::shared_ptr<ExportTexts>& tex
                             return names;
                           }(),
                           ",") +
-                      ": some of " + joined(scene::choices<scene::ExportAttribute>(), ", "))
+                      ": some of " + joined(scene::choices<scene::ExportAttribute>(), ", ") +
+                      ", and columns of the bodies' point files")
       ->type_name("A,A");
   add_repeatable(command, "--body", texts->bodies, "NAME",
                  "Write only the particles of this body or emitter (repeatable)");
@@ -180,7 +197,7 @@ void add_export(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "export",
       "Write the particles, their surface and the grid at some times for ParaView, Houdini, USD, "
-      "numpy");
+      "OpenVDB, numpy");
   const auto run = std::make_shared<run::RenderOptions>();
   const auto run_texts = std::make_shared<RenderTexts>();
   const auto texts = std::make_shared<ExportTexts>();

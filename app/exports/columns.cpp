@@ -171,8 +171,26 @@ std::vector<std::size_t> rows_of(const scene::Scene& scene, const scene::Export&
   return rows;
 }
 
+/// Formats that hold no attributes of points.
+bool has_places_only(const scene::Export& e) {
+  return e.format == scene::ExportFormat::obj || e.format == scene::ExportFormat::vdb;
+}
+
+Numbers numbers_of_type(std::vector<double> values, sim::files::PointColumn::Type type) {
+  using Type = sim::files::PointColumn::Type;
+  if (type == Type::int32) return converted(std::move(values), NumberKind::whole, true);
+  return converted(std::move(values), NumberKind::of_state, type == Type::real32);
+}
+
+/// Numbers of a file's column, in the type that they have there.
+Numbers carried_numbers(const ColumnSource& s, const Carried& carried, const std::string& name) {
+  return numbers_of_type(
+      values_of(s, [&](std::size_t p) { return carried.value(name, s.state.particles.id_of(p)); }),
+      carried.type_of(name));
+}
+
 std::vector<ExportAttribute> attributes_of(const scene::Export& e) {
-  if (e.format == scene::ExportFormat::obj) return {ExportAttribute::x};
+  if (has_places_only(e)) return {ExportAttribute::x};
   std::vector<ExportAttribute> list = e.attributes;
   if (std::find(list.begin(), list.end(), ExportAttribute::x) == list.end())
     list.insert(list.begin(), ExportAttribute::x);
@@ -209,25 +227,30 @@ const std::vector<double>& Table::places() const {
 }
 
 Table make_table(const scene::Scene& scene, const scene::Export& e, const Origins& origins,
-                 const State& state) {
+                 const Carried& carried, const State& state) {
   const std::vector<std::size_t> rows = rows_of(scene, e, origins, state.particles);
   const ColumnSource source{scene, origins, state, Axes(e), rows};
-  Table table = empty_table(scene, e);
+  Table table = empty_table(scene, e, carried);
   table.rows = rows.size();
   for (Column& column : table.columns)
-    column.numbers = converted(values_of(column.attribute, source), form_of(column.attribute).kind,
-                               is_single(scene));
+    column.numbers = column.attribute ? converted(values_of(*column.attribute, source),
+                                                  form_of(*column.attribute).kind, is_single(scene))
+                                      : carried_numbers(source, carried, column.name);
   if (e.surface) return surface_table(scene, e, state, rows, table);
   return table;
 }
 
-Table empty_table(const scene::Scene& scene, const scene::Export& e) {
+Table empty_table(const scene::Scene& scene, const scene::Export& e, const Carried& carried) {
   Table table;
   for (const ExportAttribute attribute : attributes_of(e)) {
     const ColumnForm form = form_of(attribute);
     table.columns.push_back({attribute, scene::name(attribute), form.unit, form.components,
                              converted({}, form.kind, is_single(scene))});
   }
+  if (has_places_only(e)) return table;
+  for (const std::string& name : e.carried)
+    table.columns.push_back(
+        {std::nullopt, name, "", 1, numbers_of_type({}, carried.type_of(name))});
   return table;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/exports/axes.h"
+#include "app/exports/carried.h"
 #include "app/exports/origins.h"
 #include "app/exports/state.h"
 
@@ -18,9 +19,9 @@ namespace neve::app::exports {
 using Numbers = std::variant<std::vector<float>, std::vector<double>, std::vector<std::int32_t>>;
 
 struct Column {
-  scene::ExportAttribute attribute;
-  std::string name, unit;  ///< the unit may be empty
-  int components = 1;      ///< 1, 3, or 9: row by row
+  std::optional<scene::ExportAttribute> attribute;  ///< absent: carried along from a file
+  std::string name, unit;                           ///< the unit may be empty
+  int components = 1;                               ///< 1, 3, or 9: row by row
   Numbers numbers;
 };
 
@@ -52,12 +53,13 @@ struct Table {
   const std::vector<double>& places() const;
 };
 
-/// The attributes of an export in its order, with x in front where it is not named.
+/// The attributes of an export in its order, with x in front where it is not named, then the
+/// columns that are carried along.
 /// @throws LimitError for a surface that does not fit in memory
 Table make_table(const scene::Scene& scene, const scene::Export& e, const Origins& origins,
-                 const State& state);
+                 const Carried& carried, const State& state);
 
-/// The same without rows: names, types and units. They depend on the scene alone.
-Table empty_table(const scene::Scene& scene, const scene::Export& e);
+/// The same without rows: names, types and units. They depend on the scene and its files alone.
+Table empty_table(const scene::Scene& scene, const scene::Export& e, const Carried& carried);
 
 }  // namespace neve::app::exports

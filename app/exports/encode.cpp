@@ -118,6 +118,8 @@ std::string encode(const Moment& moment) {
       return encode_vtp(moment);
     case scene::ExportFormat::vti:
       return encode_vti(moment);
+    case scene::ExportFormat::vdb:
+      return encode_vdb(moment);
     case scene::ExportFormat::bgeo:
       return encode_bgeo(moment);
     case scene::ExportFormat::usda:

@@ -38,6 +38,10 @@ std::string encode_vtp(const Moment& moment);
 /// @throws LimitError when particles far apart make the box too large
 std::string encode_vti(const Moment& moment);
 
+/// OpenVDB: mass, density and velocity of the nodes that carry mass; with the surface, its signed
+/// distance as a level set. In single precision.
+std::string encode_vdb(const Moment& moment);
+
 /// Houdini's classic binary geometry, version 5, which has single precision only.
 /// Source: read by partio (Walt Disney Animation Studios), src/lib/io/BGEO.cpp.
 std::string encode_bgeo(const Moment& moment);

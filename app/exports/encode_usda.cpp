@@ -18,7 +18,7 @@ struct UsdProperty {
 
 UsdProperty property_of(const Column& column, UsdPrim prim) {
   static constexpr std::array scalars{"float[]", "double[]", "int[]"};
-  switch (column.attribute) {
+  switch (column.attribute.value_or(ExportAttribute::density)) {
     case ExportAttribute::x:
       return {"point3f[]", "points"};
     case ExportAttribute::v:
@@ -32,7 +32,7 @@ UsdProperty property_of(const Column& column, UsdPrim prim) {
     default:
       break;
   }
-  return {scalars[column.numbers.index()], "primvars:" + column.name, true};
+  return {scalars[column.numbers.index()], "primvars:" + usd_name(column.name), true};
 }
 
 /// USD has places, velocities and widths in single precision; widths are diameters.

@@ -74,9 +74,12 @@ void put(std::vector<Item>& items, Item item) {
 
 Exporter::Exporter(const scene::Scene& scene, fs::path folder,
                    const std::vector<std::size_t>& body_end)
-    : scene_(scene), folder_(std::move(folder)), origins_(scene, body_end) {
+    : scene_(scene),
+      folder_(std::move(folder)),
+      origins_(scene, body_end),
+      carried_(scene, body_end) {
   for (const scene::Export& spec : scene.exports)
-    jobs_.push_back({{spec, empty_table(scene, spec), {}}, {}});
+    jobs_.push_back({{spec, empty_table(scene, spec, carried_), {}}, {}});
 }
 
 bool Exporter::is_due(int frame) const {
@@ -106,7 +109,7 @@ Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int 
   const bool has_pvd = series_name(spec).ends_with(".pvd");
   std::string series = has_pvd ? encode_pvd(spec, job.samples) : std::string();
   return [this, &spec, state = std::move(state), number, series = std::move(series)] {
-    const Table table = make_table(scene_, spec, origins_, *state);
+    const Table table = make_table(scene_, spec, origins_, carried_, *state);
     check_capacity(spec, table, static_cast<double>(table.rows));
     const fs::path folder = folder_ / scene::folder_of(spec);
     output::make_folder(folder);
@@ -160,13 +163,12 @@ Json Exporter::to_json(const std::string& below) const {
   for (const Job& job : jobs_) {
     const scene::Export& spec = job.record.spec;
     const std::string series = series_name(spec), folder = below + scene::folder_of(spec) + "/";
-    Json json = {{"name", scene::folder_of(spec)},
-                 {"format", scene::name(spec.format)},
-                 {"up", scene::name(spec.up)},
-                 {"scale", spec.scale},
-                 {"attributes", spec.format == scene::ExportFormat::vti
-                                    ? Json::array()
-                                    : attributes_json(job.record.columns)}};
+    Json json = {
+        {"name", scene::folder_of(spec)},
+        {"format", scene::name(spec.format)},
+        {"up", scene::name(spec.up)},
+        {"scale", spec.scale},
+        {"attributes", has_grid(spec) ? Json::array() : attributes_json(job.record.columns)}};
     json["surface"] = spec.surface ? surface_json(scene_, spec) : Json();
     json["series"] = series.empty() ? Json() : Json(below + series);
     json["files"] = Json::array();

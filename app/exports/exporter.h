@@ -63,6 +63,7 @@ class Exporter {
   scene::Scene scene_;
   std::filesystem::path folder_;
   Origins origins_;
+  Carried carried_;
   std::vector<Job> jobs_;
 };
 

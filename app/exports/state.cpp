@@ -17,11 +17,11 @@ bool has_stress(const scene::Export& e) {
          has_attribute(e, scene::ExportAttribute::kirchhoff);
 }
 
-bool has_grid(const scene::Export& e) {
-  return e.format == scene::ExportFormat::vti;
-}
-
 }  // namespace
+
+bool has_grid(const scene::Export& e) {
+  return e.format == scene::ExportFormat::vti || e.format == scene::ExportFormat::vdb;
+}
 
 std::shared_ptr<const State> read_state(std::span<const scene::Export> exports,
                                         const std::vector<scene::Collider>& colliders,

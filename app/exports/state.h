@@ -22,6 +22,9 @@ struct State {
   std::vector<sim::shapes::Pose> poses;       ///< of the scene's colliders
 };
 
+/// True for formats that have the grid instead of particles.
+bool has_grid(const scene::Export& e);
+
 /// @param colliders  where their drawn places come from: the scene's, followed to this moment
 std::shared_ptr<const State> read_state(std::span<const scene::Export> exports,
                                         const std::vector<scene::Collider>& colliders,

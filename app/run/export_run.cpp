@@ -65,6 +65,7 @@ void check_exports(const scene::Scene& scene) {
   std::string flag = "--body";
   for (const char* key : {"attributes", "format", "surface"})
     if (problem->address.ends_with(std::string(".") + key)) flag = std::string("--") + key;
+  if (problem->address.ends_with(".carried")) flag = "--attributes";
   throw scene::toml::UsageError(flag, problem->message, problem->hint);
 }
 

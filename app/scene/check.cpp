@@ -11,6 +11,7 @@
 #include "sim/kernels/blocks.h"
 #include "sim/kernels/contact.h"
 #include "sim/shapes/mesh_surface.h"
+#include "sim/shapes/placed_points.h"
 #include "sim/shapes/solid.h"
 #include "sim/shapes/variation.h"
 
@@ -277,7 +278,7 @@ bool names_attribute(const Export& e, ExportAttribute attribute) {
 
 bool holds_meshes(ExportFormat format) {
   return format == ExportFormat::ply || format == ExportFormat::vtp ||
-         format == ExportFormat::usda || format == ExportFormat::obj;
+         format == ExportFormat::usda || format == ExportFormat::obj || format == ExportFormat::vdb;
 }
 
 Found export_format_problem(const Export& e) {
@@ -285,16 +286,55 @@ Found export_format_problem(const Export& e) {
   if (e.surface && !holds_meshes(e.format))
     return Problem{at + ".surface",
                    std::string("a file of format ") + name(e.format) + " cannot hold a surface",
-                   "use ply, vtp, usda or obj, or write the particles without the surface"};
+                   "use ply, vtp, usda, obj or vdb, or write the particles without the surface"};
   if (!e.surface && e.format == ExportFormat::obj)
     return Problem{at + ".format", "an obj file holds a surface and no particles",
                    "ask for the surface too, or use ply for particles"};
   return {};
 }
 
+/// Columns of the point files that an export could carry along. A file that cannot be read is
+/// refused when the body is made.
+std::vector<std::string> carried_columns(const Scene& scene) {
+  std::vector<std::string> all;
+  for (const sim::seeding::Body& body : scene.bodies) {
+    const auto* points = std::get_if<sim::shapes::Points>(&body.shape.form);
+    if (!points) continue;
+    try {
+      for (const std::string& column : sim::shapes::column_names(*points))
+        if (is_identifier(column) && std::find(all.begin(), all.end(), column) == all.end())
+          all.push_back(column);
+    } catch (const sim::ShapeError&) {
+    }
+  }
+  return all;
+}
+
+Found carried_problem(const Scene& scene, const Export& e) {
+  if (e.carried.empty()) return {};
+  const std::string at = "export." + e.name + ".carried";
+  const std::vector<std::string> columns = carried_columns(scene),
+                                 ours = choices<ExportAttribute>();
+  for (const std::string& name : e.carried) {
+    const std::string quoted = toml::toml_string(name);
+    if (std::count(e.carried.begin(), e.carried.end(), name) > 1)
+      return Problem{at, quoted + " is named twice", "name each column once"};
+    if (std::find(ours.begin(), ours.end(), name) != ours.end())
+      return Problem{at, quoted + " is an attribute of neve itself",
+                     "write it in attributes; rename the column of the file to carry it along"};
+    if (std::find(columns.begin(), columns.end(), name) != columns.end()) continue;
+    std::vector<std::string> known = columns;
+    known.insert(known.end(), ours.begin(), ours.end());
+    return Problem{at, "there is no attribute " + quoted + ", and no point file has such a column",
+                   names_advice(name, known)};
+  }
+  return {};
+}
+
 Found export_problem(const Scene& scene, const Export& e) {
   const std::string at = "export." + e.name;
   if (Found found = export_format_problem(e)) return found;
+  if (Found found = carried_problem(scene, e)) return found;
   for (const Export& other : scene.exports) {
     if (&other == &e) break;
     if (folder_of(other) == folder_of(e))

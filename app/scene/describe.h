@@ -541,17 +541,18 @@ void describe(V& visit, Export& e) {
   visit("every", e.every, unit::none, between(1, 100000), restart,
         "Frames from one file to the next.");
   visit("attributes", e.attributes, unit::none, anything, restart,
-        "Attributes of the particles; x is always there. vti has the mass and velocity of nodes.");
+        "Attributes of the particles; x is always there. vti and vdb have the grid instead.");
+  visit("carried", e.carried, unit::none, identifier, restart,
+        "Further columns of the bodies' point files, by name; 0 for particles without.");
   visit("bodies", e.bodies, unit::none, identifier, restart,
         "Names of bodies and emitters whose particles are written; default: all.");
   visit("up", e.up, unit::none, anything, restart,
         "Axis that points up in the files: (x, y, z) becomes (x, -z, y) for z.");
   visit("scale", e.scale, unit::none, at_least(1e-6).at_most(1e6), restart,
         "Units of the files per metre, of lengths and velocities; all else stays in SI units.");
-  visit(
-      "surface", e.surface, unit::none, anything, restart,
-      "Write a closed mesh around the particles instead of them (ply, vtp, usda, obj); spray stays "
-      "points.");
+  visit("surface", e.surface, unit::none, anything, restart,
+        "Write a closed mesh around the particles instead of them (ply, vtp, usda, obj), or its "
+        "signed distance (vdb).");
   visit("surface_cell", e.surface_cell, unit::none, between(0.2, 4), restart,
         "Cell of the mesh, in particle spacings; half as much: four times the triangles.");
   visit("surface_smoothing", e.surface_smoothing, unit::none, between(0.5, 3), restart,

@@ -252,6 +252,9 @@ std::string advice_on_choice(const Leaf& leaf, const std::string& text,
                              const std::string& nearest) {
   if (leaf.address == "solver.transfer" && text == "pic")
     return "PIC is transfer = \"flip\" with flip_ratio = 0";
+  const bool is_attribute =
+      leaf.address.starts_with("export.") && leaf.address.find(".attributes[") != std::string::npos;
+  if (is_attribute && nearest.empty()) return "columns of point files are named in carried";
   if (!is_preset_address(leaf.address) || !nearest.empty()) return {};
   for (const Wish* wish : wishes_for(text)) {
     const WishChange& change = wish->changes.front();

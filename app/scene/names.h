@@ -130,8 +130,9 @@ constexpr auto names(Layer) {
 }
 constexpr auto names(ExportFormat) {
   using enum ExportFormat;
-  return std::array{Name{ply, "ply"},   Name{vtp, "vtp"}, Name{vti, "vti"}, Name{bgeo, "bgeo"},
-                    Name{usda, "usda"}, Name{npz, "npz"}, Name{csv, "csv"}, Name{obj, "obj"}};
+  return std::array{Name{ply, "ply"}, Name{vtp, "vtp"},   Name{vti, "vti"},
+                    Name{vdb, "vdb"}, Name{bgeo, "bgeo"}, Name{usda, "usda"},
+                    Name{npz, "npz"}, Name{csv, "csv"},   Name{obj, "obj"}};
 }
 constexpr auto names(ExportAttribute) {
   using enum ExportAttribute;

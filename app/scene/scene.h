@@ -148,7 +148,7 @@ struct Mosaic {
   std::optional<int> width;        ///< px; the output's when absent
 };
 
-enum class ExportFormat { ply, vtp, vti, bgeo, usda, npz, csv, obj };
+enum class ExportFormat { ply, vtp, vti, vdb, bgeo, usda, npz, csv, obj };
 enum class ExportAttribute {
   id,
   x,
@@ -178,7 +178,8 @@ struct Export {
   std::vector<ExportAttribute> attributes{
       ExportAttribute::id, ExportAttribute::x,   ExportAttribute::v,       ExportAttribute::m,
       ExportAttribute::V0, ExportAttribute::J_P, ExportAttribute::density, ExportAttribute::radius};
-  std::vector<std::string> bodies;  ///< bodies and emitters by name; empty: all
+  std::vector<std::string> carried;  ///< columns of point files, by name
+  std::vector<std::string> bodies;   ///< bodies and emitters by name; empty: all
   UpAxis up = UpAxis::y;
   double scale = 1;              ///< units of the file per metre, of lengths and velocities
   bool surface = false;          ///< a closed mesh around the particles instead of them

@@ -54,8 +54,9 @@ class PointCsv {
  public:
   PointCsv(std::string_view text, const std::string& name) : lines_(text), name_(name) {}
 
-  PointCloud read() {
+  PointCloud read(const std::vector<std::string>& further) {
     PointTable points = read_header();
+    points.carry(further, columns_, {}, here());
     std::vector<double> row(columns_.size());
     while (!lines_.at_end()) {
       const std::string_view line = lines_.next();
@@ -64,6 +65,11 @@ class PointCsv {
       points.add(row, [&] { return here(); });
     }
     return points.take(name_);
+  }
+
+  std::vector<std::string> further() {
+    read_header();
+    return unknown_columns(columns_);
   }
 
  private:
@@ -108,9 +114,23 @@ class PointCsv {
 
 }  // namespace
 
-PointCloud parse_csv_points(std::string_view text, const std::string& name) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // as spreadsheets write it
-  return PointCsv(text, name).read();
+namespace {
+
+/// Spreadsheets put a mark in front.
+std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return text;
+}
+
+}  // namespace
+
+PointCloud parse_csv_points(std::string_view text, const std::string& name,
+                            const std::vector<std::string>& further) {
+  return PointCsv(without_mark(text), name).read(further);
+}
+
+std::vector<std::string> further_csv_columns(std::string_view text, const std::string& name) {
+  return PointCsv(without_mark(text), name).further();
 }
 
 }  // namespace neve::sim::files

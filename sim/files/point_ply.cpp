@@ -136,8 +136,10 @@ class PointPly {
   PointPly(std::string_view bytes, const std::string& name)
       : lines_(bytes), name_(name), header_(PlyHeaderReader(lines_, name).read()) {}
 
-  PointCloud read() {
-    PointTable points(header_.elements.back().columns, header_.elements.back().where);
+  PointCloud read(const std::vector<std::string>& further) {
+    const PlyElement& element = header_.elements.back();
+    PointTable points(element.columns, element.where);
+    points.carry(further, element.columns, column_types(element), element.where);
     if (header_.format == PlyHeader::Format::ascii)
       read_text(points);
     else
@@ -145,8 +147,25 @@ class PointPly {
     return points.take(name_);
   }
 
+  std::vector<std::string> further() const {
+    return unknown_columns(header_.elements.back().columns);
+  }
+
  private:
   std::string here() const { return name_ + ":" + std::to_string(lines_.number()); }
+
+  static std::vector<PointColumn::Type> column_types(const PlyElement& element) {
+    using enum PointColumn::Type;
+    std::vector<PointColumn::Type> types;
+    for (const PlyType& type : element.types) {
+      const bool fits = type.size < 4 || type.kind == PlyType::is_signed;
+      if (type.kind == PlyType::is_float)
+        types.push_back(type.size == 4 ? real32 : real64);
+      else
+        types.push_back(fits ? int32 : real64);
+    }
+    return types;
+  }
 
   /// Compares the count of the header with the bytes left in the file, at a least size of a row.
   static void check_count(const PlyElement& element, std::size_t row_size, std::size_t left) {
@@ -231,8 +250,13 @@ class PointPly {
 
 }  // namespace
 
-PointCloud parse_ply_points(std::string_view bytes, const std::string& name) {
-  return PointPly(bytes, name).read();
+PointCloud parse_ply_points(std::string_view bytes, const std::string& name,
+                            const std::vector<std::string>& further) {
+  return PointPly(bytes, name).read(further);
+}
+
+std::vector<std::string> further_ply_columns(std::string_view bytes, const std::string& name) {
+  return PointPly(bytes, name).further();
 }
 
 }  // namespace neve::sim::files

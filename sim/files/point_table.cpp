@@ -103,6 +103,13 @@ std::string listed_columns(const std::vector<std::string>& columns) {
 
 }  // namespace
 
+std::vector<std::string> unknown_columns(const std::vector<std::string>& columns) {
+  std::vector<std::string> unknown;
+  for (const std::string& column : columns)
+    if (!quantity_called(plain_column_name(column))) unknown.push_back(column);
+  return unknown;
+}
+
 std::string_view TableLines::next() {
   ++number_;
   const std::size_t end = std::min(rest_.find('\n'), rest_.size());
@@ -146,8 +153,24 @@ void PointTable::require(std::size_t first, const std::vector<std::string>& colu
                               "; expected x, y, z and, if wanted, vx, vy, vz, mass, volume");
 }
 
+void PointTable::carry(const std::vector<std::string>& names,
+                       const std::vector<std::string>& columns,
+                       const std::vector<PointColumn::Type>& types, const std::string& where) {
+  for (const std::string& name : names) {
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    if (found == columns.end()) continue;
+    if (std::find(found + 1, columns.end(), name) != columns.end())
+      refuse_input(where, "two columns are called " + quoted_input(name));
+    const auto k = static_cast<std::size_t>(found - columns.begin());
+    if (quantity_called(plain_column_name(name))) continue;
+    further_.push_back(k);
+    cloud_.further.push_back({name, types.empty() ? PointColumn::Type::real64 : types[k], {}});
+  }
+}
+
 bool PointTable::uses(std::size_t column) const {
-  return std::find(column_.begin(), column_.end(), std::optional(column)) != column_.end();
+  return std::find(column_.begin(), column_.end(), std::optional(column)) != column_.end() ||
+         std::find(further_.begin(), further_.end(), column) != further_.end();
 }
 
 void PointTable::reserve(std::size_t count) {
@@ -203,6 +226,8 @@ void PointTable::add(const std::vector<double>& row, const std::function<std::st
   if (column_[mass]) cloud_.m.push_back(value(row, mass, where));
   if (column_[rest_volume]) cloud_.V.push_back(value(row, rest_volume, where));
   if (column_[volume]) cloud_.V.push_back(value(row, volume, where));
+  for (std::size_t k = 0; k < further_.size(); ++k)
+    cloud_.further[k].value.push_back(row[further_[k]]);
   add_history(row, where);
 }
 

@@ -29,12 +29,21 @@ class TableLines {
 
 inline constexpr std::size_t max_columns = 256;
 
+/// Those that mean nothing to neve.
+std::vector<std::string> unknown_columns(const std::vector<std::string>& columns);
+
 /// Collects the points from the rows of a table.
 class PointTable {
  public:
   /// @param where  of the header, for messages
   /// @throws ShapeError without x, y or z, with a part of a velocity, with one quantity twice
   PointTable(const std::vector<std::string>& columns, const std::string& where);
+
+  /// Also reads these of the columns that mean nothing here.
+  /// @param types  of all columns; empty: real64
+  /// @throws ShapeError where two have one of the names
+  void carry(const std::vector<std::string>& names, const std::vector<std::string>& columns,
+             const std::vector<PointColumn::Type>& types, const std::string& where);
 
   bool uses(std::size_t column) const;
   void reserve(std::size_t count);
@@ -61,6 +70,7 @@ class PointTable {
   void add_history(const std::vector<double>& row, const std::function<std::string()>& where);
 
   std::array<std::optional<std::size_t>, quantity_count> column_{};
+  std::vector<std::size_t> further_;  ///< columns of cloud_.further
   PointCloud cloud_;
 };
 

@@ -15,17 +15,12 @@
 namespace neve::sim::shapes {
 namespace {
 
-/// One of every `thinning` in a list, evenly, at least one. Neighbours in a file tend to be
-/// neighbours in space, so the rest is spread evenly there too.
 template <class T>
 void thin(std::vector<T>& list, double thinning) {
   if (list.empty()) return;
-  std::size_t kept = 0;
-  for (std::size_t p = 0; p < list.size(); ++p) {
-    const double before = std::floor(static_cast<double>(p) / thinning);
-    if (std::floor(static_cast<double>(p + 1) / thinning) > before) list[kept++] = list[p];
-  }
-  list.resize(std::max<std::size_t>(1, kept));
+  const std::vector<std::size_t> kept = kept_points(list.size(), thinning);
+  for (std::size_t k = 0; k < kept.size(); ++k) list[k] = list[kept[k]];
+  list.resize(kept.size());
 }
 
 double sum(const std::vector<double>& list) {
@@ -89,6 +84,30 @@ std::optional<SummaryKey> key_of(const Points& points, const Mat3d& rotation) {
 }
 
 }  // namespace
+
+/// One of every `thinning`, evenly, at least one. Neighbours in a file tend to be neighbours in
+/// space, so the rest is spread evenly there too.
+std::vector<std::size_t> kept_points(std::size_t count, double thinning) {
+  std::vector<std::size_t> kept;
+  for (std::size_t p = 0; p < count; ++p) {
+    const double before = std::floor(static_cast<double>(p) / thinning);
+    if (std::floor(static_cast<double>(p + 1) / thinning) > before) kept.push_back(p);
+  }
+  if (kept.empty() && count > 0) kept.push_back(0);
+  return kept;
+}
+
+std::vector<files::PointColumn> placed_columns(const Points& points,
+                                               const std::vector<std::string>& names) {
+  std::vector<files::PointColumn> columns = files::read_points(points.file, names).further;
+  if (points.thinning != 1)
+    for (files::PointColumn& column : columns) thin(column.value, points.thinning);
+  return columns;
+}
+
+std::vector<std::string> column_names(const Points& points) {
+  return files::further_columns(points.file);
+}
 
 PlacedPoints::PlacedPoints(const Points& points)
     : PlacedPoints(files::read_points(points.file), points, points.file) {}

@@ -28,6 +28,17 @@ struct PlacedPoints {
   double expected_count = 0;  ///< points over thinning, which may be less than the one there is
 };
 
+/// Numbers, in the file, of the points that are left of a count after thinning.
+std::vector<std::size_t> kept_points(std::size_t count, double thinning);
+
+/// Columns of a body's file that mean nothing to neve, of the points that are left.
+/// @param names  those that the file does not have are left out
+/// @throws ShapeError
+std::vector<files::PointColumn> placed_columns(const Points& points,
+                                               const std::vector<std::string>& names);
+/// The names of all of them.
+std::vector<std::string> column_names(const Points& points);
+
 /// Summary of a body's points, without the points.
 struct PointsSummary {
   std::size_t count = 0;

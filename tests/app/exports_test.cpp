@@ -40,7 +40,7 @@ app::scene::Export spec_of(ExportFormat format, std::vector<ExportAttribute> att
 std::string refusal(ExportFormat format, ExportAttribute attribute, double particles) {
   const auto e = spec_of(format, {attribute});
   try {
-    app::exports::check_capacity(e, app::exports::empty_table(scene_with(""), e), particles);
+    app::exports::check_capacity(e, app::exports::empty_table(scene_with(""), e, {}), particles);
   } catch (const app::LimitError& error) {
     EXPECT_EQ(error.code, app::exit_refused);
     return error.hint;

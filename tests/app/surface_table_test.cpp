@@ -96,7 +96,7 @@ TEST(SurfaceTable, VerticesHaveTheAttributesOfParticlesAround) {
   e.up = scene::UpAxis::z;
   e.attributes = {scene::ExportAttribute::v, scene::ExportAttribute::J_P,
                   scene::ExportAttribute::id};
-  const Table table = make_table(scene, e, Origins(scene, moment.body_end), *moment.state);
+  const Table table = make_table(scene, e, Origins(scene, moment.body_end), {}, *moment.state);
   ASSERT_TRUE(table.mesh);
   const auto& v = std::get<std::vector<float>>(table.find(scene::ExportAttribute::v)->numbers);
   const auto& J_P = std::get<std::vector<float>>(table.find(scene::ExportAttribute::J_P)->numbers);
@@ -135,10 +135,10 @@ TEST(SurfaceTable, CellsThatNeedTooMuchMemoryAreRefused) {
   const ReachedState moment(scene, 0);
   scene::Export e = surface_spec();
   const Origins origins(scene, moment.body_end);
-  EXPECT_TRUE(make_table(scene, e, origins, *moment.state).mesh);
+  EXPECT_TRUE(make_table(scene, e, origins, {}, *moment.state).mesh);
   e.surface_cell = 0.2;
   try {
-    make_table(scene, e, origins, *moment.state);
+    make_table(scene, e, origins, {}, *moment.state);
     FAIL() << "was made";
   } catch (const LimitError& error) {
     EXPECT_EQ(error.code, exit_refused);

@@ -248,6 +248,71 @@ TEST_F(Export, BodiesAreWrittenByName) {
   EXPECT_EQ(found + 1, static_cast<std::size_t>(lines));
 }
 
+/// A ball, points of a PLY, and every third point of a CSV.
+constexpr const char* carried_scene = R"(
+frames = 4
+[solver]
+cell_size = 0.04
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.5, 0.3], radius = 0.06 } }
+[[body]]
+name = "painted"
+shape = { points = { file = "points.ply", spacing = 0.02 } }
+[[body]]
+name = "table"
+shape = { points = { file = "points.csv", spacing = 0.02, thinning = 3 } }
+[[collider]]
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[[export]]
+format = "npz"
+attributes = ["id", "x", "body"]
+carried = ["temperature", "weight", "brush", "mark"]
+[output]
+size = [160, 90]
+)";
+
+TEST_F(Export, ColumnsOfPointFilesComeOutAsTheyWentIn) {
+  const auto python = python_with("numpy");
+  if (!python) SKIP_OR_FAIL("no Python with numpy; install python3-numpy");
+  ASSERT_EQ(run_script(*python, "check_carried.py", {"write"}, folder.path()).exit_code, 0);
+  folder.write("carried.toml", carried_scene);
+  json_of_export({"carried.toml", "--format", "ply,vtp,csv,npz,usda,bgeo", "--attributes",
+                  "id,temperature,x,body,weight,brush,mark", "--out", "all", "--frames", "4-4"});
+  const auto same = run_script(*python, "check_carried.py", {"check", "all", "4"}, folder.path());
+  EXPECT_EQ(same.output, "same\n") << same.errors;
+  // Beside a render, in a worker.
+  ASSERT_EQ(neve({"render", "carried.toml", "--no-movie"}).exit_code, 0);
+  EXPECT_EQ(read_text(folder / "out/carried/exports/npz/0000.npz").size(),
+            read_text(folder / "out/carried/exports/npz/0004.npz").size());
+}
+
+TEST_F(Export, ColumnsThatNoFileHasAreRefusedWithTheNearest) {
+  folder.write("points.csv", "x,y,z,weight,density\n0,0.1,0,1,2\n");
+  folder.write("points.ply",
+               "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+               "property float z\nproperty float temperature\nend_header\n0 0.1 0 -3\n");
+  folder.write("carried.toml", carried_scene);
+  expect_refused({"carried.toml", "--format", "npz", "--attributes", "id,temprature"}, 2,
+                 "there is no attribute \"temprature\", and no point file has such a column; did "
+                 "you mean temperature?");
+  expect_refused({"pair.toml", "--format", "npz", "--attributes", "id,desnity"}, 2,
+                 "did you mean density?");
+  expect_refused({"pair.toml", "--format", "npz", "--attributes", "id,a b"}, 2, "--attributes");
+  const auto located = [&](const std::string& carried) {
+    std::string text = carried_scene;
+    const std::string old = R"(carried = ["temperature", "weight", "brush", "mark"])";
+    text.replace(text.find(old), old.size(), carried);
+    folder.write("located.toml", text);
+    const auto result = neve({"check", "located.toml"});
+    EXPECT_EQ(result.exit_code, 3) << carried;
+    return result.errors;
+  };
+  EXPECT_TRUE(contains(located("carried = [\"brush\"]"), "located.toml:20:"));
+  EXPECT_TRUE(contains(located("carried = [\"density\"]"), "is an attribute of neve itself"));
+  EXPECT_TRUE(contains(located("carried = [\"weight\", \"weight\"]"), "named twice"));
+}
+
 TEST_F(Export, TheNextExportRemovesTheFilesOfTheOneBefore) {
   json_of_export({"scene.toml", "--format", "vtp,usda", "--out", "x"});
   folder.write("x/vtp/mine.txt", "kept");

@@ -9,6 +9,8 @@ namespace {
 
 class ExportToVtk : public Cli {};
 
+class ExportToOpenVdb : public Cli {};
+
 class PythonPage : public Cli {};
 
 TEST_F(ExportToVtk, VtkReadsTheSameBits) {
@@ -20,6 +22,27 @@ TEST_F(ExportToVtk, VtkReadsTheSameBits) {
   ASSERT_EQ(written.exit_code, 0) << written.errors;
   const auto same = run_script(*python, "check_vtk.py", {"all", "3"}, folder.path());
   EXPECT_EQ(same.output, "same\n") << same.errors;
+}
+
+TEST_F(ExportToOpenVdb, OpenVdbReadsTheGridAndTheSurface) {
+  const auto python = python_with("pyopenvdb");
+  if (!python) SKIP_OR_FAIL("no Python with OpenVDB; install python3-openvdb");
+  for (const std::vector<std::string>& axes :
+       {std::vector<std::string>{}, {"--up", "z", "--scale", "100"}}) {
+    std::vector<std::string> words{"export", "scene.toml", "--format", "vdb,ply", "--frames",
+                                   "3-3",    "--surface",  "--out",    "all"};
+    words.insert(words.end(), axes.begin(), axes.end());
+    auto written = neve(words);
+    ASSERT_EQ(written.exit_code, 0) << written.errors;
+    words = {"export", "scene.toml", "--format", "vti", "--frames", "3-3", "--out", "grid"};
+    words.insert(words.end(), axes.begin(), axes.end());
+    ASSERT_EQ(neve(words).exit_code, 0);
+    std::filesystem::rename(folder / "grid/vti", folder / "all/vti");
+    const auto same = run_script(*python, "check_vdb.py", {"all", "3"}, folder.path());
+    EXPECT_EQ(same.output, "same\n") << same.errors;
+    std::filesystem::remove_all(folder / "all");
+    std::filesystem::remove_all(folder / "grid");
+  }
 }
 
 TEST_F(PythonPage, ThePageOfRecipesRuns) {
