@@ -336,7 +336,7 @@ TEST_F(Export, AForgedListRemovesNothingElse) {
 
 TEST_F(Export, MistakesAreExplained) {
   expect_refused({"scene.toml"}, 2, "--format");
-  expect_refused({"scene.toml", "--format", "ply,stl"}, 2, "expected ply, vtp, vti, bgeo");
+  expect_refused({"scene.toml", "--format", "ply,stl"}, 2, "expected ply, vtp, vti, vdb");
   expect_refused({"scene.toml", "--format", "ply", "--attributes", "id,JP"}, 2,
                  "did you mean J_P?");
   expect_refused({"scene.toml", "--format", "ply", "--body", "bal"}, 2, "did you mean ball?");

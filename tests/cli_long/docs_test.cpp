@@ -56,6 +56,10 @@ std::string shortened(std::string command) {
   const std::string name = command.substr(0, command.find(' '));
   if (name == "test" || name == "export") return "";
   if (name == "new") return "new made_here";
+  // A test of Slurm submits what the page of farms does.
+  if (command.find("--engine slurm") != std::string::npos) return "";
+  command =
+      std::regex_replace(command, std::regex("sweep collect [^ ]+"), "sweep collect elsewhere");
   const bool is_tiny = command.find(" scene.toml") != std::string::npos;
   command = std::regex_replace(command, std::regex("--out [^ ]+"),
                                name == "dump" ? "--out dumped" : "--out elsewhere");
@@ -64,10 +68,11 @@ std::string shortened(std::string command) {
       command += " " + flag + (value.empty() ? "" : " " + value);
   };
   if (name == "bench") add("--help");
-  if (name == "sweep") add("--dry-run");
+  const bool is_collected = command.starts_with("sweep collect");
+  if (name == "sweep" && !is_tiny && !is_collected) add("--dry-run");
   if (name == "view") add("--replay", "wait.json");
   const bool is_run = name == "view" || name == "dump" || name == "check" || name == "sweep";
-  if (is_run && !is_tiny) add("--coarsen", "3");
+  if (is_run && !is_tiny && !is_collected) add("--coarsen", "3");
   if (name != "render") return command;
   const bool is_picture = command.find(".png") != std::string::npos;
   if (!is_picture) add("--frames", "0");

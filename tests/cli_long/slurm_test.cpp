@@ -84,5 +84,42 @@ TEST_F(Cli, CancelledSlurmSweepsContinue) {
   EXPECT_TRUE(exists("array/runs/0000/checkpoint"));
 }
 
+/// The first block of a language on the page of farms.
+std::string block_of_farms(const std::string& language) {
+  const std::string page = read_text(NEVE_SOURCE_DIR "/docs/farms.md"),
+                    start = "```" + language + "\n";
+  const std::size_t from = page.find(start) + start.size();
+  return page.substr(from, page.find("```", from) - from);
+}
+
+TEST_F(Cli, TheScriptOfThePageOfFarmsRunsAndResumes) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can start Slurm's daemons";
+  if (const std::string missing = Slurm::missing(); !missing.empty()) SKIP_OR_FAIL(missing);
+  const Slurm slurm;
+  if (!slurm.is_up()) SKIP_OR_FAIL("Slurm is installed and does not start");
+  const std::string script = block_of_farms("bash");
+  ASSERT_TRUE(contains(script, "srun neve render scene.toml"));
+  folder.write("job.sh", script);
+  std::filesystem::create_directories(folder / "bin");
+  std::filesystem::create_symlink(NEVE_BINARY, folder / "bin/neve");
+  const auto submit = [&] {
+    return app::output::run_process(
+        "/bin/bash",
+        {"-c",
+         "PATH=\"$PWD/bin:$PATH\" sbatch --wait job.sh; code=$?; cat slurm-*.out >&2; "
+         "exit $code"},
+        folder.path());
+  };
+  const auto first = submit();
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  EXPECT_EQ(json_of("snow/run.json")["frames"].size(), 5u);
+  EXPECT_TRUE(exists("snow.log"));
+  const std::string picture = read_text(folder / "snow/particles/0003.png");
+  std::filesystem::remove(folder / "snow/particles/0003.png");
+  const auto again = submit();
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(read_text(folder / "snow/particles/0003.png"), picture);
+}
+
 }  // namespace
 }  // namespace neve::test
