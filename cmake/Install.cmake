@@ -3,6 +3,7 @@
 include(GNUInstallDirs)
 # The program alone: tests need not be built first.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+set(neve_contact "The authors of neve <neve@localhost>")
 set(neve_data ${CMAKE_INSTALL_DATADIR}/neve)
 install(TARGETS neve RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY scenes shaders DESTINATION ${neve_data})
@@ -19,7 +20,12 @@ foreach(kind scene sweep)
     OUTPUT_FILE \"${manual}/${kind}.schema.json\" COMMAND_ERROR_IS_FATAL ANY)")
   install(FILES ${manual}/${kind}.schema.json DESTINATION ${neve_data}/schema)
 endforeach()
-install(DIRECTORY ${manual}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+# Policy: manual pages and the changelog are compressed, without a date inside.
+install(CODE "file(GLOB pages \"${manual}/man1/*.1\")
+  file(WRITE \"${manual}/changelog\" \"neve (${PROJECT_VERSION}) unstable; urgency=medium\n\n  * The commit is that of neve version.\n\n -- ${neve_contact}  Thu, 01 Jan 1970 00:00:00 +0000\n\")
+  execute_process(COMMAND gzip -9nf \"${manual}/changelog\" \${pages} COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${manual}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} FILES_MATCHING PATTERN "*.gz")
+install(FILES ${manual}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${manual}/bash/neve
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${manual}/zsh/_neve DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
@@ -28,10 +34,16 @@ install(FILES ${manual}/fish/neve.fish
 
 # cpack -G DEB, in the build folder. What is loaded at run time has to be named.
 set(CPACK_PACKAGE_NAME neve)
-set(CPACK_PACKAGE_CONTACT "The authors of neve <neve@localhost>")
+set(CPACK_PACKAGE_CONTACT "${neve_contact}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ
+  GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_PACKAGE_DESCRIPTION "neve simulates snow with the material point method from a scene in TOML, draws
+it without a GPU or a display as pictures and films, shows it live in a window
+or a web page, studies parameters side by side, and exports particles, surfaces
+and volumes for ParaView, Houdini, Blender, USD and numpy.")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

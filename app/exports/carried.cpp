@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "sim/shapes/placed_points.h"
-
 namespace neve::app::exports {
 
 namespace {

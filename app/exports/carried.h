@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/scene/scene.h"
-#include "sim/files/point_reader.h"
+#include "sim/shapes/placed_points.h"
 
 namespace neve::app::exports {
 

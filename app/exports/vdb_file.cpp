@@ -25,15 +25,15 @@ constexpr char active_values = 0, all_values = 6;
 /// Voxels along the sides of the nodes above a leaf: 16 leaves, and 32 of these.
 constexpr int middle_bits = 7, upper_bits = 12;
 
-void append_word(const std::string& text, std::string& bytes) {
+void append_vdb_string(const std::string& text, std::string& bytes) {
   append_little(static_cast<std::uint32_t>(text.size()), bytes);
   bytes += text;
 }
 
 void append_text_entry(const std::string& name, const std::string& text, std::string& bytes) {
-  append_word(name, bytes);
-  append_word("string", bytes);
-  append_word(text, bytes);
+  append_vdb_string(name, bytes);
+  append_vdb_string("string", bytes);
+  append_vdb_string(text, bytes);
 }
 
 void append_place(const Vec3i& place, std::string& bytes) {
@@ -130,16 +130,16 @@ void append_buffers(const VdbGrid& grid, const Root& root, std::string& bytes) {
 }
 
 void append_transform(double voxel, std::string& bytes) {
-  append_word("UniformScaleMap", bytes);
+  append_vdb_string("UniformScaleMap", bytes);
   for (const double number : {voxel, voxel, 1 / voxel, 1 / (voxel * voxel), 0.5 / voxel})
     for (int a = 0; a < 3; ++a) append_little(number, bytes);
 }
 
 /// The name and type of a grid, and where in the file its parts are.
 void append_grid(const VdbGrid& grid, std::string& bytes) {
-  append_word(grid.name, bytes);
-  append_word(grid.components == 3 ? "Tree_vec3s_5_4_3" : "Tree_float_5_4_3", bytes);
-  append_word("", bytes);  // shares the tree of no other grid
+  append_vdb_string(grid.name, bytes);
+  append_vdb_string(grid.components == 3 ? "Tree_vec3s_5_4_3" : "Tree_float_5_4_3", bytes);
+  append_vdb_string("", bytes);  // shares the tree of no other grid
   const std::size_t positions = bytes.size();
   const auto put = [&](std::size_t k) {
     std::string place;
@@ -209,8 +209,8 @@ std::string vdb_file(const std::vector<VdbGrid>& grids, const VdbNumbers& number
   append_little(static_cast<std::uint32_t>(numbers.size() + 1), bytes);
   append_text_entry("creator", "neve " + std::string(version), bytes);
   for (const auto& [name, value] : numbers) {
-    append_word(name, bytes);
-    append_word("double", bytes);
+    append_vdb_string(name, bytes);
+    append_vdb_string("double", bytes);
     append_little(std::uint32_t{8}, bytes);
     append_little(value, bytes);
   }

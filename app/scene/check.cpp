@@ -323,8 +323,9 @@ Found carried_problem(const Scene& scene, const Export& e) {
       return Problem{at, quoted + " is an attribute of neve itself",
                      "write it in attributes; rename the column of the file to carry it along"};
     if (std::find(columns.begin(), columns.end(), name) != columns.end()) continue;
-    std::vector<std::string> known = columns;
-    known.insert(known.end(), ours.begin(), ours.end());
+    std::vector<std::string> known = ours;
+    for (const std::string& column : columns)
+      if (std::find(ours.begin(), ours.end(), column) == ours.end()) known.push_back(column);
     return Problem{at, "there is no attribute " + quoted + ", and no point file has such a column",
                    names_advice(name, known)};
   }

@@ -292,23 +292,25 @@ TEST_F(Export, ColumnsThatNoFileHasAreRefusedWithTheNearest) {
   folder.write("points.ply",
                "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                "property float z\nproperty float temperature\nend_header\n0 0.1 0 -3\n");
-  folder.write("carried.toml", carried_scene);
-  expect_refused({"carried.toml", "--format", "npz", "--attributes", "id,temprature"}, 2,
+  const std::string old = R"(carried = ["temperature", "weight", "brush", "mark"])";
+  const auto scene_with = [&](const std::string& carried) {
+    std::string text = carried_scene;
+    return text.replace(text.find(old), old.size(), carried);
+  };
+  folder.write("plain.toml", scene_with(""));
+  expect_refused({"plain.toml", "--format", "npz", "--attributes", "id,temprature"}, 2,
                  "there is no attribute \"temprature\", and no point file has such a column; did "
                  "you mean temperature?");
   expect_refused({"pair.toml", "--format", "npz", "--attributes", "id,desnity"}, 2,
                  "did you mean density?");
   expect_refused({"pair.toml", "--format", "npz", "--attributes", "id,a b"}, 2, "--attributes");
   const auto located = [&](const std::string& carried) {
-    std::string text = carried_scene;
-    const std::string old = R"(carried = ["temperature", "weight", "brush", "mark"])";
-    text.replace(text.find(old), old.size(), carried);
-    folder.write("located.toml", text);
+    folder.write("located.toml", scene_with(carried));
     const auto result = neve({"check", "located.toml"});
     EXPECT_EQ(result.exit_code, 3) << carried;
     return result.errors;
   };
-  EXPECT_TRUE(contains(located("carried = [\"brush\"]"), "located.toml:20:"));
+  EXPECT_TRUE(contains(located("carried = [\"brush\"]"), "located.toml:19:"));
   EXPECT_TRUE(contains(located("carried = [\"density\"]"), "is an attribute of neve itself"));
   EXPECT_TRUE(contains(located("carried = [\"weight\", \"weight\"]"), "named twice"));
 }

@@ -22,10 +22,10 @@ TEST_F(Install, InstalledProgramFindsItsFilesWhereverItIsMoved) {
   for (const char* file :
        {"bin/neve", "share/neve/scenes/snowball_drop.toml", "share/neve/python/neve.py",
         "share/doc/neve/README.md", "share/doc/neve/docs/scenes.md", "share/doc/neve/copyright",
-        "share/man/man1/neve-render.1", "share/man/man1/neve.1", "share/man/man1/neve-bench-sim.1",
-        "share/bash-completion/completions/neve", "share/zsh/vendor-completions/_neve",
-        "share/fish/vendor_completions.d/neve.fish", "share/neve/schema/scene.schema.json",
-        "share/neve/schema/sweep.schema.json"})
+        "share/man/man1/neve-render.1.gz", "share/man/man1/neve.1.gz",
+        "share/man/man1/neve-bench-sim.1.gz", "share/bash-completion/completions/neve",
+        "share/zsh/vendor-completions/_neve", "share/fish/vendor_completions.d/neve.fish",
+        "share/neve/schema/scene.schema.json", "share/neve/schema/sweep.schema.json"})
     EXPECT_TRUE(exists(std::string("moved/") + file)) << file;
   const auto check = app::output::run_process(folder / "moved/bin/neve",
                                               {"check", "--coarsen", "3"}, folder.path());

@@ -59,7 +59,7 @@ TEST_F(New, SchemaRefusesWhatNeveRefuses) {
   if (!python) SKIP_OR_FAIL("no jsonschema in Python; install python3-jsonschema");
   const std::string ball = "[[body]]\nshape = { sphere = { radius = 0.1 } }\n";
   const std::pair<const char*, std::string> wrong[] = {
-      {"solver.cell_sise", "[solver]\ncell_sise = 0.02\n" + ball},
+      {"solver", "[solver]\ncell_sise = 0.02\n" + ball},
       {"body.0.shape.sphere", "[[body]]\nshape = { sphere = { center = [0, 1, 0] } }\n"},
       {"body.0.shape",
        "[[body]]\nshape = { sphere = { radius = 1 }, box = { size = [1, 1, 1] } }\n"},

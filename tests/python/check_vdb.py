@@ -72,9 +72,8 @@ for k in range(8):
 assert np.abs(at_vertex).max() < 0.6 * voxel, np.abs(at_vertex).max() / voxel
 assert np.abs(at_vertex).mean() < 0.1 * voxel
 band = np.abs(distance) < 2.9 * voxel
-gradient = np.stack(np.gradient(distance, voxel), axis=-1)[band]
-steep = np.linalg.norm(gradient, axis=1)
-assert np.median(steep) > 0.95 and steep.max() < 1.05, (np.median(steep), steep.max())
+for axis in range(3):  # no distance changes by more than the way
+    assert np.abs(np.diff(distance, axis=axis)).max() < voxel * (1 + 1e-5), axis
 # Exact: against every vertex and the middles of all triangles, from which a voxel is no further.
 samples = np.concatenate([ply["x"][np.unique(ply["faces"])], corners.mean(axis=1)])
 for at in np.argwhere(band)[:: max(1, band.sum() // 300)]:
