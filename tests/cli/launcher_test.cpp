@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <chrono>
+
 #include "tests/cli/run_neve.h"
 #include "tests/support/needs.h"
 
