@@ -90,8 +90,7 @@ Json schema_of(const PictureSize&, const Valid& valid, const char*) {
   return schema_of_numbers(bounded("integer", valid), 2, 2);
 }
 Json schema_of(const std::optional<Range>&, const Valid& valid, const char*) {
-  return schema_of_any(
-      {{{"const", "auto"}}, schema_of_numbers(bounded("number", valid), 2, 2)});
+  return schema_of_any({{{"const", "auto"}}, schema_of_numbers(bounded("number", valid), 2, 2)});
 }
 
 }  // namespace neve::app::scene
