@@ -1,4 +1,6 @@
-/// neve export, read by VTK; the recipes of docs/python.md.
+/// neve export, read by VTK, OpenVDB and USD; the recipes of docs/python.md.
+
+#include <cstdlib>
 
 #include "tests/cli/run_neve.h"
 #include "tests/support/needs.h"
@@ -11,6 +13,8 @@ class ExportToVtk : public Cli {};
 
 class ExportToOpenVdb : public Cli {};
 
+class ExportToUsd : public Cli {};
+
 class PythonPage : public Cli {};
 
 TEST_F(ExportToVtk, VtkReadsTheSameBits) {
@@ -21,6 +25,36 @@ TEST_F(ExportToVtk, VtkReadsTheSameBits) {
             "id,x,v,m,V0,density,J_E,J_P,F_E,stress,kirchhoff,C,material,body,radius,age"});
   ASSERT_EQ(written.exit_code, 0) << written.errors;
   const auto same = run_script(*python, "check_vtk.py", {"all", "3"}, folder.path());
+  EXPECT_EQ(same.output, "same\n") << same.errors;
+}
+
+TEST_F(ExportToVtk, VtkFindsNoHoleInASurface) {
+  const auto python = python_with("vtkmodules.vtkIOXML");
+  if (!python) SKIP_OR_FAIL("no Python with VTK; install python3-vtk9");
+  const auto written =
+      neve({"export", "scene.toml", "--format", "ply,vtp,obj", "--surface", "--frames", "3-3",
+            "--attributes", "id,x,J_P", "--out", "all"});
+  ASSERT_EQ(written.exit_code, 0) << written.errors;
+  const auto same = run_script(*python, "check_vtk_surface.py", {"all", "3"}, folder.path());
+  EXPECT_EQ(same.output, "same\n") << same.errors;
+}
+
+/// ./neve test --all installs it from PyPI and says where.
+TEST_F(ExportToUsd, UsdOpensTheStages) {
+  const auto python = python_with("numpy");
+  const char* const usd = std::getenv("NEVE_USD");
+  if (!python || !usd || !std::filesystem::exists(std::filesystem::path(usd) / "pxr"))
+    SKIP_OR_FAIL("no USD: pip install --target DIR usd-core, and NEVE_USD=DIR");
+  folder.write("stage.toml",
+               std::string(tiny_scene) + "[camera]\neye = [0, 0.3, 1]\ntarget = [0, 0.1, 0]\n");
+  auto written = neve({"export", "stage.toml", "--format", "npz,usda", "--frames", "1-4", "--up",
+                       "z", "--scale", "100", "--out", "points"});
+  ASSERT_EQ(written.exit_code, 0) << written.errors;
+  written = neve({"export", "stage.toml", "--format", "ply,usda", "--frames", "2-4", "--surface",
+                  "--out", "surface"});
+  ASSERT_EQ(written.exit_code, 0) << written.errors;
+  const auto same = run_script_with(*python, {std::string("PYTHONPATH=") + usd}, "check_usd.py",
+                                    {"points", "surface"}, folder.path());
   EXPECT_EQ(same.output, "same\n") << same.errors;
 }
 
