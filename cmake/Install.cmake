@@ -3,10 +3,10 @@
 include(GNUInstallDirs)
 # The program alone: tests need not be built first.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
-set(neve_contact "The authors of neve <neve@localhost>")
+set(neve_contact "The authors of neve <neve@example.org>")
 set(neve_data ${CMAKE_INSTALL_DATADIR}/neve)
 install(TARGETS neve RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY scenes shaders DESTINATION ${neve_data})
+install(DIRECTORY scenes shaders DESTINATION ${neve_data} PATTERN make EXCLUDE)
 install(FILES python/neve.py DESTINATION ${neve_data}/python)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)

@@ -47,7 +47,7 @@ points.from_pydata(loose, [], [])
 spray = bpy.data.objects.new("spray", points)
 spray.instance_type = "VERTS"
 bpy.context.collection.objects.link(spray)
-bpy.ops.mesh.primitive_ico_sphere_add(radius=0.003, subdivisions=2)
+bpy.ops.mesh.primitive_ico_sphere_add(radius=0.0025, subdivisions=2)
 ball = bpy.context.object
 ball.data.materials.append(white)
 ball.parent = spray
@@ -56,12 +56,12 @@ ball.parent = spray
 bpy.ops.mesh.primitive_plane_add(size=200)
 bpy.context.object.data.materials.append(material("ground", (0.045, 0.05, 0.06)))
 bpy.ops.object.light_add(type="SUN", rotation=(math.radians(50), math.radians(10), math.radians(-40)))
-bpy.context.object.data.energy = 4
+bpy.context.object.data.energy = 2.4
 bpy.context.object.data.angle = math.radians(2)
 world = bpy.data.worlds.new("sky")
 world.use_nodes = True
 world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.35, 0.48, 0.7, 1)
-world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.5
+world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.4
 bpy.context.scene.world = world
 
 # 4. A camera that sees all of the mesh.
@@ -70,7 +70,7 @@ low = Vector([min(c[a] for c in corners) for a in range(3)])
 high = Vector([max(c[a] for c in corners) for a in range(3)])
 middle, size = (low + high) / 2, (high - low).length
 camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-camera.location = middle + 1.05 * size * Vector((0.35, -1, 0.35))
+camera.location = middle + 1.25 * size * Vector((0.35, -1, 0.3))
 camera.rotation_euler = (middle - camera.location).to_track_quat("-Z", "Y").to_euler()
 bpy.context.collection.objects.link(camera)
 
