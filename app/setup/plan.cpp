@@ -134,6 +134,16 @@ void check_memory(const scene::Scene& scene, const Plan& plan, double coarsening
       size_advice(scene, plan, "limits.memory=" + std::to_string(plan.memory), excess, coarsening));
 }
 
+/// Lattice, mesh and attributes of the finest surface; the worker makes one at a time. 150 bytes
+/// for each node that the snow fills at rest were measured on a snowball that had burst, at 0.3 and
+/// 0.5 spacings from node to node; snow at rest takes a third. make_surface has the last word.
+double surface_memory(const scene::Scene& scene, double particles) {
+  double nodes = 0;
+  for (const scene::Export& e : scene.exports)
+    if (e.surface) nodes = std::max(nodes, particles / std::pow(e.surface_cell, 3));
+  return 150 * nodes;
+}
+
 }  // namespace
 
 MemoryLimit memory_limit(const scene::Scene& scene) {
@@ -204,7 +214,8 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
       counted * static_cast<double>(sizeof(sim::Mat3d) * 3 + sizeof(sim::Vec3d) * 3);
   // States of exports wait for the worker as pictures do, and are text or bytes while it writes.
   const double exported = scene.exports.empty() ? 0 : arrays * (output::picture_queue_capacity + 2);
-  plan.memory = whole_bytes(simulated + arrays + exported + picture_memory(scene, quality));
+  plan.memory = whole_bytes(simulated + arrays + exported + surface_memory(scene, counted) +
+                            picture_memory(scene, quality));
   set_limits(scene, plan);
   for (const scene::PictureSize& size : picture_sizes(scene)) {
     const double samples = supersampling(quality) * supersampling(quality);

@@ -123,6 +123,29 @@ TEST_F(Export, ASceneAsksForASurface) {
             app::output::read_file(folder / "alone/ply/0004.ply"));
 }
 
+TEST_F(Export, MemoryOfASurfaceIsPartOfThePlan) {
+  const auto planned = [&](const std::string& more) {
+    folder.write("planned.toml", pair_scene + more);
+    const auto result = neve({"render", "planned.toml", "--dry-run", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    const app::Json json = app::parse_json(std::string_view(result.output));
+    return std::pair(json["memory_bytes"].get<double>(), json["particles"].get<double>());
+  };
+  const std::string points = "[[export]]\nformat = \"ply\"\n",
+                    mesh = points + "surface = true\nsurface_cell = ";
+  const auto [without, particles] = planned(points);
+  const double coarse = planned(mesh + "0.5\n").first - without,
+               fine = planned(mesh + "0.25\n").first - without;
+  EXPECT_GT(coarse, 400 * particles) << "less than was measured for snow at rest";
+  EXPECT_NEAR(fine / coarse, 8, 0.01);
+  // 0.2 is the finest: what the surface alone makes too much is refused before anything runs.
+  const std::string most = std::to_string(static_cast<std::uint64_t>(without + coarse));
+  folder.write("planned.toml", pair_scene + mesh + "0.2\n");
+  const auto refused = neve({"render", "planned.toml", "--max-memory", most});
+  EXPECT_EQ(refused.exit_code, 8) << refused.errors;
+  EXPECT_FALSE(exists("out/planned/particles"));
+}
+
 TEST_F(Export, SurfacesOfNothingAndOfOneParticleAreEmptyMeshes) {
   folder.write("one.csv", "x,y,z\n0,0.5,0\n");
   folder.write("one.toml",
