@@ -11,7 +11,7 @@ install(FILES python/neve.py DESTINATION ${neve_data}/python)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
-  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN "frame.py")
 set(manual ${PROJECT_BINARY_DIR}/manual)
 install(CODE "execute_process(COMMAND \"$<TARGET_FILE:neve>\" manual \"${manual}\"
   COMMAND_ERROR_IS_FATAL ANY)")

@@ -13,7 +13,7 @@ import bpy
 from mathutils import Vector
 
 ply, picture, *rest = sys.argv[sys.argv.index("--") + 1:]
-samples = int(rest[0]) if rest else 96
+samples = int(rest[0]) if rest else 40
 
 # 1. Nothing but the mesh.
 bpy.ops.wm.read_factory_settings(use_empty=True)

@@ -2,6 +2,8 @@
 
 #include <cstdlib>
 
+#include "app/output/atomic_file.h"
+#include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/needs.h"
 #include "tests/support/python.h"
@@ -14,6 +16,8 @@ class ExportToVtk : public Cli {};
 class ExportToOpenVdb : public Cli {};
 
 class ExportToUsd : public Cli {};
+
+class ExportToBlender : public Cli {};
 
 class PythonPage : public Cli {};
 
@@ -31,9 +35,8 @@ TEST_F(ExportToVtk, VtkReadsTheSameBits) {
 TEST_F(ExportToVtk, VtkFindsNoHoleInASurface) {
   const auto python = python_with("vtkmodules.vtkIOXML");
   if (!python) SKIP_OR_FAIL("no Python with VTK; install python3-vtk9");
-  const auto written =
-      neve({"export", "scene.toml", "--format", "ply,vtp,obj", "--surface", "--frames", "3-3",
-            "--attributes", "id,x,J_P", "--out", "all"});
+  const auto written = neve({"export", "scene.toml", "--format", "ply,vtp,obj", "--surface",
+                             "--frames", "3-3", "--attributes", "id,x,J_P", "--out", "all"});
   ASSERT_EQ(written.exit_code, 0) << written.errors;
   const auto same = run_script(*python, "check_vtk_surface.py", {"all", "3"}, folder.path());
   EXPECT_EQ(same.output, "same\n") << same.errors;
@@ -56,6 +59,38 @@ TEST_F(ExportToUsd, UsdOpensTheStages) {
   const auto same = run_script_with(*python, {std::string("PYTHONPATH=") + usd}, "check_usd.py",
                                     {"points", "surface"}, folder.path());
   EXPECT_EQ(same.output, "same\n") << same.errors;
+}
+
+/// Blender is 66 packages, so it may be missing.
+TEST_F(ExportToBlender, TheScriptOfThePageDrawsAFrame) {
+  const auto blender = app::output::find_program("blender");
+  if (!blender) GTEST_SKIP() << "no blender in PATH; install blender";
+  ASSERT_EQ(neve({"export", "scene.toml", "--format", "ply,vdb", "--surface", "--up", "z",
+                  "--frames", "3-3", "--out", "mesh"})
+                .exit_code,
+            0);
+  const auto drawn = app::output::run_process(
+      *blender,
+      {"-b", "--python-exit-code", "1", "--python", NEVE_SOURCE_DIR "/docs/pipeline/frame.py", "--",
+       "mesh/ply/0003.ply", (folder / "frame.png").string(), "1"},
+      folder.path());
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.errors;
+  EXPECT_TRUE(contains(drawn.output, "grains of spray")) << drawn.output;
+  // White snow in front of a dark ground.
+  const render::Image image = render::decode_png(app::output::read_file(folder / "frame.png"));
+  int white = 0;
+  for (std::size_t k = 0; k < image.pixels.size(); k += static_cast<std::size_t>(image.channels))
+    white += image.pixels[k] > 180;
+  EXPECT_GT(white, image.width * image.height / 50);
+  const std::string script =
+      "import bpy\nbpy.ops.object.volume_import(filepath='" +
+      (folder / "mesh/vdb/0003.vdb").string() + "', directory='" + (folder / "mesh/vdb").string() +
+      "', files=[{'name': '0003.vdb'}])\nvolume = bpy.context.object.data\nvolume.grids.load()\n"
+      "print('grids', sorted(grid.name for grid in volume.grids))\n";
+  const auto volume = app::output::run_process(
+      *blender, {"-b", "--python-exit-code", "1", "--python-expr", script}, folder.path());
+  EXPECT_TRUE(contains(volume.output, "grids ['density', 'mass', 'surface', 'velocity']"))
+      << volume.output << volume.errors;
 }
 
 TEST_F(ExportToOpenVdb, OpenVdbReadsTheGridAndTheSurface) {
