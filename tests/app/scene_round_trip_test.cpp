@@ -299,7 +299,7 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   int same = 0;
   for (const auto& [address, bits] : before)
     same += unchanged.contains(address) && unchanged.at(address) == bits;
-  EXPECT_EQ(same, 21 + 8 + 3 + 2 + 2 + 2 + 3)
+  EXPECT_EQ(same, 22 + 8 + 3 + 2 + 2 + 2 + 3)
       << "only names, materials, files, the turns not taken and velocities beside keyframes stay";
 }
 
