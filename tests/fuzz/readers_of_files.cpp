@@ -85,6 +85,14 @@ void read_mesh(std::span<const std::uint8_t> bytes) {
 
 void read_points(std::span<const std::uint8_t> bytes) {
   try_to([&] { sim::files::parse_points(text_of(bytes), "points"); });
+  // Columns that exports carry along: every one that the header has.
+  const bool is_ply = text_of(bytes).starts_with("ply");
+  try_to([&] {
+    const std::vector<std::string> further =
+        is_ply ? sim::files::further_ply_columns(text_of(bytes), "points")
+               : sim::files::further_csv_columns(text_of(bytes), "points");
+    sim::files::parse_points(text_of(bytes), "points", further);
+  });
 }
 
 void read_script(std::span<const std::uint8_t> bytes) {
