@@ -133,7 +133,7 @@ std::string pattern_of(std::string_view address) {
 const std::map<std::string, ParamInfo, std::less<>>& known() {
   static const auto all = [] {
     std::map<std::string, ParamInfo, std::less<>> map;
-    for (ParamInfo& info : params()) map.emplace(info.address, std::move(info));
+    for (const ParamInfo& info : params()) map.emplace(info.address, info);
     return map;
   }();
   return all;

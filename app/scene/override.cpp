@@ -68,14 +68,6 @@ void refuse_unknown_name(const Override& change, const toml::Table& root) {
                               : "did you mean " + toml::toml_string(nearest) + "?");
 }
 
-/// True for the address of a table inside an item or at the top: "camera", "body.ball.shape", but
-/// not "body" or "body.ball", whose names must stay.
-bool is_table_address(const std::string& address, const std::string& known, bool is_in_item) {
-  const auto dots = std::count(address.begin(), address.end(), '.');
-  const bool is_around = known.starts_with(address + ".") || known.starts_with(address + "[");
-  return is_around && (!is_in_item || dots >= 2);
-}
-
 /// Entries without names are set together: "camera.keyframes" for "camera.keyframes[N].time".
 std::string settable_part(const std::string& address) {
   return address.substr(0, address.find('['));
@@ -95,10 +87,24 @@ bool same_text(const toml::Value& value, const std::string& text) {
 /// body.velocity: somebody forgot the name of the body.
 bool is_member_of_all(const std::string& list, const std::string& word) {
   const std::string member = list + ".NAME." + word;
-  const std::vector<ParamInfo> all = params();
+  const std::vector<ParamInfo>& all = params();
   return std::any_of(all.begin(), all.end(), [&](const ParamInfo& info) {
     return info.address == member || info.address.starts_with(member + ".");
   });
+}
+
+/// The address with NAME in the place of a name that the document has; nothing where there is
+/// none.
+std::vector<std::string> patterns_of(const std::string& address, const toml::Table& root) {
+  std::vector<std::string> patterns;
+  const auto dot = address.find('.');
+  const toml::Entry* items = dot == std::string::npos ? nullptr : root.find(address.substr(0, dot));
+  if (!items) return patterns;
+  for (const std::string& name : item_names(items->value))
+    if (address.compare(dot + 1, name.size(), name) == 0 &&
+        address.substr(std::min(dot + 1 + name.size(), address.size())).starts_with("."))
+      patterns.push_back(address.substr(0, dot) + ".NAME" + address.substr(dot + 1 + name.size()));
+  return patterns;
 }
 
 struct Target {
@@ -106,23 +112,36 @@ struct Target {
   bool is_in_item;   ///< of a list, whose name is the second word
 };
 
-Target resolve(const Override& change, const toml::Table& root) {
-  std::vector<std::string> known;
+/// True for the address of a table inside an item or at the top: "camera", "body.ball.shape", but
+/// not "body" or "body.ball", whose names must stay.
+bool is_table_around(const std::string& pattern, const std::string& known) {
+  return known.size() > pattern.size() && known.starts_with(pattern) &&
+         (known[pattern.size()] == '.' || known[pattern.size()] == '[');
+}
+
+std::optional<Target> target_of(const std::string& address, const toml::Table& root) {
+  const std::vector<std::string> patterns = patterns_of(address, root);
   std::optional<Target> table;
   for (const ParamInfo& info : params()) {
     const bool is_in_item = info.address.find(".NAME.") != std::string::npos;
-    for (std::string& address : addresses_of(info, root)) {
-      const std::string settable = settable_part(address);
-      if (address == change.address && settable == address) return {info.type, is_in_item};
-      if (is_table_address(change.address, address, is_in_item)) table = {"table", is_in_item};
-      known.push_back(settable);
-    }
+    const auto matches = [&](const std::string& pattern) {
+      if (is_table_around(pattern, info.address)) table = {"table", is_in_item};
+      return info.address == pattern && info.address.find('[') == std::string::npos;
+    };
+    if (is_in_item ? std::any_of(patterns.begin(), patterns.end(), matches) : matches(address))
+      return Target{info.type, is_in_item};
   }
-  if (!table) {
-    refuse_unknown_name(change, root);
-    fail_unknown(change, known);
-  }
-  return *table;
+  return table;
+}
+
+Target resolve(const Override& change, const toml::Table& root) {
+  if (const std::optional<Target> target = target_of(change.address, root)) return *target;
+  refuse_unknown_name(change, root);
+  std::vector<std::string> known;
+  for (const ParamInfo& info : params())
+    for (const std::string& address : addresses_of(info, root))
+      known.push_back(settable_part(address));
+  fail_unknown(change, known);
 }
 
 void set_place(toml::Value& value, int index) {

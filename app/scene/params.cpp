@@ -5,12 +5,15 @@
 
 namespace neve::app::scene {
 
-std::vector<ParamInfo> params() {
-  std::vector<ParamInfo> list;
-  Lister lister(list, "");
-  Scene scene;
-  describe(lister, scene);
-  return list;
+const std::vector<ParamInfo>& params() {
+  static const std::vector<ParamInfo> all = [] {
+    std::vector<ParamInfo> list;
+    Lister lister(list, "");
+    Scene scene;
+    describe(lister, scene);
+    return list;
+  }();
+  return all;
 }
 
 std::optional<ParamInfo> param_at(const std::string& address) {

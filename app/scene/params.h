@@ -23,8 +23,8 @@ struct ParamInfo {
   std::string help;
 };
 
-/// In the order of describe.h.
-std::vector<ParamInfo> params();
+/// In the order of describe.h, listed once.
+const std::vector<ParamInfo>& params();
 
 /// The parameter that an address such as "material.snow.hardening" means, with any names in it.
 std::optional<ParamInfo> param_at(const std::string& address);

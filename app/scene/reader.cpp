@@ -58,7 +58,7 @@ std::string other_address(const std::string& key, const std::string& here) {
 }
 
 bool is_at_the_top(const std::string& key) {
-  const std::vector<ParamInfo> all = params();
+  const std::vector<ParamInfo>& all = params();
   return std::any_of(all.begin(), all.end(),
                      [&](const ParamInfo& info) { return info.address == key; });
 }

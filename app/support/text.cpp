@@ -1,6 +1,7 @@
 #include "app/support/text.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -10,21 +11,44 @@ namespace neve::app {
 
 namespace {
 
-/// Letters inserted, dropped, replaced, or swapped with their neighbour.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1), above, above2;
+/// Letters inserted, dropped, replaced, or swapped with their neighbour; `most` if they are more.
+std::size_t edit_distance(const std::string& a, const std::string& b, std::size_t most) {
+  std::vector<std::size_t> row(b.size() + 1), above(row.size()), above2(row.size());
   std::iota(row.begin(), row.end(), std::size_t{0});
+  std::size_t least_above = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    above2 = std::move(above);
-    above = row;
+    above2.swap(above);
+    above.swap(row);
     row[0] = i + 1;
+    std::size_t least = row[0];
     for (std::size_t j = 0; j < b.size(); ++j) {
-      row[j + 1] = std::min({above[j] + (a[i] != b[j]), row[j] + 1, above[j + 1] + 1});
+      std::size_t distance = std::min(above[j] + (a[i] != b[j]), row[j] + 1);
+      distance = std::min(distance, above[j + 1] + 1);
       const bool is_swap = i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j];
-      if (is_swap) row[j + 1] = std::min(row[j + 1], above2[j - 1] + 1);
+      if (is_swap) distance = std::min(distance, above2[j - 1] + 1);
+      row[j + 1] = distance;
+      least = std::min(least, distance);
     }
+    // Rows to come are made from these two.
+    if (std::min(least, least_above) >= most) return most;
+    least_above = least;
   }
-  return row[b.size()];
+  return std::min(row[b.size()], most);
+}
+
+using Letters = std::array<int, 256>;
+
+Letters letters_of(const std::string& text) {
+  Letters letters{};
+  for (const char c : text) ++letters[static_cast<unsigned char>(c)];
+  return letters;
+}
+
+/// Letters that only one of two words has: no fewer changes make one of the other.
+std::size_t least_distance(Letters letters, std::size_t size, const std::string& other) {
+  std::size_t more = 0;
+  for (const char c : other) more += --letters[static_cast<unsigned char>(c)] < 0;
+  return std::max(more, size - (other.size() - more));
 }
 
 }  // namespace
@@ -60,8 +84,10 @@ std::string nearest_name(const std::string& wrong, const std::vector<std::string
   // A third of the letters wrong is still a typing error; more is another word.
   std::size_t best = std::max<std::size_t>(1, wrong.size() / 3) + 1;
   if (wrong.size() > 64) return nearest;
+  const Letters letters = letters_of(wrong);
   for (const std::string& name : names) {
-    const std::size_t distance = edit_distance(wrong, name);
+    if (least_distance(letters, wrong.size(), name) >= best) continue;
+    const std::size_t distance = edit_distance(wrong, name, best);
     if (distance < best) best = distance, nearest = name;
   }
   return nearest;

@@ -92,6 +92,10 @@ TEST(Caption, CaptionNamesOverridesOfTheSnowShortly) {
 TEST(NearestName, NearestNameIsFoundForTypingErrorsOnly) {
   EXPECT_EQ(nearest_name("rendr", {"render", "doctor"}), "render");
   EXPECT_EQ(nearest_name("banana", {"render", "doctor"}), "");
+  EXPECT_EQ(nearest_name("hardneing", {"hardness", "hardening", "density"}), "hardening");
+  EXPECT_EQ(nearest_name("ab", {"b", "ba", "abcd"}), "b");
+  EXPECT_EQ(nearest_name("velocty", {"velocity_of_all", "velocity"}), "velocity");
+  EXPECT_EQ(nearest_name("", {"a", "ab"}), "a");
 }
 
 }  // namespace
