@@ -401,7 +401,11 @@ TEST(Workbench, FromElsewhereNoFileIsNamedAndNoneIsWrittenOutside) {
   EXPECT_TRUE(contains(refused("body.cloud.shape.points.file", secret), "over the web"));
   EXPECT_TRUE(contains(refused("body.cloud.shape", "{ points = { file = " + secret + " } }"),
                        "over the web"));
+  EXPECT_TRUE(contains(refused("body.cloud.shape",
+                               "{ points = { \"f\\u0069le\" = " + secret + " } }"),
+                       "over the web"));
   EXPECT_TRUE(contains(refused("limits.memory", "\"1TiB\""), "over the web"));
+  EXPECT_TRUE(contains(refused("limits", "{ memory = \"1TiB\" }"), "over the web"));
   EXPECT_FALSE(bench.may_save_over_file());
   bench.save_scene(folder / "scene.toml");
   EXPECT_TRUE(contains(bench.not_saved(), "over the web")) << bench.not_saved();

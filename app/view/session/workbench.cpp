@@ -12,6 +12,7 @@
 #include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
+#include "app/scene/toml/toml_source.h"
 #include "app/support/version.h"
 #include "app/sweep/plan/around.h"
 #include "app/view/session/export.h"
@@ -133,16 +134,37 @@ std::string Workbench::copy_object(const std::string& address) {
   return is_done ? copy.address : "";
 }
 
+namespace {
+
+/// Whether a member somewhere in it is called file, however that is spelled.
+bool has_file(const scene::toml::Value& value) {
+  if (const auto* list = std::get_if<scene::toml::Array>(&value.data))
+    return std::any_of(list->begin(), list->end(), has_file);
+  const auto* table = std::get_if<scene::toml::Table>(&value.data);
+  return table && std::any_of(table->entries.begin(), table->entries.end(), [](const auto& entry) {
+           return entry.key == "file" || has_file(entry.value);
+         });
+}
+
+/// Of the text of a whole table.
+bool names_file(const std::string& text) {
+  try {
+    return has_file(scene::toml::parse_toml("value = " + text, "").entries.at(0).value);
+  } catch (const scene::toml::SceneError&) {
+    return false;  // the document refuses it
+  }
+}
+
+}  // namespace
+
 /// @throws UsageError
 void Workbench::require_allowed(const std::string& address, const std::string& value) const {
   if (!options_.is_remote) return;
   const char* hint = "edit the scene file on the machine where neve runs";
   const std::optional<scene::ParamInfo> info = scene::param_at(address);
-  const bool names_file = info ? info->valid.text == scene::Valid::Text::file
-                               : value.find("file") != std::string::npos;  // a whole table
-  if (names_file)
+  if (info ? info->valid.text == scene::Valid::Text::file : names_file(value))
     throw scene::toml::UsageError("", address + " names a file: fixed over the web", hint);
-  if (address.starts_with("limits."))
+  if (address == "limits" || address.starts_with("limits."))
     throw scene::toml::UsageError("", address + " is fixed over the web", hint);
 }
 
