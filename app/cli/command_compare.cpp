@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <new>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -66,6 +67,8 @@ std::map<int, std::string> read_hashes(const fs::path& folder) {
     const Json run = parse_json(bytes);
     for (const Json& frame : run.at("frames"))
       hashes[whole_number<int>(frame.at("frame"))] = frame.at("state_hash").get<std::string>();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
                 file.string());

@@ -48,6 +48,17 @@ Report of_error(const Error& error) {
   return report;
 }
 
+Report out_of_memory() {
+  const std::string message =
+      "out of memory: this machine, or a limit on the process, gave no more";
+  const std::string hint =
+      "end other programs, raise the limit (ulimit -v), or make solver.cell_size larger; "
+      "neve render --dry-run says how much a scene takes";
+  Report report = plain_report(exit_refused, message, {}, hint);
+  report.line += "; " + hint;
+  return report;
+}
+
 Report describe_current_error() {
   try {
     throw;
@@ -74,7 +85,7 @@ Report describe_current_error() {
   } catch (const render::gl::ContextError& error) {
     return plain_report(exit_no_backend, error.what(), {}, "neve doctor explains each backend");
   } catch (const std::bad_alloc&) {
-    return plain_report(exit_refused, "out of memory", {}, "make solver.cell_size larger");
+    return out_of_memory();
   } catch (const std::exception& error) {
     return plain_report(exit_internal, error.what());
   } catch (...) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <system_error>
 
 #include "app/output/atomic_file.h"
@@ -132,6 +133,8 @@ FoundCheckpoint find_checkpoint(const fs::path& folder, int before) {
       if (checkpoint.frame >= before) continue;
       found.checkpoint = std::move(checkpoint);
       return found;
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       found.damaged.push_back(file.string() + ": " + error.what());
     }

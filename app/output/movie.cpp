@@ -88,7 +88,7 @@ bool is_disk_error(const std::string& message) {
   const auto names = [&](int reason) {
     return message.find(std::strerror(reason)) != std::string::npos;
   };
-  return names(ENOSPC) || names(EDQUOT) || names(EFBIG) || names(EROFS);
+  return names(ENOSPC) || names(EDQUOT) || names(EIO) || names(EFBIG) || names(EROFS);
 }
 
 /// The one about the disk, or the last one.

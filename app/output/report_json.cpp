@@ -49,7 +49,8 @@ sim::AdvanceReport advance_report(const Json& json) {
   advance.steps = whole_number<std::size_t>(json.at("steps"));
   advance.dt_min = json.at("dt_min").get<double>();
   advance.dt_max = json.at("dt_max").get<double>();
-  advance.ruled = json.at("ruled").get<decltype(advance.ruled)>();
+  for (std::size_t k = 0; k < advance.ruled.size(); ++k)
+    advance.ruled[k] = whole_number<std::size_t>(json.at("ruled").at(k));
   advance.seconds = json.value("seconds", 0.0);
   if (json.contains("loads"))
     for (const Json& load : json.at("loads"))
@@ -57,9 +58,9 @@ sim::AdvanceReport advance_report(const Json& json) {
   if (json.contains("solve"))
     advance.solve = {whole_number<int>(json.at("solve").at("iterations")),
                      number_or_nan(json.at("solve").at("residual")),
-                     json.at("solve").value("cut_short", std::size_t(0)),
-                     json.at("solve").value("given_up", std::size_t(0)),
-                     json.at("solve").value("all_iterations", std::uint64_t(0))};
+                     whole_number_or(json.at("solve"), "cut_short", std::size_t(0)),
+                     whole_number_or(json.at("solve"), "given_up", std::size_t(0)),
+                     whole_number_or(json.at("solve"), "all_iterations", std::uint64_t(0))};
   return advance;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <new>
 #include <set>
 #include <system_error>
 #include <vector>
@@ -28,6 +29,8 @@ EarlierRun read_earlier_run(const fs::path& file) {
   Json json;
   try {
     json = parse_json(read_file(file));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return run;
   }

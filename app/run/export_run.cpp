@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
@@ -85,6 +86,8 @@ int go_to_checkpoint(const ExportJob& job, ChangePlayer& player, sim::Simulation
   try {
     player.go_to(run.steps);
     restore_frame(run, job.run.scene.fps, simulation);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     refuse_checkpoint(run.file, error);
   }
@@ -132,6 +135,8 @@ void remove_earlier_list(const fs::path& folder) {
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return;
   try {
     exports::remove_earlier_exports(folder, parse_json(output::read_file(file)).at("exports"));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     // No list of ours: nothing is removed.
   }

@@ -1,6 +1,7 @@
 #include "app/run/render_run.h"
 
 #include <algorithm>
+#include <new>
 #include <system_error>
 
 #include "app/health/incident.h"
@@ -119,6 +120,8 @@ int RenderRun::resume(Resumption found) {
   record_.files = std::move(found.run.files);
   try {
     exporter_.resume(found.run.exports, found.run.frame);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     refuse_checkpoint(found.run.file, error);
   }

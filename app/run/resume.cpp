@@ -1,6 +1,7 @@
 #include "app/run/resume.h"
 
 #include <algorithm>
+#include <new>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
@@ -51,6 +52,8 @@ std::string other_thing(const std::filesystem::path& folder, const PictureRecord
     if (run.at("coarsen") != picture.coarsening)
       return "--coarsen was " + rough_text(run.at("coarsen").get<double>());
     if (run.at("overrides") != Json(picture.overrides)) return "it had other --set";
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     // An unreadable scene changes nothing here: the identity alone says that the run differs.
   }
@@ -132,6 +135,8 @@ std::optional<Resumption> Checkpoints::find(const std::vector<std::string>& view
   try {
     for (Flaw& flaw : export_flaws(folder_, run.exports, run.files, run.frame, resumption.flawed))
       flaws.push_back(std::move(flaw));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     refuse_checkpoint(run.file, error);
   }
@@ -157,6 +162,8 @@ void Checkpoints::go_to(const ResumedRun& run) {
     ResumedRun whole = run;
     whole.state = again->state;
     restore_frame(whole, player_.scene().fps, simulation_);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     refuse_checkpoint(run.file, error);
   }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 #include "app/output/report_json.h"
@@ -117,6 +118,8 @@ ResumedRun read_resumed_run(const output::Checkpoint& checkpoint) {
     run.frames = frames_of(progress.at("frames"), run.frame, run.steps);
     run.files = file_hashes(progress);
     run.exports = progress.value("exports", Json());
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     refuse_checkpoint(run.file, error);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <new>
 #include <stdexcept>
 
 #include "app/output/atomic_file.h"
@@ -140,18 +141,18 @@ FrameRecord frame_record(const Json& json) {
   if (json.contains("solve_iterations") && !json.at("solve_iterations").is_null())
     frame.advance.solve = {whole_number<int>(json.at("solve_iterations")),
                            output::number_or_nan(json.at("solve_residual")),
-                           json.value("solves_cut_short", std::size_t(0)),
-                           json.value("solves_given_up", std::size_t(0))};
+                           whole_number_or(json, "solves_cut_short", std::size_t(0)),
+                           whole_number_or(json, "solves_given_up", std::size_t(0))};
   frame.seconds_sim = output::number_or_nan(json.at("seconds_sim"));
   frame.seconds_render = output::number_or_nan(json.at("seconds_render"));
   sim::Summary& s = frame.summary;
   s.time = frame.time;
   s.particles = whole_number<std::size_t>(json.at("particles"));
   // Runs of earlier versions knew no emitters.
-  s.emitted = json.value("emitted", std::uint64_t(0));
-  s.removed = json.value("removed", std::uint64_t(0));
-  s.withheld = json.value("withheld", std::uint64_t(0));
-  s.grid_blocks = json.value("grid_blocks", std::size_t(0));
+  s.emitted = whole_number_or(json, "emitted", std::uint64_t(0));
+  s.removed = whole_number_or(json, "removed", std::uint64_t(0));
+  s.withheld = whole_number_or(json, "withheld", std::uint64_t(0));
+  s.grid_blocks = whole_number_or(json, "grid_blocks", std::size_t(0));
   s.mass = json.contains("mass") ? output::number_or_nan(json.at("mass")) : std::nan("");
   s.kinetic_energy = output::number_or_nan(json.at("kinetic_energy"));
   s.elastic_energy = output::number_or_nan(json.at("elastic_energy"));
@@ -182,6 +183,8 @@ FrameRecord frame_record(const Json& json) {
 Json read_json(const std::filesystem::path& file) {
   try {
     return parse_json(output::read_file(file));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return {};
   }
@@ -200,6 +203,8 @@ std::vector<FrameRecord> frame_records(const Json& run) {
   std::vector<FrameRecord> frames;
   try {
     for (const Json& frame : run.at("frames")) frames.push_back(frame_record(frame));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     frames.clear();
   }

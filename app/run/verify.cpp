@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <new>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -44,6 +45,8 @@ std::string flaw_by_text(const fs::path& file, const std::string& view, const Fr
                          record.state_hash == hash_text(frame.state_hash);
     render::decode_png(output::read_file(file));
     return is_same ? "" : is_another;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return "is damaged";
   }
@@ -71,6 +74,8 @@ std::optional<Pictures> listed_pictures(const Json& run) {
   try {
     for (const Json& frame : run.at("frames")) pictures.frames.push_back(frame_record(frame));
     pictures.views = run.at("views").get<std::vector<std::string>>();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return std::nullopt;
   }

@@ -46,6 +46,12 @@ Int whole_number(const Json& json) {
                            ": expected a whole number that is not too large");
 }
 
+/// The same of a member that may be missing.
+template <class Int>
+Int whole_number_or(const Json& json, const char* key, Int otherwise) {
+  return json.contains(key) ? whole_number<Int>(json.at(key)) : otherwise;
+}
+
 /// JSON has no NaN and no infinities: they become null.
 inline Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();

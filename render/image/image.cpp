@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <new>
 
 #include "render/image/png_chunks.h"
 
@@ -32,6 +33,14 @@ unsigned char* compress_for_stb(unsigned char* data, int length, int* out_length
   return nullptr;
 }
 
+/// stb does not always say that this was the reason.
+thread_local bool has_stb_no_memory = false;
+
+void* note_of_stb(void* memory) {
+  if (!memory) has_stb_no_memory = true;
+  return memory;
+}
+
 }  // namespace
 }  // namespace neve::render
 
@@ -46,6 +55,9 @@ unsigned char* compress_for_stb(unsigned char* data, int length, int* out_length
 #define STBI_ONLY_PNG
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 16384
+#define STBI_MALLOC(size) neve::render::note_of_stb(std::malloc(size))
+#define STBI_REALLOC(memory, size) neve::render::note_of_stb(std::realloc(memory, size))
+#define STBI_FREE(memory) std::free(memory)
 #include <stb/stb_image.h>
 
 namespace neve::render {
@@ -101,6 +113,25 @@ void read_itxt(std::span<const std::uint8_t> rest, PngText& text) {
   text[std::string(keyword.begin(), keyword.end())] = std::string(rest.begin(), rest.end());
 }
 
+/// A few bytes that say they are a large picture are refused before there is memory for it.
+void check_size(const std::vector<PngChunk>& chunks) {
+  constexpr std::size_t best_deflate = 1032;  // bytes that one byte of deflate can become
+  std::size_t packed = 0;
+  for (const PngChunk& chunk : chunks)
+    if (chunk.type == "IDAT") packed += chunk.data.size();
+  const std::span<const std::uint8_t> header = chunks.front().data;
+  if (header.size() < 13) return;  // decoding says why
+  const auto number_at = [&](std::size_t at) {
+    return std::size_t{header[at]} << 24 | std::size_t{header[at + 1]} << 16 |
+           std::size_t{header[at + 2]} << 8 | std::size_t{header[at + 3]};
+  };
+  const std::size_t width = number_at(0), height = number_at(4), kind = header[9];
+  const std::size_t samples = kind == 2 ? 3 : kind == 4 ? 2 : kind == 6 ? 4 : 1;
+  if ((width * samples * header[8] + 7) / 8 * height > best_deflate * packed)
+    throw ImageError("PNG is damaged: " + std::to_string(packed) + " bytes of data are no " +
+                     std::to_string(width) + "x" + std::to_string(height) + " pixels");
+}
+
 void check_comparable(const Image& a, const Image& b) {
   check_pixels(a);
   check_pixels(b);
@@ -121,7 +152,7 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text) {
       stbi_write_png_to_mem(image.pixels.data(), image.width * image.channels, image.width,
                             image.height, image.channels, &length),
       std::free);
-  if (!png || length < static_cast<int>(ihdr_end)) throw ImageError("PNG encoder: out of memory");
+  if (!png || length < static_cast<int>(ihdr_end)) throw std::bad_alloc();
 
   std::vector<std::uint8_t> bytes(png.get(), png.get() + ihdr_end);
   for (const auto& [keyword, value] : text) {
@@ -134,12 +165,14 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text) {
 
 Image decode_png(std::span<const std::uint8_t> bytes) {
   if (bytes.size() > INT_MAX) throw ImageError("PNG is too large");
-  read_png_chunks(bytes);  // stb checks no checksums and forgives missing ends
+  check_size(read_png_chunks(bytes));  // stb checks no checksums and forgives missing ends
   Image image;
+  has_stb_no_memory = false;
   const std::unique_ptr<unsigned char, void (*)(void*)> pixels(
       stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &image.width,
                             &image.height, &image.channels, 0),
       stbi_image_free);
+  if (!pixels && has_stb_no_memory) throw std::bad_alloc();
   if (!pixels) throw ImageError(std::string("PNG is damaged: ") + stbi_failure_reason());
   const std::size_t count = static_cast<std::size_t>(image.width) * image.height * image.channels;
   image.pixels.assign(pixels.get(), pixels.get() + count);

@@ -3,6 +3,7 @@
 #include <imgui_internal.h>
 
 #include <cstddef>
+#include <new>
 
 #include "render/gl/embedded.h"
 
@@ -39,6 +40,12 @@ ImVector<ImWchar> ranges_of(const std::set<ImWchar>& characters) {
   return ranges;
 }
 
+/// ImGui writes to what it is given without a look; the error of new goes through it.
+void allocate_as_new_does() {
+  ImGui::SetAllocatorFunctions([](std::size_t size, void*) { return ::operator new(size); },
+                               [](void* memory, void*) { ::operator delete(memory); });
+}
+
 }  // namespace
 
 ImGuiDraw::ImGuiDraw(const gl::Gl& gl, const gl::ShaderLibrary& library)
@@ -48,6 +55,7 @@ ImGuiDraw::ImGuiDraw(const gl::Gl& gl, const gl::ShaderLibrary& library)
       vertex_buffer_(gl),
       index_buffer_(gl),
       characters_(basic_characters()) {
+  allocate_as_new_does();
   ImGuiContext* previous = ImGui::GetCurrentContext();
   context_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(context_);

@@ -5,8 +5,10 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace neve {
@@ -40,7 +42,8 @@ class ThreadPool {
   int thread_count() const { return static_cast<int>(workers_.size()) + 1; }
 
   /// Calls task(part) once for every part in [0, parts), parts <= 65535, on at most `threads`
-  /// threads, and waits for all of them. The task must not throw. Not reentrant.
+  /// threads, and waits for all of them. Not reentrant.
+  /// @throws what a part threw; others may have been called or not
   template <class Task>
   void run(int threads, int parts, const Task& task) {
     if (threads > thread_count()) threads = thread_count();
@@ -50,10 +53,11 @@ class ThreadPool {
       return;
     }
     task_ = &task;
-    call_ = [](const void* t, int part) noexcept { (*static_cast<const Task*>(t))(part); };
+    call_ = [](const void* t, int part) { (*static_cast<const Task*>(t))(part); };
     start(threads, parts);
     take_parts(0, generation_);
     wait_for_parts();
+    if (has_failed_.load(std::memory_order_relaxed)) rethrow();
   }
 
   /// One part per thread.
@@ -134,10 +138,19 @@ class ThreadPool {
     for (int k = 0; k < owners; ++k) {
       Share& s = share((thread + k) % owners);
       for (int part = take(s, generation, k == 0); part >= 0; part = take(s, generation, k == 0)) {
-        call_(task_, part);
+        try {
+          call_(task_, part);
+        } catch (...) {
+          if (!has_failed_.exchange(true)) failure_ = std::current_exception();
+        }
         if (pending_.fetch_sub(1, std::memory_order_acq_rel) == 1) pending_.notify_one();
       }
     }
+  }
+
+  [[noreturn]] void rethrow() {
+    has_failed_ = false;
+    std::rethrow_exception(std::exchange(failure_, nullptr));
   }
 
   void wait_for_parts() {
@@ -188,7 +201,9 @@ class ThreadPool {
   std::uint32_t generation_ = 0;
   // The job.
   const void* task_ = nullptr;
-  void (*call_)(const void*, int) noexcept = nullptr;
+  void (*call_)(const void*, int) = nullptr;
+  std::atomic<bool> has_failed_{false};
+  std::exception_ptr failure_;
 };
 
 }  // namespace neve

@@ -1,14 +1,18 @@
 /// Calls of the C library that fail on demand and are listed, for programs that are started with
 /// this library in LD_PRELOAD:
 ///
-///   NEVE_FAULT  OPERATION:ERRNO:PART[:SKIP]  the operation (open, write, fsync, rename, flock,
-///   close)
-///               fails with this number on files with this part in their path, after SKIP times
+///   NEVE_FAULT  OPERATION:ERRNO:PART[:SKIP[:TIMES]]  the operation (open, write, fsync, rename,
+///               mkdir, close, flock) fails with this number on files with this part in their path,
+///               after SKIP times, TIMES of them (all). The operation short is a write of a half.
+///   NEVE_FAULT_COUNT  FILE  begins with a number of 8 bytes: the calls of the operation by all
+///               processes that share it. Without it each process counts for itself
+///   NEVE_FAULT_WHILE  FILE  nothing fails but while it exists
 ///   NEVE_CALLS  FILE  gets a line for each: "fsync /path"
 ///   NEVE_JOURNAL  FILE  gets all that changes the disk, see tests/support/power_cut.h
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,6 +20,7 @@
 #include <cerrno>
 #include <climits>
 #include <cstdarg>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -28,20 +33,34 @@ Function* next(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
+using Counter = std::atomic<std::uint64_t>;
+
 struct Fault {
   std::string operation, part;
   int error = 0;
-  std::atomic<long> skip{0};
+  std::uint64_t skip = 0, times = ~std::uint64_t{0};
+  Counter own{0};
+  Counter* count = &own;
+  const char* only_while = std::getenv("NEVE_FAULT_WHILE");
 
   Fault() {
     const char* text = std::getenv("NEVE_FAULT");
     char name[32] = "", where[256] = "";
-    long count = 0;
-    if (!text || std::sscanf(text, "%31[^:]:%d:%255[^:]:%ld", name, &error, where, &count) < 3)
+    if (!text ||
+        std::sscanf(text, "%31[^:]:%d:%255[^:]:%lu:%lu", name, &error, where, &skip, &times) < 3)
       return;
     operation = name;
     part = where;
-    skip = count;
+    if (const char* file = std::getenv("NEVE_FAULT_COUNT")) share(file);
+  }
+
+ private:
+  void share(const char* file) {
+    const int fd = next<int(const char*, int, ...)>("open")(file, O_RDWR | O_CLOEXEC);
+    if (fd < 0) return;
+    void* place = ::mmap(nullptr, sizeof(Counter), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+    next<int(int)>("close")(fd);
+    if (place != MAP_FAILED) count = static_cast<Counter*>(place);
   }
 };
 
@@ -89,14 +108,21 @@ void journal(const char* operation, const std::string& path, const std::string& 
 bool fails(const char* operation, const std::string& path) {
   Fault& f = fault();
   if (f.operation != operation || path.find(f.part) == std::string::npos) return false;
-  if (f.skip.fetch_sub(1) > 0) return false;
+  if (f.only_while && ::access(f.only_while, F_OK) != 0) return false;
+  const std::uint64_t number = f.count->fetch_add(1);
+  if (number < f.skip || number - f.skip >= f.times) return false;
   errno = f.error;
   return true;
 }
 
+/// The same of an open file, whose path is looked for only if it matters.
+bool fails(const char* operation, int fd) {
+  return fault().operation == operation && fails(operation, path_of(fd));
+}
+
 int open_file(const char* name, const char* path, int flags, unsigned mode) {
   const bool writes = (flags & O_ACCMODE) != O_RDONLY;
-  if (writes && fails("open", path)) return -1;
+  if (writes && fails("open", absolute(path))) return -1;
   const int fd = next<int(const char*, int, ...)>(name)(path, flags, mode);
   if (fd >= 0 && (flags & O_CREAT) != 0) journal("create", absolute(path));
   return fd;
@@ -123,7 +149,8 @@ int open64(const char* path, int flags, ...) {
 }
 
 ssize_t write(int fd, const void* data, size_t size) {
-  if (!fault().operation.empty() && fails("write", path_of(fd))) return -1;
+  if (fails("write", fd)) return -1;
+  if (size > 1 && fails("short", fd)) size /= 2;
   const ssize_t written = next<ssize_t(int, const void*, size_t)>("write")(fd, data, size);
   if (written > 0 && std::getenv("NEVE_JOURNAL"))
     journal("write", path_of(fd),
@@ -134,13 +161,13 @@ ssize_t write(int fd, const void* data, size_t size) {
 int fsync(int fd) {
   const std::string path = path_of(fd);
   note("fsync", path);
-  const int result = fails("fsync", path) ? -1 : next<int(int)>("fsync")(fd);
+  const int result = fails("fsync", fd) ? -1 : next<int(int)>("fsync")(fd);
   if (result == 0) journal("fsync", path);
   return result;
 }
 
 int rename(const char* from, const char* to) {
-  if (fails("rename", to)) return -1;
+  if (fails("rename", absolute(to))) return -1;
   const int result = next<int(const char*, const char*)>("rename")(from, to);
   note("rename", to);
   if (result == 0) journal("rename", absolute(from), absolute(to));
@@ -160,13 +187,24 @@ int remove(const char* path) {
 }
 
 int mkdir(const char* path, mode_t mode) {
+  if (fails("mkdir", absolute(path))) return -1;
   const int result = next<int(const char*, mode_t)>("mkdir")(path, mode);
   if (result == 0) journal("folder", absolute(path));
   return result;
 }
 
 int flock(int fd, int operation) {
-  return fails("flock", path_of(fd)) ? -1 : next<int(int, int)>("flock")(fd, operation);
+  return fails("flock", fd) ? -1 : next<int(int, int)>("flock")(fd, operation);
+}
+
+/// The file is closed nevertheless, as Linux does.
+int close(int fd) {
+  const bool is_failing = fails("close", fd);
+  const int error = errno;
+  const int result = next<int(int)>("close")(fd);
+  if (!is_failing) return result;
+  errno = error;
+  return -1;
 }
 
 }  // extern "C"

@@ -118,6 +118,22 @@ TEST(Png, UnusableInputIsRefused) {
   EXPECT_THROW(encode_png(image, {{"k", std::string("a\0b", 3)}}), ImageError);
 }
 
+/// 4 GiB of pixels in a hundred bytes.
+TEST(Png, AFewBytesAreNoLargePicture) {
+  const std::vector<std::uint8_t> small = encode_png(noise(4, 4, 3));
+  std::vector<std::uint8_t> large = small;
+  for (const std::size_t at : {18, 22}) large[at] = 0x40;  // 16384 + 4 pixels wide and high
+  const auto sum = static_cast<std::uint32_t>(
+      crc32_z(crc32_z(0, nullptr, 0), large.data() + 12, 17));
+  for (std::size_t k = 0; k < 4; ++k) large[29 + k] = static_cast<std::uint8_t>(sum >> (24 - 8 * k));
+  try {
+    decode_png(large);
+    FAIL();
+  } catch (const ImageError& error) {
+    EXPECT_NE(std::string(error.what()).find("16388x16388"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Compare, ComparisonMeasuresLargestAndMeanDifference) {
   const Image a{2, 1, 3, {0, 10, 20, 30, 40, 50}};
   const Image b{2, 1, 3, {0, 13, 20, 30, 40, 41}};

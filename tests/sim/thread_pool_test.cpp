@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <new>
 #include <numeric>
 #include <vector>
 
@@ -82,6 +83,20 @@ TEST(ThreadPool, ThreadPoolWakesThreadsThatFellAsleep) {
   ThreadPool pool(3);
   for (int k = 0; k < 20; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::atomic<int> calls{0};
+    pool.run(3, 30, [&](int) { ++calls; });
+    ASSERT_EQ(calls, 30);
+  }
+}
+
+TEST(ThreadPool, WhatAPartThrowsReachesTheCallerAndThePoolGoesOn) {
+  ThreadPool pool(3);
+  for (int k = 0; k < 50; ++k) {
+    EXPECT_THROW(pool.run(3, 30,
+                          [&](int part) {
+                            if (part % 7 == k % 7) throw std::bad_alloc();
+                          }),
+                 std::bad_alloc);
     std::atomic<int> calls{0};
     pool.run(3, 30, [&](int) { ++calls; });
     ASSERT_EQ(calls, 30);

@@ -119,7 +119,7 @@ class LocalJobs {
   /// One that fails for ever must not keep others from being made.
   void put_failed_by_machine_last() {
     std::stable_partition(queue_.begin(), queue_.end(), [&](const Run* run) {
-      return !is_machine_failure(store::read_status(folder_of(*run)).exit_code);
+      return !is_machine_failure(store::read_status(folder_of(*run)));
     });
   }
 
@@ -258,7 +258,7 @@ class LocalJobs {
     if (store::is_finished(status.state)) count(status);
     // Also by another process: then the sweep is not done either.
     if (status.state == store::RunState::interrupted) result_.is_interrupted = true;
-    if (is_machine_failure(status.exit_code))
+    if (is_machine_failure(status))
       give_up({status.exit_code, store::run_text(run) + ": " + status.reason});
     work_done_ += run.work;
     work_left_ -= run.work;

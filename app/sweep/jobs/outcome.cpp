@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <new>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
@@ -66,9 +67,15 @@ void judge_divergence(const store::Manifest& manifest, const Run& run, const fs:
     status.short_reason = fmt::format(
         "frame {}: {}", frame,
         rule_text(incident.value("rule", ""), value.is_number() ? value.get<double>() : 0));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     status.reason = last_message(folder / "log");
   }
+}
+
+bool is_of_machine(int exit_code) {
+  return exit_code == exit_io || exit_code == exit_no_backend;
 }
 
 void judge_exit(const ChildResult& result, const store::Manifest& manifest, const Run& run,
@@ -88,12 +95,15 @@ void judge_exit(const ChildResult& result, const store::Manifest& manifest, cons
     default:
       status.reason = last_message(folder / "log");
   }
-  if (is_machine_failure(result.code)) {
+  const bool has_no_memory =
+      result.code == exit_refused && status.reason.find("out of memory") != std::string::npos;
+  // Memory that no limit of the sweep forbids is the machine's.
+  if (is_of_machine(result.code) || (has_no_memory && manifest.memory <= 0)) {
     status.state = store::RunState::interrupted;
     return;
   }
   const bool is_memory = status.reason.find("memory") != std::string::npos;
-  if (result.code == exit_refused && status.reason.find("out of memory") != std::string::npos)
+  if (has_no_memory)
     status.state = store::RunState::out_of_memory;
   else if (result.code == exit_refused)
     status.state = store::RunState::refused;
@@ -154,8 +164,10 @@ void judge(const ChildResult& result, const store::Manifest& manifest, const Run
   }
 }
 
-bool is_machine_failure(int exit_code) {
-  return exit_code == exit_io || exit_code == exit_no_backend;
+bool is_machine_failure(const store::RunStatus& status) {
+  const bool has_no_memory =
+      status.state == store::RunState::interrupted && status.exit_code == exit_refused;
+  return is_of_machine(status.exit_code) || has_no_memory;
 }
 
 std::string tile_text(const store::RunStatus& status) {

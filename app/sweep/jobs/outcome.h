@@ -14,8 +14,8 @@ namespace neve::app::sweep::jobs {
 void judge(const ChildResult& result, const store::Manifest& manifest, const Run& run,
            const std::filesystem::path& run_folder, store::RunStatus& status);
 
-/// Exit codes that say nothing about the run: no room, no device, no OpenGL.
-bool is_machine_failure(int exit_code);
+/// An end that says nothing about the run: no room, no device, no OpenGL, no memory.
+bool is_machine_failure(const store::RunStatus& status);
 
 /// "DIVERGED frame 17: acoustic CFL 3.1", "TIMEOUT after 20 min 00 s", "CRASHED signal 11"
 std::string tile_text(const store::RunStatus& status);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <new>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -109,6 +110,8 @@ fs::path jobs_path(const fs::path& folder) {
 std::vector<std::string> known_jobs(const fs::path& folder) {
   try {
     return parse_json(output::read_file(jobs_path(folder))).get<std::vector<std::string>>();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return {};
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
@@ -58,6 +59,8 @@ render::Image read_tile(const std::filesystem::path& file, int width, int height
     if (image.width >= width && image.height >= height) return render::shrink(image, width, height);
     return render::compose(width, height, background,
                            {{(width - image.width) / 2, (height - image.height) / 2, image}});
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     // A picture that is not there or is being replaced is no reason to have no sheet.
     return plain_image(width, height, background);

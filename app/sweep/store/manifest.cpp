@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 
@@ -113,7 +114,8 @@ Run run_of(const Json& json) {
   run.label = json.at("label").get<std::string>();
   run.settings = settings_of(json.at("settings"));
   run.inherited = settings_of(json.at("unset"));
-  run.coordinates = json.at("coordinates").get<std::vector<int>>();
+  for (const Json& place : json.at("coordinates"))
+    run.coordinates.push_back(whole_number<int>(place));
   run.frames = {whole_number<int>(json.at("first_frame")),
                 whole_number<int>(json.at("last_frame"))};
   run.particles = json.at("particles").get<double>();
@@ -157,6 +159,8 @@ std::optional<Manifest> earlier_manifest(const std::filesystem::path& folder) {
   if (!std::filesystem::is_regular_file(manifest_path(folder), error)) return std::nullopt;
   try {
     return read_manifest(folder);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return std::nullopt;
   }
@@ -346,6 +350,8 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
     check_values(m);
     return m;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw Error(exit_invalid_scene,
                 fmt::format("{}: error: is not a list of runs: {}", file, error.what()), file,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <new>
 
 #include "app/output/sequence.h"
 #include "app/run/run_json.h"
@@ -63,6 +64,8 @@ RunNotes notes_of(const Json& run) {
   try {
     if (run.contains("divergence")) notes.diverged_at = run["divergence"].at("step").get<double>();
     notes.warnings = run.value("warnings", notes.warnings);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return notes;
   }

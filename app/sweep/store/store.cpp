@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <new>
 #include <sstream>
 #include <system_error>
 
@@ -61,15 +62,17 @@ RunStatus read_status(const fs::path& run_folder) {
     status.key = json.at("key").get<std::string>();
     status.reason = json.value("reason", "");
     status.short_reason = json.value("short_reason", "");
-    status.exit_code = json.contains("exit_code") ? whole_number<int>(json.at("exit_code")) : 0;
-    status.signal = json.contains("signal") ? whole_number<int>(json.at("signal")) : 0;
-    status.attempts = json.contains("attempts") ? whole_number<int>(json.at("attempts")) : 0;
+    status.exit_code = whole_number_or(json, "exit_code", 0);
+    status.signal = whole_number_or(json, "signal", 0);
+    status.attempts = whole_number_or(json, "attempts", 0);
     status.seconds = json.value("seconds", 0.0);
-    status.peak_memory = json.value("peak_memory_bytes", std::uint64_t{0});
-    status.pid = json.value("pid", 0L);
+    status.peak_memory = whole_number_or(json, "peak_memory_bytes", std::uint64_t{0});
+    status.pid = whole_number_or(json, "pid", 0L);
     status.host = json.value("host", "");
     if (!(status.seconds >= 0 && status.seconds < 1e12) || status.attempts < 0) return {};
     if (found != states.end()) status.state = static_cast<RunState>(found - states.begin());
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return {};
   }

@@ -1,0 +1,18 @@
+/// A sample of what tests/cli_long/disturbed_test.cpp tries at every place.
+
+#include "tests/support/disturbed_cli.h"
+
+namespace neve::test {
+namespace {
+
+class DisturbedSample : public DisturbedCli {};
+
+TEST_P(DisturbedSample, AnAllocationThatFailsIsSaidAndTheSameCommandGoesOn) {
+  EXPECT_GT(disturb(failing_allocation(), 3), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, DisturbedSample,
+                         testing::ValuesIn(disturbed_commands({"view", "emit", "check"})), name_of);
+
+}  // namespace
+}  // namespace neve::test

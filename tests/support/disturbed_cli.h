@@ -1,0 +1,168 @@
+#pragma once
+/// Commands that are disturbed at one place, then repeated: the first time they tell the truth, the
+/// second time they end as if nothing had been.
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/support/faulty_cli.h"
+#include "tests/support/folder_contents.h"
+
+namespace neve::test {
+
+struct DisturbedCommand {
+  const char* name;
+  const char* prepare;    ///< for the shell, before each try
+  const char* arguments;  ///< of neve
+  const char* results;    ///< folder or file that it makes; empty: none
+};
+
+/// One place that is disturbed: what the library of tests/faults is told, by its number.
+struct Disturbance {
+  std::string name;
+  /// Variables for the library. @param number  of the calls before it
+  std::string (*variables)(const std::string& name, int number, const std::string& folder);
+  std::set<int> codes;  ///< the exit codes that tell of it
+  std::string word;     ///< in the message
+};
+
+class DisturbedCli : public FaultyCli, public testing::WithParamInterface<DisturbedCommand> {
+ protected:
+  /// Half a run, a whole sweep, and a script that saves.
+  void SetUp() override {
+    // Arrays of particles are larger than 64 KiB.
+    std::string text = tiny_scene;
+    text.replace(text.find("cell_size = 0.04"), 16, "cell_size = 0.015");
+    folder.write("scene.toml", text);
+    folder.write("script.json", R"([{"click": "Frame"}, {"wait_for": "simulation frame 1"},
+      {"wait": 5}, {"key": "s", "ctrl": true}, {"wait": 5}, {"quit": true}])");
+    const std::string words = std::string(GetParam().prepare) + GetParam().arguments;
+    if (contains(words, "half"))
+      shell("\"$0\" render scene.toml --out half --frames 0-1 --checkpoint-every 1 --no-movie");
+    if (contains(words, "made"))
+      shell("\"$0\" sweep scene.toml -p seed=1,2 --frames 0-1 --out made --jobs 1");
+  }
+
+  app::output::ProcessResult shell(const std::string& line) {
+    return app::output::run_process("/bin/bash", {"-c", line, NEVE_BINARY}, folder.path());
+  }
+
+  std::map<std::string, std::string> results() {
+    const std::string where = GetParam().results;
+    if (where.empty() || !exists(where)) return {};
+    if (!std::filesystem::is_directory(folder / where)) return {{where, read_text(folder / where)}};
+    return folder_contents(folder / where);
+  }
+
+  /// Disturbs it at every place, or at some. @param most  places
+  /// @return how many
+  int disturb(const Disturbance& disturbance, int most) {
+    const std::map<std::string, std::string> whole = undisturbed(disturbance);
+    const auto all = static_cast<int>(calls());
+    const int tried = std::min(all, most);
+    for (int k = 0; k < tried && !HasFailure(); ++k)
+      disturb_at(disturbance, static_cast<int>(std::int64_t{all} * k / tried), whole);
+    return tried;
+  }
+
+ private:
+  std::uint64_t calls() {
+    std::uint64_t count = 0;
+    const std::string bytes = read_text(folder / "count");
+    std::memcpy(&count, bytes.data(), std::min(bytes.size(), sizeof count));
+    return count;
+  }
+
+  app::output::ProcessResult run(const Disturbance& disturbance, int number) {
+    folder.write("count", std::string(8, '\0'));
+    shell(GetParam().prepare);
+    return failing("", GetParam().arguments,
+                   disturbance.variables(disturbance.name, number, folder.path().string()));
+  }
+
+  std::map<std::string, std::string> undisturbed(const Disturbance& disturbance) {
+    const auto result = run(disturbance, 1'000'000);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return results();
+  }
+
+  void disturb_at(const Disturbance& disturbance, int number,
+                  const std::map<std::string, std::string>& whole) {
+    const auto result = run(disturbance, number);
+    const std::string place = std::string(GetParam().name) + ", " + disturbance.name + " " +
+                              std::to_string(number) + ": " + result.errors +
+                              read_text(folder / "count.trace");
+    if (result.exit_code == 0) {
+      expect_same(whole, place);
+    } else {
+      EXPECT_TRUE(disturbance.codes.contains(result.exit_code))
+          << "exit code " << result.exit_code << "\n"
+          << place;
+      EXPECT_TRUE(contains(result.errors, disturbance.word)) << place;
+    }
+    const auto again = failing("", GetParam().arguments);
+    EXPECT_EQ(again.exit_code, 0) << place << "\nthen\n" << again.errors;
+    expect_same(whole, place + "\nthen\n" + again.errors);
+  }
+
+  void expect_same(const std::map<std::string, std::string>& whole, const std::string& place) {
+    const std::map<std::string, std::string> found = results();
+    for (const auto& [name, bytes] : whole)
+      EXPECT_TRUE(found.contains(name) && found.at(name) == bytes) << name << " after " << place;
+    for (const auto& [name, bytes] : found)
+      EXPECT_TRUE(whole.contains(name)) << name << " is left over after " << place;
+  }
+};
+
+/// @param left_out  names of commands
+inline std::vector<DisturbedCommand> disturbed_commands(const std::set<std::string>& left_out) {
+  std::vector<DisturbedCommand> list{
+      {"render", "rm -rf out",
+       "render scene.toml --out out --frames 0-2 --checkpoint-every 1 --threads 2", "out"},
+      {"resume", "rm -rf out; cp -r half out",
+       "render scene.toml --out out --frames 0-2 --checkpoint-every 1 --resume", "out"},
+      {"sweep", "rm -rf s", "sweep scene.toml -p seed=1,2 --frames 0-1 --out s --jobs 1", "s"},
+      {"collect", "rm -rf s; cp -r made s; rm -f s/data.csv s/sheet* s/report.html",
+       "sweep collect s", "s"},
+      {"emit", "rm -rf s commands",
+       "sweep scene.toml -p seed=1,2 --frames 0-1 --out s --emit commands", "s"},
+      {"dump", "rm -f numbers", "dump scene.toml --at 0.01s --out numbers", "numbers"},
+      {"export", "rm -rf out", "export scene.toml --frames 0-1 --format vtp,vti --out out", "out"},
+      {"view", "rm -rf out", "view scene.toml --replay script.json --out out --size 640x400",
+       "out"},
+      {"verify", "true", "verify half", ""},
+      {"check", "true", "check scene.toml", ""}};
+  std::erase_if(list,
+                [&](const DisturbedCommand& command) { return left_out.contains(command.name); });
+  return list;
+}
+
+inline std::string name_of(const testing::TestParamInfo<DisturbedCommand>& info) {
+  return info.param.name;
+}
+
+/// The operation fails once for numbers that are even, from there on for those that are odd.
+inline Disturbance failing_operation(const std::string& operation) {
+  const auto variables = [](const std::string& name, int number, const std::string& folder) {
+    constexpr int errors[] = {ENOSPC, EIO, EDQUOT};
+    return "NEVE_FAULT_COUNT=$PWD/count NEVE_FAULT=" + name + ":" +
+           std::to_string(errors[number % 3]) + ":" + folder.substr(folder.rfind('/')) +
+           "/:" + std::to_string(number) + (number % 2 == 0 ? ":1" : "");
+  };
+  return {operation, variables, {6}, "neve: error: "};
+}
+
+inline Disturbance failing_allocation() {
+  const auto variables = [](const std::string&, int number, const std::string&) {
+    return "NEVE_ALLOCATIONS=" + std::to_string(number) + ":$PWD/count";
+  };
+  return {"allocation", variables, {8}, "out of memory: "};
+}
+
+}  // namespace neve::test
