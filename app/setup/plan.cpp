@@ -29,8 +29,8 @@ constexpr std::array quality_names{"draft", "preview", "final"};
 /// Address space of a software rasteriser; with less some drivers crash without a message.
 constexpr std::uint64_t driver_address_space = 1'000'000'000;
 
-/// Memory of a sample while it is drawn: colour, normal, depth and their copies on both sides. Plain
-/// particles take 24 to 29, smoke with supersampling 50.
+/// Memory of a sample while it is drawn: colour, normal, depth and their copies on both sides.
+/// Plain particles take 24 to 29, smoke with supersampling 50.
 constexpr double bytes_per_sample = 36;
 constexpr double bytes_per_pixel = 4;
 

@@ -89,6 +89,23 @@ Bytes mended(std::span<const std::uint8_t> bytes) {
   return whole;
 }
 
+/// The checksums of PNG chunks, as far as they are chunks.
+Bytes with_right_checksums(std::span<const std::uint8_t> bytes) {
+  Bytes png(bytes.begin(), bytes.end());
+  constexpr std::size_t signature = 8, overhead = 12;
+  for (std::size_t at = signature; at + overhead <= png.size();) {
+    const std::size_t length = std::size_t{png[at]} << 24 | std::size_t{png[at + 1]} << 16 |
+                               std::size_t{png[at + 2]} << 8 | std::size_t{png[at + 3]};
+    if (length > png.size() - at - overhead) break;
+    const auto sum = crc32_z(crc32_z(0, nullptr, 0), png.data() + at + 4, length + 4);
+    for (int k = 0; k < 4; ++k)
+      png[at + 8 + length + static_cast<std::size_t>(k)] =
+          static_cast<std::uint8_t>(sum >> (24 - 8 * k));
+    at += overhead + length;
+  }
+  return png;
+}
+
 /// A run that is resumed from it takes two steps and tells about its particles.
 void resume(const run::ResumedRun& resumed) {
   SmallRun& small = small_run();
@@ -145,7 +162,8 @@ void read_manifest(std::span<const std::uint8_t> bytes) {
 }
 
 /// As neve info reads it, and neve compare its pixels.
-void read_picture(std::span<const std::uint8_t> bytes) {
+void read_picture(std::span<const std::uint8_t> given) {
+  const Bytes bytes = with_right_checksums(given);
   try {
     run::picture_record_of(render::read_png_text(bytes), "picture.png");
   } catch (const render::ImageError&) {

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -13,12 +14,21 @@ namespace {
 
 using namespace neve::test::fuzz;
 
+constexpr double longest = 1;  // s, with sanitizers
+
 const Reader* chosen = nullptr;
 
 const Reader* reader_called(std::string_view name) {
   for (const Reader& reader : readers())
     if (name == reader.name) return &reader;
   return nullptr;
+}
+
+/// Of this process: what else the machine does takes no time from a reader.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 int write_seeds(const std::filesystem::path& folder) {
@@ -45,6 +55,10 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const double begin = processor_seconds();
   chosen->read({data, size});
+  const double seconds = processor_seconds() - begin;
+  if (seconds > longest) std::fprintf(stderr, "this input takes %.2f s\n", seconds);
+  require(seconds <= longest);
   return 0;
 }
