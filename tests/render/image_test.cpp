@@ -123,9 +123,10 @@ TEST(Png, AFewBytesAreNoLargePicture) {
   const std::vector<std::uint8_t> small = encode_png(noise(4, 4, 3));
   std::vector<std::uint8_t> large = small;
   for (const std::size_t at : {18, 22}) large[at] = 0x40;  // 16384 + 4 pixels wide and high
-  const auto sum = static_cast<std::uint32_t>(
-      crc32_z(crc32_z(0, nullptr, 0), large.data() + 12, 17));
-  for (std::size_t k = 0; k < 4; ++k) large[29 + k] = static_cast<std::uint8_t>(sum >> (24 - 8 * k));
+  const auto sum =
+      static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), large.data() + 12, 17));
+  for (std::size_t k = 0; k < 4; ++k)
+    large[29 + k] = static_cast<std::uint8_t>(sum >> (24 - 8 * k));
   try {
     decode_png(large);
     FAIL();

@@ -401,9 +401,9 @@ TEST(Workbench, FromElsewhereNoFileIsNamedAndNoneIsWrittenOutside) {
   EXPECT_TRUE(contains(refused("body.cloud.shape.points.file", secret), "over the web"));
   EXPECT_TRUE(contains(refused("body.cloud.shape", "{ points = { file = " + secret + " } }"),
                        "over the web"));
-  EXPECT_TRUE(contains(refused("body.cloud.shape",
-                               "{ points = { \"f\\u0069le\" = " + secret + " } }"),
-                       "over the web"));
+  EXPECT_TRUE(
+      contains(refused("body.cloud.shape", "{ points = { \"f\\u0069le\" = " + secret + " } }"),
+               "over the web"));
   EXPECT_TRUE(contains(refused("limits.memory", "\"1TiB\""), "over the web"));
   EXPECT_TRUE(contains(refused("limits", "{ memory = \"1TiB\" }"), "over the web"));
   EXPECT_FALSE(bench.may_save_over_file());
