@@ -28,7 +28,7 @@ class WebView : public Cli {
     }
   }
 
-  void start(std::vector<std::string> more = {}) {
+  void start(const std::vector<std::string>& more = {}) {
     std::string line = "exec \"$0\" view scene.toml --web --json --out viewed --size 640x400";
     for (const std::string& word : more) line += " " + word;
     program_ = start_program({"/bin/bash", "-c", "cd \"$1\" && " + line + " >told 2>said",
