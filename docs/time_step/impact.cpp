@@ -3,7 +3,7 @@
 ///   impact [snow=paper|dry] [n=8] [transfer=flip|mls] [acoustic_cfl=0.5] [flip_reference_dt=5e-4]
 ///          [seed=1] [speed=5] [youngs_modulus=] [model=snow|corotated]
 ///          [beta=0] [dt=0] [max_dt=1e-3] [contact_at=particles|nodes] [collide_after_solve=0]
-///          [time=0.125]
+///          [solve_tolerance=1e-2] [time=0.125]
 /// n is the radius in cells. FLIP is cubic, MLS quadratic. dt > 0: fixed steps. The last line but
 /// one tells what the solve took; seconds are CPU time.
 
@@ -41,6 +41,7 @@ Simulation make_simulation(Arguments& a) {
   s.contact_at = a["contact_at"] == "nodes" ? ContactAt::nodes : ContactAt::particles;
   s.collide_after_solve = number("collide_after_solve") > 0;
   s.max_dt = number("max_dt");
+  s.solve_tolerance = number("solve_tolerance");
   if (number("dt") > 0) {
     s.time_step = TimeStep::fixed;
     s.dt = number("dt");
@@ -114,6 +115,7 @@ int main(int argc, char** argv) {
               {"max_dt", "1e-3"},
               {"contact_at", "particles"},
               {"collide_after_solve", "0"},
+              {"solve_tolerance", "1e-2"},
               {"time", "0.125"}};
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];

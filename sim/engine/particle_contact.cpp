@@ -1,6 +1,7 @@
 #include "sim/engine/particle_contact.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace neve::sim::engine {
 
@@ -13,6 +14,17 @@ constexpr int passes = 2;
 /// same direction, and nobody sees it. Springs give way to snow that presses against them, by about
 /// its share of their stiffness. Too little in both cases to make snow bounce.
 constexpr double apart_after_passes = 1, apart_after_solve = 20;
+
+/// ContactArgs::most_touching
+template <class Real>
+double most_touching(const State<Real>& state) {
+  const std::vector<Real>& half = state.method.half_spacing;
+  const double thinnest = static_cast<double>(*std::max_element(half.begin(), half.end()));
+  const double wanted = kernels::touching_share * thinnest *
+                        std::cbrt(static_cast<double>(state.particles.largest_mass));
+  // The kernels' cube root is good to rounding.
+  return std::min(1.001 * wanted, kernels::max_touching * state.method.settings.cell_size);
+}
 
 }  // namespace
 
@@ -39,6 +51,7 @@ kernels::ContactArgs<Real> ParticleContact<Real>::contact_args(
   a.step = step;
   a.poses = step.constants.colliders;
   a.half_spacing = state.method.half_spacing.data();
+  a.most_touching = static_cast<Real>(most_touching(state));
   a.kept_min = step.constants.alpha * step.constants.beta_min;
   a.kept_max = step.constants.alpha * step.constants.beta_max;
   a.max_speed = static_cast<Real>(state.progress.limits.max_speed);

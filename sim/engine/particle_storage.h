@@ -15,6 +15,7 @@ struct ParticleStorage {
   std::vector<kernels::Particle<Real>> records;
   std::vector<std::uint64_t> keys;    ///< of blocks, per record; the sweeps keep them up to date
   std::vector<std::uint16_t> locals;  ///< model and cell in the block, per record
+  Real largest_mass = 0;              ///< kg: none that was ever there has more, see refresh
   Partition partition;
   Reordering<kernels::Particle<Real>> reordering;
 

@@ -107,6 +107,8 @@ kernels::BlockReport<Real> State<Real>::refresh(std::size_t begin, std::size_t e
   kernels::BlockReport<Real> report;
   method.sweeps->refresh(sweep_args(0, kernels::all_channels), static_cast<std::uint32_t>(begin),
                          static_cast<std::uint32_t>(end), false, report);
+  for (std::size_t q = begin; q < end; ++q)
+    particles.largest_mass = std::max(particles.largest_mass, particles.records[q].m);
   return report;
 }
 

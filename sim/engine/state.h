@@ -37,7 +37,7 @@ struct State {
   void over_node_blocks(BlockSweep<Args> sweep, const Args& a) const;
   /// The step of the spray. @param a  of sweep_args
   void step_spray(const kernels::SweepArgs<Real>& a) const;
-  /// Stress, keys and limits of records [begin, end) as they are.
+  /// Stress, keys and limits of records [begin, end) as they are, all that come among them.
   kernels::BlockReport<Real> refresh(std::size_t begin, std::size_t end);
 
   /// Time passes, and colliders move unless the settings skip that.

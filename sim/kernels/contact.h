@@ -3,6 +3,7 @@
 /// Source: the paper, section 8 (collisions with friction and stickiness).
 
 #include "sim/base/lanes.h"
+#include "sim/base/scalar.h"
 #include "sim/base/vec.h"
 #include "sim/shapes/distance_samples.h"
 
@@ -273,6 +274,20 @@ NEVE_INLINE bool is_out_of_reach(const LocalCollider<Real>& c, const Vec3<Real>&
   Vec3<V> normal;
   // Between samples a field is off by less than the diagonal of their cell, here and there.
   return surface_distance(c, widened<V>(centre), normal)[0] > reach + 2 * c.spacing;
+}
+
+/// True if no place of a cube comes within `reach` of a collider, m. @param half  of its edge
+template <class Real>
+NEVE_INLINE bool is_cube_out_of_reach(const LocalCollider<Real>& c, const Vec3<Real>& middle,
+                                      Real half, Real reach) {
+  const auto along = [&](const Vec3<Real>& axis) {
+    return half * (absolute(axis.x) + absolute(axis.y) + absolute(axis.z));
+  };
+  Real corner = half * Real(1.7321);
+  if (c.shape == ColliderShape::plane) corner = along(c.normal);
+  if (c.shape == ColliderShape::box)
+    corner = larger(along(c.axis[0]), larger(along(c.axis[1]), along(c.axis[2])));
+  return is_out_of_reach(c, middle, corner + reach);
 }
 
 /// A node this far inside is held, in cells. The nodes of a floor that lies on a plane of nodes are

@@ -24,6 +24,12 @@
 
 namespace neve::sim::kernels {
 
+/// Snow touches a surface where its particles are this share of half their spacing away: seeded
+/// particles are not all in the middle of their part of the body.
+inline constexpr double touching_share = 0.75;
+/// No particle touches at more than this, cells, however few there are in a cell.
+inline constexpr double max_touching = 0.5;
+
 /// A particle in contact with a collider; numbers, or lanes.
 template <class R, class I>
 struct ContactRecord {
@@ -57,6 +63,7 @@ struct ContactArgs {
   SweepArgs<Real> step;       ///< nodes have v_free and get v_star
   const ColliderPose* poses;  ///< those of `step`, which the solve does not show to the nodes
   const Real* half_spacing;   ///< per material: of particles of 1 kg, m
+  Real most_touching;         ///< m: no particle touches at more
   /// Shares of its own velocity that a particle moves with, compressed and separating: alpha beta,
   /// see StepConstants.
   Real kept_min, kept_max;

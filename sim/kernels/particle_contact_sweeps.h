@@ -6,13 +6,8 @@
 
 namespace neve::sim::kernels {
 
-/// Snow touches a surface where its particles are this share of half their spacing away: seeded
-/// particles are not all in the middle of their part of the body.
-inline constexpr double touching_share = 0.75;
 /// A particle counts as touching up to this distance beyond, cells.
 inline constexpr double touching_slack = 0.1;
-/// No particle touches at more than this, cells, however few there are in a cell.
-inline constexpr double max_touching = 0.5;
 /// A particle inside is brought out by these shares of its depth, per step and per second at most.
 inline constexpr double out_per_step = 0.2, out_per_second = 50;
 /// x^(1/3) of positive numbers.
@@ -41,22 +36,24 @@ struct ContactSweepsFor {
     Integer<Real> index[max_colliders];
   };
 
-  /// Particles of a block lie within 4 cells of its middle. They touch within half a cell and a
-  /// slack, and may come nearer by twice what they and the collider move in a step.
+  /// Particles may come nearer by twice what they and the collider move in a step.
   NEVE_NOINLINE static void find_near(Near& near, const Args& a, std::uint64_t key) {
     const StepConstants<Real>& c = a.step.constants;
     int cell[3];
     for (int axis = 0; axis < 3; ++axis) cell[axis] = block_coordinate(key, axis) * block_side;
-    const Vec3<Real> middle{Real(2.75) * c.h, Real(2.75) * c.h, Real(2.75) * c.h};
-    const Real still = static_cast<Real>(4 + max_touching + touching_slack) * c.h;
+    const Real centre = static_cast<Real>(particle_middle<K>) * c.h;
+    const Vec3<Real> middle{centre, centre, centre};
+    const Real half = static_cast<Real>(particle_reach) * c.h;
+    const Real still = a.most_touching + static_cast<Real>(touching_slack) * c.h;
     int& count = near.colliders.count;
     for (int k = 0; k < c.collider_count; ++k) {
       const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
       const Vec3<Real> arm = candidate.to_block + middle;
-      const Real turning = square_root(dot(candidate.omega, candidate.omega) * dot(arm, arm));
+      const Real turning = square_root(dot(candidate.omega, candidate.omega)) *
+                           (square_root(dot(arm, arm)) + Real(1.7321) * half);
       const Real speed = square_root(dot(candidate.velocity, candidate.velocity)) + turning;
       const Real closing = 2 * (speed + a.max_speed) * c.dt;
-      if (is_out_of_reach(candidate, middle, still + closing)) continue;
+      if (is_cube_out_of_reach(candidate, middle, half, still + closing)) continue;
       near.index[count] = k;
       near.colliders.local[count++] = candidate;
     }

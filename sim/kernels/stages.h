@@ -309,6 +309,11 @@ NEVE_NOINLINE void find_near(NearColliders<Real>& near, const StepConstants<Real
   }
 }
 
+/// Where particles of a block are: within these cells of this place, along each axis.
+template <int K>
+inline constexpr double particle_middle = 0.5 * (K + 2);
+inline constexpr double particle_reach = 2.01;  ///< and rounding
+
 /// Nodes lie in [0, 3] cells from the block's first node, particles of the block in [0.5, 5), and
 /// after a step less than a cell further.
 template <class Set, class Real>
@@ -316,10 +321,19 @@ NEVE_INLINE void find_near_nodes(NearColliders<Real>& near, const StepConstants<
                                  std::uint64_t key) {
   if (c.collider_count > 0) find_near<Set>(near, c, key, Real(1.5), Real(2.7));
 }
-template <class Set, class Real>
-NEVE_INLINE void find_near_particles(NearColliders<Real>& near, const StepConstants<Real>& c,
-                                     std::uint64_t key) {
-  if (c.collider_count > 0) find_near<Set>(near, c, key, Real(2.75), Real(4));
+/// Those that a particle of the block may be inside of.
+template <class Set, int K, class Real>
+NEVE_NOINLINE void find_near_particles(NearColliders<Real>& near, const StepConstants<Real>& c,
+                                       std::uint64_t key) {
+  int cell[3];
+  for (int a = 0; a < 3; ++a) cell[a] = block_coordinate(key, a) * block_side;
+  const Real centre = static_cast<Real>(particle_middle<K>) * c.h;
+  const Real half = static_cast<Real>(particle_reach) * c.h;
+  for (int k = 0; k < c.collider_count; ++k) {
+    const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
+    if (!is_cube_out_of_reach(candidate, Vec3<Real>{centre, centre, centre}, half, Real(0)))
+      near.local[near.count++] = candidate;
+  }
 }
 template <class Set, class Real>
 NEVE_INLINE void find_near_moved(NearColliders<Real>& near, const StepConstants<Real>& c,

@@ -302,7 +302,7 @@ struct SweepsFor {
       if constexpr (has_change)
         load_tile<Real, K, Set>(block, channel_source(a, channel_change), change);
       NearColliders<Real> near;
-      find_near_particles<Set>(near, c, block.key);
+      find_near_particles<Set, K>(near, c, block.key);
       BlockLoads<Set> loads(near.count > 0 ? a.load_count : 0);
       ReportLanes report;
       each_group<gather_group>(a, block, [&](const Group<gather_group>& group) {
@@ -488,7 +488,7 @@ struct SweepsFor {
     for (Index b = begin; b < end; ++b) {
       const std::uint64_t key = a.blocks[b].key;
       NearColliders<Real> near;
-      find_near_particles<Set>(near, a.constants, key);
+      find_near_particles<Set, K>(near, a.constants, key);
       BlockLoads<Set> loads(near.count > 0 ? a.load_count : 0);
       each_batch(a, a.blocks[b], [&](const auto& group, int q, Batch& p) {
         load_whole(p, group.record + q);
