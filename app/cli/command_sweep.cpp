@@ -71,6 +71,12 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
     ++count;
   }
   output::write_named_file(options.emit, text);
+  if (options.is_json)
+    std::cout << to_text({{"out", folder.string()},
+                          {"exit_code", exit_ok},
+                          {"commands_file", options.emit},
+                          {"commands", count}})
+              << "\n";
   progress.note(fmt::format("{} {} in {}; then: neve sweep collect {}", count,
                             count == 1 ? "command" : "commands", options.emit, folder.string()));
 }

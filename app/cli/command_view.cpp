@@ -1,4 +1,5 @@
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -41,6 +42,9 @@ bool has_display() {
 
 Place open_replay(const view::ViewOptions& options) {
   Place place;
+  if (!std::filesystem::exists(options.replay))
+    throw scene::toml::SceneError(options.replay, 0, 0, "No such file or directory",
+                                  "--record FILE writes a script of input");
   const std::string text = scene::read_toml_file(options.replay);
   view::replay::ReplayFrontend::Options replay;
   replay.folder = options.run.out.empty() ? "." : options.run.out;

@@ -17,12 +17,20 @@ std::string suggestion(const std::string& wrong, const std::vector<std::string>&
 }
 
 /// Names in other programs, with the options here; the first existing option wins.
-constexpr std::pair<const char*, const char*> names_elsewhere[] = {
-    {"-o", "--out"},           {"--output", "--out"},    {"--output-dir", "--out"},
-    {"-j", "--jobs"},          {"-j", "--threads"},      {"--jobs", "--threads"},
-    {"-t", "--threads"},       {"--cores", "--threads"}, {"-f", "--frames"},
-    {"-s", "--set"},           {"-n", "--dry-run"},      {"-V", "--version"},
-    {"--resolution", "--size"}};
+constexpr std::pair<const char*, const char*> names_elsewhere[] = {{"-o", "--out"},
+                                                                   {"--output", "--out"},
+                                                                   {"--output-dir", "--out"},
+                                                                   {"-j", "--jobs"},
+                                                                   {"-j", "--threads"},
+                                                                   {"--jobs", "--threads"},
+                                                                   {"-t", "--threads"},
+                                                                   {"--cores", "--threads"},
+                                                                   {"-f", "--frames"},
+                                                                   {"-s", "--set"},
+                                                                   {"-n", "--dry-run"},
+                                                                   {"-V", "--version"},
+                                                                   {"--resolution", "--size"},
+                                                                   {"--port", "--listen"}};
 
 std::string hint_for(const std::string& word, const std::vector<std::string>& flags,
                      const std::string& otherwise) {

@@ -1,6 +1,8 @@
 #include "app/dump/dump_options.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "app/scene/names.h"
 #include "app/scene/toml/error.h"
@@ -11,9 +13,15 @@ namespace neve::app::dump {
 
 sim::Stage parse_stage(const std::string& text) {
   if (const auto stage = scene::value_named<sim::Stage>(text)) return *stage;
+  const std::vector<std::string> names(sim::stage_names.begin(), sim::stage_names.end());
+  // "forces" is part of one name alone.
+  std::vector<std::string> longer;
+  for (const std::string& name : names)
+    if (text.size() > 3 && name.find(text) != std::string::npos) longer.push_back(name);
   throw scene::toml::UsageError(
       "--stage", "there is no stage \"" + text + "\"",
-      names_advice(text, {sim::stage_names.begin(), sim::stage_names.end()}));
+      longer.size() == 1 ? "did you mean " + longer.front() + "? expected " + joined(names, ", ")
+                         : names_advice(text, names));
 }
 
 Probe parse_probe(const std::string& text) {
@@ -38,7 +46,9 @@ Probe parse_probe(const std::string& text) {
 DumpFormat parse_format(const std::string& text) {
   if (text == "table") return DumpFormat::table;
   if (text == "vtk") return DumpFormat::vtk;
-  throw scene::toml::UsageError("--format", "cannot use \"" + text + "\"", "expected table or vtk");
+  throw scene::toml::UsageError(
+      "--format", "cannot use \"" + text + "\"",
+      "expected table or vtk; neve export writes ply, vtp, bgeo, usda, npz and csv");
 }
 
 }  // namespace neve::app::dump

@@ -11,6 +11,7 @@
 #include "app/picture/legends.h"
 #include "app/picture/slice.h"
 #include "app/picture/smoke_layer.h"
+#include "app/picture/stage_look.h"
 #include "app/picture/to_float.h"
 #include "app/picture/wires.h"
 #include "app/scene/coarsen.h"
@@ -97,12 +98,15 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   const setup::CameraPlace first = setup::camera_at(camera, 0, scene_.frames / scene_.fps);
   const double spacing = round_down(0.1 * (first.eye - first.target).norm());
   add_colliders(scene_, view, snapshot.time, static_cast<float>(spacing), frame);
+  const bool is_of_stage =
+      snapshot.stage_change && shows_particles_of(view, *snapshot.stage_change);
   if (points)
     frame.points = std::move(*points);
-  else if (scene::has_layer(view, scene::Layer::particles))
+  else if (is_of_stage || scene::has_layer(view, scene::Layer::particles))
     add_points(view, snapshot, frame);
   add_grid(view, snapshot, frame);
   if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(view);
+  if (is_of_stage) add_stage_change(snapshot, stage_cut(view, snapshot), frame);
   if (scene::has_layer(view, scene::Layer::bounds)) add_bounds(snapshot, frame);
   if (scene::has_layer(view, scene::Layer::plots))
     frame.plots = make_plots(view.plots, !scene_.colliders.empty(), snapshot.history, snapshot.time,
@@ -146,13 +150,18 @@ render::Frame FrameBuilder::build_incident(const scene::View& view, const Snapsh
 
 void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
                               render::Frame& frame) const {
+  const std::optional<StageChange>& change = snapshot.stage_change;
   const scene::ParticleStyle& style = view.particles;
-  const scene::Range range = style.range.value_or(scene::Range{});
-  const std::vector<double> values = attribute_values(scene_, style.color_by, snapshot);
+  const scene::Range range = change ? scene::Range{0, std::max(change->largest(), 1e-300)}
+                                    : style.range.value_or(scene::Range{});
+  const std::vector<double> values =
+      change ? change->magnitude : attribute_values(scene_, style.color_by, snapshot);
+  const std::optional<StageCut> stage =
+      change ? std::optional(stage_cut(view, snapshot)) : std::nullopt;
   render::Points& points = frame.points;
   points.spacing = static_cast<float>(seeded_.spacing);
   points.radius = static_cast<float>(radius_share * seeded_.spacing);
-  points.colormap = style.colormap;
+  points.colormap = change ? render::ColorMap::viridis : style.colormap;
   points.range_min = static_cast<float>(range.min);
   points.range_max = static_cast<float>(range.max);
   points.position.reserve(snapshot.particles.x.size());
@@ -163,7 +172,9 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
   const Cut cut(view.clip, snapshot.particles.x);
   for (std::size_t p = 0; p < snapshot.particles.x.size(); ++p) {
     // A diverged state is drawn too, as far as it can be.
-    if (!snapshot.particles.x[p].allFinite() || cut.removes(snapshot.particles.x[p])) continue;
+    const sim::Vec3d& x = snapshot.particles.x[p];
+    if (!x.allFinite() || cut.removes(x)) continue;
+    if (stage && stage->removes(x)) continue;
     points.position.push_back(to_float(snapshot.particles.x[p]));
     points.id.push_back(snapshot.particles.id_of(p));
     if (!values.empty())
@@ -176,10 +187,22 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
   const FieldSamples& fields = snapshot.fields;
   if (fields.lattice && scene::has_layer(view, scene::Layer::blocks))
     frame.lines.push_back(block_lines(*fields.lattice, fields.density));
-  if (scene::has_layer(view, scene::Layer::smoke)) add_smoke(scene_, view, fields, frame);
-  const SlicePlane plane =
-      slice_plane(view.slice, snapshot.time, centre_of_mass(view.slice.follow, snapshot));
+  if (scene::has_layer(view, scene::Layer::smoke) && !snapshot.stage_change)
+    add_smoke(scene_, view, fields, frame);
+  const SlicePlane plane = plane_of(view, snapshot);
   add_slice(view, fields, plane, pixels_per_metre(frame.camera, to_float(plane.point)), frame);
+}
+
+SlicePlane FrameBuilder::plane_of(const scene::View& view, const Snapshot& snapshot) const {
+  return slice_plane(view.slice, snapshot.time, centre_of_mass(view.slice.follow, snapshot));
+}
+
+/// Seen from the scene's camera, not from one that somebody turns: the side must not change.
+StageCut FrameBuilder::stage_cut(const scene::View& view, const Snapshot& snapshot) const {
+  const scene::CameraSettings& camera =
+      scene_.camera && scene_.camera->eye ? *scene_.camera : settings_of(scene_, view);
+  return {view, plane_of(view, snapshot),
+          setup::camera_at(camera, 0, scene_.frames / scene_.fps).eye, scene_.solver.cell_size};
 }
 
 /// A box around each body, with its name where there are several.
@@ -293,6 +316,7 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
                        ? ", coarsened " + scene::coarsening_text(options_.coarsening)
                        : "") +
                   (snapshot.advance.steps > 0 ? "   " + steps_text(snapshot.advance) : ""));
+  if (snapshot.warnings.rules_ignored > 0) lines.push_back(ignored_rule_text(snapshot.warnings));
   std::vector<std::string> different = override_lines(options_.overrides);
   for (std::string& line : change_lines(snapshot.changes)) different.push_back(std::move(line));
   const std::size_t shown = std::min(different.size(), max_override_lines);

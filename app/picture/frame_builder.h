@@ -8,6 +8,7 @@
 
 #include "app/health/diagnosis.h"
 #include "app/picture/snapshot.h"
+#include "app/picture/stage_look.h"
 #include "app/setup/camera_path.h"
 #include "app/setup/plan.h"
 #include "app/setup/seed_scene.h"
@@ -50,6 +51,8 @@ class FrameBuilder {
 
  private:
   void add_points(const scene::View& view, const Snapshot& snapshot, render::Frame& frame) const;
+  SlicePlane plane_of(const scene::View& view, const Snapshot& snapshot) const;
+  StageCut stage_cut(const scene::View& view, const Snapshot& snapshot) const;
   void add_grid(const scene::View& view, const Snapshot& snapshot, render::Frame& frame) const;
   void add_bounds(const Snapshot& snapshot, render::Frame& frame) const;
   /// Particles of a body: the first and the one after the last.

@@ -7,6 +7,11 @@
 
 namespace neve::app::picture {
 
+std::string ignored_rule_text(const sim::Warnings& warnings) {
+  return "step " + std::to_string(warnings.first_ignored) + " broke the rule " +
+         std::string(sim::stop_rules.at(warnings.first_ignored_rule)) + ", which was ignored";
+}
+
 bool needs_stress(std::span<const scene::View> views) {
   const auto is_stress = [](scene::ColorBy color_by) {
     return color_by == scene::ColorBy::pressure || color_by == scene::ColorBy::von_mises;
@@ -25,6 +30,7 @@ Snapshot take_snapshot(const scene::Scene& scene, std::span<const scene::View> v
   snapshot.frame = frame;
   snapshot.time = simulation.time();
   snapshot.particles = simulation.particles();
+  snapshot.warnings = simulation.warnings();
   if (needs_stress(views)) snapshot.kirchhoff = simulation.kirchhoff();
   snapshot.fields = sample_fields(scene, simulation, snapshot, field_needs(views));
   return snapshot;

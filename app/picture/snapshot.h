@@ -1,11 +1,14 @@
 #pragma once
 /// State of a simulation at one frame, as far as its views want to see it.
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/picture/node_fields.h"
 #include "app/picture/plots.h"
+#include "app/picture/stage_change.h"
 #include "app/scene/live_change.h"
 #include "app/scene/scene.h"
 #include "sim/simulation.h"
@@ -15,14 +18,20 @@ namespace neve::app::picture {
 /// Shared by all views of a frame.
 struct Snapshot {
   int frame = 0;
-  double time = 0;                         ///< s
-  sim::ParticleArrays particles;           ///< id order
-  std::vector<sim::Mat3d> kirchhoff;       ///< Pa; empty unless a view shows stress
-  FieldSamples fields;                     ///< empty unless a view shows the grid
-  sim::AdvanceReport advance;              ///< steps since the frame before; the caller fills it in
-  std::span<const PlotSample> history;     ///< of the frames up to this one; the caller keeps it
+  double time = 0;                      ///< s
+  sim::ParticleArrays particles;        ///< id order
+  std::vector<sim::Mat3d> kirchhoff;    ///< Pa; empty unless a view shows stress
+  FieldSamples fields;                  ///< empty unless a view shows the grid
+  sim::Warnings warnings;               ///< of the steps so far
+  sim::AdvanceReport advance;           ///< steps since the frame before; the caller fills it in
+  std::span<const PlotSample> history;  ///< of the frames up to this one; the caller keeps it
+  /// Of a stage of the next step that is looked at, on a copy; the caller's too.
+  std::optional<StageChange> stage_change{};
   std::vector<scene::LiveChange> changes;  ///< made while it ran, for the caption; the caller's too
 };
+
+/// "step 9 broke the rule speed_cfl, and was ignored".
+std::string ignored_rule_text(const sim::Warnings& warnings);
 
 /// True if one of the views shows stress.
 bool needs_stress(std::span<const scene::View> views);

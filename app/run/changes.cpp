@@ -163,7 +163,7 @@ void ChangePlayer::forget_later() {
 /// As far as the next change, or to the end of the frame.
 sim::AdvanceReport ChangePlayer::advance(double time, const sim::StepObserver& after_step,
                                          std::size_t last_step, std::vector<sim::Retry>& retries) {
-  if (scene_->solver.on_divergence == sim::OnDivergence::stop)
+  if (scene_->solver.on_divergence != sim::OnDivergence::retry)
     return simulation_.advance_to(time, after_step, last_step);
   if (last_step == no_step || simulation_.dt_scale() < 1)
     return sim::advance_retrying(simulation_, time, after_step, retries);

@@ -1,6 +1,7 @@
 #include "app/run/step_warnings.h"
 
 #include "app/health/softness.h"
+#include "app/picture/snapshot.h"
 #include "app/support/text.h"
 
 namespace neve::app::run {
@@ -18,6 +19,10 @@ std::vector<std::string> step_warnings(const scene::Scene& scene,
   const sim::Warnings& warnings = simulation.warnings();
   const sim::SolverSettings& settings = scene.solver;
   std::vector<std::string> list;
+  if (warnings.rules_ignored > 0)
+    list.push_back(picture::ignored_rule_text(warnings) +
+                   ": numbers and pictures from there on mean nothing; solver.on_divergence = "
+                   "\"stop\" explains the cause");
   if (settings.time_step == sim::TimeStep::fixed && warnings.worst_acoustic_cfl > 1.5)
     list.push_back("fixed steps: the acoustic CFL reached " +
                    fixed_text(warnings.worst_acoustic_cfl, 1) +

@@ -119,8 +119,8 @@ void describe(V& visit, sim::SolverSettings& s) {
   visit("gravity", s.gravity, unit::acceleration, within(1e6), live, "Acceleration of all snow.");
   visit("precision", s.precision, unit::none, anything, restart, "Arithmetic of the solver.");
   visit("on_divergence", s.on_divergence, unit::none, anything, live,
-        "stop: end the run and explain why; retry: go back to the previous frame with half the dt, "
-        "at most four times.");
+        "stop: end the run and explain; retry: repeat the frame with half the dt, at "
+        "most four times; ignore: go on anyway.");
   visit("bypass", s.bypass, unit::none, anything, live,
         "Stages to skip in every step, for debugging a solver; energy is then not watched.");
 }

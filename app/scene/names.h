@@ -48,7 +48,7 @@ constexpr auto names(sim::Stage) {
 }
 constexpr auto names(sim::OnDivergence) {
   using enum sim::OnDivergence;
-  return std::array{Name{stop, "stop"}, Name{retry, "retry"}};
+  return std::array{Name{stop, "stop"}, Name{retry, "retry"}, Name{ignore, "ignore"}};
 }
 constexpr auto names(sim::Precision) {
   using enum sim::Precision;

@@ -203,6 +203,9 @@ std::string read_toml_file(const std::string& file) {
   if (in.bad()) refuse_failing_machine(file);
   if (in.bad()) throw toml::SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be read");
   text.resize(static_cast<std::size_t>(in.gcount()));
+  if (file.ends_with(".png"))
+    throw toml::SceneError(file, 0, 0, "is no PNG picture, whatever its name says",
+                           "name a scene file, or a picture that neve has made");
   if (text.empty())
     throw toml::SceneError(file, 0, 0, "the file is empty", "a scene needs at least one [[body]]");
   return text;

@@ -28,7 +28,18 @@ constexpr std::pair<const char*, const char*> other_names[] = {{"h", "cell_size"
                                                                {"look_at", "target"},
                                                                {"bodies", "body"},
                                                                {"cube", "box"},
-                                                               {"ball", "sphere"}};
+                                                               {"ball", "sphere"},
+                                                               {"stickiness", "critical_stretch"},
+                                                               {"cohesion", "critical_stretch"},
+                                                               {"hardness", "youngs_modulus"},
+                                                               {"stiffness", "youngs_modulus"},
+                                                               {"softness", "youngs_modulus"},
+                                                               {"resolution", "size"},
+                                                               {"duration", "frames"},
+                                                               {"snow", "material"},
+                                                               {"colliders", "collider"},
+                                                               {"obstacle", "collider"},
+                                                               {"obstacles", "collider"}};
 
 std::string other_name(const std::string& key, const std::vector<std::string>& known) {
   for (const auto& [other, ours] : other_names)

@@ -54,6 +54,8 @@ Viewer::Viewer(session::Workbench& bench, frontend::Frontend& front, render::Scr
       state_{.bench = bench} {
   state_.view = options.view.value_or(bench.document().scene()->views.front().name);
   state_.copy = [this](const std::string& text) { front_.set_clipboard(text); };
+  if (front_.takes_files())
+    state_.download = [this](const std::filesystem::path& file) { download(file); };
   panels::announce_view(state_);
   if (options.is_running) bench_.session().run();
 }
@@ -269,6 +271,7 @@ void Viewer::draw_panels() {
   panels::draw_panel_switch(state_);
   panels::draw_offer(state_);
   panels::draw_help(state_);
+  panels::draw_files(state_);
   panels::draw_tour(state_);
   panels::use_viewport(state_);
   panels::use_keys(state_);

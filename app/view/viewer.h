@@ -76,6 +76,7 @@ class Viewer {
   bool has_picture_to_save();
   output::Picture picture_to_keep(const std::filesystem::path& file);
   void save_picture();
+  void download(const std::filesystem::path& file);
   void record_frame();
   double seconds_passed();
   StateKey state_key() const;

@@ -64,11 +64,22 @@ void Viewer::save_picture() {
                    (was_between ? "; it shows frame " + std::to_string(live.frame) +
                                       ", the next one: only whole frames can be made again"
                                 : ""));
+    if (state_.is_picture_downloaded) download(file);
   } catch (const std::exception& error) {
     bench_.say_not_saved(std::string("no picture: ") + error.what());
   }
+  state_.is_picture_downloaded = false;
   state_.go_to_tab = panels::tab::messages;
   settle_ = 3;
+}
+
+void Viewer::download(const std::filesystem::path& file) {
+  try {
+    front_.offer(bench_.folder(), file);
+    bench_.say(session::Message::Kind::note, "downloading " + file.filename().string());
+  } catch (const std::exception& error) {
+    bench_.say(session::Message::Kind::error, error.what());
+  }
 }
 
 /// Every frame once.

@@ -99,6 +99,8 @@ void Viewer::paint_new_picture() {
   view.camera = state_.orbit.settings();
   render::Frame frame = picture_frame(std::move(view));
   frame.font_size = std::max(8, static_cast<int>(std::lround(scale * font_size())));
+  // Snow may be near: the scene's own camera keeps it out of the corner.
+  frame.has_caption_plate = !state_.is_camera_of_scene;
   renderer_.paint(frame);
   keep_points(std::move(frame.points));
   bench_.session().taken(state_.live->number);

@@ -176,6 +176,7 @@ struct Frame {
   std::vector<std::string> caption;  ///< lines, UTF-8; the first one is the title
   std::string footnote;              ///< at the bottom, between plots and legends
   int caption_height = 0;            ///< px; above 0: the caption has a strip this high to itself
+  bool has_caption_plate = false;    ///< dark behind its lines: whatever is near stays readable
   int font_size = 0;                 ///< px; 0: in proportion to the picture
   std::vector<Vec3f> marks;          ///< centres of rings that point out particles, for incidents
 };

@@ -14,6 +14,7 @@ namespace {
 
 constexpr ImU32 mark_color = IM_COL32(255, 122, 40, 255);
 constexpr ImU32 label_plate = IM_COL32(18, 21, 26, 150);
+constexpr ImU32 caption_plate = IM_COL32(18, 21, 26, 190);
 
 /// Height of text: 16 pixels at 1280x720, in proportion elsewhere, but never too small to read.
 int font_size_for(int width, int height) {
@@ -151,6 +152,11 @@ void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
     const int max_lines = i == 0 ? (room >= 6 ? 2 : 1) : std::max(room, 0);
     for (const std::string& line :
          wrap(font, frame.caption[i], width, static_cast<std::size_t>(max_lines))) {
+      if (frame.has_caption_plate)
+        ImGui::GetBackgroundDrawList()->AddRectFilled(
+            ImVec2(margin - 6 * unit, y - 2 * unit),
+            ImVec2(margin + text_width(font, line) + 6 * unit, y + line_height - 2 * unit),
+            caption_plate);
       draw_text(font, ImVec2(margin, y), i == 0 ? bright_text : soft_text, line);
       y += line_height;
     }

@@ -84,6 +84,7 @@ template <class Real>
 void Engine<Real>::diverge_if(const std::optional<BrokenRule>& broken) {
   if (!broken) return;
   const Method<Real>& method = state_.method;
+  if (HealthWatch::may_ignore(*broken, method.settings, state_.progress)) return;
   watch_.diverge(*broken, state_.progress, method.settings, method.materials, particles());
 }
 

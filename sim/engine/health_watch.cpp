@@ -1,6 +1,7 @@
 #include "sim/engine/health_watch.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"
@@ -13,6 +14,9 @@ using health::Law;
 
 /// Steps that a report of trouble looks back.
 constexpr std::size_t steps_recorded = 64;
+/// That a particle may cross in a step while rules are ignored: faster, the next step takes for
+/// ever, and there is nothing to see.
+constexpr double hopeless_cells = 100;
 
 /// The first rule of a healthy step that its own report says is broken.
 /// @param before  limits that the dt of the step was chosen by
@@ -139,6 +143,21 @@ void HealthWatch::diverge(const BrokenRule& broken, const Progress& progress,
   d.last_steps = last_steps(progress.steps);
   health::find_culprits(particles, settings, materials, d);
   divergence_ = d;
+}
+
+bool HealthWatch::may_ignore(const BrokenRule& broken, const SolverSettings& settings,
+                             Progress& progress) {
+  if (settings.on_divergence != OnDivergence::ignore) return false;
+  const auto rule = static_cast<std::size_t>(
+      std::find(stop_rules.begin(), stop_rules.end(), std::string_view(broken.rule)) -
+      stop_rules.begin());
+  if (is_final_rule(broken.rule)) return false;
+  if (std::string_view(broken.rule) == "speed_cfl" && broken.value > hopeless_cells) return false;
+  Warnings& warnings = progress.warnings;
+  if (warnings.rules_ignored++ > 0) return true;
+  warnings.first_ignored = progress.steps;
+  warnings.first_ignored_rule = rule;
+  return true;
 }
 
 void HealthWatch::forget() {

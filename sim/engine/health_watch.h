@@ -55,6 +55,10 @@ class HealthWatch {
   void diverge(const BrokenRule& broken, const Progress& progress, const SolverSettings& settings,
                const std::vector<Material>& materials, const ParticleArrays& particles);
 
+  /// True if the run goes on past the rule, which is noted for its pictures and records.
+  static bool may_ignore(const BrokenRule& broken, const SolverSettings& settings,
+                         Progress& progress);
+
   /// A run that is restored has neither diverged nor a history.
   void forget();
 

@@ -134,6 +134,9 @@ void require_healthy_limits(const Progress& p, const SolverSettings& settings) {
 
 void require_healthy_counters(const Progress& p) {
   require_at_most("steps", p.steps, max_count);
+  require_at_most("rules_ignored", p.warnings.rules_ignored, max_count);
+  require_at_most("first_ignored", p.warnings.first_ignored, p.steps);
+  require_at_most("first_ignored_rule", p.warnings.first_ignored_rule, stop_rules.size() - 1);
   require_at_most("inverted_trials", p.warnings.inverted_trials, max_count);
   require_at_most("solves_cut_short", p.warnings.solves_cut_short, max_count);
   require_at_most("solves_given_up", p.warnings.solves_given_up, max_count);

@@ -12,7 +12,7 @@ namespace neve::sim::engine {
 namespace {
 
 /// The last sign is the version of the layout.
-constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'C'};
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'D'};
 
 /// At the beginning: it says what follows. Then come Progress, the records, the offsets of the
 /// colliders and the emitters.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/types/math.h"
@@ -126,13 +127,25 @@ struct Divergence {
   std::string sentence;  ///< with the dt that would have held
 };
 
+/// Rules that stop a run. The first two stop it even where rules are ignored: there is no number,
+/// or no place, to go on with.
+inline constexpr std::array<std::string_view, 9> stop_rules{
+    "not_finite",   "overflow",  "speed_cfl", "inverted", "J_P",
+    "acoustic_cfl", "time_step", "energy",    "packed"};
+constexpr bool is_final_rule(std::string_view rule) {
+  return rule == stop_rules[0] || rule == stop_rules[1];
+}
+
 /// Events that did not stop the run.
 struct Warnings {
-  std::size_t inverted_trials = 0;   ///< trial det F_E <= 0, repaired by the projection
-  double worst_acoustic_cfl = 0;     ///< of fixed steps
-  std::size_t solves_cut_short = 0;  ///< taken as they were after solve_iterations
-  std::size_t solves_given_up = 0;   ///< of no use: explicit steps in their place
-  double least_J_P = 1;              ///< of the most packed particle so far
+  std::size_t rules_ignored = 0;       ///< steps, or sums over the snow, that broke a rule
+  std::size_t first_ignored = 0;       ///< step of the first of them
+  std::size_t first_ignored_rule = 0;  ///< its place in stop_rules
+  std::size_t inverted_trials = 0;     ///< trial det F_E <= 0, repaired by the projection
+  double worst_acoustic_cfl = 0;       ///< of fixed steps
+  std::size_t solves_cut_short = 0;    ///< taken as they were after solve_iterations
+  std::size_t solves_given_up = 0;     ///< of no use: explicit steps in their place
+  double least_J_P = 1;                ///< of the most packed particle so far
 };
 
 /// Seconds spent in each phase of the steps so far.

@@ -17,8 +17,9 @@ enum class Advect { particle, pic };
 /// the paper.
 enum class ContactAt { particles, nodes };
 enum class TimeStep { adaptive, fixed };
-/// Reaction to a broken rule: end the run, or go back and try with half the dt.
-enum class OnDivergence { stop, retry };
+/// Reaction to a broken rule: end the run, go back and try with half the dt, or go on anyway while
+/// there are numbers to go on with.
+enum class OnDivergence { stop, retry, ignore };
 enum class Precision { single, real64 };  ///< written "float" and "double" in scenes
 
 struct SolverSettings {

@@ -53,6 +53,34 @@ TEST(Structure, DocumentsNameFilesThatExist) {
   EXPECT_GT(paths, 60) << "the pages are not read as they are written";
 }
 
+/// Names of all tests: "Suite.Name".
+std::set<std::string> tests_with_suites() {
+  std::set<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(source_root() / "tests")) {
+    if (entry.path().extension() != ".cpp") continue;
+    const std::regex test(R"(^TEST(?:_F|_P)?\(([A-Za-z0-9]+), ([A-Za-z0-9]+)\))");
+    const fs::path file = fs::relative(entry.path(), source_root());
+    for (const SourceLine& line : lines_of(file.string()))
+      if (std::smatch found; std::regex_search(line.text, found, test))
+        names.insert(found[1].str() + "." + found[2].str());
+  }
+  return names;
+}
+
+TEST(Structure, EveryFindingOfNewcomersHasATest) {
+  const std::set<std::string> names = tests_with_suites();
+  int findings = 0;
+  for (const SourceLine& line : lines_of("docs/trial.md")) {
+    if (!line.text.starts_with("| ") || line.text.starts_with("| ---")) continue;
+    if (line.text.starts_with("| finding")) continue;
+    const std::vector<std::string> tests = found_in(line.text, R"(\| `([A-Za-z0-9.]+)` \|$)");
+    ASSERT_EQ(tests.size(), 1u) << line.text;
+    EXPECT_TRUE(names.contains(tests[0])) << "docs/trial.md names no test: " << tests[0];
+    ++findings;
+  }
+  EXPECT_GE(findings, 30);
+}
+
 TEST(Structure, DocumentsLinkToFilesThatExist) {
   int links = 0;
   for (const SourceLine& line : lines_of_pages())

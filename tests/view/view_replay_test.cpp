@@ -213,6 +213,23 @@ TEST_F(ViewByScript, TheTourHasTenStepsAndEnds) {
   }
 }
 
+/// The list of keys is beside what it explains, in any window.
+TEST_F(ViewByScript, TheListOfKeysLeavesThePictureFree) {
+  for (const char* size : {"[1280, 760]", "[800, 600]", "[390, 844]"}) {
+    const auto result = view(std::string(R"([{"resize": )") + size +
+                             R"(}, {"wait": 40}, {"move": {"label": "picture", "part": [0.9, 0.9]}},
+      {"wait": 40}, {"screenshot": "before.png", "crop": "picture"}, {"click": "?"},
+      {"wait_for": "label keys and mouse"}, {"move": {"label": "picture", "part": [0.9, 0.9]}},
+      {"wait": 40}, {"screenshot": "after.png", "crop": "picture"}])");
+    SKIP_WITHOUT_GL(result);
+    ASSERT_EQ(result.exit_code, 0) << size << ": " << result.errors;
+    const auto image = [&](const char* name) {
+      return render::decode_png(app::output::read_file(folder / "out" / name));
+    };
+    EXPECT_EQ(changed_bytes(image("before.png"), image("after.png")), 0u) << size;
+  }
+}
+
 /// The lower half is for the panels, which a button hides and brings back.
 TEST_F(ViewByScript, APhoneHeldUprightHasThePanelsBelow) {
   const auto result = view(R"([

@@ -68,18 +68,45 @@ std::string message_of(const ::toml::parse_error& error) {
   return text.starts_with(prefix) ? "cannot parse " + text.substr(prefix.size()) : text;
 }
 
-/// Advice where a number has a decimal comma: "cell_size = 0,04".
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/// "0,04"
+bool has_decimal_comma(std::string_view value) {
+  const std::size_t comma = value.find(',');
+  return comma != value.npos && comma > 0 && comma + 1 < value.size() &&
+         value.substr(0, comma).find_first_not_of("+-0123456789") == value.npos &&
+         is_digit(value[comma - 1]) && is_digit(value[comma + 1]);
+}
+
+/// "0.04 m", "4cm"
+bool has_unit(std::string_view value) {
+  const std::size_t end = value.find_first_not_of("+-.0123456789 ");
+  return !value.empty() && is_digit(value[0]) && end != value.npos && is_letter(value[end]);
+}
+
+/// Advice on the line where the parser gave up.
 std::string advice_on(std::string_view text, int line) {
   for (int k = 1; k < line && text.find('\n') != text.npos; ++k)
     text.remove_prefix(text.find('\n') + 1);
   text = text.substr(0, text.find('\n'));
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  const std::size_t equals = text.find('='), comma = text.find(',', std::min(equals, text.size()));
-  if (comma == text.npos || comma + 1 >= text.size()) return {};
-  const std::string_view before = text.substr(equals + 1, comma - equals - 1);
-  if (before.find_first_not_of(" +-0123456789") != before.npos) return {};
-  if (!is_digit(text[comma - 1]) || !is_digit(text[comma + 1])) return {};
-  return "decimals have a point, as in 0.04";
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == text.npos) return {};
+  if (text.substr(begin).starts_with("//")) return "comments begin with #";
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos) return {};
+  const std::size_t first = std::min(text.find_first_not_of(" \t", equals + 1), text.size());
+  const std::string_view value = text.substr(first);
+  if (value.empty() || value[0] == '#') return "a value follows the =";
+  if (has_decimal_comma(value)) return "decimals have a point, as in 0.04";
+  if (has_unit(value)) return "numbers have no unit: metres, kilograms and seconds are meant";
+  if (value[0] == '(') return "vectors have square brackets, as in [0, 0, 0]";
+  if (is_letter(value[0])) return "words have quotes, as in \"snow\"";
+  return {};
 }
 
 }  // namespace

@@ -253,6 +253,11 @@ Sweep parse_sweep(const std::string& text, const std::string& file, const SweepC
   const scene::toml::Table root = scene::toml::parse_toml(text, file);
   Sweep sweep;
   const bool is_sweep = root.find("sweep") != nullptr;
+  for (const char* key : {"axis", "link", "run"})
+    if (const scene::toml::Entry* part = root.find(key); part && !is_sweep)
+      throw scene::toml::SceneError(file, part->where.line, part->where.column,
+                                    std::string("there is ") + key + " but no [sweep]",
+                                    "a sweep file begins with [sweep] and scene = \"FILE.toml\"");
   if (is_sweep) {
     sweep = SweepReader(file).read(root);
   } else {

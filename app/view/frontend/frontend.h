@@ -1,6 +1,7 @@
 #pragma once
 /// Input and display device of `neve view`: a window, a web page, or a script.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,12 @@ class Frontend {
 
   /// Tells whether a text field waits for input: a phone shows its keyboard.
   virtual void set_typing(bool /*is_wanted*/) {}
+
+  /// True if the user is at another machine, which offer() sends files to.
+  virtual bool takes_files() const { return false; }
+  /// Sends a file of a folder to the user. @throws IoError
+  virtual void offer(const std::filesystem::path& /*folder*/,
+                     const std::filesystem::path& /*file*/) {}
 
   /// Puts text into the user's clipboard.
   virtual void set_clipboard(const std::string& text) = 0;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/view/panels/beside.h"
 #include "app/view/panels/labels.h"
 #include "app/view/panels/viewer_state.h"
 
@@ -40,6 +41,17 @@ void draw_panel_switch(ViewerState& state) {
     note_label("Panels");
   }
   ImGui::End();
+}
+
+PanelPlace column_beside(ViewerState& state) {
+  if (!state.panels.left && !state.panels.right) state.panels.left = state.panels.right = true;
+  const ImVec2 all = ImGui::GetIO().DisplaySize;
+  const auto x = static_cast<float>(state.viewport.x), y = static_cast<float>(state.viewport.y),
+             right = x + static_cast<float>(state.viewport.width),
+             below = y + static_cast<float>(state.viewport.height) + 2.6f * em();
+  if (state.panels.is_stacked) return {ImVec2(0, below), ImVec2(all.x, all.y - below)};
+  if (right < all.x) return {ImVec2(right, y), ImVec2(all.x - right, all.y - y)};
+  return {ImVec2(0, y), ImVec2(std::max(x, 1.0f), all.y - y)};
 }
 
 void draw_left_column(ViewerState& state) {

@@ -6,6 +6,7 @@
 
 #include "app/health/incident.h"
 #include "app/support/text.h"
+#include "app/view/panels/beside.h"
 #include "app/view/panels/labels.h"
 #include "app/view/panels/tip.h"
 #include "app/view/panels/viewer_state.h"
@@ -41,15 +42,27 @@ void draw_incident(ViewerState& state) {
     if (ImGui::Button("Find the parameter")) state.filter = live.diagnosis->address;
     note_label("Find the parameter");
   }
+  const bool is_ignored = live.scene->solver.on_divergence == sim::OnDivergence::ignore;
+  if (!is_ignored && !sim::is_final_rule(live.divergence->rule)) {
+    if (ImGui::Button("Go on anyway")) {
+      state.shows_incident = false;
+      state.bench.go_on_anyway();
+    }
+    note_label("Go on anyway");
+    tip("from the last kept frame, past the broken rule, to watch the snow burst;\n"
+        "pictures say so");
+  }
   ImGui::Separator();
 }
 
 void draw_keys(const char* keys, const char* what) {
   ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(keys);
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(what);
+  for (const char* words : {keys, what}) {
+    ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(words);
+    ImGui::PopTextWrapPos();
+  }
 }
 
 void show_frame(ViewerState& state, int frame) {
@@ -138,16 +151,18 @@ void draw_time_line(ViewerState& state) {
 
 void draw_help(ViewerState& state) {
   if (!state.is_help_open) return;
-  ImGui::SetNextWindowPos(
-      ImVec2(0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y),
-      ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+  // Over a column, so that what it explains can be seen.
+  const PanelPlace place = column_beside(state);
+  ImGui::SetNextWindowPos(place.at);
+  ImGui::SetNextWindowSize(place.size);
   if (!ImGui::Begin("Keys and mouse", &state.is_help_open,
-                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
-                        ImGuiWindowFlags_NoMove)) {
+                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
     ImGui::End();
     return;
   }
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
+  note_label("keys and mouse", {place.at.x, place.at.y, place.size.x, place.size.y});
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) {
     draw_keys("left drag", "orbit");
     draw_keys("middle drag, shift + left drag", "pan");
     draw_keys("wheel, right drag", "zoom towards the mouse");

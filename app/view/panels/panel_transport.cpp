@@ -41,15 +41,28 @@ void gap() {
   ImGui::SameLine();
 }
 
+bool item(const char* label, const char* key = nullptr, bool is_on = false) {
+  const bool is_chosen = ImGui::MenuItem(label, key, is_on);
+  note_label(label);
+  return is_chosen;
+}
+
+/// What is downloaded is written first, so that it is there for both machines.
+void draw_download_items(ViewerState& state) {
+  ImGui::Separator();
+  if (item("Download the picture")) state.wants_picture = state.is_picture_downloaded = true;
+  if (item("Download the scene with the changes")) {
+    const std::filesystem::path file = state.bench.folder() / "scene.toml";
+    if (state.bench.save_scene(file)) state.download(file);
+  }
+  if (item("Download a file ...")) open_file_list(state);
+  ImGui::Separator();
+}
+
 void draw_out_menu(ViewerState& state) {
   if (button("Save ...", "save pictures, sequences, the scene, a command line"))
     ImGui::OpenPopup("out");
   if (!ImGui::BeginPopup("out")) return;
-  const auto item = [](const char* label, const char* key = nullptr, bool is_on = false) {
-    const bool is_chosen = ImGui::MenuItem(label, key, is_on);
-    note_label(label);
-    return is_chosen;
-  };
   // Only pictures of frames can be made again: between two, the run first advances to the next.
   const bool is_frame = state.live->is_frame_end && !state.live->is_running;
   if (item(is_frame ? "Picture of this frame" : "Picture of the next frame", "P"))
@@ -64,6 +77,7 @@ void draw_out_menu(ViewerState& state) {
     state.bench.save_scene(state.bench.folder() / "scene.toml");
   if (state.bench.may_save_over_file() && item("Scene with the changes, over its file"))
     state.bench.save_scene(state.bench.document().file());
+  if (state.download) draw_download_items(state);
   if (item("Copy the command line")) {
     state.copy(state.bench.command());
     state.bench.say(session::Message::Kind::note, "copied: " + state.bench.command());

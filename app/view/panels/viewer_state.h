@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "app/view/panels/orbit.h"
 #include "app/view/session/live_frame.h"
 #include "app/view/session/workbench.h"
+#include "app/view/session/written_files.h"
 #include "render/screen.h"
 
 namespace neve::app::view::panels {
@@ -81,6 +83,11 @@ struct ViewerState {
   double frames_per_second = 0;  ///< of the pictures
   double picture_ms = 0;
   std::function<void(const std::string&)> copy{};
+  /// Sends a written file to the user's machine; empty where it is this one.
+  std::function<void(const std::filesystem::path&)> download{};
+  bool is_picture_downloaded = false;  ///< the one that is saved next
+  bool is_file_list_open = false;
+  std::vector<session::WrittenFile> files{};
 };
 
 /// The tabs of the right column.
@@ -114,6 +121,9 @@ void draw_plots_panel(ViewerState& state);
 void draw_messages(ViewerState& state);
 void draw_time_line(ViewerState& state);
 void draw_help(ViewerState& state);
+/// The list of written files, while it is open.
+void draw_files(ViewerState& state);
+void open_file_list(ViewerState& state);
 void start_tour(ViewerState& state);
 void draw_tour(ViewerState& state);
 /// Draws a pending question: a file that changed.

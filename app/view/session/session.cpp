@@ -173,13 +173,33 @@ void Session::continue_from_here() {
   ask([this] {
     if (!head_) return;
     head_.reset();
-    kept_.forget_after(frame_);
-    history_.resize(std::min(history_.size(), static_cast<std::size_t>(frame_) + 1));
-    const double now = simulation_->time();
-    auto kept = std::make_shared<std::vector<RunSample>>(*samples_);
-    std::erase_if(*kept, [&](const RunSample& sample) { return sample.time > now; });
-    samples_ = kept;
-    player_->forget_later();
+    forget_later();
+  });
+}
+
+void Session::forget_later() {
+  kept_.forget_after(frame_);
+  history_.resize(std::min(history_.size(), static_cast<std::size_t>(frame_) + 1));
+  const double now = simulation_->time();
+  auto kept = std::make_shared<std::vector<RunSample>>(*samples_);
+  std::erase_if(*kept, [&](const RunSample& sample) { return sample.time > now; });
+  samples_ = kept;
+  player_->forget_later();
+}
+
+/// The change belongs to a step before the broken one: made again, the run passes it too.
+void Session::go_on_anyway(std::shared_ptr<const scene::Scene> scene) {
+  ask([this, scene = std::move(scene)] {
+    leave_older();
+    const KeptFrame* kept = simulation_->divergence() ? kept_.at_or_before(frame_) : nullptr;
+    if (!kept) return;
+    stop_looking_inside();
+    load(*kept);
+    forget_later();
+    player_->make_now(scene);
+    colliders_ = simulation_->colliders();
+    keep();
+    set_goal(Goal::end);
   });
 }
 

@@ -63,6 +63,10 @@ class Session {
   /// changes after it are forgotten.
   void continue_from_here();
 
+  /// Continues a run that broke a rule from its last kept frame, with the settings of this scene,
+  /// which ignore rules.
+  void go_on_anyway(std::shared_ptr<const scene::Scene> scene);
+
   /// Sets the views whose fields the session computes.
   void set_views(std::vector<scene::View> views);
   void set_probe(std::optional<dump::Probe> probe);
@@ -85,6 +89,8 @@ class Session {
   void set_goal(Goal goal);
   void stop_looking_inside();
   void leave_older();
+  void forget_later();
+  void require_room() const;
   void advance();
   void reach_frame();
   double seconds_left() const;
@@ -115,8 +121,9 @@ class Session {
   std::vector<picture::PlotSample> history_;
   std::shared_ptr<std::vector<RunSample>> samples_;
   KeptFrames kept_{0};
-  std::optional<KeptFrame> head_;  ///< where the run is, while an older frame is shown
-  bool head_is_broken_ = false;    ///< it broke a rule there
+  std::uint64_t memory_at_most_ = 0;  ///< bytes of a simulation whose broken rules are ignored
+  std::optional<KeptFrame> head_;     ///< where the run is, while an older frame is shown
+  bool head_is_broken_ = false;       ///< it broke a rule there
   Goal goal_ = Goal::none;
   std::optional<int> stage_;  ///< of a step that is looked at: the last one done
   std::vector<scene::View> views_;

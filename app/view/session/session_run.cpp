@@ -1,7 +1,11 @@
 /// The part of a session that simulates: frame by frame, and on from kept states.
 
+#include <stdexcept>
+
 #include "app/setup/plan.h"
 #include "app/support/clock.h"
+#include "app/support/machine.h"
+#include "app/support/text.h"
 #include "app/view/session/session.h"
 
 namespace neve::app::view::session {
@@ -21,6 +25,7 @@ void Session::start(const std::shared_ptr<const scene::Scene>& scene) {
   auto simulation = std::make_unique<sim::Simulation>(
       setup::make_simulation(*scene, seeded->particles, options_.threads));
   // From here on nothing fails: the old run may go.
+  memory_at_most_ = plan.memory_limit;
   simulation_ = std::move(simulation);
   seeded_ = std::move(seeded);
   player_.emplace(*scene, std::vector<scene::LiveChange>{}, *simulation_);
@@ -98,6 +103,16 @@ KeptFrame Session::state_now() const {
           advance_};
 }
 
+/// What bursts spreads over ever more of the grid.
+void Session::require_room() const {
+  if (simulation_->warnings().rules_ignored == 0) return;
+  const std::uint64_t limit = scene().limits.memory > 0 ? scene().limits.memory : memory_at_most_;
+  if (simulation_->memory_bytes() <= limit) return;
+  throw std::runtime_error("stopped: the snow that bursts takes " +
+                           bytes_text(simulation_->memory_bytes()) + " of memory, more than the " +
+                           bytes_text(limit) + " allowed");
+}
+
 void Session::after_step() {
   if (is_publication_due()) {
     const Clock::time_point now = Clock::now();
@@ -148,6 +163,7 @@ void Session::reach_frame() {
   advance_is_new_ = true;
   steps_of_frame_ = simulation_->steps();
   keep();
+  require_room();
   if (goal_ == Goal::frame || frame_ == scene().frames) goal_ = Goal::none;
   if (is_recording_) publish();
 }

@@ -125,6 +125,7 @@ void Session::inspect_next_step(LiveFrame& live) {
   if (is_stage) {
     stage = static_cast<sim::Stage>(*stage_);
     live.stage = summarize_stage(inside, *stage);
+    live.snapshot.stage_change = change_of_stage(inside, *stage);
     show_after_stage(inside, *stage, live.snapshot);
   }
   if (is_probe) {

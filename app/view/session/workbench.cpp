@@ -241,6 +241,17 @@ void Workbench::continue_from_here() {
   apply_running();
 }
 
+void Workbench::go_on_anyway() {
+  const std::string address = "solver.on_divergence";
+  try {
+    document_.set(address, "\"ignore\"");
+    put(running_, address, document_.edits());
+    session_->go_on_anyway(document_.scene_with(running_));
+  } catch (const std::exception& error) {
+    say(Message::Kind::error, text_of(error));
+  }
+}
+
 scene::Scene Workbench::display_scene(const LiveFrame& live) const {
   scene::Scene scene = *live.scene;
   const scene::Scene& mine = *document_.scene();
@@ -282,7 +293,7 @@ void Workbench::keep_file() {
   file_time_ = time_of(document_.file());
 }
 
-void Workbench::save_scene(const std::filesystem::path& file) {
+bool Workbench::save_scene(const std::filesystem::path& file) {
   try {
     if (options_.is_remote && file.parent_path() != options_.folder)
       throw scene::toml::UsageError(
@@ -296,8 +307,10 @@ void Workbench::save_scene(const std::filesystem::path& file) {
     if (std::filesystem::equivalent(file, document_.file(), error))
       file_time_ = time_of(document_.file());
     say(Message::Kind::note, "saved the scene with its changes as " + file.string());
+    return true;
   } catch (const std::exception& error) {
     say_not_saved("the scene was not saved: " + text_of(error));
+    return false;
   }
 }
 

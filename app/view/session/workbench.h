@@ -63,6 +63,9 @@ class Workbench {
   /// Continues the run from the older frame shown, with the current parameters.
   void continue_from_here();
 
+  /// Continues a run that broke a rule past it: a change like any other, solver.on_divergence.
+  void go_on_anyway();
+
   /// The scene as a picture shows it: the one that runs, with the views and the light of the
   /// document.
   scene::Scene display_scene(const LiveFrame& live) const;
@@ -77,8 +80,8 @@ class Workbench {
   /// The change on disk is nothing to us.
   void keep_file();
 
-  // Exports. Each leaves a message with the file it wrote or the error.
-  void save_scene(const std::filesystem::path& file);
+  // Exports. Each leaves a message with the file it wrote or the error, and says false after one.
+  bool save_scene(const std::filesystem::path& file);
   bool may_save_over_file() const { return !options_.is_remote; }
   std::filesystem::path sweep_around(const std::string& address);
   std::string command() const;

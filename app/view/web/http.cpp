@@ -166,10 +166,13 @@ HttpHead read_http_head(std::string_view bytes) {
   return head;
 }
 
-std::string http_answer(int status, std::string_view type, std::string_view body,
-                        const HttpHeaders& more) {
+namespace {
+
+/// Up to the empty line.
+std::string http_head(int status, std::string_view type, std::uint64_t size,
+                      const HttpHeaders& more) {
   std::string answer = "HTTP/1.1 " + std::to_string(status) + ' ' + std::string(reason_of(status)) +
-                       "\r\nConnection: close\r\nContent-Length: " + std::to_string(body.size()) +
+                       "\r\nConnection: close\r\nContent-Length: " + std::to_string(size) +
                        "\r\nCache-Control: no-store\r\nX-Content-Type-Options: nosniff"
                        "\r\nReferrer-Policy: no-referrer\r\nX-Frame-Options: DENY"
                        "\r\nCross-Origin-Opener-Policy: same-origin"
@@ -182,7 +185,19 @@ std::string http_answer(int status, std::string_view type, std::string_view body
   }
   if (!has_policy)
     answer += "Content-Security-Policy: default-src 'none'; frame-ancestors 'none'\r\n";
-  return answer.append("\r\n").append(body);
+  return answer.append("\r\n");
+}
+
+}  // namespace
+
+std::string http_answer(int status, std::string_view type, std::string_view body,
+                        const HttpHeaders& more) {
+  return http_head(status, type, body.size(), more).append(body);
+}
+
+std::string http_file_head(std::string_view name, std::uint64_t size) {
+  return http_head(200, "application/octet-stream", size,
+                   {{"Content-Disposition", "attachment; filename=\"" + std::string(name) + "\""}});
 }
 
 std::string web_socket_answer(std::string_view accept) {

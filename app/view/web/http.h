@@ -1,6 +1,7 @@
 #pragma once
 /// The little of HTTP that one page needs: heads of requests are read strictly, answers are made.
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -40,6 +41,10 @@ using HttpHeaders = std::vector<std::pair<std::string, std::string>>;
 /// page.
 std::string http_answer(int status, std::string_view type, std::string_view body,
                         const HttpHeaders& more = {});
+
+/// The head of a file that follows, to be saved and not shown.
+/// @param name safe in a header
+std::string http_file_head(std::string_view name, std::uint64_t size);
 
 /// 101, after which both sides speak WebSocket.
 std::string web_socket_answer(std::string_view accept);

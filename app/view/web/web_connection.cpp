@@ -13,6 +13,8 @@ namespace {
 constexpr double drain_seconds = 1;
 constexpr std::size_t max_drained = 256 * 1024;
 constexpr double missing_pings = 3;
+/// Of a file, in memory at a time; and sent before others have their turn.
+constexpr std::size_t file_piece = 256 * 1024;
 
 }  // namespace
 
@@ -63,6 +65,20 @@ void Connection::finish(std::string bytes, double now) {
   stage_end_ = now + limits_.head_seconds;
   queue(std::move(bytes), now);
   transmit(now);
+}
+
+void Connection::finish(std::string head, std::unique_ptr<OpenFile> file, double now) {
+  file_left_ = file->size();
+  file_ = std::move(file);
+  finish(std::move(head), now);
+}
+
+/// A file that became shorter ends the connection: the other side sees that it is not whole.
+void Connection::queue_piece(double now) {
+  std::string piece = file_->read(std::min<std::uint64_t>(file_piece, file_left_));
+  if (piece.empty()) return kill();
+  file_left_ -= piece.size();
+  queue(std::move(piece), now);
 }
 
 void Connection::end_web_socket(int code, double now) {
@@ -131,11 +147,14 @@ void Connection::transmit(double now) {
     if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
     if (count < 0) return kill();
     moved_ = now;
+    if (file_) stage_end_ = now + limits_.stall_seconds;
     sent_ += count;
     if (sent_ < first.size()) return;
     out_.pop_front();
     sent_ = 0;
   }
+  if (file_ && file_left_ > 0) return queue_piece(now);
+  file_.reset();
   if (stage_ != Stage::answer) return;
   // Closed at once with bytes unread, the answer would be lost with the connection.
   ::shutdown(socket_, SHUT_WR);

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "app/view/web/download.h"
 #include "app/view/web/web_socket.h"
 
 namespace neve::app::view::web {
@@ -47,6 +49,9 @@ class Connection {
   void open(std::size_t head_size, double now);
   /// Says this and ends.
   void finish(std::string bytes, double now);
+  /// Says this and the file, piece by piece, and ends.
+  void finish(std::string head, std::unique_ptr<OpenFile> file, double now);
+  bool is_sending_file() const { return file_ != nullptr; }
 
   /// The next message of the page; errors have been answered and end the connection.
   std::optional<WebMessage> next_message(double now);
@@ -76,6 +81,7 @@ class Connection {
 
  private:
   void note_progress(double now);
+  void queue_piece(double now);
   void refill(double now);
   void pong(const WebMessage& ping, double now);
   void end_web_socket(int code, double now);
@@ -90,12 +96,14 @@ class Connection {
   std::optional<WebMessage> held_;
   bool is_held_ = false;
   std::deque<std::string> out_;
-  std::size_t sent_ = 0;      ///< bytes of the first of them
-  std::size_t drained_ = 0;   ///< bytes thrown away after the answer
-  double budget_ = 0;         ///< bytes that may be read now
-  double refilled_ = 0;       ///< when the budget was computed
-  double stage_end_ = 0;      ///< of head, answer and drain
-  double message_start_ = 0;  ///< when the message that is coming began, 0: none is
+  std::unique_ptr<OpenFile> file_;  ///< that follows
+  std::uint64_t file_left_ = 0;     ///< bytes of it
+  std::size_t sent_ = 0;            ///< bytes of the first of them
+  std::size_t drained_ = 0;         ///< bytes thrown away after the answer
+  double budget_ = 0;               ///< bytes that may be read now
+  double refilled_ = 0;             ///< when the budget was computed
+  double stage_end_ = 0;            ///< of head, answer and drain
+  double message_start_ = 0;        ///< when the message that is coming began, 0: none is
   double heard_ = 0, pinged_ = 0;
   double moved_ = 0;  ///< when the last byte went out
 };

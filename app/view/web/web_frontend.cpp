@@ -195,6 +195,12 @@ void WebFrontend::tell(const std::string& text) {
   server_.send(viewer_, Opcode::text, text);
 }
 
+void WebFrontend::offer(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  const std::string path = server_.offer(std::make_unique<OpenFile>(folder, file));
+  const std::lock_guard lock(mutex_);
+  tell(page_text("download", path));
+}
+
 void WebFrontend::set_clipboard(const std::string& text) {
   const std::lock_guard lock(mutex_);
   clipboard_ = text;

@@ -60,6 +60,8 @@ class WebFrontend final : public frontend::Frontend, private WebListener {
   bool is_ready() const override;
   bool is_picture_wanted() const override;
   void show(render::Screen& screen) override;
+  bool takes_files() const override { return true; }
+  void offer(const std::filesystem::path& folder, const std::filesystem::path& file) override;
   void set_clipboard(const std::string& text) override;
   std::string clipboard() const override;
 

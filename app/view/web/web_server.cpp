@@ -76,6 +76,11 @@ void WebServer::resume() {
   poke();
 }
 
+std::string WebServer::offer(std::unique_ptr<OpenFile> file) {
+  const std::lock_guard lock(mutex_);
+  return tickets_.add(std::move(file), clock_seconds());
+}
+
 void WebServer::run() {
   while (!is_ending_) {
     const double now = clock_seconds();
@@ -152,13 +157,14 @@ void WebServer::accept_all(double now) {
   }
 }
 
-/// Closes the oldest connection that is not the viewer's, so that idle connections block nobody
-/// out.
+/// Closes the oldest connection that is neither the viewer's nor sends it a file, so that idle
+/// connections block nobody out.
 void WebServer::make_room() {
   if (int(connections_.size()) < limits_.connections) return;
-  const auto oldest = std::find_if(
-      connections_.begin(), connections_.end(),
-      [](const auto& connection) { return connection->stage() != Connection::Stage::open; });
+  const auto oldest =
+      std::find_if(connections_.begin(), connections_.end(), [](const auto& connection) {
+        return connection->stage() != Connection::Stage::open && !connection->is_sending_file();
+      });
   if (oldest != connections_.end()) connections_.erase(oldest);
 }
 
@@ -175,9 +181,24 @@ void WebServer::answer_head(Connection& connection, double now) {
   if (head.status != 200)
     return connection.finish(plain(head.status, "neve does not accept this request"), now);
   const HttpRequest& request = head.request;
+  if (std::unique_ptr<OpenFile> file = file_for(request, now)) {
+    std::string answer = http_file_head(file->name(), file->size());
+    return connection.finish(std::move(answer), std::move(file), now);
+  }
   if (std::string refusal = answer(request); !refusal.empty())
     return connection.finish(std::move(refusal), now);
   open_viewer(connection, head.size, request.header("sec-websocket-key"), now);
+}
+
+/// The file of a ticket; null for every other request. The ticket takes the place of the token,
+/// which would stay in the browser's list of downloads.
+std::unique_ptr<OpenFile> WebServer::file_for(const HttpRequest& request, double now) {
+  const bool is_own = guard_.is_own_host(request.header("host")) &&
+                      (!request.has_header("origin") || guard_.is_own_origin(request)) &&
+                      request.method == "GET";
+  if (!is_own || !request.path.starts_with(download_path)) return nullptr;
+  const std::lock_guard lock(mutex_);
+  return tickets_.take(request.path, now);
 }
 
 /// @return the answer to the request; nothing when it opens the web socket
@@ -190,6 +211,8 @@ std::string WebServer::answer(const HttpRequest& request) const {
     return plain(403, "another page may not talk to neve");
   if (request.method != "GET") return plain(405, "only GET", {{"Allow", "GET"}});
   if (request.path == "/favicon.ico") return http_answer(204, {}, {});
+  if (request.path.starts_with(download_path))
+    return plain(404, "this download is over: ask for the file again in the page");
   if (!is_socket && request.path != "/") return plain(404, "there is only one page: /");
   if (!guard_.has_token(request)) return is_socket ? plain(403, "wrong token") : no_token_answer();
   if (!is_socket) return page_answer(request.header("host"));

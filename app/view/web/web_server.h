@@ -57,6 +57,8 @@ class WebServer {
   void send(std::uint64_t viewer, Opcode opcode, std::string_view payload);
   /// @return messages for the viewer that the network has not taken
   int unsent(std::uint64_t viewer) const;
+  /// The path at which a page gets the file, once. From any thread.
+  std::string offer(std::unique_ptr<OpenFile> file);
   /// There is room again for a message that on_message() refused. From any thread.
   void resume();
 
@@ -71,6 +73,7 @@ class WebServer {
   void serve(Connection& connection, double now);
   void answer_head(Connection& connection, double now);
   std::string answer(const HttpRequest& request) const;
+  std::unique_ptr<OpenFile> file_for(const HttpRequest& request, double now);
   void open_viewer(Connection& connection, std::size_t head_size, std::string_view key, double now);
   void forget_dead();
   void say_goodbye();
@@ -94,6 +97,7 @@ class WebServer {
   std::uint64_t viewer_ = 0;         ///< 0: no page is connected
   int unsent_ = 0;                   ///< of its frames, those posted included
   bool is_resumed_ = false;
+  Tickets tickets_;
   std::atomic<bool> is_ending_ = false;
 
   std::thread thread_;
