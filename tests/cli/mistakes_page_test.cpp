@@ -37,8 +37,7 @@ std::vector<std::string> answer_of(const app::output::ProcessResult& result,
 }
 
 TEST(MistakesPage, EveryAnswerIsTheProgramsOwn) {
-  const app::Json entries =
-      app::parse_json(std::string_view(app::output::read_file(page_folder / "answers.json")));
+  const app::Json entries = app::parse_json(read_text(page_folder / "answers.json"));
   const std::string page = read_text(page_folder / "../answers.md");
   EXPECT_GE(entries.size(), 131u);
   for (const app::Json& entry : entries) {

@@ -105,9 +105,11 @@ class RandomEdits : public testing::Test {
       case 8:
         return bench->continue_from_here();
       case 9:
-        return bench->save_scene(folder / "scene/out/saved.toml");
+        static_cast<void>(bench->save_scene(folder / "scene/out/saved.toml"));
+        return;
       case 10:
-        return bench->save_scene(folder / "stolen.toml");
+        static_cast<void>(bench->save_scene(folder / "stolen.toml"));
+        return;
       default: {
         const auto list = app::scene::flatten(*bench->document().scene());
         const app::scene::FlatParam& param = list[below(list.size())];
