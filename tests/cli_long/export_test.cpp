@@ -61,10 +61,9 @@ TEST_F(ExportToUsd, UsdOpensTheStages) {
   EXPECT_EQ(same.output, "same\n") << same.errors;
 }
 
-/// Blender is 66 packages, so it may be missing.
 TEST_F(ExportToBlender, TheScriptOfThePageDrawsAFrame) {
   const auto blender = app::output::find_program("blender");
-  if (!blender) GTEST_SKIP() << "no blender in PATH; install blender";
+  if (!blender) SKIP_OR_FAIL("no blender in PATH; install blender");
   ASSERT_EQ(neve({"export", "scene.toml", "--format", "ply,vdb", "--surface", "--up", "z",
                   "--frames", "3-3", "--out", "mesh"})
                 .exit_code,
