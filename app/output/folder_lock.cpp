@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <ctime>
 #include <exception>
 #include <string_view>
+#include <thread>
 
 #include "app/output/atomic_file.h"
 #include "app/output/temporary.h"
@@ -59,6 +61,22 @@ void write_holder(const fs::path& file, int fd, const std::string& holder) {
   if (reason != 0) fail_writing(file, "cannot write", reason);
 }
 
+/// Empty where there is no such file, or no text in it.
+std::string first_line(const fs::path& file) {
+  std::string text;
+  try {
+    const std::vector<std::uint8_t> bytes = read_file(file, longest_holder);
+    text.assign(bytes.begin(), bytes.end());
+  } catch (const std::exception&) {
+    // It is no text of ours.
+  }
+  text.resize(std::min(text.size(), text.find('\n')));
+  return text;
+}
+
+constexpr int looks = 30;
+constexpr std::chrono::milliseconds between_looks{10};
+
 }  // namespace
 
 std::optional<FolderLock> FolderLock::try_lock(const fs::path& folder, const std::string& holder,
@@ -91,14 +109,12 @@ bool FolderLock::is_held(const fs::path& folder) {
 }
 
 std::string FolderLock::holder_of(const fs::path& folder, const char* name) {
-  std::string text;
-  try {
-    const std::vector<std::uint8_t> bytes = read_file(folder / name, longest_holder);
-    text.assign(bytes.begin(), bytes.end());
-  } catch (const std::exception&) {
-    // It is being written, or is no text of ours.
+  std::string text = first_line(folder / name);
+  // One that has just got the lock writes its name at once.
+  for (int look = 0; text.empty() && look < looks; ++look) {
+    std::this_thread::sleep_for(between_looks);
+    text = first_line(folder / name);
   }
-  text.resize(std::min(text.size(), text.find('\n')));
   const bool is_plain =
       std::all_of(text.begin(), text.end(), [](unsigned char c) { return c >= ' ' && c < 127; });
   return text.empty() || !is_plain ? "another process" : text;

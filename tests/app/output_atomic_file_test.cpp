@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -11,6 +12,7 @@
 
 #include <chrono>
 #include <functional>
+#include <thread>
 
 #include "app/output/folder_lock.h"
 #include "app/output/named_file.h"
@@ -169,6 +171,27 @@ TEST(NamedFile, NamedFileOfAnOpenDescriptorIsWrittenWhereItIs) {
   app::output::write_named_file("/dev/fd/" + std::to_string(fd), "after");
   ::close(fd);
   EXPECT_EQ(read_text(folder / "log"), "before after");
+}
+
+TEST(FolderLock, OneThatHasJustGotItIsNamed) {
+  const TemporaryFolder folder;
+  folder.write(".lock", "");
+  const int file = ::open((folder / ".lock").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(::flock(file, LOCK_EX | LOCK_NB), 0);
+  std::thread holder([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    folder.write(".lock", "neve render, process 1 on snow\n");
+  });
+  try {
+    const app::output::FolderLock second(folder.path(), "neve view");
+    ADD_FAILURE() << "the folder is locked";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find("is in use by neve render, process 1"),
+              std::string::npos)
+        << error.what();
+  }
+  holder.join();
+  ::close(file);
 }
 
 TEST(FolderLock, FolderLockIsHeldOnceAndSaysByWhom) {
