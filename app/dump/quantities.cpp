@@ -257,7 +257,7 @@ Listing list_stage(const StepInspection& inside, sim::Stage stage) {
 
 namespace {
 
-/// What others call it, if it is here.
+/// Advice on a name that other programs use, or that is misspelt.
 std::string everyday_advice(const std::string& name, const std::vector<std::string>& known) {
   constexpr std::pair<const char*, const char*> names[] = {
       {"velocity", "v"},         {"speed", "v"},

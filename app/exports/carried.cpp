@@ -48,14 +48,4 @@ const PointColumn* Carried::find(const std::string& name) const {
   return nullptr;
 }
 
-double Carried::value(const std::string& name, std::uint32_t id) const {
-  const PointColumn* column = find(name);
-  return column && id < column->value.size() ? column->value[id] : 0;
-}
-
-PointColumn::Type Carried::type_of(const std::string& name) const {
-  const PointColumn* column = find(name);
-  return column ? column->type : PointColumn::Type::real64;
-}
-
 }  // namespace neve::app::exports

@@ -17,14 +17,11 @@ class Carried {
   /// @throws ShapeError for a file that cannot be read
   Carried(const scene::Scene& scene, const std::vector<std::size_t>& body_end);
 
-  /// Of a particle: 0 for particles whose file has no such column, or that come from no file.
-  double value(const std::string& name, std::uint32_t id) const;
-  /// The type in which all numbers of a column are exact.
-  sim::files::PointColumn::Type type_of(const std::string& name) const;
+  /// The column of a name, its values by id, its type exact for all of them. Null where no file has
+  /// it. Particles whose file has no such column have 0; ids past its end come from no file.
+  const sim::files::PointColumn* find(const std::string& name) const;
 
  private:
-  /// Null where no file has it.
-  const sim::files::PointColumn* find(const std::string& name) const;
   void add(const sim::files::PointColumn& column, std::size_t first, std::size_t ids);
 
   std::vector<sim::files::PointColumn> columns_;  ///< values by id

@@ -182,11 +182,18 @@ Numbers numbers_of_type(std::vector<double> values, sim::files::PointColumn::Typ
   return converted(std::move(values), NumberKind::of_state, type == Type::real32);
 }
 
+sim::files::PointColumn::Type type_of(const sim::files::PointColumn* column) {
+  return column ? column->type : sim::files::PointColumn::Type::real64;
+}
+
 /// Numbers of a file's column, in the type that they have there.
 Numbers carried_numbers(const ColumnSource& s, const Carried& carried, const std::string& name) {
-  return numbers_of_type(
-      values_of(s, [&](std::size_t p) { return carried.value(name, s.state.particles.id_of(p)); }),
-      carried.type_of(name));
+  const sim::files::PointColumn* column = carried.find(name);
+  const auto value_of = [&](std::size_t p) {
+    const std::uint32_t id = s.state.particles.id_of(p);
+    return column && id < column->value.size() ? column->value[id] : 0;
+  };
+  return numbers_of_type(values_of(s, value_of), type_of(column));
 }
 
 std::vector<ExportAttribute> attributes_of(const scene::Export& e) {
@@ -250,7 +257,7 @@ Table empty_table(const scene::Scene& scene, const scene::Export& e, const Carri
   if (has_places_only(e)) return table;
   for (const std::string& name : e.carried)
     table.columns.push_back(
-        {std::nullopt, name, "", 1, numbers_of_type({}, carried.type_of(name))});
+        {std::nullopt, name, "", 1, numbers_of_type({}, type_of(carried.find(name)))});
   return table;
 }
 

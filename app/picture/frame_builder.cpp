@@ -98,15 +98,15 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   const setup::CameraPlace first = setup::camera_at(camera, 0, scene_.frames / scene_.fps);
   const double spacing = round_down(0.1 * (first.eye - first.target).norm());
   add_colliders(scene_, view, snapshot.time, static_cast<float>(spacing), frame);
-  const bool is_of_stage =
-      snapshot.stage_change && shows_particles_of(view, *snapshot.stage_change);
+  const std::optional<StageLook> look = stage_look(view, snapshot);
+  const bool is_of_stage = look && shows_particles_of(view, *snapshot.stage_change);
   if (points)
     frame.points = std::move(*points);
   else if (is_of_stage || scene::has_layer(view, scene::Layer::particles))
-    add_points(view, snapshot, frame);
+    add_points(view, snapshot, look, frame);
   add_grid(view, snapshot, frame);
   if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(view);
-  if (is_of_stage) add_stage_change(snapshot, stage_cut(view, snapshot), frame);
+  if (is_of_stage) add_stage_change(snapshot, *look, frame);
   if (scene::has_layer(view, scene::Layer::bounds)) add_bounds(snapshot, frame);
   if (scene::has_layer(view, scene::Layer::plots))
     frame.plots = make_plots(view.plots, !scene_.colliders.empty(), snapshot.history, snapshot.time,
@@ -149,19 +149,16 @@ render::Frame FrameBuilder::build_incident(const scene::View& view, const Snapsh
 }
 
 void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
-                              render::Frame& frame) const {
-  const std::optional<StageChange>& change = snapshot.stage_change;
+                              const std::optional<StageLook>& look, render::Frame& frame) const {
   const scene::ParticleStyle& style = view.particles;
-  const scene::Range range = change ? scene::Range{0, std::max(change->largest(), 1e-300)}
-                                    : style.range.value_or(scene::Range{});
+  const scene::Range range = look ? scene::Range{0, std::max(look->largest, 1e-300)}
+                                  : style.range.value_or(scene::Range{});
   const std::vector<double> values =
-      change ? change->magnitude : attribute_values(scene_, style.color_by, snapshot);
-  const std::optional<StageCut> stage =
-      change ? std::optional(stage_cut(view, snapshot)) : std::nullopt;
+      look ? snapshot.stage_change->magnitude : attribute_values(scene_, style.color_by, snapshot);
   render::Points& points = frame.points;
   points.spacing = static_cast<float>(seeded_.spacing);
   points.radius = static_cast<float>(radius_share * seeded_.spacing);
-  points.colormap = change ? render::ColorMap::viridis : style.colormap;
+  points.colormap = look ? render::ColorMap::viridis : style.colormap;
   points.range_min = static_cast<float>(range.min);
   points.range_max = static_cast<float>(range.max);
   points.position.reserve(snapshot.particles.x.size());
@@ -174,7 +171,7 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
     // A diverged state is drawn too, as far as it can be.
     const sim::Vec3d& x = snapshot.particles.x[p];
     if (!x.allFinite() || cut.removes(x)) continue;
-    if (stage && stage->removes(x)) continue;
+    if (look && look->cut.removes(x)) continue;
     points.position.push_back(to_float(snapshot.particles.x[p]));
     points.id.push_back(snapshot.particles.id_of(p));
     if (!values.empty())
@@ -197,12 +194,15 @@ SlicePlane FrameBuilder::plane_of(const scene::View& view, const Snapshot& snaps
   return slice_plane(view.slice, snapshot.time, centre_of_mass(view.slice.follow, snapshot));
 }
 
-/// Seen from the scene's camera, not from one that somebody turns: the side must not change.
-StageCut FrameBuilder::stage_cut(const scene::View& view, const Snapshot& snapshot) const {
+/// The scene's camera decides on the side, not one that somebody turns: it must not change.
+std::optional<StageLook> FrameBuilder::stage_look(const scene::View& view,
+                                                  const Snapshot& snapshot) const {
+  if (!snapshot.stage_change) return std::nullopt;
   const scene::CameraSettings& camera =
       scene_.camera && scene_.camera->eye ? *scene_.camera : settings_of(scene_, view);
-  return {view, plane_of(view, snapshot),
-          setup::camera_at(camera, 0, scene_.frames / scene_.fps).eye, scene_.solver.cell_size};
+  const sim::Vec3d eye = setup::camera_at(camera, 0, scene_.frames / scene_.fps).eye;
+  return StageLook{StageCut(view, plane_of(view, snapshot), eye, scene_.solver.cell_size),
+                   snapshot.stage_change->largest()};
 }
 
 /// A box around each body, with its name where there are several.

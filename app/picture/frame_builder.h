@@ -50,9 +50,11 @@ class FrameBuilder {
   std::vector<std::string> caption(const Snapshot& snapshot) const;
 
  private:
-  void add_points(const scene::View& view, const Snapshot& snapshot, render::Frame& frame) const;
+  void add_points(const scene::View& view, const Snapshot& snapshot,
+                  const std::optional<StageLook>& look, render::Frame& frame) const;
   SlicePlane plane_of(const scene::View& view, const Snapshot& snapshot) const;
-  StageCut stage_cut(const scene::View& view, const Snapshot& snapshot) const;
+  /// Absent where no stage is looked at.
+  std::optional<StageLook> stage_look(const scene::View& view, const Snapshot& snapshot) const;
   void add_grid(const scene::View& view, const Snapshot& snapshot, render::Frame& frame) const;
   void add_bounds(const Snapshot& snapshot, render::Frame& frame) const;
   /// Particles of a body: the first and the one after the last.

@@ -25,7 +25,7 @@ struct Snapshot {
   sim::Warnings warnings;               ///< of the steps so far
   sim::AdvanceReport advance;           ///< steps since the frame before; the caller fills it in
   std::span<const PlotSample> history;  ///< of the frames up to this one; the caller keeps it
-  /// Of a stage of the next step that is looked at, on a copy; the caller's too.
+  /// The change by a stage of the next step that is looked at, on a copy; the caller's too.
   std::optional<StageChange> stage_change{};
   std::vector<scene::LiveChange> changes;  ///< made while it ran, for the caption; the caller's too
 };

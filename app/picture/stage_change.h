@@ -1,5 +1,5 @@
 #pragma once
-/// What one stage of a step did to the snow: a number or a vector per particle.
+/// The change of the snow by one stage of a step: a number or a vector per particle.
 
 #include <string>
 #include <vector>

@@ -49,9 +49,9 @@ StageCut::StageCut(const scene::View& view, const SlicePlane& at, const sim::Vec
       cell_size(cell),
       is_layer(is_of_plane(view) && !scene::has_layer(view, scene::Layer::particles)) {}
 
-void add_stage_change(const Snapshot& snapshot, const StageCut& cut, render::Frame& frame) {
+void add_stage_change(const Snapshot& snapshot, const StageLook& look, render::Frame& frame) {
   const StageChange& change = *snapshot.stage_change;
-  const double largest = change.largest();
+  const auto& [cut, largest] = look;
   const render::Legend legend{change.title, change.unit, render::ColorMap::viridis, 0,
                               static_cast<float>(largest > 0 ? largest : 1)};
   frame.legends = {legend};

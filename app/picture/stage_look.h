@@ -26,8 +26,14 @@ struct StageCut {
   }
 };
 
+/// The cut and the end of the scale of a change that is shown.
+struct StageLook {
+  StageCut cut;
+  double largest = 0;
+};
+
 /// Adds the arrows of the particles next to the plane, at most one in a cell, and the legend in
 /// place of the view's.
-void add_stage_change(const Snapshot& snapshot, const StageCut& cut, render::Frame& frame);
+void add_stage_change(const Snapshot& snapshot, const StageLook& look, render::Frame& frame);
 
 }  // namespace neve::app::picture

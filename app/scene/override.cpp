@@ -84,7 +84,7 @@ bool same_text(const toml::Value& value, const std::string& text) {
   return own && *own == text;
 }
 
-/// body.velocity: somebody forgot the name of the body.
+/// Explains body.velocity, where somebody forgot the name of the body.
 bool is_member_of_all(const std::string& list, const std::string& word) {
   const std::string member = list + ".NAME." + word;
   const std::vector<ParamInfo>& all = params();

@@ -9,14 +9,6 @@
 namespace neve::app::scene {
 namespace {
 
-/// Whole bounds as integers: 16, not 16.0.
-Json bound(double x) {
-  if (std::isfinite(x) && x == std::trunc(x) && std::abs(x) < 1e16) {
-    return static_cast<std::int64_t>(x);
-  }
-  return number_or_null(x);
-}
-
 bool is_bounded(const Valid& valid) {
   return std::isfinite(valid.min) || std::isfinite(valid.max);
 }
@@ -74,8 +66,8 @@ std::string params_json(const std::vector<ParamInfo>& params) {
     item["address"] = info.address;
     item["type"] = info.type;
     item["unit"] = info.unit;
-    item["min"] = bound(info.valid.min);
-    item["max"] = bound(info.valid.max);
+    item["min"] = count_json(info.valid.min);
+    item["max"] = count_json(info.valid.max);
     const bool has_default = info.default_value && !info.valid.is_required;
     item["default"] = has_default ? to_json(*info.default_value) : Json();
     item["live"] = info.is_live;

@@ -65,7 +65,7 @@ class SchemaWriter {
   void named(const char* key, std::vector<T>&, const char* help) {
     properties_[key] = {
         {"type", "object"},
-        {"patternProperties", {{name_key, item<T>(prefix_ + key + ".NAME.", help)}}},
+        {"patternProperties", {{whole_name_pattern(), item<T>(prefix_ + key + ".NAME.", help)}}},
         {"additionalProperties", false}};
   }
 
@@ -114,8 +114,6 @@ class SchemaWriter {
   void add_key(const char* key, Json schema) { properties_[key] = std::move(schema); }
 
  private:
-  static constexpr const char* name_key = "^[A-Za-z0-9_-]{1,64}$";
-
   static std::string text_of(const std::string& help, const std::string& unit) {
     return unit.empty() ? help : help + " Unit: " + unit + ".";
   }

@@ -7,7 +7,6 @@
 namespace neve::app::scene {
 namespace {
 
-constexpr const char* name_pattern = "^[A-Za-z0-9_-]{1,64}$";
 constexpr const char* bytes_pattern =
     "^[0-9.]+([eE][+-]?[0-9]+)? *(KiB|MiB|GiB|TiB|kB|KB|MB|GB|TB|B)$";
 
@@ -73,7 +72,7 @@ Json schema_of(const std::uint64_t&, const Valid& valid, const char* unit) {
 }
 Json schema_of(const std::string&, const Valid& valid, const char*) {
   Json schema = {{"type", "string"}};
-  if (valid.text == Valid::Text::name) schema["pattern"] = name_pattern;
+  if (valid.text == Valid::Text::name) schema["pattern"] = whole_name_pattern();
   if (valid.text == Valid::Text::file) schema["minLength"] = 1;
   return schema;
 }

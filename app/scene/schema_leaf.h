@@ -10,6 +10,13 @@
 
 namespace neve::app::scene {
 
+/// The pattern that names of bodies, views and others follow.
+inline const std::string name_pattern = "[A-Za-z0-9_-]{1,64}";
+/// The same for a text that is a name and nothing else.
+inline std::string whole_name_pattern() {
+  return "^" + name_pattern + "$";
+}
+
 /// A value as JSON; dates, which no parameter has, become null.
 Json to_json(const toml::Value& value);
 

@@ -57,10 +57,12 @@ inline Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
-/// A count that is kept as a double, as a whole number where it is one: 19393, not 19393.0.
+/// A count or bound that is kept as a double, as a whole number where it is one: 19393, not
+/// 19393.0.
 inline Json count_json(double count) {
+  constexpr double exact = 9007199254740992;  // 2^53: doubles below have neighbours 1 apart
   const bool is_whole =
-      std::isfinite(count) && std::abs(count) < 9e15 && count == std::floor(count);
+      std::isfinite(count) && std::abs(count) <= exact && count == std::floor(count);
   return is_whole ? Json(static_cast<std::int64_t>(count)) : number_or_null(count);
 }
 

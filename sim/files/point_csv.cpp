@@ -112,10 +112,6 @@ class PointCsv {
   std::vector<std::string_view> fields_;  ///< of the present line
 };
 
-}  // namespace
-
-namespace {
-
 /// Spreadsheets put a mark in front.
 std::string_view without_mark(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);

@@ -34,8 +34,8 @@ struct PointCloud {
 /// Columns are found by name, in any order, case and punctuation: position x y z, or with
 /// p, x, pos, position before the axis, or Points:0 to 2; velocity vx vy vz, or with vel, velocity;
 /// mass m or mass; volume V0, or where there is none vol or volume; J_P, stiffness, threshold; F_E
-/// and C with xx to zz. Others are passed over
-/// unless they are asked for. Independent of the locale.
+/// and C with xx to zz. Others are passed over unless they are asked for. Independent of the
+/// locale.
 /// @param name of the text in messages, NAME:LINE: ...; of binary points NAME: point NUMBER
 /// @param further  names of other columns to read, exactly as in the file
 /// @throws ShapeError for text neither PLY nor CSV, without positions, with a part of a vector

@@ -296,20 +296,29 @@ struct NearColliders {
   NEVE_INLINE NearColliders() {}
 };
 
+/// Keeps the colliders of the scene, beside a block, that are not too far away.
+template <class Set, class Real, class IsFar>
+NEVE_INLINE void keep_near(NearColliders<Real>& near, const StepConstants<Real>& c,
+                           std::uint64_t key, const IsFar& is_far) {
+  int cell[3];
+  for (int a = 0; a < 3; ++a) cell[a] = block_coordinate(key, a) * block_side;
+  for (int k = 0; k < c.collider_count; ++k) {
+    const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
+    if (!is_far(candidate)) near.local[near.count++] = candidate;
+  }
+}
+
 /// @param centre, reach  places in the block lie within `reach` cells of (centre, centre, centre)
 template <class Set, class Real>
 NEVE_NOINLINE void find_near(NearColliders<Real>& near, const StepConstants<Real>& c,
                              std::uint64_t key, Real centre, Real reach) {
-  int cell[3];
-  for (int a = 0; a < 3; ++a) cell[a] = block_coordinate(key, a) * block_side;
   const Vec3<Real> middle{centre * c.h, centre * c.h, centre * c.h};
-  for (int k = 0; k < c.collider_count; ++k) {
-    const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
-    if (!is_out_of_reach(candidate, middle, reach * c.h)) near.local[near.count++] = candidate;
-  }
+  keep_near<Set>(near, c, key, [&](const LocalCollider<Real>& candidate) {
+    return is_out_of_reach(candidate, middle, reach * c.h);
+  });
 }
 
-/// Where particles of a block are: within these cells of this place, along each axis.
+/// Particles of a block lie within these cells of this place, along each axis.
 template <int K>
 inline constexpr double particle_middle = 0.5 * (K + 2);
 inline constexpr double particle_reach = 2.01;  ///< and rounding
@@ -325,15 +334,11 @@ NEVE_INLINE void find_near_nodes(NearColliders<Real>& near, const StepConstants<
 template <class Set, int K, class Real>
 NEVE_NOINLINE void find_near_particles(NearColliders<Real>& near, const StepConstants<Real>& c,
                                        std::uint64_t key) {
-  int cell[3];
-  for (int a = 0; a < 3; ++a) cell[a] = block_coordinate(key, a) * block_side;
   const Real centre = static_cast<Real>(particle_middle<K>) * c.h;
   const Real half = static_cast<Real>(particle_reach) * c.h;
-  for (int k = 0; k < c.collider_count; ++k) {
-    const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
-    if (!is_cube_out_of_reach(candidate, Vec3<Real>{centre, centre, centre}, half, Real(0)))
-      near.local[near.count++] = candidate;
-  }
+  keep_near<Set>(near, c, key, [&](const LocalCollider<Real>& candidate) {
+    return is_cube_out_of_reach(candidate, Vec3<Real>{centre, centre, centre}, half, Real(0));
+  });
 }
 template <class Set, class Real>
 NEVE_INLINE void find_near_moved(NearColliders<Real>& near, const StepConstants<Real>& c,

@@ -84,7 +84,7 @@ inline constexpr Folder folders[] = {
      "sim/types sim app/support app/scene/toml app/scene app/output app/setup app/health "
      "app/picture app/run app/dump app/sweep/plan"},
     {"app/view/frontend", "render/image render"},
-    {"app/view/web", "render/image render app/support app/view/frontend"},
+    {"app/view/web", "render/image render app/support app/output app/view/frontend"},
     {"app/view/panels",
      "render/frame render/overlay render app/support app/scene/toml app/scene app/health "
      "app/picture app/run app/view/session app/view/frontend"},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/scene/schema.h"
+#include "app/scene/schema_leaf.h"
 #include "app/sweep/read/describe_sweep.h"
 #include "app/sweep/read/sweep_leaf.h"
 
@@ -24,7 +25,7 @@ std::string pattern_of(const std::string& address) {
     return out;
   };
   if (at == std::string::npos) return "^" + escaped(address) + "$";
-  return "^" + escaped(address.substr(0, at)) + "\\.[A-Za-z0-9_-]{1,64}\\." +
+  return "^" + escaped(address.substr(0, at)) + "\\." + scene::name_pattern + "\\." +
          escaped(address.substr(at + name.size())) + "$";
 }
 

@@ -47,7 +47,7 @@ bool item(const char* label, const char* key = nullptr, bool is_on = false) {
   return is_chosen;
 }
 
-/// What is downloaded is written first, so that it is there for both machines.
+/// A download is written as a file first, so that both machines have it.
 void draw_download_items(ViewerState& state) {
   ImGui::Separator();
   if (item("Download the picture")) state.wants_picture = state.is_picture_downloaded = true;

@@ -91,7 +91,7 @@ std::optional<Bounds> bounds_of(const Shape& shape) {
   }
 }
 
-/// How far up a box has to go to be clear of a shape; 0: it is.
+/// The way up, m, that a box has to go to be clear of a shape; 0: it is.
 double rise_above(const Shape& shape, const Vec3d& at, const Vec3d& half) {
   if (const auto* plane = std::get_if<Plane>(&shape.form)) {
     const Vec3d normal = plane->normal.normalized();

@@ -103,14 +103,13 @@ KeptFrame Session::state_now() const {
           advance_};
 }
 
-/// What bursts spreads over ever more of the grid.
+/// Snow that bursts spreads over ever more of the grid.
 void Session::require_room() const {
   if (simulation_->warnings().rules_ignored == 0) return;
-  const std::uint64_t limit = scene().limits.memory > 0 ? scene().limits.memory : memory_at_most_;
-  if (simulation_->memory_bytes() <= limit) return;
+  if (simulation_->memory_bytes() <= memory_at_most_) return;
   throw std::runtime_error("stopped: the snow that bursts takes " +
                            bytes_text(simulation_->memory_bytes()) + " of memory, more than the " +
-                           bytes_text(limit) + " allowed");
+                           bytes_text(memory_at_most_) + " allowed");
 }
 
 void Session::after_step() {

@@ -1,4 +1,4 @@
-/// What a stage did to each particle.
+/// The change of each particle by a stage.
 
 #include <algorithm>
 #include <array>

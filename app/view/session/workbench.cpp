@@ -146,7 +146,7 @@ bool has_file(const scene::toml::Value& value) {
          });
 }
 
-/// Of the text of a whole table.
+/// True for a text of a whole table that names a file somewhere.
 bool names_file(const std::string& text) {
   try {
     return has_file(scene::toml::parse_toml("value = " + text, "").entries.at(0).value);

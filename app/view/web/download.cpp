@@ -39,30 +39,25 @@ std::string plain_name(const std::string& name) {
 }
 
 OpenFile::OpenFile(const fs::path& folder, const fs::path& file)
-    : name_(plain_name(file.filename().string())) {
+    // A pipe with that name would wait for ever.
+    : file_(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)),
+      name_(plain_name(file.filename().string())) {
   const auto refuse = [&](const std::string& why) {
-    if (file_ >= 0) ::close(file_);
     throw IoError(file.string() + " cannot be downloaded: " + why, file.string());
   };
-  // A pipe with that name would wait for ever.
-  file_ = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file_ < 0) refuse(std::strerror(errno));
+  if (file_.get() < 0) refuse(std::strerror(errno));
   struct stat status {};
-  if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode)) refuse("it is no plain file");
+  if (::fstat(file_.get(), &status) != 0 || !S_ISREG(status.st_mode)) refuse("it is no plain file");
   std::error_code error;
   const fs::path allowed = fs::canonical(folder, error);
-  if (error || !is_inside(allowed, place_of(file_)))
+  if (error || !is_inside(allowed, place_of(file_.get())))
     refuse("only files in " + folder.string() + " can");
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
 
-OpenFile::~OpenFile() {
-  ::close(file_);
-}
-
 std::string OpenFile::read(std::size_t most) {
   std::string bytes(most, '\0');
-  const ssize_t count = ::read(file_, bytes.data(), bytes.size());
+  const ssize_t count = ::read(file_.get(), bytes.data(), bytes.size());
   bytes.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
   return bytes;
 }

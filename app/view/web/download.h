@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "app/output/descriptor.h"
+
 namespace neve::app::view::web {
 
 /// An open file that closes itself.
@@ -18,9 +20,6 @@ class OpenFile {
   /// Opens a regular file that lies in a folder, wherever links on the way lead.
   /// @throws IoError
   OpenFile(const std::filesystem::path& folder, const std::filesystem::path& file);
-  ~OpenFile();
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
 
   std::uint64_t size() const { return size_; }  ///< bytes, when it was opened
   const std::string& name() const { return name_; }
@@ -28,7 +27,7 @@ class OpenFile {
   std::string read(std::size_t most);
 
  private:
-  int file_ = -1;
+  output::Descriptor file_;
   std::uint64_t size_ = 0;
   std::string name_;
 };

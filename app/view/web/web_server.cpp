@@ -181,35 +181,39 @@ void WebServer::answer_head(Connection& connection, double now) {
   if (head.status != 200)
     return connection.finish(plain(head.status, "neve does not accept this request"), now);
   const HttpRequest& request = head.request;
+  if (std::string refusal = refusal_of(request); !refusal.empty())
+    return connection.finish(std::move(refusal), now);
   if (std::unique_ptr<OpenFile> file = file_for(request, now)) {
     std::string answer = http_file_head(file->name(), file->size());
     return connection.finish(std::move(answer), std::move(file), now);
   }
-  if (std::string refusal = answer(request); !refusal.empty())
-    return connection.finish(std::move(refusal), now);
+  if (std::string page = answer(request); !page.empty())
+    return connection.finish(std::move(page), now);
   open_viewer(connection, head.size, request.header("sec-websocket-key"), now);
+}
+
+/// @return the answer to a request that comes from another place or asks for more than to read
+std::string WebServer::refusal_of(const HttpRequest& request) const {
+  if (!guard_.is_own_host(request.header("host")))
+    return plain(403, "this address does not belong to neve");
+  // Browsers omit Origin when the user opens a page, never when a script opens a web socket.
+  if ((request.path == "/ws" || request.has_header("origin")) && !guard_.is_own_origin(request))
+    return plain(403, "another page may not talk to neve");
+  if (request.method != "GET") return plain(405, "only GET", {{"Allow", "GET"}});
+  return {};
 }
 
 /// The file of a ticket; null for every other request. The ticket takes the place of the token,
 /// which would stay in the browser's list of downloads.
 std::unique_ptr<OpenFile> WebServer::file_for(const HttpRequest& request, double now) {
-  const bool is_own = guard_.is_own_host(request.header("host")) &&
-                      (!request.has_header("origin") || guard_.is_own_origin(request)) &&
-                      request.method == "GET";
-  if (!is_own || !request.path.starts_with(download_path)) return nullptr;
+  if (!request.path.starts_with(download_path)) return nullptr;
   const std::lock_guard lock(mutex_);
   return tickets_.take(request.path, now);
 }
 
 /// @return the answer to the request; nothing when it opens the web socket
 std::string WebServer::answer(const HttpRequest& request) const {
-  if (!guard_.is_own_host(request.header("host")))
-    return plain(403, "this address does not belong to neve");
   const bool is_socket = request.path == "/ws";
-  // Browsers omit Origin when the user opens a page, never when a script opens a web socket.
-  if ((is_socket || request.has_header("origin")) && !guard_.is_own_origin(request))
-    return plain(403, "another page may not talk to neve");
-  if (request.method != "GET") return plain(405, "only GET", {{"Allow", "GET"}});
   if (request.path == "/favicon.ico") return http_answer(204, {}, {});
   if (request.path.starts_with(download_path))
     return plain(404, "this download is over: ask for the file again in the page");
@@ -237,7 +241,6 @@ void WebServer::open_viewer(Connection& connection, std::size_t head_size, std::
   const std::string accept = web_socket_accept(key);
   connection.open(head_size, now);
   connection.queue(web_socket_answer(accept), now);
-  connection.transmit(now);
   {
     const std::lock_guard lock(mutex_);
     viewer_ = connection.id();
@@ -245,6 +248,8 @@ void WebServer::open_viewer(Connection& connection, std::size_t head_size, std::
     unsent_ = 0;
   }
   listener_.on_viewer(connection.id());
+  // Who reads the answer can count on being the viewer.
+  connection.transmit(now);
 }
 
 Connection* WebServer::viewer() {

@@ -72,6 +72,7 @@ class WebServer {
   void make_room();
   void serve(Connection& connection, double now);
   void answer_head(Connection& connection, double now);
+  std::string refusal_of(const HttpRequest& request) const;
   std::string answer(const HttpRequest& request) const;
   std::unique_ptr<OpenFile> file_for(const HttpRequest& request, double now);
   void open_viewer(Connection& connection, std::size_t head_size, std::string_view key, double now);
