@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <set>
 
 #include "app/health/findings.h"
@@ -16,12 +18,14 @@
 #include "app/support/clock.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
+#include "sim/health/diagnostics.h"
 
 namespace neve::app::health {
 
 namespace {
 
-constexpr ForecastBudget coarse_budget{2, 1e12};
+/// Two copies of about a second each.
+constexpr ForecastBudget coarse_budget{2.5, 1e12, 1500, 3e7};
 /// Time of an iteration of the solve over that of an explicit step: measured 0.21 to 0.22, in
 /// snowball_drop and in press at --coarsen 2.
 constexpr double work_of_iteration = 0.25;
@@ -32,7 +36,7 @@ constexpr double max_seeded = 3e6;
 
 /// Steps of the shipped scenes over those that a copy foretold: 0.73 to 2.35 at half of their
 /// resolution. The copy has fewer particles, so its stiffest one, which rules dt, is less hardened.
-constexpr double least_of_steps = 0.7, most_of_steps = 2.5;
+constexpr double least_of_steps = 0.5, most_of_steps = 2;
 
 /// Cost of a block over that of a packed particle, measured with about a particle to a block:
 /// blocks without neighbours take no room on the grid (neve bench sim: spray_lattice), the others
@@ -95,16 +99,61 @@ sim::DtChoice allowed(const scene::Scene& scene, const sim::StepLimits& state,
   return sim::engine::choose_dt(scene.solver, limits, 1e9);
 }
 
+/// An impact at this share of the speed of sound may crush single particles to about half of their
+/// volume. Which ones is chance, and no copy tells it: a ball of dry snow that hits a post at 0.39
+/// takes 61 000 steps with one seed and 8000 with another.
+constexpr double crushing_speed = 0.3, crushed_J_P = 0.5;
+
+/// How much faster sound is in the stiffest of many particles than in the stiffest of a copy.
+struct Rarity {
+  double expected = 1, most = 1;  ///< factors; most: exceeded by one run in 20
+  double fastest = 0;             ///< m/s, in a crushed particle: no factor leads beyond
+};
+
+/// The largest of n draws with an exponential tail of scale b grows as b ln n, and its 95th
+/// percentile lies 2.97 b higher (Gumbel). The tail of the logarithm of the speed of sound is that
+/// of the stiffest ten particles: packed layers have none, and fragments that hit edges have one.
+Rarity rarity_of(const scene::Scene& coarse, const sim::ParticleArrays& state, double particles) {
+  constexpr std::size_t tail = 10, enough = 100;
+  constexpr double percentile = 2.97;
+  if (state.x.size() < enough) return {};
+  std::vector<double> speeds;  // logarithms
+  double fastest = 0;
+  for (std::size_t p = 0; p < state.x.size(); ++p) {
+    const sim::Material& m = coarse.materials[static_cast<std::size_t>(state.material[p])];
+    const auto hardening_at = [&](double J_P) {
+      return m.model == sim::Model::snow ? sim::health::hardening_factor(m, J_P) : 1;
+    };
+    const double share = state.V0[p] * m.density / state.m[p];
+    speeds.push_back(std::log(sim::sound_speed(m) * std::sqrt(share * hardening_at(state.J_P[p]))));
+    fastest = std::max(fastest, sim::sound_speed(m) * std::sqrt(hardening_at(crushed_J_P)));
+  }
+  std::nth_element(speeds.begin(), speeds.begin() + tail, speeds.end(), std::greater<>());
+  const double scale =
+      std::accumulate(speeds.begin(), speeds.begin() + tail, 0.0) / tail - speeds[tail];
+  const double more = std::log(std::max(1.0, particles / static_cast<double>(state.x.size())));
+  if (!std::isfinite(scale)) return {};
+  return {std::exp(scale * more), std::exp(scale * (more + percentile)), fastest};
+}
+
+sim::StepLimits stiffer(sim::StepLimits state, double factor, double fastest) {
+  const double now = state.max_sound_speed;
+  state.max_sound_speed = std::max(now, std::min(factor * now, fastest));
+  return state;
+}
+
 /// The steps of a frame at the scene's resolution: those that the coarse copy took, in proportion
 /// to what both may take in the worst state that the copy had at the frame's ends. That state alone
 /// says little of the frame: it may last a single step.
 FrameForecast foresee_frame(const scene::Scene& scene, const scene::Scene& coarse, int frame,
-                            const sim::StepLimits& worst, const sim::AdvanceReport& ran) {
+                            const sim::StepLimits& worst, const sim::AdvanceReport& ran,
+                            const Rarity& rarity) {
   // A frame that the copy does in a step or two does not tell how long these might have been.
   constexpr std::size_t telling = 3;
   const double duration = 1 / scene.fps, cell = coarse.solver.cell_size;
-  const sim::DtChoice own = allowed(scene, worst, cell);
-  FrameForecast forecast{frame, own.dt, std::max(1.0, std::ceil(duration / own.dt)), own.limit};
+  const sim::DtChoice own = allowed(scene, stiffer(worst, rarity.expected, rarity.fastest), cell);
+  FrameForecast forecast{frame, own.dt, std::max(1.0, std::ceil(duration / own.dt)),
+                         0,     0,      own.limit};
   if (ran.steps >= telling) {
     const double ratio = allowed(coarse, worst, cell).dt / own.dt;
     forecast.steps = std::ceil(static_cast<double>(ran.steps) * ratio);
@@ -115,6 +164,9 @@ FrameForecast foresee_frame(const scene::Scene& scene, const scene::Scene& coars
   if (ran.solve && ran.steps > 0)
     forecast.iterations = static_cast<double>(ran.solve->all_iterations) /
                           static_cast<double>(ran.steps) * cell / scene.solver.cell_size;
+  forecast.least_steps = forecast.steps * own.dt / allowed(scene, worst, cell).dt;
+  forecast.most_steps = forecast.steps * own.dt /
+                        allowed(scene, stiffer(worst, rarity.most, rarity.fastest), cell).dt;
   if (forecast.steps == 1) forecast.limit = sim::DtLimit::frame_end;
   return forecast;
 }
@@ -177,11 +229,6 @@ void check_withheld(const scene::Scene& coarse, const sim::Simulation& copy,
   }
 }
 
-/// An impact at this share of the speed of sound may crush single particles to about half of their
-/// volume. Which ones is chance, and no copy tells it: a ball of dry snow that hits a post at 0.39
-/// takes 61 000 steps with one seed and 8000 with another.
-constexpr double crushing_speed = 0.3, crushed_J_P = 0.5;
-
 /// Hardened, a particle rules the steps of all for as long as it flies.
 void check_crushing(const scene::Scene& scene, Checkup& checkup) {
   const sim::SolverSettings& solver = scene.solver;
@@ -197,7 +244,7 @@ void check_crushing(const scene::Scene& scene, Checkup& checkup) {
   }
   const double c = checkup.start.max_sound_speed * std::sqrt(most);
   const double steps = scene.frames / scene.fps * c / (solver.acoustic_cfl * solver.cell_size);
-  if (!hardest || steps <= checkup.steps_range().max) return;
+  if (!hardest || steps <= most_of_steps * checkup.steps()) return;
   checkup.crushed_steps = steps;
   checkup.findings.push_back(
       {Severity::note, "material." + hardest->name + ".max_hardening",
@@ -230,36 +277,45 @@ double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
   return forecast.seconds_per_particle_step;
 }
 
-}  // namespace
+/// A coarse copy that ran.
+struct CopyRun {
+  Forecast forecast;
+  double particle_steps = 0;
+  int reached = 0;  ///< the last frame that ran
+};
 
-Forecast foresee(const scene::Scene& scene, double particle_count, int last,
+/// @param wanted  particles of the copy
+CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, double wanted,
                  const ForecastBudget& budget) {
-  Forecast result;
-  const std::optional<scene::Scene> coarse = coarse_copy(scene, particle_count, budget.particles);
-  if (!coarse) return result;
+  CopyRun run;
+  Forecast& result = run.forecast;
+  const std::optional<scene::Scene> coarse = coarse_copy(scene, particle_count, wanted);
+  if (!coarse) return run;
   const sim::ParticleArrays particles = setup::seed_scene(*coarse).particles;
   result.particles =
       static_cast<double>(particles.x.size()) + setup::planned_emission(*coarse, last / scene.fps);
   sim::Simulation simulation = setup::make_simulation(*coarse, particles, 1);
   result.spread = spread_of(simulation);
   const auto start = Clock::now();
-  FrameForecast frame_forecast = foresee_frame(scene, *coarse, 1, simulation.step_limits(), {});
-  double particle_steps = 0, seconds = 0;
+  FrameForecast frame_forecast = foresee_frame(scene, *coarse, 1, simulation.step_limits(), {}, {});
+  double seconds = 0;
   for (int frame = 1; frame <= last; ++frame) {
     // The frame's start and end both count; where time runs out the last frames are as the one
     // before.
-    if (seconds_since(start) < budget.seconds && particle_steps < budget.particle_steps &&
+    if (seconds_since(start) < budget.seconds && run.particle_steps < budget.particle_steps &&
         !is_interrupted()) {
       const sim::StepLimits before = simulation.step_limits();
       const auto before_frame = Clock::now();
       const sim::AdvanceReport report = simulation.advance_to(frame / scene.fps, is_interrupted);
       seconds += seconds_since(before_frame);
-      particle_steps +=
+      run.particle_steps +=
           static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());
       if (simulation.divergence()) break;  // a broken state foretells nothing
       frame_forecast =
-          foresee_frame(scene, *coarse, frame, worst_of(before, simulation.step_limits()), report);
+          foresee_frame(scene, *coarse, frame, worst_of(before, simulation.step_limits()), report,
+                        rarity_of(*coarse, simulation.particles(), particle_count));
       frame_forecast.spread = spread_of(simulation);
+      run.reached = frame;
     }
     frame_forecast.frame = frame;
     result.frames.push_back(frame_forecast);
@@ -268,8 +324,52 @@ Forecast foresee(const scene::Scene& scene, double particle_count, int last,
   if (simulation.divergence())
     result.divergence = "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) +
                         " m diverges: " + simulation.divergence()->what;
-  if (particle_steps > 0) result.seconds_per_particle_step = seconds / particle_steps;
-  return result;
+  if (run.particle_steps > 0) result.seconds_per_particle_step = seconds / run.particle_steps;
+  return run;
+}
+
+/// Frames that the finer copy did not reach take as many times the steps that the first copy took
+/// as the last ones that it reached.
+void extend(Forecast& fine, int reached, const Forecast& first) {
+  constexpr int telling = 3;  // frames
+  double own = 0, others = 0;
+  for (int frame = std::max(1, reached - telling + 1); frame <= reached; ++frame) {
+    own += fine.frames[static_cast<std::size_t>(frame - 1)].steps;
+    others += first.frames[static_cast<std::size_t>(frame - 1)].steps;
+  }
+  for (std::size_t k = static_cast<std::size_t>(reached); k < fine.frames.size(); ++k) {
+    FrameForecast& frame = fine.frames[k];
+    const double duration = frame.dt * frame.steps, before = frame.steps;
+    frame.steps = std::ceil(first.frames[k].steps * own / others);
+    frame.least_steps *= frame.steps / before;
+    frame.most_steps *= frame.steps / before;
+    frame.dt = duration / frame.steps;
+  }
+}
+
+}  // namespace
+
+Forecast foresee(const scene::Scene& scene, double particle_count, int last,
+                 const ForecastBudget& budget) {
+  CopyRun first = run_copy(scene, particle_count, last, budget.particles, budget);
+  const double coarse = first.forecast.particles;
+  if (first.reached < last || first.particle_steps <= 0) return first.forecast;
+  // Steps grow as one over the cell size, that is with the cube root of the particles, and with the
+  // hardening that the first copy does not show.
+  constexpr double hardening = 2.5, worth_it = 1.5;
+  const double finer =
+      std::pow(budget.fine_particle_steps / (hardening * first.particle_steps), 3.0 / 4);
+  const double particles = std::min(particle_count, finer * coarse);
+  if (particles < worth_it * coarse) return first.forecast;
+  ForecastBudget fine = budget;
+  fine.particle_steps = budget.fine_particle_steps;
+  CopyRun second = run_copy(scene, particle_count, last, particles, fine);
+  if (second.reached == 0 || is_interrupted() || !second.forecast.divergence.empty()) {
+    first.forecast.divergence = second.forecast.divergence;
+    return first.forecast;
+  }
+  extend(second.forecast, second.reached, first.forecast);
+  return second.forecast;
 }
 
 namespace {
@@ -313,14 +413,21 @@ double Checkup::seconds() const {
 }
 
 scene::Range Checkup::steps_range() const {
-  return {least_of_steps * steps(), std::max(most_of_steps * steps(), crushed_steps)};
+  double least = 0, most = 0;
+  for (const FrameForecast& frame : forecast) {
+    least += frame.least_steps;
+    most += frame.most_steps;
+  }
+  return {least_of_steps * least, std::max(most_of_steps * most, crushed_steps)};
 }
 
 scene::Range Checkup::seconds_range() const {
   double high = 0;
   for (const FrameForecast& frame : forecast) high += frame.steps * frame.max_cost;
-  const double most = steps() > 0 ? steps_range().max / steps() : most_of_steps;
-  return {least_of_steps * seconds(), most * high * seconds_per_step};
+  const scene::Range share =
+      steps() > 0 ? scene::Range{steps_range().min / steps(), steps_range().max / steps()}
+                  : scene::Range{least_of_steps, most_of_steps};
+  return {share.min * seconds(), share.max * high * seconds_per_step};
 }
 
 Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,

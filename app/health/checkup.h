@@ -28,6 +28,9 @@ struct FrameForecast {
   int frame = 0;
   double dt = 0;     ///< s
   double steps = 0;  ///< in this frame
+  /// The same if the stiffest particle is as that of the copy, and if it is one that is rarer than
+  /// in 19 runs of 20.
+  double least_steps = 0, most_steps = 0;
   sim::DtLimit limit = sim::DtLimit::max_dt;
   double iterations = 0;  ///< of the solve of a semi-implicit step, the mean; 0: explicit
   Spread spread{};        ///< of the copy at the frame's end
@@ -36,7 +39,7 @@ struct FrameForecast {
   double cost = 1, max_cost = 1;
 };
 
-/// The steps of a run, foretold by a coarse copy of it.
+/// The steps of a run, foretold by a coarse copy of it, or by the finer one of two.
 struct Forecast {
   std::vector<FrameForecast> frames;     ///< that the copy reached; those after are as the last
   double particles = 0;                  ///< of the copy; 0: there is none
@@ -50,10 +53,14 @@ struct Forecast {
   double work_until(int frame) const;
 };
 
-/// Bounds the cost of the coarse copy of a forecast. Particle-steps are the same on every machine.
+/// Bounds the cost of the coarse copies of a forecast. Particle-steps are the same on every
+/// machine.
 struct ForecastBudget {
-  double seconds, particle_steps;
-  double particles = 1500;  ///< of the copy, about: enough to yield as the scene does
+  double seconds, particle_steps;  ///< of each copy
+  double particles = 1500;         ///< of the first copy, about
+  /// Of a second copy, as fine as they allow: a few cells do not pack and harden as many do. 0:
+  /// none.
+  double fine_particle_steps = 0;
 };
 
 /// @param particles of the scene
