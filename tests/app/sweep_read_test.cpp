@@ -223,7 +223,8 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
        "[1, 2], num = 3 }; put constant values into [set]"},
       {"[axis]\n\"fps\" = []\n", "4:9 fps has no values"},
       {"method = \"gird\"\n",
-       "3:10 sweep.method = \"gird\"; expected \"grid\", \"zip\", \"random\", \"lhs\" or \"list\"; "
+       "3:10 sweep.method = \"gird\"; expected \"grid\", \"zip\", \"random\", \"lhs\", \"sobol\", "
+       "\"morris\" or \"list\"; "
        "did you mean \"grid\"?"},
       {"sample = 3\n", "3:1 unknown key \"sample\" in [sweep]; did you mean \"samples\"?"},
       {"frames = \"9-1\"\n",
@@ -232,7 +233,7 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
       {"method = \"lhs\"\n[axis]\n\"fps\" = [1]\n",
        "3:10 method \"lhs\" needs samples; give the number of runs to draw"},
       {"[axis]\n\"fps\" = { uniform = [1, 2] }\n",
-       "4:9 fps is drawn; that needs method \"random\" or \"lhs\""},
+       "4:9 fps is drawn; that needs method \"random\", \"lhs\", \"sobol\" or \"morris\""},
       {"method = \"zip\"\n[axis]\n\"fps\" = [1, 2]\n\"seed\" = [1]\n",
        "6:11 seed has 1 values, and fps has 2; method \"zip\" needs the same number on all axes, "
        "\"grid\" makes all combinations"},

@@ -194,6 +194,36 @@ TEST_F(SweepCli, AnotherStudyDoesNotReplaceTheFirst) {
   EXPECT_EQ(app::parse_json(std::string_view(finer.output))["started"], 1);
 }
 
+TEST_F(SweepCli, MoreSamplesMakeOnlyNewRuns) {
+  const auto started = [&](int samples) {
+    folder.write("spread.toml",
+                 "[sweep]\nscene = \"scene.toml\"\nmethod = \"sobol\"\nframes = \"0\"\nsamples = " +
+                     std::to_string(samples) +
+                     "\n[axis]\n\"material.snow.hardening\" = { uniform = [5, 15] }\n"
+                     "\"material.snow.youngs_modulus\" = { log_uniform = [5e4, 5e5] }\n");
+    const auto result = neve({"sweep", "spread.toml", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return app::parse_json(std::string_view(result.output))["started"].get<int>();
+  };
+  EXPECT_EQ(started(8), 8);
+  EXPECT_EQ(started(16), 8);
+  EXPECT_EQ(started(16), 0);
+}
+
+TEST_F(SweepCli, AScreeningTellsWhatEachParameterDoes) {
+  folder.write("screen.toml",
+               "[sweep]\nscene = \"scene.toml\"\nmethod = \"morris\"\nframes = \"2\"\nsamples = 2\n"
+               "[axis]\n\"body.ball.velocity\" = [[0, -1, 0], [0, -2, 0], [0, -3, 0], [0, -4, 0]]\n"
+               "\"material.snow.density\" = { uniform = [300, 500] }\n");
+  const auto result = neve({"sweep", "screen.toml"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "top speed (m/s): velocity ")) << result.errors;
+  const std::string csv = read_text(folder / "out/screen.cdb/effects.csv");
+  EXPECT_TRUE(contains(csv, "kinetic_energy,J,\"body.ball.velocity\",2,")) << csv;
+  EXPECT_TRUE(exists("out/screen.cdb/effects.svg"));
+  EXPECT_TRUE(contains(read_text(folder / "out/screen.cdb/report.html"), "<h2>Effects</h2>"));
+}
+
 TEST_F(SweepCli, RunsAreRepeatedByTheirSceneFileBitForBit) {
   ASSERT_EQ(neve({"sweep", "sweep.toml"}).exit_code, 0);
   const std::string run = "out/sweep.cdb/runs/0003";

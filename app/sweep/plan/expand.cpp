@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <numeric>
 
 #include "app/scene/params.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
+#include "app/sweep/plan/designs.h"
+#include "app/sweep/read/condition.h"
 #include "sim/base/hash.h"
 
 namespace neve::app::sweep::plan {
@@ -62,19 +65,77 @@ std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
   return order;
 }
 
-std::vector<Run> drawn(const read::Sweep& sweep) {
+/// A sample of a method that draws each sample by itself.
+Run sample(const read::Sweep& sweep, std::uint32_t k) {
+  Run run;
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
+    const std::uint64_t seed = mix64(sweep.settings.seed, a);
+    append_at(run, sweep.axes[a],
+              sweep.settings.method == read::Method::sobol ? sobol_place(k, a, sweep.settings.seed)
+                                                           : unit_double(mix64(seed + 1, k)));
+  }
+  return run;
+}
+
+std::vector<Run> latin_hypercube(const read::Sweep& sweep) {
   const auto count = static_cast<std::size_t>(sweep.settings.samples);
   std::vector<Run> runs(count);
   for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
     const std::uint64_t seed = mix64(sweep.settings.seed, a);
     const std::vector<std::size_t> stratum = shuffled(count, seed);
-    for (std::size_t k = 0; k < count; ++k) {
-      const double u = unit_double(mix64(seed + 1, k));
-      const bool is_stratified = sweep.settings.method == read::Method::lhs;
-      append_at(
-          runs[k], sweep.axes[a],
-          is_stratified ? (static_cast<double>(stratum[k]) + u) / static_cast<double>(count) : u);
+    for (std::size_t k = 0; k < count; ++k)
+      append_at(runs[k], sweep.axes[a],
+                (static_cast<double>(stratum[k]) + unit_double(mix64(seed + 1, k))) /
+                    static_cast<double>(count));
+  }
+  return runs;
+}
+
+/// The runs of a trajectory, with their levels as coordinates.
+std::vector<Run> trajectory(const read::Sweep& sweep, std::uint32_t k) {
+  // Ends of a normal distribution are infinite: its levels lie between these shares.
+  constexpr double first_share = 0.05, last_share = 0.95;
+  std::vector<Run> runs;
+  for (const std::vector<int>& levels :
+       morris_trajectory(k, sweep.axes.size(), sweep.settings.seed)) {
+    Run& run = runs.emplace_back();
+    run.coordinates = levels;
+    for (std::size_t a = 0; a < levels.size(); ++a) {
+      const double place = static_cast<double>(levels[a]) / (morris_levels - 1);
+      const std::optional<read::AxisRule>& drawn = sweep.axes[a].parameters.front().drawn;
+      append_at(run, sweep.axes[a],
+                drawn && drawn->normal ? first_share + place * (last_share - first_share) : place);
     }
+  }
+  return runs;
+}
+
+bool meets(const Run& run, const std::vector<read::Condition>& conditions) {
+  return std::all_of(conditions.begin(), conditions.end(), [&](const read::Condition& condition) {
+    return condition.holds([&](const std::string& address) { return run.setting(address); });
+  });
+}
+
+/// Draws until as many as wanted meet the conditions; those that do not are left out, and the
+/// others stay the same whatever their number.
+std::vector<Run> drawn(const read::Sweep& sweep, const std::vector<read::Condition>& conditions) {
+  if (sweep.settings.method == read::Method::lhs) return latin_hypercube(sweep);
+  constexpr std::uint32_t most_tries = 1000;  // for each that is wanted
+  const bool is_screening = sweep.settings.method == read::Method::morris;
+  const auto wanted = static_cast<std::uint32_t>(sweep.settings.samples);
+  std::vector<Run> runs;
+  std::uint32_t found = 0;
+  for (std::uint32_t k = 0; found < wanted; ++k) {
+    if (k / most_tries > found)
+      sweep.fail("sweep.where", fmt::format("only {} of {} samples meet the conditions", found, k),
+                 "make the conditions weaker, or the axes narrower where they rule runs out");
+    std::vector<Run> next =
+        is_screening ? trajectory(sweep, k) : std::vector<Run>{sample(sweep, k)};
+    if (!std::all_of(next.begin(), next.end(),
+                     [&](const Run& run) { return meets(run, conditions); }))
+      continue;
+    ++found;
+    std::move(next.begin(), next.end(), std::back_inserter(runs));
   }
   return runs;
 }
@@ -115,7 +176,11 @@ double count_of(const read::Sweep& sweep) {
       break;
     case read::Method::random:
     case read::Method::lhs:
+    case read::Method::sobol:
       count = sweep.settings.samples;
+      break;
+    case read::Method::morris:
+      count = sweep.settings.samples * (static_cast<double>(sweep.axes.size()) + 1);
       break;
     case read::Method::list:
       break;
@@ -125,13 +190,18 @@ double count_of(const read::Sweep& sweep) {
 
 /// Axes of the command line come after the file was checked.
 void check_axes(const read::Sweep& sweep) {
-  const bool draws =
-      sweep.settings.method == read::Method::random || sweep.settings.method == read::Method::lhs;
+  const bool is_drawing = read::draws(sweep.settings.method);
+  if (sweep.settings.method == read::Method::sobol && sweep.axes.size() > most_sobol_axes)
+    sweep.fail("sweep.method",
+               fmt::format("method \"sobol\" has at most {} axes, not {}", most_sobol_axes,
+                           sweep.axes.size()),
+               "use method \"lhs\"");
   for (const read::Axis& axis : sweep.axes) {
     const scene::Override& first = axis.parameters.front().values.front();
-    if (axis.parameters.front().drawn && !draws)
+    if (axis.parameters.front().drawn && !is_drawing)
       first.fail(first.place, axis.parameters.front().address + " is drawn",
-                 "that needs a sweep file with method \"random\" or \"lhs\"");
+                 "that needs a sweep file with method \"random\", \"lhs\", \"sobol\" or "
+                 "\"morris\"");
     if (sweep.settings.method == read::Method::list)
       first.fail(first.key, "method \"list\" has no axes, only [[run]]s");
     if (sweep.settings.method == read::Method::zip && axis.size() != sweep.axes.front().size())
@@ -161,6 +231,7 @@ std::vector<Run> expand(const read::Sweep& sweep) {
                     count < 1e15 ? fixed_text(count, 0) : scene::toml::number_text(count),
                     sweep.limits.runs),
         "limits.runs", "raise limits.runs, or use method \"lhs\" with samples");
+  const std::vector<read::Condition> conditions = read::conditions_of(sweep);
   std::vector<Run> runs;
   switch (sweep.settings.method) {
     case read::Method::grid:
@@ -171,11 +242,16 @@ std::vector<Run> expand(const read::Sweep& sweep) {
       break;
     case read::Method::random:
     case read::Method::lhs:
-      runs = drawn(sweep);
+    case read::Method::sobol:
+    case read::Method::morris:
+      runs = drawn(sweep, conditions);
       break;
     case read::Method::list:
       break;
   }
+  std::erase_if(runs, [&](const Run& run) { return !meets(run, conditions); });
+  if (runs.empty() && !conditions.empty())
+    sweep.fail("sweep.where", "no run meets the conditions", "make them weaker, or the axes wider");
   runs.insert(runs.end(), sweep.rows.begin(), sweep.rows.end());
   for (std::size_t k = 0; k < runs.size(); ++k) runs[k].index = static_cast<int>(k);
   return runs;

@@ -8,7 +8,8 @@
 namespace neve::app::sweep::plan {
 
 /// In the order of the file; the last axis varies fastest, [[run]]s come last. Random
-/// values depend on the sweep's seed, the axis and the sample alone.
+/// values depend on the sweep's seed, the axis and the sample alone, those of a Latin hypercube on
+/// their number as well. Runs that do not meet sweep.where are left out.
 /// @throws LimitError when there are more than limits.runs; SceneError or UsageError when axes do
 ///         not fit together
 std::vector<Run> expand(const read::Sweep& sweep);

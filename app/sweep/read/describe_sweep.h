@@ -17,11 +17,11 @@ void describe(V& visit, AxisRule& a) {
   visit("range", a.range, scene::unit::none, scene::within(1e15), restart,
         "Whole numbers [first, last] or [first, last, step], both ends included.");
   visit("uniform", a.uniform, scene::unit::none, scene::within(1e30), restart,
-        "Samples between the two numbers; for the methods random and lhs.");
+        "Samples between the two numbers; for the methods that draw.");
   visit("log_uniform", a.log_uniform, scene::unit::none, scene::above(0).at_most(1e30), restart,
-        "Samples between the two numbers, uniform in the logarithm; for random and lhs.");
+        "Samples between the two numbers, uniform in the logarithm; for the methods that draw.");
   visit("normal", a.normal, scene::unit::none, scene::within(1e30), restart,
-        "Normal samples, with mean and standard deviation; for random and lhs.");
+        "Normal samples, with mean and standard deviation; for the methods that draw.");
   visit("num", a.num, scene::unit::none, scene::between(1, 100000), restart,
         "Number of values of linspace and logspace.");
   visit("label", a.label, scene::unit::none, scene::anything, restart,
@@ -34,12 +34,18 @@ void describe(V& visit, SweepSettings& s) {
   visit("scene", s.scene, scene::unit::none, scene::anything, restart,
         "Scene to vary; path relative to this file.");
   visit("method", s.method, scene::unit::none, scene::anything, restart,
-        "grid: all combinations; zip: the axes in parallel; random, lhs: samples; list: only the "
-        "[[run]]s.");
-  visit("samples", s.samples, scene::unit::none, scene::between(1, 100000), restart,
-        "Number of runs of random and lhs.");
+        "grid: all combinations; zip: the axes in parallel; random, lhs (Latin hypercube), sobol "
+        "(evenly spread; more samples keep the first ones): samples; morris: trajectories that "
+        "change one axis at a time and tell the effect of each; list: only the [[run]]s.");
+  visit(
+      "samples", s.samples, scene::unit::none, scene::between(1, 100000), restart,
+      "Number of runs of random, lhs and sobol; number of trajectories of morris, each of one run "
+      "more than there are axes.");
   visit("seed", s.seed, scene::unit::none, scene::between(0, scene::max_count), restart,
         "Seed of the samples.");
+  visit("where", s.where, scene::unit::none, scene::anything, restart,
+        "Conditions that all runs meet, as in [\"critical_stretch < 0.5 * critical_compression\"]: "
+        "axes, numbers, a number * an axis.");
   visit("frames", s.frames, scene::unit::none, scene::anything, restart,
         "Frames to draw, \"A-B\" or \"N\" for 0-N; default: those of the scene.");
   visit("title", s.title, scene::unit::none, scene::anything, restart,

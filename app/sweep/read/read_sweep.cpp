@@ -150,13 +150,17 @@ class SweepReader {
   void check_method(const Sweep& sweep) const {
     const Method method = sweep.settings.method;
     const scene::toml::Location where = reading_.place_of("sweep.method");
-    const bool draws = method == Method::random || method == Method::lhs;
     const std::string name = scene::toml::toml_string(scene::name(method));
-    if (draws && sweep.settings.samples == 0)
-      source().fail(where, "method " + name + " needs samples", "give the number of runs to draw");
-    if (!draws && sweep.settings.samples > 0)
+    if (draws(method) && sweep.settings.samples == 0)
+      source().fail(where, "method " + name + " needs samples",
+                    method == Method::morris ? "give the number of trajectories, as in samples = 10"
+                                             : "give the number of runs to draw");
+    if (!draws(method) && sweep.settings.samples > 0)
       source().fail(reading_.place_of("sweep.samples"), "samples are not for method " + name,
-                    "expected method \"random\" or \"lhs\"");
+                    "expected method \"random\", \"lhs\", \"sobol\" or \"morris\"");
+    if (method == Method::lhs && !sweep.settings.where.empty())
+      source().fail(reading_.place_of("sweep.where"), "where would leave parts of an axis empty",
+                    "expected method \"sobol\" or \"random\", which draw others instead");
     if (method == Method::list && sweep.rows.empty())
       source().fail(where, "method \"list\" needs at least one [[run]]");
     for (const Axis& axis : sweep.axes) check_axis(axis, sweep);
@@ -165,13 +169,12 @@ class SweepReader {
   void check_axis(const Axis& axis, const Sweep& sweep) const {
     const Method method = sweep.settings.method;
     const scene::Override& first = axis.parameters.front().values.front();
-    const bool draws = method == Method::random || method == Method::lhs;
     if (method == Method::list)
       source().fail(first.key, "method \"list\" has no axes, only [[run]]s",
                     "use method \"grid\" or \"zip\"");
-    if (axis.parameters.front().drawn && !draws)
+    if (axis.parameters.front().drawn && !draws(method))
       source().fail(first.place, axis.parameters.front().address + " is drawn",
-                    "that needs method \"random\" or \"lhs\"");
+                    "that needs method \"random\", \"lhs\", \"sobol\" or \"morris\"");
     const Axis& other = sweep.axes.front();
     if (method == Method::zip && axis.size() != other.size())
       source().fail(

@@ -19,8 +19,16 @@ enum class Method {
   zip,     ///< the first values of all axes, the second ones, ...
   random,  ///< drawn independently
   lhs,     ///< Latin hypercube: every part of every axis is met
+  sobol,   ///< evenly spread; more samples keep the first ones
+  morris,  ///< trajectories that change one axis at a time, for the effect of each
   list     ///< only the explicit runs
 };
+
+/// True if runs are drawn, as many as samples say.
+constexpr bool draws(Method method) {
+  return method == Method::random || method == Method::lhs || method == Method::sobol ||
+         method == Method::morris;
+}
 
 enum class TileLabel { differences, name, none };
 
@@ -54,6 +62,7 @@ struct SweepSettings {
   Method method = Method::grid;
   int samples = 0;
   std::uint64_t seed = 1;
+  std::vector<std::string> where;  ///< conditions, see condition.h
   std::string frames;
   std::string title;
 };

@@ -9,8 +9,9 @@ namespace neve::app::sweep::read {
 
 constexpr auto names(Method) {
   using enum Method;
-  return std::array{scene::Name{grid, "grid"}, scene::Name{zip, "zip"},
+  return std::array{scene::Name{grid, "grid"},     scene::Name{zip, "zip"},
                     scene::Name{random, "random"}, scene::Name{lhs, "lhs"},
+                    scene::Name{sobol, "sobol"},   scene::Name{morris, "morris"},
                     scene::Name{list, "list"}};
 }
 constexpr auto names(TileLabel) {

@@ -12,6 +12,7 @@
 #include "app/support/interrupt.h"
 #include "app/sweep/plan/shared_view.h"
 #include "app/sweep/sheet/data_csv.h"
+#include "app/sweep/sheet/effects.h"
 #include "app/sweep/sheet/metric_plots.h"
 #include "app/sweep/sheet/report.h"
 #include "app/sweep/sheet/sheet.h"
@@ -104,6 +105,18 @@ void write_sheets(const fs::path& folder, const store::Manifest& manifest, Sheet
   writer.finish();
 }
 
+/// Of a screening: each metric's strongest parameters, as files and in words.
+void write_effects(const fs::path& folder, const store::Manifest& manifest,
+                   const std::vector<store::RunResult>& results, Progress& progress) {
+  const std::string csv = effects_csv(manifest, results);
+  if (csv.empty()) return;
+  output::write_file(folder / "effects.csv", csv);
+  if (const std::string svg = effects_svg(manifest, results, true); !svg.empty())
+    output::write_file(folder / "effects.svg", svg);
+  progress.clear();
+  for (const std::string& line : effect_lines(manifest, results)) progress.note(line);
+}
+
 }  // namespace
 
 void collect_sweep(const fs::path& folder, const std::string& backend, int threads,
@@ -115,6 +128,7 @@ void collect_sweep(const fs::path& folder, const std::string& backend, int threa
   output::write_file(folder / "data.csv", data_csv(manifest, results));
   if (const std::string plots = metric_plots_svg(manifest, results, true); !plots.empty())
     output::write_file(folder / "plots.svg", plots);
+  write_effects(folder, manifest, results, progress);
 
   progress.clear();
   for (const std::string& line : store::warning_lines(manifest, results)) progress.warning(line);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/support/text.h"
+#include "app/sweep/sheet/svg_text.h"
 #include "render/overlay/ticks.h"
 
 namespace neve::app::sweep::sheet {
@@ -122,14 +123,10 @@ std::vector<Across> parameters_across(const store::Manifest& manifest) {
   return columns;
 }
 
-std::string n(double x) {
-  return fixed_text(x, 1);
-}
-
 std::string text_at(double x, double y, const char* anchor, const char* kind,
                     const std::string& text) {
-  return "<text x=\"" + n(x) + "\" y=\"" + n(y) + "\" text-anchor=\"" + anchor + "\" class=\"" +
-         kind + "\">" + xml_text(text) + "</text>\n";
+  return "<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" text-anchor=\"" + anchor +
+         "\" class=\"" + kind + "\">" + xml_text(text) + "</text>\n";
 }
 
 struct Extent {
@@ -160,13 +157,14 @@ std::string svg_panel(const Across& across, const std::vector<store::RunResult>&
   const auto y_of = [&](double value) {
     return y0 + panel_height * (1 - (value - extent.low) / (extent.high - extent.low));
   };
-  std::string svg = "<rect x=\"" + n(x0) + "\" y=\"" + n(y0) + "\" width=\"" + n(panel_width) +
-                    "\" height=\"" + n(panel_height) + "\" class=\"panel\"/>\n";
+  std::string svg = "<rect x=\"" + svg_number(x0) + "\" y=\"" + svg_number(y0) + "\" width=\"" +
+                    svg_number(panel_width) + "\" height=\"" + svg_number(panel_height) +
+                    "\" class=\"panel\"/>\n";
   for (const render::overlay::Tick& tick :
        render::overlay::nice_ticks(extent.low, extent.high, 4)) {
     const double y = y_of(tick.value);
-    svg += "<line x1=\"" + n(x0) + "\" y1=\"" + n(y) + "\" x2=\"" + n(x0 + panel_width) +
-           "\" y2=\"" + n(y) + "\" class=\"grid\"/>\n";
+    svg += "<line x1=\"" + svg_number(x0) + "\" y1=\"" + svg_number(y) + "\" x2=\"" +
+           svg_number(x0 + panel_width) + "\" y2=\"" + svg_number(y) + "\" class=\"grid\"/>\n";
     if (is_first) svg += text_at(x0 - 6, y + 3.5, "end", "tick", tick.label);
   }
   for (const auto& [place, label] : across.ticks)
@@ -177,9 +175,10 @@ std::string svg_panel(const Across& across, const std::vector<store::RunResult>&
     const bool is_ok = results[k].status.state == store::RunState::ok;
     // One that exploded lies far beyond; its tooltip has the number.
     const double inside = std::clamp(*value, extent.low, extent.high);
-    svg += "<circle cx=\"" + n(x0 + *across.place[k] * panel_width) + "\" cy=\"" + n(y_of(inside)) +
-           "\" r=\"" + (is_ok ? "3.2" : "3.6") + "\" class=\"" + (is_ok ? "run" : "run failed") +
-           "\" data-run=\"" + std::to_string(manifest.runs[k].index) + "\"><title>run " +
+    svg += "<circle cx=\"" + svg_number(x0 + *across.place[k] * panel_width) + "\" cy=\"" +
+           svg_number(y_of(inside)) + "\" r=\"" + (is_ok ? "3.2" : "3.6") + "\" class=\"" +
+           (is_ok ? "run" : "run failed") + "\" data-run=\"" +
+           std::to_string(manifest.runs[k].index) + "\"><title>run " +
            std::to_string(manifest.runs[k].index) + ": " +
            xml_text(manifest.runs[k].label.empty()
                         ? rough_text(*value)
@@ -189,7 +188,7 @@ std::string svg_panel(const Across& across, const std::vector<store::RunResult>&
   return svg;
 }
 
-constexpr const char* style = R"(<style>
+constexpr const char* plot_style = R"(<style>
 text { font-family: "DejaVu Sans", Verdana, sans-serif; fill: #55606e }
 .tick { font-size: 10px } .name { font-size: 12px; fill: #20262e }
 .panel { fill: #f5f7f9 } .grid { stroke: #d8dee5; stroke-width: 1 }
@@ -199,23 +198,6 @@ text { font-family: "DejaVu Sans", Verdana, sans-serif; fill: #55606e }
 )";
 
 }  // namespace
-
-std::string xml_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 std::string metric_plots_svg(const store::Manifest& manifest,
                              const std::vector<store::RunResult>& results, bool is_document) {
@@ -245,8 +227,9 @@ std::string metric_plots_svg(const store::Manifest& manifest,
   const double width = block_width * std::min(count, side_by_side);
   const double height = row_height * ((count + side_by_side - 1) / side_by_side);
   const std::string head = is_document ? "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" : "";
-  return head + "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + n(width) + "\" height=\"" +
-         n(height) + "\" viewBox=\"0 0 " + n(width) + " " + n(height) + "\">\n" + style +
+  return head + "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + svg_number(width) +
+         "\" height=\"" + svg_number(height) + "\" viewBox=\"0 0 " + svg_number(width) + " " +
+         svg_number(height) + "\">\n" + plot_style +
          (is_document ? "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" : "") + body +
          "</svg>\n";
 }

@@ -15,7 +15,4 @@ namespace neve::app::sweep::sheet {
 std::string metric_plots_svg(const store::Manifest& manifest,
                              const std::vector<store::RunResult>& results, bool is_document);
 
-/// "&lt;" and so on.
-std::string xml_text(const std::string& text);
-
 }  // namespace neve::app::sweep::sheet

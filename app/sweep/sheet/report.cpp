@@ -6,8 +6,10 @@
 
 #include "app/setup/command_text.h"
 #include "app/support/text.h"
+#include "app/sweep/sheet/effects.h"
 #include "app/sweep/sheet/metric_plots.h"
 #include "app/sweep/sheet/report_page.h"
+#include "app/sweep/sheet/svg_text.h"
 
 namespace neve::app::sweep::sheet {
 
@@ -133,6 +135,13 @@ std::string pages_hint(std::size_t pages) {
          "; the others are sheet_2.png to sheet_" + std::to_string(pages) + ".png.</p>\n";
 }
 
+std::string effects_section(const store::Manifest& manifest,
+                            const std::vector<store::RunResult>& results) {
+  const std::string svg = effects_svg(manifest, results, false);
+  if (svg.empty()) return {};
+  return "<h2>Effects</h2>\n<div class=\"wide\" id=\"effects\">" + svg + "</div>\n";
+}
+
 std::string commands_section(const std::string& folder, const store::Manifest& manifest) {
   std::string html =
       "<div class=\"wide\"><table><thead><tr><th>run</th><th "
@@ -177,6 +186,7 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
          xml_text(manifest.title) + "</title>\n<style>" + report_style + "</style></head><body>\n" +
          "<h1>" + xml_text(manifest.title) + "</h1>\n<p class=\"sub\">" + xml_text(sub) + "</p>\n" +
          sheet_section(manifest, layout, sheet_png) + pages_hint(pages) +
+         effects_section(manifest, results) +
          "<h2>Runs</h2>\n<p class=\"hint\">Metrics are those of the last frame of each run. Click "
          "a column head to sort.</p>\n<div class=\"wide\"><table id=\"table\"></table></div>\n" +
          "<h2>Parallel coordinates</h2>\n<p class=\"hint\">One line per run; hover over a line, a "

@@ -181,6 +181,9 @@ void check_run(const Manifest& m, const Run& run) {
         "the frames of a run are impossible");
   check(is_amount(run.particles) && is_amount(run.memory) && is_amount(run.work),
         "the particles, memory or work of a run are impossible");
+  if (!m.screened.empty())
+    check(run.coordinates.empty() || run.coordinates.size() == m.screened.size(),
+          "a run has no level on each axis");
   if (m.axes.empty() || run.coordinates.empty()) return;
   check(run.coordinates.size() == m.axes.size(), "a run has no place on each axis");
   for (std::size_t a = 0; a < m.axes.size(); ++a)
@@ -252,6 +255,11 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
   if (plan.sweep.settings.method == read::Method::grid)
     for (const read::Axis& axis : plan.sweep.axes)
       m.axes.push_back(manifest_axis(axis, m.parameters));
+  if (plan.sweep.settings.method == read::Method::morris)
+    for (const read::Axis& axis : plan.sweep.axes) {
+      m.screened.push_back(manifest_axis(axis, m.parameters));
+      m.screened.back().values.clear();
+    }
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     Run& run = m.runs.emplace_back(plan.runs[k].run);
     run.folder = folders[k];
@@ -308,6 +316,8 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   for (const AxisLabels& axis : m.axes)
     json["axes"].push_back(
         {{"name", axis.name}, {"values", axis.values}, {"addresses", axis.addresses}});
+  for (const AxisLabels& axis : m.screened)
+    json["screened"].push_back({{"name", axis.name}, {"addresses", axis.addresses}});
   if (m.varied) json["varied"] = *m.varied;
   json["runs"] = Json::array();
   for (const Run& run : m.runs) json["runs"].push_back(run_json(run));
@@ -346,6 +356,10 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
       m.axes.push_back({axis.at("name").get<std::string>(),
                         axis.at("values").get<std::vector<std::string>>(),
                         axis.value("addresses", std::vector<std::string>{})});
+    for (const Json& axis : json.value("screened", Json::array()))
+      m.screened.push_back({axis.at("name").get<std::string>(),
+                            {},
+                            axis.at("addresses").get<std::vector<std::string>>()});
     if (json.contains("varied")) m.varied = json.at("varied").get<std::vector<std::string>>();
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
     check_values(m);

@@ -35,6 +35,8 @@ struct Manifest {
   double timeout = 0, memory = 0;
   std::vector<Parameter> parameters;
   std::vector<AxisLabels> axes;  ///< of a grid
+  /// Axes of a screening, without values; its runs have their levels as coordinates.
+  std::vector<AxisLabels> screened{};
   /// Addresses of all axes, for any method; sorted. Nothing in files of before they had it.
   std::optional<std::vector<std::string>> varied;
   std::vector<Run> runs;
