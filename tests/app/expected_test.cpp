@@ -40,5 +40,17 @@ TEST(ExpectedVolume, VolumesHaveRoomForEstimatesAtCornersOnlyIfEstimated) {
                    3 * expected.max / 8);
 }
 
+/// The default scene throws particles up with J_P = 15 to 74 (a trial found them red). Snow that is
+/// packed to a tenth of its volume is what should look wrong.
+TEST(ExpectedPlasticVolume, SprayIsExpectedAndCrushedSnowIsNot) {
+  const app::scene::Scene scene = app::scene::read_scene_text(coarse_cube, "cube.toml");
+  sim::Simulation simulation =
+      app::setup::make_simulation(scene, app::setup::seed_scene(scene).particles, 1);
+  const app::scene::Range expected =
+      app::health::Expected(scene, simulation.particles(), 1e-4).J_P().range;
+  EXPECT_GE(expected.max, 74);
+  EXPECT_GT(expected.min, 0.1);
+}
+
 }  // namespace
 }  // namespace neve::app

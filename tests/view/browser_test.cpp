@@ -2,6 +2,7 @@
 
 #include "tests/support/chromium.h"
 #include "tests/support/needs.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/view/relay.h"
 #include "tests/view/web_support.h"
 
@@ -342,6 +343,20 @@ TEST_F(Browser, LostConnectionIsShownAndComesBack) {
   relay.cut(false);
   EXPECT_TRUE(show_until([&] { return note().empty(); }));
   expect_quarters(browser->screenshot());
+}
+
+TEST_F(Browser, OfferedFilesComeToTheFolderOfDownloads) {
+  open();
+  const TemporaryFolder here, there;
+  here.write("particles/0007.png", std::string(200'000, 'p'));
+  browser->call("Browser.setDownloadBehavior",
+                {{"behavior", "allow"}, {"downloadPath", there.path().string()}});
+  front->offer(here.path(), here / "particles/0007.png");
+  const auto arrived = there / "0007.png";
+  EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(arrived); }));
+  // The browser writes beside it and renames.
+  EXPECT_EQ(std::filesystem::file_size(arrived), 200'000u);
+  EXPECT_EQ(browser->evaluate("location.href"), "http://" + host + "/") << "the page stays";
 }
 
 TEST_F(Browser, EndAndReplacementAreTold) {
