@@ -24,8 +24,9 @@ namespace neve::app::health {
 
 namespace {
 
-/// Two copies of about a second each.
-constexpr ForecastBudget coarse_budget{2.5, 1e12, 1500, 3e7};
+/// Two copies of about a second each. The time matters only where a machine is busy or snow is spread
+/// out, so that a forecast is the same every time.
+constexpr ForecastBudget coarse_budget{8, 3e7, 1500, 3e7};
 /// Time of an iteration of the solve over that of an explicit step: measured 0.21 to 0.22, in
 /// snowball_drop and in press at --coarsen 2.
 constexpr double work_of_iteration = 0.25;

@@ -94,7 +94,7 @@ struct Checkup {
   scene::Range seconds_range() const;
 };
 
-/// Seeds the scene, takes some steps, and runs a coarse copy: about three seconds.
+/// Seeds the scene, takes some steps, and runs coarse copies: about four seconds.
 /// @param scene resolved is not needed
 /// @param coarsening  factor of --coarsen
 Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
