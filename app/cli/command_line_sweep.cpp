@@ -7,6 +7,7 @@
 #include "app/cli/commands.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/sweep/read/sweep_leaf.h"
 #include "app/sweep/store/store.h"
 
 namespace neve::app::cli {
@@ -15,7 +16,7 @@ namespace {
 
 /// Values that CLI11 hands over as text.
 struct SweepTexts {
-  std::optional<std::string> frames, size, coarsening, shard, progress;
+  std::optional<std::string> frames, size, coarsening, shard, progress, budget;
   bool is_quiet = false, is_verbose = false;
 };
 
@@ -37,6 +38,17 @@ sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
     throw scene::toml::UsageError(
         "--engine", "unknown engine \"" + options.engine + "\"",
         "expected local or slurm; --shard and --emit work with any scheduler");
+  if (texts.budget) {
+    const std::optional<double> seconds = sweep::read::seconds_of(*texts.budget);
+    if (!seconds || !(*seconds > 0))
+      throw scene::toml::UsageError("--budget", "cannot use \"" + *texts.budget + "\"",
+                                    "expected a time as in 90s, 20m or 1h30m");
+    if (options.engine == "slurm" || !options.emit.empty())
+      throw scene::toml::UsageError(
+          "--budget", "runs of other schedulers end when these end them",
+          "remove --budget, or limit each run with [limits] timeout in the sweep file");
+    options.budget = *seconds;
+  }
   if (!options.sbatch.empty() && options.engine != "slurm")
     throw scene::toml::UsageError("--sbatch", "works only with --engine slurm",
                                   "add --engine slurm, or remove --sbatch");
@@ -77,6 +89,11 @@ void add_what(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts&
 void add_where(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts& texts) {
   command.add_option("--only", options.only, "Make only these runs, as in 3,7-12")
       ->type_name("LIST");
+  command
+      .add_option("--budget", texts.budget,
+                  "Stop after this time, as in 20m or 1h30m; the same command continues. A run "
+                  "that would not end before is not started")
+      ->type_name("TIME");
   command
       .add_option("--shard", texts.shard,
                   "Make only the I-th of N shares, each on a machine of its own that shares the "

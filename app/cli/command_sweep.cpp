@@ -94,6 +94,7 @@ sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
   engine.cores = core_count(options.threads);
   engine.jobs = options.jobs;
   engine.backend = options.backend;
+  engine.budget = options.budget;
   engine.retry_failed = retry_of(options.retry_failed);
   engine.program = this_program();
   return sweep::jobs::run_local(folder, manifest, indices, engine, progress);
@@ -117,6 +118,7 @@ void print_json_result(const std::filesystem::path& folder, const sweep::jobs::J
                         {"failed", result.failed},
                         {"started", result.started},
                         {"interrupted", result.is_interrupted},
+                        {"out_of_time", result.out_of_time},
                         {"seconds", result.seconds}})
             << "\n";
 }
@@ -221,6 +223,11 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
     progress.say(fmt::format(
         "not finished: {}{}; the same command completes the sweep later", result.elsewhere_text,
         result.elsewhere > 1 ? fmt::format(" and {} more", result.elsewhere - 1) : ""));
+  else if (result.out_of_time > 0 && !is_interrupted())
+    progress.say(fmt::format(
+        "the budget of {} was too short for {} {}; the same command continues from here",
+        duration_text(options.budget), result.out_of_time,
+        result.out_of_time == 1 ? "run" : "runs"));
   else if (result.is_interrupted || is_interrupted())
     progress.say("interrupted; the same command continues from here");
   if (result.elsewhere > 0 || result.is_interrupted || is_interrupted()) return exit_resumable;

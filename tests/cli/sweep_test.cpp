@@ -312,6 +312,30 @@ TEST_F(SweepCli, EmittedCommandsMakeTheSweepAnywhere) {
   EXPECT_EQ(read_text(folder / "commands.txt"), "") << "nothing is left to do";
 }
 
+TEST_F(SweepCli, ABudgetStopsTheSweepResumable) {
+  // The first two values are at rest after a moment, the others take a million steps.
+  folder.write("long.toml",
+               "[sweep]\nscene = \"scene.toml\"\nframes = \"0-2\"\n[axis]\n"
+               "\"solver.max_dt\" = [1e-3, 1e-6, 1.1e-6, 1.2e-6]\n");
+  const auto result = neve({"sweep", "long.toml", "--budget", "4s", "--jobs", "1", "--json"});
+  EXPECT_EQ(result.exit_code, 75) << result.errors;
+  const app::Json counts = app::parse_json(std::string_view(result.output));
+  EXPECT_EQ(counts["ok"], 1);
+  EXPECT_EQ(counts["failed"], 0);
+  EXPECT_EQ(counts["out_of_time"], 3);
+  EXPECT_LT(counts["seconds"].get<double>(), 20) << "a run that is asked to end has 20 s for it";
+  EXPECT_TRUE(contains(result.errors, "the budget of 4 s was too short for 3 runs"))
+      << result.errors;
+  EXPECT_TRUE(exists("out/long.cdb/sheet.png")) << "what there is can be looked at";
+  EXPECT_NE(status("0001", "out/long.cdb")["state"], "failed");
+  for (const char* wrong : {"0", "-5", "soon", "1e400"}) {
+    const auto refused = neve({"sweep", "long.toml", "--budget", wrong});
+    EXPECT_EQ(refused.exit_code, 2) << wrong;
+    EXPECT_TRUE(contains(refused.errors, "expected a time as in 90s, 20m or 1h30m"));
+  }
+  EXPECT_EQ(neve({"sweep", "long.toml", "--budget", "9m", "--engine", "slurm"}).exit_code, 2);
+}
+
 TEST_F(SweepCli, InterruptedSweepsContinue) {
   // A million steps: nobody waits for them.
   const char* const endless = R"(

@@ -57,7 +57,7 @@ class LocalJobs {
       : folder_(folder), manifest_(manifest), options_(options), progress_(progress) {}
 
   JobsResult run(const std::vector<int>& indices) {
-    const auto start = Child::Clock::now();
+    const auto start = start_ = Child::Clock::now();
     queue_ = queue_of(manifest_, indices);
     counts_.all = static_cast<int>(queue_.size());
     skip_finished();
@@ -66,6 +66,7 @@ class LocalJobs {
     clock_.note(0);
     while (!active_.empty() || !queue_.empty()) {
       if (is_interrupted()) stop();
+      keep_budget();
       try {
         start_what_fits();
         collect_ended();
@@ -76,7 +77,8 @@ class LocalJobs {
       if (!active_.empty()) std::this_thread::sleep_for(poll_interval);
     }
     progress_.clear();
-    result_.is_interrupted |= is_interrupted() || result_.failure.has_value();
+    result_.is_interrupted |=
+        is_interrupted() || result_.failure.has_value() || result_.out_of_time > 0;
     result_.seconds = std::chrono::duration<double>(Child::Clock::now() - start).count();
     return result_;
   }
@@ -127,6 +129,28 @@ class LocalJobs {
   void give_up(const MachineFailure& failure) {
     if (!result_.failure) result_.failure = failure;
     queue_.clear();
+  }
+
+  double seconds_left() const {
+    return options_.budget - std::chrono::duration<double>(Child::Clock::now() - start_).count();
+  }
+
+  /// Compares a run with those that ended: before the first one nothing is known.
+  bool fits_in_budget(const Run& run) const {
+    if (options_.budget <= 0 || !(work_timed_ > 0)) return true;
+    return run.work * seconds_timed_ / work_timed_ <= seconds_left();
+  }
+
+  /// Runs that would not end in time make room for shorter ones.
+  void keep_budget() {
+    if (options_.budget <= 0) return;
+    result_.out_of_time += static_cast<int>(
+        std::erase_if(queue_, [&](const Run* run) { return !fits_in_budget(*run); }));
+    if (seconds_left() > 0) return;
+    result_.out_of_time += static_cast<int>(queue_.size());
+    if (!is_over_) result_.out_of_time += static_cast<int>(active_.size());
+    is_over_ = true;
+    stop();
   }
 
   void stop() {
@@ -247,6 +271,9 @@ class LocalJobs {
       // Off the list first: its status may find no room on the disk.
       Active done = std::move(*active);
       active = active_.erase(active);
+      // At the threads that it had.
+      work_timed_ += done.run->work;
+      seconds_timed_ += ended->seconds;
       judge(*ended, manifest_, *done.run, done.folder, done.status);
       finish(*done.run, done.folder, done.status);
       if (done.status.state == store::RunState::ok) output::remove_checkpoints(done.folder);
@@ -302,6 +329,9 @@ class LocalJobs {
   RunCounts counts_;
   WorkClock clock_;
   double work_done_ = 0, work_left_ = 0;
+  double work_timed_ = 0, seconds_timed_ = 0;  ///< of runs that ended now
+  bool is_over_ = false;                       ///< the budget's time
+  Child::Clock::time_point start_;
   Child::Clock::time_point shown_at_;
 };
 

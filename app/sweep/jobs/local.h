@@ -16,6 +16,7 @@ struct LocalOptions {
   int cores = 1;
   int jobs = 0;  ///< runs side by side; 0: as many as keep the cores busy and fit into memory
   std::string backend = "auto";
+  double budget = 0;              ///< s for all of them; 0: as long as they take
   store::Retry retry_failed;      ///< states of runs that are made once more
   double grace = 20;              ///< s that a run has to end when it is asked to
   std::filesystem::path program;  ///< whose `render` makes the runs
@@ -31,6 +32,7 @@ struct JobsResult {
   int ok = 0, failed = 0;       ///< of all that were asked for, earlier ones included
   int started = 0;              ///< now
   bool is_interrupted = false;  ///< some run waits for the next time
+  int out_of_time = 0;          ///< runs that the budget ended, or was too short for
   int elsewhere = 0;            ///< runs that another process is making
   std::string elsewhere_text;   ///< which, and who makes it, of the last of them
   std::optional<MachineFailure> failure;
@@ -41,7 +43,8 @@ struct JobsResult {
 /// Runs the unfinished ones of the runs of these indices; each ends as a state and a reason in
 /// its status.json and never ends the sweep. A run in progress elsewhere is left alone. A finished
 /// run with missing or damaged pictures is made again. A Ctrl-C asks all children to end and waits
-/// for them. When the machine fails, no further run is started: the next call goes on, beginning
+/// for them, and so does the end of the budget; a run that would not end before it is not started.
+/// When the machine fails, no further run is started: the next call goes on, beginning
 /// with those that have not met the failure.
 JobsResult run_local(const std::filesystem::path& folder, const store::Manifest& manifest,
                      const std::vector<int>& indices, const LocalOptions& options,

@@ -28,6 +28,7 @@ struct SweepOptions {
   std::string only;                 ///< "3,7-12"; "": all
   std::string engine = "local";     ///< local | slurm
   std::vector<std::string> sbatch;  ///< further options of sbatch
+  double budget = 0;                ///< s for all runs; 0: as long as they take
   std::string emit;                 ///< file for the commands of the runs; nothing is started
   Verbosity verbosity = Verbosity::normal;
   ProgressOptions progress{};
