@@ -105,7 +105,7 @@ Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int 
   const scene::Export& spec = job.record.spec;
   // A frame that is made again keeps its place.
   put(job.record.files, {number, state->time, state->hash});
-  put(job.samples, {number, state->time, state->poses});
+  put(job.samples, {number, state->time, state->colliders});
   const bool has_pvd = series_name(spec).ends_with(".pvd");
   std::string series = has_pvd ? encode_pvd(spec, job.samples) : std::string();
   return [this, &spec, state = std::move(state), number, series = std::move(series)] {
@@ -149,10 +149,7 @@ void Exporter::resume(const Json& list, int last_number) {
         const double time = file.at("time").get<double>();
         job.record.files.push_back(
             {number, time, std::stoull(file.at("state_hash").get<std::string>(), nullptr, 16)});
-        Sample sample{number, time, {}};
-        for (const scene::Collider& collider : scene_.colliders)
-          sample.poses.push_back(sim::shapes::pose_at(collider, time));
-        job.samples.push_back(std::move(sample));
+        job.samples.push_back({number, time, placed_at(scene_.colliders, time)});
       }
     }
   }

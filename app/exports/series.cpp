@@ -10,6 +10,7 @@
 #include "app/picture/collider_looks.h"
 #include "app/scene/names.h"
 #include "app/setup/camera_path.h"
+#include "sim/shapes/deforming_mesh.h"
 
 namespace neve::app::exports {
 
@@ -38,8 +39,14 @@ struct ColliderMesh {
   std::vector<std::uint32_t> corners;  ///< three a triangle
 };
 
+/// Of a mesh that deforms: its triangles, and no points.
 ColliderMesh collider_mesh(const sim::shapes::Shape& shape) {
   ColliderMesh surface;
+  if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&shape.form)) {
+    for (const auto& t : sim::shapes::deforming_mesh(*sequence)->mesh(0, 0).triangles)
+      surface.corners.insert(surface.corners.end(), t.begin(), t.end());
+    return surface;
+  }
   if (const auto* plane = std::get_if<sim::shapes::Plane>(&shape.form)) {
     const Vec3d up = plane->normal.normalized();
     const Vec3d across = up.unitOrthogonal(), along = up.cross(across);
@@ -76,22 +83,43 @@ std::string transform_samples(const scene::Scene& scene, const std::vector<Sampl
          "            }\n            uniform token[] xformOpOrder = [\"xformOp:transform\"]\n";
 }
 
+std::string usd_points(const Axes& axes, const std::vector<Vec3d>& places) {
+  std::string points = "[";
+  for (std::size_t k = 0; k < places.size(); ++k)
+    points += (k > 0 ? ", " : "") + usd_tuple(axes.scale() * places[k]);
+  return points + "]";
+}
+
+/// The points of a collider, at every sample where it deforms.
+/// @param index  of the collider in the scene
+std::string usd_point_property(const scene::Scene& scene, const Axes& axes, std::size_t index,
+                               const ColliderMesh& surface, const std::vector<Sample>& samples) {
+  const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&scene.colliders[index].shape.form);
+  const std::string declared = "            point3f[] points";
+  if (!sequence) return declared + " = " + usd_points(axes, surface.points) + "\n";
+  const auto mesh = sim::shapes::deforming_mesh(*sequence);
+  return declared + ".timeSamples = {\n" +
+         stage_times(scene, samples,
+                     [&](const Sample& sample) {
+                       return usd_points(axes,
+                                         mesh->mesh_at(sample.colliders[index].time).vertices);
+                     }) +
+         "            }\n";
+}
+
 /// @param index  of the collider in the scene
 std::string usd_collider(const scene::Scene& scene, const Axes& axes, std::size_t index,
                          const std::string& name, const std::vector<Sample>& samples) {
   const ColliderMesh surface = collider_mesh(scene.colliders[index].shape);
-  std::string points = "[";
-  for (std::size_t k = 0; k < surface.points.size(); ++k)
-    points += (k > 0 ? ", " : "") + usd_tuple(axes.scale() * surface.points[k]);
   const std::vector<std::uint32_t> counts(surface.corners.size() / 3, 3);
   return "        def Mesh \"" + name + "\"\n        {\n" +
          "            uniform token subdivisionScheme = \"none\"\n" +
          "            int[] faceVertexCounts = " + joined_numbers(counts) + "\n" +
          "            int[] faceVertexIndices = " + joined_numbers(surface.corners) + "\n" +
-         "            point3f[] points = " + points + "]\n" +
+         usd_point_property(scene, axes, index, surface, samples) +
          transform_samples(scene, samples,
                            [&](const Sample& sample) {
-                             const sim::shapes::Pose& pose = sample.poses[index];
+                             const sim::shapes::Pose& pose = sample.colliders[index].pose;
                              return usd_matrix(axes.turned(pose.rotation), axes.scaled(pose.point));
                            }) +
          "        }\n";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/exports/columns.h"
+#include "app/exports/state.h"
 
 namespace neve::app::exports {
 
@@ -13,7 +14,7 @@ namespace neve::app::exports {
 struct Sample {
   int number = 0;   ///< of the file
   double time = 0;  ///< s
-  std::vector<sim::shapes::Pose> poses;
+  std::vector<PlacedShape> colliders;
 };
 
 /// "0024.ply"
@@ -26,7 +27,7 @@ std::string series_name(const scene::Export& spec);
 std::string encode_pvd(const scene::Export& spec, const std::vector<Sample>& samples);
 
 /// A USD stage: the particles, or their surface, as value clips of the layers, colliders as meshes
-/// that move, the camera of the scene if it has a place, and its light. Source: OpenUSD,
+/// that move or deform, the camera of the scene if it has a place, and its light. Source: OpenUSD,
 /// UsdClipsAPI.
 std::string encode_stage(const scene::Scene& scene, const scene::Export& spec, const Table& columns,
                          const std::vector<Sample>& samples);

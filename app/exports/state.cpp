@@ -23,6 +23,14 @@ bool has_grid(const scene::Export& e) {
   return e.format == scene::ExportFormat::vti || e.format == scene::ExportFormat::vdb;
 }
 
+std::vector<PlacedShape> placed_at(const std::vector<scene::Collider>& colliders, double time) {
+  std::vector<PlacedShape> placed;
+  for (const scene::Collider& collider : colliders)
+    placed.push_back(
+        {sim::shapes::pose_at(collider, time), sim::shapes::shape_time(collider, time)});
+  return placed;
+}
+
 std::shared_ptr<const State> read_state(std::span<const scene::Export> exports,
                                         const std::vector<scene::Collider>& colliders,
                                         const sim::Simulation& simulation) {
@@ -34,8 +42,7 @@ std::shared_ptr<const State> read_state(std::span<const scene::Export> exports,
     state->kirchhoff = simulation.kirchhoff();
   if (std::any_of(exports.begin(), exports.end(), has_grid))
     state->nodes = sim::rasterize(simulation);
-  for (const scene::Collider& collider : colliders)
-    state->poses.push_back(sim::shapes::pose_at(collider, state->time));
+  state->colliders = placed_at(colliders, state->time);
   return state;
 }
 

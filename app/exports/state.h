@@ -12,6 +12,13 @@
 
 namespace neve::app::exports {
 
+/// Where a collider is, and when it has its shape: see sim::shapes::shape_time.
+struct PlacedShape {
+  sim::shapes::Pose pose;
+  double time = 0;  ///< s
+};
+std::vector<PlacedShape> placed_at(const std::vector<scene::Collider>& colliders, double time);
+
 /// Read while the simulation stands still, used while it continues.
 struct State {
   double time = 0;  ///< s
@@ -19,7 +26,7 @@ struct State {
   sim::ParticleArrays particles;              ///< id order
   std::vector<sim::Mat3d> kirchhoff;          ///< Pa; empty unless an export has stress
   std::optional<sim::RasterizedNodes> nodes;  ///< absent unless an export has the grid
-  std::vector<sim::shapes::Pose> poses;       ///< of the scene's colliders
+  std::vector<PlacedShape> colliders;         ///< of the scene
 };
 
 /// True for formats that have the grid instead of particles.

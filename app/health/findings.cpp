@@ -14,6 +14,7 @@
 #include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
 #include "sim/engine/time_step.h"
+#include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/solid.h"
 
 namespace neve::app::health {
@@ -235,6 +236,8 @@ double thickness(const sim::shapes::Shape& shape) {
     return std::min(2 * c->radius, c->height);
   if (const auto* c = std::get_if<sim::shapes::Cone>(&shape.form))
     return std::min(2 * c->radius, c->height);
+  if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&shape.form))
+    return sim::shapes::deforming_mesh(*sequence)->thickness();
   sim::shapes::Shape level = shape;
   level.rotation.setZero();
   return extent(level).minCoeff();

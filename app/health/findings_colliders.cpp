@@ -9,6 +9,7 @@
 #include "app/health/findings.h"
 #include "app/scene/coarsen.h"
 #include "app/support/text.h"
+#include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/solid.h"
 
 namespace neve::app::health {
@@ -33,11 +34,14 @@ class Inside {
         center_(sim::shapes::center(collider.shape)) {
     if (const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form))
       normal_ = pose_.rotation * plane->normal;
+    else if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&collider.shape.form))
+      surface_ = sim::shapes::surface_at(*sequence, sim::shapes::shape_time(collider, time));
     else
       solid_ = std::make_unique<sim::shapes::Solid>(collider.shape);
   }
 
   bool operator()(const Vec3d& x) const {
+    if (surface_) return surface_->contains(pose_.rotation.transpose() * (x - pose_.point));
     if (!solid_) return (x - pose_.point).dot(normal_) < 0;
     // Keyframes may have moved it: where the place is from the shape as it is written.
     return solid_->contains(center_ + start_ * (pose_.rotation.transpose() * (x - pose_.point)));
@@ -48,6 +52,7 @@ class Inside {
   sim::Mat3d start_;
   Vec3d center_, normal_{0, 1, 0};
   std::unique_ptr<sim::shapes::Solid> solid_;
+  std::shared_ptr<const sim::shapes::MeshSurface> surface_;  ///< of a mesh that deforms
 };
 
 /// Some hundred places in a shape, regularly.
@@ -86,6 +91,15 @@ void check_emitter_overlaps(const scene::Scene& scene, std::vector<Finding>& fin
   }
 }
 
+/// Key of the parameter that moves a collider most.
+const char* fastest_part(const sim::shapes::Collider& collider, double speed) {
+  const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&collider.shape.form);
+  if (sequence && sim::shapes::deforming_mesh(*sequence)->fastest() >= 0.5 * speed)
+    return ".shape.mesh_sequence.rate";
+  if (!collider.keyframes.empty()) return ".keyframes";
+  return collider.velocity.norm() < 0.5 * speed ? ".angular_velocity" : ".velocity";
+}
+
 }  // namespace
 
 void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
@@ -118,11 +132,7 @@ void check_motion(const scene::Scene& scene, const Checkup& checkup,
   for (const sim::shapes::Collider& collider : scene.colliders) {
     const double speed = sim::shapes::largest_speed(collider), cells = speed * dt / s.cell_size;
     const double c = checkup.start.max_sound_speed;
-    const bool spins = collider.velocity.norm() < 0.5 * speed;
-    const std::string at = "collider." + collider.name +
-                           (!collider.keyframes.empty() ? ".keyframes"
-                            : spins                     ? ".angular_velocity"
-                                                        : ".velocity");
+    const std::string at = "collider." + collider.name + fastest_part(collider, speed);
     if (cells > sim::health::limits_of(sim::health::Law::collider_cfl).check_warning)
       findings.push_back(
           {Severity::warning, at,

@@ -7,7 +7,7 @@
 #include "app/picture/to_float.h"
 #include "app/scene/toml/value.h"
 #include "render/shapes/mesh_shapes.h"
-#include "sim/shapes/mesh_surface.h"
+#include "sim/shapes/deforming_mesh.h"
 
 namespace neve::app::picture {
 
@@ -92,26 +92,31 @@ struct MeshLook {
   render::Lines lines;
 };
 
+std::shared_ptr<const MeshLook> make_look(const sim::shapes::ClosedMesh& mesh) {
+  std::vector<Vec3f> position;
+  std::vector<std::uint32_t> index;
+  for (const sim::Vec3d& x : mesh.vertices) position.push_back(to_float(x));
+  for (const auto& t : mesh.triangles) index.insert(index.end(), t.begin(), t.end());
+  return std::make_shared<const MeshLook>(MeshLook{render::shapes::creased_mesh(position, index),
+                                                   render::shapes::mesh_lines(position, index)});
+}
+
 /// Made once for all frames.
 std::shared_ptr<const MeshLook> look_of(const sim::shapes::Mesh& mesh) {
   static sim::shapes::Recent<MeshLook> recent;
   return recent.get(sim::shapes::file_stamp(mesh.file) + "|" + scene::toml::number_text(mesh.scale),
-                    [&] {
-                      const std::shared_ptr<const sim::shapes::MeshSurface> surface =
-                          sim::shapes::mesh_surface(mesh);
-                      std::vector<Vec3f> position;
-                      std::vector<std::uint32_t> index;
-                      for (const sim::Vec3d& x : surface->mesh().vertices)
-                        position.push_back(to_float(x));
-                      for (const auto& t : surface->mesh().triangles)
-                        index.insert(index.end(), t.begin(), t.end());
-                      return std::make_shared<const MeshLook>(
-                          MeshLook{render::shapes::creased_mesh(position, index),
-                                   render::shapes::mesh_lines(position, index)});
-                    });
+                    [&] { return make_look(sim::shapes::mesh_surface(mesh)->mesh()); });
 }
 
-void add_other(const sim::shapes::Shape& shape, const sim::shapes::Pose& pose,
+/// @param time  s, see sim::shapes::shape_time
+std::shared_ptr<const MeshLook> look_of(const sim::shapes::Shape& shape, double time) {
+  if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&shape.form))
+    return make_look(sim::shapes::deforming_mesh(*sequence)->mesh_at(time));
+  return look_of(std::get<sim::shapes::Mesh>(shape.form));
+}
+
+/// @param time  s, see sim::shapes::shape_time
+void add_other(const sim::shapes::Shape& shape, const sim::shapes::Pose& pose, double time,
                scene::ColliderStyle style, render::Frame& frame) {
   const Vec3f center = to_float(pose.point);
   const render::shapes::Rotation rotation =
@@ -124,7 +129,7 @@ void add_other(const sim::shapes::Shape& shape, const sim::shapes::Pose& pose,
                                                 style == scene::ColliderStyle::ghost),
                     style, has_rim, frame);
   }
-  const std::shared_ptr<const MeshLook> look = look_of(std::get<sim::shapes::Mesh>(shape.form));
+  const std::shared_ptr<const MeshLook> look = look_of(shape, time);
   add_form(render::shapes::moved_mesh(look->mesh, center, rotation),
            render::shapes::moved_lines(look->lines, center, rotation), style, false, frame);
 }
@@ -139,7 +144,7 @@ render::TriangleMesh local_mesh(const sim::shapes::Shape& shape) {
     return render::shapes::box_mesh({0, 0, 0}, to_float(box->size), axes);
   if (const std::optional<render::shapes::Profile> profile = profile_of(shape))
     return render::shapes::round_mesh(*profile, {0, 0, 0}, axes);
-  const std::shared_ptr<const MeshLook> look = look_of(std::get<sim::shapes::Mesh>(shape.form));
+  const std::shared_ptr<const MeshLook> look = look_of(shape, 0);
   return render::shapes::moved_mesh(look->mesh, {0, 0, 0}, axes);
 }
 
@@ -156,7 +161,8 @@ void add_colliders(const scene::Scene& scene, const scene::View& view, double ti
     else if (const auto* box = std::get_if<sim::shapes::Box>(&collider.shape.form))
       add_box(*box, pose, collider.style, frame);
     else
-      add_other(collider.shape, pose, collider.style, frame);
+      add_other(collider.shape, pose, sim::shapes::shape_time(collider, time), collider.style,
+                frame);
   }
 }
 

@@ -11,8 +11,8 @@ namespace neve::app::picture {
 void add_colliders(const scene::Scene& scene, const scene::View& view, double time,
                    float line_spacing, render::Frame& frame);
 
-/// A collider that is no plane, as triangles about its own point: pose_at(...).point is where it
-/// goes, and pose_at(...).rotation turns it.
+/// A collider that is no plane and keeps its shape, as triangles about its own point:
+/// pose_at(...).point is where it goes, and pose_at(...).rotation turns it.
 render::TriangleMesh local_mesh(const sim::shapes::Shape& shape);
 
 }  // namespace neve::app::picture

@@ -143,6 +143,8 @@ std::map<std::string, std::string> hash_files(const scene::Scene& scene) {
   };
   const auto add = [&](const sim::shapes::Shape& shape) {
     if (const auto* mesh = std::get_if<sim::shapes::Mesh>(&shape.form)) hash(mesh->file);
+    if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&shape.form))
+      for (const std::string& file : sim::shapes::files_of(*sequence)) hash(file);
     if (const auto* points = std::get_if<sim::shapes::Points>(&shape.form)) hash(points->file);
   };
   for (const sim::seeding::Body& body : scene.bodies) add(body.shape);

@@ -10,7 +10,9 @@
 #include "app/support/text.h"
 #include "sim/kernels/blocks.h"
 #include "sim/kernels/contact.h"
+#include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/mesh_surface.h"
+#include "sim/shapes/numbered_files.h"
 #include "sim/shapes/placed_points.h"
 #include "sim/shapes/solid.h"
 #include "sim/shapes/variation.h"
@@ -42,6 +44,20 @@ Found problem(const sim::shapes::Mesh& mesh, const std::string& at) {
   return Problem{at + ".mesh", "mesh has no file", "give file = \"NAME.obj\", .ply or .stl"};
 }
 
+Found problem(const sim::shapes::MeshSequence& sequence, const std::string& at) {
+  const std::string key = at + ".mesh_sequence";
+  if (sequence.files.empty())
+    return Problem{key, "mesh_sequence has no files", "give files = \"NAME_%04d.obj\""};
+  if (sequence.last > sequence.first &&
+      sequence.last - sequence.first < sim::shapes::max_numbered_files)
+    return {};
+  return Problem{key + ".last",
+                 "the files have the numbers " + std::to_string(sequence.first) + " to " +
+                     std::to_string(sequence.last),
+                 "expected 2 to " + std::to_string(sim::shapes::max_numbered_files) +
+                     " files; a mesh that keeps its shape is mesh = { file = \"NAME.obj\" }"};
+}
+
 Found problem(const sim::shapes::Points& points, const std::string& at) {
   if (!points.file.empty()) return {};
   return Problem{at + ".points", "points have no file", "give file = \"NAME.ply\" or .csv"};
@@ -62,6 +78,7 @@ struct PlaceKey {
   const char* operator()(const sim::shapes::Cone&) const { return ".cone.center"; }
   const char* operator()(const sim::shapes::Torus&) const { return ".torus.center"; }
   const char* operator()(const sim::shapes::Mesh&) const { return ".mesh.center"; }
+  const char* operator()(const sim::shapes::MeshSequence&) const { return ".mesh_sequence.center"; }
   const char* operator()(const sim::shapes::Points&) const { return ".points.center"; }
 };
 
@@ -416,6 +433,11 @@ Found collider_problem(const Scene& scene, const Collider& collider) {
       return found;
   }
   return ready_problem(address, [&] {
+    if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&collider.shape.form)) {
+      const sim::shapes::Bounds b = sim::shapes::deforming_mesh(*sequence)->bounds();
+      return too_far(scene,
+                     sequence->center.cwiseAbs() + b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs()), at);
+    }
     if (const auto* mesh = std::get_if<sim::shapes::Mesh>(&collider.shape.form))
       sim::shapes::mesh_surface(*mesh);
     else

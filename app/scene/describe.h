@@ -20,6 +20,7 @@
 #include "app/scene/presets.h"
 #include "app/scene/scene.h"
 #include "app/scene/valid.h"
+#include "sim/shapes/numbered_files.h"
 
 namespace neve::app::scene {
 
@@ -37,6 +38,7 @@ inline constexpr Valid length = above(0).at_most(1e6);
 /// Sizes of a shape have no default: one that is forgotten is a mistake.
 inline constexpr Valid needed_length = length.required(), needed_position = position.required();
 inline constexpr Valid speed = within(1e6);
+inline constexpr Valid file_number = between(0, sim::shapes::max_file_number);
 inline constexpr double max_count = 0x1p53;  // JSON and double keep whole numbers up to here
 
 /// The item that a new entry of a list starts from.
@@ -242,6 +244,21 @@ void describe(V& visit, sim::shapes::Mesh& m, Change change) {
 }
 
 template <class V>
+void describe(V& visit, sim::shapes::MeshSequence& m, Change change) {
+  visit("files", m.files, unit::none, file_pattern, change,
+        "Closed meshes of one topology: path relative to the scene file, with %d or %04d for the "
+        "number.");
+  visit("first", m.first, unit::none, file_number, change, "Number of the first file.");
+  visit("last", m.last, unit::none, file_number.required(), change, "Number of the last file.");
+  visit("rate", m.rate, unit::per_second, between(1e-3, 1e6), change,
+        "Files per second; vertices move on straight lines from file to file.");
+  visit("start", m.start, unit::second, within(1e6), change,
+        "Time of the first file; before it and after the last file the mesh rests.");
+  visit("scale", m.scale, unit::none, length, change, "Metres per unit of the files.");
+  visit("center", m.center, unit::metre, position, change, "Place of the files' origin.");
+}
+
+template <class V>
 void describe(V& visit, sim::shapes::Points& p, Change change) {
   visit(
       "file", p.file, unit::none, file_path, change,
@@ -293,6 +310,9 @@ void describe_collider_forms(V& visit, sim::shapes::Shape& shape) {
   visit.template form<sim::shapes::Torus>("torus", shape, Change::live, "A torus.");
   visit.template form<sim::shapes::Mesh>("mesh", shape, Change::live,
                                          "The inside of a triangle mesh.");
+  visit.template form<sim::shapes::MeshSequence>(
+      "mesh_sequence", shape, Change::live,
+      "The inside of a triangle mesh that deforms from file to file.");
 }
 
 template <class V>

@@ -9,6 +9,7 @@
 #include "app/scene/toml/error.h"
 #include "app/scene/wishes.h"
 #include "app/support/text.h"
+#include "sim/shapes/numbered_files.h"
 
 namespace neve::app::scene {
 namespace {
@@ -35,14 +36,26 @@ double bounded_whole_number(const Leaf& leaf) {
   return x;
 }
 
-std::string existing_file(const Leaf& leaf, const std::string& name) {
-  namespace fs = std::filesystem;
+std::string absolute_path(const Leaf& leaf, const std::string& name) {
   std::error_code error;
-  const fs::path file = fs::absolute(fs::path(leaf.source.base_dir) / name, error);
-  if (name.empty() || !fs::is_regular_file(file, error)) {
-    leaf.fail("a file that exists", "looked for " + file.lexically_normal().string());
-  }
-  return file.lexically_normal().string();
+  const std::filesystem::path folder = leaf.source.base_dir;
+  return std::filesystem::absolute(folder / name, error).lexically_normal().string();
+}
+
+std::string existing_file(const Leaf& leaf, const std::string& name) {
+  std::error_code error;
+  const std::string file = absolute_path(leaf, name);
+  if (name.empty() || !std::filesystem::is_regular_file(file, error))
+    leaf.fail("a file that exists", "looked for " + file);
+  return file;
+}
+
+/// Which numbers have to exist is known when all of the shape is read.
+std::string numbered_files(const Leaf& leaf, const std::string& name) {
+  if (!sim::shapes::is_file_pattern(name))
+    leaf.fail("one %d or %04d in the name of the files, where their number goes",
+              "for plate_0001.obj and so on give files = \"plate_%04d.obj\"");
+  return absolute_path(leaf, name);
 }
 
 }  // namespace
@@ -133,7 +146,16 @@ void read_leaf(const Leaf& leaf, std::string& member) {
   if (leaf.valid.text == Valid::Text::name && !is_identifier(text)) {
     leaf.fail("a name of 1 to 64 letters, digits, _ and -");
   }
-  member = leaf.valid.text == Valid::Text::file ? existing_file(leaf, text) : text;
+  switch (leaf.valid.text) {
+    case Valid::Text::file:
+      member = existing_file(leaf, text);
+      break;
+    case Valid::Text::numbered_files:
+      member = numbered_files(leaf, text);
+      break;
+    default:
+      member = text;
+  }
 }
 
 void read_leaf(const Leaf& leaf, sim::Vec3d& member) {

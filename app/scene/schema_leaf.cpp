@@ -74,6 +74,7 @@ Json schema_of(const std::string&, const Valid& valid, const char*) {
   Json schema = {{"type", "string"}};
   if (valid.text == Valid::Text::name) schema["pattern"] = whole_name_pattern();
   if (valid.text == Valid::Text::file) schema["minLength"] = 1;
+  if (valid.text == Valid::Text::numbered_files) schema["pattern"] = "%(0[1-9])?d";
   return schema;
 }
 Json schema_of(const sim::Vec3d&, const Valid& valid, const char*) {

@@ -11,7 +11,9 @@ enum class Change { live, restart };
 
 /// Numbers (of vectors: every component) between two bounds, each open or closed.
 struct Valid {
-  enum class Text { any, name, file };
+  enum class Text { any, name, file, numbered_files };
+
+  bool is_path() const { return text == Text::file || text == Text::numbered_files; }
 
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
@@ -39,6 +41,8 @@ struct Valid {
 inline constexpr Valid anything{};
 inline constexpr Valid identifier{.text = Valid::Text::name};  ///< [A-Za-z0-9_-]+
 inline constexpr Valid file_path{.text = Valid::Text::file};   ///< of a file that exists
+/// Of files whose name has %d or %04d in place of a number.
+inline constexpr Valid file_pattern{.text = Valid::Text::numbered_files};
 
 constexpr Valid above(double x) {
   return Valid{.min = x, .is_min_open = true};

@@ -68,7 +68,8 @@ sim::Simulation coarse_simulation(const scene::Scene& coarse,
   } catch (const sim::ShapeError&) {
     scene::Scene clear = coarse;
     std::erase_if(clear.colliders, [](const scene::Collider& collider) {
-      return std::holds_alternative<sim::shapes::Mesh>(collider.shape.form);
+      return std::holds_alternative<sim::shapes::Mesh>(collider.shape.form) ||
+             std::holds_alternative<sim::shapes::MeshSequence>(collider.shape.form);
     });
     return make_simulation(clear, particles, 1);
   }

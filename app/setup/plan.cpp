@@ -17,6 +17,7 @@
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "sim/health/limits.h"
+#include "sim/shapes/deforming_field.h"
 #include "sim/simulation.h"
 #include "sim/types/number_text.h"
 
@@ -145,6 +146,16 @@ double surface_memory(const scene::Scene& scene, double particles) {
   return 150 * nodes;
 }
 
+/// Of the distances around meshes that deform. One that cannot be read is refused before.
+double deforming_memory(const scene::Scene& scene) {
+  double bytes = 0;
+  for (const scene::Collider& collider : scene.colliders)
+    if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&collider.shape.form))
+      bytes +=
+          sim::shapes::memory_of(*sim::shapes::deforming_mesh(*sequence), scene.solver.cell_size);
+  return bytes;
+}
+
 }  // namespace
 
 MemoryLimit memory_limit(const scene::Scene& scene) {
@@ -216,7 +227,7 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
   // States of exports wait for the worker as pictures do, and are text or bytes while it writes.
   const double exported = scene.exports.empty() ? 0 : arrays * (output::picture_queue_capacity + 2);
   plan.memory = whole_bytes(simulated + arrays + exported + surface_memory(scene, counted) +
-                            picture_memory(scene, quality));
+                            deforming_memory(scene) + picture_memory(scene, quality));
   set_limits(scene, plan);
   for (const scene::PictureSize& size : picture_sizes(scene)) {
     const double samples = supersampling(quality) * supersampling(quality);

@@ -14,7 +14,7 @@ namespace {
 struct SetForm {
   kernels::ColliderPose& out;
   const shapes::Pose& pose;
-  const shapes::DistanceField* field;
+  const shapes::DistanceSamples& samples;
 
   void operator()(const shapes::Plane& plane) const {
     out.shape = kernels::ColliderShape::plane;
@@ -42,15 +42,17 @@ struct SetForm {
     set_round(kernels::ColliderShape::torus, torus.minor_radius, 0);
     out.ring = torus.major_radius;
   }
-  void operator()(const shapes::Mesh&) const {
-    out.shape = kernels::ColliderShape::field;
-    out.samples = field->samples();
-  }
+  void operator()(const shapes::Mesh&) const { set_field(); }
+  void operator()(const shapes::MeshSequence&) const { set_field(); }
   void operator()(const shapes::Points&) const {
     throw std::invalid_argument("points have no surface: they cannot be a collider");
   }
 
  private:
+  void set_field() const {
+    out.shape = kernels::ColliderShape::field;
+    out.samples = samples;
+  }
   void set_round(kernels::ColliderShape shape, double radius, double length) const {
     out.shape = shape;
     out.radius = radius;
@@ -74,7 +76,7 @@ void move_to_foot(const shapes::Plane& plane, shapes::Pose& pose) {
 
 std::optional<kernels::ColliderPose> kernel_pose(const shapes::Collider& c, double time,
                                                  double cell_size, const Vec3i& lattice_origin,
-                                                 const shapes::DistanceField* field) {
+                                                 const shapes::DistanceSamples& samples) {
   shapes::Pose pose = shapes::pose_at(c, time);
   if (const auto* plane = std::get_if<shapes::Plane>(&c.shape.form);
       plane && !is_in_lattice(pose.point, cell_size))
@@ -92,7 +94,7 @@ std::optional<kernels::ColliderPose> kernel_pose(const shapes::Collider& c, doub
     out.omega[a] = pose.angular_velocity[a];
     for (int b = 0; b < 3; ++b) out.axes[3 * a + b] = axes(a, b);
   }
-  std::visit(SetForm{out, pose, field}, c.shape.form);
+  std::visit(SetForm{out, pose, samples}, c.shape.form);
   return out;
 }
 

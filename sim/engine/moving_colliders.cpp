@@ -13,7 +13,8 @@ namespace neve::sim::engine {
 namespace {
 
 bool moves(const kernels::ColliderPose& pose) {
-  return std::any_of(pose.velocity, pose.velocity + 3, [](double v) { return v != 0; }) ||
+  return pose.shape_speed > 0 ||
+         std::any_of(pose.velocity, pose.velocity + 3, [](double v) { return v != 0; }) ||
          std::any_of(pose.omega, pose.omega + 3, [](double w) { return w != 0; });
 }
 
@@ -40,7 +41,7 @@ double speed_around(const kernels::LocalCollider<double>& c, const Vec3<double>&
                     double around) {
   const Vec3<double> arm = c.to_block + middle;
   const double turning = std::sqrt(dot(c.omega, c.omega)) * (std::sqrt(dot(arm, arm)) + around);
-  return std::sqrt(dot(c.velocity, c.velocity)) + turning;
+  return std::sqrt(dot(c.velocity, c.velocity)) + turning + c.shape_speed;
 }
 
 /// Speed of the surface at a block of particles; 0 if the two cannot meet within dt.
@@ -64,24 +65,55 @@ MovingColliders::MovingColliders(const std::vector<shapes::Collider>& colliders,
   if (list_.size() > kernels::max_colliders)
     throw std::invalid_argument("at most " + std::to_string(kernels::max_colliders) + " colliders");
   for (const shapes::Collider& c : list_) {
-    const auto* mesh = std::get_if<shapes::Mesh>(&c.shape.form);
     try {
-      fields_.push_back(mesh ? shapes::distance_field(*mesh, lattice.cell_size, pool) : nullptr);
+      fields_.push_back(make_field(c, lattice, pool));
     } catch (const ShapeError& error) {
       throw ShapeError("collider " + c.name + ": " + error.what());
     }
   }
-  place(lattice, time);
+  place(lattice, time, pool);
 }
 
-void MovingColliders::place(const Lattice& lattice, double time) {
+MovingColliders::Field MovingColliders::make_field(const shapes::Collider& collider,
+                                                   const Lattice& lattice, ThreadPool& pool) {
+  if (const auto* mesh = std::get_if<shapes::Mesh>(&collider.shape.form))
+    return {shapes::distance_field(*mesh, lattice.cell_size, pool), std::nullopt};
+  if (const auto* sequence = std::get_if<shapes::MeshSequence>(&collider.shape.form))
+    return {nullptr, shapes::DeformingField(shapes::deforming_mesh(*sequence), sequence->files,
+                                            lattice.cell_size)};
+  return {};
+}
+
+shapes::DistanceSamples MovingColliders::Field::samples() const {
+  if (rigid) return rigid->samples();
+  if (deforming) return deforming->samples();
+  return {};
+}
+
+/// What deforms has the shape that it was placed with.
+std::optional<kernels::ColliderPose> MovingColliders::pose_at(std::size_t k, const Lattice& lattice,
+                                                              double time) const {
+  return kernel_pose(list_[k], time, lattice.cell_size, lattice.origin, fields_[k].samples());
+}
+
+/// Of the fastest place of a shape that deforms, at any time from one to another, m/s.
+double MovingColliders::shape_speed(std::size_t k, double from, double to) const {
+  if (!fields_[k].deforming) return 0;
+  return fields_[k].deforming->mesh().fastest(shapes::shape_time(list_[k], from),
+                                              shapes::shape_time(list_[k], to));
+}
+
+void MovingColliders::place(const Lattice& lattice, double time, ThreadPool& pool) {
   poses_.clear();
-  for (std::size_t k = 0; k < list_.size(); ++k)
-    if (auto pose =
-            kernel_pose(list_[k], time, lattice.cell_size, lattice.origin, fields_[k].get())) {
+  for (std::size_t k = 0; k < list_.size(); ++k) {
+    if (fields_[k].deforming)
+      fields_[k].deforming->move_to(shapes::shape_time(list_[k], time), pool);
+    if (auto pose = pose_at(k, lattice, time)) {
       pose->index = static_cast<int>(k);
+      pose->shape_speed = shape_speed(k, time, time);
       poses_.push_back(*pose);
     }
+  }
 }
 
 double MovingColliders::fastest_near(const std::vector<kernels::BlockRange>& blocks,
@@ -91,8 +123,8 @@ double MovingColliders::fastest_near(const std::vector<kernels::BlockRange>& blo
   for (std::size_t k = 0; k < list_.size(); ++k)
     // One that rests now may start within the step.
     for (const double when : {time, time + dt}) {
-      const auto pose =
-          kernel_pose(list_[k], when, lattice.cell_size, lattice.origin, fields_[k].get());
+      auto pose = pose_at(k, lattice, when);
+      if (pose) pose->shape_speed = shape_speed(k, time, time + dt);
       if (!pose || !moves(*pose)) continue;
       const auto c = seen_from_cell_0(*pose, lattice.cell_size);
       for (const kernels::BlockRange& block : blocks)
@@ -106,10 +138,9 @@ void MovingColliders::look_ahead(const Lattice& lattice, double time, double dt)
   dt_ = dt;
   ahead_.clear();
   for (std::size_t k = 0; k < list_.size(); ++k) {
-    const auto pose_at = [&](double when) {
-      return kernel_pose(list_[k], when, lattice.cell_size, lattice.origin, fields_[k].get());
-    };
-    const auto now = pose_at(time), then = pose_at(time + dt);
+    auto now = pose_at(k, lattice, time), then = pose_at(k, lattice, time + dt);
+    for (auto* pose : {&now, &then})
+      if (*pose) (*pose)->shape_speed = shape_speed(k, time, time + dt);
     if (now) ahead_.push_back(seen_from_cell_0(*now, cell_size_));
     if (then && !(now && is_same_place(*now, *then)))
       ahead_.push_back(seen_from_cell_0(*then, cell_size_));
@@ -129,7 +160,10 @@ bool MovingColliders::is_free(std::uint64_t key, double snow_speed) const {
 
 std::uint64_t MovingColliders::memory_bytes() const {
   std::uint64_t bytes = 0;
-  for (const auto& field : fields_) bytes += field ? field->bytes() : 0;
+  for (const Field& field : fields_) {
+    bytes += field.rigid ? field.rigid->bytes() : 0;
+    bytes += field.deforming ? field.deforming->bytes() : 0;
+  }
   return bytes;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "sim/base/thread_pool.h"
@@ -10,7 +11,7 @@
 #include "sim/kernels/blocks.h"
 #include "sim/kernels/contact.h"
 #include "sim/shapes/collider.h"
-#include "sim/shapes/distance_field.h"
+#include "sim/shapes/deforming_field.h"
 
 namespace neve::sim::engine {
 
@@ -21,7 +22,8 @@ class MovingColliders {
   MovingColliders(const std::vector<shapes::Collider>& colliders, const Lattice& lattice,
                   double time, ThreadPool& pool);
 
-  void place(const Lattice& lattice, double time);
+  /// @param pool  makes the distances of meshes that deform
+  void place(const Lattice& lattice, double time, ThreadPool& pool);
   void set_offset(std::size_t k, const shapes::PoseOffset& offset) {
     list_[k].pose_offset = offset;
   }
@@ -44,8 +46,21 @@ class MovingColliders {
   std::uint64_t memory_bytes() const;
 
  private:
+  /// The distances of a mesh, or of one that deforms; neither of other shapes.
+  struct Field {
+    std::shared_ptr<const shapes::DistanceField> rigid;
+    std::optional<shapes::DeformingField> deforming;
+
+    shapes::DistanceSamples samples() const;
+  };
+  static Field make_field(const shapes::Collider& collider, const Lattice& lattice,
+                          ThreadPool& pool);
+  std::optional<kernels::ColliderPose> pose_at(std::size_t k, const Lattice& lattice,
+                                               double time) const;
+  double shape_speed(std::size_t k, double from, double to) const;
+
   std::vector<shapes::Collider> list_;
-  std::vector<std::shared_ptr<const shapes::DistanceField>> fields_;  ///< null but of meshes
+  std::vector<Field> fields_;
   std::vector<kernels::ColliderPose> poses_;
   std::vector<kernels::LocalCollider<double>> ahead_;  ///< seen from cell 0
   double cell_size_ = 0, dt_ = 0;                      ///< of look_ahead

@@ -143,7 +143,7 @@ void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<R
   state.progress = saved.progress;
   for (std::size_t k = 0; k < saved.offsets.size(); ++k)
     state.colliders.set_offset(k, saved.offsets[k]);
-  state.colliders.place(state.method.lattice, saved.progress.colliders_time);
+  state.colliders.place(state.method.lattice, saved.progress.colliders_time, *state.pool);
   flow.restore(saved.emitters);
   state.particles.replace(saved.records);
   if (saved.records.empty()) return;

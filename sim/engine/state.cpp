@@ -118,7 +118,7 @@ void State<Real>::advance_time(double dt) {
   ++progress.steps;
   if (method.settings.skips(Stage::colliders)) return;
   progress.colliders_time = progress.time;
-  colliders.place(method.lattice, progress.time);
+  colliders.place(method.lattice, progress.time, *pool);
   note_near_colliders();
 }
 

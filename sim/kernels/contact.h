@@ -30,6 +30,7 @@ struct ColliderPose {
   double radius;     ///< m: of a sphere, capsule, cylinder, a cone's base, a torus's tube
   double ring;       ///< m, of a torus: from its centre to the middle of the tube
   shapes::DistanceSamples samples;  ///< of a field
+  double shape_speed;               ///< m/s, of the fastest place of a shape that deforms
   double velocity[3], omega[3];
 };
 
@@ -45,7 +46,8 @@ struct LocalCollider {
   Vec3<Real> axis[3], normal, half, velocity, omega;
   Real radius, ring;
   Real slope_out, slope_up;  ///< of a cone: the normal of its wall, outward and along the axis
-  const float* samples;
+  const float *samples, *velocities;
+  Real shape_speed;
   int size[3];
   Real spacing;
   Vec3<Real> first;
@@ -79,6 +81,8 @@ NEVE_INLINE LocalCollider<Real> localize(const ColliderPose& c, const int* block
   out.slope_out = static_cast<Real>(slant > 0 ? height / slant : 0);
   out.slope_up = static_cast<Real>(slant > 0 ? c.radius / slant : 0);
   out.samples = c.samples.distance;
+  out.velocities = c.samples.velocity;
+  out.shape_speed = static_cast<Real>(c.shape_speed);
   out.spacing = static_cast<Real>(c.samples.spacing);
   return out;
 }
@@ -185,35 +189,57 @@ NEVE_INLINE V torus_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec
   return distance - all<V>(c.radius);
 }
 
-/// Between eight samples; the normal is the gradient of the same interpolation. Beyond the lattice,
-/// the nearest place in it and the way there.
+/// The place in the lattice of a field that is nearest to a point.
+template <class V>
+struct FieldPlace {
+  MaskOf<V> index{};  ///< of the first sample of its cell
+  V part[3];          ///< where in the cell
+  V beyond{};         ///< squared distance to the lattice, in spacings
+};
 template <class V, class Real>
-NEVE_INLINE V field_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+NEVE_INLINE FieldPlace<V> field_place(const LocalCollider<Real>& c, const Vec3<V>& d) {
   using I = MaskOf<V>;
-  constexpr int W = lane_count<V>;
   const V zero{};
-  V part[3], beyond{};
-  I index{};
+  FieldPlace<V> at;
   for (int a = 0; a < 3; ++a) {
     const V place = (dot(d, widened<V>(c.axis[a])) - c.first[a]) / c.spacing;
     const V last = all<V>(static_cast<Real>(c.size[a] - 1));
     // NaN becomes 0.
     V held = place > zero ? place : zero;
     held = held < last ? held : last;
-    beyond += (place - held) * (place - held);
+    at.beyond += (place - held) * (place - held);
     I cell = __builtin_convertvector(held, I);
     const I before_last = all<I>(c.size[a] - 2);
     cell = cell < before_last ? cell : before_last;
-    part[a] = held - __builtin_convertvector(cell, V);
-    index = index * c.size[a] + cell;
+    at.part[a] = held - __builtin_convertvector(cell, V);
+    at.index = at.index * c.size[a] + cell;
   }
-  Real corner[8][W];
+  return at;
+}
+
+/// The values at the corners of cells, z fastest, then y.
+/// @param stride  numbers of a sample, of which the first is taken
+template <class V, class Real>
+NEVE_INLINE void load_corners(const LocalCollider<Real>& c, const MaskOf<V>& index,
+                              const float* values, int stride, Real (*corner)[lane_count<V>]) {
   const int row = c.size[2], slab = c.size[1] * c.size[2];
-  for (int l = 0; l < W; ++l) {
-    const float* at = c.samples + index[l];
+  for (int l = 0; l < lane_count<V>; ++l) {
+    const float* at = values + static_cast<long>(stride) * index[l];
     for (int k = 0; k < 8; ++k)
-      corner[k][l] = static_cast<Real>(at[(k >> 2) * slab + (k >> 1 & 1) * row + (k & 1)]);
+      corner[k][l] =
+          static_cast<Real>(at[stride * ((k >> 2) * slab + (k >> 1 & 1) * row + (k & 1))]);
   }
+}
+
+/// Between eight samples; the normal is the gradient of the same interpolation. Beyond the lattice,
+/// the nearest place in it and the way there.
+template <class V, class Real>
+NEVE_INLINE V field_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
+  const V zero{};
+  const FieldPlace<V> at = field_place(c, d);
+  const V *part = at.part, beyond = at.beyond;
+  Real corner[8][lane_count<V>];
+  load_corners<V>(c, at.index, c.samples, 1, corner);
   V value[4], along_z[4];
   for (int k = 0; k < 4; ++k) {
     const V low = load_lanes<V>(corner[2 * k]);
@@ -237,6 +263,24 @@ NEVE_INLINE V field_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec
   const V way = larger_lanes(distance, zero);
   const V outside = square_root_lanes(beyond * (c.spacing * c.spacing) + way * way);
   return beyond > zero ? outside : distance;
+}
+
+/// Velocity of the nearest place of a mesh that deforms, between eight samples.
+template <class V, class Real>
+NEVE_INLINE Vec3<V> field_velocity(const LocalCollider<Real>& c, const Vec3<V>& d) {
+  const FieldPlace<V> at = field_place(c, d);
+  Vec3<V> velocity{};
+  for (int a = 0; a < 3; ++a) {
+    Real corner[8][lane_count<V>];
+    load_corners<V>(c, at.index, c.velocities + a, 3, corner);
+    V value[8];
+    for (int k = 0; k < 8; ++k) value[k] = load_lanes<V>(corner[k]);
+    for (int axis = 2, count = 4; axis >= 0; --axis, count /= 2)
+      for (int k = 0; k < count; ++k)
+        value[k] = value[2 * k] + at.part[axis] * (value[2 * k + 1] - value[2 * k]);
+    velocity = velocity + widened<V>(c.axis[a]) * value[0];
+  }
+  return velocity;
 }
 
 /// Distance from the collider's shape, as in the functions above. @param r from the block's first
@@ -306,7 +350,9 @@ NEVE_INLINE MaskOf<V> touch(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3
 /// Velocity of the collider's surface at a place.
 template <class V, class Real>
 NEVE_INLINE Vec3<V> surface_velocity(const LocalCollider<Real>& c, const Vec3<V>& r) {
-  return widened<V>(c.velocity) + cross(widened<V>(c.omega), widened<V>(c.to_block) + r);
+  const Vec3<V> d = widened<V>(c.to_block) + r;
+  const Vec3<V> rigid = widened<V>(c.velocity) + cross(widened<V>(c.omega), d);
+  return c.velocities ? rigid + field_velocity(c, d) : rigid;
 }
 
 /// Contact with one collider, a value per lane.

@@ -51,7 +51,8 @@ struct ContactSweepsFor {
       const Vec3<Real> arm = candidate.to_block + middle;
       const Real turning = square_root(dot(candidate.omega, candidate.omega)) *
                            (square_root(dot(arm, arm)) + Real(1.7321) * half);
-      const Real speed = square_root(dot(candidate.velocity, candidate.velocity)) + turning;
+      const Real speed = square_root(dot(candidate.velocity, candidate.velocity)) + turning +
+                         candidate.shape_speed;
       const Real closing = 2 * (speed + a.max_speed) * c.dt;
       if (is_cube_out_of_reach(candidate, middle, half, still + closing)) continue;
       near.index[count] = k;

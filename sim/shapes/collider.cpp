@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/mesh_surface.h"
 #include "sim/shapes/solid.h"
 
@@ -15,6 +16,7 @@ namespace {
 struct Touch {
   double distance;
   Vec3d normal;
+  Vec3d velocity{0, 0, 0};  ///< m/s, of a shape that deforms
 };
 
 /// Beside the axis y of a round form.
@@ -87,6 +89,17 @@ Touch touch(const Mesh& mesh, const Vec3d& y) {
   return {surface->signed_distance(y), surface->normal(y)};
 }
 
+Touch touch(const MeshSequence& sequence, double time, const Vec3d& y) {
+  const std::shared_ptr<const MeshSurface> surface = surface_at(sequence, time);
+  const std::shared_ptr<const DeformingMesh> mesh = deforming_mesh(sequence);
+  const DeformingMesh::Moment now = mesh->moment(time);
+  Touch out{surface->signed_distance(y), surface->normal(y)};
+  if (!now.moves) return out;
+  const MeshSurface::Place nearest = surface->nearest_place(y);
+  out.velocity = mesh->velocity(now.interval, surface->mesh(), nearest.triangle, nearest.point);
+  return out;
+}
+
 Touch touch(const Points&, const Vec3d&) {
   throw std::invalid_argument("points have no surface: they cannot be a collider");
 }
@@ -95,6 +108,7 @@ Touch touch(const Points&, const Vec3d&) {
 struct TouchInWorld {
   const Shape& shape;
   const Pose& pose;
+  double time;  ///< s, see shape_time
   const Vec3d& x;
 
   Touch operator()(const Plane& plane) const {
@@ -105,6 +119,10 @@ struct TouchInWorld {
     const Vec3d d = x - pose.point;
     const double r = d.norm();
     return {r - sphere.radius, r > 0 ? Vec3d(d / r) : Vec3d(Vec3d::UnitY())};
+  }
+  Touch operator()(const MeshSequence& sequence) const {
+    const Touch own = touch(sequence, time, pose.rotation.transpose() * (x - pose.point));
+    return {own.distance, pose.rotation * own.normal, pose.rotation * own.velocity};
   }
   template <class Form>
   Touch operator()(const Form& form) const {
@@ -134,6 +152,7 @@ struct FurthestPlace {
     for (const Vec3d& x : mesh_surface(s)->mesh().vertices) furthest = std::max(furthest, x.norm());
     return furthest;
   }
+  double operator()(const MeshSequence& s) const { return deforming_mesh(s)->furthest(); }
 };
 
 bool is_round(const Shape& shape) {
@@ -172,6 +191,10 @@ Pose pose_at(const Collider& collider, double time) {
       collider.velocity, collider.angular_velocity};
 }
 
+double shape_time(const Collider& collider, double time) {
+  return time - collider.pose_offset.delay;
+}
+
 PoseOffset offset_after(const Collider& before, const Collider& after, double time) {
   if (!after.keyframes.empty()) return before.pose_offset;
   if (before.keyframes.empty() && same_motion(before, after)) return before.pose_offset;
@@ -202,6 +225,11 @@ Bounds bounds_at(const Collider& collider, double time) {
     const Bounds b = bounds_of(mesh_surface(*mesh)->mesh(), pose.rotation);
     return {pose.point + b.min, pose.point + b.max};
   }
+  if (const auto* sequence = std::get_if<MeshSequence>(&collider.shape.form)) {
+    const Bounds b =
+        bounds_of(surface_at(*sequence, shape_time(collider, time))->mesh(), pose.rotation);
+    return {pose.point + b.min, pose.point + b.max};
+  }
   return Solid(collider.shape).bounds_at(pose.point, pose.rotation);
 }
 
@@ -218,14 +246,15 @@ double largest_speed(const Collider& collider) {
       speed = std::max(speed, speed_at(collider, furthest, time));
     }
   }
-  return speed;
+  const auto* sequence = std::get_if<MeshSequence>(&collider.shape.form);
+  return sequence ? speed + deforming_mesh(*sequence)->fastest() : speed;
 }
 
 Surface surface_at(const Collider& collider, double time, const Vec3d& x) {
   const Pose pose = pose_at(collider, time);
-  const auto [distance, normal] =
-      std::visit(TouchInWorld{collider.shape, pose, x}, collider.shape.form);
-  return {distance, normal, pose.velocity + pose.angular_velocity.cross(x - pose.point)};
+  const TouchInWorld touch_in_world{collider.shape, pose, shape_time(collider, time), x};
+  const auto [distance, normal, velocity] = std::visit(touch_in_world, collider.shape.form);
+  return {distance, normal, pose.velocity + pose.angular_velocity.cross(x - pose.point) + velocity};
 }
 
 double signed_distance(const Collider& collider, double time, const Vec3d& x) {

@@ -1,5 +1,6 @@
 #pragma once
-/// Rigid obstacles: signed distance, normal and velocity at a time, and the contact law.
+/// Obstacles, rigid or deforming: signed distance, normal and velocity at a time, and the contact
+/// law.
 
 #include <string>
 #include <vector>
@@ -38,6 +39,10 @@ struct Collider {
 using Pose = RigidMotion;
 Pose pose_at(const Collider& collider, double time);
 
+/// The time at which a collider has its shape: other than the scene's where steps did not move it.
+/// Only a deforming mesh has another shape at another time.
+double shape_time(const Collider& collider, double time);
+
 /// Offset of a collider that is changed at a time: with another velocity or spin, or without its
 /// keyframes, it continues from its place; one whose place, shape or contact was edited moves by
 /// the edit alone. Keyframes say themselves where it is.
@@ -52,7 +57,8 @@ Bounds bounds_at(const Collider& collider, double time);
 /// A bound of how fast places of the collider move, over all of its keyframes, m/s. Its spin counts
 /// where it changes what space the collider fills: not of spheres, about the axis of round shapes,
 /// and of planes, which have no furthest place.
-/// @throws ShapeError when a mesh that turns cannot be read
+/// A deforming mesh adds the speed of its fastest vertex.
+/// @throws ShapeError when a mesh that turns or deforms cannot be read
 double largest_speed(const Collider& collider);
 
 /// A collider as seen from a point.
@@ -62,7 +68,8 @@ struct Surface {
                  ///< of the face that is furthest below the point. On a tie the lowest axis,
                  ///< wall before ends; (0, 1, 0) in the middle of a sphere, the first axis of
                  ///< the shape on the axis of a round one, its second in the middle of a tube
-  Vec3d velocity;  ///< m/s, of the rigid motion at the point
+  Vec3d velocity;  ///< m/s, of the rigid motion at the point; of a deforming mesh also that of its
+                   ///< nearest place
 };
 
 /// For the host: tests, warnings, planning. The solver's kernels have their own; of a mesh this is

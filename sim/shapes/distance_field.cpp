@@ -15,12 +15,35 @@ constexpr double samples_around = 2;
 /// Limit for a lattice finer than half a cell: 8 MiB, a second.
 constexpr double max_refined = 128.0 * 128.0 * 128.0;
 
-/// Along each axis, as doubles: a mesh may be absurdly large.
-Eigen::Array3d counts(const Bounds& bounds, double spacing) {
+}  // namespace
+
+Eigen::Array3d sample_counts(const Bounds& bounds, double spacing) {
   return ((bounds.max - bounds.min).array() / spacing).ceil() + (1 + 2 * samples_around);
 }
 
-}  // namespace
+FieldLattice::FieldLattice(const Bounds& bounds, double spacing) : spacing_(spacing) {
+  const Eigen::Array3d count = sample_counts(bounds, spacing);
+  size_ = count.cast<int>();
+  const Vec3d lattice = spacing * (count - 1).matrix();
+  first_ = 0.5 * (bounds.min + bounds.max - lattice);
+}
+
+Vec3d FieldLattice::place(std::size_t row, std::size_t k) const {
+  const auto ny = static_cast<std::size_t>(size_[1]);
+  return first_ + spacing_ * Vec3d(static_cast<double>(row / ny), static_cast<double>(row % ny),
+                                   static_cast<double>(k));
+}
+
+DistanceSamples FieldLattice::samples(const float* distance) const {
+  DistanceSamples out;
+  out.distance = distance;
+  out.spacing = spacing_;
+  for (int a = 0; a < 3; ++a) {
+    out.size[a] = size_[a];
+    out.first[a] = first_[a];
+  }
+  return out;
+}
 
 double field_spacing(const MeshSurface& surface, double cell_size) {
   const Bounds& bounds = surface.bounds();
@@ -30,60 +53,34 @@ double field_spacing(const MeshSurface& surface, double cell_size) {
   // would.
   const double least = extent.maxCoeff() / max_refined;
   double fine = std::max(std::min({coarse, extent.minCoeff() / 8, extent.maxCoeff() / 64}), least);
-  while (fine < coarse && counts(bounds, fine).prod() > max_refined) fine *= 1.1;
+  while (fine < coarse && sample_counts(bounds, fine).prod() > max_refined) fine *= 1.1;
   return std::min(fine, coarse);
 }
 
 DistanceField::DistanceField(const MeshSurface& surface, const std::string& name, double spacing,
-                             ThreadPool& pool)
-    : spacing_(spacing) {
+                             ThreadPool& pool) {
   const Bounds& bounds = surface.bounds();
-  const Eigen::Array3d count = counts(bounds, spacing);
+  const Eigen::Array3d count = sample_counts(bounds, spacing);
   if (!(count.prod() <= max_samples))
     throw ShapeError(name + ": the distance field of this collider has a point every " +
                      number_text(spacing) + " m (half a cell), in total " + number_text(count[0]) +
                      " x " + number_text(count[1]) + " x " + number_text(count[2]) +
                      " points; at most 256^3 are allowed. Make it smaller, split " +
                      "it into several colliders, or make solver.cell_size larger");
-  size_ = count.cast<int>();
-  const Vec3d lattice = spacing * (count - 1).matrix();
-  first_ = 0.5 * (bounds.min + bounds.max - lattice);
-  values_.resize(static_cast<std::size_t>(count.prod()));
-  fill(surface, pool);
+  lattice_ = FieldLattice(bounds, spacing);
+  values_.resize(lattice_.count());
+  visit_samples(surface, lattice_, pool,
+                [&](std::size_t index, double distance, const MeshSurface::Place&) {
+                  values_[index] = static_cast<float>(distance);
+                });
   if (std::none_of(values_.begin(), values_.end(), [](float d) { return d < 0; }))
     throw ShapeError(name + ": the mesh is thinner than the " + number_text(spacing) +
                      " m between the points of its distance field, and snow would pass through. "
                      "Make it thicker, or smaller as a whole, or use a box");
 }
 
-void DistanceField::fill(const MeshSurface& surface, ThreadPool& pool) {
-  const auto nz = static_cast<std::size_t>(size_[2]);
-  const std::size_t rows = static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]);
-  pool.ranges(rows, pool.thread_count(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const auto ny = static_cast<std::size_t>(size_[1]);
-      double before = INFINITY;
-      for (std::size_t k = 0; k < nz; ++k) {
-        const Vec3d y =
-            first_ + spacing_ * Vec3d(static_cast<double>(row / ny), static_cast<double>(row % ny),
-                                      static_cast<double>(k));
-        // No further than from the sample before and then here; a hair more, for its rounding.
-        before = surface.distance(y, (before + spacing_) * (1 + 1e-12));
-        values_[row * nz + k] = static_cast<float>(surface.contains(y) ? -before : before);
-      }
-    }
-  });
-}
-
 DistanceSamples DistanceField::samples() const {
-  DistanceSamples out;
-  out.distance = values_.data();
-  out.spacing = spacing_;
-  for (int a = 0; a < 3; ++a) {
-    out.size[a] = size_[a];
-    out.first[a] = first_[a];
-  }
-  return out;
+  return lattice_.samples(values_.data());
 }
 
 std::shared_ptr<const DistanceField> distance_field(const Mesh& mesh, double cell_size,

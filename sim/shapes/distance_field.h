@@ -15,6 +15,54 @@
 
 namespace neve::sim::shapes {
 
+/// Places of samples: around a mesh, so that the lattice ends where all is outside.
+class FieldLattice {
+ public:
+  FieldLattice() = default;
+  /// @param spacing  m, so large that the samples can be counted
+  FieldLattice(const Bounds& bounds, double spacing);
+
+  const Vec3i& size() const { return size_; }
+  double spacing() const { return spacing_; }
+  std::size_t rows() const {
+    return static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]);
+  }
+  std::size_t count() const { return rows() * static_cast<std::size_t>(size_[2]); }
+  /// Of sample k of a row.
+  Vec3d place(std::size_t row, std::size_t k) const;
+  /// @param distance  of each sample, z fastest, then y
+  DistanceSamples samples(const float* distance) const;
+
+ private:
+  double spacing_ = 0;    ///< m
+  Vec3d first_{0, 0, 0};  ///< m
+  Vec3i size_{0, 0, 0};
+};
+
+/// Samples along each axis, as numbers that may be absurdly large.
+Eigen::Array3d sample_counts(const Bounds& bounds, double spacing);
+
+/// visit(index, signed distance, nearest place) for each sample of a lattice, by all threads of the
+/// pool. The bits do not depend on their number.
+template <class Visit>
+void visit_samples(const MeshSurface& surface, const FieldLattice& lattice, ThreadPool& pool,
+                   const Visit& visit) {
+  const auto nz = static_cast<std::size_t>(lattice.size()[2]);
+  pool.ranges(lattice.rows(), pool.thread_count(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      double before = INFINITY;
+      for (std::size_t k = 0; k < nz; ++k) {
+        const Vec3d y = lattice.place(row, k);
+        // No further than from the sample before and then here; a hair more, for its rounding.
+        const MeshSurface::Place nearest =
+            surface.nearest_place(y, (before + lattice.spacing()) * (1 + 1e-12));
+        before = nearest.distance;
+        visit(row * nz + k, surface.contains(y) ? -before : before, nearest);
+      }
+    }
+  });
+}
+
 class DistanceField {
  public:
   /// 64 MiB.
@@ -32,11 +80,7 @@ class DistanceField {
   std::size_t bytes() const { return values_.size() * sizeof(float); }
 
  private:
-  void fill(const MeshSurface& surface, ThreadPool& pool);
-
-  double spacing_;  ///< m
-  Vec3d first_;     ///< m
-  Vec3i size_;
+  FieldLattice lattice_;
   std::vector<float> values_;
 };
 

@@ -89,6 +89,13 @@ MeshSurface::Nearest MeshSurface::nearest(const Vec3d& y, double most) const {
   return search;
 }
 
+MeshSurface::Place MeshSurface::nearest_place(const Vec3d& y, double most) const {
+  const Nearest found = nearest(y, most);
+  // Nothing is that near.
+  if (found.triangle >= mesh_.triangles.size()) return nearest_place(y);
+  return {std::sqrt(found.squared), found.triangle, found.place};
+}
+
 double MeshSurface::distance(const Vec3d& y, double most) const {
   return std::sqrt(nearest(y, most).squared);
 }

@@ -26,6 +26,14 @@ class MeshSurface {
   /// By the winding number, as bodies are filled.
   bool contains(const Vec3d& y) const { return solid_->contains(y); }
   double signed_distance(const Vec3d& y) const;
+  /// The place of the surface that is nearest to y; of several as near that of the first triangle.
+  /// @param most  m, the search is quicker where it is known that something is as near
+  struct Place {
+    double distance;  ///< m
+    std::uint32_t triangle;
+    Vec3d point;
+  };
+  Place nearest_place(const Vec3d& y, double most = INFINITY) const;
   /// Outward: away from the nearest place of the surface, or that of its triangle on the surface.
   Vec3d normal(const Vec3d& y) const;
 

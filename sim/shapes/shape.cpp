@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/mesh.h"
 #include "sim/shapes/placed_points.h"
 #include "sim/shapes/solid.h"
@@ -32,6 +33,10 @@ struct MakeForm {
     throw std::invalid_argument("a plane has no volume: it can only be a collider");
   }
   Result operator()(const Mesh& s) const { return read_mesh_solid(s.file, s.scale); }
+  /// As it is in the first file.
+  Result operator()(const MeshSequence& s) const {
+    return make_mesh_solid(deforming_mesh(s)->mesh(0, 0));
+  }
   Result operator()(const Points& s) const { return make_points_solid(s); }
 };
 

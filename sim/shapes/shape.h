@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "sim/types/errors.h"
 #include "sim/types/math.h"
@@ -46,6 +47,15 @@ struct Mesh {
   double scale = 1.0;
   Vec3d center{0, 0, 0};
 };
+/// A closed mesh that deforms: numbered files of one topology, see sim/shapes/deforming_mesh.h.
+struct MeshSequence {
+  std::string files;  ///< resolved path with %d or %04d in place of the number
+  int first = 1, last = 2;
+  double rate = 24;  ///< files per second
+  double start = 0;  ///< s, of the first file
+  double scale = 1.0;
+  Vec3d center{0, 0, 0};
+};
 /// Particles in a PLY or CSV file, see sim/files/point_reader.h.
 struct Points {
   std::string file;       ///< resolved path
@@ -55,7 +65,7 @@ struct Points {
 };
 
 struct Shape {
-  std::variant<Sphere, Box, Capsule, Cylinder, Cone, Torus, Plane, Mesh, Points> form;
+  std::variant<Sphere, Box, Capsule, Cylinder, Cone, Torus, Plane, Mesh, MeshSequence, Points> form;
   Vec3d rotation{0, 0, 0};  ///< degrees, R = Rz Ry Rx, about the shape's centre
 };
 
@@ -65,8 +75,11 @@ struct Bounds {
 };
 
 /// Centre of rotation and angular velocity: the middle of a capsule, the point of a plane, the
-/// place of the file's origin for a mesh or points.
+/// place of the file's origin for meshes or points.
 Vec3d center(const Shape& shape);
+
+/// Paths of all files of a sequence. @throws ShapeError for a path that is no pattern, or too many
+std::vector<std::string> files_of(const MeshSequence& sequence);
 
 /// Axes that the form of a shape is described in, before its rotation: of a capsule y points from a
 /// to b, of all others they are those of the world.

@@ -21,11 +21,17 @@ const std::vector<std::string> drawn_forms{
     "cone = { center = [1, 2, 3], radius = 0.4, height = 0.6, rotation = [20, 30, 40] }",
     "torus = { center = [1, 2, 3], major_radius = 0.5, minor_radius = 0.2, rotation = [20, 30, 40] "
     "}",
-    "mesh = { file = \"box.obj\", scale = 0.5, center = [1, 2, 3], rotation = [20, 30, 40] }"};
+    "mesh = { file = \"box.obj\", scale = 0.5, center = [1, 2, 3], rotation = [20, 30, 40] }",
+    "mesh_sequence = { files = \"box_%d.obj\", first = 0, last = 2, rate = 3, center = [1, 2, 3], "
+    "rotation = [20, 30, 40] }"};
 
 class ColliderLooks : public testing::Test {
  protected:
-  ColliderLooks() { folder_.write("box.obj", test::box_obj({1, 2, 1.5})); }
+  ColliderLooks() {
+    folder_.write("box.obj", test::box_obj({1, 2, 1.5}));
+    for (int k = 0; k < 3; ++k)
+      folder_.write("box_" + std::to_string(k) + ".obj", test::box_obj({0.5, 1 - 0.2 * k, 0.75}));
+  }
 
   app::scene::Scene scene_with(const std::string& form, const std::string& style) const {
     return app::scene::read_scene_text(

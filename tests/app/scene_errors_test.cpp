@@ -274,8 +274,8 @@ TEST(SceneErrors, AShapeHasExactlyOneForm) {
             "\"box\"?");
   EXPECT_EQ(error_of(with_ball("[[collider]]\nshape = { pyramid = {} }")),
             "s.toml:5:11: error: unsupported shape \"pyramid\" in collider.1.shape; expected "
-            "\"plane\", \"sphere\", \"box\", \"capsule\", \"cylinder\", \"cone\", \"torus\" or "
-            "\"mesh\"");
+            "\"plane\", \"sphere\", \"box\", \"capsule\", \"cylinder\", \"cone\", \"torus\", "
+            "\"mesh\" or \"mesh_sequence\"");
 }
 
 TEST(SceneErrors, ShapesWithoutASizeAreRefused) {
@@ -307,6 +307,8 @@ TEST(SceneErrors, DegenerateShapesAreRefused) {
             "s.toml:5:30: error: normal is zero; it must point out of the solid side");
   EXPECT_EQ(error_of(in_body("shape = { mesh = { scale = 2 } }")),
             "s.toml:2:18: error: mesh has no file; give file = \"NAME.obj\", .ply or .stl");
+  EXPECT_EQ(error_of(with_ball("[[collider]]\nshape = { mesh_sequence = { last = 9 } }")),
+            "s.toml:5:27: error: mesh_sequence has no files; give files = \"NAME_%04d.obj\"");
   EXPECT_EQ(error_of(in_body("shape = { points = { spacing = 0.1 } }")),
             "s.toml:2:20: error: points have no file; give file = \"NAME.ply\" or .csv");
   EXPECT_EQ(error_of(in_body("shape = { box = { size = [1, 0, 1] } }")),

@@ -240,6 +240,10 @@ app::scene::Scene full_scene(const std::string& mesh_file) {
   }
   text += "[[collider]]\nname = \"mesh\"\nshape = { mesh = { file = \"" + mesh_file + "\" } }\n";
   text +=
+      "[[collider]]\nname = \"sheet\"\nshape = { mesh_sequence = { files = \"sheet_%d.obj\", last "
+      "= 2 "
+      "} }\n";
+  text +=
       "[[collider]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\nkeyframes = [{ time = 1 }, { "
       "time = 2 }]\n";
   text +=
@@ -253,7 +257,11 @@ app::scene::Scene full_scene(const std::string& mesh_file) {
 
 class RoundTrip : public testing::Test {
  protected:
-  RoundTrip() { std::ofstream(mesh_) << test::box_obj({1, 1, 1}); }
+  RoundTrip() {
+    std::ofstream(mesh_) << test::box_obj({1, 1, 1});
+    for (int k = 1; k < 6; ++k)
+      folder_.write("sheet_" + std::to_string(k) + ".obj", test::box_obj({1, 1, 1}));
+  }
   test::TemporaryFolder folder_;
   std::string mesh_ = (folder_ / "round_trip_é.obj").string();
 };
@@ -273,6 +281,9 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   }
   for (sim::Material& material : scene.materials) material.critical_compression = 1.0 / 300;
   scene.emitters[0].end = scene.emitters[0].start + 1.0 / 3;
+  auto& sheet = std::get<sim::shapes::MeshSequence>(scene.colliders[8].shape.form);
+  sheet.first = 3;
+  sheet.last = 5;
   app::scene::Collider& moved = scene.colliders.back();
   moved.velocity.setZero();
   moved.angular_velocity.setZero();
@@ -299,7 +310,7 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   int same = 0;
   for (const auto& [address, bits] : before)
     same += unchanged.contains(address) && unchanged.at(address) == bits;
-  EXPECT_EQ(same, 22 + 8 + 3 + 2 + 2 + 2 + 3)
+  EXPECT_EQ(same, 22 + 8 + 3 + 2 + 2 + 2 + 3 + 2)
       << "only names, materials, files, the turns not taken and velocities beside keyframes stay";
 }
 

@@ -84,7 +84,7 @@ TEST(ContactKernel, ContactKernelAgreesWithTheHostForEveryShape) {
     const sim::shapes::Collider c = moving_and_turned(shape);
     const double time = 0.3;
     const sim::kernels::ColliderPose pose =
-        *sim::engine::kernel_pose(c, time, h, Vec3i::Zero(), nullptr);
+        *sim::engine::kernel_pose(c, time, h, Vec3i::Zero(), {});
     int inside = 0;
     for (const Vec3d& x : random_places(4000, 0.6)) {
       const sim::shapes::Surface host = sim::shapes::surface_at(c, time, x);
@@ -110,7 +110,7 @@ TEST(ContactKernel, NormalIsTheGradientOfTheDistanceInside) {
   for (const sim::shapes::Shape& shape : analytic_shapes()) {
     SCOPED_TRACE(shape.form.index());
     const sim::kernels::ColliderPose pose =
-        *sim::engine::kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
+        *sim::engine::kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), {});
     for (const Vec3d& x : random_places(1000, 0.5)) {
       const Seen here = seen_by_kernel<double>(pose, x);
       EXPECT_NEAR(here.normal.norm(), 1, 1e-12);
@@ -181,7 +181,7 @@ TEST(ContactKernel, TiesAndCentresAreAsDocumented) {
     // The middle_of_shapes is at cell -1, 10, 6 exactly, so that ties are exact in the kernels'
     // arithmetic too; what is left is the rounding of 0.1.
     const sim::kernels::ColliderPose pose =
-        *sim::engine::kernel_pose(collider, 0, h, Vec3i::Zero(), nullptr);
+        *sim::engine::kernel_pose(collider, 0, h, Vec3i::Zero(), {});
     const Seen lane = seen_by_kernel<double>(pose, middle_of_shapes + c.from_middle);
     const sim::shapes::Surface host =
         sim::shapes::surface_at(collider, 0, middle_of_shapes + c.from_middle);
@@ -202,7 +202,7 @@ TEST(ContactKernel, TiesAndCentresAreAsDocumented) {
         },
         collider.shape.form);
     const sim::kernels::ColliderPose at_origin =
-        *sim::engine::kernel_pose(collider, 0, 0.125, Vec3i::Zero(), nullptr);
+        *sim::engine::kernel_pose(collider, 0, 0.125, Vec3i::Zero(), {});
     const int origin[3] = {0, 0, 0};
     using V = Quad<double>;
     Vec3<V> normal;
@@ -220,7 +220,7 @@ TEST(ContactKernel, EveryColliderInReachIsFound) {
   for (const sim::shapes::Shape& shape : analytic_shapes()) {
     SCOPED_TRACE(shape.form.index());
     const sim::kernels::ColliderPose pose =
-        *sim::engine::kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), nullptr);
+        *sim::engine::kernel_pose(moving_and_turned(shape), 0.3, h, Vec3i::Zero(), {});
     const sim::kernels::LocalCollider<float> local = sim::kernels::localize<float>(pose, block, h);
     int left_out = 0;
     for (int k = 0; k < 400; ++k) {
@@ -270,7 +270,7 @@ TEST(ContactKernel, EveryShapeHasFrictionSlipAndStickiness) {
       c.contact = contact;
       c.friction = 0.4;
       const sim::kernels::ColliderPose pose =
-          *sim::engine::kernel_pose(c, 0.3, h, Vec3i::Zero(), nullptr);
+          *sim::engine::kernel_pose(c, 0.3, h, Vec3i::Zero(), {});
       const sim::kernels::LocalCollider<double> local =
           sim::kernels::localize<double>(pose, block, h);
       int changed = 0, stuck = 0;
@@ -324,7 +324,7 @@ TEST(KernelPose, APlaneIsTakenByTheFootNearestToTheOrigin) {
   sim::shapes::Collider floor;
   floor.shape = {sim::shapes::Plane{{-1e6, 0.25, 3e6}, {0, 1, 0}}, {0, 0, 0}};
   floor.angular_velocity = {0, 1e-6, 0};
-  const auto pose = sim::engine::kernel_pose(floor, 0, h, Vec3i::Zero(), nullptr);
+  const auto pose = sim::engine::kernel_pose(floor, 0, h, Vec3i::Zero(), {});
   ASSERT_TRUE(pose);
   const Vec3d x(0.3, 0.5, -0.2);
   EXPECT_NEAR(seen_by_kernel<double>(*pose, x).distance,
@@ -338,8 +338,8 @@ TEST(KernelPose, AColliderThatLeftTheLatticeIsOutOfReach) {
   sim::shapes::Collider press;
   press.shape.form = sim::shapes::Box{};
   press.velocity = {0, 0, 1e6};
-  EXPECT_TRUE(sim::engine::kernel_pose(press, 0, 0.01, Vec3i::Zero(), nullptr));
-  EXPECT_FALSE(sim::engine::kernel_pose(press, 1, 0.01, Vec3i::Zero(), nullptr));
+  EXPECT_TRUE(sim::engine::kernel_pose(press, 0, 0.01, Vec3i::Zero(), {}));
+  EXPECT_FALSE(sim::engine::kernel_pose(press, 1, 0.01, Vec3i::Zero(), {}));
 }
 
 }  // namespace

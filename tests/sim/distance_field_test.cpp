@@ -68,7 +68,7 @@ std::pair<double, Vec3d> kernel_in_field(const sim::shapes::DistanceField& field
   const double h = 0.125;
   const int block[3] = {0, 0, 0};
   const sim::kernels::ColliderPose pose =
-      *sim::engine::kernel_pose(collider, 0, h, Vec3i::Zero(), &field);
+      *sim::engine::kernel_pose(collider, 0, h, Vec3i::Zero(), field.samples());
   using V = Quad<Real>;
   Vec3<V> n;
   const V d = sim::kernels::surface_distance(

@@ -404,6 +404,10 @@ TEST(Workbench, FromElsewhereNoFileIsNamedAndNoneIsWrittenOutside) {
   EXPECT_TRUE(
       contains(refused("body.cloud.shape", "{ points = { \"f\\u0069le\" = " + secret + " } }"),
                "over the web"));
+  const std::string pattern = "\"" + (folder / "secret_%d.obj").string() + "\"";
+  EXPECT_TRUE(contains(
+      refused("collider.floor.shape", "{ mesh_sequence = { files = " + pattern + ", last = 2 } }"),
+      "over the web"));
   EXPECT_TRUE(contains(refused("limits.memory", "\"1TiB\""), "over the web"));
   EXPECT_TRUE(contains(refused("limits", "{ memory = \"1TiB\" }"), "over the web"));
   EXPECT_FALSE(bench.may_save_over_file());

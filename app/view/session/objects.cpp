@@ -211,6 +211,8 @@ std::vector<std::pair<std::string, Vec3d>> places_of(const Shape& shape) {
   if (const auto* s = std::get_if<sim::shapes::Cone>(&shape.form)) add("cone.center", s->center);
   if (const auto* s = std::get_if<sim::shapes::Torus>(&shape.form)) add("torus.center", s->center);
   if (const auto* s = std::get_if<sim::shapes::Mesh>(&shape.form)) add("mesh.center", s->center);
+  if (const auto* s = std::get_if<sim::shapes::MeshSequence>(&shape.form))
+    add("mesh_sequence.center", s->center);
   if (const auto* s = std::get_if<sim::shapes::Points>(&shape.form))
     add("points.center", s->center);
   if (const auto* s = std::get_if<Plane>(&shape.form)) add("plane.point", s->point);

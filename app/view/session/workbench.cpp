@@ -136,13 +136,13 @@ std::string Workbench::copy_object(const std::string& address) {
 
 namespace {
 
-/// Whether a member somewhere in it is called file, however that is spelled.
+/// Whether a member somewhere in it is called file or files, however that is spelled.
 bool has_file(const scene::toml::Value& value) {
   if (const auto* list = std::get_if<scene::toml::Array>(&value.data))
     return std::any_of(list->begin(), list->end(), has_file);
   const auto* table = std::get_if<scene::toml::Table>(&value.data);
   return table && std::any_of(table->entries.begin(), table->entries.end(), [](const auto& entry) {
-           return entry.key == "file" || has_file(entry.value);
+           return entry.key == "file" || entry.key == "files" || has_file(entry.value);
          });
 }
 
@@ -162,7 +162,7 @@ void Workbench::require_allowed(const std::string& address, const std::string& v
   if (!options_.is_remote) return;
   const char* hint = "edit the scene file on the machine where neve runs";
   const std::optional<scene::ParamInfo> info = scene::param_at(address);
-  if (info ? info->valid.text == scene::Valid::Text::file : names_file(value))
+  if (info ? info->valid.is_path() : names_file(value))
     throw scene::toml::UsageError("", address + " names a file: fixed over the web", hint);
   if (address == "limits" || address.starts_with("limits."))
     throw scene::toml::UsageError("", address + " is fixed over the web", hint);

@@ -1,0 +1,20 @@
+#pragma once
+/// Paths of files that are numbered one after another.
+
+#include <string>
+
+namespace neve::sim::shapes {
+
+/// Largest number of a file.
+inline constexpr int max_file_number = 999999;
+/// Of one sequence.
+inline constexpr int max_numbered_files = 10000;
+
+/// True if the name of the file, not its folder, says once where the number goes: %d, or %04d for
+/// at least four digits (1 to 9), and has no other %.
+bool is_file_pattern(const std::string& pattern);
+
+/// The path with that number. @param pattern  see is_file_pattern
+std::string numbered_file(const std::string& pattern, int number);
+
+}  // namespace neve::sim::shapes
