@@ -1,10 +1,11 @@
-/// neve export, read by VTK, OpenVDB and USD; the recipes of docs/python.md.
+/// neve export, read by VTK, ParaView, OpenVDB, USD and Blender; the recipes of docs/python.md.
 
 #include <cstdlib>
 
 #include "app/output/atomic_file.h"
 #include "render/image/image.h"
 #include "tests/cli/run_neve.h"
+#include "tests/support/meshes.h"
 #include "tests/support/needs.h"
 #include "tests/support/python.h"
 
@@ -16,6 +17,8 @@ class ExportToVtk : public Cli {};
 class ExportToOpenVdb : public Cli {};
 
 class ExportToUsd : public Cli {};
+
+class ExportToParaView : public Cli {};
 
 class ExportToBlender : public Cli {};
 
@@ -49,7 +52,14 @@ TEST_F(ExportToUsd, UsdOpensTheStages) {
   if (!python || !usd || !std::filesystem::exists(std::filesystem::path(usd) / "pxr"))
     SKIP_OR_FAIL("no USD: pip install --target DIR usd-core, and NEVE_USD=DIR");
   folder.write("stage.toml",
-               std::string(tiny_scene) + "[camera]\neye = [0, 0.3, 1]\ntarget = [0, 0.1, 0]\n");
+               std::string(tiny_scene) +
+                   "[[collider]]\nname = \"sheet\"\nshape = { mesh_sequence = { files = "
+                   "\"sheet_%04d.obj\", first = 0, last = 9, rate = 24, center = [3, 0, 0] } }\n"
+                   "[camera]\neye = [0, 0.3, 1]\ntarget = [0, 0.1, 0]\n");
+  written_sequence(folder, "sheet", 10, 24, [](int k) {
+    return plate_obj({1, 0.3, 1}, 4,
+                     [&](double x) { return sim::Vec3d(0, 0.1 * k * (0.5 - x), 0); });
+  });
   auto written = neve({"export", "stage.toml", "--format", "npz,usda", "--frames", "1-4", "--up",
                        "z", "--scale", "100", "--out", "points"});
   ASSERT_EQ(written.exit_code, 0) << written.errors;
@@ -58,6 +68,22 @@ TEST_F(ExportToUsd, UsdOpensTheStages) {
   ASSERT_EQ(written.exit_code, 0) << written.errors;
   const auto same = run_script_with(*python, {std::string("PYTHONPATH=") + usd}, "check_usd.py",
                                     {"points", "surface"}, folder.path());
+  EXPECT_EQ(same.output, "same\n") << same.errors;
+}
+
+/// ./neve test --all unpacks it from Debian's packages and says where.
+TEST_F(ExportToParaView, ParaViewReadsTheSeriesToTheBit) {
+  const char* const paraview = std::getenv("NEVE_PARAVIEW");
+  const std::filesystem::path pvpython =
+      std::filesystem::path(paraview ? paraview : "/usr/bin") / "pvpython";
+  if (!std::filesystem::exists(pvpython))
+    SKIP_OR_FAIL("no ParaView: install python3-paraview, or NEVE_PARAVIEW=folder of pvpython");
+  const auto written =
+      neve({"export", "scene.toml", "--format", "npz,vtp,vti", "--out", "all", "--attributes",
+            "id,x,v,m,V0,density,J_E,J_P,F_E,stress,material,body,radius"});
+  ASSERT_EQ(written.exit_code, 0) << written.errors;
+  const auto same = app::output::run_process(
+      pvpython, {NEVE_SOURCE_DIR "/tests/python/check_paraview.py", "all"}, folder.path());
   EXPECT_EQ(same.output, "same\n") << same.errors;
 }
 

@@ -54,9 +54,13 @@ for mesh in meshes:
     corners = len(mesh.GetFaceVertexIndicesAttr().Get())
     assert UsdGeom.Mesh.ValidateTopology(
         mesh.GetFaceVertexIndicesAttr().Get(), mesh.GetFaceVertexCountsAttr().Get(),
-        len(mesh.GetPointsAttr().Get())), mesh.GetPath()
+        len(mesh.GetPointsAttr().Get(end))), mesh.GetPath()
     assert corners == 3 * len(mesh.GetFaceVertexCountsAttr().Get())
     assert mesh.ComputeLocalToWorldTransform(end).GetDeterminant() > 0
+sheet = UsdGeom.Mesh(stage.GetPrimAtPath("/neve/colliders/sheet")).GetPointsAttr()
+assert len(sheet.GetTimeSamples()) == len(archives)
+rise = np.array(sheet.Get(end)) - np.array(sheet.Get(start))
+assert abs(rise[:, 2].max() - 0.05 * scale * (end.GetValue() - start.GetValue())) < 1e-4 * scale, rise
 camera = UsdGeom.Camera(stage.GetPrimAtPath("/neve/view/camera"))
 assert camera and camera.GetCamera(end).focalLength > 0
 assert UsdLux.DistantLight(stage.GetPrimAtPath("/neve/sun"))
