@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 # The program alone: tests need not be built first.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
-set(neve_contact "The authors of neve <neve@example.org>")
+set(neve_contact "neve developers <neve@neve.invalid>")
 set(neve_data ${CMAKE_INSTALL_DATADIR}/neve)
 install(TARGETS neve RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY scenes shaders DESTINATION ${neve_data} PATTERN make EXCLUDE)
