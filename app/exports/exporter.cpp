@@ -6,7 +6,9 @@
 
 #include "app/exports/surface_table.h"
 #include "app/output/atomic_file.h"
+#include "app/output/descriptor.h"
 #include "app/output/file_hash.h"
+#include "app/output/temporary.h"
 #include "app/scene/names.h"
 
 namespace neve::app::exports {
@@ -56,7 +58,9 @@ void remove_listed(const fs::path& folder, const Json& path) {
   if (!path.is_string()) return;
   const fs::path file = path.get<std::string>();
   std::error_code error;
-  if (is_safe(folder, file)) fs::remove(folder / file, error);
+  if (!is_safe(folder, file)) return;
+  if (!fs::remove(folder / file, error) && error && error != std::errc::directory_not_empty)
+    output::fail_writing(folder / file, "cannot remove what an earlier run made", error.value());
 }
 
 /// In the place of the one of the same number, or after all others.
@@ -78,8 +82,11 @@ Exporter::Exporter(const scene::Scene& scene, fs::path folder,
       folder_(std::move(folder)),
       origins_(scene, body_end),
       carried_(scene, body_end) {
-  for (const scene::Export& spec : scene.exports)
+  output::remove_abandoned(folder_);
+  for (const scene::Export& spec : scene.exports) {
     jobs_.push_back({{spec, empty_table(scene, spec, carried_), {}}, {}});
+    output::remove_abandoned(folder_ / scene::folder_of(spec));
+  }
 }
 
 bool Exporter::is_due(int frame) const {

@@ -159,13 +159,18 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint
   const auto fail_reading = [&](const std::string& reason) {
     throw IoError(path.string() + ": cannot read: " + reason, path.string());
   };
+  const auto fail_by_machine = [&](int reason) {
+    if (reason == ENOENT || reason == ENOTDIR || reason == ELOOP)
+      fail_reading(std::strerror(reason));
+    throw UnreadableError(path.string() + ": cannot read: " + std::strerror(reason), path.string());
+  };
   struct stat status {};
   // Before it is opened: a pipe waits for its writer, and a device may do anything.
   if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     fail_reading("not a regular file");
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (file.get() < 0) fail_reading(std::strerror(errno));
-  if (::fstat(file.get(), &status) != 0) fail_reading(std::strerror(errno));
+  if (file.get() < 0) fail_by_machine(errno);
+  if (::fstat(file.get(), &status) != 0) fail_by_machine(errno);
   if (!S_ISREG(status.st_mode)) fail_reading("not a regular file");
   const auto size = static_cast<std::uint64_t>(status.st_size);
   if (size > limit) fail_reading("larger than " + std::to_string(limit) + " bytes");
@@ -175,7 +180,7 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint
   while (done < bytes.size()) {
     const ssize_t count = ::read(file.get(), bytes.data() + done, bytes.size() - done);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail_reading(std::strerror(errno));
+    if (count < 0) fail_by_machine(errno);
     if (count == 0) break;
     done += static_cast<std::size_t>(count);
   }

@@ -59,10 +59,11 @@ std::vector<fs::path> list(const fs::path& folder) {
 
 }  // namespace
 
-void check_checkpoint_folder(const fs::path& folder) {
+void tidy_checkpoint_folder(const fs::path& folder) {
   const fs::path path = folder_of(folder);
   std::error_code error;
-  if (!fs::exists(fs::symlink_status(path, error)) || fs::is_directory(path, error)) return;
+  if (!fs::exists(fs::symlink_status(path, error))) return;
+  if (fs::is_directory(path, error)) return remove_abandoned(path);
   throw IoError(path.string() + ": is no folder, but checkpoints are to go there", path.string(),
                 "rename it, choose another folder with --out, or --checkpoint-every 0");
 }

@@ -26,8 +26,9 @@ struct Checkpoint {
   std::filesystem::path file{};     ///< that it was read from
 };
 
-/// @throws IoError when something that is no folder has the place of the checkpoints
-void check_checkpoint_folder(const std::filesystem::path& folder);
+/// Removes what killed processes left unfinished among the checkpoints.
+/// @throws IoError when something that is no folder has their place
+void tidy_checkpoint_folder(const std::filesystem::path& folder);
 
 /// The bytes of a file.
 std::vector<std::uint8_t> encode_checkpoint(const Checkpoint& checkpoint);

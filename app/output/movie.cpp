@@ -10,6 +10,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/process.h"
+#include "app/output/sequence.h"
 #include "app/output/temporary.h"
 
 namespace neve::app::output {
@@ -68,27 +69,31 @@ ProcessResult encode(const fs::path& ffmpeg, const MovieRequest& request, const 
   return run_process(ffmpeg, arguments, request.picture_folder, longest_time(request));
 }
 
-/// Frames that can be decoded, -1 when ffmpeg could not say.
-long count_frames(const fs::path& ffmpeg, const fs::path& movie, double longest) {
+struct FrameCount {
+  long frames = -1;  ///< that can be decoded, -1 when ffmpeg could not say
+  std::string said;
+};
+
+FrameCount count_frames(const fs::path& ffmpeg, const fs::path& movie, double longest) {
   std::vector<std::string> arguments{"-nostdin", "-v", "error", "-i", fs::absolute(movie).string()};
   append_words(arguments, "-map 0:v:0 -f null -progress pipe:1 /dev/null");
   const ProcessResult result = run_process(ffmpeg, arguments, "/", longest);
-  if (!result.has_started || result.exit_code != 0) return -1;
+  FrameCount count{-1, result.errors};
   const std::string key = "frame=";
   const std::size_t found = result.output.rfind(key);
-  if (found == std::string::npos) return -1;
-  long count = -1;
+  if (!result.has_started || result.exit_code != 0 || found == std::string::npos) return count;
   const char* begin = result.output.data() + found + key.size();
-  std::from_chars(begin, result.output.data() + result.output.size(), count);
+  std::from_chars(begin, result.output.data() + result.output.size(), count.frames);
   return count;
 }
 
-/// Whether a message is about the disk rather than about the pictures.
+/// Whether a message is about the disk, or the machine, rather than about the pictures.
 bool is_disk_error(const std::string& message) {
   const auto names = [&](int reason) {
     return message.find(std::strerror(reason)) != std::string::npos;
   };
-  return names(ENOSPC) || names(EDQUOT) || names(EIO) || names(EFBIG) || names(EROFS);
+  return names(ENOSPC) || names(EDQUOT) || names(EIO) || names(EFBIG) || names(EROFS) ||
+         names(EMFILE) || names(ENFILE);
 }
 
 /// The one about the disk, or the last one.
@@ -112,6 +117,40 @@ void remove_movie(const fs::path& file) {
                   file.string());
 }
 
+/// What was wrong with a movie; empty: nothing.
+struct Attempt {
+  std::string failure;
+  bool may_be_repeated = true;
+};
+
+Attempt try_movie(const fs::path& ffmpeg, const MovieRequest& request, const fs::path& temporary) {
+  const ProcessResult result = encode(ffmpeg, request, temporary);
+  if (!result.has_started) return {"ffmpeg does not start: " + result.errors};
+  if (result.is_too_slow) return {"ffmpeg was stopped: it took far too long", false};
+  if (result.exit_code != 0)
+    return {"ffmpeg failed (" + std::to_string(result.exit_code) +
+            "): " + telling_line(result.errors)};
+  const long expected = request.last_frame - request.first_frame + 1;
+  const FrameCount count = count_frames(ffmpeg, temporary, longest_time(request));
+  if (count.frames == expected) return {};
+  const std::string said = telling_line(result.errors + count.said);
+  return {"ffmpeg made " + std::to_string(std::max(count.frames, 0L)) + " of " +
+          std::to_string(expected) + " frames" + (said.empty() ? "" : ": " + said)};
+}
+
+/// Why a picture cannot be read, which ffmpeg does not say; empty where all can.
+std::string unreadable_picture(const MovieRequest& request) {
+  try {
+    for (int frame = request.first_frame; frame <= request.last_frame; ++frame)
+      read_file(frame_path(request.picture_folder, ".", frame));
+  } catch (const UnreadableError& error) {
+    return error.what();
+  } catch (const IoError&) {
+    // It is not there.
+  }
+  return {};
+}
+
 }  // namespace
 
 MovieResult write_movie(const MovieRequest& request) {
@@ -119,12 +158,6 @@ MovieResult write_movie(const MovieRequest& request) {
   if (!ffmpeg) return {MovieOutcome::no_ffmpeg, {}};
 
   const fs::path temporary = temporary_name(request.file);
-  const auto fail = [&](const std::string& reason) {
-    std::error_code error;
-    fs::remove(temporary, error);
-    return MovieResult{is_disk_error(reason) ? MovieOutcome::unwritable : MovieOutcome::failed,
-                       reason};
-  };
   try {
     remove_movie(request.file);
     // Whether the folder takes a file at all: ffmpeg would not say why in a way that can be told.
@@ -132,25 +165,24 @@ MovieResult write_movie(const MovieRequest& request) {
   } catch (const IoError& error) {
     return {MovieOutcome::unwritable, error.what()};
   }
-  const ProcessResult result = encode(*ffmpeg, request, temporary);
-  if (!result.has_started) return fail("ffmpeg does not start: " + result.errors);
-  if (result.is_too_slow) return fail("ffmpeg was stopped: it took far too long");
-  if (result.exit_code != 0)
-    return fail("ffmpeg failed (" + std::to_string(result.exit_code) +
-                "): " + telling_line(result.errors));
-
-  const long expected = request.last_frame - request.first_frame + 1;
-  const long counted = count_frames(*ffmpeg, temporary, longest_time(request));
-  if (counted != expected) {
-    const std::string said = telling_line(result.errors);
-    return fail("ffmpeg made " + std::to_string(std::max(counted, 0L)) + " of " +
-                std::to_string(expected) + " frames" + (said.empty() ? "" : ": " + said));
+  Attempt attempt = try_movie(*ffmpeg, request, temporary);
+  // A machine that fails once need not fail again.
+  if (!attempt.failure.empty() && attempt.may_be_repeated && !is_disk_error(attempt.failure))
+    attempt = try_movie(*ffmpeg, request, temporary);
+  if (!attempt.failure.empty()) {
+    std::error_code error;
+    fs::remove(temporary, error);
+    if (is_disk_error(attempt.failure)) return {MovieOutcome::unwritable, attempt.failure};
+    const std::string unreadable = unreadable_picture(request);
+    if (!unreadable.empty()) return {MovieOutcome::unwritable, unreadable};
+    return {MovieOutcome::failed, attempt.failure};
   }
   try {
     move_into_place(temporary, request.file);
     sync_files({request.file});
   } catch (const IoError& error) {
-    fail({});
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
     return {MovieOutcome::unwritable, error.what()};
   }
   return {MovieOutcome::written, {}};

@@ -14,6 +14,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/descriptor.h"
+#include "app/output/temporary.h"
 
 namespace neve::app::output {
 
@@ -110,6 +111,7 @@ void write_named_file(const fs::path& path, std::string_view text) {
   const Target target = follow_links(path);
   if (target.descriptor) return write_into(path, *target.descriptor, bytes);
   struct stat status {};
+  remove_abandoned(target.path.parent_path());
   if (::stat(target.path.c_str(), &status) != 0)
     return replace_file(target.path, bytes, Durability::synced);
   if (S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode))

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/output/atomic_file.h"
+#include "app/output/descriptor.h"
 #include "app/support/json.h"
 
 namespace neve::app::output {
@@ -29,6 +30,8 @@ EarlierRun read_earlier_run(const fs::path& file) {
   Json json;
   try {
     json = parse_json(read_file(file));
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
@@ -51,7 +54,9 @@ EarlierRun read_earlier_run(const fs::path& file) {
 std::size_t remove_regular(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return 0;
-  return fs::remove(file, error) ? 1 : 0;
+  if (!fs::remove(file, error) && error)
+    fail_writing(file, "cannot remove what an earlier run made", error.value());
+  return 1;
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
 /// run.json knows every picture that is there.
 int RenderRun::begin() {
   output::make_folder(job_.folder);
-  if (job_.checkpoint_every > 0) output::check_checkpoint_folder(job_.folder);
+  if (job_.checkpoint_every > 0) output::tidy_checkpoint_folder(job_.folder);
   std::optional<Resumption> found;
   if (job_.resume) found = checkpoints_.find(record_.views, job_.frames);
   int first = 0;

@@ -183,6 +183,8 @@ FrameRecord frame_record(const Json& json) {
 Json read_json(const std::filesystem::path& file) {
   try {
     return parse_json(output::read_file(file));
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {

@@ -42,6 +42,11 @@ struct IoError : Error {
       : Error(exit_io, message, std::move(place), std::move(advice)) {}
 };
 
+/// A file that is there and that the machine does not give: it says nothing about what is in it.
+struct UnreadableError : IoError {
+  using IoError::IoError;
+};
+
 /// More than a limit allows, found before anything was allocated.
 struct LimitError : Error {
   LimitError(const std::string& message, std::string place, std::string advice)

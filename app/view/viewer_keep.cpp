@@ -2,6 +2,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
+#include "app/output/temporary.h"
 #include "app/run/run_json.h"
 #include "app/view/viewer.h"
 
@@ -58,6 +59,7 @@ void Viewer::save_picture() {
   try {
     const output::Picture picture = picture_to_keep(file);
     output::make_folder(bench_.folder());
+    output::remove_abandoned(bench_.folder());
     output::write_file(file, render::encode_png(picture.image, picture.text));
     bench_.say(session::Message::Kind::note,
                "saved " + file.string() + "; neve render " + file.string() + " makes it again" +
@@ -92,6 +94,7 @@ void Viewer::record_frame() {
     // Frames have the names that neve render gives them.
     if (!lock_) lock_.emplace(bench_.folder(), "neve view");
     output::make_folder(bench_.folder() / view);
+    if (state_.recorded == 0) output::remove_abandoned(bench_.folder() / view);
     writer_.write(picture_to_keep(output::frame_path(bench_.folder(), view, live.frame)));
     ++state_.recorded;
   } catch (const std::exception& error) {

@@ -110,7 +110,7 @@ TEST_F(Changes, AResumedRunMakesTheRestOfThem) {
   ASSERT_EQ(more.exit_code, 0) << more.errors;
   EXPECT_TRUE(contains(more.errors, "resumed after frame 2")) << more.errors;
   EXPECT_EQ(hashes("parts"), hashes("whole"));
-  EXPECT_EQ(kill_and_resume(folder / "session.png", folder / "killed", 4, 0.4, 7), 4);
+  EXPECT_EQ(kill_and_resume(folder / "session.png", folder / "killed", {4, 0.4, 7}), 4);
   ASSERT_EQ(
       neve({"render", "session.png", "--out", "killed", "--resume", "--checkpoint-every", "1"})
           .exit_code,

@@ -5,7 +5,7 @@
 namespace neve::test {
 namespace {
 
-class DisturbedSample : public DisturbedCli {};
+class DisturbedSample : public DisturbedMemoryCli {};
 
 TEST_P(DisturbedSample, AnAllocationThatFailsIsSaidAndTheSameCommandGoesOn) {
   EXPECT_GT(disturb(failing_allocation(), 3), 0);

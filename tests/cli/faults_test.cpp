@@ -161,5 +161,45 @@ TEST_F(Faults, FailedRunsAreRepeatedByTheirState) {
   EXPECT_TRUE(contains(wrong.errors, "timeout")) << wrong.errors;
 }
 
+/// What cannot be read is not what is not there: nothing is collected without it, and nothing that
+/// it lists stays behind.
+TEST_F(Faults, AFileThatCannotBeReadEndsTheCommandAndIsNotTakenForMissing) {
+  ASSERT_EQ(failing("", sweep).exit_code, 0);
+  for (const char* file : {"status.json", "run.json", "particles/0001.png"}) {
+    const auto result =
+        failing(fault("read", EIO, std::string("runs/0001/") + file), "sweep collect s");
+    // A picture of a run is named as its flaw.
+    EXPECT_TRUE(result.exit_code == 6 || result.exit_code == 9) << file << result.errors;
+    EXPECT_TRUE(contains(result.errors, std::string(file) + ": cannot read: Input/output error"))
+        << result.errors;
+    EXPECT_EQ(failing("", "sweep collect s").exit_code, 0) << file;
+  }
+  ASSERT_EQ(failing("", "render scene.toml --out out --frames 0-3 --no-movie").exit_code, 0);
+  const std::string shorter = "render scene.toml --out out --frames 0-1 --no-movie";
+  for (const std::string& one :
+       {fault("read", EIO, "out/run.json"), fault("remove", EIO, "out/particles/0003.png")}) {
+    const auto result = failing(one, shorter);
+    EXPECT_EQ(result.exit_code, 6) << one << result.errors;
+    EXPECT_TRUE(exists("out/particles/0003.png"));
+  }
+  EXPECT_EQ(failing("", shorter).exit_code, 0);
+  EXPECT_FALSE(exists("out/particles/0003.png"));
+  EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
+}
+
+/// Of two that collect, the second one waits.
+TEST_F(Faults, OneCollectsAtATime) {
+  ASSERT_EQ(failing("", sweep).exit_code, 0);
+  const auto result = app::output::run_process(
+      "/bin/bash",
+      {"-c",
+       "exec 9>s/.collect.lock; flock 9; \"$0\" sweep collect s 2>said 9>&- & sleep 1; "
+       "cat said; exec 9>&-; wait $!; echo $?",
+       NEVE_BINARY},
+      folder.path());
+  EXPECT_TRUE(contains(result.output, "waits for another process")) << result.output;
+  EXPECT_TRUE(result.output.ends_with("\n0\n")) << result.output << read_text(folder / "said");
+}
+
 }  // namespace
 }  // namespace neve::test

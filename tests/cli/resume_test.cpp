@@ -46,7 +46,8 @@ TEST_F(Resume, AFinishedRunIsExtended) {
 
 TEST_F(Resume, KilledAtAnyInstantItEndsWithTheSameBits) {
   ASSERT_EQ(render("whole").exit_code, 0);
-  EXPECT_EQ(kill_and_resume(folder / "scene.toml", folder / "parts", 8, 0.5, 1), 8);
+  EXPECT_EQ(kill_and_resume(folder / "scene.toml", folder / "parts", {6, 0.5, 1}), 6);
+  EXPECT_EQ(kill_and_resume(folder / "scene.toml", folder / "parts", {2, 0.5, 2, SIGTERM}), 2);
   const auto last = render("parts", {"--resume", "--checkpoint-every", "1"});
   ASSERT_EQ(last.exit_code, 0) << last.errors;
   expect_same("whole", "parts");

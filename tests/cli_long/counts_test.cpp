@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <set>
+#include <iostream>
 #include <thread>
 
 #include "tests/support/costly_cli.h"
 #include "tests/support/faulty_cli.h"
 #include "tests/support/folder_contents.h"
+#include "tests/support/killed.h"
 #include "tests/support/whole_counts.h"
 
 namespace neve::test {
@@ -16,26 +17,33 @@ namespace {
 
 class Counts : public FaultyCli {
  protected:
-  /// Nothing of a killed run is left: no process, no file that it had not finished.
-  void expect_nothing_left(const std::filesystem::path& out) {
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
-      EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+  /// Two commands at once, whose messages go to the files `first` and `second`. @return exit codes
+  std::string at_once(const std::string& first, const std::string& second) {
+    return app::output::run_process(
+               "/bin/bash",
+               {"-c",
+                "\"$0\" " + first + " 2>first & one=$!; \"$0\" " + second +
+                    " 2>second & two=$!; wait $one; a=$?; wait $two; echo $a $?",
+                NEVE_BINARY},
+               folder.path())
+        .output;
   }
 
-  /// Processes other than this one whose folder is `path` or below it.
-  static std::set<std::string> processes_in(const std::filesystem::path& path) {
-    std::set<std::string> found;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-      std::error_code error;
-      const auto where = std::filesystem::read_symlink(entry.path() / "cwd", error);
-      if (!error && where.string().starts_with(path.string()))
-        found.insert(entry.path().filename().string() + " " + read_text(entry.path() / "comm"));
-    }
-    return found;
+  /// Whether there is in the folder `out` what a command makes of it alone.
+  bool is_what_it_makes_alone(const std::string& command) {
+    std::filesystem::remove_all(folder / "found");
+    std::filesystem::rename(folder / "out", folder / "found");
+    EXPECT_EQ(failing("", command).exit_code, 0) << command;
+    const auto found = folder_contents(folder / "found"), alone = folder_contents(folder / "out");
+    for (const auto& [name, bytes] : alone)
+      EXPECT_TRUE(found.contains(name) && found.at(name) == bytes) << name << " of " << command;
+    for (const auto& [name, bytes] : found)
+      EXPECT_TRUE(alone.contains(name)) << name << " of " << command;
+    return found == alone;
   }
 };
 
-/// Of a run with pictures and a movie, at any instant; then that of a sweep with runs side by side.
+/// Of a run with pictures and a movie, at any instant; then of one that is asked to end.
 TEST_F(Counts, KilledAtAnyInstantItEndsWithTheSameBits) {
   // Frames enough that the kills do not run out of them.
   std::string text(tiny_scene);
@@ -43,15 +51,51 @@ TEST_F(Counts, KilledAtAnyInstantItEndsWithTheSameBits) {
   folder.write("scene.toml", text);
   ASSERT_EQ(neve({"render", "scene.toml", "--out", "whole"}).exit_code, 0);
   const RunFiles whole = files_of(folder / "whole");
-  const int kills = count_or_whole(100, 500),
-            met = kill_and_resume(folder / "scene.toml", folder / "parts", kills, 0.4, 2);
-  EXPECT_EQ(met, kills);
-  ASSERT_EQ(neve({"render", "scene.toml", "--out", "parts", "--resume"}).exit_code, 0);
-  const RunFiles found = files_of(folder / "parts");
-  EXPECT_EQ(found.hashes, whole.hashes);
-  EXPECT_EQ(found.pictures, whole.pictures);
-  expect_nothing_left(folder / "parts");
-  EXPECT_EQ(neve({"verify", "parts"}).exit_code, 0);
+  for (const auto& [signal, count] :
+       {std::pair(SIGKILL, count_or_whole(50, 500)), std::pair(SIGTERM, count_or_whole(10, 100))}) {
+    const std::string place = "signal " + std::to_string(signal);
+    const auto look = [&] { expect_no_process(folder.path(), place); };
+    EXPECT_EQ(
+        kill_and_resume(folder / "scene.toml", folder / "parts", {count, 0.4, 2, signal, look}),
+        count);
+    ASSERT_EQ(neve({"render", "scene.toml", "--out", "parts", "--resume"}).exit_code, 0);
+    const RunFiles found = files_of(folder / "parts");
+    EXPECT_EQ(found.hashes, whole.hashes);
+    EXPECT_EQ(found.pictures, whole.pictures);
+    expect_nothing_unfinished(folder.path(), place);
+    EXPECT_EQ(neve({"verify", "parts"}).exit_code, 0);
+    std::filesystem::remove_all(folder / "parts");
+  }
+}
+
+/// ffmpeg is there for a part of a second only: the kill waits for it.
+TEST_F(Counts, KilledWhileItMakesAMovieItLeavesNoProcess) {
+  const std::string render = "render scene.toml --out out --quiet";
+  const auto is_encoding = [&] {
+    for (const std::string& process : processes_of(folder.path()))
+      if (contains(process, "ffmpeg")) return true;
+    return false;
+  };
+  std::mt19937 random(3);
+  const int count = count_or_whole(10, 100);
+  int met = 0;
+  for (int k = 0; met < count && k < 5 * count; ++k) {
+    std::filesystem::remove_all(folder / "out");
+    const pid_t child = start_in(folder.path(), render);
+    bool has_begun = false;
+    for (int look = 0; look < 5000 && !has_begun && ::kill(child, 0) == 0; ++look) {
+      has_begun = is_encoding();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 50));
+    ::kill(child, SIGKILL);
+    met += wait_for(child) == 128 + SIGKILL && has_begun;
+    expect_no_process(folder.path(), "kill " + std::to_string(k));
+  }
+  EXPECT_EQ(met, count);
+  EXPECT_EQ(failing("", render + " --resume").exit_code, 0);
+  EXPECT_TRUE(exists("out/particles.mp4"));
+  expect_nothing_unfinished(folder.path(), "the kills");
 }
 
 TEST_F(Counts, ADriverThatIsKilledLeavesNoProcess) {
@@ -59,18 +103,11 @@ TEST_F(Counts, ADriverThatIsKilledLeavesNoProcess) {
   const std::string sweep = "sweep scene.toml -p seed=1,2,3,4 --out s --jobs 2 --quiet";
   ASSERT_EQ(failing("", "sweep scene.toml -p seed=1,2,3,4 --out whole --jobs 2").exit_code, 0);
   for (int k = 0; k < count_or_whole(10, 100); ++k) {
-    const double seconds = std::uniform_real_distribution<>(0.05, 2.0)(random);
-    app::output::run_process("/bin/bash",
-                             {"-c",
-                              "\"$0\" " + sweep + " & pid=$!; sleep " + std::to_string(seconds) +
-                                  "; kill -KILL $pid; wait $pid; true",
-                              NEVE_BINARY},
-                             folder.path());
-    std::this_thread::sleep_for(std::chrono::seconds(1));
-    EXPECT_EQ(processes_in(folder.path()), std::set<std::string>{}) << k;
+    kill_after(folder.path(), sweep, std::uniform_real_distribution<>(0.05, 2.0)(random));
+    expect_no_process(folder.path(), "kill " + std::to_string(k));
   }
   ASSERT_EQ(failing("", sweep).exit_code, 0);
-  expect_nothing_left(folder / "s");
+  expect_nothing_unfinished(folder.path(), "the kills");
   EXPECT_EQ(neve({"verify", "s"}).exit_code, 0);
   for (const char* run : {"0000", "0001", "0002", "0003"}) {
     const std::string place = std::string("/runs/") + run;
@@ -97,26 +134,70 @@ TEST_F(Counts, OfTwoOfAnythingInAFolderOneWins) {
   for (int k = 0; k < count; ++k) {
     const auto& [first, second] = pairs[k % std::size(pairs)];
     std::filesystem::remove_all(folder / "out");
-    const auto both =
-        app::output::run_process("/bin/bash",
-                                 {"-c",
-                                  "\"$0\" " + first + " 2>first & one=$!; \"$0\" " + second +
-                                      " 2>second & two=$!; wait $one; a=$?; wait $two; echo $a $?",
-                                  NEVE_BINARY},
-                                 folder.path());
-    const bool is_first = both.output == "0 6\n";
-    EXPECT_TRUE(is_first || both.output == "6 0\n") << first << ": " << both.output;
+    const std::string codes = at_once(first, second);
+    const bool is_first = codes == "0 6\n";
+    EXPECT_TRUE(is_first || codes == "6 0\n") << first << ": " << codes;
     const std::string loser = read_text(folder / (is_first ? "second" : "first"));
     EXPECT_TRUE(contains(loser, "is in use by neve ")) << loser;
-    // What is there is what the winner alone makes.
-    std::filesystem::rename(folder / "out", folder / "found");
-    EXPECT_EQ(failing("", is_first ? first : second).exit_code, 0);
-    const bool is_same = folder_contents(folder / "found") == folder_contents(folder / "out");
-    EXPECT_TRUE(is_same) << first;
-    won += is_same;
-    std::filesystem::remove_all(folder / "found");
+    won += is_what_it_makes_alone(is_first ? first : second);
   }
   EXPECT_EQ(won, count);
+}
+
+/// One that records frames needs the folder as neve render does. It has it when the other one
+/// comes, or it comes while the other one has it.
+TEST_F(Counts, OfAViewThatRecordsAndARenderOneWins) {
+  folder.write("record.json", R"([{"click": "Save ..."}, {"wait": 3},
+      {"click": "Record every frame"}, {"wait": 3}, {"key": "escape"}, {"wait": 3},
+      {"click": "Run"}, {"wait_for": "simulation frame 4"}, {"wait_for": "simulation paused"},
+      {"wait": 5}, {"quit": true}])");
+  const std::string view = "view scene.toml --replay record.json --out out --size 640x400",
+                    render = "render scene.toml --out out --no-movie --quiet";
+  int won = 0;
+  const int count = count_or_whole(6, 100);
+  for (int k = 0; k < count; ++k) {
+    const auto& [winner, loser] = k % 2 == 0 ? std::pair(view, render) : std::pair(render, view);
+    std::filesystem::remove_all(folder / "out");
+    const pid_t first = start_in(folder.path(), winner);
+    wait_for_text(folder / "out/.lock");
+    ::kill(first, SIGSTOP);
+    const auto before = folder_contents(folder / "out");
+    const auto second = failing("", loser);
+    EXPECT_EQ(second.exit_code, 6) << loser;
+    EXPECT_TRUE(contains(second.errors, "is in use by neve ")) << loser << second.errors;
+    EXPECT_EQ(folder_contents(folder / "out"), before) << loser;
+    ::kill(first, SIGCONT);
+    EXPECT_EQ(wait_for(first), 0) << winner;
+    won += is_what_it_makes_alone(winner);
+  }
+  EXPECT_EQ(won, count);
+}
+
+/// Whoever collects meanwhile: the sweep ends with all of its runs collected.
+TEST_F(Counts, ACollectBesideASweepTakesNothingFromIt) {
+  const std::string sweep = "sweep scene.toml --out out --frames 0-3 --quiet -p seed=1,2,3",
+                    collect = "sweep collect out --quiet";
+  int whole = 0, collected = 0;
+  const int count = count_or_whole(5, 100);
+  for (int k = 0; k < count; ++k) {
+    std::filesystem::remove_all(folder / "out");
+    const pid_t child = start_in(folder.path(), sweep);
+    wait_for_file(folder / "out/manifest.json");
+    int status = 0;
+    while (::waitpid(child, &status, WNOHANG) == 0) {
+      const auto result = failing("", collect);
+      EXPECT_EQ(result.exit_code, 0) << result.errors;
+      ++collected;
+    }
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
+    whole += is_what_it_makes_alone(sweep);
+    // One that collects what is there already makes nothing else of it.
+    EXPECT_EQ(at_once(collect, collect), "0 0\n");
+    EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
+  }
+  std::cout << collected << " times collected beside " << count << " sweeps\n";
+  EXPECT_EQ(whole, count);
 }
 
 /// The same command, again and again while there is no room and once more when there is.

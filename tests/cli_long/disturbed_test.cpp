@@ -1,4 +1,4 @@
-/// Every command with every allocation and every file operation that fails.
+/// Every command with every allocation and every file operation that fails, and killed.
 
 #include <iostream>
 
@@ -8,8 +8,9 @@
 namespace neve::test {
 namespace {
 
-class EveryAllocation : public DisturbedCli {};
+class EveryAllocation : public DisturbedMemoryCli {};
 class EveryOperation : public DisturbedCli {};
+class EveryCommand : public DisturbedCli {};
 
 TEST_P(EveryAllocation, FailsOnceAndTheSameCommandGoesOn) {
   const int places = disturb(failing_allocation(), count_or_whole(25, 1'000'000));
@@ -18,11 +19,24 @@ TEST_P(EveryAllocation, FailsOnceAndTheSameCommandGoesOn) {
 }
 
 TEST_P(EveryOperation, FailsOnceAndForEverAndTheSameCommandGoesOn) {
-  for (const char* operation :
-       {"open", "write", "short", "fsync", "rename", "mkdir", "close", "flock"}) {
-    const int places = disturb(failing_operation(operation), count_or_whole(6, 1'000'000));
-    std::cout << GetParam().name << ", " << operation << ": " << places << " places\n";
+  int all = 0;
+  for (const char* operation : {"open", "write", "short", "truncate", "fsync", "rename", "remove",
+                                "mkdir", "close", "flock", "look", "read"}) {
+    const int tries = disturb(failing_operation(operation), count_or_whole(4, 1'000'000));
+    std::cout << GetParam().name << ", " << operation << ": " << tries << " tries" << std::endl;
+    all += tries;
   }
+  std::cout << GetParam().name << ": " << all << " tries\n";
+  EXPECT_GT(all, 0);
+}
+
+TEST_P(EveryCommand, RemovesWhatKilledOnesLeft) {
+  expect_to_tidy();
+}
+
+/// No process is there after a second, and the same command ends as if nothing had been.
+TEST_P(EveryCommand, KilledAtAnyMomentGoesOn) {
+  kill_at_any_moment(count_or_whole(3, 25));
 }
 
 // Memory of the viewer's panels is ImGui's.
@@ -30,6 +44,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, EveryAllocation,
                          testing::ValuesIn(disturbed_commands({"view", "emit"})), name_of);
 // The others write nothing.
 INSTANTIATE_TEST_SUITE_P(Commands, EveryOperation,
+                         testing::ValuesIn(disturbed_commands({"verify", "check"})), name_of);
+INSTANTIATE_TEST_SUITE_P(Commands, EveryCommand,
                          testing::ValuesIn(disturbed_commands({"verify", "check"})), name_of);
 
 }  // namespace

@@ -1,8 +1,9 @@
 /// Calls of the C library that fail on demand and are listed, for programs that are started with
 /// this library in LD_PRELOAD:
 ///
-///   NEVE_FAULT  OPERATION:ERRNO:PART[:SKIP[:TIMES]]  the operation (open, write, fsync, rename,
-///               mkdir, close, flock) fails with this number on files with this part in their path,
+///   NEVE_FAULT  OPERATION:ERRNO:PART[:SKIP[:TIMES]]  the operation (open, write, truncate, fsync,
+///               rename, remove, mkdir, close, flock; look, which opens a file or folder for
+///               reading, and read) fails with this number on files with this part in their path,
 ///               after SKIP times, TIMES of them (all). The operation short is a write of a half.
 ///   NEVE_FAULT_COUNT  FILE  begins with a number of 8 bytes: the calls of the operation by all
 ///               processes that share it. Without it each process counts for itself
@@ -14,6 +15,7 @@
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -92,6 +94,11 @@ std::string absolute(const char* path) {
   return std::string(here) + "/" + path;
 }
 
+/// Of a path that may begin at an open folder.
+std::string absolute(int folder, const char* path) {
+  return folder == AT_FDCWD || path[0] == '/' ? absolute(path) : path_of(folder) + "/" + path;
+}
+
 /// One record at a time, whatever the threads do: "OPERATION BYTES\nPATH\n", and so many bytes.
 void journal(const char* operation, const std::string& path, const std::string& bytes = {}) {
   static const char* file = std::getenv("NEVE_JOURNAL");
@@ -122,15 +129,34 @@ bool fails(const char* operation, int fd) {
 
 int open_file(const char* name, const char* path, int flags, unsigned mode) {
   const bool writes = (flags & O_ACCMODE) != O_RDONLY;
-  if (writes && fails("open", absolute(path))) return -1;
+  if (fails(writes ? "open" : "look", absolute(path))) return -1;
   const int fd = next<int(const char*, int, ...)>(name)(path, flags, mode);
   if (fd >= 0 && (flags & O_CREAT) != 0) journal("create", absolute(path));
   return fd;
 }
 
+/// Streams of C and C++ open their files here.
+FILE* open_stream(const char* name, const char* path, const char* mode) {
+  const bool writes = std::strpbrk(mode, "wa+") != nullptr;
+  if (fails(writes ? "open" : "look", absolute(path))) return nullptr;
+  return next<FILE*(const char*, const char*)>(name)(path, mode);
+}
+
 }  // namespace
 
 extern "C" {
+
+FILE* fopen(const char* path, const char* mode) {
+  return open_stream("fopen", path, mode);
+}
+
+FILE* fopen64(const char* path, const char* mode) {
+  return open_stream("fopen64", path, mode);
+}
+
+ssize_t read(int fd, void* data, size_t size) {
+  return fails("read", fd) ? -1 : next<ssize_t(int, void*, size_t)>("read")(fd, data, size);
+}
 
 int open(const char* path, int flags, ...) {
   va_list list;
@@ -148,6 +174,17 @@ int open64(const char* path, int flags, ...) {
   return open_file("open64", path, flags, mode);
 }
 
+/// Folders are opened so, to list what is in them.
+int openat(int folder, const char* path, int flags, ...) {
+  va_list list;
+  va_start(list, flags);
+  const unsigned mode = va_arg(list, unsigned);
+  va_end(list);
+  return fails("look", absolute(folder, path))
+             ? -1
+             : next<int(int, const char*, int, ...)>("openat")(folder, path, flags, mode);
+}
+
 ssize_t write(int fd, const void* data, size_t size) {
   if (fails("write", fd)) return -1;
   if (size > 1 && fails("short", fd)) size /= 2;
@@ -156,6 +193,16 @@ ssize_t write(int fd, const void* data, size_t size) {
     journal("write", path_of(fd),
             std::string(static_cast<const char*>(data), static_cast<std::size_t>(written)));
   return written;
+}
+
+/// Long pieces of C++ streams.
+ssize_t writev(int fd, const iovec* pieces, int count) {
+  return fails("write", fd) ? -1
+                            : next<ssize_t(int, const iovec*, int)>("writev")(fd, pieces, count);
+}
+
+int ftruncate(int fd, off_t size) {
+  return fails("truncate", fd) ? -1 : next<int(int, off_t)>("ftruncate")(fd, size);
 }
 
 int fsync(int fd) {
@@ -175,15 +222,24 @@ int rename(const char* from, const char* to) {
 }
 
 int unlink(const char* path) {
+  if (fails("remove", absolute(path))) return -1;
   const int result = next<int(const char*)>("unlink")(path);
   if (result == 0) journal("remove", absolute(path));
   return result;
 }
 
 int remove(const char* path) {
+  if (fails("remove", absolute(path))) return -1;
   const int result = next<int(const char*)>("remove")(path);
   if (result == 0) journal("remove", absolute(path));
   return result;
+}
+
+/// Whole folders are removed so.
+int unlinkat(int folder, const char* path, int flags) {
+  return fails("remove", absolute(folder, path))
+             ? -1
+             : next<int(int, const char*, int)>("unlinkat")(folder, path, flags);
 }
 
 int mkdir(const char* path, mode_t mode) {

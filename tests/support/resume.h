@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <random>
 #include <thread>
@@ -32,28 +33,38 @@ inline RunFiles files_of(const std::filesystem::path& out) {
   return files;
 }
 
+struct Kills {
+  int count;
+  double longest;  ///< s until one
+  unsigned seed;
+  int signal = SIGKILL;
+  std::function<void()> after = [] {};  ///< each
+};
+
 /// Starts over where the program was done before it was killed.
-/// @return how many of the kills met a running program, `kills` but on a machine that is too quick
+/// @return how many of the kills met a running program, all but on a machine that is too quick
 inline int kill_and_resume(const std::filesystem::path& scene, const std::filesystem::path& out,
-                           int kills, double longest, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> delay(0.02, longest);
+                           Kills kills) {
+  std::mt19937 random(kills.seed);
+  std::uniform_real_distribution<double> share(0, 1);
   int met = 0;
-  for (int k = 0; met < kills && k < 10 * kills; ++k) {
+  for (int k = 0; met < kills.count && k < 10 * kills.count; ++k) {
     const pid_t child = start_program({NEVE_BINARY, "render", scene, "--out", out, "--resume",
                                        "--checkpoint-every", "1", "--quiet"});
-    std::this_thread::sleep_for(std::chrono::duration<double>(delay(random)));
-    ::kill(child, k % 4 == 3 ? SIGTERM : SIGKILL);
+    const double seconds = 0.02 + share(random) * (kills.longest - 0.02);
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    ::kill(child, kills.signal);
     const int code = wait_for(child);
-    EXPECT_TRUE(code == 128 + SIGKILL || code == 75 || code == 130 || code == 0 ||
-                code == 128 + SIGTERM)
+    EXPECT_TRUE(code == 0 || code == 128 + kills.signal ||
+                (kills.signal != SIGKILL && (code == 75 || code == 130)))
         << code;
+    kills.after();
     if (code != 0) {
       ++met;
     } else {
       // It was done before it could be killed, on a machine that is as quick as that.
       std::filesystem::remove_all(out);
-      longest = std::max(0.6 * longest, 0.05);
+      kills.longest = std::max(0.6 * kills.longest, 0.05);
     }
   }
   return met;

@@ -94,6 +94,10 @@ void judge_exit(const ChildResult& result, const store::Manifest& manifest, cons
       return;
     default:
       status.reason = last_message(folder / "log");
+      // A log that cannot be written or read is the machine's too.
+      if (status.reason.empty())
+        status.reason =
+            fmt::format("ended with exit code {} and no message in its log", result.code);
   }
   const bool has_no_memory =
       result.code == exit_refused && status.reason.find("out of memory") != std::string::npos;

@@ -14,6 +14,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/process.h"
+#include "app/output/temporary.h"
 #include "app/setup/command_text.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -133,6 +134,7 @@ std::vector<std::string> submit(const fs::path& folder, const store::Manifest& m
                                 const std::vector<int>& indices, const SlurmOptions& options,
                                 const std::string& retry_failed) {
   output::make_folder(folder / "slurm");
+  output::remove_abandoned(folder / "slurm");
   write_scripts(folder, options);
   const std::string log = (fs::absolute(folder) / "slurm" / "%A_%a.log").string();
   std::vector<std::string> jobs;

@@ -1,11 +1,16 @@
 #include "app/sweep/sheet/collect.h"
 
+#include <chrono>
+#include <optional>
 #include <system_error>
+#include <thread>
 
 #include "app/output/atomic_file.h"
+#include "app/output/folder_lock.h"
 #include "app/output/movie.h"
 #include "app/output/picture_writer.h"
 #include "app/output/sequence.h"
+#include "app/output/temporary.h"
 #include "app/picture/legends.h"
 #include "app/scene/read.h"
 #include "app/support/errors.h"
@@ -24,6 +29,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* collect_lock = ".collect.lock";
+
 /// Colour bars of the view, with the ranges that all runs share.
 std::vector<render::Legend> shared_legends(const fs::path& folder,
                                            const store::Manifest& manifest) {
@@ -34,6 +41,23 @@ std::vector<render::Legend> shared_legends(const fs::path& folder,
   for (const scene::View& view : shared.views)
     if (view.name == manifest.view) return picture::legends_of(view);
   return {};
+}
+
+/// One collects at a time. A sweep that ends while someone collects has to collect after that, with
+/// the runs that the other one did not see. @return nothing when it was interrupted
+std::optional<output::FolderLock> wait_for_turn(const fs::path& folder, Progress& progress) {
+  constexpr auto between_looks = std::chrono::milliseconds(50);
+  const auto look = [&] {
+    return output::FolderLock::try_lock(folder, "neve sweep collect",
+                                        output::FolderLock::Kind::alone, collect_lock);
+  };
+  std::optional<output::FolderLock> lock = look();
+  if (!lock) progress.note("waits for " + output::FolderLock::holder_of(folder, collect_lock));
+  while (!lock && !is_interrupted()) {
+    std::this_thread::sleep_for(between_looks);
+    lock = look();
+  }
+  return lock;
 }
 
 bool has_pictures(const std::vector<store::RunResult>& results) {
@@ -82,6 +106,7 @@ void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, S
   const int first = manifest.first_frame(), last = manifest.last_frame();
   const std::string name = page_name("sheet", page);
   output::make_folder(folder / name);
+  output::remove_abandoned(folder / name);
   output::PictureWriter writer;
   for (int frame = first; frame <= last && !is_interrupted(); ++frame) {
     render::Image image = maker.sheet(frame, page);
@@ -121,7 +146,11 @@ void write_effects(const fs::path& folder, const store::Manifest& manifest,
 
 void collect_sweep(const fs::path& folder, const std::string& backend, int threads,
                    Progress& progress) {
-  const store::Manifest manifest = store::read_manifest(folder);
+  // Where there is no sweep, nothing is made.
+  store::Manifest manifest = store::read_manifest(folder);
+  const std::optional<output::FolderLock> lock = wait_for_turn(folder, progress);
+  if (!lock) return;
+  manifest = store::read_manifest(folder);
   std::vector<store::RunResult> results = store::read_results(folder, manifest);
   for (store::RunResult& result : results)
     if (!result.flaws.empty()) result.warnings.push_back(result.flaws);

@@ -59,6 +59,8 @@ render::Image read_tile(const std::filesystem::path& file, int width, int height
     if (image.width >= width && image.height >= height) return render::shrink(image, width, height);
     return render::compose(width, height, background,
                            {{(width - image.width) / 2, (height - image.height) / 2, image}});
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {

@@ -71,6 +71,8 @@ RunStatus read_status(const fs::path& run_folder) {
     status.host = json.value("host", "");
     if (!(status.seconds >= 0 && status.seconds < 1e12) || status.attempts < 0) return {};
     if (found != states.end()) status.state = static_cast<RunState>(found - states.begin());
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/output/atomic_file.h"
+#include "app/output/temporary.h"
 #include "app/scene/flat.h"
 #include "app/scene/leaf.h"
 #include "app/scene/read.h"
@@ -77,6 +78,7 @@ void write_sweep_around(const std::filesystem::path& file, const Document& docum
     if (param.address != address) continue;
     take_finer_value(param, document);
     output::make_folder(file.parent_path());
+    output::remove_abandoned(file.parent_path());
     output::write_file(file, sweep::plan::sweep_around(document.file(), file.string(), param,
                                                        set_in_all(document, address),
                                                        document.coarsening(), set_later));

@@ -1,0 +1,75 @@
+#pragma once
+/// Programs that are killed, and what they leave behind.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "app/output/temporary.h"
+#include "tests/support/child.h"
+#include "tests/support/temporary_folder.h"
+
+namespace neve::test {
+
+/// The program in a folder. @param arguments  for the shell
+inline pid_t start_in(const std::filesystem::path& folder, const std::string& arguments) {
+  return start_program(
+      {"/bin/bash", "-c", "cd \"$1\" && exec \"$0\" " + arguments, NEVE_BINARY, folder.string()});
+}
+
+/// Processes that work in a folder or below it, or have its name among their arguments, as ffmpeg
+/// has that of a movie.
+inline std::set<std::string> processes_of(const std::filesystem::path& folder) {
+  std::set<std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::error_code error;
+    const auto where = std::filesystem::read_symlink(entry.path() / "cwd", error);
+    if (error) continue;
+    if (where.string().starts_with(folder.string()) ||
+        read_text(entry.path() / "cmdline").find(folder.string()) != std::string::npos)
+      found.insert(entry.path().filename().string() + " " + read_text(entry.path() / "comm"));
+  }
+  return found;
+}
+
+/// A second after a kill.
+inline void expect_no_process(const std::filesystem::path& folder, const std::string& place) {
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_EQ(processes_of(folder), std::set<std::string>{}) << place;
+}
+
+/// @return exit code, or 128 + SIGKILL
+inline int kill_after(const std::filesystem::path& folder, const std::string& arguments,
+                      double seconds) {
+  const pid_t child = start_in(folder, arguments);
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  ::kill(child, SIGKILL);
+  return wait_for(child);
+}
+
+/// A file in each folder that a process has begun to write when it ends.
+inline void leave_unfinished(const std::vector<std::filesystem::path>& folders) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    for (const std::filesystem::path& folder : folders)
+      std::ofstream(app::output::temporary_name(folder / "part")) << "a";
+    ::_exit(0);
+  }
+  wait_for(child);
+}
+
+/// Nothing that a killed program had not finished is left below a folder.
+inline void expect_nothing_unfinished(const std::filesystem::path& folder,
+                                      const std::string& place) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    EXPECT_NE(entry.path().extension(), ".tmp") << entry.path() << " after " << place;
+}
+
+}  // namespace neve::test
