@@ -43,7 +43,7 @@ std::vector<Bytes> scenes() {
 
 const std::vector<Reader>& readers() {
   static const std::vector<Reader> list{{"scene", read_scene, scenes},
-                                        {"set", read_set, no_seeds},
+                                        {"set", read_set, settings},
                                         {"sweep", read_sweep, no_seeds},
                                         {"mesh", read_mesh, no_seeds},
                                         {"points", read_points, no_seeds},
@@ -62,6 +62,8 @@ std::vector<Bytes> corpus_of(const Reader& reader) {
   std::vector<Bytes> corpus =
       files_in(fs::path(NEVE_SOURCE_DIR "/tests/fuzz/corpus") / reader.name);
   for (Bytes& seed : reader.seeds()) corpus.push_back(std::move(seed));
+  for (Bytes& found : files_in(fs::path(NEVE_FUZZ_FOUND) / reader.name))
+    corpus.push_back(std::move(found));
   return corpus;
 }
 

@@ -21,12 +21,13 @@ struct Reader {
 
 const std::vector<Reader>& readers();
 
-/// The files of the corpus, then the seeds.
+/// The files of the corpus, then the seeds, then what earlier searches found (found.tar.xz).
 std::vector<Bytes> corpus_of(const Reader& reader);
 
 // Of files, in readers_of_files.cpp.
 void read_scene(std::span<const std::uint8_t> bytes);
 void read_set(std::span<const std::uint8_t> bytes);
+std::vector<Bytes> settings();
 void read_sweep(std::span<const std::uint8_t> bytes);
 void read_mesh(std::span<const std::uint8_t> bytes);
 void read_points(std::span<const std::uint8_t> bytes);

@@ -1,4 +1,5 @@
 #include "app/scene/override.h"
+#include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
@@ -16,16 +17,52 @@ namespace {
 
 using namespace neve::app;
 
+/// One of everything that has a name.
 constexpr const char* base_scene = R"(
 [solver]
 cell_size = 0.04
+[material.snow]
 [[body]]
 name = "ball"
 shape = { sphere = { center = [0, 0.12, 0], radius = 0.08 } }
 [[collider]]
 name = "floor"
 shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[[emitter]]
+name = "spout"
+shape = { sphere = { center = [0, 1, 0], radius = 0.1 } }
+[[sink]]
+name = "drain"
+shape = { box = { center = [0, -1, 0], size = [1, 0.1, 1] } }
+[[view]]
+name = "main"
+[[view]]
+name = "side"
+[[mosaic]]
+name = "both"
+views = ["main", "side"]
+[[export]]
+name = "points"
+format = "ply"
 )";
+
+/// In the scene above. @param address  with NAME or N where a scene has names and numbers
+std::string named(std::string address) {
+  constexpr std::pair<std::string_view, std::string_view> names[] = {
+      {"body.NAME", "body.ball"},
+      {"collider.NAME", "collider.floor"},
+      {"emitter.NAME", "emitter.spout"},
+      {"sink.NAME", "sink.drain"},
+      {"view.NAME", "view.main"},
+      {"mosaic.NAME", "mosaic.both"},
+      {"export.NAME", "export.points"},
+      {"material.NAME", "material.snow"},
+      {"[N]", "[0]"}};
+  for (const auto& [from, to] : names)
+    if (const std::size_t at = address.find(from); at != std::string::npos)
+      address.replace(at, from.size(), to);
+  return address;
+}
 
 /// Calls a reader that may refuse what it is given.
 template <class Read>
@@ -67,6 +104,18 @@ void read_set(std::span<const std::uint8_t> bytes) {
     scene = scene::read_scene_text(base_scene, "scene.toml", "", overrides);
   });
   if (scene) require_round_trip(*scene);
+}
+
+/// Each parameter with its default and, of a choice, with each value.
+std::vector<Bytes> settings() {
+  std::vector<Bytes> list;
+  for (const scene::ParamInfo& param : scene::params()) {
+    const std::string head = named(param.address) + "=";
+    list.push_back(bytes_of(
+        head + (param.default_value ? scene::toml::toml_literal(*param.default_value) : "1")));
+    for (const std::string& choice : param.choices) list.push_back(bytes_of(head + choice));
+  }
+  return list;
 }
 
 void read_sweep(std::span<const std::uint8_t> bytes) {

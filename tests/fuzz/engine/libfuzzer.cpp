@@ -1,11 +1,16 @@
 /// The entry of libFuzzer. NEVE_FUZZ_READER names the reader; tests/fuzz/search starts one after
-/// the other. With --seeds DIR it writes the corpus into a folder instead.
+/// the other. With --seeds DIR it writes the corpus into a folder instead, and the words in it as a
+/// dictionary into DIR.words.
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <string>
 #include <string_view>
 
 #include "tests/fuzz/readers.h"
@@ -31,11 +36,34 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+bool is_of_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '-';
+}
+
+/// Keys, names and addresses: what is too long to be found by chance.
+void add_words(std::string_view text, std::set<std::string>& words) {
+  constexpr std::size_t shortest = 3, longest_word = 40;
+  while (!text.empty()) {
+    const auto begin = std::find_if(text.begin(), text.end(), is_of_word),
+               end = std::find_if_not(begin, text.end(), is_of_word);
+    const std::string word(begin, end);
+    if (word.size() >= shortest && word.size() <= longest_word &&
+        std::isalpha(static_cast<unsigned char>(word[0])))
+      words.insert(word);
+    text.remove_prefix(static_cast<std::size_t>(end - text.begin()));
+  }
+}
+
 int write_seeds(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   int number = 0;
-  for (const Bytes& bytes : corpus_of(*chosen))
+  std::set<std::string> words;
+  for (const Bytes& bytes : corpus_of(*chosen)) {
     std::ofstream(folder / ("seed" + std::to_string(number++)), std::ios::binary) << text_of(bytes);
+    add_words(text_of(bytes), words);
+  }
+  std::ofstream dictionary(folder.string() + ".words");
+  for (const std::string& word : words) dictionary << '"' << word << "\"\n";
   return 0;
 }
 
