@@ -48,11 +48,14 @@ std::string file_name(const Checkpoint& c) {
 /// Newest first.
 std::vector<fs::path> list(const fs::path& folder) {
   std::vector<fs::path> files;
-  std::error_code error;
+  std::error_code error, ignored;
   for (fs::directory_iterator it(folder_of(folder), error), end; !error && it != end;
        it.increment(error))
-    if (it->path().extension() == ".ckpt" && it->is_regular_file(error))
+    if (it->path().extension() == ".ckpt" && it->is_regular_file(ignored))
       files.push_back(it->path());
+  if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+    throw UnreadableError(folder_of(folder).string() + ": cannot read: " + error.message(),
+                          folder_of(folder).string());
   std::sort(files.rbegin(), files.rend());
   return files;
 }
@@ -134,6 +137,8 @@ FoundCheckpoint find_checkpoint(const fs::path& folder, int before) {
       if (checkpoint.frame >= before) continue;
       found.checkpoint = std::move(checkpoint);
       return found;
+    } catch (const UnreadableError&) {
+      throw;
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {

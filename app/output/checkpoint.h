@@ -47,6 +47,7 @@ struct FoundCheckpoint {
 
 /// Nothing where the folder has none. Damaged ones are passed over and named.
 /// @param before  frame that the checkpoint is to be before
+/// @throws UnreadableError for one that the machine does not give
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder,
                                 int before = std::numeric_limits<int>::max());
 

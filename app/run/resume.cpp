@@ -162,6 +162,8 @@ void Checkpoints::go_to(const ResumedRun& run) {
     ResumedRun whole = run;
     whole.state = again->state;
     restore_frame(whole, player_.scene().fps, simulation_);
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

@@ -182,6 +182,9 @@ TEST_F(Faults, AFileThatCannotBeReadEndsTheCommandAndIsNotTakenForMissing) {
     EXPECT_EQ(result.exit_code, 6) << one << result.errors;
     EXPECT_TRUE(exists("out/particles/0003.png"));
   }
+  // Days of a run are not made again for a checkpoint that could not be read once.
+  const std::string longer = "render scene.toml --out out --frames 0-4 --no-movie --resume";
+  EXPECT_EQ(failing(fault("read", EIO, "out/checkpoint/"), longer).exit_code, 6);
   EXPECT_EQ(failing("", shorter).exit_code, 0);
   EXPECT_FALSE(exists("out/particles/0003.png"));
   EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
