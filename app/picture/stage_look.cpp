@@ -51,7 +51,8 @@ StageCut::StageCut(const scene::View& view, const SlicePlane& at, const sim::Vec
 
 void add_stage_change(const Snapshot& snapshot, const StageLook& look, render::Frame& frame) {
   const StageChange& change = *snapshot.stage_change;
-  const auto& [cut, largest] = look;
+  const StageCut& cut = look.cut;
+  const double largest = look.largest;
   const render::Legend legend{change.title, change.unit, render::ColorMap::viridis, 0,
                               static_cast<float>(largest > 0 ? largest : 1)};
   frame.legends = {legend};
