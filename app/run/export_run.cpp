@@ -135,8 +135,8 @@ void remove_earlier_list(const fs::path& folder) {
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return;
   try {
     exports::remove_earlier_exports(folder, parse_json(output::read_file(file)).at("exports"));
-  } catch (const UnreadableError&) {
-    throw;
+  } catch (const IoError&) {
+    throw;  // files of an earlier export would lie beside the new ones
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {

@@ -1,5 +1,7 @@
 /// What goes wrong by chance, often. NEVE_WHOLE=1 repeats it as often as docs/developers.md says.
 
+#include <sys/wait.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -161,6 +163,9 @@ TEST_F(Counts, OfAViewThatRecordsAndARenderOneWins) {
     const pid_t first = start_in(folder.path(), winner);
     wait_for_text(folder / "out/.lock");
     ::kill(first, SIGSTOP);
+    // It stops a moment later.
+    int state = 0;
+    ASSERT_EQ(::waitpid(first, &state, WUNTRACED), first);
     const auto before = folder_contents(folder / "out");
     const auto second = failing("", loser);
     EXPECT_EQ(second.exit_code, 6) << loser;
