@@ -35,8 +35,8 @@ constexpr int calibration_steps = 40;
 /// Above this many particles seeding alone takes too long for a look.
 constexpr double max_seeded = 3e6;
 
-/// Steps of the shipped scenes over those that are foretold with the particles of the copy, and with
-/// unlucky ones, lie within: docs/performance.md has them.
+/// Steps of the shipped scenes over those that are foretold with the particles of the copy, and
+/// with unlucky ones, lie within: docs/performance.md has them.
 constexpr double least_of_steps = 0.5, most_of_steps = 2;
 /// Time of a step over that at the start, beyond the copy's spread: 0.7 to 2.0 on seven scenes.
 /// Torn snow fills more of the grid and of the caches.
