@@ -230,8 +230,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
         result.out_of_time == 1 ? "run" : "runs"));
   else if (result.is_interrupted || is_interrupted())
     progress.say("interrupted; the same command continues from here");
-  if (result.elsewhere > 0 || result.is_interrupted || is_interrupted()) return exit_resumable;
-  return result.failed > 0 ? exit_runs_failed : exit_ok;
+  return is_interrupted() ? exit_resumable : exit_code_of(result);
 }
 
 int run_sweep_run(const sweep::plan::SweepRunOptions& options) {

@@ -39,7 +39,7 @@ struct ColliderMesh {
   std::vector<std::uint32_t> corners;  ///< three a triangle
 };
 
-/// Of a mesh that deforms: its triangles, and no points.
+/// Gives a mesh that deforms triangles without points: these move.
 ColliderMesh collider_mesh(const sim::shapes::Shape& shape) {
   ColliderMesh surface;
   if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&shape.form)) {

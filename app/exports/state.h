@@ -12,7 +12,7 @@
 
 namespace neve::app::exports {
 
-/// Where a collider is, and when it has its shape: see sim::shapes::shape_time.
+/// Pose of a collider, and the time of its shape (see sim::shapes::shape_time).
 struct PlacedShape {
   sim::shapes::Pose pose;
   double time = 0;  ///< s

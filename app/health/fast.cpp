@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <future>
 
-#include "app/health/checkup.h"
+#include "app/health/forecast.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/coarse_run.h"
 #include "app/support/text.h"

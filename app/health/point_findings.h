@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "app/health/checkup.h"
+#include "app/health/finding.h"
 #include "app/setup/seed_scene.h"
 
 namespace neve::app::health {

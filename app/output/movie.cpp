@@ -117,9 +117,8 @@ void remove_movie(const fs::path& file) {
                   file.string());
 }
 
-/// What was wrong with a movie; empty: nothing.
 struct Attempt {
-  std::string failure;
+  std::string failure;  ///< empty: there is a movie
   bool may_be_repeated = true;
 };
 

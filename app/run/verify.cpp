@@ -36,7 +36,8 @@ std::string flaw_of(const fs::path& file, const std::string& hash) {
   }
 }
 
-/// Of a picture that run.json has no hash of: one of an earlier version, or the last before a kill.
+/// Judges a picture that run.json has no hash of: one of an earlier version, or the last before a
+/// kill.
 std::string flaw_by_text(const fs::path& file, const std::string& view, const FrameRecord& frame) {
   if (const std::string flaw = flaw_of(file, ""); flaw != is_another) return flaw;
   try {

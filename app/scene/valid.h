@@ -41,7 +41,7 @@ struct Valid {
 inline constexpr Valid anything{};
 inline constexpr Valid identifier{.text = Valid::Text::name};  ///< [A-Za-z0-9_-]+
 inline constexpr Valid file_path{.text = Valid::Text::file};   ///< of a file that exists
-/// Of files whose name has %d or %04d in place of a number.
+/// Stands for files: their name has %d or %04d in place of a number.
 inline constexpr Valid file_pattern{.text = Valid::Text::numbered_files};
 
 constexpr Valid above(double x) {

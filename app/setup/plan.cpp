@@ -146,7 +146,7 @@ double surface_memory(const scene::Scene& scene, double particles) {
   return 150 * nodes;
 }
 
-/// Of the distances around meshes that deform. One that cannot be read is refused before.
+/// Counts the distances around meshes that deform. One that cannot be read is refused before.
 double deforming_memory(const scene::Scene& scene) {
   double bytes = 0;
   for (const scene::Collider& collider : scene.colliders)

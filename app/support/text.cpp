@@ -109,6 +109,14 @@ std::string printable_text(const std::string& text) {
   return printable;
 }
 
+std::optional<double> number_of(std::string_view text) {
+  double x = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (text.empty() || result.ec != std::errc{} || result.ptr != text.data() + text.size())
+    return std::nullopt;
+  return x;
+}
+
 std::string joined(const std::vector<std::string>& words, const std::string& between) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : between) + word;

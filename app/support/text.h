@@ -2,7 +2,9 @@
 /// Numbers as text, the same in every locale, and the nearest of some names.
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace neve::app {
@@ -18,6 +20,8 @@ std::string bytes_text(std::uint64_t bytes);
 /// With control characters as \x1b and the like: those of a stranger's file do nothing to a
 /// terminal. Line feeds and tabs stay.
 std::string printable_text(const std::string& text);
+/// The number that a text is, and nothing else, not even blanks.
+std::optional<double> number_of(std::string_view text);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
 /// The name closest to a misspelt one, or empty when none is close.
 std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names);

@@ -12,11 +12,10 @@ namespace neve::sim::engine {
 
 /// @param cell_size  m
 /// @param lattice_origin  blocks
-/// @param samples  of a mesh, otherwise not looked at; what they point to has to live as long as
-/// the
-///                 pose is used
-/// @return nothing for a collider whose point left the lattice: out of reach. Of a plane any point
-///         of its surface does.
+/// @param samples  of a mesh, otherwise not looked at; the pose points to the same memory
+/// @return nothing for a collider whose point left the lattice: out of reach. Any point of a
+/// plane's
+///         surface keeps the plane within reach.
 std::optional<kernels::ColliderPose> kernel_pose(const shapes::Collider& collider, double time,
                                                  double cell_size, const Vec3i& lattice_origin,
                                                  const shapes::DistanceSamples& samples);

@@ -28,7 +28,7 @@ kernels::LocalCollider<double> seen_from_cell_0(const kernels::ColliderPose& pos
   return kernels::localize<double>(pose, cell_0, h);
 }
 
-/// Of the particles that a block may have.
+/// Middle of the particles that a block may have.
 Vec3<double> middle_of(std::uint64_t key, double h) {
   Vec3<double> middle;
   for (int axis = 0; axis < 3; ++axis)
@@ -92,11 +92,12 @@ shapes::DistanceSamples MovingColliders::Field::samples() const {
 
 /// What deforms has the shape that it was placed with.
 std::optional<kernels::ColliderPose> MovingColliders::pose_at(std::size_t k, const Lattice& lattice,
-                                                              double time) const {
-  return kernel_pose(list_[k], time, lattice.cell_size, lattice.origin, fields_[k].samples());
+                                                              double time, double until) const {
+  auto pose = kernel_pose(list_[k], time, lattice.cell_size, lattice.origin, fields_[k].samples());
+  if (pose) pose->shape_speed = shape_speed(k, time, until);
+  return pose;
 }
 
-/// Of the fastest place of a shape that deforms, at any time from one to another, m/s.
 double MovingColliders::shape_speed(std::size_t k, double from, double to) const {
   if (!fields_[k].deforming) return 0;
   return fields_[k].deforming->mesh().fastest(shapes::shape_time(list_[k], from),
@@ -108,9 +109,8 @@ void MovingColliders::place(const Lattice& lattice, double time, ThreadPool& poo
   for (std::size_t k = 0; k < list_.size(); ++k) {
     if (fields_[k].deforming)
       fields_[k].deforming->move_to(shapes::shape_time(list_[k], time), pool);
-    if (auto pose = pose_at(k, lattice, time)) {
+    if (auto pose = pose_at(k, lattice, time, time)) {
       pose->index = static_cast<int>(k);
-      pose->shape_speed = shape_speed(k, time, time);
       poses_.push_back(*pose);
     }
   }
@@ -123,8 +123,7 @@ double MovingColliders::fastest_near(const std::vector<kernels::BlockRange>& blo
   for (std::size_t k = 0; k < list_.size(); ++k)
     // One that rests now may start within the step.
     for (const double when : {time, time + dt}) {
-      auto pose = pose_at(k, lattice, when);
-      if (pose) pose->shape_speed = shape_speed(k, time, time + dt);
+      const auto pose = pose_at(k, lattice, when, time + dt);
       if (!pose || !moves(*pose)) continue;
       const auto c = seen_from_cell_0(*pose, lattice.cell_size);
       for (const kernels::BlockRange& block : blocks)
@@ -138,9 +137,8 @@ void MovingColliders::look_ahead(const Lattice& lattice, double time, double dt)
   dt_ = dt;
   ahead_.clear();
   for (std::size_t k = 0; k < list_.size(); ++k) {
-    auto now = pose_at(k, lattice, time), then = pose_at(k, lattice, time + dt);
-    for (auto* pose : {&now, &then})
-      if (*pose) (*pose)->shape_speed = shape_speed(k, time, time + dt);
+    const auto now = pose_at(k, lattice, time, time + dt);
+    const auto then = pose_at(k, lattice, time + dt, time + dt);
     if (now) ahead_.push_back(seen_from_cell_0(*now, cell_size_));
     if (then && !(now && is_same_place(*now, *then)))
       ahead_.push_back(seen_from_cell_0(*then, cell_size_));

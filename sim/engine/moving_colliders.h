@@ -55,8 +55,10 @@ class MovingColliders {
   };
   static Field make_field(const shapes::Collider& collider, const Lattice& lattice,
                           ThreadPool& pool);
-  std::optional<kernels::ColliderPose> pose_at(std::size_t k, const Lattice& lattice,
-                                               double time) const;
+  /// @param until  end of the span of time over which its shape may be as fast as the pose says
+  std::optional<kernels::ColliderPose> pose_at(std::size_t k, const Lattice& lattice, double time,
+                                               double until) const;
+  /// Speed of the fastest place of a shape that deforms, at any time from one to another, m/s.
   double shape_speed(std::size_t k, double from, double to) const;
 
   std::vector<shapes::Collider> list_;

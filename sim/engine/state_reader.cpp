@@ -30,7 +30,7 @@ Mat3d kirchhoff_of(const kernels::Particle<Real>& p) {
   return matrix(full);
 }
 
-/// Of a particle on a surface with that normal, Pa: -n (tau / J) n.
+/// Pressure of a particle on a surface with that normal, Pa: -n (tau / J) n.
 template <class Real>
 double pressure(const kernels::Particle<Real>& p, const Vec3d& n) {
   const double J = matrix(p.F_E).determinant() * static_cast<double>(p.J_P);

@@ -16,7 +16,7 @@ constexpr double max_fine_samples = 64.0 * 64.0 * 64.0;
 /// Distance and velocity of a part's two ends and of now.
 constexpr std::size_t bytes_per_sample = 3 * 4 * sizeof(float);
 
-/// Of the largest lattice.
+/// Counts the samples of the largest lattice.
 double most_samples(const DeformingMesh& mesh, double spacing) {
   double most = 0;
   for (std::size_t k = 0; k < mesh.intervals(); ++k)

@@ -67,7 +67,7 @@ class DeformingField {
 /// less and the samples do not become more than 64^3.
 double field_spacing(const DeformingMesh& mesh, double cell_size);
 
-/// Of the largest field and of its mesh, for estimates.
+/// Bytes of the largest field and of its mesh, for estimates.
 double memory_of(const DeformingMesh& mesh, double cell_size);
 
 }  // namespace neve::sim::shapes

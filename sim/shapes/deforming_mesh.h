@@ -36,7 +36,7 @@ class DeformingMesh {
   Vec3d velocity(std::size_t interval, const ClosedMesh& mesh, std::uint32_t triangle,
                  const Vec3d& point) const;
 
-  /// Of the fastest vertex at any time from one to another, or ever, m/s.
+  /// Speed of the fastest vertex at any time from one to another, or ever, m/s.
   double fastest(double from, double to) const;
   double fastest() const;
 

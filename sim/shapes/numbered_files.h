@@ -7,8 +7,7 @@ namespace neve::sim::shapes {
 
 /// Largest number of a file.
 inline constexpr int max_file_number = 999999;
-/// Of one sequence.
-inline constexpr int max_numbered_files = 10000;
+inline constexpr int max_numbered_files = 10000;  ///< in one sequence
 
 /// True if the name of the file, not its folder, says once where the number goes: %d, or %04d for
 /// at least four digits (1 to 9), and has no other %.

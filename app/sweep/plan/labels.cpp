@@ -1,13 +1,13 @@
 #include "app/sweep/plan/labels.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 #include "app/scene/params.h"
 #include "app/scene/toml/value.h"
+#include "app/support/text.h"
 
 namespace neve::app::sweep::plan {
 
@@ -40,12 +40,11 @@ std::vector<std::string> short_names(const std::vector<std::string>& addresses) 
 }
 
 std::string value_text(const std::string& value) {
-  double x = 0;
-  const char* end = value.data() + value.size();
-  const auto result = std::from_chars(value.data(), end, x);
   if (value.size() >= 2 && value.front() == '"' && value.back() == '"')
     return value.substr(1, value.size() - 2);
-  if (result.ec != std::errc{} || result.ptr != end) return value;
+  const std::optional<double> number = number_of(value);
+  if (!number) return value;
+  const double x = *number;
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", x);
   const std::string plain = scene::toml::number_text(std::strtod(text, nullptr));

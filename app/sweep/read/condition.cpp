@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <charconv>
 #include <optional>
 #include <stdexcept>
 
@@ -17,14 +16,6 @@ std::string trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\n");
   if (first == std::string_view::npos) return {};
   return std::string(text.substr(first, text.find_last_not_of(" \t\n") - first + 1));
-}
-
-std::optional<double> number_of(const std::string& text) {
-  double x = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (text.empty() || result.ec != std::errc{} || result.ptr != text.data() + text.size())
-    return std::nullopt;
-  return x;
 }
 
 /// Longer ones first: "<=" begins with "<".

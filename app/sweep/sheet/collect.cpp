@@ -130,7 +130,7 @@ void write_sheets(const fs::path& folder, const store::Manifest& manifest, Sheet
   writer.finish();
 }
 
-/// Of a screening: each metric's strongest parameters, as files and in words.
+/// Writes the strongest parameters of each metric of a screening as files, and says them.
 void write_effects(const fs::path& folder, const store::Manifest& manifest,
                    const std::vector<store::RunResult>& results, Progress& progress) {
   const std::string csv = effects_csv(manifest, results);
@@ -146,7 +146,7 @@ void write_effects(const fs::path& folder, const store::Manifest& manifest,
 
 void collect_sweep(const fs::path& folder, const std::string& backend, int threads,
                    Progress& progress) {
-  // Where there is no sweep, nothing is made.
+  // Reads before it locks: a folder without a sweep gets no file.
   store::Manifest manifest = store::read_manifest(folder);
   const std::optional<output::FolderLock> lock = wait_for_turn(folder, progress);
   if (!lock) return;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/output/sequence.h"
+#include "app/support/text.h"
 
 namespace neve::app::sweep::sheet {
 
@@ -36,10 +37,8 @@ std::string whole_text(double x) {
 std::optional<double> trimmed_number(std::string text) {
   std::erase(text, ' ');
   if (text.starts_with("+")) text.erase(0, 1);
-  double x = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
-  const bool is_whole = result.ec == std::errc{} && result.ptr == text.data() + text.size();
-  return is_whole && std::isfinite(x) ? std::optional(x) : std::nullopt;
+  const std::optional<double> x = number_of(text);
+  return x && std::isfinite(*x) ? x : std::nullopt;
 }
 
 /// Readers of the table take it for a number, not-a-number and infinities included.

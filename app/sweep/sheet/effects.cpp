@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "app/support/text.h"
+#include "app/sweep/plan/designs.h"
 #include "app/sweep/sheet/svg_text.h"
 
 namespace neve::app::sweep::sheet {
@@ -20,14 +21,13 @@ struct Step {
 };
 
 Step step_between(const Run& a, const Run& b) {
-  constexpr double levels = 3;  // of a range, see morris_trajectory
   Step step;
   for (std::size_t k = 0; k < a.coordinates.size(); ++k) {
     if (a.coordinates[k] == b.coordinates[k]) continue;
     if (step.axis >= 0) return {};
-    step = {
-        static_cast<int>(k),
-        (static_cast<double>(b.coordinates[k]) - static_cast<double>(a.coordinates[k])) / levels};
+    const double levels =
+        static_cast<double>(b.coordinates[k]) - static_cast<double>(a.coordinates[k]);
+    step = {static_cast<int>(k), levels / (plan::morris_levels - 1)};
   }
   return step;
 }
@@ -128,11 +128,6 @@ text { font-family: "DejaVu Sans", Verdana, sans-serif; fill: #55606e; font-size
 </style>
 )";
 
-std::string bar_text(double x, double y, const char* kind, const std::string& text) {
-  return "<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" class=\"" + kind + "\">" +
-         xml_text(text) + "</text>\n";
-}
-
 /// A bar as long as the effect is strong, and its standard deviation as a line about its end.
 std::string bar(const Shown& shown, double strongest, double x, double y) {
   const Effect& effect = shown.effect;
@@ -149,7 +144,7 @@ std::string bar(const Shown& shown, double strongest, double x, double y) {
   svg += "<line x1=\"" + svg_number(x + length(effect.strength - effect.spread)) + "\" y1=\"" +
          svg_number(middle) + "\" x2=\"" + svg_number(x + length(effect.strength + effect.spread)) +
          "\" y2=\"" + svg_number(middle) + "\" class=\"spread\"/>\n";
-  return svg + bar_text(x, y + bar_height + 10, "", shown.text());
+  return svg + svg_text(x, y + bar_height + 10, "start", "", shown.text());
 }
 
 std::string bar_legend(double y) {
@@ -160,11 +155,11 @@ std::string bar_legend(double y) {
         std::pair{"both", "it does both, or the parameter is a choice"}}) {
     svg += "<rect x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) +
            "\" width=\"12\" height=\"12\" class=\"" + std::string(kind) + "\"/>\n" +
-           bar_text(x + 17, y + 10, "", words);
+           svg_text(x + 17, y + 10, "start", "", words);
     x += 32 + 6.6 * static_cast<double>(std::string_view(words).size());
   }
   return svg +
-         bar_text(12, y + 30, "",
+         svg_text(12, y + 30, "start", "",
                   "Bar and number: mean change for the whole range of the parameter. Line: its "
                   "standard deviation; a long one means that it depends on the others.");
 }
@@ -222,12 +217,12 @@ std::string effects_svg(const store::Manifest& manifest,
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const double x = left + static_cast<double>(c) * column_width;
     const store::MetricInfo& info = store::metric_infos()[columns[c].metric];
-    body += bar_text(x, head - 30, "head", info.title);
-    if (info.unit[0]) body += bar_text(x, head - 16, "", info.unit);
+    body += svg_text(x, head - 30, "start", "head", info.title);
+    if (info.unit[0]) body += svg_text(x, head - 16, "start", "", info.unit);
   }
   double y = head;
   for (const std::size_t a : strongest_first(columns, axes)) {
-    body += bar_text(12, y + bar_height - 3, "name", manifest.screened[a].name);
+    body += svg_text(12, y + bar_height - 3, "start", "name", manifest.screened[a].name);
     const bool is_of_numbers = is_ordered(manifest, manifest.screened[a]);
     for (std::size_t c = 0; c < columns.size(); ++c)
       body += bar({columns[c].effects[a], is_of_numbers}, columns[c].strongest,

@@ -1,7 +1,6 @@
 #include "app/sweep/sheet/metric_plots.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "app/support/text.h"
@@ -14,14 +13,6 @@ namespace {
 
 constexpr double panel_width = 210, panel_height = 120, left_room = 62, top_room = 30,
                  bottom_room = 34, gap = 16, page_width = 1420;
-
-std::optional<double> number_of(const std::string& text) {
-  double x = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
-  const bool is_whole =
-      !text.empty() && result.ec == std::errc{} && result.ptr == text.data() + text.size();
-  return is_whole ? std::optional(x) : std::nullopt;
-}
 
 /// Positions of the runs along one parameter.
 struct Across {
@@ -123,12 +114,6 @@ std::vector<Across> parameters_across(const store::Manifest& manifest) {
   return columns;
 }
 
-std::string text_at(double x, double y, const char* anchor, const char* kind,
-                    const std::string& text) {
-  return "<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" text-anchor=\"" + anchor +
-         "\" class=\"" + kind + "\">" + xml_text(text) + "</text>\n";
-}
-
 struct Extent {
   double low = 0, high = 1;
 };
@@ -165,10 +150,10 @@ std::string svg_panel(const Across& across, const std::vector<store::RunResult>&
     const double y = y_of(tick.value);
     svg += "<line x1=\"" + svg_number(x0) + "\" y1=\"" + svg_number(y) + "\" x2=\"" +
            svg_number(x0 + panel_width) + "\" y2=\"" + svg_number(y) + "\" class=\"grid\"/>\n";
-    if (is_first) svg += text_at(x0 - 6, y + 3.5, "end", "tick", tick.label);
+    if (is_first) svg += svg_text(x0 - 6, y + 3.5, "end", "tick", tick.label);
   }
   for (const auto& [place, label] : across.ticks)
-    svg += text_at(x0 + place * panel_width, y0 + panel_height + 14, "middle", "tick", label);
+    svg += svg_text(x0 + place * panel_width, y0 + panel_height + 14, "middle", "tick", label);
   for (std::size_t k = 0; k < results.size(); ++k) {
     const std::optional<double>& value = results[k].metrics[metric];
     if (!value || !across.place[k]) continue;
@@ -215,12 +200,12 @@ std::string metric_plots_svg(const store::Manifest& manifest,
     const double left = block_width * (count % side_by_side) + left_room;
     const double y = row_height * (count / side_by_side);
     ++count;
-    body += text_at(left, y + top_room - 10, "start", "name", info.title + unit);
+    body += svg_text(left, y + top_room - 10, "start", "name", info.title + unit);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const double x = left + static_cast<double>(c) * (panel_width + gap);
       body += svg_panel(columns[c], results, manifest, metric, *extent, x, y + top_room, c == 0);
-      body += text_at(x + panel_width / 2, y + top_room + panel_height + 28, "middle", "tick",
-                      columns[c].title);
+      body += svg_text(x + panel_width / 2, y + top_room + panel_height + 28, "middle", "tick",
+                       columns[c].title);
     }
   }
   if (body.empty()) return {};

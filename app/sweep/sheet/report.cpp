@@ -1,7 +1,6 @@
 #include "app/sweep/sheet/report.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 
 #include "app/setup/command_text.h"
@@ -35,10 +34,7 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 
 /// A number where it is one, so that it sorts as one.
 Json cell_of(const std::string& value) {
-  double x = 0;
-  const auto result = std::from_chars(value.data(), value.data() + value.size(), x);
-  if (!value.empty() && result.ec == std::errc{} && result.ptr == value.data() + value.size())
-    return x;
+  if (const std::optional<double> x = number_of(value)) return *x;
   return value.empty() ? Json() : Json(plan::value_text(value));
 }
 

@@ -25,4 +25,10 @@ std::string svg_number(double x) {
   return fixed_text(x, 1);
 }
 
+std::string svg_text(double x, double y, const char* anchor, const char* kind,
+                     const std::string& text) {
+  return "<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" text-anchor=\"" + anchor +
+         "\" class=\"" + kind + "\">" + xml_text(text) + "</text>\n";
+}
+
 }  // namespace neve::app::sweep::sheet

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where an open file lies, whatever happens to its path meanwhile.
+/// Path of an open file, whatever happens meanwhile to the one by which it was opened.
 fs::path place_of(int file) {
   std::error_code error;
   return fs::read_symlink("/proc/self/fd/" + std::to_string(file), error);

@@ -13,7 +13,7 @@ namespace {
 constexpr double drain_seconds = 1;
 constexpr std::size_t max_drained = 256 * 1024;
 constexpr double missing_pings = 3;
-/// Of a file, in memory at a time; and sent before others have their turn.
+/// A file takes so many bytes in memory at a time, and sends them before others have their turn.
 constexpr std::size_t file_piece = 256 * 1024;
 
 }  // namespace

@@ -1,0 +1,63 @@
+#pragma once
+/// Forecast of the steps of a run by coarse copies of it.
+
+#include <string>
+#include <vector>
+
+#include "app/health/finding.h"
+#include "app/health/spread.h"
+#include "app/scene/scene.h"
+#include "sim/engine/time_step.h"
+
+namespace neve::app::health {
+
+/// Forecast of the steps of one frame.
+struct FrameForecast {
+  int frame = 0;
+  double dt = 0;     ///< s
+  double steps = 0;  ///< in this frame
+  /// The same if the stiffest particle is as that of the copy, and if it is one that is rarer than
+  /// in 19 runs of 20.
+  double least_steps = 0, most_steps = 0;
+  sim::DtLimit limit = sim::DtLimit::max_dt;
+  double iterations = 0;  ///< of the solve of a semi-implicit step, the mean; 0: explicit
+  Spread spread{};        ///< of the copy at the frame's end
+  /// Cost of a step of the scene relative to the first, by the spread of the snow over the grid: in
+  /// pieces as large as at the start, and in single particles.
+  double cost = 1, max_cost = 1;
+};
+
+/// The steps of a run, foretold by a coarse copy of it, or by the finer one of two.
+struct Forecast {
+  std::vector<FrameForecast> frames;     ///< that the copy reached; those after are as the last
+  double particles = 0;                  ///< of the copy; 0: there is none
+  double seconds_per_particle_step = 0;  ///< of the copy, on one thread
+  Spread spread{};                       ///< of the copy at the start
+  std::string divergence;                ///< of the copy, a sentence; empty if it holds
+  std::vector<Finding> findings;         ///< about the scene, from the copy
+
+  double steps_until(int frame) const;
+  /// Counts in explicit steps; an iteration of a semi-implicit step costs a quarter of one.
+  double work_until(int frame) const;
+};
+
+/// Bounds the cost of the coarse copies of a forecast. Particle-steps are the same on every
+/// machine.
+struct ForecastBudget {
+  double seconds;           ///< of each copy
+  double particle_steps;    ///< of the first copy
+  double particles = 1500;  ///< of the first copy, about
+  /// Bounds a second copy, which is as fine as they allow: a few cells do not pack and harden as
+  /// many do. 0: there is none.
+  double fine_particle_steps = 0;
+};
+
+/// @param particles of the scene
+/// @param last the last frame of the run
+Forecast foresee(const scene::Scene& scene, double particles, int last,
+                 const ForecastBudget& budget);
+
+/// Factor on lambda and mu in a particle that an impact has crushed to about half of its volume.
+double crushed_hardening(const sim::Material& material);
+
+}  // namespace neve::app::health
