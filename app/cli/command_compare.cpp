@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -8,10 +10,14 @@
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "app/cli/report_error.h"
+#include "app/compare/compare_run.h"
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
+#include "app/run/picture_record.h"
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
+#include "app/support/interrupt.h"
 #include "app/support/json.h"
 #include "app/support/text.h"
 #include "render/image/image.h"
@@ -113,10 +119,64 @@ void check_run_folder(fs::path folder) {
   const std::string name = folder.string();
   if (!folder.has_filename()) folder = folder.parent_path();  // of "a/particles/"
   const fs::path around = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+  if (fs::exists(folder / "manifest.json", error))
+    throw scene::toml::UsageError(
+        "", name + " is the folder of a study, not of a run",
+        "compare two of its runs, as in " + (folder / "runs" / "0000").string());
   throw scene::toml::UsageError("", name + " is not the folder of a run: it has no run.json",
                                 fs::exists(output::run_json_path(around), error)
                                     ? around.string() + " is one; compare that, or two pictures"
                                     : "compare two pictures or two run folders");
+}
+
+/// Whether a file is a picture with pixels alone, without the scene that made it.
+bool has_only_pixels(const std::string& file) {
+  std::error_code error;
+  if (fs::is_directory(file, error)) return false;
+  try {
+    run::read_picture_record(file);
+  } catch (const UnreadableError&) {
+    throw;
+  } catch (const Error&) {
+    return true;
+  }
+  return false;
+}
+
+void print_pair(const CompareOptions& options, const compare::PairResult& result) {
+  if (!options.is_json) {
+    for (const fs::path& file : result.files)
+      if (file.extension() != ".png" || result.files.size() < 3) std::cout << file.string() << "\n";
+    return;
+  }
+  Json json;
+  json["out"] = options.pictures.out;
+  json["is_whole"] = result.is_whole;
+  json["files"] = Json::array();
+  for (const fs::path& file : result.files) json["files"].push_back(file.generic_string());
+  json["differing"] = result.differing;
+  json["frames"] = compare::series_json(result.moments);
+  json["warnings"] = result.warnings;
+  std::cout << to_text(json) << "\n";
+}
+
+/// Pictures that differ are what was asked for: no failed check.
+int draw_pair(const CompareOptions& options) {
+  catch_interrupts();
+  const compare::PairOptions& pictures = options.pictures;
+  Progress progress(std::cerr, pictures.verbosity, can_update_lines(STDERR_FILENO),
+                    pictures.progress);
+  const bool is_plain = has_only_pixels(options.a) || has_only_pixels(options.b);
+  const compare::PairResult result = is_plain ? compare::compare_plain_pictures(pictures)
+                                              : compare::compare_run(pictures, progress);
+  progress.clear();
+  for (const std::string& warning : result.warnings) progress.warning(warning);
+  print_pair(options, result);
+  finish_output();
+  if (!result.is_whole)
+    throw Error(exit_interrupted, "interrupted; the pictures so far are in " + pictures.out,
+                pictures.out);
+  return exit_ok;
 }
 
 }  // namespace
@@ -129,6 +189,11 @@ int run_compare(const CompareOptions& options) {
                     "compare two pictures or two run folders");
   const bool is_a_run = fs::is_directory(options.a, error);
   const bool is_b_run = fs::is_directory(options.b, error);
+  if (!options.pictures.out.empty()) {
+    if (is_a_run) check_run_folder(options.a);
+    if (is_b_run) check_run_folder(options.b);
+    return draw_pair(options);
+  }
   if (is_a_run != is_b_run)
     throw scene::toml::UsageError("", "one is a folder and the other is not",
                                   "compare two pictures or two run folders");

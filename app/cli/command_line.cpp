@@ -242,26 +242,6 @@ void add_render(CLI::App& app, Action& action) {
   });
 }
 
-void add_compare(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
-      "compare", "Compare two pictures, or the states of two runs frame by frame");
-  const auto options = std::make_shared<CompareOptions>();
-  command->add_option("A", options->a, "A PNG, or the folder of a run")->required()->type_name("");
-  command->add_option("B", options->b, "The other PNG or folder")->required()->type_name("");
-  command
-      ->add_option("--threshold", options->threshold,
-                   "Largest mean difference of pictures allowed, 0 to 255")
-      ->type_name("MEAN")
-      ->capture_default_str();
-  command
-      ->add_option("--local-threshold", options->local_threshold,
-                   "Largest mean difference allowed in any 8x8 block; catches small local changes")
-      ->type_name("MEAN")
-      ->capture_default_str();
-  command->add_flag("--json", options->is_json, "Print the result as JSON");
-  command->final_callback([=, &action] { action = [options] { return run_compare(*options); }; });
-}
-
 /// Adds a subcommand of bench with the common options.
 CLI::App* add_bench_part(CLI::App& bench, Action& action, const char* name, const char* help,
                          const std::shared_ptr<bench::BenchOptions>& options,

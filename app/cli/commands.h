@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/bench/bench_options.h"
+#include "app/compare/pair_options.h"
 #include "app/dump/dump_options.h"
 #include "app/run/export_run.h"
 #include "app/run/render_options.h"
@@ -17,6 +18,7 @@ struct CompareOptions {
   double threshold = 0;          ///< of the mean difference, 0 to 255
   double local_threshold = 255;  ///< of the mean over any 8x8 pixels
   bool is_json = false;
+  compare::PairOptions pictures;  ///< its a and b are those above; without out: none
 };
 
 struct ParamsOptions {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/exports/exporter.h"
+#include "app/run/past_run.h"
 #include "app/run/render_job.h"
-#include "app/run/run_json.h"
 #include "app/support/progress.h"
 
 namespace neve::app::run {
@@ -23,9 +23,8 @@ struct ExportJob {
   std::vector<double> times;
   bool are_frames = true;  ///< numbers of files are those of frames
   int first_number = 0;
-  std::filesystem::path lock_folder;    ///< no one else may write there meanwhile
-  std::filesystem::path run_folder;     ///< of a run that exists; empty: none
-  std::vector<FrameRecord> run_frames;  ///< that it lists
+  std::filesystem::path lock_folder;  ///< no one else may write there meanwhile
+  PastRun past;
 };
 
 /// The folder of a run, a scene or a picture, which names the frame to write where none is asked

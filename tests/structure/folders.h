@@ -65,6 +65,9 @@ inline constexpr Folder folders[] = {
     {"app/run",
      "sim/base sim/types sim sim/checks render/image render/frame render/gl render app/support "
      "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports"},
+    {"app/compare",
+     "sim/base sim/types sim render/image render/frame render/gl render app/support app/scene/toml "
+     "app/scene app/output app/setup app/picture app/run"},
     {"app/dump",
      "sim/base sim/types sim/health sim app/support app/scene/toml app/scene app/setup "
      "app/health app/run"},
@@ -101,7 +104,7 @@ inline constexpr Folder folders[] = {
     {"app/cli",
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
      "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports app/run "
-     "app/dump "
+     "app/compare app/dump "
      "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet "
      "app/view/frontend app/view/web app/view/replay app/view app/bench"},
     {"app", "app/output app/cli", "neve::app"},

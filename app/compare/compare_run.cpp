@@ -1,0 +1,195 @@
+#include "app/compare/compare_run.h"
+
+#include <algorithm>
+
+#include "app/compare/pair_pictures.h"
+#include "app/compare/target.h"
+#include "app/output/atomic_file.h"
+#include "app/run/picture_record.h"
+#include "app/run/state_source.h"
+#include "app/support/errors.h"
+#include "app/support/interrupt.h"
+#include "render/gl/context.h"
+
+namespace neve::app::compare {
+
+namespace {
+
+bool is_explicit(const PairOptions& options, Mode mode) {
+  return std::find(options.modes.begin(), options.modes.end(), mode) != options.modes.end();
+}
+
+/// A mode that these runs cannot have: an error where it was asked for, or is the only one.
+void refuse_mode(const PairOptions& options, Mode mode,
+                 const std::optional<scene::toml::UsageError>& problem, Target& target,
+                 PairResult& result) {
+  if (!problem || !target.has(mode)) return;
+  if (is_explicit(options, mode) || target.kind() != TargetKind::folder) throw *problem;
+  target.leave_out(mode);
+  result.warnings.push_back(std::string("no ") + name(mode) + ": " + problem->message);
+}
+
+std::optional<scene::toml::UsageError> metrics_problem(const Pair& pair) {
+  if (!pair.a.is_picture && !pair.b.is_picture) return std::nullopt;
+  return scene::toml::UsageError("--mode metrics", "a picture has no metrics over time",
+                                 "compare the folders of two runs");
+}
+
+void check_costs(const Side& side, int threads) {
+  const setup::Plan plan =
+      setup::make_plan(side.job.scene, side.frames, setup::Quality::draft, threads);
+  setup::check_limits(side.job.scene, plan, side.job.coarsening);
+}
+
+/// Frames that get pictures: one picture is of the last.
+setup::FrameRange drawn_frames(const Pair& pair, const Target& target) {
+  setup::FrameRange frames = pair.frames;
+  if (target.kind() == TargetKind::picture && !target.has(Mode::metrics))
+    frames.first = frames.last;
+  return frames;
+}
+
+class PairRun {
+ public:
+  PairRun(const PairOptions& options, Pair pair, Target& target, PairResult& result,
+          Progress& progress)
+      : options_(options),
+        pair_(std::move(pair)),
+        target_(target),
+        result_(result),
+        progress_(progress) {}
+
+  void run() {
+    refuse_mode(options_, Mode::metrics, metrics_problem(pair_), target_, result_);
+    refuse_mode(options_, Mode::mass, grid_problem(pair_), target_, result_);
+    const bool needs_states = std::any_of(target_.modes().begin(), target_.modes().end(),
+                                          [](Mode mode) { return mode != Mode::metrics; });
+    const auto context =
+        target_.kind() == TargetKind::table ? nullptr : render::gl::open_context(options_.backend);
+    ThreadPool pool(options_.threads);
+    std::optional<render::Renderer> renderer;
+    if (context) renderer.emplace(*context, "", &pool);
+    if (needs_states)
+      draw_states(*renderer);
+    else
+      list_moments();
+    if (target_.has(Mode::metrics)) add_metrics(renderer ? &*renderer : nullptr);
+    for (std::string& warning : target_.add_movies(pair_.a.job.scene.fps))
+      result_.warnings.push_back(std::move(warning));
+    target_.finish();
+  }
+
+ private:
+  PairMoment moment(int frame) const {
+    return moment_of(frame, pair_.a.job.scene.fps, pair_.a.past.frames, pair_.b.past.frames);
+  }
+
+  void list_moments() {
+    target_.begin();
+    for (int frame = pair_.frames.first; frame <= pair_.frames.last; ++frame)
+      result_.moments.push_back(moment(frame));
+  }
+
+  void draw_states(render::Renderer& renderer) {
+    check_costs(pair_.a, options_.threads);
+    check_costs(pair_.b, options_.threads);
+    const setup::FrameRange frames = drawn_frames(pair_, target_);
+    const double fps = pair_.a.job.scene.fps, first = frames.first / fps;
+    run::StateSource a(pair_.a.job, pair_.a.past, first, options_.threads, progress_);
+    run::StateSource b(pair_.b.job, pair_.b.past, first, options_.threads, progress_);
+    refuse_mode(options_, Mode::displacement, id_problem(pair_, a.seeded(), b.seeded()), target_,
+                result_);
+    PairPainter painter(options_, pair_, renderer);
+    target_.begin();
+    progress_.start(frames.last);
+    for (int frame = frames.first; frame <= frames.last; ++frame) {
+      if (!advance(a, pair_.a, frame) || !advance(b, pair_.b, frame)) {
+        result_.is_whole = false;
+        return;
+      }
+      result_.moments.push_back(moment(frame));
+      painter.take(a, b, target_.modes(), result_.moments.back());
+      for (const Mode mode : target_.modes())
+        if (mode != Mode::metrics) target_.add(mode, frame, painter.draw(mode));
+    }
+  }
+
+  /// @return false where it was interrupted
+  bool advance(run::StateSource& source, const Side& side, int frame) {
+    if (!source.go_to(frame / side.job.scene.fps)) {
+      if (source.simulation().divergence())
+        throw Error(exit_diverged, side.title + ": " + source.simulation().divergence()->sentence,
+                    side.title);
+      return false;
+    }
+    run::compare_with_past(side.past, frame, source.simulation().state_hash(), progress_);
+    return true;
+  }
+
+  void add_metrics(render::Renderer* renderer) {
+    std::optional<render::Image> picture;
+    const auto named = [](const Side& side) {
+      return side.values.empty() ? side.title : side.title + "   " + side.values;
+    };
+    if (renderer) picture = draw_series(result_.moments, named(pair_.a), named(pair_.b), *renderer);
+    target_.add_metrics(series_csv(result_.moments), picture);
+  }
+
+  const PairOptions& options_;
+  Pair pair_;
+  Target& target_;
+  PairResult& result_;
+  Progress& progress_;
+};
+
+render::Image read_plain(const std::string& file) {
+  try {
+    return opaque(render::decode_png(output::read_file(file)));
+  } catch (const render::ImageError& error) {
+    throw Error(exit_invalid_scene, file + ": error: " + error.what(), file);
+  }
+}
+
+}  // namespace
+
+PairResult compare_run(const PairOptions& options, Progress& progress) {
+  PairResult result;
+  Target target(options);
+  Pair pair = read_pair(options);
+  result.differing = pair.differing;
+  result.warnings = pair.warnings;
+  PairRun(options, std::move(pair), target, result, progress).run();
+  result.files = target.files();
+  return result;
+}
+
+PairResult compare_plain_pictures(const PairOptions& options) {
+  Target target(options);
+  const Mode mode = options.modes.empty() ? Mode::beside : target.modes().front();
+  const bool is_of_pixels = mode == Mode::beside || mode == Mode::wipe;
+  if (!is_of_pixels || target.modes().size() > 1 || target.kind() != TargetKind::picture)
+    throw scene::toml::UsageError(
+        "--mode", "these pictures hold no scene of neve, only pixels",
+        "give --out x.png with --mode beside or wipe, or pictures that neve render wrote");
+  const render::Image a = read_plain(options.a), b = read_plain(options.b);
+  if (a.width != b.width || a.height != b.height)
+    throw Error(exit_check_failed,
+                "the pictures have different sizes: " + std::to_string(a.width) + "x" +
+                    std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +
+                    std::to_string(b.height),
+                options.b, "give pictures of one size");
+  const auto context = render::gl::open_context(options.backend);
+  render::Renderer renderer(*context);
+  std::vector<render::Image> images{a, b};
+  if (mode == Mode::wipe) images = {wiped(a, b, options.wipe)};
+  target.begin();
+  target.add(
+      mode, 0,
+      with_strip(images, {StripWords{"A   " + options.a, ""}, StripWords{"B   " + options.b, ""}},
+                 "", renderer));
+  PairResult result;
+  result.files = target.files();
+  return result;
+}
+
+}  // namespace neve::app::compare

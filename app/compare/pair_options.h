@@ -1,0 +1,41 @@
+#pragma once
+/// Pictures of two runs against each other: what `neve compare A B --out` takes.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/setup/plan.h"
+#include "app/support/progress.h"
+
+namespace neve::app::compare {
+
+enum class Mode {
+  beside,        ///< both pictures, left and right
+  wipe,          ///< one picture, left of a line from A and right of it from B
+  displacement,  ///< particles coloured by their distance to the same particle of the other run
+  mass,          ///< snow that only one run has, as red and blue smoke
+  metrics        ///< curves over time
+};
+const char* name(Mode mode);
+/// In the order in which they are listed everywhere.
+const std::vector<Mode>& all_modes();
+/// @throws UsageError for an unknown name
+Mode mode_named(const std::string& text);
+
+struct PairOptions {
+  std::string a, b;         ///< folders of runs, or pictures
+  std::string out;          ///< a folder, or a file .png, .mp4 or .csv; empty: no pictures
+  std::vector<Mode> modes;  ///< empty: beside for a file, all for a folder
+  std::optional<setup::FrameRange> frames;
+  std::string view;                        ///< of A; empty: its first
+  std::optional<scene::PictureSize> size;  ///< of the picture of one run
+  double wipe = 0.5;                       ///< share of the width that is from A
+  std::optional<double> range;             ///< m, displacement that has the last colour
+  int threads = 0;                         ///< 0: one per core
+  std::string backend = "auto";
+  Verbosity verbosity = Verbosity::normal;
+  ProgressOptions progress{};
+};
+
+}  // namespace neve::app::compare

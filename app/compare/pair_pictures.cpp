@@ -1,0 +1,160 @@
+#include "app/compare/pair_pictures.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scene/read.h"
+#include "app/support/round_number.h"
+#include "app/support/text.h"
+
+namespace neve::app::compare {
+
+namespace {
+
+/// Cells that snow is displaced by at the last colour: a range that does not depend on the frames,
+/// so that all have one.
+constexpr double cells_of_range = 10;
+
+/// Share of the density of packed snow at which a difference is all red or all blue: the opacity
+/// says how much it is.
+constexpr double full_color = 0.05;
+/// As a factor of that of snow: differences are thinner.
+constexpr float opacity = 3;
+
+bool has_mode(const std::vector<Mode>& modes, Mode mode) {
+  return std::find(modes.begin(), modes.end(), mode) != modes.end();
+}
+
+double densest(const scene::Scene& scene) {
+  double density = 0;
+  for (const sim::Material& material : scene.materials)
+    density = std::max(density, material.density);
+  return density;
+}
+
+/// A without a trace of B's look: camera, light and view are those of A.
+scene::Scene looked_at_as(const scene::Scene& look, scene::Scene scene) {
+  scene.camera = look.camera;
+  scene.light = look.light;
+  scene.views = look.views;
+  scene.mosaics.clear();
+  scene.size = look.size;
+  scene.background = look.background;
+  return scene;
+}
+
+}  // namespace
+
+PairPainter::PairPainter(const PairOptions& options, const Pair& pair, render::Renderer& renderer)
+    : options_(options),
+      pair_(pair),
+      renderer_(renderer),
+      view_(options.view.empty() ? pair.a.job.scene.views.front()
+                                 : scene::find_view(pair.a.job.scene, options.view)),
+      range_(options.range.value_or(round_up(cells_of_range * pair.a.job.scene.solver.cell_size))),
+      full_density_(std::max(densest(pair.a.job.scene), densest(pair.b.job.scene))) {
+  if (options.size) view_.size = *options.size;
+  // The strip has the words.
+  std::erase(view_.layers, scene::Layer::caption);
+}
+
+scene::View PairPainter::view_for(Mode mode) const {
+  scene::View view = view_;
+  if (mode != Mode::displacement && mode != Mode::mass) return view;
+  view.layers = {scene::Layer::ground, scene::Layer::colliders};
+  view.clip.reset();
+  if (mode == Mode::displacement) view.layers.push_back(scene::Layer::particles);
+  view.particles.color_by = scene::ColorBy::snow;
+  return view;
+}
+
+PairPainter::Taken PairPainter::take_side(const run::StateSource& source,
+                                          const std::vector<Mode>& modes) const {
+  Taken taken;
+  taken.scene = looked_at_as(pair_.a.job.scene, source.scene());
+  taken.seeded = &source.seeded();
+  std::vector<scene::View> views{view_};
+  if (has_mode(modes, Mode::mass)) {
+    scene::View mass = view_;
+    mass.layers = {scene::Layer::smoke};
+    mass.smoke.field = scene::ScalarField::mass;
+    views.push_back(mass);
+  }
+  taken.snapshot = picture::take_snapshot(taken.scene, views, source.simulation(), 0);
+  return taken;
+}
+
+void PairPainter::take(const run::StateSource& a, const run::StateSource& b,
+                       const std::vector<Mode>& modes, PairMoment& moment) {
+  a_ = take_side(a, modes);
+  b_ = take_side(b, modes);
+  a_.snapshot.frame = b_.snapshot.frame = moment.frame;
+  if (has_mode(modes, Mode::displacement)) {
+    displacement_ = displacement(a_.snapshot.particles, b_.snapshot.particles);
+    moment.displacement = displacement_;
+  }
+  if (!has_mode(modes, Mode::mass)) return;
+  mass_ = mass_difference(a_.snapshot.fields, b_.snapshot.fields);
+  mass_.smoke.full_density = static_cast<float>(full_density_);
+  mass_.smoke.density_scale = opacity;
+  mass_.smoke.range_max = static_cast<float>(full_color * full_density_);
+  mass_.smoke.range_min = -mass_.smoke.range_max;
+  moment.mass = {mass_.more_in_a, mass_.more_in_b};
+}
+
+std::array<render::Frame, 2> PairPainter::frames_for(Mode mode) const {
+  const scene::View view = view_for(mode);
+  std::array<render::Frame, 2> frames{
+      picture::FrameBuilder(a_.scene, *a_.seeded).build(view, a_.snapshot),
+      picture::FrameBuilder(b_.scene, *b_.seeded).build(view, b_.snapshot)};
+  // A camera that follows a body follows that of A in both.
+  frames[1].camera = frames[0].camera;
+  if (mode != Mode::displacement) return frames;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const picture::Snapshot& other = side == 0 ? b_.snapshot : a_.snapshot;
+    color_by_displacement(other.particles, range_, frames[side].points);
+    frames[side].points.colormap = render::ColorMap::turbo;
+  }
+  frames[1].legends = {
+      {"displacement", "m", render::ColorMap::turbo, 0, static_cast<float>(range_)}};
+  return frames;
+}
+
+std::array<StripWords, 2> words_of(const Pair& pair) {
+  return {StripWords{"A   " + pair.a.title, pair.a.values},
+          StripWords{"B   " + pair.b.title, pair.b.values}};
+}
+
+std::string PairPainter::line_for(Mode mode) const {
+  std::string line =
+      fmt::format("frame {}   t = {} s", a_.snapshot.frame, fixed_text(a_.snapshot.time, 3));
+  if (mode == Mode::displacement)
+    line += fmt::format("   displaced by {} m on average, {} m at most",
+                        rough_text(displacement_.mean), rough_text(displacement_.largest));
+  if (mode == Mode::mass)
+    line += fmt::format("   blue: {} kg only in A   red: {} kg only in B",
+                        rough_text(mass_.more_in_a), rough_text(mass_.more_in_b));
+  return line;
+}
+
+render::Image PairPainter::draw_with_words(std::vector<render::Image> images, Mode mode) const {
+  for (render::Image& image : images) image = opaque(std::move(image));
+  return with_strip(images, words_of(pair_), line_for(mode), renderer_);
+}
+
+render::Image PairPainter::draw(Mode mode) const {
+  std::array<render::Frame, 2> frames = frames_for(mode);
+  if (mode == Mode::mass) {
+    frames[0].smoke = mass_.smoke;
+    return draw_with_words({renderer_.draw(frames[0])}, mode);
+  }
+  render::Image a = renderer_.draw(frames[0]), b = renderer_.draw(frames[1]);
+  if (mode == Mode::wipe)
+    return draw_with_words({wiped(opaque(std::move(a)), opaque(std::move(b)), options_.wipe)},
+                           mode);
+  return draw_with_words({std::move(a), std::move(b)}, mode);
+}
+
+}  // namespace neve::app::compare

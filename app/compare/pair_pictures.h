@@ -1,0 +1,58 @@
+#pragma once
+/// Pictures of two states against each other, with one camera and one light.
+
+#include <array>
+
+#include "app/compare/series.h"
+#include "app/compare/sides.h"
+#include "app/compare/strip.h"
+#include "app/picture/frame_builder.h"
+#include "app/run/state_source.h"
+#include "render/renderer.h"
+
+namespace neve::app::compare {
+
+class PairPainter {
+ public:
+  /// @param options, pair, renderer outlive the painter
+  /// @throws UsageError for a view that A does not have
+  PairPainter(const PairOptions& options, const Pair& pair, render::Renderer& renderer);
+
+  /// Takes both states at a frame, and adds to the moment what is measured on them.
+  /// @param modes  that will be drawn
+  void take(const run::StateSource& a, const run::StateSource& b, const std::vector<Mode>& modes,
+            PairMoment& moment);
+
+  render::Image draw(Mode mode) const;
+
+  /// m, displacement that has the last colour.
+  double range() const { return range_; }
+
+ private:
+  struct Taken {
+    scene::Scene scene;
+    const setup::SeededScene* seeded = nullptr;
+    picture::Snapshot snapshot;
+  };
+  scene::View view_for(Mode mode) const;
+  Taken take_side(const run::StateSource& source, const std::vector<Mode>& modes) const;
+  /// The frames of A and B for a mode; the camera and light are A's.
+  std::array<render::Frame, 2> frames_for(Mode mode) const;
+  render::Image draw_with_words(std::vector<render::Image> images, Mode mode) const;
+  std::string line_for(Mode mode) const;
+
+  const PairOptions& options_;
+  const Pair& pair_;
+  render::Renderer& renderer_;
+  scene::View view_;
+  double range_ = 0;
+  double full_density_ = 400;  ///< kg/m3
+  Taken a_, b_;
+  Displacement displacement_;
+  MassDifference mass_;
+};
+
+/// Titles and values of both runs.
+std::array<StripWords, 2> words_of(const Pair& pair);
+
+}  // namespace neve::app::compare

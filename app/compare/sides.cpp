@@ -1,0 +1,167 @@
+#include "app/compare/sides.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "app/output/sequence.h"
+#include "app/picture/frame_builder.h"
+#include "app/run/picture_record.h"
+#include "app/scene/flat.h"
+#include "app/scene/live_change.h"
+#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
+
+namespace neve::app::compare {
+
+namespace {
+
+constexpr std::size_t most_values = 4;
+
+Side side_of_run(const run::RenderOptions& options) {
+  Side side;
+  side.job = run::job_from_run(options);
+  side.past = {options.scene, run::read_frame_records(options.scene)};
+  if (side.past.frames.empty())
+    throw Error(exit_invalid_scene,
+                options.scene + ": error: the run has no frames, so there is nothing to compare",
+                options.scene, "run it again, or wait for its first frame");
+  side.frames = {side.past.frames.front().frame, side.past.frames.back().frame};
+  return side;
+}
+
+Side read_side(const std::string& path, int threads) {
+  run::RenderOptions options;
+  options.scene = path;
+  options.threads = threads;
+  Side side;
+  if (run::is_folder(path)) {
+    side = side_of_run(options);
+  } else {
+    side.job = run::make_job(options);
+    side.frames = side.job.frames;
+    side.is_picture = true;
+  }
+  side.title = path;
+  return side;
+}
+
+std::string range_text(const setup::FrameRange& frames) {
+  return frames.count() == 1 ? fmt::format("frame {}", frames.first)
+                             : fmt::format("frames {} to {}", frames.first, frames.last);
+}
+
+/// The first values, a line each, and how many more there are.
+std::string values_text(const std::vector<std::string>& texts) {
+  std::vector<std::string> lines = picture::override_lines(texts);
+  const std::size_t count = lines.size();
+  if (count > most_values) {
+    lines.resize(most_values);
+    lines.push_back(fmt::format("and {} more", count - most_values));
+  }
+  return joined(lines, ", ");
+}
+
+std::string value_text_of(const scene::Difference& d, bool is_b) {
+  const std::optional<scene::toml::Value>& value = is_b ? d.after : d.before;
+  return d.address + "=" + (value ? scene::toml::toml_literal(*value, 40) : "none");
+}
+
+/// Changes of one run that the other does not have.
+std::vector<std::string> own_changes(const Side& side, const Side& other) {
+  std::vector<std::string> texts;
+  const std::vector<scene::LiveChange>& theirs = other.job.changes;
+  for (const scene::LiveChange& change : side.job.changes)
+    if (std::find(theirs.begin(), theirs.end(), change) == theirs.end())
+      texts.push_back(
+          fmt::format("{}={} since step {}", change.address, change.value, change.step));
+  return texts;
+}
+
+void find_differences(Pair& pair) {
+  std::vector<std::string> a, b;
+  for (const scene::Difference& d : scene::differences(pair.a.job.scene, pair.b.job.scene)) {
+    if (!scene::concerns_simulation(d.address)) continue;
+    pair.differing.push_back(d.address);
+    a.push_back(value_text_of(d, false));
+    b.push_back(value_text_of(d, true));
+  }
+  for (std::string& text : own_changes(pair.a, pair.b)) a.push_back(std::move(text));
+  for (std::string& text : own_changes(pair.b, pair.a)) b.push_back(std::move(text));
+  pair.a.values = values_text(a);
+  pair.b.values = values_text(b);
+}
+
+setup::FrameRange common_frames(const PairOptions& options, const Pair& pair) {
+  const setup::FrameRange a = pair.a.frames, b = pair.b.frames;
+  const setup::FrameRange both{std::max(a.first, b.first), std::min(a.last, b.last)};
+  const std::string found = fmt::format("{} has {} and {} has {}", pair.a.title, range_text(a),
+                                        pair.b.title, range_text(b));
+  if (both.first > both.last)
+    throw scene::toml::UsageError("", found + ": they have no frame in common",
+                                  "compare runs, or pictures of one moment");
+  if (!options.frames) return both;
+  if (options.frames->first < both.first || options.frames->last > both.last)
+    throw scene::toml::UsageError("--frames", found,
+                                  "expected frames that both have: " + range_text(both));
+  return *options.frames;
+}
+
+std::string count_text(std::size_t a, std::size_t b, const std::string& body) {
+  return fmt::format("body {} has {} particles in A and {} in B", body, a, b);
+}
+
+}  // namespace
+
+Pair read_pair(const PairOptions& options) {
+  Pair pair;
+  pair.a = read_side(options.a, options.threads);
+  pair.b = read_side(options.b, options.threads);
+  const double fps_a = pair.a.job.scene.fps, fps_b = pair.b.job.scene.fps;
+  if (fps_a != fps_b)
+    throw scene::toml::UsageError(
+        "",
+        fmt::format("{} has {} frames a second and {} has {}: their frames are of other times",
+                    options.a, rough_text(fps_a), options.b, rough_text(fps_b)),
+        "render one of them again with --set fps=" + rough_text(fps_a));
+  pair.frames = common_frames(options, pair);
+  const bool is_shorter = pair.a.frames.last != pair.b.frames.last && !options.frames;
+  if (is_shorter)
+    pair.warnings.push_back(fmt::format("{} has {} and {} has {}: {} are compared", options.a,
+                                        range_text(pair.a.frames), options.b,
+                                        range_text(pair.b.frames), range_text(pair.frames)));
+  find_differences(pair);
+  return pair;
+}
+
+std::optional<scene::toml::UsageError> id_problem(const Pair& pair, const setup::SeededScene& a,
+                                                  const setup::SeededScene& b) {
+  const scene::Scene &scene_a = pair.a.job.scene, &scene_b = pair.b.job.scene;
+  std::string why;
+  if (scene_a.seed != scene_b.seed)
+    why = fmt::format("seed is {} in A and {} in B", scene_a.seed, scene_b.seed);
+  else if (a.body_end.size() != b.body_end.size())
+    why = fmt::format("A has {} bodies and B has {}", a.body_end.size(), b.body_end.size());
+  for (std::size_t k = 0; why.empty() && k < a.body_end.size(); ++k) {
+    const std::size_t in_a = a.body_end[k] - a.body_begin(k),
+                      in_b = b.body_end[k] - b.body_begin(k);
+    if (in_a != in_b) why = count_text(in_a, in_b, scene_a.bodies[k].name);
+  }
+  if (why.empty()) return std::nullopt;
+  return scene::toml::UsageError(
+      "--mode displacement", "no particle of A is the same piece of snow as one of B: " + why,
+      "compare runs of one seed and cell size, or use --mode beside, wipe or metrics");
+}
+
+std::optional<scene::toml::UsageError> grid_problem(const Pair& pair) {
+  const double a = pair.a.job.scene.solver.cell_size, b = pair.b.job.scene.solver.cell_size;
+  if (a == b) return std::nullopt;
+  return scene::toml::UsageError(
+      "--mode mass",
+      fmt::format("solver.cell_size is {} m in A and {} m in B: their nodes lie in other places",
+                  rough_text(a), rough_text(b)),
+      "compare runs of one cell size, or use --mode beside, wipe or metrics");
+}
+
+}  // namespace neve::app::compare

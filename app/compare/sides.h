@@ -1,0 +1,44 @@
+#pragma once
+/// The two runs that are compared.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/compare/pair_options.h"
+#include "app/run/past_run.h"
+#include "app/run/render_job.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/seed_scene.h"
+
+namespace neve::app::compare {
+
+/// A run, or the moment that a picture shows.
+struct Side {
+  run::RenderJob job;
+  run::PastRun past;
+  setup::FrameRange frames;  ///< that it has
+  std::string title;         ///< as named by the user
+  std::string values;        ///< of the parameters in which it differs from the other one
+  bool is_picture = false;
+};
+
+struct Pair {
+  Side a, b;
+  setup::FrameRange frames;            ///< to compare: in both
+  std::vector<std::string> differing;  ///< addresses
+  std::vector<std::string> warnings;
+};
+
+/// Reads both runs. @throws UsageError when they cannot be compared: at other times, without frames
+/// in common; Error for a picture or run.json that is not of neve
+Pair read_pair(const PairOptions& options);
+
+/// Why an id does not mean the same piece of snow in both runs; nothing where it does.
+std::optional<scene::toml::UsageError> id_problem(const Pair& pair, const setup::SeededScene& a,
+                                                  const setup::SeededScene& b);
+
+/// Why the nodes of both grids lie in other places; nothing where they do not.
+std::optional<scene::toml::UsageError> grid_problem(const Pair& pair);
+
+}  // namespace neve::app::compare

@@ -1,0 +1,181 @@
+#include "app/compare/target.h"
+
+#include <algorithm>
+#include <new>
+
+#include "app/output/atomic_file.h"
+#include "app/output/movie.h"
+#include "app/output/sequence.h"
+#include "app/output/temporary.h"
+#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
+#include "app/support/json.h"
+#include "app/support/version.h"
+
+namespace neve::app::compare {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+TargetKind kind_of(const fs::path& out) {
+  const std::string suffix = out.extension().string();
+  if (suffix == ".png") return TargetKind::picture;
+  if (suffix == ".mp4") return TargetKind::movie;
+  if (suffix == ".csv") return TargetKind::table;
+  return TargetKind::folder;
+}
+
+std::vector<Mode> modes_for(const PairOptions& options, TargetKind kind) {
+  if (kind == TargetKind::folder) return options.modes.empty() ? all_modes() : options.modes;
+  if (options.modes.size() > 1)
+    throw scene::toml::UsageError("--mode",
+                                  "is given more than once, and " + options.out + " holds one",
+                                  "give one --mode, or name a folder with --out");
+  const bool is_metrics = !options.modes.empty() && options.modes.front() == Mode::metrics;
+  if (kind == TargetKind::table && !options.modes.empty() && !is_metrics)
+    throw scene::toml::UsageError("--mode", "a table has metrics", "leave --mode out");
+  if (kind == TargetKind::movie && is_metrics)
+    throw scene::toml::UsageError("--mode", "metrics are one picture with all times, no movie",
+                                  "name a file .png or .csv, or a folder");
+  if (kind == TargetKind::table) return {Mode::metrics};
+  return options.modes.empty() ? std::vector<Mode>{Mode::beside} : options.modes;
+}
+
+fs::path list_path(const fs::path& folder) {
+  return folder / "compare.json";
+}
+
+/// Names that an earlier comparison wrote: pictures of a mode, movies, metrics.
+bool is_listed_name(const fs::path& file) {
+  const auto parent = file.parent_path().string();
+  const std::string stem = file.stem().string(), suffix = file.extension().string();
+  const bool is_known = suffix == ".png" || suffix == ".mp4" || suffix == ".csv";
+  const auto is_mode = [](const std::string& text) {
+    return std::any_of(all_modes().begin(), all_modes().end(),
+                       [&](Mode mode) { return text == name(mode); });
+  };
+  if (!is_known || !output::is_plain_name(stem)) return false;
+  return parent.empty() ? is_mode(stem) : is_mode(parent);
+}
+
+void remove_earlier_files(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(list_path(folder), error))) return;
+  try {
+    const Json list = parse_json(output::read_file(list_path(folder)));
+    for (const Json& item : list.at("files")) {
+      const fs::path file = item.get<std::string>();
+      if (is_listed_name(file) && fs::is_regular_file(fs::symlink_status(folder / file, error)))
+        fs::remove(folder / file, error);
+    }
+  } catch (const IoError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    // No list of ours: nothing is removed.
+  }
+}
+
+}  // namespace
+
+Target::Target(const PairOptions& options)
+    : out_(options.out), kind_(kind_of(options.out)), modes_(modes_for(options, kind_)) {
+  std::error_code error;
+  if (kind_ != TargetKind::folder || !fs::exists(output::run_json_path(out_), error)) return;
+  throw scene::toml::UsageError("--out", options.out + " is the folder of a run",
+                                "name another folder, or a file .png or .mp4");
+}
+
+Target::~Target() {
+  std::error_code error;
+  if (!scratch_.empty()) fs::remove_all(scratch_, error);
+}
+
+bool Target::has(Mode mode) const {
+  return std::find(modes_.begin(), modes_.end(), mode) != modes_.end();
+}
+
+void Target::leave_out(Mode mode) {
+  std::erase(modes_, mode);
+}
+
+fs::path Target::folder_of(Mode mode) const {
+  return kind_ == TargetKind::movie ? scratch_ : out_ / name(mode);
+}
+
+void Target::note(const fs::path& file) {
+  files_.push_back(file);
+}
+
+void Target::begin() {
+  if (kind_ != TargetKind::folder) {
+    if (!out_.parent_path().empty()) output::make_folder(out_.parent_path());
+    if (kind_ == TargetKind::movie) scratch_ = output::temporary_name(out_);
+    if (!scratch_.empty()) output::make_folder(scratch_);
+    return;
+  }
+  output::make_folder(out_);
+  lock_.emplace(out_, "neve compare");
+  remove_earlier_files(out_);
+  for (const Mode mode : modes_)
+    if (mode != Mode::metrics) output::make_folder(folder_of(mode));
+}
+
+void Target::add(Mode mode, int frame, const render::Image& image) {
+  if (first_ < 0) first_ = frame;
+  last_ = frame;
+  fs::path file = out_;
+  if (kind_ == TargetKind::folder) file = output::frame_path(out_, name(mode), frame);
+  if (kind_ == TargetKind::movie) file = output::frame_path(scratch_, ".", frame);
+  output::write_file(file, render::encode_png(image));
+  if (kind_ != TargetKind::movie) note(file);
+}
+
+std::vector<std::string> Target::add_movies(double fps) {
+  std::vector<std::string> warnings;
+  // One picture is no movie, unless it was asked for.
+  const bool has_movie = kind_ == TargetKind::movie || kind_ == TargetKind::folder;
+  if (!has_movie || first_ < 0 || (first_ == last_ && kind_ == TargetKind::folder)) return warnings;
+  for (const Mode mode : modes_) {
+    if (mode == Mode::metrics) continue;
+    const fs::path file = kind_ == TargetKind::movie ? out_ : output::movie_path(out_, name(mode));
+    const output::MovieResult movie =
+        output::write_movie({folder_of(mode), file, first_, last_, fps});
+    if (movie.outcome == output::MovieOutcome::written) {
+      note(file);
+      continue;
+    }
+    const bool has_none = movie.outcome == output::MovieOutcome::no_ffmpeg;
+    const std::string why = has_none ? "ffmpeg is not installed" : movie.reason;
+    if (kind_ == TargetKind::movie || movie.outcome == output::MovieOutcome::unwritable)
+      throw IoError("no movie " + file.string() + ": " + why, file.string(),
+                    "name a folder with --out for the pictures");
+    warnings.push_back("no movie " + file.string() + ": " + why);
+    if (has_none) break;
+  }
+  return warnings;
+}
+
+void Target::add_metrics(const std::string& csv, const std::optional<render::Image>& picture) {
+  if (kind_ == TargetKind::table || kind_ == TargetKind::folder) {
+    const fs::path file = kind_ == TargetKind::table ? out_ : out_ / "metrics.csv";
+    output::write_file(file, csv);
+    note(file);
+  }
+  if (!picture || kind_ == TargetKind::table) return;
+  const fs::path file = kind_ == TargetKind::picture ? out_ : out_ / "metrics.png";
+  output::write_file(file, render::encode_png(*picture));
+  note(file);
+}
+
+void Target::finish() {
+  if (kind_ != TargetKind::folder) return;
+  Json names = Json::array();
+  for (const fs::path& file : files_)
+    names.push_back(file.lexically_relative(out_).generic_string());
+  output::write_file(list_path(out_), to_text({{"version", version}, {"files", names}}) + "\n");
+}
+
+}  // namespace neve::app::compare

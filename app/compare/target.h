@@ -1,0 +1,56 @@
+#pragma once
+/// Where the comparison of two runs goes: a folder, or one file.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/compare/pair_options.h"
+#include "app/output/folder_lock.h"
+#include "render/image/image.h"
+
+namespace neve::app::compare {
+
+enum class TargetKind { folder, picture, movie, table };
+
+class Target {
+ public:
+  /// @throws UsageError for a file that cannot hold the modes, or the folder of a run
+  explicit Target(const PairOptions& options);
+  /// Removes the pictures of a movie that is alone.
+  ~Target();
+  Target(const Target&) = delete;
+  Target& operator=(const Target&) = delete;
+
+  TargetKind kind() const { return kind_; }
+  /// That are to be made; all where none is named and the target is a folder.
+  const std::vector<Mode>& modes() const { return modes_; }
+  bool has(Mode mode) const;
+  void leave_out(Mode mode);
+
+  /// Takes the folder and removes the files that an earlier comparison listed there.
+  void begin();
+  void add(Mode mode, int frame, const render::Image& image);
+  /// Movies of all modes. @return warnings @throws IoError where a movie alone cannot be made
+  std::vector<std::string> add_movies(double fps);
+  void add_metrics(const std::string& csv, const std::optional<render::Image>& picture);
+  /// Lists the files in compare.json; only in a folder.
+  void finish();
+
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+
+ private:
+  std::filesystem::path folder_of(Mode mode) const;
+  void note(const std::filesystem::path& file);
+
+  std::filesystem::path out_;
+  TargetKind kind_;
+  std::vector<Mode> modes_;
+  std::optional<output::FolderLock> lock_;
+  std::filesystem::path scratch_;  ///< pictures of a movie that is alone
+  int first_ = -1, last_ = -1;     ///< frames that were added
+  std::vector<std::filesystem::path> files_;
+};
+
+}  // namespace neve::app::compare

@@ -1,0 +1,297 @@
+/// Two runs against each other as pictures, movies and numbers.
+
+#include <cmath>
+
+#include "app/compare/measures.h"
+#include "app/output/atomic_file.h"
+#include "render/image/image.h"
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+class Compare : public Cli {
+ protected:
+  void render(const char* out, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"render", "scene.toml", "--out", out, "--quiet", "--no-movie"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto done = neve(words);
+    ASSERT_EQ(done.exit_code, 0) << done.errors;
+  }
+
+  /// Both runs in out folders a and b, which differ in the speed of a ball that rises.
+  void render_both() {
+    ASSERT_NO_FATAL_FAILURE(render("a", {"--set", "body.ball.velocity=[0, 1, 0]"}));
+    ASSERT_NO_FATAL_FAILURE(render("b", {"--set", "body.ball.velocity=[0, 1.5, 0]"}));
+  }
+
+  app::output::ProcessResult compare(const char* a, const char* b,
+                                     const std::vector<std::string>& more) {
+    std::vector<std::string> words{"compare", a, b};
+    words.insert(words.end(), more.begin(), more.end());
+    return neve(words);
+  }
+
+  render::Image picture(const std::string& file) {
+    return render::decode_png(app::output::read_file(folder / file));
+  }
+
+  std::string hash_of(const char* run, std::size_t frame) {
+    return json_of(run + std::string("/run.json"))["frames"][frame]["state_hash"];
+  }
+};
+
+/// Pixels of a picture that are clearly red or blue.
+struct Tint {
+  std::size_t red = 0, blue = 0;
+};
+Tint tint_of(const render::Image& image) {
+  Tint tint;
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t k = 0; k < image.pixels.size(); k += channels) {
+    const int red = image.pixels[k], blue = image.pixels[k + 2];
+    if (red > blue + 30) ++tint.red;
+    if (blue > red + 30) ++tint.blue;
+  }
+  return tint;
+}
+
+TEST_F(Compare, AFolderGetsEveryModeOfEveryFrameAndTheNumbers) {
+  ASSERT_NO_FATAL_FAILURE(render_both());
+  const auto done = compare("a", "b", {"--out", "both", "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  for (const char* mode : {"beside", "wipe", "displacement", "mass"})
+    for (const char* frame : {"0000", "0002", "0004"})
+      EXPECT_TRUE(exists(std::string("both/") + mode + "/" + frame + ".png")) << mode;
+  EXPECT_TRUE(exists("both/metrics.png"));
+  const app::Json json = app::parse_json(std::string_view(done.output));
+  EXPECT_EQ(json["differing"], app::Json::array({"body.ball.velocity"}));
+  ASSERT_EQ(json["frames"].size(), 5u);
+  // Half a metre a second faster: in flight the particles part at that speed.
+  const app::Json& first = json["frames"][1];
+  EXPECT_NEAR(first["displacement_mean"].get<double>(), 0.5 / 24, 1e-3);
+  EXPECT_EQ(json["frames"][0]["displacement_largest"], 0.0);
+  EXPECT_EQ(first["particles_only_a"], 0.0);
+  EXPECT_GT(first["mass_more_a"].get<double>(), 0.0);
+  EXPECT_NEAR(first["mass_more_a"].get<double>(), first["mass_more_b"].get<double>(),
+              0.05 * first["mass_more_a"].get<double>());
+  const app::Json run = json_of("a/run.json");
+  EXPECT_NEAR(json["frames"][4]["spread_a"].get<double>(), run["frames"][4]["spread"].get<double>(),
+              1e-12);
+  const std::string csv = read_text(folder / "both/metrics.csv");
+  EXPECT_TRUE(csv.starts_with("frame,time,spread_a,spread_b,")) << csv.substr(0, 80);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6);
+}
+
+TEST_F(Compare, PicturesAreDrawnWithOneCamera) {
+  ASSERT_NO_FATAL_FAILURE(render("a"));
+  ASSERT_NO_FATAL_FAILURE(
+      render("other", {"--set", "camera.eye=[3, 2, 1]", "--set", "camera.target=[0, 0.1, 0]"}));
+  // The same snow: with one camera and light both halves are equal.
+  ASSERT_EQ(compare("a", "other", {"--out", "x.png"}).exit_code, 0);
+  const render::Image beside = picture("x.png");
+  const int half = (beside.width - 4) / 2;
+  EXPECT_EQ(half, 160);
+  int different = 0;
+  for (int y = 60; y < beside.height - 40; ++y)
+    for (int x = 0; x < half; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const auto at = [&](int column) {
+          return beside.pixels[static_cast<std::size_t>((y * beside.width + column) * 3 + c)];
+        };
+        different += at(x) != at(x + half + 4);
+      }
+  EXPECT_EQ(different, 0);
+}
+
+TEST_F(Compare, MassDifferenceIsRedWhereBHasMoreAndBlueWhereAHas) {
+  ASSERT_NO_FATAL_FAILURE(render("a"));
+  ASSERT_NO_FATAL_FAILURE(render("aside", {"--set", "body.ball.velocity=[1, -2, 0]"}));
+  ASSERT_EQ(compare("a", "aside", {"--out", "x.png", "--mode", "mass"}).exit_code, 0);
+  const Tint both = tint_of(picture("x.png"));
+  EXPECT_GT(both.red, 50u);
+  EXPECT_GT(both.blue, 50u);
+  ASSERT_EQ(compare("a", "a", {"--out", "y.png", "--mode", "mass"}).exit_code, 0);
+  const Tint none = tint_of(picture("y.png"));
+  EXPECT_EQ(none.red, 0u);
+  EXPECT_EQ(none.blue, 0u);
+}
+
+TEST_F(Compare, WipeShowsAOnTheLeftAndBOnTheRight) {
+  ASSERT_NO_FATAL_FAILURE(render_both());
+  const auto wipe = [&](const char* share, const char* out) {
+    ASSERT_EQ(compare("a", "b", {"--out", out, "--mode", "wipe", "--wipe", share}).exit_code, 0);
+  };
+  wipe("1", "only_a.png");
+  wipe("0", "only_b.png");
+  wipe("0.5", "half.png");
+  const render::Image a = picture("only_a.png"), b = picture("only_b.png"),
+                      half = picture("half.png");
+  ASSERT_EQ(half.pixels.size(), a.pixels.size());
+  int wrong = 0;
+  for (int y = 60; y < half.height - 40; ++y)
+    for (int x = 0; x < half.width; ++x) {
+      const auto k = static_cast<std::size_t>((y * half.width + x) * 3);
+      if (x > 3 && x < 76) wrong += half.pixels[k] != a.pixels[k];
+      if (x > 84 && x < 156) wrong += half.pixels[k] != b.pixels[k];
+    }
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST_F(Compare, PicturesAreMadeAgainFromTheirScenes) {
+  ASSERT_NO_FATAL_FAILURE(render_both());
+  const auto done =
+      compare("a/particles/0003.png", "b", {"--out", "x.png", "--mode", "displacement", "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  const app::Json json = app::parse_json(std::string_view(done.output));
+  ASSERT_EQ(json["frames"].size(), 1u);
+  EXPECT_EQ(json["frames"][0]["frame"], 3);
+  // No warning of another state: both are what the runs list.
+  EXPECT_FALSE(contains(done.errors, "has another state")) << done.errors;
+  const auto metrics = compare("a/particles/0003.png", "b", {"--out", "y.csv"});
+  EXPECT_EQ(metrics.exit_code, 2);
+  EXPECT_TRUE(contains(metrics.errors, "a picture has no metrics over time")) << metrics.errors;
+}
+
+TEST_F(Compare, AMovieAndATableAreSingleFiles) {
+  ASSERT_NO_FATAL_FAILURE(render_both());
+  ASSERT_EQ(compare("a", "b", {"--out", "table.csv"}).exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder / "table.csv"), "kinetic_energy_a"));
+  if (!app::output::find_program("ffmpeg")) GTEST_SKIP() << "no ffmpeg";
+  const auto movie = compare("a", "b", {"--out", "x.mp4", "--mode", "mass"});
+  ASSERT_EQ(movie.exit_code, 0) << movie.errors;
+  EXPECT_GT(std::filesystem::file_size(folder / "x.mp4"), 1000u);
+  // Its pictures are gone.
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".x.mp4")) << entry.path();
+}
+
+TEST_F(Compare, AnotherComparisonReplacesTheFilesOfTheOneBefore) {
+  ASSERT_NO_FATAL_FAILURE(render_both());
+  ASSERT_EQ(compare("a", "b", {"--out", "both", "--mode", "beside"}).exit_code, 0);
+  folder.write("both/beside/mine.txt", "kept");
+  ASSERT_EQ(compare("a", "b", {"--out", "both", "--mode", "beside", "--frames", "1-2"}).exit_code,
+            0);
+  EXPECT_TRUE(exists("both/beside/0002.png"));
+  EXPECT_FALSE(exists("both/beside/0004.png"));
+  EXPECT_TRUE(exists("both/beside/mine.txt"));
+}
+
+TEST_F(Compare, RunsOfOtherLengthAreComparedAsFarAsBothGo) {
+  ASSERT_NO_FATAL_FAILURE(render("a"));
+  ASSERT_NO_FATAL_FAILURE(render("short", {"--frames", "0-2"}));
+  const auto done = compare("a", "short", {"--out", "x.csv"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  EXPECT_TRUE(contains(done.errors,
+                       "a has frames 0 to 4 and short has frames 0 to 2: frames 0 to "
+                       "2 are compared"))
+      << done.errors;
+  const auto late = compare("a", "short", {"--out", "x.csv", "--frames", "1-4"});
+  EXPECT_EQ(late.exit_code, 2);
+  EXPECT_TRUE(contains(late.errors, "expected frames that both have: frames 0 to 2"))
+      << late.errors;
+}
+
+TEST_F(Compare, RunsThatCannotBeComparedAreRefusedWithTheReason) {
+  ASSERT_NO_FATAL_FAILURE(render("a"));
+  ASSERT_NO_FATAL_FAILURE(render("slow", {"--set", "fps=12"}));
+  ASSERT_NO_FATAL_FAILURE(render("fine", {"--set", "solver.cell_size=0.03"}));
+  ASSERT_NO_FATAL_FAILURE(render("seeded", {"--set", "seed=2"}));
+  ASSERT_NO_FATAL_FAILURE(render("late", {"--frames", "4-4"}));
+  ASSERT_NO_FATAL_FAILURE(render("early", {"--frames", "1-1"}));
+  const auto refused = [&](const char* a, const char* b, const std::vector<std::string>& more,
+                           const char* why) {
+    const auto done = compare(a, b, more);
+    EXPECT_EQ(done.exit_code, 2) << done.errors;
+    EXPECT_TRUE(contains(done.errors, why)) << done.errors;
+  };
+  refused("a", "slow", {"--out", "x.png"}, "their frames are of other times");
+  refused("a", "fine", {"--out", "x.png", "--mode", "mass"}, "solver.cell_size is 0.04 m in A");
+  refused("a", "fine", {"--out", "x.png", "--mode", "displacement"},
+          "no particle of A is the same piece of snow");
+  refused("a", "seeded", {"--out", "x.png", "--mode", "displacement"}, "seed is 1 in A and 2 in B");
+  refused("late", "early", {"--out", "x.png"}, "they have no frame in common");
+  refused("a", "a/particles", {"--out", "x.png"}, "is not the folder of a run");
+  refused("a", "a", {"--out", "a"}, "a is the folder of a run");
+  refused("a", "a", {"--mode", "wipe"}, "has no use without pictures");
+  refused("a", "a", {"--out", "x.png", "--mode", "wip"}, "did you mean wipe?");
+  refused("a", "a", {"--out", "x.mp4", "--mode", "metrics"}, "no movie");
+  // A folder takes the modes that are possible, and says which are not.
+  const auto rest = compare("a", "fine", {"--out", "rest"});
+  EXPECT_EQ(rest.exit_code, 0) << rest.errors;
+  EXPECT_TRUE(contains(rest.errors, "no mass: solver.cell_size")) << rest.errors;
+  EXPECT_TRUE(contains(rest.errors, "no displacement: no particle")) << rest.errors;
+  EXPECT_TRUE(exists("rest/wipe/0004.png"));
+  EXPECT_FALSE(exists("rest/mass/0004.png"));
+}
+
+TEST_F(Compare, PicturesWithoutAStateAreShownBesideEachOtherOrWiped) {
+  render::Image image{64, 48, 3, std::vector<std::uint8_t>(64 * 48 * 3, 90)};
+  app::output::write_file(folder / "p.png", render::encode_png(image));
+  image.pixels.assign(image.pixels.size(), 200);
+  app::output::write_file(folder / "q.png", render::encode_png(image));
+  ASSERT_EQ(compare("p.png", "q.png", {"--out", "x.png"}).exit_code, 0);
+  const render::Image beside = picture("x.png");
+  EXPECT_EQ(beside.width, 132);
+  const auto at = [&](int x) {
+    return beside.pixels[static_cast<std::size_t>((beside.height / 2 * beside.width + x) * 3)];
+  };
+  EXPECT_EQ(at(30), 90);
+  EXPECT_EQ(at(100), 200);
+  const auto mass = compare("p.png", "q.png", {"--out", "y.png", "--mode", "mass"});
+  EXPECT_EQ(mass.exit_code, 2);
+  EXPECT_TRUE(contains(mass.errors, "hold no scene of neve")) << mass.errors;
+}
+
+TEST_F(Compare, RunsOfAStudyAreNamedByTheirFolders) {
+  const auto sweep =
+      neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,10", "--out", "study.cdb"});
+  ASSERT_EQ(sweep.exit_code, 0) << sweep.errors;
+  const auto done = compare("study.cdb/runs/0000", "study.cdb/runs/0001",
+                            {"--out", "x.png", "--mode", "displacement", "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  const app::Json json = app::parse_json(std::string_view(done.output));
+  EXPECT_EQ(json["differing"], app::Json::array({"material.snow.hardening"}));
+  const auto whole = compare("study.cdb", "study.cdb", {"--out", "y.png"});
+  EXPECT_EQ(whole.exit_code, 2);
+  EXPECT_TRUE(contains(whole.errors, "is the folder of a study")) << whole.errors;
+}
+
+TEST(CompareMeasures, DisplacementIsOfTheSameIds) {
+  sim::ParticleArrays a, b;
+  a.x = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  a.id = {3, 5, 9};
+  b.x = {{1, 0, 3}, {2, 4, 0}};
+  b.id = {5, 9};
+  const app::compare::Displacement d = app::compare::displacement(a, b);
+  EXPECT_EQ(d.in_both, 2u);
+  EXPECT_EQ(d.only_a, 1u);
+  EXPECT_EQ(d.only_b, 0u);
+  EXPECT_DOUBLE_EQ(d.mean, 3.5);
+  EXPECT_DOUBLE_EQ(d.largest, 4.0);
+}
+
+TEST(CompareMeasures, MassDifferenceSumsOverBlocksOfBothRuns) {
+  const auto samples = [](std::vector<Vec3i> blocks, float density) {
+    app::picture::FieldSamples s;
+    auto lattice = std::make_shared<render::NodeLattice>();
+    lattice->spacing = 0.5f;
+    lattice->block = std::move(blocks);
+    s.density.assign(64 * lattice->block.size(), density);
+    s.lattice = lattice;
+    return s;
+  };
+  const auto difference = app::compare::mass_difference(samples({{0, 0, 0}, {1, 0, 0}}, 2),
+                                                        samples({{1, 0, 0}, {2, 0, 0}}, 3));
+  // 64 nodes of 1/8 m3 each: 2 only in A, 1 more in B in the middle, 3 only in B.
+  EXPECT_DOUBLE_EQ(difference.more_in_a, 16.0);
+  EXPECT_DOUBLE_EQ(difference.more_in_b, 32.0);
+  ASSERT_EQ(difference.smoke.nodes->block.size(), 3u);
+  EXPECT_EQ(difference.smoke.value[0], -2.0f);
+  EXPECT_EQ(difference.smoke.value[64], 1.0f);
+  EXPECT_EQ(difference.smoke.density[64], 1.0f);
+  EXPECT_EQ(difference.smoke.value[130], 3.0f);
+}
+
+}  // namespace
+}  // namespace neve::test
