@@ -73,6 +73,7 @@ bool parse_progress(const std::string& text) {
 
 run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts) {
   if (texts.frames) options.frames = setup::parse_frames(*texts.frames);
+  if (texts.from) options.from = setup::parse_time(*texts.from, "--from");
   if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);
   if (texts.size) options.size = setup::parse_size(*texts.size);
   if (texts.quality) options.quality = setup::quality_named(*texts.quality);
@@ -182,6 +183,11 @@ void add_render(CLI::App& app, Action& action) {
   add_scene(*command, options, texts);
   command->add_option("--frames", texts->frames, "Frames to draw: A-B, or N for 0-N")
       ->type_name("A-B");
+  command
+      ->add_option("--from", texts->from,
+                   "Fork the run of SCENE, a picture or the folder of a run, at a time: --set then "
+                   "changes parameters there, and frames after it are drawn")
+      ->type_name("TIME");
   add_repeatable(*command, "--view", options->views, "NAME", "Draw only this view (repeatable)");
   command->add_option("--size", texts->size, "Picture size of all views")->type_name("WxH");
   command->add_option("--out", options->out, "Output folder instead of out/<scene name>")

@@ -29,7 +29,7 @@ std::string with_toml_suffix(const std::string& file);
 
 /// Values that CLI11 hands over as text; turned into options when parsing is done.
 struct RenderTexts {
-  std::optional<std::string> frames, size, quality, coarsening, progress;
+  std::optional<std::string> frames, from, size, quality, coarsening, progress;
   bool is_quiet = false, is_verbose = false;
 };
 

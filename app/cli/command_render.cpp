@@ -10,6 +10,7 @@
 #include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
+#include "app/run/fork.h"
 #include "app/run/render_job.h"
 #include "app/run/render_run.h"
 #include "app/run/step_warnings.h"
@@ -225,7 +226,10 @@ int run_render(const run::RenderOptions& options) {
   sim::Simulation simulation = setup::make_simulation(job.scene, seeded.particles, options.threads);
   note_start(job, plan, seeded.particles.x.size(), progress);
 
-  run::RenderRun run(job, simulation, *context, renderer, seeded, progress);
+  std::optional<run::ForkPoint> fork;
+  if (job.fork) fork = run::go_to_fork(job, simulation, progress);
+  run::RenderRun run(job, simulation, *context, renderer, seeded, progress,
+                     fork ? &*fork : nullptr);
   const run::RenderResult result = run.run();
   for (const std::string& warning : run::step_warnings(job.scene, simulation))
     progress.warning(warning);

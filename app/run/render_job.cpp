@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <set>
 
+#include "app/run/fork.h"
 #include "app/run/picture_record.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/read.h"
@@ -136,9 +137,26 @@ void set_sizes(const RenderOptions& options, scene::Scene& scene) {
 
 }  // namespace
 
-RenderJob make_job(const RenderOptions& options) {
+namespace {
+
+/// The overrides of a fork are changes on its way, see set_fork().
+RenderJob job_of_source(const RenderOptions& options) {
+  RenderOptions start = options;
+  if (options.from) start.overrides.clear();
   const bool is_picture = !options.scene.empty() && is_png(options.scene);
-  RenderJob job = is_picture ? job_from_picture(options) : job_from_scene(options);
+  if (is_picture) return job_from_picture(start);
+  return options.from && is_folder(options.scene) ? job_from_run(start) : job_from_scene(start);
+}
+
+}  // namespace
+
+RenderJob make_job(const RenderOptions& options) {
+  if (options.from && (options.coarsening || options.is_fast))
+    throw scene::toml::UsageError(options.coarsening ? "--coarsen" : "--fast",
+                                  "cannot be combined with --from: a run keeps its cells and "
+                                  "settings while it runs",
+                                  "coarsen the run that is forked");
+  RenderJob job = job_of_source(options);
   if (options.coarsening) {
     scene::coarsen(job.scene, *options.coarsening);
     job.coarsening *= *options.coarsening;
@@ -154,6 +172,7 @@ RenderJob make_job(const RenderOptions& options) {
   job.resume = options.resume;
   job.checkpoint_every = options.checkpoint_every;
   job.has_movies = options.has_movies;
+  if (options.from) set_fork(options, job);
   return job;
 }
 

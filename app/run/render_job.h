@@ -8,10 +8,18 @@
 
 #include "app/health/fast.h"
 #include "app/run/changes.h"
+#include "app/run/past_run.h"
 #include "app/run/render_options.h"
 #include "app/scene/scene.h"
 
 namespace neve::app::run {
+
+/// Another way of a run from a time on, see fork.h.
+struct Fork {
+  double time = 0;  ///< s
+  PastRun past;     ///< that may have checkpoints
+  std::vector<scene::Override> changes;
+};
 
 struct RenderJob {
   scene::Scene scene;      ///< with the chosen views and sizes; cameras and ranges not yet resolved
@@ -29,6 +37,7 @@ struct RenderJob {
   bool has_movies = true;
   std::vector<std::string> warnings;  ///< of the start, for run.json
   double coarsening = 1;              ///< done to the scene, a picture's included
+  std::optional<Fork> fork{};
 };
 
 /// @throws SceneError, UsageError, IoError, Error

@@ -67,8 +67,9 @@ PictureRecord picture_record(const RenderJob& job, const RunRecord& run) {
 
 RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
                      const render::gl::Context& context, render::Renderer& renderer,
-                     const setup::SeededScene& seeded, Progress& progress)
+                     const setup::SeededScene& seeded, Progress& progress, const ForkPoint* fork)
     : job_(job),
+      fork_(fork),
       simulation_(simulation),
       renderer_(renderer),
       progress_(progress),
@@ -87,6 +88,7 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
   for (const scene::View& view : job.scene.views)
     if (is_drawn(view)) record_.views.push_back(view.name);
   for (const scene::Mosaic& mosaic : job.scene.mosaics) record_.views.push_back(mosaic.name);
+  if (fork) record_.forked = fork->record;
 }
 
 /// Frames of the run before stay listed until they are made again: whenever the process is killed,
@@ -100,7 +102,7 @@ int RenderRun::begin() {
   if (found) {
     first = resume(std::move(*found));
   } else {
-    player_.begin();
+    first = start();
     exports::remove_earlier_exports(job_.folder, earlier_exports(job_.folder));
     output::remove_earlier_run(job_.folder);
     output::remove_checkpoints(job_.folder);
@@ -113,6 +115,19 @@ int RenderRun::begin() {
   }
   write_run_json(job_.folder, record_);
   return first;
+}
+
+int RenderRun::start() {
+  if (!fork_) {
+    player_.begin();
+    return 0;
+  }
+  player_.go_to(fork_->run.steps, fork_->scene);
+  history_ = fork_->run.history;
+  advance_ = fork_->run.advance;
+  record_.retries = fork_->run.retries;
+  scene_ = player_.scene();
+  return fork_->run.frame + 1;
 }
 
 int RenderRun::resume(Resumption found) {
@@ -133,10 +148,7 @@ int RenderRun::resume(Resumption found) {
     return reached + 1;
   }
   repair_ = {{found.flawed.begin(), found.flawed.end()}, std::move(found.run)};
-  if (!found.repair) {
-    player_.begin();
-    return 0;
-  }
+  if (!found.repair) return start();
   const int before = found.repair->frame;
   continue_from(std::move(*found.repair));
   return before + 1;

@@ -14,6 +14,7 @@
 #include "app/output/picture_writer.h"
 #include "app/picture/frame_builder.h"
 #include "app/run/changes.h"
+#include "app/run/fork.h"
 #include "app/run/picture_record.h"
 #include "app/run/render_job.h"
 #include "app/run/resume.h"
@@ -36,8 +37,10 @@ struct RenderResult {
 class RenderRun {
  public:
   /// @param job with a resolved scene; must outlive the run, like the others
+  /// @param fork that the simulation is at; null: it is at the start
   RenderRun(const RenderJob& job, sim::Simulation& simulation, const render::gl::Context& context,
-            render::Renderer& renderer, const setup::SeededScene& seeded, Progress& progress);
+            render::Renderer& renderer, const setup::SeededScene& seeded, Progress& progress,
+            const ForkPoint* fork = nullptr);
 
   /// Removes the files of an earlier run, or resumes it, then makes all frames and movies. run.json
   /// says at every moment how far it got, also when this throws.
@@ -50,6 +53,8 @@ class RenderRun {
  private:
   /// @return the first frame to make
   int begin();
+  /// The same for a run that is not resumed, or from no checkpoint.
+  int start();
   /// The same for a run that goes on.
   int resume(Resumption found);
   void continue_from(ResumedRun run);
@@ -95,6 +100,7 @@ class RenderRun {
   render::PngText png_text(const std::string& view, int frame) const;
 
   const RenderJob& job_;
+  const ForkPoint* fork_;
   sim::Simulation& simulation_;
   render::Renderer& renderer_;
   Progress& progress_;

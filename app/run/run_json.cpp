@@ -242,6 +242,7 @@ Json to_json(const RunRecord& run) {
   json["overrides"] = run.overrides;
   json["changes"] = scene::to_json(run.changes);
   json["coarsen"] = run.coarsening;
+  if (!run.forked.is_null()) json["forked"] = run.forked;
   json["views"] = run.views;
   if (!run.exports.is_null()) json["exports"] = run.exports;
   json["backend"] = run.backend;

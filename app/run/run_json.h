@@ -59,6 +59,7 @@ struct RunRecord {
   std::vector<std::string> overrides;
   std::vector<scene::LiveChange> changes;  ///< made while it ran
   double coarsening = 1;                   ///< factor of --coarsen
+  Json forked;                             ///< where it left another run; null: nowhere
   std::vector<std::string> views;
   Json exports;  ///< of [[export]], see app/exports/exporter.h; null without
   std::string backend, gl_renderer;

@@ -59,13 +59,14 @@ scene::PictureSize parse_size(const std::string& text) {
   return {*width, *height};
 }
 
-double parse_time(const std::string& text) {
+double parse_time(const std::string& text, const char* flag) {
   constexpr double longest = 1e6;
   const bool has_unit = text.size() > 1 && text.back() == 's';
   const auto value = finite_number(has_unit ? text.substr(0, text.size() - 1) : text);
   if (!value || *value < 0 || *value > longest)
-    throw scene::toml::UsageError("--at", "cannot use \"" + text + "\"",
-                                  "expected seconds from 0 to 1000000, as in --at 0.25s");
+    throw scene::toml::UsageError(
+        flag, "cannot use \"" + text + "\"",
+        std::string("expected seconds from 0 to 1000000, as in ") + flag + " 0.25s");
   return *value;
 }
 

@@ -24,8 +24,8 @@ double parse_coarsening(const std::string& text);
 /// "1280x720". @throws UsageError
 scene::PictureSize parse_size(const std::string& text);
 
-/// "0.25s", "0.25": seconds, at least 0. @throws UsageError
-double parse_time(const std::string& text);
+/// "0.25s", "0.25": seconds, at least 0. @param flag  that has it @throws UsageError
+double parse_time(const std::string& text, const char* flag = "--at");
 
 /// "0.1,0.2s": such times, each later than the one before. @throws UsageError
 std::vector<double> parse_times(const std::string& text);

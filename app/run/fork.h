@@ -1,0 +1,32 @@
+#pragma once
+/// Forks: runs that take another way from a moment of a run that exists.
+
+#include <memory>
+#include <vector>
+
+#include "app/run/changes.h"
+#include "app/run/render_job.h"
+#include "app/run/resumed_run.h"
+#include "app/support/progress.h"
+#include "sim/simulation.h"
+
+namespace neve::app::run {
+
+/// The moment at which a run takes another way.
+struct ForkPoint {
+  ResumedRun run;  ///< as far as the fork; without a state, which the simulation has
+  std::shared_ptr<const scene::Scene> scene;  ///< after the changes
+  Json record;                                ///< for run.json
+};
+
+/// Makes a job a fork at options.from, with the overrides of the options as changes.
+/// @throws UsageError for parameters that cannot change during a run, with those that can
+void set_fork(const RenderOptions& options, RenderJob& job);
+
+/// Brings a new simulation of the job's scene to the fork, from the newest checkpoint that is early
+/// enough or from the start, and makes the changes there. The job then has them in its list, with
+/// their step; later changes of the run that it leaves are forgotten.
+/// @throws UsageError, IoError, Error when the run does not get there
+ForkPoint go_to_fork(RenderJob& job, sim::Simulation& simulation, Progress& progress);
+
+}  // namespace neve::app::run

@@ -1,0 +1,208 @@
+/// Runs that take another way from a moment of another run.
+
+#include "app/run/changes.h"
+#include "app/run/picture_record.h"
+#include "app/run/run_json.h"
+#include "app/scene/read.h"
+#include "app/setup/seed_scene.h"
+#include "tests/support/resume.h"
+
+namespace neve::test {
+namespace {
+
+class Fork : public Cli {
+ protected:
+  app::output::ProcessResult render(const std::vector<std::string>& more) {
+    std::vector<std::string> words{"render", "--no-movie"};
+    words.insert(words.end(), more.begin(), more.end());
+    return neve(words);
+  }
+
+  std::map<int, std::string> hashes(const std::string& out) {
+    std::map<int, std::string> all;
+    const app::Json run = json_of(out + "/run.json");
+    for (const app::Json& frame : run["frames"])
+      all[frame["frame"].get<int>()] = frame["state_hash"].get<std::string>();
+    return all;
+  }
+
+  /// The hash of frame 4 of a run that is advanced here, with a change at the end of a frame or so
+  /// many steps later.
+  std::string hash_of_whole(const std::string& run, int frame, std::size_t steps,
+                            const std::string& address, const std::string& value) {
+    const std::string text = json_of(run + "/run.json")["scene"];
+    const app::scene::Scene scene = app::scene::read_scene_text(text, "run");
+    sim::Simulation simulation =
+        app::setup::make_simulation(scene, app::setup::seed_scene(scene).particles, 1);
+    for (int k = 1; k <= frame; ++k) simulation.advance_to(k / 24.0);
+    if (steps > 0) simulation.advance_to((frame + 1) / 24.0, nullptr, simulation.steps() + steps);
+    changed_at = simulation.steps();
+    app::scene::Scene now = app::run::with_changes(
+        {text, "run", "", {}}, {{simulation.steps(), address, value}}, simulation.steps());
+    app::run::apply_scene(now, simulation);
+    for (int k = frame + 1; k <= 4; ++k) simulation.advance_to(k / 24.0);
+    return app::run::hash_text(simulation.state_hash());
+  }
+
+  std::size_t changed_at = 0;
+};
+
+struct ForkedMethod {
+  const char *transfer, *beta;
+};
+
+class ForkOf : public Fork, public testing::WithParamInterface<ForkedMethod> {};
+
+TEST_P(ForkOf, BranchEqualsTheWholeRunWithThatChangeAtThatStep) {
+  const std::string transfer = GetParam().transfer, beta = GetParam().beta;
+  ASSERT_EQ(render({"scene.toml", "--out", "a", "--checkpoint-every", "1", "--set",
+                    "solver.transfer=" + transfer, "--set", "solver.beta=" + beta})
+                .exit_code,
+            0);
+  // From a checkpoint, at the end of frame 3.
+  const auto branch =
+      render({"a", "--from", "0.125s", "--set", "material.snow.hardening=4", "--out", "b"});
+  ASSERT_EQ(branch.exit_code, 0) << branch.errors;
+  EXPECT_TRUE(contains(branch.errors, "continues from the checkpoint of frame 3")) << branch.errors;
+  const std::string whole = hash_of_whole("a", 3, 0, "material.snow.hardening", "4");
+  EXPECT_EQ(hashes("b"), (std::map<int, std::string>{{4, whole}}));
+  EXPECT_NE(hashes("a")[4], whole);
+  const app::Json run = json_of("b/run.json");
+  EXPECT_EQ(run["forked"]["from"], "a");
+  EXPECT_EQ(run["forked"]["frame"], 3);
+  EXPECT_EQ(run["forked"]["step"], changed_at);
+  EXPECT_EQ(run["forked"]["state_hash"], hashes("a")[3]);
+  ASSERT_EQ(run["changes"].size(), 1u);
+  EXPECT_EQ(run["changes"][0]["step"], changed_at);
+  // Its picture makes itself again, without the run that was forked.
+  std::filesystem::remove_all(folder / "a");
+  ASSERT_EQ(render({"b/particles/0004.png", "--out", "again"}).exit_code, 0);
+  EXPECT_EQ(hashes("again"), hashes("b"));
+  EXPECT_TRUE(app::output::read_file(folder / "again/particles/0004.png") ==
+              app::output::read_file(folder / "b/particles/0004.png"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, ForkOf,
+                         testing::Values(ForkedMethod{"flip", "0"}, ForkedMethod{"flip", "0.5"},
+                                         ForkedMethod{"mls", "0"}, ForkedMethod{"mls", "0.5"}));
+
+TEST_F(Fork, BetweenTwoFramesTheStepsBeforeTheTimeAreThoseOfTheRun) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a", "--checkpoint-every", "0"}).exit_code, 0);
+  const auto branch =
+      render({"a", "--from", "0.11s", "--set", "solver.gravity=[3, -9.81, 0]", "--out", "b"});
+  ASSERT_EQ(branch.exit_code, 0) << branch.errors;
+  const app::Json forked = json_of("b/run.json")["forked"];
+  EXPECT_EQ(forked["frame"], 2);
+  EXPECT_LE(forked["time"].get<double>(), 0.11);
+  EXPECT_GT(forked["time"].get<double>(), 0.1);
+  std::size_t before = 0;
+  const app::Json run = json_of("a/run.json");
+  for (int frame = 1; frame <= 2; ++frame)
+    before += run["frames"][static_cast<std::size_t>(frame)]["steps"].get<std::size_t>();
+  const std::size_t inside = forked["step"].get<std::size_t>() - before;
+  EXPECT_GT(inside, 0u);
+  EXPECT_EQ(hashes("b")[4], hash_of_whole("a", 2, inside, "solver.gravity", "[3, -9.81, 0]"));
+  EXPECT_EQ(hashes("b").begin()->first, 3);
+}
+
+TEST_F(Fork, APictureAndASceneAreForkedLikeTheRunThatMadeThem) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  const auto fork = [&](const char* source, const char* out) {
+    const auto done =
+        render({source, "--from", "0.125", "--set", "material.snow.hardening=4", "--out", out});
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    return hashes(out);
+  };
+  const auto of_run = fork("a", "b");
+  EXPECT_EQ(of_run.size(), 1u);
+  EXPECT_EQ(fork("a/particles/0002.png", "c"), of_run);
+  EXPECT_EQ(fork("scene.toml", "d"), of_run);
+  // Without a change it is the run itself.
+  ASSERT_EQ(render({"a", "--from", "0.125", "--out", "same"}).exit_code, 0);
+  EXPECT_EQ(hashes("same")[4], hashes("a")[4]);
+}
+
+TEST_F(Fork, ABranchOfABranchHasTheChangesOfBoth) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a", "--checkpoint-every", "1"}).exit_code, 0);
+  ASSERT_EQ(render({"a", "--from", "0.05", "--set", "material.snow.hardening=4", "--out", "b",
+                    "--checkpoint-every", "1"})
+                .exit_code,
+            0);
+  ASSERT_EQ(
+      render({"b", "--from", "0.126", "--set", "solver.transfer=mls", "--out", "c"}).exit_code, 0);
+  const app::Json changes = json_of("c/run.json")["changes"];
+  ASSERT_EQ(changes.size(), 2u);
+  ASSERT_EQ(render({"c/particles/0004.png", "--out", "again"}).exit_code, 0);
+  EXPECT_EQ(hashes("again"), hashes("c"));
+  // An earlier way leaves the later change of the run behind.
+  ASSERT_EQ(render({"b", "--from", "0.01", "--set", "solver.transfer=mls", "--out", "d"}).exit_code,
+            0);
+  EXPECT_EQ(json_of("d/run.json")["changes"].size(), 1u);
+}
+
+TEST_F(Fork, AKilledBranchIsResumed) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a", "--frames", "12"}).exit_code, 0);
+  const std::vector<std::string> fork{"a",
+                                      "--from",
+                                      "0.125",
+                                      "--set",
+                                      "material.snow.hardening=4",
+                                      "--frames",
+                                      "12",
+                                      "--checkpoint-every",
+                                      "1"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), fork.begin(), fork.end());
+    return render(more);
+  };
+  ASSERT_EQ(with({"--out", "whole"}).exit_code, 0);
+  std::vector<std::string> words{NEVE_BINARY, "render", "--no-movie"};
+  words.insert(words.end(), fork.begin(), fork.end());
+  words.insert(words.end(), {"--out", (folder / "killed").string(), "--resume"});
+  words[3] = (folder / "a").string();
+  for (int k = 0; k < 4; ++k) {
+    const pid_t child = start_program(words);
+    std::this_thread::sleep_for(std::chrono::milliseconds(60 + 50 * k));
+    ::kill(child, SIGKILL);
+    wait_for(child);
+  }
+  ASSERT_EQ(with({"--out", "killed", "--resume"}).exit_code, 0);
+  EXPECT_EQ(hashes("killed"), hashes("whole"));
+}
+
+TEST_F(Fork, OnlyWhatMayChangeInARunIsTaken) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  const auto refused = [&](const std::vector<std::string>& more, const char* why) {
+    std::vector<std::string> words{"a", "--from", "0.1"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto done = render(words);
+    EXPECT_EQ(done.exit_code, 2) << done.errors;
+    EXPECT_TRUE(contains(done.errors, why)) << done.errors;
+  };
+  refused({"--set", "body.ball.velocity=[1, 0, 0]"},
+          "body.ball.velocity cannot change while a simulation runs; parameters that can: ");
+  refused({"--set", "material.snow.density=300"}, "material.NAME.youngs_modulus");
+  refused({"--set", "solver.cell_size=0.02"}, "solver.cell_size cannot change");
+  refused({"--set", "material.snow.hardness=3"}, "did you mean");
+  refused({"--coarsen", "2"}, "cannot be combined with --from");
+  refused({"--frames", "2"}, "is at or after frame 2, the last one");
+  refused({"--out", "a"}, "a is the run that is forked");
+  EXPECT_EQ(hashes("a").size(), 5u);
+  const auto negative = render({"a", "--from", "-1"});
+  EXPECT_EQ(negative.exit_code, 2);
+  EXPECT_TRUE(contains(negative.errors, "as in --from 0.25s")) << negative.errors;
+}
+
+TEST_F(Fork, ColoursAndCamerasChangeWithoutATraceInTheState) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  const auto done = render(
+      {"a", "--from", "0.1", "--set", "view.particles.particles.color_by=J_P", "--out", "b"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  EXPECT_EQ(hashes("b")[4], hashes("a")[4]);
+  EXPECT_TRUE(json_of("b/run.json")["changes"].empty());
+  EXPECT_FALSE(app::output::read_file(folder / "a/particles/0004.png") ==
+               app::output::read_file(folder / "b/particles/0004.png"));
+}
+
+}  // namespace
+}  // namespace neve::test
