@@ -16,7 +16,7 @@ namespace {
 
 /// Values that CLI11 hands over as text.
 struct SweepTexts {
-  std::optional<std::string> frames, size, coarsening, shard, progress, budget;
+  std::optional<std::string> frames, fork, size, coarsening, shard, progress, budget;
   bool is_quiet = false, is_verbose = false;
 };
 
@@ -27,6 +27,7 @@ sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
                                   "give a sweep file, or a scene and -p ADDRESS=LIST");
   options.file = with_toml_suffix(options.file);
   if (texts.frames) options.frames = setup::parse_frames(*texts.frames);
+  if (texts.fork) options.fork = setup::parse_time(*texts.fork, "--fork");
   if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);
   if (texts.size) options.size = setup::parse_size(*texts.size);
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
@@ -74,6 +75,12 @@ void add_what(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts&
       .add_option("--frames", texts.frames,
                   "Frames of each run: A-B, or N for 0-N; overrides the file")
       ->type_name("A-B");
+  command
+      .add_option(
+          "--fork", texts.fork,
+          "Part the runs at a time, as in 0.8s: their beginning is computed once, then each "
+          "changes its parameters; only those that may change during a run")
+      ->type_name("TIME");
   command.add_option("--size", texts.size, "Size of a tile; default: 480 pixels wide")
       ->type_name("WxH");
   command.add_option("--coarsen", texts.coarsening, "Make cells N times as large in all runs")
@@ -144,7 +151,12 @@ void add_run(CLI::App& sweep, Action& action) {
   CLI::App* command = sweep.add_subcommand(
       "run", "Make one run of an existing sweep; --emit and --engine slurm use this");
   const auto options = std::make_shared<sweep::plan::SweepRunOptions>();
-  command->add_option("--index", options->index, "Number of the run")->required()->type_name("N");
+  CLI::Option* index =
+      command->add_option("--index", options->index, "Number of the run")->type_name("N");
+  command
+      ->add_flag("--beginning", options->is_beginning,
+                 "Make the common beginning of a sweep with --fork, instead of a run")
+      ->excludes(index);
   command
       ->add_flag("--retry-failed{all}", options->retry_failed,
                  "Repeat the run if it failed before, or ended in one of these states, as in "
@@ -152,6 +164,10 @@ void add_run(CLI::App& sweep, Action& action) {
       ->disable_flag_override(false);
   add_caps(*command);
   add_folder(*command, action, options, run_sweep_run);
+  command->parse_complete_callback([=] {
+    if (command->count("--index") == 0 && !options->is_beginning)
+      throw scene::toml::UsageError("sweep run", "which run?", "give --index N, or --beginning");
+  });
 }
 
 void add_collect(CLI::App& sweep, Action& action) {

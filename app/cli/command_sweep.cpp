@@ -238,6 +238,9 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
                     options.progress);
   const sweep::store::Manifest manifest = sweep::store::read_manifest(options.folder);
+  if (options.is_beginning && !manifest.beginning)
+    throw scene::toml::UsageError("--beginning", "the runs have no beginning in common",
+                                  "give --index N for one of them");
   if (options.index < 0 || options.index >= static_cast<int>(manifest.runs.size()))
     throw scene::toml::UsageError(
         "--index", fmt::format("there is no run {}", options.index),
@@ -248,8 +251,11 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   engine.backend = options.backend;
   engine.retry_failed = retry_of(options.retry_failed);
   engine.program = this_program();
+  engine.makes_beginning = options.is_beginning;
+  const std::vector<int> indices =
+      options.is_beginning ? std::vector<int>{} : std::vector<int>{options.index};
   const sweep::jobs::JobsResult result =
-      sweep::jobs::run_local(options.folder, manifest, {options.index}, engine, progress);
+      sweep::jobs::run_local(options.folder, manifest, indices, engine, progress);
   if (result.failure) fail_by_machine(*result.failure, options.folder);
   if (result.elsewhere > 0) throw IoError(result.elsewhere_text, options.folder, "wait for it");
   if (options.is_json) print_json_result(options.folder, result);

@@ -26,28 +26,19 @@ namespace fs = std::filesystem;
 /// Times are typed in decimals.
 constexpr double typed_rounding = 1 + 1e-12;
 
-int frame_at(const Fork& fork, double fps) {
-  return static_cast<int>(std::floor(fork.time * fps * typed_rounding));
-}
-
-/// Addresses that may change while a simulation runs and concern it.
+/// Addresses that may change while a simulation runs and concern it; of shapes and keyframes, which
+/// have many, the part that they share.
 std::string live_addresses() {
   std::vector<std::string> addresses;
-  for (const scene::ParamInfo& param : scene::params())
-    if (param.is_live && scene::concerns_simulation(param.address))
-      addresses.push_back(param.address);
+  for (const scene::ParamInfo& param : scene::params()) {
+    if (!param.is_live || !scene::concerns_simulation(param.address)) continue;
+    std::string address = param.address;
+    for (const char* part : {".shape.", ".keyframes"})
+      if (const std::size_t at = address.find(part); at != std::string::npos)
+        address = address.substr(0, at + std::string(part).size()) + "...";
+    if (addresses.empty() || addresses.back() != address) addresses.push_back(address);
+  }
   return joined(addresses, ", ");
-}
-
-/// Changes that need a restart have no place after the first step.
-void require_live(const scene::Scene& before, const scene::Scene& after) {
-  const std::vector<scene::Difference> restart = scene::split_live(before, after).restart;
-  if (restart.empty()) return;
-  std::vector<std::string> names;
-  for (const scene::Difference& d : restart) names.push_back(d.address);
-  throw scene::toml::UsageError("--from",
-                                joined(names, ", ") + " cannot change while a simulation runs",
-                                "parameters that can: " + live_addresses());
 }
 
 /// The scene with the changes of the run so far and those of the fork.
@@ -66,7 +57,7 @@ class ForkWalk {
 
   ResumedRun go() {
     begin();
-    const int last = frame_at(*job_.fork, fps());
+    const int last = frame_before(job_.fork->time, fps());
     while (run_.frame < last) take_frame();
     take_steps();
     run_.steps = simulation_.steps();
@@ -153,6 +144,20 @@ std::string default_folder(const RenderJob& job, const std::string& source) {
 
 }  // namespace
 
+void require_live(const scene::Scene& before, const scene::Scene& after, const char* flag) {
+  const std::vector<scene::Difference> restart = scene::split_live(before, after).restart;
+  if (restart.empty()) return;
+  std::vector<std::string> names;
+  for (const scene::Difference& d : restart) names.push_back(d.address);
+  throw scene::toml::UsageError(flag,
+                                joined(names, ", ") + " cannot change while a simulation runs",
+                                "parameters that can: " + live_addresses());
+}
+
+int frame_before(double time, double fps) {
+  return static_cast<int>(std::floor(time * fps * typed_rounding));
+}
+
 void set_fork(const RenderOptions& options, RenderJob& job) {
   Fork fork;
   fork.time = *options.from;
@@ -163,8 +168,8 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   const scene::Scene forked = forked_scene(job, static_cast<std::size_t>(-1));
   require_live(with_changes({scene::write_scene(job.scene), job.scene_file, {}, {}},
                             changes_of(job.scene, job.changes)),
-               forked);
-  const int first = frame_at(*job.fork, job.scene.fps) + 1;
+               forked, "--from");
+  const int first = frame_before(job.fork->time, job.scene.fps) + 1;
   const int last = options.frames ? options.frames->last : forked.frames;
   if (last < first)
     throw scene::toml::UsageError(
@@ -182,7 +187,7 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
 ForkPoint go_to_fork(RenderJob& job, sim::Simulation& simulation, Progress& progress) {
   ForkPoint point;
   ChangePlayer player(job.scene, job.changes, simulation);
-  progress.start(frame_at(*job.fork, job.scene.fps));
+  progress.start(frame_before(job.fork->time, job.scene.fps));
   point.run = ForkWalk(job, player, simulation, progress).go();
   progress.clear();
   point.record = {{"from", job.scene_file},
@@ -193,7 +198,7 @@ ForkPoint go_to_fork(RenderJob& job, sim::Simulation& simulation, Progress& prog
   player.forget_later();
   scene::Scene next = forked_scene(job, simulation.steps());
   setup::resolve_ranges(next, simulation.particle_count());
-  require_live(player.scene(), next);
+  require_live(player.scene(), next, "--from");
   player.make_now(std::make_shared<scene::Scene>(next));
   follow_colliders(simulation, next);
   point.scene = std::make_shared<scene::Scene>(next);

@@ -19,6 +19,14 @@ struct ForkPoint {
   Json record;                                ///< for run.json
 };
 
+/// @throws UsageError for differences that cannot arise while a simulation runs, with the
+/// parameters
+///         that can change
+void require_live(const scene::Scene& before, const scene::Scene& after, const char* flag);
+
+/// The last frame that ends at a time or before it.
+int frame_before(double time, double fps);
+
 /// Makes a job a fork at options.from, with the overrides of the options as changes.
 /// @throws UsageError for parameters that cannot change during a run, with those that can
 void set_fork(const RenderOptions& options, RenderJob& job);

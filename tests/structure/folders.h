@@ -77,7 +77,7 @@ inline constexpr Folder folders[] = {
      "sim/base sim/types sim/engine app/support app/scene/toml app/scene app/output app/setup "
      "app/health app/run app/sweep app/sweep/read"},
     {"app/sweep/store",
-     "sim/base app/support app/scene/toml app/scene app/output app/run app/sweep/read "
+     "sim/base app/support app/scene/toml app/scene app/output app/setup app/run app/sweep/read "
      "app/sweep/plan"},
     {"app/sweep/jobs", "app/support app/output app/setup app/sweep/plan app/sweep/store"},
     {"app/sweep/sheet",

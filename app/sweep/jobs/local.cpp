@@ -31,6 +31,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto poll_interval = std::chrono::milliseconds(5);
+constexpr auto wait_interval = std::chrono::milliseconds(100);
 
 /// In which the next runs are started.
 std::deque<const Run*> queue_of(const store::Manifest& manifest, const std::vector<int>& indices) {
@@ -63,6 +64,7 @@ class LocalJobs {
     skip_finished();
     put_failed_by_machine_last();
     for (const Run* run : queue_) work_left_ += run->work;
+    make_beginning();
     clock_.note(0);
     while (!active_.empty() || !queue_.empty()) {
       if (is_interrupted()) stop();
@@ -93,6 +95,69 @@ class LocalJobs {
     int threads;
     int frame;  ///< the next one that was not there yet
   };
+
+  /// Once for all runs: by this process, or by another one that is waited for.
+  void make_beginning() {
+    if (!manifest_.beginning || (queue_.empty() && !options_.makes_beginning)) return;
+    const Run& run = manifest_.beginning->run;
+    const fs::path folder = store::beginning_folder(folder_);
+    bool is_told = false;
+    while (!has_beginning(run, folder) && !is_interrupted()) {
+      const auto lock = output::FolderLock::try_lock(
+          folder, "neve sweep", output::FolderLock::Kind::alone, store::run_lock);
+      if (lock) return run_beginning(run, folder);
+      if (!is_told)
+        progress_.note("waiting for the common beginning: " +
+                       output::FolderLock::holder_of(folder, store::run_lock));
+      is_told = true;
+      std::this_thread::sleep_for(wait_interval);
+    }
+    if (is_interrupted()) queue_.clear();
+  }
+
+  static bool has_beginning(const Run& run, const fs::path& folder) {
+    const store::RunStatus status = store::read_status(folder);
+    return status.state == store::RunState::ok && status.key == run.key &&
+           output::find_checkpoint(folder).checkpoint.has_value();
+  }
+
+  void run_beginning(const Run& run, const fs::path& folder) {
+    store::RunStatus status = store::read_status(folder);
+    // Another process may just have finished it.
+    if (has_beginning(run, folder)) return;
+    const bool is_known = store::has_failed(status.state) && status.key == run.key &&
+                          !options_.retry_failed.contains(status.state);
+    if (is_known) fail_by_beginning(status);
+    progress_.note(fmt::format("the common beginning of all runs, to frame {}", run.frames.last));
+    const int threads =
+        threads_for(run, 1, options_.cores, static_cast<double>(available_memory()));
+    Child child = start_child(run, folder, threads, status);
+    std::optional<ChildResult> ended;
+    while (!(ended = child.poll())) {
+      if (is_interrupted() || (options_.budget > 0 && seconds_left() <= 0)) child.stop();
+      std::this_thread::sleep_for(poll_interval);
+    }
+    result_.cpu_seconds += ended->cpu_seconds;
+    result_.core_seconds += ended->seconds * threads;
+    judge(*ended, manifest_, run, folder, status);
+    store::write_status(folder, status);
+    if (is_machine_failure(status))
+      return give_up({status.exit_code, run.label + ": " + status.reason});
+    if (store::has_failed(status.state)) fail_by_beginning(status);
+    if (status.state != store::RunState::interrupted) return;
+    result_.is_interrupted = true;
+    if (!is_interrupted()) result_.out_of_time += static_cast<int>(queue_.size());
+    queue_.clear();
+  }
+
+  [[noreturn]] void fail_by_beginning(const store::RunStatus& status) const {
+    const fs::path folder = store::beginning_folder(folder_);
+    throw Error(
+        exit_runs_failed,
+        fmt::format("no run can start: their common beginning ended as {}{}",
+                    store::name(status.state), status.reason.empty() ? "" : ": " + status.reason),
+        folder.string(), "mend the scene, or part the runs earlier; --retry-failed tries it again");
+  }
 
   fs::path folder_of(const Run& run) const { return store::runs_folder(folder_) / run.folder; }
 
@@ -205,6 +270,17 @@ class LocalJobs {
     }
     store::RunStatus status = store::read_status(folder);
     if (is_over_memory(run, status, folder)) return;
+    Child child = start_child(run, folder, threads, status);
+    ++result_.started;
+    progress_.detail(fmt::format("{} starts on {} {}", store::run_text(run), threads,
+                                 threads == 1 ? "thread" : "threads"));
+    active_.push_back({&run, folder, std::move(*lock), std::move(status), std::move(child), threads,
+                       run.frames.first});
+  }
+
+  /// A process that makes a run, or continues one. @param status  of the run, written
+  Child start_child(const Run& run, const fs::path& folder, int threads,
+                    store::RunStatus& status) const {
     const bool resumes = status.state == store::RunState::running ||
                          status.state == store::RunState::interrupted ||
                          status.state == store::RunState::timeout;
@@ -218,11 +294,7 @@ class LocalJobs {
     status.reason.clear();
     status.short_reason.clear();
     store::write_status(folder, status);
-    ++result_.started;
-    progress_.detail(fmt::format("{} starts on {} {}", store::run_text(run), threads,
-                                 threads == 1 ? "thread" : "threads"));
-    active_.push_back({&run, folder, std::move(*lock), std::move(status), std::move(child), threads,
-                       run.frames.first});
+    return child;
   }
 
   /// Known before anything is started.
@@ -248,14 +320,19 @@ class LocalJobs {
   }
 
   std::vector<std::string> arguments_of(const Run& run, int threads, bool resumes) const {
+    const bool is_branch = manifest_.beginning && &run != &manifest_.beginning->run;
     std::vector<std::string> words{
-        "render",     "scene.toml",
+        "render",     is_branch ? "../../beginning" : "scene.toml",
         "--out",      ".",
         "--frames",   fmt::format("{}-{}", run.frames.first, run.frames.last),
         "--threads",  std::to_string(threads),
         "--backend",  options_.backend,
         "--no-movie", "--quiet"};
     if (resumes) words.push_back("--resume");
+    if (!is_branch) return words;
+    words.insert(words.end(), {"--from", fmt::format("{}", manifest_.beginning->time)});
+    for (const scene::Override& setting : run.settings)
+      words.insert(words.end(), {"--set", setting.address + "=" + setting.value});
     return words;
   }
 

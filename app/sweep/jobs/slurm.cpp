@@ -90,6 +90,10 @@ void write_scripts(const fs::path& folder, const SlurmOptions& options) {
                                  "$((SLURM_ARRAY_TASK_ID + $1)) --threads {} --backend {} --quiet "
                                  "$2\n",
                                  program, where, options.threads, backend));
+  output::write_file(folder / "slurm" / "beginning.sh",
+                     fmt::format("#!/bin/bash\nexec {} sweep run {} --beginning --threads {} "
+                                 "--backend {} --quiet $1\n",
+                                 program, where, options.threads, backend));
   output::write_file(folder / "slurm" / "collect.sh",
                      fmt::format("#!/bin/bash\nexec {} sweep collect {} --backend {} --quiet\n",
                                  program, where, backend));
@@ -139,14 +143,26 @@ std::vector<std::string> submit(const fs::path& folder, const store::Manifest& m
   const std::string log = (fs::absolute(folder) / "slurm" / "%A_%a.log").string();
   std::vector<std::string> jobs;
   std::string after = "--dependency=afterany";
+  const std::string retry = retry_failed.empty() ? "" : "--retry-failed=" + retry_failed;
+  std::string beginning;
+  if (manifest.beginning) {
+    std::vector<std::string> words = sbatch_options(manifest, options);
+    words.push_back("--output=" + (fs::absolute(folder) / "slurm" / "beginning.log").string());
+    words.push_back((folder / "slurm" / "beginning.sh").string());
+    if (!retry.empty()) words.push_back(retry);
+    jobs.push_back(job_id(call("sbatch", words)));
+    // Not afterok: runs whose beginning failed say so, instead of waiting for ever.
+    beginning = after + ":" + jobs.back();
+  }
   for (const SlurmArray& array : split_arrays(indices, max_array_size())) {
     std::vector<std::string> words = sbatch_options(manifest, options);
     words.push_back("--array=" + array.tasks +
                     (options.jobs > 0 ? "%" + std::to_string(options.jobs) : ""));
     words.push_back("--output=" + log);
+    if (!beginning.empty()) words.push_back(beginning);
     words.push_back((folder / "slurm" / "run.sh").string());
     words.push_back(std::to_string(array.offset));
-    if (!retry_failed.empty()) words.push_back("--retry-failed=" + retry_failed);
+    if (!retry.empty()) words.push_back(retry);
     jobs.push_back(job_id(call("sbatch", words)));
     after += ":" + jobs.back();
   }

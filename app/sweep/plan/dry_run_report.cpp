@@ -29,15 +29,28 @@ constexpr double seconds_per_tile = 0.02;
 /// Coarse copies of all runs together take no longer; one is worth no less, and no more.
 constexpr double all_forecasts = 40, least_forecast = 0.15, longest_forecast = 2;
 
+/// Seconds of one thread.
+struct RunSeconds {
+  std::vector<double> runs;
+  double beginning = 0;  ///< of forked runs
+};
+
+/// Steps of a run, from where it parts from the others.
+double own_steps(const SweepPlan& plan, const health::Forecast& forecast, int last) {
+  const double all = forecast.steps_until(last);
+  return plan.beginning ? all - forecast.steps_until(plan.beginning->run.frames.last) : all;
+}
+
 /// Seconds of one thread for each run, measured now: the time of a particle and step in the
 /// costliest run, and the steps of a coarse copy of each. Copies of very many runs would take too
 /// long: these are compared by the steps that snow at rest allows. 0: not known.
-std::vector<double> seconds_of_runs(const SweepPlan& plan, int cores) {
-  std::vector<double> seconds(plan.runs.size(), 0);
+RunSeconds seconds_of_runs(const SweepPlan& plan, int cores) {
+  RunSeconds result{std::vector<double>(plan.runs.size(), 0)};
+  std::vector<double>& seconds = result.runs;
   const PlannedRun* costliest = nullptr;
   for (const PlannedRun& item : plan.runs)
     if (is_possible(item) && (!costliest || item.run.work > costliest->run.work)) costliest = &item;
-  if (!costliest) return seconds;
+  if (!costliest) return result;
   const health::Checkup checkup = health::examine(costliest->scene, costliest->plan, 1);
   const double per_particle_step = checkup.seconds_per_step / std::max(1.0, checkup.plan.particles);
   const double per_run =
@@ -52,9 +65,17 @@ std::vector<double> seconds_of_runs(const SweepPlan& plan, int cores) {
     const health::Forecast forecast =
         health::foresee(item.scene, item.plan.particles, item.run.frames.last, {per_run, 1e12});
     seconds[k] =
-        forecast.steps_until(item.run.frames.last) * item.plan.particles * per_particle_step +
+        own_steps(plan, forecast, item.run.frames.last) * item.plan.particles * per_particle_step +
         drawn;
   };
+  if (plan.beginning) {
+    const PlannedRun& item = *plan.beginning;
+    const int last = item.run.frames.last;
+    result.beginning =
+        health::foresee(item.scene, item.plan.particles, last, {longest_forecast, 1e12})
+            .steps_until(last) *
+        item.plan.particles * per_particle_step;
+  }
   std::atomic<std::size_t> next = 0;
   std::vector<std::future<void>> workers;
   for (int worker = 0; worker < cores; ++worker)
@@ -62,7 +83,7 @@ std::vector<double> seconds_of_runs(const SweepPlan& plan, int cores) {
       for (std::size_t k = next++; k < plan.runs.size(); k = next++) estimate(k);
     }));
   for (std::future<void>& worker : workers) worker.get();
-  return seconds;
+  return result;
 }
 
 struct Totals {
@@ -81,8 +102,9 @@ std::uint64_t whole_bytes(double bytes) {
   return static_cast<std::uint64_t>(bytes);
 }
 
-Totals totals_of(const SweepPlan& plan, const std::vector<double>& seconds) {
+Totals totals_of(const SweepPlan& plan, const RunSeconds& each) {
   Totals totals;
+  const std::vector<double>& seconds = each.runs;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const Run& run = plan.runs[k].run;
     totals.seconds += seconds[k];
@@ -93,8 +115,9 @@ Totals totals_of(const SweepPlan& plan, const std::vector<double>& seconds) {
   return totals;
 }
 
-void print_json(const SweepPlan& plan, const std::vector<double>& seconds, double seconds_of_all) {
-  const Totals totals = totals_of(plan, seconds);
+void print_json(const SweepPlan& plan, const RunSeconds& each, double seconds_of_all) {
+  const Totals totals = totals_of(plan, each);
+  const std::vector<double>& seconds = each.runs;
   Json json;
   json["title"] = plan.title;
   json["scene"] = plan.sweep.scene_file;
@@ -115,6 +138,10 @@ void print_json(const SweepPlan& plan, const std::vector<double>& seconds, doubl
                             {"over_memory_limit", is_over_limit(plan, run)},
                             {"seconds", seconds[k]}});
   }
+  if (plan.beginning)
+    json["beginning"] = {{"time", plan.fork},
+                         {"frame", plan.beginning->run.frames.last},
+                         {"seconds", each.beginning}};
   json["memory_bytes"] = whole_bytes(totals.largest);
   json["seconds"] = seconds_of_all;
   std::cout << to_text(json) << "\n";
@@ -161,11 +188,14 @@ void print_table(const SweepPlan& plan, const std::vector<double>& seconds) {
 }  // namespace
 
 void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
-  const std::vector<double> each = seconds_of_runs(plan, cores);
+  const RunSeconds each = seconds_of_runs(plan, cores);
   const Totals totals = totals_of(plan, each);
-  const double seconds = std::max(totals.longest, totals.seconds / cores);
+  const double seconds = each.beginning / cores + std::max(totals.longest, totals.seconds / cores);
   if (is_json) return print_json(plan, each, seconds);
-  print_table(plan, each);
+  print_table(plan, each.runs);
+  if (plan.beginning)
+    std::cout << fmt::format("\nthe beginning, to {} s, is computed once: {}\n",
+                             rough_text(plan.fork), duration_text(each.beginning));
   std::cout << fmt::format("\n{} {} of {}, {}, view {} in tiles of {}x{}\n", plan.runs.size(),
                            plan.runs.size() == 1 ? "run" : "runs", plan.sweep.scene_file,
                            frames_text(plan), plan.view, plan.base.size.width,

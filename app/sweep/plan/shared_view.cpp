@@ -142,10 +142,12 @@ void share_camera_and_ranges(SweepPlan& plan, int cores) {
     output::make_folder(plan.folder);
     output::write_file(file, mark + scene::write_scene(*shared));
   }
-  for (PlannedRun& item : plan.runs) {
+  const auto complete = [&](PlannedRun& item) {
     apply(*shared, item.scene);
     setup::resolve(item.scene, static_cast<std::size_t>(item.plan.particles));
-  }
+  };
+  for (PlannedRun& item : plan.runs) complete(item);
+  if (plan.beginning) complete(*plan.beginning);
 }
 
 }  // namespace neve::app::sweep::plan

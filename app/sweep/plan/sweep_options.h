@@ -16,6 +16,7 @@ struct SweepOptions {
   std::vector<std::string> axes;       ///< -p
   std::vector<std::string> overrides;  ///< --set
   std::optional<setup::FrameRange> frames;
+  std::optional<double> fork;              ///< s, time at which the runs part
   std::optional<scene::PictureSize> size;  ///< of a tile
   std::optional<double> coarsening;
   bool is_fast = false;  ///< with the settings of health::fast_look
@@ -40,7 +41,8 @@ struct SweepOptions {
 struct SweepRunOptions {
   std::string folder;  ///< of the sweep
   int index = 0;
-  int threads = 0;  ///< 0: as many as there are
+  bool is_beginning = false;  ///< the common beginning of forked runs, instead of a run
+  int threads = 0;            ///< 0: as many as there are
   std::string backend = "auto";
   std::string retry_failed;  ///< "all", or states as in "timeout,crashed"; "": none
   bool is_json = false;

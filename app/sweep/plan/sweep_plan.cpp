@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/run/fork.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
@@ -123,6 +124,47 @@ health::FastLook take_fast_look(const SweepOptions& options, const scene::Scene&
   return look;
 }
 
+/// The time at which the runs part; nothing where each has its values from the start.
+std::optional<double> fork_time(const SweepOptions& options, const read::Sweep& sweep) {
+  if (options.fork) return options.fork;
+  if (sweep.settings.fork.empty()) return std::nullopt;
+  try {
+    return setup::parse_time(sweep.settings.fork);
+  } catch (const scene::toml::UsageError& error) {
+    sweep.fail("sweep.fork", "sweep.fork = \"" + sweep.settings.fork + "\" is no time",
+               "expected seconds, as in fork = \"0.8s\"");
+  }
+}
+
+PlannedRun planned(Run run, scene::Scene scene) {
+  const setup::Plan needs = setup::make_plan(scene, run.frames, setup::Quality::preview, 1);
+  run.particles = needs.particles;
+  run.memory = static_cast<double>(needs.memory + program_memory);
+  run.work = foreseen_work(scene, needs);
+  return {std::move(run), std::move(scene), needs};
+}
+
+/// Takes the common beginning off the runs. @throws UsageError where they cannot have one
+void share_beginning(double time, SweepPlan& plan) {
+  const int frame = run::frame_before(time, plan.base.fps);
+  plan.fork = time;
+  Run beginning;
+  beginning.label = "the common beginning";
+  beginning.frames = {frame, frame};
+  plan.beginning = planned(std::move(beginning), plan.base);
+  for (PlannedRun& item : plan.runs) {
+    run::require_live(plan.base, item.scene, "--fork");
+    setup::FrameRange& frames = item.run.frames;
+    if (frames.last <= frame)
+      throw scene::toml::UsageError("--fork",
+                                    "the runs part at frame " + std::to_string(frame) +
+                                        ", and their last frame is " + std::to_string(frames.last),
+                                    "expected an earlier time, or later frames with --frames");
+    item.run.work *= static_cast<double>(frames.last - frame) / frames.last;
+    frames.first = std::max(frames.first, frame + 1);
+  }
+}
+
 }  // namespace
 
 SweepPlan plan_sweep(const SweepOptions& options) {
@@ -144,12 +186,9 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   for (Run& run : expand(plan.sweep)) {
     scene::Scene scene = maker.make(run.settings);
     run.frames = frames_of(options, plan.sweep, scene);
-    const setup::Plan needs = setup::make_plan(scene, run.frames, setup::Quality::preview, 1);
-    run.particles = needs.particles;
-    run.memory = static_cast<double>(needs.memory + program_memory);
-    run.work = foreseen_work(scene, needs);
-    plan.runs.push_back({std::move(run), std::move(scene), needs});
+    plan.runs.push_back(planned(std::move(run), std::move(scene)));
   }
+  if (const auto time = fork_time(options, plan.sweep)) share_beginning(*time, plan);
   return plan;
 }
 

@@ -34,6 +34,10 @@ struct SweepPlan {
   std::string view;   ///< that the tiles show
   scene::Scene base;  ///< with the fixed settings alone
   std::vector<PlannedRun> runs;
+  /// Of runs that part later than at the start: as far as the last frame before. Their frames and
+  /// their work begin there.
+  std::optional<PlannedRun> beginning;
+  double fork = 0;                       ///< s, where they part
   std::optional<health::FastLook> fast;  ///< of --fast; its overrides are among the fixed settings
 };
 

@@ -48,6 +48,10 @@ void describe(V& visit, SweepSettings& s) {
         "axes, numbers, a number * an axis.");
   visit("frames", s.frames, scene::unit::none, scene::anything, restart,
         "Frames to draw, \"A-B\" or \"N\" for 0-N; default: those of the scene.");
+  visit(
+      "fork", s.fork, scene::unit::none, scene::anything, restart,
+      "Time at which the runs part, as \"0.8s\": the beginning is computed once; default: each run "
+      "has its values from the start.");
   visit("title", s.title, scene::unit::none, scene::anything, restart,
         "Title of the sheet; default: that of the scene.");
 }

@@ -64,6 +64,7 @@ struct SweepSettings {
   std::uint64_t seed = 1;
   std::vector<std::string> where;  ///< conditions, see condition.h
   std::string frames;
+  std::string fork;  ///< time at which all runs part; "": at the start
   std::string title;
 };
 

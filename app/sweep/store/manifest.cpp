@@ -15,6 +15,7 @@
 #include "app/support/errors.h"
 #include "app/support/version.h"
 #include "app/sweep/read/sweep_leaf.h"
+#include "app/sweep/store/prepare.h"
 #include "app/sweep/store/store.h"
 
 namespace neve::app::sweep::store {
@@ -204,6 +205,10 @@ void check_values(const Manifest& m) {
   check(output::is_plain_name(m.view), "its view has no name of a folder");
   check(is_amount(m.timeout) && is_amount(m.memory), "its limits are impossible");
   check(!m.runs.empty(), "it has no runs");
+  if (m.beginning) {
+    check(is_amount(m.beginning->time), "the time at which its runs part is impossible");
+    check_run(m, m.beginning->run);
+  }
   for (std::size_t k = 0; k < m.runs.size(); ++k) {
     const Run& run = m.runs[k];
     check(run.index == static_cast<int>(k), "its runs are not numbered in order");
@@ -266,6 +271,10 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
     run.key = keys[k];
     run.inherited = inherited_values(plan.runs[k], m.parameters);
   }
+  if (!plan.beginning) return m;
+  m.beginning = {plan.fork, plan.beginning->run};
+  m.beginning->run.key = key_of(*plan.beginning);
+  m.beginning->run.folder = run_folder_name(0);
   return m;
 }
 
@@ -319,6 +328,8 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   for (const AxisLabels& axis : m.screened)
     json["screened"].push_back({{"name", axis.name}, {"addresses", axis.addresses}});
   if (m.varied) json["varied"] = *m.varied;
+  if (m.beginning)
+    json["beginning"] = {{"time", m.beginning->time}, {"run", run_json(m.beginning->run)}};
   json["runs"] = Json::array();
   for (const Run& run : m.runs) json["runs"].push_back(run_json(run));
   output::write_file(manifest_path(folder), to_text(json) + "\n");
@@ -362,6 +373,9 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
                             axis.at("addresses").get<std::vector<std::string>>()});
     if (json.contains("varied")) m.varied = json.at("varied").get<std::vector<std::string>>();
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
+    if (json.contains("beginning"))
+      m.beginning = {json.at("beginning").at("time").get<double>(),
+                     run_of(json.at("beginning").at("run"))};
     check_values(m);
     return m;
   } catch (const std::bad_alloc&) {

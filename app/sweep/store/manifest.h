@@ -24,6 +24,12 @@ struct AxisLabels {
   std::vector<std::string> addresses{};  ///< of the parameters that it sets
 };
 
+/// The common beginning of runs that part later than at the start, in DIR/beginning.
+struct Beginning {
+  double time = 0;  ///< s, where the runs part
+  Run run;          ///< its frame is the last one before
+};
+
 struct Manifest {
   std::string sources;  ///< of the program, see Build; "" in files of before they had it
   std::string version, name, title, sweep_file, scene_file, view;
@@ -40,6 +46,7 @@ struct Manifest {
   /// Addresses of all axes, for any method; sorted. Nothing in files of before they had it.
   std::optional<std::vector<std::string>> varied;
   std::vector<Run> runs;
+  std::optional<Beginning> beginning{};
 
   int first_frame() const;
   int last_frame() const;

@@ -1,5 +1,7 @@
 #include "app/sweep/store/prepare.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -8,6 +10,7 @@
 #include "app/run/picture_record.h"
 #include "app/run/run_json.h"
 #include "app/scene/read.h"
+#include "app/setup/command_text.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
 #include "app/sweep/store/store.h"
@@ -48,10 +51,20 @@ bool has_text(const fs::path& file, const std::string& text) {
   }
 }
 
+/// The scene of a branch is that of the beginning; its own values are changes on the way.
+std::string text_of_run(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
+  if (!plan.beginning) return scene::write_scene(item.scene);
+  setup::RenderCommand command;
+  command.scene_file = "../../beginning";
+  command.overrides = item.run.settings;
+  return "# A run that parts from the common beginning. In this folder:\n# " +
+         setup::command_line(command) + " --from " + fmt::format("{}", plan.fork) + "\n" +
+         scene::write_scene(plan.beginning->scene);
+}
+
 /// The key is that of the planned scene: one that was edited by hand is written again.
-void write_run(const fs::path& folder, const plan::PlannedRun& item, const std::string& key) {
+void write_run(const fs::path& folder, const std::string& text, const std::string& key) {
   output::make_folder(folder);
-  const std::string text = scene::write_scene(item.scene);
   if (!has_text(folder / "scene.toml", text)) output::write_file(folder / "scene.toml", text);
   if (read_status(folder).key == key) return;
   RunStatus status;
@@ -69,14 +82,24 @@ std::string key_of(const plan::PlannedRun& item) {
   return run::hash_text(hash_bytes(text.data(), text.size()));
 }
 
+std::string key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
+  if (!plan.beginning) return key_of(item);
+  const std::string text =
+      key_of(item) + fmt::format("\nfrom {} of {}", plan.fork, key_of(*plan.beginning));
+  return run::hash_text(hash_bytes(text.data(), text.size()));
+}
+
 Manifest prepare_sweep(const plan::SweepPlan& plan) {
   output::make_folder(runs_folder(plan.folder));
   std::vector<std::string> keys;
-  for (const plan::PlannedRun& item : plan.runs) keys.push_back(key_of(item));
+  for (const plan::PlannedRun& item : plan.runs) keys.push_back(key_of(plan, item));
   const std::vector<std::string> folders = assign_folders(plan, keys);
   const Manifest manifest = make_manifest(plan, keys, folders);
   for (std::size_t k = 0; k < plan.runs.size(); ++k)
-    write_run(runs_folder(plan.folder) / folders[k], plan.runs[k], keys[k]);
+    write_run(runs_folder(plan.folder) / folders[k], text_of_run(plan, plan.runs[k]), keys[k]);
+  if (plan.beginning)
+    write_run(beginning_folder(plan.folder), scene::write_scene(plan.beginning->scene),
+              key_of(*plan.beginning));
   if (!plan.sweep.file.empty())
     output::write_file(plan.folder / "sweep.toml", scene::read_toml_file(plan.sweep.file));
   write_manifest(plan.folder, manifest);

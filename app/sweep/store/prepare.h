@@ -15,4 +15,7 @@ Manifest prepare_sweep(const plan::SweepPlan& plan);
 /// and the frames.
 std::string key_of(const plan::PlannedRun& item);
 
+/// The same for a run of a sweep: with its beginning, where it has one in common with others.
+std::string key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item);
+
 }  // namespace neve::app::sweep::store

@@ -54,6 +54,10 @@ bool has_failed(RunState state) {
          state != RunState::interrupted;
 }
 
+std::filesystem::path beginning_folder(const std::filesystem::path& sweep) {
+  return sweep / "beginning";
+}
+
 RunStatus read_status(const fs::path& run_folder) {
   RunStatus status;
   try {

@@ -41,6 +41,9 @@ struct RunStatus {
 std::string run_folder_name(int number);
 std::filesystem::path runs_folder(const std::filesystem::path& sweep);
 
+/// Of the common beginning of forked runs.
+std::filesystem::path beginning_folder(const std::filesystem::path& sweep);
+
 /// Pending where there is no file or a broken one.
 RunStatus read_status(const std::filesystem::path& run_folder);
 /// @throws IoError

@@ -1,0 +1,189 @@
+/// Sweeps whose runs part at a time: their beginning is computed once.
+
+#include <thread>
+
+#include "app/output/checkpoint.h"
+#include "app/run/picture_record.h"
+#include "tests/cli/run_neve.h"
+#include "tests/support/child.h"
+
+namespace neve::test {
+namespace {
+
+class ForkSweep : public Cli {
+ protected:
+  app::output::ProcessResult sweep(const std::vector<std::string>& more) {
+    std::vector<std::string> words{
+        "sweep",  "scene.toml", "-p",       "material.snow.hardening=4,10,20",
+        "--fork", "0.125s",     "--frames", "8",
+        "--size", "96x54",      "--json",   "--out",
+        "f.cdb"};
+    words.insert(words.end(), more.begin(), more.end());
+    return neve(words);
+  }
+
+  /// Hashes of the frames of a run in a folder.
+  std::map<int, std::string> hashes(const std::string& out) {
+    std::map<int, std::string> all;
+    const app::Json run = json_of(out + "/run.json");
+    for (const app::Json& frame : run["frames"])
+      all[frame["frame"].get<int>()] = frame["state_hash"].get<std::string>();
+    return all;
+  }
+
+  std::vector<std::map<int, std::string>> all_hashes(const std::string& out = "f.cdb") {
+    std::vector<std::map<int, std::string>> all;
+    for (const char* run : {"0000", "0001", "0002"}) all.push_back(hashes(out + "/runs/" + run));
+    return all;
+  }
+
+  app::Json json_in(const app::output::ProcessResult& done) {
+    return app::parse_json(std::string_view(done.output));
+  }
+};
+
+TEST_F(ForkSweep, EveryBranchEqualsTheWholeRunWithItsChange) {
+  const auto done = sweep({});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  EXPECT_TRUE(contains(done.errors, "the common beginning of all runs, to frame 3"));
+  const auto branches = all_hashes();
+  EXPECT_EQ(branches[0].begin()->first, 4);
+  EXPECT_NE(branches[0], branches[2]);
+  // The whole run, from its start, by the picture of the branch alone.
+  std::filesystem::remove_all(folder / "f.cdb/beginning");
+  for (const std::size_t run : {0u, 2u}) {
+    const std::string picture = "f.cdb/runs/000" + std::to_string(run) + "/particles/0008.png";
+    const auto record = app::run::read_picture_record(folder / picture);
+    ASSERT_EQ(record.changes.size(), 1u);
+    EXPECT_EQ(record.changes[0].address, "material.snow.hardening");
+    ASSERT_EQ(neve({"render", picture, "--frames", "0-8", "--out", "whole"}).exit_code, 0);
+    const auto whole = hashes("whole");
+    for (const auto& [frame, hash] : branches[run]) EXPECT_EQ(whole.at(frame), hash) << frame;
+  }
+  // The one whose value is that of the scene is the plain run.
+  ASSERT_EQ(neve({"render", "scene.toml", "--frames", "8", "--out", "plain"}).exit_code, 0);
+  EXPECT_EQ(hashes("plain").at(8), branches[1].at(8));
+}
+
+TEST_F(ForkSweep, TheBeginningIsComputedOnce) {
+  ASSERT_EQ(sweep({"--jobs", "2"}).exit_code, 0);
+  const app::Json status = json_of("f.cdb/beginning/status.json");
+  EXPECT_EQ(status["state"], "ok");
+  EXPECT_EQ(status["attempts"], 1);
+  for (const char* run : {"0000", "0001", "0002"})
+    EXPECT_TRUE(contains(read_text(folder / "f.cdb/runs" / run / "scene.toml"),
+                         "# neve render ../../beginning --set"));
+  EXPECT_EQ(json_in(sweep({}))["started"], 0);
+  // One more value: the beginning is that of before.
+  const auto more =
+      neve({"sweep", "scene.toml", "-p", "material.snow.hardening=4,10,20,30", "--fork", "0.125s",
+            "--frames", "8", "--size", "96x54", "--json", "--out", "f.cdb"});
+  EXPECT_EQ(json_in(more)["started"], 1);
+  EXPECT_EQ(json_of("f.cdb/beginning/status.json")["attempts"], 1);
+  // At another time all of them part anew.
+  const auto later = neve({"sweep", "scene.toml", "-p", "material.snow.hardening=4,10", "--fork",
+                           "0.2", "--frames", "8", "--size", "96x54", "--json", "--out", "f.cdb"});
+  EXPECT_EQ(json_in(later)["started"], 2);
+  EXPECT_EQ(json_of("f.cdb/beginning/run.json")["frames"].back()["frame"], 4);
+}
+
+TEST_F(ForkSweep, AKilledSweepContinuesBitForBit) {
+  ASSERT_EQ(sweep({}).exit_code, 0);
+  const auto whole = all_hashes();
+  for (int k = 0; k < 5; ++k) {
+    const pid_t child =
+        start_program({NEVE_BINARY, "sweep", folder / "scene.toml", "-p",
+                       "material.snow.hardening=4,10,20", "--fork", "0.125s", "--frames", "8",
+                       "--size", "96x54", "--quiet", "--out", folder / "k.cdb"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(60 + 90 * k));
+    ::kill(child, SIGKILL);
+    wait_for(child);
+  }
+  const auto rest =
+      neve({"sweep", (folder / "scene.toml").string(), "-p", "material.snow.hardening=4,10,20",
+            "--fork", "0.125s", "--frames", "8", "--size", "96x54", "--out", "k.cdb"});
+  ASSERT_EQ(rest.exit_code, 0) << rest.errors;
+  EXPECT_EQ(all_hashes("k.cdb"), whole);
+}
+
+TEST_F(ForkSweep, SingleRunsAndSharesFindOrMakeTheBeginning) {
+  ASSERT_EQ(sweep({}).exit_code, 0);
+  const auto whole = all_hashes();
+  std::filesystem::remove_all(folder / "f.cdb");
+  ASSERT_EQ(sweep({"--emit", "commands.txt"}).exit_code, 0);
+  EXPECT_FALSE(exists("f.cdb/beginning/run.json"));
+  // Two at once: one makes the beginning, the other waits for it.
+  std::vector<pid_t> children;
+  for (const char* index : {"0", "1"})
+    children.push_back(start_program({NEVE_BINARY, "sweep", "run", folder / "f.cdb", "--index",
+                                      index, "--threads", "1", "--quiet"}));
+  for (const pid_t child : children) EXPECT_EQ(wait_for(child), 0);
+  EXPECT_EQ(json_of("f.cdb/beginning/status.json")["attempts"], 1);
+  ASSERT_EQ(sweep({"--shard", "3/3"}).exit_code, 0);
+  EXPECT_EQ(all_hashes(), whole);
+  // Alone, as a job before an array is.
+  std::filesystem::remove_all(folder / "f.cdb/beginning/checkpoint");
+  const auto alone = neve({"sweep", "run", "f.cdb", "--beginning"});
+  EXPECT_EQ(alone.exit_code, 0) << alone.errors;
+  EXPECT_TRUE(app::output::find_checkpoint(folder / "f.cdb/beginning").checkpoint.has_value());
+  EXPECT_EQ(neve({"sweep", "run", "f.cdb"}).exit_code, 2);
+}
+
+TEST_F(ForkSweep, ForecastsCountTheBeginningOnce) {
+  const auto seconds = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{
+        "sweep",    "scene.toml", "-p",        "material.snow.hardening=4,8,10,20",
+        "--frames", "24",         "--dry-run", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const app::Json json = json_in(neve(words));
+    double sum = json.value("beginning", app::Json::object()).value("seconds", 0.0);
+    for (const app::Json& run : json["runs"]) sum += run["seconds"].get<double>();
+    return sum;
+  };
+  const double plain = seconds({}), forked = seconds({"--fork", "0.9s"});
+  EXPECT_LT(forked, 0.8 * plain);
+  EXPECT_GT(forked, 0.1 * plain);
+  EXPECT_FALSE(exists("out"));
+}
+
+TEST_F(ForkSweep, AxesThatNeedARestartAreRefusedWithThoseThatDoNot) {
+  const auto refused = [&](const std::vector<std::string>& words, const char* why) {
+    std::vector<std::string> all{"sweep", "scene.toml", "--fork"};
+    all.insert(all.end(), words.begin(), words.end());
+    const auto done = neve(all);
+    EXPECT_EQ(done.exit_code, 2) << done.errors;
+    EXPECT_TRUE(contains(done.errors, why)) << done.errors;
+  };
+  refused({"0.1s", "-p", "body.ball.velocity=[0,-1,0],[0,-3,0]"},
+          "--fork: body.ball.velocity cannot change while a simulation runs; parameters that can: "
+          "solver.kernel");
+  refused({"0.1s", "-p", "solver.cell_size=0.04,0.05"}, "material.NAME.hardening");
+  refused({"9s", "-p", "material.snow.hardening=4,5"}, "their last frame is 4");
+  refused({"soon", "-p", "material.snow.hardening=4,5"}, "as in --fork 0.25s");
+  EXPECT_FALSE(exists("out"));
+  folder.write("sweep.toml", R"([sweep]
+scene = "scene.toml"
+fork = "late"
+[axis]
+"material.snow.hardening" = [4, 5]
+)");
+  const auto file = neve({"sweep", "sweep.toml"});
+  EXPECT_EQ(file.exit_code, 3);
+  EXPECT_TRUE(contains(file.errors, "sweep.toml:3:")) << file.errors;
+}
+
+TEST_F(ForkSweep, ABeginningThatFailsEndsTheSweepWithItsReason) {
+  folder.write("bad.toml", exploding_scene);
+  const std::vector<std::string> words{
+      "sweep",  "bad.toml", "-p",    "solver.gravity=[0,-9,0],[0,-8,0]",
+      "--fork", "0.25s",    "--out", "bad.cdb"};
+  const auto done = neve(words);
+  EXPECT_EQ(done.exit_code, 7);
+  EXPECT_TRUE(contains(done.errors, "no run can start: their common beginning ended as diverged"))
+      << done.errors;
+  EXPECT_EQ(neve(words).exit_code, 7);
+  EXPECT_EQ(json_of("bad.cdb/beginning/status.json")["attempts"], 1);
+}
+
+}  // namespace
+}  // namespace neve::test
