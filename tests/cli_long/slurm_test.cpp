@@ -84,6 +84,26 @@ TEST_F(Cli, CancelledSlurmSweepsContinue) {
   EXPECT_TRUE(exists("array/runs/0000/checkpoint"));
 }
 
+TEST_F(Cli, ForkedRunsOnSlurmWaitForTheirBeginning) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can start Slurm's daemons";
+  if (const std::string missing = Slurm::missing(); !missing.empty()) SKIP_OR_FAIL(missing);
+  const Slurm slurm;
+  if (!slurm.is_up()) SKIP_OR_FAIL("Slurm is installed and does not start");
+  const auto sweep = [&](const char* out, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"sweep",  "scene.toml", "-p",    "material.snow.hardening=4,10",
+                                   "--fork", "0.1s",       "--out", out};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto done = neve(words);
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+  };
+  sweep("local", {});
+  sweep("array", {"--engine", "slurm"});
+  EXPECT_TRUE(exists("array/slurm/beginning.log"));
+  EXPECT_EQ(json_of("array/beginning/status.json")["attempts"], 1);
+  EXPECT_EQ(without_times(read_text(folder / "array/data.csv")),
+            without_times(read_text(folder / "local/data.csv")));
+}
+
 /// The first block of a language on the page of farms.
 std::string block_of_farms(const std::string& language) {
   const std::string page = read_text(NEVE_SOURCE_DIR "/docs/farms.md"),
