@@ -135,6 +135,9 @@ def _joined(table):
 
 def read_ply(path):
     """The points of a binary PLY file without lists, as neve export writes it."""
+    with open(path, "rb") as file:
+        if file.read(3) != b"ply":
+            raise ValueError(f"{path}: no PLY file: it does not begin with \"ply\"")
     types = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4",
              "float": "f4", "double": "f8"}
     with open(path, "rb") as file:
@@ -156,7 +159,8 @@ def read_ply(path):
 
 
 def read_csv(path):
-    """A state that neve export wrote as csv."""
+    """A state that neve export wrote as csv. Numbers are double; .astype("f4") makes the bits of
+    a run in single precision of them, as the other formats have them."""
     return State(_joined(np.genfromtxt(path, delimiter=",", names=True, deletechars="")))
 
 
@@ -215,11 +219,17 @@ class Run:
 
     def __getitem__(self, name):
         """A value of every frame, as in run["kinetic_energy"]: a number, a vector, or text."""
+        known = sorted(set().union(*self.json["frames"])) if self.json["frames"] else [name]
+        if name not in known:
+            raise KeyError(f"frames have no {name!r}; expected one of {', '.join(known)}")
         return np.array([_number(frame[name]) for frame in self.json["frames"]])
 
     def force(self, collider):
         """Force of the snow on a collider in every frame, N; not a number where there was no step."""
         rows = []
+        known = sorted({f["collider"] for frame in self.json["frames"] for f in frame["forces"]})
+        if known and collider not in known:
+            raise KeyError(f"there is no collider {collider!r}; expected one of {', '.join(known)}")
         for frame in self.json["frames"]:
             found = [f["force"] for f in frame["forces"] if f["collider"] == collider]
             rows.append(found[0] if found else [np.nan] * 3)
@@ -227,6 +237,9 @@ class Run:
 
     def state(self, frame, attributes=("id", "x", "v", "m", "V0", "J_P", "density", "radius")):
         """The particles at a frame: simulated again, from a checkpoint where one is early enough."""
+        last = int(self.frames[-1]) if len(self.frames) else 0
+        if not 0 <= frame <= last:
+            raise ValueError(f"there is no frame {frame}: the run has 0 to {last}")
         with tempfile.TemporaryDirectory() as folder:
             states = export(self.folder, folder, frames=frame, attributes=attributes)
             return states["npz"][0]
@@ -257,7 +270,8 @@ def export(source, out, formats=("npz",), frames=None, at=None, attributes=None,
     if at is not None:
         words += ["--at", ",".join(repr(float(time)) for time in np.atleast_1d(at))]
     if attributes is not None:
-        words += ["--attributes", ",".join(attributes)]
+        names = [attributes] if isinstance(attributes, str) else attributes
+        words += ["--attributes", ",".join(names)]
     return _exports_in(out, call(*words))
 
 
@@ -304,9 +318,9 @@ def sweep(file, out, parameters=None, set=None, frames=None, coarsen=None, threa
     return Sweep(out)
 
 
-def check(scene, **changes):
+def check(scene, set=None, coarsen=None):
     """The forecast of neve check: particles, memory_bytes, dt_limits, warnings ..."""
-    return call("check", scene, *_scene_flags(changes.get("set"), changes.get("coarsen"), None))
+    return call("check", scene, *_scene_flags(set, coarsen, None))
 
 
 def info(path):

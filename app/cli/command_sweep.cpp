@@ -262,6 +262,26 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   return exit_code_of(result);
 }
 
+namespace {
+
+struct SweepCounts {
+  int runs = 0, ok = 0, failed = 0;
+  int finished() const { return ok + failed; }
+};
+
+SweepCounts counts_in(const std::filesystem::path& folder) {
+  SweepCounts counts;
+  for (const sweep::Run& run : sweep::store::read_manifest(folder).runs) {
+    const sweep::store::RunStatus status = sweep::store::read_status(folder / "runs" / run.folder);
+    ++counts.runs;
+    if (status.key != run.key || !sweep::store::is_finished(status.state)) continue;
+    ++(status.state == sweep::store::RunState::ok ? counts.ok : counts.failed);
+  }
+  return counts;
+}
+
+}  // namespace
+
 int run_sweep_collect(const sweep::plan::CollectOptions& options) {
   catch_interrupts();
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
@@ -269,9 +289,20 @@ int run_sweep_collect(const sweep::plan::CollectOptions& options) {
   sweep::sheet::collect_sweep(options.folder, options.backend, core_count(options.threads),
                               progress);
   if (is_interrupted()) return exit_interrupted;
+  const SweepCounts counts = counts_in(options.folder);
   progress.note("collected in " + options.folder);
+  if (counts.finished() < counts.runs)
+    progress.warning(fmt::format("{} of {} runs {} not finished; neve sweep continues them",
+                                 counts.runs - counts.finished(), counts.runs,
+                                 counts.runs - counts.finished() == 1 ? "is" : "are"));
   if (options.is_json)
-    std::cout << to_text({{"out", options.folder}, {"exit_code", exit_ok}}) << "\n";
+    std::cout << to_text({{"out", options.folder},
+                          {"exit_code", exit_ok},
+                          {"runs", counts.runs},
+                          {"ok", counts.ok},
+                          {"failed", counts.failed},
+                          {"unfinished", counts.runs - counts.finished()}})
+              << "\n";
   return exit_ok;
 }
 

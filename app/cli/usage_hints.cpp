@@ -37,6 +37,8 @@ std::string hint_for(const std::string& word, const std::vector<std::string>& fl
   const auto is_flag = [&](const std::string& name) {
     return std::find(flags.begin(), flags.end(), name) != flags.end();
   };
+  // Sweeps, collects and exports go on by themselves.
+  if (word == "--resume" && !is_flag(word)) return "the same command continues; leave it away";
   for (const auto& [other, ours] : names_elsewhere)
     if (word == other && is_flag(ours)) return std::string("did you mean ") + ours + "?";
   const std::string nearest = nearest_name(word, flags);
@@ -62,7 +64,9 @@ std::pair<const CLI::App*, std::string> called(const CLI::App& app) {
 void check_leftovers_of(const CLI::App& command, const std::string& name) {
   for (const CLI::App* inner : command.get_subcommands())
     check_leftovers_of(*inner, name + " " + inner->get_name());
-  const std::vector<std::string> leftovers = command.remaining();
+  std::vector<std::string> leftovers = command.remaining();
+  // What follows -- is no option; it has been taken already.
+  std::erase(leftovers, "--");
   if (leftovers.empty()) return;
   const std::string help = name + " --help lists its arguments";
   std::string word = leftovers.front();
@@ -89,6 +93,10 @@ void check_subcommand(const CLI::App& app, int argc, char** argv) {
   const std::string word = argv[1];
   const std::vector<std::string> names = subcommand_names(app);
   if (word.starts_with("-")) return;
+  if (word == "completion" || word == "completions" || word == "man")
+    throw scene::toml::UsageError(
+        "", "unknown subcommand \"" + word + "\"",
+        "neve manual DIR writes the manual pages and the completions for bash, zsh and fish");
   if (std::find(names.begin(), names.end(), word) == names.end())
     throw scene::toml::UsageError("", "unknown subcommand \"" + word + "\"",
                                   suggestion(word, names, "neve --help lists them"));

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "app/health/expected.h"
+#include "app/scene/search.h"
 #include "app/scene/toml/error.h"
-#include "app/support/text.h"
 #include "sim/health/diagnostics.h"
 
 namespace neve::app::dump {
@@ -255,23 +255,6 @@ Listing list_stage(const StepInspection& inside, sim::Stage stage) {
   return listing;
 }
 
-namespace {
-
-/// Advice on a name that other programs use, or that is misspelt.
-std::string everyday_advice(const std::string& name, const std::vector<std::string>& known) {
-  constexpr std::pair<const char*, const char*> names[] = {
-      {"velocity", "v"},         {"speed", "v"},
-      {"position", "x"},         {"mass", "m"},
-      {"stress", "kirchhoff"},   {"deformation", "F_E"},
-      {"plastic_volume", "J_P"}, {"forces", "force"}};
-  for (const auto& [other, ours] : names)
-    if (name == other && std::find(known.begin(), known.end(), ours) != known.end())
-      return std::string("did you mean ") + ours + "? expected " + joined(known, ", ");
-  return names_advice(name, known);
-}
-
-}  // namespace
-
 void keep_only(Listing& listing, const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::vector<std::string> known;
@@ -281,7 +264,7 @@ void keep_only(Listing& listing, const std::vector<std::string>& names) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end())
       throw scene::toml::UsageError("--field", "there is no \"" + name + "\" here",
-                                    everyday_advice(name, known));
+                                    scene::attribute_advice(name, known));
     kept.push_back(listing.quantities[static_cast<std::size_t>(found - known.begin())]);
   }
   listing.quantities = std::move(kept);

@@ -152,6 +152,11 @@ void sync_folder(const std::filesystem::path& folder) {
 void make_folder(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
+  std::error_code ignored;
+  if (error && is_symlink(symlink_status(path, ignored)))
+    fail_writing(path, "cannot make the folder: it is a link to nothing", error.value());
+  if (error && is_regular_file(path, ignored))
+    fail_writing(path, "cannot make the folder: it is a file", error.value());
   if (error) fail_writing(path, "cannot create the folder", error.value());
 }
 

@@ -7,6 +7,7 @@
 #include "app/scene/leaf.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
+#include "app/scene/search.h"
 #include "app/support/text.h"
 #include "sim/kernels/blocks.h"
 #include "sim/kernels/contact.h"
@@ -344,7 +345,7 @@ Found carried_problem(const Scene& scene, const Export& e) {
     for (const std::string& column : columns)
       if (std::find(ours.begin(), ours.end(), column) == ours.end()) known.push_back(column);
     return Problem{at, "there is no attribute " + quoted + ", and no point file has such a column",
-                   names_advice(name, known)};
+                   attribute_advice(name, known)};
   }
   return {};
 }

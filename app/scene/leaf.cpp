@@ -167,7 +167,7 @@ void read_leaf(const Leaf& leaf, sim::Vec3d& member) {
 
 void read_leaf(const Leaf& leaf, std::vector<std::string>& member) {
   member.clear();
-  const std::size_t count = leaf.array(0, "a list of names").size();
+  const std::size_t count = leaf.array(0, "a list of texts, [\"...\"]").size();
   for (std::size_t k = 0; k < count; ++k) read_leaf(leaf.element(k), member.emplace_back());
 }
 
@@ -248,7 +248,7 @@ std::string type_of(const sim::Vec3d&) {
   return "vector";
 }
 std::string type_of(const std::vector<std::string>&) {
-  return "list of names";
+  return "list of texts";
 }
 std::string type_of(const PictureSize&) {
   return "size";

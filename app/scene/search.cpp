@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "app/scene/wishes.h"
+#include "app/support/text.h"
 
 namespace neve::app::scene {
 
@@ -52,6 +54,19 @@ std::vector<std::string> words_in(std::string_view text) {
   }
   if (words.back().empty()) words.pop_back();
   return words;
+}
+
+std::string attribute_advice(const std::string& name, const std::vector<std::string>& known) {
+  constexpr std::pair<const char*, const char*> names[] = {
+      {"velocity", "v"},       {"speed", "v"},
+      {"position", "x"},       {"mass", "m"},
+      {"stress", "kirchhoff"}, {"kirchhoff", "stress"},
+      {"deformation", "F_E"},  {"plastic_volume", "J_P"},
+      {"forces", "force"}};
+  for (const auto& [other, ours] : names)
+    if (name == other && std::find(known.begin(), known.end(), ours) != known.end())
+      return std::string("did you mean ") + ours + "? expected " + joined(known, ", ");
+  return names_advice(name, known);
 }
 
 bool same_parameter(std::string_view pattern, std::string_view address) {

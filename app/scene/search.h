@@ -28,6 +28,10 @@ class Search {
   std::vector<std::string> meant_;  ///< addresses that its everyday name means
 };
 
+/// Advice on the name of an attribute that other programs use otherwise, or that is misspelt:
+/// "did you mean v? expected ...".
+std::string attribute_advice(const std::string& name, const std::vector<std::string>& known);
+
 /// True if both mean the same parameter: NAME stands for any name, [N] for any number.
 bool same_parameter(std::string_view pattern, std::string_view address);
 

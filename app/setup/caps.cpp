@@ -9,6 +9,7 @@
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
 #include "app/setup/command_text.h"
+#include "app/support/text.h"
 
 namespace neve::app::setup {
 
@@ -19,6 +20,11 @@ constexpr const char *memory_name = "NEVE_MAX_MEMORY", *particle_name = "NEVE_MA
 double memory_of(const std::string& text, const std::string& where) {
   std::optional<double> bytes = scene::bytes_of(text);
   if (!bytes) bytes = finite_number(text);
+  // Nothing runs in less: 16 is 16GiB without its unit.
+  constexpr double least = 1e6;
+  if (bytes && *bytes > 0 && *bytes < least)
+    throw scene::toml::UsageError(where, "\"" + text + "\" is less than a run needs: bytes",
+                                  "did you mean " + rough_text(*bytes) + "GiB?");
   if (!bytes || !(*bytes >= 1))
     throw scene::toml::UsageError(where, "cannot use \"" + text + "\"",
                                   "expected bytes, or a size such as 8GiB or 500MB");

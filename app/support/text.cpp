@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -80,6 +81,14 @@ std::string bytes_text(std::uint64_t bytes) {
 }
 
 std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names) {
+  const auto is_same = [&](const std::string& name) {
+    return std::equal(wrong.begin(), wrong.end(), name.begin(), name.end(), [](char a, char b) {
+      return std::tolower(static_cast<unsigned char>(a)) ==
+             std::tolower(static_cast<unsigned char>(b));
+    });
+  };
+  if (const auto same = std::find_if(names.begin(), names.end(), is_same); same != names.end())
+    return *same;
   std::string nearest;
   // A third of the letters wrong is still a typing error; more is another word.
   std::size_t best = std::max<std::size_t>(1, wrong.size() / 3) + 1;

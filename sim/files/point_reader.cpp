@@ -10,6 +10,13 @@ bool is_ply_file(std::string_view bytes, const std::string& name) {
   const bool is_ply = bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n");
   if (!is_ply && name.ends_with(".ply"))
     refuse_input(name, "it does not begin with a line \"ply\"; expected a PLY file");
+  // The head line of a table is text, and no markup.
+  const std::string_view head = bytes.substr(0, bytes.find('\n'));
+  const bool is_binary = head.find('\0') != std::string_view::npos || head.starts_with("PK");
+  if (!is_ply && (is_binary || head.starts_with("<")))
+    refuse_input(name,
+                 "it is no table of points; expected PLY or CSV, which neve export writes "
+                 "with --format ply or csv");
   return is_ply;
 }
 

@@ -51,6 +51,7 @@ TEST(Search, EverydayNamesAreFound) {
            {"cohesion", "material.NAME.critical_stretch"},
            {"stick", "collider.NAME.contact"},
            {"hardness", "material.NAME.hardening"},
+           {"fall apart", "material.NAME.critical_stretch"},
            {"softness", "material.NAME.youngs_modulus"},
            {"powder", "material.NAME.critical_compression"},
            {"explode", "solver.dt"},

@@ -41,7 +41,37 @@ TEST_F(Cli, EveryCommandAnswersInJson) {
   EXPECT_EQ(json(sweep.output)["exit_code"], 0);
   EXPECT_EQ(json(neve({"sweep", "run", folder_of_sweep, "--index", "0", "--json"}).output)["ok"],
             1);
-  EXPECT_EQ(json(neve({"sweep", "collect", folder_of_sweep, "--json"}).output)["exit_code"], 0);
+  const app::Json whole = json(neve({"sweep", "collect", folder_of_sweep, "--json"}).output);
+  EXPECT_EQ(whole["exit_code"], 0);
+  EXPECT_EQ(whole["ok"], 2);
+  EXPECT_EQ(whole["unfinished"], 0);
+  // One of the two is lost.
+  std::filesystem::remove_all(folder.path() / folder_of_sweep / "runs" / "0001");
+  const auto half = neve({"sweep", "collect", folder_of_sweep, "--json"});
+  EXPECT_EQ(json(half.output)["unfinished"], 1) << half.output;
+  EXPECT_TRUE(contains(half.errors, "1 of 2 runs is not finished")) << half.errors;
+}
+
+TEST_F(Cli, WordsOfOtherProgramsGetTheWordsOfThisOne) {
+  folder.write("points.npz", std::string("PK\3\4\0\0id.npy", 13));
+  folder.write("points.vtp", "<?xml version=\"1.0\"?>\n<VTKFile>\n");
+  const std::string points = "body.ball.shape={ points = { file = \"points.";
+  const std::vector<std::pair<std::vector<std::string>, const char*>> cases{
+      {{"export", "scene.toml", "--format", "ply", "--up", "Z"}, "did you mean z?"},
+      {{"export", "scene.toml", "--format", "ply", "--attributes", "id,velocity"},
+       "did you mean v?"},
+      {{"sweep", "scene.toml", "-p", "seed=1,2", "--resume"}, "the same command continues"},
+      {{"completion"}, "neve manual DIR"},
+      {{"render", "scene.toml", "--max-memory", "16"}, "did you mean 16GiB?"},
+      {{"check", "scene.toml", "--set", points + "npz\" } }"}, "it is no table of points"},
+      {{"check", "scene.toml", "--set", points + "vtp\" } }"}, "it is no table of points"},
+      {{"render", "scene.toml", "--out", "scene.toml"}, "it is a file"}};
+  for (const auto& [command, expected] : cases) {
+    const auto answer = neve(command);
+    EXPECT_NE(answer.exit_code, 0) << command.front();
+    EXPECT_TRUE(contains(answer.errors, expected)) << answer.errors;
+  }
+  EXPECT_EQ(neve({"render", "--dry-run", "--", "scene.toml"}).exit_code, 0);
 }
 
 TEST_F(Cli, ErrorsInJsonHaveCodeAndPlace) {

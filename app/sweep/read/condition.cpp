@@ -35,8 +35,35 @@ std::vector<std::string> names_of(const Sweep& sweep) {
   return names;
 }
 
+/// Addresses, labels, and the last words of addresses.
+std::vector<std::string> all_names_of(const Sweep& sweep) {
+  std::vector<std::string> names = names_of(sweep);
+  for (const std::string& address : names_of(sweep))
+    if (const std::size_t dot = address.rfind('.'); dot != std::string::npos)
+      names.push_back(address.substr(dot + 1));
+  return names;
+}
+
+/// What is wrong with a side that names no axis.
+std::string complaint(const std::string& name, const Sweep& sweep) {
+  constexpr const char* letters =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-[]";
+  if (name.find_first_of("<>=!") != std::string::npos)
+    return fmt::format(
+        "it compares twice; write a condition for each, as in [\"0.1 < {0}\", \"{0} "
+        "< 0.2\"]",
+        names_of(sweep).empty() ? "hardening" : names_of(sweep).front());
+  if (name.find_first_not_of(letters) != std::string::npos || number_of(name.substr(0, 1)))
+    return fmt::format("\"{}\" is neither an axis nor a number times one; {}", name, form);
+  const std::string nearest = nearest_name(name, all_names_of(sweep));
+  return fmt::format("\"{}\" is no axis of the sweep; {}expected {}", name,
+                     nearest.empty() ? "" : "did you mean " + nearest + "? ",
+                     joined(names_of(sweep), ", "));
+}
+
 /// The address of an axis by address, label, or the end of an address that no other has.
 std::string address_of(const std::string& name, const Sweep& sweep) {
+  if (name.empty()) throw std::invalid_argument(std::string("an axis is missing; ") + form);
   std::string found;
   for (const Axis& axis : sweep.axes)
     for (const Axis::Parameter& parameter : axis.parameters) {
@@ -47,9 +74,7 @@ std::string address_of(const std::string& name, const Sweep& sweep) {
                                                 name, found, parameter.address));
       found = parameter.address;
     }
-  if (found.empty())
-    throw std::invalid_argument(fmt::format("\"{}\" is no axis of the sweep; {}", name,
-                                            names_advice(name, names_of(sweep))));
+  if (found.empty()) throw std::invalid_argument(complaint(name, sweep));
   return found;
 }
 
