@@ -1,7 +1,9 @@
 #pragma once
-/// report.html: everything about a sweep in one file without links to anywhere else.
+/// report.html: a page to walk through a sweep in, one file without links to anywhere but the
+/// pictures of its runs.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/sweep/sheet/sheet_layout.h"
@@ -16,7 +18,7 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
                         const std::vector<store::RunResult>& results, const SheetLayout& layout,
                         const std::vector<std::uint8_t>& sheet_png, std::size_t pages = 1);
 
-/// The command that makes a run's pictures again.
-std::string repeat_command(const std::string& folder, const Run& run);
+/// Files of the folder report, which are compiled in; see cmake/EmbedFiles.cmake.
+std::string_view find_embedded_report(std::string_view file_name);
 
 }  // namespace neve::app::sweep::sheet

@@ -1,0 +1,232 @@
+// ---- sheet and table: only what is in sight has elements ------------------------------------------
+/** Rows of a list that are in sight of its box, and some around them. */
+function sightOf(box, height, count, room) {
+  const first = Math.max(0, Math.floor(box.top / height) - room);
+  const last = Math.min(count, Math.ceil((box.top + box.height) / height) + room);
+  return [first, last];
+}
+
+/**
+ * The size of an element and how far it is scrolled, without asking the layout every time.
+ * @param room that its padding takes
+ */
+function watchBox(element, room = 0) {
+  const box = {width: 0, height: 0, top: 0};
+  const measure = () => {
+    // Its height as style.css limits it.
+    const width = element.clientWidth - room, height = Math.round(0.7 * innerHeight);
+    if (box.width === width && box.height === height) return;
+    Object.assign(box, {width, height});
+    change('size');
+  };
+  measure();
+  new ResizeObserver(measure).observe(element);
+  addEventListener('resize', measure);
+  element.addEventListener('scroll', () => {
+    box.top = element.scrollTop;
+    change('scroll');
+  }, {passive: true});
+  return box;
+}
+
+// ---- sheet ---------------------------------------------------------------------------------------
+/** A run's own values on the axes, or its label. */
+function tileText(row) {
+  if (row.label) return row.label;
+  return axes.slice(0, 3).map((axis, k) => axis.stopOf[row.at] >= 0 && axis.name !== 'run'
+    ? axis.name + ' ' + axis.texts[axis.stopOf[row.at]] : '').filter(text => text).join(', ');
+}
+
+/** Pictures are loaded when their tile comes into sight. */
+const tileSight = new IntersectionObserver(entries => {
+  for (const {target, isIntersecting} of entries) {
+    target.dataset.seen = isIntersecting ? 'yes' : '';
+    if (isIntersecting) loadTile(target);
+  }
+});
+
+function loadTile(tile) {
+  const image = tile.querySelector('img'), address = pictureOf(rows[tile.dataset.at], state.frame);
+  if (address === '' || image.getAttribute('src') === address) return;
+  image.src = address;
+}
+
+function makeTile(row) {
+  const text = tileText(row), note = row.state === 'ok' ? '' : row.state + (text ? '; ' : '');
+  const tile = make('button', {type: 'button', className: 'tile ' + kindOf(row), title: noteOf(row)},
+    make('img', {alt: '', decoding: 'async'}),
+    make('span', {}, markOf(row), make('b', {textContent: `${row.run}: ${note}${text}`})));
+  tile.dataset.at = row.at;
+  tile.dataset.run = row.run;
+  tile.setAttribute('aria-label', `${row.name}, ${row.state}, ${text}`);
+  return tile;
+}
+
+function tileLayout(width) {
+  const across = study.across, least = width < 600 ? 140 : 180, most = Math.max(1, Math.floor(width / least));
+  const fits = across > 1 && across <= most + 2 && width / across >= 120;
+  const count = fits ? across : Math.min(most, Math.max(rows.length, 2));
+  const side = Math.min(320, Math.floor(width / count));
+  return {count, side, height: Math.round(side * study.tile[1] / study.tile[0]) + 40};
+}
+
+function startTiles() {
+  const element = by('tiles'), room = by('tiles-room'), box = watchBox(element, 12), tiles = new Map();
+  const paint = () => {
+    const {count, side, height} = tileLayout(box.width);
+    const lines = Math.ceil(state.kept.length / count);
+    room.style.height = lines * height + 'px';
+    // As high as for all runs: nothing below it may move while somebody drags there.
+    element.style.height = Math.min(box.height, Math.ceil(rows.length / count) * height + 12) + 'px';
+    const [first, last] = sightOf(box, height, lines, 1);
+    const wanted = new Set();
+    let before = null;
+    state.kept.slice(first * count, last * count).forEach((at, k) => {
+      wanted.add(at);
+      if (!tiles.has(at)) tiles.set(at, makeTile(rows[at]));
+      const tile = tiles.get(at), place = first * count + k;
+      tile.style.cssText = `width:${side - 6}px;height:${height - 6}px;` +
+        `transform:translate(${place % count * side}px,${Math.floor(place / count) * height}px)`;
+      if (!tile.isConnected) tileSight.observe(tile);
+      // In the order in which they are seen, for the Tab key.
+      if (before ? before.nextSibling !== tile : room.firstChild !== tile)
+        if (before) before.after(tile);
+        else room.prepend(tile);
+      before = tile;
+    });
+    for (const [at, tile] of tiles) {
+      if (wanted.has(at)) continue;
+      tileSight.unobserve(tile);
+      tile.remove();
+      tiles.delete(at);
+    }
+    markTiles();
+  };
+  const markTiles = () => tiles.forEach((tile, at) => {
+    tile.classList.toggle('here', at === state.run);
+    tile.classList.toggle('lit', at === state.hover);
+  });
+  addPainter(element, ['brush', 'sort', 'size', 'scroll'], paint);
+  addPainter(element, ['run', 'hover'], markTiles);
+  // A moment is drawn in the sheet when the slider rests: twenty pictures take longer than one.
+  let rest = 0;
+  addPainter(null, ['frame'], () => {
+    clearTimeout(rest);
+    rest = setTimeout(() => tiles.forEach(tile => { if (tile.dataset.seen) loadTile(tile); }), 150);
+  });
+  room.addEventListener('click', event => {
+    const tile = event.target.closest('.tile');
+    if (tile) goTo(Number(tile.dataset.at));
+  });
+  listenForRuns(room, '.tile');
+}
+
+/** Hovering and focus light a run everywhere. */
+function listenForRuns(element, selector) {
+  const atOf = event => {
+    const found = event.target.closest && event.target.closest(selector);
+    return found ? Number(found.dataset.at) : -1;
+  };
+  element.addEventListener('pointerover', event => hover(atOf(event)));
+  element.addEventListener('pointerleave', () => hover(-1));
+}
+
+// ---- table ---------------------------------------------------------------------------------------
+const rowHeight = 30;
+
+/** Width of a column in letters, from all its texts: rows that come into sight change nothing. */
+function columnLetters(column) {
+  let most = 5;
+  const extra = column.kind === 'state' ? 4 : 1;  // the mark
+  for (const row of rows) most = Math.max(most, cellText(row, column.at).length + extra);
+  const word = Math.max(...column.title.split(/[ _]/).map(part => part.length)) + 2;
+  return Math.min(Math.max(most, word), column.kind === 'reason' ? 48 : 26);
+}
+
+function makeTableHead(table) {
+  const head = make('tr');
+  const widths = columns.map(column => columnLetters(column) * 7.6 + 16);
+  const group = make('colgroup', {}, ...widths.map(width => {
+    const col = make('col');
+    col.style.width = width + 'px';
+    return col;
+  }), make('col'));
+  group.lastChild.style.width = '150px';
+  columns.forEach((column, c) => {
+    const button = make('button', {type: 'button', textContent: column.title, title: column.help});
+    button.addEventListener('click', () => {
+      state.sort = {column: c, way: state.sort.column === c ? -state.sort.way : 1};
+      change('sort');
+    });
+    const cell = make('th', {scope: 'col', className: column.text ? 'text' : ''}, button);
+    head.append(cell);
+  });
+  head.append(make('th', {scope: 'col'}, make('button', {type: 'button', textContent: 'neve view',
+                                                         disabled: true})));
+  table.append(group, make('thead', {}, head));
+  table.style.width = widths.reduce((sum, width) => sum + width, 150) + 'px';
+  return [...head.children];
+}
+
+function makeTableRow(row) {
+  const line = make('tr', {id: 'run-' + row.run, className: kindOf(row)});
+  line.dataset.at = row.at;
+  line.dataset.run = row.run;
+  columns.forEach((column, c) => {
+    const cell = make('td', {className: column.text ? 'text' : '', textContent: cellText(row, c)});
+    if (column.kind === 'state') cell.prepend(markOf(row));
+    if (column.kind === 'reason') cell.title = cell.textContent;
+    if (column.kind === 'warnings' && row.warnings.length > 0) {
+      cell.title = row.warnings.join('\n');
+      cell.classList.add('warned');
+    }
+    line.append(cell);
+  });
+  const picture = pictureOf(row, frames[frames.length - 1]);
+  const last = make('td', {}, copyButton(row.view, `copy the command that opens run ${row.run}`));
+  if (picture !== '') last.append(' ', make('a', {href: picture, textContent: 'picture', target: '_blank'}));
+  line.append(last);
+  return line;
+}
+
+function startTable() {
+  const element = by('table-box'), table = by('table'), heads = makeTableHead(table), lines = new Map();
+  const body = make('tbody'), box = watchBox(element);
+  const above = make('tr', {className: 'room'}, make('td', {colSpan: columns.length + 1}));
+  const below = above.cloneNode(true);
+  body.append(above, below);
+  table.append(body);
+  const mark = () => lines.forEach((line, at) => {
+    line.classList.toggle('here', at === state.run);
+    line.classList.toggle('lit', at === state.hover);
+  });
+  addPainter(element, ['brush', 'sort', 'size', 'scroll'], parts => {
+    if (parts.has('sort')) heads.forEach((head, c) => c !== state.sort.column
+      ? head.removeAttribute('aria-sort')
+      : head.setAttribute('aria-sort', state.sort.way > 0 ? 'ascending' : 'descending'));
+    element.style.minHeight = Math.min(box.height, rows.length * rowHeight + 80) + 'px';
+    const [first, last] = sightOf(box, rowHeight, state.kept.length, 4);
+    above.firstChild.style.height = first * rowHeight + 'px';
+    below.firstChild.style.height = (state.kept.length - last) * rowHeight + 'px';
+    const wanted = state.kept.slice(first, last), isWanted = new Set(wanted);
+    for (const [at, line] of lines) {
+      if (isWanted.has(at)) continue;
+      line.remove();
+      lines.delete(at);
+    }
+    let before = above;
+    for (const at of wanted) {
+      if (!lines.has(at)) lines.set(at, makeTableRow(rows[at]));
+      const line = lines.get(at);
+      if (before.nextSibling !== line) before.after(line);
+      before = line;
+    }
+    mark();
+  });
+  addPainter(element, ['run', 'hover'], mark);
+  body.addEventListener('click', event => {
+    const line = event.target.closest('tr[data-at]');
+    if (line && !event.target.closest('a, button')) goTo(Number(line.dataset.at));
+  });
+  listenForRuns(body, 'tr[data-at]');
+}

@@ -1,0 +1,18 @@
+#pragma once
+/// The study that report.html has in it: columns, runs, axes, commands.
+
+#include <string>
+#include <vector>
+
+#include "app/support/json.h"
+#include "app/sweep/store/results.h"
+
+namespace neve::app::sweep::sheet {
+
+/// "columns" and "rows" of the table; each row also with the frames that have pictures, where these
+/// are from the folder of the sweep, its levels on "axes", and commands to paste.
+/// @param folder as the commands name it
+Json report_data(const std::string& folder, const store::Manifest& manifest,
+                 const std::vector<store::RunResult>& results);
+
+}  // namespace neve::app::sweep::sheet
