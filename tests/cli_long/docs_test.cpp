@@ -56,6 +56,10 @@ std::string shortened(std::string command) {
   const std::string name = command.substr(0, command.find(' '));
   if (name == "test" || name == "export") return "";
   if (name == "new") return "new made_here";
+  if (name == "compare") return command;
+  if (command.find(" --from ") != std::string::npos)
+    return std::regex_replace(command, std::regex("--from [^ ]+"), "--from 0.03s") +
+           " --size 64x36 --no-movie";
   // A test of Slurm submits what the page of farms does.
   if (command.find("--engine slurm") != std::string::npos) return "";
   command =
@@ -100,11 +104,10 @@ class CommandsOfDocs : public Cli {
     folder.write("wait.json", "[{\"wait\": 1}]");
   }
 
-  /// Two runs that commands start from.
+  /// Runs that commands start from.
   void make_runs() {
-    for (const char* out : {"out/a", "out/b"})
-      EXPECT_EQ(neve({"render", "scene.toml", "--frames", "0", "--out", out, "--quiet"}).exit_code,
-                0);
+    for (const char* out : {"out/a", "out/b", "out/hard", "out/soft", "out/wedge"})
+      EXPECT_EQ(neve({"render", "scene.toml", "--out", out, "--quiet", "--no-movie"}).exit_code, 0);
   }
 
   /// The picture that a command starts from; runs before it may have removed it.
