@@ -74,11 +74,6 @@ bool squeezes_snow(const scene::Scene& scene) {
          std::any_of(scene.colliders.begin(), scene.colliders.end(), is_moving);
 }
 
-/// A body that is alone in the world hits nothing.
-bool has_something_to_hit(const scene::Scene& scene) {
-  return !scene.colliders.empty() || setup::snow_places(scene).size() > 1;
-}
-
 std::string crushing_text(const scene::Scene& scene, const Checkup& checkup) {
   const double share = checkup.impact_speed / checkup.start.max_sound_speed;
   // Which particles an impact crushes is chance, and no copy tells it: a ball of dry snow that hits

@@ -321,7 +321,7 @@ void check_steps(const scene::Scene& scene, const Checkup& checkup,
   check_implicit_steps(scene.solver, checkup, findings);
   check_transfer(scene, checkup, findings);
   const double c = checkup.start.max_sound_speed;
-  if (c > 0 && checkup.impact_speed > line(Law::impact_mach) * c)
+  if (c > 0 && has_something_to_hit(scene) && checkup.impact_speed > line(Law::impact_mach) * c)
     findings.push_back({Severity::warning, "",
                         fmt::format("snow hits something at {} m/s, faster than its sound of {} "
                                     "m/s: a shock will crush it",

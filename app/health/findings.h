@@ -69,4 +69,7 @@ void check_steps(const scene::Scene& scene, const Checkup& checkup, std::vector<
 void check_cameras(const scene::Scene& scene, const std::vector<setup::Moment>& moments,
                    std::vector<Finding>& findings);
 
+/// False for a body that is alone in the world.
+bool has_something_to_hit(const scene::Scene& scene);
+
 }  // namespace neve::app::health

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/health/findings.h"
+#include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
 
 namespace neve::app::health {
@@ -231,6 +232,10 @@ void check_gravity(const scene::Scene& scene, std::vector<Finding>& findings) {
                  : fmt::format("turn the scene so that y is up and gravity = [0, {}, 0], or set "
                                "camera.up",
                                rough_text(-g.norm()))});
+}
+
+bool has_something_to_hit(const scene::Scene& scene) {
+  return !scene.colliders.empty() || setup::snow_places(scene).size() > 1;
 }
 
 }  // namespace neve::app::health

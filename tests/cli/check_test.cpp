@@ -151,6 +151,10 @@ TEST_F(Check, CheckSaysThatFlipStopsSpinAndWhatKeepsIt) {
 
 TEST_F(Check, CheckFindsSnowThatMeetsNothing) {
   EXPECT_EQ(findings(scene("", "")), Findings{"warning body.ball"});
+  // Nor can what it does not meet crush it.
+  folder.write("scene.toml", scene("", ""));
+  EXPECT_FALSE(contains(
+      neve({"check", "scene.toml", "--set", "body.ball.velocity=[0, -25, 0]"}).output, "crush"));
   const std::string wall =
       "[[collider]]\nname = \"wall\"\nshape = { box = { center = [0.3, 0, 0], size = [0.1, 0.6, "
       "0.6] } }\n";

@@ -62,6 +62,19 @@ try:
     raise AssertionError("read a grid")
 except neve.NeveError as error:
     assert "npz" in str(error)
+# Mistakes in Python.
+for mistake, kind, part in (
+    (lambda: run.force("flor"), KeyError, "floor"),
+    (lambda: run["energy"], KeyError, "kinetic_energy"),
+    (lambda: run.state(99), ValueError, "0 to 4"),
+    (lambda: neve.check("scene.toml", coarsn=3), TypeError, "coarsn"),
+    (lambda: neve.read_ply("scene.toml"), ValueError, "no PLY file"),
+):
+    try:
+        mistake()
+        raise AssertionError(part)
+    except kind as error:
+        assert part in str(error), error
 os.environ["NEVE"] = "/none"
 try:
     neve.params()
