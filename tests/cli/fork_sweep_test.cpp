@@ -1,5 +1,6 @@
 /// Sweeps whose runs part at a time: their beginning is computed once.
 
+#include <regex>
 #include <thread>
 
 #include "app/output/checkpoint.h"
@@ -63,6 +64,18 @@ TEST_F(ForkSweep, EveryBranchEqualsTheWholeRunWithItsChange) {
   // The one whose value is that of the scene is the plain run.
   ASSERT_EQ(neve({"render", "scene.toml", "--frames", "8", "--out", "plain"}).exit_code, 0);
   EXPECT_EQ(hashes("plain").at(8), branches[1].at(8));
+}
+
+TEST_F(ForkSweep, TheReportHasTheCommandThatMakesABranchAgain) {
+  ASSERT_EQ(sweep({}).exit_code, 0);
+  const std::string page = read_text(folder / "f.cdb/report.html");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(
+      page, found, std::regex("\"neve (render f[.]cdb/beginning [^\"]*again/0002[^\"]*)\"")));
+  const auto again = app::output::run_process(
+      "/bin/sh", {"-c", "exec '" NEVE_BINARY "' " + found.str(1)}, folder.path());
+  ASSERT_EQ(again.exit_code, 0) << found.str(1) << "\n" << again.errors;
+  EXPECT_EQ(hashes("again/0002"), all_hashes()[2]);
 }
 
 TEST_F(ForkSweep, TheBeginningIsComputedOnce) {

@@ -1,5 +1,7 @@
 #include "app/sweep/sheet/report_data.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -85,10 +87,18 @@ std::string scene_word(const std::string& folder, const Run& run) {
   return setup::shell_word(folder + "/runs/" + run.folder + "/scene.toml");
 }
 
-std::string again_command(const std::string& folder, const Run& run) {
-  return "neve render " + scene_word(folder, run) + " --frames " +
-         std::to_string(run.frames.first) + "-" + std::to_string(run.frames.last) + " --out " +
-         setup::shell_word("again/" + run.folder);
+/// A branch is made again from the beginning that it has in common with others: its own scene file
+/// has the values of that beginning.
+std::string again_command(const std::string& folder, const store::Manifest& manifest,
+                          const Run& run) {
+  setup::RenderCommand command;
+  command.scene_file = folder + "/runs/" + run.folder + "/scene.toml";
+  command.frames = run.frames;
+  command.out = "again/" + run.folder;
+  if (!manifest.beginning) return setup::command_line(command);
+  command.scene_file = folder + "/beginning";
+  command.overrides = run.settings;
+  return setup::command_line(command) + fmt::format(" --from {}", manifest.beginning->time);
 }
 
 Json row_of(const std::string& folder, const store::Manifest& manifest, const Run& run,
@@ -103,10 +113,10 @@ Json row_of(const std::string& folder, const store::Manifest& manifest, const Ru
           {"levels", run.coordinates},
           {"frames", ranges_of(result.frames)},
           {"pictures", pictures},
-          {"view", "neve view " + scene_word(folder, run)},
+          {"view", manifest.beginning ? "" : "neve view " + scene_word(folder, run)},
           // Digits need no quotes either: the page puts the name of the frame in.
           {"viewFrame", "neve view " + setup::shell_word(folder + "/" + pictures + "FRAME.png")},
-          {"again", again_command(folder, run)},
+          {"again", again_command(folder, manifest, run)},
           {"texts", written_values(manifest, run)},
           {"cells", cells_of(manifest, run, result)}};
 }

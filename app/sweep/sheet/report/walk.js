@@ -237,13 +237,15 @@ function startFacts() {
   });
   addPainter(null, ['run', 'mode', 'frame'], () => {
     const row = rows[state.mode === 'one' ? state.run : runAt('b')], frame = frameOf(row, state.frame);
-    const links = [linkRow('this run', row.view), linkRow('again', row.again)];
+    const links = [linkRow('again', row.again)];
     if (frame !== undefined) {
       const name = String(frame).padStart(4, '0') + '.png';
-      links.splice(1, 0, linkRow('this frame', row.viewFrame.replace('FRAME.png', name)));
+      links.unshift(linkRow('this frame', row.viewFrame.replace('FRAME.png', name)));
       links.push(make('a', {href: pictureOf(row, state.frame), textContent: 'picture of frame ' + frame,
                             target: '_blank'}));
     }
+    // The scene file of a branch is that of its beginning.
+    if (row.view) links.unshift(linkRow('this run', row.view));
     by('shown-links').replaceChildren(...links);
   });
 }
