@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "render/channels/gather.h"
 #include "render/cpu/smoke_march.h"
 #include "render/cpu/surfaces.h"
 #include "render/gl/read_back.h"
@@ -298,9 +299,22 @@ struct Renderer::Impl {
 
   void draw_on_cpu(const Frame& frame, const View& view, const light::SmokeGrid& smoke_grid,
                    const light::LightVolume& light, passes::PhaseClock& clock) {
-    surfaces.prepare(frame, view);
     // Kept where smoke ends at them, and where each step is timed.
     const bool is_kept = clock.is_wanted() || !smoke_grid.is_empty();
+    const std::optional<light::SmokeCover> cover =
+        draw_surfaces(frame, view, smoke_grid, light, is_kept, clock);
+    const bool wants_depth =
+        !frame.ghosts.empty() || !frame.ghost_grounds.empty() || !frame.lines.empty();
+    surfaces.shade(light, cover ? &*cover : nullptr, wants_depth);
+    upload_surfaces(view, wants_depth);
+  }
+
+  /// Everything before the light: the surfaces, and the smoke before them.
+  std::optional<light::SmokeCover> draw_surfaces(const Frame& frame, const View& view,
+                                                 const light::SmokeGrid& smoke_grid,
+                                                 const light::LightVolume& light, bool is_kept,
+                                                 passes::PhaseClock& clock) {
+    surfaces.prepare(frame, view);
     if (is_kept) surfaces.keep_points();
     clock.end("particles");
     if (is_kept) surfaces.keep_grounds();
@@ -326,10 +340,64 @@ struct Renderer::Impl {
                                 smoke_cache.volume(light, light::toward_light(frame.light), pool),
                                 frame.light, surfaces, view);
     clock.end("smoke");
-    const bool wants_depth =
-        !frame.ghosts.empty() || !frame.ghost_grounds.empty() || !frame.lines.empty();
-    surfaces.shade(light, cover ? &*cover : nullptr, wants_depth);
-    upload_surfaces(view, wants_depth);
+    return cover;
+  }
+
+  /// Surfaces, light and smoke of a frame on the CPU, kept for whoever reads them.
+  template <class Read>
+  void with_lit_surfaces(const Frame& frame, const View& view, const Read& read) {
+    const light::SmokeGrid& smoke_grid = smoke_cache.grid(frame.smoke, pool);
+    const light::LightVolume& light = lighting.volume(frame, smoke_grid, pool);
+    passes::PhaseClock clock(gl, nullptr);
+    const std::optional<light::SmokeCover> cover =
+        draw_surfaces(frame, view, smoke_grid, light, true, clock);
+    read(channels::LitSurfaces{frame, surfaces, light, cover ? &*cover : nullptr});
+  }
+
+  ExrPicture draw_channels(const Frame& frame, const channels::Request& request) {
+    context.make_current();
+    check_frame(frame, max_size());
+    channels::check_request(frame, request);
+    prepare_targets(frame);
+    const auto view_of = [&](const Frame& f) {
+      return make_view(f.camera, targets->sample_width(), targets->sample_height());
+    };
+    channels::LightPlanes light;
+    const float weight = 1 / static_cast<float>(request.moments.size());
+    for (const Frame& moment : request.moments)
+      with_lit_surfaces(moment, view_of(moment), [&](const channels::LitSurfaces& lit) {
+        channels::add_light(lit, request, weight, light);
+      });
+    channels::DataPlanes data;
+    const View view = view_of(frame);
+    with_lit_surfaces(frame, view, [&](const channels::LitSurfaces& lit) {
+      if (request.moments.empty()) channels::add_light(lit, request, 1, light);
+      const std::optional<cpu::SolidSamples> meshes = draw_mesh_numbers(frame, view);
+      data = channels::gather_data(lit, request, view, meshes ? &*meshes : nullptr, pool);
+    });
+    return channels::to_picture(frame.width, frame.height, request, std::move(light),
+                                std::move(data));
+  }
+
+  /// The number of the mesh that each sample shows, in three bytes of the albedo.
+  std::optional<cpu::SolidSamples> draw_mesh_numbers(const Frame& frame, const View& view) {
+    if (frame.meshes.empty()) return std::nullopt;
+    std::vector<TriangleMesh> numbered = frame.meshes;
+    for (std::size_t m = 0; m < numbered.size(); ++m) {
+      // The G-buffer holds square roots.
+      const auto byte = [&](std::size_t shift) {
+        const auto share = static_cast<float>(m >> shift & 0xff) / 255;
+        return share * share;
+      };
+      numbered[m].color = {byte(0), byte(8), byte(16)};
+    }
+    bind(targets->gbuffer, view.width, view.height);
+    clear_gbuffer();
+    meshes.draw(numbered, view);
+    std::optional<cpu::SolidSamples> samples(std::in_place);
+    samples->resize(view.width, view.height);
+    read_solids(*samples);
+    return samples;
   }
 
   /// The G-buffer as OpenGL has it.
@@ -370,6 +438,10 @@ Renderer::~Renderer() = default;
 
 Image Renderer::draw(const Frame& frame, std::vector<PhaseTime>* times) {
   return impl_->draw(frame, times);
+}
+
+ExrPicture Renderer::draw_channels(const Frame& frame, const channels::Request& request) {
+  return impl_->draw_channels(frame, request);
 }
 
 void Renderer::submit(const Frame& frame) {

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "render/channels/channels.h"
 #include "render/frame/frame.h"
 #include "render/frame/phase_time.h"
 #include "render/gl/context.h"
+#include "render/image/exr.h"
 #include "render/image/image.h"
 #include "sim/base/thread_pool.h"
 
@@ -42,6 +44,12 @@ class Renderer {
   /// Same frame, same driver: same bytes.
   /// @param times if not null, takes the phases; then the driver has to finish each before the next
   Image draw(const Frame& frame, std::vector<PhaseTime>* times = nullptr);
+
+  /// Draws a picture as channels of numbers, on the CPU whatever the path: without ghosts, lines,
+  /// words and plots. The channels R, G, B and A, linear light before the tone mapping, are always
+  /// there.
+  /// @throws std::invalid_argument for a request that does not fit the frame
+  ExrPicture draw_channels(const Frame& frame, const channels::Request& request);
 
   /// Draws without waiting for the picture: a GPU works on it while the next frame is prepared.
   void submit(const Frame& frame);

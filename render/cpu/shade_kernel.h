@@ -276,6 +276,15 @@ NEVE_INLINE MaskOf<V> finished(const ShadeJob& job, const RowPart<V>& part, cons
               to_byte(c.cover));
 }
 
+/// @param to of the samples, from the corner of the tile
+template <class V>
+NEVE_INLINE void store_linear(const ShadeJob& job, const Covered<V>& c, long to) {
+  store_lanes(c.color.x, job.linear[0] + to);
+  store_lanes(c.color.y, job.linear[1] + to);
+  store_lanes(c.color.z, job.linear[2] + to);
+  store_lanes(c.cover, job.cover + to);
+}
+
 template <class V>
 NEVE_INLINE void shade_tile_lanes(const ShadeJob& job) {
   const light::LaneView& view = job.view;
@@ -294,8 +303,13 @@ NEVE_INLINE void shade_tile_lanes(const ShadeJob& job) {
       part.ray = all_points<V>(base) + view.right * ((part.x - half_width) * per_sample);
       Covered<V> c = behind_smoke(job, part);
       if (job.smoke) lay_smoke_over(job, part, c);
+      const long to = static_cast<long>(y) * job.pitch + x;
+      if (job.cover) {
+        store_linear(job, c, to);
+        continue;
+      }
       const MaskOf<V> words = finished(job, part, c);
-      __builtin_memcpy(job.out + static_cast<long>(y) * job.pitch + x, &words, sizeof words);
+      __builtin_memcpy(job.out + to, &words, sizeof words);
     }
   }
 }

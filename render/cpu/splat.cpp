@@ -39,7 +39,7 @@ void for_each_tile(const SplatDisc& disc, int columns, const Body& body) {
 }  // namespace
 
 /// Discs of all points in the order of ids, and how many of each part lie in each tile.
-void Splatter::project(const Points& points, ThreadPool* pool) {
+void Splatter::project(const Points& points, ThreadPool* pool, Paint paint) {
   const auto count = points.position.size();
   const std::vector<std::uint32_t> order = order_by_id(points);
   const PointColors color(points);
@@ -57,7 +57,8 @@ void Splatter::project(const Points& points, ThreadPool* pool) {
     for (int i = job.begin; i < job.end; ++i) {
       SplatDisc& disc = discs_[static_cast<std::size_t>(i)];
       if (disc.x_low > disc.x_high) continue;
-      disc.color = color.root_albedo(job.order ? job.order[i] : static_cast<std::uint32_t>(i));
+      const std::uint32_t point = job.order ? job.order[i] : static_cast<std::uint32_t>(i);
+      disc.color = paint == Paint::index ? point : color.root_albedo(point);
       for_each_tile(disc, columns_, [&](int tile) { ++counts[tile]; });
     }
   });
@@ -112,12 +113,12 @@ void Splatter::sort_bin(int tile) {
   for (auto i = begin; i != end; ++i) to[start[(most - key(*i)) >> shift]++] = *i;
 }
 
-void Splatter::prepare(const Points& points, const View& view, ThreadPool* pool) {
+void Splatter::prepare(const Points& points, const View& view, ThreadPool* pool, Paint paint) {
   view_ = splat_view(points, view);
   kind_ = points.value.empty() ? light::kind_snow : light::kind_attribute;
   columns_ = (view.width + light::tile_width - 1) / light::tile_width;
   rows_ = (view.height + light::tile_height - 1) / light::tile_height;
-  project(points, pool);
+  project(points, pool, paint);
   fill_bins(pool);
 }
 

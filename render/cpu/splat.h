@@ -14,13 +14,17 @@
 
 namespace neve::render::cpu {
 
+/// What a tile holds in place of a colour: the albedo of the point, or its index in the frame.
+enum class Paint { albedo, index };
+
 class Splatter {
  public:
   explicit Splatter(const DrawKernels& kernels = chosen_draw_kernels()) : kernels_(kernels) {}
 
   /// Finds out which points lie in which tile of the picture.
   /// @param pool may be null
-  void prepare(const Points& points, const View& view, ThreadPool* pool);
+  void prepare(const Points& points, const View& view, ThreadPool* pool,
+               Paint paint = Paint::albedo);
   /// Tiles of the picture.
   int columns() const { return columns_; }
   int rows() const { return rows_; }
@@ -29,7 +33,7 @@ class Splatter {
   void draw_tile(int tile, light::GBufferTile& out);
 
  private:
-  void project(const Points& points, ThreadPool* pool);
+  void project(const Points& points, ThreadPool* pool, Paint paint);
   void fill_bins(ThreadPool* pool);
   void sort_bin(int tile);
 

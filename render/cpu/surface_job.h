@@ -44,6 +44,9 @@ struct ShadeJob {
   unsigned*
       out;    ///< of that corner; sRGB and alpha, red lowest; whole rows of the tile are written
   int pitch;  ///< samples from one row to the next
+  /// Where to write linear light before the tone mapping, and cover, instead of sRGB: of the corner
+  /// too, same pitch; null: sRGB.
+  float *linear[3], *cover;
 };
 
 }  // namespace neve::render::cpu

@@ -123,12 +123,8 @@ void Surfaces::write_depth(int tile, const light::GBufferTile& from) {
   }
 }
 
-void Surfaces::shade(const light::LightVolume& light, const light::SmokeCover* smoke,
-                     bool wants_depth) {
-  const int columns = splatter_.columns(), count = columns * splatter_.rows();
-  const std::size_t samples = static_cast<std::size_t>(count) * light::tile_samples;
-  make_room(picture_, picture_size_, samples);
-  if (wants_depth) make_room(depth_, depth_size_, samples);
+ShadeJob Surfaces::shade_job(const light::LightVolume& light,
+                             const light::SmokeCover* smoke) const {
   ShadeJob job{};
   job.view = view_;
   job.light = light_cells(light, eye_);
@@ -138,6 +134,37 @@ void Surfaces::shade(const light::LightVolume& light, const light::SmokeCover* s
   job.is_transparent = frame_->is_transparent ? 1 : 0;
   job.smoke = smoke;
   job.pitch = pitch_;
+  return job;
+}
+
+void Surfaces::shade_linear(const light::LightVolume& light, const light::SmokeCover* smoke,
+                            float key, float ambient, LinearSamples& out) const {
+  const int columns = splatter_.columns(), count = columns * splatter_.rows();
+  const std::size_t samples = static_cast<std::size_t>(count) * light::tile_samples;
+  out.pitch = pitch_;
+  for (std::vector<float>& plane : out.color) plane.resize(samples);
+  out.cover.resize(samples);
+  ShadeJob job = shade_job(light, smoke);
+  job.key_intensity = key;
+  job.ambient_intensity = ambient;
+  light::for_each_task(count, pool_, [&](int tile) {
+    ShadeJob mine = job;
+    mine.tile = &kept_[static_cast<std::size_t>(tile)];
+    mine.x = tile % columns * light::tile_width;
+    mine.y = tile / columns * light::tile_height;
+    for (std::size_t c = 0; c < 3; ++c) mine.linear[c] = out.color[c].data() + corner_of(tile);
+    mine.cover = out.cover.data() + corner_of(tile);
+    kernels_.shade_tile(mine);
+  });
+}
+
+void Surfaces::shade(const light::LightVolume& light, const light::SmokeCover* smoke,
+                     bool wants_depth) {
+  const int columns = splatter_.columns(), count = columns * splatter_.rows();
+  const std::size_t samples = static_cast<std::size_t>(count) * light::tile_samples;
+  make_room(picture_, picture_size_, samples);
+  if (wants_depth) make_room(depth_, depth_size_, samples);
+  const ShadeJob job = shade_job(light, smoke);
   light::for_each_task(count, pool_, [&](int tile) {
     light::GBufferTile drawn;
     ShadeJob mine = job;

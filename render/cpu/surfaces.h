@@ -4,6 +4,7 @@
 /// finished and lit while it is in the cache. Depends neither on the number of threads nor on the
 /// instruction set.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -25,6 +26,14 @@ struct SolidSamples {
 
   /// With room behind the last row, as lanes read past its end.
   void resize(int new_width, int new_height);
+};
+
+/// Linear light before the tone mapping, and the share of a sample that is covered; rows from the
+/// bottom up, a whole number of tiles each.
+struct LinearSamples {
+  int pitch = 0;
+  std::array<std::vector<float>, 3> color;  ///< premultiplied by cover
+  std::vector<float> cover;
 };
 
 class Surfaces {
@@ -51,6 +60,11 @@ class Surfaces {
   /// @param wants_depth whether to make depth() too
   void shade(const light::LightVolume& light, const light::SmokeCover* smoke, bool wants_depth);
 
+  /// The same before the tone mapping, from kept tiles, with other strengths of the light.
+  /// @param key, ambient as in Light
+  void shade_linear(const light::LightVolume& light, const light::SmokeCover* smoke, float key,
+                    float ambient, LinearSamples& out) const;
+
   /// sRGB and alpha, rows from the bottom up.
   const std::uint32_t* picture() const { return picture_.get(); }
   int pitch() const { return pitch_; }  ///< samples from one row to the next
@@ -61,6 +75,7 @@ class Surfaces {
   void add_points(int tile, light::GBufferTile& out) { splatter_.draw_tile(tile, out); }
   void add_grounds(int tile, light::GBufferTile& out) const;
   void add_solids(int tile, light::GBufferTile& out) const;
+  ShadeJob shade_job(const light::LightVolume& light, const light::SmokeCover* smoke) const;
   void write_depth(int tile, const light::GBufferTile& from);
   std::size_t corner_of(int tile) const;
 

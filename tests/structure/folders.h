@@ -39,9 +39,10 @@ inline constexpr Folder folders[] = {
     {"render/cpu/instruction_sets", "sim/base render/cpu", "neve::render::cpu"},
     {"render/overlay", "sim/base render/frame render/gl"},
     {"render/passes", "sim/base render/frame render/light render/gl render/cpu"},
+    {"render/channels", "sim/base render/image render/frame render/light render/cpu"},
     {"render",
      "sim/base render/image render/frame render/light render/gl render/cpu render/overlay "
-     "render/passes",
+     "render/passes render/channels",
      "neve::render"},
 
     {"app/support", "", "neve::app"},

@@ -1,0 +1,323 @@
+/// Channels of a picture: each holds what it says, and the file gives it back.
+
+#include "render/channels/channels.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "both_ways.h"
+#include "render/image/exr.h"
+#include "render/shapes/mesh_shapes.h"
+
+namespace neve::render {
+namespace {
+
+using channels::Pass;
+
+const std::set<Pass> all_passes = {Pass::depth,  Pass::position, Pass::normal,   Pass::albedo,
+                                   Pass::direct, Pass::indirect, Pass::emission, Pass::shadow,
+                                   Pass::motion, Pass::id,       Pass::body,     Pass::collider};
+
+/// Everything at rest, all in body 0.
+channels::Request request_for(const Frame& frame) {
+  channels::Request request;
+  request.passes = all_passes;
+  request.before = request.after = frame.camera;
+  request.interval = 0.1f;
+  request.velocity.resize(frame.points.position.size());
+  request.body.resize(frame.points.position.size());
+  request.meshes.resize(frame.meshes.size());
+  request.grounds.resize(frame.grounds.size());
+  return request;
+}
+
+class Drawn {
+ public:
+  Drawn(gl::Context& context, const Frame& frame, const channels::Request& request,
+        ParticlePath path = ParticlePath::cpu)
+      : picture_(decode_exr(
+            encode_exr(Renderer(context, {}, nullptr, path).draw_channels(frame, request)))) {}
+
+  float at(const std::string& channel, int x, int y) const {
+    return all(channel).at(static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
+                           static_cast<std::size_t>(x));
+  }
+  std::vector<float> all(const std::string& channel) const {
+    const ExrChannel* found = picture_.find(channel);
+    EXPECT_NE(found, nullptr) << channel;
+    return found ? numbers_of(*found) : std::vector<float>(1u << 20);
+  }
+  std::array<std::vector<float>, 3> vectors(const std::string& layer) const {
+    return {all(layer + ".X"), all(layer + ".Y"), all(layer + ".Z")};
+  }
+  const ExrPicture& picture() const { return picture_; }
+
+ private:
+  ExrPicture picture_;
+};
+
+/// One sphere of radius 0.2 m at the middle of a picture that is one metre high there.
+Frame one_sphere() {
+  Frame frame = small_frame();
+  frame.points.radius = 0.2f;
+  frame.points.spacing = 0.3f;
+  frame.points.position = {{0, 0, 0}};
+  frame.points.id = {77};
+  return frame;
+}
+
+TEST(Channels, DepthAndPositionAreThoseOfASphere) {
+  OPEN_OR_SKIP(context, "auto");
+  for (const int samples : {1, 2}) {
+    Frame frame = one_sphere();
+    frame.supersampling = samples;
+    const Drawn drawn(*context, frame, request_for(frame));
+    int seen = 0;
+    const std::vector<float> z = drawn.all("depth.Z"), x = drawn.all("position.X"),
+                             y = drawn.all("position.Y"), height = drawn.all("position.Z");
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      if (z[i] == channels::nothing_depth) continue;
+      ++seen;
+      // The eye is 2 m before the centre and looks along -z.
+      EXPECT_NEAR(height[i], 2 - z[i], 1e-5f);
+      EXPECT_NEAR(length(Vec3f{x[i], y[i], height[i]}), 0.2f, 1e-4f);
+    }
+    // A disc of 0.4 m, seen from 2 m, in a picture of 90 pixels a metre: a share of rounding.
+    EXPECT_NEAR(seen, 3.14159f * 18.1f * 18.1f, 70) << samples;
+    EXPECT_NEAR(drawn.at("depth.Z", 60, 45), 1.8f, 1e-3f);
+  }
+}
+
+TEST(Channels, NormalsAreOfUnitLengthAndPointOutwards) {
+  OPEN_OR_SKIP(context, "auto");
+  const Frame frame = one_sphere();
+  const Drawn drawn(*context, frame, request_for(frame));
+  const std::vector<float> z = drawn.all("depth.Z");
+  const std::array normal = drawn.vectors("normal"), position = drawn.vectors("position");
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const Vec3f n = {normal[0][i], normal[1][i], normal[2][i]};
+    const Vec3f p = {position[0][i], position[1][i], position[2][i]};
+    if (z[i] == channels::nothing_depth) {
+      EXPECT_EQ(length(n), 0);
+      continue;
+    }
+    // Half floats have 11 bits.
+    EXPECT_NEAR(length(n), 1, 2e-3f);
+    EXPECT_NEAR(dot(n, p), 0.2f, 5e-4f);
+  }
+}
+
+TEST(Channels, NumbersAreThoseOfTheParticleInThePixel) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = rough_ball(160, 100);
+  for (std::uint32_t& id : frame.points.id) id = 5 * id + 3;
+  channels::Request request = request_for(frame);
+  for (std::size_t i = 0; i < request.body.size(); ++i)
+    request.body[i] = static_cast<std::int32_t>(i % 3);
+  request.numbers = {{"v", {"X", "Y"}, {}}};
+  for (std::size_t i = 0; i < request.body.size(); ++i)
+    request.numbers[0].value.insert(request.numbers[0].value.end(),
+                                    {static_cast<float>(i), -static_cast<float>(i)});
+  const Drawn drawn(*context, frame, request);
+  const std::vector<float> id = drawn.all("id.Y"), body = drawn.all("body.Y"), v = drawn.all("v.X"),
+                           w = drawn.all("v.Y");
+  const std::array position = drawn.vectors("position");
+  int seen = 0;
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    if (id[i] == channels::no_number) continue;
+    const auto point = static_cast<std::size_t>((id[i] - 3) / 5);
+    EXPECT_EQ(v[i], static_cast<float>(point));
+    EXPECT_EQ(w[i], -v[i]);
+    EXPECT_EQ(body[i], static_cast<float>(point % 3));
+    const Vec3f p = {position[0][i], position[1][i], position[2][i]};
+    EXPECT_NEAR(length(p - frame.points.position.at(point)), frame.points.radius, 1e-4f);
+    ++seen;
+  }
+  EXPECT_GT(seen, 1000);
+}
+
+TEST(Channels, MotionIsTheProjectedDisplacement) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = one_sphere();
+  frame.meshes.push_back(shapes::box_mesh({0.4f, 0, 0}, {0.1f, 0.3f, 0.02f}));
+  channels::Request request = request_for(frame);
+  request.velocity = {{0.5f, 0.25f, 0}};
+  request.meshes[0].after.offset = {0, -0.1f, 0};
+  request.meshes[0].before.offset = {0, 0.1f, 0};
+  for (const int samples : {1, 2}) {
+    frame.supersampling = samples;
+    const Drawn drawn(*context, frame, request);
+    const auto expect = [&](int x, int y, float u, float v) {
+      // A picture of 90 pixels shows a metre at a distance of 2 m.
+      const float per_metre = 90 * 2 / drawn.at("depth.Z", x, y);
+      EXPECT_NEAR(drawn.at("forward.u", x, y), u * per_metre, 0.01f);
+      EXPECT_NEAR(drawn.at("forward.v", x, y), v * per_metre, 0.01f);
+      EXPECT_NEAR(drawn.at("backward.u", x, y), -u * per_metre, 0.01f);
+      EXPECT_NEAR(drawn.at("backward.v", x, y), -v * per_metre, 0.01f);
+    };
+    expect(60, 45, 0.05f, 0.025f);
+    expect(96, 45, 0, -0.1f);
+  }
+}
+
+TEST(Channels, MotionFollowsTheCamera) {
+  OPEN_OR_SKIP(context, "auto");
+  const Frame frame = one_sphere();
+  channels::Request request = request_for(frame);
+  request.after.eye.x += 0.1f;
+  request.after.target.x += 0.1f;
+  const Drawn drawn(*context, frame, request);
+  EXPECT_NEAR(drawn.at("forward.u", 60, 45), -0.1f * 90 * 2 / 1.8f, 0.02f);
+  EXPECT_NEAR(drawn.at("backward.u", 60, 45), 0, 0.01f);
+}
+
+TEST(Channels, CollidersHaveTheirNumbers) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = one_sphere();
+  frame.grounds.push_back({.point = {0, -0.3f, 0}});
+  for (int k = 0; k < 300; ++k)  // two bytes of numbers
+    frame.meshes.push_back(
+        shapes::box_mesh({0.4f, 0, k == 299 ? 0.0f : -3.0f}, {0.1f, 0.3f, 0.1f}));
+  channels::Request request = request_for(frame);
+  request.grounds[0].collider = 4;
+  for (std::size_t m = 0; m < 300; ++m) request.meshes[m].collider = static_cast<int>(m + 1000);
+  const Drawn drawn(*context, frame, request);
+  EXPECT_EQ(drawn.at("collider.Y", 96, 45), 1299);
+  EXPECT_EQ(drawn.at("collider.Y", 60, 85), 4);
+  EXPECT_EQ(drawn.at("collider.Y", 60, 45), channels::no_number);
+  EXPECT_EQ(drawn.at("id.Y", 60, 45), 77);
+  EXPECT_EQ(drawn.at("id.Y", 96, 45), channels::no_number);
+}
+
+Frame lit_scene() {
+  Frame frame = rough_ball(160, 100);
+  frame.meshes.push_back(shapes::box_mesh({0.35f, -0.2f, 0.3f}, {0.2f, 0.4f, 0.2f}));
+  return frame;
+}
+
+TEST(Channels, PartsOfTheLightAddUpToTheBeauty) {
+  OPEN_OR_SKIP(context, "auto");
+  const Frame frame = lit_scene();
+  const Drawn drawn(*context, frame, request_for(frame));
+  for (const char* color : {"R", "G", "B"}) {
+    const std::string dot_color = std::string(".") + color;
+    const auto beauty = drawn.all(color), direct = drawn.all("direct" + dot_color),
+               indirect = drawn.all("indirect" + dot_color),
+               emission = drawn.all("emission" + dot_color),
+               shadow = drawn.all("shadow" + dot_color);
+    float darkest = 1, brightest = 0;
+    for (std::size_t i = 0; i < beauty.size(); ++i) {
+      // Four roundings to 11 bits.
+      EXPECT_NEAR(direct[i] + indirect[i] + emission[i], beauty[i], 2e-3f * beauty[i] + 1e-4f);
+      EXPECT_LE(shadow[i], 1.001f);
+      darkest = std::min(darkest, shadow[i]);
+      brightest = std::max(brightest, direct[i]);
+    }
+    EXPECT_LT(darkest, 0.3f);
+    EXPECT_GT(brightest, 0.3f);
+  }
+}
+
+/// As shaders/shade.frag has it.
+float tone_mapped(float c) {
+  c *= 0.8f;
+  c = c * (1 + c / 4.84f) / (1 + 0.55f * c);
+  return std::pow(std::min(c, 1.0f), 1 / 2.2f);
+}
+
+TEST(Channels, ToneMappedBeautyIsThePicture) {
+  OPEN_OR_SKIP(context, "auto");
+  const Frame frame = lit_scene();
+  const Drawn drawn(*context, frame, request_for(frame));
+  const Image picture = Renderer(*context, {}, nullptr, ParticlePath::cpu).draw(frame);
+  const std::array planes = {drawn.all("R"), drawn.all("G"), drawn.all("B")};
+  double sum = 0;
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const float difference = 255 * tone_mapped(planes[i % 3][i / 3]) - picture.pixels[i];
+    // Half a step of rounding, half a step of dither, and rounding to 11 bits.
+    EXPECT_LE(std::abs(difference), 1.3f);
+    sum += difference;
+  }
+  EXPECT_NEAR(sum / static_cast<double>(picture.pixels.size()), 0, 0.05);
+}
+
+TEST(Channels, OpenGlAndTheCpuGiveTheSame) {
+  OPEN_OR_SKIP(context, "auto");
+  const Frame frame = lit_scene();
+  const Drawn gl(*context, frame, request_for(frame), ParticlePath::gl),
+      cpu(*context, frame, request_for(frame), ParticlePath::cpu);
+  for (const ExrChannel& channel : cpu.picture().channels)
+    EXPECT_EQ(gl.all(channel.name), cpu.all(channel.name)) << channel.name;
+}
+
+TEST(Channels, CoverIsThatOfATransparentPicture) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = one_sphere();
+  frame.is_transparent = true;
+  const Drawn drawn(*context, frame, request_for(frame));
+  EXPECT_EQ(drawn.at("A", 60, 45), 1);
+  EXPECT_EQ(drawn.at("A", 3, 3), 0);
+  EXPECT_EQ(drawn.at("R", 3, 3), 0);
+  EXPECT_GT(drawn.at("R", 60, 45), 0.1f);
+}
+
+TEST(Channels, LightIsAveragedOverTheMomentsOfTheShutter) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = one_sphere();
+  frame.is_transparent = true;
+  channels::Request request = request_for(frame);
+  request.moments.assign(2, frame);
+  request.moments[0].points.position = {{-0.3f, 0, 0}};
+  request.moments[1].points.position = {{0.3f, 0, 0}};
+  const Drawn drawn(*context, frame, request);
+  EXPECT_FLOAT_EQ(drawn.at("A", 33, 45), 0.5f);
+  EXPECT_FLOAT_EQ(drawn.at("A", 87, 45), 0.5f);
+  EXPECT_EQ(drawn.at("A", 60, 45), 0);
+  EXPECT_EQ(drawn.at("id.Y", 60, 45), 77);
+  EXPECT_EQ(drawn.at("id.Y", 33, 45), channels::no_number);
+}
+
+TEST(Channels, RequestsThatDoNotFitAreRefused) {
+  OPEN_OR_SKIP(context, "auto");
+  const Frame frame = one_sphere();
+  channels::Request request = request_for(frame);
+  request.velocity.clear();
+  Renderer renderer(*context);
+  EXPECT_THROW(renderer.draw_channels(frame, request), std::invalid_argument);
+}
+
+TEST(Exr, TextAndMatricesComeBack) {
+  ExrPicture picture{3, 2, {{"Z", std::vector<float>{1, 2, 3, 4, 5, 6}}}};
+  picture.channels.push_back({"R", to_half(std::vector<float>{0.5f, 0, -2, 65504, 1, 7})});
+  ExrHeader header;
+  header.text = {{"neve:scene", "a = 1\nb = \"\xc3\xa9\"\n"}, {"neve:frame", "7"}};
+  header.fps = 24;
+  header.to_camera.emplace();
+  const std::vector<std::uint8_t> bytes = encode_exr(picture, header);
+  EXPECT_EQ(read_exr_text(bytes), header.text);
+  const ExrPicture read = decode_exr(bytes);
+  ASSERT_EQ(read.width, 3);
+  EXPECT_EQ(numbers_of(*read.find("Z")), (std::vector<float>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(numbers_of(*read.find("R")), (std::vector<float>{0.5f, 0, -2, 65504, 1, 7}));
+  EXPECT_EQ(read.find("G"), nullptr);
+}
+
+TEST(Exr, DamagedFilesAreRefused) {
+  const ExrPicture picture{40, 40, {{"Z", std::vector<float>(1600, 2.5f)}}};
+  const std::vector<std::uint8_t> whole = encode_exr(picture);
+  for (std::size_t size = 0; size < whole.size(); size += 7)
+    EXPECT_THROW(decode_exr(std::span(whole).first(size)), ImageError) << size;
+  EXPECT_THROW(read_exr_text(std::vector<std::uint8_t>(100, 'x')), ImageError);
+  // A data window of billions of pixels.
+  std::vector<std::uint8_t> vast = whole;
+  const std::string word = "dataWindow";
+  const auto at = std::search(vast.begin(), vast.end(), word.begin(), word.end());
+  ASSERT_NE(at, vast.end());
+  const std::int32_t far_away = 1 << 29;
+  std::memcpy(&*at + word.size() + 1 + 6 + 4 + 8, &far_away, 4);
+  std::memcpy(&*at + word.size() + 1 + 6 + 4 + 12, &far_away, 4);
+  EXPECT_THROW(decode_exr(vast), ImageError);
+}
+
+}  // namespace
+}  // namespace neve::render
