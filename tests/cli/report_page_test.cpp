@@ -254,6 +254,23 @@ TEST_F(ReportPage, RunsWithoutAGridShowTheNearestOneAndSaySo) {
   EXPECT_NE(text.find("instead of 3162"), std::string::npos) << text;
 }
 
+TEST_F(ReportPage, TwoRunsBesideEachOtherHaveTheWholeWidthAndNothingIsEmptyBelowThem) {
+  open(Study({3, 3}, 2), 1400, 860);
+  const auto box = [&](const std::string& part, const char* side) {
+    return value("Math.round(document.querySelector('" + part + "').getBoundingClientRect()." +
+                 side + ")")
+        .get<int>();
+  };
+  EXPECT_LT(box("#plates", "right"), box("#sliders", "left"));
+  click("[data-pin=a]");
+  EXPECT_EQ(box("#plates", "width"), box("#walk", "width"));
+  EXPECT_LE(box("#sliders", "top") - box("#stage", "bottom"), 40);
+  EXPECT_LT(box("#sliders", "bottom"), 860) << "both pictures are seen while a slider moves";
+  EXPECT_LE(box("#facts", "top") - box("#sliders", "top"), 30)
+      << "the facts are beside the sliders";
+  EXPECT_LT(box("#sliders", "right"), box("#facts", "left"));
+}
+
 TEST_F(ReportPage, TwoRunsArePinnedAndTheirDifferenceIsBlackWhereTheyAreTheSame) {
   open(Study({3, 3}, 1));
   click("[data-pin=a]");

@@ -153,7 +153,9 @@ function makeTableHead(table) {
   }), make('col'));
   group.lastChild.style.width = '150px';
   columns.forEach((column, c) => {
-    const button = make('button', {type: 'button', textContent: column.title, title: column.help});
+    // Long names break behind an underscore.
+    const title = column.title.replaceAll('_', '_\u200b');
+    const button = make('button', {type: 'button', textContent: title, title: column.help});
     button.addEventListener('click', () => {
       state.sort = {column: c, way: state.sort.column === c ? -state.sort.way : 1};
       change('sort');

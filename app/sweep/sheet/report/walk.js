@@ -159,7 +159,7 @@ function startStage() {
   const gain = by('gain');
   gain.addEventListener('input', () => change('mode'));
   addPainter(null, ['run', 'frame', 'mode'], () => {
-    plates.dataset.mode = state.mode;
+    plates.dataset.mode = by('walk').dataset.mode = state.mode;
     plates.style.setProperty('--gain', String(2 ** gain.value));
     by('gain-text').textContent = '\u00d7' + 2 ** gain.value;
     by('gain-label').hidden = state.mode !== 'difference';
