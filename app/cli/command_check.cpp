@@ -144,10 +144,12 @@ void print_checkup(const health::Checkup& checkup, const run::RenderJob& job,
   print_forecast(checkup);
   std::cout << (job.fast ? "fast       " : "faster     ") << look.sentence() << "\n";
   if (!checkup.findings.empty()) std::cout << "\n";
+}
+
+void print_findings(const health::Checkup& checkup, bool has_notes) {
   for (const health::Finding& finding : checkup.findings)
-    std::cout << name(finding.severity) << ": "
-              << (finding.address.empty() ? "" : finding.address + ": ") << finding.what
-              << (finding.hint.empty() ? "" : "; " + finding.hint) << "\n";
+    if (has_notes || finding.severity != health::Severity::note)
+      std::cout << name(finding.severity) << ": " << health::sentence(finding) << "\n";
 }
 
 /// The gain of --fast, for who has not asked for it.
@@ -167,10 +169,12 @@ int run_check(const run::RenderOptions& options) {
   const health::FastLook look = possible_look(options, job);
   // A forecast that was cut short is another one.
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the end of the forecast");
+  const bool is_quiet = options.verbosity == Verbosity::quiet;
   if (options.is_json)
     std::cout << to_text(checkup_json(checkup, job, look)) << "\n";
-  else
+  else if (!is_quiet)
     print_checkup(checkup, job, look);
+  if (!options.is_json) print_findings(checkup, !is_quiet);
   std::cout.flush();
   setup::check_limits(job.scene, checkup.plan, job.coarsening);
   const bool has_error =

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "app/cli/folder_advice.h"
 #include "app/cli/report_error.h"
 #include "app/compare/compare_run.h"
 #include "app/output/atomic_file.h"
@@ -29,6 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 render::Image read_picture(const std::string& file) {
+  require_picture(file, "neve compare");
   const std::vector<std::uint8_t> bytes = output::read_file(file);
   try {
     return render::decode_png(bytes);
@@ -112,27 +114,20 @@ int compare_runs(const CompareOptions& options) {
   return is_same ? exit_ok : exit_check_failed;
 }
 
-/// @throws UsageError when it has no run.json; where the folder around it has one, that is named
-void check_run_folder(fs::path folder) {
+/// @throws UsageError when it has no run.json
+void check_run_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(output::run_json_path(folder), error)) return;
-  const std::string name = folder.string();
-  if (!folder.has_filename()) folder = folder.parent_path();  // of "a/particles/"
-  const fs::path around = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
-  if (fs::exists(folder / "manifest.json", error))
-    throw scene::toml::UsageError(
-        "", name + " is the folder of a study, not of a run",
-        "compare two of its runs, as in " + (folder / "runs" / "0000").string());
-  throw scene::toml::UsageError("", name + " is not the folder of a run: it has no run.json",
-                                fs::exists(output::run_json_path(around), error)
-                                    ? around.string() + " is one; compare that, or two pictures"
-                                    : "compare two pictures or two run folders");
+  const FolderAdvice advice = advice_on_folder(folder);
+  throw scene::toml::UsageError("", folder.string() + " " + advice.what,
+                                advice.hint + "; neve compare takes two pictures or two runs");
 }
 
 /// Whether a file is a picture with pixels alone, without the scene that made it.
 bool has_only_pixels(const std::string& file) {
   std::error_code error;
   if (fs::is_directory(file, error)) return false;
+  require_picture(file, "neve compare");
   try {
     run::read_picture_record(file);
   } catch (const UnreadableError&) {

@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "app/cli/commands.h"
+#include "app/cli/folder_advice.h"
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
@@ -74,6 +75,23 @@ std::string build_of(const Json& run) {
   return all.empty() ? all : all + ")";
 }
 
+/// Steps and seconds of all frames that say so.
+void print_sums(const Json& frames, std::ostream& out) {
+  double steps = 0, simulated = 0, drawn = 0;
+  const auto number = [](const Json& frame, const char* key) {
+    const Json value = frame.is_object() ? frame.value(key, Json()) : Json();
+    return value.is_number() ? value.get<double>() : 0;
+  };
+  for (const Json& frame : frames) {
+    steps += number(frame, "steps");
+    simulated += number(frame, "seconds_sim");
+    drawn += number(frame, "seconds_render");
+  }
+  out << "steps       " << fixed_text(steps, 0) << "\n"
+      << "time        " << fixed_text(simulated, 2) << " s of simulation, " << fixed_text(drawn, 2)
+      << " s of drawing\n";
+}
+
 void print_run(const Json& run, const fs::path& folder, std::ostream& out) {
   const auto text = [&](const char* key) {
     return run.contains(key) && run[key].is_string() ? run[key].get<std::string>() : std::string();
@@ -86,6 +104,7 @@ void print_run(const Json& run, const fs::path& folder, std::ostream& out) {
   if (!run.contains("frames") || !run["frames"].is_array()) return;
   const Json& frames = run["frames"];
   out << "frames      " << frames.size() << "\n";
+  print_sums(frames, out);
   if (frames.empty() || !frames.back().is_object()) return;
   for (const char* key :
        {"frame", "time", "particles", "kinetic_energy", "max_speed", "state_hash"})
@@ -97,6 +116,10 @@ void print_run(const Json& run, const fs::path& folder, std::ostream& out) {
 
 int run_info(const std::string& path, bool is_json) {
   std::error_code error;
+  if (fs::is_directory(path, error) && !fs::exists(output::run_json_path(path), error)) {
+    const FolderAdvice advice = advice_on_folder(path);
+    throw IoError(path + " " + advice.what + "; " + advice.hint, path, advice.hint);
+  }
   if (fs::is_directory(path, error) || fs::path(path).extension() == ".json") {
     const fs::path file =
         fs::is_directory(path, error) ? output::run_json_path(path) : fs::path(path);
@@ -110,6 +133,7 @@ int run_info(const std::string& path, bool is_json) {
     }
     return exit_ok;
   }
+  require_picture(path, "neve info");
   const run::PictureRecord record = run::read_picture_record(path);
   if (is_json) {
     std::cout << to_text(run::to_json(record)) << "\n";

@@ -9,8 +9,10 @@
 #include "app/cli/command_line_parts.h"
 #include "app/cli/commands.h"
 #include "app/cli/manual.h"
+#include "app/cli/surroundings.h"
 #include "app/cli/usage_hints.h"
 #include "app/run/picture_record.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
 #include "app/setup/caps.h"
@@ -42,13 +44,6 @@ CLI::Option* add_repeatable(CLI::App& command, const char* flag, std::vector<std
       ->type_name(type)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-std::string with_toml_suffix(const std::string& file) {
-  std::error_code error;
-  const std::string longer = file + ".toml";
-  const bool is_short = !file.empty() && !std::filesystem::exists(file, error);
-  return is_short && std::filesystem::is_regular_file(longer, error) ? longer : file;
 }
 
 void add_progress(CLI::App& command, std::optional<std::string>& progress,
@@ -83,7 +78,7 @@ run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
   if (texts.progress) options.progress.is_json = parse_progress(*texts.progress);
-  options.scene = with_toml_suffix(options.scene);
+  options.scene = scene::path_of_scene(options.scene);
   check_threads(options.threads);
   if (options.checkpoint_every < 0 || options.checkpoint_every > 1000000)
     throw scene::toml::UsageError("--checkpoint-every",
@@ -101,9 +96,10 @@ run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts
 void add_scene(CLI::App& command, const std::shared_ptr<run::RenderOptions>& options,
                const std::shared_ptr<RenderTexts>& texts) {
   command
-      .add_option("SCENE", options->scene,
-                  "Scene file (TOML), or a picture made by neve, to make that frame and view "
-                  "again; default: a falling snowball")
+      .add_option(
+          "SCENE", options->scene,
+          "Scene file (TOML), - for standard input, or a picture made by neve, to make that "
+          "frame and view again; default: a falling snowball")
       ->type_name("");
   add_repeatable(command, "--set", options->overrides, "ADDRESS=VALUE",
                  "Change a parameter, as in material.snow.hardening=5 (repeatable; neve params "
@@ -171,6 +167,7 @@ void add_check(CLI::App& app, Action& action) {
   const auto texts = std::make_shared<RenderTexts>();
   add_scene(*command, options, texts);
   command->add_flag("--json", options->is_json, "Print JSON");
+  command->add_flag("--quiet,-q", texts->is_quiet, "Print only errors and warnings");
   command->final_callback([=, &action] {
     action = [options, texts] { return run_check(finished(*options, *texts)); };
   });
@@ -379,12 +376,14 @@ void add_verify(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "verify", "Check that every file of a run or a sweep is there, as it was written");
   const auto folder = std::make_shared<std::string>();
-  const auto is_json = std::make_shared<bool>(false);
+  const auto is_json = std::make_shared<bool>(false), is_quiet = std::make_shared<bool>(false);
   command->add_option("DIR", *folder, "Output folder of a run or a sweep")
       ->required()
       ->type_name("");
   command->add_flag("--json", *is_json, "Print JSON");
-  command->final_callback([=, &action] { action = [=] { return run_verify(*folder, *is_json); }; });
+  command->add_flag("--quiet,-q", *is_quiet, "Print only what is wrong");
+  command->final_callback(
+      [=, &action] { action = [=] { return run_verify(*folder, *is_quiet, *is_json); }; });
 }
 
 /// Written for `cmake --install`, and for anyone who copies the program by hand.
@@ -480,6 +479,7 @@ int run_command_line(int argc, char** argv) {
     fail_parse(app, error);
   }
   check_leftovers(app);
+  warn_of_surroundings(app, error_output(argc, argv));
   return action();
 }
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <memory>
 #include <string_view>
+#include <type_traits>
 
 #include "app/cli/command_line_parts.h"
 #include "app/scene/describe.h"
+#include "app/scene/export_advice.h"
 #include "app/scene/leaf.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
@@ -76,8 +78,10 @@ const ExportKey& piece_key() {
 template <scene::Choice E>
 E choice_of(const char* flag, const std::string& word) {
   if (const std::optional<E> value = scene::value_named<E>(word)) return *value;
+  std::string hint;
+  if constexpr (std::is_same_v<E, scene::ExportFormat>) hint = scene::export_format_advice(word);
   throw scene::toml::UsageError(flag, "there is no \"" + word + "\"",
-                                names_advice(word, scene::choices<E>()));
+                                hint.empty() ? names_advice(word, scene::choices<E>()) : hint);
 }
 
 /// "a,b": each at most once, at least one.

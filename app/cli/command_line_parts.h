@@ -24,9 +24,6 @@ void check_threads(int threads);
 /// @throws UsageError with the names there are
 void check_backend(const std::string& name);
 
-/// Adds ".toml" to a name if only the file with that suffix exists.
-std::string with_toml_suffix(const std::string& file);
-
 /// Values that CLI11 hands over as text; turned into options when parsing is done.
 struct RenderTexts {
   std::optional<std::string> frames, from, size, quality, coarsening, progress;

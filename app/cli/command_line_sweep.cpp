@@ -5,6 +5,7 @@
 
 #include "app/cli/command_line_parts.h"
 #include "app/cli/commands.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
 #include "app/sweep/read/sweep_leaf.h"
@@ -25,7 +26,7 @@ sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
   if (options.file.empty())
     throw scene::toml::UsageError("sweep", "which sweep?",
                                   "give a sweep file, or a scene and -p ADDRESS=LIST");
-  options.file = with_toml_suffix(options.file);
+  options.file = scene::path_of_scene(options.file);
   if (texts.frames) options.frames = setup::parse_frames(*texts.frames);
   if (texts.fork) options.fork = setup::parse_time(*texts.fork, "--fork");
   if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);

@@ -136,14 +136,16 @@ void print_result(const run::RenderJob& job, const run::RenderRun& run,
   std::cout << to_text(json) << "\n";
 }
 
-/// Snow that starts inside colliders or flies past everything: nothing else tells before the run.
+/// Units that are not those of neve, snow that starts inside colliders or flies past everything:
+/// nothing else tells before the run.
 void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Progress& progress) {
   std::vector<health::Finding> findings;
+  health::check_units(job.scene, findings, job.coarsening);
   health::check_collider_overlaps(job.scene, seeded, findings);
   health::check_meetings(job.scene, seeded, findings);
   for (const health::Finding& finding : findings) {
     job.warnings.push_back(finding.what);
-    progress.warning(fmt::format("{}: {}; {}", finding.address, finding.what, finding.hint));
+    progress.warning(health::sentence(finding));
   }
 }
 

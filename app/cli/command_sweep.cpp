@@ -6,10 +6,12 @@
 #include <iostream>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "app/health/findings.h"
 #include "app/output/folder_lock.h"
 #include "app/output/named_file.h"
 #include "app/scene/read.h"
@@ -155,6 +157,33 @@ void warn_of_equal_runs(const sweep::plan::SweepPlan& plan, Progress& progress) 
   }
 }
 
+/// Numbers that look like another unit, each once, with the first run that has it.
+void warn_of_units(const sweep::plan::SweepPlan& plan, double coarsening, Progress& progress) {
+  constexpr std::size_t most = 5;
+  std::set<std::string> warned;
+  for (const sweep::plan::PlannedRun& item : plan.runs) {
+    std::vector<health::Finding> findings;
+    health::check_units(item.scene, findings, coarsening);
+    for (const health::Finding& finding : findings)
+      if (warned.size() < most && warned.insert(finding.address).second)
+        progress.warning(fmt::format("run {}: {}", item.run.index, health::sentence(finding)));
+  }
+}
+
+/// Methods that draw may draw a point twice, as trajectories of morris do where axes have few
+/// levels.
+void note_repeated_points(const sweep::plan::SweepPlan& plan, Progress& progress) {
+  if (plan.sweep.settings.method == sweep::read::Method::grid) return;
+  std::set<std::string> keys;
+  for (const sweep::plan::PlannedRun& item : plan.runs)
+    keys.insert(sweep::store::key_of(plan, item));
+  const std::size_t repeated = plan.runs.size() - keys.size();
+  if (repeated > 0)
+    progress.note(
+        fmt::format("{} of the {} points are drawn more than once: {} runs make all of them",
+                    repeated, plan.runs.size(), keys.size()));
+}
+
 /// An axis of one value compares nothing.
 void warn_of_single_values(const sweep::read::Sweep& sweep, Progress& progress) {
   for (const sweep::read::Axis& axis : sweep.axes) {
@@ -192,6 +221,8 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
     progress.warning(value + " is in its list twice: the run is made once and shown twice");
   warn_of_single_values(plan.sweep, progress);
   warn_of_equal_runs(plan, progress);
+  warn_of_units(plan, options.coarsening.value_or(1), progress);
+  note_repeated_points(plan, progress);
   choose_runs(options, plan, progress);
   if (options.is_dry_run) {
     sweep::plan::print_sweep_plan(plan, cores, options.is_json);

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "app/cli/commands.h"
+#include "app/cli/folder_advice.h"
 #include "app/output/sequence.h"
 #include "app/run/verify.h"
 #include "app/support/errors.h"
@@ -76,6 +77,27 @@ Findings verify_sweep_folder(const fs::path& folder) {
   return findings;
 }
 
+/// A run that lost its run.json still has pictures or a checkpoint.
+bool has_rest_of_run(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / "checkpoint", error)) return true;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (fs::exists(output::frame_path(folder, at->path().filename().string(), 0), error))
+      return true;
+  return false;
+}
+
+/// @throws IoError for a folder that no run has written to
+void require_run(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::path& list : {output::run_json_path(folder), output::export_list_path(folder)})
+    if (fs::exists(list, error)) return;
+  if (has_rest_of_run(folder)) return;
+  const FolderAdvice advice = advice_on_folder(folder);
+  throw IoError(folder.string() + " " + advice.what + "; " + advice.hint, folder.string(),
+                advice.hint);
+}
+
 void print_json(const std::string& folder, const Findings& findings) {
   Json json;
   json["folder"] = folder;
@@ -88,11 +110,12 @@ void print_json(const std::string& folder, const Findings& findings) {
   std::cout << to_text(json) << "\n";
 }
 
-void print_text(const std::string& folder, bool is_sweep, const Findings& findings) {
+void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const Findings& findings) {
   for (const run::Flaw& flaw : findings.flaws)
     std::cout << printable_text((fs::path(folder) / flaw.file).string()) << " "
               << printable_text(flaw.what) << "\n";
   if (!findings.unfinished.empty()) std::cout << folder << ": " << findings.unfinished << "\n";
+  if (is_quiet) return;
   if (findings.is_whole())
     std::cout << folder << ": whole, " << findings.files << " files as they were written\n";
   else
@@ -102,16 +125,17 @@ void print_text(const std::string& folder, bool is_sweep, const Findings& findin
 
 }  // namespace
 
-int run_verify(const std::string& folder, bool is_json) {
+int run_verify(const std::string& folder, bool is_quiet, bool is_json) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
     throw IoError(folder + ": is no folder", folder, "name the output folder of a run or a sweep");
   const bool is_sweep = fs::exists(fs::path(folder) / "manifest.json", error);
+  if (!is_sweep) require_run(folder);
   const Findings findings = is_sweep ? verify_sweep_folder(folder) : verify_folder(folder);
   if (is_json)
     print_json(folder, findings);
   else
-    print_text(folder, is_sweep, findings);
+    print_text(folder, is_sweep, is_quiet, findings);
   return findings.is_whole() ? exit_ok : exit_check_failed;
 }
 

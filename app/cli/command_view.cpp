@@ -9,6 +9,7 @@
 #include "app/run/picture_record.h"
 #include "app/run/render_job.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -129,10 +130,9 @@ std::optional<view::session::Document> look_at(view::session::Document document,
   bench_options.session.kept_budget = options.kept_memory;
   bench_options.overrides = overrides;
   bench_options.is_remote = place.web != nullptr;
-  bench_options.folder =
-      options.run.out.empty()
-          ? out_folder() / (std::filesystem::path(file).stem().string() + "-view")
-          : std::filesystem::path(options.run.out);
+  bench_options.folder = options.run.out.empty()
+                             ? out_folder() / (scene::name_of_scene(file) + "-view")
+                             : std::filesystem::path(options.run.out);
   view::session::Workbench bench(std::move(document), std::move(bench_options),
                                  [&place] { place.front->wake(); });
   ThreadPool pool(options.run.threads);

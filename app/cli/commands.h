@@ -45,7 +45,8 @@ int run_bench_surface(const bench::BenchOptions& options);
 int run_bench_view(const bench::BenchOptions& options);
 int run_info(const std::string& path, bool is_json);
 /// @param folder  of a run or a sweep
-int run_verify(const std::string& folder, bool is_json);
+/// @param is_quiet  print only what is wrong
+int run_verify(const std::string& folder, bool is_quiet, bool is_json);
 /// Writes NAME.toml and a JSON Schema beside it. @throws UsageError, IoError
 int run_new(const std::string& name, bool is_json);
 /// @param kind  "scene" or "sweep"

@@ -205,8 +205,10 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
     checkup.findings.push_back(
         {Severity::note, "",
          "too large for a check of its particles: overlaps, dt and time per step are not known",
-         "try neve check with --coarsen " +
-             fixed_text(std::ceil(std::cbrt(plan.particles / max_seeded)), 0)});
+         is_too_large(scene)
+             ? "lengths in metres make it smaller"
+             : "try neve check with --coarsen " +
+                   fixed_text(std::ceil(std::cbrt(plan.particles / max_seeded)), 0)});
   }
   const double particle_step = foresee_frames(scene, checkup);
   check_crushing(scene, checkup);

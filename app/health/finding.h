@@ -13,4 +13,10 @@ struct Finding {
   std::string address, what, hint;
 };
 
+/// "ADDRESS: WHAT; HINT"
+inline std::string sentence(const Finding& finding) {
+  return (finding.address.empty() ? "" : finding.address + ": ") + finding.what +
+         (finding.hint.empty() ? "" : "; " + finding.hint);
+}
+
 }  // namespace neve::app::health

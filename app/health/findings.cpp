@@ -89,10 +89,12 @@ void check_material_units(const sim::Material& m, std::vector<Finding>& findings
                         fmt::format("density {} kg/m3 is not snow, which has 50 to 917", density),
                         "powder has 50 to 200, packed snow 300 to 550"});
   if (m.youngs_modulus < line(Law::low_stiffness))
-    findings.push_back({Severity::warning, at + "youngs_modulus",
-                        fmt::format("youngs_modulus {} Pa is softer than jelly", modulus),
-                        fmt::format("in kPa it would be {} Pa; the paper's snow has 1.4e5",
-                                    rough_text(1000 * m.youngs_modulus))});
+    findings.push_back(
+        {Severity::warning, at + "youngs_modulus",
+         fmt::format("youngs_modulus {} Pa is softer than jelly", modulus),
+         fmt::format("in {} it would be {} Pa; the paper's snow has 1.4e5",
+                     m.youngs_modulus < 1 ? "MPa" : "kPa",
+                     rough_text((m.youngs_modulus < 1 ? 1e6 : 1e3) * m.youngs_modulus))});
   else if (m.youngs_modulus > line(Law::high_stiffness))
     findings.push_back({Severity::warning, at + "youngs_modulus",
                         fmt::format("youngs_modulus {} Pa makes sound run at {} m/s", modulus,
@@ -243,6 +245,10 @@ double thickness(const sim::shapes::Shape& shape) {
   return extent(level).minCoeff();
 }
 
+bool is_too_large(const scene::Scene& scene) {
+  return setup::largest_extent(scene) > line(Law::extent);
+}
+
 void check_units(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening) {
   const std::vector<setup::SnowPiece> pieces = setup::snow_places(scene);
   for (const sim::Material& material : scene.materials) {
@@ -258,7 +264,7 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
                                     rough_text(g), rough_text(g / 9.81)),
                         "981 would be cm/s2; lengths are in metres"});
   const double largest = setup::largest_extent(scene), cells = scene.solver.cell_size / coarsening;
-  if (largest <= line(Law::extent)) return;
+  if (!is_too_large(scene)) return;
   // Cells that are few across the snow are in the same unit as it.
   constexpr double few = 200;
   std::string hint = fmt::format("lengths are in metres: in centimetres it would be {} m",

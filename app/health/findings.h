@@ -17,6 +17,9 @@ std::string display_name(const std::string& kind, const std::string& name);
 /// The thinnest part of a shape, m.
 double thickness(const sim::shapes::Shape& shape);
 
+/// True of snow whose size suggests that its lengths are no metres.
+bool is_too_large(const scene::Scene& scene);
+
 /// Numbers that look like centimetres, grams or kilopascals.
 /// @param coarsening the N of --coarsen, for advice
 void check_units(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening = 1);

@@ -99,13 +99,7 @@ class ForkWalk {
   void take_steps() {
     const double time = job_.fork->time, end = (run_.frame + 1) / fps();
     if (!(time > simulation_.time() * typed_rounding)) return;
-    if (player_.scene().solver.on_divergence == sim::OnDivergence::retry)
-      throw scene::toml::UsageError(
-          "--from",
-          fmt::format("{} s is between two frames, where a run with solver.on_divergence = "
-                      "\"retry\" does not take another way",
-                      rough_text(time)),
-          fmt::format("expected the time of a frame, as --from {}", run_.frame / fps()));
+    require_whole_frame(player_.scene(), time, "--from");
     const auto end_of_next_step = [&] {
       return simulation_.time() + simulation_.choose_dt(end - simulation_.time()).dt;
     };
@@ -152,6 +146,19 @@ void require_live(const scene::Scene& before, const scene::Scene& after, const c
   throw scene::toml::UsageError(flag,
                                 joined(names, ", ") + " cannot change while a simulation runs",
                                 "parameters that can: " + live_addresses());
+}
+
+void require_whole_frame(const scene::Scene& scene, double time, const char* flag) {
+  const double frame_end = frame_before(time, scene.fps) / scene.fps;
+  if (scene.solver.on_divergence != sim::OnDivergence::retry ||
+      !(time > frame_end * typed_rounding))
+    return;
+  throw scene::toml::UsageError(
+      flag,
+      fmt::format("{} s is between two frames, where a run with solver.on_divergence = "
+                  "\"retry\" does not take another way",
+                  rough_text(time)),
+      fmt::format("expected the time of a frame, as {} {}", flag, frame_end));
 }
 
 int frame_before(double time, double fps) {

@@ -24,6 +24,9 @@ struct ForkPoint {
 ///         that can change
 void require_live(const scene::Scene& before, const scene::Scene& after, const char* flag);
 
+/// @throws UsageError where a run that repeats frames with smaller steps would part inside a frame
+void require_whole_frame(const scene::Scene& scene, double time, const char* flag);
+
 /// The last frame that ends at a time or before it.
 int frame_before(double time, double fps);
 

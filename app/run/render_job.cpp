@@ -8,6 +8,7 @@
 #include "app/run/picture_record.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/support/out_folder.h"
@@ -46,7 +47,7 @@ RenderJob job_from_scene(const RenderOptions& options) {
         return scene::read_scene_file(job.scene_file, changes);
       },
       job);
-  job.folder = out_folder() / fs::path(job.scene_file).stem();
+  job.folder = out_folder() / scene::name_of_scene(job.scene_file);
   job.frames = {0, job.scene.frames};
   return job;
 }

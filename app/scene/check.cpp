@@ -307,7 +307,7 @@ Found export_format_problem(const Export& e) {
                    "use ply, vtp, usda, obj or vdb, or write the particles without the surface"};
   if (!e.surface && e.format == ExportFormat::obj)
     return Problem{at + ".format", "an obj file holds a surface and no particles",
-                   "ask for the surface too, or use ply for particles"};
+                   "add --surface, or surface = true; ply has particles"};
   return {};
 }
 

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "app/scene/export_advice.h"
+#include "app/scene/number_advice.h"
 #include "app/scene/presets.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/wishes.h"
@@ -22,7 +24,8 @@ double bounded_number(const Leaf& leaf, const std::string& kind) {
   } else if (const auto* f = std::get_if<double>(&leaf.value.data)) {
     x = *f;
   } else {
-    leaf.fail(kind);
+    const auto* text = std::get_if<std::string>(&leaf.value.data);
+    leaf.fail(kind, text ? number_advice(*text, leaf.unit) : "");
   }
   if (!std::isfinite(x)) leaf.fail("a finite number");
   if (!leaf.valid.contains(x)) leaf.fail(leaf.valid.text_of_bounds());
@@ -274,8 +277,9 @@ std::string advice_on_choice(const Leaf& leaf, const std::string& text,
                              const std::string& nearest) {
   if (leaf.address == "solver.transfer" && text == "pic")
     return "PIC is transfer = \"flip\" with flip_ratio = 0";
-  const bool is_attribute =
-      leaf.address.starts_with("export.") && leaf.address.find(".attributes[") != std::string::npos;
+  const bool is_of_export = leaf.address.starts_with("export.");
+  if (is_of_export && leaf.address.ends_with(".format")) return export_format_advice(text);
+  const bool is_attribute = is_of_export && leaf.address.find(".attributes[") != std::string::npos;
   if (is_attribute && nearest.empty()) return "columns of point files are named in carried";
   if (!is_preset_address(leaf.address) || !nearest.empty()) return {};
   for (const Wish* wish : wishes_for(text)) {

@@ -1,17 +1,12 @@
 #include "app/scene/read.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "app/scene/check.h"
 #include "app/scene/reader.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/scene/toml/toml_text.h"
-#include "app/support/errors.h"
-#include "app/support/machine.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
@@ -119,97 +114,7 @@ void add_built_ins(toml::Table& root, const std::vector<Override>& overrides) {
   add_views(root, overrides);
 }
 
-namespace fs = std::filesystem;
-
-/// The scene in a folder whose name is nearest; empty: none is near.
-fs::path nearest_scene(const fs::path& folder, const std::string& stem) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->path().extension() == ".toml" && names.size() < 10'000)
-      names.push_back(at->path().stem().string());
-  std::sort(names.begin(), names.end());
-  const std::string nearest = nearest_name(stem, names);
-  return nearest.empty() ? fs::path() : folder / (nearest + ".toml");
-}
-
-/// The folder of the scenes that came with the program; empty where they are gone.
-fs::path own_scenes() {
-  try {
-    return default_scene().parent_path();
-  } catch (const std::exception&) {
-    return {};
-  }
-}
-
-/// As it would be typed here: relative where that is no detour.
-std::string typed(const fs::path& file) {
-  std::error_code error;
-  const fs::path near = fs::relative(file, error);
-  const bool is_below = !error && !near.empty() && *near.begin() != "..";
-  return (is_below ? near : file).string();
-}
-
-/// Advice for a missing file: a similar name in its folder, in scenes/ or among the examples, or
-/// the missing folder.
-std::string nearest_file(const std::string& file) {
-  const fs::path wanted(file);
-  const fs::path folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
-  std::error_code error;
-  if (fs::exists(wanted, error)) return "";
-  for (const fs::path& place : {folder, fs::path("scenes"), own_scenes()}) {
-    if (place.empty()) continue;
-    const fs::path nearest = nearest_scene(place, wanted.stem().string());
-    if (!nearest.empty()) return "did you mean " + typed(nearest) + "?";
-  }
-  if (!fs::is_directory(folder, error)) return "there is no folder " + folder.string();
-  return "neve render without a file draws an example";
-}
-
-/// A pipe with a name in a folder has no writer until somebody comes. Those of `<(command)`, which
-/// have none, are read.
-void refuse_waiting_pipe(const std::string& file) {
-  std::error_code no_pipe, no_name;
-  if (!std::filesystem::is_fifo(file, no_pipe)) return;
-  if (!std::filesystem::canonical(file, no_name).empty())
-    throw toml::SceneError(file, 0, 0, "is a pipe", "name a file, or give <(cat " + file + ")");
-}
-
-/// @throws IoError where errno says that another try may succeed: it is no mistake in the scene
-void refuse_failing_machine(const std::string& file) {
-  for (const int reason : {EIO, EMFILE, ENFILE, ENOMEM, ESTALE})
-    if (errno == reason) throw IoError(file + ": cannot read: " + std::strerror(reason), file);
-}
-
 }  // namespace
-
-std::string read_toml_file(const std::string& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) {
-    throw toml::SceneError(file, 0, 0, "is a directory", "name a scene file");
-  }
-  refuse_waiting_pipe(file);
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse_failing_machine(file);
-  if (!in) {
-    // The search for a similar name changes errno.
-    const std::string reason = errno ? std::strerror(errno) : "cannot be opened";
-    throw toml::SceneError(file, 0, 0, reason, nearest_file(file));
-  }
-  // One byte more than allowed tells an oversized file without reading all of it.
-  std::string text(toml::max_toml_bytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) refuse_failing_machine(file);
-  if (in.bad()) throw toml::SceneError(file, 0, 0, errno ? std::strerror(errno) : "cannot be read");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (file.ends_with(".png"))
-    throw toml::SceneError(file, 0, 0, "is no PNG picture, whatever its name says",
-                           "name a scene file, or a picture that neve has made");
-  if (text.empty())
-    throw toml::SceneError(file, 0, 0, "the file is empty", "a scene needs at least one [[body]]");
-  return text;
-}
 
 Scene read_scene_text(std::string_view text, const std::string& name, const std::string& base_dir,
                       const std::vector<Override>& overrides) {
@@ -234,8 +139,7 @@ Scene read_scene_text(std::string_view text, const std::string& name, const std:
 }
 
 Scene read_scene_file(const std::string& file, const std::vector<Override>& overrides) {
-  return read_scene_text(read_toml_file(file), file,
-                         std::filesystem::path(file).parent_path().string(), overrides);
+  return read_scene_text(read_toml_file(file), file, base_dir_of(file), overrides);
 }
 
 View find_view(const Scene& scene, const std::string& name) {

@@ -11,9 +11,6 @@
 
 namespace neve::app::scene {
 
-/// The text of a scene or sweep file. @throws SceneError if it is missing or too large
-std::string read_toml_file(const std::string& file);
-
 /// @throws SceneError for the file, UsageError for an override
 Scene read_scene_file(const std::string& file, const std::vector<Override>& overrides = {});
 

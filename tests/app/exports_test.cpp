@@ -119,7 +119,7 @@ TEST(Exports, MistakesInASceneAreLocated) {
             std::string::npos);
   EXPECT_NE(error_of_export("[[export]]\nformat = \"csv\"\nsurface = true\n").find("use ply, vtp"),
             std::string::npos);
-  EXPECT_NE(error_of_export("[[export]]\nformat = \"obj\"\n").find("ask for the surface"),
+  EXPECT_NE(error_of_export("[[export]]\nformat = \"obj\"\n").find("add --surface"),
             std::string::npos);
   EXPECT_NE(error_of_export("[[export]]\nsurface = true\nsurface_cell = 0.0\n").find("0.2"),
             std::string::npos);

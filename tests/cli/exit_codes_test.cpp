@@ -287,7 +287,7 @@ TEST_F(Cli, ChecksThatFailExitWithNine) {
   EXPECT_EQ(pictures.exit_code, 2);
   EXPECT_TRUE(contains(pictures.errors, "a/particles/ is not the folder of a run"))
       << pictures.errors;
-  EXPECT_TRUE(contains(pictures.errors, "a is one; compare that")) << pictures.errors;
+  EXPECT_TRUE(contains(pictures.errors, "a is one; neve compare takes")) << pictures.errors;
   const auto result = neve({"render", "scene.toml", "--reference", "a/particles/0000.png"});
   EXPECT_EQ(result.exit_code, 9);
   EXPECT_TRUE(exists("out/scene/difference.png")) << result.errors;

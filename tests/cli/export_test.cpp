@@ -361,7 +361,8 @@ TEST_F(Export, AForgedListRemovesNothingElse) {
 
 TEST_F(Export, MistakesAreExplained) {
   expect_refused({"scene.toml"}, 2, "--format");
-  expect_refused({"scene.toml", "--format", "ply,stl"}, 2, "expected ply, vtp, vti, vdb");
+  expect_refused({"scene.toml", "--format", "ply,quux"}, 2, "expected ply, vtp, vti, vdb");
+  expect_refused({"scene.toml", "--format", "ply,stl"}, 2, "ply or obj with --surface");
   expect_refused({"scene.toml", "--format", "ply", "--attributes", "id,JP"}, 2,
                  "did you mean J_P?");
   expect_refused({"scene.toml", "--format", "ply", "--body", "bal"}, 2, "did you mean ball?");

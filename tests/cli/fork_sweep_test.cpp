@@ -43,6 +43,29 @@ class ForkSweep : public Cli {
   }
 };
 
+TEST_F(ForkSweep, AVariedParameterMayHaveAValueUntilTheRunsPart) {
+  ASSERT_EQ(sweep({"--set", "material.snow.hardening=30"}).exit_code, 0);
+  const std::string beginning = read_text(folder / "f.cdb/beginning/scene.toml");
+  EXPECT_TRUE(contains(beginning, "hardening = 30")) << beginning;
+  const auto set = all_hashes();
+  EXPECT_NE(set[0], set[2]);
+  std::filesystem::remove_all(folder / "f.cdb");
+  ASSERT_EQ(sweep({}).exit_code, 0);
+  EXPECT_NE(set[0], all_hashes()[0]) << "the beginning is another one";
+  const auto whole = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--set", "seed=3"});
+  EXPECT_EQ(whole.exit_code, 2);
+  EXPECT_TRUE(contains(whole.errors, "varied by the sweep")) << whole.errors;
+}
+
+TEST_F(ForkSweep, RetriesBetweenFramesAreRefusedBeforeAnyRun) {
+  const auto between = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--out", "f.cdb", "--fork",
+                             "0.13s", "--set", "solver.on_divergence=retry"});
+  EXPECT_EQ(between.exit_code, 2);
+  EXPECT_TRUE(contains(between.errors, "--fork: 0.13 s is between two frames")) << between.errors;
+  EXPECT_FALSE(exists("f.cdb"));
+  EXPECT_EQ(sweep({"--set", "solver.on_divergence=retry", "--dry-run"}).exit_code, 0);
+}
+
 TEST_F(ForkSweep, EveryBranchEqualsTheWholeRunWithItsChange) {
   const auto done = sweep({});
   ASSERT_EQ(done.exit_code, 0) << done.errors;

@@ -136,6 +136,29 @@ TEST(Tip, APausedViewerDrawsUntilTheTipIsVisible) {
   EXPECT_TRUE(tip->Active && !tip->Hidden);
 }
 
+TEST(Tip, ATipThatChangesIsNeverCutOff) {
+  Panels panels;
+  ImGui::GetIO().MousePos = ImVec2(30, 20);
+  std::string text = "short";
+  const auto draw = [&] {
+    panels.frame([&] {
+      ImGui::Button("a button that is wide");
+      if (app::view::panels::wants_tip()) app::view::panels::show_tip({{text}});
+    });
+  };
+  for (int k = 0; k < 60; ++k) draw();
+  const ImGuiWindow* tip = nullptr;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+    if (window->Flags & ImGuiWindowFlags_Tooltip) tip = window;
+  ASSERT_TRUE(tip);
+  text = "a sentence that is much longer than what was there before it";
+  draw();
+  const ImVec2 size = tip->Size, space = tip->WindowPadding;
+  draw();  // which measures the text
+  EXPECT_GE(size.x, tip->ContentSize.x + 2 * space.x);
+  EXPECT_GE(size.y, tip->ContentSize.y + 2 * space.y);
+}
+
 /// The labels that a scene's parameters leave with a filter, and whether something was shown.
 std::pair<std::vector<std::string>, bool> filtered(const std::string& filter) {
   Panels panels;

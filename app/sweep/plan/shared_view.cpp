@@ -8,6 +8,7 @@
 #include "app/run/run_json.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/setup/coarse_run.h"
 #include "app/setup/resolve.h"
 #include "app/support/interrupt.h"

@@ -6,6 +6,7 @@
 #include "app/run/fork.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
 #include "app/setup/auto_ranges.h"
@@ -61,7 +62,7 @@ class SceneMaker {
       : options_(options),
         sweep_(sweep),
         text_(scene::read_toml_file(sweep.scene_file)),
-        base_dir_(fs::path(sweep.scene_file).parent_path().string()) {}
+        base_dir_(scene::base_dir_of(sweep.scene_file)) {}
 
   scene::Scene make(const std::vector<scene::Override>& settings) const {
     std::vector<scene::Override> all = sweep_.fixed;
@@ -147,6 +148,7 @@ PlannedRun planned(Run run, scene::Scene scene) {
 /// Takes the common beginning off the runs. @throws UsageError where they cannot have one
 void share_beginning(double time, SweepPlan& plan) {
   const int frame = run::frame_before(time, plan.base.fps);
+  run::require_whole_frame(plan.base, time, "--fork");
   plan.fork = time;
   Run beginning;
   beginning.label = "the common beginning";
@@ -169,7 +171,8 @@ void share_beginning(double time, SweepPlan& plan) {
 
 SweepPlan plan_sweep(const SweepOptions& options) {
   SweepPlan plan;
-  plan.sweep = read::read_sweep(options.file, {options.axes, options.overrides});
+  plan.sweep =
+      read::read_sweep(options.file, {options.axes, options.overrides, options.fork.has_value()});
   refuse_two_frames(options, plan.sweep);
   plan.folder =
       options.out.empty() ? out_folder() / (plan.sweep.name + ".cdb") : fs::path(options.out);

@@ -167,6 +167,13 @@ void refuse_foreign_range(const scene::Override& change, const std::string& what
   const std::string& text = change.value;
   const bool has_colons = text.find(':') != std::string::npos &&
                           text.find_first_not_of("0123456789.eE+-: ") == std::string::npos;
+  if (text.find("..") != std::string::npos)
+    throw scene::toml::UsageError(what, "is not a list of values",
+                                  info->type == "integer"
+                                      ? "for a range write { range = [1, 3] }, in quotes for the "
+                                        "shell, or all values: 1,2,3"
+                                      : "for a range write { linspace = [5, 10], num = 3 }, in "
+                                        "quotes for the shell");
   if (has_colons || text.find("space(") != std::string::npos || text.starts_with("range("))
     throw scene::toml::UsageError(
         what, "is not a list of values",

@@ -8,6 +8,7 @@
 #include "app/scene/lister.h"
 #include "app/scene/read.h"
 #include "app/scene/reader.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/setup/argument_text.h"
 #include "app/support/errors.h"
@@ -35,7 +36,7 @@ std::optional<scene::toml::Value> take(scene::toml::Table& table, const char* ke
 class SweepReader {
  public:
   explicit SweepReader(const std::string& file)
-      : reading_{{file, fs::path(file).parent_path().string(), {}}, {}} {}
+      : reading_{{file, scene::base_dir_of(file), {}}, {}} {}
 
   Sweep read(const scene::toml::Table& root) {
     SweepFile file;
@@ -225,15 +226,16 @@ std::vector<Axis::Parameter> parse_axes(const std::vector<std::string>& argument
   return axes;
 }
 
-/// An address that is an axis may be nothing else.
-void refuse_duplicates(const Sweep& sweep) {
+/// An address that is an axis may be nothing else; of runs that part during the run, it may have a
+/// value until then.
+void refuse_duplicates(const Sweep& sweep, bool is_forked) {
   const std::vector<const scene::Override*> settings = varied(sweep);
   for (std::size_t k = 0; k < settings.size(); ++k) {
     for (std::size_t j = 0; j < k; ++j)
       if (settings[j]->address == settings[k]->address)
         settings[k]->fail(settings[k]->key, settings[k]->address + " is an axis twice");
     for (const scene::Override& fixed : sweep.fixed)
-      if (fixed.address == settings[k]->address)
+      if (fixed.address == settings[k]->address && !is_forked)
         fixed.fail(fixed.key, fixed.address + " is varied by the sweep",
                    "remove it from the axes, or change the axis with -p");
   }
@@ -266,11 +268,11 @@ Sweep parse_sweep(const std::string& text, const std::string& file, const SweepC
   } else {
     sweep.scene_file = file;
   }
-  sweep.name = fs::path(file).stem().string();
+  sweep.name = scene::name_of_scene(file);
   for (const Axis::Parameter& axis : parse_axes(changes.axes)) put_axis(sweep, axis);
   for (const std::string& argument : changes.sets)
     sweep.fixed.push_back(scene::parse_override(argument));
-  refuse_duplicates(sweep);
+  refuse_duplicates(sweep, changes.is_forked || !sweep.settings.fork.empty());
   if (!is_sweep && sweep.axes.empty())
     throw scene::toml::UsageError(
         "", file + " is a scene, and nothing varies",

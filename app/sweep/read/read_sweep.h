@@ -13,6 +13,7 @@ namespace neve::app::sweep::read {
 struct SweepChanges {
   std::vector<std::string> axes;  ///< -p ADDRESS=LIST; in place of an axis of the same address
   std::vector<std::string> sets;  ///< --set ADDRESS=VALUE
+  bool is_forked = false;         ///< with --fork
 };
 
 /// @param text  of the file

@@ -10,6 +10,7 @@
 #include "app/run/picture_record.h"
 #include "app/run/run_json.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/setup/command_text.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"

@@ -101,8 +101,11 @@ std::string status_text(const session::LiveFrame& live, float room) {
     const std::string longer = text + (text.empty() ? "" : "   ") + more;
     if (ImGui::CalcTextSize(longer.c_str()).x <= room) text = longer;
   };
-  add("frame " + std::to_string(live.frame) + " of " + std::to_string(live.scene->frames));
-  add("t = " + fixed_text(live.snapshot.time, 4) + " s");
+  const std::string frame = std::to_string(live.frame), last = std::to_string(live.scene->frames);
+  const std::string time = fixed_text(live.snapshot.time, 4) + " s";
+  add("frame " + frame + " of " + last + "   t = " + time);
+  if (text.empty()) add(frame + "/" + last + "   " + time);
+  if (text.empty()) add(time);
   if (live.is_running && live.speed > 0) add(speed_text(live.speed));
   add("step " + std::to_string(live.steps));
   return text;

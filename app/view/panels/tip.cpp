@@ -63,8 +63,11 @@ ImVec2 tip_place(ImVec2 from, ImVec2 to, ImVec2 size, ImVec2 screen) {
 }
 
 void show_tip(const std::vector<TipLine>& lines) {
-  ImGui::SetNextWindowPos(tip_place(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
-                                    size_of_tip(lines), ImGui::GetIO().DisplaySize));
+  // A window that finds its size itself has it a frame later, and a paused view draws no other.
+  const ImVec2 size = size_of_tip(lines);
+  ImGui::SetNextWindowSize(size);
+  ImGui::SetNextWindowPos(tip_place(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), size,
+                                    ImGui::GetIO().DisplaySize));
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(wrap_width());
   for (const TipLine& line : lines) {

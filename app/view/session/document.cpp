@@ -8,6 +8,7 @@
 #include "app/scene/names.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/setup/coarse_run.h"
 #include "app/setup/plan.h"
@@ -111,8 +112,7 @@ std::vector<scene::Override> Document::with(const std::vector<scene::Override>& 
 
 std::shared_ptr<const scene::Scene> Document::read(
     const std::string& text, const std::vector<scene::Override>& edits) const {
-  scene::Scene scene = scene::read_scene_text(
-      text, file_, std::filesystem::path(file_).parent_path().string(), with(edits));
+  scene::Scene scene = scene::read_scene_text(text, file_, scene::base_dir_of(file_), with(edits));
   if (coarsening_ > 1) scene::coarsen(scene, coarsening_);
   add_built_in_views(scene);
   if (camera_) {

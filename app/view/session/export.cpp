@@ -11,6 +11,7 @@
 #include "app/scene/flat.h"
 #include "app/scene/leaf.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/command_text.h"
 #include "app/sweep/plan/around.h"
@@ -48,9 +49,9 @@ std::vector<scene::Override> set_in_all(const Document& document, const std::str
 /// after their values are set.
 void take_finer_value(scene::FlatParam& param, const Document& document) {
   if (!(document.coarsening() > 1)) return;
-  const scene::Scene finer = scene::read_scene_text(
-      document.text(), document.file(),
-      std::filesystem::path(document.file()).parent_path().string(), document.all_overrides());
+  const scene::Scene finer =
+      scene::read_scene_text(document.text(), document.file(), scene::base_dir_of(document.file()),
+                             document.all_overrides());
   for (const scene::FlatParam& other : scene::flatten(finer))
     if (other.address == param.address && other.value) param.value = other.value;
 }

@@ -11,6 +11,7 @@
 #include "app/scene/flat.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/support/version.h"
@@ -300,7 +301,7 @@ bool Workbench::save_scene(const std::filesystem::path& file) {
           "", "over the web, files are written into " + options_.folder.string() + " alone");
     const std::string text =
         scene::edit_scene_text(document_.text(), document_.all_overrides(), document_.file(),
-                               std::filesystem::path(document_.file()).parent_path().string());
+                               scene::base_dir_of(document_.file()));
     output::make_folder(file.parent_path());
     output::write_named_file(file, text);
     std::error_code error;
