@@ -25,6 +25,7 @@ void print_picture(const run::PictureRecord& record) {
       << "view        " << record.view << "\n"
       << "frame       " << record.frame << "\n"
       << "quality     " << record.quality << "\n"
+      << (record.passes.empty() ? "" : "passes      " + joined(record.passes, ", ") + "\n")
       << "seed        " << record.seed << "\n"
       << "state hash  " << record.state_hash << "\n";
   for (const std::string& change : record.overrides) out << "override    " << change << "\n";

@@ -11,7 +11,7 @@
 #include "app/cli/manual.h"
 #include "app/cli/surroundings.h"
 #include "app/cli/usage_hints.h"
-#include "app/run/picture_record.h"
+#include "app/run/passes.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
@@ -71,6 +71,7 @@ run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts
   if (texts.from) options.from = setup::parse_time(*texts.from, "--from");
   if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);
   if (texts.size) options.size = setup::parse_size(*texts.size);
+  if (texts.passes) options.passes = run::parse_passes(*texts.passes);
   if (texts.quality) options.quality = setup::quality_named(*texts.quality);
   if (!options.shader_dir.empty() && !std::filesystem::is_directory(options.shader_dir))
     throw scene::toml::UsageError("--shader-dir", "cannot use \"" + options.shader_dir + "\"",
@@ -196,6 +197,13 @@ void add_render(CLI::App& app, Action& action) {
                    "draft: half the width and height; preview: as in the scene (default); final: "
                    "four samples per pixel")
       ->type_name("NAME");
+  command
+      ->add_option(
+          "--passes", texts->passes,
+          "Write DIR/<view>/NNNN.exr too, for compositing: linear light, and these passes: "
+          "all, or a list of depth, position, normal, albedo, direct, indirect, emission, "
+          "shadow, motion, id, body, collider and attributes, as in J_P,v")
+      ->type_name("LIST");
   command
       ->add_option("--reference", options->reference,
                    "Compare the last frame of the first view with this picture; if it differs, "
@@ -365,7 +373,7 @@ void add_info(CLI::App& app, Action& action) {
       "info", "Print the scene and parameters of a picture, or the state of a run");
   const auto path = std::make_shared<std::string>();
   const auto is_json = std::make_shared<bool>(false);
-  command->add_option("FILE", *path, "A PNG, run.json, or the folder of a run")
+  command->add_option("FILE", *path, "A PNG or EXR, run.json, or the folder of a run")
       ->required()
       ->type_name("");
   command->add_flag("--json", *is_json, "Print JSON");

@@ -26,7 +26,7 @@ void check_backend(const std::string& name);
 
 /// Values that CLI11 hands over as text; turned into options when parsing is done.
 struct RenderTexts {
-  std::optional<std::string> frames, from, size, quality, coarsening, progress;
+  std::optional<std::string> frames, from, size, quality, passes, coarsening, progress;
   bool is_quiet = false, is_verbose = false;
 };
 

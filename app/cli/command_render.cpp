@@ -11,6 +11,7 @@
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
 #include "app/run/fork.h"
+#include "app/run/passes.h"
 #include "app/run/render_job.h"
 #include "app/run/render_run.h"
 #include "app/run/step_warnings.h"
@@ -44,6 +45,7 @@ void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json
     json["out"] = job.folder.string();
     json["views"] = Json::array();
     for (const scene::View& view : job.scene.views) json["views"].push_back(view.name);
+    json["passes"] = job.passes;
     json["mosaics"] = Json::array();
     for (const scene::Mosaic& mosaic : job.scene.mosaics) json["mosaics"].push_back(mosaic.name);
     std::cout << to_text(json) << "\n";
@@ -60,6 +62,7 @@ void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json
     const scene::PictureSize size = setup::size_of(job.scene, view);
     std::cout << "view       " << view.name << ", " << size.width << "x" << size.height << "\n";
   }
+  if (!job.passes.empty()) std::cout << "passes     " << joined(job.passes, ", ") << "\n";
   for (const scene::Mosaic& mosaic : job.scene.mosaics) {
     const scene::PictureSize size = setup::size_of(job.scene, mosaic);
     std::cout << "mosaic     " << mosaic.name << ", " << size.width << "x" << size.height << "\n";
@@ -198,7 +201,10 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
 
 int run_render(const run::RenderOptions& options) {
   run::RenderJob job = run::make_job(options);
-  const setup::Plan plan = setup::make_plan(job.scene, job.frames, job.quality, options.threads);
+  const double channel_bytes =
+      job.passes.empty() ? 0 : run::bytes_of_pixel(run::pass_list(job.passes));
+  const setup::Plan plan =
+      setup::make_plan(job.scene, job.frames, job.quality, options.threads, channel_bytes);
   if (options.dry_run) {
     print_plan(job, plan, options.is_json);
     setup::check_limits(job.scene, plan, job.coarsening);

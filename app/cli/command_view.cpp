@@ -174,7 +174,7 @@ int run_view(const view::ViewOptions& given) {
   // A scene that cannot be read is told before a window opens.
   std::optional<view::session::Document> document =
       view::session::open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
-  if (run::is_png(file))
+  if (run::is_picture(file))
     if (const std::size_t changes = run::read_picture_record(file).changes.size(); changes > 0)
       std::cerr
           << "neve: warning: " << changes

@@ -72,7 +72,7 @@ FolderAdvice advice_on_folder(const fs::path& typed) {
 
 void require_picture(const fs::path& file, const std::string& command) {
   std::error_code error;
-  if (!fs::is_regular_file(file, error) || run::is_png(file)) return;
+  if (!fs::is_regular_file(file, error) || run::is_picture(file)) return;
   const std::string hint = advice_on_file(file, command);
   throw Error(exit_invalid_scene, file.string() + ": error: is no PNG picture; " + hint,
               file.string(), hint);

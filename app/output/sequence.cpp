@@ -19,7 +19,7 @@ namespace {
 
 /// Files that an earlier run.json claims to have written.
 struct EarlierRun {
-  std::set<std::string> views;
+  std::set<std::string> views, views_of_passes;
   std::set<int> frames;
 };
 
@@ -38,9 +38,13 @@ EarlierRun read_earlier_run(const fs::path& file) {
     return run;
   }
   if (!json.is_object()) return run;
-  for (const Json& view : json.value("views", Json::array()))
-    if (view.is_string() && is_plain_name(view.get<std::string>()))
-      run.views.insert(view.get<std::string>());
+  const auto add_names = [&](const char* key, std::set<std::string>& names) {
+    for (const Json& view : json.value(key, Json::array()))
+      if (view.is_string() && is_plain_name(view.get<std::string>()))
+        names.insert(view.get<std::string>());
+  };
+  add_names("views", run.views);
+  add_names("views_of_passes", run.views_of_passes);
   for (const Json& entry : json.value("frames", Json::array())) {
     if (!entry.is_object() || !entry.contains("frame")) continue;
     const Json& frame = entry["frame"];
@@ -75,6 +79,10 @@ fs::path frame_path(const fs::path& folder, const std::string& view, int frame) 
   return folder / view / name;
 }
 
+fs::path channels_path(const fs::path& folder, const std::string& view, int frame) {
+  return frame_path(folder, view, frame).replace_extension(".exr");
+}
+
 fs::path movie_path(const fs::path& folder, const std::string& view) {
   return folder / (view + ".mp4");
 }
@@ -104,7 +112,11 @@ std::size_t remove_earlier_run(const fs::path& folder) {
     removed += remove_regular(diverged_path(folder, view));
     const fs::path view_folder = folder / view;
     if (!fs::is_directory(fs::symlink_status(view_folder, error))) continue;
-    for (const int frame : run.frames) removed += remove_regular(frame_path(folder, view, frame));
+    for (const int frame : run.frames) {
+      removed += remove_regular(frame_path(folder, view, frame));
+      if (run.views_of_passes.contains(view))
+        removed += remove_regular(channels_path(folder, view, frame));
+    }
     // Succeeds only when nothing else is left in it.
     fs::remove(view_folder, error);
   }

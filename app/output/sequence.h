@@ -21,6 +21,9 @@ bool is_plain_name(const std::string& name);
 /// DIR/<view>/0024.png
 std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& view,
                                  int frame);
+/// DIR/<view>/0024.exr
+std::filesystem::path channels_path(const std::filesystem::path& folder, const std::string& view,
+                                    int frame);
 /// DIR/<view>.mp4
 std::filesystem::path movie_path(const std::filesystem::path& folder, const std::string& view);
 /// DIR/diverged_<view>.png

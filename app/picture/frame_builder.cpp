@@ -91,7 +91,7 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   frame.supersampling = setup::supersampling(options_.quality);
   frame.is_transparent = scene::background_of(scene_, view) == scene::Background::transparent;
   const scene::CameraSettings& camera = settings_of(scene_, view);
-  frame.camera = to_camera(camera_place(scene_, view, seeded_, snapshot), camera);
+  frame.camera = camera_of(scene_, view, seeded_, snapshot);
   frame.light = {to_float(scene_.light.direction), static_cast<float>(scene_.light.intensity),
                  static_cast<float>(scene_.light.ambient)};
   // The camera at the start: grid lines do not change while the camera moves.
@@ -272,6 +272,11 @@ setup::CameraPlace camera_place(const scene::Scene& scene, const scene::View& vi
   place.eye += moved;
   place.target += moved;
   return place;
+}
+
+render::Camera camera_of(const scene::Scene& scene, const scene::View& view,
+                         const setup::SeededScene& seeded, const Snapshot& snapshot) {
+  return to_camera(camera_place(scene, view, seeded, snapshot), settings_of(scene, view));
 }
 
 std::vector<std::string> FrameBuilder::words(const scene::View& view,

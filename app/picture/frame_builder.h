@@ -79,6 +79,10 @@ std::optional<sim::Vec3d> centre_of_body(const scene::Scene& scene,
 setup::CameraPlace camera_place(const scene::Scene& scene, const scene::View& view,
                                 const setup::SeededScene& seeded, const Snapshot& snapshot);
 
+/// The same as the renderer takes it.
+render::Camera camera_of(const scene::Scene& scene, const scene::View& view,
+                         const setup::SeededScene& seeded, const Snapshot& snapshot);
+
 /// "hardening = 5" for "material.snow.hardening=5", "post center = ..." for a value of a collider;
 /// the whole address where two are named alike. None for other cameras, views and colours: these
 /// are seen.

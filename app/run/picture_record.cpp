@@ -7,10 +7,13 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
+#include "app/run/passes.h"
 #include "app/run/run_json.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
+#include "app/support/text.h"
+#include "render/image/exr.h"
 #include "sim/base/hash.h"
 
 namespace neve::app::run {
@@ -54,6 +57,14 @@ class TextReader {
     }
   }
 
+  std::vector<std::string> passes(const char* key) const {
+    try {
+      return parse_passes(text(key));
+    } catch (const scene::toml::UsageError& error) {
+      fail(error.what());
+    }
+  }
+
   [[noreturn]] void fail(const std::string& reason) const {
     throw Error(exit_invalid_scene, file_ + ": error: not a picture made by neve: " + reason, file_,
                 "name a picture that neve render wrote");
@@ -66,19 +77,32 @@ class TextReader {
 
 }  // namespace
 
+namespace {
+
+constexpr std::array<std::uint8_t, 4> png_start{0x89, 'P', 'N', 'G'};
+constexpr std::array<std::uint8_t, 4> exr_start{0x76, 0x2f, 0x31, 0x01};
+
+bool is_exr(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= 4 && std::ranges::equal(bytes.first(4), exr_start);
+}
+
+}  // namespace
+
 render::PngText to_png_text(const PictureRecord& record) {
-  return {{"neve:scene", record.scene},
-          {"neve:overrides", to_text(Json(record.overrides), -1)},
-          {"neve:coarsen", scene::toml::number_text(record.coarsening)},
-          {"neve:changes", to_text(scene::to_json(record.changes), -1)},
-          {"neve:seed", std::to_string(record.seed)},
-          {"neve:version", record.version},
-          {"neve:build", record.build},
-          {"neve:state_hash", record.state_hash},
-          {"neve:frame", std::to_string(record.frame)},
-          {"neve:view", record.view},
-          {"neve:quality", record.quality},
-          {"neve:files", to_text(Json(record.files), -1)}};
+  render::PngText text{{"neve:scene", record.scene},
+                       {"neve:overrides", to_text(Json(record.overrides), -1)},
+                       {"neve:coarsen", scene::toml::number_text(record.coarsening)},
+                       {"neve:changes", to_text(scene::to_json(record.changes), -1)},
+                       {"neve:seed", std::to_string(record.seed)},
+                       {"neve:version", record.version},
+                       {"neve:build", record.build},
+                       {"neve:state_hash", record.state_hash},
+                       {"neve:frame", std::to_string(record.frame)},
+                       {"neve:view", record.view},
+                       {"neve:quality", record.quality},
+                       {"neve:files", to_text(Json(record.files), -1)}};
+  if (!record.passes.empty()) text["neve:passes"] = joined(record.passes, ",");
+  return text;
 }
 
 Json to_json(const PictureRecord& record) {
@@ -94,6 +118,7 @@ Json to_json(const PictureRecord& record) {
   json["frame"] = record.frame;
   json["view"] = record.view;
   json["quality"] = record.quality;
+  if (!record.passes.empty()) json["passes"] = record.passes;
   json["files"] = record.files;
   return json;
 }
@@ -102,7 +127,7 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = output::read_file(file);
   render::PngText text;
   try {
-    text = render::read_png_text(bytes);
+    text = is_exr(bytes) ? render::read_exr_text(bytes) : render::read_png_text(bytes);
   } catch (const render::ImageError& error) {
     throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string());
   }
@@ -126,6 +151,7 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   record.frame = reader.number<int>("neve:frame");
   record.view = reader.text("neve:view");
   record.quality = reader.text("neve:quality");
+  if (text.contains("neve:passes")) record.passes = reader.passes("neve:passes");
   const Json files = reader.json("neve:files");
   for (const auto& [path, hash] : files.items())
     if (hash.is_string()) record.files[path] = hash.get<std::string>();
@@ -165,14 +191,14 @@ void check_files(const PictureRecord& record) {
   }
 }
 
-bool is_png(const std::filesystem::path& file) {
+bool is_picture(const std::filesystem::path& file) {
   // What is read from a pipe is gone for the reader of the scene.
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return false;
   std::ifstream in(file, std::ios::binary);
-  std::array<char, 4> start{};
-  in.read(start.data(), start.size());
-  return in && start == std::array<char, 4>{'\x89', 'P', 'N', 'G'};
+  std::array<std::uint8_t, 4> start{};
+  in.read(reinterpret_cast<char*>(start.data()), start.size());
+  return in && (start == png_start || start == exr_start);
 }
 
 }  // namespace neve::app::run

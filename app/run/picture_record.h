@@ -27,6 +27,7 @@ struct PictureRecord {
   int frame = 0;
   std::string view;
   std::string quality;                       ///< draft, preview, final
+  std::vector<std::string> passes;           ///< of --passes; none: only PNGs
   std::map<std::string, std::string> files;  ///< of the scene: path to content hash
 };
 
@@ -36,7 +37,8 @@ Json to_json(const PictureRecord& record);
 /// @param file  named in errors @throws Error when the texts are no record
 PictureRecord picture_record_of(const render::PngText& text, const std::string& file);
 
-/// @throws Error with exit_invalid_scene when the file is no PNG, or holds no or broken records
+/// @throws Error with exit_invalid_scene when the file is no PNG or OpenEXR file, or holds no or
+/// broken records
 PictureRecord read_picture_record(const std::filesystem::path& file);
 
 /// The files that a scene names, each with the hash of its content. @throws IoError
@@ -45,7 +47,7 @@ std::map<std::string, std::string> hash_files(const scene::Scene& scene);
 /// @throws Error naming the file that is missing or has changed since the picture was made
 void check_files(const PictureRecord& record);
 
-/// True if the file starts like a PNG.
-bool is_png(const std::filesystem::path& file);
+/// True if the file starts like a PNG or an OpenEXR file.
+bool is_picture(const std::filesystem::path& file);
 
 }  // namespace neve::app::run

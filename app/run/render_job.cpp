@@ -111,6 +111,7 @@ RenderJob job_from_picture(const RenderOptions& options) {
   job.frames = {record.frame, record.frame};
   job.quality = setup::quality_named(record.quality);
   job.changes = record.changes;
+  job.passes = record.passes;
   job.coarsening = record.coarsening;
   choose_views({record.view}, job);
   job.scene.exports.clear();
@@ -144,8 +145,7 @@ namespace {
 RenderJob job_of_source(const RenderOptions& options) {
   RenderOptions start = options;
   if (options.from) start.overrides.clear();
-  const bool is_picture = !options.scene.empty() && is_png(options.scene);
-  if (is_picture) return job_from_picture(start);
+  if (!options.scene.empty() && is_picture(options.scene)) return job_from_picture(start);
   return options.from && is_folder(options.scene) ? job_from_run(start) : job_from_scene(start);
 }
 
@@ -169,6 +169,7 @@ RenderJob make_job(const RenderOptions& options) {
   if (options.frames) job.frames = *options.frames;
   if (options.quality) job.quality = *options.quality;
   if (!options.out.empty()) job.folder = options.out;
+  if (!options.passes.empty()) job.passes = options.passes;
   job.validate = options.validate;
   job.resume = options.resume;
   job.checkpoint_every = options.checkpoint_every;

@@ -23,6 +23,7 @@ struct RenderOptions {
   int threads = 0;  ///< 0: one per core
   std::string backend = "auto";
   std::optional<setup::Quality> quality;
+  std::vector<std::string> passes;  ///< see passes.h
   std::string reference;
   double reference_threshold = 0.5;  ///< of the mean difference, 0 to 255
   /// Threshold for the mean over any 8x8 block: a small local change hardly affects the mean of the

@@ -59,6 +59,7 @@ PictureRecord picture_record(const RenderJob& job, const RunRecord& run) {
   record.seed = job.scene.seed;
   record.version = version;
   record.quality = setup::name(job.quality);
+  record.passes = job.passes;
   record.files = hash_files(job.scene);
   return record;
 }
@@ -69,6 +70,7 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
                      const render::gl::Context& context, render::Renderer& renderer,
                      const setup::SeededScene& seeded, Progress& progress, const ForkPoint* fork)
     : job_(job),
+      seeded_(&seeded),
       fork_(fork),
       simulation_(simulation),
       renderer_(renderer),
@@ -87,6 +89,11 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
     validation_.emplace(job.scene.solver, job.scene.materials, simulation, progress);
   for (const scene::View& view : job.scene.views)
     if (is_drawn(view)) record_.views.push_back(view.name);
+  if (!job.passes.empty()) {
+    passes_.emplace(scene_, seeded, pass_list(job.passes));
+    record_.passes = job.passes;
+    record_.views_of_passes = record_.views;
+  }
   for (const scene::Mosaic& mosaic : job.scene.mosaics) record_.views.push_back(mosaic.name);
   if (fork) record_.forked = fork->record;
 }
@@ -97,7 +104,7 @@ int RenderRun::begin() {
   output::make_folder(job_.folder);
   if (job_.checkpoint_every > 0) output::tidy_checkpoint_folder(job_.folder);
   std::optional<Resumption> found;
-  if (job_.resume) found = checkpoints_.find(record_.views, job_.frames);
+  if (job_.resume) found = checkpoints_.find(record_, job_.frames);
   int first = 0;
   if (found) {
     first = resume(std::move(*found));
@@ -319,7 +326,9 @@ bool RenderRun::advance_to_frame(int frame) {
 
 void RenderRun::draw_frame(int frame) {
   const auto start = Clock::now();
-  picture::Snapshot snapshot = picture::take_snapshot(scene_, scene_.views, simulation_, frame);
+  picture::Snapshot snapshot =
+      picture::take_snapshot(scene_, views_of_snapshot(), simulation_, frame);
+  if (passes_) pass_numbers_ = passes_->read(snapshot, simulation_);
   snapshot.history = history_;
   snapshot.advance = advance_;
   const std::uint64_t state_hash = simulation_.state_hash();
@@ -341,8 +350,10 @@ void RenderRun::draw_frame(int frame) {
   };
   for (const scene::View& view : scene_.views) {
     if (!is_drawn(view)) continue;
-    renderer_.submit(builder_.build(view, snapshot));
+    const render::Frame drawn = builder_.build(view, snapshot);
+    renderer_.submit(drawn);
     waiting.push_back(view.name);
+    if (passes_) add_channels(view, snapshot, drawn);
     fetch_down_to(1);
   }
   fetch_down_to(0);
@@ -361,13 +372,37 @@ void RenderRun::draw_frame(int frame) {
   // that it has to remove. The hash follows when it is written.
   note_written();
   for (const std::string& view : record_.views) record_.files.erase(picture_name(view, frame));
+  for (const std::string& view : record_.views_of_passes)
+    record_.files.erase(channels_name(view, frame));
   write_run_json(job_.folder, record_);
   for (output::Picture& picture : pictures) writer_.write(std::move(picture));
+  for (output::WriteTask& file : pass_work_) writer_.write(std::move(file));
+  pass_work_.clear();
   for (exports::Exporter::Work& file : work) writer_.write(std::move(file));
   progress_.detail("frame " + std::to_string(frame) + ": " + std::to_string(advance_.steps) +
                    " steps, simulated in " + fixed_text(seconds_sim_, 2) + " s, drawn in " +
                    fixed_text(seconds_since(start), 2) + " s, deepest in a collider " +
                    rough_text(metrics.max_depth_cells) + " cells");
+}
+
+/// Stress is read only where a view shows it.
+std::vector<scene::View> RenderRun::views_of_snapshot() const {
+  std::vector<scene::View> views = scene_.views;
+  if (!passes_) return views;
+  for (scene::View& view : views_for(passes_->list())) views.push_back(std::move(view));
+  return views;
+}
+
+void RenderRun::add_channels(const scene::View& view, const picture::Snapshot& snapshot,
+                             const render::Frame& frame) {
+  const picture::MotionSource source{scene_, view, *seeded_, snapshot};
+  auto picture = std::make_shared<const render::ExrPicture>(
+      renderer_.draw_channels(frame, passes_->request(source, frame, pass_numbers_)));
+  pass_work_.push_back([file = output::channels_path(job_.folder, view.name, snapshot.frame),
+                        header = passes_->header(record_of(view.name, snapshot.frame), frame),
+                        picture = std::move(picture)] {
+    return std::vector{output::write_hashed(file, render::encode_exr(*picture, header))};
+  });
 }
 
 std::vector<exports::Exporter::Work> RenderRun::read_exports(int frame) {
@@ -476,6 +511,9 @@ void RenderRun::forget_unwritten_frames() {
     for (const std::string& view : record_.views)
       if (!std::filesystem::exists(output::frame_path(job_.folder, view, frame.frame), error))
         return true;
+    for (const std::string& view : record_.views_of_passes)
+      if (!std::filesystem::exists(output::channels_path(job_.folder, view, frame.frame), error))
+        return true;
     return false;
   });
 }
@@ -492,11 +530,15 @@ void RenderRun::note_state(std::uint64_t state_hash) {
                 [&](const scene::LiveChange& change) { return change.step > simulation_.steps(); });
 }
 
-render::PngText RenderRun::png_text(const std::string& view, int frame) const {
+PictureRecord RenderRun::record_of(const std::string& view, int frame) const {
   PictureRecord record = picture_record_;
   record.view = view;
   record.frame = frame;
-  return to_png_text(record);
+  return record;
+}
+
+render::PngText RenderRun::png_text(const std::string& view, int frame) const {
+  return to_png_text(record_of(view, frame));
 }
 
 }  // namespace neve::app::run

@@ -15,6 +15,7 @@
 #include "app/picture/frame_builder.h"
 #include "app/run/changes.h"
 #include "app/run/fork.h"
+#include "app/run/passes.h"
 #include "app/run/picture_record.h"
 #include "app/run/render_job.h"
 #include "app/run/resume.h"
@@ -81,6 +82,10 @@ class RenderRun {
   /// Lets the next frame be simulated while this one is drawn, where there are cores for both.
   void begin_next(int frame);
   void draw_frame(int frame);
+  /// Writes the channels of a picture.
+  void add_channels(const scene::View& view, const picture::Snapshot& snapshot,
+                    const render::Frame& frame);
+  std::vector<scene::View> views_of_snapshot() const;
   /// Takes the hashes of the files that were written in the meantime.
   void note_written();
   void note_exports();
@@ -98,8 +103,10 @@ class RenderRun {
   /// Updates the text of pictures about the current simulation.
   void note_state(std::uint64_t state_hash);
   render::PngText png_text(const std::string& view, int frame) const;
+  PictureRecord record_of(const std::string& view, int frame) const;
 
   const RenderJob& job_;
+  const setup::SeededScene* seeded_;
   const ForkPoint* fork_;
   sim::Simulation& simulation_;
   render::Renderer& renderer_;
@@ -108,6 +115,9 @@ class RenderRun {
   ChangePlayer player_;
   picture::FrameBuilder builder_;
   exports::Exporter exporter_;
+  std::optional<PassReader> passes_;                          ///< of --passes
+  std::vector<render::channels::PointNumbers> pass_numbers_;  ///< of the frame being drawn
+  std::vector<output::WriteTask> pass_work_;                  ///< likewise
   RunRecord record_;
   PictureRecord picture_record_;
   Checkpoints checkpoints_;

@@ -52,6 +52,10 @@ std::string other_thing(const std::filesystem::path& folder, const PictureRecord
     if (run.at("coarsen") != picture.coarsening)
       return "--coarsen was " + rough_text(run.at("coarsen").get<double>());
     if (run.at("overrides") != Json(picture.overrides)) return "it had other --set";
+    const Json passes = run.value("passes", Json::array());
+    if (passes != Json(picture.passes))
+      return passes.empty() ? "it had no --passes"
+                            : "--passes was " + joined(passes.get<std::vector<std::string>>(), ",");
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
@@ -115,8 +119,7 @@ void Checkpoints::check_identity(const output::Checkpoint& checkpoint) {
                       " if this machine has it");
 }
 
-std::optional<Resumption> Checkpoints::find(const std::vector<std::string>& views,
-                                            setup::FrameRange frames) {
+std::optional<Resumption> Checkpoints::find(const RunRecord& record, setup::FrameRange frames) {
   const output::FoundCheckpoint found = output::find_checkpoint(folder_);
   for (const std::string& damaged : found.damaged)
     progress_.warning(damaged + "; using an older checkpoint");
@@ -129,7 +132,7 @@ std::optional<Resumption> Checkpoints::find(const std::vector<std::string>& view
   ResumedRun& run = resumption.run;
   add_listed(read_run_json(folder_), run);
   const int last = std::min(run.frame, frames.last);
-  Pictures pictures{views, run.frames, run.files};
+  Pictures pictures{record.views, record.views_of_passes, run.frames, run.files};
   std::erase_if(pictures.frames, [&](const FrameRecord& made) { return made.frame > run.frame; });
   std::vector<Flaw> flaws = picture_flaws(folder_, pictures, frames.first, last, resumption.flawed);
   try {

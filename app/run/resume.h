@@ -39,9 +39,10 @@ class Checkpoints {
   /// Finds the newest checkpoint that is whole; damaged ones are named and passed over. Compares
   /// the pictures up to it with the run's own list. Nothing without a checkpoint: the run starts at
   /// its beginning.
-  /// @param views  that have pictures @param frames  that are to have some
+  /// @param record  of this run, for the views that have pictures @param frames  that are to have
+  /// some
   /// @throws UsageError when the run in the folder is another one
-  std::optional<Resumption> find(const std::vector<std::string>& views, setup::FrameRange frames);
+  std::optional<Resumption> find(const RunRecord& record, setup::FrameRange frames);
 
   /// Brings the simulation to a checkpoint that was found.
   /// @throws IoError when no healthy run has such a state

@@ -180,6 +180,10 @@ FrameRecord frame_record(const Json& json) {
   return frame;
 }
 
+std::string channels_name(const std::string& view, int frame) {
+  return output::channels_path({}, view, frame).generic_string();
+}
+
 Json read_json(const std::filesystem::path& file) {
   try {
     return parse_json(output::read_file(file));
@@ -244,6 +248,10 @@ Json to_json(const RunRecord& run) {
   json["coarsen"] = run.coarsening;
   if (!run.forked.is_null()) json["forked"] = run.forked;
   json["views"] = run.views;
+  if (!run.passes.empty()) {
+    json["passes"] = run.passes;
+    json["views_of_passes"] = run.views_of_passes;
+  }
   if (!run.exports.is_null()) json["exports"] = run.exports;
   json["backend"] = run.backend;
   json["gl_renderer"] = run.gl_renderer;

@@ -61,6 +61,8 @@ struct RunRecord {
   double coarsening = 1;                   ///< factor of --coarsen
   Json forked;                             ///< where it left another run; null: nowhere
   std::vector<std::string> views;
+  std::vector<std::string> passes;           ///< of --passes
+  std::vector<std::string> views_of_passes;  ///< views that have them: all but mosaics
   Json exports;  ///< of [[export]], see app/exports/exporter.h; null without
   std::string backend, gl_renderer;
   int threads = 0;
@@ -92,6 +94,8 @@ void add_frame(std::vector<FrameRecord>& frames, const FrameRecord& frame);
 
 /// "particles/0003.png"
 std::string picture_name(const std::string& view, int frame);
+/// "particles/0003.exr"
+std::string channels_name(const std::string& view, int frame);
 
 /// Null where there is no such file or it cannot be read.
 Json read_json(const std::filesystem::path& file);

@@ -12,6 +12,7 @@
 #include "app/output/sequence.h"
 #include "app/run/picture_record.h"
 #include "app/support/errors.h"
+#include "render/image/exr.h"
 
 namespace neve::app::run {
 
@@ -44,7 +45,10 @@ std::string flaw_by_text(const fs::path& file, const std::string& view, const Fr
     const PictureRecord record = read_picture_record(file);
     const bool is_same = record.view == view && record.frame == frame.frame &&
                          record.state_hash == hash_text(frame.state_hash);
-    render::decode_png(output::read_file(file));
+    if (file.extension() == ".exr")
+      render::decode_exr(output::read_file(file));
+    else
+      render::decode_png(output::read_file(file));
     return is_same ? "" : is_another;
   } catch (const std::bad_alloc&) {
     throw;
@@ -54,8 +58,7 @@ std::string flaw_by_text(const fs::path& file, const std::string& view, const Fr
 }
 
 std::string picture_flaw(const fs::path& folder, const Pictures& pictures, const std::string& view,
-                         const FrameRecord* frame, int number) {
-  const std::string name = picture_name(view, number);
+                         const std::string& name, const FrameRecord* frame) {
   if (!frame) return is_missing;
   const auto hash = pictures.files.find(name);
   return hash == pictures.files.end() ? flaw_by_text(folder / name, view, *frame)
@@ -75,13 +78,15 @@ std::optional<Pictures> listed_pictures(const Json& run) {
   try {
     for (const Json& frame : run.at("frames")) pictures.frames.push_back(frame_record(frame));
     pictures.views = run.at("views").get<std::vector<std::string>>();
+    if (run.contains("views_of_passes"))
+      pictures.views_of_passes = run["views_of_passes"].get<std::vector<std::string>>();
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
     return std::nullopt;
   }
-  if (!std::all_of(pictures.views.begin(), pictures.views.end(), output::is_plain_name))
-    return std::nullopt;
+  for (const auto* names : {&pictures.views, &pictures.views_of_passes})
+    if (!std::ranges::all_of(*names, output::is_plain_name)) return std::nullopt;
   pictures.files = file_hashes(run);
   return pictures;
 }
@@ -102,8 +107,11 @@ std::string listed_flaw(const fs::path& folder, const std::string& name, const s
 /// Movies, and the pictures of a divergence.
 void check_other_files(const fs::path& folder, const Pictures& pictures, Verification& result) {
   std::set<std::string> checked;
-  for (const FrameRecord& frame : pictures.frames)
+  for (const FrameRecord& frame : pictures.frames) {
     for (const std::string& view : pictures.views) checked.insert(picture_name(view, frame.frame));
+    for (const std::string& view : pictures.views_of_passes)
+      checked.insert(channels_name(view, frame.frame));
+  }
   for (const auto& [name, hash] : pictures.files) {
     if (checked.contains(name)) continue;
     ++result.files;
@@ -130,10 +138,13 @@ std::vector<Flaw> picture_flaws(const fs::path& folder, const Pictures& pictures
   std::vector<Flaw> flaws;
   for (const auto& [number, frame] : wanted) {
     const std::size_t before = flaws.size();
-    for (const std::string& view : pictures.views)
-      if (const std::string what = picture_flaw(folder, pictures, view, frame, number);
-          !what.empty())
-        flaws.push_back({picture_name(view, number), what});
+    const auto check = [&](const std::string& view, const std::string& name) {
+      if (const std::string what = picture_flaw(folder, pictures, view, name, frame); !what.empty())
+        flaws.push_back({name, what});
+    };
+    for (const std::string& view : pictures.views) check(view, picture_name(view, number));
+    for (const std::string& view : pictures.views_of_passes)
+      check(view, channels_name(view, number));
     if (flaws.size() > before) flawed_frames.push_back(number);
   }
   return flaws;
@@ -179,7 +190,8 @@ Verification verify_run(const fs::path& folder) {
   std::vector<int> flawed;
   for (Flaw& flaw : picture_flaws(folder, *pictures, 0, -1, flawed))
     result.flaws.push_back(std::move(flaw));
-  result.files += pictures->frames.size() * pictures->views.size();
+  result.files +=
+      pictures->frames.size() * (pictures->views.size() + pictures->views_of_passes.size());
   check_other_files(folder, *pictures, result);
   check_export(folder, result);
   return result;

@@ -19,6 +19,7 @@ struct Flaw {
 /// Pictures of a run that can be checked, in the words of run.json.
 struct Pictures {
   std::vector<std::string> views;
+  std::vector<std::string> views_of_passes;
   std::vector<FrameRecord> frames;
   FileHashes files;
 };

@@ -55,6 +55,22 @@ double picture_memory(const scene::Scene& scene, Quality quality) {
   return drawn + together + waiting;
 }
 
+/// Pictures with passes: single precision while they are made, with every part of the light; then
+/// all of a frame, those that wait for the encoder, and the file of one.
+double channel_memory(const scene::Scene& scene, Quality quality, double channel_bytes) {
+  if (!(channel_bytes > 0)) return 0;
+  constexpr double light_bytes = 4 * 28, sample_bytes = 16;
+  double drawn = 0, waiting = 0;
+  const double samples = supersampling(quality) * supersampling(quality);
+  for (const scene::View& view : scene.views) {
+    const scene::PictureSize size = size_of(scene, view);
+    const double pixels = static_cast<double>(size.width) * size.height;
+    drawn = std::max(drawn, pixels * (samples * sample_bytes + light_bytes + 2 * channel_bytes));
+    waiting += pixels * channel_bytes;
+  }
+  return drawn + waiting * (output::picture_queue_capacity + 2);
+}
+
 std::uint64_t whole_bytes(double bytes) {
   return bytes < 9e18 ? static_cast<std::uint64_t>(bytes)
                       : std::numeric_limits<std::uint64_t>::max();
@@ -193,7 +209,8 @@ scene::PictureSize size_of(const scene::Scene& scene, const scene::View& view) {
   return view.size.value_or(scene.size);
 }
 
-Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality quality, int threads) {
+Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality quality, int threads,
+               double channel_bytes) {
   Plan plan;
   plan.frames = frames;
   const double h = scene.solver.cell_size;
@@ -227,7 +244,8 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
   // States of exports wait for the worker as pictures do, and are text or bytes while it writes.
   const double exported = scene.exports.empty() ? 0 : arrays * (output::picture_queue_capacity + 2);
   plan.memory = whole_bytes(simulated + arrays + exported + surface_memory(scene, counted) +
-                            deforming_memory(scene) + picture_memory(scene, quality));
+                            deforming_memory(scene) + picture_memory(scene, quality) +
+                            channel_memory(scene, quality, channel_bytes));
   set_limits(scene, plan);
   for (const scene::PictureSize& size : picture_sizes(scene)) {
     const double samples = supersampling(quality) * supersampling(quality);

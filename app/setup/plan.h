@@ -46,7 +46,9 @@ int supersampling(Quality quality);
 scene::PictureSize size_of(const scene::Scene& scene, const scene::View& view);
 
 /// @throws sim::ShapeError for meshes that cannot be read
-Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality quality, int threads);
+/// @param channel_bytes  of a pixel of pictures with passes; 0: none
+Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality quality, int threads,
+               double channel_bytes = 0);
 
 /// @param coarsening of --coarsen, for advice
 /// @throws LimitError naming the limit and how to keep it, or to raise it where this machine can

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "render/frame/view.h"
+
 namespace neve::render::channels {
 namespace {
 
@@ -12,6 +14,29 @@ void check_count(std::size_t found, std::size_t expected, const std::string& wha
 }
 
 }  // namespace
+
+ExrHeader camera_header(const Frame& frame) {
+  const View view = make_view(frame.camera, frame.width, frame.height);
+  const std::array axes{view.right, view.up, view.forward};
+  // Points are rows: each axis is a column.
+  const auto columns = [&](const std::array<Vec3f, 4>& of, std::array<float, 4> last) {
+    std::array<float, 16> rows{};
+    for (std::size_t column = 0; column < 4; ++column) {
+      for (int axis = 0; axis < 3; ++axis)
+        rows[static_cast<std::size_t>(4 * axis) + column] = of[column][axis];
+      rows[12 + column] = last[column] - dot(view.eye, of[column]);
+    }
+    return rows;
+  };
+  ExrHeader header;
+  header.to_camera = columns({axes[0], axes[1], axes[2], Vec3f{}}, {0, 0, 0, 1});
+  const float across = view.pixels_per_slope / static_cast<float>(frame.width);
+  const float down = view.pixels_per_slope / static_cast<float>(frame.height);
+  header.to_ndc = columns(
+      {axes[0] * across + axes[2] * 0.5f, axes[2] * 0.5f - axes[1] * down, axes[2], axes[2]},
+      {0, 0, 0, 0});
+  return header;
+}
 
 void check_request(const Frame& frame, const Request& request) {
   const std::size_t points = frame.points.position.size();

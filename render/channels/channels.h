@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "render/frame/frame.h"
+#include "render/image/exr.h"
 
 namespace neve::render::channels {
 
@@ -71,6 +72,11 @@ struct Request {
   /// Frames within the shutter, over which light is averaged; empty: the frame itself.
   std::vector<Frame> moments;
 };
+
+/// Header with the matrices of the frame's camera, as the standard of OpenEXR has them: camera
+/// space is left-handed, x right, y up and z ahead, in m; normalised device coordinates go from (0,
+/// 0), the upper left corner, to (1, 1).
+ExrHeader camera_header(const Frame& frame);
 
 /// @throws std::invalid_argument for lists that are not as long as those of the frame
 void check_request(const Frame& frame, const Request& request);

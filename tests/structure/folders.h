@@ -58,14 +58,15 @@ inline constexpr Folder folders[] = {
      "sim/base sim/types sim/shapes sim/seeding sim/health sim/engine sim app/support "
      "app/scene/toml app/scene app/output app/setup"},
     {"app/picture",
-     "sim/base sim/types sim/shapes sim/health sim/engine sim render/frame render/shapes render "
-     "app/support app/scene/toml app/scene app/setup app/health"},
+     "sim/base sim/types sim/shapes sim/health sim/engine sim render/frame render/shapes "
+     "render/channels render app/support app/scene/toml app/scene app/setup app/health"},
     {"app/exports",
      "sim/base sim/types sim/shapes sim render/frame render/surface app/support app/scene/toml "
      "app/scene app/output app/setup app/picture"},
     {"app/run",
-     "sim/base sim/types sim sim/checks render/image render/frame render/gl render app/support "
-     "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports"},
+     "sim/base sim/types sim sim/checks render/image render/frame render/gl render/channels render "
+     "app/support app/scene/toml app/scene app/output app/setup app/health app/picture "
+     "app/exports"},
     {"app/compare",
      "sim/base sim/types sim render/image render/frame render/gl render app/support app/scene/toml "
      "app/scene app/output app/setup app/picture app/run"},

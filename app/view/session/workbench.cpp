@@ -48,7 +48,7 @@ std::filesystem::file_time_type time_of(const std::string& file) {
 Document open_document(const std::string& file, const std::vector<std::string>& overrides,
                        double coarsening) {
   std::vector<scene::Override> parsed = scene::parse_overrides(overrides);
-  if (!run::is_png(file))
+  if (!run::is_picture(file))
     return Document(file, scene::read_toml_file(file), std::move(parsed), coarsening);
   // Saved, it lies beside the picture, which holds the scene as it was drawn: coarsened already.
   const std::string beside = std::filesystem::path(file).replace_extension(".toml").string();
