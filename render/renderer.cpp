@@ -16,6 +16,7 @@
 #include "render/passes/phase_clock.h"
 #include "render/passes/slice_passes.h"
 #include "render/passes/solid_cache.h"
+#include "render/snow/layer.h"
 
 namespace neve::render {
 namespace {
@@ -63,10 +64,11 @@ void check_frame(const Frame& frame, int max_size) {
         std::to_string(frame.supersampling) + " samples per axis; this context draws up to " +
         std::to_string(max_size) + " samples per side, 1 or 2 per pixel");
   const std::size_t count = frame.points.position.size();
-  for (const std::size_t other : {frame.points.id.size(), frame.points.value.size()}) {
+  for (const std::size_t other :
+       {frame.points.id.size(), frame.points.value.size(), frame.points.volume.size()}) {
     if (other != 0 && other != count)
       throw std::invalid_argument("Frame: " + std::to_string(count) + " points and " +
-                                  std::to_string(other) + " ids or values");
+                                  std::to_string(other) + " ids, values or volumes");
   }
   for (const TriangleMesh& mesh : frame.meshes) check_mesh(mesh);
   for (const TriangleMesh& mesh : frame.ghosts) check_mesh(mesh);
@@ -118,7 +120,9 @@ struct Renderer::Impl {
   passes::GroundPass ground;
   passes::MeshPass meshes;
   passes::ParticlePass particles;
+  passes::TilePass tiles;
   cpu::Surfaces surfaces;
+  snow::Layer snow_layer;
   cpu::SmokeMarch smoke_march;
   passes::SolidCache solids;
   passes::SmokePass smoke;
@@ -141,6 +145,7 @@ struct Renderer::Impl {
         ground(gl, library),
         meshes(gl, library),
         particles(gl, library, c.is_software),
+        tiles(gl, library),
         surfaces(p),
         smoke_march(p),
         smoke(gl, library),
@@ -275,7 +280,13 @@ struct Renderer::Impl {
                   const light::LightVolume& light, passes::PhaseClock& clock) {
     bind(targets->gbuffer, view.width, view.height);
     clear_gbuffer();
-    particles.draw(frame.points, view);
+    if (frame.has_snow_surface) {
+      prepare_surfaces(frame, view, light);
+      surfaces.keep_points();
+      tiles.draw(surfaces.kept(), surfaces.columns(), view);
+    } else {
+      particles.draw(frame.points, view);
+    }
     clock.end("particles");
     ground.draw(frame, view);
     meshes.draw(frame.meshes, view);
@@ -290,6 +301,15 @@ struct Renderer::Impl {
     clock.end("smoke");
     bind(targets->shaded, view.width, view.height);
     shade.draw(*targets, light, frame, view, smoke_picture ? &*smoke_picture : nullptr);
+  }
+
+  void prepare_surfaces(const Frame& frame, const View& view, const light::LightVolume& light) {
+    if (frame.has_snow_surface) {
+      snow_layer.prepare(frame, view, light, pool);
+      surfaces.prepare(frame, view, snow_layer.spray(), &snow_layer);
+    } else {
+      surfaces.prepare(frame, view, frame.points);
+    }
   }
 
   void draw_slices(const Frame& frame, const View& view) {
@@ -314,7 +334,7 @@ struct Renderer::Impl {
                                                  const light::SmokeGrid& smoke_grid,
                                                  const light::LightVolume& light, bool is_kept,
                                                  passes::PhaseClock& clock) {
-    surfaces.prepare(frame, view);
+    prepare_surfaces(frame, view, light);
     if (is_kept) surfaces.keep_points();
     clock.end("particles");
     if (is_kept) surfaces.keep_grounds();

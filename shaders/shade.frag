@@ -75,7 +75,7 @@ vec3 before_tone_map(vec3 y) {
 vec3 surface(vec3 p, vec4 normal_kind, vec3 albedo) {
   vec3 n = normal_kind.xyz;
   float kind = normal_kind.w;
-  if (kind == kind_flat) return before_tone_map(albedo);
+  if (kind == kind_flat || kind == kind_lit) return before_tone_map(albedo);
   bool is_hard = kind == kind_ground || kind == kind_solid;
   // A stray particle has no body.
   vec3 body = is_in_box(p) ? texture(body_volume, texture_position(p)).xyz : vec3(0.0);

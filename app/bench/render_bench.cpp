@@ -41,6 +41,7 @@ class RenderBench {
  private:
   void measure_particles(const std::string& size, render::Frame& frame);
   void measure_all_layers(render::Frame& frame);
+  void measure_snow(render::Frame& frame);
   void measure_png();
   void add(const std::string& name, double seconds, const render::Frame& frame);
   std::vector<BenchRow> rows() const;
@@ -141,6 +142,22 @@ void RenderBench::measure_all_layers(render::Frame& frame) {
   std::swap(heat_maps, frame.heat_maps);
 }
 
+/// The same points as a surface of snow, and again from another side.
+void RenderBench::measure_snow(render::Frame& frame) {
+  const std::string name = std::string("snow_") + main_size;
+  frame.has_snow_surface = true;
+  // Another state than ever before.
+  frame.points.position.front().y += 1e-5f;
+  const Stopwatch watch;
+  renderer_.draw(frame);
+  add(name, watch.wall(), frame);
+  frame.camera.eye.x += 1e-3f;
+  const Stopwatch again;
+  renderer_.draw(frame);
+  add(name + "_same_state", again.wall(), frame);
+  frame.has_snow_surface = false;
+}
+
 void RenderBench::measure_png() {
   const render::PngText text = {{"neve:scene", std::string(4000, '#')}};
   const Stopwatch watch;
@@ -167,6 +184,7 @@ std::vector<BenchRow> RenderBench::run() {
       measure_particles(size.name, frames[size.name]);
     }
     measure_all_layers(all_layers);
+    measure_snow(frames[main_size]);
     measure_png();
     progress_.note("round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
   }

@@ -1,9 +1,9 @@
 #include "app/exports/surface_table.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "app/picture/snow_volume.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/plan.h"
 #include "app/support/errors.h"
@@ -16,10 +16,6 @@ namespace {
 
 using render::surface::Shares;
 using render::surface::Surface;
-
-/// Volume of the loosest snow that is a solid, over its volume at rest: a share of the surface's
-/// level is left of it then.
-constexpr double loosest = 2;
 
 Surface make_surface(const SnowGrains& grains, const render::surface::Settings& settings,
                      const scene::Export& e) {
@@ -98,11 +94,9 @@ SnowGrains grains_of(const scene::Scene& scene, const sim::ParticleArrays& parti
   SnowGrains grains;
   for (const std::size_t p : rows) {
     const sim::Vec3d& x = particles.x[p];
-    const double J = particles.F_E[p].determinant() * particles.J_P[p];
     grains.position.push_back(
         {static_cast<float>(x.x()), static_cast<float>(x.y()), static_cast<float>(x.z())});
-    const double at_rest = particles.m[p] / scene.materials[particles.material[p]].density;
-    grains.volume.push_back(static_cast<float>(at_rest * std::min(J, loosest)));
+    grains.volume.push_back(static_cast<float>(picture::snow_volume(scene, particles, p)));
   }
   return grains;
 }

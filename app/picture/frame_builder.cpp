@@ -11,6 +11,7 @@
 #include "app/picture/legends.h"
 #include "app/picture/slice.h"
 #include "app/picture/smoke_layer.h"
+#include "app/picture/snow_volume.h"
 #include "app/picture/stage_look.h"
 #include "app/picture/to_float.h"
 #include "app/picture/wires.h"
@@ -89,6 +90,7 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   frame.width = size.width;
   frame.height = size.height;
   frame.supersampling = setup::supersampling(options_.quality);
+  frame.has_snow_surface = scene::has_layer(view, scene::Layer::snow) && !snapshot.stage_change;
   frame.is_transparent = scene::background_of(scene_, view) == scene::Background::transparent;
   const scene::CameraSettings& camera = settings_of(scene_, view);
   frame.camera = camera_of(scene_, view, seeded_, snapshot);
@@ -102,7 +104,7 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   const bool is_of_stage = look && shows_particles_of(view, *snapshot.stage_change);
   if (points)
     frame.points = std::move(*points);
-  else if (is_of_stage || scene::has_layer(view, scene::Layer::particles))
+  else if (is_of_stage || scene::shows_particles(view))
     add_points(view, snapshot, look, frame);
   add_grid(view, snapshot, frame);
   if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(view);
@@ -128,8 +130,8 @@ render::Frame FrameBuilder::build_incident(const scene::View& view, const Snapsh
                                            std::optional<render::Points> points) const {
   render::Frame frame = build(view, snapshot, std::move(points));
   // If only a plane is drawn, rings around particles before or behind it point at nothing.
-  const bool is_plane = !scene::has_layer(view, scene::Layer::particles) &&
-                        !scene::has_layer(view, scene::Layer::smoke);
+  const bool is_plane =
+      !scene::shows_particles(view) && !scene::has_layer(view, scene::Layer::smoke);
   const auto is_shown = [&](const sim::Vec3d& x) {
     return !is_plane ||
            std::abs((x - view.slice.point.value_or(x)).dot(view.slice.normal.normalized())) <=
@@ -174,6 +176,8 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
     if (look && look->cut.removes(x)) continue;
     points.position.push_back(to_float(snapshot.particles.x[p]));
     points.id.push_back(snapshot.particles.id_of(p));
+    if (scene::has_layer(view, scene::Layer::snow))
+      points.volume.push_back(static_cast<float>(snow_volume(scene_, snapshot.particles, p)));
     if (!values.empty())
       points.value.push_back(static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
   }

@@ -33,7 +33,7 @@ std::vector<render::Legend> legends_of(const scene::View& view) {
                      [&](const render::Legend& other) { return is_same(other, another); }))
       legends.push_back(another);
   };
-  if (scene::has_layer(view, scene::Layer::particles) && particles.color_by != scene::ColorBy::snow)
+  if (scene::shows_particles(view) && particles.color_by != scene::ColorBy::snow)
     add(legend(attribute_name(particles.color_by), particles.colormap, particles.range));
   if (scene::has_layer(view, scene::Layer::smoke) && smoke.field != scene::ScalarField::mass)
     add(legend(attribute_name(smoke.field), smoke.colormap, smoke.range));

@@ -38,8 +38,7 @@ double StageChange::largest() const {
 }
 
 bool shows_particles_of(const scene::View& view, const StageChange& change) {
-  return scene::has_layer(view, scene::Layer::particles) || !is_of_plane(view) ||
-         !change.is_of_nodes;
+  return scene::shows_particles(view) || !is_of_plane(view) || !change.is_of_nodes;
 }
 
 StageCut::StageCut(const scene::View& view, const SlicePlane& at, const sim::Vec3d& eye,
@@ -47,7 +46,7 @@ StageCut::StageCut(const scene::View& view, const SlicePlane& at, const sim::Vec
     : plane(at),
       side((eye - at.point).dot(at.normal) >= 0 ? 1 : -1),
       cell_size(cell),
-      is_layer(is_of_plane(view) && !scene::has_layer(view, scene::Layer::particles)) {}
+      is_layer(is_of_plane(view) && !scene::shows_particles(view)) {}
 
 void add_stage_change(const Snapshot& snapshot, const StageLook& look, render::Frame& frame) {
   const StageChange& change = *snapshot.stage_change;

@@ -123,10 +123,10 @@ constexpr auto names(Layer) {
   using enum Layer;
   return std::array{
       Name{ground, "ground"},   Name{colliders, "colliders"}, Name{particles, "particles"},
-      Name{arrows, "arrows"},   Name{heatmap, "heatmap"},     Name{smoke, "smoke"},
-      Name{blocks, "blocks"},   Name{bounds, "bounds"},       Name{legend, "legend"},
-      Name{caption, "caption"}, Name{plots, "plots"},         Name{counter, "counter"},
-      Name{slate, "slate"}};
+      Name{snow, "snow"},       Name{arrows, "arrows"},       Name{heatmap, "heatmap"},
+      Name{smoke, "smoke"},     Name{blocks, "blocks"},       Name{bounds, "bounds"},
+      Name{legend, "legend"},   Name{caption, "caption"},     Name{plots, "plots"},
+      Name{counter, "counter"}, Name{slate, "slate"}};
 }
 constexpr auto names(ExportFormat) {
   using enum ExportFormat;

@@ -24,7 +24,8 @@ std::vector<View> built_in_views() {
   // all of their colours can be told.
   slice.slice.scalar = ScalarField::density;
   slice.slice.scalar_colormap = render::ColorMap::coolwarm;
-  return {View{}, view("smoke", {ground, colliders, smoke, legend, caption}), slice};
+  return {View{}, view("smoke", {ground, colliders, smoke, legend, caption}), slice,
+          view("snow", {ground, colliders, snow, legend, caption})};
 }
 
 namespace {

@@ -25,6 +25,7 @@ enum class Layer {
   ground,
   colliders,
   particles,
+  snow,
   arrows,
   heatmap,
   smoke,
@@ -138,6 +139,11 @@ struct View {
 
 inline bool has_layer(const View& view, Layer layer) {
   return std::find(view.layers.begin(), view.layers.end(), layer) != view.layers.end();
+}
+
+/// True if the particles are seen, as spheres or as a surface.
+inline bool shows_particles(const View& view) {
+  return has_layer(view, Layer::particles) || has_layer(view, Layer::snow);
 }
 
 /// Several views in one picture, under one caption.

@@ -123,7 +123,7 @@ SCENES = [
     edit("velocity = [0, -2, 0]", "velocity = [0, -200, 0]"),
     # Views.
     edit("name = \"main\"", "name = \"main view\""),
-    edit("layers = [\"ground\", \"particles\", \"caption\"]", "layers = [\"ground\", \"snow\"]"),
+    edit("layers = [\"ground\", \"particles\", \"caption\"]", "layers = [\"ground\", \"surface\"]"),
     edit("layers = [\"ground\", \"particles\", \"caption\"]", "layers = \"particles\""),
     edit("[output]", "camera = { eye = [0, 1, 2] }\n[output]"),
     edit("[output]", "camera = { position = [0, 1, 2], look_at = [0, 0, 0] }\n[output]"),

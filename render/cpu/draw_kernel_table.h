@@ -1,6 +1,7 @@
 #pragma once
 /// The drawing kernels of one instruction set, for the files that are compiled for it.
 
+#include "render/cpu/block_kernel.h"
 #include "render/cpu/draw_kernels.h"
 #include "render/cpu/ground_kernel.h"
 #include "render/cpu/shade_kernel.h"
@@ -20,6 +21,7 @@ constexpr DrawKernels draw_kernel_table(const char* name) {
           },
           [](const SolidJob& job, light::GBufferTile& tile) { solid_tile_lanes<V>(job, tile); },
           [](const light::SmokeJob& job) { march_rays<V>(job); },
+          [](const BlockJob& job) { march_block_lanes<V>(job); },
           [](const ShadeJob& job) { shade_tile_lanes<V>(job); }};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The kernels that draw on the CPU, compiled once for each instruction set.
 
+#include "render/cpu/block_job.h"
 #include "render/cpu/splat_job.h"
 #include "render/cpu/surface_job.h"
 #include "render/light/smoke_job.h"
@@ -17,6 +18,7 @@ struct DrawKernels {
   void (*ground_tile)(const GroundJob&, light::GBufferTile&, int x, int y);
   void (*solid_tile)(const SolidJob&, light::GBufferTile&);
   void (*march)(const light::SmokeJob&);
+  void (*march_block)(const BlockJob&);
   void (*shade_tile)(const ShadeJob&);
 };
 

@@ -150,12 +150,13 @@ NEVE_INLINE Covered<V> behind_smoke(const ShadeJob& job, const RowPart<V>& part)
     __builtin_memcpy(&word, job.tile->albedo + part.at, sizeof word);
     const Points3<V> albedo = root_squared<V>(word);
     const V alpha = is_there ? byte_share<V>(word >> 24 & 0xff, 0) : V{};
-    const I is_flat = kind == light::kind_flat, is_lit = is_there & ~is_flat;
+    const I is_flat = kind == light::kind_flat, is_done = is_flat | (kind == light::kind_lit);
+    const I is_unlit = is_there & ~is_done;
     Points3<V> color{};
-    if (any_lane(is_lit)) color = surface_light(job, part, is_lit, kind, albedo);
-    if (any_lane(is_flat)) {
+    if (any_lane(is_unlit)) color = surface_light(job, part, is_unlit, kind, albedo);
+    if (any_lane(is_done)) {
       color = choose(
-          is_flat,
+          is_done,
           {before_tone_map(albedo.x), before_tone_map(albedo.y), before_tone_map(albedo.z)}, color);
       vignette = is_flat ? all<V>(1) : vignette;
     }

@@ -55,17 +55,26 @@ void SolidSamples::resize(int new_width, int new_height) {
   albedo.resize(count);
 }
 
-void Surfaces::prepare(const Frame& frame, const View& view) {
+void Surfaces::prepare(const Frame& frame, const View& view, const Points& spheres,
+                       const TileSource* over) {
   frame_ = &frame;
+  over_ = over;
   view_ = lane_view(view);
   eye_ = view.eye;
   solids_ = nullptr;
   has_kept_ = false;
-  splatter_.prepare(frame.points, view, pool_);
+  splatter_.prepare(spheres, view, pool_);
   grounds_.clear();
   for (const GroundPlane& ground : frame.grounds)
     if (is_seen_from_above(ground, view)) grounds_.push_back(ground_job(ground, frame, view));
   pitch_ = splatter_.columns() * light::tile_width;
+}
+
+void Surfaces::add_points(int tile, light::GBufferTile& out) {
+  splatter_.draw_tile(tile, out);
+  if (!over_) return;
+  const int columns = splatter_.columns();
+  over_->draw_tile(tile % columns * light::tile_width, tile / columns * light::tile_height, out);
 }
 
 void Surfaces::add_grounds(int tile, light::GBufferTile& out) const {

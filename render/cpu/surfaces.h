@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/cpu/splat.h"
+#include "render/cpu/tile_source.h"
 #include "render/frame/frame.h"
 #include "render/frame/view.h"
 #include "render/light/lighting.h"
@@ -43,7 +44,10 @@ class Surfaces {
       : kernels_(kernels), pool_(pool), splatter_(kernels) {}
 
   /// The frame has to stay until its picture is there.
-  void prepare(const Frame& frame, const View& view);
+  /// @param spheres of the frame, or what is drawn instead
+  /// @param over draws over the spheres, may be null
+  void prepare(const Frame& frame, const View& view, const Points& spheres,
+               const TileSource* over = nullptr);
   /// Sets the part that OpenGL has drawn. Default: nothing.
   void set_solids(const SolidSamples* solids) { solids_ = solids; }
 
@@ -72,7 +76,7 @@ class Surfaces {
   const float* depth() const { return depth_.get(); }
 
  private:
-  void add_points(int tile, light::GBufferTile& out) { splatter_.draw_tile(tile, out); }
+  void add_points(int tile, light::GBufferTile& out);
   void add_grounds(int tile, light::GBufferTile& out) const;
   void add_solids(int tile, light::GBufferTile& out) const;
   ShadeJob shade_job(const light::LightVolume& light, const light::SmokeCover* smoke) const;
@@ -87,6 +91,7 @@ class Surfaces {
   Vec3f eye_;
   std::vector<GroundJob> grounds_;
   const SolidSamples* solids_ = nullptr;
+  const TileSource* over_ = nullptr;
   bool has_kept_ = false;
   std::size_t kept_size_ = 0, picture_size_ = 0, depth_size_ = 0;
   std::unique_ptr<light::GBufferTile[]> kept_;

@@ -24,6 +24,8 @@ struct Points {
   std::vector<Vec3f> position;
   std::vector<std::uint32_t> id;  ///< breaks ties and seeds the small variation of shade
   std::vector<float> value;
+  std::vector<float>
+      volume;             ///< m3 as deformed, for the snow surface; empty: that of packed points
   float radius = 0.005f;  ///< m, as drawn
   float spacing = 0.01f;  ///< m, mean distance of packed points: scale of the light volume
   ColorMap colormap = ColorMap::viridis;
@@ -160,6 +162,8 @@ struct Frame {
   Camera camera;
   Light light;
   Points points;
+  bool has_snow_surface =
+      false;  ///< shows points as a surface with grain, and spheres only for spray
   Smoke smoke;
   std::vector<Arrows> arrows;
   std::vector<HeatMap> heat_maps;

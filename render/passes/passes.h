@@ -8,6 +8,7 @@
 #include "render/gl/gl_objects.h"
 #include "render/gl/gl_program.h"
 #include "render/gl/targets.h"
+#include "render/light/gbuffer_tile.h"
 #include "render/light/lighting.h"
 #include "render/light/smoke_volume.h"
 
@@ -32,6 +33,22 @@ class ParticlePass {
   gl::Buffer buffer_;
   float max_point_size_ = 1;
   bool is_software_;
+};
+
+/// Samples of finished light that the processor has drawn, tile by tile; see shaders/tiles.frag.
+class TilePass {
+ public:
+  TilePass(const gl::Gl& gl, const gl::ShaderLibrary& library);
+  /// @param tiles  row by row from the lower left one @param columns of tiles
+  void draw(const light::GBufferTile* tiles, int columns, const View& view);
+
+ private:
+  const gl::Gl& gl_;
+  gl::Program program_;
+  gl::VertexArray vertex_array_;
+  gl::Texture normal_inverse_, color_;
+  std::vector<float> normals_;  ///< kept, as allocating them costs as much as filling them
+  std::vector<std::uint32_t> colors_;
 };
 
 /// Infinite planes with grid lines; see shaders/ground.frag.

@@ -179,7 +179,7 @@ TEST(SceneErrors, NumbersAreFinite) {
 
 TEST(SceneErrors, TypesAreNamed) {
   EXPECT_EQ(error_of("frames = \"3\""),
-            "s.toml:1:10: error: frames = \"3\"; expected a whole number");
+            "s.toml:1:10: error: frames = \"3\"; expected a whole number; numbers have no quotes");
   EXPECT_EQ(error_of("frames = 48.5"),
             "s.toml:1:10: error: frames = 48.5; expected a whole number");
   EXPECT_EQ(error_of("fps = true"), "s.toml:1:7: error: fps = true; expected a number");

@@ -73,7 +73,7 @@ TEST_F(New, SchemaRefusesWhatNeveRefuses) {
       {"body.0.name", ball + "name = \"a b\"\n"},
       {"collider.0.keyframes.0", ball + "[[collider]]\nshape = { sphere = { radius = 1 } }\n"
                                         "keyframes = [{ tame = 1 }]\n"},
-      {"view.0.layers.0", ball + "[[view]]\nlayers = [\"snow\"]\n"},
+      {"view.0.layers.0", ball + "[[view]]\nlayers = [\"surface\"]\n"},
       {"output.size", ball + "[output]\nsize = [100]\n"},
       {"set.solver.cell_size",
        "[sweep]\nscene = \"scene.toml\"\n[set]\n\"solver.cell_size\" = -1\n"

@@ -118,7 +118,7 @@ std::vector<std::uint32_t> lit_samples(const Frame& frame, const render::cpu::Dr
   const render::light::SmokeGrid grid = render::light::make_smoke_grid(frame.smoke, nullptr);
   const render::light::LightVolume light = render::light::make_light_volume(frame, grid, nullptr);
   render::cpu::Surfaces surfaces(pool, kernels);
-  surfaces.prepare(frame, view);
+  surfaces.prepare(frame, view, frame.points);
   std::optional<render::light::SmokeCover> cover;
   render::cpu::SmokeMarch march(pool, kernels);
   if (!grid.is_empty()) {
@@ -166,12 +166,12 @@ TEST(Surfaces, KeptTilesGiveTheSamePicture) {
   const View view = make_view(frame.camera, frame.width, frame.height);
   const render::light::LightVolume light = render::light::make_light_volume(frame, {}, nullptr);
   render::cpu::Surfaces kept(nullptr), tile_by_tile(nullptr);
-  kept.prepare(frame, view);
+  kept.prepare(frame, view, frame.points);
   kept.keep_points();
   kept.keep_grounds();
   kept.keep_solids();
   kept.shade(light, nullptr, false);
-  tile_by_tile.prepare(frame, view);
+  tile_by_tile.prepare(frame, view, frame.points);
   tile_by_tile.shade(light, nullptr, false);
   const auto samples = static_cast<std::size_t>(kept.pitch()) * 173;
   EXPECT_EQ(std::memcmp(kept.picture(), tile_by_tile.picture(), 4 * samples), 0);

@@ -38,11 +38,12 @@ inline constexpr Folder folders[] = {
     {"render/cpu", "sim/base render/frame render/light"},
     {"render/cpu/instruction_sets", "sim/base render/cpu", "neve::render::cpu"},
     {"render/overlay", "sim/base render/frame render/gl"},
+    {"render/snow", "sim/base render/frame render/surface render/light render/cpu"},
     {"render/passes", "sim/base render/frame render/light render/gl render/cpu"},
     {"render/channels", "sim/base render/image render/frame render/light render/cpu"},
     {"render",
-     "sim/base render/image render/frame render/light render/gl render/cpu render/overlay "
-     "render/passes render/channels",
+     "sim/base render/image render/frame render/light render/gl render/cpu render/snow "
+     "render/overlay render/passes render/channels",
      "neve::render"},
 
     {"app/support", "", "neve::app"},

@@ -299,7 +299,7 @@ void draw_view_panel(ViewerState& state) {
   if (ImGui::Button("Scene's camera")) state.is_camera_of_scene = true;
   note_label("Scene's camera");
   if (current_view(state).particles.color_by != scene::ColorBy::snow &&
-      scene::has_layer(current_view(state), scene::Layer::particles)) {
+      scene::shows_particles(current_view(state))) {
     ImGui::SameLine();
     if (ImGui::Button("Fit the range")) fit_range(state, current_view(state));
     note_label("Fit the range");

@@ -42,7 +42,7 @@ std::optional<dump::Probe> pick(const ViewerState& state, ImVec2 mouse, bool wan
   const scene::View& view = current_view(state);
   const bool is_slice =
       scene::has_layer(view, scene::Layer::arrows) || scene::has_layer(view, scene::Layer::heatmap);
-  const bool takes_node = wants_node || !scene::has_layer(view, scene::Layer::particles);
+  const bool takes_node = wants_node || !scene::shows_particles(view);
   if (takes_node && is_slice && view.slice.point) {
     const auto place =
         pick_plane(state.orbit, x, y, picture::slice_plane(view.slice, live.snapshot.time, {}));

@@ -1,0 +1,64 @@
+#pragma once
+/// Snow as the surface layer sees it: the field of the exported mesh (surface/field.h), the blocks
+/// that its surface passes through, and the grains near each place.
+
+#include <cstdint>
+#include <vector>
+
+#include "render/cpu/block_job.h"
+#include "render/frame/frame.h"
+#include "render/surface/block_map.h"
+#include "render/surface/field.h"
+
+namespace neve::render::snow {
+
+using cpu::padded_nodes;
+using cpu::padded_side;
+
+/// Grains lie in cubes of two nodes; a block has 4x4x4 of them.
+inline constexpr int cubes_per_block = 64;
+
+/// Particles in the order of their cubes.
+struct GrainList {
+  std::vector<std::uint32_t> first;  ///< of each cube of each block, and the end
+  std::vector<Vec3f> position;       ///< m
+  std::vector<std::uint32_t> color;  ///< as the G-buffer has it (gbuffer_tile.h)
+  std::vector<std::uint32_t> seed;   ///< a random number that stays with the particle
+};
+
+/// Cells of a block: the first and the last one along each axis.
+struct CellBox {
+  Vec3i low{7, 7, 7}, high{0, 0, 0};
+};
+
+struct Body {
+  surface::BlockMap map;                 ///< numbers of the blocks of the field
+  surface::Field field;                  ///< share of each place that snow fills
+  float spacing = 0.01f;                 ///< m, of packed particles
+  std::vector<std::uint32_t> padded_of;  ///< for each block its number in padded_block, or no_block
+  std::vector<std::uint32_t> padded_block;  ///< blocks that the surface passes through
+  std::vector<CellBox> surface_box;         ///< of each of them, the cells that it passes through
+  std::vector<float> padded;                ///< padded_nodes for each of them, x fastest
+  GrainList grains;
+  Points spray;  ///< particles that the surface does not cover
+};
+
+/// Share at which the surface lies.
+inline constexpr float surface_share = 0.5f;
+
+/// Same bits with any number of threads. @param pool may be null
+/// Check: SnowBody.*
+Body make_body(const Points& points, ThreadPool* pool);
+
+/// A place of the field: block, and nodes from its corner, 0 to 8 along each axis.
+struct FieldPlace {
+  std::uint32_t block = surface::no_block;  ///< no_block: outside of the field
+  Vec3f node;
+};
+FieldPlace find_place(const Body& body, Vec3f world);
+
+/// Value of the field at a place.
+/// @param place in nodes from the corner of block b, -7 to 14 along each axis
+float share_at(const surface::Field& field, std::uint32_t b, Vec3f place);
+
+}  // namespace neve::render::snow

@@ -1,0 +1,148 @@
+#include "render/snow/layer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/frame/same_bytes.h"
+#include "render/light/light_fields.h"
+#include "render/light/shading_constants.h"
+
+namespace neve::render::snow {
+
+namespace {
+
+/// As the G-buffer has light that is finished: the square root of linear display light.
+unsigned finished_word(Vec3f color) {
+  const auto byte = [](float c) {
+    c *= light::exposure;
+    c = c * (1 + c / light::white_point) / (1 + light::shoulder * c);
+    return static_cast<unsigned>(255 * std::sqrt(std::clamp(c, 0.0f, 1.0f)) + 0.5f);
+  };
+  return byte(color.x) | byte(color.y) << 8 | byte(color.z) << 16 | 0xff000000u;
+}
+
+bool is_same(const Points& a, const Points& b) {
+  return a.radius == b.radius && a.spacing == b.spacing && a.colormap == b.colormap &&
+         a.range_min == b.range_min && a.range_max == b.range_max &&
+         same_bytes(a.position, b.position) && same_bytes(a.id, b.id) &&
+         same_bytes(a.value, b.value) && same_bytes(a.volume, b.volume);
+}
+
+Vec3f albedo_of(unsigned word) {
+  const auto byte = [&](int shift) { return static_cast<float>(word >> shift & 0xff) / 255; };
+  return {byte(0) * byte(0), byte(8) * byte(8), byte(16) * byte(16)};
+}
+
+}  // namespace
+
+void Layer::prepare(const Frame& frame, const View& view, const light::LightVolume& volume,
+                    ThreadPool* pool) {
+  marcher_.reset();
+  const SnowLight light = {light::toward_light(frame.light), frame.light.intensity,
+                           frame.light.ambient, !frame.points.value.empty()};
+  const bool has_body = points_ && is_same(*points_, frame.points);
+  const bool has_nodes = has_body && nodes_ && volume.serial != 0 && volume.serial == serial_ &&
+                         light.toward == light_.toward;
+  if (!has_body) {
+    points_.reset();  // should something throw, there is no body
+    body_ = make_body(frame.points, pool);
+    points_ = frame.points;
+  }
+  view_ = &view;
+  volume_ = &volume;
+  light_ = light;
+  if (!has_nodes) {
+    nodes_.reset();
+    nodes_.emplace(body_);
+    serial_ = volume.serial;
+  }
+  marcher_.emplace(body_, view);
+  march(pool);
+  nodes_->expose_wanted(body_, volume, light, pool);
+}
+
+/// Meets the surface, so that what is seen of it can be lit.
+void Layer::march(ThreadPool* pool) {
+  columns_ = (view_->width + light::tile_width - 1) / light::tile_width;
+  const int rows = (view_->height + light::tile_height - 1) / light::tile_height;
+  hits_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows));
+  light::for_each_task(columns_ * rows, pool, [&](int task) {
+    const int x = task % columns_ * light::tile_width, y = task / columns_ * light::tile_height;
+    TileHits& hits = hits_[static_cast<std::size_t>(task)];
+    marcher_->march_tile(x, y, hits);
+    for (int at = 0; at < light::tile_samples; ++at) {
+      if (!(hits.distance[at] > 0)) continue;
+      const Vec3f ray = marcher_->ray(x + at % light::tile_width, y + at / light::tile_width);
+      nodes_->want(hits.block[at], marcher_->place_of(hits.block[at], ray * hits.distance[at]));
+    }
+  });
+}
+
+void Layer::draw_tile(int x, int y, light::GBufferTile& tile) const {
+  const TileHits& hits =
+      hits_[static_cast<std::size_t>(y / light::tile_height * columns_ + x / light::tile_width)];
+  for (int at = 0; at < light::tile_samples; ++at) {
+    const Sample sample{marcher_->ray(x + at % light::tile_width, y + at / light::tile_width),
+                        hits.distance[at], hits.block[at]};
+    const bool is_sphere =
+        tile.kind[at] == light::kind_snow || tile.kind[at] == light::kind_attribute;
+    if (sample.hit > 0 && !(is_sphere && sample.hit * tile.inverse[at] >= 1))
+      draw_surface(sample, at, tile);
+    else if (is_sphere)
+      draw_grain(sample, at, tile);
+  }
+}
+
+void Layer::finish(const SnowPlace& place, const Exposure& exposure, const GrainLook& look, int at,
+                   light::GBufferTile& tile) const {
+  tile.kind[at] = light::kind_lit;
+  tile.normal_x[at] = exposure.normal.x;
+  tile.normal_y[at] = exposure.normal.y;
+  tile.normal_z[at] = exposure.normal.z;
+  tile.albedo[at] = finished_word(snow_light(body_, light_, place, exposure, look));
+}
+
+SnowPlace Layer::place_at(const Sample& sample, float distance) const {
+  SnowPlace place;
+  place.toward_eye = normalized(-sample.ray);
+  place.sample_size = distance / view_->pixels_per_slope;
+  place.world = view_->eye + sample.ray * distance;
+  return place;
+}
+
+void Layer::draw_surface(const Sample& sample, int at, light::GBufferTile& tile) const {
+  SnowPlace place = place_at(sample, sample.hit);
+  place.block = body_.padded_block[sample.padded];
+  place.node = marcher_->place_of(sample.padded, sample.ray * sample.hit);
+  tile.inverse[at] = 1 / sample.hit;
+  finish(place, nodes_->at(sample.padded, place.node), grain_look(body_, place), at, tile);
+}
+
+void Layer::draw_grain(const Sample& sample, int at, light::GBufferTile& tile) const {
+  const float distance = 1 / tile.inverse[at];
+  SnowPlace place = place_at(sample, distance);
+  Vec3f normal{tile.normal_x[at], tile.normal_y[at], tile.normal_z[at]};
+  const FieldPlace field = find_place(body_, place.world);
+  place.block = field.block;
+  place.node = field.node;
+  GrainLook look;
+  look.albedo = albedo_of(tile.albedo[at]);
+  if (field.block != surface::no_block) {
+    const float sure = std::min(3 * share_at(body_.field, field.block, field.node), 0.8f);
+    normal =
+        normalized(normal * (1 - sure) + normal_at(body_.field, field.block, field.node) * sure);
+    look = grain_look(body_, place);
+  }
+  Exposure exposure = expose(body_, *volume_, light_, place, normal);
+  if (sample.hit > 0) {
+    // A grain that lies in the surface becomes a part of it.
+    const float out = std::min((sample.hit - distance) / (0.7f * body_.spacing), 1.0f);
+    const Vec3f below =
+        nodes_->at(sample.padded, marcher_->place_of(sample.padded, sample.ray * sample.hit))
+            .normal;
+    exposure.normal = normalized(below * (1 - out) + normal * out);
+  }
+  finish(place, exposure, look, at, tile);
+}
+
+}  // namespace neve::render::snow

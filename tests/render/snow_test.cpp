@@ -1,0 +1,319 @@
+/// The view snow: particles as a surface with grain.
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "both_ways.h"
+#include "render/light/light_fields.h"
+#include "render/snow/grain_noise.h"
+#include "render/snow/layer.h"
+
+namespace neve::render {
+namespace {
+
+using snow::Body;
+using snow::Marcher;
+using snow::TileHits;
+
+Frame snow_ball(int width, int height) {
+  Frame frame = rough_ball(width, height);
+  frame.has_snow_surface = true;
+  return frame;
+}
+
+/// A ball with a crack, a thin sheet beside it, and a few loose particles.
+Frame torn_snow(int width, int height) {
+  Frame frame = snow_ball(width, height);
+  Points& points = frame.points;
+  for (Vec3f& p : points.position)
+    if (p.x + 0.2f * p.y > 0.1f) p.x += 0.08f;
+  for (int i = -8; i <= 8; ++i)
+    for (int j = -8; j <= 8; ++j)
+      add_point(frame, {0.62f, 0.025f * static_cast<float>(i), 0.025f * static_cast<float>(j)});
+  for (int i = 0; i < 5; ++i) add_point(frame, {-0.6f, 0.1f * static_cast<float>(i), 0.3f});
+  return frame;
+}
+
+/// Packed snow below y = 0 in a box.
+Points slab(float spacing, int across, int layers) {
+  Points points;
+  points.spacing = spacing;
+  for (int k = 0; k < across; ++k)
+    for (int j = 0; j < layers; ++j)
+      for (int i = 0; i < across; ++i)
+        points.position.push_back({(static_cast<float>(i - across / 2) + 0.5f) * spacing,
+                                   -(static_cast<float>(j) + 0.5f) * spacing,
+                                   (static_cast<float>(k - across / 2) + 0.5f) * spacing});
+  return points;
+}
+
+/// All hits of a picture, tile by tile.
+std::vector<TileHits> march(const Body& body, const View& view, const cpu::DrawKernels& kernels) {
+  const Marcher marcher(body, view, kernels);
+  std::vector<TileHits> hits;
+  for (int y = 0; y < view.height; y += light::tile_height)
+    for (int x = 0; x < view.width; x += light::tile_width) {
+      hits.emplace_back();
+      std::memset(&hits.back(), 0, sizeof(TileHits));
+      marcher.march_tile(x, y, hits.back());
+    }
+  return hits;
+}
+
+template <class Use>
+void for_samples(const View& view, const Use& use) {
+  std::size_t tile = 0;
+  for (int y = 0; y < view.height; y += light::tile_height)
+    for (int x = 0; x < view.width; x += light::tile_width, ++tile)
+      for (int at = 0; at < light::tile_samples; ++at) {
+        const int i = x + at % light::tile_width, j = y + at / light::tile_width;
+        if (i < view.width && j < view.height) use(tile, at, i, j);
+      }
+}
+
+TEST(Snow, SurfaceOfASlabLiesWhereItsParticlesEnd) {
+  constexpr float spacing = 0.02f;
+  const Body body = snow::make_body(slab(spacing, 40, 12), nullptr);
+  const Camera camera{
+      .eye = {0.003f, 1, 0.002f}, .target = {0.003f, 0, 0.002f}, .up = {0, 0, 1}, .fov = 20};
+  const View view = make_view(camera, 64, 32);
+  int count = 0;
+  const std::vector<TileHits> hits = march(body, view, cpu::chosen_draw_kernels());
+  for_samples(view, [&](std::size_t tile, int at, int, int) {
+    ++count;
+    // A lattice of particles is level to within some hundredths of their spacing: the kernel is
+    // nearly as wide as they are apart, and nodes between which it is linear lie 0.8 apart.
+    EXPECT_NEAR(hits[tile].distance[at], 1, 0.08f * spacing) << at;
+  });
+  EXPECT_EQ(count, 64 * 32);
+}
+
+/// Distance of the first place of the level along a ray, in steps of a hundredth of a cell.
+float first_level(const Body& body, Vec3f eye, Vec3f ray) {
+  const float step = 0.01f * body.field.cell / length(ray);
+  for (float t = 0.5f; t < 3; t += step) {
+    const snow::FieldPlace place = snow::find_place(body, eye + ray * t);
+    if (place.block != surface::no_block &&
+        snow::share_at(body.field, place.block, place.node) >= snow::surface_share)
+      return t;
+  }
+  return 0;
+}
+
+TEST(Snow, RaysFindTheFirstPlaceOfTheLevel) {
+  const Frame frame = torn_snow(60, 40);
+  const Body body = snow::make_body(frame.points, nullptr);
+  const View view = make_view(frame.camera, 60, 40);
+  const Marcher marcher(body, view);
+  const std::vector<TileHits> hits = march(body, view, cpu::chosen_draw_kernels());
+  int compared = 0, other = 0;
+  for_samples(view, [&](std::size_t tile, int at, int i, int j) {
+    const float expected = first_level(body, view.eye, marcher.ray(i, j));
+    const float found = hits[tile].distance[at];
+    if (expected == 0 && found == 0) return;
+    ++compared;
+    // Two steps of regula falsi leave a few hundredths of a cell where the field is curved.
+    if (!(std::abs(found - expected) < 0.05f * body.field.cell)) ++other;
+  });
+  EXPECT_GT(compared, 400);
+  // Rays that graze the surface over less than a step may pass it, most of all at thin sheets.
+  EXPECT_LE(other, compared / 50);
+}
+
+TEST(Snow, HitsDependNeitherOnThreadsNorOnTheInstructionSet) {
+  const Frame frame = torn_snow(160, 100);
+  ThreadPool pool(3);
+  const Body alone = snow::make_body(frame.points, nullptr),
+             together = snow::make_body(frame.points, &pool);
+  EXPECT_EQ(alone.padded, together.padded);
+  EXPECT_EQ(alone.padded_block, together.padded_block);
+  EXPECT_EQ(alone.grains.position, together.grains.position);
+  EXPECT_EQ(alone.grains.first, together.grains.first);
+  EXPECT_EQ(alone.spray.position, together.spray.position);
+#ifdef NEVE_X86_DRAW
+  if (cpu::chosen_draw_kernels().simd == std::string("baseline")) return;
+  const View view = make_view(frame.camera, 160, 100);
+  const std::vector<TileHits> plain = march(alone, view, cpu::draw_baseline),
+                              fast = march(alone, view, cpu::draw_avx2);
+  std::size_t found = 0;
+  for_samples(view, [&](std::size_t tile, int at, int, int) {
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(plain[tile].distance[at]),
+              std::bit_cast<std::uint32_t>(fast[tile].distance[at]));
+    if (plain[tile].distance[at] > 0) {
+      ++found;
+      EXPECT_EQ(plain[tile].block[at], fast[tile].block[at]);
+    }
+  });
+  EXPECT_GT(found, 1000u);
+#endif
+}
+
+TEST(Snow, IsDrawnAlikeByOpenGlAndOnTheCpu) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = torn_snow(320, 200);
+  expect_same_picture(*context, frame, "torn snow");
+  frame.supersampling = 2;
+  expect_same_picture(*context, frame, "four samples a pixel");
+  frame.is_transparent = true;
+  Renderer gl(*context, {}, nullptr, ParticlePath::gl),
+      cpu(*context, {}, nullptr, ParticlePath::cpu);
+  // Without a ground behind, an edge more or less shows: see expect_same_picture.
+  EXPECT_LE(compare(gl.draw(frame), cpu.draw(frame)).mean, 0.05);
+}
+
+TEST(Snow, PicturesHaveTheSameBytesOnAnyNumberOfThreads) {
+  OPEN_OR_SKIP(context, "auto");
+  const Frame frame = torn_snow(320, 200);
+  ThreadPool pool(3);
+  Renderer alone(*context, {}, nullptr, ParticlePath::cpu),
+      together(*context, {}, &pool, ParticlePath::cpu);
+  EXPECT_EQ(alone.draw(frame).pixels, together.draw(frame).pixels);
+}
+
+/// Exposures that were made for another camera are used again, and must be the same.
+TEST(Snow, AnotherCameraSeesTheSameSnow) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = torn_snow(320, 200);
+  Frame turned = frame;
+  turned.camera.eye = {1.2f, 0.4f, 1.1f};
+  Renderer kept(*context, {}, nullptr, ParticlePath::cpu),
+      fresh(*context, {}, nullptr, ParticlePath::cpu);
+  kept.draw(turned);
+  EXPECT_EQ(kept.draw(frame).pixels, fresh.draw(frame).pixels);
+  // A light that turns changes them.
+  frame.light.direction = {0.8f, 0.5f, 0.1f};
+  Renderer lit(*context, {}, nullptr, ParticlePath::cpu);
+  EXPECT_EQ(kept.draw(frame).pixels, lit.draw(frame).pixels);
+}
+
+TEST(Snow, OnlyLooseParticlesAreSpray) {
+  const Frame frame = torn_snow(96, 64);
+  const Body body = snow::make_body(frame.points, nullptr);
+  std::vector<std::uint32_t> spray = body.spray.id;
+  spray.erase(std::unique(spray.begin(), spray.end()), spray.end());
+  const auto last = static_cast<std::uint32_t>(frame.points.position.size());
+  for (std::uint32_t p = last - 5; p < last; ++p)
+    EXPECT_TRUE(std::find(spray.begin(), spray.end(), p) != spray.end()) << p;
+  for (const std::uint32_t p : spray) {
+    const Vec3f x = frame.points.position[p];
+    // Deeper in the ball than a kernel's width, and off the crack, nothing is loose.
+    const bool is_inside = length(x) < 0.33f && x.x + 0.2f * x.y < 0.05f;
+    EXPECT_FALSE(is_inside) << p;
+  }
+  EXPECT_LT(spray.size(), frame.points.position.size() / 4);
+}
+
+/// Mean difference of two pictures of snow whose particles, camera and lattice moved together.
+double difference_after_move(render::gl::Context& context, std::uint32_t first_id) {
+  Frame still = snow_ball(320, 200), moved = still;
+  // A whole number of the field's cells: the lattice samples the snow alike.
+  const float way = 16 * 0.8f * still.points.spacing;
+  for (Vec3f& p : moved.points.position) p.x += way;
+  for (GroundPlane& ground : moved.grounds) ground.point.x += way;
+  moved.camera.eye.x += way;
+  moved.camera.target.x += way;
+  still.grounds.clear();
+  moved.grounds.clear();
+  for (std::uint32_t& id : moved.points.id) id += first_id;
+  Renderer a(context, {}, nullptr, ParticlePath::cpu), b(context, {}, nullptr, ParticlePath::cpu);
+  return compare(a.draw(still), b.draw(moved)).mean;
+}
+
+TEST(Snow, GrainMovesWithTheParticles) {
+  OPEN_OR_SKIP(context, "auto");
+  const double same = difference_after_move(*context, 0),
+               other = difference_after_move(*context, 100000);
+  // Rounding of the positions and the cells of the light; other particles have other grain.
+  EXPECT_LT(same, 0.1);
+  EXPECT_GT(other, 5 * same);
+}
+
+TEST(Snow, ValuesColorTheSurface) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = snow_ball(160, 100);
+  frame.grounds.clear();
+  frame.points.colormap = ColorMap::coolwarm;
+  const auto middle = [&](float value) {
+    frame.points.value.assign(frame.points.position.size(), value);
+    Renderer renderer(*context, {}, nullptr, ParticlePath::cpu);
+    return pixel(renderer.draw(frame), 80, 50);
+  };
+  const Pixel cold = middle(0), hot = middle(1);
+  EXPECT_GT(cold.b, cold.r + 40);
+  EXPECT_GT(hot.r, hot.b + 40);
+}
+
+TEST(Snow, IsBrightWithBlueShade) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = snow_ball(160, 100);
+  Renderer renderer(*context, {}, nullptr, ParticlePath::cpu);
+  frame.light.direction = frame.camera.eye;
+  const Pixel lit = pixel(renderer.draw(frame), 80, 50);
+  EXPECT_GT(lit.brightness(), 225);
+  EXPECT_LT(lit.brightness(), 255);
+  frame.light.direction = -frame.camera.eye;
+  frame.light.direction.y = 0.1f;
+  const Pixel shade = pixel(renderer.draw(frame), 80, 50);
+  EXPECT_LT(shade.brightness(), lit.brightness() - 40);
+  EXPECT_GT(shade.brightness(), 60);
+  EXPECT_GT(shade.b, shade.r + 5);
+}
+
+TEST(Snow, BadAndMissingParticlesAreNoSurface) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = torn_snow(96, 64);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  frame.points.position[3].x = nan;
+  frame.points.position[4].y = std::numeric_limits<float>::infinity();
+  frame.points.position[5].z = 1e30f;
+  frame.points.volume.assign(frame.points.position.size(), 1e-5f);
+  frame.points.volume[6] = nan;
+  frame.points.volume[7] = -1;
+  frame.points.volume[8] = 1e30f;
+  const Image bad = renderer.draw(frame);
+  frame.points.volume.clear();
+  frame.camera.eye = {0.01f, 0, 0};  // inside
+  renderer.draw(frame);
+  for (const std::size_t count : {std::size_t{1}, std::size_t{0}}) {
+    frame.points.position.resize(count);
+    frame.points.id.resize(count);
+    renderer.draw(frame);
+  }
+  Frame nothing = torn_snow(96, 64);
+  nothing.points = {};
+  EXPECT_GT(compare(bad, renderer.draw(nothing)).mean, 1);
+}
+
+TEST(Snow, ReliefHasTheSlopeOfItsHeight) {
+  const snow::GrainNoise& noise = snow::grain_noise();
+  for (int detail = 0; detail < snow::GrainNoise::levels; ++detail) {
+    double sum = 0, worst = 0;
+    for (int n = 0; n < 500; ++n) {
+      const float f = static_cast<float>(n);
+      const Vec3f p{0.37f * f, 0.61f * f - 20, 0.93f * f};
+      // Central differences over a texel: exactly the table's own at its nodes, and means of them
+      // between.
+      constexpr float d = 1.0f / 8;
+      const auto height = [&](Vec3f at) {
+        return static_cast<double>(noise.at(at, detail).height);
+      };
+      const snow::Relief here = noise.at(p, detail);
+      for (int axis = 0; axis < 3; ++axis) {
+        Vec3f step{};
+        step[axis] = d;
+        const double slope = (height(p + step) - height(p - step)) / (2 * static_cast<double>(d));
+        worst = std::max(worst, std::abs(slope - static_cast<double>(here.slope[axis])));
+      }
+      sum += static_cast<double>(here.height);
+      EXPECT_LT(std::abs(here.height), 1.2f);
+    }
+    EXPECT_LT(worst, 2e-4) << detail;  // rounding of places up to 500 units away
+    EXPECT_LT(std::abs(sum / 500), 0.05) << detail;
+  }
+}
+
+}  // namespace
+}  // namespace neve::render
