@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "render/channels/gather.h"
+#include "render/channels/plate.h"
 #include "render/cpu/smoke_march.h"
 #include "render/cpu/surfaces.h"
 #include "render/gl/read_back.h"
@@ -399,6 +400,28 @@ struct Renderer::Impl {
                                 std::move(data));
   }
 
+  Image draw_on_plate(const Frame& frame, const Image& plate) {
+    context.make_current();
+    check_frame(frame, max_size());
+    check_picture(plate, frame);
+    prepare_targets(frame);
+    const View view = make_view(frame.camera, targets->sample_width(), targets->sample_height());
+    Frame drawn = frame;
+    drawn.is_transparent = true;
+    cpu::LinearSamples shadow, front;
+    with_lit_surfaces(drawn, view, [&](const channels::LitSurfaces& lit) {
+      shadow = channels::ground_shadow(lit);
+    });
+    drawn.grounds.clear();
+    with_lit_surfaces(drawn, view, [&](const channels::LitSurfaces& lit) {
+      lit.surfaces.shade_linear(lit.light, lit.smoke, frame.light.intensity, frame.light.ambient,
+                                front);
+    });
+    Frame words = frame;
+    words.is_transparent = false;
+    return draw_over(channels::lay_over_plate(front, shadow, frame, plate), words);
+  }
+
   /// The number of the mesh that each sample shows, in three bytes of the albedo.
   std::optional<cpu::SolidSamples> draw_mesh_numbers(const Frame& frame, const View& view) {
     if (frame.meshes.empty()) return std::nullopt;
@@ -462,6 +485,10 @@ Image Renderer::draw(const Frame& frame, std::vector<PhaseTime>* times) {
 
 ExrPicture Renderer::draw_channels(const Frame& frame, const channels::Request& request) {
   return impl_->draw_channels(frame, request);
+}
+
+Image Renderer::draw_on_plate(const Frame& frame, const Image& plate) {
+  return impl_->draw_on_plate(frame, plate);
 }
 
 void Renderer::submit(const Frame& frame) {

@@ -51,6 +51,11 @@ class Renderer {
   /// @throws std::invalid_argument for a request that does not fit the frame
   ExrPicture draw_channels(const Frame& frame, const channels::Request& request);
 
+  /// Draws over a picture in place of a background, on the CPU whatever the path: its grounds are
+  /// seen only where a shadow falls on them. Without ghosts and lines.
+  /// @param plate RGB, of the size of the frame
+  Image draw_on_plate(const Frame& frame, const Image& plate);
+
   /// Draws without waiting for the picture: a GPU works on it while the next frame is prepared.
   void submit(const Frame& frame);
   /// Pictures submitted and not fetched.

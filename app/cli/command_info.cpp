@@ -25,6 +25,8 @@ void print_picture(const run::PictureRecord& record) {
       << "view        " << record.view << "\n"
       << "frame       " << record.frame << "\n"
       << "quality     " << record.quality << "\n"
+      << (record.plate.empty() ? "" : "plate       " + record.plate + "\n")
+      << (record.shutter > 0 ? "shutter     " + rough_text(record.shutter) + " degrees\n" : "")
       << (record.passes.empty() ? "" : "passes      " + joined(record.passes, ", ") + "\n")
       << "seed        " << record.seed << "\n"
       << "state hash  " << record.state_hash << "\n";

@@ -71,6 +71,9 @@ run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts
   if (texts.from) options.from = setup::parse_time(*texts.from, "--from");
   if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);
   if (texts.size) options.size = setup::parse_size(*texts.size);
+  if (options.shutter && !(*options.shutter >= 0 && *options.shutter <= 360))
+    throw scene::toml::UsageError("--shutter", "cannot use this number of degrees",
+                                  "expected 0 (no motion blur) to 360 (the whole frame)");
   if (texts.passes) options.passes = run::parse_passes(*texts.passes);
   if (texts.quality) options.quality = setup::quality_named(*texts.quality);
   if (!options.shader_dir.empty() && !std::filesystem::is_directory(options.shader_dir))
@@ -195,8 +198,19 @@ void add_render(CLI::App& app, Action& action) {
   command
       ->add_option("--quality", texts->quality,
                    "draft: half the width and height; preview: as in the scene (default); final: "
-                   "four samples per pixel")
+                   "four samples per pixel and motion blur")
       ->type_name("NAME");
+  command
+      ->add_option(
+          "--plate", options->plate,
+          "Picture behind the snow: a PNG, or one for each frame as in street/%04d.png; the "
+          "ground only takes shadows")
+      ->type_name("PNG");
+  command
+      ->add_option("--shutter", options->shutter,
+                   "Motion blur: degrees of 360 that the shutter is open in each frame; 0: none. "
+                   "Default: 180 with --quality final, otherwise 0")
+      ->type_name("DEGREES");
   command
       ->add_option(
           "--passes", texts->passes,

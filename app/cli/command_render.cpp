@@ -12,6 +12,7 @@
 #include "app/picture/mosaic.h"
 #include "app/run/fork.h"
 #include "app/run/passes.h"
+#include "app/run/plate.h"
 #include "app/run/render_job.h"
 #include "app/run/render_run.h"
 #include "app/run/step_warnings.h"
@@ -89,6 +90,14 @@ void check_picture_sizes(const scene::Scene& scene, setup::Quality quality, int 
                       mosaic.name, largest),
           fmt::format("mosaic.{}.width", mosaic.name), "make it narrower");
   }
+}
+
+/// Reads the plate of the first frame for every view: a wrong one is found before the run.
+void check_plates(const run::RenderJob& job) {
+  if (job.plate.empty()) return;
+  for (const scene::View& view : job.scene.views)
+    run::read_plate(run::plate_path(job.plate, job.frames.first), view.name,
+                    setup::size_of(job.scene, view));
 }
 
 /// @return the exit code; leaves DIR/difference.png when the pictures differ
@@ -223,6 +232,7 @@ int run_render(const run::RenderOptions& options) {
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, options.shader_dir, &pool);
   check_picture_sizes(job.scene, job.quality, renderer.max_size());
+  check_plates(job);
   // Before anything else of the run: another one may be writing there.
   const output::FolderLock lock(job.folder, "neve render");
 

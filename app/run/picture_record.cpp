@@ -101,6 +101,8 @@ render::PngText to_png_text(const PictureRecord& record) {
                        {"neve:view", record.view},
                        {"neve:quality", record.quality},
                        {"neve:files", to_text(Json(record.files), -1)}};
+  if (!record.plate.empty()) text["neve:plate"] = record.plate;
+  if (record.shutter > 0) text["neve:shutter"] = scene::toml::number_text(record.shutter);
   if (!record.passes.empty()) text["neve:passes"] = joined(record.passes, ",");
   return text;
 }
@@ -118,6 +120,8 @@ Json to_json(const PictureRecord& record) {
   json["frame"] = record.frame;
   json["view"] = record.view;
   json["quality"] = record.quality;
+  if (!record.plate.empty()) json["plate"] = record.plate;
+  if (record.shutter > 0) json["shutter"] = record.shutter;
   if (!record.passes.empty()) json["passes"] = record.passes;
   json["files"] = record.files;
   return json;
@@ -151,6 +155,9 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   record.frame = reader.number<int>("neve:frame");
   record.view = reader.text("neve:view");
   record.quality = reader.text("neve:quality");
+  if (text.contains("neve:plate")) record.plate = reader.text("neve:plate");
+  if (text.contains("neve:shutter")) record.shutter = reader.number<double>("neve:shutter");
+  if (!(record.shutter >= 0 && record.shutter <= 360)) reader.fail("its shutter is not 0 to 360");
   if (text.contains("neve:passes")) record.passes = reader.passes("neve:passes");
   const Json files = reader.json("neve:files");
   for (const auto& [path, hash] : files.items())

@@ -27,6 +27,8 @@ struct PictureRecord {
   int frame = 0;
   std::string view;
   std::string quality;                       ///< draft, preview, final
+  std::string plate;                         ///< of --plate; empty: none
+  double shutter = 0;                        ///< degrees of motion blur; 0: none
   std::vector<std::string> passes;           ///< of --passes; none: only PNGs
   std::map<std::string, std::string> files;  ///< of the scene: path to content hash
 };

@@ -19,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Degrees at final quality: half of each frame, as film cameras have it.
+constexpr double usual_shutter = 180;
+
 /// Reads the scene with the changes of the user, and with those of --fast where it was given.
 /// @param read  scene(overrides)
 template <class Read>
@@ -112,6 +115,8 @@ RenderJob job_from_picture(const RenderOptions& options) {
   job.quality = setup::quality_named(record.quality);
   job.changes = record.changes;
   job.passes = record.passes;
+  job.shutter = record.shutter;
+  job.plate = record.plate;
   job.coarsening = record.coarsening;
   choose_views({record.view}, job);
   job.scene.exports.clear();
@@ -169,6 +174,13 @@ RenderJob make_job(const RenderOptions& options) {
   if (options.frames) job.frames = *options.frames;
   if (options.quality) job.quality = *options.quality;
   if (!options.out.empty()) job.folder = options.out;
+  // A picture has its own shutter, unless another quality is asked for.
+  const bool has_own = !options.scene.empty() && is_picture(options.scene) && !options.quality;
+  if (options.shutter)
+    job.shutter = *options.shutter;
+  else if (!has_own)
+    job.shutter = job.quality == setup::Quality::final ? usual_shutter : 0;
+  if (!options.plate.empty()) job.plate = options.plate;
   if (!options.passes.empty()) job.passes = options.passes;
   job.validate = options.validate;
   job.resume = options.resume;

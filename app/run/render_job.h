@@ -31,6 +31,8 @@ struct RenderJob {
   std::optional<health::FastLook> fast;    ///< of --fast; its overrides are among those above
   std::vector<scene::LiveChange> changes;  ///< to be made while it runs, as they were in a picture
   std::vector<std::string> only_tiles;  ///< views that are drawn in a mosaic and not by themselves
+  std::string plate;                    ///< picture behind, see plate.h; empty: none
+  double shutter = 0;                   ///< degrees of motion blur; 0: none
   std::vector<std::string> passes;      ///< of --passes, see passes.h; none: only PNGs
   bool validate = false;                ///< with the checks of sim/checks/watch.h
   bool resume = false;                  ///< from the checkpoint in the folder

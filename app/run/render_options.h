@@ -23,6 +23,8 @@ struct RenderOptions {
   int threads = 0;  ///< 0: one per core
   std::string backend = "auto";
   std::optional<setup::Quality> quality;
+  std::string plate;                ///< see plate.h; empty: none
+  std::optional<double> shutter;    ///< degrees; absent: by quality
   std::vector<std::string> passes;  ///< see passes.h
   std::string reference;
   double reference_threshold = 0.5;  ///< of the mean difference, 0 to 255

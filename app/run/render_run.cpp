@@ -12,6 +12,8 @@
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
 #include "app/picture/mosaic.h"
+#include "app/picture/shutter.h"
+#include "app/run/plate.h"
 #include "app/run/slowdown.h"
 #include "app/run/step_warnings.h"
 #include "app/scene/read.h"
@@ -20,6 +22,7 @@
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "render/gl/context.h"
+#include "render/image/mean_image.h"
 
 namespace neve::app::run {
 
@@ -59,6 +62,8 @@ PictureRecord picture_record(const RenderJob& job, const RunRecord& run) {
   record.seed = job.scene.seed;
   record.version = version;
   record.quality = setup::name(job.quality);
+  record.plate = job.plate;
+  record.shutter = job.shutter;
   record.passes = job.passes;
   record.files = hash_files(job.scene);
   return record;
@@ -350,10 +355,17 @@ void RenderRun::draw_frame(int frame) {
   };
   for (const scene::View& view : scene_.views) {
     if (!is_drawn(view)) continue;
-    const render::Frame drawn = builder_.build(view, snapshot);
-    renderer_.submit(drawn);
-    waiting.push_back(view.name);
-    if (passes_) add_channels(view, snapshot, drawn);
+    render::Frame drawn = builder_.build(view, snapshot);
+    if (!job_.plate.empty()) drawn.is_transparent = true;
+    const std::vector<render::Frame> moments = moments_of(view, snapshot, drawn);
+    if (moments.empty() && job_.plate.empty()) {
+      renderer_.submit(drawn);
+      waiting.push_back(view.name);
+    } else {
+      fetch_down_to(0);
+      add(view.name, draw_composed(view, frame, drawn, moments));
+    }
+    if (passes_) add_channels(view, snapshot, drawn, moments);
     fetch_down_to(1);
   }
   fetch_down_to(0);
@@ -393,11 +405,36 @@ std::vector<scene::View> RenderRun::views_of_snapshot() const {
   return views;
 }
 
+std::vector<render::Frame> RenderRun::moments_of(const scene::View& view,
+                                                 const picture::Snapshot& snapshot,
+                                                 const render::Frame& frame) const {
+  if (!(job_.shutter > 0)) return {};
+  return picture::shutter_moments({scene_, view, *seeded_, snapshot}, frame, job_.shutter);
+}
+
+render::Image RenderRun::draw_composed(const scene::View& view, int number,
+                                       const render::Frame& frame,
+                                       const std::vector<render::Frame>& moments) {
+  std::optional<render::Image> plate;
+  if (!job_.plate.empty())
+    plate = read_plate(plate_path(job_.plate, number), view.name, {frame.width, frame.height});
+  const auto draw = [&](const render::Frame& moment) {
+    return plate ? renderer_.draw_on_plate(moment, *plate) : renderer_.draw(moment);
+  };
+  if (moments.empty()) return draw(frame);
+  render::MeanImage mean;
+  for (const render::Frame& moment : moments) mean.add(draw(moment));
+  return mean.mean();
+}
+
 void RenderRun::add_channels(const scene::View& view, const picture::Snapshot& snapshot,
-                             const render::Frame& frame) {
+                             const render::Frame& frame,
+                             const std::vector<render::Frame>& moments) {
   const picture::MotionSource source{scene_, view, *seeded_, snapshot};
-  auto picture = std::make_shared<const render::ExrPicture>(
-      renderer_.draw_channels(frame, passes_->request(source, frame, pass_numbers_)));
+  render::channels::Request request = passes_->request(source, frame, pass_numbers_);
+  request.moments = moments;
+  auto picture =
+      std::make_shared<const render::ExrPicture>(renderer_.draw_channels(frame, request));
   pass_work_.push_back([file = output::channels_path(job_.folder, view.name, snapshot.frame),
                         header = passes_->header(record_of(view.name, snapshot.frame), frame),
                         picture = std::move(picture)] {
@@ -481,7 +518,7 @@ void RenderRun::write_movie(const std::string& view) {
                                      record_.frames.front().frame,
                                      record_.frames.back().frame,
                                      job_.scene.fps,
-                                     has_alpha(job_.scene, view)};
+                                     job_.plate.empty() && has_alpha(job_.scene, view)};
   const output::MovieResult movie = output::write_movie(request);
   const std::string failure = "no movie " + request.file.string() + ": " + movie.reason;
   switch (movie.outcome) {
@@ -534,6 +571,10 @@ PictureRecord RenderRun::record_of(const std::string& view, int frame) const {
   PictureRecord record = picture_record_;
   record.view = view;
   record.frame = frame;
+  if (!job_.plate.empty()) {
+    const std::filesystem::path plate = plate_path(job_.plate, frame);
+    record.files[plate.string()] = hash_text(output::hash_file(plate));
+  }
   return record;
 }
 

@@ -82,9 +82,15 @@ class RenderRun {
   /// Lets the next frame be simulated while this one is drawn, where there are cores for both.
   void begin_next(int frame);
   void draw_frame(int frame);
+  /// Moments of the shutter; none without motion blur.
+  std::vector<render::Frame> moments_of(const scene::View& view, const picture::Snapshot& snapshot,
+                                        const render::Frame& frame) const;
+  /// Draws over the plate, and as the mean of the moments. @param number  of the frame
+  render::Image draw_composed(const scene::View& view, int number, const render::Frame& frame,
+                              const std::vector<render::Frame>& moments);
   /// Writes the channels of a picture.
   void add_channels(const scene::View& view, const picture::Snapshot& snapshot,
-                    const render::Frame& frame);
+                    const render::Frame& frame, const std::vector<render::Frame>& moments);
   std::vector<scene::View> views_of_snapshot() const;
   /// Takes the hashes of the files that were written in the meantime.
   void note_written();

@@ -241,11 +241,15 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
   // The plain arrays that go in at the start and come out for every picture.
   const double arrays =
       counted * static_cast<double>(sizeof(sim::Mat3d) * 3 + sizeof(sim::Vec3d) * 3);
+  // Points of each moment of an open shutter: place, number and value.
+  constexpr double moments = 16, point_bytes = 20;
+  const double blurred = quality == Quality::final ? counted * moments * point_bytes : 0;
   // States of exports wait for the worker as pictures do, and are text or bytes while it writes.
   const double exported = scene.exports.empty() ? 0 : arrays * (output::picture_queue_capacity + 2);
-  plan.memory = whole_bytes(simulated + arrays + exported + surface_memory(scene, counted) +
-                            deforming_memory(scene) + picture_memory(scene, quality) +
-                            channel_memory(scene, quality, channel_bytes));
+  plan.memory =
+      whole_bytes(simulated + arrays + exported + blurred + surface_memory(scene, counted) +
+                  deforming_memory(scene) + picture_memory(scene, quality) +
+                  channel_memory(scene, quality, channel_bytes));
   set_limits(scene, plan);
   for (const scene::PictureSize& size : picture_sizes(scene)) {
     const double samples = supersampling(quality) * supersampling(quality);

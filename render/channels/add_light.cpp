@@ -5,13 +5,6 @@
 namespace neve::render::channels {
 namespace {
 
-/// The key light and the sky as if nothing were in their way.
-light::LightVolume without_shadow(const light::LightVolume& light) {
-  light::LightVolume open = light;
-  std::ranges::fill(open.light, std::uint16_t{0xffff});
-  return open;
-}
-
 /// Adds weight times the mean of the samples of each pixel.
 void add_mean(const std::vector<float>& samples, int pitch, const Frame& frame, float weight,
               Plane& out) {
@@ -45,6 +38,12 @@ void add(ColorPlanes& a, float factor, const ColorPlanes& b) {
 }
 
 }  // namespace
+
+light::LightVolume without_shadow(const light::LightVolume& light) {
+  light::LightVolume open = light;
+  std::ranges::fill(open.light, std::uint16_t{0xffff});
+  return open;
+}
 
 /// Light is linear in the strengths of sun and sky: each part is a picture without the others.
 void add_light(const LitSurfaces& lit, const Request& request, float weight, LightPlanes& out) {

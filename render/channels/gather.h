@@ -17,6 +17,9 @@ struct LitSurfaces {
   const light::SmokeCover* smoke;  ///< null where there is none
 };
 
+/// The same volume with the key light and the sky as if nothing were in their way.
+light::LightVolume without_shadow(const light::LightVolume& light);
+
 /// Adds the light of one moment to the planes, with a weight; planes are made where they are empty.
 void add_light(const LitSurfaces& lit, const Request& request, float weight, LightPlanes& out);
 

@@ -7,6 +7,7 @@
 
 #include "both_ways.h"
 #include "render/image/exr.h"
+#include "render/image/mean_image.h"
 #include "render/shapes/mesh_shapes.h"
 
 namespace neve::render {
@@ -284,6 +285,52 @@ TEST(Channels, RequestsThatDoNotFitAreRefused) {
   request.velocity.clear();
   Renderer renderer(*context);
   EXPECT_THROW(renderer.draw_channels(frame, request), std::invalid_argument);
+}
+
+TEST(Plate, StaysAsItIsWhereNothingIsBeforeItAndNoShadowFalls) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = rough_ball(160, 100);
+  Image plate{160, 100, 3, std::vector<std::uint8_t>(160 * 100 * 3)};
+  for (std::size_t i = 0; i < plate.pixels.size(); ++i)
+    plate.pixels[i] = static_cast<std::uint8_t>(i * 7 % 256);
+  Renderer renderer(*context);
+  const Image drawn = renderer.draw_on_plate(frame, plate);
+  frame.is_transparent = true;
+  const Image front = renderer.draw(frame);  // with the ground, which fades out
+  int same = 0, darker = 0, brighter = 0;
+  for (std::size_t p = 0; p < 160 * 100; ++p) {
+    if (front.pixels[4 * p + 3] == 255 && front.pixels[4 * p] > 90) continue;  // snow
+    int change = 0;
+    for (std::size_t c = 0; c < 3; ++c) change += drawn.pixels[3 * p + c] - plate.pixels[3 * p + c];
+    same += std::abs(change) <= 3 ? 1 : 0;
+    darker += change < -12 ? 1 : 0;
+    brighter += front.pixels[4 * p + 3] == 0 && change > 3 ? 1 : 0;
+  }
+  EXPECT_GT(same, 4000);
+  EXPECT_GT(darker, 200) << "the ball throws no shadow";
+  EXPECT_EQ(brighter, 0);
+}
+
+TEST(Plate, OfAnotherSizeIsRefused) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  const Image plate{8, 8, 3, std::vector<std::uint8_t>(192)};
+  EXPECT_THROW(renderer.draw_on_plate(rough_ball(16, 10), plate), std::invalid_argument);
+}
+
+TEST(MeanImage, OfEqualPicturesIsThePicture) {
+  const Image image{2, 1, 4, {10, 200, 31, 7, 90, 3, 255, 255}};
+  MeanImage mean;
+  for (int k = 0; k < 5; ++k) mean.add(image);
+  EXPECT_EQ(mean.mean().pixels, image.pixels);
+}
+
+TEST(MeanImage, TransparentPixelsHaveNoColour) {
+  MeanImage mean;
+  mean.add({1, 1, 4, {200, 100, 40, 255}});
+  mean.add({1, 1, 4, {0, 0, 0, 0}});
+  EXPECT_EQ(mean.mean().pixels, (std::vector<std::uint8_t>{200, 100, 40, 128}));
+  EXPECT_THROW(mean.add({1, 1, 3, {0, 0, 0}}), ImageError);
 }
 
 TEST(Exr, TextAndMatricesComeBack) {

@@ -1,0 +1,18 @@
+#pragma once
+/// Motion blur: the moments of a frame while the shutter is open.
+
+#include "app/picture/motion.h"
+
+namespace neve::app::picture {
+
+/// Most moments of a frame. A picture is drawn for each.
+inline constexpr int max_moments = 16;
+
+/// Frames around the moment of the state: half of them before it. Each particle has its own phase
+/// between two moments, so that fast snow leaves a streak and no row of copies. As many as pixels
+/// that anything moves by; none where nothing moves by half a pixel. Smoke, slices and lines stay.
+/// @param frame  of the source @param degrees  the shutter is open, of 360 for a whole frame
+std::vector<render::Frame> shutter_moments(const MotionSource& source, const render::Frame& frame,
+                                           double degrees);
+
+}  // namespace neve::app::picture

@@ -1,0 +1,20 @@
+#pragma once
+/// The plate of --plate: a picture behind each frame.
+
+#include <filesystem>
+#include <string>
+
+#include "app/scene/scene.h"
+#include "render/image/image.h"
+
+namespace neve::app::run {
+
+/// The file of a frame: "street/%04d.png" with the number in the place of %04d; a name without a
+/// place is one picture for all frames. @throws UsageError for any other use of %
+std::filesystem::path plate_path(const std::string& pattern, int frame);
+
+/// @return RGB @throws IoError; Error when it is no PNG of the size of the view
+render::Image read_plate(const std::filesystem::path& file, const std::string& view,
+                         scene::PictureSize size);
+
+}  // namespace neve::app::run

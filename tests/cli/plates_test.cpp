@@ -1,0 +1,121 @@
+/// neve render --shutter and --plate: motion blur, and pictures behind the snow.
+
+#include <algorithm>
+
+#include "app/output/atomic_file.h"
+#include "render/image/image.h"
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+/// A ball that flies to the right at 3 m/s, 0.125 m a frame.
+constexpr const char* fast_ball_scene = R"(
+frames = 1
+[solver]
+cell_size = 0.04
+gravity = [0, 0, 0]
+[[body]]
+shape = { sphere = { center = [0, 0.3, 0], radius = 0.12 } }
+velocity = [3, 0, 0]
+[camera]
+eye = [0, 0.3, 2]
+target = [0, 0.3, 0]
+fov = 28.0725
+[output]
+size = [160, 90]
+background = "transparent"
+)";
+
+class Plates : public Cli {
+ protected:
+  Plates() { folder.write("flying.toml", fast_ball_scene); }
+
+  void render(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render"});
+    arguments.insert(arguments.end(), {"--no-movie", "--no-caption", "--quiet"});
+    const auto result = neve(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+  }
+  render::Image picture(const std::string& file) {
+    return render::decode_png(app::output::read_file(folder / file));
+  }
+  /// Pixels that are covered by any snow, and by snow alone, in the middle row of frame 0.
+  std::pair<int, int> covered(const std::string& run) {
+    const render::Image image = picture(run + "/particles/0000.png");
+    std::pair<int, int> count;
+    for (std::size_t x = 0; x < 160; ++x) {
+      const int alpha = image.pixels.at(4 * (45 * 160 + x) + 3);
+      count.first += alpha > 4 ? 1 : 0;
+      count.second += alpha > 250 ? 1 : 0;
+    }
+    return count;
+  }
+};
+
+/// A picture shows 90 pixels a metre: the ball moves by 11.25 pixels a frame.
+TEST_F(Plates, AnOpenShutterSmearsByTheWayOfTheSnow) {
+  const std::vector<std::string> common{"flying.toml", "--frames", "0-0", "--quality", "final"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), common.begin(), common.end());
+    render(more);
+  };
+  with({"--shutter", "0", "--out", "sharp"});
+  with({"--out", "usual"});
+  with({"--shutter", "360", "--out", "open"});
+  const auto [sharp, sharp_solid] = covered("sharp");
+  const auto [usual, usual_solid] = covered("usual");
+  const auto [open, open_solid] = covered("open");
+  EXPECT_NEAR(usual - sharp, 5.6, 2);
+  EXPECT_NEAR(open - sharp, 11.25, 2);
+  EXPECT_NEAR(sharp_solid - open_solid, 11.25, 3);
+  EXPECT_LT(usual_solid, sharp_solid);
+}
+
+TEST_F(Plates, ABlurredPictureMakesItselfAgain) {
+  render({"flying.toml", "--frames", "0-0", "--shutter", "180", "--out", "first"});
+  render({"first/particles/0000.png", "--out", "again"});
+  EXPECT_EQ(read_text(folder / "first/particles/0000.png"),
+            read_text(folder / "again/particles/0000.png"));
+  EXPECT_TRUE(
+      contains(neve({"info", "first/particles/0000.png"}).output, "shutter     180 degrees"));
+}
+
+TEST_F(Plates, APlateIsBehindTheSnow) {
+  render::Image plate{160, 90, 3, std::vector<std::uint8_t>(160 * 90 * 3, 77)};
+  const auto bytes = render::encode_png(plate);
+  app::output::make_folder(folder / "street");
+  app::output::write_file(folder / "street/0000.png", bytes);
+  plate.pixels.assign(plate.pixels.size(), 200);
+  app::output::write_file(folder / "street/0001.png", render::encode_png(plate));
+  render({"flying.toml", "--plate", "street/%04d.png", "--out", "run"});
+  const render::Image first = picture("run/particles/0000.png"),
+                      second = picture("run/particles/0001.png");
+  EXPECT_EQ(first.channels, 3);
+  EXPECT_EQ(first.pixels.at(30), 77);
+  EXPECT_EQ(second.pixels.at(30), 200);
+  EXPECT_GT(first.pixels.at(3 * (45 * 160 + 80)), 120) << "no snow";
+  render({"run/particles/0001.png", "--out", "again"});
+  EXPECT_EQ(picture("again/particles/0001.png").pixels, second.pixels);
+  app::output::write_file(folder / "street/0001.png", bytes);
+  EXPECT_EQ(neve({"render", "run/particles/0001.png", "--out", "other"}).exit_code, 3);
+}
+
+TEST_F(Plates, WrongPlatesAndShuttersAreRefusedBeforeTheRun) {
+  const auto refused = [&](std::vector<std::string> arguments, int code, const std::string& part) {
+    arguments.insert(arguments.begin(), {"render", "flying.toml"});
+    const auto result = neve(arguments);
+    EXPECT_EQ(result.exit_code, code) << result.errors;
+    EXPECT_TRUE(contains(result.errors, part)) << result.errors;
+  };
+  refused({"--shutter", "400"}, 2, "expected 0 (no motion blur) to 360");
+  refused({"--plate", "street/%s.png"}, 2, "street/%04d.png");
+  refused({"--plate", "nowhere.png"}, 6, "nowhere.png");
+  const render::Image small{8, 8, 3, std::vector<std::uint8_t>(192)};
+  app::output::write_file(folder / "small.png", render::encode_png(small));
+  refused({"--plate", "small.png"}, 3, "the plate is 8x8 and the view particles is 160x90");
+  EXPECT_FALSE(exists("out/flying/run.json"));
+}
+
+}  // namespace
+}  // namespace neve::test
