@@ -467,6 +467,7 @@ int run_command_line(int argc, char** argv) {
   add_schema(app, action);
   add_compare(app, action);
   add_sweep(app, action);
+  add_pick(app, action);
   add_view(app, action);
   add_bench(app, action);
   add_manual(app, action);

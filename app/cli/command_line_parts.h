@@ -47,6 +47,7 @@ void add_scene(CLI::App& command, const std::shared_ptr<run::RenderOptions>& opt
                const std::shared_ptr<RenderTexts>& texts);
 
 void add_sweep(CLI::App& app, Action& action);
+void add_pick(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_dump(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);

@@ -6,6 +6,7 @@
 #include "app/bench/bench_options.h"
 #include "app/compare/pair_options.h"
 #include "app/dump/dump_options.h"
+#include "app/pick/pick_options.h"
 #include "app/run/export_run.h"
 #include "app/run/render_options.h"
 #include "app/sweep/plan/sweep_options.h"
@@ -57,5 +58,6 @@ int run_params(const ParamsOptions& options);
 int run_sweep(const sweep::plan::SweepOptions& options);
 int run_sweep_run(const sweep::plan::SweepRunOptions& options);
 int run_sweep_collect(const sweep::plan::CollectOptions& options);
+int run_pick(const pick::PickOptions& options);
 
 }  // namespace neve::app::cli

@@ -86,6 +86,9 @@ inline constexpr Folder folders[] = {
     {"app/sweep/sheet",
      "render/image render/frame render/gl render/overlay render app/support app/scene app/output "
      "app/setup app/picture app/sweep/plan app/sweep/store app/sweep/jobs"},
+    {"app/pick/search", "sim/base app/sweep/plan"},
+    {"app/pick",
+     "app/support app/scene/toml app/scene app/sweep/read app/sweep/plan app/pick/search"},
     {"app/view/session",
      "sim/types sim app/support app/scene/toml app/scene app/output app/setup app/health "
      "app/picture app/run app/dump app/sweep/plan"},
@@ -107,7 +110,7 @@ inline constexpr Folder folders[] = {
     {"app/cli",
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
      "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports app/run "
-     "app/compare app/dump "
+     "app/compare app/dump app/pick app/pick/search "
      "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet "
      "app/view/frontend app/view/web app/view/replay app/view app/bench"},
     {"app", "app/output app/cli", "neve::app"},

@@ -1,0 +1,37 @@
+#pragma once
+/// The parameters that a search varies, as axes of the unit cube.
+
+#include <string>
+#include <vector>
+
+#include "app/pick/search/preference.h"
+#include "app/scene/override.h"
+#include "app/sweep/read/sweep.h"
+
+namespace neve::app::pick {
+
+inline constexpr std::size_t most_axes = 8;
+
+/// A number between two ends, in equal steps or in equal ratios.
+struct PickAxis {
+  std::string address, name, unit;  ///< the name is short
+  double low = 0, high = 1;
+  bool is_logarithmic = false, is_whole = false;
+
+  /// @param u place on the axis, 0 to 1
+  double value(double u) const;
+  /// The value as it is given to runs: six digits.
+  std::string text(double u) const;
+};
+
+/// Of each -p the least and the greatest value; in ratios where they are a factor of ten or more
+/// apart, or where the rule says so (log_uniform, logspace).
+/// @throws UsageError for parameters that are no numbers, for a single value, and for more than
+///         most_axes
+std::vector<PickAxis> axes_of(const sweep::read::Sweep& sweep);
+
+/// Settings of the run at a place.
+std::vector<scene::Override> settings_at(const std::vector<PickAxis>& axes,
+                                         const search::Point& place);
+
+}  // namespace neve::app::pick

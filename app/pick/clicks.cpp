@@ -1,0 +1,60 @@
+#include "app/pick/clicks.h"
+
+#include <fmt/core.h>
+
+#include <sstream>
+
+#include "app/pick/search/rounds.h"
+#include "app/scene/toml/error.h"
+
+namespace neve::app::pick {
+
+std::optional<Click> click_of(const std::string& text) {
+  std::istringstream words(text);
+  Click click;
+  bool is_none = false;
+  for (std::string word; words >> word;) {
+    if (word.size() != 1 || word[0] < '0' || word[0] > '0' + search::tiles_in_round)
+      return std::nullopt;
+    const int tile = word[0] - '1';
+    if (is_none || (tile < 0 && !click.empty()) || click.size() == 2 ||
+        (click.size() == 1 && click[0] == tile))
+      return std::nullopt;
+    is_none = tile < 0;
+    if (!is_none) click.push_back(tile);
+  }
+  if (click.empty() && !is_none) return std::nullopt;
+  return click;
+}
+
+std::string click_text(const Click& click) {
+  std::string text;
+  for (const int tile : click) text += (text.empty() ? "" : " ") + std::to_string(tile + 1);
+  return text.empty() ? "0" : text;
+}
+
+std::vector<Click> parse_clicks(const std::string& text, const std::string& file) {
+  std::vector<Click> clicks;
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.empty() || line[0] == '#') continue;
+    const std::optional<Click> click = click_of(line);
+    if (!click)
+      throw scene::toml::UsageError(
+          fmt::format("{}:{}", file, number), "\"" + line.substr(0, 40) + "\" is no choice",
+          "expected a tile from 1 to 9, two of them as in 2 7, or 0 for none");
+    clicks.push_back(*click);
+  }
+  return clicks;
+}
+
+std::string clicks_text(const std::vector<Click>& clicks, const std::vector<std::string>& comment) {
+  std::string text;
+  for (const std::string& line : comment) text += "# " + line + "\n";
+  for (const Click& click : clicks) text += click_text(click) + "\n";
+  return text;
+}
+
+}  // namespace neve::app::pick

@@ -1,0 +1,35 @@
+#pragma once
+/// Files of a search: the sweep of each round, and the scene and sweep of the result.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/pick/axes.h"
+
+namespace neve::app::pick {
+
+/// What all runs of a search have in common.
+struct SearchScene {
+  std::string file;                    ///< of the scene, as the shell's folder sees it
+  std::vector<scene::Override> fixed;  ///< --set
+  std::vector<PickAxis> axes;
+};
+
+/// A sweep file with one run for each tile, numbered from 1.
+/// @param folder  that the text will be in: the scene is named relative to it
+/// @param round   from 1
+std::string round_sweep(const SearchScene& scene, const std::filesystem::path& folder, int round,
+                        const std::vector<search::Point>& tiles);
+
+/// The scene with the values of a place, every parameter written out.
+std::string picked_scene(const SearchScene& scene, const search::Point& place);
+
+/// A sweep file around a place: the two axes that tell most with three values each, or the only
+/// one with five.
+/// @param scene_name  file of picked_scene, in the same folder
+/// @param order       axes, the most telling one first
+std::string picked_sweep(const SearchScene& scene, const std::string& scene_name,
+                         const search::Point& place, const std::vector<std::size_t>& order);
+
+}  // namespace neve::app::pick

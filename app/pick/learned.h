@@ -1,0 +1,34 @@
+#pragma once
+/// What a search has learned, in words and as a map.
+
+#include <string>
+#include <vector>
+
+#include "app/pick/axes.h"
+#include "app/pick/search/rounds.h"
+
+namespace neve::app::pick {
+
+/// How liking changes along an axis through the favourite.
+struct AxisTaste {
+  std::size_t axis = 0;
+  double effect = 0;         ///< greatest less least expected liking
+  double low = 0, high = 1;  ///< ends of the part that is liked nearly as much as the favourite
+};
+
+/// Of all axes, the most telling one first. @param favourite not empty
+std::vector<AxisTaste> axis_tastes(const std::vector<PickAxis>& axes,
+                                   const search::Preference& taste, const search::Point& favourite);
+
+/// One sentence for each axis.
+std::vector<std::string> taste_lines(const std::vector<PickAxis>& axes,
+                                     const std::vector<AxisTaste>& tastes,
+                                     const search::Point& favourite);
+
+/// SVG: expected liking over the two most telling axes, through the favourite; pale where little is
+/// known. Tiles that were shown are dots, chosen ones are filled, the favourite has a ring.
+std::string taste_map(const std::vector<PickAxis>& axes, const search::Preference& taste,
+                      const std::vector<search::Round>& rounds,
+                      const std::vector<AxisTaste>& tastes, const search::Point& favourite);
+
+}  // namespace neve::app::pick

@@ -1,0 +1,24 @@
+#pragma once
+/// A page with the nine moving tiles of a round, for any browser; it needs no server.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace neve::app::pick {
+
+/// What a page shows of a search.
+struct RoundPage {
+  int round = 1, rounds = 8;
+  double fps = 24;
+  /// Pictures of each tile in order, relative to the folder of the page; none where a run has none.
+  std::vector<std::vector<std::string>> tiles;
+  std::vector<std::string> learned;  ///< sentences
+  std::string map;                   ///< SVG, or ""
+  bool has_favourite = false;        ///< the first tile is the favourite so far
+};
+
+/// Nine tiles that play together, again and again, and below them what was learned.
+std::string page_html(const RoundPage& page);
+
+}  // namespace neve::app::pick

@@ -1,0 +1,103 @@
+/// `neve pick`: replayed clicks, going on, and mistakes.
+
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+class PickCli : public Cli {
+ protected:
+  app::output::ProcessResult pick(const std::string& clicks, const std::string& out,
+                                  std::vector<std::string> more = {}) {
+    folder.write("list.txt", clicks);
+    std::vector<std::string> arguments = {"pick",
+                                          "scene.toml",
+                                          "--clicks",
+                                          "list.txt",
+                                          "--out",
+                                          out,
+                                          "--frames",
+                                          "2",
+                                          "--size",
+                                          "64x36",
+                                          "--json",
+                                          "-p",
+                                          "material.snow.hardening=2,20",
+                                          "-p",
+                                          "material.snow.youngs_modulus=2e4,1e6"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return neve(arguments);
+  }
+};
+
+TEST_F(PickCli, ReplayedClicksGiveTheSamePickToTheBit) {
+  const auto first = pick("# a comment\n3\n2 7\n", "a");
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  ASSERT_EQ(pick("3\n2 7\n", "b").exit_code, 0);
+  for (const char* file : {"/picked.toml", "/picked_sweep.toml", "/learned.txt", "/map.svg",
+                           "/clicks.txt", "/round_2.toml", "/sheet.png", "/round.html"})
+    EXPECT_EQ(read_text(folder / ("a" + std::string(file))),
+              read_text(folder / ("b" + std::string(file))))
+        << file;
+  const app::Json result = app::parse_json(std::string_view(first.output));
+  EXPECT_EQ(result["rounds"], 2);
+  EXPECT_TRUE(
+      contains(read_text(folder / "a/picked.toml"),
+               "hardening = " + result["values"]["material.snow.hardening"].get<std::string>()));
+  // Both can be used as they are.
+  EXPECT_EQ(neve({"render", "a/picked.toml", "--dry-run"}).exit_code, 0);
+  EXPECT_EQ(neve({"sweep", "a/picked_sweep.toml", "--dry-run"}).exit_code, 0);
+}
+
+TEST_F(PickCli, ThePickIsTheTileThatWasClickedLast) {
+  const auto result = pick("5\n", "a");
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const app::Json values = app::parse_json(std::string_view(result.output))["values"];
+  const std::string round = read_text(folder / "a/round_1.toml");
+  const std::string run = round.substr(round.find("label = \"5\""), 200);
+  EXPECT_TRUE(contains(run, "= " + values["material.snow.hardening"].get<std::string>() + "\n"));
+}
+
+/// The favourite of the first round is shown again: 17 runs for 18 tiles.
+TEST_F(PickCli, ItGoesOnWithTheRunsThatAreThere) {
+  ASSERT_EQ(pick("4\n", "a").exit_code, 0);
+  ASSERT_EQ(pick("4\n1\n", "a").exit_code, 0);
+  ASSERT_EQ(pick("4\n1\n", "b").exit_code, 0);
+  EXPECT_EQ(read_text(folder / "a/picked.toml"), read_text(folder / "b/picked.toml"));
+  EXPECT_TRUE(exists("a/runs/0016"));
+  EXPECT_FALSE(exists("a/runs/0017"));
+  const auto other = pick("5\n", "a");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_TRUE(contains(other.output + other.errors, "has other clicks from round 1 on"));
+  const auto seeded = pick("4\n", "a", {"--seed", "2"});
+  EXPECT_EQ(seeded.exit_code, 2);
+  EXPECT_TRUE(contains(seeded.output + seeded.errors, "has another search"));
+}
+
+TEST_F(PickCli, WithoutATerminalItSaysHowToUseIt) {
+  const auto result = neve({"pick", "scene.toml", "-p", "material.snow.hardening=2,20"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.errors, "--clicks FILE")) << result.errors;
+  EXPECT_FALSE(exists("out"));
+}
+
+TEST_F(PickCli, MistakesAreToldBeforeAnythingIsMade) {
+  folder.write("bad.txt", "3\n\n10\n");
+  const std::vector<std::string> start = {"pick", "scene.toml", "--clicks", "bad.txt", "-p"};
+  const auto message = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = start;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = neve(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_FALSE(exists("out"));
+    return result.errors;
+  };
+  EXPECT_TRUE(contains(message({"material.snow.hardening=2,20"}), "bad.txt:3"));
+  EXPECT_TRUE(contains(message({"material.snow.hardening=2"}), "has one value"));
+  EXPECT_TRUE(contains(message({"solver.transfer=apic,flip"}), "expected two numbers"));
+  EXPECT_TRUE(contains(message({"material.snow.hardenin=2,20"}), "hardening"));
+  EXPECT_TRUE(contains(message({"material.snow.hardening=2,20", "--rounds", "0"}), "--rounds"));
+}
+
+}  // namespace
+}  // namespace neve::test
