@@ -27,6 +27,17 @@ std::size_t fitting(const ImFont& font, const std::string& text, float width) {
   return end;
 }
 
+/// Where a line ends that may be as long as `longest`: at its last space, or behind its last comma
+/// or group of words (those are three spaces apart) if that leaves it long enough.
+std::size_t end_of_line(const std::string& text, std::size_t longest) {
+  const std::size_t last = text.rfind(' ', longest);
+  if (last == std::string::npos || last == 0) return longest;
+  std::size_t end = last;
+  while (end > 0 && !(text[end] == ' ' && (text[end - 1] == ',' || text[end - 1] == ' '))) --end;
+  end = 5 * end < 2 * longest ? last : end;
+  return text.find_last_not_of(' ', end) + 1;
+}
+
 }  // namespace
 
 float text_width(const ImFont& font, const std::string& text) {
@@ -48,9 +59,7 @@ std::vector<std::string> wrap(const ImFont& font, const std::string& text, float
       lines.push_back(elide(font, rest, width));
       break;
     }
-    std::size_t end = fitting(font, rest, width);
-    const std::size_t space = rest.rfind(' ', end);
-    if (space != std::string::npos && space > 0) end = space;
+    const std::size_t end = end_of_line(rest, fitting(font, rest, width));
     lines.push_back(rest.substr(0, end));
     rest.erase(0, rest.find_first_not_of(' ', end));
   }

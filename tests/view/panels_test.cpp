@@ -13,6 +13,7 @@
 #include "app/view/panels/tip.h"
 #include "app/view/panels/viewport.h"
 #include "app/view/panels/widgets.h"
+#include "app/view/panels/words.h"
 #include "tests/cli/run_neve.h"
 #include "tests/view/panels.h"
 
@@ -134,6 +135,26 @@ TEST(Tip, APausedViewerDrawsUntilTheTipIsVisible) {
     if (window->Flags & ImGuiWindowFlags_Tooltip) tip = window;
   ASSERT_TRUE(tip);
   EXPECT_TRUE(tip->Active && !tip->Hidden);
+}
+
+TEST(Words, NumbersAreNotBrokenBehindTheirPoint) {
+  Panels panels;
+  const std::string text =
+      "crosses 8.24 cells in a step of 0.008 s. Try: solver.dt = 0.000243\nor time_step";
+  panels.frame([&] {
+    const float letter = ImGui::CalcTextSize("x").x;
+    for (int letters = 22; letters < 90; ++letters) {
+      const float width = static_cast<float>(letters) * letter;
+      std::string lines = app::view::panels::in_lines(text, width);
+      EXPECT_LE(ImGui::CalcTextSize(lines.c_str()).x, width) << lines;
+      for (const char* number : {"8.24", "0.008", "0.000243\n"})
+        EXPECT_NE(lines.find(number), std::string::npos) << lines;
+      std::replace(lines.begin(), lines.end(), '\n', ' ');
+      std::string whole = text;
+      std::replace(whole.begin(), whole.end(), '\n', ' ');
+      EXPECT_EQ(lines, whole);
+    }
+  });
 }
 
 TEST(Tip, ATipThatChangesIsNeverCutOff) {

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "app/support/errors.h"
+#include "app/support/json.h"
 #include "app/view/session/written_files.h"
 #include "app/view/web/download.h"
 #include "tests/support/temporary_folder.h"

@@ -13,6 +13,7 @@
 #include "app/view/panels/labels.h"
 #include "app/view/panels/tip.h"
 #include "app/view/panels/viewer_state.h"
+#include "app/view/panels/words.h"
 
 namespace neve::app::view::panels {
 
@@ -81,10 +82,10 @@ void draw_stage_table(const session::StageSummary& look) {
       std::to_string(look.rows) + (look.is_of_nodes ? " nodes, " + std::to_string(look.negligible) +
                                                           " of them too light and left out"
                                                     : " particles");
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled("after %s of a step of %s s: magnitudes of %s", sim::name(look.stage),
-                      rough_text(look.dt).c_str(), rows.c_str());
-  ImGui::PopTextWrapPos();
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  wrapped_text(std::string("after ") + sim::name(look.stage) + " of a step of " +
+               rough_text(look.dt) + " s: magnitudes of " + rows);
+  ImGui::PopStyleColor();
   if (!begin_quantities("stage")) return;
   for (const session::QuantitySummary& quantity : look.quantities) {
     ImGui::TableNextRow();
@@ -255,9 +256,7 @@ void draw_probe(ViewerState& state) {
       (probe.is_node ? "node" : "particle " + std::to_string(std::get<std::size_t>(probe.target))) +
       " at " + rough_text(probe.place.x()) + ", " + rough_text(probe.place.y()) + ", " +
       rough_text(probe.place.z()) + " m" + (probe.after.empty() ? "" : ", after " + probe.after);
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(title.c_str());
-  ImGui::PopTextWrapPos();
+  wrapped_text(title);
   draw_trace(state);
   if (!begin_quantities("probe")) return;
   for (const session::ProbeRow& row : probe.rows) {

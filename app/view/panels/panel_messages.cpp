@@ -10,6 +10,7 @@
 #include "app/view/panels/labels.h"
 #include "app/view/panels/tip.h"
 #include "app/view/panels/viewer_state.h"
+#include "app/view/panels/words.h"
 
 namespace neve::app::view::panels {
 
@@ -31,9 +32,7 @@ void draw_incident(ViewerState& state) {
   const session::LiveFrame& live = *state.live;
   if (!live.divergence || !live.diagnosis) return;
   ImGui::PushStyleColor(ImGuiCol_Text, message_color(session::Message::Kind::error));
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(health::sentence(*live.divergence, *live.diagnosis).c_str());
-  ImGui::PopTextWrapPos();
+  wrapped_text(health::sentence(*live.divergence, *live.diagnosis));
   ImGui::PopStyleColor();
   if (ImGui::Button("Show me")) show_incident(state);
   note_label("Show me");
@@ -90,14 +89,12 @@ void draw_messages(ViewerState& state) {
   draw_incident(state);
   const std::deque<session::Message>& messages = state.bench.messages();
   if (messages.empty() && !state.live->divergence) ImGui::TextDisabled("Nothing to report.");
-  ImGui::PushTextWrapPos(0);
   for (auto message = messages.rbegin(); message != messages.rend(); ++message) {
     ImGui::PushStyleColor(ImGuiCol_Text, message_color(message->kind));
-    ImGui::TextUnformatted(message->text.c_str());
+    wrapped_text(message->text);
     ImGui::PopStyleColor();
     ImGui::Spacing();
   }
-  ImGui::PopTextWrapPos();
 }
 
 void draw_time_line(ViewerState& state) {
