@@ -79,6 +79,7 @@ run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts
   if (!options.shader_dir.empty() && !std::filesystem::is_directory(options.shader_dir))
     throw scene::toml::UsageError("--shader-dir", "cannot use \"" + options.shader_dir + "\"",
                                   "expected a folder with the files of shaders/");
+  options.movie = finished_movie(texts.movie);
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
   if (texts.progress) options.progress.is_json = parse_progress(*texts.progress);
@@ -246,7 +247,9 @@ void add_render(CLI::App& app, Action& action) {
       ->capture_default_str();
   // Its name alone; "!--no-movie" would be listed as --no-movie{false}.
   command->add_flag_callback(
-      "--no-movie", [options] { options->has_movies = false; }, "Write pictures only, no movie");
+      "--no-movie", [options] { options->has_movies = false; },
+      "Write pictures only, no movie; the same as --movie none");
+  add_movie_flags(*command, texts->movie);
   command->add_flag_callback(
       "--no-caption", [options] { options->has_caption = false; },
       "Leave the words over the pictures out: for films; the layers counter and slate stay");

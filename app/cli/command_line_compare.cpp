@@ -17,6 +17,7 @@ struct CompareTexts {
   std::optional<std::string> frames, size, range, progress;
   std::vector<std::string> modes;
   bool is_quiet = false;
+  MovieTexts movie;
 };
 
 std::string mode_names() {
@@ -31,14 +32,17 @@ CompareOptions finished_compare(const CLI::App& command, CompareOptions options,
   pictures.a = options.a;
   pictures.b = options.b;
   if (command.count("--out") > 0 && pictures.out.empty())
-    throw scene::toml::UsageError("--out", "names no folder or file",
-                                  "expected a folder, or a file .png, .mp4 or .csv");
-  for (const char* flag : {"--mode", "--frames", "--view", "--size", "--wipe", "--range"})
+    throw scene::toml::UsageError(
+        "--out", "names no folder or file",
+        "expected a folder, or a file .png, .mp4, .webm, .mov, .gif, .webp or .csv");
+  for (const char* flag : {"--mode", "--frames", "--view", "--size", "--wipe", "--range", "--movie",
+                           "--movie-quality", "--movie-fps"})
     if (pictures.out.empty() && command.count(flag) > 0)
       throw scene::toml::UsageError(flag, "has no use without pictures",
                                     "give --out DIR, --out x.png or --out x.mp4 too");
   for (const std::string& mode : texts.modes) pictures.modes.push_back(compare::mode_named(mode));
   if (texts.frames) pictures.frames = setup::parse_frames(*texts.frames);
+  pictures.movie = finished_movie(texts.movie);
   if (texts.size) pictures.size = setup::parse_size(*texts.size);
   if (texts.range) pictures.range = setup::finite_number(*texts.range);
   if (texts.range && !(pictures.range && *pictures.range > 0))
@@ -58,9 +62,10 @@ void add_picture_flags(CLI::App& command, const std::shared_ptr<CompareOptions>&
                        const std::shared_ptr<CompareTexts>& texts) {
   compare::PairOptions& pictures = options->pictures;
   command
-      .add_option("--out", pictures.out,
-                  "Draw both runs with one camera and one light, into a folder with all modes, or "
-                  "into a file: x.png (the last frame), x.mp4, or x.csv for the metrics")
+      .add_option(
+          "--out", pictures.out,
+          "Draw both runs with one camera and one light, into a folder with all modes, or "
+          "into a file: x.png (the last frame), x.mp4 or another movie, x.csv for the metrics")
       ->type_name("DIR|FILE");
   add_repeatable(command, "--mode", texts->modes, "NAME",
                  ("How --out shows both (repeatable for a folder): " + mode_names()).c_str());
@@ -77,6 +82,7 @@ void add_picture_flags(CLI::App& command, const std::shared_ptr<CompareOptions>&
       .add_option("--range", texts->range,
                   "Metres that have the last colour of mode displacement; default: ten cells")
       ->type_name("M");
+  add_movie_flags(command, texts->movie);
   command.add_option("--threads", pictures.threads, "Number of threads; 0: one per core")
       ->type_name("N");
   command.add_option("--backend", pictures.backend, "OpenGL backend; neve doctor lists them")

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "app/cli/movie_flags.h"
 
 namespace neve::app::cli {
 
@@ -28,6 +29,7 @@ void check_backend(const std::string& name);
 struct RenderTexts {
   std::optional<std::string> frames, from, size, quality, passes, coarsening, progress;
   bool is_quiet = false, is_verbose = false;
+  MovieTexts movie;
 };
 
 /// Adds --progress and --log.

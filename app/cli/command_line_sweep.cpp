@@ -19,6 +19,7 @@ namespace {
 struct SweepTexts {
   std::optional<std::string> frames, fork, size, coarsening, shard, progress, budget;
   bool is_quiet = false, is_verbose = false;
+  MovieTexts movie;
 };
 
 sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
@@ -31,6 +32,7 @@ sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
   if (texts.fork) options.fork = setup::parse_time(*texts.fork, "--fork");
   if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);
   if (texts.size) options.size = setup::parse_size(*texts.size);
+  options.movie = finished_movie(texts.movie);
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
   if (!options.retry_failed.empty()) sweep::store::parse_retry(options.retry_failed);
@@ -89,6 +91,7 @@ void add_what(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts&
   command.add_flag("--fast", options.is_fast,
                    "Take longer steps in all runs for a quick look, by settings that are recorded "
                    "as --set is");
+  add_movie_flags(command, texts.movie);
   command.add_option("--out", options.out, "Output folder instead of out/<name of the file>.cdb")
       ->type_name("DIR");
 }
@@ -174,7 +177,11 @@ void add_run(CLI::App& sweep, Action& action) {
 void add_collect(CLI::App& sweep, Action& action) {
   CLI::App* command = sweep.add_subcommand(
       "collect", "Make table, sheets and report from the finished runs of a sweep");
-  add_folder(*command, action, std::make_shared<sweep::plan::CollectOptions>(), run_sweep_collect);
+  const auto options = std::make_shared<sweep::plan::CollectOptions>();
+  const auto movie = std::make_shared<MovieTexts>();
+  add_movie_flags(*command, *movie);
+  add_folder(*command, action, options, run_sweep_collect);
+  command->parse_complete_callback([=] { options->movie = finished_movie(*movie); });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "app/health/findings.h"
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
+#include "app/output/movie.h"
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
 #include "app/run/fork.h"
@@ -223,6 +224,7 @@ int run_render(const run::RenderOptions& options) {
   std::optional<render::Image> reference;
   if (!options.reference.empty()) reference = read_reference(options.reference);
 
+  if (job.has_movies) output::require_movie(job.movie, job.scene.fps);
   catch_interrupts();
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
                     options.progress);

@@ -13,6 +13,7 @@
 #include "app/cli/commands.h"
 #include "app/health/findings.h"
 #include "app/output/folder_lock.h"
+#include "app/output/movie.h"
 #include "app/output/named_file.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
@@ -228,6 +229,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
     sweep::plan::print_sweep_plan(plan, cores, options.is_json);
     return exit_ok;
   }
+  output::require_movie(options.movie, plan.base.fps);
   sweep::store::check_folder(plan);
   // Shards of a sweep work side by side.
   const output::FolderLock lock(
@@ -248,7 +250,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   }
   const sweep::jobs::JobsResult result = run_engine(options, plan.folder, manifest, progress);
   if (result.failure) fail_by_machine(*result.failure, plan.folder);
-  sweep::sheet::collect_sweep(plan.folder, options.backend, cores, progress);
+  sweep::sheet::collect_sweep(plan.folder, options.movie, options.backend, cores, progress);
   print_sweep_result(options, plan.folder, result, progress);
   if (result.elsewhere > 0)
     progress.say(fmt::format(
@@ -317,8 +319,9 @@ int run_sweep_collect(const sweep::plan::CollectOptions& options) {
   catch_interrupts();
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
                     options.progress);
-  sweep::sheet::collect_sweep(options.folder, options.backend, core_count(options.threads),
-                              progress);
+  output::require_movie(options.movie, sweep::store::read_manifest(options.folder).fps);
+  sweep::sheet::collect_sweep(options.folder, options.movie, options.backend,
+                              core_count(options.threads), progress);
   if (is_interrupted()) return exit_interrupted;
   const SweepCounts counts = counts_in(options.folder);
   progress.note("collected in " + options.folder);

@@ -60,6 +60,7 @@ class PairRun {
         progress_(progress) {}
 
   void run() {
+    target_.check_movies(pair_.a.job.scene.fps);
     refuse_mode(options_, Mode::metrics, metrics_problem(pair_), target_, result_);
     refuse_mode(options_, Mode::mass, grid_problem(pair_), target_, result_);
     const bool needs_states = std::any_of(target_.modes().begin(), target_.modes().end(),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/output/movie_format.h"
 #include "app/setup/plan.h"
 #include "app/support/progress.h"
 
@@ -25,14 +26,15 @@ Mode mode_named(const std::string& text);
 
 struct PairOptions {
   std::string a, b;         ///< folders of runs, or pictures
-  std::string out;          ///< a folder, or a file .png, .mp4 or .csv; empty: no pictures
+  std::string out;          ///< a folder, a picture, a movie or a table .csv; empty: none
   std::vector<Mode> modes;  ///< empty: beside for a file, all for a folder
   std::optional<setup::FrameRange> frames;
   std::string view;                        ///< of A; empty: its first
   std::optional<scene::PictureSize> size;  ///< of the picture of one run
   double wipe = 0.5;                       ///< share of the width that is from A
-  std::optional<double> range;             ///< m, displacement that has the last colour
-  int threads = 0;                         ///< 0: one per core
+  output::MovieStyle movie;
+  std::optional<double> range;  ///< m, displacement that has the last colour
+  int threads = 0;              ///< 0: one per core
   std::string backend = "auto";
   Verbosity verbosity = Verbosity::normal;
   ProgressOptions progress{};

@@ -18,11 +18,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::optional<output::MovieFormat> movie_format_of(const fs::path& out) {
+  const std::string suffix = out.extension().string();
+  return suffix.empty() ? std::nullopt : output::movie_format_named(suffix.substr(1));
+}
+
+/// That of --movie, or that of the file's suffix. @throws UsageError where they are not the same
+output::MovieStyle movie_for(const PairOptions& options, TargetKind kind) {
+  output::MovieStyle movie = options.movie;
+  if (kind != TargetKind::movie) return movie;
+  const output::MovieFormat format = *movie_format_of(options.out);
+  const bool is_same =
+      std::string(output::movie_suffix(movie.format)) == output::movie_suffix(format);
+  if (movie.is_chosen && movie.has_format && (!is_same || !movie.is_made))
+    throw scene::toml::UsageError(
+        std::string("--movie ") + (movie.is_made ? output::name(movie.format) : "none"),
+        "does not fit " + options.out,
+        std::string("leave it out, or name a file ") + output::movie_suffix(movie.format));
+  if (!movie.has_format) movie.format = format;
+  movie.is_chosen = true;
+  return movie;
+}
+
 TargetKind kind_of(const fs::path& out) {
   const std::string suffix = out.extension().string();
   if (suffix == ".png") return TargetKind::picture;
-  if (suffix == ".mp4") return TargetKind::movie;
   if (suffix == ".csv") return TargetKind::table;
+  if (movie_format_of(out)) return TargetKind::movie;
   return TargetKind::folder;
 }
 
@@ -50,7 +72,7 @@ fs::path list_path(const fs::path& folder) {
 bool is_listed_name(const fs::path& file) {
   const auto parent = file.parent_path().string();
   const std::string stem = file.stem().string(), suffix = file.extension().string();
-  const bool is_known = suffix == ".png" || suffix == ".mp4" || suffix == ".csv";
+  const bool is_known = suffix == ".png" || suffix == ".csv" || movie_format_of(file);
   const auto is_mode = [](const std::string& text) {
     return std::any_of(all_modes().begin(), all_modes().end(),
                        [&](Mode mode) { return text == name(mode); });
@@ -81,7 +103,10 @@ void remove_earlier_files(const fs::path& folder) {
 }  // namespace
 
 Target::Target(const PairOptions& options)
-    : out_(options.out), kind_(kind_of(options.out)), modes_(modes_for(options, kind_)) {
+    : out_(options.out),
+      kind_(kind_of(options.out)),
+      modes_(modes_for(options, kind_)),
+      movie_(movie_for(options, kind_)) {
   std::error_code error;
   if (kind_ != TargetKind::folder || !fs::exists(output::run_json_path(out_), error)) return;
   throw scene::toml::UsageError("--out", options.out + " is the folder of a run",
@@ -136,13 +161,15 @@ void Target::add(Mode mode, int frame, const render::Image& image) {
 std::vector<std::string> Target::add_movies(double fps) {
   std::vector<std::string> warnings;
   // One picture is no movie, unless it was asked for.
-  const bool has_movie = kind_ == TargetKind::movie || kind_ == TargetKind::folder;
+  const bool has_movie =
+      kind_ == TargetKind::movie || (kind_ == TargetKind::folder && movie_.is_made);
   if (!has_movie || first_ < 0 || (first_ == last_ && kind_ == TargetKind::folder)) return warnings;
   for (const Mode mode : modes_) {
     if (mode == Mode::metrics) continue;
-    const fs::path file = kind_ == TargetKind::movie ? out_ : output::movie_path(out_, name(mode));
+    const fs::path file =
+        kind_ == TargetKind::movie ? out_ : output::movie_path(out_, name(mode), movie_.format);
     const output::MovieResult movie =
-        output::write_movie({folder_of(mode), file, first_, last_, fps});
+        output::write_movie({folder_of(mode), file, first_, last_, fps, false, 0, movie_});
     if (movie.outcome == output::MovieOutcome::written) {
       note(file);
       continue;

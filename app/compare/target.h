@@ -8,6 +8,7 @@
 
 #include "app/compare/pair_options.h"
 #include "app/output/folder_lock.h"
+#include "app/output/movie.h"
 #include "render/image/image.h"
 
 namespace neve::app::compare {
@@ -29,6 +30,8 @@ class Target {
   bool has(Mode mode) const;
   void leave_out(Mode mode);
 
+  /// @param fps  of the scenes @throws IoError, UsageError where movies cannot be made as asked for
+  void check_movies(double fps) const { output::require_movie(movie_, fps); }
   /// Takes the folder and removes the files that an earlier comparison listed there.
   void begin();
   void add(Mode mode, int frame, const render::Image& image);
@@ -47,6 +50,7 @@ class Target {
   std::filesystem::path out_;
   TargetKind kind_;
   std::vector<Mode> modes_;
+  output::MovieStyle movie_;
   std::optional<output::FolderLock> lock_;
   std::filesystem::path scratch_;  ///< pictures of a movie that is alone
   int first_ = -1, last_ = -1;     ///< frames that were added

@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <sstream>
 #include <system_error>
 #include <vector>
 
 #include "app/output/atomic_file.h"
+#include "app/output/movie_arguments.h"
 #include "app/output/process.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
 
 namespace neve::app::output {
 
@@ -19,23 +23,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Shortest text that reads back as the same number, with a point in every locale.
-std::string decimal(double value) {
-  char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed);
-  return {buffer, end.ptr};
-}
-
 std::string last_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   const std::size_t start = text.find_last_of("\r\n");
   return start == std::string::npos ? text : text.substr(start + 1);
-}
-
-/// Appends the words of a constant text.
-void append_words(std::vector<std::string>& arguments, const char* text) {
-  std::istringstream words(text);
-  for (std::string word; words >> word;) arguments.push_back(word);
 }
 
 /// A frame of 16384x16384 takes about 10 s to encode on one core.
@@ -45,34 +36,57 @@ double longest_time(const MovieRequest& request) {
   return start + per_frame * (request.last_frame - request.first_frame + 1);
 }
 
-/// Pictures are named relative to their folder: its path may hold a '%', a pattern character.
-/// yuv420p needs even sides; players take high definition for BT.709 and ignore the file.
+/// Removes a file in the end.
+struct Scratch {
+  fs::path file;
+  ~Scratch() {
+    std::error_code error;
+    fs::remove(file, error);
+  }
+};
+
+/// A GIF has one palette, which is found first.
 ProcessResult encode(const fs::path& ffmpeg, const MovieRequest& request, const fs::path& target) {
-  std::vector<std::string> arguments;
-  append_words(arguments, "-nostdin -v error -y -f image2 -framerate");
-  arguments.push_back(decimal(request.fps));
-  arguments.insert(arguments.end(), {"-start_number", std::to_string(request.first_frame)});
-  append_words(arguments, "-i %04d.png -frames:v");
-  arguments.push_back(std::to_string(request.last_frame - request.first_frame + 1));
-  // Movies have no alpha: transparent pictures are laid over a plain colour. (ffmpeg 5.1 crashes
-  // when drawbox is to replace alpha, so the plain one has none.)
-  const std::string over_plain =
-      "split[a][b];[a]format=rgb24,drawbox=c=0x454b55:t=fill[plain];[plain][b]overlay=format=gbrp,";
-  arguments.insert(arguments.end(), {"-vf", (request.has_alpha ? over_plain : "") +
-                                                "pad=ceil(iw/2)*2:ceil(ih/2)*2,"
-                                                "scale=out_color_matrix=bt709:out_range=tv"});
-  append_words(arguments,
-               "-c:v libx264 -crf 18 -pix_fmt yuv420p "
-               "-colorspace bt709 -color_primaries bt709 -color_trc bt709 "
-               "-movflags +faststart -f mp4");
-  arguments.push_back(fs::absolute(target).string());
-  return run_process(ffmpeg, arguments, request.picture_folder, longest_time(request));
+  const auto run = [&](const std::vector<std::string>& arguments) {
+    return run_process(ffmpeg, arguments, request.picture_folder, longest_time(request));
+  };
+  const Scratch palette{temporary_name(request.file.parent_path() / "palette.png")};
+  if (request.style.format == MovieFormat::gif) {
+    ProcessResult found = run(palette_arguments(request, palette.file));
+    if (!found.has_started || found.exit_code != 0) return found;
+  }
+  return run(movie_arguments(request, target, palette.file));
 }
 
 struct FrameCount {
   long frames = -1;  ///< that can be decoded, -1 when ffmpeg could not say
   std::string said;
 };
+
+/// ffmpeg writes animated WebP and reads none. Equal frames in a row are one that lasts longer, so
+/// their times are counted.
+FrameCount count_webp_frames(const fs::path& movie, double fps) {
+  const std::vector<std::uint8_t> bytes = read_file(movie);
+  const auto number = [&](std::size_t at, int size) {
+    std::size_t value = 0;
+    for (int k = size; k-- > 0;) value = value << 8 | bytes[at + static_cast<std::size_t>(k)];
+    return value;
+  };
+  constexpr std::size_t head = 12, chunk_head = 8, duration_at = 12;
+  const auto is_at = [&](std::size_t at, const char* word) {
+    return std::memcmp(bytes.data() + at, word, 4) == 0;
+  };
+  if (bytes.size() < head || !is_at(0, "RIFF") || number(4, 4) + 8 != bytes.size())
+    return {-1, "the file is not whole"};
+  double milliseconds = 0;
+  for (std::size_t at = head; at + chunk_head <= bytes.size();) {
+    const std::size_t size = number(at + 4, 4);
+    if (is_at(at, "ANMF") && at + chunk_head + duration_at + 3 <= bytes.size())
+      milliseconds += static_cast<double>(number(at + chunk_head + duration_at, 3));
+    at += chunk_head + size + size % 2;
+  }
+  return {std::lround(milliseconds * fps / 1000), {}};
+}
 
 FrameCount count_frames(const fs::path& ffmpeg, const fs::path& movie, double longest) {
   std::vector<std::string> arguments{"-nostdin", "-v", "error", "-i", fs::absolute(movie).string()};
@@ -130,7 +144,9 @@ Attempt try_movie(const fs::path& ffmpeg, const MovieRequest& request, const fs:
     return {"ffmpeg failed (" + std::to_string(result.exit_code) +
             "): " + telling_line(result.errors)};
   const long expected = request.last_frame - request.first_frame + 1;
-  const FrameCount count = count_frames(ffmpeg, temporary, longest_time(request));
+  const FrameCount count = request.style.format == MovieFormat::webp
+                               ? count_webp_frames(temporary, movie_fps(request))
+                               : count_frames(ffmpeg, temporary, longest_time(request));
   if (count.frames == expected) return {};
   const std::string said = telling_line(result.errors + count.said);
   return {"ffmpeg made " + std::to_string(std::max(count.frames, 0L)) + " of " +
@@ -185,6 +201,31 @@ MovieResult write_movie(const MovieRequest& request) {
     return {MovieOutcome::unwritable, error.what()};
   }
   return {MovieOutcome::written, {}};
+}
+
+void require_movie(const MovieStyle& style, double fps) {
+  if (!style.is_chosen || !style.is_made) return;
+  const double rate = style.fps > 0 ? style.fps : fps;
+  constexpr double fastest_gif = 50;
+  if (style.format == MovieFormat::gif && rate > fastest_gif)
+    throw Error(exit_usage,
+                "--movie gif: browsers show at most 50 frames a second of a GIF, and these are " +
+                    rough_text(rate) + "; add --movie-fps 50 to slow it down, or use --movie webp",
+                "--movie", "add --movie-fps 50, or use --movie webp");
+  const std::string flag = std::string("--movie ") + name(style.format);
+  const auto ffmpeg = find_program("ffmpeg");
+  if (!ffmpeg)
+    throw IoError(flag +
+                      ": ffmpeg, which makes movies, is not in PATH; install it (Debian: "
+                      "ffmpeg), or leave pictures with --movie none",
+                  "ffmpeg", "install ffmpeg");
+  const ProcessResult listed = run_process(*ffmpeg, {"-v", "error", "-encoders"}, "/", 60);
+  if (listed.output.find(std::string(" ") + movie_encoder(style.format) + " ") != std::string::npos)
+    return;
+  throw IoError(flag + ": " + ffmpeg->string() + " has no encoder " + movie_encoder(style.format) +
+                    "; install a whole ffmpeg, or choose another format: h264, prores and gif are "
+                    "in most",
+                ffmpeg->string(), "choose another --movie");
 }
 
 }  // namespace neve::app::output

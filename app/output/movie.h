@@ -4,15 +4,18 @@
 #include <filesystem>
 #include <string>
 
+#include "app/output/movie_format.h"
+
 namespace neve::app::output {
 
 struct MovieRequest {
   std::filesystem::path picture_folder;  ///< holds 0000.png ...
   std::filesystem::path file;            ///< the movie
   int first_frame = 0, last_frame = 0;
-  double fps = 24;
-  bool has_alpha = false;  ///< of the pictures, which are then laid over a plain colour
+  double fps = 24;         ///< of the scene
+  bool has_alpha = false;  ///< of the pictures, laid over a plain colour where the format has none
   double longest = 0;      ///< s that ffmpeg may take; 0: as long as the largest pictures need
+  MovieStyle style{};
 };
 
 enum class MovieOutcome {
@@ -27,11 +30,16 @@ struct MovieResult {
   std::string reason;  ///< of a failure
 };
 
-/// H.264 with even sides, written under a temporary name, decoded again to count its frames (ffmpeg
-/// exits 0 on broken input) and only then put in place. A movie of another length is not kept.
+/// Written under a temporary name, read again to count its frames (ffmpeg exits 0 on broken input)
+/// and only then put in place. Most formats get even sides. A movie of another length is not kept.
 /// An earlier movie of that name is removed first. A written one is on the disk. An ffmpeg that
 /// takes far too long is stopped.
 /// Never throws for failures of ffmpeg and of the disk.
 MovieResult write_movie(const MovieRequest& request);
+
+/// A movie that was asked for and cannot be made is told before the pictures are.
+/// @param fps  of the scene
+/// @throws IoError where ffmpeg or its encoder is missing, Error for too fast a GIF
+void require_movie(const MovieStyle& style, double fps);
 
 }  // namespace neve::app::output

@@ -83,8 +83,8 @@ fs::path channels_path(const fs::path& folder, const std::string& view, int fram
   return frame_path(folder, view, frame).replace_extension(".exr");
 }
 
-fs::path movie_path(const fs::path& folder, const std::string& view) {
-  return folder / (view + ".mp4");
+fs::path movie_path(const fs::path& folder, const std::string& view, MovieFormat format) {
+  return folder / (view + movie_suffix(format));
 }
 
 fs::path diverged_path(const fs::path& folder, const std::string& view) {
@@ -108,7 +108,8 @@ std::size_t remove_earlier_run(const fs::path& folder) {
   std::size_t removed = 0;
   std::error_code error;
   for (const std::string& view : run.views) {
-    removed += remove_regular(movie_path(folder, view));
+    for (const MovieFormat format : all_movie_formats())
+      removed += remove_regular(movie_path(folder, view, format));
     removed += remove_regular(diverged_path(folder, view));
     const fs::path view_folder = folder / view;
     if (!fs::is_directory(fs::symlink_status(view_folder, error))) continue;

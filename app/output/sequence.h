@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "app/output/movie_format.h"
+
 namespace neve::app::output {
 
 /// Name of the slice through the culprit of a diverged run, next to the pictures of its views.
@@ -24,8 +26,9 @@ std::filesystem::path frame_path(const std::filesystem::path& folder, const std:
 /// DIR/<view>/0024.exr
 std::filesystem::path channels_path(const std::filesystem::path& folder, const std::string& view,
                                     int frame);
-/// DIR/<view>.mp4
-std::filesystem::path movie_path(const std::filesystem::path& folder, const std::string& view);
+/// DIR/<view>.mp4, or with another suffix
+std::filesystem::path movie_path(const std::filesystem::path& folder, const std::string& view,
+                                 MovieFormat format);
 /// DIR/diverged_<view>.png
 std::filesystem::path diverged_path(const std::filesystem::path& folder, const std::string& view);
 std::filesystem::path incident_path(const std::filesystem::path& folder);

@@ -38,6 +38,7 @@ struct RenderJob {
   bool resume = false;                  ///< from the checkpoint in the folder
   int checkpoint_every = 10;            ///< frames; 0: none
   bool has_movies = true;
+  output::MovieStyle movie{};
   std::vector<std::string> warnings;  ///< of the start, for run.json
   double coarsening = 1;              ///< done to the scene, a picture's included
   std::optional<Fork> fork{};

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/output/movie_format.h"
 #include "app/setup/plan.h"
 #include "app/support/progress.h"
 
@@ -36,6 +37,7 @@ struct RenderOptions {
   bool resume = false;
   int checkpoint_every = 10;  ///< frames; 0: none
   bool has_movies = true;
+  output::MovieStyle movie;
   bool has_caption = true;
   Verbosity verbosity = Verbosity::normal;
   ProgressOptions progress;

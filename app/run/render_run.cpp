@@ -514,11 +514,13 @@ void RenderRun::write_movies() {
 
 void RenderRun::write_movie(const std::string& view) {
   const output::MovieRequest request{job_.folder / view,
-                                     output::movie_path(job_.folder, view),
+                                     output::movie_path(job_.folder, view, job_.movie.format),
                                      record_.frames.front().frame,
                                      record_.frames.back().frame,
                                      job_.scene.fps,
-                                     job_.plate.empty() && has_alpha(job_.scene, view)};
+                                     job_.plate.empty() && has_alpha(job_.scene, view),
+                                     0,
+                                     job_.movie};
   const output::MovieResult movie = output::write_movie(request);
   const std::string failure = "no movie " + request.file.string() + ": " + movie.reason;
   switch (movie.outcome) {

@@ -116,6 +116,109 @@ TEST_F(Movie, MovieIsNotKeptWhenAPictureIsEmptyOrMissing) {
   }
 }
 
+/// How a file of a format begins, from byte `at`.
+std::pair<std::size_t, std::string> signature_of(app::output::MovieFormat format) {
+  switch (format) {
+    case app::output::MovieFormat::h264:
+    case app::output::MovieFormat::h265:
+      return {4, "ftypisom"};
+    case app::output::MovieFormat::vp9:
+      return {0, "\x1a\x45\xdf\xa3"};
+    case app::output::MovieFormat::prores:
+      return {4, "ftypqt"};
+    case app::output::MovieFormat::gif:
+      return {0, "GIF89a"};
+    case app::output::MovieFormat::webp:
+      return {8, "WEBPVP8X"};
+  }
+  return {};
+}
+
+TEST_F(Movie, EveryFormatHoldsEveryFrameAlsoEqualOnes) {
+  for (const app::output::MovieFormat format : app::output::all_movie_formats()) {
+    const Fixture f;
+    write_pictures(f.folder, 3, 8);
+    for (const int equal : {5, 6})
+      fs::copy_file(app::output::frame_path(f.folder, "v", 4),
+                    app::output::frame_path(f.folder, "v", equal),
+                    fs::copy_options::overwrite_existing);
+    app::output::MovieRequest wanted = request(f.folder, 3, 8);
+    wanted.style.format = format;
+    wanted.file = app::output::movie_path(f.folder, "v", format);
+    const app::output::MovieResult result = app::output::write_movie(wanted);
+    ASSERT_EQ(result.outcome, app::output::MovieOutcome::written)
+        << app::output::name(format) << ": " << result.reason;
+    const auto [at, begin] = signature_of(format);
+    EXPECT_EQ(test::read_text(wanted.file).substr(at, begin.size()), begin)
+        << app::output::name(format);
+    EXPECT_EQ(file_count(f.folder), 2u) << app::output::name(format) << ": a file is left";
+    fs::remove(app::output::frame_path(f.folder, "v", 7));
+    EXPECT_EQ(app::output::write_movie(wanted).outcome, app::output::MovieOutcome::failed)
+        << app::output::name(format) << ": a frame is missing";
+    EXPECT_FALSE(fs::exists(wanted.file)) << app::output::name(format);
+  }
+}
+
+TEST_F(Movie, LessQualityIsASmallerFileAndTheRateIsThatOfTheStyle) {
+  const Fixture f;
+  unsigned noise = 1;
+  for (int frame = 0; frame < 6; ++frame) {
+    render::Image image{64, 48, 3, {}};
+    for (int k = 0; k < 64 * 48 * 3; ++k)
+      image.pixels.push_back(
+          static_cast<std::uint8_t>((noise = noise * 1664525 + 1013904223) >> 24));
+    app::output::write_file(app::output::frame_path(f.folder, "v", frame),
+                            render::encode_png(image));
+  }
+  const auto size_with = [&](app::output::MovieFormat format, int quality) {
+    app::output::MovieRequest wanted = request(f.folder, 0, 5);
+    wanted.style = {format, quality, 4};
+    wanted.file = app::output::movie_path(f.folder, "v", format);
+    EXPECT_EQ(app::output::write_movie(wanted).outcome, app::output::MovieOutcome::written)
+        << app::output::name(format);
+    return fs::file_size(wanted.file);
+  };
+  for (const app::output::MovieFormat format : app::output::all_movie_formats()) {
+    const auto low = size_with(format, 30);
+    EXPECT_LT(1.1 * static_cast<double>(low), static_cast<double>(size_with(format, 95)))
+        << app::output::name(format);
+    if (format == app::output::MovieFormat::webp) continue;  // ffmpeg reads none
+    const app::output::ProcessResult told = app::output::run_process(
+        *app::output::find_program("ffmpeg"),
+        {"-i", app::output::movie_path(f.folder, "v", format).string()}, f.folder);
+    EXPECT_NE(told.errors.find("Duration: 00:00:01.50"), std::string::npos) << told.errors;
+  }
+}
+
+TEST(MovieWithoutFfmpeg, AMovieThatWasAskedForIsAnErrorBeforeThePictures) {
+  const TemporaryFolder folder;
+  const std::string path = std::getenv("PATH");
+  const auto problem = [](const app::output::MovieStyle& style, double fps) -> std::string {
+    try {
+      app::output::require_movie(style, fps);
+    } catch (const app::Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  app::output::MovieStyle style{app::output::MovieFormat::h265};
+  ::setenv("PATH", folder.path().c_str(), 1);
+  EXPECT_EQ(problem(style, 24), "") << "nobody asked for it";
+  style.is_chosen = true;
+  const std::string no_ffmpeg = problem(style, 24);
+  fs::permissions(folder.write("ffmpeg", "#!/bin/bash\necho ' V....D libx264   H.264'\n"),
+                  fs::perms::owner_all);
+  const std::string no_encoder = problem(style, 24);
+  style.format = app::output::MovieFormat::h264;
+  EXPECT_EQ(problem(style, 24), "");
+  style.format = app::output::MovieFormat::gif;
+  const std::string too_fast = problem(style, 60);
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(no_ffmpeg.find("ffmpeg, which makes movies, is not in PATH"), std::string::npos);
+  EXPECT_NE(no_encoder.find("has no encoder libx265"), std::string::npos) << no_encoder;
+  EXPECT_NE(too_fast.find("at most 50 frames a second"), std::string::npos) << too_fast;
+}
+
 TEST(MovieWithoutFfmpeg, AnFfmpegThatHangsIsStopped) {
   const TemporaryFolder folder;
   const Fixture f;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/output/movie_format.h"
 #include "app/setup/plan.h"
 #include "app/support/progress.h"
 #include "app/sweep/plan/selection.h"
@@ -29,6 +30,7 @@ struct SweepOptions {
   std::string only;                 ///< "3,7-12"; "": all
   std::string engine = "local";     ///< local | slurm
   std::vector<std::string> sbatch;  ///< further options of sbatch
+  output::MovieStyle movie;         ///< of the sheet
   double budget = 0;                ///< s for all runs; 0: as long as they take
   std::string emit;                 ///< file for the commands of the runs; nothing is started
   Verbosity verbosity = Verbosity::normal;
@@ -52,6 +54,7 @@ struct SweepRunOptions {
 
 struct CollectOptions {
   std::string folder;  ///< of a sweep
+  output::MovieStyle movie;
   std::string backend = "auto";
   int threads = 0;
   bool is_json = false;

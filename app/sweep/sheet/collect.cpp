@@ -87,13 +87,20 @@ std::string page_name(const std::string& name, std::size_t page) {
 }
 
 void write_sheet_movie(const fs::path& folder, const store::Manifest& manifest,
-                       const std::string& name, Progress& progress) {
-  const output::MovieRequest request{folder / name,          folder / (name + ".mp4"),
-                                     manifest.first_frame(), manifest.last_frame(),
-                                     manifest.fps,           false};
+                       const std::string& name, const output::MovieStyle& style,
+                       Progress& progress) {
+  if (!style.is_made) return;
+  const output::MovieRequest request{folder / name,
+                                     output::movie_path(folder, name, style.format),
+                                     manifest.first_frame(),
+                                     manifest.last_frame(),
+                                     manifest.fps,
+                                     false,
+                                     0,
+                                     style};
   const output::MovieResult movie = output::write_movie(request);
   if (movie.outcome == output::MovieOutcome::no_ffmpeg)
-    progress.note("no " + name + ".mp4: ffmpeg is not installed");
+    progress.note("no " + name + output::movie_suffix(style.format) + ": ffmpeg is not installed");
   const std::string failure = "no movie " + request.file.string() + ": " + movie.reason;
   if (movie.outcome == output::MovieOutcome::failed) progress.warning(failure);
   if (movie.outcome == output::MovieOutcome::unwritable)
@@ -102,7 +109,7 @@ void write_sheet_movie(const fs::path& folder, const store::Manifest& manifest,
 }
 
 void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
-                      std::size_t page, Progress& progress) {
+                      std::size_t page, const output::MovieStyle& movie, Progress& progress) {
   const int first = manifest.first_frame(), last = manifest.last_frame();
   const std::string name = page_name("sheet", page);
   output::make_folder(folder / name);
@@ -115,13 +122,13 @@ void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, S
     progress.line(name + " " + std::to_string(frame) + "/" + std::to_string(last));
   }
   writer.finish();
-  if (!is_interrupted() && last > first) write_sheet_movie(folder, manifest, name, progress);
+  if (!is_interrupted() && last > first) write_sheet_movie(folder, manifest, name, movie, progress);
 }
 
 void write_sheets(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
-                  Progress& progress) {
+                  const output::MovieStyle& movie, Progress& progress) {
   for (std::size_t page = 0; page < maker.pages().size(); ++page)
-    write_sheet_page(folder, manifest, maker, page, progress);
+    write_sheet_page(folder, manifest, maker, page, movie, progress);
   if (is_interrupted() || manifest.last_frame() == manifest.first_frame()) return;
   output::PictureWriter writer;
   std::size_t page = 0;
@@ -144,8 +151,8 @@ void write_effects(const fs::path& folder, const store::Manifest& manifest,
 
 }  // namespace
 
-void collect_sweep(const fs::path& folder, const std::string& backend, int threads,
-                   Progress& progress) {
+void collect_sweep(const fs::path& folder, const output::MovieStyle& movie,
+                   const std::string& backend, int threads, Progress& progress) {
   // Reads before it locks: a folder without a sweep gets no file.
   store::Manifest manifest = store::read_manifest(folder);
   const std::optional<output::FolderLock> lock = wait_for_turn(folder, progress);
@@ -171,7 +178,7 @@ void collect_sweep(const fs::path& folder, const std::string& backend, int threa
   SheetMaker maker(folder, manifest, results, legends, renderer);
   std::vector<std::uint8_t> sheet;
   if (has_pictures(results)) {
-    write_sheets(folder, manifest, maker, progress);
+    write_sheets(folder, manifest, maker, movie, progress);
     if (is_interrupted()) return;
     sheet = output::read_file(folder / "sheet.png");
   }

@@ -1,0 +1,72 @@
+/// Movies as they are asked for: format, quality, rate.
+
+#include "tests/cli/run_neve.h"
+#include "tests/support/needs.h"
+
+namespace neve::test {
+namespace {
+
+class MovieFlags : public Cli {
+ protected:
+  void SetUp() override {
+    if (!app::output::find_program("ffmpeg")) SKIP_OR_FAIL("no ffmpeg in PATH (Debian: ffmpeg)");
+  }
+};
+
+TEST_F(MovieFlags, AFinishedRunGetsAnotherMovieWithoutARun) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "a", "--movie", "gif"}).exit_code, 0);
+  EXPECT_TRUE(exists("a/particles.gif"));
+  EXPECT_FALSE(exists("a/particles.mp4"));
+  EXPECT_EQ(neve({"verify", "a"}).exit_code, 0);
+  const app::Json before = json_of("a/run.json");
+  const auto again = neve({"render", "scene.toml", "--out", "a", "--resume", "--movie", "webp",
+                           "--movie-fps", "12", "--movie-quality", "60", "--json"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(app::parse_json(std::string_view(again.output))["movies"],
+            app::Json::array({"a/particles.webp"}));
+  EXPECT_EQ(json_of("a/run.json")["frames"], before["frames"]) << "nothing was simulated again";
+  // Another run removes what the one before made.
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "a", "--movie", "none"}).exit_code, 0);
+  for (const char* movie : {"a/particles.gif", "a/particles.webp", "a/particles.mp4"})
+    EXPECT_FALSE(exists(movie)) << movie;
+}
+
+TEST_F(MovieFlags, SheetsAndComparisonsHaveThemToo) {
+  const auto swept = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--frames", "0-2", "--size",
+                           "96x54", "--out", "s", "--movie", "gif"});
+  ASSERT_EQ(swept.exit_code, 0) << swept.errors;
+  EXPECT_TRUE(exists("s/sheet.gif"));
+  EXPECT_FALSE(exists("s/sheet.mp4"));
+  ASSERT_EQ(neve({"sweep", "collect", "s", "--movie", "webm"}).exit_code, 0);
+  EXPECT_TRUE(exists("s/sheet.webm"));
+  const auto compare = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"compare", "s/runs/0000", "s/runs/0001"};
+    words.insert(words.end(), more.begin(), more.end());
+    return neve(words);
+  };
+  ASSERT_EQ(compare({"--out", "x.webp"}).exit_code, 0);
+  EXPECT_EQ(read_text(folder / "x.webp").substr(8, 4), "WEBP");
+  ASSERT_EQ(compare({"--out", "both", "--mode", "wipe", "--movie", "prores"}).exit_code, 0);
+  EXPECT_TRUE(exists("both/wipe.mov"));
+  const auto unfit = compare({"--out", "x.gif", "--movie", "h265"});
+  EXPECT_EQ(unfit.exit_code, 2);
+  EXPECT_TRUE(contains(unfit.errors, "--movie h265: does not fit x.gif")) << unfit.errors;
+}
+
+TEST_F(MovieFlags, WrongOnesAreToldBeforeAnythingIsDrawn) {
+  const auto refused = [&](std::vector<std::string> flags, const std::string& part) {
+    flags.insert(flags.begin(), {"render", "scene.toml"});
+    const auto result = neve(flags);
+    EXPECT_EQ(result.exit_code, 2) << part;
+    EXPECT_TRUE(contains(result.errors, part)) << result.errors;
+  };
+  refused({"--movie", "av1"}, "there is no format \"av1\"; did you mean vp9?");
+  refused({"--movie", "giff"}, "did you mean gif?");
+  refused({"--movie-quality", "0"}, "expected a whole number from 1 to 100");
+  refused({"--movie-fps", "fast"}, "expected 0.1 to 1000 frames a second");
+  refused({"--movie", "gif", "--movie-fps", "100"}, "at most 50 frames a second");
+  EXPECT_FALSE(exists("out"));
+}
+
+}  // namespace
+}  // namespace neve::test
