@@ -110,7 +110,7 @@ auto reading(std::span<const std::uint8_t> bytes, const Read& read) {
 
 /// Channels of whole numbers are read in single precision.
 ExrPicture empty_picture(const Imf::Header& header) {
-  const Imath::Box2i window = header.dataWindow();
+  const Imath::Box2i& window = header.dataWindow();
   const double width = 1.0 + window.max.x - window.min.x;
   const double height = 1.0 + window.max.y - window.min.y;
   double numbers = 0;
