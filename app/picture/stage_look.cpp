@@ -59,6 +59,7 @@ void add_stage_change(const Snapshot& snapshot, const StageLook& look, render::F
   render::Arrows arrows;
   arrows.colormap = legend.colormap;
   arrows.range_max = legend.max;
+  arrows.is_white = true;
   arrows.max_length = static_cast<float>(longest_arrow * cut.cell_size);
   arrows.length_per_value = arrows.max_length / legend.max;
   std::set<std::array<int, 2>> taken;  // cells of the plane

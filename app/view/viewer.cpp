@@ -272,8 +272,8 @@ void Viewer::draw_panels() {
   panels::draw_offer(state_);
   panels::draw_help(state_);
   panels::draw_files(state_);
-  panels::draw_tour(state_);
   panels::use_viewport(state_);
+  panels::draw_tour(state_);
   panels::use_keys(state_);
 }
 

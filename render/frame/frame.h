@@ -63,6 +63,7 @@ struct Arrows {
   float max_length = 1;        ///< m, longer ones are cut to it
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;  ///< of the magnitude
+  bool is_white = false;               ///< instead, over points that already have these colours
 };
 
 /// Values on a rectangle in space, sampled row by row; not-a-number where there is nothing to show.

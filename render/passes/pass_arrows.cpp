@@ -44,7 +44,10 @@ class ArrowBuilder {
     const Vec3f other = std::abs(along.y) < 0.9f ? Vec3f{0, 1, 0} : Vec3f{1, 0, 0};
     const Vec3f side = normalized(cross(other, along)), top = cross(along, side);
     const Rgb8 c = map_value(arrows_.colormap, magnitude, arrows_.range_min, arrows_.range_max);
-    color_ = {c.r, c.g, c.b, 255};
+    if (arrows_.is_white)
+      color_ = {255, 255, 255, 255};
+    else
+      color_ = {c.r, c.g, c.b, 255};
     const float slim = arrows_.max_length * slimness(reach / arrows_.max_length);
     const float head = std::min(head_length * slim, 0.6f * reach);
     const Vec3f start = from - eye_, neck = start + along * (reach - head),

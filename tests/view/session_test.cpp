@@ -118,6 +118,31 @@ TEST(Session, SessionGoesThroughAllStagesOfAStepAndTakesItThen) {
   EXPECT_FALSE(live->stage);
 }
 
+TEST(Session, StagesOfAnOlderFrameAreThoseOfThatFrame) {
+  const auto scene = scene_of(tiny_scene);
+  view::session::Session session(scene, {}, {});
+  session.run();
+  rest_at(session, 4);
+  session.show_frame(2);
+  wait_for(session, [](const view::session::LiveFrame& live) { return live.is_older; });
+  session.show_stage(sim::Stage::advection);
+  const auto inside = wait_for(
+      session, [](const view::session::LiveFrame& live) { return live.stage.has_value(); });
+  EXPECT_EQ(inside->frame, 2);
+  EXPECT_TRUE(inside->is_older);
+  EXPECT_EQ(inside->head, 4);
+  EXPECT_EQ(inside->state_hash, undisturbed(*scene, 2));
+  session.next_stage();
+  session.next_stage();  // an older frame takes no step
+  const auto after =
+      wait_for(session, [](const view::session::LiveFrame& live) { return !live.stage; });
+  EXPECT_EQ(after->state_hash, undisturbed(*scene, 2));
+  session.show_head();
+  const auto head =
+      wait_for(session, [](const view::session::LiveFrame& live) { return !live.is_older; });
+  EXPECT_EQ(head->state_hash, undisturbed(*scene, 4));
+}
+
 TEST(Session, SessionContinuesFromAnOlderFrameAndForgetsLaterOnes) {
   const auto scene = scene_of(tiny_scene);
   view::session::Session session(scene, {}, {});

@@ -87,6 +87,7 @@ TEST(StageChange, ParticlesAreCutAndHaveArrowsAndTheirColoursHaveALegend) {
     EXPECT_EQ(frame.points.value.size(), frame.points.position.size()) << view;
     ASSERT_EQ(frame.arrows.size(), 1u) << view;
     EXPECT_GT(frame.arrows[0].position.size(), 3u) << view;
+    EXPECT_TRUE(frame.arrows[0].is_white) << view << ": the particles have the colours";
     ASSERT_EQ(frame.legends.size(), 1u) << view;
     EXPECT_EQ(frame.legends[0].title, "force over mass") << view;
   }

@@ -197,6 +197,35 @@ TEST_F(ViewByScript, AProbedParticleHasAPlotOverTime) {
   EXPECT_GT(bright_columns, plot.width / 2);
 }
 
+/// Pixels of the ring around the widget that a step of the tour is about.
+int ring_pixels(const render::Image& image) {
+  int count = 0;
+  for (std::size_t k = 0; k + 2 < image.pixels.size();
+       k += static_cast<std::size_t>(image.channels))
+    count += image.pixels[k] == 255 && image.pixels[k + 1] == 184 && image.pixels[k + 2] == 60;
+  return count;
+}
+
+/// Also in a narrow window, where widgets of some steps are in the other column.
+TEST_F(ViewByScript, EveryStepOfTheTourHasARing) {
+  for (const char* size : {"[1280, 760]", "[390, 844]"}) {
+    std::string script =
+        std::string(R"([{"resize": )") + size + R"(}, {"wait": 3}, {"click": "Tour"})";
+    for (int step = 0; step < 10; ++step)
+      script += (step == 0 ? "" : R"(, {"click": "Next"})") +
+                std::string(R"(, {"wait": 3}, {"screenshot": "tour)") + std::to_string(step) +
+                R"(.png"})";
+    const auto result = view(script + "]");
+    SKIP_WITHOUT_GL(result);
+    ASSERT_EQ(result.exit_code, 0) << size << ": " << result.errors;
+    for (int step = 0; step < 10; ++step) {
+      const std::string name = "tour" + std::to_string(step) + ".png";
+      EXPECT_GT(ring_pixels(render::decode_png(app::output::read_file(folder / "out" / name))), 100)
+          << size << ", step " << step + 1;
+    }
+  }
+}
+
 /// Also in a narrow window, where widgets of some steps are in the other column.
 TEST_F(ViewByScript, TheTourHasTenStepsAndEnds) {
   for (const char* size : {"[1280, 760]", "[390, 844]"}) {

@@ -45,12 +45,9 @@ void draw_value(const std::string& text, bool is_outside_expected,
                 const std::optional<scene::Range>& expected) {
   ImGui::TableNextColumn();
   // A tensor has more than a narrow panel shows in a line.
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x);
-  if (is_outside_expected)
-    ImGui::TextColored(strange_color, "%s", text.c_str());
-  else
-    ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
+  if (is_outside_expected) ImGui::PushStyleColor(ImGuiCol_Text, strange_color);
+  wrapped_text(text);
+  if (is_outside_expected) ImGui::PopStyleColor();
   draw_expected(expected);
 }
 
@@ -284,10 +281,12 @@ void draw_probe(ViewerState& state) {
 }  // namespace
 
 void draw_inspector(ViewerState& state) {
-  if (ImGui::CollapsingHeader("Stages", ImGuiTreeNodeFlags_DefaultOpen)) draw_stages(state);
+  const bool shows_stages = ImGui::CollapsingHeader("Stages", ImGuiTreeNodeFlags_DefaultOpen);
   note_label("Stages");
-  if (ImGui::CollapsingHeader("Probe", ImGuiTreeNodeFlags_DefaultOpen)) draw_probe(state);
+  if (shows_stages) draw_stages(state);
+  const bool shows_probe = ImGui::CollapsingHeader("Probe", ImGuiTreeNodeFlags_DefaultOpen);
   note_label("Probe");
+  if (shows_probe) draw_probe(state);
 }
 
 }  // namespace neve::app::view::panels

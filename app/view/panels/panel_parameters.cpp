@@ -18,6 +18,7 @@
 #include "app/view/panels/tip.h"
 #include "app/view/panels/viewer_state.h"
 #include "app/view/panels/widgets.h"
+#include "app/view/panels/words.h"
 
 namespace neve::app::view::panels {
 
@@ -60,12 +61,10 @@ void draw_waiting(ViewerState& state) {
   if (waiting.empty()) return;
   ImGui::PushStyleColor(ImGuiCol_ChildBg, ImVec4(0.30f, 0.20f, 0.05f, 0.9f));
   ImGui::BeginChild("waiting", ImVec2(0, 4.3f * em()), true);
-  ImGui::PushTextWrapPos(0);
   std::string list;
   for (const std::string& address : waiting)
     list += (list.empty() ? "" : ", ") + address + (is_removed(state, address) ? " (removed)" : "");
-  ImGui::TextUnformatted(("waits for Reset: " + list).c_str());
-  ImGui::PopTextWrapPos();
+  wrapped_text("waits for Reset: " + list);
   if (ImGui::SmallButton("Reset now")) state.bench.reset();
   note_label("Reset now");
   ImGui::EndChild();

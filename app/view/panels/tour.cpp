@@ -41,9 +41,10 @@ constexpr std::array stops{
         "Reset", "Reset"},
     Stop{"Objects lists bodies and obstacles. Select one, and drag its arrows in the picture.",
          "Objects", "Objects", false},
-    Stop{"Views show the same snow as particles, as smoke, or as a slice through the grid with "
-         "arrows.",
-         "view particles", "View", true, tab::view},
+    Stop{
+        "Views show the same snow as particles, as smoke, as a slice through the grid with arrows, "
+        "or as snow in sunlight.",
+        "view particles", "View", true, tab::view},
     Stop{"Inside a step: rest on a stage to read what it does, click it to see its result. Click a "
          "particle in the picture to read its numbers.",
          "Stages", "Inspect", true, tab::inspect},

@@ -104,12 +104,11 @@ void Session::next_frame() {
 
 void Session::next_stage() {
   ask([this] {
-    leave_older();
     set_goal(Goal::none);
     if (simulation_->divergence()) return;
     if (stage_ && *stage_ == last_stage) {
       stage_.reset();
-      set_goal(Goal::step);
+      if (!head_) set_goal(Goal::step);
       return;
     }
     stage_ = stage_ ? *stage_ + 1 : 0;
@@ -118,7 +117,6 @@ void Session::next_stage() {
 
 void Session::show_stage(sim::Stage stage) {
   ask([this, stage] {
-    leave_older();
     set_goal(Goal::none);
     if (!simulation_->divergence()) stage_ = static_cast<int>(stage);
   });

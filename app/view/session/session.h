@@ -41,8 +41,8 @@ class Session {
   void pause();
   void next_step();
   void next_frame();
-  /// Does the next stage of a step on a copy, and shows its result; after the last one the step
-  /// is taken.
+  /// Does the next stage of a step on a copy of the shown frame, and shows its result. After the
+  /// last one the step is taken, in an older frame only the frame shown again.
   void next_stage();
   /// The same up to the end of this stage, wherever it is.
   void show_stage(sim::Stage stage);
