@@ -136,7 +136,9 @@ std::vector<Flaw> picture_flaws(const fs::path& folder, const Pictures& pictures
   for (int frame = first; frame <= last; ++frame) wanted[frame] = nullptr;
   for (const FrameRecord& frame : pictures.frames) wanted[frame.frame] = &frame;
   std::vector<Flaw> flaws;
-  for (const auto& [number, frame] : wanted) {
+  for (const auto& entry : wanted) {
+    const int number = entry.first;
+    const FrameRecord* frame = entry.second;
     const std::size_t before = flaws.size();
     const auto check = [&](const std::string& view, const std::string& name) {
       if (const std::string what = picture_flaw(folder, pictures, view, name, frame); !what.empty())
