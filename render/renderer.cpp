@@ -80,7 +80,15 @@ void check_frame(const Frame& frame, int max_size) {
                                   " places for " + std::to_string(arrows.vector.size()) +
                                   " arrows");
   }
+  for (const Lines& lines : frame.lines)
+    if (!lines.value.empty() && lines.value.size() != lines.ends.size() / 2)
+      throw std::invalid_argument("lines have " + std::to_string(lines.ends.size() / 2) +
+                                  " pairs of ends, but " + std::to_string(lines.value.size()) +
+                                  " values");
   for (const HeatMap& map : frame.heat_maps) {
+    if (!map.cover.empty() && map.cover.size() != map.value.size())
+      throw std::invalid_argument("a heat map has " + std::to_string(map.cover.size()) +
+                                  " covers for " + std::to_string(map.value.size()) + " values");
     if (static_cast<long long>(map.value.size()) !=
         static_cast<long long>(map.columns) * static_cast<long long>(map.rows))
       throw std::invalid_argument("Frame: a heat map has " + std::to_string(map.value.size()) +

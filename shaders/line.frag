@@ -2,9 +2,9 @@
 // depth.
 
 noperspective in float from_middle;
+flat in vec3 color;  // sRGB
 
 uniform sampler2D depth_map;
-uniform vec3 color;  // sRGB
 uniform float opacity;
 uniform float width;  // samples
 

@@ -6,10 +6,12 @@
 
 layout(location = 0) in vec3 in_first;
 layout(location = 1) in vec3 in_second;
+layout(location = 2) in vec3 in_color;  // sRGB
 
 uniform float width;  // samples
 
 noperspective out float from_middle;  // samples
+flat out vec3 color;
 
 const float nearer = 0.998;
 
@@ -19,6 +21,7 @@ vec2 on_picture(vec3 p) {
 }
 
 void main() {
+  color = in_color;
   vec3 first = in_first, second = in_second;
   float z_first = dot(first, view_forward), z_second = dot(second, view_forward);
   float least = 1.5 * near_distance;

@@ -75,12 +75,12 @@ bool asks_for_slice(const scene::SliceStyle& s) {
 
 void check_slices(const scene::Scene& scene, std::vector<Finding>& findings) {
   for (const scene::View& view : scene.views)
-    if (!scene::has_layer(view, scene::Layer::arrows) &&
-        !scene::has_layer(view, scene::Layer::heatmap) && asks_for_slice(view.slice))
+    if (!scene::shows_slice(view) && asks_for_slice(view.slice))
       findings.push_back(
           {Severity::warning, "view." + view.name + ".slice",
            fmt::format("no layer of view {} shows a slice", view.name),
-           fmt::format("add \"arrows\" or \"heatmap\" to view.{}.layers", view.name)});
+           fmt::format("add \"arrows\", \"streamlines\" or \"heatmap\" to view.{}.layers",
+                       view.name)});
 }
 
 /// Settings that the transfer of a scene does not read.

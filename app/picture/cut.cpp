@@ -2,9 +2,6 @@
 
 namespace neve::app::picture {
 
-namespace {
-
-/// The mean of all positions that are numbers.
 sim::Vec3d middle_of(const std::vector<sim::Vec3d>& positions) {
   sim::Vec3d sum = sim::Vec3d::Zero();
   std::size_t count = 0;
@@ -15,8 +12,6 @@ sim::Vec3d middle_of(const std::vector<sim::Vec3d>& positions) {
   }
   return count > 0 ? sim::Vec3d(sum / static_cast<double>(count)) : sum;
 }
-
-}  // namespace
 
 Cut::Cut(const std::optional<scene::ClipPlane>& clip, const std::vector<sim::Vec3d>& positions) {
   if (!clip) return;

@@ -8,6 +8,9 @@
 
 namespace neve::app::picture {
 
+/// The mean of all positions that are numbers.
+sim::Vec3d middle_of(const std::vector<sim::Vec3d>& positions);
+
 class Cut {
  public:
   /// @param positions of all particles, for a plane without a point of its own

@@ -9,6 +9,7 @@
 #include "app/picture/collider_looks.h"
 #include "app/picture/cut.h"
 #include "app/picture/legends.h"
+#include "app/picture/scale_bar.h"
 #include "app/picture/slice.h"
 #include "app/picture/smoke_layer.h"
 #include "app/picture/snow_volume.h"
@@ -43,11 +44,11 @@ render::Camera to_camera(const setup::CameraPlace& place, const scene::CameraSet
           static_cast<float>(place.fov)};
 }
 
-/// Pixels of a picture 720 high that a metre has around a point.
-double pixels_per_metre(const render::Camera& camera, Vec3f point) {
-  const double distance = std::max(1e-6, static_cast<double>(length(point - camera.eye)));
-  constexpr double radians = 3.14159265358979323846 / 180;
-  return 360 / std::tan(0.5 * static_cast<double>(camera.fov) * radians) / distance;
+/// Pixels that a metre on a plane has in the direction in which it is shortest.
+double pixels_on(const SlicePlane& plane, const render::Frame& frame) {
+  const Vec3f ahead = normalized(frame.camera.target - frame.camera.eye);
+  const double slant = std::abs(plane.normal.dot(sim::Vec3d(ahead.x, ahead.y, ahead.z)));
+  return pixels_per_metre(frame, to_float(plane.point)) * std::max(slant, 0.1);
 }
 
 std::string grouped(std::size_t count) {
@@ -107,6 +108,8 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   else if (is_of_stage || scene::shows_particles(view))
     add_points(view, snapshot, look, frame);
   add_grid(view, snapshot, frame);
+  if (scene::has_layer(view, scene::Layer::scale))
+    add_scale_bar(view, snapshot, plane_of(view, snapshot), frame);
   if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(view);
   if (is_of_stage) add_stage_change(snapshot, *look, frame);
   if (scene::has_layer(view, scene::Layer::bounds)) add_bounds(snapshot, frame);
@@ -191,7 +194,7 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
   if (scene::has_layer(view, scene::Layer::smoke) && !snapshot.stage_change)
     add_smoke(scene_, view, fields, frame);
   const SlicePlane plane = plane_of(view, snapshot);
-  add_slice(view, fields, plane, pixels_per_metre(frame.camera, to_float(plane.point)), frame);
+  add_slice(scene_, view, snapshot, plane, {pixels_on(plane, frame), seeded_.spacing}, frame);
 }
 
 SlicePlane FrameBuilder::plane_of(const scene::View& view, const Snapshot& snapshot) const {

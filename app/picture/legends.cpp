@@ -39,7 +39,10 @@ std::vector<render::Legend> legends_of(const scene::View& view) {
     add(legend(attribute_name(smoke.field), smoke.colormap, smoke.range));
   if (scene::has_layer(view, scene::Layer::heatmap))
     add(legend(attribute_name(slice.scalar), slice.scalar_colormap, slice.scalar_range));
-  if (scene::has_layer(view, scene::Layer::arrows))
+  // Lines on a heat map are white.
+  if (scene::has_layer(view, scene::Layer::arrows) ||
+      (scene::has_layer(view, scene::Layer::streamlines) &&
+       !scene::has_layer(view, scene::Layer::heatmap)))
     add(legend(attribute_name(slice.field), slice.colormap, slice.range));
   return legends;
 }

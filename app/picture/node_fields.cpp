@@ -90,7 +90,9 @@ void add_fields_of_step(const scene::Scene& scene, const sim::Simulation& simula
 }
 
 void add_needs(const scene::View& view, FieldNeeds& needs) {
-  if (scene::has_layer(view, scene::Layer::arrows)) needs.vectors.insert(view.slice.field);
+  if (scene::has_layer(view, scene::Layer::arrows) ||
+      scene::has_layer(view, scene::Layer::streamlines))
+    needs.vectors.insert(view.slice.field);
   if (scene::has_layer(view, scene::Layer::heatmap)) needs.scalars.insert(view.slice.scalar);
   if (scene::has_layer(view, scene::Layer::blocks) || scene::has_layer(view, scene::Layer::smoke))
     needs.is_needed = true;

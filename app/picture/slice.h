@@ -1,5 +1,6 @@
 #pragma once
-/// A plane through the grid as arrows and a heat map, with its frame and its place in words.
+/// A plane through the grid as arrows, streamlines and a heat map, with its frame and its place in
+/// words.
 
 #include "app/picture/snapshot.h"
 #include "render/frame/frame.h"
@@ -16,10 +17,15 @@ struct SlicePlane {
 SlicePlane slice_plane(const scene::SliceStyle& slice, double time,
                        const std::optional<sim::Vec3d>& followed);
 
+/// How large the plane is in the picture.
+struct SliceSight {
+  double pixels_per_metre = 1;  ///< at the plane, along its shorter direction as the camera sees it
+  double spacing = 0.01;        ///< m, of packed particles
+};
+
 /// Adds the parts of the slice that the view's layers ask for. Adds nothing where the plane meets
 /// no snow.
-/// @param pixels_per_metre of the picture at the plane, decides how close arrows may be
-void add_slice(const scene::View& view, const FieldSamples& fields, const SlicePlane& plane,
-               double pixels_per_metre, render::Frame& frame);
+void add_slice(const scene::Scene& scene, const scene::View& view, const Snapshot& snapshot,
+               const SlicePlane& plane, const SliceSight& sight, render::Frame& frame);
 
 }  // namespace neve::app::picture

@@ -17,11 +17,6 @@ constexpr double longest_arrow = 1.6;
 /// Arrows below this share of the longest are dots that say nothing.
 constexpr double shortest_arrow = 0.02;
 
-bool is_of_plane(const scene::View& view) {
-  return scene::has_layer(view, scene::Layer::arrows) ||
-         scene::has_layer(view, scene::Layer::heatmap);
-}
-
 }  // namespace
 
 double StageChange::largest() const {
@@ -38,7 +33,7 @@ double StageChange::largest() const {
 }
 
 bool shows_particles_of(const scene::View& view, const StageChange& change) {
-  return scene::shows_particles(view) || !is_of_plane(view) || !change.is_of_nodes;
+  return scene::shows_particles(view) || !scene::shows_slice(view) || !change.is_of_nodes;
 }
 
 StageCut::StageCut(const scene::View& view, const SlicePlane& at, const sim::Vec3d& eye,
@@ -46,7 +41,7 @@ StageCut::StageCut(const scene::View& view, const SlicePlane& at, const sim::Vec
     : plane(at),
       side((eye - at.point).dot(at.normal) >= 0 ? 1 : -1),
       cell_size(cell),
-      is_layer(is_of_plane(view) && !scene::shows_particles(view)) {}
+      is_layer(scene::shows_slice(view) && !scene::shows_particles(view)) {}
 
 void add_stage_change(const Snapshot& snapshot, const StageLook& look, render::Frame& frame) {
   const StageChange& change = *snapshot.stage_change;

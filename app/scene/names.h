@@ -126,7 +126,8 @@ constexpr auto names(Layer) {
       Name{snow, "snow"},       Name{arrows, "arrows"},       Name{heatmap, "heatmap"},
       Name{smoke, "smoke"},     Name{blocks, "blocks"},       Name{bounds, "bounds"},
       Name{legend, "legend"},   Name{caption, "caption"},     Name{plots, "plots"},
-      Name{counter, "counter"}, Name{slate, "slate"}};
+      Name{counter, "counter"}, Name{slate, "slate"},         Name{streamlines, "streamlines"},
+      Name{scale, "scale"}};
 }
 constexpr auto names(ExportFormat) {
   using enum ExportFormat;

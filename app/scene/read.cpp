@@ -19,7 +19,7 @@ std::vector<View> built_in_views() {
     built_in.layers = layers;
     return built_in;
   };
-  View slice = view("slice", {ground, colliders, heatmap, arrows, legend, caption});
+  View slice = view("slice", {ground, colliders, heatmap, arrows, scale, legend, caption});
   // Below arrows of the velocity, its magnitude would say the same again; and on pale packed snow
   // all of their colours can be told.
   slice.slice.scalar = ScalarField::density;

@@ -35,7 +35,9 @@ enum class Layer {
   caption,
   plots,
   counter,
-  slate
+  slate,
+  streamlines,
+  scale
 };
 
 /// Absent range: "auto". Resolving a scene fills it in.
@@ -144,6 +146,12 @@ inline bool has_layer(const View& view, Layer layer) {
 /// True if the particles are seen, as spheres or as a surface.
 inline bool shows_particles(const View& view) {
   return has_layer(view, Layer::particles) || has_layer(view, Layer::snow);
+}
+
+/// True if a plane through the grid is seen.
+inline bool shows_slice(const View& view) {
+  return has_layer(view, Layer::arrows) || has_layer(view, Layer::heatmap) ||
+         has_layer(view, Layer::streamlines);
 }
 
 /// Several views in one picture, under one caption.

@@ -16,7 +16,8 @@ namespace {
 
 using sim::Vec3d;
 
-constexpr double filled = 0.62;    // share of the picture that the subject takes
+constexpr double filled = 0.62;  // share of the picture that the subject takes
+constexpr double filled_by_plane = 0.72;
 constexpr double spread = 1.7;     // snow of many small cells scatters wider than its coarse copy
 constexpr double outliers = 0.02;  // share of particles that may leave the picture
 constexpr double largest_growth = 16;  // of the subject's size: snow that falls for ever is let go
@@ -118,15 +119,21 @@ std::vector<Vec3d> followed(const scene::Scene& scene, const std::string& name) 
   return points;
 }
 
-/// Everything that should be seen at some time.
-std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<Moment>& moments) {
+/// Bodies and emitters before the first step.
+Box start_of(const scene::Scene& scene) {
   std::vector<Vec3d> points;
   for (const SnowPiece& piece : snow_places(scene)) {
     const sim::shapes::Bounds bounds = sim::shapes::bounds(*piece.shape);
     points.push_back(bounds.min);
     points.push_back(bounds.max);
   }
-  const Box start = box_of(points);
+  return box_of(points);
+}
+
+/// Everything that should be seen at some time.
+std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<Moment>& moments) {
+  const Box start = start_of(scene);
+  std::vector<Vec3d> points{start.min, start.max};
   const double first_size = std::max(start.diagonal(), 1e-6);
   Box seen;
   for (const Moment& moment : moments) {
@@ -138,7 +145,7 @@ std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<Moment>&
     seen = grown;
     points.insert(points.end(), kept.begin(), kept.end());
   }
-  return without_flown(points, start);
+  return points;
 }
 
 /// Obstacles that the snow meets belong in the picture unless they would dwarf it.
@@ -155,6 +162,13 @@ void add_small_colliders(const scene::Scene& scene, std::vector<Vec3d>& points) 
     const Vec3d center = 0.5 * (bounds.min + bounds.max), half = 0.4 * (bounds.max - bounds.min);
     for (const Vec3d& corner : corners(center - half, center + half)) points.push_back(corner);
   }
+}
+
+/// The points laid into a plane through their middle: snow before and behind it is not seen.
+std::vector<Vec3d> flattened(std::vector<Vec3d> points, const Vec3d& normal) {
+  const Vec3d middle = median(points);
+  for (Vec3d& x : points) x -= normal.dot(x - middle) * normal;
+  return points;
 }
 
 /// Degrees about y, from +z towards +x, that look across the longer horizontal side.
@@ -188,7 +202,7 @@ struct Framing {
 };
 
 /// Degrees; arrows seen exactly from the front have no depth.
-constexpr double askew = 14;
+constexpr double askew = 7;
 
 double azimuth_of(const Vec3d& normal) {
   return std::atan2(normal.x(), normal.z()) * 180 / std::numbers::pi;
@@ -199,6 +213,7 @@ struct Lens {
   Vec3d up;
   double slope;               ///< tan(fov / 2)
   double aspect;              ///< width / height
+  double filled;              ///< share of the picture that the subject takes
   std::vector<double> turns;  ///< degrees about up that the camera passes; only 0 when it is still
   bool is_turning() const { return turns.size() > 1; }
 };
@@ -251,7 +266,7 @@ Framing fit(const std::vector<Vec3d>& points, const Vec3d& middle, const Vec3d& 
           0.5 * ((left + rightmost) * aspect * reach * right + (bottom + top) * reach * up);
     }
     const double share = 0.5 * std::max(rightmost - left, top - bottom);
-    framing.distance *= std::clamp(share / filled, 0.5, 2.0);
+    framing.distance *= std::clamp(share / lens.filled, 0.5, 2.0);
   }
   return framing;
 }
@@ -296,16 +311,19 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
   const bool is_following = !settings.follow.empty();
   std::vector<Vec3d> points =
       is_following ? followed(scene, settings.follow) : subject(scene, moments);
+  if (!is_following && !normal) points = without_flown(points, start_of(scene));
   if (!is_following) add_small_colliders(scene, points);
+  // On a plane there is room for the few that fly, since those beside it are not seen.
+  if (normal) points = flattened(points, normal->normalized());
   const Lens lens{settings.up.normalized(), std::tan(radians(settings.fov / 2)), aspect,
-                  turns_of(settings, scene.frames / scene.fps)};
+                  normal ? filled_by_plane : filled, turns_of(settings, scene.frames / scene.fps)};
 
   const double preferred = normal ? azimuth_of(*normal) + askew : best_azimuth(points);
   const Vec3d middle = box_of(points).center();
   if (lens.is_turning()) points = turned_backwards(points, lens);
   // A level plane is looked at from well above it.
   const bool is_level = normal && std::abs(normal->normalized().y()) > 0.7;
-  Vec3d towards_eye = direction(preferred, is_level ? 60 : 14);
+  Vec3d towards_eye = direction(preferred, is_level ? 60 : normal ? askew : 14);
   Framing framing = fit(points, middle, towards_eye, lens);
   bool is_found = is_clear(scene, framing, towards_eye, lens);
   for (const double elevation : {14.0, 30.0, 50.0, -14.0})

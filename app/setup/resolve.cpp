@@ -24,20 +24,30 @@ double aspect_of(const scene::PictureSize& size) {
   return static_cast<double>(size.width) / static_cast<double>(size.height);
 }
 
-bool shows_slice(const scene::View& view) {
-  return scene::has_layer(view, scene::Layer::arrows) ||
-         scene::has_layer(view, scene::Layer::heatmap);
-}
-
 /// Pictures of about the same shape are framed by the same camera.
 bool is_of_shape(double aspect, double other) {
   return std::abs(aspect / other - 1) < 0.02;
 }
 
+/// The lens without its place: what it sees from the front does not turn or follow.
+scene::CameraSettings lens_of(const scene::CameraSettings& camera) {
+  scene::CameraSettings lens;
+  lens.up = camera.up;
+  lens.fov = camera.fov;
+  return lens;
+}
+
+/// A plane alone is read from the front, wherever the scene's camera is.
+bool faces_its_plane(const scene::View& view) {
+  return !view.camera && scene::shows_slice(view) && !scene::shows_particles(view) &&
+         !scene::has_layer(view, scene::Layer::smoke);
+}
+
 /// True if the scene's own camera is used and has no place.
 bool needs_shared_camera(const scene::Scene& scene) {
-  const bool is_used = std::any_of(scene.views.begin(), scene.views.end(),
-                                   [](const scene::View& view) { return !view.camera; });
+  const bool is_used =
+      std::any_of(scene.views.begin(), scene.views.end(),
+                  [](const scene::View& view) { return !view.camera && !faces_its_plane(view); });
   return is_used && !has_place(scene.camera.value_or(scene::CameraSettings{}));
 }
 
@@ -64,7 +74,7 @@ void resolve_slice(const scene::Scene& scene, scene::SliceStyle& slice) {
 bool needs_framing(const scene::Scene& scene) {
   return needs_shared_camera(scene) ||
          std::any_of(scene.views.begin(), scene.views.end(), [](const scene::View& view) {
-           return view.camera && !has_place(*view.camera);
+           return faces_its_plane(view) || (view.camera && !has_place(*view.camera));
          });
 }
 
@@ -77,8 +87,8 @@ void resolve_cameras(scene::Scene& scene, const std::vector<Moment>& moments) {
     const double aspect = aspect_of(size_of(scene, view));
     if (view.camera && !has_place(*view.camera))
       view.camera = automatic_camera(scene, moments, *view.camera, aspect);
-    else if (!view.camera && is_shared && shows_slice(view))
-      view.camera = automatic_camera(scene, moments, lens, aspect, view.slice.normal);
+    else if (faces_its_plane(view) || (!view.camera && is_shared && scene::shows_slice(view)))
+      view.camera = automatic_camera(scene, moments, lens_of(lens), aspect, view.slice.normal);
     else if (!view.camera && is_shared && !is_of_shape(aspect, shared))
       view.camera = automatic_camera(scene, moments, lens, aspect);
   }
@@ -91,7 +101,7 @@ void resolve_ranges(scene::Scene& scene, std::size_t particle_count) {
     if (scene::has_layer(view, scene::Layer::smoke) &&
         view.smoke.field != scene::ScalarField::mass && !view.smoke.range)
       view.smoke.range = automatic_range(scene, view.smoke.field);
-    if (shows_slice(view)) resolve_slice(scene, view.slice);
+    if (scene::shows_slice(view)) resolve_slice(scene, view.slice);
     if (scene::has_layer(view, scene::Layer::plots)) resolve_plot_ranges(scene, view.plots);
   }
 }

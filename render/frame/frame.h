@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,10 +56,12 @@ struct Smoke {
   float range_min = 0, range_max = 1;
 };
 
-/// Arrows that start at `position`. Their length is that of `vector` times `length_per_value`.
+/// Arrows that start at `position`, or have it in their middle. Their length is that of `vector`
+/// times `length_per_value`.
 struct Arrows {
   std::vector<Vec3f> position;
-  std::vector<Vec3f> vector;   ///< in the unit of the field
+  std::vector<Vec3f> vector;  ///< in the unit of the field
+  bool is_centred = false;
   float length_per_value = 1;  ///< m per unit of the field
   float max_length = 1;        ///< m, longer ones are cut to it
   ColorMap colormap = ColorMap::viridis;
@@ -71,15 +74,19 @@ struct HeatMap {
   Vec3f corner, across, up;  ///< m: the first sample's corner, and the edges of the rectangle
   int columns = 0, rows = 0;
   std::vector<float> value;  ///< rows x columns
+  std::vector<float> cover;  ///< 0 to 1, one per value: shown where at least a half; empty: 1
   float isoline_step = 0;    ///< in the unit of the field; 0: none
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;
 };
 
-/// Straight lines of one colour and width, hidden by objects before them.
+/// Straight lines of one width, hidden by objects before them.
 struct Lines {
   std::vector<Vec3f> ends;          ///< two per line, m
-  Vec3f color{0.75f, 0.8f, 0.85f};  ///< sRGB
+  Vec3f color{0.75f, 0.8f, 0.85f};  ///< sRGB, of all where there are no values
+  std::vector<float> value = {};    ///< empty, or one per line, coloured by the map
+  ColorMap colormap = ColorMap::viridis;
+  float range_min = 0, range_max = 1;
   float opacity = 1;
   float width = 1.25f;  ///< pixels of the finished picture
 };
@@ -156,6 +163,12 @@ struct Note {
   std::array<std::uint8_t, 3> color{205, 213, 224};  ///< sRGB
 };
 
+/// A length at a place in space, drawn as a bar at the lower edge.
+struct ScaleBar {
+  float pixels = 0;  ///< of the finished picture
+  std::string text;  ///< "20 cm"
+};
+
 struct Frame {
   int width = 1280, height = 720;  ///< pixels of the finished picture
   int supersampling = 1;           ///< 1 or 2: samples per pixel and axis
@@ -178,12 +191,13 @@ struct Frame {
   std::vector<Plot> plots;
   std::vector<Patch> patches;
   std::vector<Note> notes;
-  std::vector<std::string> caption;  ///< lines, UTF-8; the first one is the title
-  std::string footnote;              ///< at the bottom, between plots and legends
-  int caption_height = 0;            ///< px; above 0: the caption has a strip this high to itself
-  bool has_caption_plate = false;    ///< dark behind its lines: whatever is near stays readable
-  int font_size = 0;                 ///< px; 0: in proportion to the picture
-  std::vector<Vec3f> marks;          ///< centres of rings that point out particles, for incidents
+  std::vector<std::string> caption;   ///< lines, UTF-8; the first one is the title
+  std::string footnote;               ///< at the bottom, between plots and legends
+  std::optional<ScaleBar> scale_bar;  ///< above the footnote
+  int caption_height = 0;             ///< px; above 0: the caption has a strip this high to itself
+  bool has_caption_plate = false;     ///< dark behind its lines: whatever is near stays readable
+  int font_size = 0;                  ///< px; 0: in proportion to the picture
+  std::vector<Vec3f> marks;           ///< centres of rings that point out particles, for incidents
 };
 
 }  // namespace neve::render

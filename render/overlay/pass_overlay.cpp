@@ -29,6 +29,7 @@ std::string title_of(const Legend& legend) {
 std::vector<std::string> all_texts(const Frame& frame) {
   std::vector<std::string> texts = frame.caption;
   texts.push_back(frame.footnote);
+  if (frame.scale_bar) texts.push_back(frame.scale_bar->text);
   for (const Legend& legend : frame.legends) texts.push_back(title_of(legend));
   for (const Label& label : frame.labels) texts.push_back(label.text);
   for (const Note& note : frame.notes) texts.push_back(note.text);
@@ -118,19 +119,44 @@ float OverlayPass::draw_legends(const Frame& frame) const {
 }
 
 void OverlayPass::draw_footnote(const Frame& frame, float left, float right) const {
-  if (frame.footnote.empty()) return;
   const ImFont& font = *imgui_.text_font();
   const float margin = std::round(20 * unit_of(font)), line = 1.25f * font.FontSize;
   const float from = left > 0 ? left + 1.5f * margin : margin;
+  const float bottom = static_cast<float>(frame.height) - margin;
+  if (frame.footnote.empty()) {
+    if (frame.scale_bar) draw_scale_bar(*frame.scale_bar, from, right, bottom);
+    return;
+  }
   // The snow is in the middle: no higher than a fifth of the picture.
   const float room = 0.18f * static_cast<float>(frame.height);
   const auto most = static_cast<std::size_t>(std::min(2.0f, std::floor(room / line)));
   if (right - from < 8 * font.FontSize || most == 0) return;
   const std::vector<std::string> lines = wrap(font, frame.footnote, right - from, most);
-  const float top =
-      static_cast<float>(frame.height) - margin - line * static_cast<float>(lines.size());
+  const float top = bottom - line * static_cast<float>(lines.size());
+  if (frame.scale_bar) draw_scale_bar(*frame.scale_bar, from, right, top - 0.5f * font.FontSize);
   for (std::size_t k = 0; k < lines.size(); ++k)
     draw_text(font, ImVec2(from, top + line * static_cast<float>(k)), soft_text, lines[k]);
+}
+
+void OverlayPass::draw_scale_bar(const ScaleBar& bar, float left, float right, float bottom) const {
+  const ImFont& font = *imgui_.text_font();
+  const float unit = std::max(1.0f, unit_of(font)), gap = 0.5f * font.FontSize;
+  const float text = text_width(font, bar.text);
+  // The text stands above the bar, since both side by side would not fit in a small tile.
+  if (!(bar.pixels > 0) || left + std::max(bar.pixels, text) > right) return;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float x = std::round(left), y = std::round(bottom) - 2 * unit, end = x + bar.pixels;
+  for (const auto& [color, rim] :
+       {std::pair{text_shadow, 1.5f * unit}, std::pair{bright_text, 0.0f}}) {
+    list.AddRectFilled(ImVec2(x - rim, y - unit - rim), ImVec2(end + rim, y + unit + rim), color);
+    for (const float at : {x, end - 2 * unit})
+      list.AddRectFilled(ImVec2(at - rim, y - 4 * unit - rim),
+                         ImVec2(at + 2 * unit + rim, y + unit + rim), color);
+  }
+  draw_text(font,
+            ImVec2(x + 0.5f * (bar.pixels - text) > x ? x + 0.5f * (bar.pixels - text) : x,
+                   y - gap - font.FontSize),
+            soft_text, bar.text);
 }
 
 void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
@@ -225,7 +251,7 @@ void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
 void OverlayPass::draw(const Frame& frame, const View& view) {
   if (frame.caption.empty() && frame.legends.empty() && frame.marks.empty() &&
       frame.labels.empty() && frame.plots.empty() && frame.patches.empty() && frame.notes.empty() &&
-      frame.footnote.empty())
+      frame.footnote.empty() && !frame.scale_bar)
     return;
   const int font_size =
       frame.font_size > 0 ? frame.font_size : font_size_for(frame.width, frame.height);

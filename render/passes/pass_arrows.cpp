@@ -19,6 +19,9 @@ struct ArrowVertex {
 
 /// Proportions of the longest arrow, in units of its length.
 constexpr float shaft_radius = 0.04f, head_radius = 0.12f, head_length = 0.36f;
+/// A dark rim around it, so that it stands out from any colour and from the arrows behind it.
+constexpr float rim_width = 0.035f;
+constexpr std::array<std::uint8_t, 4> rim_color{14, 17, 24, 255};
 
 /// Short arrows are slimmer, but never hairs.
 float slimness(float part) {
@@ -35,45 +38,58 @@ class ArrowBuilder {
     }
   }
 
-  void add(Vec3f from, Vec3f vector) {
+  void add(Vec3f place, Vec3f vector) {
     const float magnitude = length(vector);
     if (!(magnitude > 0) || !std::isfinite(magnitude) || !(arrows_.max_length > 0)) return;
     const float reach = std::min(magnitude * arrows_.length_per_value, arrows_.max_length);
     if (!(reach > 0)) return;
-    const Vec3f along = vector / magnitude;
-    const Vec3f other = std::abs(along.y) < 0.9f ? Vec3f{0, 1, 0} : Vec3f{1, 0, 0};
-    const Vec3f side = normalized(cross(other, along)), top = cross(along, side);
-    const Rgb8 c = map_value(arrows_.colormap, magnitude, arrows_.range_min, arrows_.range_max);
-    if (arrows_.is_white)
-      color_ = {255, 255, 255, 255};
-    else
-      color_ = {c.r, c.g, c.b, 255};
+    along_ = vector / magnitude;
+    const Vec3f other = std::abs(along_.y) < 0.9f ? Vec3f{0, 1, 0} : Vec3f{1, 0, 0};
+    side_ = normalized(cross(other, along_));
+    top_ = cross(along_, side_);
     const float slim = arrows_.max_length * slimness(reach / arrows_.max_length);
-    const float head = std::min(head_length * slim, 0.6f * reach);
-    const Vec3f start = from - eye_, neck = start + along * (reach - head),
-                tip = start + along * reach;
-    const float r_shaft = shaft_radius * slim, r_head = head_radius * slim;
-    for (std::size_t k = 0; k < sides; ++k) {
-      const Vec3f a = side * circle_[k][0] + top * circle_[k][1];
-      const Vec3f b = side * circle_[k + 1][0] + top * circle_[k + 1][1];
-      // Shaft, the ring behind the head, the head, the tail's end.
-      triangle({start + a * r_shaft, a}, {start + b * r_shaft, b}, {neck + b * r_shaft, b});
-      triangle({start + a * r_shaft, a}, {neck + b * r_shaft, b}, {neck + a * r_shaft, a});
-      triangle({neck, -along}, {neck + a * r_head, -along}, {neck + b * r_head, -along});
-      const float lean = r_head / head;
-      triangle({neck + a * r_head, a + along * lean}, {neck + b * r_head, b + along * lean},
-               {tip, a + b + along * (2 * lean)});
-      triangle({start, -along}, {start + a * r_shaft, -along}, {start + b * r_shaft, -along});
-    }
+    const float head = std::min(head_length * slim, 0.6f * reach), rim = rim_width * slim;
+    const Vec3f start = place - eye_ - along_ * (arrows_.is_centred ? 0.5f * reach : 0);
+    // Nearer by its own thickness, seen from the eye the same: what it lies on hides no part of it.
+    const float thick = 1.5f * (head_radius * slim + rim);
+    nearer_ = std::max(0.5f, 1 - thick / std::max(length(start), 1e-6f));
+    const Rgb8 c = map_value(arrows_.colormap, magnitude, arrows_.range_min, arrows_.range_max);
+    color_ = {c.r, c.g, c.b, 255};
+    if (arrows_.is_white) color_ = {255, 255, 255, 255};
+    is_rim_ = false;
+    body(start, reach, head, shaft_radius * slim, head_radius * slim);
+    color_ = rim_color;
+    is_rim_ = true;
+    body(start - along_ * rim, reach + 3 * rim, head + 2 * rim, shaft_radius * slim + rim,
+         head_radius * slim + rim);
   }
 
  private:
   struct Corner {
     Vec3f position, normal;
   };
+
+  void body(Vec3f start, float reach, float head, float r_shaft, float r_head) {
+    const Vec3f neck = start + along_ * (reach - head), tip = start + along_ * reach;
+    for (std::size_t k = 0; k < sides; ++k) {
+      const Vec3f a = side_ * circle_[k][0] + top_ * circle_[k][1];
+      const Vec3f b = side_ * circle_[k + 1][0] + top_ * circle_[k + 1][1];
+      // Shaft, the ring behind the head, the head, the tail's end.
+      triangle({start + a * r_shaft, a}, {start + b * r_shaft, b}, {neck + b * r_shaft, b});
+      triangle({start + a * r_shaft, a}, {neck + b * r_shaft, b}, {neck + a * r_shaft, a});
+      triangle({neck, -along_}, {neck + a * r_head, -along_}, {neck + b * r_head, -along_});
+      const float lean = r_head / head;
+      triangle({neck + a * r_head, a + along_ * lean}, {neck + b * r_head, b + along_ * lean},
+               {tip, a + b + along_ * (2 * lean)});
+      triangle({start, -along_}, {start + a * r_shaft, -along_}, {start + b * r_shaft, -along_});
+    }
+  }
+
+  /// Of the rim only the side turned away from the eye: the arrow is before it.
   void triangle(const Corner& a, const Corner& b, const Corner& c) {
+    if (is_rim_ && dot(a.normal + b.normal + c.normal, a.position) <= 0) return;
     for (const Corner& corner : {a, b, c})
-      out_.push_back({corner.position, normalized(corner.normal), color_});
+      out_.push_back({corner.position * nearer_, normalized(corner.normal), color_});
   }
 
   const Arrows& arrows_;
@@ -81,6 +97,9 @@ class ArrowBuilder {
   std::vector<ArrowVertex>& out_;
   std::array<std::array<float, 2>, sides + 1> circle_;
   std::array<std::uint8_t, 4> color_{};
+  Vec3f along_, side_, top_;
+  float nearer_ = 1;
+  bool is_rim_ = false;
 };
 
 }  // namespace

@@ -19,10 +19,11 @@ void HeatMapPass::upload(const HeatMap& map) {
   // of the samples that are there.
   std::vector<float> texels;
   texels.reserve(2 * map.value.size());
-  for (const float value : map.value) {
-    const bool is_there = std::isfinite(value);
-    texels.push_back(is_there ? value : 0);
-    texels.push_back(is_there ? 1 : 0);
+  for (std::size_t k = 0; k < map.value.size(); ++k) {
+    const bool is_there = std::isfinite(map.value[k]);
+    const float cover = !is_there ? 0 : map.cover.empty() ? 1 : map.cover[k];
+    texels.push_back(is_there ? cover * map.value[k] : 0);
+    texels.push_back(cover);
   }
   std::vector<std::uint8_t> colors;
   for (int k = 0; k < 256; ++k) {

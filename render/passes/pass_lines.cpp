@@ -1,19 +1,47 @@
 #include <cmath>
+#include <cstddef>
 
+#include "render/frame/colormap.h"
 #include "render/passes/slice_passes.h"
 #include "render/passes/view_uniforms.h"
 
 namespace neve::render::passes {
 
+namespace {
+
+struct LineInstance {
+  Vec3f first, second;  ///< m, relative to the eye
+  Vec3f color;          ///< sRGB
+};
+
+std::vector<LineInstance> instances_of(const Lines& lines, Vec3f eye) {
+  std::vector<LineInstance> instances;
+  instances.reserve(lines.ends.size() / 2);
+  for (std::size_t k = 0; 2 * k + 1 < lines.ends.size(); ++k) {
+    LineInstance line{lines.ends[2 * k] - eye, lines.ends[2 * k + 1] - eye, lines.color};
+    if (!lines.value.empty()) {
+      const Rgb8 c = map_value(lines.colormap, lines.value[k], lines.range_min, lines.range_max);
+      line.color =
+          Vec3f{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)} / 255;
+    }
+    instances.push_back(line);
+  }
+  return instances;
+}
+
+}  // namespace
+
 LinePass::LinePass(const gl::Gl& gl, const gl::ShaderLibrary& library)
     : gl_(gl), program_(gl, library, "line.vert", "line.frag"), vertex_array_(gl), buffer_(gl) {
   gl.BindVertexArray(vertex_array_.id());
   gl.BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
-  constexpr GLsizei stride = 2 * sizeof(Vec3f);
+  constexpr GLsizei stride = sizeof(LineInstance);
   gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, nullptr);
   gl.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, stride,
-                         reinterpret_cast<const void*>(sizeof(Vec3f)));
-  for (const GLuint attribute : {0u, 1u}) {
+                         reinterpret_cast<const void*>(offsetof(LineInstance, second)));
+  gl.VertexAttribPointer(2, 3, GL_FLOAT, GL_FALSE, stride,
+                         reinterpret_cast<const void*>(offsetof(LineInstance, color)));
+  for (const GLuint attribute : {0u, 1u, 2u}) {
     gl.EnableVertexAttribArray(attribute);
     gl.VertexAttribDivisor(attribute, 1);
   }
@@ -37,16 +65,14 @@ void LinePass::draw(const std::vector<Lines>& all, const gl::Targets& targets, c
   // As wide as asked for at 720p, in proportion above.
   const float scale = samples * std::fmax(1.0f, static_cast<float>(targets.height) / 720);
   for (const Lines& lines : all) {
-    std::vector<Vec3f> ends;
-    ends.reserve(lines.ends.size());
-    for (const Vec3f& end : lines.ends) ends.push_back(end - view.eye);
-    if (ends.size() < 2) continue;
-    program_.set("color", lines.color);
+    const std::vector<LineInstance> instances = instances_of(lines, view.eye);
+    if (instances.empty()) continue;
     program_.set("opacity", lines.opacity);
     program_.set("width", lines.width * scale);
-    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(ends.size() * sizeof(Vec3f)),
-                   ends.data(), GL_STREAM_DRAW);
-    gl_.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(ends.size() / 2));
+    gl_.BufferData(GL_ARRAY_BUFFER,
+                   static_cast<GLsizeiptr>(instances.size() * sizeof(LineInstance)),
+                   instances.data(), GL_STREAM_DRAW);
+    gl_.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
   }
 }
 

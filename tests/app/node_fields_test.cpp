@@ -126,14 +126,19 @@ TEST(FieldSampler, FieldSamplerReproducesLinearFieldsInside) {
   EXPECT_FALSE(sampler.at({std::nan(""), 0, 0}));
 }
 
+double spacing_of(const FieldMoment& moment) {
+  return moment.scene.solver.cell_size / 2;
+}
+
 render::Frame frame_of_slice(const FieldMoment& moment, std::size_t view,
                              const app::picture::SlicePlane& plane) {
   render::Frame frame;
-  app::picture::add_slice(moment.scene.views[view], moment.snapshot.fields, plane, 1000, frame);
+  app::picture::add_slice(moment.scene, moment.scene.views[view], moment.snapshot, plane,
+                          {1000, spacing_of(moment)}, frame);
   return frame;
 }
 
-TEST(Slice, ArrowsStartAtNodesAndHaveTheirVelocity) {
+TEST(Slice, ArrowsLieOnNodesAndHaveTheirVelocity) {
   const FieldMoment moment = moment_of(all_fields);
   const app::scene::SliceStyle& slice = moment.scene.views[2].slice;
   const app::picture::SlicePlane plane = app::picture::slice_plane(slice, 0, std::nullopt);
@@ -142,7 +147,7 @@ TEST(Slice, ArrowsStartAtNodesAndHaveTheirVelocity) {
   const render::Frame frame = frame_of_slice(moment, 2, plane);
   ASSERT_EQ(frame.arrows.size(), 1u);
   const render::Arrows& arrows = frame.arrows[0];
-  ASSERT_GT(arrows.position.size(), 30u);
+  ASSERT_GT(arrows.position.size(), 20u);
   const float h = moment.snapshot.fields.lattice->spacing;
   for (std::size_t k = 0; k < arrows.position.size(); ++k) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -183,15 +188,34 @@ TEST(Slice, ArrowsKeepTheirDistanceInThePicture) {
       app::picture::slice_plane(moment.scene.views[2].slice, 0, std::nullopt);
   const auto distance = [&](double pixels_per_metre) {
     render::Frame frame;
-    app::picture::add_slice(moment.scene.views[2], moment.snapshot.fields, plane, pixels_per_metre,
-                            frame);
+    app::picture::add_slice(moment.scene, moment.scene.views[2], moment.snapshot, plane,
+                            {pixels_per_metre, spacing_of(moment)}, frame);
     const auto& p = frame.arrows.at(0).position;
     return static_cast<double>(length(p.at(1) - p.at(0))) * pixels_per_metre;
   };
   for (const double pixels_per_metre : {300.0, 700.0, 5000.0})
-    EXPECT_GE(distance(pixels_per_metre), 23.9) << pixels_per_metre;
+    EXPECT_GE(distance(pixels_per_metre), 39.9) << pixels_per_metre;
   // In metres no closer than nodes.
   EXPECT_GT(distance(5000), 90);
+}
+
+TEST(Slice, NoArrowReachesIntoThePlaceOfAnother) {
+  const FieldMoment moment = moment_of(all_fields);
+  const app::picture::SlicePlane plane =
+      app::picture::slice_plane(moment.scene.views[2].slice, 0, std::nullopt);
+  for (const double pixels_per_metre : {30.0, 700.0, 5000.0}) {
+    render::Frame frame;
+    app::picture::add_slice(moment.scene, moment.scene.views[2], moment.snapshot, plane,
+                            {pixels_per_metre, spacing_of(moment)}, frame);
+    const render::Arrows& arrows = frame.arrows.at(0);
+    EXPECT_TRUE(arrows.is_centred);
+    float closest = 1e30f;
+    for (std::size_t a = 0; a < arrows.position.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        closest = std::min(closest, length(arrows.position[a] - arrows.position[b]));
+    // Each is within half of its length from its node.
+    EXPECT_LT(arrows.max_length, closest) << pixels_per_metre;
+  }
 }
 
 TEST(Slice, AnyPlaneWorksAndOneThatMissesTheSnowIsEmpty) {

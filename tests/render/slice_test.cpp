@@ -109,12 +109,16 @@ TEST(ArrowPass, PointsWhereItsVectorDoesAndIsAsLong) {
   const Image nothing = renderer.draw(frame);
   frame.arrows = {one_arrow({0, 0, 0}, {4, 0, 0})};
   const Image image = renderer.draw(frame);
-  // 0.4 m of arrow are 144 pixels, from the middle to the right.
-  EXPECT_EQ(count_changed(nothing, image, 0, 238), 0);
+  // 0.4 m of arrow are 144 pixels, from the middle to the right; its dark rim is 6 wide at the tail
+  // and twice that before the tip.
+  EXPECT_EQ(count_changed(nothing, image, 0, 232), 0);
   EXPECT_GT(count_changed(nothing, image, 375, 384), 0);
-  EXPECT_EQ(count_changed(nothing, image, 386, 480), 0);
+  EXPECT_EQ(count_changed(nothing, image, 398, 480), 0);
+  const Pixel tail = pixel(image, 236, 180);
+  EXPECT_LT(tail.g, 40);
   // The head is wider than the shaft.
-  EXPECT_GT(count_changed(nothing, image, 335, 345), 2 * count_changed(nothing, image, 280, 290));
+  EXPECT_GT(2 * count_changed(nothing, image, 335, 345),
+            3 * count_changed(nothing, image, 280, 290));
   // Magnitude 4 of 5 on the map, at most 28 % darker where the surface turns away.
   const Rgb8 full = map_value(ColorMap::viridis, 4, 0, 5);
   const Pixel shaft = pixel(image, 290, 180);
@@ -128,12 +132,79 @@ TEST(ArrowPass, LongVectorsAreCutAndBrokenOnesLeftOut) {
   Frame frame = small_frame(480, 360);
   const Image nothing = renderer.draw(frame);
   frame.arrows = {one_arrow({0, 0, 0}, {400, 0, 0})};
-  EXPECT_EQ(count_changed(nothing, renderer.draw(frame), 422, 480), 0);  // 0.5 m are 180 pixels
+  EXPECT_EQ(count_changed(nothing, renderer.draw(frame), 434, 480),
+            0);  // 0.5 m are 180 pixels, with the rim 193
   for (const Vec3f bad : {Vec3f{0, 0, 0}, Vec3f{std::nanf(""), 0, 0},
                           Vec3f{std::numeric_limits<float>::infinity(), 0, 0}}) {
     frame.arrows = {one_arrow({0, 0, 0}, bad)};
     EXPECT_EQ(count_changed(nothing, renderer.draw(frame), 0, 480), 0);
   }
+}
+
+TEST(HeatMapPass, ACoverIsShownFromAHalfOn) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame();
+  const Image background = renderer.draw(frame);
+  frame.heat_maps = {full_map({1, 1, 1, 1}, 2, 2)};
+  frame.heat_maps[0].cover = {1, 0.2f, 1, 0.2f};
+  const Image image = renderer.draw(frame);
+  // From 1 in the middle of the left half to 0.2 in that of the right one: a half at 62.5 % of the
+  // way from pixel 15 (x = -0.5 of 90 pixels a unit) to pixel 105.
+  EXPECT_EQ(count_changed(background, image, 0, 70), 70 * 90);
+  EXPECT_EQ(count_changed(background, image, 73, 120), 0);
+  EXPECT_TRUE(is_close(pixel(image, 68, 45), map_color(ColorMap::viridis, 1), 3));
+  frame.heat_maps[0].cover = {1};
+  EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
+}
+
+TEST(ArrowPass, ACentredArrowHasItsPlaceInItsMiddleAndIsBeforeTheMapItLiesOn) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame(480, 360);
+  frame.heat_maps = {full_map({0, 0, 0, 0}, 2, 2)};
+  const Image map = renderer.draw(frame);
+  frame.arrows = {one_arrow({0, 0, 0}, {4, 0, 0})};
+  frame.arrows[0].is_centred = true;
+  const Image image = renderer.draw(frame);
+  // 0.4 m are 144 pixels, half of them to each side; the rim adds 1.5 to 3 %.
+  EXPECT_EQ(count_changed(map, image, 0, 160), 0);
+  EXPECT_GT(count_changed(map, image, 165, 175), 0);
+  EXPECT_GT(count_changed(map, image, 302, 314), 0);
+  EXPECT_EQ(count_changed(map, image, 332, 480), 0);
+}
+
+TEST(LinePass, LinesWithValuesHaveTheColoursOfTheLegend) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame(480, 360);
+  Lines lines;
+  lines.ends = {{-0.5f, 0.2f, 0}, {0.5f, 0.2f, 0}, {-0.5f, -0.2f, 0}, {0.5f, -0.2f, 0}};
+  lines.value = {1, 4};
+  lines.range_max = 4;
+  lines.width = 6;
+  frame.lines = {lines};
+  const Image image = renderer.draw(frame);
+  // 0.2 units are 72 pixels from the middle row.
+  EXPECT_TRUE(is_close(pixel(image, 240, 108), map_value(ColorMap::viridis, 1, 0, 4), 3));
+  EXPECT_TRUE(is_close(pixel(image, 240, 252), map_value(ColorMap::viridis, 4, 0, 4), 3));
+  frame.lines[0].value = {1};
+  EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
+}
+
+TEST(ScaleBarOverlay, IsAsLongAsAskedForAndStandsAboveTheFootnote) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame(480, 360);
+  const Image nothing = renderer.draw(frame);
+  frame.scale_bar = ScaleBar{120, "20 cm"};
+  const Image image = renderer.draw(frame);
+  int first = 480, last = 0;
+  for (int x = 0; x < 480; ++x)
+    if (count_changed(nothing, image, x, x + 1) > 0) first = std::min(first, x), last = x;
+  EXPECT_NEAR(last - first, 120, 6);  // with its dark rim
+  frame.scale_bar->pixels = 4000;     // wider than the picture: none
+  EXPECT_EQ(count_changed(nothing, renderer.draw(frame), 0, 480), 0);
 }
 
 TEST(LinePass, LinesAreHiddenByWhatIsBefore) {

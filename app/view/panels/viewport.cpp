@@ -40,8 +40,7 @@ std::optional<dump::Probe> pick(const ViewerState& state, ImVec2 mouse, bool wan
   const auto [x, y] = in_picture(state, mouse);
   const session::LiveFrame& live = *state.live;
   const scene::View& view = current_view(state);
-  const bool is_slice =
-      scene::has_layer(view, scene::Layer::arrows) || scene::has_layer(view, scene::Layer::heatmap);
+  const bool is_slice = scene::shows_slice(view);
   const bool takes_node = wants_node || !scene::shows_particles(view);
   if (takes_node && is_slice && view.slice.point) {
     const auto place =
