@@ -460,6 +460,7 @@ int run_command_line(int argc, char** argv) {
   add_check(app, action);
   add_dump(app, action);
   add_export(app, action);
+  add_strip(app, action);
   add_report(app, action, "doctor",
              "Test the OpenGL backends of this machine, say why others do not work, and run the "
              "self-tests of the physics",

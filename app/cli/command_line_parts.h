@@ -53,6 +53,7 @@ void add_pick(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_dump(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
+void add_strip(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);

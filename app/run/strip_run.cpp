@@ -1,0 +1,195 @@
+#include "app/run/strip_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/output/atomic_file.h"
+#include "app/picture/frame_builder.h"
+#include "app/picture/legends.h"
+#include "app/run/state_source.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/resolve.h"
+#include "app/support/text.h"
+#include "render/frame/compose.h"
+#include "render/gl/context.h"
+#include "render/renderer.h"
+
+namespace neve::app::run {
+
+namespace {
+
+constexpr std::array<std::uint8_t, 3> behind_tiles{38, 42, 49};
+constexpr double screen_aspect = 16.0 / 9;
+
+/// Frames spread evenly from the first to the last, each once.
+std::vector<double> spread_times(const setup::FrameRange& frames, double fps, int tiles) {
+  std::vector<double> times;
+  const int count = std::min(tiles, frames.last - frames.first + 1);
+  for (int k = 0; k < count; ++k) {
+    const double part = count > 1 ? static_cast<double>(k) / (count - 1) : 1;
+    times.push_back(std::round(frames.first + part * (frames.last - frames.first)) / fps);
+  }
+  return times;
+}
+
+int usual_columns(int tiles, const scene::PictureSize& tile) {
+  const double aspect = static_cast<double>(tile.width) / tile.height;
+  const auto badness = [&](int columns) {
+    const int rows = (tiles + columns - 1) / columns;
+    const double gaps = static_cast<double>(rows * columns) / tiles;
+    return std::abs(std::log(columns * aspect / rows / screen_aspect)) + std::log(gaps);
+  };
+  int best = 1;
+  for (int columns = 2; columns <= tiles; ++columns)
+    if (badness(columns) < badness(best)) best = columns;
+  return best;
+}
+
+/// Places of the tiles below a strip of words, and beside the legends.
+struct Layout {
+  int columns, rows, tile_width, tile_height, gap, font_size, top, right;
+
+  Layout(const StripJob& job, const scene::PictureSize& shape, std::size_t lines, bool has_legend)
+      : columns(job.columns),
+        rows((static_cast<int>(job.times.size()) + columns - 1) / columns),
+        gap(std::max(2, job.width / 400)),
+        font_size(std::clamp(static_cast<int>(std::lround(job.width / 90.0)), 10, 160)),
+        top(static_cast<int>(std::lround(font_size * (1.6 + 1.3 * static_cast<double>(lines))))),
+        right(has_legend ? 9 * font_size : 0) {
+    tile_width = std::max(16, (job.width - right - (columns - 1) * gap) / columns);
+    tile_height =
+        std::max(16, static_cast<int>(std::lround(1.0 * tile_width * shape.height / shape.width)));
+  }
+  int x(std::size_t tile) const { return static_cast<int>(tile) % columns * (tile_width + gap); }
+  int y(std::size_t tile) const {
+    return top + static_cast<int>(tile) / columns * (tile_height + gap);
+  }
+  int height() const { return top + rows * (tile_height + gap) - gap; }
+};
+
+/// Title, view and changes, which all tiles share.
+std::vector<std::string> words_of(const StripJob& job) {
+  const scene::Scene& scene = job.run.scene;
+  std::vector<std::string> lines{scene.title.empty() ? job.run.scene_file : scene.title};
+  std::string line = "view " + scene.views.front().name;
+  for (const std::string& change : picture::override_lines(job.run.overrides))
+    line += "   \u00b7   " + change;
+  if (job.run.coarsening > 1)
+    line += "   \u00b7   coarsened " + rough_text(job.run.coarsening) + "x";
+  lines.push_back(line);
+  return lines;
+}
+
+class Strip {
+ public:
+  Strip(const StripJob& job, const scene::Scene& scene, render::Renderer& renderer)
+      : job_(job),
+        renderer_(renderer),
+        words_(words_of(job)),
+        legends_(scene::has_layer(scene.views.front(), scene::Layer::legend)
+                     ? picture::legends_of(scene.views.front())
+                     : std::vector<render::Legend>{}),
+        layout_(job, setup::size_of(scene, scene.views.front()), words_.size(), !legends_.empty()) {
+  }
+
+  void add(const StateSource& source, const scene::Scene& resolved) {
+    // The changes of the run count, the look is that of the job.
+    scene::Scene scene = source.scene();
+    scene.camera = resolved.camera;
+    scene.views = {tile_view(resolved.views.front())};
+    const double fps = scene.fps, time = source.simulation().time();
+    const picture::Snapshot snapshot = picture::take_snapshot(
+        scene, scene.views, source.simulation(), static_cast<int>(std::lround(time * fps)));
+    render::Frame frame = picture::FrameBuilder(scene, source.seeded(), {job_.run.quality, {}, 1})
+                              .build(scene.views.front(), snapshot);
+    frame.caption = {"t = " + fixed_text(time, 3) + " s"};
+    frame.footnote.clear();
+    if (!tiles_.empty()) frame.scale_bar.reset();  // all tiles have one scale
+    const std::size_t at = tiles_.size();
+    tiles_.push_back({layout_.x(at), layout_.y(at), renderer_.draw(frame)});
+  }
+
+  render::Image finish() const {
+    render::Frame words;
+    words.width = job_.width;
+    words.height = layout_.height();
+    words.caption = words_;
+    words.caption_height = layout_.top;
+    words.font_size = layout_.font_size;
+    words.legends = legends_;
+    return renderer_.draw_over(render::compose(words.width, words.height, behind_tiles, tiles_),
+                               words);
+  }
+
+  std::size_t count() const { return tiles_.size(); }
+
+ private:
+  scene::View tile_view(scene::View view) const {
+    view.size = scene::PictureSize{layout_.tile_width, layout_.tile_height};
+    view.background = scene::Background::gradient;
+    for (const scene::Layer layer :
+         {scene::Layer::legend, scene::Layer::caption, scene::Layer::counter, scene::Layer::slate})
+      std::erase(view.layers, layer);
+    return view;
+  }
+
+  const StripJob& job_;
+  render::Renderer& renderer_;
+  std::vector<std::string> words_;
+  std::vector<render::Legend> legends_;
+  Layout layout_;
+  std::vector<render::Tile> tiles_;
+};
+
+}  // namespace
+
+StripJob make_strip_job(const StripOptions& options) {
+  StripJob job;
+  RenderOptions run = options.run;
+  run.out.clear();
+  const bool is_run = is_folder(run.scene);
+  job.run = is_run ? job_from_run(run) : make_job(run);
+  if (is_run) job.past = {run.scene, read_frame_records(run.scene)};
+  if (!job.run.scene.mosaics.empty() && !run.views.empty() && job.run.scene.views.size() > 1)
+    throw scene::toml::UsageError("--view", "a mosaic has no strip", "give one of its views");
+  job.run.scene.mosaics.clear();
+  job.run.scene.views.resize(1);
+  const scene::Scene& scene = job.run.scene;
+  const bool is_picture_of_one = !is_run && !run.frames && job.run.frames.first > 0;
+  const setup::FrameRange frames =
+      is_picture_of_one ? setup::FrameRange{0, job.run.frames.last} : job.run.frames;
+  job.times = options.at.empty() ? spread_times(frames, scene.fps, options.tiles) : options.at;
+  job.run.frames = {0, static_cast<int>(std::min(std::ceil(job.times.back() * scene.fps), 1e9))};
+  job.width = options.width;
+  const int count = static_cast<int>(job.times.size());
+  job.columns = options.columns > 0 ? std::min(options.columns, count)
+                                    : usual_columns(count, setup::size_of(scene, scene.views[0]));
+  job.file = options.run.out.empty()
+                 ? job.run.folder / ("strip_" + scene.views.front().name + ".png")
+                 : std::filesystem::path(options.run.out);
+  return job;
+}
+
+StripResult run_strip(const StripJob& job, const RenderOptions& options, Progress& progress) {
+  const auto context = render::gl::open_context(options.backend);
+  ThreadPool pool(options.threads);
+  render::Renderer renderer(*context, options.shader_dir, &pool);
+  StateSource source(job.run, job.past, job.times.front(), options.threads, progress);
+  scene::Scene resolved = job.run.scene;
+  setup::resolve(resolved, source.seeded().planned);
+  Strip strip(job, resolved, renderer);
+  progress.start(job.run.frames.last);
+  for (const double time : job.times) {
+    if (!source.go_to(time)) break;
+    strip.add(source, resolved);
+  }
+  progress.clear();
+  StripResult result{strip.count(), source.simulation().divergence()};
+  if (result.tiles > 0) {
+    if (job.file.has_parent_path()) output::make_folder(job.file.parent_path());
+    output::write_file(job.file, render::encode_png(strip.finish()));
+  }
+  return result;
+}
+
+}  // namespace neve::app::run

@@ -1,0 +1,94 @@
+/// neve strip: one view at several times in one picture.
+
+#include "app/output/atomic_file.h"
+#include "render/image/image.h"
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+constexpr const char* falling = R"(
+title = "Fall"
+frames = 6
+[solver]
+cell_size = 0.04
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.2, 0], radius = 0.1 } }
+velocity = [0, -1, 0]
+[[collider]]
+name = "floor"
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[output]
+size = [160, 90]
+)";
+
+class Strip : public Cli {
+ protected:
+  Strip() { folder.write("fall.toml", falling); }
+
+  render::Image picture(const std::string& name) const {
+    return render::decode_png(app::output::read_file(folder.path() / name));
+  }
+
+  void expect_refused(std::vector<std::string> arguments, const std::string& part) {
+    arguments.insert(arguments.begin(), "strip");
+    const auto result = neve(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.errors;
+    EXPECT_NE(result.errors.find(part), std::string::npos) << result.errors;
+  }
+};
+
+TEST_F(Strip, SpreadsMomentsOverTheFramesAndSaysWhich) {
+  const auto result = neve({"strip", "fall.toml", "--view", "slice", "--tiles", "4", "--width",
+                            "640", "--out", "s.png", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const app::Json json = app::parse_json(std::string_view(result.output));
+  ASSERT_EQ(json.at("times").size(), 4u);
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(json.at("times")[k].get<double>(), k * 2 / 24.0, 1e-9);
+  EXPECT_TRUE(json.at("is_whole").get<bool>());
+  EXPECT_EQ(picture("s.png").width, 640);
+}
+
+TEST_F(Strip, ARunWithCheckpointsGivesTheSamePictureAsItsScene) {
+  ASSERT_EQ(neve({"render", "fall.toml", "--no-movie", "--checkpoint-every", "2", "--out", "run"})
+                .exit_code,
+            0);
+  const std::vector<std::string> more{"--at", "0.1,0.2", "--columns", "2", "--width", "320"};
+  const auto strip = [&](std::vector<std::string> arguments, const std::string& out) {
+    arguments.insert(arguments.begin(), "strip");
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments.insert(arguments.end(), {"--out", out});
+    const auto result = neve(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return picture(out);
+  };
+  const render::Image of_scene = strip({"fall.toml"}, "a.png"), of_run = strip({"run"}, "b.png");
+  const render::Difference difference = render::compare(of_scene, of_run);
+  EXPECT_EQ(difference.max, 0);
+}
+
+TEST_F(Strip, TilesShowTheirMoment) {
+  ASSERT_EQ(neve({"strip", "fall.toml", "--at", "0,0.2", "--columns", "2", "--width", "640",
+                  "--out", "two.png"})
+                .exit_code,
+            0);
+  const render::Image both = picture("two.png");
+  ASSERT_EQ(neve({"strip", "fall.toml", "--at", "0,0.02", "--columns", "2", "--width", "640",
+                  "--out", "same.png"})
+                .exit_code,
+            0);
+  // The first tile is the same in both, the second one is not.
+  EXPECT_GT(render::compare(both, picture("same.png")).local, 8);
+}
+
+TEST_F(Strip, RefusesNumbersAndNamesThatItCannotUse) {
+  expect_refused({"fall.toml", "--at", "0.1", "--tiles", "3"}, "--at");
+  expect_refused({"fall.toml", "--tiles", "0"}, "1 to 200");
+  expect_refused({"fall.toml", "--width", "20"}, "160 to 16384");
+  expect_refused({"fall.toml", "--out", "folder"}, "ends in .png");
+  expect_refused({"fall.toml", "--view", "slcie"}, "slice");
+}
+
+}  // namespace
+}  // namespace neve::test
