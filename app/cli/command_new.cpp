@@ -1,7 +1,10 @@
+/// `neve new` and `neve schema`, with their command lines.
+
 #include <filesystem>
 #include <iostream>
+#include <memory>
 
-#include "app/cli/commands.h"
+#include "app/cli/command_line_parts.h"
 #include "app/output/atomic_file.h"
 #include "app/scene/first_scene.h"
 #include "app/scene/schema.h"
@@ -46,8 +49,6 @@ void write_schema_once(const fs::path& path) {
   if (!fs::exists(path, error)) output::write_file(path, to_text(scene::scene_schema()) + "\n");
 }
 
-}  // namespace
-
 int run_new(const std::string& name, bool is_json) {
   const fs::path path = new_scene_path(name), schema = path.parent_path() / schema_name;
   try {
@@ -78,6 +79,32 @@ int run_schema(const std::string& kind) {
   const bool is_scene = kind == "scene";
   std::cout << to_text(is_scene ? scene::scene_schema() : sweep::read::sweep_schema()) << "\n";
   return exit_ok;
+}
+
+}  // namespace
+
+void add_new(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("new", "Write a first scene in which every line is explained");
+  const auto name = std::make_shared<std::string>();
+  const auto is_json = std::make_shared<bool>(false);
+  command
+      ->add_option("NAME", *name,
+                   "Name of the scene, as in my_scene or FOLDER/my_scene; a file that is there is "
+                   "not overwritten. Beside it is scene.schema.json, for editors that complete "
+                   "TOML (taplo)")
+      ->required()
+      ->type_name("");
+  command->add_flag("--json", *is_json, "Print the names of the files as JSON");
+  command->final_callback([=, &action] { action = [=] { return run_new(*name, *is_json); }; });
+}
+
+void add_schema(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "schema", "Print the JSON Schema of scenes or sweeps, for editors and other programs");
+  const auto kind = std::make_shared<std::string>("scene");
+  command->add_option("KIND", *kind, "scene (default) or sweep")->type_name("");
+  command->final_callback([=, &action] { action = [=] { return run_schema(*kind); }; });
 }
 
 }  // namespace neve::app::cli

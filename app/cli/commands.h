@@ -48,10 +48,6 @@ int run_info(const std::string& path, bool is_json);
 /// @param folder  of a run or a sweep
 /// @param is_quiet  print only what is wrong
 int run_verify(const std::string& folder, bool is_quiet, bool is_json);
-/// Writes NAME.toml and a JSON Schema beside it. @throws UsageError, IoError
-int run_new(const std::string& name, bool is_json);
-/// @param kind  "scene" or "sweep"
-int run_schema(const std::string& kind);
 int run_doctor(bool is_json);
 /// @throws UsageError if nothing has the filter in it
 int run_params(const ParamsOptions& options);

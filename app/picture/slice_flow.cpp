@@ -66,7 +66,8 @@ class FlowLines {
     for (std::size_t k = 1; k < line.size(); ++k) piece(line[k - 1], line[k]);
     // A head at its middle says which way it goes.
     const std::size_t middle = line.size() / 2;
-    const Vector2d tip = line[middle], along = (tip - line[middle - 1]).normalized();
+    const Vector2d& tip = line[middle];
+    const Vector2d along = (tip - line[middle - 1]).normalized();
     const Vector2d aside(-along.y(), along.x());
     for (const double sign : {-1.0, 1.0}) piece(tip - head * (along + 0.55 * sign * aside), tip);
   }
