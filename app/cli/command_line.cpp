@@ -72,7 +72,8 @@ run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts
   if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);
   if (texts.size) options.size = setup::parse_size(*texts.size);
   if (options.shutter && !(*options.shutter >= 0 && *options.shutter <= 360))
-    throw scene::toml::UsageError("--shutter", "cannot use this number of degrees",
+    throw scene::toml::UsageError("--shutter",
+                                  "cannot use " + rough_text(*options.shutter) + " degrees",
                                   "expected 0 (no motion blur) to 360 (the whole frame)");
   if (texts.passes) options.passes = run::parse_passes(*texts.passes);
   if (texts.quality) options.quality = setup::quality_named(*texts.quality);

@@ -290,12 +290,12 @@ int play_rounds(PickGame& game, const pick::PickOptions& options, std::vector<pi
 
 int run_pick(const pick::PickOptions& options) {
   const bool asks = isatty(STDIN_FILENO) != 0;
+  PickGame game(options);
   if (options.clicks.empty() && !asks)
     throw scene::toml::UsageError(
         "pick", "there is no terminal to ask for the best tile",
         "call it in a terminal, or give --clicks FILE with one choice a line: a tile from 1 to 9, "
         "two of them, or 0 for none");
-  PickGame game(options);
   std::vector<pick::Click> list;
   if (!options.clicks.empty())
     list = pick::parse_clicks(text_of_file(options.clicks), options.clicks);

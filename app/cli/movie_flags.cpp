@@ -22,8 +22,11 @@ std::vector<std::string> format_names() {
 /// Advice on a word that names no format.
 std::string format_advice(const std::string& word) {
   static const std::map<std::string, std::string> elsewhere{
-      {"hevc", "h265"},        {"x264", "h264"}, {"x265", "h265"}, {"avc", "h264"},
-      {"quicktime", "prores"}, {"av1", "vp9"},   {"mkv", "h264"},  {"avi", "h264"}};
+      {"hevc", "h265"}, {"x264", "h264"},        {"x265", "h265"},
+      {"avc", "h264"},  {"quicktime", "prores"}, {"av1", "vp9"}};
+  if (word == "avi" || word == "mkv")
+    return "no " + word + " is written; expected " + joined(format_names(), ", ") +
+           ", or the suffix of the file: mp4, webm, mov; most programs read mp4";
   const auto found = elsewhere.find(word);
   return (found != elsewhere.end()
               ? "did you mean " + found->second + "? expected " + joined(format_names(), ", ")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "app/exports/columns.h"
 #include "app/picture/attributes.h"
@@ -95,6 +96,20 @@ std::vector<std::string> parse_passes(const std::string& text) {
   return names;
 }
 
+/// Names that other programs give to passes of neve.
+std::string advice_on_pass(const std::string& name) {
+  static const std::map<std::string, std::string> elsewhere{
+      {"z", "depth"},          {"Z", "depth"},       {"n", "normal"},       {"N", "normal"},
+      {"normals", "normal"},   {"P", "position"},    {"diffuse", "albedo"}, {"color", "albedo"},
+      {"velocity", "motion"},  {"vector", "motion"}, {"mv", "motion"},      {"shadows", "shadow"},
+      {"cryptomatte", "body"}, {"object", "body"},   {"mask", "body"}};
+  const auto found = elsewhere.find(name);
+  if (name == "beauty") return "it is always there, as R, G, B and A";
+  return found == elsewhere.end()
+             ? names_advice(name, known_names())
+             : "did you mean " + found->second + "? expected " + joined(known_names(), ", ");
+}
+
 PassList pass_list(const std::vector<std::string>& names) {
   PassList list;
   for (const std::string& name : names) {
@@ -106,7 +121,7 @@ PassList pass_list(const std::vector<std::string>& names) {
       list.attributes.push_back(*attribute);
     else
       throw scene::toml::UsageError("--passes", "unknown pass \"" + name + "\"",
-                                    names_advice(name, known_names()));
+                                    advice_on_pass(name));
   }
   return list;
 }

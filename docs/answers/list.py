@@ -176,6 +176,14 @@ COMMANDS = [
     command("compare", "a.png", "b.png"),
     command("info", "nowhere.png"),
     command("params", "stickyness"),
+    command("render", "scene.toml", "--movie", "avi"),
+    command("render", "scene.toml", "--movie-quality", "high"),
+    command("render", "scene.toml", "--movie-fps", "0"),
+    command("render", "scene.toml", "--passes", "depht"),
+    command("render", "scene.toml", "--passes", "z"),
+    command("render", "scene.toml", "--shutter", "400"),
+    command("pick", "scene.toml", "-p", "hardening=5,20"),
+    command("pick", "scene.toml", "-p", "material.snow.hardening=5"),
 ]
 
 SWEEP = '[sweep]\nscene = "scene.toml"\n[axis]\n"material.snow.hardening" = [5, 10]\n'

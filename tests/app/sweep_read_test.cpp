@@ -286,10 +286,12 @@ TEST_F(SweepFileTest, RangesOfOtherProgramsAndComponentsAreExplained) {
     }
     return "";
   };
-  for (const char* range : {"5:10:3", "linspace(5,10,3)", "range(5,10)"})
+  // With the ends that were typed.
+  for (const char* range : {"2.5:1e2:3", "linspace(2.5,1e2,3)", "range(2.5,1e2)", "2.5..1e2"})
     EXPECT_TRUE(hint("material.snow.hardening=" + std::string(range))
-                    .starts_with("for a range write { linspace = [5, 10], num = 3 }"))
-        << range;
+                    .starts_with("for a range write { linspace = [2.5, 1e2], num = 3 }"))
+        << range << ": " << hint("material.snow.hardening=" + std::string(range));
+  EXPECT_TRUE(hint("seed=3..9").starts_with("for a range write { range = [3, 9] }"));
   for (const char* component : {".y", ".1", "[1]"})
     EXPECT_EQ(hint("body.ball.velocity" + std::string(component) + "=1,2"),
               "write whole vectors, as in -p body.ball.velocity=[0,-1,0],[0,-2,0]")

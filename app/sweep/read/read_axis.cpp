@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <regex>
 
 #include "app/scene/params.h"
 #include "app/scene/reader.h"
@@ -160,6 +161,18 @@ Axis::Parameter parse_rule(const scene::Override& change) {
   }
 }
 
+/// The first two numbers of "5..20", "5:20:3" or "linspace(5, 20, 3)", as they were typed; 5 and 10
+/// where there are not two.
+std::string ends_typed(std::string text) {
+  for (std::size_t at = text.find(".."); at != std::string::npos; at = text.find("..", at))
+    text.replace(at, 2, " ");
+  static const std::regex number(R"([-+]?[0-9]+(\.[0-9]*)?([eE][-+]?[0-9]+)?)");
+  std::vector<std::string> ends;
+  for (std::sregex_iterator at(text.begin(), text.end(), number), end; at != end; ++at)
+    ends.push_back(at->str());
+  return ends.size() < 2 ? "[5, 10]" : "[" + ends[0] + ", " + ends[1] + "]";
+}
+
 /// "material.snow.hardening=5:10:3", "linspace(5, 10, 3)": ranges as other programs write them.
 void refuse_foreign_range(const scene::Override& change, const std::string& what) {
   const std::optional<scene::ParamInfo> info = scene::param_at(change.address);
@@ -170,14 +183,14 @@ void refuse_foreign_range(const scene::Override& change, const std::string& what
   if (text.find("..") != std::string::npos)
     throw scene::toml::UsageError(what, "is not a list of values",
                                   info->type == "integer"
-                                      ? "for a range write { range = [1, 3] }, in quotes for the "
-                                        "shell, or all values: 1,2,3"
-                                      : "for a range write { linspace = [5, 10], num = 3 }, in "
-                                        "quotes for the shell");
+                                      ? "for a range write { range = " + ends_typed(text) +
+                                            " }, in quotes for the shell, or all values: 1,2,3"
+                                      : "for a range write { linspace = " + ends_typed(text) +
+                                            ", num = 3 }, in quotes for the shell");
   if (has_colons || text.find("space(") != std::string::npos || text.starts_with("range("))
-    throw scene::toml::UsageError(
-        what, "is not a list of values",
-        "for a range write { linspace = [5, 10], num = 3 }, in quotes for the shell");
+    throw scene::toml::UsageError(what, "is not a list of values",
+                                  "for a range write { linspace = " + ends_typed(text) +
+                                      ", num = 3 }, in quotes for the shell");
 }
 
 /// "body.ball.velocity.y", "body.ball.velocity[1]"

@@ -31,7 +31,7 @@ constexpr std::array stops{
          "Frame", "Frame"},
     Stop{"The bar below has every frame that was simulated. Drag it to go back; nothing is lost.",
          "time line", "Play"},
-    Stop{"All numbers of the scene are at the left. Type what you look for: hardening, sticky, "
+    Stop{"All numbers of the scene are in Parameters. Type what you look for: hardening, sticky, "
          "camera. "
          "Rest on a name for its meaning.",
          "find a parameter", "Parameters", false},
