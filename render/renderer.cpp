@@ -55,6 +55,13 @@ void check_plot(const Plot& plot) {
   }
 }
 
+void check_points(std::size_t position, std::initializer_list<std::size_t> others) {
+  for (const std::size_t other : others)
+    if (other != 0 && other != position)
+      throw std::invalid_argument("Frame: " + std::to_string(position) + " points and " +
+                                  std::to_string(other) + " ids, values or volumes");
+}
+
 void check_frame(const Frame& frame, int max_size) {
   const int largest = std::max(frame.width, frame.height);
   if (frame.width < 1 || frame.height < 1 ||
@@ -64,12 +71,15 @@ void check_frame(const Frame& frame, int max_size) {
         "Frame: " + std::to_string(frame.width) + "x" + std::to_string(frame.height) + " with " +
         std::to_string(frame.supersampling) + " samples per axis; this context draws up to " +
         std::to_string(max_size) + " samples per side, 1 or 2 per pixel");
-  const std::size_t count = frame.points.position.size();
-  for (const std::size_t other :
-       {frame.points.id.size(), frame.points.value.size(), frame.points.volume.size()}) {
-    if (other != 0 && other != count)
-      throw std::invalid_argument("Frame: " + std::to_string(count) + " points and " +
-                                  std::to_string(other) + " ids, values or volumes");
+  const Points& points = frame.points;
+  check_points(points.position.size(),
+               {points.id.size(), points.value.size(), points.volume.size()});
+  if (const std::optional<CutAway>& cut = points.cut) {
+    check_points(cut->position.size(), {cut->id.size(), cut->value.size(), cut->volume.size()});
+    if (!cut->position.empty() &&
+        (cut->id.empty() != points.id.empty() || cut->value.empty() != points.value.empty() ||
+         cut->volume.empty() != points.volume.empty()))
+      throw std::invalid_argument("Frame: points that are cut away have other arrays than points");
   }
   for (const TriangleMesh& mesh : frame.meshes) check_mesh(mesh);
   for (const TriangleMesh& mesh : frame.ghosts) check_mesh(mesh);

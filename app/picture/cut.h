@@ -16,6 +16,11 @@ class Cut {
   /// @param positions of all particles, for a plane without a point of its own
   Cut(const std::optional<scene::ClipPlane>& clip, const std::vector<sim::Vec3d>& positions);
   bool removes(const sim::Vec3d& x) const { return normal_.dot(x - point_) > 0; }
+  /// m beyond the plane; below 0 before it. 0 where nothing is cut.
+  double distance(const sim::Vec3d& x) const { return normal_.normalized().dot(x - point_); }
+  const sim::Vec3d& point() const { return point_; }
+  /// Not of length 1; 0 where nothing is cut.
+  const sim::Vec3d& normal() const { return normal_; }
 
  private:
   sim::Vec3d normal_{0, 0, 0}, point_{0, 0, 0};

@@ -30,6 +30,9 @@ namespace {
 /// Radius of a drawn particle over the mean distance of packed ones: neighbours overlap, so that
 /// snow has a surface.
 constexpr double radius_share = 0.6;
+/// Particle spacings beyond a cut within which particles shape the surface before it: the reach of
+/// its kernel.
+constexpr double reach_beyond_cut = 3;
 constexpr std::size_t max_override_lines = 6;
 /// Rings around more particles than these hide the snow inside.
 constexpr std::size_t max_marks = 16;
@@ -172,17 +175,27 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
   // Hidden particles cast no shadow either: the cut is lit like a surface, so its colours are
   // readable.
   const Cut cut(view.clip, snapshot.particles.x);
+  const bool is_surface = scene::has_layer(view, scene::Layer::snow);
+  const auto take = [&](std::size_t p, auto& list) {
+    list.position.push_back(to_float(snapshot.particles.x[p]));
+    list.id.push_back(snapshot.particles.id_of(p));
+    if (is_surface)
+      list.volume.push_back(static_cast<float>(snow_volume(scene_, snapshot.particles, p)));
+    if (!values.empty())
+      list.value.push_back(static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
+  };
+  if (is_surface && view.clip)
+    points.cut = {
+        to_float(cut.point()), to_float(sim::Vec3d(cut.normal().normalized())), {}, {}, {}, {}};
   for (std::size_t p = 0; p < snapshot.particles.x.size(); ++p) {
     // A diverged state is drawn too, as far as it can be.
     const sim::Vec3d& x = snapshot.particles.x[p];
-    if (!x.allFinite() || cut.removes(x)) continue;
-    if (look && look->cut.removes(x)) continue;
-    points.position.push_back(to_float(snapshot.particles.x[p]));
-    points.id.push_back(snapshot.particles.id_of(p));
-    if (scene::has_layer(view, scene::Layer::snow))
-      points.volume.push_back(static_cast<float>(snow_volume(scene_, snapshot.particles, p)));
-    if (!values.empty())
-      points.value.push_back(static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
+    if (!x.allFinite()) continue;
+    if (cut.removes(x)) {
+      if (points.cut && cut.distance(x) < reach_beyond_cut * seeded_.spacing) take(p, *points.cut);
+    } else if (!look || !look->cut.removes(x)) {
+      take(p, points);
+    }
   }
 }
 

@@ -42,12 +42,12 @@ std::vector<Thing> moving_things(const MotionSource& source, bool are_planes, do
 
 }  // namespace
 
-std::vector<Vec3f> velocities(const MotionSource& source, const render::Frame& frame) {
+std::vector<Vec3f> velocities(const MotionSource& source, const std::vector<std::uint32_t>& id) {
   const sim::ParticleArrays& particles = source.snapshot.particles;
   std::vector<Vec3f> list;
-  list.reserve(frame.points.id.size());
-  for (const std::uint32_t id : frame.points.id) {
-    const auto index = particles.index_of(id);
+  list.reserve(id.size());
+  for (const std::uint32_t number : id) {
+    const auto index = particles.index_of(number);
     const bool is_known = index && particles.v[*index].allFinite();
     list.push_back(is_known ? to_float(particles.v[*index]) : Vec3f{});
   }

@@ -17,8 +17,8 @@ struct MotionSource {
   const Snapshot& snapshot;
 };
 
-/// Velocities of the points of a frame of this source, m/s; 0 for those without a finite one.
-std::vector<Vec3f> velocities(const MotionSource& source, const render::Frame& frame);
+/// Velocities of particles of this source by their numbers, m/s; 0 for those without a finite one.
+std::vector<Vec3f> velocities(const MotionSource& source, const std::vector<std::uint32_t>& id);
 
 /// @param seconds after the state, or before
 render::Camera camera_after(const MotionSource& source, double seconds);

@@ -65,7 +65,9 @@ float largest_motion(const MotionSource& source, const render::Frame& frame,
 std::vector<render::Frame> shutter_moments(const MotionSource& source, const render::Frame& frame,
                                            double degrees) {
   const double open = degrees / 360 / source.scene.fps;
-  const std::vector<Vec3f> velocity = velocities(source, frame);
+  const std::vector<Vec3f> velocity = velocities(source, frame.points.id);
+  const std::vector<Vec3f> cut_velocity =
+      frame.points.cut ? velocities(source, frame.points.cut->id) : std::vector<Vec3f>{};
   const float pixels = largest_motion(source, frame, velocity, open);
   std::vector<render::Frame> moments;
   if (!(pixels >= 0.5f)) return moments;
@@ -73,12 +75,15 @@ std::vector<render::Frame> shutter_moments(const MotionSource& source, const ren
   for (int k = 0; k < count; ++k) {
     render::Frame& moment = moments.emplace_back(frame);
     move_solids(source, open * ((k + 0.5) / count - 0.5), moment);
-    for (std::size_t p = 0; p < velocity.size(); ++p) {
-      const float part =
-          (static_cast<float>(k) + phase_of(frame.points.id[p])) / static_cast<float>(count) - 0.5f;
-      moment.points.position[p] =
-          frame.points.position[p] + velocity[p] * (static_cast<float>(open) * part);
-    }
+    const auto move = [&](const std::vector<Vec3f>& by, auto& points) {
+      for (std::size_t p = 0; p < by.size(); ++p) {
+        const float part =
+            (static_cast<float>(k) + phase_of(points.id[p])) / static_cast<float>(count) - 0.5f;
+        points.position[p] = points.position[p] + by[p] * (static_cast<float>(open) * part);
+      }
+    };
+    move(velocity, moment.points);
+    if (moment.points.cut) move(cut_velocity, *moment.points.cut);
   }
   return moments;
 }

@@ -180,7 +180,7 @@ render::channels::Request PassReader::request(const picture::MotionSource& sourc
   request.passes = list_.passes;
   const double interval = 1 / scene_.fps;
   request.interval = static_cast<float>(interval);
-  request.velocity = picture::velocities(source, frame);
+  request.velocity = picture::velocities(source, frame.points.id);
   request.before = picture::camera_after(source, -interval);
   request.after = picture::camera_after(source, interval);
   request.meshes = picture::moving_meshes(source, interval);

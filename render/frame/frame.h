@@ -20,6 +20,15 @@ struct Camera {
 
 enum class ColorMap { viridis, magma, turbo, coolwarm };
 
+/// Points beyond a plane that cuts snow open. They are not drawn, but the surface of the snow goes
+/// on to the plane as if they were there, and ends in it.
+struct CutAway {
+  Vec3f point, normal;            ///< of the plane, unit and towards what is cut away
+  std::vector<Vec3f> position;    ///< those within a few spacings of the plane
+  std::vector<std::uint32_t> id;  ///< these as of Points
+  std::vector<float> value, volume;
+};
+
 /// Spheres. `value` is empty for snow shade, otherwise one number per point, coloured by the map.
 struct Points {
   std::vector<Vec3f> position;
@@ -31,6 +40,7 @@ struct Points {
   float spacing = 0.01f;  ///< m, mean distance of packed points: scale of the light volume
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;
+  std::optional<CutAway> cut;  ///< for the snow surface
 };
 
 /// A cubic lattice of nodes, of which only blocks of 4x4x4 are there. Node (i, j, k) of block b

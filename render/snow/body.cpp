@@ -153,14 +153,50 @@ void add_lump(const Points& points, std::size_t p, Points& spray) {
   }
 }
 
-void take_spray(const Points& points, const std::vector<GrainPlace>& places, Points& spray) {
-  for (std::size_t p = 0; p < places.size(); ++p)
+/// @param count  points that are not cut away
+void take_spray(const Points& points, std::size_t count, const std::vector<GrainPlace>& places,
+                Points& spray) {
+  for (std::size_t p = 0; p < count; ++p)
     if (!(places[p].share >= covered_share)) add_lump(points, p, spray);
   spray.spacing = points.spacing;
   spray.radius = ball_radius * points.spacing;
   spray.colormap = points.colormap;
   spray.range_min = points.range_min;
   spray.range_max = points.range_max;
+}
+
+/// All snow that the surface is made of.
+Points with_cut_away(const Points& points) {
+  Points all = points;
+  const auto append = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(all.position, points.cut->position);
+  append(all.id, points.cut->id);
+  append(all.value, points.cut->value);
+  append(all.volume, points.cut->volume);
+  return all;
+}
+
+/// Lets the field fall through the level at the plane.
+void end_at_plane(const CutAway& cut, Field& field, ThreadPool* pool) {
+  constexpr float fall = 0.4f;  // per cell: snow next to the plane keeps its own share
+  const double cell = static_cast<double>(field.cell);
+  for_ranges(pool, field.block.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      float* value = field.value.data() + b * block_nodes;
+      Vec3f corner;
+      for (int axis = 0; axis < 3; ++axis)
+        corner[axis] = static_cast<float>(block_side * field.block[b][axis] -
+                                          static_cast<double>(cut.point[axis]) / cell);
+      for (int n = 0; n < block_nodes; ++n) {
+        const Vec3f node{static_cast<float>(n & 7), static_cast<float>(n >> 3 & 7),
+                         static_cast<float>(n >> 6)};
+        const float beyond = dot(corner + node, cut.normal);
+        value[n] = std::min(value[n], std::max(surface_share - fall * beyond, 0.0f));
+      }
+    }
+  });
 }
 
 }  // namespace
@@ -194,13 +230,17 @@ float share_at(const Field& field, std::uint32_t b, Vec3f place) {
              mix(mix(v[4], v[5], x), mix(v[6], v[7], x), y), z);
 }
 
-Body make_body(const Points& points, ThreadPool* pool) {
+Body make_body(const Points& shown, ThreadPool* pool) {
+  std::optional<Points> with_cut;
+  if (shown.cut) with_cut = with_cut_away(shown);
+  const Points& points = with_cut ? *with_cut : shown;
   Body body;
   body.spacing = points.spacing;
   std::vector<float> volume = points.volume;
   volume.resize(points.position.size(), points.spacing * points.spacing * points.spacing);
   const surface::Kernel kernel{cell_share * points.spacing, kernel_share * points.spacing};
   body.field = surface::make_field({points.position, volume}, kernel, 0, pool).field;
+  if (points.cut) end_at_plane(*points.cut, body.field, pool);
   pad_blocks(pool, body);
 
   for (const Vec3i& block : body.field.block) body.map.insert(surface::block_key(block));
@@ -214,7 +254,7 @@ Body make_body(const Points& points, ThreadPool* pool) {
       cube_of[p] = places[p].block * cubes_per_block + places[p].cube;
   list_grains(points, surface::sorted_into_bins(cube_of, body.field.block.size() * cubes_per_block),
               body);
-  take_spray(points, places, body.spray);
+  take_spray(points, shown.position.size(), places, body.spray);
   return body;
 }
 

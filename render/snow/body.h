@@ -48,7 +48,7 @@ inline constexpr float surface_share = 0.5f;
 
 /// Same bits with any number of threads. @param pool may be null
 /// Check: SnowBody.*
-Body make_body(const Points& points, ThreadPool* pool);
+Body make_body(const Points& shown, ThreadPool* pool);
 
 /// A place of the field: block, and nodes from its corner, 0 to 8 along each axis.
 struct FieldPlace {

@@ -21,7 +21,13 @@ unsigned finished_word(Vec3f color) {
   return byte(color.x) | byte(color.y) << 8 | byte(color.z) << 16 | 0xff000000u;
 }
 
+bool is_same(const CutAway& a, const CutAway& b) {
+  return a.point == b.point && a.normal == b.normal && same_bytes(a.position, b.position) &&
+         same_bytes(a.id, b.id) && same_bytes(a.value, b.value) && same_bytes(a.volume, b.volume);
+}
+
 bool is_same(const Points& a, const Points& b) {
+  if (a.cut.has_value() != b.cut.has_value() || (a.cut && !is_same(*a.cut, *b.cut))) return false;
   return a.radius == b.radius && a.spacing == b.spacing && a.colormap == b.colormap &&
          a.range_min == b.range_min && a.range_max == b.range_max &&
          same_bytes(a.position, b.position) && same_bytes(a.id, b.id) &&

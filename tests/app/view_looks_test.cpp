@@ -36,6 +36,10 @@ render::Frame build(const app::scene::Scene& scene, const std::vector<Vec3d>& po
   app::picture::Snapshot snapshot;
   snapshot.particles.x = positions;
   snapshot.particles.v.assign(positions.size(), Vec3d(0, 0, 0));
+  snapshot.particles.m.assign(positions.size(), 1);
+  snapshot.particles.F_E.assign(positions.size(), sim::Mat3d::Identity());
+  snapshot.particles.J_P.assign(positions.size(), 1);
+  snapshot.particles.material.assign(positions.size(), 0);
   app::setup::SeededScene seeded;
   seeded.body_end = {positions.size()};
   return app::picture::FrameBuilder(scene, seeded).build(scene.views.front(), snapshot);
@@ -100,6 +104,18 @@ TEST(Clip, ClipRemovesTheParticlesOnItsSide) {
   const render::Frame frame = build(scene, {{0, 0, 0}, {0, 0, 0.09}, {0, 0, 0.11}, {5, 0, 9}});
   ASSERT_EQ(frame.points.position.size(), 2u);
   EXPECT_EQ(frame.points.id, (std::vector<std::uint32_t>{0, 1})) << "the others keep their looks";
+}
+
+TEST(Clip, ASurfaceKnowsTheSnowBeyondItsCut) {
+  const app::scene::Scene scene = scene_with(
+      "[[view]]\nlayers = [\"snow\"]\nclip = { normal = [0, 0, 5], point = [0, 0, 0.1] }\n");
+  const render::Frame frame = build(scene, {{0, 0, 0}, {0, 0, 0.09}, {0, 0, 0.1001}, {5, 0, 9}});
+  EXPECT_EQ(frame.points.id, (std::vector<std::uint32_t>{0, 1}));
+  ASSERT_TRUE(frame.points.cut.has_value());
+  EXPECT_EQ(frame.points.cut->point, (Vec3f{0, 0, 0.1f}));
+  EXPECT_EQ(frame.points.cut->normal, (Vec3f{0, 0, 1}));
+  EXPECT_EQ(frame.points.cut->id, std::vector<std::uint32_t>{2}) << "9 m away shapes nothing";
+  EXPECT_EQ(frame.points.cut->volume.size(), 1u);
 }
 
 TEST(Clip, AutomaticallyCutsTheMiddleOfTheSnow) {

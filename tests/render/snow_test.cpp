@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "both_ways.h"
 #include "render/light/light_fields.h"
@@ -88,6 +89,84 @@ TEST(Snow, SurfaceOfASlabLiesWhereItsParticlesEnd) {
     EXPECT_NEAR(hits[tile].distance[at], 1, 0.08f * spacing) << at;
   });
   EXPECT_EQ(count, 64 * 32);
+}
+
+/// Cuts points open: those beyond the plane go to the other side of it.
+void cut_open(Vec3f point, Vec3f normal, Points& points) {
+  const Points whole = std::exchange(points, Points{});
+  points.spacing = whole.spacing;
+  points.cut = CutAway{point, normal, {}, {}, {}, {}};
+  for (const Vec3f& p : whole.position)
+    (dot(p - point, normal) > 0 ? points.cut->position : points.position).push_back(p);
+}
+
+TEST(Snow, ACutIsFlatAndLiesInItsPlane) {
+  constexpr float spacing = 0.02f;
+  // Neither the lattice of the particles nor that of the field is in line with the plane.
+  const Vec3f point{0.003f, -0.4f, 0.011f}, normal = normalized(Vec3f{0.5f, 0.7f, 0.3f});
+  Points points = slab(spacing, 40, 40);
+  cut_open(point, normal, points);
+  const Body body = snow::make_body(points, nullptr);
+  for (const Vec3f& p : body.spray.position)  // corners of the slab are
+    EXPECT_GT(length(p - point), 0.3f) << "a cut makes no spray";
+  const Camera camera{.eye = point + normal, .target = point, .up = {0, 0, 1}, .fov = 14};
+  const View view = make_view(camera, 64, 32);
+  const std::vector<TileHits> hits = march(body, view, cpu::chosen_draw_kernels());
+  for_samples(view, [&](std::size_t tile, int at, int, int) {
+    // Linear interpolation keeps the plane as it is where the field is that of the plane at all
+    // corners of a cell; snow whose own share is a little less than that of the plane there moves
+    // it.
+    EXPECT_NEAR(hits[tile].distance[at], 1, 0.02f * spacing) << at;
+  });
+  // Without the particles beyond, the surface follows the particles before the plane.
+  points.cut.reset();
+  const Body lumpy = snow::make_body(points, nullptr);
+  const std::vector<TileHits> other = march(lumpy, view, cpu::chosen_draw_kernels());
+  float most = 0;
+  for_samples(view, [&](std::size_t tile, int at, int, int) {
+    most = std::max(most, std::abs(other[tile].distance[at] - 1));
+  });
+  EXPECT_GT(most, 0.1f * spacing);
+}
+
+TEST(Snow, ACutShowsTheValuesInside) {
+  OPEN_OR_SKIP(context, "auto");
+  // Values by the distance from the middle: a cut through it shows rings, the whole ball its skin.
+  Frame frame = snow_ball(160, 120);
+  frame.grounds.clear();
+  Points& points = frame.points;
+  points.id.clear();
+  const auto values = [](const std::vector<Vec3f>& from) {
+    std::vector<float> to;
+    for (const Vec3f& p : from) to.push_back(length(p));
+    return to;
+  };
+  const Vec3f toward = normalized(frame.camera.eye - frame.camera.target);
+  cut_open({}, toward, points);
+  points.value = values(points.position);
+  points.cut->value = values(points.cut->position);
+  points.colormap = ColorMap::viridis;
+  points.range_max = 0.4f;
+  Renderer renderer(*context, {}, nullptr, ParticlePath::cpu);
+  const Image image = renderer.draw(frame);
+  const auto at = [&](int x) {
+    const std::size_t first = 3 * (60 * 160 + static_cast<std::size_t>(x));
+    return std::array<int, 3>{image.pixels[first], image.pixels[first + 1],
+                              image.pixels[first + 2]};
+  };
+  // viridis: from dark violet in the middle to yellow.
+  EXPECT_GT(at(80)[2], at(80)[1]);
+  EXPECT_LT(at(80)[1], at(60)[1]);
+  EXPECT_LT(at(80)[1], at(100)[1]);
+}
+
+TEST(Snow, PointsThatAreCutAwayNeedTheArraysOfThePoints) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = snow_ball(32, 24);
+  cut_open({}, {0, 0, 1}, frame.points);
+  frame.points.value.assign(frame.points.position.size(), 1.0f);
+  Renderer renderer(*context, {}, nullptr, ParticlePath::cpu);
+  EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
 }
 
 /// Distance of the first place of the level along a ray, in steps of a hundredth of a cell.
