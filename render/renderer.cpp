@@ -59,7 +59,7 @@ void check_points(std::size_t position, std::initializer_list<std::size_t> other
   for (const std::size_t other : others)
     if (other != 0 && other != position)
       throw std::invalid_argument("Frame: " + std::to_string(position) + " points and " +
-                                  std::to_string(other) + " ids, values or volumes");
+                                  std::to_string(other) + " ids, values, volumes or turns");
 }
 
 void check_frame(const Frame& frame, int max_size) {
@@ -73,12 +73,13 @@ void check_frame(const Frame& frame, int max_size) {
         std::to_string(max_size) + " samples per side, 1 or 2 per pixel");
   const Points& points = frame.points;
   check_points(points.position.size(),
-               {points.id.size(), points.value.size(), points.volume.size()});
+               {points.id.size(), points.value.size(), points.volume.size(), points.turn.size()});
   if (const std::optional<CutAway>& cut = points.cut) {
-    check_points(cut->position.size(), {cut->id.size(), cut->value.size(), cut->volume.size()});
+    check_points(cut->position.size(),
+                 {cut->id.size(), cut->value.size(), cut->volume.size(), cut->turn.size()});
     if (!cut->position.empty() &&
         (cut->id.empty() != points.id.empty() || cut->value.empty() != points.value.empty() ||
-         cut->volume.empty() != points.volume.empty()))
+         cut->volume.empty() != points.volume.empty() || cut->turn.empty() != points.turn.empty()))
       throw std::invalid_argument("Frame: points that are cut away have other arrays than points");
   }
   for (const TriangleMesh& mesh : frame.meshes) check_mesh(mesh);

@@ -15,6 +15,7 @@
 #include "app/picture/snow_volume.h"
 #include "app/picture/stage_look.h"
 #include "app/picture/to_float.h"
+#include "app/picture/turn.h"
 #include "app/picture/wires.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/flat.h"
@@ -179,14 +180,16 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
   const auto take = [&](std::size_t p, auto& list) {
     list.position.push_back(to_float(snapshot.particles.x[p]));
     list.id.push_back(snapshot.particles.id_of(p));
-    if (is_surface)
+    if (is_surface) {
       list.volume.push_back(static_cast<float>(snow_volume(scene_, snapshot.particles, p)));
+      list.turn.push_back(turn_of(snapshot.particles.F_E[p]));
+    }
     if (!values.empty())
       list.value.push_back(static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
   };
   if (is_surface && view.clip)
     points.cut = {
-        to_float(cut.point()), to_float(sim::Vec3d(cut.normal().normalized())), {}, {}, {}, {}};
+        to_float(cut.point()), to_float(sim::Vec3d(cut.normal().normalized())), {}, {}, {}, {}, {}};
   for (std::size_t p = 0; p < snapshot.particles.x.size(); ++p) {
     // A diverged state is drawn too, as far as it can be.
     const sim::Vec3d& x = snapshot.particles.x[p];

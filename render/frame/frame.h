@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "render/frame/turn.h"
 #include "sim/base/vec.h"
 
 namespace neve::render {
@@ -27,6 +28,7 @@ struct CutAway {
   std::vector<Vec3f> position;    ///< those within a few spacings of the plane
   std::vector<std::uint32_t> id;  ///< these as of Points
   std::vector<float> value, volume;
+  std::vector<PackedTurn> turn;
 };
 
 /// Spheres. `value` is empty for snow shade, otherwise one number per point, coloured by the map.
@@ -35,9 +37,10 @@ struct Points {
   std::vector<std::uint32_t> id;  ///< breaks ties and seeds the small variation of shade
   std::vector<float> value;
   std::vector<float>
-      volume;             ///< m3 as deformed, for the snow surface; empty: that of packed points
-  float radius = 0.005f;  ///< m, as drawn
-  float spacing = 0.01f;  ///< m, mean distance of packed points: scale of the light volume
+      volume;  ///< m3 as deformed, for the snow surface; empty: that of packed points
+  std::vector<PackedTurn> turn;  ///< turns the grain of the snow surface; empty: none has turned
+  float radius = 0.005f;         ///< m, as drawn
+  float spacing = 0.01f;         ///< m, mean distance of packed points: scale of the light volume
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;
   std::optional<CutAway> cut;  ///< for the snow surface

@@ -32,6 +32,9 @@ constexpr float buried_share = 0.97f;
 constexpr float ball_radius = 0.24f, ball_offset = 0.26f;
 constexpr std::uint32_t balls_per_grain = 5;
 
+/// How far the middle of a grain lies from its particle at most along each axis, in spacings.
+constexpr float grain_offset = 0.3f;
+
 /// Copies one row of nodes -1 to 9.
 void pad_row(const Field& field, std::size_t b, int j, int k, float* to) {
   const auto side = static_cast<std::size_t>(((k + 8) >> 3) * 9 + ((j + 8) >> 3) * 3 + 1);
@@ -110,16 +113,45 @@ void pad_blocks(ThreadPool* pool, Body& body) {
 }
 
 struct GrainPlace {
-  std::uint32_t block = no_block, cube = 0;
-  float share = 0;  ///< of the field at the particle
+  std::uint32_t cube = no_block;  ///< of the grain; no_block: off the field
+  float share = 0;                ///< of the field at the particle
 };
 
-GrainPlace grain_place(const Body& body, Vec3f position) {
-  const FieldPlace place = find_place(body, position);
-  if (place.block == no_block) return {};
+GrainPlace grain_place(const Body& body, Vec3f particle, Vec3f grain) {
+  GrainPlace out;
+  if (const FieldPlace at = find_place(body, particle); at.block != no_block)
+    out.share = share_at(body.field, at.block, at.node);
+  const FieldPlace place = find_place(body, grain);
+  if (place.block == no_block) return out;
   const auto cube = [](float node) { return static_cast<std::uint32_t>(node) >> 1; };
-  return {place.block, cube(place.node.z) << 4 | cube(place.node.y) << 2 | cube(place.node.x),
-          share_at(body.field, place.block, place.node)};
+  out.cube = place.block * cubes_per_block +
+             (cube(place.node.z) << 4 | cube(place.node.y) << 2 | cube(place.node.x));
+  return out;
+}
+
+std::uint32_t id_of(const Points& points, std::size_t p) {
+  return points.id.empty() ? static_cast<std::uint32_t>(p) : points.id[p];
+}
+
+/// Three numbers between -1 and 1.
+Vec3f random_offset(std::uint64_t key) {
+  const std::uint64_t random = mix64(key);
+  const auto along = [&](int bits) {
+    return static_cast<float>(random >> bits & 0xffff) * (2.0f / 65535) - 1;
+  };
+  return {along(0), along(16), along(32)};
+}
+
+/// From the particle, in the frame of the snow.
+Vec3f turned(const Points& points, std::size_t p, Vec3f offset) {
+  return points.turn.empty() ? offset : Turn(points.turn[p]).forth(offset);
+}
+
+/// Middle of the grain that a particle brings.
+Vec3f grain_position(const Points& points, std::size_t p) {
+  const Vec3f offset =
+      random_offset(std::uint64_t{id_of(points, p)} + 1) * (grain_offset * points.spacing);
+  return points.position[p] + turned(points, p, offset);
 }
 
 /// @param bins  one for each cube
@@ -131,23 +163,20 @@ void list_grains(const Points& points, const surface::Bins& bins, Body& body) {
   grains.color.reserve(bins.grain.size());
   grains.seed.reserve(bins.grain.size());
   for (const std::uint32_t p : bins.grain) {
-    grains.position.push_back(points.position[p]);
+    grains.position.push_back(grain_position(points, p));
     grains.color.push_back(color.root_albedo(p));
-    const std::uint32_t id = points.id.empty() ? p : points.id[p];
-    grains.seed.push_back(static_cast<std::uint32_t>(mix64(id + 1)));
+    grains.seed.push_back(static_cast<std::uint32_t>(mix64(id_of(points, p) + 1)));
+    if (!points.turn.empty()) grains.turn.push_back(points.turn[p]);
   }
 }
 
-/// The lump of a particle turns up the same wherever it flies.
+/// The lump of a particle looks the same wherever it flies, and turns with it.
 void add_lump(const Points& points, std::size_t p, Points& spray) {
-  const std::uint32_t id = points.id.empty() ? static_cast<std::uint32_t>(p) : points.id[p];
+  const std::uint32_t id = id_of(points, p);
   for (std::uint32_t ball = 0; ball < balls_per_grain; ++ball) {
-    const std::uint64_t random = mix64(std::uint64_t{id} * balls_per_grain + ball + 1);
-    const auto along = [&](int bits) {
-      const float share = static_cast<float>(random >> bits & 0xffff) * (2.0f / 65535) - 1;
-      return share * ball_offset * points.spacing;
-    };
-    spray.position.push_back(points.position[p] + Vec3f{along(0), along(16), along(32)});
+    const Vec3f offset = random_offset(std::uint64_t{id} * balls_per_grain + ball + 1) *
+                         (ball_offset * points.spacing);
+    spray.position.push_back(points.position[p] + turned(points, p, offset));
     spray.id.push_back(id);
     if (!points.value.empty()) spray.value.push_back(points.value[p]);
   }
@@ -175,6 +204,7 @@ Points with_cut_away(const Points& points) {
   append(all.id, points.cut->id);
   append(all.value, points.cut->value);
   append(all.volume, points.cut->volume);
+  append(all.turn, points.cut->turn);
   return all;
 }
 
@@ -246,12 +276,12 @@ Body make_body(const Points& shown, ThreadPool* pool) {
   for (const Vec3i& block : body.field.block) body.map.insert(surface::block_key(block));
   std::vector<GrainPlace> places(points.position.size());
   for_ranges(pool, places.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) places[p] = grain_place(body, points.position[p]);
+    for (std::size_t p = begin; p < end; ++p)
+      places[p] = grain_place(body, points.position[p], grain_position(points, p));
   });
   std::vector<std::uint32_t> cube_of(places.size(), no_block);
   for (std::size_t p = 0; p < places.size(); ++p)
-    if (places[p].block != no_block && !(places[p].share > buried_share))
-      cube_of[p] = places[p].block * cubes_per_block + places[p].cube;
+    if (!(places[p].share > buried_share)) cube_of[p] = places[p].cube;
   list_grains(points, surface::sorted_into_bins(cube_of, body.field.block.size() * cubes_per_block),
               body);
   take_spray(points, shown.position.size(), places, body.spray);

@@ -21,9 +21,10 @@ inline constexpr int cubes_per_block = 64;
 /// Particles in the order of their cubes.
 struct GrainList {
   std::vector<std::uint32_t> first;  ///< of each cube of each block, and the end
-  std::vector<Vec3f> position;       ///< m
+  std::vector<Vec3f> position;       ///< m, a little off the particle: grain shows no lattice
   std::vector<std::uint32_t> color;  ///< as the G-buffer has it (gbuffer_tile.h)
   std::vector<std::uint32_t> seed;   ///< a random number that stays with the particle
+  std::vector<PackedTurn> turn;      ///< empty: none has turned
 };
 
 /// Cells of a block: the first and the last one along each axis.

@@ -23,7 +23,8 @@ unsigned finished_word(Vec3f color) {
 
 bool is_same(const CutAway& a, const CutAway& b) {
   return a.point == b.point && a.normal == b.normal && same_bytes(a.position, b.position) &&
-         same_bytes(a.id, b.id) && same_bytes(a.value, b.value) && same_bytes(a.volume, b.volume);
+         same_bytes(a.id, b.id) && same_bytes(a.value, b.value) && same_bytes(a.volume, b.volume) &&
+         same_bytes(a.turn, b.turn);
 }
 
 bool is_same(const Points& a, const Points& b) {
@@ -31,7 +32,8 @@ bool is_same(const Points& a, const Points& b) {
   return a.radius == b.radius && a.spacing == b.spacing && a.colormap == b.colormap &&
          a.range_min == b.range_min && a.range_max == b.range_max &&
          same_bytes(a.position, b.position) && same_bytes(a.id, b.id) &&
-         same_bytes(a.value, b.value) && same_bytes(a.volume, b.volume);
+         same_bytes(a.value, b.value) && same_bytes(a.volume, b.volume) &&
+         same_bytes(a.turn, b.turn);
 }
 
 Vec3f albedo_of(unsigned word) {

@@ -193,10 +193,12 @@ GrainLook look_of(const Body& body, const SnowPlace& place, std::uint32_t p) {
   const auto shift = [&](int bits) {
     return static_cast<float>(out.seed >> bits & 0xff) * (4.0f / 256);
   };
+  const Turn turn(grains.turn.empty() ? no_turn : grains.turn[p]);
+  out.offset = turn.back(out.offset);
   const Relief relief = grain_noise().at(
       out.offset * units_per_spacing + Vec3f{shift(0), shift(8), shift(16)}, detail);
   out.height = relief.height;
-  out.slope = relief.slope * units_per_spacing;
+  out.slope = turn.forth(relief.slope) * units_per_spacing;
   return out;
 }
 

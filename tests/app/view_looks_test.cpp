@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
 #include "app/picture/collider_looks.h"
 #include "app/picture/frame_builder.h"
 #include "app/picture/mosaic.h"
+#include "app/picture/turn.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 
@@ -116,6 +118,29 @@ TEST(Clip, ASurfaceKnowsTheSnowBeyondItsCut) {
   EXPECT_EQ(frame.points.cut->normal, (Vec3f{0, 0, 1}));
   EXPECT_EQ(frame.points.cut->id, std::vector<std::uint32_t>{2}) << "9 m away shapes nothing";
   EXPECT_EQ(frame.points.cut->volume.size(), 1u);
+}
+
+TEST(Turn, IsTheRotationOfSnowAlsoWhereItIsStrained) {
+  const sim::Mat3d R = (Eigen::AngleAxisd(2.1, Vec3d(0.3, -0.8, 0.5).normalized())).matrix();
+  sim::Mat3d stretch = sim::Mat3d::Identity();
+  stretch(0, 0) = 1.02;
+  stretch(0, 1) = stretch(1, 0) = 0.01;
+  stretch(2, 2) = 0.97;
+  const render::Turn turn(app::picture::turn_of(R * stretch));
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3d to = R.col(axis);
+    const Vec3f unit{axis == 0 ? 1.0f : 0.0f, axis == 1 ? 1.0f : 0.0f, axis == 2 ? 1.0f : 0.0f};
+    const Vec3f forth = turn.forth(unit), back = turn.back(forth);
+    // Shear turns the columns by half of what it is; 16 bits are exact to 3e-5.
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(forth[k], to[k], 0.012) << axis << k;
+      EXPECT_NEAR(back[k], unit[k], 2e-4) << axis << k;
+    }
+  }
+  EXPECT_EQ(app::picture::turn_of(sim::Mat3d::Identity()), render::no_turn);
+  EXPECT_EQ(app::picture::turn_of(sim::Mat3d::Zero()), render::no_turn);
+  EXPECT_EQ(app::picture::turn_of(sim::Mat3d::Constant(std::numeric_limits<double>::quiet_NaN())),
+            render::no_turn);
 }
 
 TEST(Clip, AutomaticallyCutsTheMiddleOfTheSnow) {

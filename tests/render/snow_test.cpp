@@ -95,7 +95,7 @@ TEST(Snow, SurfaceOfASlabLiesWhereItsParticlesEnd) {
 void cut_open(Vec3f point, Vec3f normal, Points& points) {
   const Points whole = std::exchange(points, Points{});
   points.spacing = whole.spacing;
-  points.cut = CutAway{point, normal, {}, {}, {}, {}};
+  points.cut = CutAway{point, normal, {}, {}, {}, {}, {}};
   for (const Vec3f& p : whole.position)
     (dot(p - point, normal) > 0 ? points.cut->position : points.position).push_back(p);
 }
@@ -307,6 +307,36 @@ TEST(Snow, GrainMovesWithTheParticles) {
   // Rounding of the positions and the cells of the light; other particles have other grain.
   EXPECT_LT(same, 0.1);
   EXPECT_GT(other, 5 * same);
+}
+
+/// By a quarter turn about y, which takes the field's lattice to itself.
+Vec3f quarter(Vec3f v) {
+  return {v.z, v.y, -v.x};
+}
+
+/// Mean difference of a picture of snow and one of it, its light and its camera, all turned.
+double difference_after_turn(render::gl::Context& context, const PackedTurn& turn) {
+  Frame still = snow_ball(320, 200);
+  still.grounds.clear();
+  Frame turned = still;
+  for (Vec3f& p : turned.points.position) p = quarter(p);
+  turned.points.turn.assign(turned.points.position.size(), turn);
+  turned.camera.eye = quarter(still.camera.eye);
+  turned.light.direction = quarter(still.light.direction);
+  Renderer a(context, {}, nullptr, ParticlePath::cpu), b(context, {}, nullptr, ParticlePath::cpu);
+  return compare(a.draw(still), b.draw(turned)).mean;
+}
+
+TEST(Snow, GrainTurnsWithTheParticles) {
+  OPEN_OR_SKIP(context, "auto");
+  constexpr std::int16_t half_angle = 23170;  // cos and sin of 45 degrees
+  const double same = difference_after_turn(*context, {half_angle, 0, half_angle, 0}),
+               other = difference_after_turn(*context, no_turn),
+               wrong = difference_after_turn(*context, {half_angle, 0, -half_angle, 0});
+  // The cells of the light begin elsewhere, and the sky is not that of the other side.
+  EXPECT_LT(same, 0.35);
+  EXPECT_GT(other, 3 * same);
+  EXPECT_GT(wrong, 3 * same);
 }
 
 TEST(Snow, ValuesColorTheSurface) {
