@@ -41,9 +41,9 @@ std::vector<std::string> all_texts(const Frame& frame) {
 }
 
 struct LegendText {
-  std::string title;
+  std::vector<std::string> title;  ///< lines
   std::vector<Tick> ticks;
-  float width = 0;  ///< of all of it, pixels
+  float title_width = 0, bar_width = 0;  ///< pixels; that of the bar with its numbers
 };
 
 float bar_width(const ImFont& font) {
@@ -56,23 +56,34 @@ float tick_gap(const ImFont& font) {
 
 LegendText text_of(const Legend& legend, const ImFont& font, float height, float max_width) {
   const int tick_count = std::clamp(static_cast<int>(height / (1.6f * font.FontSize)), 1, 5);
-  LegendText text{elide(font, title_of(legend), max_width),
+  LegendText text{wrap(font, title_of(legend), max_width, 2),
                   nice_ticks(legend.min, legend.max, tick_count)};
+  for (const std::string& line : text.title)
+    text.title_width = std::max(text.title_width, text_width(font, line));
   float label_width = 0;
   for (const Tick& tick : text.ticks)
     label_width = std::max(label_width, text_width(font, tick.label));
-  text.width =
-      std::max(text_width(font, text.title), bar_width(font) + tick_gap(font) + label_width);
+  text.bar_width = bar_width(font) + tick_gap(font) + label_width;
   return text;
 }
 
-/// A colour bar standing on `bottom`, with its title above and its numbers to the right.
-void draw_legend(const Legend& legend, const LegendText& text, const ImFont& font, float left,
-                 float bottom, float height) {
+struct LegendPlace {
+  float left, bottom, height;  ///< of the bar, pixels
+  float title_left;
+};
+
+/// A colour bar with its title above and its numbers to the right.
+void draw_legend(const Legend& legend, const LegendText& text, const ImFont& font,
+                 const LegendPlace& place) {
+  const auto [left, bottom, height, title_left] = place;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const float unit = unit_of(font), gap = tick_gap(font), right = left + bar_width(font);
   const float top = std::round(bottom - height);
-  draw_text(font, ImVec2(left, top - 1.7f * font.FontSize), bright_text, text.title);
+  float y_title = top - (0.6f + 1.1f * static_cast<float>(text.title.size())) * font.FontSize;
+  for (const std::string& line : text.title) {
+    draw_text(font, ImVec2(title_left, y_title), bright_text, line);
+    y_title += 1.1f * font.FontSize;
+  }
   for (float y = top; y < bottom; y += 1) {
     const Rgb8 c = map_color(legend.colormap, (bottom - y - 0.5f) / (bottom - top));
     list.AddRectFilled(ImVec2(left, y), ImVec2(right, y + 1), IM_COL32(c.r, c.g, c.b, 255));
@@ -99,21 +110,29 @@ float OverlayPass::draw_legends(const Frame& frame) const {
   if (frame.legends.empty() || height < 7 * size || width < 12 * size) return right;
   // One above the other: side by side they would reach into the snow. Those without room are left
   // out.
-  const float above = 2.7f * size, least = 4 * size, room = 0.5f * height;
+  const float least = 4 * size, room = 0.5f * height;
   const auto count = std::min(frame.legends.size(),
                               static_cast<std::size_t>(std::max(1.0f, std::floor(room / least))));
   const float bar_height = std::round(std::min(210 * unit, room / static_cast<float>(count)));
   std::vector<LegendText> texts;
-  float widest = 0;
+  float title_width = 0, bars = 0;
+  std::size_t lines = 1;
   for (std::size_t k = 0; k < count; ++k) {
     texts.push_back(text_of(frame.legends[k], font, bar_height, 0.35f * width));
-    widest = std::max(widest, texts.back().width);
+    title_width = std::max(title_width, texts.back().title_width);
+    bars = std::max(bars, texts.back().bar_width);
+    lines = std::max(lines, texts.back().title.size());
   }
-  const float left = std::round(right - widest);
+  const float above = (1.6f + 1.1f * static_cast<float>(lines)) * size;
+  const float title_left = std::round(right - std::max(title_width, bars));
+  // Below a long title in a small picture, the bar would stand in the snow.
+  const bool is_narrow = title_width > 0.25f * width;
+  const float left = is_narrow ? std::round(right - bars) : title_left;
   for (std::size_t k = 0; k < count; ++k) {
     const float below = static_cast<float>(count - 1 - k) * (bar_height + above);
-    draw_legend(frame.legends[k], texts[k], font, left, std::round(height - margin - below),
-                bar_height);
+    draw_legend(frame.legends[k], texts[k], font,
+                {left, std::round(height - margin - below), bar_height,
+                 is_narrow ? std::round(right - texts[k].title_width) : title_left});
   }
   return left - margin;
 }

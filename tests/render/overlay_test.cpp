@@ -122,6 +122,28 @@ TEST(Legend, LegendShowsTheColoursOfTheMap) {
   EXPECT_GT(changed(nothing, image).left, 320);
 }
 
+TEST(Legend, InASmallPictureTheBarStandsAtTheEdgeAndTheTitleIsWhole) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  for (const char* title : {"J_P, plastic volume", "largest Kirchhoff stress of all"}) {
+    Frame frame = small_frame(240, 135);
+    const Image nothing = renderer.draw(frame);
+    frame.legends.push_back({.title = title, .unit = "", .colormap = ColorMap::turbo});
+    const Image image = renderer.draw(frame);
+    const Changed all = changed(nothing, image);
+    EXPECT_GT(all.left, 0.6 * 240) << title;
+    EXPECT_LT(all.right, 240) << title;
+    EXPECT_GT(all.top, 0) << title;
+    int bar_left = 240;  // text is grey
+    for (int y = 0; y < 135; ++y)
+      for (int x = bar_left - 1; x >= 0; --x) {
+        const Pixel p = pixel(image, x, y);
+        if (std::max({p.r, p.g, p.b}) - std::min({p.r, p.g, p.b}) > 120) bar_left = x;
+      }
+    EXPECT_GT(bar_left, 0.8 * 240) << title;
+  }
+}
+
 TEST(Legend, AnyRangeIsDrawn) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
