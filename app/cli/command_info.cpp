@@ -17,8 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string strip_line(const run::StripRecord& strip, const std::string& path) {
+  return "strip       " + std::to_string(strip.times.size()) + " moments, " +
+         fixed_text(strip.times.front(), 3) + " to " + fixed_text(strip.times.back(), 3) +
+         " s; neve strip " + path + " makes it again\n";
+}
+
 /// Prints the record as plain text: the file may be from anyone.
-void print_picture(const run::PictureRecord& record) {
+void print_picture(const run::PictureRecord& record, const std::string& picture) {
   std::ostringstream out;
   out << "neve        " << record.version << (record.build.empty() ? "" : " (" + record.build + ")")
       << "\n"
@@ -27,6 +33,7 @@ void print_picture(const run::PictureRecord& record) {
       << "quality     " << record.quality << "\n"
       << (record.plate.empty() ? "" : "plate       " + record.plate + "\n")
       << (record.shutter > 0 ? "shutter     " + rough_text(record.shutter) + " degrees\n" : "")
+      << (record.strip ? strip_line(*record.strip, picture) : "")
       << (record.passes.empty() ? "" : "passes      " + joined(record.passes, ", ") + "\n")
       << "seed        " << record.seed << "\n"
       << "state hash  " << record.state_hash << "\n";
@@ -141,7 +148,7 @@ int run_info(const std::string& path, bool is_json) {
   if (is_json) {
     std::cout << to_text(run::to_json(record)) << "\n";
   } else {
-    print_picture(record);
+    print_picture(record, path);
   }
   return exit_ok;
 }

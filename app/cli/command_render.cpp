@@ -13,11 +13,14 @@
 #include "app/picture/mosaic.h"
 #include "app/run/fork.h"
 #include "app/run/passes.h"
+#include "app/run/past_run.h"
+#include "app/run/picture_record.h"
 #include "app/run/plate.h"
 #include "app/run/render_job.h"
 #include "app/run/render_run.h"
 #include "app/run/step_warnings.h"
 #include "app/scene/coarsen.h"
+#include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/resolve.h"
 #include "app/setup/seed_scene.h"
@@ -37,6 +40,17 @@ render::Image read_reference(const std::string& file) {
   } catch (const render::ImageError& error) {
     throw Error(exit_invalid_scene, file + ": error: " + error.what(), file);
   }
+}
+
+/// A strip shows many frames: one of them has to be named.
+void refuse_strip(const run::RenderOptions& options) {
+  if (options.scene.empty() || options.frames || options.from || run::is_folder(options.scene) ||
+      !run::is_picture(options.scene))
+    return;
+  if (const auto strip = run::read_picture_record(options.scene).strip)
+    throw scene::toml::UsageError(
+        options.scene, "is a strip of " + std::to_string(strip->times.size()) + " moments",
+        "neve strip " + options.scene + " makes it again; --frames renders frames of its scene");
 }
 
 void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json) {
@@ -210,6 +224,7 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
 }  // namespace
 
 int run_render(const run::RenderOptions& options) {
+  refuse_strip(options);
   run::RenderJob job = run::make_job(options);
   const double channel_bytes =
       job.passes.empty() ? 0 : run::bytes_of_pixel(run::pass_list(job.passes));

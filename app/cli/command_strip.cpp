@@ -33,11 +33,11 @@ run::StripOptions finished_strip(const CLI::App& command, const run::RenderOptio
   if (texts.at && (options.run.frames || command.count("--tiles") > 0))
     refuse("--at", "cannot be combined with --frames or --tiles", "give the times alone");
   if (texts.at) options.at = setup::parse_times(*texts.at);
-  if (!(options.tiles >= 1 && options.tiles <= 200))
+  if (options.tiles && !(*options.tiles >= 1 && *options.tiles <= 200))
     refuse("--tiles", "cannot use this number", "expected 1 to 200 moments");
-  if (options.columns < 0 || options.columns > 200)
+  if (options.columns && (*options.columns < 0 || *options.columns > 200))
     refuse("--columns", "cannot use this number", "expected 1 to 200, or 0 for about a screen");
-  if (options.width < 160 || options.width > 16384)
+  if (options.width && (*options.width < 160 || *options.width > 16384))
     refuse("--width", "cannot use this number", "expected 160 to 16384 pixels");
   if (command.count("--out") > 0 && std::filesystem::path(options.run.out).extension() != ".png")
     refuse("--out", "names no picture", "expected a file that ends in .png");
@@ -86,26 +86,26 @@ void add_strip(CLI::App& app, Action& action) {
   const auto texts = std::make_shared<StripTexts>();
   add_scene(*command, run, run_texts);
   command->get_option("SCENE")->description(
-      "Scene file (TOML), the folder of a run, or a picture made by neve; default: a falling "
-      "snowball");
+      "Scene file (TOML), the folder of a run, or a picture made by neve, of which a strip is made "
+      "again; default: a falling snowball");
   command->add_option("--view", texts->view, "View to draw; default: the first of the scene")
       ->type_name("NAME");
-  command->add_option("--tiles", options->tiles, "Number of moments, evenly spread over the frames")
-      ->type_name("N")
-      ->capture_default_str();
+  command
+      ->add_option("--tiles", options->tiles,
+                   "Number of moments, evenly spread over the frames; default: 6")
+      ->type_name("N");
   command
       ->add_option("--frames", run_texts->frames, "Frames to spread them over: A-B, or N for 0-N")
       ->type_name("A-B");
   command->add_option("--at", texts->at, "Times in seconds instead")->type_name("T,T");
   command
       ->add_option("--columns", options->columns,
-                   "Tiles beside each other; 0: so many that the picture has about the shape of a "
-                   "screen")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--width", options->width, "Width of the whole picture in pixels")
-      ->type_name("PX")
-      ->capture_default_str();
+                   "Tiles beside each other; default: 0, so many that the picture has about the "
+                   "shape of a screen")
+      ->type_name("N");
+  command
+      ->add_option("--width", options->width, "Width of the whole picture in pixels; default: 1920")
+      ->type_name("PX");
   command
       ->add_option("--out", run->out,
                    "Write to this file instead of out/<scene name>/strip_<view>.png")

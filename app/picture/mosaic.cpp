@@ -32,15 +32,15 @@ std::vector<std::string> strip_caption(const std::vector<std::string>& lines, bo
 
 render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
                           const FrameBuilder& builder, const Snapshot& snapshot,
-                          render::Renderer& renderer) {
+                          render::Renderer& renderer, const DrawFrame& draw) {
   return draw_mosaic(
       scene, mosaic, [&](const scene::View& view) { return builder.build(view, snapshot); },
-      builder.caption(snapshot), renderer);
+      builder.caption(snapshot), renderer, draw);
 }
 
 render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
                           const BuildFrame& build, const std::vector<std::string>& lines,
-                          render::Renderer& renderer) {
+                          render::Renderer& renderer, const DrawFrame& draw) {
   const std::vector<std::string> caption = strip_caption(lines, !scene.title.empty());
   const setup::MosaicLayout layout =
       setup::layout_of(scene, mosaic, static_cast<int>(caption.size()));
@@ -48,7 +48,7 @@ render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic
   for (const setup::MosaicTile& tile : layout.tiles) {
     render::Frame frame = build(tile.view);
     frame.caption = {tile.view.name};
-    tiles.push_back({tile.x, tile.y, renderer.draw(frame)});
+    tiles.push_back({tile.x, tile.y, draw ? draw(tile.view, frame) : renderer.draw(frame)});
   }
   render::Frame strip;
   strip.width = layout.width;

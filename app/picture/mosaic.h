@@ -15,13 +15,17 @@ namespace neve::app::picture {
 /// Builds the frame of a view; with rings, cause and remedy if the run diverged.
 using BuildFrame = std::function<render::Frame(const scene::View& view)>;
 
+/// Draws the frame of a view.
+using DrawFrame = std::function<render::Image(const scene::View& view, const render::Frame& frame)>;
+
+/// @param draw  draws each tile
 render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
                           const FrameBuilder& builder, const Snapshot& snapshot,
-                          render::Renderer& renderer);
+                          render::Renderer& renderer, const DrawFrame& draw);
 
 /// The same with other frames and another caption.
 render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
                           const BuildFrame& build, const std::vector<std::string>& caption,
-                          render::Renderer& renderer);
+                          render::Renderer& renderer, const DrawFrame& draw = {});
 
 }  // namespace neve::app::picture

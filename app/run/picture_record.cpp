@@ -4,21 +4,44 @@
 #include <array>
 #include <charconv>
 #include <fstream>
+#include <functional>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
 #include "app/run/passes.h"
+#include "app/run/render_job.h"
 #include "app/run/run_json.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
+#include "app/support/version.h"
 #include "render/image/exr.h"
 #include "sim/base/hash.h"
 
 namespace neve::app::run {
 
 namespace {
+
+Json to_json(const StripRecord& strip) {
+  return {{"times", strip.times}, {"columns", strip.columns}, {"width", strip.width}};
+}
+
+/// @throws std::runtime_error, nlohmann::json::exception
+StripRecord strip_record(const Json& json) {
+  StripRecord strip;
+  strip.times = json.at("times").get<std::vector<double>>();
+  strip.columns = json.at("columns").get<int>();
+  strip.width = json.at("width").get<int>();
+  const bool is_increasing =
+      std::ranges::adjacent_find(strip.times, std::greater_equal<>()) == strip.times.end();
+  if (strip.times.empty() || !is_increasing || !(strip.times.front() >= 0) ||
+      !(strip.times.back() <= 1e9) || strip.times.size() > 10000)
+    throw std::runtime_error("its moments are not in order");
+  if (strip.columns < 1 || strip.columns > 200 || strip.width < 160 || strip.width > 16384)
+    throw std::runtime_error("its columns or width are out of range");
+  return strip;
+}
 
 /// Reads the texts of one PNG and says which one is wrong.
 class TextReader {
@@ -65,6 +88,15 @@ class TextReader {
     }
   }
 
+  StripRecord strip(const char* key) const {
+    const Json found = json(key);
+    try {
+      return strip_record(found);
+    } catch (const std::exception& error) {  // also that of a value of another type
+      fail(error.what());
+    }
+  }
+
   [[noreturn]] void fail(const std::string& reason) const {
     throw Error(exit_invalid_scene, file_ + ": error: not a picture made by neve: " + reason, file_,
                 "name a picture that neve render wrote");
@@ -88,6 +120,24 @@ bool is_exr(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
+PictureRecord record_of_job(const RenderJob& job, const std::string& scene,
+                            const std::string& simd) {
+  PictureRecord record;
+  record.scene = scene;
+  record.build = build_text(simd);
+  record.overrides = job.overrides;
+  record.changes = job.changes;
+  record.coarsening = job.coarsening;
+  record.seed = job.scene.seed;
+  record.version = version;
+  record.quality = setup::name(job.quality);
+  record.plate = job.plate;
+  record.shutter = job.shutter;
+  record.passes = job.passes;
+  record.files = hash_files(job.scene);
+  return record;
+}
+
 render::PngText to_png_text(const PictureRecord& record) {
   render::PngText text{{"neve:scene", record.scene},
                        {"neve:overrides", to_text(Json(record.overrides), -1)},
@@ -104,6 +154,7 @@ render::PngText to_png_text(const PictureRecord& record) {
   if (!record.plate.empty()) text["neve:plate"] = record.plate;
   if (record.shutter > 0) text["neve:shutter"] = scene::toml::number_text(record.shutter);
   if (!record.passes.empty()) text["neve:passes"] = joined(record.passes, ",");
+  if (record.strip) text["neve:strip"] = to_text(to_json(*record.strip), -1);
   return text;
 }
 
@@ -123,6 +174,7 @@ Json to_json(const PictureRecord& record) {
   if (!record.plate.empty()) json["plate"] = record.plate;
   if (record.shutter > 0) json["shutter"] = record.shutter;
   if (!record.passes.empty()) json["passes"] = record.passes;
+  if (record.strip) json["strip"] = to_json(*record.strip);
   json["files"] = record.files;
   return json;
 }
@@ -159,6 +211,7 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   if (text.contains("neve:shutter")) record.shutter = reader.number<double>("neve:shutter");
   if (!(record.shutter >= 0 && record.shutter <= 360)) reader.fail("its shutter is not 0 to 360");
   if (text.contains("neve:passes")) record.passes = reader.passes("neve:passes");
+  if (text.contains("neve:strip")) record.strip = reader.strip("neve:strip");
   const Json files = reader.json("neve:files");
   for (const auto& [path, hash] : files.items())
     if (hash.is_string()) record.files[path] = hash.get<std::string>();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,14 @@
 #include "render/image/image.h"
 
 namespace neve::app::run {
+
+struct RenderJob;
+
+/// Moments of a picture made by neve strip.
+struct StripRecord {
+  std::vector<double> times;  ///< s, increasing, at least one
+  int columns = 1, width = 1920;
+};
 
 struct PictureRecord {
   std::string scene;  ///< resolved, TOML
@@ -31,7 +40,13 @@ struct PictureRecord {
   double shutter = 0;                        ///< degrees of motion blur; 0: none
   std::vector<std::string> passes;           ///< of --passes; none: only PNGs
   std::map<std::string, std::string> files;  ///< of the scene: path to content hash
+  std::optional<StripRecord> strip;          ///< frame and state_hash are those of its last moment
 };
+
+/// The record of all pictures of a job, without their frame, view and state.
+/// @param scene  resolved, TOML @param simd  of the simulation
+PictureRecord record_of_job(const RenderJob& job, const std::string& scene,
+                            const std::string& simd);
 
 render::PngText to_png_text(const PictureRecord& record);
 Json to_json(const PictureRecord& record);

@@ -12,6 +12,7 @@
 #include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/support/out_folder.h"
+#include "app/support/text.h"
 
 namespace neve::app::run {
 
@@ -124,6 +125,10 @@ RenderJob job_from_picture(const RenderOptions& options) {
   return job;
 }
 
+bool is_only_mosaics(const RenderJob& job) {
+  return !job.scene.mosaics.empty() && job.only_tiles.size() == job.scene.views.size();
+}
+
 void set_sizes(const RenderOptions& options, scene::Scene& scene) {
   if (options.size) {
     scene.size = *options.size;
@@ -182,6 +187,15 @@ RenderJob make_job(const RenderOptions& options) {
     job.shutter = job.quality == setup::Quality::final ? usual_shutter : 0;
   if (!options.plate.empty()) job.plate = options.plate;
   if (!options.passes.empty()) job.passes = options.passes;
+  if (is_only_mosaics(job)) {
+    for (const auto& [flag, value] :
+         {std::pair{"--passes", joined(options.passes, ",")}, std::pair{"--plate", options.plate}})
+      if (!value.empty())
+        throw scene::toml::UsageError(flag, "cannot be used with a mosaic",
+                                      "name one of its views with --view");
+    job.passes.clear();
+    job.plate.clear();
+  }
   job.validate = options.validate;
   job.resume = options.resume;
   job.checkpoint_every = options.checkpoint_every;

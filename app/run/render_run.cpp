@@ -20,7 +20,6 @@
 #include "app/support/clock.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
-#include "app/support/version.h"
 #include "render/gl/context.h"
 #include "render/image/mean_image.h"
 
@@ -52,23 +51,6 @@ RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation,
   return record;
 }
 
-PictureRecord picture_record(const RenderJob& job, const RunRecord& run) {
-  PictureRecord record;
-  record.scene = run.scene;
-  record.build = build_text(run.simd);
-  record.overrides = job.overrides;
-  record.changes = job.changes;
-  record.coarsening = job.coarsening;
-  record.seed = job.scene.seed;
-  record.version = version;
-  record.quality = setup::name(job.quality);
-  record.plate = job.plate;
-  record.shutter = job.shutter;
-  record.passes = job.passes;
-  record.files = hash_files(job.scene);
-  return record;
-}
-
 }  // namespace
 
 RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
@@ -88,7 +70,7 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
       builder_(scene_, seeded, {job.quality, job.overrides, job.coarsening}),
       exporter_(job.scene, job.folder / output::exports_folder, seeded.body_end),
       record_(run_record(job, simulation, context)),
-      picture_record_(picture_record(job, record_)),
+      picture_record_(record_of_job(job, record_.scene, record_.simd)),
       checkpoints_(job.folder, picture_record_, simulation, player_, progress) {
   if (job.validate)
     validation_.emplace(job.scene.solver, job.scene.materials, simulation, progress);
@@ -370,7 +352,10 @@ void RenderRun::draw_frame(int frame) {
   }
   fetch_down_to(0);
   for (const scene::Mosaic& mosaic : scene_.mosaics)
-    add(mosaic.name, picture::draw_mosaic(scene_, mosaic, builder_, snapshot, renderer_));
+    add(mosaic.name, picture::draw_mosaic(scene_, mosaic, builder_, snapshot, renderer_,
+                                          [&](const scene::View& view, const render::Frame& tile) {
+                                            return draw_tile(view, snapshot, tile);
+                                          }));
   Metrics metrics = measure(snapshot.particles, job_.scene.solver.cell_size);
   metrics.max_depth_cells = summary_.max_depth / job_.scene.solver.cell_size;
   add_frame(record_.frames,
@@ -424,6 +409,16 @@ render::Image RenderRun::draw_composed(const scene::View& view, int number,
   if (moments.empty()) return draw(frame);
   render::MeanImage mean;
   for (const render::Frame& moment : moments) mean.add(draw(moment));
+  return mean.mean();
+}
+
+/// With motion blur, and never on a plate.
+render::Image RenderRun::draw_tile(const scene::View& view, const picture::Snapshot& snapshot,
+                                   const render::Frame& tile) {
+  const std::vector<render::Frame> moments = moments_of(view, snapshot, tile);
+  if (moments.empty()) return renderer_.draw(tile);
+  render::MeanImage mean;
+  for (const render::Frame& moment : moments) mean.add(renderer_.draw(moment));
   return mean.mean();
 }
 

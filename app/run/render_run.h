@@ -88,6 +88,8 @@ class RenderRun {
   /// Draws over the plate, and as the mean of the moments. @param number  of the frame
   render::Image draw_composed(const scene::View& view, int number, const render::Frame& frame,
                               const std::vector<render::Frame>& moments);
+  render::Image draw_tile(const scene::View& view, const picture::Snapshot& snapshot,
+                          const render::Frame& tile);
   /// Writes the channels of a picture.
   void add_channels(const scene::View& view, const picture::Snapshot& snapshot,
                     const render::Frame& frame, const std::vector<render::Frame>& moments);

@@ -6,7 +6,9 @@
 #include "app/output/atomic_file.h"
 #include "app/picture/frame_builder.h"
 #include "app/picture/legends.h"
+#include "app/run/picture_record.h"
 #include "app/run/state_source.h"
+#include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/resolve.h"
 #include "app/support/text.h"
@@ -20,6 +22,12 @@ namespace {
 
 constexpr std::array<std::uint8_t, 3> behind_tiles{38, 42, 49};
 constexpr double screen_aspect = 16.0 / 9;
+
+/// Of a picture that neve strip made.
+std::optional<StripRecord> strip_of(const std::string& scene) {
+  if (scene.empty() || is_folder(scene) || !is_picture(scene)) return std::nullopt;
+  return read_picture_record(scene).strip;
+}
 
 /// Frames spread evenly from the first to the last, each once.
 std::vector<double> spread_times(const setup::FrameRange& frames, double fps, int tiles) {
@@ -107,6 +115,7 @@ class Strip {
     if (!tiles_.empty()) frame.scale_bar.reset();  // all tiles have one scale
     const std::size_t at = tiles_.size();
     tiles_.push_back({layout_.x(at), layout_.y(at), renderer_.draw(frame)});
+    state_hash_ = source.simulation().state_hash();
   }
 
   render::Image finish() const {
@@ -122,6 +131,18 @@ class Strip {
   }
 
   std::size_t count() const { return tiles_.size(); }
+
+  /// @param scene  resolved, TOML
+  PictureRecord record(const std::string& scene, const std::string& simd) const {
+    PictureRecord record = record_of_job(job_.run, scene, simd);
+    const std::vector<double> drawn(job_.times.begin(),
+                                    job_.times.begin() + static_cast<std::ptrdiff_t>(count()));
+    record.strip = StripRecord{drawn, job_.columns, job_.width};
+    record.view = job_.run.scene.views.front().name;
+    record.frame = static_cast<int>(std::lround(drawn.back() * job_.run.scene.fps));
+    record.state_hash = hash_text(state_hash_);
+    return record;
+  }
 
  private:
   scene::View tile_view(scene::View view) const {
@@ -139,6 +160,7 @@ class Strip {
   std::vector<render::Legend> legends_;
   Layout layout_;
   std::vector<render::Tile> tiles_;
+  std::uint64_t state_hash_ = 0;  ///< of the last of them
 };
 
 }  // namespace
@@ -148,6 +170,7 @@ StripJob make_strip_job(const StripOptions& options) {
   RenderOptions run = options.run;
   run.out.clear();
   const bool is_run = is_folder(run.scene);
+  const std::optional<StripRecord> made_again = strip_of(run.scene);
   job.run = is_run ? job_from_run(run) : make_job(run);
   if (is_run) job.past = {run.scene, read_frame_records(run.scene)};
   if (!job.run.scene.mosaics.empty() && !run.views.empty() && job.run.scene.views.size() > 1)
@@ -158,12 +181,20 @@ StripJob make_strip_job(const StripOptions& options) {
   const bool is_picture_of_one = !is_run && !run.frames && job.run.frames.first > 0;
   const setup::FrameRange frames =
       is_picture_of_one ? setup::FrameRange{0, job.run.frames.last} : job.run.frames;
-  job.times = options.at.empty() ? spread_times(frames, scene.fps, options.tiles) : options.at;
+  const bool has_moments = !options.at.empty() || options.tiles || options.run.frames;
+  if (made_again && !has_moments)
+    job.times = made_again->times;
+  else if (!options.at.empty())
+    job.times = options.at;
+  else
+    job.times = spread_times(frames, scene.fps, options.tiles.value_or(6));
   job.run.frames = {0, static_cast<int>(std::min(std::ceil(job.times.back() * scene.fps), 1e9))};
-  job.width = options.width;
+  job.width = options.width.value_or(made_again ? made_again->width : 1920);
   const int count = static_cast<int>(job.times.size());
-  job.columns = options.columns > 0 ? std::min(options.columns, count)
-                                    : usual_columns(count, setup::size_of(scene, scene.views[0]));
+  const int columns =
+      options.columns.value_or(made_again && !has_moments ? made_again->columns : 0);
+  job.columns = columns > 0 ? std::min(columns, count)
+                            : usual_columns(count, setup::size_of(scene, scene.views[0]));
   job.file = options.run.out.empty()
                  ? job.run.folder / ("strip_" + scene.views.front().name + ".png")
                  : std::filesystem::path(options.run.out);
@@ -187,7 +218,9 @@ StripResult run_strip(const StripJob& job, const RenderOptions& options, Progres
   StripResult result{strip.count(), source.simulation().divergence()};
   if (result.tiles > 0) {
     if (job.file.has_parent_path()) output::make_folder(job.file.parent_path());
-    output::write_file(job.file, render::encode_png(strip.finish()));
+    const PictureRecord record =
+        strip.record(scene::write_scene(resolved), source.simulation().simd());
+    output::write_file(job.file, render::encode_png(strip.finish(), to_png_text(record)));
   }
   return result;
 }

@@ -14,9 +14,9 @@ namespace neve::app::run {
 struct StripOptions {
   RenderOptions run;  ///< scene, overrides, coarsening, frames, view, out (a PNG), threads, ...
   std::vector<double> at;  ///< s, increasing; empty: `tiles` frames, evenly spread over the frames
-  int tiles = 6;
-  int columns = 0;   ///< 0: as many as give about the shape of a screen
-  int width = 1920;  ///< px, of the whole picture
+  std::optional<int> tiles;    ///< default: those of a strip that is made again, or 6
+  std::optional<int> columns;  ///< likewise, or 0: as many as give about the shape of a screen
+  std::optional<int> width;    ///< px, of the whole picture; likewise, or 1920
 };
 
 struct StripJob {

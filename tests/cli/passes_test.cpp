@@ -74,6 +74,39 @@ TEST_F(Passes, UnknownNamesAreRefusedWithAProposal) {
   EXPECT_TRUE(contains(empty.errors, "expected all")) << empty.errors;
 }
 
+TEST_F(Passes, AMosaicHasNoneAndSaysSo) {
+  folder.write("both.toml", std::string(flying_scene) +
+                                "[[view]]\nname = \"particles\"\n[[view]]\nname = \"snow\"\n"
+                                "[[mosaic]]\nname = \"both\"\nviews = [\"particles\", \"snow\"]\n");
+  for (const auto& [flag, value] :
+       {std::pair{"--passes", "depth"}, std::pair{"--plate", "plate.png"}}) {
+    const auto refused = neve({"render", "both.toml", "--view", "both", flag, value});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_TRUE(contains(refused.errors, std::string(flag) +
+                                             ": error: cannot be used with a mosaic; "
+                                             "name one of its views with --view"))
+        << refused.errors;
+  }
+  // Its views have them, and a mosaic that was drawn beside them makes itself again.
+  render({"both.toml", "--passes", "depth", "--frames", "2-2", "--out", "all"});
+  EXPECT_EQ(picture("all/snow/0002.exr").channels.size(), 5u);
+  render({"all/both/0002.png", "--out", "again"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "again/both/0002.png"));
+}
+
+TEST_F(Passes, MosaicsHaveMotionBlur) {
+  folder.write("one.toml", std::string(flying_scene) +
+                               "[[view]]\nname = \"particles\"\n"
+                               "[[mosaic]]\nname = \"one\"\nviews = [\"particles\"]\n");
+  const auto drawn = [&](const std::string& shutter) {
+    render(
+        {"one.toml", "--view", "one", "--frames", "2-2", "--shutter", shutter, "--out", shutter});
+    return render::decode_png(app::output::read_file(folder / (shutter + "/one/0002.png")));
+  };
+  const render::Image sharp = drawn("0"), blurred = drawn("360");
+  EXPECT_GT(render::compare(sharp, blurred).local, 8);
+}
+
 TEST_F(Passes, AnExrMakesItselfAgain) {
   render({"flying.toml", "--passes", "normal,id", "--frames", "2-2", "--out", "first"});
   render({"first/particles/0002.exr", "--out", "again"});

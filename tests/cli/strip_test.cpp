@@ -68,6 +68,32 @@ TEST_F(Strip, ARunWithCheckpointsGivesTheSamePictureAsItsScene) {
   EXPECT_EQ(difference.max, 0);
 }
 
+TEST_F(Strip, MakesItselfAgain) {
+  ASSERT_EQ(neve({"strip", "fall.toml", "--view", "slice", "--at", "0.05,0.1,0.2", "--columns", "2",
+                  "--width", "500", "--set", "body.ball.velocity=[0.5,-1,0]", "--out", "a.png"})
+                .exit_code,
+            0);
+  const auto info = neve({"info", "a.png"});
+  ASSERT_EQ(info.exit_code, 0) << info.errors;
+  EXPECT_NE(info.output.find("3 moments, 0.050 to 0.200 s; neve strip a.png"), std::string::npos)
+      << info.output;
+  EXPECT_EQ(app::parse_json(std::string_view(neve({"info", "a.png", "--json"}).output))
+                .at("strip")
+                .at("times")
+                .size(),
+            3u);
+  const auto again = neve({"strip", "a.png", "--out", "b.png"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(render::compare(picture("a.png"), picture("b.png")).max, 0);
+
+  // One picture of it is another thing.
+  const auto refused = neve({"render", "a.png"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("neve strip a.png"), std::string::npos) << refused.errors;
+  const auto last = neve({"render", "a.png", "--frames", "2-2", "--no-movie", "--out", "run"});
+  EXPECT_EQ(last.exit_code, 0) << last.errors;
+}
+
 TEST_F(Strip, TilesShowTheirMoment) {
   ASSERT_EQ(neve({"strip", "fall.toml", "--at", "0,0.2", "--columns", "2", "--width", "640",
                   "--out", "two.png"})
