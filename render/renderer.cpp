@@ -353,9 +353,10 @@ struct Renderer::Impl {
   std::optional<light::SmokeCover> draw_surfaces(const Frame& frame, const View& view,
                                                  const light::SmokeGrid& smoke_grid,
                                                  const light::LightVolume& light, bool is_kept,
-                                                 passes::PhaseClock& clock) {
+                                                 passes::PhaseClock& clock,
+                                                 bool has_parts = false) {
     prepare_surfaces(frame, view, light);
-    if (is_kept) surfaces.keep_points();
+    if (is_kept) surfaces.keep_points(has_parts);
     clock.end("particles");
     if (is_kept) surfaces.keep_grounds();
     const bool has_solids =
@@ -390,7 +391,7 @@ struct Renderer::Impl {
     const light::LightVolume& light = lighting.volume(frame, smoke_grid, pool);
     passes::PhaseClock clock(gl, nullptr);
     const std::optional<light::SmokeCover> cover =
-        draw_surfaces(frame, view, smoke_grid, light, true, clock);
+        draw_surfaces(frame, view, smoke_grid, light, true, clock, true);
     read(channels::LitSurfaces{frame, surfaces, light, cover ? &*cover : nullptr});
   }
 
@@ -433,8 +434,7 @@ struct Renderer::Impl {
     });
     drawn.grounds.clear();
     with_lit_surfaces(drawn, view, [&](const channels::LitSurfaces& lit) {
-      lit.surfaces.shade_linear(lit.light, lit.smoke, frame.light.intensity, frame.light.ambient,
-                                front);
+      lit.surfaces.shade_linear(lit.light, lit.smoke, {}, front);
     });
     Frame words = frame;
     words.is_transparent = false;

@@ -51,19 +51,19 @@ void add_light(const LitSurfaces& lit, const Request& request, float weight, Lig
   const auto has = [&](Pass pass) { return request.passes.contains(pass); };
   const bool has_shadow = has(Pass::shadow), has_indirect = has(Pass::indirect);
   cpu::LinearSamples samples;
-  const auto shade = [&](const light::LightVolume& light, float key, float ambient,
+  const auto shade = [&](const light::LightVolume& light, cpu::Surfaces::Parts parts,
                          ColorPlanes& to) {
-    lit.surfaces.shade_linear(light, lit.smoke, key, ambient, samples);
+    lit.surfaces.shade_linear(light, lit.smoke, parts, samples);
     add_means(samples, frame, weight, to);
   };
   ColorPlanes beauty, own, direct, open;
-  shade(lit.light, frame.light.intensity, frame.light.ambient, beauty);
+  shade(lit.light, {}, beauty);
   add_mean(samples.cover, samples.pitch, frame, weight, out.cover);
   add(out.beauty, 1, beauty);
   if (!has(Pass::direct) && !has_indirect && !has(Pass::emission) && !has_shadow) return;
-  shade(lit.light, 0, 0, own);
+  shade(lit.light, {false, false}, own);
   add(out.emission, 1, own);
-  shade(lit.light, frame.light.intensity, 0, direct);
+  shade(lit.light, {true, false}, direct);
   add(direct, -1, own);
   add(out.direct, 1, direct);
   if (has_indirect) {
@@ -72,7 +72,7 @@ void add_light(const LitSurfaces& lit, const Request& request, float weight, Lig
     add(out.indirect, 1, beauty);
   }
   if (!has_shadow) return;
-  shade(without_shadow(lit.light), frame.light.intensity, 0, open);
+  shade(without_shadow(lit.light), {true, false, true}, open);
   add(open, -1, own);
   add(out.open, 1, open);
 }

@@ -29,6 +29,7 @@ class Gatherer {
   /// @param at in the tile @param x, y  sample of the picture
   Surface surface(const light::GBufferTile& tile, const light::GBufferTile& points, int at, int x,
                   int y) const;
+  static Vec3f albedo_of(unsigned word);
   std::int64_t mesh_at(int x, int y, float inverse) const;
   std::int64_t ground_at(Vec3f position) const;
   void write(const Surface& surface, std::size_t pixel);
@@ -81,6 +82,7 @@ void Gatherer::make_planes() {
 /// The nearest sample of each pixel decides.
 void Gatherer::take_tile(int tile) {
   const light::GBufferTile& drawn = lit_.surfaces.kept()[tile];
+  const light::LitTile* lit = lit_.surfaces.kept_parts(tile);
   light::GBufferTile points;
   points_.draw_tile(tile, points);
   const int ss = frame_.supersampling, columns = lit_.surfaces.columns();
@@ -96,10 +98,12 @@ void Gatherer::take_tile(int tile) {
         }
       if (nearest < 0) continue;
       const int row = frame_.height - 1 - (low + y) / ss, column = (left + x) / ss;
-      write(surface(drawn, points, nearest, left + nearest % light::tile_width,
-                    low + nearest / light::tile_width),
-            static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_.width) +
-                static_cast<std::size_t>(column));
+      Surface seen = surface(drawn, points, nearest, left + nearest % light::tile_width,
+                             low + nearest / light::tile_width);
+      if (lit && drawn.kind[nearest] == light::kind_lit)
+        seen.albedo = albedo_of(lit->albedo[nearest]);
+      write(seen, static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_.width) +
+                      static_cast<std::size_t>(column));
     }
 }
 
@@ -115,11 +119,8 @@ Surface Gatherer::surface(const light::GBufferTile& tile, const light::GBufferTi
                     view_.up * ((s.v - 0.5f * static_cast<float>(view_.height)) * per_sample);
   s.position = view_.eye + ray * s.depth;
   s.normal = {tile.normal_x[at], tile.normal_y[at], tile.normal_z[at]};
-  const auto root = [&](int byte) {
-    return static_cast<float>(tile.albedo[at] >> 8 * byte & 0xff) / 255;
-  };
-  s.albedo = {root(0) * root(0), root(1) * root(1), root(2) * root(2)};
-  s.cover = root(3);
+  s.albedo = albedo_of(tile.albedo[at]);
+  s.cover = static_cast<float>(tile.albedo[at] >> 24) / 255;
   const int kind = tile.kind[at];
   if (kind == light::kind_ground)
     s.ground = ground_at(s.position);
@@ -128,6 +129,11 @@ Surface Gatherer::surface(const light::GBufferTile& tile, const light::GBufferTi
   else if (kind != light::kind_flat && points.kind[at] != light::kind_nothing)
     s.point = points.albedo[at];
   return s;
+}
+
+Vec3f Gatherer::albedo_of(unsigned word) {
+  const auto root = [&](int byte) { return static_cast<float>(word >> 8 * byte & 0xff) / 255; };
+  return {root(0) * root(0), root(1) * root(1), root(2) * root(2)};
 }
 
 /// An arrow before a mesh is solid too, and nearer.

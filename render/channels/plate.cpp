@@ -49,11 +49,9 @@ void keep_grounds(const LitSurfaces& lit, cpu::LinearSamples& share) {
 }  // namespace
 
 cpu::LinearSamples ground_shadow(const LitSurfaces& lit) {
-  const Light& light = lit.frame.light;
   cpu::LinearSamples share, open;
-  lit.surfaces.shade_linear(lit.light, nullptr, light.intensity, light.ambient, share);
-  lit.surfaces.shade_linear(without_shadow(lit.light), nullptr, light.intensity, light.ambient,
-                            open);
+  lit.surfaces.shade_linear(lit.light, nullptr, {}, share);
+  lit.surfaces.shade_linear(without_shadow(lit.light), nullptr, {}, open);
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < share.cover.size(); ++i)
       share.color[c][i] =

@@ -122,6 +122,17 @@ NEVE_INLINE Points3<V> surface_light(const ShadeJob& job, const RowPart<V>& part
   return color;
 }
 
+/// Light of samples that are lit already, from its parts.
+template <class V>
+NEVE_INLINE Points3<V> lit_in_parts(const ShadeJob& job, int at) {
+  const auto channel = [&](int c) NEVE_INLINE_BODY {
+    return load_lanes<V>(job.lit->sun[c] + at) * job.lit_sun +
+           load_lanes<V>(job.lit->open_sun[c] + at) * job.lit_open_sun +
+           load_lanes<V>(job.lit->around[c] + at) * job.lit_around;
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
 /// Colour and cover of the surface behind the smoke.
 template <class V>
 struct Covered {
@@ -160,6 +171,7 @@ NEVE_INLINE Covered<V> behind_smoke(const ShadeJob& job, const RowPart<V>& part)
           {before_tone_map(albedo.x), before_tone_map(albedo.y), before_tone_map(albedo.z)}, color);
       vignette = is_flat ? all<V>(1) : vignette;
     }
+    if (job.lit) color = choose(kind == light::kind_lit, lit_in_parts<V>(job, part.at), color);
     color = choose(is_there, color, Points3<V>{});
     out.color = out.color * (1 - alpha) + color * alpha;
     out.cover = mix_lanes(out.cover, all<V>(1), alpha);

@@ -40,6 +40,10 @@ struct ShadeJob {
   int is_transparent;
   const light::SmokeCover* smoke;  ///< null where there is none
   const light::GBufferTile* tile;
+  /// Where not null, samples of kind_lit have these parts of the light, each times its strength, in
+  /// place of their colour.
+  const light::LitTile* lit;
+  float lit_sun, lit_open_sun, lit_around;
   int x, y;  ///< lower left corner of the tile
   unsigned*
       out;    ///< of that corner; sRGB and alpha, red lowest; whole rows of the tile are written

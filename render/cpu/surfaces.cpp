@@ -6,6 +6,7 @@
 
 #include "render/frame/ground_place.h"
 #include "render/light/light_fields.h"
+#include "render/light/shading_constants.h"
 
 namespace neve::render::cpu {
 namespace {
@@ -63,6 +64,7 @@ void Surfaces::prepare(const Frame& frame, const View& view, const Points& spher
   eye_ = view.eye;
   solids_ = nullptr;
   has_kept_ = false;
+  lit_.clear();
   splatter_.prepare(spheres, view, pool_);
   grounds_.clear();
   for (const GroundPlane& ground : frame.grounds)
@@ -70,11 +72,12 @@ void Surfaces::prepare(const Frame& frame, const View& view, const Points& spher
   pitch_ = splatter_.columns() * light::tile_width;
 }
 
-void Surfaces::add_points(int tile, light::GBufferTile& out) {
+void Surfaces::add_points(int tile, light::GBufferTile& out, light::LitTile* lit) {
   splatter_.draw_tile(tile, out);
   if (!over_) return;
   const int columns = splatter_.columns();
-  over_->draw_tile(tile % columns * light::tile_width, tile / columns * light::tile_height, out);
+  over_->draw_tile(tile % columns * light::tile_width, tile / columns * light::tile_height, out,
+                   lit);
 }
 
 void Surfaces::add_grounds(int tile, light::GBufferTile& out) const {
@@ -97,11 +100,19 @@ void Surfaces::add_solids(int tile, light::GBufferTile& out) const {
       out);
 }
 
-void Surfaces::keep_points() {
+void Surfaces::keep_points(bool has_parts) {
   const int count = splatter_.columns() * splatter_.rows();
   make_room(kept_, kept_size_, static_cast<std::size_t>(count));
-  light::for_each_task(count, pool_,
-                       [&](int tile) { add_points(tile, kept_[static_cast<std::size_t>(tile)]); });
+  lit_.clear();
+  if (has_parts && over_) lit_.resize(static_cast<std::size_t>(count));
+  light::for_each_task(count, pool_, [&](int tile) {
+    const auto at = static_cast<std::size_t>(tile);
+    if (lit_.empty()) return add_points(tile, kept_[at]);
+    auto lit = std::make_unique<light::LitTile>();
+    add_points(tile, kept_[at], lit.get());
+    if (std::ranges::find(kept_[at].kind, int{light::kind_lit}) != std::end(kept_[at].kind))
+      lit_[at] = std::move(lit);
+  });
   has_kept_ = true;
 }
 
@@ -147,18 +158,22 @@ ShadeJob Surfaces::shade_job(const light::LightVolume& light,
 }
 
 void Surfaces::shade_linear(const light::LightVolume& light, const light::SmokeCover* smoke,
-                            float key, float ambient, LinearSamples& out) const {
+                            Parts parts, LinearSamples& out) const {
   const int columns = splatter_.columns(), count = columns * splatter_.rows();
   const std::size_t samples = static_cast<std::size_t>(count) * light::tile_samples;
   out.pitch = pitch_;
   for (std::vector<float>& plane : out.color) plane.resize(samples);
   out.cover.resize(samples);
   ShadeJob job = shade_job(light, smoke);
-  job.key_intensity = key;
-  job.ambient_intensity = ambient;
+  if (!parts.has_sun) job.key_intensity = 0;
+  if (!parts.has_sky) job.ambient_intensity = 0;
+  job.lit_sun = parts.has_sun && !parts.is_open ? 1 : 0;
+  job.lit_open_sun = parts.has_sun && parts.is_open ? 1 : 0;
+  job.lit_around = parts.has_sky ? 1 : 0;
   light::for_each_task(count, pool_, [&](int tile) {
     ShadeJob mine = job;
     mine.tile = &kept_[static_cast<std::size_t>(tile)];
+    mine.lit = kept_parts(tile);
     mine.x = tile % columns * light::tile_width;
     mine.y = tile / columns * light::tile_height;
     for (std::size_t c = 0; c < 3; ++c) mine.linear[c] = out.color[c].data() + corner_of(tile);

@@ -53,21 +53,31 @@ class Surfaces {
 
   /// Draws all tiles and keeps them, in three steps, for who has to know depths before the light or
   /// wants to time each step. Without: tile by tile while lighting.
-  void keep_points();
+  /// @param has_parts  whether to keep the parts of the light of what is lit already
+  void keep_points(bool has_parts = false);
   void keep_grounds();
   void keep_solids();
   /// Tile after tile, row by row from the lower left one.
   const light::GBufferTile* kept() const { return kept_.get(); }
+  /// Parts of the light in a kept tile; null where nothing is lit already, or they are not kept.
+  const light::LitTile* kept_parts(int tile) const {
+    return lit_.empty() ? nullptr : lit_[static_cast<std::size_t>(tile)].get();
+  }
   int columns() const { return splatter_.columns(); }
 
   /// @param smoke may be null
   /// @param wants_depth whether to make depth() too
   void shade(const light::LightVolume& light, const light::SmokeCover* smoke, bool wants_depth);
 
-  /// The same before the tone mapping, from kept tiles, with other strengths of the light.
-  /// @param key, ambient as in Light
-  void shade_linear(const light::LightVolume& light, const light::SmokeCover* smoke, float key,
-                    float ambient, LinearSamples& out) const;
+  /// Parts of the light: with the sun or without, with the sky or without.
+  struct Parts {
+    bool has_sun = true, has_sky = true;
+    bool is_open =
+        false;  ///< the sun as if nothing were in its way; given the volume of such light
+  };
+  /// The same before the tone mapping, from kept tiles.
+  void shade_linear(const light::LightVolume& light, const light::SmokeCover* smoke, Parts parts,
+                    LinearSamples& out) const;
 
   /// sRGB and alpha, rows from the bottom up.
   const std::uint32_t* picture() const { return picture_.get(); }
@@ -76,7 +86,7 @@ class Surfaces {
   const float* depth() const { return depth_.get(); }
 
  private:
-  void add_points(int tile, light::GBufferTile& out);
+  void add_points(int tile, light::GBufferTile& out, light::LitTile* lit = nullptr);
   void add_grounds(int tile, light::GBufferTile& out) const;
   void add_solids(int tile, light::GBufferTile& out) const;
   ShadeJob shade_job(const light::LightVolume& light, const light::SmokeCover* smoke) const;
@@ -95,6 +105,7 @@ class Surfaces {
   bool has_kept_ = false;
   std::size_t kept_size_ = 0, picture_size_ = 0, depth_size_ = 0;
   std::unique_ptr<light::GBufferTile[]> kept_;
+  std::vector<std::unique_ptr<light::LitTile>> lit_;  ///< empty: not kept
   std::unique_ptr<std::uint32_t[]> picture_;
   std::unique_ptr<float[]> depth_;
   int pitch_ = 0;

@@ -13,7 +13,8 @@ class TileSource {
   virtual ~TileSource() = default;
   /// Draws over a tile that holds spheres; several threads may draw a tile each.
   /// @param x, y  lower left sample of the tile
-  virtual void draw_tile(int x, int y, light::GBufferTile& tile) const = 0;
+  /// @param lit  takes the light in parts too; may be null
+  virtual void draw_tile(int x, int y, light::GBufferTile& tile, light::LitTile* lit) const = 0;
 };
 
 }  // namespace neve::render::cpu

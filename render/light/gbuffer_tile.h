@@ -14,4 +14,12 @@ struct GBufferTile {
   alignas(64) unsigned albedo[tile_samples];  ///< four bytes as in gbuffer.glsl, red lowest
 };
 
+/// Light of the samples of kind_lit of a tile before it was finished, in parts: linear, by colour.
+struct LitTile {
+  alignas(64) float sun[3][tile_samples];
+  alignas(64) float open_sun[3][tile_samples];  ///< as if nothing were in its way
+  alignas(64) float around[3][tile_samples];    ///< of the sky, and from inside
+  unsigned albedo[tile_samples];                ///< as above, without light
+};
+
 }  // namespace neve::render::light

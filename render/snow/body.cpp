@@ -27,10 +27,10 @@ constexpr float covered_share = 0.46f;
 /// Share above which a particle lies so deep that no place of the surface has it for the nearest.
 constexpr float buried_share = 0.97f;
 
-/// Spray is drawn as lumps of a few balls, in particle spacings: their radius, and how far from the
-/// particle they lie at most along each axis.
-constexpr float ball_radius = 0.24f, ball_offset = 0.26f;
-constexpr std::uint32_t balls_per_grain = 5;
+/// Spray is drawn as crumbs of small balls, in particle spacings: their radius, and how far from
+/// the particle they lie at most along each axis. Few and large ones look like beads.
+constexpr float ball_radius = 0.18f, ball_offset = 0.42f;
+constexpr std::uint32_t balls_per_grain = 9;
 
 /// How far the middle of a grain lies from its particle at most along each axis, in spacings.
 constexpr float grain_offset = 0.3f;
@@ -174,8 +174,9 @@ void list_grains(const Points& points, const surface::Bins& bins, Body& body) {
 void add_lump(const Points& points, std::size_t p, Points& spray) {
   const std::uint32_t id = id_of(points, p);
   for (std::uint32_t ball = 0; ball < balls_per_grain; ++ball) {
-    const Vec3f offset = random_offset(std::uint64_t{id} * balls_per_grain + ball + 1) *
-                         (ball_offset * points.spacing);
+    const Vec3f random = random_offset(std::uint64_t{id} * balls_per_grain + ball + 1);
+    // Denser in the middle.
+    const Vec3f offset = random * (ball_offset * points.spacing * length(random));
     spray.position.push_back(points.position[p] + turned(points, p, offset));
     spray.id.push_back(id);
     if (!points.value.empty()) spray.value.push_back(points.value[p]);
@@ -208,9 +209,28 @@ Points with_cut_away(const Points& points) {
   return all;
 }
 
-/// Lets the field fall through the level at the plane.
-void end_at_plane(const CutAway& cut, Field& field, ThreadPool* pool) {
-  constexpr float fall = 0.4f;  // per cell: snow next to the plane keeps its own share
+/// Snow near a ground goes on below it as its mirror image, so that its field does not thin out
+/// there and its sides meet the ground.
+void mirror_in_grounds(std::span<const GroundPlane> grounds, float spacing,
+                       std::vector<Vec3f>& position, std::vector<float>& volume) {
+  constexpr float reach = 2.2f;  // spacings: beyond, the kernel has no weight to speak of
+  const std::size_t count = position.size();
+  for (const GroundPlane& ground : grounds) {
+    const Vec3f normal = normalized(ground.normal);
+    for (std::size_t p = 0; p < count; ++p) {
+      const float height = dot(position[p] - ground.point, normal);
+      if (!(height > 0 && height < reach * spacing)) continue;
+      position.push_back(position[p] - normal * (2 * height));
+      volume.push_back(volume[p]);
+    }
+  }
+}
+
+/// Lets the field fall through the level at a plane.
+/// @param normal  unit, towards where nothing is left
+void end_at_plane(Vec3f point, Vec3f normal, Field& field, ThreadPool* pool) {
+  constexpr float fall = 0.4f;    // per cell: snow next to the plane keeps its own share
+  constexpr float untouched = 2;  // cells before the plane, from where all shares remain
   const double cell = static_cast<double>(field.cell);
   for_ranges(pool, field.block.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -218,11 +238,15 @@ void end_at_plane(const CutAway& cut, Field& field, ThreadPool* pool) {
       Vec3f corner;
       for (int axis = 0; axis < 3; ++axis)
         corner[axis] = static_cast<float>(block_side * field.block[b][axis] -
-                                          static_cast<double>(cut.point[axis]) / cell);
+                                          static_cast<double>(point[axis]) / cell);
+      const auto farthest = [&](int axis) {
+        return std::max(normal[axis], 0.0f) * (block_side - 1);
+      };
+      if (dot(corner, normal) + farthest(0) + farthest(1) + farthest(2) < -untouched) continue;
       for (int n = 0; n < block_nodes; ++n) {
         const Vec3f node{static_cast<float>(n & 7), static_cast<float>(n >> 3 & 7),
                          static_cast<float>(n >> 6)};
-        const float beyond = dot(corner + node, cut.normal);
+        const float beyond = dot(corner + node, normal);
         value[n] = std::min(value[n], std::max(surface_share - fall * beyond, 0.0f));
       }
     }
@@ -260,17 +284,24 @@ float share_at(const Field& field, std::uint32_t b, Vec3f place) {
              mix(mix(v[4], v[5], x), mix(v[6], v[7], x), y), z);
 }
 
-Body make_body(const Points& shown, ThreadPool* pool) {
+Body make_body(const Points& shown, std::span<const GroundPlane> grounds, ThreadPool* pool) {
   std::optional<Points> with_cut;
   if (shown.cut) with_cut = with_cut_away(shown);
   const Points& points = with_cut ? *with_cut : shown;
   Body body;
   body.spacing = points.spacing;
+  std::vector<Vec3f> position = points.position;
   std::vector<float> volume = points.volume;
-  volume.resize(points.position.size(), points.spacing * points.spacing * points.spacing);
+  volume.resize(position.size(), points.spacing * points.spacing * points.spacing);
+  mirror_in_grounds(grounds, points.spacing, position, volume);
   const surface::Kernel kernel{cell_share * points.spacing, kernel_share * points.spacing};
-  body.field = surface::make_field({points.position, volume}, kernel, 0, pool).field;
-  if (points.cut) end_at_plane(*points.cut, body.field, pool);
+  body.field = surface::make_field({position, volume}, kernel, 0, pool).field;
+  // A cell deeper than the ground, which hides it: above, the mirrored field is as it is.
+  for (const GroundPlane& ground : grounds) {
+    const Vec3f down = -normalized(ground.normal);
+    end_at_plane(ground.point + down * (1.5f * body.field.cell), down, body.field, pool);
+  }
+  if (points.cut) end_at_plane(points.cut->point, points.cut->normal, body.field, pool);
   pad_blocks(pool, body);
 
   for (const Vec3i& block : body.field.block) body.map.insert(surface::block_key(block));

@@ -3,6 +3,7 @@
 /// that its surface passes through, and the grains near each place.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "render/cpu/block_job.h"
@@ -47,9 +48,11 @@ struct Body {
 /// Share at which the surface lies.
 inline constexpr float surface_share = 0.5f;
 
-/// Same bits with any number of threads. @param pool may be null
+/// Same bits with any number of threads.
+/// @param grounds  snow that lies on them ends there, without a rounded lower edge
+/// @param pool may be null
 /// Check: SnowBody.*
-Body make_body(const Points& shown, ThreadPool* pool);
+Body make_body(const Points& shown, std::span<const GroundPlane> grounds, ThreadPool* pool);
 
 /// A place of the field: block, and nodes from its corner, 0 to 8 along each axis.
 struct FieldPlace {

@@ -11,14 +11,25 @@ namespace neve::render::snow {
 
 namespace {
 
-/// As the G-buffer has light that is finished: the square root of linear display light.
-unsigned finished_word(Vec3f color) {
+/// As the G-buffer has colours without light.
+unsigned root_word(Vec3f color) {
   const auto byte = [](float c) {
-    c *= light::exposure;
-    c = c * (1 + c / light::white_point) / (1 + light::shoulder * c);
     return static_cast<unsigned>(255 * std::sqrt(std::clamp(c, 0.0f, 1.0f)) + 0.5f);
   };
   return byte(color.x) | byte(color.y) << 8 | byte(color.z) << 16 | 0xff000000u;
+}
+
+/// As the G-buffer has light that is finished: the square root of linear display light.
+unsigned finished_word(Vec3f color) {
+  const auto mapped = [](float c) {
+    c *= light::exposure;
+    return c * (1 + c / light::white_point) / (1 + light::shoulder * c);
+  };
+  return root_word({mapped(color.x), mapped(color.y), mapped(color.z)});
+}
+
+bool is_same_plane(const GroundPlane& a, const GroundPlane& b) {
+  return a.point == b.point && a.normal == b.normal;
 }
 
 bool is_same(const CutAway& a, const CutAway& b) {
@@ -48,13 +59,15 @@ void Layer::prepare(const Frame& frame, const View& view, const light::LightVolu
   marcher_.reset();
   const SnowLight light = {light::toward_light(frame.light), frame.light.intensity,
                            frame.light.ambient, !frame.points.value.empty()};
-  const bool has_body = points_ && is_same(*points_, frame.points);
+  const bool has_body = points_ && is_same(*points_, frame.points) &&
+                        std::ranges::equal(grounds_, frame.grounds, is_same_plane);
   const bool has_nodes = has_body && nodes_ && volume.serial != 0 && volume.serial == serial_ &&
                          light.toward == light_.toward;
   if (!has_body) {
     points_.reset();  // should something throw, there is no body
-    body_ = make_body(frame.points, pool);
+    body_ = make_body(frame.points, frame.grounds, pool);
     points_ = frame.points;
+    grounds_ = frame.grounds;
   }
   view_ = &view;
   volume_ = &volume;
@@ -86,7 +99,7 @@ void Layer::march(ThreadPool* pool) {
   });
 }
 
-void Layer::draw_tile(int x, int y, light::GBufferTile& tile) const {
+void Layer::draw_tile(int x, int y, light::GBufferTile& tile, light::LitTile* lit) const {
   const TileHits& hits =
       hits_[static_cast<std::size_t>(y / light::tile_height * columns_ + x / light::tile_width)];
   for (int at = 0; at < light::tile_samples; ++at) {
@@ -95,19 +108,28 @@ void Layer::draw_tile(int x, int y, light::GBufferTile& tile) const {
     const bool is_sphere =
         tile.kind[at] == light::kind_snow || tile.kind[at] == light::kind_attribute;
     if (sample.hit > 0 && !(is_sphere && sample.hit * tile.inverse[at] >= 1))
-      draw_surface(sample, at, tile);
+      draw_surface(sample, {tile, lit, at});
     else if (is_sphere)
-      draw_grain(sample, at, tile);
+      draw_grain(sample, {tile, lit, at});
   }
 }
 
-void Layer::finish(const SnowPlace& place, const Exposure& exposure, const GrainLook& look, int at,
-                   light::GBufferTile& tile) const {
+void Layer::finish(const SnowPlace& place, const Exposure& exposure, const GrainLook& look,
+                   const Target& to) const {
+  const auto [tile, lit, at] = to;
   tile.kind[at] = light::kind_lit;
   tile.normal_x[at] = exposure.normal.x;
   tile.normal_y[at] = exposure.normal.y;
   tile.normal_z[at] = exposure.normal.z;
-  tile.albedo[at] = finished_word(snow_light(body_, light_, place, exposure, look));
+  const SnowLightParts parts = snow_light(body_, light_, place, exposure, look);
+  tile.albedo[at] = finished_word(parts.sun + parts.around);
+  if (!lit) return;
+  lit->albedo[at] = root_word(look.albedo);
+  for (int c = 0; c < 3; ++c) {
+    lit->sun[c][at] = parts.sun[c];
+    lit->open_sun[c][at] = parts.open_sun[c];
+    lit->around[c][at] = parts.around[c];
+  }
 }
 
 SnowPlace Layer::place_at(const Sample& sample, float distance) const {
@@ -118,15 +140,16 @@ SnowPlace Layer::place_at(const Sample& sample, float distance) const {
   return place;
 }
 
-void Layer::draw_surface(const Sample& sample, int at, light::GBufferTile& tile) const {
+void Layer::draw_surface(const Sample& sample, const Target& to) const {
   SnowPlace place = place_at(sample, sample.hit);
   place.block = body_.padded_block[sample.padded];
   place.node = marcher_->place_of(sample.padded, sample.ray * sample.hit);
-  tile.inverse[at] = 1 / sample.hit;
-  finish(place, nodes_->at(sample.padded, place.node), grain_look(body_, place), at, tile);
+  to.tile.inverse[to.at] = 1 / sample.hit;
+  finish(place, nodes_->at(sample.padded, place.node), grain_look(body_, place), to);
 }
 
-void Layer::draw_grain(const Sample& sample, int at, light::GBufferTile& tile) const {
+void Layer::draw_grain(const Sample& sample, const Target& to) const {
+  const auto [tile, lit, at] = to;
   const float distance = 1 / tile.inverse[at];
   SnowPlace place = place_at(sample, distance);
   Vec3f normal{tile.normal_x[at], tile.normal_y[at], tile.normal_z[at]};
@@ -150,7 +173,7 @@ void Layer::draw_grain(const Sample& sample, int at, light::GBufferTile& tile) c
             .normal;
     exposure.normal = normalized(below * (1 - out) + normal * out);
   }
-  finish(place, exposure, look, at, tile);
+  finish(place, exposure, look, to);
 }
 
 }  // namespace neve::render::snow

@@ -23,7 +23,7 @@ class Layer : public cpu::TileSource {
                ThreadPool* pool);
   /// Points to be drawn as spheres before the tiles.
   const Points& spray() const { return body_.spray; }
-  void draw_tile(int x, int y, light::GBufferTile& tile) const override;
+  void draw_tile(int x, int y, light::GBufferTile& tile, light::LitTile* lit) const override;
 
  private:
   /// Ray of a sample and its hit on the surface.
@@ -33,14 +33,21 @@ class Layer : public cpu::TileSource {
     std::uint32_t padded;
   };
   void march(ThreadPool* pool);
+  /// Sample of a tile that takes the light.
+  struct Target {
+    light::GBufferTile& tile;
+    light::LitTile* lit;  ///< may be null
+    int at;
+  };
   SnowPlace place_at(const Sample& sample, float distance) const;
-  void draw_surface(const Sample& sample, int at, light::GBufferTile& tile) const;
-  void draw_grain(const Sample& sample, int at, light::GBufferTile& tile) const;
-  void finish(const SnowPlace& place, const Exposure& exposure, const GrainLook& look, int at,
-              light::GBufferTile& tile) const;
+  void draw_surface(const Sample& sample, const Target& to) const;
+  void draw_grain(const Sample& sample, const Target& to) const;
+  void finish(const SnowPlace& place, const Exposure& exposure, const GrainLook& look,
+              const Target& to) const;
 
   Body body_;
-  std::optional<Points> points_;  ///< that the body is made of
+  std::optional<Points> points_;      ///< that the body is made of
+  std::vector<GroundPlane> grounds_;  ///< likewise
   const View* view_ = nullptr;
   const light::LightVolume* volume_ = nullptr;
   std::uint64_t serial_ = 0;  ///< of the light volume that nodes_ are made of

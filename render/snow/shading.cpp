@@ -92,6 +92,20 @@ float forward_phase(float cosine, float g) {
   return (1 - g * g) / (apart * std::sqrt(apart));
 }
 
+/// Sky light of a place from which only a part of the sky is open: what hides the rest is snow too,
+/// and returns light, over and over.
+/// @param open  part of the sky @param kept  part of the light that a bounce leaves
+float filled(float open, float kept) {
+  return open / (1 - kept * (1 - open));
+}
+
+/// Bounces between snow and snow: red is lost first, so that deep places are blue. Less than the
+/// albedo, since not all that hides the sky is white.
+constexpr Vec3f returned{0.70f, 0.78f, 0.86f};
+constexpr float ambient_share = 0.82f;
+/// Snow scatters ahead: shade behind thin snow is lighter than what it absorbs and throws back.
+constexpr float scattered_ahead = 0.85f;
+
 /// Crystals that mirror the sun: one in a hundred of tiny cells of a grain.
 float glint(const GrainLook& grain, Vec3f toward_eye, Vec3f toward_light) {
   constexpr float cells = 6, least = 0.98f;
@@ -225,7 +239,9 @@ Vec3f normal_at(const surface::Field& field, std::uint32_t b, Vec3f q) {
   const auto share = [&](float x, float y, float z) {
     return share_at(field, b, q + Vec3f{x, y, z});
   };
-  constexpr float d = 0.75f;
+  // Wide enough to leave out the bumps of single particles: grain is finer, broken faces are
+  // rougher.
+  constexpr float d = 1.4f;
   return normalized(Vec3f{share(-d, 0, 0) - share(d, 0, 0), share(0, -d, 0) - share(0, d, 0),
                           share(0, 0, -d) - share(0, 0, d)});
 }
@@ -245,8 +261,8 @@ Exposure expose(const Body& body, const LightVolume& volume, const SnowLight& li
   return out;
 }
 
-Vec3f snow_light(const Body& body, const SnowLight& light, const SnowPlace& place,
-                 const Exposure& exposure, const GrainLook& grain) {
+SnowLightParts snow_light(const Body& body, const SnowLight& light, const SnowPlace& place,
+                          const Exposure& exposure, const GrainLook& grain) {
   const float pixels = body.spacing / place.sample_size;
   const float strength = 0.55f * smooth_step(0.6f, 3.0f, pixels);
   const Vec3f even = exposure.normal;
@@ -266,24 +282,31 @@ Vec3f snow_light(const Body& body, const SnowLight& light, const SnowPlace& plac
                          : 0.0f;
   const float spark = light.is_value || facing <= 0
                           ? 0.0f
-                          : 1.2f * smooth_step(2, 6, pixels) * exposure.sun * facing *
+                          : 1.2f * smooth_step(2, 6, pixels) * facing *
                                 glint(grain, place.toward_eye, light.toward);
   const float log_sun = std::log(std::max(exposure.sun, 1e-6f)) * contrast;
   const float up = 0.5f + 0.5f * n.y;
   const float crevice = exposure.crevice * (1 + 0.25f * strength * std::min(grain.height, 0.0f));
-  const float seen_sky = 1 + contrast * (exposure.sky * crevice - 1);
-  const float around =
-      light.ambient * 0.82f * (light::ambient_least + light::ambient_gain * seen_sky);
+  const float open = exposure.sky * crevice;
   const float inside = light.ambient * (0.9f * exposure.sky * (1 - exposure.sun) + 0.2f);
-  const auto channel = [&](float Vec3f::*c, float wrap) {
-    const float direct =
-        1.06f * light.key * (light::sun_color.*c) *
-        (wrapped(wrap) * std::exp(log_sun * (light::absorption.*c)) + 0.22f * glow + spark);
+  SnowLightParts parts;
+  const auto fill = [&](float Vec3f::*c, float wrap) {
+    const float sun = 1.06f * light.key * (light::sun_color.*c) * (grain.albedo.*c);
+    const float facing_sun = wrapped(wrap);
+    const float arriving = std::exp(scattered_ahead * log_sun * (light::absorption.*c));
+    parts.sun.*c = sun * (facing_sun * arriving + 0.22f * glow + spark * exposure.sun);
+    parts.open_sun.*c = sun * (facing_sun + 0.22f * glow + spark);
+    const float around = ambient_share * light.ambient *
+                         (light::ambient_least +
+                          light::ambient_gain * (1 + contrast * (filled(open, returned.*c) - 1)));
     const float ambient = around * ((light::bounce_color.*c) +
                                     ((light::sky_color.*c) - (light::bounce_color.*c)) * up);
-    return grain.albedo.*c * (direct + ambient + inside * (light::scatter_color.*c));
+    parts.around.*c = grain.albedo.*c * (ambient + inside * (light::scatter_color.*c));
   };
-  return {channel(&Vec3f::x, 0.18f), channel(&Vec3f::y, 0.24f), channel(&Vec3f::z, 0.32f)};
+  fill(&Vec3f::x, 0.18f);
+  fill(&Vec3f::y, 0.24f);
+  fill(&Vec3f::z, 0.32f);
+  return parts;
 }
 
 }  // namespace neve::render::snow

@@ -54,7 +54,12 @@ struct GrainLook {
 GrainLook grain_look(const Body& body, const SnowPlace& place);
 
 /// Linear light towards the eye.
-Vec3f snow_light(const Body& body, const SnowLight& light, const SnowPlace& place,
-                 const Exposure& exposure, const GrainLook& grain);
+struct SnowLightParts {
+  Vec3f sun;       ///< of the key light, on the surface and through the snow
+  Vec3f open_sun;  ///< as if nothing were in its way to the surface
+  Vec3f around;    ///< of the sky, and from inside the snow
+};
+SnowLightParts snow_light(const Body& body, const SnowLight& light, const SnowPlace& place,
+                          const Exposure& exposure, const GrainLook& grain);
 
 }  // namespace neve::render::snow

@@ -45,7 +45,31 @@ struct Way {
   const char* particles;
 };
 
-class GoldenTest : public Cli, public testing::WithParamInterface<Way> {};
+class GoldenTest : public Cli, public testing::WithParamInterface<Way> {
+ protected:
+  /// Draws frame 3 of layers.toml into "out".
+  void draw(const std::vector<std::string>& more) {
+    const Way way = GetParam();
+    ::setenv("NEVE_SIMD", "baseline", 1);  // the same snow on every machine
+    ::setenv("NEVE_PARTICLES", way.particles, 1);
+    std::vector<std::string> arguments{"render",
+                                       (goldens / "layers.toml").string(),
+                                       "--frames",
+                                       "3-3",
+                                       "--out",
+                                       "out",
+                                       "--backend",
+                                       way.backend,
+                                       "--checkpoint-every",
+                                       "0"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = neve(arguments);
+    ::unsetenv("NEVE_SIMD");
+    ::unsetenv("NEVE_PARTICLES");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+  }
+  void expect_golden(const fs::path& picture_file, const fs::path& golden_file) const;
+};
 
 /// A failure leaves picture, golden and difference beside the tests' binaries.
 fs::path keep(const std::string& way, const std::string& name, const render::Image& picture,
@@ -59,15 +83,18 @@ fs::path keep(const std::string& way, const std::string& name, const render::Ima
   return folder;
 }
 
+void GoldenTest::expect_golden(const fs::path& picture_file, const fs::path& golden_file) const {
+  const std::string name = golden_file.stem().string();
+  const render::Image picture = read(picture_file), golden = read(golden_file);
+  const render::Difference difference = render::compare(picture, golden);
+  if (is_near(difference)) return;
+  const std::string way = std::string(GetParam().backend) + "-" + GetParam().particles;
+  ADD_FAILURE() << name << ": mean " << difference.mean << ", local " << difference.local
+                << ", max " << difference.max << "; see " << keep(way, name, picture, golden);
+}
+
 TEST_P(GoldenTest, EveryViewLooksAsItDid) {
-  const Way way = GetParam();
-  ::setenv("NEVE_SIMD", "baseline", 1);  // the same snow on every machine
-  ::setenv("NEVE_PARTICLES", way.particles, 1);
-  const auto result = neve({"render", (goldens / "layers.toml").string(), "--frames", "3-3",
-                            "--out", "out", "--backend", way.backend, "--checkpoint-every", "0"});
-  ::unsetenv("NEVE_SIMD");
-  ::unsetenv("NEVE_PARTICLES");
-  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  draw({});
   std::size_t views = 0;
   for (const auto& view : fs::directory_iterator(folder / "out")) {
     if (!view.is_directory()) continue;
@@ -78,14 +105,15 @@ TEST_P(GoldenTest, EveryViewLooksAsItDid) {
       ADD_FAILURE() << name << " has no golden picture; see tests/golden/remake";
       continue;
     }
-    const render::Image picture = read(view.path() / "0003.png"), golden = read(golden_file);
-    const render::Difference difference = render::compare(picture, golden);
-    if (is_near(difference)) continue;
-    ADD_FAILURE() << name << ": mean " << difference.mean << ", local " << difference.local
-                  << ", max " << difference.max << "; see "
-                  << keep(std::string(way.backend) + "-" + way.particles, name, picture, golden);
+    expect_golden(view.path() / "0003.png", golden_file);
   }
   EXPECT_EQ(views, names().size()) << "a golden picture has no view";
+}
+
+/// Four samples a pixel, and motion blur.
+TEST_P(GoldenTest, SnowAtFinalQualityLooksAsItDid) {
+  draw({"--view", "snow", "--quality", "final"});
+  expect_golden(folder / "out/snow/0003.png", goldens / "final/snow.png");
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, GoldenTest,

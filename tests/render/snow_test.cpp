@@ -76,7 +76,7 @@ void for_samples(const View& view, const Use& use) {
 
 TEST(Snow, SurfaceOfASlabLiesWhereItsParticlesEnd) {
   constexpr float spacing = 0.02f;
-  const Body body = snow::make_body(slab(spacing, 40, 12), nullptr);
+  const Body body = snow::make_body(slab(spacing, 40, 12), {}, nullptr);
   const Camera camera{
       .eye = {0.003f, 1, 0.002f}, .target = {0.003f, 0, 0.002f}, .up = {0, 0, 1}, .fov = 20};
   const View view = make_view(camera, 64, 32);
@@ -106,7 +106,7 @@ TEST(Snow, ACutIsFlatAndLiesInItsPlane) {
   const Vec3f point{0.003f, -0.4f, 0.011f}, normal = normalized(Vec3f{0.5f, 0.7f, 0.3f});
   Points points = slab(spacing, 40, 40);
   cut_open(point, normal, points);
-  const Body body = snow::make_body(points, nullptr);
+  const Body body = snow::make_body(points, {}, nullptr);
   for (const Vec3f& p : body.spray.position)  // corners of the slab are
     EXPECT_GT(length(p - point), 0.3f) << "a cut makes no spray";
   const Camera camera{.eye = point + normal, .target = point, .up = {0, 0, 1}, .fov = 14};
@@ -120,13 +120,39 @@ TEST(Snow, ACutIsFlatAndLiesInItsPlane) {
   });
   // Without the particles beyond, the surface follows the particles before the plane.
   points.cut.reset();
-  const Body lumpy = snow::make_body(points, nullptr);
+  const Body lumpy = snow::make_body(points, {}, nullptr);
   const std::vector<TileHits> other = march(lumpy, view, cpu::chosen_draw_kernels());
   float most = 0;
   for_samples(view, [&](std::size_t tile, int at, int, int) {
     most = std::max(most, std::abs(other[tile].distance[at] - 1));
   });
   EXPECT_GT(most, 0.1f * spacing);
+}
+
+/// Where the side of a body towards +x lies at a height, m.
+float side_at(const Body& body, float height) {
+  for (float x = 0;; x += 0.0005f) {
+    const snow::FieldPlace place = snow::find_place(body, {x, height, 0.004f});
+    if (place.block == surface::no_block ||
+        snow::share_at(body.field, place.block, place.node) < snow::surface_share)
+      return x;
+  }
+}
+
+TEST(Snow, SidesGoStraightDownToTheGround) {
+  constexpr float spacing = 0.02f;
+  Points points = slab(spacing, 30, 20);
+  for (Vec3f& p : points.position) p.y += 20 * spacing;  // its lower side lies on y = 0
+  const std::vector<GroundPlane> ground(1);
+  const Body body = snow::make_body(points, ground, nullptr);
+  const float middle = side_at(body, 10 * spacing);
+  EXPECT_NEAR(middle, 15 * spacing, 0.15f * spacing);
+  EXPECT_NEAR(side_at(body, 0.1f * spacing), middle, 0.15f * spacing);
+  EXPECT_EQ(side_at(body, -2 * spacing), 0) << "its mirror image ends below the ground";
+  // Alone it is rounded below, as it is above.
+  const Body alone = snow::make_body(points, {}, nullptr);
+  EXPECT_LT(side_at(alone, 0.1f * spacing), middle - 0.5f * spacing);
+  EXPECT_NEAR(side_at(body, 19.5f * spacing), side_at(alone, 19.5f * spacing), 1e-4f);
 }
 
 TEST(Snow, ACutShowsTheValuesInside) {
@@ -183,7 +209,7 @@ float first_level(const Body& body, Vec3f eye, Vec3f ray) {
 
 TEST(Snow, RaysFindTheFirstPlaceOfTheLevel) {
   const Frame frame = torn_snow(60, 40);
-  const Body body = snow::make_body(frame.points, nullptr);
+  const Body body = snow::make_body(frame.points, {}, nullptr);
   const View view = make_view(frame.camera, 60, 40);
   const Marcher marcher(body, view);
   const std::vector<TileHits> hits = march(body, view, cpu::chosen_draw_kernels());
@@ -204,8 +230,8 @@ TEST(Snow, RaysFindTheFirstPlaceOfTheLevel) {
 TEST(Snow, HitsDependNeitherOnThreadsNorOnTheInstructionSet) {
   const Frame frame = torn_snow(160, 100);
   ThreadPool pool(3);
-  const Body alone = snow::make_body(frame.points, nullptr),
-             together = snow::make_body(frame.points, &pool);
+  const Body alone = snow::make_body(frame.points, {}, nullptr),
+             together = snow::make_body(frame.points, {}, &pool);
   EXPECT_EQ(alone.padded, together.padded);
   EXPECT_EQ(alone.padded_block, together.padded_block);
   EXPECT_EQ(alone.grains.position, together.grains.position);
@@ -269,7 +295,7 @@ TEST(Snow, AnotherCameraSeesTheSameSnow) {
 
 TEST(Snow, OnlyLooseParticlesAreSpray) {
   const Frame frame = torn_snow(96, 64);
-  const Body body = snow::make_body(frame.points, nullptr);
+  const Body body = snow::make_body(frame.points, {}, nullptr);
   std::vector<std::uint32_t> spray = body.spray.id;
   spray.erase(std::unique(spray.begin(), spray.end()), spray.end());
   const auto last = static_cast<std::uint32_t>(frame.points.position.size());
