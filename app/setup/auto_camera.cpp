@@ -164,6 +164,22 @@ void add_small_colliders(const scene::Scene& scene, std::vector<Vec3d>& points) 
   }
 }
 
+/// The floor below the subject, unless it is farther below than the subject is large: snow falls
+/// there after the coarse run has ended, and what stands on it has its foot in the picture.
+void add_floor(const scene::Scene& scene, std::vector<Vec3d>& points) {
+  const Box box = box_of(points);
+  for (const sim::shapes::Collider& collider : scene.colliders) {
+    const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form);
+    if (!plane || !collider.keyframes.empty()) continue;
+    const Vec3d up = plane->normal.normalized();
+    if (up.y() < 0.9) continue;
+    for (const Vec3d& corner : corners(box.min, box.max)) {
+      const double height = (corner - plane->point).dot(up);
+      if (height > 0 && height < box.diagonal()) points.push_back(corner - height * up);
+    }
+  }
+}
+
 /// The points laid into a plane through their middle: snow before and behind it is not seen.
 std::vector<Vec3d> flattened(std::vector<Vec3d> points, const Vec3d& normal) {
   const Vec3d middle = median(points);
@@ -314,6 +330,7 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
   if (!is_following && !normal) points = without_flown(points, start_of(scene));
   if (!is_following) add_small_colliders(scene, points);
   // On a plane there is room for the few that fly, since those beside it are not seen.
+  if (normal && !is_following) add_floor(scene, points);
   if (normal) points = flattened(points, normal->normalized());
   const Lens lens{settings.up.normalized(), std::tan(radians(settings.fov / 2)), aspect,
                   normal ? filled_by_plane : filled, turns_of(settings, scene.frames / scene.fps)};

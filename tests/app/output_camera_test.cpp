@@ -97,6 +97,20 @@ TEST(AutomaticCamera, ACameraThatFollowsABodyFramesIt) {
                app::scene::toml::SceneError);
 }
 
+/// The coarse run of one frame ends long before the snow is on the floor.
+TEST(AutomaticCamera, ASliceShowsTheFloorBelow) {
+  app::scene::Scene scene = app::scene::read_scene_text(
+      "frames = 1\n[[body]]\nshape = { sphere = { center = [0, 0.6, 0], radius = 0.16 } }\n"
+      "[[collider]]\nshape = { box = { center = [0, 0.3, 0], size = [0.2, 0.2, 0.2] } }\n"
+      "[[collider]]\nshape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }\n"
+      "[[view]]\nname = \"slice\"\n[[view]]\nname = \"particles\"\n",
+      "post.toml");
+  app::setup::resolve(scene, 1000);
+  ASSERT_TRUE(scene.views[0].camera && scene.views[0].camera->eye);
+  EXPECT_LT(reach(*scene.views[0].camera, 16.0 / 9, {0, 0, 0}), 0.95);
+  EXPECT_LT(reach(*scene.views[0].camera, 16.0 / 9, {0, 0.76, 0}), 0.95);
+}
+
 TEST(AutomaticCamera, FramesUprightPicturesByThemselves) {
   const std::string upright = "[[view]]\nname = \"tall\"\nsize = [200, 600]\n";
   app::scene::Scene scene = app::scene::read_scene_text(
