@@ -43,6 +43,21 @@ void sort_places(std::vector<std::uint64_t>& places, std::vector<std::uint64_t>&
   }
 }
 
+/// The cells that a block's particles are in, along x and y.
+void find_cells(const std::uint16_t* locals, kernels::ParticleBlock& block) {
+  constexpr int in_place[2] = {3 << 4, 3 << 2};
+  int first[2] = {in_place[0], in_place[1]}, last[2] = {0, 0};
+  for (std::uint32_t p = block.begin; p < block.end; ++p)
+    for (int a = 0; a < 2; ++a) {
+      first[a] = std::min(first[a], locals[p] & in_place[a]);
+      last[a] = std::max(last[a], locals[p] & in_place[a]);
+    }
+  for (int a = 0; a < 2; ++a) {
+    block.first_cell[a] = static_cast<std::uint8_t>(first[a] >> (4 - 2 * a));
+    block.last_cell[a] = static_cast<std::uint8_t>(last[a] >> (4 - 2 * a));
+  }
+}
+
 template <class T>
 std::size_t bytes_of(const std::vector<T>& v) {
   return sizeof(T) * v.capacity();
@@ -279,7 +294,8 @@ void Partition::list_grid_blocks(bool has_spray) {
     is_linked_ = is_linked_ && blocks_[count].key == block.key;
     blocks_[count].key = block.key;
     blocks_[count].begin = block.begin;
-    blocks_[count++].end = block.end;
+    blocks_[count].end = block.end;
+    find_cells(locals_.data(), blocks_[count++]);
     first_particles_.push_back(grid_particles_);
     grid_particles_ += block.end - block.begin;
   }

@@ -50,7 +50,21 @@ struct ParticleBlock {
   std::uint64_t key;
   std::uint32_t begin, end;
   std::uint32_t node_block[8];  ///< at offset (o>>2, o>>1&1, o&1)
+  /// First and last cell with particles along x and y: they reach the rows from the first on, up to
+  /// K - 1 beyond the last. The rest of the tile is not used, and holds anything.
+  std::uint8_t first_cell[2], last_cell[2];
 };
+
+/// Rows of a tile along an axis that are in use, in the part that lies in a node block at an
+/// offset of 0 or 1, counted there.
+template <int K>
+NEVE_INLINE void used_rows(const ParticleBlock& block, int axis, int offset, int& begin, int& end) {
+  const int start = block_side * offset, size = offset ? Tile<K>::overlap : block_side;
+  begin = block.first_cell[axis] - start;
+  end = block.last_cell[axis] + K - start;
+  begin = begin < 0 ? 0 : begin;
+  end = end > size ? size : end;
+}
 
 /// A block of nodes: which tiles reach it, in the order in which they are added. -1: none.
 struct NodeBlock {

@@ -74,7 +74,7 @@ struct SolveSweepsFor {
       load_tile<Real, K, Set>(
           block, [&](Index n) { return a.u + n * a.u_stride; }, u);
       Quad<Real>* tile = tile_of<Real, K>(a.step, b, 0);
-      Base::clear(tile);
+      Base::clear(block, tile);
       Base::template each_group<scatter_group>(a.step, block, [&](const auto& group) {
         for (int q = 0; q < group.count; q += W) apply_to(a, group, q, u, rows);
         each_cell(s, group.count, [&](int first, int last) {
@@ -168,7 +168,7 @@ struct SolveSweepsFor {
       double* sums = sums_of(a, b);
       sums[0] = total(squares);
       for (int k = 0; k < 4; ++k) sums[1 + k] = momentum[k];
-      set_velocities(a.step, b, v_star);
+      set_velocities<Set>(a.step, b, v_star);
     }
   }
 
@@ -287,7 +287,7 @@ struct SolveSweepsFor {
         loads.give(a.step.loads, a.step.load_unit);
       }
       a.step.node_contact_work[b] += work;
-      set_velocities(a.step, b, v);
+      set_velocities<Set>(a.step, b, v);
     }
   }
 

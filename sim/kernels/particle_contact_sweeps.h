@@ -169,7 +169,7 @@ struct ContactSweepsFor {
         load_tile<Real, K, Set>(
             block, [&](Index m) { return nodes_of(a.step, m, channel_change); }, change);
       Quad<Real>* tile = tile_of<Real, K>(a.step, b, 0);
-      Base::clear(tile);
+      Base::clear(block, tile);
       Near near;
       find_near(near, a, block.key);
       Contact<Real>* to = a.contacts + a.first[b];
@@ -334,7 +334,7 @@ struct ContactSweepsFor {
       load_tile<Real, K, Set>(
           a.step.blocks[b], [&](Index m) { return a.nodes[m].velocity; }, v);
       Quad<Real>* tile = tile_of<Real, K>(a.step, b, 0);
-      Base::clear(tile);
+      Base::clear(a.step.blocks[b], tile);
       Account account(a);
       each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
         const Vec3<V> change = respond_to(gathered(group.s, v), group.contact);
@@ -478,22 +478,45 @@ struct ContactSweepsFor {
   // ---- nodes ------------------------------------------------------------------------------------
 
   /// The tiles of blocks in contact that reach a node block.
-  NEVE_INLINE static void collect_pressed(const Args& a, Index block, Quad<Real>* sum) {
-    collect<Real, K, Set>(a.step, block, 0, sum, [&](std::int32_t source) NEVE_INLINE_BODY {
+  /// @return as collect
+  NEVE_INLINE static unsigned collect_pressed(const Args& a, Index block, Quad<Real>* sum) {
+    return collect<Real, K, Set>(a.step, block, 0, sum, [&](std::int32_t source) NEVE_INLINE_BODY {
       return a.counts[source] != 0;
     });
+  }
+
+  /// sum over the mass of each node, 0 where there is none.
+  NEVE_INLINE static R over_mass(const R& sum, const R& with_mass) {
+    R out;
+    unrolled<R::parts>([&](auto p) NEVE_INLINE_BODY {
+      const typename R::V mass = fourth_of_quads(with_mass.part[p], Counted<R::width>{});
+      const auto has_mass = mass > typename R::V{};
+      out.part[p] =
+          has_mass ? sum.part[p] / (has_mass ? mass : all<typename R::V>(1)) : typename R::V{};
+    });
+    return out;
+  }
+  /// The fourth numbers of the second row beside the others of the first.
+  NEVE_INLINE static R with_fourths(const R& row, const R& fourths) {
+    MaskOf<typename R::V> is_fourth{};
+    for (int l = 3; l < R::width; l += 4) is_fourth[l] = -1;
+    R out;
+    unrolled<R::parts>(
+        [&](auto p) NEVE_INLINE_BODY { out.part[p] = is_fourth ? fourths.part[p] : row.part[p]; });
+    return out;
   }
 
   static void weigh(const Args& a, Index begin, Index end) {
     Quad<Real> sum[block_nodes];
     for (Index k = begin; k < end; ++k) {
       const Index b = a.node_blocks[k];
-      collect_pressed(a, b, sum);
+      const unsigned rows = collect_pressed(a, b, sum);
       const Quad<Real>* v_free = nodes_of(a.step, b, channel_v_new);
       Quad<Real>* v = a.nodes[b].velocity;
-      for (int n = 0; n < block_nodes; ++n) {
-        v[n] = v_free[n];
-        v[n][3] = v_free[n][3] > Real(0) ? sum[n][3] / v_free[n][3] : Real(0);
+      for (int n = 0; n < block_nodes; n += block_side) {
+        const R free = R::load(v_free + n);
+        const bool is_pressed = (rows >> (n / block_side) & 1) != 0;
+        with_fourths(free, is_pressed ? over_mass(R::load(sum + n), free) : R::zero()).store(v + n);
       }
     }
   }
@@ -502,16 +525,18 @@ struct ContactSweepsFor {
     Quad<Real> sum[block_nodes];
     for (Index k = begin; k < end; ++k) {
       const Index b = a.node_blocks[k];
-      collect_pressed(a, b, sum);
+      const unsigned rows = collect_pressed(a, b, sum);
       const Quad<Real>* v_new = nodes_of(a.step, b, channel_v_new);
       Quad<Real>* v = a.nodes[b].velocity;
-      for (int n = 0; n < block_nodes; ++n) {
-        const Real mass = v_new[n][3];
-        if (mass > Real(0)) v[n] += sum[n] / mass;  // the fourth of sum is 0
+      for (int n = 0; n < block_nodes; n += block_side) {
+        const R with_mass = R::load(v_new + n);
+        const bool is_pressed = (rows >> (n / block_side) & 1) != 0;
+        // The fourth of sum is 0.
+        const R row =
+            R::load(v + n) + (is_pressed ? over_mass(R::load(sum + n), with_mass) : R::zero());
+        (a.is_last ? with_fourths(row, with_mass) : row).store(v + n);
       }
-      if (!a.is_last) continue;
-      for (int n = 0; n < block_nodes; ++n) v[n][3] = v_new[n][3];
-      set_velocities(a.step, b, v);
+      if (a.is_last) set_velocities<Set>(a.step, b, v);
     }
   }
 

@@ -18,60 +18,66 @@ NEVE_INLINE Quad<Real>* nodes_of(const SweepArgs<Real>& a, std::uint32_t block, 
 
 /// The nodes of a block get a velocity, and FLIP and AFLIP its change. @param v  with the mass of
 /// the nodes
-template <class Real>
+template <class Set, class Real>
 NEVE_INLINE void set_velocities(const SweepArgs<Real>& a, std::uint32_t block,
                                 const Quad<Real>* v) {
+  using R = Row<Real, Set>;
   Quad<Real>* v_new = nodes_of(a, block, channel_v_new);
-  if (a.channels > channel_change) {
-    Quad<Real>* change = nodes_of(a, block, channel_change);
-    for (int n = 0; n < block_nodes; ++n) change[n] += v[n] - v_new[n];
+  Quad<Real>* change = a.channels > channel_change ? nodes_of(a, block, channel_change) : nullptr;
+  for (int n = 0; n < block_nodes; n += block_side) {
+    const R row = R::load(v + n);
+    if (change) (R::load(change + n) + (row - R::load(v_new + n))).store(change + n);
+    row.store(v_new + n);
   }
-  for (int n = 0; n < block_nodes; ++n) v_new[n] = v[n];
 }
 
-/// Adds the tiles that reach a node block, always in the order of NodeBlock::tile; only those of
-/// particle blocks that `takes` accepts. Rows go beyond the tile's overlap along z, filled with 0.
+/// Adds the used rows of the tiles that reach a node block, always in the order of
+/// NodeBlock::tile; only those of particle blocks that `takes` accepts. Rows go beyond the tile's
+/// overlap along z, filled with 0.
+/// @return the rows of the block that got something, as bits 4 x + y; the others are 0
 template <class Real, int K, class Set, class Takes>
-NEVE_INLINE void collect(const SweepArgs<Real>& a, std::uint32_t block, int channel,
-                         Quad<Real>* sum, const Takes& takes) {
+NEVE_INLINE unsigned collect(const SweepArgs<Real>& a, std::uint32_t block, int channel,
+                             Quad<Real>* sum, const Takes& takes) {
   using R = Row<Real, Set>;
-  bool is_first = true;
+  unsigned written = 0;
+  for (int n = 0; n < block_nodes; n += block_side) R::zero().store(sum + n);
   for (int o = 0; o < 8; ++o) {
     const std::int32_t source = a.node_blocks[block].tile[o];
     if (source < 0 || !takes(source)) continue;
     const int ox = o >> 2, oy = o >> 1 & 1, oz = o & 1;
-    const int nx = ox ? Tile<K>::overlap : block_side, ny = oy ? Tile<K>::overlap : block_side;
+    int i, nx, first, ny;
+    used_rows<K>(a.blocks[source], 0, ox, i, nx);
+    used_rows<K>(a.blocks[source], 1, oy, first, ny);
     const Quad<Real>* tile = tile_of<Real, K>(a, static_cast<std::uint32_t>(source), channel) +
                              Tile<K>::node(4 * ox, 4 * oy, 4 * oz);
-    if (is_first && (ox || oy))
-      for (int n = 0; n < block_nodes; ++n) sum[n] = Quad<Real>{};
-    for (int i = 0; i < nx; ++i)
-      for (int j = 0; j < ny; ++j) {
-        Quad<Real>* to = sum + (i * block_side + j) * block_side;
-        const R row = R::load(tile + Tile<K>::node(i, j, 0));
-        (is_first && !(ox || oy) ? row : row + R::load(to)).store(to);
-      }
-    is_first = false;
+    const unsigned line = first < ny ? (1u << ny) - (1u << first) : 0;
+    for (; i < nx; ++i) {
+      written |= line << (block_side * i);
+      for (int j = first; j < ny; ++j)
+        R::load(tile + Tile<K>::node(i, j, 0)).add_to(sum + (i * block_side + j) * block_side);
+    }
   }
-  if (is_first)
-    for (int n = 0; n < block_nodes; ++n) sum[n] = Quad<Real>{};
+  return written;
 }
 template <class Real, int K, class Set>
-NEVE_INLINE void collect(const SweepArgs<Real>& a, std::uint32_t block, int channel,
-                         Quad<Real>* sum) {
-  collect<Real, K, Set>(a, block, channel, sum, [](std::int32_t) NEVE_INLINE_BODY { return true; });
+NEVE_INLINE unsigned collect(const SweepArgs<Real>& a, std::uint32_t block, int channel,
+                             Quad<Real>* sum) {
+  return collect<Real, K, Set>(a, block, channel, sum,
+                               [](std::int32_t) NEVE_INLINE_BODY { return true; });
 }
 
-/// The inverse: a particle block's tile, filled from the node blocks around it.
+/// The inverse: the used rows of a particle block's tile, filled from the node blocks around it.
 template <class Real, int K, class Set, class Source>
 NEVE_INLINE void load_tile(const ParticleBlock& block, const Source& source, Quad<Real>* tile) {
   for (int o = 0; o < 8; ++o) {
     const Quad<Real>* nodes = source(block.node_block[o]);
     const int ox = o >> 2, oy = o >> 1 & 1, oz = o & 1;
-    const int nx = ox ? Tile<K>::overlap : block_side, ny = oy ? Tile<K>::overlap : block_side;
+    int i, nx, first, ny;
+    used_rows<K>(block, 0, ox, i, nx);
+    used_rows<K>(block, 1, oy, first, ny);
     Quad<Real>* to = tile + Tile<K>::node(4 * ox, 4 * oy, 4 * oz);
-    for (int i = 0; i < nx; ++i)
-      for (int j = 0; j < ny; ++j)
+    for (; i < nx; ++i)
+      for (int j = first; j < ny; ++j)
         Row<Real, Set>::load(nodes + (i * block_side + j) * block_side)
             .store(to + Tile<K>::node(i, j, 0));
   }
@@ -148,8 +154,12 @@ struct SweepsFor {
     });
   }
 
-  NEVE_INLINE static void clear(Quad<Real>* tile) {
-    for (int n = 0; n < Tile<K>::nodes; n += 4) R::zero().store(tile + n);
+  /// The used rows.
+  NEVE_INLINE static void clear(const ParticleBlock& block, Quad<Real>* tile) {
+    for (int i = block.first_cell[0]; i < block.last_cell[0] + K; ++i)
+      for (int n = Tile<K>::node(i, block.first_cell[1], 0);
+           n < Tile<K>::node(i, block.last_cell[1] + K, 0); n += block_side)
+        R::zero().store(tile + n);
   }
 
   // ---- particles to tiles -----------------------------------------------------------------------
@@ -251,8 +261,8 @@ struct SweepsFor {
     for (Index b = begin; b < end; ++b) {
       Quad<Real>* momentum = tile_of<Real, K>(a, b, channel_momentum);
       Quad<Real>* force = has_change ? tile_of<Real, K>(a, b, channel_force) : momentum;
-      clear(momentum);
-      if constexpr (has_change) clear(force);
+      clear(a.blocks[b], momentum);
+      if constexpr (has_change) clear(a.blocks[b], force);
       scatter<momentum_job | force_job>(a, a.blocks[b], momentum, force);
     }
   }
@@ -261,11 +271,14 @@ struct SweepsFor {
     const StepConstants<Real>& c = a.constants;
     Quad<Real> v_old[block_nodes], force[has_change ? block_nodes : 4];
     for (Index b = begin; b < end; ++b) {
-      collect<Real, K, Set>(a, b, channel_momentum, v_old);
+      const unsigned rows = collect<Real, K, Set>(a, b, channel_momentum, v_old);
       if constexpr (has_change) collect<Real, K, Set>(a, b, channel_force, force);
       Quad<Real>* v_new = nodes_of(a, b, channel_v_new);
       for (int n = 0; n < block_nodes; n += 4)
-        update_row(v_old + n, force + (has_change ? n : 0), v_new + n, c);
+        if (rows >> (n / 4) & 1)
+          update_row(v_old + n, force + (has_change ? n : 0), v_new + n, c);
+        else
+          R::zero().store(v_new + n);
       double work = 0;
       NearColliders<Real> near;
       find_near_nodes<Set>(near, c, a.node_blocks[b].key);
@@ -342,7 +355,7 @@ struct SweepsFor {
   static void rasterize(const Args& a, Index begin, Index end) {
     for (Index b = begin; b < end; ++b) {
       Quad<Real>* tile = tile_of<Real, K>(a, b, channel_momentum);
-      clear(tile);
+      clear(a.blocks[b], tile);
       scatter<momentum_job>(a, a.blocks[b], tile, nullptr);
     }
   }
@@ -377,7 +390,7 @@ struct SweepsFor {
   static void elastic_forces(const Args& a, Index begin, Index end) {
     for (Index b = begin; b < end; ++b) {
       Quad<Real>* tile = tile_of<Real, K>(a, b, channel_force);
-      clear(tile);
+      clear(a.blocks[b], tile);
       scatter<force_job>(a, a.blocks[b], nullptr, tile);
     }
   }

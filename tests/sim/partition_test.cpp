@@ -73,9 +73,19 @@ void expect_order(const engine::Partition& p, const Cloud& c) {
   for (const kernels::ParticleBlock& block : p.blocks()) {
     ASSERT_EQ(block.begin, at);
     ASSERT_LT(block.begin, block.end);
+    int first[2] = {3, 3}, last[2] = {0, 0};
     for (; at < block.end; ++at) {
       ASSERT_EQ(c.keys[p.order()[at]], block.key);
       ASSERT_EQ(c.locals[p.order()[at]], p.sorted_locals()[at]);
+      for (int a = 0; a < 2; ++a) {
+        const int cell = p.sorted_locals()[at] >> (4 - 2 * a) & 3;
+        first[a] = std::min(first[a], cell);
+        last[a] = std::max(last[a], cell);
+      }
+    }
+    for (int a = 0; a < 2; ++a) {
+      ASSERT_EQ(block.first_cell[a], first[a]);
+      ASSERT_EQ(block.last_cell[a], last[a]);
     }
   }
   ASSERT_EQ(at, c.points.size());
