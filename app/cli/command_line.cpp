@@ -246,6 +246,10 @@ void add_render(CLI::App& app, Action& action) {
                    "Frames between checkpoints in DIR/checkpoint; 0: none")
       ->type_name("FRAMES")
       ->capture_default_str();
+  command->add_flag("--keep-states", options->keeps_states,
+                    "Keep the state of each drawn frame in DIR/states: the same run in the same "
+                    "folder is then drawn with other views, sizes, colours or cameras without "
+                    "simulating; about 160 bytes a particle and frame");
   // Its name alone; "!--no-movie" would be listed as --no-movie{false}.
   command->add_flag_callback(
       "--no-movie", [options] { options->has_movies = false; },

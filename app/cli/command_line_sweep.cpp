@@ -5,6 +5,7 @@
 
 #include "app/cli/command_line_parts.h"
 #include "app/cli/commands.h"
+#include "app/run/past_run.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
@@ -17,7 +18,7 @@ namespace {
 
 /// Values that CLI11 hands over as text.
 struct SweepTexts {
-  std::optional<std::string> frames, fork, size, coarsening, shard, progress, budget;
+  std::optional<std::string> frames, fork, from, size, coarsening, shard, progress, budget;
   bool is_quiet = false, is_verbose = false;
   MovieTexts movie;
 };
@@ -28,6 +29,10 @@ sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
     throw scene::toml::UsageError("sweep", "which sweep?",
                                   "give a sweep file, or a scene and -p ADDRESS=LIST");
   options.file = scene::path_of_scene(options.file);
+  if (texts.from) options.from = setup::parse_time(*texts.from, "--from");
+  if (!texts.from && run::is_folder(options.file))
+    throw scene::toml::UsageError("sweep", options.file + " is a folder, not a scene",
+                                  "to vary its run from a time on, add --from TIME");
   if (texts.frames) options.frames = setup::parse_frames(*texts.frames);
   if (texts.fork) options.fork = setup::parse_time(*texts.fork, "--fork");
   if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);
@@ -67,7 +72,8 @@ sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
 void add_what(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts& texts) {
   command
       .add_option("FILE", options.file,
-                  "A sweep file (TOML with a table [sweep]), or a scene and -p")
+                  "A sweep file (TOML with a table [sweep]), or a scene and -p; with --from the "
+                  "folder of a run, or a picture")
       ->type_name("");
   add_repeatable(command, "-p,--parameter", options.axes, "ADDRESS=LIST",
                  "Vary a parameter, as in material.snow.hardening=5,10,20 or solver.cell_size={ "
@@ -84,6 +90,14 @@ void add_what(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts&
           "Part the runs at a time, as in 0.8s: their beginning is computed once, then each "
           "changes its parameters; only those that may change during a run")
       ->type_name("TIME");
+  command
+      .add_option("--from", texts.from,
+                  "Part the runs at a time from the run in FILE, the folder of a run or a picture: "
+                  "they begin with its state there, and -p and --set change it")
+      ->type_name("TIME");
+  command.add_flag("--keep-states", options.keeps_states,
+                   "Keep the state of each drawn frame: tiles of another size, view, colour or "
+                   "camera are then drawn without simulating; --dry-run says what that takes");
   command.add_option("--size", texts.size, "Size of a tile; default: 480 pixels wide")
       ->type_name("WxH");
   command.add_option("--coarsen", texts.coarsening, "Make cells N times as large in all runs")

@@ -25,6 +25,7 @@
 #include "app/support/text.h"
 #include "app/sweep/jobs/local.h"
 #include "app/sweep/jobs/slurm.h"
+#include "app/sweep/jobs/source.h"
 #include "app/sweep/plan/dry_run_report.h"
 #include "app/sweep/plan/labels.h"
 #include "app/sweep/plan/shared_view.h"
@@ -197,6 +198,25 @@ void warn_of_single_values(const sweep::read::Sweep& sweep, Progress& progress) 
   }
 }
 
+/// Pictures of the same simulations that are others now.
+void note_redrawn(const sweep::store::Redrawn& redrawn, const sweep::plan::SweepPlan& plan,
+                  Progress& progress) {
+  const auto runs = [](int count) {
+    return fmt::format("{} {}", count, count == 1 ? "run is" : "runs are");
+  };
+  if (redrawn.from_states > 0)
+    progress.note(fmt::format("{} drawn from kept states", runs(redrawn.from_states)));
+  if (redrawn.made_again == 0) return;
+  const auto bytes = static_cast<std::uint64_t>(sweep::plan::bytes_of_states(plan));
+  progress.note(fmt::format(
+      "{} made again, although this folder has the same simulations with other pictures: their "
+      "states were not kept{}",
+      runs(redrawn.made_again),
+      plan.keeps_states
+          ? ""
+          : fmt::format("; --keep-states keeps them, in about {}", bytes_text(bytes))));
+}
+
 /// Keeps the runs of --only and --shard in a plan that is only printed. @throws UsageError
 void choose_runs(const sweep::plan::SweepOptions& options, sweep::plan::SweepPlan& plan,
                  Progress& progress) {
@@ -243,7 +263,10 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
         "another build of neve made the {} finished {} here, from sources that change results: "
         "made again",
         outdated, outdated == 1 ? "run" : "runs"));
-  const sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan);
+  sweep::store::Redrawn redrawn;
+  const sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan, &redrawn);
+  note_redrawn(redrawn, plan, progress);
+  if (plan.source) sweep::jobs::take_beginning(plan, *manifest.beginning, cores, progress);
   if (!options.emit.empty()) {
     emit_commands(options, plan.folder, manifest, progress);
     return exit_ok;

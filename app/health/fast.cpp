@@ -126,6 +126,16 @@ FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::s
   return look;
 }
 
+std::vector<std::string> longer_steps(const scene::Scene& scene,
+                                      const std::vector<std::string>& chosen) {
+  Candidate candidate(scene, chosen);
+  if (scene.solver.is_implicit())
+    candidate.take_semi_implicit_steps();
+  else
+    candidate.take_explicit_steps();
+  return candidate.overrides();
+}
+
 std::string FastLook::sentence() const {
   if (overrides.empty()) return "--fast finds no longer steps for this scene";
   const std::string changes = "--fast sets " + joined(overrides, ", ");

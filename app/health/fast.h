@@ -26,4 +26,9 @@ struct FastLook {
 /// @param chosen  addresses that the user has set, which stay
 FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen);
 
+/// The settings that take longer steps of the kind that the scene has, without a forecast. All of
+/// them may change while a simulation runs.
+std::vector<std::string> longer_steps(const scene::Scene& scene,
+                                      const std::vector<std::string>& chosen);
+
 }  // namespace neve::app::health

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -46,18 +47,30 @@ std::string file_name(const Checkpoint& c) {
 }
 
 /// Newest first.
-std::vector<fs::path> list(const fs::path& folder) {
+std::vector<fs::path> checkpoints_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error, ignored;
-  for (fs::directory_iterator it(folder_of(folder), error), end; !error && it != end;
-       it.increment(error))
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
     if (it->path().extension() == ".ckpt" && it->is_regular_file(ignored))
       files.push_back(it->path());
   if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
-    throw UnreadableError(folder_of(folder).string() + ": cannot read: " + error.message(),
-                          folder_of(folder).string());
+    throw UnreadableError(folder.string() + ": cannot read: " + error.message(), folder.string());
   std::sort(files.rbegin(), files.rend());
   return files;
+}
+
+std::vector<fs::path> list(const fs::path& folder) {
+  return checkpoints_in(folder_of(folder));
+}
+
+fs::path states_folder(const fs::path& folder) {
+  return folder / "states";
+}
+
+fs::path state_path(const fs::path& folder, int frame) {
+  char name[32];
+  std::snprintf(name, sizeof name, "%06d.ckpt", frame);
+  return states_folder(folder) / name;
 }
 
 }  // namespace
@@ -146,6 +159,52 @@ FoundCheckpoint find_checkpoint(const fs::path& folder, int before) {
     }
   }
   return found;
+}
+
+void write_state(const fs::path& folder, const Checkpoint& checkpoint) {
+  make_folder(states_folder(folder));
+  // Its checksum tells one that a power cut left unfinished.
+  write_file(state_path(folder, checkpoint.frame), encode_checkpoint(checkpoint));
+}
+
+std::vector<int> kept_states(const fs::path& folder) {
+  std::vector<int> frames;
+  for (const fs::path& file : checkpoints_in(states_folder(folder))) {
+    int frame = -1;
+    const std::string stem = file.stem().string();
+    const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), frame);
+    if (error == std::errc() && frame >= 0 && file == state_path(folder, frame))
+      frames.push_back(frame);
+  }
+  std::sort(frames.begin(), frames.end());
+  return frames;
+}
+
+FoundState read_state(const fs::path& folder, int frame) {
+  FoundState found;
+  const fs::path file = state_path(folder, frame);
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return found;
+  try {
+    Checkpoint checkpoint = parse_checkpoint(read_file(file, largest_file));
+    if (checkpoint.frame != frame) throw std::runtime_error("is the state of another frame");
+    checkpoint.file = file;
+    found.checkpoint = std::move(checkpoint);
+  } catch (const UnreadableError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    found.damage = file.string() + ": " + failure.what();
+  }
+  return found;
+}
+
+void remove_states(const fs::path& folder) {
+  std::error_code error;
+  for (const int frame : kept_states(folder)) fs::remove(state_path(folder, frame), error);
+  remove_abandoned(states_folder(folder));
+  ::rmdir(states_folder(folder).c_str());
 }
 
 void remove_checkpoints(const fs::path& folder) {

@@ -51,6 +51,24 @@ struct FoundCheckpoint {
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder,
                                 int before = std::numeric_limits<int>::max());
 
+/// Writes the state of a frame that is kept: DIR/states/NNNNNN.ckpt, beside those of other frames.
+/// @throws IoError
+void write_state(const std::filesystem::path& folder, const Checkpoint& checkpoint);
+
+/// Frames with a kept state, in order.
+std::vector<int> kept_states(const std::filesystem::path& folder);
+
+struct FoundState {
+  std::optional<Checkpoint> checkpoint;
+  std::string damage;  ///< "FILE: why"; "" where it is whole or missing
+};
+
+/// @throws UnreadableError for one that the machine does not give
+FoundState read_state(const std::filesystem::path& folder, int frame);
+
+/// Removes all kept states of a folder. Other files stay.
+void remove_states(const std::filesystem::path& folder);
+
 /// Removes the checkpoints before a new run. Other files stay, also one called `checkpoint`.
 void remove_checkpoints(const std::filesystem::path& folder);
 

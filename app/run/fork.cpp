@@ -191,18 +191,38 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
                                   "name another folder");
 }
 
+scene::Scene scene_before_fork(const RenderJob& job) {
+  const int last = frame_before(job.fork->time, job.scene.fps);
+  std::size_t steps = 0;
+  int known = 0;  // frames, from the first: those that were not drawn are not listed
+  for (const FrameRecord& record : job.fork->past.frames) {
+    if (record.frame > last || record.frame != known) break;
+    ++known;
+    steps += record.advance.steps;
+  }
+  return with_changes({scene::write_scene(job.scene), job.scene_file, {}, {}},
+                      changes_of(job.scene, job.changes),
+                      known > last ? steps : static_cast<std::size_t>(-1));
+}
+
+ResumedRun walk_to_fork(const RenderJob& job, ChangePlayer& player, sim::Simulation& simulation,
+                        Progress& progress) {
+  progress.start(frame_before(job.fork->time, job.scene.fps));
+  ResumedRun run = ForkWalk(job, player, simulation, progress).go();
+  progress.clear();
+  player.forget_later();
+  return run;
+}
+
 ForkPoint go_to_fork(RenderJob& job, sim::Simulation& simulation, Progress& progress) {
   ForkPoint point;
   ChangePlayer player(job.scene, job.changes, simulation);
-  progress.start(frame_before(job.fork->time, job.scene.fps));
-  point.run = ForkWalk(job, player, simulation, progress).go();
-  progress.clear();
+  point.run = walk_to_fork(job, player, simulation, progress);
   point.record = {{"from", job.scene_file},
                   {"time", simulation.time()},
                   {"frame", point.run.frame},
                   {"step", simulation.steps()},
                   {"state_hash", hash_text(simulation.state_hash())}};
-  player.forget_later();
   scene::Scene next = forked_scene(job, simulation.steps());
   setup::resolve_ranges(next, simulation.particle_count());
   require_live(player.scene(), next, "--from");

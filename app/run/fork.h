@@ -34,6 +34,15 @@ int frame_before(double time, double fps);
 /// @throws UsageError for parameters that cannot change during a run, with those that can
 void set_fork(const RenderOptions& options, RenderJob& job);
 
+/// The scene of a job as its run has it at the fork: with the changes of that run, as far as its
+/// frames tell which they are, and without those of the fork.
+scene::Scene scene_before_fork(const RenderJob& job);
+
+/// Brings a new simulation of the job's scene to the fork, as go_to_fork() does, and makes no
+/// change there. @param player  of the run that is forked; forgets its later changes
+ResumedRun walk_to_fork(const RenderJob& job, ChangePlayer& player, sim::Simulation& simulation,
+                        Progress& progress);
+
 /// Brings a new simulation of the job's scene to the fork, from the newest checkpoint that is early
 /// enough or from the start, and makes the changes there. The job then has them in its list, with
 /// their step; later changes of the run that it leaves are forgotten.

@@ -48,16 +48,34 @@ RenderJob job_from_run(const RenderOptions& options) {
   return job;
 }
 
+namespace {
+
+/// The newest kept state that is not later than a frame.
+std::optional<ResumedRun> state_before(const fs::path& folder, int last, const std::string& simd) {
+  const std::vector<int> frames = output::kept_states(folder);
+  for (auto frame = frames.rbegin(); frame != frames.rend(); ++frame) {
+    if (*frame > last) continue;
+    const output::FoundState found = output::read_state(folder, *frame);
+    if (found.checkpoint && found.checkpoint->simd == simd)
+      return read_resumed_run(*found.checkpoint);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<ResumedRun> checkpoint_before(const PastRun& past, double time, double fps,
                                             const sim::Simulation& simulation) {
   if (past.folder.empty()) return std::nullopt;
   if (read_run_json(past.folder).value("version", "") != version) return std::nullopt;
   const double latest = time * (1 + 1e-12);
   int before = static_cast<int>(std::min(std::floor(latest * fps), 1e9)) + 1;
+  std::optional<ResumedRun> kept = state_before(past.folder, before - 1, simulation.simd());
   for (;;) {
     const output::FoundCheckpoint found = output::find_checkpoint(past.folder, before);
-    if (!found.checkpoint || found.checkpoint->simd != simulation.simd()) return std::nullopt;
+    if (!found.checkpoint || found.checkpoint->simd != simulation.simd()) return kept;
     ResumedRun run = read_resumed_run(*found.checkpoint);
+    if (kept && kept->steps >= run.steps) return kept;
     // One of an interrupted run may hold steps beyond its frame.
     if (run.frame / fps + run.advance.seconds <= latest) return run;
     before = run.frame;

@@ -199,6 +199,7 @@ RenderJob make_job(const RenderOptions& options) {
   job.validate = options.validate;
   job.resume = options.resume;
   job.checkpoint_every = options.checkpoint_every;
+  job.keeps_states = options.keeps_states;
   job.has_movies = options.has_movies && options.movie.is_made;
   job.movie = options.movie;
   if (options.from) set_fork(options, job);

@@ -37,6 +37,7 @@ struct RenderJob {
   bool validate = false;                ///< with the checks of sim/checks/watch.h
   bool resume = false;                  ///< from the checkpoint in the folder
   int checkpoint_every = 10;            ///< frames; 0: none
+  bool keeps_states = false;            ///< of drawn frames, see kept_states.h
   bool has_movies = true;
   output::MovieStyle movie{};
   std::vector<std::string> warnings;  ///< of the start, for run.json

@@ -36,6 +36,7 @@ struct RenderOptions {
   bool validate = false;
   bool resume = false;
   int checkpoint_every = 10;  ///< frames; 0: none
+  bool keeps_states = false;  ///< of drawn frames, in DIR/states
   bool has_movies = true;
   output::MovieStyle movie;
   bool has_caption = true;

@@ -71,7 +71,8 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
       exporter_(job.scene, job.folder / output::exports_folder, seeded.body_end),
       record_(run_record(job, simulation, context)),
       picture_record_(record_of_job(job, record_.scene, record_.simd)),
-      checkpoints_(job.folder, picture_record_, simulation, player_, progress) {
+      checkpoints_(job.folder, picture_record_, simulation, player_, progress),
+      states_(job, simulation, progress) {
   if (job.validate)
     validation_.emplace(job.scene.solver, job.scene.materials, simulation, progress);
   for (const scene::View& view : job.scene.views)
@@ -90,6 +91,7 @@ RenderRun::RenderRun(const RenderJob& job, sim::Simulation& simulation,
 int RenderRun::begin() {
   output::make_folder(job_.folder);
   if (job_.checkpoint_every > 0) output::tidy_checkpoint_folder(job_.folder);
+  states_.begin();
   std::optional<Resumption> found;
   if (job_.resume) found = checkpoints_.find(record_, job_.frames);
   int first = 0;
@@ -227,6 +229,7 @@ void RenderRun::make_frames(int first) {
     validation_->after_step();
     record_.validation = validation_->records();
   }
+  if (!repair_) first = states_.skip_to(first, job_.frames.first);
   for (int frame = first; frame <= last_frame(); ++frame) {
     seconds_sim_ = 0;
     if (frame > 0 && !advance_to_frame(frame)) {
@@ -234,9 +237,13 @@ void RenderRun::make_frames(int first) {
       return;
     }
     summary_ = simulation_.summary();
+    if (kept_grid_blocks_) summary_.grid_blocks = *kept_grid_blocks_;
     history_.push_back(
         picture::plot_sample(frame / job_.scene.fps, 1 / job_.scene.fps, summary_, advance_));
-    if (is_to_draw(frame)) draw_frame(frame);
+    if (is_to_draw(frame)) {
+      draw_frame(frame);
+      states_.write(frame, advance_, history_, record_);
+    }
     advance_ = {};
     progress_.frame(frame, frame / job_.scene.fps);
     // A frame that was begun is picked up first: its steps belong to the checkpoint.
@@ -284,13 +291,42 @@ RenderRun::Advanced RenderRun::simulate_to(int frame) {
 void RenderRun::begin_next(int frame) {
   // A checkpoint of this frame needs the simulation as it is.
   if (simulation_.threads() < threads_for_overlap || frame >= last_frame() ||
-      checkpoint_is_due(frame) || is_interrupted())
+      checkpoint_is_due(frame) || states_.needs_state(frame) || states_.has(frame + 1) ||
+      is_interrupted())
     return;
   next_ = std::async(std::launch::async, [this, frame] { return simulate_to(frame + 1); });
 }
 
+bool RenderRun::take_kept_state(int frame) {
+  std::optional<KeptState> kept = states_.find(frame);
+  if (!kept) return false;
+  try {
+    player_.go_to(kept->run.steps);
+    restore_frame(kept->run, job_.scene.fps, simulation_);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    refuse_checkpoint(kept->run.file, error);
+  }
+  scene_ = player_.scene();
+  follow_colliders(simulation_, scene_);
+  history_ = std::move(kept->run.history);
+  history_.pop_back();  // of this frame, which is about to be added
+  record_.retries = std::move(kept->run.retries);
+  advance_ = kept->advance;
+  seconds_sim_ = kept->seconds;
+  kept_grid_blocks_ = kept->grid_blocks;
+  ++record_.frames_from_states;
+  return true;
+}
+
 /// @return whether the frame was reached in good health
 bool RenderRun::advance_to_frame(int frame) {
+  if (take_kept_state(frame)) {
+    note_warnings();
+    return true;
+  }
+  kept_grid_blocks_.reset();
   Advanced advanced = next_.valid() ? next_.get() : simulate_to(frame);
   scene_ = std::move(advanced.scene);
   advance_.append(advanced.report);

@@ -15,6 +15,7 @@
 #include "app/picture/frame_builder.h"
 #include "app/run/changes.h"
 #include "app/run/fork.h"
+#include "app/run/kept_states.h"
 #include "app/run/passes.h"
 #include "app/run/picture_record.h"
 #include "app/run/render_job.h"
@@ -77,6 +78,8 @@ class RenderRun {
   /// @return whether to stop
   bool after_step();
   bool advance_to_frame(int frame);
+  /// Brings the simulation to the kept state of a frame. @return whether there is one
+  bool take_kept_state(int frame);
   /// Reads the state for the exports of a frame, before the next one is begun.
   std::vector<exports::Exporter::Work> read_exports(int frame);
   /// Lets the next frame be simulated while this one is drawn, where there are cores for both.
@@ -129,6 +132,8 @@ class RenderRun {
   RunRecord record_;
   PictureRecord picture_record_;
   Checkpoints checkpoints_;
+  KeptStates states_;
+  std::optional<std::size_t> kept_grid_blocks_;  ///< of the kept state that a frame is drawn from
   std::optional<Validation> validation_;
   /// Frames with missing or damaged pictures, and the run that goes on when they are made.
   struct Repair {

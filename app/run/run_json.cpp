@@ -261,6 +261,7 @@ Json to_json(const RunRecord& run) {
   if (!run.error.empty()) json["error"] = run.error;
   json["frames"] = Json::array();
   for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
+  if (run.frames_from_states > 0) json["frames_from_states"] = run.frames_from_states;
   json["files"] = run.files;
   json["warnings"] = run.warnings;
   json["slowdown"] = run.slowdown ? Json(*run.slowdown) : Json();

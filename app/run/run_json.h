@@ -70,6 +70,7 @@ struct RunRecord {
   RunStatus status = RunStatus::running;
   std::string error;  ///< of a run that failed
   std::vector<FrameRecord> frames;
+  int frames_from_states = 0;  ///< drawn from kept states, without a step
   FileHashes files;  ///< pictures and movies; a picture that is just being written is not in it yet
   std::vector<std::string> warnings;  ///< of the start and of the steps so far
   /// Says that a frame took much longer than the first. No warning: the load of the machine must

@@ -32,14 +32,8 @@ bool Viewer::has_picture_to_save() {
 /// The current view at its own size, with all that makes it again.
 output::Picture Viewer::picture_to_keep(const std::filesystem::path& file) {
   const session::LiveFrame& live = *state_.live;
-  scene::View view = panels::current_view(state_);
-  const scene::Scene& scene = *bench_.document().scene();
-  view.size = setup::size_of(scene, view);
-  // The orbit of a moving camera is widened where the window is narrower than the picture.
-  if (!state_.is_camera_of_scene)
-    view.camera = state_.orbit.settings();
-  else if (!view.camera)
-    view.camera = scene.camera;
+  scene::View view = panels::view_to_keep(state_);
+  view.size = setup::size_of(*bench_.document().scene(), view);
   run::PictureRecord record = bench_.picture_record(live, view);
   record.state_hash = run::hash_text(live.state_hash);
   painted_.reset();  // another picture takes the place of the one on the screen

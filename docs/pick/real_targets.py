@@ -29,7 +29,7 @@ def logs_of(run):
     return [math.log(last[name]) for name in METRICS]
 
 
-def play(neve, scene, folder, wanted, seed):
+def play(neve, scene, folder, wanted, seed, common=COMMON):
     """Rounds until the robot is content, or None, and the worst error of the last click."""
     clicks = []
     for count in range(1, MOST_ROUNDS + 1):
@@ -37,7 +37,7 @@ def play(neve, scene, folder, wanted, seed):
         listed = folder.with_suffix(".clicks")
         listed.write_text("\n".join(map(str, clicks + [1])) + "\n")
         axes = [part for axis, ends in AXES.items() for part in ("-p", f"{axis}={ends[0]},{ends[1]}")]
-        subprocess.run([neve, "pick", scene, *axes, *COMMON, "--seed", str(seed), "--rounds", "99",
+        subprocess.run([neve, "pick", scene, *axes, *common, "--seed", str(seed), "--rounds", "99",
                         "--clicks", listed, "--out", folder], check=True, stdin=subprocess.DEVNULL,
                        stdout=subprocess.DEVNULL)
         runs = json.loads((folder / "manifest.json").read_text())["runs"]
@@ -72,4 +72,5 @@ def main():
               f"worst error {100 * error:.1f} %", flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -112,6 +112,28 @@ TEST_F(SweepCli, DryRunsListRunsCostAndMemoryAndStartNothing) {
   EXPECT_EQ(plan["runs"][3]["over_memory_limit"], false);
 }
 
+TEST_F(SweepCli, DryRunsNameTheRunsThatTakeMuchLonger) {
+  const auto result = neve({"sweep", "scene.toml", "-p", "frames=4,5,80", "--dry-run"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(contains(result.output, "the longest: run 2, ")) << result.output;
+  const auto equal = neve({"sweep", "scene.toml", "-p", "seed=1,2,3", "--dry-run"});
+  EXPECT_FALSE(contains(equal.output, "the longest")) << equal.output;
+}
+
+TEST_F(SweepCli, CollectSaysWhatTheFolderOfASweepIs) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--frames", "0", "--out", "run"}).exit_code, 0);
+  const auto refused = [&](const char* folder, const char* why) {
+    const auto result = neve({"sweep", "collect", folder});
+    EXPECT_EQ(result.exit_code, 6);
+    EXPECT_TRUE(contains(result.errors, why)) << result.errors;
+    EXPECT_TRUE(contains(result.errors, "expected the folder that neve sweep wrote"));
+  };
+  refused("nowhere", "nowhere: there is no such folder");
+  refused("run", "run: is the folder of one run, not that of a sweep");
+  refused("run/particles", "run/particles: is a folder without a sweep in it");
+  refused("scene.toml", "scene.toml: is a file, not the folder of a sweep");
+}
+
 TEST_F(SweepCli, DryRunsMarkRunsOverTheLimitAndShowCommonFrames) {
   folder.write("tight.toml",
                "[sweep]\nscene = \"scene.toml\"\n[limits]\nmemory = \"60MiB\"\n[axis]\nframes = "
@@ -221,7 +243,8 @@ TEST_F(SweepCli, AScreeningTellsWhatEachParameterDoes) {
   const std::string csv = read_text(folder / "out/screen.cdb/effects.csv");
   EXPECT_TRUE(contains(csv, "kinetic_energy,J,\"body.ball.velocity\",2,")) << csv;
   EXPECT_TRUE(exists("out/screen.cdb/effects.svg"));
-  EXPECT_TRUE(contains(read_text(folder / "out/screen.cdb/report.html"), "<h2>Effects</h2>"));
+  EXPECT_TRUE(contains(read_text(folder / "out/screen.cdb/report.html"),
+                       "<h2>What each parameter does to each metric</h2>"));
 }
 
 TEST_F(SweepCli, RunsAreRepeatedByTheirSceneFileBitForBit) {

@@ -59,7 +59,7 @@ std::string shortened(std::string command) {
   if (name == "compare") return command;
   if (command.find(" --from ") != std::string::npos)
     return std::regex_replace(command, std::regex("--from [^ ]+"), "--from 0.03s") +
-           " --size 64x36 --no-movie";
+           (name == "sweep" ? " --dry-run" : " --size 64x36 --no-movie");
   // A test of Slurm submits what the page of farms does.
   if (command.find("--engine slurm") != std::string::npos) return "";
   command =

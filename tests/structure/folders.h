@@ -82,7 +82,8 @@ inline constexpr Folder folders[] = {
     {"app/sweep/store",
      "sim/base app/support app/scene/toml app/scene app/output app/setup app/run app/sweep/read "
      "app/sweep/plan"},
-    {"app/sweep/jobs", "app/support app/output app/setup app/sweep/plan app/sweep/store"},
+    {"app/sweep/jobs",
+     "sim app/support app/output app/setup app/run app/sweep/plan app/sweep/store"},
     {"app/sweep/sheet",
      "render/image render/frame render/gl render/overlay render app/support app/scene app/output "
      "app/setup app/picture app/sweep/plan app/sweep/store app/sweep/jobs"},
@@ -91,7 +92,7 @@ inline constexpr Folder folders[] = {
      "app/support app/scene/toml app/scene app/sweep/read app/sweep/plan app/pick/search"},
     {"app/view/session",
      "sim/types sim app/support app/scene/toml app/scene app/output app/setup app/health "
-     "app/picture app/run app/dump app/sweep/plan"},
+     "app/picture app/run app/dump app/sweep/plan app/sweep/jobs app/sweep/store"},
     {"app/view/frontend", "render/image render"},
     {"app/view/web", "render/image render app/support app/output app/view/frontend"},
     {"app/view/panels",

@@ -63,6 +63,34 @@ TEST_F(ViewByScript, AParameterIsFoundChangedSimulatedWithAndSaved) {
   EXPECT_TRUE(contains(info.output, "material.snow.hardening")) << info.output;
 }
 
+TEST_F(ViewByScript, VaryFromHereMakesAStudyOfTheFrameThatIsShown) {
+  const auto result = view(R"([
+    {"key": "."}, {"wait_for": "simulation frame 1"}, {"wait_for": "simulation paused"},
+    {"key": "."}, {"wait_for": "simulation frame 2"}, {"wait_for": "simulation paused"},
+    {"key": "left"}, {"wait_for": "simulation frame 1"},
+    {"click": "Vary from here"}, {"wait_for": "label find a parameter to vary"},
+    {"click": "find a parameter to vary"}, {"type": "hardening"},
+    {"wait_for": "label vary material.snow.hardening"},
+    {"click": "vary material.snow.hardening"},
+    {"click": "values of material.snow.hardening"}, {"key": "a", "ctrl": true}, {"type": "4, 20"},
+    {"click": "Start the runs"}, {"wait_for": "label Copy the command of the study"},
+    {"wait": 3}, {"screenshot": "done.png"}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  ASSERT_TRUE(std::filesystem::exists(folder / "out/vary_0001/study.cdb/sheet.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/vary_0001/study.cdb/report.html"));
+  // As a run of the command line that changes there.
+  ASSERT_EQ(neve({"render", "scene.toml", "--no-movie", "--out", "plain"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", "plain", "--from", "0.041666666666666664s", "--set",
+                  "material.snow.hardening=20", "--no-movie", "--out", "branch"})
+                .exit_code,
+            0);
+  const auto hash = [&](const std::string& run) {
+    return json_of(run + "/run.json")["frames"].back()["state_hash"];
+  };
+  EXPECT_EQ(hash("out/vary_0001/study.cdb/runs/0001"), hash("branch"));
+}
+
 TEST_F(ViewByScript, ADroppedSceneIsOpenedAndAnotherFileIsAMessage) {
   folder.write("out/wrong.toml", "[material.snow]\nyoungs_modulos = 1\n");
   std::string other = tiny_scene;

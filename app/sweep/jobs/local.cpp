@@ -102,6 +102,7 @@ class LocalJobs {
     const Run& run = manifest_.beginning->run;
     const fs::path folder = store::beginning_folder(folder_);
     bool is_told = false;
+    if (!manifest_.beginning->source.empty()) return require_beginning(run, folder);
     while (!has_beginning(run, folder) && !is_interrupted()) {
       const auto lock = output::FolderLock::try_lock(
           folder, "neve sweep", output::FolderLock::Kind::alone, store::run_lock);
@@ -115,10 +116,14 @@ class LocalJobs {
     if (is_interrupted()) queue_.clear();
   }
 
-  static bool has_beginning(const Run& run, const fs::path& folder) {
-    const store::RunStatus status = store::read_status(folder);
-    return status.state == store::RunState::ok && status.key == run.key &&
-           output::find_checkpoint(folder).checkpoint.has_value();
+  /// One that was taken from a run that may not be there any more.
+  void require_beginning(const Run& run, const fs::path& folder) const {
+    if (has_beginning(run, folder)) return;
+    throw IoError(folder.string() +
+                      ": the state in which the runs part is not there; start the same neve sweep "
+                      "--from again, which takes it from " +
+                      manifest_.beginning->source,
+                  folder.string());
   }
 
   void run_beginning(const Run& run, const fs::path& folder) {
@@ -329,9 +334,10 @@ class LocalJobs {
         "--backend",  options_.backend,
         "--no-movie", "--quiet"};
     if (resumes) words.push_back("--resume");
+    if (manifest_.keeps_states) words.push_back("--keep-states");
     if (!is_branch) return words;
     words.insert(words.end(), {"--from", fmt::format("{}", manifest_.beginning->time)});
-    for (const scene::Override& setting : run.settings)
+    for (const scene::Override& setting : manifest_.beginning->changes_of(run))
       words.insert(words.end(), {"--set", setting.address + "=" + setting.value});
     return words;
   }
@@ -413,6 +419,12 @@ class LocalJobs {
 };
 
 }  // namespace
+
+bool has_beginning(const Run& run, const fs::path& folder) {
+  const store::RunStatus status = store::read_status(folder);
+  return status.state == store::RunState::ok && status.key == run.key &&
+         output::find_checkpoint(folder).checkpoint.has_value();
+}
 
 int threads_for(const Run& run, int left, int cores, double memory) {
   // Fewer particles than these are not worth a thread's share of a step.

@@ -53,6 +53,9 @@ JobsResult run_local(const std::filesystem::path& folder, const store::Manifest&
                      const std::vector<int>& indices, const LocalOptions& options,
                      Progress& progress);
 
+/// True where the common beginning of forked runs is there. @param folder  of the beginning
+bool has_beginning(const Run& run, const std::filesystem::path& folder);
+
 /// Number of threads for a run if `left` runs have not started yet. @param memory bytes that are
 /// free
 int threads_for(const Run& run, int left, int cores, double memory);

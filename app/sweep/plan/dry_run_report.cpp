@@ -6,6 +6,7 @@
 #include <atomic>
 #include <future>
 #include <iostream>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -68,7 +69,7 @@ RunSeconds seconds_of_runs(const SweepPlan& plan, int cores) {
         own_steps(plan, forecast, item.run.frames.last) * item.plan.particles * per_particle_step +
         drawn;
   };
-  if (plan.beginning) {
+  if (plan.beginning && !plan.source) {
     const PlannedRun& item = *plan.beginning;
     const int last = item.run.frames.last;
     result.beginning =
@@ -142,6 +143,7 @@ void print_json(const SweepPlan& plan, const RunSeconds& each, double seconds_of
     json["beginning"] = {{"time", plan.fork},
                          {"frame", plan.beginning->run.frames.last},
                          {"seconds", each.beginning}};
+  if (plan.keeps_states) json["state_bytes"] = whole_bytes(bytes_of_states(plan));
   json["memory_bytes"] = whole_bytes(totals.largest);
   json["seconds"] = seconds_of_all;
   std::cout << to_text(json) << "\n";
@@ -185,6 +187,24 @@ void print_table(const SweepPlan& plan, const std::vector<double>& seconds) {
   }
 }
 
+/// "the longest: run 4, 3 min; run 7, 2 min": those that take much longer than most, "" without.
+std::string longest_text(const SweepPlan& plan, const std::vector<double>& seconds) {
+  constexpr double much_longer = 1.5;  // than the median
+  constexpr std::size_t most_named = 5;
+  std::vector<std::size_t> order(seconds.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return seconds[a] > seconds[b]; });
+  const double usual = seconds[order[order.size() / 2]];
+  std::string text;
+  for (std::size_t k = 0; k < std::min(order.size(), most_named); ++k) {
+    if (!(seconds[order[k]] > much_longer * usual)) break;
+    text += fmt::format("{}run {}, {}", text.empty() ? "the longest: " : "; ",
+                        plan.runs[order[k]].run.index, duration_text(seconds[order[k]]));
+  }
+  return text.empty() ? "" : text + fmt::format("; most take about {}\n", duration_text(usual));
+}
+
 }  // namespace
 
 void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
@@ -193,7 +213,10 @@ void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
   const double seconds = each.beginning / cores + std::max(totals.longest, totals.seconds / cores);
   if (is_json) return print_json(plan, each, seconds);
   print_table(plan, each.runs);
-  if (plan.beginning)
+  if (plan.source)
+    std::cout << fmt::format("\nthe beginning, to {} s, is that of {}\n", rough_text(plan.fork),
+                             plan.sweep.scene_file);
+  else if (plan.beginning)
     std::cout << fmt::format("\nthe beginning, to {} s, is computed once: {}\n",
                              rough_text(plan.fork), duration_text(each.beginning));
   std::cout << fmt::format("\n{} {} of {}, {}, view {} in tiles of {}x{}\n", plan.runs.size(),
@@ -205,6 +228,10 @@ void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
                    "a run\n",
                    duration_text(seconds), cores, cores == 1 ? "core" : "cores",
                    bytes_text(whole_bytes(totals.largest)))
+            << longest_text(plan, each.runs)
+            << (plan.keeps_states ? fmt::format("kept states take about {} on disk\n",
+                                                bytes_text(whole_bytes(bytes_of_states(plan))))
+                                  : "")
             << fmt::format("out: {}\n", plan.folder.string());
   if (totals.too_large > 0)
     std::cout << fmt::format(

@@ -18,6 +18,8 @@ struct SweepOptions {
   std::vector<std::string> overrides;  ///< --set
   std::optional<setup::FrameRange> frames;
   std::optional<double> fork;              ///< s, time at which the runs part
+  std::optional<double> from;              ///< the same, of the run or picture in `file`
+  bool keeps_states = false;               ///< of drawn frames, to draw them again
   std::optional<scene::PictureSize> size;  ///< of a tile
   std::optional<double> coarsening;
   bool is_fast = false;  ///< with the settings of health::fast_look

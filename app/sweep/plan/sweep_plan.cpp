@@ -1,9 +1,13 @@
 #include "app/sweep/plan/sweep_plan.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "app/run/fork.h"
+#include "app/run/kept_states.h"
+#include "app/run/picture_record.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
@@ -58,14 +62,26 @@ void prepare_view(const SweepOptions& options, const read::Sweep& sweep, scene::
 
 class SceneMaker {
  public:
-  SceneMaker(const SweepOptions& options, const read::Sweep& sweep)
+  /// @param source  whose scene is varied; without one it is that of the sweep's file
+  SceneMaker(const SweepOptions& options, const read::Sweep& sweep,
+             const std::optional<run::RenderJob>& source)
       : options_(options),
         sweep_(sweep),
-        text_(scene::read_toml_file(sweep.scene_file)),
-        base_dir_(scene::base_dir_of(sweep.scene_file)) {}
+        text_(source ? scene::write_scene(run::scene_before_fork(*source))
+                     : scene::read_toml_file(sweep.scene_file)),
+        base_dir_(source ? "" : scene::base_dir_of(sweep.scene_file)) {}
+
+  /// With the fixed settings, or of a source as it is there.
+  scene::Scene make_base() const { return make({}, options_.from ? none_ : sweep_.fixed); }
 
   scene::Scene make(const std::vector<scene::Override>& settings) const {
-    std::vector<scene::Override> all = sweep_.fixed;
+    return make(settings, sweep_.fixed);
+  }
+
+ private:
+  scene::Scene make(const std::vector<scene::Override>& settings,
+                    const std::vector<scene::Override>& fixed) const {
+    std::vector<scene::Override> all = fixed;
     all.insert(all.end(), settings.begin(), settings.end());
     scene::Scene scene = scene::read_scene_text(text_, sweep_.scene_file, base_dir_, all);
     if (options_.coarsening) scene::coarsen(scene, *options_.coarsening);
@@ -73,10 +89,10 @@ class SceneMaker {
     return scene;
   }
 
- private:
   const SweepOptions& options_;
   const read::Sweep& sweep_;
   std::string text_, base_dir_;
+  std::vector<scene::Override> none_;
 };
 
 setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& sweep,
@@ -128,6 +144,7 @@ health::FastLook take_fast_look(const SweepOptions& options, const scene::Scene&
 /// The time at which the runs part; nothing where each has its values from the start.
 std::optional<double> fork_time(const SweepOptions& options, const read::Sweep& sweep) {
   if (options.fork) return options.fork;
+  if (options.from) return options.from;
   if (sweep.settings.fork.empty()) return std::nullopt;
   try {
     return setup::parse_time(sweep.settings.fork);
@@ -145,20 +162,50 @@ PlannedRun planned(Run run, scene::Scene scene) {
   return {std::move(run), std::move(scene), needs};
 }
 
+/// The job of the run or picture that the runs leave. @throws UsageError where it is none
+run::RenderJob source_job(const SweepOptions& options) {
+  if (options.fork)
+    throw scene::toml::UsageError("--fork", "cannot be combined with --from",
+                                  "--from forks a run or picture that is there, --fork a scene");
+  if (!run::is_folder(options.file) && !run::is_picture(options.file))
+    throw scene::toml::UsageError(
+        "--from", options.file + " is no folder of a run and no picture made by neve",
+        fmt::format("for a scene or a sweep file, give --fork {}s", *options.from));
+  run::RenderOptions render;
+  render.scene = options.file;
+  render.from = options.from;
+  render.overrides = options.overrides;
+  render.coarsening = options.coarsening;
+  render.is_fast = options.is_fast;
+  render.frames = options.frames;
+  return run::make_job(render);
+}
+
+read::Sweep sweep_of(const SweepOptions& options, const std::optional<run::RenderJob>& source) {
+  const read::SweepChanges changes{options.axes, options.overrides,
+                                   options.fork.has_value() || source.has_value()};
+  if (!source) return read::read_sweep(options.file, changes);
+  read::Sweep sweep = read::parse_sweep("", options.file, changes);
+  sweep.name = source->folder.filename().string();
+  return sweep;
+}
+
 /// Takes the common beginning off the runs. @throws UsageError where they cannot have one
 void share_beginning(double time, SweepPlan& plan) {
+  const char* flag = plan.source ? "--from" : "--fork";
   const int frame = run::frame_before(time, plan.base.fps);
-  run::require_whole_frame(plan.base, time, "--fork");
+  run::require_whole_frame(plan.base, time, flag);
   plan.fork = time;
   Run beginning;
   beginning.label = "the common beginning";
   beginning.frames = {frame, frame};
-  plan.beginning = planned(std::move(beginning), plan.base);
+  if (plan.source) beginning.settings = plan.sweep.fixed;
+  plan.beginning = planned(std::move(beginning), plan.source ? plan.source->scene : plan.base);
   for (PlannedRun& item : plan.runs) {
-    run::require_live(plan.base, item.scene, "--fork");
+    run::require_live(plan.base, item.scene, flag);
     setup::FrameRange& frames = item.run.frames;
     if (frames.last <= frame)
-      throw scene::toml::UsageError("--fork",
+      throw scene::toml::UsageError(flag,
                                     "the runs part at frame " + std::to_string(frame) +
                                         ", and their last frame is " + std::to_string(frames.last),
                                     "expected an earlier time, or later frames with --frames");
@@ -171,16 +218,18 @@ void share_beginning(double time, SweepPlan& plan) {
 
 SweepPlan plan_sweep(const SweepOptions& options) {
   SweepPlan plan;
-  plan.sweep =
-      read::read_sweep(options.file, {options.axes, options.overrides, options.fork.has_value()});
+  if (options.from) plan.source = source_job(options);
+  plan.sweep = sweep_of(options, plan.source);
+  plan.keeps_states = options.keeps_states || plan.sweep.settings.keep_states;
+  if (plan.source) prepare_view(options, plan.sweep, plan.source->scene);
   refuse_two_frames(options, plan.sweep);
   plan.folder =
       options.out.empty() ? out_folder() / (plan.sweep.name + ".cdb") : fs::path(options.out);
-  const SceneMaker maker(options, plan.sweep);
-  plan.base = maker.make({});
+  const SceneMaker maker(options, plan.sweep, plan.source);
+  plan.base = maker.make_base();
   if (options.is_fast) {
     plan.fast = take_fast_look(options, plan.base, plan.sweep);
-    plan.base = maker.make({});
+    plan.base = maker.make_base();
   }
   plan.view = plan.base.views.front().name;
   plan.title = plan.sweep.settings.title;
@@ -192,7 +241,15 @@ SweepPlan plan_sweep(const SweepOptions& options) {
     plan.runs.push_back(planned(std::move(run), std::move(scene)));
   }
   if (const auto time = fork_time(options, plan.sweep)) share_beginning(*time, plan);
+  if (plan.source) plan.source->fork->changes.clear();  // the runs make them
   return plan;
+}
+
+double bytes_of_states(const SweepPlan& plan) {
+  double bytes = 0;
+  for (const PlannedRun& item : plan.runs)
+    bytes += run::state_bytes_per_particle * item.run.particles * item.run.frames.count();
+  return bytes;
 }
 
 double foreseen_work(const scene::Scene& scene, const setup::Plan& plan) {

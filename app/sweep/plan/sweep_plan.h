@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/health/fast.h"
+#include "app/run/render_job.h"
 #include "app/setup/plan.h"
 #include "app/sweep/read/sweep.h"
 
@@ -35,8 +36,11 @@ struct SweepPlan {
   scene::Scene base;  ///< with the fixed settings alone
   std::vector<PlannedRun> runs;
   /// Of runs that part later than at the start: as far as the last frame before. Their frames and
-  /// their work begin there.
+  /// their work begin there. Its settings are what all runs change there.
   std::optional<PlannedRun> beginning;
+  /// The run or picture in which the beginning is found; without it is simulated from the start.
+  std::optional<run::RenderJob> source;
+  bool keeps_states = false;
   double fork = 0;                       ///< s, where they part
   std::optional<health::FastLook> fast;  ///< of --fast; its overrides are among the fixed settings
 };
@@ -44,6 +48,9 @@ struct SweepPlan {
 /// Reads the scene of every run; starts nothing.
 /// @throws SceneError, UsageError, LimitError, sim::ShapeError
 SweepPlan plan_sweep(const SweepOptions& options);
+
+/// On disk, if the states of all drawn frames of all runs are kept, about.
+double bytes_of_states(const SweepPlan& plan);
 
 /// Particles times steps that the limits on dt allow snow at rest that then meets the ground.
 double foreseen_work(const scene::Scene& scene, const setup::Plan& plan);

@@ -52,6 +52,9 @@ void describe(V& visit, SweepSettings& s) {
       "fork", s.fork, scene::unit::none, scene::anything, restart,
       "Time at which the runs part, as \"0.8s\": the beginning is computed once; default: each run "
       "has its values from the start.");
+  visit("keep_states", s.keep_states, scene::unit::none, scene::anything, restart,
+        "Keep the state of each drawn frame: tiles of another size, view, colour or camera are "
+        "then drawn without simulating.");
   visit("title", s.title, scene::unit::none, scene::anything, restart,
         "Title of the sheet; default: that of the scene.");
 }

@@ -65,6 +65,7 @@ struct SweepSettings {
   std::vector<std::string> where;  ///< conditions, see condition.h
   std::string frames;
   std::string fork;  ///< time at which all runs part; "": at the start
+  bool keep_states = false;
   std::string title;
 };
 

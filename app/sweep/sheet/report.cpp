@@ -73,8 +73,9 @@ std::string effects_section(const store::Manifest& manifest,
                             const std::vector<store::RunResult>& results) {
   const std::string svg = effects_svg(manifest, results, false);
   if (svg.empty()) return {};
-  return "<section>\n<h2>Effects</h2>\n<div class=\"wide white\" id=\"effects\">" + svg +
-         "</div>\n</section>\n";
+  return "<section>\n<h2>What each parameter does to each metric</h2>\n<div class=\"wide white\" "
+         "id=\"effects\">" +
+         svg + "</div>\n</section>\n";
 }
 
 /// A drawing with a point for each run and metric is no part of the page: its tens of thousands of

@@ -97,7 +97,7 @@ std::string again_command(const std::string& folder, const store::Manifest& mani
   command.out = "again/" + run.folder;
   if (!manifest.beginning) return setup::command_line(command);
   command.scene_file = folder + "/beginning";
-  command.overrides = run.settings;
+  command.overrides = manifest.beginning->changes_of(run);
   return setup::command_line(command) + fmt::format(" --from {}", manifest.beginning->time);
 }
 

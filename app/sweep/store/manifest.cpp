@@ -167,6 +167,16 @@ std::optional<Manifest> earlier_manifest(const std::filesystem::path& folder) {
   }
 }
 
+/// What a path is instead of the folder of a sweep.
+const char* why_no_sweep(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error)) return "there is no such folder";
+  if (!std::filesystem::is_directory(folder, error)) return "is a file, not the folder of a sweep";
+  if (std::filesystem::exists(output::run_json_path(folder), error))
+    return "is the folder of one run, not that of a sweep";
+  return "is a folder without a sweep in it";
+}
+
 void check(bool is_right, const char* what) {
   if (!is_right) throw std::runtime_error(what);
 }
@@ -224,6 +234,12 @@ std::string run_text(const Run& run) {
              : fmt::format("run {} (runs/{})", run.index, run.folder);
 }
 
+std::vector<scene::Override> Beginning::changes_of(const Run& branch) const {
+  std::vector<scene::Override> changes = run.settings;
+  changes.insert(changes.end(), branch.settings.begin(), branch.settings.end());
+  return changes;
+}
+
 int Manifest::first_frame() const {
   int first = runs.empty() ? 0 : runs.front().frames.first;
   for (const Run& run : runs) first = std::min(first, run.frames.first);
@@ -271,9 +287,10 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
     run.key = keys[k];
     run.inherited = inherited_values(plan.runs[k], m.parameters);
   }
+  m.keeps_states = plan.keeps_states;
   if (!plan.beginning) return m;
-  m.beginning = {plan.fork, plan.beginning->run};
-  m.beginning->run.key = key_of(*plan.beginning);
+  m.beginning = {plan.fork, plan.beginning->run, plan.source ? plan.source->scene_file : ""};
+  m.beginning->run.key = key_of_beginning(plan);
   m.beginning->run.folder = run_folder_name(0);
   return m;
 }
@@ -329,7 +346,10 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
     json["screened"].push_back({{"name", axis.name}, {"addresses", axis.addresses}});
   if (m.varied) json["varied"] = *m.varied;
   if (m.beginning)
-    json["beginning"] = {{"time", m.beginning->time}, {"run", run_json(m.beginning->run)}};
+    json["beginning"] = {{"time", m.beginning->time},
+                         {"run", run_json(m.beginning->run)},
+                         {"source", m.beginning->source}};
+  json["keeps_states"] = m.keeps_states;
   json["runs"] = Json::array();
   for (const Run& run : m.runs) json["runs"].push_back(run_json(run));
   output::write_file(manifest_path(folder), to_text(json) + "\n");
@@ -337,6 +357,11 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
 
 Manifest read_manifest(const std::filesystem::path& folder) {
   const std::filesystem::path file = manifest_path(folder);
+  std::error_code error;
+  if (!std::filesystem::exists(file, error) && !error)
+    throw IoError(folder.string() + ": " + why_no_sweep(folder) +
+                      "; expected the folder that neve sweep wrote, as out/snow_variations.cdb",
+                  folder.string());
   return parse_manifest(output::read_file(file), file.string());
 }
 
@@ -375,7 +400,9 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
     if (json.contains("beginning"))
       m.beginning = {json.at("beginning").at("time").get<double>(),
-                     run_of(json.at("beginning").at("run"))};
+                     run_of(json.at("beginning").at("run")),
+                     json.at("beginning").value("source", "")};
+    m.keeps_states = json.value("keeps_states", false);
     check_values(m);
     return m;
   } catch (const std::bad_alloc&) {

@@ -27,7 +27,11 @@ struct AxisLabels {
 /// The common beginning of runs that part later than at the start, in DIR/beginning.
 struct Beginning {
   double time = 0;  ///< s, where the runs part
-  Run run;          ///< its frame is the last one before
+  Run run;          ///< its frame is the last one before; its settings are made by all runs there
+  std::string source{};  ///< run or picture that it was taken from; "": simulated from the start
+
+  /// What a run changes at the fork.
+  std::vector<scene::Override> changes_of(const Run& branch) const;
 };
 
 struct Manifest {
@@ -47,6 +51,7 @@ struct Manifest {
   std::optional<std::vector<std::string>> varied;
   std::vector<Run> runs;
   std::optional<Beginning> beginning{};
+  bool keeps_states = false;  ///< of drawn frames
 
   int first_frame() const;
   int last_frame() const;

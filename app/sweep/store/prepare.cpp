@@ -7,6 +7,8 @@
 #include <set>
 
 #include "app/output/atomic_file.h"
+#include "app/output/checkpoint.h"
+#include "app/run/kept_states.h"
 #include "app/run/picture_record.h"
 #include "app/run/run_json.h"
 #include "app/scene/read.h"
@@ -23,18 +25,45 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Each run's folder: the one that has its key, or that of its number, or a new number.
+/// A finished run of the same simulation that is no run of the sweep any more: its drawing was
+/// another. One with kept states where there is any; null where there is none.
+const KnownRun* other_drawing(const std::vector<KnownRun>& known, const std::string& simulation,
+                              const std::set<std::string>& wanted_keys,
+                              const std::set<std::string>& used) {
+  const KnownRun* found = nullptr;
+  for (const KnownRun& run : known) {
+    const bool is_free = !wanted_keys.contains(run.key) && !used.contains(run.folder);
+    if (!is_free || run.simulation != simulation || !(run.is_finished || run.has_states)) continue;
+    if (!found || (run.has_states && !found->has_states)) found = &run;
+  }
+  return found;
+}
+
+/// Each run's folder: the one that has its key, or states of its simulation, or that of its number,
+/// or a new number.
 std::vector<std::string> assign_folders(const plan::SweepPlan& plan,
-                                        const std::vector<std::string>& keys) {
-  std::map<std::string, std::string> folder_of = known_runs(plan.folder);
-  std::set<std::string> taken;
-  for (const auto& [key, folder] : folder_of) taken.insert(folder);
+                                        const std::vector<std::string>& keys, Redrawn* redrawn) {
+  const std::vector<KnownRun> known = known_runs(plan.folder);
+  const std::set<std::string> wanted(keys.begin(), keys.end());
+  std::map<std::string, std::string> folder_of;
+  std::set<std::string> taken, used;
+  for (const KnownRun& run : known) {
+    folder_of.emplace(run.key, run.folder);
+    taken.insert(run.folder);
+  }
   std::vector<std::string> folders;
   int next = 0;
   for (std::size_t k = 0; k < keys.size(); ++k) {
     if (!folder_of.contains(keys[k])) {
       std::string folder = run_folder_name(static_cast<int>(k));
-      while (taken.contains(folder)) folder = run_folder_name(next++);
+      const KnownRun* other =
+          other_drawing(known, simulation_key_of(plan, plan.runs[k]), wanted, used);
+      if (other) used.insert(other->folder);
+      if (other && redrawn) ++(other->has_states ? redrawn->from_states : redrawn->made_again);
+      if (other && other->has_states)
+        folder = other->folder;
+      else
+        while (taken.contains(folder)) folder = run_folder_name(next++);
       taken.insert(folder);
       folder_of[keys[k]] = folder;
     }
@@ -57,50 +86,91 @@ std::string text_of_run(const plan::SweepPlan& plan, const plan::PlannedRun& ite
   if (!plan.beginning) return scene::write_scene(item.scene);
   setup::RenderCommand command;
   command.scene_file = "../../beginning";
-  command.overrides = item.run.settings;
+  command.overrides = Beginning{plan.fork, plan.beginning->run}.changes_of(item.run);
   return "# A run that parts from the common beginning. In this folder:\n# " +
          setup::command_line(command) + " --from " + fmt::format("{}", plan.fork) + "\n" +
          scene::write_scene(plan.beginning->scene);
 }
 
-/// The key is that of the planned scene: one that was edited by hand is written again.
-void write_run(const fs::path& folder, const std::string& text, const std::string& key) {
+/// The keys of a run, and its scene as text.
+struct RunFiles {
+  std::string text, key, simulation;
+};
+
+/// The key is that of the planned scene: one that was edited by hand is written again. A run that
+/// is drawn again keeps the time that its simulation took.
+void write_run(const fs::path& folder, const RunFiles& files) {
   output::make_folder(folder);
-  if (!has_text(folder / "scene.toml", text)) output::write_file(folder / "scene.toml", text);
-  if (read_status(folder).key == key) return;
+  if (!has_text(folder / "scene.toml", files.text))
+    output::write_file(folder / "scene.toml", files.text);
+  const RunStatus before = read_status(folder);
+  if (before.key == files.key) return;
   RunStatus status;
-  status.key = key;
+  status.key = files.key;
+  status.simulation = files.simulation;
+  if (before.simulation == files.simulation && !output::kept_states(folder).empty())
+    status.seconds = before.seconds;
   write_status(folder, status);
+}
+
+std::string hash_of_text(const std::string& text) {
+  return run::hash_text(hash_bytes(text.data(), text.size()));
+}
+
+/// Version, sources, and the files that a scene names.
+std::string surroundings_of(const scene::Scene& scene) {
+  std::string text = std::string("\nversion ") + version + "\nsources " + build().sources;
+  for (const auto& [file, hash] : run::hash_files(scene)) text += "\n" + file + " " + hash;
+  return text;
+}
+
+/// Changes before the fork, of the run that is forked.
+std::string changes_of_source(const plan::SweepPlan& plan) {
+  return plan.source ? to_text(scene::to_json(plan.source->changes)) : "";
 }
 
 }  // namespace
 
 std::string key_of(const plan::PlannedRun& item) {
-  std::string text = scene::write_scene(item.scene) + "\nversion " + version + "\nsources " +
-                     build().sources + "\nframes " + std::to_string(item.run.frames.first) + "-" +
-                     std::to_string(item.run.frames.last);
-  for (const auto& [file, hash] : run::hash_files(item.scene)) text += "\n" + file + " " + hash;
-  return run::hash_text(hash_bytes(text.data(), text.size()));
+  return hash_of_text(scene::write_scene(item.scene) + surroundings_of(item.scene) + "\nframes " +
+                      std::to_string(item.run.frames.first) + "-" +
+                      std::to_string(item.run.frames.last));
+}
+
+std::string key_of_beginning(const plan::SweepPlan& plan) {
+  const std::string key = key_of(*plan.beginning);
+  return plan.source ? hash_of_text(fmt::format("{} at {} after {}", key, plan.fork,
+                                                changes_of_source(plan)))
+                     : key;
 }
 
 std::string key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
   if (!plan.beginning) return key_of(item);
-  const std::string text =
-      key_of(item) + fmt::format("\nfrom {} of {}", plan.fork, key_of(*plan.beginning));
-  return run::hash_text(hash_bytes(text.data(), text.size()));
+  return hash_of_text(
+      fmt::format("{}\nfrom {} of {}", key_of(item), plan.fork, key_of_beginning(plan)));
 }
 
-Manifest prepare_sweep(const plan::SweepPlan& plan) {
+std::string simulation_key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
+  std::string text = run::simulation_text(item.scene) + surroundings_of(item.scene);
+  if (plan.beginning)
+    text += fmt::format("\nfrom {} of {} after {}", plan.fork,
+                        run::simulation_text(plan.beginning->scene), changes_of_source(plan));
+  return hash_of_text(text);
+}
+
+Manifest prepare_sweep(const plan::SweepPlan& plan, Redrawn* redrawn) {
   output::make_folder(runs_folder(plan.folder));
   std::vector<std::string> keys;
   for (const plan::PlannedRun& item : plan.runs) keys.push_back(key_of(plan, item));
-  const std::vector<std::string> folders = assign_folders(plan, keys);
+  const std::vector<std::string> folders = assign_folders(plan, keys, redrawn);
   const Manifest manifest = make_manifest(plan, keys, folders);
   for (std::size_t k = 0; k < plan.runs.size(); ++k)
-    write_run(runs_folder(plan.folder) / folders[k], text_of_run(plan, plan.runs[k]), keys[k]);
+    write_run(runs_folder(plan.folder) / folders[k],
+              {text_of_run(plan, plan.runs[k]), keys[k], simulation_key_of(plan, plan.runs[k])});
   if (plan.beginning)
-    write_run(beginning_folder(plan.folder), scene::write_scene(plan.beginning->scene),
-              key_of(*plan.beginning));
+    write_run(beginning_folder(plan.folder),
+              {scene::write_scene(plan.beginning->scene), key_of_beginning(plan),
+               simulation_key_of(plan, *plan.beginning)});
   if (!plan.sweep.file.empty())
     output::write_file(plan.folder / "sweep.toml", scene::read_toml_file(plan.sweep.file));
   write_manifest(plan.folder, manifest);

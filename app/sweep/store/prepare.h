@@ -5,11 +5,19 @@
 
 namespace neve::app::sweep::store {
 
+/// Runs whose simulations the folder has, with other pictures.
+struct Redrawn {
+  int from_states = 0;
+  int made_again = 0;  ///< without states
+};
+
 /// DIR/manifest.json, DIR/sweep.toml, and for each run a folder with scene.toml and status.json.
 /// A run that the folder knows by its key keeps its folder and its state.
+/// One of the same simulation that was drawn otherwise gives its folder, if it has states.
 /// @param plan with the shared camera and ranges
+/// @param redrawn  is told how many runs are drawn otherwise than before; may be null
 /// @throws IoError
-Manifest prepare_sweep(const plan::SweepPlan& plan);
+Manifest prepare_sweep(const plan::SweepPlan& plan, Redrawn* redrawn = nullptr);
 
 /// Hash of the resolved scene, the files it names, the version, the sources that change results,
 /// and the frames.
@@ -17,5 +25,11 @@ std::string key_of(const plan::PlannedRun& item);
 
 /// The same for a run of a sweep: with its beginning, where it has one in common with others.
 std::string key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item);
+
+/// Of the common beginning, with the changes of the run that it was taken from.
+std::string key_of_beginning(const plan::SweepPlan& plan);
+
+/// Hash of all that the states of a run depend on.
+std::string simulation_key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item);
 
 }  // namespace neve::app::sweep::store

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "app/output/atomic_file.h"
+#include "app/output/checkpoint.h"
 #include "app/scene/leaf.h"
 #include "app/scene/toml/error.h"
 
@@ -64,6 +65,7 @@ RunStatus read_status(const fs::path& run_folder) {
     const Json json = parse_json(output::read_file(status_path(run_folder), 1 << 20));
     const auto found = std::find(states.begin(), states.end(), json.at("state").get<std::string>());
     status.key = json.at("key").get<std::string>();
+    status.simulation = json.value("simulation", "");
     status.reason = json.value("reason", "");
     status.short_reason = json.value("short_reason", "");
     status.exit_code = whole_number_or(json, "exit_code", 0);
@@ -89,6 +91,7 @@ void write_status(const fs::path& run_folder, const RunStatus& status) {
   Json json;
   json["state"] = name(status.state);
   json["key"] = status.key;
+  json["simulation"] = status.simulation;
   json["reason"] = status.reason;
   json["short_reason"] = status.short_reason;
   json["exit_code"] = status.exit_code;
@@ -126,15 +129,19 @@ Retry parse_retry(const std::string& text) {
   return retry;
 }
 
-std::map<std::string, std::string> known_runs(const fs::path& sweep) {
-  std::map<std::string, std::string> known;
+std::vector<KnownRun> known_runs(const fs::path& sweep) {
+  std::vector<KnownRun> known;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(runs_folder(sweep), error)) {
     const std::string folder = entry.path().filename().string();
     if (!is_run_folder(folder)) continue;
     const RunStatus status = read_status(entry.path());
-    if (!status.key.empty()) known.emplace(status.key, folder);
+    if (!status.key.empty())
+      known.push_back({folder, status.key, status.simulation, is_finished(status.state),
+                       !output::kept_states(entry.path()).empty()});
   }
+  std::sort(known.begin(), known.end(),
+            [](const KnownRun& a, const KnownRun& b) { return a.folder < b.folder; });
   return known;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "app/support/json.h"
 
@@ -27,6 +28,7 @@ const char* name(RunState state);
 struct RunStatus {
   RunState state = RunState::pending;
   std::string key;           ///< hash of scene, version, frames
+  std::string simulation;    ///< the same without what only its pictures depend on
   std::string reason;        ///< one line; "" for ok
   std::string short_reason;  ///< for a tile
   int exit_code = 0, signal = 0;
@@ -59,8 +61,15 @@ using Retry = std::set<RunState>;
 /// "all", or names of states as in "timeout,crashed". @throws UsageError
 Retry parse_retry(const std::string& text);
 
-/// Keys of all runs that the folder has, with the names of their folders.
-std::map<std::string, std::string> known_runs(const std::filesystem::path& sweep);
+/// A run that the folder of a sweep has.
+struct KnownRun {
+  std::string folder, key, simulation;
+  bool is_finished = false;
+  bool has_states = false;  ///< of its frames
+};
+
+/// In the order of their folders.
+std::vector<KnownRun> known_runs(const std::filesystem::path& sweep);
 
 /// Name of the lock that the sweep which makes a run has on its folder; the run has one of its own.
 inline constexpr const char* run_lock = ".sweep.lock";

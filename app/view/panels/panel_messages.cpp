@@ -116,8 +116,8 @@ void draw_time_line(ViewerState& state) {
   ImGui::Text("frame %d", live.frame);
   ImGui::SameLine(ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x +
                   ImGui::CalcTextSize(("frame " + std::to_string(last)).c_str()).x + 0.6f * em());
-  const bool is_short = ImGui::GetContentRegionAvail().x < 26 * em();
-  const float right = live.is_older ? (is_short ? 9 : 18.5f) * em() : 11 * em();
+  const bool is_short = ImGui::GetContentRegionAvail().x < (live.is_older ? 40 : 26) * em();
+  const float right = (live.is_older ? (is_short ? 12 : 26) : is_short ? 4 : 19) * em();
   ImGui::SetNextItemWidth(std::max(4 * em(), ImGui::GetContentRegionAvail().x - right));
   int frame = live.frame;
   const bool is_typed = ImGui::TempInputIsActive(ImGui::GetID("##time"));
@@ -130,6 +130,11 @@ void draw_time_line(ViewerState& state) {
   }
   note_label("time line");
   draw_ticks(live, last);
+  ImGui::SameLine();
+  if (ImGui::Button(is_short ? "Vary" : "Vary from here")) open_study(state);
+  note_label("Vary from here");
+  tip("runs that begin at this frame, with other values");
+  if (is_short && !live.is_older) return;
   ImGui::SameLine();
   if (live.is_older) {
     if (ImGui::Button(is_short ? "Continue" : "Continue from here"))

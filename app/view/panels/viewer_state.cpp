@@ -42,6 +42,16 @@ const scene::View& current_view(const ViewerState& state) {
   return found == views.end() ? views.front() : *found;
 }
 
+scene::View view_to_keep(const ViewerState& state) {
+  scene::View view = current_view(state);
+  // The orbit of a moving camera is widened where the window is narrower than the picture.
+  if (!state.is_camera_of_scene)
+    view.camera = state.orbit.settings();
+  else if (!view.camera)
+    view.camera = state.bench.document().scene()->camera;
+  return view;
+}
+
 void choose_view(ViewerState& state, const std::string& name) {
   state.view = name;
   announce_view(state);

@@ -45,6 +45,16 @@ struct Hint {
   double seconds = 0;  ///< that it stays
 };
 
+/// What is typed into the dialog "Vary from here".
+struct StudyForm {
+  bool is_open = false;
+  std::string filter;  ///< of the parameters
+  std::vector<session::StudyAxis> axes;
+  int last_frame = 0;
+  bool has_longer_steps = false;
+  std::string error;
+};
+
 struct ViewerState {
   session::Workbench& bench;
   std::shared_ptr<const session::LiveFrame> live{};
@@ -88,6 +98,7 @@ struct ViewerState {
   bool is_picture_downloaded = false;  ///< the one that is saved next
   bool is_file_list_open = false;
   std::vector<session::WrittenFile> files{};
+  StudyForm study{};
 };
 
 /// The tabs of the right column.
@@ -96,6 +107,8 @@ inline constexpr std::size_t view = 0, inspect = 1, plots = 2, messages = 3;
 }
 
 const scene::View& current_view(const ViewerState& state);
+/// The same with the camera of the scene until that is moved: for pictures that stay.
+scene::View view_to_keep(const ViewerState& state);
 /// The picture of another view from now on.
 void choose_view(ViewerState& state, const std::string& name);
 /// Asks the session for the data that the current view shows.
@@ -124,6 +137,9 @@ void draw_help(ViewerState& state);
 /// The list of written files, while it is open.
 void draw_files(ViewerState& state);
 void open_file_list(ViewerState& state);
+/// The dialog that varies parameters from the shown frame on, while it is open.
+void draw_study(ViewerState& state);
+void open_study(ViewerState& state);
 void start_tour(ViewerState& state);
 void draw_tour(ViewerState& state);
 /// Draws a pending question: a file that changed.

@@ -216,6 +216,19 @@ void Session::set_recording(bool is_on) {
   ask([this, is_on] { is_recording_ = is_on; });
 }
 
+run::Moment Session::moment() {
+  std::promise<run::Moment> promise;
+  std::future<run::Moment> moment = promise.get_future();
+  ask([this, &promise] {
+    try {
+      promise.set_value(moment_now());
+    } catch (...) {
+      promise.set_exception(std::current_exception());
+    }
+  });
+  return moment.get();
+}
+
 std::shared_ptr<const LiveFrame> Session::latest() const {
   const std::lock_guard lock(mutex_);
   return latest_;

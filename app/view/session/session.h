@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/run/changes.h"
+#include "app/run/moment.h"
 #include "app/setup/seed_scene.h"
 #include "app/view/session/kept_frames.h"
 #include "app/view/session/live_frame.h"
@@ -26,7 +27,8 @@ struct SessionOptions {
   std::uint64_t kept_budget = 0;  ///< bytes of kept frames; 0: a quarter of the free memory
 };
 
-/// All functions but latest() and taken() only ask: their effect shows in the frames that follow.
+/// All functions but moment(), latest() and taken() only ask: their effect shows in the frames that
+/// follow.
 class Session {
  public:
   /// @param scene resolved
@@ -73,6 +75,10 @@ class Session {
   /// While on, every frame is shown at its end, and waits until taken() has it.
   void set_recording(bool is_on);
 
+  /// The moment shown, with the changes made before; without the scene it started from. Waits for
+  /// the session's thread.
+  run::Moment moment();
+
   std::shared_ptr<const LiveFrame> latest() const;
   /// The picture of this one is done: the next is welcome.
   void taken(std::uint64_t number);
@@ -105,6 +111,7 @@ class Session {
   void load(const KeptFrame& kept);
   void keep();
   KeptFrame state_now() const;
+  run::Moment moment_now() const;
 
   std::function<void()> wake_;
   SessionOptions options_;

@@ -103,6 +103,21 @@ KeptFrame Session::state_now() const {
           advance_};
 }
 
+run::Moment Session::moment_now() const {
+  run::Moment moment;
+  moment.frame = frame_;
+  moment.steps = simulation_->steps();
+  if (moment.steps != steps_of_frame_) moment.advance = advance_;
+  moment.history = history_;
+  moment.history.resize(static_cast<std::size_t>(frame_) + 1);
+  moment.state = simulation_->save();
+  moment.record.changes = player_->changes();
+  scene::forget_changes_after(moment.record.changes, moment.steps);
+  moment.record.threads = simulation_->threads();
+  moment.record.simd = simulation_->simd();
+  return moment;
+}
+
 /// Snow that bursts spreads over ever more of the grid.
 void Session::require_room() const {
   if (simulation_->warnings().rules_ignored == 0) return;

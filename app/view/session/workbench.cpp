@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "app/health/fast.h"
 #include "app/output/atomic_file.h"
 #include "app/output/named_file.h"
 #include "app/run/picture_record.h"
@@ -14,6 +15,7 @@
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_source.h"
+#include "app/support/machine.h"
 #include "app/support/version.h"
 #include "app/sweep/plan/around.h"
 #include "app/view/session/export.h"
@@ -59,6 +61,7 @@ Workbench::Workbench(Document document, WorkbenchOptions options, std::function<
     : document_(std::move(document)),
       options_(std::move(options)),
       file_time_(time_of(document_.file())),
+      study_(options_.program.empty() ? this_program() : options_.program),
       session_(std::make_unique<Session>(document_.scene(), session_options(), std::move(wake))) {}
 
 SessionOptions Workbench::session_options() const {
@@ -352,6 +355,44 @@ std::filesystem::path Workbench::sweep_around(const std::string& address) {
   } catch (const std::exception& error) {
     say_not_saved("no sweep: " + text_of(error));
     return {};
+  }
+}
+
+std::string Workbench::values_around(const scene::FlatParam& param) {
+  std::string text;
+  try {
+    for (const scene::toml::Value& value : sweep::plan::values_around(param))
+      text += (text.empty() ? "" : ", ") + scene::toml::toml_literal(value);
+  } catch (const scene::toml::UsageError&) {
+    return {};
+  }
+  return text;
+}
+
+std::string Workbench::vary_from_here(const StudyRequest& request, const scene::View& view) {
+  try {
+    const std::shared_ptr<const LiveFrame> live = session_->latest();
+    for (const StudyAxis& axis : request.axes) require_allowed(axis.address, axis.values);
+    run::Moment moment = session_->moment();
+    if (!live->is_frame_end || live->is_running || moment.frame != live->frame ||
+        moment.steps != live->steps)
+      throw scene::toml::UsageError("", "the run is between two frames",
+                                    "pause, and go to a frame on the time line");
+    const run::PictureRecord record = picture_record(*live, view);
+    moment.record.scene = record.scene;
+    moment.record.scene_file = document_.file();
+    moment.record.overrides = record.overrides;
+    moment.record.coarsening = record.coarsening;
+    std::vector<std::string> chosen;
+    for (const StudyAxis& axis : request.axes) chosen.push_back(axis.address);
+    study_.start(options_.folder, moment, live->frame / live->scene->fps, request,
+                 health::longer_steps(*live->scene, chosen));
+    say(Message::Kind::note, "a study of frame " + std::to_string(moment.frame) + " goes to " +
+                                 study_.progress().folder.string() + "; " +
+                                 study_.progress().command + " makes it again");
+    return {};
+  } catch (const std::exception& error) {
+    return text_of(error);
   }
 }
 

@@ -11,10 +11,12 @@
 #include <vector>
 
 #include "app/run/picture_record.h"
+#include "app/scene/flat.h"
 #include "app/view/session/document.h"
 #include "app/view/session/edit.h"
 #include "app/view/session/objects.h"
 #include "app/view/session/session.h"
+#include "app/view/session/study.h"
 
 namespace neve::app::view::session {
 
@@ -22,7 +24,8 @@ struct WorkbenchOptions {
   SessionOptions session;
   std::vector<std::string> overrides;  ///< of the command line, as they were given
   setup::Quality quality = setup::Quality::preview;
-  std::filesystem::path folder;  ///< for pictures, sequences, scenes and sweeps
+  std::filesystem::path folder;     ///< for pictures, sequences, scenes and sweeps
+  std::filesystem::path program{};  ///< whose `sweep` makes studies; empty: this one
   /// Edits come from elsewhere: no file is read that the scene does not name, none is written
   /// outside of the folder, and limits stay.
   bool is_remote = false;
@@ -84,6 +87,12 @@ class Workbench {
   bool save_scene(const std::filesystem::path& file);
   bool may_save_over_file() const { return !options_.is_remote; }
   std::filesystem::path sweep_around(const std::string& address);
+  /// Values around that of a parameter, as -p takes them; "" where none can be chosen.
+  static std::string values_around(const scene::FlatParam& param);
+  /// Starts a study of runs that begin at the shown frame. @param view  of its tiles
+  /// @return why it did not start; "" where it did
+  std::string vary_from_here(const StudyRequest& request, const scene::View& view);
+  Study& study() { return study_; }
   std::string command() const;
   /// Record that a picture of this moment needs to be made again.
   run::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
@@ -117,6 +126,7 @@ class Workbench {
   std::filesystem::file_time_type file_time_{};
   std::filesystem::file_time_type failed_time_{};  ///< of the file that reload_error_ is about
   std::string reload_error_;
+  Study study_;
   std::unique_ptr<Session> session_;  ///< last: its thread calls back
 };
 

@@ -1,0 +1,77 @@
+#pragma once
+/// A study of where the shown frame leads with other values: `neve sweep --from`, in a process.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/run/moment.h"
+#include "app/sweep/jobs/child.h"
+#include "app/sweep/store/manifest.h"
+
+namespace neve::app::view::session {
+
+/// A parameter and its values, as -p takes them: "5, 10, 20".
+struct StudyAxis {
+  std::string address, values;
+};
+
+struct StudyRequest {
+  std::vector<StudyAxis> axes;
+  int last_frame = 0;
+  bool has_longer_steps = false;  ///< of health::longer_steps, for a quick look
+};
+
+/// What there is of a study.
+struct StudyProgress {
+  enum class State { none, running, done, stopped, failed };
+  State state = State::none;
+  int runs = 0, ok = 0, failed = 0;
+  double share = 0;  ///< of the frames of all runs, 0 to 1
+  std::string error;
+  std::filesystem::path folder;  ///< of the study
+  std::string command;           ///< that makes it again, or continues it
+
+  std::filesystem::path sheet() const { return folder / "sheet.png"; }
+  std::filesystem::path report() const { return folder / "report.html"; }
+};
+
+class Study {
+ public:
+  /// @param program  whose `sweep` makes the runs
+  explicit Study(std::filesystem::path program) : program_(std::move(program)) {}
+
+  /// Writes the moment and starts the study beside it, in a new folder.
+  /// @param folder  of the view @param time  of the moment, s
+  /// @throws UsageError for parameters or values that cannot be varied there, with those that can;
+  ///         IoError
+  void start(const std::filesystem::path& folder, const run::Moment& moment, double time,
+             const StudyRequest& request, const std::vector<std::string>& longer_steps);
+
+  /// Looks how far it is, a few times a second. @return whether something is new
+  bool poll();
+
+  /// Asks it to end; what there is stays, and the command continues from there.
+  void stop();
+
+  /// Packs the study into one file beside its folder: the report with all pictures that it shows.
+  /// @throws IoError
+  std::filesystem::path pack() const;
+
+  const StudyProgress& progress() const { return progress_; }
+  bool is_running() const { return progress_.state == StudyProgress::State::running; }
+
+ private:
+  void count_frames();
+  void end(const sweep::jobs::ChildResult& result);
+
+  std::filesystem::path program_;
+  StudyProgress progress_;
+  std::filesystem::path log_;
+  std::optional<sweep::jobs::Child> child_;
+  std::optional<sweep::store::Manifest> manifest_;
+  sweep::jobs::Child::Clock::time_point looked_at_{};
+};
+
+}  // namespace neve::app::view::session
