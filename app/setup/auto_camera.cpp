@@ -330,7 +330,8 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
   if (!is_following && !normal) points = without_flown(points, start_of(scene));
   if (!is_following) add_small_colliders(scene, points);
   // On a plane there is room for the few that fly, since those beside it are not seen.
-  if (normal && !is_following) add_floor(scene, points);
+  const bool is_upright = normal && std::abs(normal->normalized().y()) < 0.1;
+  if (is_upright && !is_following) add_floor(scene, points);
   if (normal) points = flattened(points, normal->normalized());
   const Lens lens{settings.up.normalized(), std::tan(radians(settings.fov / 2)), aspect,
                   normal ? filled_by_plane : filled, turns_of(settings, scene.frames / scene.fps)};
