@@ -391,6 +391,9 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
                                  study_.progress().folder.string() + "; " +
                                  study_.progress().command + " makes it again");
     return {};
+  } catch (const scene::toml::UsageError& error) {
+    const bool is_value = error.where.starts_with("-p ");
+    return (is_value ? error.where.substr(3) + ": " : "") + text_of(error);
   } catch (const std::exception& error) {
     return text_of(error);
   }
