@@ -31,6 +31,8 @@ class Screen {
 
   /// Draws the panels over the last picture of the renderer, scaled to its place.
   void end(Renderer& renderer, const PicturePlace& place);
+  /// The same over any RGB picture. @param picture  none without pixels
+  void end(const Image& picture, const PicturePlace& place);
 
   /// The last drawing, upright RGB.
   Image pixels();

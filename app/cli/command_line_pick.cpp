@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/cli/command_line_parts.h"
+#include "app/cli/devices/screen_flags.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
@@ -14,7 +15,8 @@ namespace {
 
 /// Values of neve pick that CLI11 hands over as text.
 struct PickTexts {
-  std::optional<std::string> frames, size, coarsening;
+  std::optional<std::string> frames, size, coarsening, listen;
+  view::ScreenOptions screen;
   bool is_quiet = false;
 };
 
@@ -32,6 +34,16 @@ pick::PickOptions finished_pick(pick::PickOptions options, const PickTexts& text
   check_threads(runs.threads);
   check_backend(runs.backend);
   return options;
+}
+
+/// @throws UsageError
+view::ScreenOptions finished_place(const PickTexts& texts, bool is_terminal) {
+  view::ScreenOptions screen = texts.screen;
+  devices::finish_screen(screen, texts.listen);
+  if (is_terminal && (screen.is_web || screen.is_window || !screen.replay.empty()))
+    throw scene::toml::UsageError(
+        "--terminal", "cannot be combined with --window, --web or --replay", "choose one");
+  return screen;
 }
 
 }  // namespace
@@ -58,6 +70,10 @@ void add_pick(CLI::App& app, Action& action) {
           "Replay a list of choices, one round a line: a tile from 1 to 9, two of them, or "
           "0 for none; then ask, if there is a terminal")
       ->type_name("FILE");
+  devices::add_place(*command, texts->screen, texts->listen);
+  command->add_flag("--terminal", options->is_terminal,
+                    "Ask in the terminal; DIR/round.html shows the tiles");
+  devices::add_scripts(*command, texts->screen);
   command
       ->add_option("--seed", options->seed,
                    "Seed of the tiles; the same clicks with the same "
@@ -83,7 +99,10 @@ void add_pick(CLI::App& app, Action& action) {
   command->final_callback([=, &action] {
     if (command->count("--out") > 0 && options->runs.out.empty())
       throw scene::toml::UsageError("--out", "names no folder", "expected the path of a folder");
-    action = [=] { return run_pick(finished_pick(*options, *texts)); };
+    action = [=] {
+      return run_pick(finished_pick(*options, *texts),
+                      finished_place(*texts, options->is_terminal));
+    };
   });
 }
 

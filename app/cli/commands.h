@@ -54,6 +54,6 @@ int run_params(const ParamsOptions& options);
 int run_sweep(const sweep::plan::SweepOptions& options);
 int run_sweep_run(const sweep::plan::SweepRunOptions& options);
 int run_sweep_collect(const sweep::plan::CollectOptions& options);
-int run_pick(const pick::PickOptions& options);
+int run_pick(const pick::PickOptions& options, const view::ScreenOptions& screen);
 
 }  // namespace neve::app::cli

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "app/output/atomic_file.h"
 #include "app/pick/search/rounds.h"
 #include "app/scene/toml/error.h"
 
@@ -31,6 +32,11 @@ std::string click_text(const Click& click) {
   std::string text;
   for (const int tile : click) text += (text.empty() ? "" : " ") + std::to_string(tile + 1);
   return text.empty() ? "0" : text;
+}
+
+std::string text_of_file(const std::filesystem::path& file) {
+  const std::vector<std::uint8_t> bytes = output::read_file(file);
+  return {bytes.begin(), bytes.end()};
 }
 
 std::vector<Click> parse_clicks(const std::string& text, const std::string& file) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The list of clicks: one answer for each round, as text.
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ using Click = std::vector<int>;
 /// "3", "2 7", "0": tiles from 1; 0 is none. Nothing for any other text.
 std::optional<Click> click_of(const std::string& text);
 std::string click_text(const Click& click);
+
+/// The text of a file. @throws IoError
+std::string text_of_file(const std::filesystem::path& file);
 
 /// One answer a line; lines that begin with # and empty ones are left out.
 /// @param file  named in errors @throws UsageError

@@ -12,7 +12,8 @@ struct PickOptions {
   sweep::plan::SweepOptions runs;  ///< the scene, its axes and settings, and how runs are made
   int rounds = 8;
   std::uint64_t seed = 1;
-  std::string clicks;  ///< a list of clicks to replay; "": a person is asked
+  std::string clicks;        ///< a list of clicks to replay; "": a person is asked
+  bool is_terminal = false;  ///< asked in the terminal, though there is a screen
 };
 
 }  // namespace neve::app::pick

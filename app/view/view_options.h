@@ -1,5 +1,5 @@
 #pragma once
-/// Command line options of neve view.
+/// Command line options of neve view, and of all that has a screen.
 
 #include <cstdint>
 #include <string>
@@ -8,14 +8,19 @@
 
 namespace neve::app::view {
 
-struct ViewOptions {
-  run::RenderOptions run;  ///< scene, overrides, coarsening, threads, views, size, out, backend
+/// Where a screen is: a window, a page or a script.
+struct ScreenOptions {
   bool is_web = false, is_window = false;  ///< neither: whichever fits
   std::string listen;                      ///< address of the page; empty: this machine alone
   int port = 0;                            ///< of the page; 0: a free one
-  bool is_running = false;                 ///< from the start
   std::string replay, record;              ///< files of scripts
   int pictures = 0;                        ///< ends after so many; 0: never
+};
+
+struct ViewOptions {
+  run::RenderOptions run;  ///< scene, overrides, coarsening, threads, views, size, out, backend
+  ScreenOptions screen;
+  bool is_running = false;        ///< from the start
   std::uint64_t kept_memory = 0;  ///< bytes for kept frames; 0: a quarter of the free memory
 };
 

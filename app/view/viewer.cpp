@@ -3,12 +3,12 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "app/support/clock.h"
 #include "app/support/interrupt.h"
 #include "app/view/panels/labels.h"
+#include "app/view/panels/style.h"
 #include "app/view/panels/tip.h"
 
 namespace neve::app::view {
@@ -20,26 +20,6 @@ constexpr std::size_t max_waiting_input = 64;
 constexpr double idle_wait = 0.5;  // s; between looks at Ctrl-C and at the file
 constexpr float narrow = 64;       // text sizes; in less there is room for one column
 constexpr auto file_interval = std::chrono::seconds(1);
-
-/// @param scale px per point, of every distance
-void style_panels(float scale) {
-  ImGuiStyle style;
-  ImGui::StyleColorsDark(&style);
-  style.WindowRounding = 0;
-  style.FrameRounding = 3;
-  style.GrabRounding = 3;
-  style.WindowBorderSize = 0;
-  style.Colors[ImGuiCol_WindowBg] = ImVec4(0.085f, 0.095f, 0.12f, 1);
-  style.Colors[ImGuiCol_FrameBg] = ImVec4(0.16f, 0.18f, 0.22f, 1);
-  style.Colors[ImGuiCol_Button] = ImVec4(0.20f, 0.23f, 0.29f, 1);
-  style.Colors[ImGuiCol_PlotHistogram] = ImVec4(0.24f, 0.45f, 0.70f, 1);
-  // The number of a slider is written over its grab.
-  style.Colors[ImGuiCol_SliderGrab] = ImVec4(0.20f, 0.36f, 0.56f, 1);
-  style.Colors[ImGuiCol_SliderGrabActive] = ImVec4(0.24f, 0.45f, 0.70f, 1);
-  style.Colors[ImGuiCol_Header] = ImVec4(0.18f, 0.27f, 0.38f, 1);
-  style.ScaleAllSizes(scale);
-  ImGui::GetStyle() = style;
-}
 
 }  // namespace
 
@@ -179,7 +159,7 @@ void Viewer::draw() {
   const double passed = seconds_passed();
   if (size.scale != styled_scale_) {
     screen_.select_panels();
-    style_panels(size.scale);
+    panels::style_panels(size.scale);
     styled_scale_ = size.scale;
   }
   play(passed);
@@ -203,7 +183,7 @@ void Viewer::draw() {
 }
 
 int Viewer::font_size() const {
-  return std::clamp(static_cast<int>(std::lround(14 * front_.size().scale)), 11, 48);
+  return panels::font_size(front_.size().scale);
 }
 
 /// Lays out the columns; a narrow window has one column for both.

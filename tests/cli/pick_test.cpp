@@ -1,6 +1,9 @@
-/// `neve pick`: replayed clicks, going on, and mistakes.
+/// `neve pick`: replayed clicks, going on, mistakes, and disks that fail.
+
+#include <cerrno>
 
 #include "tests/cli/run_neve.h"
+#include "tests/support/faulty_cli.h"
 
 namespace neve::test {
 namespace {
@@ -97,6 +100,39 @@ TEST_F(PickCli, MistakesAreToldBeforeAnythingIsMade) {
   EXPECT_TRUE(contains(message({"solver.transfer=apic,flip"}), "expected two numbers"));
   EXPECT_TRUE(contains(message({"material.snow.hardenin=2,20"}), "hardening"));
   EXPECT_TRUE(contains(message({"material.snow.hardening=2,20", "--rounds", "0"}), "--rounds"));
+}
+
+class PickOnAFullDisk : public FaultyCli {
+ protected:
+  /// On a screen that a script works.
+  std::string command(const std::string& script) {
+    folder.write("script.json", script);
+    return "pick scene.toml --out a --frames 2 --size 64x36 --replay script.json "
+           "-p material.snow.hardening=2,20";
+  }
+  static std::string full_disk(const std::string& part, const std::string& more = "") {
+    return "write:" + std::to_string(ENOSPC) + ":" + part + ":0" + more;
+  }
+};
+
+TEST_F(PickOnAFullDisk, AnAnswerThatCannotBeWrittenIsGivenAgain) {
+  const auto result = failing(full_disk("clicks.txt", ":1"), command(R"([
+    {"wait_for": "label Round 1 of 8"}, {"click": "tile 4"},
+    {"wait_for": "label Something is in the way"}, {"wait": 3}, {"click": "Try again"},
+    {"wait_for": "label Round 2 of 8"}, {"key": "q"}, {"wait_for": "label Picked"}, {"key": "q"}])"));
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(contains(read_text(folder / "a/clicks.txt"), "\n4\n"));
+}
+
+TEST_F(PickOnAFullDisk, ARoundThatCannotBeMadeEndsWithItsReasonAndGoesOnLater) {
+  const auto stopped = failing(full_disk("runs/0001/particles"), command(R"([
+    {"wait_for": "label Something is in the way"}, {"wait": 3}, {"click": "Stop"}])"));
+  EXPECT_EQ(stopped.exit_code, 6) << stopped.errors;
+  EXPECT_TRUE(contains(stopped.errors, "No space left")) << stopped.errors;
+  const auto more = failing("", command(R"([
+    {"wait_for": "label Round 1 of 8"}, {"key": "2"}, {"wait_for": "label Round 2 of 8"},
+    {"key": "q"}, {"wait_for": "label Picked"}, {"key": "q"}])"));
+  EXPECT_EQ(more.exit_code, 0) << more.errors;
 }
 
 }  // namespace

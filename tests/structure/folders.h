@@ -89,7 +89,8 @@ inline constexpr Folder folders[] = {
      "app/setup app/picture app/sweep/plan app/sweep/store app/sweep/jobs"},
     {"app/pick/search", "sim/base app/sweep/plan"},
     {"app/pick",
-     "app/support app/scene/toml app/scene app/sweep/read app/sweep/plan app/pick/search"},
+     "app/support app/scene/toml app/scene app/output app/sweep app/sweep/read app/sweep/plan "
+     "app/sweep/store app/sweep/jobs app/pick/search"},
     {"app/view/session",
      "sim/types sim app/support app/scene/toml app/scene app/output app/setup app/health "
      "app/picture app/run app/dump app/sweep/plan app/sweep/jobs app/sweep/store"},
@@ -101,6 +102,9 @@ inline constexpr Folder folders[] = {
     {"app/view/replay",
      "render/image render/frame render app/support app/scene/toml app/scene app/output "
      "app/view/frontend app/view/panels"},
+    {"app/view/picker",
+     "render/image render/frame render app/support app/scene app/output app/setup app/pick/search "
+     "app/pick app/view/frontend app/view/panels"},
     {"app/view",
      "render/image render/frame render app/support app/scene app/output app/setup app/picture "
      "app/run app/view/session app/view/frontend app/view/panels"},
@@ -108,12 +112,15 @@ inline constexpr Folder folders[] = {
      "sim/base sim/types sim/kernels sim render/image render/frame render/shapes render/surface "
      "render/gl render/cpu render app/support app/scene/toml app/scene app/output app/setup "
      "app/picture app/run app/sweep/plan app/sweep/store app/sweep/jobs app/view"},
+    {"app/cli/devices",
+     "render/gl app/support app/scene/toml app/scene app/view/frontend app/view/web "
+     "app/view/replay app/view"},
     {"app/cli",
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
      "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports app/run "
      "app/compare app/dump app/pick app/pick/search "
      "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet "
-     "app/view/frontend app/view/web app/view/replay app/view app/bench"},
+     "app/view/picker app/view app/bench app/cli/devices"},
     {"app", "app/output app/cli", "neve::app"},
 };
 

@@ -1,0 +1,113 @@
+#include "app/cli/devices/place.h"
+
+#include <cstdlib>
+#include <iostream>
+
+#include "app/scene/scene_file.h"
+#include "app/scene/toml/error.h"
+#include "app/support/json.h"
+#include "app/view/replay/replay_frontend.h"
+#include "app/view/web/web_guard.h"
+
+namespace neve::app::cli::devices {
+
+bool has_display() {
+  return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
+}
+
+void Place::set_title(const std::string& title) {
+  if (window) window->set_title(title);
+  if (web) web->set_title(title);
+}
+
+namespace {
+
+Place open_replay(const PlaceOptions& options) {
+  Place place;
+  const std::string& file = options.screen.replay;
+  if (!std::filesystem::exists(file))
+    throw scene::toml::SceneError(file, 0, 0, "No such file or directory",
+                                  "--record FILE writes a script of input");
+  const std::string text = scene::read_toml_file(file);
+  view::replay::ReplayFrontend::Options replay;
+  replay.folder = options.out.empty() ? "." : options.out;
+  replay.frames = options.screen.pictures;
+  if (options.size) replay.size = *options.size;
+  place.front = std::make_unique<view::replay::ReplayFrontend>(
+      view::replay::parse_replay(text, file), file, replay);
+  place.own_context = render::gl::open_context(options.backend);
+  place.context = place.own_context.get();
+  return place;
+}
+
+Place open_web(const PlaceOptions& options) {
+  view::web::WebOptions web;
+  if (!options.screen.listen.empty()) {
+    web.address = options.screen.listen;
+    web.is_risk_taken = true;
+    if (const std::string risk = view::web::risk_of(web.address); !risk.empty())
+      std::cerr << "neve: warning: " << risk << std::endl;
+  }
+  web.port = options.screen.port;
+  if (options.size) web.size = *options.size;
+  Place place;
+  auto front = std::make_unique<view::web::WebFrontend>(web);
+  place.web = front.get();
+  place.front = std::move(front);
+  place.own_context = render::gl::open_context(options.backend);
+  place.context = place.own_context.get();
+  return place;
+}
+
+Place open_window(const PlaceOptions& options) {
+  Place place;
+  auto front = std::make_unique<view::frontend::WindowFrontend>(
+      "neve", options.size.value_or(view::frontend::ScreenSize{1440, 860, 1}));
+  place.window = front.get();
+  place.context = &front->context();
+  place.front = std::move(front);
+  return place;
+}
+
+Place open_what_fits(const PlaceOptions& options) {
+  const view::ScreenOptions& screen = options.screen;
+  if (!screen.replay.empty()) return open_replay(options);
+  if (screen.is_window) return open_window(options);
+  if (screen.is_web || !has_display()) return open_web(options);
+  try {
+    return open_window(options);
+  } catch (const render::gl::ContextError& error) {
+    std::cerr << "neve: no window: " << error.what() << "; serving a web page instead" << std::endl;
+    return open_web(options);
+  }
+}
+
+}  // namespace
+
+Place open_place(const PlaceOptions& options) {
+  Place place = open_what_fits(options);
+  if (!options.screen.record.empty())
+    place.recording =
+        std::make_unique<view::replay::RecordingFrontend>(*place.front, options.screen.record);
+  return place;
+}
+
+void announce(const Place& place, bool is_json, bool is_quiet) {
+  if (is_json) {
+    const char* mode = place.web ? "web" : place.window ? "window" : "replay";
+    Json json{{"mode", mode}};
+    if (place.web) json["url"] = place.front->where();
+    if (place.web) json["port"] = place.web->port();
+    std::cout << to_text(json) << std::endl;
+    return;
+  }
+  if (!place.web) return;
+  std::cout << place.front->where() << std::endl;
+  if (is_quiet) return;
+  std::cerr << "neve: open the address above in a browser; Ctrl-C ends\n"
+            << "neve: from another machine: ssh -L " << place.web->port()
+            << ":127.0.0.1:" << place.web->port() << " THIS_MACHINE, then the same address there"
+            << std::endl;
+}
+
+}  // namespace neve::app::cli::devices

@@ -1,0 +1,167 @@
+#include "app/pick/game.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/output/atomic_file.h"
+#include "app/pick/page.h"
+#include "app/scene/toml/error.h"
+#include "app/support/out_folder.h"
+#include "app/sweep/read/read_sweep.h"
+
+namespace neve::app::pick {
+
+namespace fs = std::filesystem;
+
+Game::Game(const PickOptions& options) : options_(options) {
+  const sweep::read::Sweep sweep =
+      sweep::read::read_sweep(options.runs.file, {options.runs.axes, options.runs.overrides});
+  if (!sweep.file.empty())
+    throw scene::toml::UsageError("pick", options.runs.file + " is a sweep",
+                                  "give its scene, and the axes with -p");
+  scene_ = {options.runs.file, sweep.fixed, axes_of(sweep)};
+  // Complains about settings before anything is written.
+  picked_scene(scene_, search::Point::Constant(dimension(), 0.5));
+  folder_ =
+      options.runs.out.empty() ? out_folder() / (sweep.name + ".pick") : fs::path(options.runs.out);
+  own_clicks_ = folder_ / "clicks.txt";
+}
+
+void Game::resume() {
+  std::error_code error;
+  if (!fs::exists(own_clicks_, error)) return;
+  const std::string text = text_of_file(own_clicks_);
+  if (!text.starts_with(clicks_text({}, comment())))
+    throw scene::toml::UsageError(folder_.string(),
+                                  "has another search: " + text.substr(2, text.find('\n') - 2),
+                                  "choose another folder with --out, or remove the old one");
+  for (const Click& click : parse_clicks(text, own_clicks_.string()))
+    if (!is_over()) take(click);
+}
+
+void Game::check_is_beginning_of(const std::vector<Click>& list) const {
+  for (std::size_t k = 0; k < rounds_.size(); ++k)
+    if (k >= list.size() || rounds_[k].chosen != list[k])
+      throw scene::toml::UsageError(
+          options_.clicks,
+          fmt::format("{} has other clicks from round {} on", folder_.string(), k + 1),
+          "choose another folder with --out, or remove the old one");
+}
+
+sweep::plan::SweepOptions Game::begin_round() {
+  if (tiles_.empty()) tiles_ = search::next_tiles(rounds_, dimension(), options_.seed);
+  output::make_folder(folder_);
+  const fs::path file = folder_ / fmt::format("round_{}.toml", answered() + 1);
+  output::write_file(file, round_sweep(scene_, folder_, answered() + 1, tiles_));
+  sweep::plan::SweepOptions runs = options_.runs;
+  runs.file = file.string();
+  runs.axes.clear();
+  runs.overrides.clear();
+  runs.out = folder_.string();
+  runs.is_json = false;
+  return runs;
+}
+
+void Game::write_page(const RoundRuns& runs) const {
+  RoundPage page;
+  page.round = answered() + 1;
+  page.rounds = options_.rounds;
+  page.fps = runs.fps;
+  for (const TileRun& tile : runs.tiles) {
+    std::vector<std::string>& pictures = page.tiles.emplace_back();
+    for (const fs::path& picture : tile.pictures) pictures.push_back(picture.generic_string());
+  }
+  page.has_favourite = lesson().has_favourite();
+  if (page.has_favourite) {
+    page.learned = lesson().lines;
+    page.map = map_svg(scene_.axes, map());
+  }
+  output::write_file(folder_ / "round.html", page_html(page));
+}
+
+void Game::answer(const Click& click) {
+  const std::vector<search::Point> tiles = tiles_;
+  take(click);
+  try {
+    write_clicks();
+  } catch (...) {
+    rounds_.pop_back();
+    lesson_.reset();
+    tiles_ = tiles;
+    throw;
+  }
+}
+
+void Game::undo() {
+  if (rounds_.empty()) return;
+  const search::Round last = std::move(rounds_.back());
+  rounds_.pop_back();
+  try {
+    write_clicks();
+  } catch (...) {
+    rounds_.push_back(last);
+    throw;
+  }
+  lesson_.reset();
+  tiles_ = last.tiles;
+}
+
+void Game::take(const Click& click) {
+  if (tiles_.empty()) tiles_ = search::next_tiles(rounds_, dimension(), options_.seed);
+  rounds_.push_back({std::exchange(tiles_, {}), click});
+  lesson_.reset();
+}
+
+const Lesson& Game::lesson() const {
+  if (lesson_) return *lesson_;
+  lesson_ = Lesson{search::learn(rounds_, dimension()), {}, {}, {}};
+  lesson_->favourite = search::favourite(rounds_, lesson_->taste);
+  if (lesson_->has_favourite()) {
+    lesson_->tastes = axis_tastes(scene_.axes, lesson_->taste, lesson_->favourite);
+    lesson_->lines = taste_lines(scene_.axes, lesson_->tastes, lesson_->favourite);
+  }
+  return *lesson_;
+}
+
+TasteMap Game::map() const {
+  return taste_map(lesson().taste, rounds_, lesson().tastes, lesson().favourite);
+}
+
+search::Point Game::result() const {
+  return lesson().has_favourite() ? search::result_of(rounds_, lesson().taste) : search::Point();
+}
+
+std::optional<std::vector<scene::Override>> Game::write_pick() const {
+  const search::Point place = result();
+  if (place.size() == 0) return std::nullopt;
+  output::write_file(folder_ / "picked.toml", picked_scene(scene_, place));
+  std::vector<std::size_t> order;
+  for (const AxisTaste& taste : lesson().tastes) order.push_back(taste.axis);
+  output::write_file(folder_ / "picked_sweep.toml",
+                     picked_sweep(scene_, "picked.toml", place, order));
+  output::write_file(folder_ / "learned.txt", fmt::format("{}\n", fmt::join(lesson().lines, "\n")));
+  output::write_file(folder_ / "map.svg", map_svg(scene_.axes, map()));
+  return settings(place);
+}
+
+/// Says which search the clicks are of.
+std::vector<std::string> Game::comment() const {
+  std::string what = scene_.file;
+  for (const PickAxis& axis : scene_.axes)
+    what += fmt::format(", {} {} to {}{}", axis.address, axis.text(0), axis.text(1),
+                        axis.is_logarithmic ? " in ratios" : "");
+  for (const scene::Override& change : scene_.fixed)
+    what += ", " + change.address + " = " + change.value;
+  if (options_.runs.coarsening) what += fmt::format(", coarsened by {}", *options_.runs.coarsening);
+  return {fmt::format("{}, seed {}", what, options_.seed),
+          "One round a line: the tile chosen, two of them, or 0 for none."};
+}
+
+void Game::write_clicks() const {
+  std::vector<Click> clicks;
+  for (const search::Round& round : rounds_) clicks.push_back(round.chosen);
+  output::write_file(own_clicks_, clicks_text(clicks, comment()));
+}
+
+}  // namespace neve::app::pick
