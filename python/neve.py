@@ -28,7 +28,8 @@ class NeveError(RuntimeError):
     `hint` are the place and the advice of its message."""
 
     def __init__(self, message, code, where="", hint=""):
-        super().__init__(f"{message}; {hint}" if hint and hint not in message else message)
+        text = f"{message}; {hint}" if hint and hint not in message else message
+        super().__init__(f"{where}: {text}" if where and where not in text else text)
         self.code, self.where, self.hint = code, where, hint
 
 
@@ -238,6 +239,8 @@ class Run:
     def state(self, frame, attributes=("id", "x", "v", "m", "V0", "J_P", "density", "radius")):
         """The particles at a frame: simulated again, from a checkpoint where one is early enough."""
         last = int(self.frames[-1]) if len(self.frames) else 0
+        if not isinstance(frame, (int, np.integer)):
+            raise ValueError(f"a state is that of a frame, a number from 0 to {last}, not {frame!r}")
         if not 0 <= frame <= last:
             raise ValueError(f"there is no frame {frame}: the run has 0 to {last}")
         with tempfile.TemporaryDirectory() as folder:

@@ -11,6 +11,7 @@
 #include "app/dump/write.h"
 #include "app/health/expected.h"
 #include "app/output/named_file.h"
+#include "app/run/late_times.h"
 #include "app/run/render_job.h"
 #include "app/run/run_json.h"
 #include "app/run/walk.h"
@@ -87,6 +88,21 @@ std::size_t probed_row(const dump::StepInspection& inside, const dump::Listing& 
       "--probe",
       inside.scene.emitters.empty() ? "there is no " + particle : particle + " is not emitted yet",
       ids == 0 ? "there were none so far" : "expected 0 to " + std::to_string(ids - 1));
+}
+
+/// A place in empty space is answered by what is nearest, however far.
+void warn_of_far_probes(const dump::DumpOptions& options, const dump::StepInspection& inside,
+                        const dump::Listing& listing, Progress& progress) {
+  for (const dump::Probe& probe : options.probes) {
+    const auto* place = std::get_if<sim::Vec3d>(&probe);
+    if (!place || listing.place.empty()) continue;
+    const double away = (listing.place[nearest_row(listing, *place)] - *place).norm();
+    if (away > 2 * inside.scene.solver.cell_size)
+      progress.warning("--probe " + rough_text(place->x()) + "," + rough_text(place->y()) + "," +
+                       rough_text(place->z()) + ": no " +
+                       (listing.is_of_nodes ? "node" : "particle") + " is there; the nearest is " +
+                       rough_text(away) + " m away");
+  }
 }
 
 Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
@@ -209,9 +225,8 @@ int run_dump(const dump::DumpOptions& options) {
                     options.run.progress);
   sim::Simulation simulation = setup::make_simulation(
       job.scene, setup::seed_scene(job.scene).particles, options.run.threads);
-  if (const double end = job.scene.frames / job.scene.fps; options.at.back() > end * (1 + 1e-12))
-    progress.warning("--at " + rough_text(options.at.back()) +
-                     " s is after the end of the scene, " + rough_text(end) + " s; Ctrl-C stops");
+  run::warn_of_late_time("--at " + rough_text(options.at.back()) + " s", options.at.back(),
+                         job.scene, progress);
   run::ChangePlayer player(job.scene, job.changes, simulation);
   player.begin();
   run::Walk walk(job.scene.fps, simulation, player, progress);
@@ -226,7 +241,9 @@ int run_dump(const dump::DumpOptions& options) {
     const double left = walk.frame_end() - simulation.time();
     const dump::StepInspection inside =
         dump::inspect_step(player.scene(), simulation, left > 0 ? left : 1 / job.scene.fps);
-    out.add(inside, listing_of(options, inside));
+    const dump::Listing listing = listing_of(options, inside);
+    warn_of_far_probes(options, inside, listing, progress);
+    out.add(inside, listing);
     if (simulation.divergence()) break;
   }
   out.finish();

@@ -18,6 +18,7 @@
 #include "app/setup/caps.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
+#include "app/support/lower_text.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "render/gl/context.h"
@@ -34,8 +35,17 @@ void check_threads(int threads) {
 void check_backend(const std::string& name) {
   const auto& backends = render::gl::backend_names();
   if (std::find(backends.begin(), backends.end(), name) != backends.end()) return;
-  throw scene::toml::UsageError("--backend", "unknown backend \"" + name + "\"",
-                                "expected one of " + joined(backends, ", "));
+  const std::string word = lower_text(name);
+  const bool is_gpu = word == "gpu" || word == "cuda" || word == "opengl" || word == "vulkan" ||
+                      word == "hip" || word == "metal" || word == "nvidia";
+  const bool is_cpu = word == "cpu" || word == "software" || word == "llvmpipe" || word == "mesa";
+  throw scene::toml::UsageError(
+      "--backend", "unknown backend \"" + name + "\"",
+      is_gpu ? "egl draws with OpenGL on a GPU where there is one; expected one of " +
+                   joined(backends, ", ")
+      : is_cpu ? "osmesa draws without a GPU, and egl where Mesa is its driver; expected one of " +
+                     joined(backends, ", ")
+               : names_advice(name, backends));
 }
 
 CLI::Option* add_repeatable(CLI::App& command, const char* flag, std::vector<std::string>& values,
@@ -62,8 +72,19 @@ void add_progress(CLI::App& command, std::optional<std::string>& progress,
 bool parse_progress(const std::string& text) {
   if (text != "text" && text != "json")
     throw scene::toml::UsageError("--progress", "cannot use \"" + text + "\"",
-                                  "expected text or json");
+                                  names_advice(text, {"text", "json"}));
   return text == "json";
+}
+
+void require_folder_name(const std::string& out, const std::string& example) {
+  const std::string suffix = lower_text(std::filesystem::path(out).extension().string());
+  std::error_code error;
+  for (const char* of_file : {".png", ".exr", ".jpg", ".mp4", ".mov", ".webm", ".gif", ".ply",
+                              ".vtp", ".vti", ".vdb", ".bgeo", ".usda", ".npz", ".csv", ".obj"})
+    if (suffix == of_file && !std::filesystem::is_directory(out, error))
+      throw scene::toml::UsageError(
+          "--out", "\"" + out + "\" looks like a file",
+          "expected a folder: files are DIR/" + example + "; leave " + suffix + " away");
 }
 
 run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts) {
@@ -271,7 +292,10 @@ void add_render(CLI::App& app, Action& action) {
   command->final_callback([=, &action] {
     if (command->count("--out") > 0 && options->out.empty())
       throw scene::toml::UsageError("--out", "names no folder", "expected the path of a folder");
-    action = [options, texts] { return run_render(finished(*options, *texts)); };
+    action = [options, texts] {
+      require_folder_name(options->out, "particles/0000.png");
+      return run_render(finished(*options, *texts));
+    };
   });
 }
 

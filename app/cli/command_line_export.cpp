@@ -47,7 +47,7 @@ class ExportKey {
   const std::string& help() const { return help_; }
   void check(double value) const {
     if (!valid_.contains(value))
-      throw scene::toml::UsageError(flag_, "cannot use this number",
+      throw scene::toml::UsageError(flag_, "cannot use " + rough_text(value),
                                     "expected " + valid_.text_of_bounds());
   }
 
@@ -132,12 +132,13 @@ run::ExportOptions finished_export(const CLI::App& command, const run::RenderOpt
   options.run = finished(run, run_texts);
   if (command.count("--out") > 0 && options.run.out.empty())
     throw scene::toml::UsageError("--out", "names no folder", "expected the path of a folder");
+  require_folder_name(options.run.out, "ply/0000.ply");
   if (texts.at && options.run.frames)
     throw scene::toml::UsageError("--at", "cannot be combined with --frames",
                                   "give one of the two");
   if (texts.at) options.at = setup::parse_times(*texts.at);
   if (!(texts.scale >= 1e-6 && texts.scale <= 1e6))
-    throw scene::toml::UsageError("--scale", "cannot use this number",
+    throw scene::toml::UsageError("--scale", "cannot use " + rough_text(texts.scale),
                                   "expected 1e-6 to 1e6, as in --scale 100 for centimetres");
   check_surface(command, texts.surface);
   scene::Export common = texts.surface;

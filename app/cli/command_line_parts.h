@@ -41,6 +41,11 @@ bool parse_progress(const std::string& text);
 /// Adds --max-memory and --max-particles: bounds that no scene can raise.
 void add_caps(CLI::App& command);
 
+/// Refuses the name of a file for the folder of outputs: a folder x.png is found by nobody.
+/// @param example  of a file in it
+/// @throws UsageError
+void require_folder_name(const std::string& out, const std::string& example);
+
 /// @throws UsageError
 run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts);
 

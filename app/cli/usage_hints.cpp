@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/scene/toml/error.h"
+#include "app/setup/foreign_flags.h"
 #include "app/support/text.h"
 
 namespace neve::app::cli {
@@ -41,6 +42,7 @@ std::string hint_for(const std::string& word, const std::vector<std::string>& fl
   if (word == "--resume" && !is_flag(word)) return "the same command continues; leave it away";
   for (const auto& [other, ours] : names_elsewhere)
     if (word == other && is_flag(ours)) return std::string("did you mean ") + ours + "?";
+  if (std::string advice = setup::foreign_flag_advice(word, flags); !advice.empty()) return advice;
   const std::string nearest = nearest_name(word, flags);
   if (!nearest.empty()) return "did you mean " + nearest + "?";
   // The beginning of exactly one.
@@ -48,6 +50,28 @@ std::string hint_for(const std::string& word, const std::vector<std::string>& fl
   for (const std::string& flag : flags)
     if (word.size() > 3 && flag.starts_with(word)) longer.push_back(flag);
   return longer.size() == 1 ? "did you mean " + longer.front() + "?" : otherwise;
+}
+
+struct Expected {
+  const char *flag, *text;
+};
+
+/// Where "a number" says too little.
+constexpr Expected expectations[] = {
+    {"--threads", "a whole number; 0 is one thread per core, the default"},
+    {"--jobs", "a whole number; 0 is as many as keep the cores busy, the default"},
+    {"--checkpoint-every", "a whole number of frames"},
+    {"--shutter", "degrees without a unit, as in --shutter 180"},
+    {"--scale", "a number: units per metre, as in --scale 100 for centimetres"},
+    {"--surface-cell", "a number of particle spacings, as in --surface-cell 0.5"},
+    {"--surface-smoothing", "a number of particle spacings, as in --surface-smoothing 1"},
+    {"--wipe", "a share of the width, as in --wipe 0.3"},
+    {"--range", "a number of metres, as in --range 0.1"}};
+
+std::string expectation_of(const std::string& option, bool is_fraction) {
+  for (const Expected& known : expectations)
+    if (option == known.flag) return known.text;
+  return is_fraction ? "a number" : "a whole number";
 }
 
 /// The innermost command that was called, with those above it in its name.
@@ -69,13 +93,16 @@ void check_leftovers_of(const CLI::App& command, const std::string& name) {
   std::erase(leftovers, "--");
   if (leftovers.empty()) return;
   const std::string help = name + " --help lists its arguments";
-  std::string word = leftovers.front();
-  if (!word.starts_with("-"))
-    throw scene::toml::UsageError("", "unexpected argument \"" + word + "\"", help);
-  word = word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
   std::vector<std::string> flags;
   for (const CLI::Option* option : command.get_options())
     for (const std::string& flag : option->get_lnames()) flags.push_back("--" + flag);
+  std::string word = leftovers.front();
+  if (!word.starts_with("-")) {
+    const std::string advice = setup::stray_word_advice(word, flags);
+    throw scene::toml::UsageError("", "unexpected argument \"" + word + "\"",
+                                  advice.empty() ? help : advice);
+  }
+  word = word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
   throw scene::toml::UsageError("", "unknown option " + word, hint_for(word, flags, help));
 }
 
@@ -97,6 +124,11 @@ void check_subcommand(const CLI::App& app, int argc, char** argv) {
     throw scene::toml::UsageError(
         "", "unknown subcommand \"" + word + "\"",
         "neve manual DIR writes the manual pages and the completions for bash, zsh and fish");
+  const bool is_file = word.ends_with(".toml") || word.ends_with(".png");
+  const std::string meant = is_file ? "neve render " + word : setup::command_meant(word);
+  if (!meant.empty())
+    throw scene::toml::UsageError("", "unknown subcommand \"" + word + "\"",
+                                  "did you mean " + meant + "?");
   if (std::find(names.begin(), names.end(), word) == names.end())
     throw scene::toml::UsageError("", "unknown subcommand \"" + word + "\"",
                                   suggestion(word, names, "neve --help lists them"));
@@ -127,6 +159,19 @@ void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (const std::size_t at = text.find(" was given a disallowed flag"); at != std::string::npos)
     throw scene::toml::UsageError("--" + text.substr(0, at), "takes no value",
                                   "it is on where it is given; " + help);
+  // "--progress: 1 required NAME missing"
+  if (const std::size_t at = text.find(": 1 required "); at != std::string::npos)
+    throw scene::toml::UsageError(
+        text.substr(0, at), "has no value",
+        "expected " + text.substr(at + 13, text.rfind(" missing") - at - 13) + "; " + help);
+  // "NAME is required"
+  if (const std::size_t at = text.find(" is required"); at != std::string::npos)
+    throw scene::toml::UsageError("", name + " needs " + text.substr(0, at), help);
+  // "The following argument was not expected: --json"
+  const std::string unexpected = "not expected: ";
+  if (const std::size_t at = text.find(unexpected); at != std::string::npos)
+    throw scene::toml::UsageError("", "no command is before " + text.substr(at + unexpected.size()),
+                                  "flags follow the command, as in neve render SCENE --quiet");
   if (!text.starts_with(conversion)) throw scene::toml::UsageError("", text, help);
   // "Could not convert: --threads = x"
   text.erase(0, conversion.size());
@@ -136,9 +181,8 @@ void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::Option* found = command->get_option_no_throw(option);
   // Only MEAN is a fraction.
   const bool is_fraction = found && found->get_type_name() == "MEAN";
-  throw scene::toml::UsageError(
-      option, "cannot use \"" + value + "\"",
-      std::string(is_fraction ? "expected a number" : "expected a whole number") + "; " + help);
+  throw scene::toml::UsageError(option, "cannot use \"" + value + "\"",
+                                "expected " + expectation_of(option, is_fraction) + "; " + help);
 }
 
 void check_leftovers(const CLI::App& app) {

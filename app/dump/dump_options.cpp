@@ -7,13 +7,31 @@
 #include "app/scene/names.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/support/lower_text.h"
 #include "app/support/text.h"
 
 namespace neve::app::dump {
 
+namespace {
+
+[[noreturn]] void fail_stage(const std::string& text, const std::string& meant,
+                             const std::vector<std::string>& names) {
+  throw scene::toml::UsageError("--stage", "there is no stage \"" + text + "\"",
+                                "did you mean " + meant + "? expected " + joined(names, ", "));
+}
+
+}  // namespace
+
 sim::Stage parse_stage(const std::string& text) {
   if (const auto stage = scene::value_named<sim::Stage>(text)) return *stage;
   const std::vector<std::string> names(sim::stage_names.begin(), sim::stage_names.end());
+  // Numbers are those of the paper; transfers have two names everywhere.
+  if (const auto number = setup::whole_number(text);
+      number && *number >= 1 && *number <= static_cast<int>(names.size()))
+    fail_stage(text, names[static_cast<std::size_t>(*number - 1)], names);
+  const std::string word = lower_text(text);
+  if (word == "p2g") fail_stage(text, "rasterize", names);
+  if (word == "g2p") fail_stage(text, "particle_velocities", names);
   // "forces" is part of one name alone.
   std::vector<std::string> longer;
   for (const std::string& name : names)

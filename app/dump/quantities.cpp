@@ -255,6 +255,23 @@ Listing list_stage(const StepInspection& inside, sim::Stage stage) {
   return listing;
 }
 
+namespace {
+
+/// Where a quantity is that this listing has not.
+std::string stage_advice(const std::string& name) {
+  using enum sim::Stage;
+  constexpr std::pair<const char*, sim::Stage> first_shown[] = {
+      {"momentum", rasterize},          {"v_old", rasterize},        {"force", elastic_forces},
+      {"v_free", grid_velocities},      {"v_star", grid_collisions}, {"v_new", implicit_solve},
+      {"grad_v", deformation},          {"F_E_trial", deformation},  {"moved", advection},
+      {"v_before", particle_velocities}};
+  for (const auto& [quantity, stage] : first_shown)
+    if (name == quantity) return std::string("--stage ") + sim::name(stage) + " has it; ";
+  return {};
+}
+
+}  // namespace
+
 void keep_only(Listing& listing, const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::vector<std::string> known;
@@ -264,7 +281,7 @@ void keep_only(Listing& listing, const std::vector<std::string>& names) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end())
       throw scene::toml::UsageError("--field", "there is no \"" + name + "\" here",
-                                    scene::attribute_advice(name, known));
+                                    stage_advice(name) + scene::attribute_advice(name, known));
     kept.push_back(listing.quantities[static_cast<std::size_t>(found - known.begin())]);
   }
   listing.quantities = std::move(kept);

@@ -216,6 +216,23 @@ double share_outside(const scene::CameraSettings& camera, double aspect,
   return moment.x.empty() ? 0 : static_cast<double>(outside) / static_cast<double>(moment.x.size());
 }
 
+/// Height of the snow that a camera sees, as a share of the picture's.
+double seen_height(const scene::CameraSettings& camera, const setup::Moment& moment) {
+  const Vec3d forward = (*camera.target - *camera.eye).normalized();
+  const Vec3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);
+  const double half = std::tan(0.5 * camera.fov * 3.14159265358979323846 / 180);
+  double low = 1, high = -1, left = 1, wide = -1;
+  for (const Vec3d& x : moment.x) {
+    const Vec3d d = x - *camera.eye;
+    const double z = d.dot(forward);
+    if (!(z > 0)) continue;
+    const double u = d.dot(right) / (half * z), v = d.dot(up) / (half * z);
+    low = std::min(low, v), high = std::max(high, v);
+    left = std::min(left, u), wide = std::max(wide, u);
+  }
+  return 0.5 * std::max(high - low, wide - left);
+}
+
 }  // namespace
 
 std::string display_name(const std::string& kind, const std::string& name) {
@@ -343,11 +360,19 @@ void check_cameras(const scene::Scene& scene, const std::vector<setup::Moment>& 
     if (!camera.eye || !camera.target || !camera.follow.empty()) continue;
     const scene::PictureSize size = setup::size_of(scene, view);
     const double aspect = static_cast<double>(size.width) / size.height;
-    double worst = 0, when = 0;
+    double worst = 0, when = 0, largest = 0;
     for (const setup::Moment& moment : moments) {
+      largest = std::max(largest, seen_height(camera, moment));
       const double share = share_outside(camera, aspect, moment);
       if (share > worst) worst = share, when = moment.time;
     }
+    constexpr double smallest = 0.03;
+    if (worst < 0.05 && largest < smallest)
+      findings.push_back({Severity::warning,
+                          view.camera ? "view." + view.name + ".camera" : "camera",
+                          fmt::format("view {}: the snow is never larger than {} of the picture",
+                                      view.name, percent_text(largest)),
+                          "move eye nearer, or remove eye and target to frame everything"});
     if (worst < 0.05) continue;
     findings.push_back({Severity::warning, view.camera ? "view." + view.name + ".camera" : "camera",
                         fmt::format("view {}: {} of the snow is outside of the picture at {} s",

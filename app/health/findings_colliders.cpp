@@ -8,6 +8,7 @@
 
 #include "app/health/findings.h"
 #include "app/scene/coarsen.h"
+#include "app/scene/toml/value.h"
 #include "app/support/text.h"
 #include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/solid.h"
@@ -21,6 +22,33 @@ using sim::Vec3d;
 constexpr const char* why_move_it =
     "move it out; contact stops snow at surfaces but does not push it out (solver.push_out does, "
     "and crushes it)";
+
+std::string vector_text(const Vec3d& v) {
+  using scene::toml::number_text;
+  return fmt::format("[{}, {}, {}]", number_text(v.x()), number_text(v.y()), number_text(v.z()));
+}
+
+/// A plane that has the snow on its solid side is likelier turned the wrong way than a ceiling.
+std::string way_out(const scene::Scene& scene, const sim::shapes::Collider& collider) {
+  const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form);
+  if (!plane || plane->normal.norm() == 0) return why_move_it;
+  const Vec3d normal = sim::rotation_from_degrees(collider.shape.rotation) * plane->normal;
+  const Vec3d& g = scene.solver.gravity;
+  constexpr double steep = 0.5;
+  const double down = g.norm() > 0 ? normal.normalized().dot(g.normalized()) : 0;
+  if (down < -steep) return why_move_it;  // a floor, with snow below it
+  const Vec3d other = Vec3d::Zero() - plane->normal;
+  const std::string turned =
+      fmt::format("collider.{}.shape.plane.normal = {}", collider.name, vector_text(other));
+  if (down > steep)
+    return fmt::format(
+        "its normal {} points down, so its upper side is the solid one; a floor has {}",
+        vector_text(plane->normal), turned);
+  return fmt::format(
+      "its normal {} points away from the snow, which is on its solid side; turn it round, {}, or "
+      "move the snow",
+      vector_text(plane->normal), turned);
+}
 
 /// Particles of a body: a share needs no more.
 constexpr std::size_t max_looked_at = 20000;
@@ -119,7 +147,7 @@ void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene
       findings.push_back({Severity::warning, "body." + name + ".shape",
                           fmt::format("{} of {} starts inside collider {}", percent_text(share),
                                       display_name("body", name), collider.name),
-                          why_move_it});
+                          2 * inside > count ? way_out(scene, collider) : why_move_it});
     }
   }
 }

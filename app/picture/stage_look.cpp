@@ -20,8 +20,8 @@ constexpr double shortest_arrow = 0.02;
 }  // namespace
 
 double StageChange::largest() const {
-  // Single particles in the spray must not hide the others.
-  constexpr double share = 0.98;
+  // The few that are pressed, and spray, must not hide the others.
+  constexpr double share = 0.9;
   std::vector<double> changed;
   for (const double value : magnitude)
     if (std::isfinite(value) && value > 0) changed.push_back(value);

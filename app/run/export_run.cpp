@@ -8,12 +8,14 @@
 #include "app/output/folder_lock.h"
 #include "app/output/picture_writer.h"
 #include "app/output/sequence.h"
+#include "app/run/late_times.h"
 #include "app/run/run_json.h"
 #include "app/run/state_source.h"
 #include "app/scene/check.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
+#include "app/support/text.h"
 #include "app/support/version.h"
 
 namespace neve::app::run {
@@ -42,7 +44,67 @@ void place_camera(scene::Scene& scene) {
     setup::resolve_cameras(scene, setup::coarse_run(scene));
 }
 
-void write_list(const ExportJob& job, const ExportResult& result,
+/// The part of an earlier list that stays: exports of other names, with the hashes of their files.
+struct Kept {
+  Json exports = Json::array(), files = Json::object();
+  bool is_whole = true;
+};
+
+void keep_export(const Json& one, const Json& list, Kept& kept) {
+  const std::string folder = one.at("name").get<std::string>() + "/";
+  for (const auto& [file, hash] : list.at("files").items())
+    if (file.starts_with(folder) || one.at("series") == file) kept.files[file] = hash;
+  kept.exports.push_back(one);
+}
+
+/// Removes the files of an earlier export with the same name, or of another scene.
+Kept replace_earlier(const ExportJob& job) {
+  const fs::path file = output::export_list_path(job.run.folder);
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return {};
+  const std::vector<scene::Export>& ours = job.run.scene.exports;
+  try {
+    const Json list = parse_json(output::read_file(file));
+    const bool is_of_scene = list.at("scene_file") == job.run.scene_file;
+    Kept kept;
+    Json replaced = Json::array();
+    for (const Json& one : list.at("exports")) {
+      const bool is_ours = std::any_of(ours.begin(), ours.end(), [&](const scene::Export& e) {
+        return one.at("name") == scene::folder_of(e);
+      });
+      if (is_of_scene && !is_ours)
+        keep_export(one, list, kept);
+      else
+        replaced.push_back(one);
+    }
+    kept.is_whole = kept.exports.empty() || list.at("is_whole").get<bool>();
+    exports::remove_earlier_exports(job.run.folder, replaced);
+    return kept;
+  } catch (const IoError&) {
+    throw;  // files of an earlier export would lie beside the new ones
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return {};  // No list of ours: nothing is removed.
+  }
+}
+
+/// A kept export of another state than the new one: the scene was changed in between.
+void warn_of_other_states(const Json& exports, const Kept& kept, Progress& progress) {
+  for (const Json& old : kept.exports)
+    for (const Json& before : old.at("files"))
+      for (const Json& now : exports.at(0).at("files")) {
+        if (now.at("number") != before.at("number") || now.at("time") != before.at("time") ||
+            now.at("state_hash") == before.at("state_hash"))
+          continue;
+        progress.warning(before.at("file").get<std::string>() +
+                         " shows another state than this export: the scene has changed since; "
+                         "export both formats together, as in --format ply,vdb");
+        return;
+      }
+}
+
+void write_list(const ExportJob& job, const ExportResult& result, const Kept& kept,
                 const std::vector<output::WrittenFile>& written) {
   FileHashes files;
   for (const output::WrittenFile& file : written)
@@ -51,25 +113,12 @@ void write_list(const ExportJob& job, const ExportResult& result,
   json["version"] = version;
   json["scene_file"] = job.run.scene_file;
   json["fps"] = job.run.scene.fps;
-  json["is_whole"] = result.is_whole;
-  json["exports"] = result.exports;
-  json["files"] = files;
+  json["is_whole"] = result.is_whole && kept.is_whole;
+  json["exports"] = kept.exports;
+  for (const Json& one : result.exports) json["exports"].push_back(one);
+  json["files"] = kept.files;
+  for (const auto& [file, hash] : files) json["files"][file] = hash;
   output::write_file(output::export_list_path(job.run.folder), with_own_hash(json));
-}
-
-void remove_earlier_list(const fs::path& folder) {
-  std::error_code error;
-  const fs::path file = output::export_list_path(folder);
-  if (!fs::is_regular_file(fs::symlink_status(file, error))) return;
-  try {
-    exports::remove_earlier_exports(folder, parse_json(output::read_file(file)).at("exports"));
-  } catch (const IoError&) {
-    throw;  // files of an earlier export would lie beside the new ones
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
-    // No list of ours: nothing is removed.
-  }
 }
 
 }  // namespace
@@ -101,10 +150,14 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
   RenderJob run = job.run;
   place_camera(run.scene);
   const double fps = run.scene.fps;
+  const double last = job.times.back();
+  warn_of_late_time(job.are_frames ? "frame " + std::to_string(job.run.frames.last)
+                                   : "--at " + rough_text(last) + " s",
+                    last, run.scene, progress);
   StateSource source(run, job.past, job.times.front(), threads, progress);
   const sim::Simulation& simulation = source.simulation();
   output::make_folder(job.run.folder);
-  remove_earlier_list(job.run.folder);
+  const Kept kept = replace_earlier(job);
   exports::Exporter exporter(run.scene, job.run.folder, source.seeded().body_end);
   output::PictureWriter writer;
   ExportResult result;
@@ -124,7 +177,8 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
   result.is_whole = result.moments == job.times.size();
   result.divergence = simulation.divergence();
   result.exports = exporter.to_json("");
-  write_list(job, result, written);
+  warn_of_other_states(result.exports, kept, progress);
+  write_list(job, result, kept, written);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "app/output/atomic_file.h"
 #include "app/picture/frame_builder.h"
 #include "app/picture/legends.h"
+#include "app/run/late_times.h"
 #include "app/run/picture_record.h"
 #include "app/run/state_source.h"
 #include "app/scene/read.h"
@@ -205,6 +206,7 @@ StripResult run_strip(const StripJob& job, const RenderOptions& options, Progres
   const auto context = render::gl::open_context(options.backend);
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, options.shader_dir, &pool);
+  warn_of_late_time(rough_text(job.times.back()) + " s", job.times.back(), job.run.scene, progress);
   StateSource source(job.run, job.past, job.times.front(), options.threads, progress);
   scene::Scene resolved = job.run.scene;
   setup::resolve(resolved, source.seeded().planned);

@@ -1,15 +1,18 @@
 #include "app/scene/leaf.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <string_view>
 
 #include "app/scene/export_advice.h"
+#include "app/scene/foreign_names.h"
 #include "app/scene/number_advice.h"
 #include "app/scene/presets.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/wishes.h"
+#include "app/support/lower_text.h"
 #include "app/support/text.h"
 #include "sim/shapes/numbered_files.h"
 
@@ -45,11 +48,29 @@ std::string absolute_path(const Leaf& leaf, const std::string& name) {
   return std::filesystem::absolute(folder / name, error).lexically_normal().string();
 }
 
+/// Where it was looked for, and a file there that has nearly that name.
+std::string advice_on_file(const std::string& name, const std::filesystem::path& file) {
+  const std::string looked = "looked for " + file.string();
+  if (name.starts_with("~")) return looked + "; ~ is no folder here: write the whole path";
+  if (name.find('\\') != std::string::npos) return looked + "; folders have / between them";
+  const std::string wanted = lower_text(file.filename().string());
+  std::vector<std::string> names;
+  std::error_code error;
+  for (std::filesystem::directory_iterator at(file.parent_path(), error), end;
+       !error && at != end && names.size() < 10'000; at.increment(error)) {
+    names.push_back(at->path().filename().string());
+    if (lower_text(names.back()) == wanted) return looked + "; did you mean " + names.back() + "?";
+  }
+  std::sort(names.begin(), names.end());
+  const std::string nearest = nearest_name(file.filename().string(), names);
+  return nearest.empty() ? looked : looked + "; did you mean " + nearest + "?";
+}
+
 std::string existing_file(const Leaf& leaf, const std::string& name) {
   std::error_code error;
   const std::string file = absolute_path(leaf, name);
   if (name.empty() || !std::filesystem::is_regular_file(file, error))
-    leaf.fail("a file that exists", "looked for " + file);
+    leaf.fail("a file that exists", advice_on_file(name, file));
   return file;
 }
 
@@ -59,6 +80,14 @@ std::string numbered_files(const Leaf& leaf, const std::string& name) {
     leaf.fail("one %d or %04d in the name of the files, where their number goes",
               "for plate_0001.obj and so on give files = \"plate_%04d.obj\"");
   return absolute_path(leaf, name);
+}
+
+/// Nothing runs in less than a megabyte: 8 is 8GiB without its unit.
+void refuse_few_bytes(const Leaf& leaf) {
+  const auto* count = std::get_if<std::int64_t>(&leaf.value.data);
+  if (count && *count > 0 && *count < 1'000'000)
+    leaf.fail("bytes, or a size such as \"8GiB\" or \"500MB\"",
+              "did you mean \"" + std::to_string(*count) + "GiB\"?");
 }
 
 }  // namespace
@@ -135,6 +164,7 @@ void read_leaf(const Leaf& leaf, std::uint64_t& member) {
   const auto* text = std::get_if<std::string>(&leaf.value.data);
   const bool is_bytes = std::string_view(leaf.unit) == "B";
   if (!text || !is_bytes) {
+    if (is_bytes) refuse_few_bytes(leaf);
     member = static_cast<std::uint64_t>(bounded_whole_number(leaf));
     return;
   }
@@ -162,7 +192,9 @@ void read_leaf(const Leaf& leaf, std::string& member) {
 }
 
 void read_leaf(const Leaf& leaf, sim::Vec3d& member) {
-  leaf.array(3, "three numbers [x, y, z]");
+  const char* const wanted = "three numbers [x, y, z]";
+  const auto* items = std::get_if<toml::Array>(&leaf.value.data);
+  if (!items || items->size() != 3) leaf.fail(wanted, vector_advice(leaf.value, leaf.address));
   for (std::size_t k = 0; k < 3; ++k) {
     read_leaf(leaf.element(k), member[static_cast<Eigen::Index>(k)]);
   }
@@ -275,8 +307,7 @@ namespace {
 /// @param nearest of the allowed words; empty: none is near
 std::string advice_on_choice(const Leaf& leaf, const std::string& text,
                              const std::string& nearest) {
-  if (leaf.address == "solver.transfer" && text == "pic")
-    return "PIC is transfer = \"flip\" with flip_ratio = 0";
+  if (std::string advice = choice_advice(leaf.address, text); !advice.empty()) return advice;
   const bool is_of_export = leaf.address.starts_with("export.");
   if (is_of_export && leaf.address.ends_with(".format")) return export_format_advice(text);
   const bool is_attribute = is_of_export && leaf.address.find(".attributes[") != std::string::npos;

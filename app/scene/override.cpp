@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/scene/foreign_names.h"
 #include "app/scene/leaf.h"
 #include "app/scene/params.h"
 #include "app/scene/presets.h"
@@ -62,6 +63,7 @@ void refuse_unknown_name(const Override& change, const toml::Table& root) {
     // "hardening" alone: say where it is.
     if (nearest.empty() && address.ends_with("." + change.address)) nearest = address;
   }
+  if (nearest.empty()) nearest = our_address(change.address, known);
   if (nearest.empty()) nearest = nearest_name(change.address, known);
   change.fail(change.key, "unknown parameter " + toml::toml_string(change.address),
               nearest.empty() ? "neve params lists all of them"

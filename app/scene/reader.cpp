@@ -1,56 +1,13 @@
 #include "app/scene/reader.h"
 
 #include <algorithm>
-#include <utility>
 
+#include "app/scene/foreign_names.h"
 #include "app/scene/params.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
 namespace {
-
-/// Names in other programs, with the keys here; the first key of the table wins.
-constexpr std::pair<const char*, const char*> other_names[] = {{"h", "cell_size"},
-                                                               {"dx", "cell_size"},
-                                                               {"resolution", "cell_size"},
-                                                               {"E", "youngs_modulus"},
-                                                               {"nu", "poisson_ratio"},
-                                                               {"xi", "hardening"},
-                                                               {"theta_c", "critical_compression"},
-                                                               {"theta_s", "critical_stretch"},
-                                                               {"rho", "density"},
-                                                               {"mu", "friction"},
-                                                               {"center", "position"},
-                                                               {"position", "eye"},
-                                                               {"position", "center"},
-                                                               {"translate", "center"},
-                                                               {"translation", "center"},
-                                                               {"location", "center"},
-                                                               {"rotate", "rotation"},
-                                                               {"orientation", "rotation"},
-                                                               {"pos", "center"},
-                                                               {"centre", "center"},
-                                                               {"look_at", "target"},
-                                                               {"bodies", "body"},
-                                                               {"cube", "box"},
-                                                               {"ball", "sphere"},
-                                                               {"stickiness", "critical_stretch"},
-                                                               {"cohesion", "critical_stretch"},
-                                                               {"hardness", "youngs_modulus"},
-                                                               {"stiffness", "youngs_modulus"},
-                                                               {"softness", "youngs_modulus"},
-                                                               {"resolution", "size"},
-                                                               {"duration", "frames"},
-                                                               {"snow", "material"},
-                                                               {"colliders", "collider"},
-                                                               {"obstacle", "collider"},
-                                                               {"obstacles", "collider"}};
-
-std::string other_name(const std::string& key, const std::vector<std::string>& known) {
-  for (const auto& [other, ours] : other_names)
-    if (key == other && std::find(known.begin(), known.end(), ours) != known.end()) return ours;
-  return "";
-}
 
 std::string quoted_question(const std::string& name) {
   return "did you mean " + toml::toml_string(name) + "?";
@@ -73,6 +30,16 @@ std::string other_address(const std::string& key, const std::string& here) {
   return found.size() == 1 ? found.front() : "";
 }
 
+/// The only parameter that a word of other programs means.
+std::string address_meant(const std::string& key) {
+  for (const ParamInfo& info : params()) {
+    const std::string ours = our_name(key, {info.address.substr(info.address.rfind('.') + 1)});
+    if (const std::string found = ours.empty() ? "" : other_address(ours, ""); !found.empty())
+      return found;
+  }
+  return "";
+}
+
 bool is_at_the_top(const std::string& key) {
   const std::vector<ParamInfo>& all = params();
   return std::any_of(all.begin(), all.end(),
@@ -93,7 +60,7 @@ std::vector<std::string> forms_of(const std::string& kind) {
 std::string form_advice(const std::string& key, const std::vector<std::string>& forms) {
   if (key == "plane") return "only colliders can be planes: use a large box";
   if (key == "points") return "only bodies can be points";
-  const std::string other = other_name(key, forms);
+  const std::string other = our_name(key, forms);
   const std::string nearest = other.empty() ? nearest_name(key, forms) : other;
   return nearest.empty() ? "expected " + list_of(forms) : quoted_question(nearest);
 }
@@ -116,7 +83,7 @@ toml::Location Reading::place_of(std::string address) const {
 
 /// Advice for an unknown key.
 std::string Reader::advice(const std::string& key, const std::vector<std::string>& known) const {
-  const std::string other = other_name(key, known);
+  const std::string other = our_name(key, known);
   if (!other.empty()) return quoted_question(other);
   const std::string kind = address_.substr(0, address_.find('.'));
   if (contains(known, "shape") && contains(forms_of(kind), key))
@@ -127,9 +94,9 @@ std::string Reader::advice(const std::string& key, const std::vector<std::string
   if (!reading_.is_scene) return "expected " + list_of(known);
   if (!address_.empty() && is_at_the_top(key))
     return "it belongs at the top of the file, before the first [table]";
-  for (const auto& [word, ours] : other_names)
-    if (key == word && address_.empty() && !other_address(ours, "").empty())
-      return "did you mean " + other_address(ours, "") + "?";
+  if (const std::string flag = flag_advice(key); !flag.empty()) return flag;
+  if (const std::string address = address_.empty() ? address_meant(key) : ""; !address.empty())
+    return "did you mean " + address + "?";
   // A key of another table was put into this one; single letters say too little to guess.
   const std::string elsewhere = key.size() > 1 ? other_address(key, address_) : "";
   if (!elsewhere.empty()) return "did you mean " + elsewhere + "?";
@@ -152,7 +119,10 @@ const toml::Table& Reader::table_of(const toml::Value& value, const std::string&
                                ? "write [" + address + "], with one pair of brackets"
                                : "write it with one pair of brackets");
     const Valid any;
-    Leaf{reading_.source, value, address, "", any}.fail("a table");
+    const auto* text = std::get_if<std::string>(&value.data);
+    const bool is_of_file = address.ends_with(".mesh") || address.ends_with(".points");
+    Leaf{reading_.source, value, address, "", any}.fail(
+        "a table", text && is_of_file ? "write { file = " + toml::toml_string(*text) + " }" : "");
   }
   return *table;
 }

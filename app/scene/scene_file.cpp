@@ -11,7 +11,9 @@
 
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_text.h"
+#include "app/scene/toml/value.h"
 #include "app/support/errors.h"
+#include "app/support/lower_text.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
 
@@ -70,8 +72,25 @@ std::string nearest_file(const std::string& file) {
     const fs::path nearest = nearest_scene(place, wanted.stem().string());
     if (!nearest.empty()) return "did you mean " + typed(nearest) + "?";
   }
+  if (file.find("://") != std::string::npos) return "download the file, and name it";
   if (!fs::is_directory(folder, error)) return "there is no folder " + folder.string();
-  return "neve render without a file draws an example";
+  return "neve new NAME writes a first scene";
+}
+
+/// The parser's words on the first line of a YAML file help nobody.
+void refuse_other_languages(const std::string& file) {
+  const std::string suffix = lower_text(fs::path(file).extension().string());
+  const bool is_result = fs::path(file).filename() == "run.json";
+  for (const char* other : {".json", ".yaml", ".yml", ".xml", ".py", ".ini", ".usd", ".usda",
+                            ".abc", ".hip", ".blend", ".obj", ".ply", ".stl", ".mp4", ".npz"})
+    if (suffix == other)
+      throw toml::SceneError(file, 0, 0, "is no scene: scenes are TOML files",
+                             is_result ? "name the folder of the run, or one of its pictures"
+                             : suffix == ".obj" || suffix == ".ply" || suffix == ".stl"
+                                 ? "a scene names the mesh: shape = { mesh = { file = " +
+                                       toml::toml_string(fs::path(file).filename().string()) +
+                                       " } }"
+                                 : "neve new NAME writes a first scene");
 }
 
 /// A pipe with a name in a folder has no writer until somebody comes. Those of `<(command)`, which
@@ -123,6 +142,7 @@ std::string path_of_scene(const std::string& typed) {
   if (typed == "-") return standard_input;
   std::error_code error;
   const std::string longer = typed + ".toml";
+  if (fs::is_regular_file(typed, error)) refuse_other_languages(typed);
   const bool is_short = !typed.empty() && !fs::exists(typed, error);
   return is_short && fs::is_regular_file(longer, error) ? longer : typed;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/scene/wishes.h"
+#include "app/support/lower_text.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
@@ -13,12 +14,6 @@ namespace {
 
 /// Shorter parts of words are in too many of them.
 constexpr std::size_t shortest_part = 4;
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
 
 /// A word, or from three letters on its beginning.
 bool has_word(const std::vector<std::string>& words, const std::string& start) {
@@ -45,7 +40,7 @@ std::string_view next_word(std::string_view& address) {
 
 std::vector<std::string> words_in(std::string_view text) {
   std::vector<std::string> words(1);
-  for (const char c : lower(text)) {
+  for (const char c : lower_text(text)) {
     const bool is_part = std::isalnum(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0;
     if (is_part)
       words.back() += c;
@@ -57,12 +52,21 @@ std::vector<std::string> words_in(std::string_view text) {
 }
 
 std::string attribute_advice(const std::string& name, const std::vector<std::string>& known) {
-  constexpr std::pair<const char*, const char*> names[] = {
-      {"velocity", "v"},       {"speed", "v"},
-      {"position", "x"},       {"mass", "m"},
-      {"stress", "kirchhoff"}, {"kirchhoff", "stress"},
-      {"deformation", "F_E"},  {"plastic_volume", "J_P"},
-      {"forces", "force"}};
+  constexpr std::pair<const char*, const char*> names[] = {{"velocity", "v"},
+                                                           {"speed", "v"},
+                                                           {"position", "x"},
+                                                           {"mass", "m"},
+                                                           {"stress", "kirchhoff"},
+                                                           {"kirchhoff", "stress"},
+                                                           {"deformation", "F_E"},
+                                                           {"plastic_volume", "J_P"},
+                                                           {"forces", "force"},
+                                                           {"F", "F_E"},
+                                                           {"Fe", "F_E"},
+                                                           {"F_e", "F_E"},
+                                                           {"f", "force"},
+                                                           {"J", "J_E"},
+                                                           {"Jp", "J_P"}};
   for (const auto& [other, ours] : names)
     if (name == other && std::find(known.begin(), known.end(), ours) != known.end())
       return std::string("did you mean ") + ours + "? expected " + joined(known, ", ");
@@ -77,7 +81,7 @@ bool same_parameter(std::string_view pattern, std::string_view address) {
   return pattern.empty() && address.empty();
 }
 
-Search::Search(const std::string& text) : text_(lower(text)), words_(words_in(text)) {
+Search::Search(const std::string& text) : text_(lower_text(text)), words_(words_in(text)) {
   if (words_.empty()) return;
   for (const Wish* wish : wishes_for(text))
     for (const WishChange& change : wish->changes) meant_.emplace_back(change.address);
@@ -89,7 +93,7 @@ Search::Search(const std::string& text) : text_(lower(text)), words_(words_in(te
 bool Search::names(const std::string& address) const {
   if (same_parameter(text_, address)) return true;
   // An address, or the beginning of one, as it is written.
-  const std::string written = lower(address);
+  const std::string written = lower_text(address);
   if (text_.find('.') != std::string::npos) return written.find(text_) != std::string::npos;
   if (has_all(words_in(address), words_)) return true;
   if (text_.size() >= shortest_part && written.find(text_) != std::string::npos) return true;

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <regex>
+#include <utility>
 
 #include "app/scene/toml/error.h"
+#include "app/support/lower_text.h"
 #include "app/support/text.h"
 
 namespace neve::app::setup {
@@ -26,14 +29,45 @@ std::optional<double> finite_number(const std::string& text) {
   return value;
 }
 
+namespace {
+
+/// The two whole numbers of a text with other signs between them; empty: it has not two.
+std::vector<std::string> two_numbers(const std::string& text) {
+  static const std::regex pair(R"(^\s*([0-9]{1,7})\s*(?:\.\.|:|,|;|\*|X|by| )\s*([0-9]{1,7})\s*$)");
+  std::smatch found;
+  if (!std::regex_match(text, found, pair)) return {};
+  return {found[1], found[2]};
+}
+
+/// "1920x1080" of "1920*1080", "hd" and the like; empty: nothing known.
+std::string size_meant(const std::string& text) {
+  constexpr std::pair<const char*, const char*> names[] = {
+      {"hd", "1280x720"},   {"720p", "1280x720"},   {"fullhd", "1920x1080"}, {"1080p", "1920x1080"},
+      {"2k", "1920x1080"},  {"1440p", "2560x1440"}, {"4k", "3840x2160"},     {"2160p", "3840x2160"},
+      {"uhd", "3840x2160"}, {"vga", "640x480"}};
+  for (const auto& [name, size] : names)
+    if (lower_text(text) == name) return size;
+  const std::vector<std::string> numbers = two_numbers(text);
+  return numbers.empty() ? "" : numbers[0] + "x" + numbers[1];
+}
+
+/// "did you mean 1-24? " of "1..24".
+std::string range_meant(const std::string& text) {
+  const std::vector<std::string> numbers = two_numbers(text);
+  return numbers.empty() ? "" : "did you mean " + numbers[0] + "-" + numbers[1] + "? ";
+}
+
+}  // namespace
+
 FrameRange parse_frames(const std::string& text) {
   constexpr int last_possible = 100'000;
   const std::size_t dash = text.find('-');
   const auto first = dash == std::string::npos ? 0 : whole_number(text.substr(0, dash));
   const auto last = whole_number(dash == std::string::npos ? text : text.substr(dash + 1));
   if (!first || !last || *first < 0 || *last < *first || *last > last_possible)
-    throw scene::toml::UsageError("--frames", "cannot use \"" + text + "\"",
-                                  "expected A-B with 0 <= A <= B <= 100000, or N for 0-N");
+    throw scene::toml::UsageError(
+        "--frames", "cannot use \"" + text + "\"",
+        range_meant(text) + "expected A-B with 0 <= A <= B <= 100000, or N for 0-N");
   return {*first, *last};
 }
 
@@ -53,9 +87,12 @@ scene::PictureSize parse_size(const std::string& text) {
   const auto height =
       cross == std::string::npos ? std::nullopt : whole_number(text.substr(cross + 1));
   if (!width || !height || *width < smallest || *height < smallest || *width > largest ||
-      *height > largest)
+      *height > largest) {
+    const std::string meant = size_meant(text);
     throw scene::toml::UsageError("--size", "cannot use \"" + text + "\"",
-                                  "expected WIDTHxHEIGHT, each 16 to 1000000, as in 1280x720");
+                                  (meant.empty() ? "" : "did you mean " + meant + "? ") +
+                                      "expected WIDTHxHEIGHT, each 16 to 1000000, as in 1280x720");
+  }
   return {*width, *height};
 }
 

@@ -120,13 +120,16 @@ scene::View Viewer::shown_view() const {
   const std::vector<scene::View>& asked = state_.live->scene->views;
   if (state_.live->stage && !asked.empty() && asked.front().name == view.name) {
     view.slice.field = asked.front().slice.field;
-    // Forces differ by orders of magnitude from step to step: the longest arrow is the largest.
+    // Forces differ by orders of magnitude from step to step, and from the nodes that are pressed
+    // to all others, whose arrows would be dots beside the largest.
+    constexpr double of_the_mean = 6;
     const std::string name =
         view.slice.field == scene::VectorField::velocity ? "v_old" : scene::name(view.slice.field);
     view.slice.range = asked.front().slice.range;
     for (const session::QuantitySummary& quantity : state_.live->stage->quantities)
       if (quantity.name == name && quantity.max > 0)
-        view.slice.range = scene::Range{0, round_up(quantity.max)};
+        view.slice.range =
+            scene::Range{0, round_up(std::min(quantity.max, of_the_mean * quantity.mean))};
   }
   return view;
 }

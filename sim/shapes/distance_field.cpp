@@ -62,7 +62,9 @@ DistanceField::DistanceField(const MeshSurface& surface, const std::string& name
   const Bounds& bounds = surface.bounds();
   const Eigen::Array3d count = sample_counts(bounds, spacing);
   if (!(count.prod() <= max_samples))
-    throw ShapeError(name + ": the distance field of this collider has a point every " +
+    throw ShapeError(name + ": the mesh is " + number_text((bounds.max - bounds.min).maxCoeff()) +
+                     " m across (in centimetres, give scale = 0.01), and its distance field has a "
+                     "point every " +
                      number_text(spacing) + " m (half a cell), in total " + number_text(count[0]) +
                      " x " + number_text(count[1]) + " x " + number_text(count[2]) +
                      " points; at most 256^3 are allowed. Make it smaller, split " +

@@ -188,8 +188,10 @@ TEST(SceneErrors, TypesAreNamed) {
   EXPECT_EQ(error_of("solver = 3"), "s.toml:1:10: error: solver = 3; expected a table");
   EXPECT_EQ(error_of("[solver]\ngravity = [0, 1]"),
             "s.toml:2:11: error: solver.gravity = [0, 1]; expected three numbers [x, y, z]");
-  EXPECT_EQ(error_of("[solver]\ngravity = 9.81"),
-            "s.toml:2:11: error: solver.gravity = 9.81; expected three numbers [x, y, z]");
+  EXPECT_EQ(
+      error_of("[solver]\ngravity = 9.81"),
+      "s.toml:2:11: error: solver.gravity = 9.81; expected three numbers [x, y, z]; write [0, "
+      "-9.81, 0]");
   EXPECT_EQ(error_of("[output]\nsize = [1, 2, 3]"),
             "s.toml:2:8: error: output.size = [1, 2, 3]; expected two whole numbers [width, "
             "height]");

@@ -202,6 +202,39 @@ TEST_F(Check, CheckFindsGravityThatIsNotDown) {
             1u);  // of the ball in the floor
 }
 
+TEST_F(Check, CheckFindsSnowThatIsASpeckInThePicture) {
+  const auto with_eye = [&](const char* eye) {
+    return findings(scene(
+        "", std::string(floor_plane) + "[camera]\ntarget = [0, 0.1, 0]\neye = " + eye + "\n"));
+  };
+  EXPECT_EQ(with_eye("[0, 0.1, 1]"), Findings{});
+  EXPECT_EQ(with_eye("[0, 0.1, 100]"), Findings{"warning camera"});
+}
+
+/// A floor is likelier turned upside down than snow is buried in it.
+TEST_F(Check, AFloorWhoseNormalPointsDownIsTurnedRound) {
+  const auto hint_of = [&](const std::string& normal, const std::string& center) {
+    const auto result =
+        neve({"check", "scene.toml", "-q", "--set", "collider.floor.shape.plane.normal=" + normal,
+              "--set", "body.ball.shape.sphere.center=" + center});
+    EXPECT_TRUE(contains(result.output, "100 % of ball starts inside collider floor"))
+        << result.output;
+    return result.output;
+  };
+  const std::string down = hint_of("[0,-1,0]", "[0, 0.12, 0]");
+  EXPECT_TRUE(contains(down,
+                       "its normal [0, -1, 0] points down, so its upper side is the solid "
+                       "one; a floor has collider.floor.shape.plane.normal = [0, 1, 0]"))
+      << down;
+  EXPECT_FALSE(contains(down, "move it out")) << down;
+  const std::string wall = hint_of("[1,0,0]", "[-0.5, 0.12, 0]");
+  EXPECT_TRUE(contains(wall,
+                       "turn it round, collider.floor.shape.plane.normal = [-1, 0, 0], or "
+                       "move the snow"))
+      << wall;
+  EXPECT_TRUE(contains(hint_of("[0,1,0]", "[0, -0.5, 0]"), "move it out"));
+}
+
 /// Under --coarsen the number that is proposed is the one to type.
 TEST_F(Check, AdviceIsInTheNumbersThatSetTakes) {
   folder.write("scene.toml", scene("", floor_plane));

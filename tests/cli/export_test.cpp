@@ -338,15 +338,27 @@ TEST_F(Export, ColumnsThatNoFileHasAreRefusedWithTheNearest) {
   EXPECT_TRUE(contains(located("carried = [\"weight\", \"weight\"]"), "named twice"));
 }
 
-TEST_F(Export, TheNextExportRemovesTheFilesOfTheOneBefore) {
+TEST_F(Export, TheNextExportReplacesTheOneOfItsNameAndKeepsOthers) {
   json_of_export({"scene.toml", "--format", "vtp,usda", "--out", "x"});
   folder.write("x/vtp/mine.txt", "kept");
   json_of_export({"scene.toml", "--format", "vtp", "--frames", "0-1", "--out", "x"});
-  EXPECT_TRUE(exists("x/vtp/0001.vtp"));
-  EXPECT_TRUE(exists("x/vtp/mine.txt"));
-  for (const char* gone :
-       {"x/vtp/0002.vtp", "x/usda.usda", "x/usda/0000.usda", "x/usda/manifest.usda"})
+  for (const char* there : {"x/vtp/0001.vtp", "x/vtp/mine.txt", "x/usda.usda", "x/usda/0000.usda"})
+    EXPECT_TRUE(exists(there)) << there;
+  EXPECT_FALSE(exists("x/vtp/0002.vtp"));
+  const app::Json list = json_of("x/export.json");
+  EXPECT_EQ(list["exports"].size(), 2u);
+  EXPECT_TRUE(list["files"].contains("usda/0004.usda"));
+  EXPECT_EQ(neve({"verify", "x"}).exit_code, 0);
+  // Of a scene that has changed since, which nothing else would tell.
+  const auto changed = neve({"export", "scene.toml", "--format", "ply", "--frames", "0-2", "--out",
+                             "x", "--set", "material.snow.hardening=3"});
+  EXPECT_EQ(changed.exit_code, 0) << changed.errors;
+  EXPECT_TRUE(contains(changed.errors, "shows another state than this export")) << changed.errors;
+  // Another scene has nothing to do with them.
+  json_of_export({"pair.toml", "--format", "ply", "--frames", "0", "--out", "x"});
+  for (const char* gone : {"x/vtp/0001.vtp", "x/usda.usda", "x/usda/manifest.usda"})
     EXPECT_FALSE(exists(gone)) << gone;
+  EXPECT_TRUE(exists("x/vtp/mine.txt"));
 }
 
 /// The list may be forged: it removes nothing outside its folder.

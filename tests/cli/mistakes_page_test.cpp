@@ -40,6 +40,8 @@ TEST(MistakesPage, EveryAnswerIsTheProgramsOwn) {
   const app::Json entries = app::parse_json(read_text(page_folder / "answers.json"));
   const std::string page = read_text(page_folder / "../answers.md");
   EXPECT_GE(entries.size(), 131u);
+  EXPECT_TRUE(contains(read_text(page_folder / "../../README.md"),
+                       "answers to " + std::to_string(entries.size()) + " mistakes"));
   for (const app::Json& entry : entries) {
     const TemporaryFolder folder;
     for (const auto& [name, content] : entry["files"].items())

@@ -137,10 +137,13 @@ TEST(Session, StagesOfAnOlderFrameAreThoseOfThatFrame) {
   const auto after =
       wait_for(session, [](const view::session::LiveFrame& live) { return !live.stage; });
   EXPECT_EQ(after->state_hash, undisturbed(*scene, 2));
+  session.show_stage(sim::Stage::rasterize);
+  wait_for(session, [](const view::session::LiveFrame& live) { return live.stage.has_value(); });
   session.show_head();
   const auto head =
       wait_for(session, [](const view::session::LiveFrame& live) { return !live.is_older; });
   EXPECT_EQ(head->state_hash, undisturbed(*scene, 4));
+  EXPECT_FALSE(head->stage) << "the newest frame is shown, not a step of it";
 }
 
 TEST(Session, SessionContinuesFromAnOlderFrameAndForgetsLaterOnes) {

@@ -6,6 +6,7 @@
 #include "app/picture/frame_builder.h"
 #include "app/scene/names.h"
 #include "app/support/errors.h"
+#include "app/support/text.h"
 #include "render/image/image.h"
 #include "tests/support/needs.h"
 #include "tests/view/view_support.h"
@@ -101,6 +102,35 @@ TEST(StageChange, ParticlesAreCutAndHaveArrowsAndTheirColoursHaveALegend) {
   EXPECT_GT(slice.points.position.size(), 0u);
   EXPECT_LT(slice.points.position.size(), all / 2);
   EXPECT_EQ(slice.legends.at(0).title, "change of F_E");
+}
+
+/// A picture of a frame says how many steps led to it, one of a stage which step it is.
+TEST(StageChange, TheCaptionIsThatOfTheStepThatIsLookedAt) {
+  const TemporaryFolder folder;
+  view::session::Workbench bench = bench_for(folder, tiny_scene);
+  view::session::Session& session = bench.session();
+  session.next_frame();
+  const auto frame = rest_at(session, 1);
+  const auto caption_of = [&](const LiveFrame& live) {
+    std::string all;
+    for (const std::string& line : frame_of(bench, live, "particles").caption) all += line + "\n";
+    return all;
+  };
+  EXPECT_TRUE(contains(caption_of(*frame), " steps, dt ")) << caption_of(*frame);
+  session.show_stage(Stage::elastic_forces);
+  const auto live = wait_for(session, [](const LiveFrame& now) { return now.stage.has_value(); });
+  const std::string inside = " 1 step, dt " + app::rough_text(live->stage->dt) + " s";
+  EXPECT_TRUE(contains(caption_of(*live), inside)) << caption_of(*live);
+  EXPECT_FALSE(contains(caption_of(*live), " steps, dt ")) << caption_of(*live);
+}
+
+/// Forces are largest where snow is pressed against something: the others still have colours.
+TEST(StageChange, TheFewThatArePressedDoNotHideTheOthers) {
+  picture::StageChange change;
+  change.magnitude.assign(95, 1.0);
+  change.magnitude.insert(change.magnitude.end(), 5, 1000.0);
+  EXPECT_GE(change.largest(), 1);
+  EXPECT_LE(change.largest(), 2);
 }
 
 class StageByScript : public Cli {};

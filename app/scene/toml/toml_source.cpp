@@ -104,6 +104,7 @@ std::string advice_on(std::string_view text, int line) {
   if (value.empty() || value[0] == '#') return "a value follows the =";
   if (has_decimal_comma(value)) return "decimals have a point, as in 0.04";
   if (has_unit(value)) return "numbers have no unit: metres, kilograms and seconds are meant";
+  if (value.find('\\') != value.npos) return "in paths write / between folders, or \\\\";
   if (value[0] == '(') return "vectors have square brackets, as in [0, 0, 0]";
   if (is_letter(value[0])) return "words have quotes, as in \"snow\"";
   return {};

@@ -161,16 +161,24 @@ Axis::Parameter parse_rule(const scene::Override& change) {
   }
 }
 
-/// The first two numbers of "5..20", "5:20:3" or "linspace(5, 20, 3)", as they were typed; 5 and 10
-/// where there are not two.
-std::string ends_typed(std::string text) {
+/// The numbers of "5..20", "5:20:3" or "linspace(5, 20, 3)", as they were typed.
+struct TypedRange {
+  std::string ends = "[5, 10]";
+  std::string count = "3";  ///< of values
+};
+
+TypedRange typed_range(std::string text) {
+  const bool has_count = text.find("space(") != std::string::npos;
   for (std::size_t at = text.find(".."); at != std::string::npos; at = text.find("..", at))
     text.replace(at, 2, " ");
   static const std::regex number(R"([-+]?[0-9]+(\.[0-9]*)?([eE][-+]?[0-9]+)?)");
   std::vector<std::string> ends;
   for (std::sregex_iterator at(text.begin(), text.end(), number), end; at != end; ++at)
     ends.push_back(at->str());
-  return ends.size() < 2 ? "[5, 10]" : "[" + ends[0] + ", " + ends[1] + "]";
+  TypedRange range;
+  if (ends.size() >= 2) range.ends = "[" + ends[0] + ", " + ends[1] + "]";
+  if (has_count && ends.size() == 3) range.count = ends[2];
+  return range;
 }
 
 /// "material.snow.hardening=5:10:3", "linspace(5, 10, 3)": ranges as other programs write them.
@@ -180,17 +188,26 @@ void refuse_foreign_range(const scene::Override& change, const std::string& what
   const std::string& text = change.value;
   const bool has_colons = text.find(':') != std::string::npos &&
                           text.find_first_not_of("0123456789.eE+-: ") == std::string::npos;
-  if (text.find("..") != std::string::npos)
+  const bool is_call = text.find("space(") != std::string::npos || text.starts_with("range(");
+  if (text.find("..") != std::string::npos || has_colons || is_call) {
+    const TypedRange range = typed_range(text);
+    const bool is_whole = info->type == "integer" && !is_call && !has_colons;
+    const char* const rule = text.find("logspace(") != std::string::npos ? "logspace" : "linspace";
     throw scene::toml::UsageError(what, "is not a list of values",
-                                  info->type == "integer"
-                                      ? "for a range write { range = " + ends_typed(text) +
-                                            " }, in quotes for the shell, or all values: 1,2,3"
-                                      : "for a range write { linspace = " + ends_typed(text) +
-                                            ", num = 3 }, in quotes for the shell");
-  if (has_colons || text.find("space(") != std::string::npos || text.starts_with("range("))
-    throw scene::toml::UsageError(what, "is not a list of values",
-                                  "for a range write { linspace = " + ends_typed(text) +
-                                      ", num = 3 }, in quotes for the shell");
+                                  is_whole ? "for a range write { range = " + range.ends +
+                                                 " }, in quotes for the shell, or all values: 1,2,3"
+                                           : std::string("for a range write { ") + rule + " = " +
+                                                 range.ends + ", num = " + range.count +
+                                                 " }, in quotes for the shell");
+  }
+  const bool is_in_brackets = text.starts_with("[") && text.ends_with("]");
+  std::string list = is_in_brackets ? text.substr(1, text.size() - 2) : text;
+  std::replace(list.begin(), list.end(), ';', ',');
+  if (list.find(',') == std::string::npos) std::replace(list.begin(), list.end(), ' ', ',');
+  if (list != text && list.find_first_not_of("0123456789.eE+-, ") == std::string::npos)
+    throw scene::toml::UsageError(
+        what, "is not a list of values",
+        "values have commas between them and nothing else: -p " + change.address + "=" + list);
 }
 
 /// "body.ball.velocity.y", "body.ball.velocity[1]"

@@ -32,7 +32,8 @@ void add_tab(const char* name, Draw draw, ImGuiTabItemFlags flags = 0,
 void draw_panel_switch(ViewerState& state) {
   const PanelSwitches& panels = state.panels;
   if (!panels.is_narrow || panels.left || panels.right) return;
-  ImGui::SetNextWindowPos(ImVec2(0, 0));
+  // The caption begins at the left.
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x, 0), ImGuiCond_Always, ImVec2(1, 0));
   if (ImGui::Begin("panels", nullptr,
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |

@@ -164,7 +164,10 @@ void Session::show_frame(int frame) {
 }
 
 void Session::show_head() {
-  ask([this] { leave_older(); });
+  ask([this] {
+    if (head_) stop_looking_inside();
+    leave_older();
+  });
 }
 
 void Session::continue_from_here() {

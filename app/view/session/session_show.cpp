@@ -27,6 +27,15 @@ double largest_force(const sim::AdvanceReport& advance) {
   return most;
 }
 
+/// The step that is looked at alone, for the caption: not those that led to the frame.
+sim::AdvanceReport report_of(const dump::StepInspection& inside) {
+  sim::AdvanceReport report;
+  report.steps = 1;
+  report.dt_min = report.dt_max = report.seconds = inside.dt;
+  report.ruled[static_cast<std::size_t>(inside.limit)] = 1;
+  return report;
+}
+
 }  // namespace
 
 /// Needs a decomposition per particle, for the elastic energy.
@@ -125,6 +134,7 @@ void Session::inspect_next_step(LiveFrame& live) {
   if (is_stage) {
     stage = static_cast<sim::Stage>(*stage_);
     live.stage = summarize_stage(inside, *stage);
+    live.snapshot.advance = report_of(inside);
     live.snapshot.stage_change = change_of_stage(inside, *stage);
     show_after_stage(inside, *stage, live.snapshot);
   }
