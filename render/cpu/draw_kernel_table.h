@@ -4,8 +4,10 @@
 #include "render/cpu/block_kernel.h"
 #include "render/cpu/draw_kernels.h"
 #include "render/cpu/ground_kernel.h"
+#include "render/cpu/near_kernel.h"
 #include "render/cpu/shade_kernel.h"
 #include "render/cpu/smoke_kernel.h"
+#include "render/cpu/snow_light_kernel.h"
 #include "render/cpu/splat_kernel.h"
 
 namespace neve::render::cpu {
@@ -22,6 +24,8 @@ constexpr DrawKernels draw_kernel_table(const char* name) {
           [](const SolidJob& job, light::GBufferTile& tile) { solid_tile_lanes<V>(job, tile); },
           [](const light::SmokeJob& job) { march_rays<V>(job); },
           [](const BlockJob& job) { march_block_lanes<V>(job); },
+          [](const NearJob& job) { find_nearest<V>(job); },
+          [](const SnowLightJob& job) { light_snow<V>(job); },
           [](const ShadeJob& job) { shade_tile_lanes<V>(job); }};
 }
 

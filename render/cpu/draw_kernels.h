@@ -2,6 +2,8 @@
 /// The kernels that draw on the CPU, compiled once for each instruction set.
 
 #include "render/cpu/block_job.h"
+#include "render/cpu/near_job.h"
+#include "render/cpu/snow_light_job.h"
 #include "render/cpu/splat_job.h"
 #include "render/cpu/surface_job.h"
 #include "render/light/smoke_job.h"
@@ -19,6 +21,8 @@ struct DrawKernels {
   void (*solid_tile)(const SolidJob&, light::GBufferTile&);
   void (*march)(const light::SmokeJob&);
   void (*march_block)(const BlockJob&);
+  void (*find_nearest)(const NearJob&);
+  void (*light_snow)(const SnowLightJob&);
   void (*shade_tile)(const ShadeJob&);
 };
 

@@ -2,30 +2,34 @@
 /// Snow as the surface layer sees it: the field of the exported mesh (surface/field.h), the blocks
 /// that its surface passes through, and the grains near each place.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "render/cpu/block_job.h"
+#include "render/cpu/near_job.h"
 #include "render/frame/frame.h"
 #include "render/surface/block_map.h"
 #include "render/surface/field.h"
 
 namespace neve::render::snow {
 
+using cpu::cubes_per_block;
 using cpu::padded_nodes;
 using cpu::padded_side;
 
-/// Grains lie in cubes of two nodes; a block has 4x4x4 of them.
-inline constexpr int cubes_per_block = 64;
+/// Kernels read whole vectors beyond the end of a list.
+inline constexpr std::size_t grain_margin = 16;
 
 /// Particles in the order of their cubes.
 struct GrainList {
   std::vector<std::uint32_t> first;  ///< of each cube of each block, and the end
   std::vector<Vec3f> position;       ///< m, a little off the particle: grain shows no lattice
-  std::vector<std::uint32_t> color;  ///< as the G-buffer has it (gbuffer_tile.h)
-  std::vector<std::uint32_t> seed;   ///< a random number that stays with the particle
-  std::vector<PackedTurn> turn;      ///< empty: none has turned
+  std::array<std::vector<float>, 3> along;  ///< the same by axis, longer by grain_margin
+  std::vector<std::uint32_t> color;         ///< as the G-buffer has it (gbuffer_tile.h)
+  std::vector<std::uint32_t> seed;          ///< a random number that stays with the particle
+  std::vector<PackedTurn> turn;             ///< empty: none has turned
 };
 
 /// Cells of a block: the first and the last one along each axis.
@@ -60,6 +64,15 @@ struct FieldPlace {
   Vec3f node;
 };
 FieldPlace find_place(const Body& body, Vec3f world);
+
+/// From the corner of the block that a place is in.
+NEVE_INLINE Vec3f node_in_block(const surface::NodePlace& place) {
+  const auto along = [](int node, float rest) {
+    return static_cast<float>(node & 7) + std::min(rest, 0.9999f);
+  };
+  return {along(place.node.x, place.rest.x), along(place.node.y, place.rest.y),
+          along(place.node.z, place.rest.z)};
+}
 
 /// Value of the field at a place.
 /// @param place in nodes from the corner of block b, -7 to 14 along each axis

@@ -63,19 +63,22 @@ void ExposedNodes::want(std::uint32_t padded, Vec3f node) {
 void ExposedNodes::expose_wanted(const Body& body, const light::LightVolume& volume,
                                  const SnowLight& light, ThreadPool* pool) {
   surface::for_ranges(pool, blocks_.size(), [&](std::size_t begin, std::size_t end) {
+    const auto near = std::make_unique_for_overwrite<NearField>();
     for (std::size_t b = begin; b < end; ++b)
       if (blocks_[b].wanted != blocks_[b].exposed)
-        expose_block(static_cast<std::uint32_t>(b), body, volume, light);
+        expose_block(static_cast<std::uint32_t>(b), body, volume, light, *near);
   });
 }
 
 void ExposedNodes::expose_block(std::uint32_t padded, const Body& body,
-                                const light::LightVolume& volume, const SnowLight& light) {
+                                const light::LightVolume& volume, const SnowLight& light,
+                                NearField& near) {
   Block& of = blocks_[padded];
   const float* value = body.padded.data() + std::size_t{padded} * padded_nodes;
   const std::uint32_t block = body.padded_block[padded];
   const float cell = body.field.cell;
   const Vec3f corner = floats(body.field.block[block] * 8);
+  near.take(body.field, block);
   // Those of cells that are new, and of the cells before them: bit 9 j + i would not fit 64 bits.
   const auto is_new = [&](Vec3i c) {
     if (c.x < of.box.low.x || c.y < of.box.low.y || c.z < of.box.low.z || c.x > of.box.high.x ||
@@ -102,7 +105,7 @@ void ExposedNodes::expose_block(std::uint32_t padded, const Body& body,
         place.block = block;
         place.node = floats({i, j, k}) + normal * std::clamp(away, -1.0f, 1.0f);
         place.world = (corner + place.node) * cell;
-        nodes_[at] = expose(body, volume, light, place, normal);
+        nodes_[at] = expose(near, volume, light, place, normal);
       }
   of.exposed = of.wanted;
 }
@@ -126,9 +129,7 @@ Exposure ExposedNodes::at(std::uint32_t padded, Vec3f node) const {
     sum[0] += w * corner[0];
     sum[1] += w * corner[1];
   }
-  auto mixed = std::bit_cast<Exposure>(sum);
-  mixed.normal = normalized(mixed.normal);
-  return mixed;
+  return std::bit_cast<Exposure>(sum);
 }
 
 }  // namespace neve::render::snow

@@ -23,7 +23,7 @@ class ExposedNodes {
   /// @param body  that of the constructor @param pool may be null
   void expose_wanted(const Body& body, const light::LightVolume& volume, const SnowLight& light,
                      ThreadPool* pool);
-  /// @param node  in a cell that was asked for
+  /// @param node  in a cell that was asked for @return its normal is no unit
   Exposure at(std::uint32_t padded, Vec3f node) const;
 
  private:
@@ -37,7 +37,7 @@ class ExposedNodes {
   };
   static Vec3i cell_of(const Block& block, Vec3f node);
   void expose_block(std::uint32_t padded, const Body& body, const light::LightVolume& volume,
-                    const SnowLight& light);
+                    const SnowLight& light, NearField& near);
 
   std::vector<Block> blocks_;
   std::unique_ptr<Exposure[]> nodes_;

@@ -9,12 +9,10 @@ namespace neve::render::snow {
 
 namespace {
 
-constexpr int texels_per_unit = GrainNoise::side / 4;
+constexpr int texels_per_unit = GrainNoise::texels_per_unit;
 
 constexpr std::size_t texel(int i, int j, int k) {
-  constexpr int mask = GrainNoise::side - 1;
-  return static_cast<std::size_t>(((k & mask) * GrainNoise::side + (j & mask)) * GrainNoise::side +
-                                  (i & mask));
+  return GrainNoise::texel(i, j, k);
 }
 
 float random_value(int i, int j, int k, int octave) {
@@ -76,24 +74,6 @@ GrainNoise::GrainNoise() {
                     per_unit * (height[texel(i, j + 1, k)] - height[texel(i, j - 1, k)]),
                     per_unit * (height[texel(i, j, k + 1)] - height[texel(i, j, k - 1)])};
   }
-}
-
-Relief GrainNoise::at(Vec3f place, int detail) const {
-  const std::vector<Texel>& from = levels_[static_cast<std::size_t>(detail)];
-  const Vec3f p = place * static_cast<float>(texels_per_unit);
-  const int i = floor_to_int(p.x), j = floor_to_int(p.y), k = floor_to_int(p.z);
-  const float x = p.x - static_cast<float>(i), y = p.y - static_cast<float>(j),
-              z = p.z - static_cast<float>(k);
-  const auto row = [&](int b, int c) {
-    const Texel low = from[texel(i, j + b, k + c)], high = from[texel(i + 1, j + b, k + c)];
-    return low + (high - low) * x;
-  };
-  const auto slice = [&](int c) {
-    const Texel low = row(0, c), high = row(1, c);
-    return low + (high - low) * y;
-  };
-  const Texel low = slice(0), high = slice(1), sum = low + (high - low) * z;
-  return {sum[0], {sum[1], sum[2], sum[3]}};
 }
 
 const GrainNoise& grain_noise() {

@@ -1,32 +1,15 @@
 #include "render/snow/layer.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "render/frame/same_bytes.h"
 #include "render/light/light_fields.h"
 #include "render/light/shading_constants.h"
+#include "render/snow/batch.h"
 
 namespace neve::render::snow {
 
 namespace {
-
-/// As the G-buffer has colours without light.
-unsigned root_word(Vec3f color) {
-  const auto byte = [](float c) {
-    return static_cast<unsigned>(255 * std::sqrt(std::clamp(c, 0.0f, 1.0f)) + 0.5f);
-  };
-  return byte(color.x) | byte(color.y) << 8 | byte(color.z) << 16 | 0xff000000u;
-}
-
-/// As the G-buffer has light that is finished: the square root of linear display light.
-unsigned finished_word(Vec3f color) {
-  const auto mapped = [](float c) {
-    c *= light::exposure;
-    return c * (1 + c / light::white_point) / (1 + light::shoulder * c);
-  };
-  return root_word({mapped(color.x), mapped(color.y), mapped(color.z)});
-}
 
 bool is_same_plane(const GroundPlane& a, const GroundPlane& b) {
   return a.point == b.point && a.normal == b.normal;
@@ -102,78 +85,63 @@ void Layer::march(ThreadPool* pool) {
 void Layer::draw_tile(int x, int y, light::GBufferTile& tile, light::LitTile* lit) const {
   const TileHits& hits =
       hits_[static_cast<std::size_t>(y / light::tile_height * columns_ + x / light::tile_width)];
+  Batch batch(body_, light_, cpu::chosen_draw_kernels(), tile, lit);
   for (int at = 0; at < light::tile_samples; ++at) {
-    const Sample sample{marcher_->ray(x + at % light::tile_width, y + at / light::tile_width),
-                        hits.distance[at], hits.block[at]};
+    const float hit = hits.distance[at];
     const bool is_sphere =
         tile.kind[at] == light::kind_snow || tile.kind[at] == light::kind_attribute;
-    if (sample.hit > 0 && !(is_sphere && sample.hit * tile.inverse[at] >= 1))
-      draw_surface(sample, {tile, lit, at});
-    else if (is_sphere)
-      draw_grain(sample, {tile, lit, at});
+    if (!is_sphere && !(hit > 0)) continue;
+    const Sample sample{marcher_->ray(x + at % light::tile_width, y + at / light::tile_width), hit,
+                        hits.block[at]};
+    if (hit > 0 && !(is_sphere && hit * tile.inverse[at] >= 1))
+      add_surface(sample, at, tile, batch);
+    else
+      add_grain(sample, at, tile, batch);
   }
-}
-
-void Layer::finish(const SnowPlace& place, const Exposure& exposure, const GrainLook& look,
-                   const Target& to) const {
-  const auto [tile, lit, at] = to;
-  tile.kind[at] = light::kind_lit;
-  tile.normal_x[at] = exposure.normal.x;
-  tile.normal_y[at] = exposure.normal.y;
-  tile.normal_z[at] = exposure.normal.z;
-  const SnowLightParts parts = snow_light(body_, light_, place, exposure, look);
-  tile.albedo[at] = finished_word(parts.sun + parts.around);
-  if (!lit) return;
-  lit->albedo[at] = root_word(look.albedo);
-  for (int c = 0; c < 3; ++c) {
-    lit->sun[c][at] = parts.sun[c];
-    lit->open_sun[c][at] = parts.open_sun[c];
-    lit->around[c][at] = parts.around[c];
-  }
+  batch.finish();
 }
 
 SnowPlace Layer::place_at(const Sample& sample, float distance) const {
   SnowPlace place;
-  place.toward_eye = normalized(-sample.ray);
   place.sample_size = distance / view_->pixels_per_slope;
   place.world = view_->eye + sample.ray * distance;
   return place;
 }
 
-void Layer::draw_surface(const Sample& sample, const Target& to) const {
+void Layer::add_surface(const Sample& sample, int at, light::GBufferTile& tile,
+                        Batch& batch) const {
   SnowPlace place = place_at(sample, sample.hit);
   place.block = body_.padded_block[sample.padded];
   place.node = marcher_->place_of(sample.padded, sample.ray * sample.hit);
-  to.tile.inverse[to.at] = 1 / sample.hit;
-  finish(place, nodes_->at(sample.padded, place.node), grain_look(body_, place), to);
+  tile.inverse[at] = 1 / sample.hit;
+  batch.add(at, sample.ray, place, nodes_->at(sample.padded, place.node));
 }
 
-void Layer::draw_grain(const Sample& sample, const Target& to) const {
-  const auto [tile, lit, at] = to;
+void Layer::add_grain(const Sample& sample, int at, const light::GBufferTile& tile,
+                      Batch& batch) const {
   const float distance = 1 / tile.inverse[at];
   SnowPlace place = place_at(sample, distance);
   Vec3f normal{tile.normal_x[at], tile.normal_y[at], tile.normal_z[at]};
   const FieldPlace field = find_place(body_, place.world);
   place.block = field.block;
   place.node = field.node;
-  GrainLook look;
-  look.albedo = albedo_of(tile.albedo[at]);
   if (field.block != surface::no_block) {
     const float sure = std::min(3 * share_at(body_.field, field.block, field.node), 0.8f);
     normal =
         normalized(normal * (1 - sure) + normal_at(body_.field, field.block, field.node) * sure);
-    look = grain_look(body_, place);
   }
   Exposure exposure = expose(body_, *volume_, light_, place, normal);
   if (sample.hit > 0) {
     // A grain that lies in the surface becomes a part of it.
     const float out = std::min((sample.hit - distance) / (0.7f * body_.spacing), 1.0f);
-    const Vec3f below =
+    const Vec3f below = normalized(
         nodes_->at(sample.padded, marcher_->place_of(sample.padded, sample.ray * sample.hit))
-            .normal;
-    exposure.normal = normalized(below * (1 - out) + normal * out);
+            .normal);
+    exposure.normal = below * (1 - out) + normal * out;
   }
-  finish(place, exposure, look, to);
+  const Vec3f white{1, 1, 1};
+  batch.add(at, sample.ray, place, exposure,
+            field.block == surface::no_block ? albedo_of(tile.albedo[at]) : white);
 }
 
 }  // namespace neve::render::snow

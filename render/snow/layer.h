@@ -15,6 +15,8 @@
 
 namespace neve::render::snow {
 
+class Batch;
+
 class Layer : public cpu::TileSource {
  public:
   /// Makes the body, unless it is that of the last call.
@@ -33,17 +35,9 @@ class Layer : public cpu::TileSource {
     std::uint32_t padded;
   };
   void march(ThreadPool* pool);
-  /// Sample of a tile that takes the light.
-  struct Target {
-    light::GBufferTile& tile;
-    light::LitTile* lit;  ///< may be null
-    int at;
-  };
   SnowPlace place_at(const Sample& sample, float distance) const;
-  void draw_surface(const Sample& sample, const Target& to) const;
-  void draw_grain(const Sample& sample, const Target& to) const;
-  void finish(const SnowPlace& place, const Exposure& exposure, const GrainLook& look,
-              const Target& to) const;
+  void add_surface(const Sample& sample, int at, light::GBufferTile& tile, Batch& batch) const;
+  void add_grain(const Sample& sample, int at, const light::GBufferTile& tile, Batch& batch) const;
 
   Body body_;
   std::optional<Points> points_;      ///< that the body is made of

@@ -1,6 +1,7 @@
 #pragma once
 /// Light on a place of a body of snow, for one sample of the picture.
 
+#include <array>
 #include <cstdint>
 
 #include "render/light/lighting.h"
@@ -28,7 +29,6 @@ struct alignas(16) Exposure {
 /// A place of the surface, or on a grain of spray.
 struct SnowPlace {
   Vec3f world;                              ///< m
-  Vec3f toward_eye;                         ///< unit
   std::uint32_t block = surface::no_block;  ///< of the field; no_block: far from any
   Vec3f node;                               ///< place in nodes from the corner of the block
   float sample_size = 1;                    ///< m, of a sample of the picture there
@@ -37,29 +37,43 @@ struct SnowPlace {
 /// Outward normal of the field, unit.
 Vec3f normal_at(const surface::Field& field, std::uint32_t block, Vec3f node);
 
+/// The field from a block to as far as near shadows reach, in one piece: quick to read often.
+class NearField {
+ public:
+  void take(const surface::Field& field, std::uint32_t block);
+  /// As share_at. @param node  -6.5 to 13.5 along each axis
+  float share(Vec3f node) const;
+
+ private:
+  static constexpr int margin = 7, side = surface::block_side + 2 * margin;
+  std::array<float, side * side * side> value_;
+};
+
 /// @param normal  unit, outward
 Exposure expose(const Body& body, const light::LightVolume& volume, const SnowLight& light,
                 const SnowPlace& place, Vec3f normal);
+/// The same bits. @param near  of the block of the place
+Exposure expose(const NearField& near, const light::LightVolume& volume, const SnowLight& light,
+                const SnowPlace& place, Vec3f normal);
 
-/// Nearest grains: colour, and relief in the frame of the grain.
+/// Colour, and relief in the frame of the grain.
 struct GrainLook {
-  Vec3f albedo{1, 1, 1};   ///< linear
-  Vec3f slope;             ///< of the relief, in spacings per spacing
-  float height = 0;        ///< about -1 to 1
-  std::uint32_t seed = 0;  ///< of the nearest grain
-  Vec3f offset;            ///< from there, in spacings
+  Vec3f albedo{1, 1, 1};  ///< linear
+  Vec3f slope;            ///< of the relief, in spacings per spacing
+  float height = 0;       ///< about -1 to 1
+  Vec3f facet;            ///< unit, of a crystal that may mirror the sun; 0: too small to be seen
 };
 
-/// @param place  with a block
-GrainLook grain_look(const Body& body, const SnowPlace& place);
+/// The look of a grain at a place. @param pixels  samples per spacing @param wants_facet  or leaves
+/// it
+GrainLook look_of_grain(const Body& body, Vec3f world, float pixels, bool wants_facet,
+                        std::uint32_t grain);
 
-/// Linear light towards the eye.
-struct SnowLightParts {
-  Vec3f sun;       ///< of the key light, on the surface and through the snow
-  Vec3f open_sun;  ///< as if nothing were in its way to the surface
-  Vec3f around;    ///< of the sky, and from inside the snow
-};
-SnowLightParts snow_light(const Body& body, const SnowLight& light, const SnowPlace& place,
-                          const Exposure& exposure, const GrainLook& grain);
+/// Part of the look of the second grain: half of it where both are equally near.
+/// @param spacing  m
+float part_of_second(float first_squared, float second_squared, float spacing);
+
+/// Samples per spacing below which nothing sparkles; see snow_light_kernel.h.
+inline constexpr float least_sparkling = 2;
 
 }  // namespace neve::render::snow

@@ -2,18 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "render/surface/filter.h"
+#include "render/surface/grain_order.h"
 #include "render/surface/loops.h"
+#include "sim/base/lanes.h"
 
 namespace neve::render::surface {
 
 namespace {
 
 /// A block takes what its particles give to its own nodes and to the first two of the next blocks.
-constexpr int tile_side = block_side + 2, tile_nodes = tile_side * tile_side * tile_side;
-constexpr BlockKey no_key = ~BlockKey{0};
+/// Its rows are as long as three vectors of four.
+constexpr int tile_side = block_side + 2, tile_row = 12,
+              tile_nodes = tile_side * tile_side * tile_row;
 
 /// Bytes a block of nodes needs until the mesh is there: its values twice, its neighbours, labels
 /// of its pieces, bits; and the tile of one with particles.
@@ -32,12 +36,7 @@ struct Spline {
   std::array<std::array<float, 3>, 3> weight;  ///< by axis
 };
 
-Vec3i spline_node(const NodePlace& p) {
-  return {p.node.x - (p.rest.x < 0.5f ? 1 : 0), p.node.y - (p.rest.y < 0.5f ? 1 : 0),
-          p.node.z - (p.rest.z < 0.5f ? 1 : 0)};
-}
-
-Spline spline_at(const NodePlace& place) {
+NEVE_INLINE Spline spline_at(const NodePlace& place) {
   Spline spline{spline_node(place), {}};
   for (int axis = 0; axis < 3; ++axis) {
     const float u = place.rest[axis] + (place.rest[axis] < 0.5f ? 1.0f : 0.0f);  // 0.5 to 1.5
@@ -45,45 +44,6 @@ Spline spline_at(const NodePlace& place) {
         0.5f * (1.5f - u) * (1.5f - u), 0.75f - (u - 1) * (u - 1), 0.5f * (u - 0.5f) * (u - 0.5f)};
   }
   return spline;
-}
-
-/// The block of the particle's first node; no_key for one that is left out.
-BlockKey key_of(const Grains& grains, std::size_t p, float cell) {
-  NodePlace place;
-  const float volume = grains.volume[p];
-  if (!(volume > 0) || !is_finite(volume) || !find_node(grains.position[p], cell, place))
-    return no_key;
-  const Vec3i node = spline_node(place);
-  return block_key({node.x >> 3, node.y >> 3, node.z >> 3});
-}
-
-/// Blocks with particles, and how far in them their first nodes are.
-struct Occupied {
-  BlockMap map;
-  struct Reach {
-    Vec3i low{7, 7, 7}, high{0, 0, 0};
-  };
-  std::vector<Reach> reach;
-};
-
-Occupied occupied_blocks(const Grains& grains, const std::vector<BlockKey>& keys, float cell) {
-  Occupied occupied;
-  BlockKey last = no_key;
-  std::uint32_t b = no_block;
-  for (std::size_t p = 0; p < keys.size(); ++p) {
-    if (keys[p] == no_key) continue;
-    if (keys[p] != last) b = occupied.map.insert(last = keys[p]);
-    if (b >= occupied.reach.size()) occupied.reach.resize(b + 1);
-    NodePlace place;
-    find_node(grains.position[p], cell, place);
-    const Vec3i node = spline_node(place);
-    for (int axis = 0; axis < 3; ++axis) {
-      int &low = occupied.reach[b].low[axis], &high = occupied.reach[b].high[axis];
-      low = std::min(low, node[axis] & 7);
-      high = std::max(high, node[axis] & 7);
-    }
-  }
-  return occupied;
 }
 
 /// All blocks with a node that a particle reaches, or one beside such a node, in order.
@@ -124,34 +84,49 @@ void find_neighbours(const std::vector<BlockKey>& keys, const BlockMap& map, Fie
   });
 }
 
-Bins sort_grains(const std::vector<BlockKey>& keys, const BlockMap& map) {
-  std::vector<std::uint32_t> block_of(keys.size(), no_block);
-  BlockKey last = no_key;
-  std::uint32_t b = no_block;
-  for (std::size_t p = 0; p < keys.size(); ++p) {
-    if (keys[p] == no_key) continue;
-    if (keys[p] != last) b = map.find(last = keys[p]);
-    block_of[p] = b;
+using V = Quad<float>;
+
+/// Weights along x of the nodes of a tile's row, four to a vector: what lies in memory is read as
+/// it was written, which is quick.
+struct RowWeights {
+  int first;                ///< vector of the row
+  std::array<V, 2> weight;  ///< of its nodes, and of those of the next vector
+};
+
+RowWeights row_weights(int node, const std::array<float, 3>& w) {
+  using I = MaskOf<V>;
+  const int first = std::min(node >> 2, 1);
+  RowWeights row{first, {}};
+  I at = I{0, 1, 2, 3} - all<I>(node - 4 * first);
+  for (V& weight : row.weight) {
+    weight = at == I{} ? all<V>(w[0]) : V{};
+    weight = at == all<I>(1) ? all<V>(w[1]) : weight;
+    weight = at == all<I>(2) ? all<V>(w[2]) : weight;
+    at += 4;
   }
-  return sorted_into_bins(block_of, map.size());
+  return row;
 }
 
-/// Spreads the volume of a block's particles over a tile of nodes.
-void fill_tile(const Grains& grains, std::span<const std::uint32_t> list, float cell, float* tile) {
+/// Spreads the volume of a block's particles over a tile of nodes, which it clears before.
+void fill_tile(std::span<const PlacedGrain> grains, float cell, V* tile) {
+  constexpr int row_vectors = tile_row / 4;
   const float per_cell = 1 / (cell * cell * cell);
-  for (const std::uint32_t p : list) {
+  std::fill_n(tile, tile_nodes / 4, V{});
+  for (const PlacedGrain& grain : grains) {
     NodePlace place;
-    find_node(grains.position[p], cell, place);
+    find_node(grain.position, cell, place);
     const Spline spline = spline_at(place);
     const auto& [wx, wy, wz] = spline.weight;
-    const float share = std::min(grains.volume[p] * per_cell, most_cells);
-    float* corner = tile + ((spline.node.z & 7) * tile_side + (spline.node.y & 7)) * tile_side +
-                    (spline.node.x & 7);
+    const float share = std::min(grain.volume * per_cell, most_cells);
+    const RowWeights along = row_weights(spline.node.x & 7, wx);
+    V* corner =
+        tile + ((spline.node.z & 7) * tile_side + (spline.node.y & 7)) * row_vectors + along.first;
     for (int k = 0; k < 3; ++k)
       for (int j = 0; j < 3; ++j) {
         const float w = share * wz[static_cast<std::size_t>(k)] * wy[static_cast<std::size_t>(j)];
-        float* row = corner + (k * tile_side + j) * tile_side;
-        for (int i = 0; i < 3; ++i) row[i] += w * wx[static_cast<std::size_t>(i)];
+        V* row = corner + (k * tile_side + j) * row_vectors;
+        row[0] += w * along.weight[0];
+        row[1] += w * along.weight[1];
       }
   }
 }
@@ -162,29 +137,29 @@ void add_tile(const float* tile, Vec3i side, float* value) {
   for (int k = 0; k < count(side.z); ++k)
     for (int j = 0; j < count(side.y); ++j) {
       const float* from =
-          tile + ((k + 8 * side.z) * tile_side + j + 8 * side.y) * tile_side + 8 * side.x;
+          tile + ((k + 8 * side.z) * tile_side + j + 8 * side.y) * tile_row + 8 * side.x;
       float* to = value + (k * block_side + j) * block_side;
       for (int i = 0; i < count(side.x); ++i) to[i] += from[i];
     }
 }
 
 /// Every node gets its sums in one order: by particles in a block, then by blocks.
-void gather_volume(const Grains& grains, const Bins& blocks, Field& field, ThreadPool* pool) {
+void gather_volume(GrainField& made, ThreadPool* pool) {
+  Field& field = made.field;
+  const std::vector<std::uint32_t>& first = made.grains.first;
   std::vector<std::uint32_t> tile_of(field.block.size(), no_block), full;
   for (std::size_t b = 0; b < field.block.size(); ++b) {
-    if (blocks.first[b] == blocks.first[b + 1]) continue;
+    if (first[b] == first[b + 1]) continue;
     tile_of[b] = static_cast<std::uint32_t>(full.size());
     full.push_back(static_cast<std::uint32_t>(b));
   }
-  std::vector<float> tiles(full.size() * tile_nodes);
+  const auto tiles = std::make_unique_for_overwrite<V[]>(full.size() * (tile_nodes / 4));
   for_ranges(pool, full.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const std::uint32_t b = full[t];
-      const std::span<const std::uint32_t> list(blocks.grain.data() + blocks.first[b],
-                                                blocks.grain.data() + blocks.first[b + 1]);
-      fill_tile(grains, list, field.cell, tiles.data() + t * tile_nodes);
-    }
+    for (std::size_t t = begin; t < end; ++t)
+      fill_tile({made.placed.data() + first[full[t]], made.placed.data() + first[full[t] + 1]},
+                field.cell, tiles.get() + t * (tile_nodes / 4));
   });
+  const auto* nodes = reinterpret_cast<const float*>(tiles.get());
   for_ranges(pool, field.block.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
       for (int side = 0; side < 8; ++side) {
@@ -192,7 +167,7 @@ void gather_volume(const Grains& grains, const Bins& blocks, Field& field, Threa
         const auto n = static_cast<std::size_t>(13 - 9 * away.z - 3 * away.y - away.x);
         const std::uint32_t other = field.near[b][n];
         if (other == no_block || tile_of[other] == no_block) continue;
-        add_tile(tiles.data() + std::size_t{tile_of[other]} * tile_nodes, away,
+        add_tile(nodes + std::size_t{tile_of[other]} * tile_nodes, away,
                  field.value.data() + b * block_nodes);
       }
   });
@@ -225,38 +200,22 @@ MemoryError::MemoryError(double bytes_needed)
                          " bytes"),
       bytes(bytes_needed) {}
 
-bool find_node(Vec3f position, float cell, NodePlace& place) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double x = static_cast<double>(position[axis]) / static_cast<double>(cell);
-    // Leaves room for the blocks around, which need places too.
-    if (!(x > -8e6 && x < 8e6)) return false;
-    const int below = floor_to_int(x);
-    place.node[axis] = below;
-    place.rest[axis] = static_cast<float>(x - below);
-  }
-  return true;
-}
-
 GrainField make_field(const Grains& grains, const Kernel& kernel, std::uint64_t max_bytes,
                       ThreadPool* pool) {
   GrainField made;
   made.field.cell = kernel.cell;
   const double cells = static_cast<double>(kernel.width) / static_cast<double>(kernel.cell);
   const Filter filter = make_filter(cells * cells - 0.25);  // a quadratic B-spline has 1/4
-  std::vector<BlockKey> keys(grains.position.size());
-  for_ranges(pool, keys.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) keys[p] = key_of(grains, p, kernel.cell);
-  });
+  Runs runs(grains, kernel.cell, pool);
   // Repeated filters reach further than a Gaussian of their width has any weight.
   const int reach = std::min(filter.reach(), static_cast<int>(std::ceil(most_widths * cells)));
-  const std::vector<BlockKey> blocks =
-      reached_blocks(occupied_blocks(grains, keys, kernel.cell), reach, max_bytes);
+  const std::vector<BlockKey> blocks = reached_blocks(occupied_blocks(runs), reach, max_bytes);
   BlockMap map(blocks.size());
   for (const BlockKey key : blocks) map.insert(key);
   find_neighbours(blocks, map, made.field, pool);
   made.field.value.assign(blocks.size() * block_nodes, 0.0f);
-  made.grains = sort_grains(keys, map);
-  gather_volume(grains, made.grains, made.field, pool);
+  sort_grains(grains, runs, map, pool, made);
+  gather_volume(made, pool);
   apply(filter, made.field, pool);
   clear_rim(made.field, pool);
   return made;

@@ -47,9 +47,16 @@ struct Field {
   float at(std::size_t b, int i, int j, int k) const;
 };
 
+/// A particle in its bin, side by side with those that are looked at next.
+struct PlacedGrain {
+  Vec3f position;  ///< m
+  float volume;    ///< m3
+};
+
 struct GrainField {
   Field field;
-  Bins grains;  ///< by the block that their kernel begins in
+  Bins grains;                      ///< by the block that their kernel begins in
+  std::vector<PlacedGrain> placed;  ///< those of the bins
 };
 
 /// A lattice that does not fit in the memory it may have.
@@ -69,7 +76,17 @@ struct NodePlace {
   Vec3f rest;  ///< from there, 0 to 1
 };
 /// @return false: not finite, or off the lattice
-bool find_node(Vec3f position, float cell, NodePlace& place);
+NEVE_INLINE bool find_node(Vec3f position, float cell, NodePlace& place) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double x = static_cast<double>(position[axis]) / static_cast<double>(cell);
+    // Leaves room for the blocks around, which need places too.
+    if (!(x > -8e6 && x < 8e6)) return false;
+    const int below = floor_to_int(x);
+    place.node[axis] = below;
+    place.rest[axis] = static_cast<float>(x - below);
+  }
+  return true;
+}
 
 inline float Field::at(std::size_t b, int i, int j, int k) const {
   const int n = ((k + 8) >> 3) * 9 + ((j + 8) >> 3) * 3 + ((i + 8) >> 3);

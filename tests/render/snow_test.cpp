@@ -1,9 +1,12 @@
 /// The view snow: particles as a surface with grain.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <random>
 #include <utility>
 
 #include "both_ways.h"
@@ -253,6 +256,86 @@ TEST(Snow, HitsDependNeitherOnThreadsNorOnTheInstructionSet) {
   });
   EXPECT_GT(found, 1000u);
 #endif
+}
+
+/// The two grains nearest to a place, from all there are.
+std::array<std::uint32_t, 2> nearest_of_all(const snow::GrainList& grains, Vec3f place) {
+  std::array<std::uint64_t, 2> key{~0ull, ~0ull};
+  for (std::uint32_t p = 0; p < grains.position.size(); ++p) {
+    const Vec3f away = place - grains.position[p];
+    const std::uint64_t own =
+        std::uint64_t{std::bit_cast<std::uint32_t>(dot(away, away))} << 32 | p;
+    key[1] = std::min(key[1], std::max(key[0], own));
+    key[0] = std::min(key[0], own);
+  }
+  return {static_cast<std::uint32_t>(key[0]), static_cast<std::uint32_t>(key[1])};
+}
+
+TEST(Snow, NearestGrainsAreThoseOfAll) {
+  const Body body = snow::make_body(torn_snow(160, 100).points, nullptr);
+  const float cell = body.field.cell;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> away(-cell, cell);
+  constexpr int count = 500;
+  std::vector<std::uint32_t> block;
+  std::array<std::vector<float>, 3> node, world;
+  std::vector<Vec3f> places;
+  while (places.size() < count) {
+    const Vec3f place = body.grains.position[random() % body.grains.position.size()] +
+                        Vec3f{away(random), away(random), away(random)};
+    const snow::FieldPlace at = snow::find_place(body, place);
+    if (at.block == surface::no_block) continue;
+    places.push_back(place);
+    block.push_back(at.block);
+    for (int axis = 0; axis < 3; ++axis) {
+      node[static_cast<std::size_t>(axis)].push_back(at.node[axis]);
+      world[static_cast<std::size_t>(axis)].push_back(place[axis]);
+    }
+  }
+  std::vector<const cpu::DrawKernels*> kernels{&cpu::draw_baseline};
+  if (&cpu::chosen_draw_kernels() != &cpu::draw_baseline)
+    kernels.push_back(&cpu::chosen_draw_kernels());
+  for (const cpu::DrawKernels* k : kernels) {
+    std::vector<std::uint32_t> first(count), second(count);
+    std::vector<float> first_squared(count), second_squared(count);
+    const auto& along = body.grains.along;
+    k->find_nearest({count,
+                     block.data(),
+                     {node[0].data(), node[1].data(), node[2].data()},
+                     {world[0].data(), world[1].data(), world[2].data()},
+                     reinterpret_cast<const std::uint32_t(*)[27]>(body.field.near.data()),
+                     body.grains.first.data(),
+                     {along[0].data(), along[1].data(), along[2].data()},
+                     first.data(),
+                     second.data(),
+                     first_squared.data(),
+                     second_squared.data()});
+    int sure = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+      const auto [nearest, next] = nearest_of_all(body.grains, places[n]);
+      // Grains are looked for up to a node away at least, and up to three at most.
+      if (first[n] == surface::no_block || first_squared[n] > cell * cell) continue;
+      EXPECT_EQ(first[n], nearest) << k->simd;
+      if (second[n] == surface::no_block || second_squared[n] > cell * cell) continue;
+      ++sure;
+      EXPECT_EQ(second[n], next) << k->simd;
+    }
+    EXPECT_GT(sure, count / 4);
+  }
+}
+
+TEST(Snow, AFieldInOnePieceHasTheSameShares) {
+  const Body body = snow::make_body(torn_snow(160, 100).points, nullptr);
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> along(-6.5f, 13.5f);
+  const auto near = std::make_unique<snow::NearField>();
+  for (std::uint32_t block = 0; block < body.field.block.size(); block += 3) {
+    near->take(body.field, block);
+    for (int n = 0; n < 50; ++n) {
+      const Vec3f node{along(random), along(random), along(random)};
+      EXPECT_EQ(near->share(node), snow::share_at(body.field, block, node));
+    }
+  }
 }
 
 TEST(Snow, IsDrawnAlikeByOpenGlAndOnTheCpu) {

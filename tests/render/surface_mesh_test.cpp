@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <map>
 #include <random>
 #include <set>
 
@@ -225,12 +226,98 @@ TEST(Surface, SameBitsAtAnyNumberOfThreads) {
   const Snow snow = torn_snow();
   const Surface alone = make_surface(snow.grains(), usual, nullptr);
   const Shares shares = shares_of(alone.mesh.position, snow.grains(), alone.spray, 0.02f, nullptr);
-  for (const int threads : {1, 2, 3}) {
+  for (const int threads : {1, 2, 3, 7}) {
     ThreadPool pool(threads);
     EXPECT_TRUE(is_same(make_surface(snow.grains(), usual, &pool), alone)) << threads;
     const Shares other = shares_of(alone.mesh.position, snow.grains(), alone.spray, 0.02f, &pool);
     EXPECT_TRUE(other.first == shares.first && other.grain == shares.grain &&
                 other.share == shares.share);
+  }
+}
+
+/// The volume that particles give to each node, one after the other: sums in the order of the
+/// blocks that the kernels begin in, and of the particles there.
+class PlainVolume {
+ public:
+  PlainVolume(const Grains& grains, float cell) {
+    for (std::size_t p = 0; p < grains.position.size(); ++p) add(grains, p, cell);
+  }
+  float at(Vec3i node) const {
+    float sum = 0;
+    for (const auto& [block, nodes] : blocks_) {
+      const auto found = nodes.find({node.z, node.y, node.x});
+      if (found != nodes.end()) sum += found->second;
+    }
+    return sum;
+  }
+
+ private:
+  using Place = std::array<int, 3>;  ///< z, y, x
+
+  void add(const Grains& grains, std::size_t p, float cell) {
+    Place first;
+    std::array<std::array<float, 3>, 3> weight;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = double(grains.position[p][axis]) / double(cell), below = std::floor(x);
+      const auto rest = float(x - below);
+      const auto a = std::size_t(2 - axis);
+      first[a] = int(below) - (rest < 0.5f ? 1 : 0);
+      const float u = rest + (rest < 0.5f ? 1.0f : 0.0f);
+      weight[a] = {0.5f * (1.5f - u) * (1.5f - u), 0.75f - (u - 1) * (u - 1),
+                   0.5f * (u - 0.5f) * (u - 0.5f)};
+    }
+    const float share = grains.volume[p] * (1 / (cell * cell * cell));
+    auto& nodes = blocks_[{first[0] >> 3, first[1] >> 3, first[2] >> 3}];
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
+          nodes[{first[0] + k, first[1] + j, first[2] + i}] += share * weight[0][std::size_t(k)] *
+                                                               weight[1][std::size_t(j)] *
+                                                               weight[2][std::size_t(i)];
+  }
+
+  std::map<Place, std::map<Place, float>> blocks_;
+};
+
+/// A kernel as wide as the spline alone needs no filter.
+TEST(Surface, FieldHasTheBitsOfThePlainSums) {
+  const Snow snow = torn_snow();
+  const float cell = 0.8f * spacing;
+  ThreadPool pool(3);
+  const GrainField made = make_field(snow.grains(), {cell, 0.5f * cell}, 0, &pool);
+  const PlainVolume plain(snow.grains(), cell);
+  std::size_t full = 0;
+  for (std::size_t b = 0; b < made.field.block.size(); b += 7)
+    for (int n = 0; n < block_nodes; ++n) {
+      const Vec3i node = made.field.block[b] * block_side + Vec3i{n & 7, n >> 3 & 7, n >> 6};
+      const float value = made.field.value[b * block_nodes + std::size_t(n)];
+      if (value == 0) continue;  // nodes beside an absent block are cleared
+      ++full;
+      // The sums of eight blocks are added in another order than here.
+      const bool is_of_one_block = (n & 7) > 1 && (n >> 3 & 7) > 1 && (n >> 6) > 1;
+      if (is_of_one_block) {
+        EXPECT_EQ(value, plain.at(node));
+      } else {
+        EXPECT_NEAR(value, plain.at(node), 1e-6f * value);
+      }
+    }
+  EXPECT_GT(full, 3000u);
+}
+
+TEST(Surface, BinsDoNotDependOnThreads) {
+  std::mt19937 random(3);
+  std::vector<std::uint32_t> bin_of(20000);
+  for (std::uint32_t& bin : bin_of)
+    bin = random() % 5 == 0 ? no_block : std::uint32_t(random() % 777);
+  const Bins alone = sorted_into_bins(bin_of, 777);
+  for (std::size_t bin = 0; bin < 777; ++bin)
+    for (std::uint32_t k = alone.first[bin]; k < alone.first[bin + 1]; ++k)
+      EXPECT_EQ(bin_of[alone.grain[k]], bin);
+  for (const int threads : {1, 2, 3, 7}) {
+    ThreadPool pool(threads);
+    const Bins together = sorted_into_bins(bin_of, 777, &pool);
+    EXPECT_EQ(together.first, alone.first);
+    EXPECT_EQ(together.grain, alone.grain);
   }
 }
 

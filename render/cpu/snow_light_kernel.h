@@ -1,0 +1,148 @@
+#pragma once
+/// Light of snow towards the eye, in lanes of samples.
+
+#include "render/cpu/lane_math.h"
+#include "render/cpu/snow_light_job.h"
+#include "render/light/shading_constants.h"
+
+namespace neve::render::cpu {
+namespace {
+
+template <class V>
+NEVE_INLINE Points3<V> load_points(const float* const (&from)[3], int at) {
+  return {load_lanes<V>(from[0] + at), load_lanes<V>(from[1] + at), load_lanes<V>(from[2] + at)};
+}
+template <class V>
+NEVE_INLINE V inner(const Points3<V>& a, const Points3<V>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+/// Unit vectors; zero stays zero.
+template <class V>
+NEVE_INLINE Points3<V> normalized_lanes(const Points3<V>& p) {
+  const V size = square_root_lanes(square_of(p));
+  const V by = size > V{} ? size : all<V>(1);
+  return {p.x / by, p.y / by, p.z / by};
+}
+template <class V>
+NEVE_INLINE V smooth_step_lanes(float low, float high, V x) {
+  const V t = unit_lanes((x - low) / (high - low));
+  return t * t * (3 - 2 * t);
+}
+
+/// Henyey and Greenstein, 1 on average.
+template <class V>
+NEVE_INLINE V forward_phase(V cosine, float g) {
+  const V apart = 1 + g * g - 2 * g * cosine;
+  return (1 - g * g) / (apart * square_root_lanes(apart));
+}
+
+/// As the G-buffer has light that is finished: the square root of linear display light.
+template <class V>
+NEVE_INLINE MaskOf<V> finished_byte(V c) {
+  c = c * light::exposure;
+  c = c * (1 + c / light::white_point) / (1 + light::shoulder * c);
+  return to_byte(square_root_lanes(unit_lanes(c)));
+}
+
+/// Sky light of a place from which only a part of the sky is open: what hides the rest is snow too,
+/// and returns light, over and over.
+/// @param open  part of the sky @param kept  part of the light that a bounce leaves
+template <class V>
+NEVE_INLINE V filled(V open, float kept) {
+  return open / (1 - kept * (1 - open));
+}
+
+/// Bounces between snow and snow: red is lost first, so that deep places are blue. Less than the
+/// albedo, since not all that hides the sky is white.
+constexpr Vec3f returned{0.70f, 0.78f, 0.86f};
+constexpr float ambient_share = 0.82f;
+/// Snow scatters ahead: shade behind thin snow is lighter than what it absorbs and throws back.
+constexpr float scattered_ahead = 0.85f;
+
+/// Linear light towards the eye.
+template <class V>
+struct SnowLightParts {
+  Points3<V> sun;       ///< of the key light, on the surface and through the snow
+  Points3<V> open_sun;  ///< as if nothing were in its way to the surface
+  Points3<V> around;    ///< of the sky, and from inside the snow
+};
+
+/// @param at    of the first sample @param even  unit, without relief
+template <class V>
+NEVE_INLINE SnowLightParts<V> snow_light_lanes(const SnowLightJob& job, int at, const Points3<V>& even) {
+  const Points3<V> toward_eye = normalized_lanes(load_points<V>(job.ray, at) * all<V>(-1));
+  const Points3<V> slope = load_points<V>(job.slope, at);
+  const V sun = load_lanes<V>(job.sun + at), sky = load_lanes<V>(job.sky + at);
+  const V pixels = job.spacing / load_lanes<V>(job.sample_size + at);
+  const V strength = 0.55f * smooth_step_lanes(0.6f, 3.0f, pixels);
+  const Points3<V> in_surface = slope + even * -inner(slope, even);
+  const Points3<V> n = normalized_lanes(even + in_surface * (-0.35f * strength));
+  const V facing = along(n, job.toward), even_facing = along(even, job.toward);
+  const float contrast = job.is_value ? light::value_contrast : 1.0f;
+  // Light enters snow and leaves it somewhere near: the terminator is soft, and its rim is blue.
+  const auto wrapped = [&](float wrap) NEVE_INLINE_BODY {
+    const V rough = larger_lanes(V{}, (facing + wrap) / (1 + wrap));
+    const V smooth = larger_lanes(V{}, (even_facing + wrap) / (1 + wrap));
+    return 1 + contrast * (0.65f * rough + 0.35f * smooth - 1);
+  };
+  const V glow = load_lanes<V>(job.through + at) * smooth_step_lanes(0.25f, -0.6f, even_facing) *
+                 forward_phase(-along(toward_eye, job.toward), 0.55f);
+  // Crystals that mirror the sun.
+  constexpr float least = 0.98f;
+  const V mirrored = inner(load_points<V>(job.facet, at),
+                           normalized_lanes(toward_eye + all_points<V>(job.toward)));
+  const V glint = larger_lanes(V{}, mirrored - least) / (1 - least);
+  const V spark = 1.2f * smooth_step_lanes(2, 6, pixels) * larger_lanes(V{}, facing) * glint;
+  const V log_sun = rough_log2(larger_lanes(sun, all<V>(1e-6f))) * contrast;
+  const V up = 0.5f + 0.5f * n.y;
+  const V crevice = load_lanes<V>(job.crevice + at) *
+                    (1 + 0.25f * strength * smaller_lanes(load_lanes<V>(job.height + at), V{}));
+  const V open = sky * crevice;
+  const V inside = job.ambient * (0.9f * sky * (1 - sun) + 0.2f);
+  const Points3<V> albedo = load_points<V>(job.albedo, at);
+  SnowLightParts<V> parts;
+  const auto fill = [&](auto part, float Vec3f::*c, float wrap) NEVE_INLINE_BODY {
+    const V key = 1.06f * job.key * (light::sun_color.*c) * albedo.*part;
+    const V facing_sun = wrapped(wrap);
+    const V arriving = rough_exp2(log_sun * (scattered_ahead * (light::absorption.*c)));
+    parts.sun.*part = key * (facing_sun * arriving + 0.22f * glow + spark * sun);
+    parts.open_sun.*part = key * (facing_sun + 0.22f * glow + spark);
+    const V around = ambient_share * job.ambient *
+                     (light::ambient_least +
+                      light::ambient_gain * (1 + contrast * (filled(open, returned.*c) - 1)));
+    const V ambient = around * ((light::bounce_color.*c) +
+                                ((light::sky_color.*c) - (light::bounce_color.*c)) * up);
+    parts.around.*part = albedo.*part * (ambient + inside * (light::scatter_color.*c));
+  };
+  fill(&Points3<V>::x, &Vec3f::x, 0.18f);
+  fill(&Points3<V>::y, &Vec3f::y, 0.24f);
+  fill(&Points3<V>::z, &Vec3f::z, 0.32f);
+  return parts;
+}
+
+template <class V>
+NEVE_INLINE void store_points(const Points3<V>& p, float* const (&to)[3], int at) {
+  store_lanes(p.x, to[0] + at);
+  store_lanes(p.y, to[1] + at);
+  store_lanes(p.z, to[2] + at);
+}
+
+template <class V>
+NEVE_INLINE void light_snow(const SnowLightJob& job) {
+  for (int at = 0; at < job.count; at += lane_count<V>) {
+    const Points3<V> even = normalized_lanes(load_points<V>(job.normal, at));
+    const SnowLightParts<V> parts = snow_light_lanes(job, at, even);
+    const Points3<V> color = parts.sun + parts.around;
+    const MaskOf<V> word = finished_byte(color.x) | finished_byte(color.y) << 8 |
+                           finished_byte(color.z) << 16 | static_cast<int>(0xff000000u);
+    __builtin_memcpy(job.word + at, &word, sizeof word);
+    store_points(even, job.unit_normal, at);
+    if (!job.wants_parts) continue;
+    store_points(parts.sun, job.lit_sun, at);
+    store_points(parts.open_sun, job.open_sun, at);
+    store_points(parts.around, job.lit_around, at);
+  }
+}
+
+}  // namespace
+}  // namespace neve::render::cpu

@@ -1,0 +1,157 @@
+#include "render/snow/grains.h"
+
+#include <utility>
+
+#include "render/frame/point_list.h"
+#include "render/surface/loops.h"
+#include "sim/base/hash.h"
+
+namespace neve::render::snow {
+
+namespace {
+
+using surface::Field;
+using surface::for_ranges;
+using surface::no_block;
+
+/// Share at its own place below which a particle is drawn as a grain of its own: the surface may
+/// miss it. Inside flat packed snow the outermost particles have 0.73, along edges 0.54.
+constexpr float covered_share = 0.46f;
+
+/// Share above which a particle lies so deep that no place of the surface has it for the nearest.
+constexpr float buried_share = 0.97f;
+
+/// Spray is drawn as crumbs of small balls, in particle spacings: their radius, and how far from
+/// the particle they lie at most along each axis. Few and large ones look like beads.
+constexpr float ball_radius = 0.18f, ball_offset = 0.42f;
+constexpr std::uint32_t balls_per_grain = 9;
+
+/// Largest distance of the middle of a grain from its particle along each axis, in spacings.
+constexpr float grain_offset = 0.3f;
+
+std::uint32_t id_of(const Points& points, std::size_t p) {
+  return points.id.empty() ? static_cast<std::uint32_t>(p) : points.id[p];
+}
+
+/// Three numbers between -1 and 1.
+NEVE_INLINE Vec3f random_offset(std::uint64_t key) {
+  const std::uint64_t random = mix64(key);
+  const auto along = [&](int bits) {
+    return static_cast<float>(random >> bits & 0xffff) * (2.0f / 65535) - 1;
+  };
+  return {along(0), along(16), along(32)};
+}
+
+/// From the particle, in the frame of the snow.
+NEVE_INLINE Vec3f turned(const Points& points, std::size_t p, Vec3f offset) {
+  return points.turn.empty() ? offset : Turn(points.turn[p]).forth(offset);
+}
+
+/// Middle of the grain that a particle brings.
+NEVE_INLINE Vec3f grain_position(const Points& points, std::size_t p, Vec3f particle) {
+  const Vec3f offset =
+      random_offset(std::uint64_t{id_of(points, p)} + 1) * (grain_offset * points.spacing);
+  return particle + turned(points, p, offset);
+}
+
+/// The same as find_place, quicker near a block.
+NEVE_INLINE FieldPlace place_near(const Body& body, std::size_t b, Vec3f world) {
+  const Field& field = body.field;
+  surface::NodePlace place;
+  if (!surface::find_node(world, field.cell, place)) return {};
+  const Vec3i n = place.node,
+              side = {(n.x >> 3) - field.block[b].x + 1, (n.y >> 3) - field.block[b].y + 1,
+                      (n.z >> 3) - field.block[b].z + 1};
+  const auto is_near = [](int s) { return s >= 0 && s <= 2; };
+  if (!is_near(side.x) || !is_near(side.y) || !is_near(side.z)) return find_place(body, world);
+  return {field.near[b][static_cast<std::size_t>(9 * side.z + 3 * side.y + side.x)],
+          node_in_block(place)};
+}
+
+/// @param find  FieldPlace of a place in the world
+NEVE_INLINE void place_grain(const Points& points, std::size_t p, Vec3f position,
+                             const Field& field, const auto& find, GrainPlaces& places) {
+  if (const FieldPlace at = find(position); at.block != no_block)
+    places.share[p] = share_at(field, at.block, at.node);
+  if (places.share[p] > buried_share) return;
+  const FieldPlace place = find(grain_position(points, p, position));
+  if (place.block == no_block) return;
+  const auto cube = [](float node) { return static_cast<std::uint32_t>(node) >> 1; };
+  places.cube[p] = place.block * cubes_per_block +
+                   (cube(place.node.z) << 4 | cube(place.node.y) << 2 | cube(place.node.x));
+}
+
+/// The lump of a particle looks the same wherever it flies, and turns with it.
+void add_lump(const Points& points, std::size_t p, Points& spray) {
+  const std::uint32_t id = id_of(points, p);
+  for (std::uint32_t ball = 0; ball < balls_per_grain; ++ball) {
+    const Vec3f random = random_offset(std::uint64_t{id} * balls_per_grain + ball + 1);
+    // Denser in the middle.
+    const Vec3f offset = random * (ball_offset * points.spacing * length(random));
+    spray.position.push_back(points.position[p] + turned(points, p, offset));
+    spray.id.push_back(id);
+    if (!points.value.empty()) spray.value.push_back(points.value[p]);
+  }
+}
+
+}  // namespace
+
+GrainPlaces place_grains(const Points& points, const surface::GrainField& made, const Body& body,
+                         ThreadPool* pool) {
+  const surface::Bins& blocks = made.grains;
+  const std::size_t count = points.position.size();
+  GrainPlaces places{std::vector<float>(count), std::vector<std::uint32_t>(count, no_block)};
+  for_ranges(pool, body.field.block.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const auto find = [&](Vec3f world) NEVE_INLINE_BODY { return place_near(body, b, world); };
+      for (std::uint32_t k = blocks.first[b]; k < blocks.first[b + 1]; ++k)
+        if (blocks.grain[k] < count)
+          place_grain(points, blocks.grain[k], made.placed[k].position, body.field, find, places);
+    }
+  });
+  // Those that give the field nothing may still lie in it.
+  std::vector<bool> is_placed(count);
+  for (const std::uint32_t p : blocks.grain)
+    if (p < count) is_placed[p] = true;
+  const auto find = [&](Vec3f world) { return find_place(body, world); };
+  for (std::size_t p = 0; p < count; ++p)
+    if (!is_placed[p]) place_grain(points, p, points.position[p], body.field, find, places);
+  return places;
+}
+
+void list_grains(const Points& points, const GrainPlaces& places, ThreadPool* pool, Body& body) {
+  const std::size_t cubes = body.field.block.size() * cubes_per_block;
+  surface::Bins bins = surface::sorted_into_bins(places.cube, cubes, pool);
+  const PointColors color(points);
+  GrainList& grains = body.grains;
+  const std::size_t count = bins.grain.size();
+  grains.first = std::move(bins.first);
+  grains.position.resize(count);
+  for (std::vector<float>& along : grains.along) along.resize(count + grain_margin);
+  grains.color.resize(count);
+  grains.seed.resize(count);
+  if (!points.turn.empty()) grains.turn.resize(count);
+  for_ranges(pool, count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t p = bins.grain[k];
+      const Vec3f place = grains.position[k] = grain_position(points, p, points.position[p]);
+      for (int axis = 0; axis < 3; ++axis)
+        grains.along[static_cast<std::size_t>(axis)][k] = place[axis];
+      grains.color[k] = color.root_albedo(p);
+      grains.seed[k] = static_cast<std::uint32_t>(mix64(id_of(points, p) + 1));
+      if (!points.turn.empty()) grains.turn[k] = points.turn[p];
+    }
+  });
+}
+
+void take_spray(const Points& points, std::size_t count, const GrainPlaces& places, Points& spray) {
+  for (std::size_t p = 0; p < count; ++p)
+    if (!(places.share[p] >= covered_share)) add_lump(points, p, spray);
+  spray.spacing = points.spacing;
+  spray.radius = ball_radius * points.spacing;
+  spray.colormap = points.colormap;
+  spray.range_min = points.range_min;
+  spray.range_max = points.range_max;
+}
+
+}  // namespace neve::render::snow
