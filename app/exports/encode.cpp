@@ -1,6 +1,7 @@
 #include "app/exports/encode.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "app/exports/bytes.h"
@@ -26,10 +27,37 @@ std::string spray_comment(const Table& table) {
 }
 
 void append_faces(const MeshRows& mesh, std::string& bytes) {
-  for (std::size_t k = 0; k < mesh.corners.size(); ++k) {
-    if (k % 3 == 0) append_little(std::uint8_t{3}, bytes);
-    append_little(mesh.corners[k], bytes);
+  constexpr std::size_t corners = 3 * sizeof(std::int32_t);
+  std::size_t to = bytes.size();
+  bytes.resize(to + mesh.triangles() * (1 + corners));
+  for (std::size_t t = 0; t < mesh.triangles(); ++t, to += 1 + corners) {
+    bytes[to] = 3;
+    std::memcpy(bytes.data() + to + 1, mesh.corners.data() + 3 * t, corners);
   }
+}
+
+/// Copies a column into records, one a row.
+/// @param to  where it goes in the first @param record  bytes from one to the next
+template <class T>
+void put_column(const std::vector<T>& numbers, std::size_t rows, std::size_t record, char* to) {
+  if (rows == 0) return;
+  const std::size_t width = numbers.size() / rows;
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t c = 0; c < width; ++c)
+      std::memcpy(to + row * record + c * sizeof(T), &numbers[row * width + c], sizeof(T));
+}
+
+/// Rows of all columns side by side, and of the normals.
+void append_rows(const Table& table, std::string& bytes) {
+  const std::size_t record = row_size(table) + (table.mesh ? 3 * sizeof(float) : 0);
+  std::size_t to = bytes.size();
+  bytes.resize(to + table.rows * record);
+  for (const Column& column : table.columns) {
+    std::visit([&](const auto& n) { put_column(n, table.rows, record, bytes.data() + to); },
+               column.numbers);
+    to += number_size(column) * static_cast<std::size_t>(column.components);
+  }
+  if (table.mesh) put_column(table.mesh->normal, table.rows, record, bytes.data() + to);
 }
 
 /// Bytes of the largest array that a zip archive without extensions holds, headers aside.
@@ -56,12 +84,7 @@ std::string encode_ply(const Moment& moment) {
   bytes += "end_header\n";
   bytes.reserve(bytes.size() + table.rows * (row_size(table) + 12) +
                 (table.mesh ? 13 * table.mesh->triangles() : 0));
-  for (std::size_t row = 0; row < table.rows; ++row) {
-    for (const Column& column : table.columns)
-      for_row(column, row, [&](auto number) { append_little(number, bytes); });
-    if (!table.mesh) continue;
-    for (std::size_t a = 0; a < 3; ++a) append_little(table.mesh->normal[3 * row + a], bytes);
-  }
+  append_rows(table, bytes);
   if (table.mesh) append_faces(*table.mesh, bytes);
   return bytes;
 }

@@ -1,6 +1,7 @@
 #include "app/exports/surface_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/picture/snow_volume.h"
@@ -32,28 +33,35 @@ Surface make_surface(const SnowGrains& grains, const render::surface::Settings& 
   }
 }
 
+/// Mixes the rows of the particles around a vertex.
+template <class T>
+void mix_row(const std::vector<T>& numbers, std::size_t width, const Shares& shares, std::size_t v,
+             T* out) {
+  constexpr std::size_t most_width = 9;  // a tensor
+  const std::uint32_t first = shares.first[v], end = shares.first[v + 1];
+  if constexpr (std::is_integral_v<T>) {
+    std::copy_n(numbers.data() + shares.grain[first] * width, width, out);
+  } else {
+    std::array<double, most_width> sum{};
+    for (std::uint32_t k = first; k < end; ++k) {
+      const double share = static_cast<double>(shares.share[k]);
+      const T* row = numbers.data() + shares.grain[k] * width;
+      for (std::size_t c = 0; c < width; ++c) sum[c] += share * static_cast<double>(row[c]);
+    }
+    for (std::size_t c = 0; c < width; ++c) out[c] = static_cast<T>(sum[c]);
+  }
+}
+
 /// Numbers of the vertices, then those of the spray, row by row.
 template <class T>
 std::vector<T> mixed(const std::vector<T>& numbers, std::size_t width, const Shares& shares,
                      const std::vector<std::uint32_t>& spray) {
   const std::size_t vertices = shares.first.size() - 1;
-  std::vector<T> out;
-  out.reserve((vertices + spray.size()) * width);
+  std::vector<T> out((vertices + spray.size()) * width);
   for (std::size_t v = 0; v < vertices; ++v)
-    for (std::size_t c = 0; c < width; ++c) {
-      if constexpr (std::is_integral_v<T>) {
-        out.push_back(numbers[shares.grain[shares.first[v]] * width + c]);
-      } else {
-        double sum = 0;
-        for (std::uint32_t k = shares.first[v]; k < shares.first[v + 1]; ++k)
-          sum += static_cast<double>(shares.share[k]) *
-                 static_cast<double>(numbers[shares.grain[k] * width + c]);
-        out.push_back(static_cast<T>(sum));
-      }
-    }
-  for (const std::uint32_t p : spray)
-    out.insert(out.end(), numbers.begin() + static_cast<std::ptrdiff_t>(p * width),
-               numbers.begin() + static_cast<std::ptrdiff_t>((p + 1) * width));
+    mix_row(numbers, width, shares, v, out.data() + v * width);
+  T* to = out.data() + vertices * width;
+  for (const std::uint32_t p : spray) to = std::copy_n(numbers.data() + p * width, width, to);
   return out;
 }
 
@@ -79,6 +87,7 @@ MeshRows mesh_rows(const Axes& axes, const Surface& surface) {
   MeshRows mesh;
   mesh.vertices = surface.mesh.position.size();
   mesh.corners.assign(surface.mesh.index.begin(), surface.mesh.index.end());
+  mesh.normal.reserve(3 * (mesh.vertices + surface.spray.size()));
   for (const Vec3f& n : surface.mesh.normal) {
     const sim::Vec3d normal = axes.direction(vector_of(n));
     for (int a = 0; a < 3; ++a) mesh.normal.push_back(static_cast<float>(normal[a]));
