@@ -19,11 +19,10 @@ namespace {
   attempt.backend = "window";
   attempt.reason = reason;
   attempt.install = install;
-  throw gl::ContextError(
-      "no window: " + reason + ". " +
-          (install.empty() ? "neve view --web needs none" : "Install " + install) +
-          ", or see neve doctor",
-      {attempt});
+  throw gl::ContextError("no window: " + reason + ". " +
+                             (install.empty() ? "--web needs none" : "Install " + install) +
+                             ", or see neve doctor",
+                         {attempt});
 }
 
 }  // namespace

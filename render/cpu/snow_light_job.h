@@ -23,10 +23,10 @@ struct SnowLightJob {
   const float *slope[3], *height;              ///< of the relief of grains
   const float* facet[3];                       ///< unit, of a crystal; 0: none
   float* unit_normal[3];                       ///< out
-  unsigned* word;       ///< out: finished light as the G-buffer has it, see light::kind_lit
-  int wants_parts;      ///< or leaves what follows
-  float* lit_sun[3];    ///< out: linear light of the sun, on the surface and through the snow
-  float* open_sun[3];   ///< out: as if nothing were in its way to the surface
+  unsigned* word;        ///< out: finished light as the G-buffer has it, see light::kind_lit
+  int wants_parts;       ///< or leaves what follows
+  float* lit_sun[3];     ///< out: linear light of the sun, on the surface and through the snow
+  float* open_sun[3];    ///< out: as if nothing were in its way to the surface
   float* lit_around[3];  ///< out: of the sky, and from inside the snow
 };
 

@@ -69,7 +69,8 @@ struct SnowLightParts {
 
 /// @param at    of the first sample @param even  unit, without relief
 template <class V>
-NEVE_INLINE SnowLightParts<V> snow_light_lanes(const SnowLightJob& job, int at, const Points3<V>& even) {
+NEVE_INLINE SnowLightParts<V> snow_light_lanes(const SnowLightJob& job, int at,
+                                               const Points3<V>& even) {
   const Points3<V> toward_eye = normalized_lanes(load_points<V>(job.ray, at) * all<V>(-1));
   const Points3<V> slope = load_points<V>(job.slope, at);
   const V sun = load_lanes<V>(job.sun + at), sky = load_lanes<V>(job.sky + at);

@@ -272,7 +272,7 @@ std::array<std::uint32_t, 2> nearest_of_all(const snow::GrainList& grains, Vec3f
 }
 
 TEST(Snow, NearestGrainsAreThoseOfAll) {
-  const Body body = snow::make_body(torn_snow(160, 100).points, nullptr);
+  const Body body = snow::make_body(torn_snow(160, 100).points, {}, nullptr);
   const float cell = body.field.cell;
   std::mt19937 random(5);
   std::uniform_real_distribution<float> away(-cell, cell);
@@ -325,7 +325,7 @@ TEST(Snow, NearestGrainsAreThoseOfAll) {
 }
 
 TEST(Snow, AFieldInOnePieceHasTheSameShares) {
-  const Body body = snow::make_body(torn_snow(160, 100).points, nullptr);
+  const Body body = snow::make_body(torn_snow(160, 100).points, {}, nullptr);
   std::mt19937 random(9);
   std::uniform_real_distribution<float> along(-6.5f, 13.5f);
   const auto near = std::make_unique<snow::NearField>();
