@@ -74,7 +74,7 @@ class Picker {
   std::optional<std::string> line_;  ///< typed and not yet used
   bool is_closed_ = false;
   double clock_ = 0;  ///< s of the movies
-  int settle_ = 3;  ///< pictures that ImGui still needs to come to rest
+  int settle_ = 3;    ///< pictures that ImGui still needs to come to rest
   float styled_scale_ = 0;
   Clock::time_point drawn_at_ = Clock::now(), looked_at_{};
 };
