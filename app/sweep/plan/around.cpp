@@ -47,7 +47,9 @@ bool spans_decades(const scene::FlatParam& param, double x) {
 
 /// Distance of the outer values from a number: half of it, or of its known scale.
 double reach(const scene::FlatParam& param, double x) {
+  constexpr double usual_memory = 0x1p33;
   if (x != 0) return 0.5 * std::abs(x);
+  if (std::string_view(param.unit) == "B") return usual_memory;
   const double usual = double_of(param.default_value).value_or(0);
   return usual != 0 ? std::abs(usual) : 1;
 }

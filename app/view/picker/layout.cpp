@@ -19,7 +19,7 @@ Grid grid_in(const Box& box, float gap, int tile_width, int tile_height) {
   grid.tile_width = static_cast<int>(width);
   grid.tile_height = std::max(4, static_cast<int>(std::lround(width * shape)));
   grid.x = static_cast<int>(box.x + 0.5f * (box.width - static_cast<float>(grid.width())));
-  grid.y = static_cast<int>(box.y);
+  grid.y = static_cast<int>(std::ceil(box.y));
   return grid;
 }
 
