@@ -257,7 +257,7 @@ Listing list_stage(const StepInspection& inside, sim::Stage stage) {
 
 namespace {
 
-/// Where a quantity is that this listing has not.
+/// Names the stage whose listing has a quantity that this one lacks.
 std::string stage_advice(const std::string& name) {
   using enum sim::Stage;
   constexpr std::pair<const char*, sim::Stage> first_shown[] = {

@@ -24,7 +24,7 @@ namespace {
 constexpr std::array<std::uint8_t, 3> behind_tiles{38, 42, 49};
 constexpr double screen_aspect = 16.0 / 9;
 
-/// Of a picture that neve strip made.
+/// The moments of a picture that neve strip made; nothing for any other scene.
 std::optional<StripRecord> strip_of(const std::string& scene) {
   if (scene.empty() || is_folder(scene) || !is_picture(scene)) return std::nullopt;
   return read_picture_record(scene).strip;

@@ -48,7 +48,7 @@ std::string absolute_path(const Leaf& leaf, const std::string& name) {
   return std::filesystem::absolute(folder / name, error).lexically_normal().string();
 }
 
-/// Where it was looked for, and a file there that has nearly that name.
+/// Names the path that was tried, and a file there that has nearly that name.
 std::string advice_on_file(const std::string& name, const std::filesystem::path& file) {
   const std::string looked = "looked for " + file.string();
   if (name.starts_with("~")) return looked + "; ~ is no folder here: write the whole path";

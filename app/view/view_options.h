@@ -8,7 +8,7 @@
 
 namespace neve::app::view {
 
-/// Where a screen is: a window, a page or a script.
+/// Place of a screen: a window, a page or a script.
 struct ScreenOptions {
   bool is_web = false, is_window = false;  ///< neither: whichever fits
   std::string listen;                      ///< address of the page; empty: this machine alone

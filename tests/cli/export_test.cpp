@@ -349,7 +349,7 @@ TEST_F(Export, TheNextExportReplacesTheOneOfItsNameAndKeepsOthers) {
   EXPECT_EQ(list["exports"].size(), 2u);
   EXPECT_TRUE(list["files"].contains("usda/0004.usda"));
   EXPECT_EQ(neve({"verify", "x"}).exit_code, 0);
-  // Of a scene that has changed since, which nothing else would tell.
+  // The scene has changed since, which nothing else would tell.
   const auto changed = neve({"export", "scene.toml", "--format", "ply", "--frames", "0-2", "--out",
                              "x", "--set", "material.snow.hardening=3"});
   EXPECT_EQ(changed.exit_code, 0) << changed.errors;

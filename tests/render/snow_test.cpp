@@ -132,7 +132,7 @@ TEST(Snow, ACutIsFlatAndLiesInItsPlane) {
   EXPECT_GT(most, 0.1f * spacing);
 }
 
-/// Where the side of a body towards +x lies at a height, m.
+/// Place of the side of a body towards +x at a height, m.
 float side_at(const Body& body, float height) {
   for (float x = 0;; x += 0.0005f) {
     const snow::FieldPlace place = snow::find_place(body, {x, height, 0.004f});

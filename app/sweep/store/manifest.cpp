@@ -167,7 +167,7 @@ std::optional<Manifest> earlier_manifest(const std::filesystem::path& folder) {
   }
 }
 
-/// What a path is instead of the folder of a sweep.
+/// Says which kind of thing a path is instead of the folder of a sweep.
 const char* why_no_sweep(const std::filesystem::path& folder) {
   std::error_code error;
   if (!std::filesystem::exists(folder, error)) return "there is no such folder";

@@ -30,7 +30,7 @@ struct Beginning {
   Run run;          ///< its frame is the last one before; its settings are made by all runs there
   std::string source{};  ///< run or picture that it was taken from; "": simulated from the start
 
-  /// What a run changes at the fork.
+  /// The settings that a run changes at the fork.
   std::vector<scene::Override> changes_of(const Run& branch) const;
 };
 

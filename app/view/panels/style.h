@@ -3,7 +3,7 @@
 
 namespace neve::app::view::panels {
 
-/// Of the current ImGui context. @param scale px per point, of every distance
+/// Sets the style of the current ImGui context. @param scale px per point, of every distance
 void style_panels(float scale);
 
 /// px

@@ -45,7 +45,7 @@ struct Hint {
   double seconds = 0;  ///< that it stays
 };
 
-/// What is typed into the dialog "Vary from here".
+/// Input of the dialog "Vary from here".
 struct StudyForm {
   bool is_open = false;
   std::string filter;  ///< of the parameters

@@ -92,7 +92,7 @@ void Study::start(const fs::path& folder, const run::Moment& moment, double time
   int runs = 0;
   try {
     run::write_moment(options.file, moment);
-    // What is wrong with the request is said here, before a process.
+    // A wrong request is refused here, before a process starts.
     runs = static_cast<int>(sweep::plan::plan_sweep(options).runs.size());
     if (runs > most_study_runs)
       throw scene::toml::UsageError("",

@@ -23,7 +23,7 @@ struct StudyRequest {
   bool has_longer_steps = false;  ///< of health::longer_steps, for a quick look
 };
 
-/// What there is of a study.
+/// State of a study, and its files.
 struct StudyProgress {
   enum class State { none, running, done, stopped, failed };
   State state = State::none;
