@@ -66,6 +66,9 @@ const float ground_least = 0.004f;    // share over the background from which it
 
 // Smoke on its way through the grid.
 const int brick_side = 4;           // texels
+// Length of a step, in texels. Against steps of 0.02 the picture of a thin cloud differs by 0.2 of 255
+// (root of the mean square, at most 6); half of the length gains 0.07 and costs a third more time.
+const float march_step = 0.8f;
 const int max_march_steps = 1024;
 const float march_opaque = 0.015f;  // rest of the light at which a march ends
 

@@ -246,7 +246,7 @@ NEVE_INLINE void march_ray(const light::SmokeJob& job, int x, int y) {
     march.ray = ray * per_texel;
     march.per_texel = {inverse_of(march.ray.x), inverse_of(march.ray.y), inverse_of(march.ray.z)};
     march.z = z;
-    march.dz = larger(0.5f * job.texel / per_z, (z_end - z) / light::max_march_steps);
+    march.dz = larger(light::march_step * job.texel / per_z, (z_end - z) / light::max_march_steps);
     march.z_end = z_end;
     march.jitter = fraction_of(light::even_noise_scale * fraction_of(fx * light::even_noise_column +
                                                                      fy * light::even_noise_row));

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "render/light/light_fields.h"
 
@@ -30,7 +32,8 @@ struct LightBox {
 /// Values of some ranks among the finite coordinates along one axis, and how many there are.
 class Ranks {
  public:
-  Ranks(const std::vector<Vec3f>& position, float Vec3f::*axis) : position_(position), axis_(axis) {
+  Ranks(const std::vector<Vec3f>& position, float Vec3f::*axis)
+      : position_(position), axis_(axis), bin_(position.size(), no_bin) {
     for (const Vec3f& p : position) {
       const float x = p.*axis;
       if (!std::isfinite(x)) continue;
@@ -40,8 +43,11 @@ class Ranks {
     }
     // Halves, as the difference of the ends may not be finite.
     scale_ = 0.5f * static_cast<float>(bins - 1) / std::max(0.5f * high_ - 0.5f * low_, 1e-37f);
-    for (const Vec3f& p : position)
-      if (std::isfinite(p.*axis)) ++sizes_[bin_of(p.*axis)];
+    for (std::size_t p = 0; p < position.size(); ++p) {
+      if (!std::isfinite(position[p].*axis)) continue;
+      bin_[p] = bin_of(position[p].*axis);
+      ++sizes_[bin_[p]];
+    }
   }
   std::size_t count() const { return count_; }
   float low() const { return low_; }
@@ -49,12 +55,12 @@ class Ranks {
 
   /// The value with `rank` smaller ones: only those in its bin have to be sorted.
   float at(std::size_t rank) const {
-    std::size_t bin = 0;
+    std::uint16_t bin = 0;
     while (rank >= sizes_[bin]) rank -= sizes_[bin++];
     std::vector<float> values;
     values.reserve(sizes_[bin]);
-    for (const Vec3f& p : position_)
-      if (std::isfinite(p.*axis_) && bin_of(p.*axis_) == bin) values.push_back(p.*axis_);
+    for (std::size_t p = 0; p < bin_.size(); ++p)
+      if (bin_[p] == bin) values.push_back(position_[p].*axis_);
     const auto it = values.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(values.begin(), it, values.end());
     return *it;
@@ -62,14 +68,16 @@ class Ranks {
 
  private:
   static constexpr std::size_t bins = 1024;
+  static constexpr std::uint16_t no_bin = bins;
   /// Never smaller for a larger value.
-  std::size_t bin_of(float x) const {
-    return static_cast<std::size_t>(
+  std::uint16_t bin_of(float x) const {
+    return static_cast<std::uint16_t>(
         std::clamp(scale_ * (0.5f * x - 0.5f * low_) * 2, 0.0f, static_cast<float>(bins - 1)));
   }
 
   const std::vector<Vec3f>& position_;
   float Vec3f::*axis_;
+  std::vector<std::uint16_t> bin_;  ///< of each point; of one that is not finite none
   std::size_t count_ = 0;
   float low_ = std::numeric_limits<float>::infinity(), high_ = -low_, scale_ = 0;
   std::array<std::uint32_t, bins> sizes_{};

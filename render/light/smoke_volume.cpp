@@ -37,22 +37,22 @@ class LightReader {
     }
     const std::size_t row = static_cast<std::size_t>(grid.size.x),
                       slice = row * static_cast<std::size_t>(grid.size.y);
-    Lit sum;
+    std::array<float, 3> body{};
+    float key = 0, sky = 0;
     for (std::size_t n = 0; n < 8; ++n) {
       const bool is_x = n & 1, is_y = n & 2, is_z = n & 4;
       const float w = (is_x ? part[0] : 1 - part[0]) * (is_y ? part[1] : 1 - part[1]) *
                       (is_z ? part[2] : 1 - part[2]);
       const std::size_t i = (is_z ? high[2] : low[2]) * slice + (is_y ? high[1] : low[1]) * row +
                             (is_x ? high[0] : low[0]);
-      const std::int8_t* body = volume_.body.data() + 4 * i;
+      const std::int8_t* from = volume_.body.data() + 4 * i;
       const std::uint16_t* light = volume_.light.data() + 2 * i;
-      sum.body =
-          sum.body + (w / 127) * Vec3f{static_cast<float>(body[0]), static_cast<float>(body[1]),
-                                       static_cast<float>(body[2])};
-      sum.key += w / 65535 * static_cast<float>(light[0]);
-      sum.sky += w / 65535 * static_cast<float>(light[1]);
+      for (std::size_t a = 0; a < 3; ++a) body[a] += w * static_cast<float>(from[a]);
+      key += w * static_cast<float>(light[0]);
+      sky += w * static_cast<float>(light[1]);
     }
-    return sum;
+    constexpr float per_body = 1.0f / 127, per_light = 1.0f / 65535;
+    return {per_body * Vec3f{body[0], body[1], body[2]}, per_light * key, per_light * sky};
   }
 
  private:

@@ -11,6 +11,8 @@ namespace neve::render::passes {
 namespace {
 
 constexpr int sides = 8;
+/// Of five triangles on each side about half are seen, of the arrow and of its rim.
+constexpr std::size_t vertices_per_arrow = 3 * 5 * sides;
 
 struct ArrowVertex {
   Vec3f position, normal;
@@ -85,9 +87,13 @@ class ArrowBuilder {
     }
   }
 
-  /// Of the rim only the side turned away from the eye: the arrow is before it.
+  /// Of an arrow only the side turned to the eye, which hides the other; of the rim only the side
+  /// turned away: the arrow is before it.
   void triangle(const Corner& a, const Corner& b, const Corner& c) {
-    if (is_rim_ && dot(a.normal + b.normal + c.normal, a.position) <= 0) return;
+    Vec3f out = cross(b.position - a.position, c.position - a.position);
+    if (dot(out, a.normal + b.normal + c.normal) < 0) out = -out;
+    const bool is_turned_away = dot(out, a.position) > 0;
+    if (is_turned_away != is_rim_) return;
     for (const Corner& corner : {a, b, c})
       out_.push_back({corner.position * nearer_, normalized(corner.normal), color_});
   }
@@ -119,6 +125,9 @@ ArrowPass::ArrowPass(const gl::Gl& gl, const gl::ShaderLibrary& library)
 
 void ArrowPass::draw(const std::vector<Arrows>& all, const View& view) {
   std::vector<ArrowVertex> vertices;
+  std::size_t count = 0;
+  for (const Arrows& arrows : all) count += arrows.position.size();
+  vertices.reserve(count * vertices_per_arrow);
   for (const Arrows& arrows : all) {
     ArrowBuilder builder(arrows, view.eye, vertices);
     for (std::size_t k = 0; k < arrows.position.size(); ++k)

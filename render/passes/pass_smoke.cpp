@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "render/light/shading_constants.h"
 #include "render/passes/passes.h"
 #include "render/passes/view_uniforms.h"
 
@@ -95,7 +96,7 @@ void SmokePass::march(const Smoke& smoke, const light::SmokeGrid& grid,
   program.set("grid_size", Vec3f{static_cast<float>(grid.size.x), static_cast<float>(grid.size.y),
                                  static_cast<float>(grid.size.z)});
   program.set("texel", grid.spacing);
-  program.set("step_length", 0.5f * grid.spacing);
+  program.set("step_length", light::march_step * grid.spacing);
   program.set("extinction", grid.extinction());
   program.set("smoke_range", spans.nearest, spans.farthest);
   program.set("key_light", light::key_on_colors * light.intensity);
