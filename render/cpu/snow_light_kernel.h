@@ -54,10 +54,13 @@ NEVE_INLINE V filled(V open, float kept) {
 
 /// Bounces between snow and snow: red is lost first, so that deep places are blue. Less than the
 /// albedo, since not all that hides the sky is white.
-constexpr Vec3f returned{0.70f, 0.78f, 0.86f};
-constexpr float ambient_share = 0.82f;
+constexpr Vec3f returned{0.50f, 0.60f, 0.72f};
+constexpr float sun_share = 1.2f, ambient_share = 0.66f;
 /// Snow scatters ahead: shade behind thin snow is lighter than what it absorbs and throws back.
 constexpr float scattered_ahead = 0.85f;
+
+/// The sun that shines through thin snow has lost some of its red there.
+constexpr Vec3f shine_color{0.90f, 1.00f, 1.16f};
 
 /// Linear light towards the eye.
 template <class V>
@@ -77,7 +80,7 @@ NEVE_INLINE SnowLightParts<V> snow_light_lanes(const SnowLightJob& job, int at,
   const V pixels = job.spacing / load_lanes<V>(job.sample_size + at);
   const V strength = 0.55f * smooth_step_lanes(0.6f, 3.0f, pixels);
   const Points3<V> in_surface = slope + even * -inner(slope, even);
-  const Points3<V> n = normalized_lanes(even + in_surface * (-0.35f * strength));
+  const Points3<V> n = normalized_lanes(even + in_surface * (-0.31f * strength));
   const V facing = along(n, job.toward), even_facing = along(even, job.toward);
   const float contrast = job.is_value ? light::value_contrast : 1.0f;
   // Light enters snow and leaves it somewhere near: the terminator is soft, and its rim is blue.
@@ -86,8 +89,10 @@ NEVE_INLINE SnowLightParts<V> snow_light_lanes(const SnowLightJob& job, int at,
     const V smooth = larger_lanes(V{}, (even_facing + wrap) / (1 + wrap));
     return 1 + contrast * (0.65f * rough + 0.35f * smooth - 1);
   };
-  const V glow = load_lanes<V>(job.through + at) * smooth_step_lanes(0.25f, -0.6f, even_facing) *
-                 forward_phase(-along(toward_eye, job.toward), 0.55f);
+  // Thin snow against the sun: most light leaves it nearly straight on, the rest to all sides.
+  const V ahead = 0.5f + 0.5f * forward_phase(-along(toward_eye, job.toward), 0.55f);
+  const V glow =
+      0.6f * ahead * load_lanes<V>(job.through + at) * smooth_step_lanes(0.3f, -0.5f, even_facing);
   // Crystals that mirror the sun.
   constexpr float least = 0.98f;
   const V mirrored = inner(load_points<V>(job.facet, at),
@@ -96,18 +101,19 @@ NEVE_INLINE SnowLightParts<V> snow_light_lanes(const SnowLightJob& job, int at,
   const V spark = 1.2f * smooth_step_lanes(2, 6, pixels) * larger_lanes(V{}, facing) * glint;
   const V log_sun = rough_log2(larger_lanes(sun, all<V>(1e-6f))) * contrast;
   const V up = 0.5f + 0.5f * n.y;
-  const V crevice = load_lanes<V>(job.crevice + at) *
-                    (1 + 0.25f * strength * smaller_lanes(load_lanes<V>(job.height + at), V{}));
-  const V open = sky * crevice;
-  const V inside = job.ambient * (0.9f * sky * (1 - sun) + 0.2f);
+  // What lies deeper between grains sees less of the sky: without a sun, that is all there is of
+  // grain.
+  const V relief = 1 + 0.7f * strength * load_lanes<V>(job.height + at);
+  const V open = sky * load_lanes<V>(job.crevice + at) * relief;
+  const V inside = job.ambient * (0.4f * sky * (1 - sun) + 0.15f);
   const Points3<V> albedo = load_points<V>(job.albedo, at);
   SnowLightParts<V> parts;
   const auto fill = [&](auto part, float Vec3f::*c, float wrap) NEVE_INLINE_BODY {
-    const V key = 1.06f * job.key * (light::sun_color.*c) * albedo.*part;
-    const V facing_sun = wrapped(wrap);
+    const V key = sun_share * job.key * (light::sun_color.*c) * albedo.*part;
+    const V facing_sun = wrapped(wrap), shining = glow * (shine_color.*c);
     const V arriving = rough_exp2(log_sun * (scattered_ahead * (light::absorption.*c)));
-    parts.sun.*part = key * (facing_sun * arriving + 0.22f * glow + spark * sun);
-    parts.open_sun.*part = key * (facing_sun + 0.22f * glow + spark);
+    parts.sun.*part = key * (facing_sun * arriving + shining + spark * sun);
+    parts.open_sun.*part = key * (facing_sun + shining + spark);
     const V around = ambient_share * job.ambient *
                      (light::ambient_least +
                       light::ambient_gain * (1 + contrast * (filled(open, returned.*c) - 1)));
@@ -115,9 +121,9 @@ NEVE_INLINE SnowLightParts<V> snow_light_lanes(const SnowLightJob& job, int at,
                                 ((light::sky_color.*c) - (light::bounce_color.*c)) * up);
     parts.around.*part = albedo.*part * (ambient + inside * (light::scatter_color.*c));
   };
-  fill(&Points3<V>::x, &Vec3f::x, 0.18f);
-  fill(&Points3<V>::y, &Vec3f::y, 0.24f);
-  fill(&Points3<V>::z, &Vec3f::z, 0.32f);
+  fill(&Points3<V>::x, &Vec3f::x, 0.08f);
+  fill(&Points3<V>::y, &Vec3f::y, 0.13f);
+  fill(&Points3<V>::z, &Vec3f::z, 0.20f);
   return parts;
 }
 

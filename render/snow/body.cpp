@@ -217,7 +217,7 @@ Body make_body(const Points& shown, std::span<const GroundPlane> grounds, Thread
   for (const Vec3i& block : body.field.block) body.map.insert(surface::block_key(block));
   const GrainPlaces places = place_grains(points, made, body, pool);
   list_grains(points, places, pool, body);
-  take_spray(points, shown.position.size(), places, body.spray);
+  take_spray(points, shown.position.size(), places, body);
   return body;
 }
 

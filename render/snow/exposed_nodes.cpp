@@ -24,6 +24,15 @@ NodeShare share_of(const float* padded, Vec3i node) {
   return {*at, {fall(1), fall(padded_side), fall(padded_side * padded_side)}};
 }
 
+/// Outward, unit: where snow is flat but for the bumps of single particles, without them; as it is
+/// at edges and broken faces.
+Vec3f without_bumps(Vec3f normal, Vec3f even) {
+  constexpr float rough = 0.80f, flat = 0.95f;  // cosines of the angle between the two
+  const float t = std::clamp((dot(normal, even) - rough) / (flat - rough), 0.0f, 1.0f);
+  const float part = 0.85f * t * t * (3 - 2 * t);
+  return normalized(normal * (1 - part) + even * part);
+}
+
 Vec3f floats(Vec3i v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -105,7 +114,8 @@ void ExposedNodes::expose_block(std::uint32_t padded, const Body& body,
         place.block = block;
         place.node = floats({i, j, k}) + normal * std::clamp(away, -1.0f, 1.0f);
         place.world = (corner + place.node) * cell;
-        nodes_[at] = expose(near, volume, light, place, normal);
+        nodes_[at] = expose(near, volume, light, place,
+                            without_bumps(normal, normalized(near.even_fall({i, j, k}))));
       }
   of.exposed = of.wanted;
 }

@@ -1,5 +1,6 @@
 #include "render/snow/grains.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "render/frame/point_list.h"
@@ -81,14 +82,40 @@ NEVE_INLINE void place_grain(const Points& points, std::size_t p, Vec3f position
                    (cube(place.node.z) << 4 | cube(place.node.y) << 2 | cube(place.node.x));
 }
 
+/// The middle of a lump, and the part of it that has sunk into a surface.
+struct LumpPlace {
+  Vec3f middle;
+  float sunk = 0;
+};
+
+/// The outermost particles along the edges of a body lie on its surface: beside it they look like
+/// fur. Loose ones remain where they are.
+/// @param share  at the particle
+LumpPlace lump_place(const Body& body, Vec3f particle, float share) {
+  const FieldPlace at = find_place(body, particle);
+  if (at.block == no_block || !(share > 0)) return {particle};
+  constexpr float farthest = 1.0f;            // nodes
+  constexpr float none = 0.38f, all = 0.46f;  // share to which it can sink
+  const Vec3f outward = normal_at(body.field, at.block, at.node);
+  const auto share_below = [&](float nodes) {
+    return share_at(body.field, at.block, at.node - outward * nodes);
+  };
+  const float rise = std::max(share_below(farthest) - share, 1e-3f);
+  const float way = std::min((surface_share - share) / rise, 1.0f) * farthest;
+  const float t = std::clamp((share_below(way) - none) / (all - none), 0.0f, 1.0f);
+  const float sunk = t * t * (3 - 2 * t);
+  return {particle - outward * (way * sunk * body.field.cell), sunk};
+}
+
 /// The lump of a particle looks the same wherever it flies, and turns with it.
-void add_lump(const Points& points, std::size_t p, Points& spray) {
+void add_lump(const Points& points, std::size_t p, const LumpPlace& place, Points& spray) {
+  const float reach = ball_offset * (1 - 0.5f * place.sunk) * points.spacing;
   const std::uint32_t id = id_of(points, p);
   for (std::uint32_t ball = 0; ball < balls_per_grain; ++ball) {
     const Vec3f random = random_offset(std::uint64_t{id} * balls_per_grain + ball + 1);
     // Denser in the middle.
-    const Vec3f offset = random * (ball_offset * points.spacing * length(random));
-    spray.position.push_back(points.position[p] + turned(points, p, offset));
+    const Vec3f offset = random * (reach * length(random));
+    spray.position.push_back(place.middle + turned(points, p, offset));
     spray.id.push_back(id);
     if (!points.value.empty()) spray.value.push_back(points.value[p]);
   }
@@ -144,9 +171,11 @@ void list_grains(const Points& points, const GrainPlaces& places, ThreadPool* po
   });
 }
 
-void take_spray(const Points& points, std::size_t count, const GrainPlaces& places, Points& spray) {
+void take_spray(const Points& points, std::size_t count, const GrainPlaces& places, Body& body) {
+  Points& spray = body.spray;
   for (std::size_t p = 0; p < count; ++p)
-    if (!(places.share[p] >= covered_share)) add_lump(points, p, spray);
+    if (!(places.share[p] >= covered_share))
+      add_lump(points, p, lump_place(body, points.position[p], places.share[p]), spray);
   spray.spacing = points.spacing;
   spray.radius = ball_radius * points.spacing;
   spray.colormap = points.colormap;

@@ -19,8 +19,8 @@ GrainPlaces place_grains(const Points& points, const surface::GrainField& made, 
 /// Sorts the grains into their cubes.
 void list_grains(const Points& points, const GrainPlaces& places, ThreadPool* pool, Body& body);
 
-/// Makes lumps of the particles that the surface does not cover.
+/// Makes lumps, the spray of the body, of the particles that the surface does not cover.
 /// @param count  points that are not cut away
-void take_spray(const Points& points, std::size_t count, const GrainPlaces& places, Points& spray);
+void take_spray(const Points& points, std::size_t count, const GrainPlaces& places, Body& body);
 
 }  // namespace neve::render::snow

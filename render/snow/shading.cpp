@@ -63,9 +63,10 @@ Vec3f within_reach(Vec3f node) {
 }
 
 /// Part of the sun that near snow leaves: what the cells of the light volume are too coarse for.
+/// Starts where flat snow does not shade itself, however low the sun.
 /// @param share  of a place in nodes, within reach
 NEVE_INLINE float near_sun(const auto& share, const SnowPlace& place, Vec3f normal, Vec3f toward) {
-  const Vec3f start = place.node + normal * 0.8f;
+  const Vec3f start = place.node + normal * 1.4f;
   float thickness = 0;
   for (int n = 0; n < 4; ++n) {
     const Vec3f at = start + toward * (0.7f + 1.15f * static_cast<float>(n));
@@ -74,12 +75,21 @@ NEVE_INLINE float near_sun(const auto& share, const SnowPlace& place, Vec3f norm
   return std::exp(-1.5f * thickness);
 }
 
+/// Part of the sun that comes through snow a few spacings thick.
+NEVE_INLINE float near_through(const auto& share, const SnowPlace& place, Vec3f toward) {
+  const auto at = [&](float nodes)
+                      NEVE_INLINE_BODY { return share(within_reach(place.node + toward * nodes)); };
+  const float thickness = at(0.7f) + 1.3f * at(1.9f) + 1.7f * at(3.4f) + 2.2f * at(5.4f);
+  return std::exp(-0.5f * thickness);
+}
+
 /// Part of the sky that near snow leaves.
 NEVE_INLINE float near_sky(const auto& share, const SnowPlace& place, Vec3f normal) {
-  const auto away = [&](float nodes) NEVE_INLINE_BODY {
-    return share(within_reach(place.node + normal * nodes));
+  // The bumps of flat snow are no crevices.
+  const auto over = [&](float nodes) NEVE_INLINE_BODY {
+    return std::max(0.0f, share(within_reach(place.node + normal * nodes)) - 0.04f);
   };
-  return 1 / (1 + 2.2f * away(2.0f) + 1.4f * away(4.0f));
+  return 1 / (1 + 2.2f * over(2.0f) + 1.4f * over(4.0f));
 }
 
 /// Light that far snow and solids leave.
@@ -91,7 +101,8 @@ Exposure expose_to_far(const LightVolume& volume, const SnowLight& light, const 
   out.normal = normal;
   out.sun = arriving_at(volume, above + light.toward * cell).key;
   out.sky = arriving_at(volume, above).sky;
-  out.through = arriving_at(volume, place.world).key;
+  // More than what goes straight on: most light that snow scatters goes ahead.
+  out.through = std::sqrt(arriving_at(volume, place.world).key);
   return out;
 }
 
@@ -190,12 +201,29 @@ float NearField::share(Vec3f node) const {
   return mix_along(slice(at), slice(at + side * side), z);
 }
 
+Vec3f NearField::even_fall(Vec3i node) const {
+  constexpr int apart = 2, step[3] = {1, side, side * side};
+  const float* middle =
+      value_.data() + ((node.z + margin) * side + node.y + margin) * side + node.x + margin;
+  Vec3f fall;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int ahead = apart * step[axis], across = apart * step[(axis + 1) % 3],
+              up = apart * step[(axis + 2) % 3];
+    for (int line = 0; line < 9; ++line) {
+      const float* at = middle + (line % 3 - 1) * across + (line / 3 - 1) * up;
+      fall[axis] += at[-ahead] - at[ahead];
+    }
+  }
+  return fall;
+}
+
 Exposure expose(const Body& body, const LightVolume& volume, const SnowLight& light,
                 const SnowPlace& place, Vec3f normal) {
   Exposure out = expose_to_far(volume, light, place, normal);
   if (place.block == no_block) return out;
   const auto share = [&](Vec3f node) { return share_at(body.field, place.block, node); };
   out.sun *= near_sun(share, place, normal, light.toward);
+  out.through *= near_through(share, place, light.toward);
   out.crevice = near_sky(share, place, normal);
   return out;
 }
@@ -205,6 +233,7 @@ Exposure expose(const NearField& near, const LightVolume& volume, const SnowLigh
   Exposure out = expose_to_far(volume, light, place, normal);
   const auto share = [&](Vec3f node) NEVE_INLINE_BODY { return near.share(node); };
   out.sun *= near_sun(share, place, normal, light.toward);
+  out.through *= near_through(share, place, light.toward);
   out.crevice = near_sky(share, place, normal);
   return out;
 }

@@ -43,6 +43,9 @@ class NearField {
   void take(const surface::Field& field, std::uint32_t block);
   /// As share_at. @param node  -6.5 to 13.5 along each axis
   float share(Vec3f node) const;
+  /// The way shares fall around a node, over a few particle spacings: without the bumps of single
+  /// particles. Not a unit.
+  Vec3f even_fall(Vec3i node) const;
 
  private:
   static constexpr int margin = 7, side = surface::block_side + 2 * margin;

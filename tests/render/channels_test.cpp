@@ -234,7 +234,9 @@ TEST_P(PartsOfLight, AddUpToTheBeauty) {
 
 TEST_P(PartsOfLight, SnowEmitsNone) {
   OPEN_OR_SKIP(context, "auto");
-  const Frame frame = scene();
+  Frame frame = scene();
+  // On the way of the sun.
+  frame.meshes.push_back(shapes::box_mesh({-0.45f, 0.45f, 0.3f}, {0.3f, 0.1f, 0.3f}));
   const Drawn drawn(*context, frame, request_for(frame));
   const auto id = drawn.all("id.Y"), albedo = drawn.all("albedo.G"),
              emission = drawn.all("emission.G"), direct = drawn.all("direct.G"),
