@@ -6,7 +6,7 @@
 namespace neve::app::picture {
 
 /// Most moments of a frame. A picture is drawn for each.
-inline constexpr int max_moments = 16;
+inline constexpr int max_moments = 32;
 
 /// Frames around the moment of the state: half of them before it. Each particle has its own phase
 /// between two moments, so that fast snow leaves a streak and no row of copies. As many as pixels

@@ -92,6 +92,11 @@ NEVE_INLINE float near_sky(const auto& share, const SnowPlace& place, Vec3f norm
   return 1 / (1 + 2.2f * over(2.0f) + 1.4f * over(4.0f));
 }
 
+/// Well within the faces that no sun shines through to; see snow_light_kernel.h.
+bool faces_sun(Vec3f normal, const SnowLight& light) {
+  return dot(normal, light.toward) > 0.45f;
+}
+
 /// Light that far snow and solids leave.
 Exposure expose_to_far(const LightVolume& volume, const SnowLight& light, const SnowPlace& place,
                        Vec3f normal) {
@@ -101,8 +106,10 @@ Exposure expose_to_far(const LightVolume& volume, const SnowLight& light, const 
   out.normal = normal;
   out.sun = arriving_at(volume, above + light.toward * cell).key;
   out.sky = arriving_at(volume, above).sky;
-  // More than what goes straight on: most light that snow scatters goes ahead.
-  out.through = std::sqrt(arriving_at(volume, place.world).key);
+  // Nothing is before a face that the sun shines on. Behind, more arrives than goes straight on:
+  // most light that snow scatters goes ahead.
+  out.through =
+      faces_sun(normal, light) ? out.sun : std::sqrt(arriving_at(volume, place.world).key);
   return out;
 }
 
@@ -223,7 +230,7 @@ Exposure expose(const Body& body, const LightVolume& volume, const SnowLight& li
   if (place.block == no_block) return out;
   const auto share = [&](Vec3f node) { return share_at(body.field, place.block, node); };
   out.sun *= near_sun(share, place, normal, light.toward);
-  out.through *= near_through(share, place, light.toward);
+  if (!faces_sun(normal, light)) out.through *= near_through(share, place, light.toward);
   out.crevice = near_sky(share, place, normal);
   return out;
 }
@@ -233,7 +240,7 @@ Exposure expose(const NearField& near, const LightVolume& volume, const SnowLigh
   Exposure out = expose_to_far(volume, light, place, normal);
   const auto share = [&](Vec3f node) NEVE_INLINE_BODY { return near.share(node); };
   out.sun *= near_sun(share, place, normal, light.toward);
-  out.through *= near_through(share, place, light.toward);
+  if (!faces_sun(normal, light)) out.through *= near_through(share, place, light.toward);
   out.crevice = near_sky(share, place, normal);
   return out;
 }

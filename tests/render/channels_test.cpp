@@ -2,10 +2,13 @@
 
 #include "render/channels/channels.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
 #include "both_ways.h"
+#include "render/frame/colormap.h"
 #include "render/image/exr.h"
 #include "render/image/mean_image.h"
 #include "render/shapes/mesh_shapes.h"
@@ -256,6 +259,76 @@ TEST_P(PartsOfLight, SnowEmitsNone) {
   EXPECT_GT(seen, 500);
   EXPECT_GT(shaded, 20);
   EXPECT_GT(brightest, 0.5f);
+}
+
+/// Mean of the values of particles around a place, weighted as the surface weighs their snow.
+float weighted_value(const Points& points, Vec3f place) {
+  const float width = 0.8f * points.spacing;  // of the kernel
+  double sum = 0, total = 0;
+  for (std::size_t p = 0; p < points.position.size(); ++p) {
+    const Vec3f away = (points.position[p] - place) * (1 / width);
+    const float squared = dot(away, away);
+    if (squared > 20) continue;
+    const double w = std::exp(-0.5 * static_cast<double>(squared));
+    sum += w * static_cast<double>(points.value[p]);
+    total += w;
+  }
+  return static_cast<float>(sum / total);
+}
+
+float linear_of(std::uint8_t srgb) {
+  const float c = static_cast<float>(srgb) / 255;
+  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
+
+/// Largest difference from the color of a value, in linear light.
+float difference_from(ColorMap map, float value, const std::array<float, 3>& seen) {
+  const Rgb8 color = map_color(map, value);
+  return std::max({std::abs(linear_of(color.r) - seen[0]), std::abs(linear_of(color.g) - seen[1]),
+                   std::abs(linear_of(color.b) - seen[2])});
+}
+
+TEST(SnowValues, AColorIsThatOfTheSnowAroundItsPlaceByOpenGlAndOnTheCpu) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = rough_ball(160, 100);
+  frame.has_snow_surface = true;
+  frame.grounds.clear();
+  frame.points.colormap = ColorMap::viridis;
+  constexpr float steepest = 2.6f;  // values a metre
+  for (const Vec3f& p : frame.points.position)
+    frame.points.value.push_back(0.5f + 0.5f * std::sin(2 * steepest * p.x));
+  frame.points.range_min = 0;
+  frame.points.range_max = 1;
+  // A place has the color of the grains nearest to it, whose particles are up to 1.2 spacings away,
+  // and snow around a place of the surface lies on average half a spacing inside.
+  const float tolerance = 1.7f * frame.points.spacing * steepest;
+  for (const ParticlePath path : {ParticlePath::gl, ParticlePath::cpu}) {
+    const Drawn drawn(*context, frame, request_for(frame), path);
+    const std::array position = drawn.vectors("position");
+    const std::array albedo{drawn.all("albedo.R"), drawn.all("albedo.G"), drawn.all("albedo.B")};
+    const std::vector<float> z = drawn.all("depth.Z");
+    int seen = 0, wrong = 0;
+    float lowest = 1, highest = 0;
+    for (std::size_t i = 0; i < z.size(); i += 3) {
+      if (z[i] == channels::nothing_depth) continue;
+      const float value =
+          weighted_value(frame.points, {position[0][i], position[1][i], position[2][i]});
+      float least = 1;
+      for (int step = -40; step <= 40; ++step)
+        least = std::min(least, difference_from(ColorMap::viridis,
+                                                value + tolerance * static_cast<float>(step) / 40,
+                                                {albedo[0][i], albedo[1][i], albedo[2][i]}));
+      ++seen;
+      // Bytes of square roots, eleven bits, steps between the values, and mixes of two grains.
+      if (least > 0.02f) ++wrong;
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
+    }
+    EXPECT_GT(seen, 500);
+    EXPECT_LE(wrong, seen / 100);
+    EXPECT_LT(lowest, 0.15f);
+    EXPECT_GT(highest, 0.85f);
+  }
 }
 
 /// As shaders/shade.frag has it.
