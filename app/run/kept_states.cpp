@@ -24,15 +24,19 @@ std::string state_identity(const RenderJob& job, const sim::Simulation& simulati
 }  // namespace
 
 std::string simulation_text(const scene::Scene& scene) {
-  scene::Scene simulated;
-  simulated.fps = scene.fps;
-  simulated.seed = scene.seed;
-  simulated.solver = scene.solver;
-  simulated.materials = scene.materials;
-  simulated.bodies = scene.bodies;
-  simulated.emitters = scene.emitters;
-  simulated.sinks = scene.sinks;
-  simulated.colliders = scene.colliders;
+  // All of it but what only pictures, exports and the length of a run read.
+  const scene::Scene plain;
+  scene::Scene simulated = scene;
+  simulated.title.clear();
+  simulated.frames = plain.frames;
+  simulated.limits = plain.limits;
+  simulated.camera = plain.camera;
+  simulated.light = plain.light;
+  simulated.views = plain.views;
+  simulated.mosaics = plain.mosaics;
+  simulated.exports = plain.exports;
+  simulated.size = plain.size;
+  simulated.background = plain.background;
   for (scene::Collider& collider : simulated.colliders) collider.style = scene::Collider{}.style;
   return scene::write_scene(simulated);
 }
@@ -94,15 +98,9 @@ void KeptStates::write(int frame, const sim::AdvanceReport& advance,
   RunRecord brief;
   brief.retries = record.retries;
   if (!record.frames.empty()) brief.frames = {record.frames.back()};
-  output::Checkpoint checkpoint;
-  checkpoint.identity = identity_;
-  checkpoint.simd = simulation_.simd();
-  checkpoint.sources = build().sources;
-  checkpoint.frame = frame;
-  checkpoint.steps = simulation_.steps();
+  output::Checkpoint checkpoint = checkpoint_of(simulation_, frame, identity_);
   checkpoint.progress = progress_json(frame, {}, history, brief);
   checkpoint.progress["advance_of_frame"] = output::to_json(advance);
-  checkpoint.state = simulation_.save();
   output::write_state(job_.folder, checkpoint);
 }
 

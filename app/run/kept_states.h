@@ -15,8 +15,8 @@
 
 namespace neve::app::run {
 
-/// The parts of a scene that states depend on, as text: neither its views, cameras, colours and
-/// light, nor its length.
+/// The parts of a scene that states depend on, as text: all of it but its views, cameras, colours
+/// and light, its exports, and its length.
 std::string simulation_text(const scene::Scene& scene);
 
 /// Bytes of a particle on disk in single precision, about.

@@ -90,14 +90,8 @@ Checkpoints::Checkpoints(std::filesystem::path folder, const PictureRecord& pict
 
 void Checkpoints::write(int frame, const sim::AdvanceReport& advance,
                         std::span<const picture::PlotSample> history, const RunRecord& record) {
-  output::Checkpoint checkpoint;
-  checkpoint.identity = identity_;
-  checkpoint.simd = simulation_.simd();
-  checkpoint.sources = build().sources;
-  checkpoint.frame = frame;
-  checkpoint.steps = simulation_.steps();
+  output::Checkpoint checkpoint = checkpoint_of(simulation_, frame, identity_);
   checkpoint.progress = progress_json(frame, advance, history, record);
-  checkpoint.state = simulation_.save();
   output::write_checkpoint(folder_, checkpoint);
 }
 

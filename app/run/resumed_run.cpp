@@ -7,6 +7,7 @@
 
 #include "app/output/report_json.h"
 #include "app/support/errors.h"
+#include "app/support/version.h"
 
 namespace neve::app::run {
 
@@ -85,6 +86,18 @@ std::vector<FrameRecord> frames_of(const Json& list, int last, std::size_t steps
 }
 
 }  // namespace
+
+output::Checkpoint checkpoint_of(const sim::Simulation& simulation, int frame,
+                                 const std::string& identity) {
+  output::Checkpoint checkpoint;
+  checkpoint.identity = identity;
+  checkpoint.simd = simulation.simd();
+  checkpoint.sources = build().sources;
+  checkpoint.frame = frame;
+  checkpoint.steps = simulation.steps();
+  checkpoint.state = simulation.save();
+  return checkpoint;
+}
 
 Json progress_json(int frame, const sim::AdvanceReport& advance,
                    std::span<const picture::PlotSample> history, const RunRecord& record) {

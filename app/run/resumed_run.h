@@ -31,6 +31,10 @@ struct ResumedRun {
   Json exports = Json::array();  ///< as run.json lists them
 };
 
+/// The state of a simulation at the end of a frame, without the progress of its run.
+output::Checkpoint checkpoint_of(const sim::Simulation& simulation, int frame,
+                                 const std::string& identity);
+
 /// The part of a checkpoint beside the state of the simulation.
 Json progress_json(int frame, const sim::AdvanceReport& advance,
                    std::span<const picture::PlotSample> history, const RunRecord& record);

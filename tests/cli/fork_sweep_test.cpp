@@ -23,15 +23,6 @@ class ForkSweep : public Cli {
     return neve(words);
   }
 
-  /// Hashes of the frames of a run in a folder.
-  std::map<int, std::string> hashes(const std::string& out) {
-    std::map<int, std::string> all;
-    const app::Json run = json_of(out + "/run.json");
-    for (const app::Json& frame : run["frames"])
-      all[frame["frame"].get<int>()] = frame["state_hash"].get<std::string>();
-    return all;
-  }
-
   std::vector<std::map<int, std::string>> all_hashes(const std::string& out = "f.cdb") {
     std::vector<std::map<int, std::string>> all;
     for (const char* run : {"0000", "0001", "0002"}) all.push_back(hashes(out + "/runs/" + run));

@@ -18,14 +18,6 @@ class Fork : public Cli {
     return neve(words);
   }
 
-  std::map<int, std::string> hashes(const std::string& out) {
-    std::map<int, std::string> all;
-    const app::Json run = json_of(out + "/run.json");
-    for (const app::Json& frame : run["frames"])
-      all[frame["frame"].get<int>()] = frame["state_hash"].get<std::string>();
-    return all;
-  }
-
   /// The hash of frame 4 of a run that is advanced here, with a change at the end of a frame or so
   /// many steps later.
   std::string hash_of_whole(const std::string& run, int frame, std::size_t steps,

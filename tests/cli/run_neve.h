@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,15 @@ class Cli : public testing::Test {
 
   app::Json json_of(const std::string& file) {
     return app::parse_json(std::string_view(read_text(folder / file)));
+  }
+
+  /// Hashes of the frames of the run in a folder.
+  std::map<int, std::string> hashes(const std::string& out) {
+    std::map<int, std::string> all;
+    const app::Json run = json_of(out + "/run.json");
+    for (const app::Json& frame : run["frames"])
+      all[frame["frame"].get<int>()] = frame["state_hash"].get<std::string>();
+    return all;
   }
 
   bool exists(const std::string& file) { return std::filesystem::exists(folder / file); }

@@ -23,14 +23,6 @@ class SweepFrom : public Cli {
     ASSERT_EQ(done.exit_code, 0) << done.errors;
   }
 
-  std::map<int, std::string> hashes(const std::string& out) {
-    std::map<int, std::string> all;
-    const app::Json run = json_of(out + "/run.json");
-    for (const app::Json& frame : run["frames"])
-      all[frame["frame"].get<int>()] = frame["state_hash"].get<std::string>();
-    return all;
-  }
-
   /// The frames of a branch are those of a whole run that its picture describes.
   void expect_whole(const std::string& run, int last) {
     char name[32];
