@@ -8,7 +8,7 @@
 #include "app/output/sequence.h"
 #include "app/support/text.h"
 #include "app/sweep/jobs/outcome.h"
-#include "app/sweep/plan/labels.h"
+#include "app/sweep/sheet/tile_words.h"
 #include "render/frame/compose.h"
 
 namespace neve::app::sweep::sheet {
@@ -23,6 +23,13 @@ constexpr Rgb bright{240, 244, 250}, soft{190, 199, 212}, alarm{255, 138, 76},
 constexpr double darkness = 0.42;  // of a tile whose run got less far
 constexpr std::size_t max_moments = 6;
 const char* const dot = "   \u00b7   ";
+
+/// Of the longest line, about, in heights of a line.
+float width_of(const std::vector<std::string>& lines) {
+  std::size_t longest = 0;
+  for (const std::string& line : lines) longest = std::max(longest, line.size());
+  return static_cast<float>(letter_width * static_cast<double>(longest));
+}
 
 render::Image plain_image(int width, int height, const Rgb& color) {
   return render::compose(width, height, color, {});
@@ -69,48 +76,14 @@ render::Image read_tile(const std::filesystem::path& file, int width, int height
   }
 }
 
-/// "hardening = 5" and so on, or the name of the run.
-/// @param has_edges  leaves out the values on the sheet's edges
-std::vector<std::string> tile_lines(const store::Manifest& manifest, const Run& run,
-                                    bool has_edges) {
-  std::vector<std::string> lines;
-  if (manifest.tile_label == "none") return lines;
-  if (!run.label.empty()) lines.push_back(run.label);
-  if (manifest.tile_label == "name") {
-    if (lines.empty()) lines.push_back(store::run_text(run));
-    return lines;
-  }
-  const bool is_at_edges = has_edges && run.coordinates.size() == manifest.axes.size();
-  const auto is_at_edge = [&](const std::string& address) {
-    return is_at_edges &&
-           std::any_of(manifest.axes.begin(), manifest.axes.end(), [&](const auto& a) {
-             return std::find(a.addresses.begin(), a.addresses.end(), address) != a.addresses.end();
-           });
-  };
-  std::string settings;
-  for (const Parameter& parameter : manifest.parameters) {
-    const std::string value = run.setting(parameter.address);
-    if (value.empty() || is_at_edge(parameter.address)) continue;
-    settings += (settings.empty() ? "" : ", ") + parameter.name + " = " + plan::value_text(value);
-    if (!parameter.unit.empty()) settings += " " + parameter.unit;
-  }
-  if (!settings.empty()) lines.push_back(settings);
-  return lines;
-}
-
 /// The name of a run, or its settings, a line each.
 std::string strip_name(const store::Manifest& manifest, const Run& run) {
-  constexpr int max_lines = 5;
+  constexpr std::size_t max_lines = 5;
+  store::Manifest own = manifest;
+  if (own.tile_label == "none") own.tile_label = "differences";
   if (!run.label.empty()) return run.label;
-  std::string text;
-  int lines = 0;
-  for (const Parameter& parameter : manifest.parameters) {
-    const std::string value = run.setting(parameter.address);
-    if (value.empty() || ++lines > max_lines) continue;
-    text += (text.empty() ? "" : "\n") + parameter.name + " = " + plan::value_text(value) +
-            (parameter.unit.empty() ? "" : " " + parameter.unit);
-  }
-  return text.empty() ? store::run_text(run) : text;
+  const std::vector<std::string> lines = tile_words(own, run, false, {1, max_lines});
+  return lines.empty() ? store::run_text(run) : joined(lines, "\n");
 }
 
 /// The word in capitals, and the text after it.
@@ -174,7 +147,13 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
   const float left = static_cast<float>(tile.x) + 0.6f * size,
               top = static_cast<float>(tile.y) + 0.45f * size;
   const float room = static_cast<float>(layout.tile_width) - 1.2f * size;
-  const std::vector<std::string> lines = tile_lines(manifest_, *tile.run, layout.has_edges);
+  const std::vector<std::string> lines =
+      tile_words(manifest_, *tile.run, layout.has_edges, layout.words);
+  // Several lines reach into the snow.
+  if (lines.size() > 1)
+    words.patches.push_back({static_cast<float>(tile.x), static_cast<float>(tile.y),
+                             std::min(room + 1.2f * size, width_of(lines) * size + 1.2f * size),
+                             1.25f * size * static_cast<float>(lines.size()) + 0.7f * size});
   for (std::size_t k = 0; k < lines.size(); ++k)
     words.notes.push_back({left, top + 1.25f * size * static_cast<float>(k), lines[k],
                            render::Note::Anchor::left, room, false,

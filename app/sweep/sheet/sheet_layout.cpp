@@ -11,7 +11,6 @@ using Anchor = render::Note::Anchor;
 
 constexpr std::array<std::uint8_t, 3> bright_ink{240, 244, 250}, soft_ink{172, 182, 196},
     bracket{96, 106, 122};
-constexpr double letter = 0.56;  // width of a letter, as a share of the height of its line
 constexpr std::size_t longest_row = 6;
 
 /// One side of the sheet: axes from the outermost to the innermost.
@@ -100,7 +99,10 @@ bool is_wrapped(const store::Manifest& m) {
 int wrap_count(const store::Manifest& m, std::size_t count, double tile_aspect) {
   if (m.wrap > 0) return std::min(m.wrap, static_cast<int>(count));
   const double wanted = std::sqrt(static_cast<double>(count) * 1.6 / tile_aspect);
-  return std::clamp(static_cast<int>(std::lround(wanted)), 1, static_cast<int>(count));
+  // Whole trajectories of a screening are side by side.
+  const int together = m.screened.empty() ? 1 : static_cast<int>(m.screened.size()) + 1;
+  const int across = std::max(1, static_cast<int>(std::lround(wanted / together))) * together;
+  return std::clamp(across, 1, static_cast<int>(count));
 }
 
 class Layouter {
@@ -112,6 +114,7 @@ class Layouter {
         std::max(1, static_cast<int>(std::lround(1.0 * tile_width * m.tile_height / m.tile_width)));
     out_.font_size = std::clamp(static_cast<int>(std::lround(tile_width / 28.0)), 11, 28);
     gap_ = std::max(3, out_.font_size / 4);
+    out_.words = word_room();
   }
 
   SheetLayout make() {
@@ -134,6 +137,15 @@ class Layouter {
   }
 
  private:
+  /// Words are at the upper edge of a tile and leave its lower third free.
+  WordRoom word_room() const {
+    constexpr double space = 1.2, share = 0.67;
+    const double letters = (out_.tile_width / (1.0 * out_.font_size) - space) / letter_width,
+                 lines = share * out_.tile_height / (1.25 * out_.font_size);
+    return {static_cast<std::size_t>(std::max(1.0, letters)),
+            static_cast<std::size_t>(std::max(1.0, lines))};
+  }
+
   double line() const { return 1.3 * out_.font_size; }
   int margin() const { return out_.font_size; }
   int wide_gap() const { return 3 * gap_ + out_.font_size / 2; }
@@ -174,7 +186,7 @@ class Layouter {
 
   double max_level_width() const { return 14.0 * out_.font_size; }
   double width_of(std::size_t letters) const {
-    return letter * out_.font_size * static_cast<double>(letters + 1);
+    return letter_width * out_.font_size * static_cast<double>(letters + 1);
   }
 
   /// True if "name = value" fits side by side for all values of an axis.
@@ -317,6 +329,8 @@ std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_le
   };
   std::size_t count = manifest.runs.size();
   while (count > 1 && !is_readable(layout_of(0, count))) count = (count + 1) / 2;
+  if (const std::size_t together = manifest.screened.size() + 1; count > together)
+    count -= count % together;
   std::vector<SheetPage> pages;
   for (std::size_t first = 0; first < manifest.runs.size(); first += count) {
     const std::size_t here = std::min(count, manifest.runs.size() - first);

@@ -4,10 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "app/sweep/sheet/tile_words.h"
 #include "app/sweep/store/manifest.h"
 #include "render/frame/frame.h"
 
 namespace neve::app::sweep::sheet {
+
+/// Width of a letter, as a share of the height of its line, about.
+inline constexpr double letter_width = 0.56;
 
 struct SheetTile {
   std::size_t run = 0;
@@ -20,6 +24,7 @@ struct SheetLayout {
   int font_size = 16;                   ///< px
   int header = 0;                       ///< px, above the labels
   bool has_edges = false;               ///< the axes are along the edges
+  WordRoom words;                       ///< on a tile
   std::vector<SheetTile> tiles;
   std::vector<render::Note> labels;     ///< along the edges
   std::vector<render::Patch> brackets;  ///< beside rows that share an outer value
