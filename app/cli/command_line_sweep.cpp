@@ -117,7 +117,7 @@ void add_where(CLI::App& command, sweep::plan::SweepOptions& options, SweepTexts
   command
       .add_option("--budget", texts.budget,
                   "Stop after this time, as in 20m or 1h30m; the same command continues. A run "
-                  "that would not end before is not started")
+                  "that by the forecast would not end before is not started")
       ->type_name("TIME");
   command
       .add_option("--shard", texts.shard,

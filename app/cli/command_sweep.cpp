@@ -26,9 +26,11 @@
 #include "app/sweep/jobs/local.h"
 #include "app/sweep/jobs/slurm.h"
 #include "app/sweep/jobs/source.h"
+#include "app/sweep/jobs/start_order.h"
 #include "app/sweep/plan/dry_run_report.h"
 #include "app/sweep/plan/labels.h"
 #include "app/sweep/plan/shared_view.h"
+#include "app/sweep/plan/study_forecast.h"
 #include "app/sweep/plan/sweep_plan.h"
 #include "app/sweep/read/read_sweep.h"
 #include "app/sweep/sheet/collect.h"
@@ -64,13 +66,13 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
   std::string text;
   int count = 0;
   const sweep::store::Retry retry = retry_of(options.retry_failed);
-  for (const int index : chosen_runs(options, manifest.runs.back().index)) {
-    const sweep::Run& run = manifest.runs[static_cast<std::size_t>(index)];
+  const std::vector<int> chosen = chosen_runs(options, manifest.runs.back().index);
+  for (const sweep::Run* run : sweep::jobs::start_order(manifest, chosen, true)) {
     const sweep::store::RunState state =
-        sweep::store::read_status(sweep::store::runs_folder(folder) / run.folder).state;
+        sweep::store::read_status(sweep::store::runs_folder(folder) / run->folder).state;
     if (sweep::store::is_finished(state) && !retry.contains(state)) continue;
     text += fmt::format("{} sweep run {} --index {} --threads 1 --quiet{}{}\n", program, where,
-                        index, retry.empty() ? "" : " --retry-failed=" + options.retry_failed,
+                        run->index, retry.empty() ? "" : " --retry-failed=" + options.retry_failed,
                         setup::cap_flags());
     ++count;
   }
@@ -115,22 +117,25 @@ int exit_code_of(const sweep::jobs::JobsResult& result) {
   return result.failed > 0 ? exit_runs_failed : exit_ok;
 }
 
-void print_json_result(const std::filesystem::path& folder, const sweep::jobs::JobsResult& result) {
-  std::cout << to_text({{"out", folder.string()},
-                        {"exit_code", exit_code_of(result)},
-                        {"ok", result.ok},
-                        {"failed", result.failed},
-                        {"started", result.started},
-                        {"interrupted", result.is_interrupted},
-                        {"out_of_time", result.out_of_time},
-                        {"seconds", result.seconds}})
-            << "\n";
+Json result_json(const std::filesystem::path& folder, const sweep::jobs::JobsResult& result) {
+  return {{"out", folder.string()},
+          {"exit_code", exit_code_of(result)},
+          {"ok", result.ok},
+          {"failed", result.failed},
+          {"started", result.started},
+          {"interrupted", result.is_interrupted},
+          {"out_of_time", result.out_of_time},
+          {"seconds", result.seconds}};
 }
 
 void print_sweep_result(const sweep::plan::SweepOptions& options,
                         const std::filesystem::path& folder, const sweep::jobs::JobsResult& result,
-                        Progress& progress) {
-  if (options.is_json) print_json_result(folder, result);
+                        double foreseen_seconds, Progress& progress) {
+  if (options.is_json) {
+    Json json = result_json(folder, result);
+    json["foreseen_seconds"] = foreseen_seconds;
+    std::cout << to_text(json) << "\n";
+  }
   progress.note(fmt::format("{} {} ok{}, in {}", result.ok, result.ok == 1 ? "run" : "runs",
                             result.failed > 0 ? fmt::format(", {} failed", result.failed) : "",
                             folder.string()));
@@ -230,6 +235,44 @@ void choose_runs(const sweep::plan::SweepOptions& options, sweep::plan::SweepPla
   });
 }
 
+/// Places in the plan of the chosen runs that are not finished, of equal ones the first.
+std::vector<std::size_t> unfinished_runs(const sweep::plan::SweepOptions& options,
+                                         const std::filesystem::path& folder,
+                                         const sweep::store::Manifest& manifest) {
+  const sweep::store::Retry retry = retry_of(options.retry_failed);
+  const std::vector<int> chosen = chosen_runs(options, manifest.runs.back().index);
+  std::vector<std::size_t> places;
+  for (const sweep::Run* run : sweep::jobs::start_order(manifest, chosen, false)) {
+    const sweep::store::RunState state =
+        sweep::store::read_status(sweep::store::runs_folder(folder) / run->folder).state;
+    if (!sweep::store::is_finished(state) || retry.contains(state))
+      places.push_back(static_cast<std::size_t>(run->index));
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+/// Says how long the study will take, and gives the manifest the cost of each run, by which runs
+/// start and share the cores. @return s; 0: nothing is left to do, or it is not known
+double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan::SweepPlan& plan,
+                    int cores, sweep::store::Manifest& manifest, Progress& progress) {
+  const std::vector<std::size_t> runs = unfinished_runs(options, plan.folder, manifest);
+  if (runs.empty() || options.engine != "local") return 0;
+  const sweep::plan::StudyForecast forecast =
+      sweep::plan::foresee_study(plan, runs, sweep::plan::small_effort(plan, runs, cores), cores);
+  double cost = 0, seconds = 0;
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    manifest.runs[k].work = forecast.cost(k);
+    cost += forecast.cost(k);
+    seconds += forecast.seconds(k);
+  }
+  if (forecast.seconds_per_work > 0) manifest.seconds_per_work = seconds / cost;
+  sweep::store::write_manifest(plan.folder, manifest);
+  if (forecast.seconds_per_work > 0)
+    progress.note(sweep::plan::forecast_text(plan, runs, forecast, cores, options.budget));
+  return forecast.seconds_of_all(runs, cores);
+}
+
 }  // namespace
 
 int run_sweep(const sweep::plan::SweepOptions& options) {
@@ -264,8 +307,9 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
         "made again",
         outdated, outdated == 1 ? "run" : "runs"));
   sweep::store::Redrawn redrawn;
-  const sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan, &redrawn);
+  sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan, &redrawn);
   note_redrawn(redrawn, plan, progress);
+  const double foreseen_seconds = foresee_runs(options, plan, cores, manifest, progress);
   if (plan.source) sweep::jobs::take_beginning(plan, *manifest.beginning, cores, progress);
   if (!options.emit.empty()) {
     emit_commands(options, plan.folder, manifest, progress);
@@ -274,7 +318,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   const sweep::jobs::JobsResult result = run_engine(options, plan.folder, manifest, progress);
   if (result.failure) fail_by_machine(*result.failure, plan.folder);
   sweep::sheet::collect_sweep(plan.folder, options.movie, options.backend, cores, progress);
-  print_sweep_result(options, plan.folder, result, progress);
+  print_sweep_result(options, plan.folder, result, foreseen_seconds, progress);
   if (result.elsewhere > 0)
     progress.say(fmt::format(
         "not finished: {}{}; the same command completes the sweep later", result.elsewhere_text,
@@ -314,7 +358,7 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
       sweep::jobs::run_local(options.folder, manifest, indices, engine, progress);
   if (result.failure) fail_by_machine(*result.failure, options.folder);
   if (result.elsewhere > 0) throw IoError(result.elsewhere_text, options.folder, "wait for it");
-  if (options.is_json) print_json_result(options.folder, result);
+  if (options.is_json) std::cout << to_text(result_json(options.folder, result)) << "\n";
   return exit_code_of(result);
 }
 

@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include "app/health/findings.h"
+#include "app/health/step_time.h"
 #include "app/setup/auto_ranges.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
-#include "app/support/clock.h"
-#include "app/support/interrupt.h"
 #include "app/support/text.h"
 
 namespace neve::app::health {
@@ -20,8 +19,6 @@ namespace {
 /// Two copies of about a second each. The time matters only where a machine is busy or snow is
 /// spread out, so that a forecast is the same every time.
 constexpr ForecastBudget coarse_budget{8, 3e7, 1500, 3e7};
-constexpr double calibration_seconds = 1;
-constexpr int calibration_steps = 40;
 /// Above this many particles seeding alone takes too long for a look.
 constexpr double max_seeded = 3e6;
 
@@ -31,24 +28,6 @@ constexpr double least_of_steps = 0.5, most_of_steps = 2;
 /// Time of a step over that at the start, beyond the copy's spread: 0.7 to 2.0 on seven scenes.
 /// Torn snow fills more of the grid and of the caches.
 constexpr double dearest_step = 2;
-
-/// The median of some steps, after two that warm caches up.
-/// @param solve  the worst of them
-double measure_step(sim::Simulation& simulation, double frame, sim::SolveReport& solve) {
-  std::vector<double> seconds;
-  const auto start = Clock::now();
-  for (int k = 0; k < calibration_steps && seconds_since(start) < calibration_seconds; ++k) {
-    const auto before = Clock::now();
-    simulation.step(simulation.choose_dt(frame).dt);
-    solve.add(simulation.last_solve());
-    if (k >= 2) seconds.push_back(seconds_since(before));
-    if (simulation.divergence() || is_interrupted()) break;
-  }
-  if (seconds.empty()) return 0;
-  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
-  std::nth_element(seconds.begin(), middle, seconds.end());
-  return *middle;
-}
 
 /// Step of the first emitted snow, for a scene that starts empty.
 sim::DtChoice first_emission(const scene::Scene& scene, sim::StepLimits& start) {
@@ -115,17 +94,10 @@ void check_crushing(const scene::Scene& scene, Checkup& checkup) {
 
 /// @return s per step and particle, on one thread
 double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
-  const Forecast forecast = foresee(scene, checkup.plan.particles, scene.frames, coarse_budget);
+  Forecast forecast = foresee(scene, checkup.plan.particles, scene.frames, coarse_budget);
+  forecast.include_spread(checkup.spread);
   checkup.coarse_particles = forecast.particles;
   checkup.forecast = forecast.frames;
-  if (checkup.spread.blocks > 0 && forecast.spread.blocks > 0)
-    for (FrameForecast& frame : checkup.forecast) {
-      const double more = checkup.spread.blocks / forecast.spread.blocks;
-      const Spread together{std::min(1.0, more * frame.spread.blocks), frame.spread.alone};
-      const double first = cost_of_step(checkup.spread);
-      frame.cost = cost_of_step(together) / first;
-      frame.max_cost = std::max(frame.cost, cost_of_step(frame.spread) / first);
-    }
   checkup.findings.insert(checkup.findings.end(), forecast.findings.begin(),
                           forecast.findings.end());
   if (!forecast.divergence.empty())
@@ -198,7 +170,9 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
     checkup.dt_start = choice.dt;
     checkup.limit_start = choice.limit;
     checkup.spread = spread_of(simulation);
-    checkup.seconds_per_step = measure_step(simulation, 1 / scene.fps, checkup.solve);
+    const StepTime step = measure_steps(simulation, 1 / scene.fps);
+    checkup.seconds_per_step = step.seconds;
+    checkup.solve = step.solve;
     check_steps(scene, checkup, checkup.findings);
     check_motion(scene, checkup, checkup.findings);
   } else {

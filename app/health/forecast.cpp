@@ -18,10 +18,6 @@ namespace neve::app::health {
 
 namespace {
 
-/// Time of an iteration of the solve over that of an explicit step: measured 0.21 to 0.22, in
-/// snowball_drop and in press at --coarsen 2.
-constexpr double work_of_iteration = 0.25;
-
 /// Step and limit of a scene, or of a copy with other cells, in a state of the coarse copy.
 sim::DtChoice allowed(const scene::Scene& scene, const sim::StepLimits& state,
                       double cell_of_state) {
@@ -271,8 +267,18 @@ double Forecast::steps_until(int frame) const {
 
 double Forecast::work_until(int frame) const {
   return sum_until(frames, frame, [](const FrameForecast& f) {
-    return f.steps * (1 + work_of_iteration * f.iterations);
+    return f.steps * (1 + work_of_iteration * f.iterations) * f.cost;
   });
+}
+
+void Forecast::include_spread(const Spread& start) {
+  if (start.blocks <= 0 || spread.blocks <= 0) return;
+  const double more = start.blocks / spread.blocks, first = cost_of_step(start);
+  for (FrameForecast& frame : frames) {
+    const Spread together{std::min(1.0, more * frame.spread.blocks), frame.spread.alone};
+    frame.cost = cost_of_step(together) / first;
+    frame.max_cost = std::max(frame.cost, cost_of_step(frame.spread) / first);
+  }
 }
 
 }  // namespace neve::app::health

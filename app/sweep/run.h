@@ -20,7 +20,7 @@ struct Run {
   setup::FrameRange frames;
   double particles = 0;  ///< foreseen
   double memory = 0;     ///< foreseen bytes of its process
-  double work = 0;       ///< particles times foreseen steps: costs in proportion
+  double work = 0;       ///< foreseen cost, in explicit steps of one particle
 
   std::string folder;  ///< "0007", under DIR/runs
   std::string key;     ///< of its scene, version and frames

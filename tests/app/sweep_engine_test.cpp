@@ -128,11 +128,12 @@ TEST(SweepThreads, ThreadsFillTheCoresAndFitIntoMemory) {
   small.memory = 5e7;
   large.particles = 1e6;
   large.memory = 4e9;
-  EXPECT_EQ(app::sweep::jobs::threads_for(small, 64, 8, 16e9), 1);  // many small ones side by side
-  EXPECT_EQ(app::sweep::jobs::threads_for(large, 64, 8, 16e9), 2);  // four fit into memory
-  EXPECT_EQ(app::sweep::jobs::threads_for(large, 64, 8, 1e9), 8);   // none does: one at a time
-  EXPECT_EQ(app::sweep::jobs::threads_for(large, 2, 8, 64e9), 4);   // only two are left
-  EXPECT_EQ(app::sweep::jobs::threads_for(small, 1, 8, 64e9), 1);   // too small to share
+  EXPECT_EQ(app::sweep::jobs::threads_for(small, {64}, 8, 16e9),
+            1);  // many small ones side by side
+  EXPECT_EQ(app::sweep::jobs::threads_for(large, {64}, 8, 16e9), 2);  // four fit into memory
+  EXPECT_EQ(app::sweep::jobs::threads_for(large, {64}, 8, 1e9), 8);   // none does: one at a time
+  EXPECT_EQ(app::sweep::jobs::threads_for(large, {2}, 8, 64e9), 4);   // only two are left
+  EXPECT_EQ(app::sweep::jobs::threads_for(small, {1}, 8, 64e9), 1);   // too small to share
 }
 
 TEST(SweepProgress, RemainingTimeIsEstimatedOverATrailingWindow) {

@@ -60,7 +60,7 @@ TEST_F(SweepCli, DryRunsForeseeTheCostOfEachRun) {
                             "--frames", "4", "--dry-run", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const app::Json plan = app::parse_json(std::string_view(result.output));
-  constexpr double drawn = 5 * 0.02;  // tiles
+  constexpr double drawn = 0.1 + 5 * 0.02;  // the start of a process, and tiles
   const double soft = plan["runs"][0]["seconds"].get<double>() - drawn,
                stiff = plan["runs"][1]["seconds"].get<double>() - drawn;
   EXPECT_GT(stiff, 2 * soft) << result.output;
@@ -118,6 +118,46 @@ TEST_F(SweepCli, DryRunsNameTheRunsThatTakeMuchLonger) {
   EXPECT_TRUE(contains(result.output, "the longest: run 2, ")) << result.output;
   const auto equal = neve({"sweep", "scene.toml", "-p", "seed=1,2,3", "--dry-run"});
   EXPECT_FALSE(contains(equal.output, "the longest")) << equal.output;
+}
+
+/// Results are the same whichever run starts first.
+TEST_F(SweepCli, AStartForeseesItsRunsAndBeginsWithTheLongest) {
+  const auto sweep = [&](const char* jobs) {
+    return neve({"sweep", "scene.toml", "-p", "frames=4,5,6,80", "--threads", "2", "--jobs", jobs,
+                 "--verbose", "--json", "--out", std::string("jobs_") + jobs});
+  };
+  const auto together = sweep("2");
+  ASSERT_EQ(together.exit_code, 0) << together.errors;
+  EXPECT_TRUE(contains(together.errors, "forecast: 4 runs, about ")) << together.errors;
+  EXPECT_TRUE(contains(together.errors, "\nthe longest: run 3, ")) << together.errors;
+  const auto place = [](const app::output::ProcessResult& done, const char* run) {
+    return done.errors.find(std::string("run ") + run + " starts on");
+  };
+  EXPECT_LT(place(together, "3"), place(together, "0"));
+  const app::Json result = app::parse_json(std::string_view(together.output));
+  EXPECT_GT(result["foreseen_seconds"].get<double>(), 0);
+  // One after the other, nothing waits for a long one: the ends of the axis come first.
+  const auto alone = sweep("1");
+  EXPECT_LT(place(alone, "0"), place(alone, "3"));
+  for (const char* run : {"0000", "0001", "0002", "0003"})
+    EXPECT_EQ(hashes(std::string("jobs_1/runs/") + run), hashes(std::string("jobs_2/runs/") + run));
+  const auto again = sweep("2");
+  EXPECT_FALSE(contains(again.errors, "forecast: ")) << "nothing is left to do";
+  EXPECT_EQ(app::parse_json(std::string_view(again.output))["started"], 0);
+  // One more run: it alone is foreseen.
+  const auto more = neve({"sweep", "scene.toml", "-p", "frames=4,5,6,80,7", "--out", "jobs_2"});
+  EXPECT_TRUE(contains(more.errors, "forecast: 1 run, about ")) << more.errors;
+}
+
+TEST_F(SweepCli, ASheetOfAnAxisThatIsNotThereIsRefusedBeforeAnythingStarts) {
+  folder.write("sheet.toml", std::string(small_sweep) + "[sheet]\ncolumns = \"hardness\"\n");
+  for (const char* flag : {"--dry-run", "--json"}) {
+    const auto result = neve({"sweep", "sheet.toml", flag});
+    EXPECT_EQ(result.exit_code, 3) << flag;
+    EXPECT_TRUE(contains(result.errors, "sheet.columns = \"hardness\": there is no such axis"))
+        << result.errors;
+    EXPECT_FALSE(exists("out"));
+  }
 }
 
 TEST_F(SweepCli, CollectSaysWhatTheFolderOfASweepIs) {

@@ -7,7 +7,6 @@
 #include <deque>
 #include <list>
 #include <optional>
-#include <set>
 #include <system_error>
 #include <thread>
 
@@ -20,7 +19,7 @@
 #include "app/support/text.h"
 #include "app/sweep/jobs/child.h"
 #include "app/sweep/jobs/outcome.h"
-#include "app/sweep/plan/order.h"
+#include "app/sweep/jobs/start_order.h"
 #include "app/sweep/store/results.h"
 #include "app/sweep/store/store.h"
 
@@ -33,24 +32,6 @@ namespace {
 constexpr auto poll_interval = std::chrono::milliseconds(5);
 constexpr auto wait_interval = std::chrono::milliseconds(100);
 
-/// In which the next runs are started.
-std::deque<const Run*> queue_of(const store::Manifest& manifest, const std::vector<int>& indices) {
-  std::vector<std::vector<int>> coordinates;
-  std::vector<int> sizes;
-  for (const Run& run : manifest.runs) coordinates.push_back(run.coordinates);
-  for (const store::AxisLabels& axis : manifest.axes)
-    sizes.push_back(static_cast<int>(axis.values.size()));
-  std::deque<const Run*> queue;
-  std::set<std::string> keys;
-  for (const std::size_t k : plan::coarse_first(coordinates, sizes)) {
-    const Run& run = manifest.runs[k];
-    const bool is_wanted = std::find(indices.begin(), indices.end(), run.index) != indices.end();
-    // Equal runs share a folder: one of them is enough.
-    if (is_wanted && keys.insert(run.key).second) queue.push_back(&run);
-  }
-  return queue;
-}
-
 class LocalJobs {
  public:
   LocalJobs(const fs::path& folder, const store::Manifest& manifest, const LocalOptions& options,
@@ -59,7 +40,7 @@ class LocalJobs {
 
   JobsResult run(const std::vector<int>& indices) {
     const auto start = start_ = Child::Clock::now();
-    queue_ = queue_of(manifest_, indices);
+    put_in_order(indices);
     counts_.all = static_cast<int>(queue_.size());
     skip_finished();
     put_failed_by_machine_last();
@@ -95,6 +76,25 @@ class LocalJobs {
     int threads;
     int frame;  ///< the next one that was not there yet
   };
+
+  /// Where the budget is too short for all, the ends of axes come first: long runs would take the
+  /// room of many.
+  void put_in_order(const std::vector<int>& indices) {
+    const bool is_side_by_side = options_.cores > 1 && options_.jobs != 1;
+    for (const bool is_longest_first : {is_side_by_side, false}) {
+      const std::vector<const Run*> order = start_order(manifest_, indices, is_longest_first);
+      queue_.assign(order.begin(), order.end());
+      if (options_.budget <= 0 || foreseen_seconds() <= options_.budget) return;
+    }
+  }
+
+  /// Of all runs that wait, on all cores; 0: not known.
+  double foreseen_seconds() const {
+    double work = 0;
+    for (const Run* run : queue_)
+      if (!store::is_finished(store::read_status(folder_of(*run)).state)) work += run->work;
+    return work * manifest_.seconds_per_work / options_.cores;
+  }
 
   /// Once for all runs: by this process, or by another one that is waited for.
   void make_beginning() {
@@ -135,7 +135,7 @@ class LocalJobs {
     if (is_known) fail_by_beginning(status);
     progress_.note(fmt::format("the common beginning of all runs, to frame {}", run.frames.last));
     const int threads =
-        threads_for(run, 1, options_.cores, static_cast<double>(available_memory()));
+        threads_for(run, {}, options_.cores, static_cast<double>(available_memory()));
     Child child = start_child(run, folder, threads, status);
     std::optional<ChildResult> ended;
     while (!(ended = child.poll())) {
@@ -205,15 +205,22 @@ class LocalJobs {
     return options_.budget - std::chrono::duration<double>(Child::Clock::now() - start_).count();
   }
 
-  /// Compares a run with those that ended: before the first one nothing is known.
+  /// Compares a run with those that ended, before the first one with the forecast.
   bool fits_in_budget(const Run& run) const {
-    if (options_.budget <= 0 || !(work_timed_ > 0)) return true;
-    return run.work * seconds_timed_ / work_timed_ <= seconds_left();
+    if (options_.budget <= 0) return true;
+    const double seconds_per_work =
+        work_timed_ > 0 ? seconds_timed_ / work_timed_ : manifest_.seconds_per_work;
+    return run.work * seconds_per_work <= seconds_left();
   }
 
-  /// Runs that would not end in time make room for shorter ones.
+  /// Runs that would not end in time make room for shorter ones. Where none would, they begin all
+  /// the same: their checkpoints are the next call's beginning.
   void keep_budget() {
     if (options_.budget <= 0) return;
+    const bool is_hopeless =
+        result_.started == 0 && std::none_of(queue_.begin(), queue_.end(),
+                                             [&](const Run* run) { return fits_in_budget(*run); });
+    if (is_hopeless && seconds_left() > 0) return;
     result_.out_of_time += static_cast<int>(
         std::erase_if(queue_, [&](const Run* run) { return !fits_in_budget(*run); }));
     if (seconds_left() > 0) return;
@@ -244,7 +251,7 @@ class LocalJobs {
 
   void start_what_fits() {
     while (!queue_.empty()) {
-      const int left = static_cast<int>(queue_.size() + active_.size());
+      const RunsLeft left{static_cast<int>(queue_.size() + active_.size()), work_left_};
       const bool is_full =
           options_.jobs > 0
               ? static_cast<int>(active_.size()) >= options_.jobs
@@ -426,13 +433,18 @@ bool has_beginning(const Run& run, const fs::path& folder) {
          output::find_checkpoint(folder).checkpoint.has_value();
 }
 
-int threads_for(const Run& run, int left, int cores, double memory) {
+int threads_for(const Run& run, const RunsLeft& left, int cores, double memory) {
   // Fewer particles than these are not worth a thread's share of a step.
   constexpr double least = 4000;
   const double fitting = run.memory > 0 ? std::max(1.0, std::floor(memory / run.memory)) : cores;
   const double together =
-      std::min({static_cast<double>(cores), static_cast<double>(left), fitting});
-  const auto threads = static_cast<int>(cores / std::max(1.0, together));
+      std::min({static_cast<double>(cores), static_cast<double>(left.runs), fitting});
+  const auto by_count = static_cast<int>(cores / std::max(1.0, together));
+  // One that is longer than what all others leave to a core would be waited for.
+  const auto by_length =
+      left.work > 0 ? static_cast<int>(std::lround(cores * std::min(1.0, run.work / left.work)))
+                    : 1;
+  const int threads = std::max(by_count, by_length);
   const auto useful = static_cast<int>(std::clamp(run.particles / least, 1.0, 1024.0));
   return std::clamp(threads, 1, useful);
 }

@@ -56,8 +56,14 @@ JobsResult run_local(const std::filesystem::path& folder, const store::Manifest&
 /// True where the common beginning of forked runs is there. @param folder  of the beginning
 bool has_beginning(const Run& run, const std::filesystem::path& folder);
 
-/// Number of threads for a run if `left` runs have not started yet. @param memory bytes that are
-/// free
-int threads_for(const Run& run, int left, int cores, double memory);
+/// Runs that have not ended, the one in question among them.
+struct RunsLeft {
+  int runs = 1;
+  double work = 0;  ///< of all of them; 0: not known
+};
+
+/// Number of threads for a run: several where few are left, or where it alone takes a large part of
+/// what is left. @param memory bytes that are free
+int threads_for(const Run& run, const RunsLeft& left, int cores, double memory);
 
 }  // namespace neve::app::sweep::jobs

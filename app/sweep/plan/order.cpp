@@ -41,4 +41,16 @@ std::vector<std::size_t> coarse_first(const std::vector<std::vector<int>>& coord
   return order;
 }
 
+std::vector<std::size_t> longest_first(std::vector<std::size_t> order,
+                                       const std::vector<double>& work) {
+  constexpr double alike = 1.25;
+  for (auto next = order.begin(); next != order.end();) {
+    const double longest = work[*std::max_element(
+        next, order.end(), [&](std::size_t a, std::size_t b) { return work[a] < work[b]; })];
+    next = std::stable_partition(next, order.end(),
+                                 [&](std::size_t k) { return alike * work[k] >= longest; });
+  }
+  return order;
+}
+
 }  // namespace neve::app::sweep::plan

@@ -13,4 +13,10 @@ namespace neve::app::sweep::plan {
 std::vector<std::size_t> coarse_first(const std::vector<std::vector<int>>& coordinates,
                                       const std::vector<int>& sizes);
 
+/// Long runs first, so that the last ones are short and no core waits for one: runs that take about
+/// as long as the longest of those that are left, within a quarter, keep their order.
+/// @param order  runs, by their places in `work`
+std::vector<std::size_t> longest_first(std::vector<std::size_t> order,
+                                       const std::vector<double>& work);
+
 }  // namespace neve::app::sweep::plan

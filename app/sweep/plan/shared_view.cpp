@@ -77,12 +77,6 @@ std::vector<std::vector<int>> coordinates_of(const SweepPlan& plan) {
   return places;
 }
 
-std::vector<int> axis_sizes(const SweepPlan& plan) {
-  std::vector<int> sizes;
-  for (const read::Axis& axis : plan.sweep.axes) sizes.push_back(static_cast<int>(axis.size()));
-  return sizes;
-}
-
 std::vector<setup::Moment> moments_of_corners(const SweepPlan& plan, int cores) {
   std::vector<const scene::Scene*> scenes;
   for (const std::size_t k : coarse_first(coordinates_of(plan), axis_sizes(plan)))

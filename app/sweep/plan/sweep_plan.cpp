@@ -9,6 +9,7 @@
 #include "app/run/kept_states.h"
 #include "app/run/picture_record.h"
 #include "app/scene/coarsen.h"
+#include "app/scene/leaf.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
@@ -190,6 +191,19 @@ read::Sweep sweep_of(const SweepOptions& options, const std::optional<run::Rende
   return sweep;
 }
 
+/// Which axis an address or label means; -1: none is named.
+int axis_called(const read::Sweep& sweep, const char* key, const std::string& wanted) {
+  if (wanted.empty()) return -1;
+  std::vector<std::string> known;
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a)
+    for (const read::Axis::Parameter& parameter : sweep.axes[a].parameters) {
+      if (parameter.address == wanted || parameter.label == wanted) return static_cast<int>(a);
+      known.push_back(parameter.address);
+    }
+  sweep.fail(key, fmt::format("{} = \"{}\": there is no such axis", key, wanted),
+             known.empty() ? "the sweep has no axes" : "expected " + scene::list_of(known));
+}
+
 /// Takes the common beginning off the runs. @throws UsageError where they cannot have one
 void share_beginning(double time, SweepPlan& plan) {
   const char* flag = plan.source ? "--from" : "--fork";
@@ -225,6 +239,8 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   refuse_two_frames(options, plan.sweep);
   plan.folder =
       options.out.empty() ? out_folder() / (plan.sweep.name + ".cdb") : fs::path(options.out);
+  plan.columns = axis_called(plan.sweep, "sheet.columns", plan.sweep.sheet.columns);
+  plan.rows = axis_called(plan.sweep, "sheet.rows", plan.sweep.sheet.rows);
   const SceneMaker maker(options, plan.sweep, plan.source);
   plan.base = maker.make_base();
   if (options.is_fast) {
@@ -243,6 +259,12 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   if (const auto time = fork_time(options, plan.sweep)) share_beginning(*time, plan);
   if (plan.source) plan.source->fork->changes.clear();  // the runs make them
   return plan;
+}
+
+std::vector<int> axis_sizes(const SweepPlan& plan) {
+  std::vector<int> sizes;
+  for (const read::Axis& axis : plan.sweep.axes) sizes.push_back(static_cast<int>(axis.size()));
+  return sizes;
 }
 
 double bytes_of_states(const SweepPlan& plan) {

@@ -41,6 +41,7 @@ struct SweepPlan {
   /// The run or picture in which the beginning is found; without it is simulated from the start.
   std::optional<run::RenderJob> source;
   bool keeps_states = false;
+  int columns = -1, rows = -1;           ///< axes of the sheet that were asked for; -1: automatic
   double fork = 0;                       ///< s, where they part
   std::optional<health::FastLook> fast;  ///< of --fast; its overrides are among the fixed settings
 };
@@ -48,6 +49,9 @@ struct SweepPlan {
 /// Reads the scene of every run; starts nothing.
 /// @throws SceneError, UsageError, LimitError, sim::ShapeError
 SweepPlan plan_sweep(const SweepOptions& options);
+
+/// Values on each axis.
+std::vector<int> axis_sizes(const SweepPlan& plan);
 
 /// On disk, if the states of all drawn frames of all runs are kept, about.
 double bytes_of_states(const SweepPlan& plan);

@@ -26,19 +26,6 @@ std::filesystem::path manifest_path(const std::filesystem::path& folder) {
   return folder / "manifest.json";
 }
 
-/// Which axis an address or label means; -1: none is named.
-int axis_called(const plan::SweepPlan& plan, const char* key, const std::string& wanted) {
-  if (wanted.empty()) return -1;
-  std::vector<std::string> known;
-  for (std::size_t a = 0; a < plan.sweep.axes.size(); ++a)
-    for (const read::Axis::Parameter& parameter : plan.sweep.axes[a].parameters) {
-      if (parameter.address == wanted || parameter.label == wanted) return static_cast<int>(a);
-      known.push_back(parameter.address);
-    }
-  plan.sweep.fail(key, fmt::format("{} = \"{}\": there is no such axis", key, wanted),
-                  known.empty() ? "the sweep has no axes" : "expected " + scene::list_of(known));
-}
-
 std::string with_unit(const std::string& value, const std::string& unit) {
   return plan::value_text(value) + (unit.empty() ? "" : " " + unit);
 }
@@ -214,6 +201,7 @@ void check_values(const Manifest& m) {
   check(is_axis(m.columns) && is_axis(m.rows) && m.wrap >= 0, "its columns or rows are no axis");
   check(output::is_plain_name(m.view), "its view has no name of a folder");
   check(is_amount(m.timeout) && is_amount(m.memory), "its limits are impossible");
+  check(is_amount(m.seconds_per_work), "its seconds per work are impossible");
   check(!m.runs.empty(), "it has no runs");
   if (m.beginning) {
     check(is_amount(m.beginning->time), "the time at which its runs part is impossible");
@@ -265,8 +253,8 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
   m.tile_width = plan.base.size.width;
   m.tile_height = plan.base.size.height;
   m.fps = plan.base.fps;
-  m.columns = axis_called(plan, "sheet.columns", plan.sweep.sheet.columns);
-  m.rows = axis_called(plan, "sheet.rows", plan.sweep.sheet.rows);
+  m.columns = plan.columns;
+  m.rows = plan.rows;
   m.wrap = plan.sweep.sheet.wrap;
   m.tile_label = scene::name(plan.sweep.sheet.label);
   m.timeout = plan.sweep.limits.timeout.seconds;
@@ -350,6 +338,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
                          {"run", run_json(m.beginning->run)},
                          {"source", m.beginning->source}};
   json["keeps_states"] = m.keeps_states;
+  json["seconds_per_work"] = m.seconds_per_work;
   json["runs"] = Json::array();
   for (const Run& run : m.runs) json["runs"].push_back(run_json(run));
   output::write_file(manifest_path(folder), to_text(json) + "\n");
@@ -403,6 +392,7 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
                      run_of(json.at("beginning").at("run")),
                      json.at("beginning").value("source", "")};
     m.keeps_states = json.value("keeps_states", false);
+    m.seconds_per_work = json.value("seconds_per_work", 0.0);
     check_values(m);
     return m;
   } catch (const std::bad_alloc&) {

@@ -50,6 +50,7 @@ struct Manifest {
   /// Addresses of all axes, for any method; sorted. Nothing in files of before they had it.
   std::optional<std::vector<std::string>> varied;
   std::vector<Run> runs;
+  double seconds_per_work = 0;  ///< s of one thread, by the forecast; 0: not known
   std::optional<Beginning> beginning{};
   bool keeps_states = false;  ///< of drawn frames
 

@@ -1,0 +1,34 @@
+#include "app/sweep/jobs/start_order.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "app/sweep/plan/order.h"
+
+namespace neve::app::sweep::jobs {
+
+std::vector<const Run*> start_order(const store::Manifest& manifest,
+                                    const std::vector<int>& indices, bool is_side_by_side) {
+  std::vector<std::vector<int>> coordinates;
+  std::vector<int> sizes;
+  std::vector<double> work;
+  for (const Run& run : manifest.runs) {
+    coordinates.push_back(run.coordinates);
+    work.push_back(run.work);
+  }
+  for (const store::AxisLabels& axis : manifest.axes)
+    sizes.push_back(static_cast<int>(axis.values.size()));
+  std::vector<std::size_t> order = plan::coarse_first(coordinates, sizes);
+  if (is_side_by_side) order = plan::longest_first(std::move(order), work);
+  const std::set<int> wanted(indices.begin(), indices.end());
+  std::vector<const Run*> runs;
+  std::set<std::string> keys;
+  for (const std::size_t k : order) {
+    const Run& run = manifest.runs[k];
+    if (wanted.contains(run.index) && keys.insert(run.key).second) runs.push_back(&run);
+  }
+  return runs;
+}
+
+}  // namespace neve::app::sweep::jobs

@@ -1,0 +1,274 @@
+#include "app/sweep/plan/study_forecast.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <future>
+#include <numeric>
+#include <optional>
+
+#include "app/health/forecast.h"
+#include "app/health/step_time.h"
+#include "app/setup/seed_scene.h"
+#include "app/support/interrupt.h"
+#include "app/support/progress.h"
+#include "app/sweep/plan/order.h"
+#include "app/sweep/plan/run_distance.h"
+
+namespace neve::app::sweep::plan {
+
+namespace {
+
+/// Seconds of a particle and step that a forecast counts with where nothing was measured: about
+/// those of one thread of a machine of 2022.
+constexpr double usual_seconds = 5e-8;
+constexpr double start_seconds = 0.1, tile_seconds = 0.02;
+
+constexpr double most_copied = 1500, least_copied = 200;  // particles of a copy
+constexpr double longest_copy = 2;                        // s
+/// Above this many particles, seeding the scene itself takes too long.
+constexpr double most_timed = 3e5;
+
+/// A copy of N of P particles has cells (P / N)^(1/3) times as large, and takes as many times fewer
+/// steps.
+constexpr double cost_exponent = 4.0 / 3;
+
+double steps_at_rest(const PlannedRun& item) {
+  return foreseen_work(item.scene, item.plan);
+}
+
+/// A run's copy and what it says.
+struct Copy {
+  std::size_t run = 0;
+  health::ForecastBudget budget{longest_copy, 0};
+  health::Forecast forecast{};
+};
+
+/// As many copies as the effort allows.
+std::vector<Copy> choose_copies(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
+                                const ForecastEffort& effort) {
+  double all = 0;
+  std::vector<std::vector<int>> coordinates;
+  for (const std::size_t k : chosen) {
+    all += steps_at_rest(plan.runs[k]);
+    coordinates.push_back(plan.runs[k].run.coordinates);
+  }
+  const double fineness = std::pow(effort.particle_steps / std::max(1.0, all), 1 / cost_exponent);
+  std::vector<Copy> copies;
+  double cost = 0;
+  for (const std::size_t place : coarse_first(coordinates, axis_sizes(plan))) {
+    const PlannedRun& item = plan.runs[chosen[place]];
+    if (!is_possible(item) || !(item.plan.particles > 0)) continue;
+    Copy copy;
+    copy.run = chosen[place];
+    copy.budget.particles = std::clamp(fineness * item.plan.particles, least_copied, most_copied);
+    const double share = std::min(1.0, copy.budget.particles / item.plan.particles);
+    const double own = steps_at_rest(item) * std::pow(share, cost_exponent);
+    if (cost + own > effort.particle_steps) break;
+    cost += own;
+    // Snow that hardens takes more steps than snow at rest.
+    constexpr double hardening = 4;
+    copy.budget.particle_steps = hardening * own;
+    copies.push_back(std::move(copy));
+  }
+  return copies;
+}
+
+/// Calls task(k) for each k below `count`, on some threads.
+template <class Task>
+void side_by_side(std::size_t count, int threads, const Task& task) {
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::future<void>> workers;
+  for (int worker = 0; worker < threads; ++worker)
+    workers.push_back(std::async(std::launch::async, [&] {
+      for (std::size_t k = next++; k < count; k = next++) task(k);
+    }));
+  for (std::future<void>& worker : workers) worker.get();
+}
+
+/// What a run itself tells of its cost, in a moment.
+struct Timing {
+  double seconds_per_work = 0;
+  health::Spread spread{};
+};
+
+/// Takes some steps of a run on one thread.
+Timing time_run(const PlannedRun& item) {
+  if (item.plan.particles > most_timed) return {};
+  const setup::SeededScene seeded = setup::seed_scene(item.scene);
+  if (seeded.particles.x.empty()) return {};
+  sim::Simulation simulation = setup::make_simulation(item.scene, seeded.particles, 1);
+  Timing timing{0, health::spread_of(simulation)};
+  const health::StepTime step = health::measure_steps(simulation, 1 / item.scene.fps, {20, 0.5});
+  const double iterations =
+      static_cast<double>(step.solve.all_iterations) / std::max(1, step.steps);
+  const double explicit_steps = 1 + health::work_of_iteration * iterations;
+  timing.seconds_per_work =
+      step.seconds / explicit_steps / static_cast<double>(seeded.particles.x.size());
+  return timing;
+}
+
+/// The chosen run that costs most at rest.
+std::optional<std::size_t> costliest_of(const SweepPlan& plan,
+                                        const std::vector<std::size_t>& chosen) {
+  std::optional<std::size_t> costliest;
+  for (const std::size_t k : chosen)
+    if (is_possible(plan.runs[k]) &&
+        (!costliest || plan.runs[k].run.work > plan.runs[*costliest].run.work))
+      costliest = k;
+  return costliest;
+}
+
+double median_seconds(const std::vector<Copy>& copies) {
+  std::vector<double> seconds;
+  for (const Copy& copy : copies)
+    if (copy.forecast.seconds_per_particle_step > 0)
+      seconds.push_back(copy.forecast.seconds_per_particle_step);
+  if (seconds.empty()) return 0;
+  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
+  std::nth_element(seconds.begin(), middle, seconds.end());
+  return *middle;
+}
+
+/// Steps of a particle in the frames of a run that are its own.
+double own_work(const SweepPlan& plan, const PlannedRun& item, const health::Forecast& forecast) {
+  const double until_fork =
+      plan.beginning ? forecast.work_until(plan.beginning->run.frames.last) : 0;
+  return (forecast.work_until(item.run.frames.last) - until_fork) * item.plan.particles;
+}
+
+double beginning_work(const SweepPlan& plan, const ForecastEffort& effort) {
+  if (!plan.beginning || plan.source) return 0;
+  const PlannedRun& item = *plan.beginning;
+  const int last = item.run.frames.last;
+  health::ForecastBudget budget{longest_copy, effort.particle_steps, most_copied};
+  return health::foresee(item.scene, item.plan.particles, last, budget).work_until(last) *
+         item.plan.particles;
+}
+
+}  // namespace
+
+bool is_possible(const PlannedRun& item) {
+  return item.plan.memory <= item.plan.memory_limit &&
+         item.plan.particles <= item.plan.particle_limit;
+}
+
+ForecastEffort whole_effort(int cores) {
+  constexpr double seconds = 40;
+  return {seconds / usual_seconds * cores};
+}
+
+ForecastEffort small_effort(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
+                            int cores) {
+  constexpr double share = 0.03, least = 4e6, most_seconds = 15;
+  double all = 0;
+  for (const std::size_t k : chosen) all += plan.runs[k].run.work;
+  return {std::clamp(share * all, least, most_seconds / usual_seconds * cores)};
+}
+
+StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
+                            const ForecastEffort& effort, int cores) {
+  StudyForecast result;
+  for (const PlannedRun& item : plan.runs) {
+    result.work.push_back(item.run.work);
+    result.drawing.push_back(start_seconds + tile_seconds * item.run.frames.count());
+  }
+  const std::optional<std::size_t> costliest = costliest_of(plan, chosen);
+  if (!costliest) return result;
+  const Timing timing = time_run(plan.runs[*costliest]);
+  std::vector<Copy> copies = choose_copies(plan, chosen, effort);
+  side_by_side(copies.size(), cores, [&](std::size_t k) {
+    Copy& copy = copies[k];
+    const PlannedRun& item = plan.runs[copy.run];
+    if (is_interrupted()) return;
+    copy.forecast =
+        health::foresee(item.scene, item.plan.particles, item.run.frames.last, copy.budget);
+    copy.forecast.include_spread(timing.spread);
+  });
+  result.beginning = beginning_work(plan, effort);
+  result.seconds_per_work =
+      timing.seconds_per_work > 0 ? timing.seconds_per_work : median_seconds(copies);
+  if (is_interrupted()) return result;
+  for (const Copy& copy : copies) {
+    const PlannedRun& item = plan.runs[copy.run];
+    const double work = own_work(plan, item, copy.forecast);
+    if (!(work > 0)) continue;
+    result.own.push_back(copy.run);
+    result.work[copy.run] = work;
+  }
+  if (result.own.empty()) return result;
+  const RunPlaces places(plan.runs);
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    if (std::find(result.own.begin(), result.own.end(), k) != result.own.end()) continue;
+    const std::size_t near = places.nearest(k, result.own);
+    const double more = result.work[near] / std::max(1.0, plan.runs[near].run.work);
+    result.work[k] = more * plan.runs[k].run.work;
+  }
+  return result;
+}
+
+double StudyForecast::cost(std::size_t run) const {
+  return work[run] + drawing[run] / usual_seconds;
+}
+
+double StudyForecast::seconds_of_all(const std::vector<std::size_t>& chosen, int cores) const {
+  double sum = 0, longest = 0;
+  for (const std::size_t k : chosen) {
+    sum += seconds(k);
+    longest = std::max(longest, seconds(k));
+  }
+  return beginning * seconds_per_work / cores + std::max(longest, sum / cores);
+}
+
+std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
+                         const StudyForecast& forecast) {
+  constexpr double much_longer = 1.5;  // than the median
+  constexpr std::size_t most_named = 5;
+  std::vector<std::size_t> order = chosen;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return forecast.seconds(a) > forecast.seconds(b);
+  });
+  if (order.empty()) return {};
+  const double usual = forecast.seconds(order[order.size() / 2]);
+  std::string text;
+  for (std::size_t k = 0; k < std::min(order.size(), most_named); ++k) {
+    const double seconds = forecast.seconds(order[k]);
+    if (!(seconds > much_longer * usual)) break;
+    text += fmt::format("{}run {}, {}", text.empty() ? "the longest: " : "; ",
+                        plan.runs[order[k]].run.index, duration_text(seconds));
+  }
+  return text.empty() ? "" : text + fmt::format("; most take about {}", duration_text(usual));
+}
+
+namespace {
+
+/// "the budget is enough for about 12 of 40 runs"; "" where all fit.
+std::string budget_text(const std::vector<std::size_t>& chosen, const StudyForecast& forecast,
+                        int cores, double budget) {
+  if (budget <= 0 || forecast.seconds_of_all(chosen, cores) <= budget) return {};
+  double sum = 0;
+  for (const std::size_t k : chosen) sum += forecast.seconds(k);
+  const double mean = sum / static_cast<double>(chosen.size());
+  const double runs = std::floor(
+      std::max(0.0, budget * cores - forecast.beginning * forecast.seconds_per_work) / mean);
+  return fmt::format("; the budget of {} is enough for about {:.0f} of them", duration_text(budget),
+                     runs);
+}
+
+}  // namespace
+
+std::string forecast_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
+                          const StudyForecast& forecast, int cores, double budget) {
+  std::string text = fmt::format(
+      "forecast: {} {}, about {} on {} {}", chosen.size(), chosen.size() == 1 ? "run" : "runs",
+      duration_text(forecast.seconds_of_all(chosen, cores)), cores, cores == 1 ? "core" : "cores");
+  if (forecast.own.size() < chosen.size())
+    text += fmt::format(", from coarse copies of {} of them", forecast.own.size());
+  text += budget_text(chosen, forecast, cores, budget);
+  const std::string longest = longest_text(plan, chosen, forecast);
+  return longest.empty() ? text : text + "\n" + longest;
+}
+
+}  // namespace neve::app::sweep::plan
