@@ -64,8 +64,16 @@ void add_progress(CLI::App& command, std::optional<std::string>& progress,
           "text: lines for people (default); json: one JSON object a line on standard error")
       ->type_name("NAME");
   command
-      .add_option("--log", options.log,
-                  "Append all messages to a file, with times, details and every frame")
+      .add_option_function<std::string>(
+          "--log",
+          [&options](const std::string& file) {
+            if (!is_log_name(file))
+              throw scene::toml::UsageError(
+                  "--log", "\"" + file + "\" is no log",
+                  "expected a file for the messages, as in --log run.log");
+            options.log = file;
+          },
+          "Append all messages to a file, with times, details and every frame")
       ->type_name("FILE");
 }
 
@@ -102,10 +110,18 @@ run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts
     throw scene::toml::UsageError("--shader-dir", "cannot use \"" + options.shader_dir + "\"",
                                   "expected a folder with the files of shaders/");
   options.movie = finished_movie(texts.movie);
+  if (!options.has_movies && options.movie.has_format && options.movie.is_made)
+    throw scene::toml::UsageError("--movie", "cannot be combined with --no-movie",
+                                  "give one of the two");
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
   if (texts.progress) options.progress.is_json = parse_progress(*texts.progress);
   options.scene = scene::path_of_scene(options.scene);
+  std::error_code error;
+  if (options.from && !options.scene.empty() && !std::filesystem::exists(options.scene, error))
+    throw scene::toml::UsageError("--from", options.scene + " is not there",
+                                  "expected a scene, the folder of a run, or a picture made by "
+                                  "neve");
   check_threads(options.threads);
   if (options.checkpoint_every < 0 || options.checkpoint_every > 1000000)
     throw scene::toml::UsageError("--checkpoint-every",
@@ -181,7 +197,8 @@ bench::BenchOptions finished_bench(const CLI::App& command, bench::BenchOptions 
   const bool has_particles = command.get_option_no_throw("--particles") != nullptr;
   if (has_particles && command.count("--particles") > 0 &&
       !(options.particles >= 1 && options.particles <= 1e9))
-    throw scene::toml::UsageError("--particles", "cannot use this number", "expected 1 to 1e9");
+    throw scene::toml::UsageError("--particles", "cannot use " + rough_text(options.particles),
+                                  "expected 1 to 1e9");
   return options;
 }
 

@@ -49,7 +49,7 @@ CompareOptions finished_compare(const CLI::App& command, CompareOptions options,
     throw scene::toml::UsageError("--range", "cannot use \"" + *texts.range + "\"",
                                   "expected metres, as in --range 0.1");
   if (!(pictures.wipe >= 0 && pictures.wipe <= 1))
-    throw scene::toml::UsageError("--wipe", "cannot use this number",
+    throw scene::toml::UsageError("--wipe", "cannot use " + rough_text(pictures.wipe),
                                   "expected a share of the width, 0 to 1");
   if (texts.is_quiet) pictures.verbosity = Verbosity::quiet;
   if (texts.progress) pictures.progress.is_json = parse_progress(*texts.progress);

@@ -188,7 +188,26 @@ int play(pick::Game& game, const pick::PickOptions& options, const view::ScreenO
 
 }  // namespace
 
+namespace {
+
+/// What a sweep takes and a search does not. @throws UsageError
+void check_axes(const std::vector<std::string>& axes) {
+  if (axes.empty())
+    throw scene::toml::UsageError("pick", "nothing varies",
+                                  "name what to find, and between which two values: -p "
+                                  "material.snow.hardening=5,20");
+  for (const std::string& axis : axes) {
+    const std::size_t dots = axis.find(".."), equals = axis.find('=');
+    if (dots == std::string::npos || equals == std::string::npos || dots < equals) continue;
+    throw scene::toml::UsageError("-p " + axis, "has no two values",
+                                  "write -p " + axis.substr(0, dots) + "," + axis.substr(dots + 2));
+  }
+}
+
+}  // namespace
+
 int run_pick(const pick::PickOptions& options, const view::ScreenOptions& screen) {
+  check_axes(options.runs.axes);
   pick::Game game(options);
   if (options.clicks.empty() && !wants_screen(options, screen) &&
       !devices::TerminalLines::is_there())

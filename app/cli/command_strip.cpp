@@ -25,20 +25,21 @@ struct StripTexts {
 run::StripOptions finished_strip(const CLI::App& command, const run::RenderOptions& run,
                                  const RenderTexts& run_texts, run::StripOptions options,
                                  const StripTexts& texts) {
-  const auto refuse = [](const char* flag, const char* what, const char* hint) {
+  const auto refuse = [](const char* flag, const std::string& what, const char* hint) {
     throw scene::toml::UsageError(flag, what, hint);
   };
+  const auto cannot_use = [](int number) { return "cannot use " + std::to_string(number); };
   options.run = finished(run, run_texts);
   if (texts.view) options.run.views = {*texts.view};
   if (texts.at && (options.run.frames || command.count("--tiles") > 0))
     refuse("--at", "cannot be combined with --frames or --tiles", "give the times alone");
   if (texts.at) options.at = setup::parse_times(*texts.at);
   if (options.tiles && !(*options.tiles >= 1 && *options.tiles <= 200))
-    refuse("--tiles", "cannot use this number", "expected 1 to 200 moments");
+    refuse("--tiles", cannot_use(*options.tiles), "expected 1 to 200 moments");
   if (options.columns && (*options.columns < 0 || *options.columns > 200))
-    refuse("--columns", "cannot use this number", "expected 1 to 200, or 0 for about a screen");
+    refuse("--columns", cannot_use(*options.columns), "expected 1 to 200, or 0 for about a screen");
   if (options.width && (*options.width < 160 || *options.width > 16384))
-    refuse("--width", "cannot use this number", "expected 160 to 16384 pixels");
+    refuse("--width", cannot_use(*options.width), "expected 160 to 16384 pixels");
   if (command.count("--out") > 0 && std::filesystem::path(options.run.out).extension() != ".png")
     refuse("--out", "names no picture", "expected a file that ends in .png");
   check_backend(options.run.backend);

@@ -5,6 +5,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/folder_advice.h"
+#include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
 #include "app/run/verify.h"
 #include "app/support/errors.h"
@@ -24,21 +25,27 @@ struct Findings {
   std::vector<run::Flaw> flaws;
   /// Why a folder without flaws is not finished; "" where it is.
   std::string unfinished;
+  bool is_in_use = false;  ///< by a process that goes on
 
   bool is_whole() const { return flaws.empty() && unfinished.empty(); }
 };
 
 Findings verify_run_folder(const fs::path& folder) {
   run::Verification found = run::verify_run(folder);
-  Findings findings{found.status, found.files, std::move(found.flaws), {}};
-  if (found.status != "ok" && found.status != "diverged" && !found.status.empty())
-    findings.unfinished = fmt::format("the run is not finished: its status is {}", found.status);
+  Findings findings{found.status, found.files, std::move(found.flaws), {}, false};
+  if (found.status == "ok" || found.status == "diverged" || found.status.empty()) return findings;
+  findings.is_in_use = output::FolderLock::is_held(folder);
+  findings.unfinished =
+      "the run is not finished: " +
+      (findings.is_in_use
+           ? "it is in use by " + output::FolderLock::holder_of(folder) + "; wait for it"
+           : "its status is " + found.status);
   return findings;
 }
 
 /// The folder of `neve export --out`.
 Findings verify_export_folder(const run::Verification& found) {
-  Findings findings{found.status, found.files, found.flaws, {}};
+  Findings findings{found.status, found.files, found.flaws, {}, false};
   if (found.status == "interrupted") findings.unfinished = "the export is not finished";
   return findings;
 }
@@ -118,7 +125,7 @@ void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const F
   if (is_quiet) return;
   if (findings.is_whole())
     std::cout << folder << ": whole, " << findings.files << " files as they were written\n";
-  else
+  else if (!findings.is_in_use)
     std::cout << (is_sweep ? "the sweep's own command makes the rest\n"
                            : "the command that made it, with --resume, makes the rest\n");
 }

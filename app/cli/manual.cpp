@@ -182,8 +182,20 @@ std::string fish_completion(const CLI::App& app) {
   return text;
 }
 
+namespace {
+
+void make_part(const std::filesystem::path& folder) {
+  try {
+    output::make_folder(folder);
+  } catch (const IoError& error) {
+    throw IoError(error.what(), error.where, "choose another folder, as in neve manual DIR");
+  }
+}
+
+}  // namespace
+
 void write_manual(const CLI::App& app, const std::filesystem::path& folder) {
-  for (const char* part : {"man1", "bash", "zsh", "fish"}) output::make_folder(folder / part);
+  for (const char* part : {"man1", "bash", "zsh", "fish"}) make_part(folder / part);
   write_pages(app, "neve", app.get_footer(), folder / "man1");
   output::write_file(folder / "bash" / "neve", bash_completion(app));
   output::write_file(folder / "zsh" / "_neve", zsh_completion(app));

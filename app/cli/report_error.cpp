@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <new>
@@ -12,6 +13,7 @@
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
+#include "app/support/lower_text.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
 #include "render/gl/context.h"
@@ -40,10 +42,12 @@ Report plain_report(int code, const std::string& message, const std::string& whe
 Report of_error(const Error& error) {
   Report report = plain_report(error.code, error.what(), error.where, error.hint);
   report.warnings = error.warnings;
+  const bool is_said = report.message.find(error.hint) != std::string::npos;
+  if (dynamic_cast<const IoError*>(&error) && !is_said) report.line += "; " + error.hint;
   // Errors in files start with the file already.
   const std::string start = error.where + ": error: ";
   if (error.where.empty() || !report.message.starts_with(start)) return report;
-  report.line = report.message;
+  report.line.erase(0, std::string("neve: error: ").size());
   report.message.erase(0, start.size());
   return report;
 }
@@ -95,6 +99,13 @@ Report describe_current_error() {
 
 }  // namespace
 
+bool is_log_name(const std::string& file) {
+  const std::string suffix = lower_text(std::filesystem::path(file).extension().string());
+  for (const char* other : {".toml", ".png", ".json", ".exr", ".obj", ".ply", ".stl", ".csv"})
+    if (suffix == other) return false;
+  return true;
+}
+
 int report_current_error(const ErrorOutput& output) {
   const Report report = describe_current_error();
   Json json;
@@ -113,7 +124,7 @@ int report_current_error(const ErrorOutput& output) {
   } else {
     std::cerr << printable_text(report.line) << std::endl;
   }
-  if (!output.log.empty())
+  if (!output.log.empty() && is_log_name(output.log))
     std::ofstream(output.log, std::ios::app) << time_text() << "  " << report.line << std::endl;
   if (output.is_json) std::cout << to_text(json) << std::endl;
   return report.code;

@@ -84,10 +84,21 @@ std::pair<const CLI::App*, std::string> called(const CLI::App& app) {
   return inner;
 }
 
+/// "$SCENE" of a shell in which SCENE is not set must not mean the default.
+void check_empty_names(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& word : option->results())
+      if (option->get_positional() && word.empty())
+        throw scene::toml::UsageError(option->get_name(), "the name is empty",
+                                      "expected a file or folder; is a variable of the shell not "
+                                      "set?");
+}
+
 /// @param name of the command with those above it
 void check_leftovers_of(const CLI::App& command, const std::string& name) {
   for (const CLI::App* inner : command.get_subcommands())
     check_leftovers_of(*inner, name + " " + inner->get_name());
+  check_empty_names(command);
   std::vector<std::string> leftovers = command.remaining();
   // What follows -- is no option; it has been taken already.
   std::erase(leftovers, "--");

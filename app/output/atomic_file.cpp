@@ -61,8 +61,8 @@ void refuse_special(const std::filesystem::path& path) {
 [[noreturn]] void fail_writing(const std::filesystem::path& path, const std::string& sentence,
                                int reason) {
   const char* hint = reason == ENOSPC || reason == EDQUOT || reason == EFBIG
-                         ? "make room there, or choose another folder with --out"
-                         : "choose another folder with --out";
+                         ? "make room there, or choose another folder with --out or NEVE_OUT"
+                         : "choose another folder with --out or NEVE_OUT";
   throw IoError(path.string() + ": " + sentence + ": " + std::strerror(reason), path.string(),
                 hint);
 }

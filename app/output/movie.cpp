@@ -218,14 +218,14 @@ void require_movie(const MovieStyle& style, double fps) {
     throw IoError(flag +
                       ": ffmpeg, which makes movies, is not in PATH; install it (Debian: "
                       "ffmpeg), or leave pictures with --movie none",
-                  "ffmpeg", "install ffmpeg");
+                  "ffmpeg", "--movie none");
   const ProcessResult listed = run_process(*ffmpeg, {"-v", "error", "-encoders"}, "/", 60);
   if (listed.output.find(std::string(" ") + movie_encoder(style.format) + " ") != std::string::npos)
     return;
   throw IoError(flag + ": " + ffmpeg->string() + " has no encoder " + movie_encoder(style.format) +
                     "; install a whole ffmpeg, or choose another format: h264, prores and gif are "
                     "in most",
-                ffmpeg->string(), "choose another --movie");
+                ffmpeg->string(), "choose another format");
 }
 
 }  // namespace neve::app::output

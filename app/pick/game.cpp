@@ -21,8 +21,8 @@ Game::Game(const PickOptions& options) : options_(options) {
     throw scene::toml::UsageError("pick", options.runs.file + " is a sweep",
                                   "give its scene, and the axes with -p");
   scene_ = {options.runs.file, sweep.fixed, axes_of(sweep)};
-  // Complains about settings before anything is written.
-  picked_scene(scene_, search::Point::Constant(dimension(), 0.5));
+  // Complains about settings, and both ends of the axes, before anything is written.
+  for (const double end : {0., 1.}) picked_scene(scene_, search::Point::Constant(dimension(), end));
   folder_ =
       options.runs.out.empty() ? out_folder() / (sweep.name + ".pick") : fs::path(options.runs.out);
   own_clicks_ = folder_ / "clicks.txt";

@@ -104,7 +104,7 @@ std::string advice_on_pass(const std::string& name) {
       {"velocity", "motion"},  {"vector", "motion"}, {"mv", "motion"},      {"shadows", "shadow"},
       {"cryptomatte", "body"}, {"object", "body"},   {"mask", "body"}};
   const auto found = elsewhere.find(name);
-  if (name == "beauty") return "it is always there, as R, G, B and A";
+  if (name == "beauty") return "every file has it as R, G, B and A; leave it away";
   return found == elsewhere.end()
              ? names_advice(name, known_names())
              : "did you mean " + found->second + "? expected " + joined(known_names(), ", ");

@@ -10,6 +10,7 @@
 #include "app/scene/foreign_names.h"
 #include "app/scene/number_advice.h"
 #include "app/scene/presets.h"
+#include "app/scene/search.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/wishes.h"
 #include "app/support/lower_text.h"
@@ -311,7 +312,11 @@ std::string advice_on_choice(const Leaf& leaf, const std::string& text,
   const bool is_of_export = leaf.address.starts_with("export.");
   if (is_of_export && leaf.address.ends_with(".format")) return export_format_advice(text);
   const bool is_attribute = is_of_export && leaf.address.find(".attributes[") != std::string::npos;
-  if (is_attribute && nearest.empty()) return "columns of point files are named in carried";
+  if (is_attribute && nearest.empty()) {
+    const std::string ours = our_attribute(text, choices<ExportAttribute>());
+    return (ours.empty() ? "" : "did you mean " + toml::toml_string(ours) + "? ") +
+           std::string("columns of point files are named in carried");
+  }
   if (!is_preset_address(leaf.address) || !nearest.empty()) return {};
   for (const Wish* wish : wishes_for(text)) {
     const WishChange& change = wish->changes.front();

@@ -57,6 +57,17 @@ void refuse_unknown_name(const Override& change, const toml::Table& root) {
   }
 }
 
+/// "hardning": the address of hardening.
+std::string address_of_nearest_name(const std::string& word,
+                                    const std::vector<std::string>& known) {
+  std::vector<std::string> names;
+  for (const std::string& address : known) names.push_back(address.substr(address.rfind('.') + 1));
+  const std::string nearest = nearest_name(word, names);
+  if (nearest.empty()) return {};
+  const auto at = std::find(names.begin(), names.end(), nearest) - names.begin();
+  return known[static_cast<std::size_t>(at)];
+}
+
 [[noreturn]] void fail_unknown(const Override& change, const std::vector<std::string>& known) {
   std::string nearest;
   for (const std::string& address : known) {
@@ -65,6 +76,8 @@ void refuse_unknown_name(const Override& change, const toml::Table& root) {
   }
   if (nearest.empty()) nearest = our_address(change.address, known);
   if (nearest.empty()) nearest = nearest_name(change.address, known);
+  if (nearest.empty() && change.address.find('.') == std::string::npos)
+    nearest = address_of_nearest_name(change.address, known);
   change.fail(change.key, "unknown parameter " + toml::toml_string(change.address),
               nearest.empty() ? "neve params lists all of them"
                               : "did you mean " + toml::toml_string(nearest) + "?");

@@ -51,11 +51,19 @@ std::vector<std::string> words_in(std::string_view text) {
   return words;
 }
 
-std::string attribute_advice(const std::string& name, const std::vector<std::string>& known) {
+std::string our_attribute(const std::string& name, const std::vector<std::string>& known) {
   constexpr std::pair<const char*, const char*> names[] = {{"velocity", "v"},
                                                            {"speed", "v"},
                                                            {"position", "x"},
+                                                           {"vel", "v"},
+                                                           {"pos", "x"},
+                                                           {"P", "x"},
                                                            {"mass", "m"},
+                                                           {"pressure", "stress"},
+                                                           {"pressure", "kirchhoff"},
+                                                           {"pscale", "radius"},
+                                                           {"width", "radius"},
+                                                           {"rho", "density"},
                                                            {"stress", "kirchhoff"},
                                                            {"kirchhoff", "stress"},
                                                            {"deformation", "F_E"},
@@ -68,9 +76,14 @@ std::string attribute_advice(const std::string& name, const std::vector<std::str
                                                            {"J", "J_E"},
                                                            {"Jp", "J_P"}};
   for (const auto& [other, ours] : names)
-    if (name == other && std::find(known.begin(), known.end(), ours) != known.end())
-      return std::string("did you mean ") + ours + "? expected " + joined(known, ", ");
-  return names_advice(name, known);
+    if (name == other && std::find(known.begin(), known.end(), ours) != known.end()) return ours;
+  return {};
+}
+
+std::string attribute_advice(const std::string& name, const std::vector<std::string>& known) {
+  const std::string ours = our_attribute(name, known);
+  return ours.empty() ? names_advice(name, known)
+                      : "did you mean " + ours + "? expected " + joined(known, ", ");
 }
 
 bool same_parameter(std::string_view pattern, std::string_view address) {

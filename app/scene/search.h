@@ -28,6 +28,9 @@ class Search {
   std::vector<std::string> meant_;  ///< addresses that its everyday name means
 };
 
+/// The attribute of a name that other programs use: v for velocity; "" where there is none.
+std::string our_attribute(const std::string& name, const std::vector<std::string>& known);
+
 /// Advice on the name of an attribute that other programs use otherwise, or that is misspelt:
 /// "did you mean v? expected ...".
 std::string attribute_advice(const std::string& name, const std::vector<std::string>& known);

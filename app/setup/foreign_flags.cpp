@@ -17,6 +17,12 @@ struct ForeignFlag {
 constexpr ForeignFlag foreign_flags[] = {
     {" --method --samples --lhs --grid --random --sobol --morris ", "--shard",
      "samples are drawn by a file: [sweep] with method and samples; neve params --sweep"},
+    {" --bodies --every --carried ", "--surface-cell",
+     "neve export writes all of the snow at --frames or --at; [[export]] in a scene has bodies, "
+     "every and carried"},
+    {" --size --resolution ", "--tiles",
+     "--width 1920 is the width of the whole picture, and output.size the shape of a tile"},
+    {" --movie --movie-fps --fps ", "--tiles", "a strip is one picture; neve render makes movies"},
     {" --frames --frame ", "--probe",
      "moments are times in seconds: --at 0.1; frame n is at n / fps"},
     {" --transparent --alpha --rgba ", "--set",
@@ -40,20 +46,32 @@ bool has_flag(const std::vector<std::string>& flags, const std::string& flag) {
   return std::find(flags.begin(), flags.end(), flag) != flags.end();
 }
 
-/// The parameter of that address, or the first that ends so.
-std::string parameter_named(const std::string& word) {
-  if (scene::param_at(word)) return word;
-  for (const scene::ParamInfo& info : scene::params())
-    if (info.address.ends_with("." + word)) return info.address;
-  return {};
+/// The parameter of that address, or those that are called so, of the shortest addresses:
+/// output.size, and no size of a box.
+std::vector<std::string> parameters_named(const std::string& word) {
+  if (scene::param_at(word)) return {word};
+  std::vector<std::string> found;
+  const auto depth = [](const std::string& address) {
+    return std::count(address.begin(), address.end(), '.');
+  };
+  for (const scene::ParamInfo& info : scene::params()) {
+    const std::string& address = info.address;
+    if (address != word && !address.ends_with("." + word)) continue;
+    if (!found.empty() && depth(address) > depth(found.front())) continue;
+    if (!found.empty() && depth(address) < depth(found.front())) found.clear();
+    found.push_back(address);
+  }
+  return found;
 }
 
 /// @param value that was typed; "VALUE" where it is not known
 std::string as_setting(const std::string& word, const std::string& value,
                        const std::vector<std::string>& flags) {
   if (!has_flag(flags, "--set")) return {};
-  const std::string address = parameter_named(word);
-  return address.empty() ? "" : "it is a parameter: --set " + address + "=" + value;
+  const std::vector<std::string> addresses = parameters_named(word);
+  if (addresses.empty()) return {};
+  if (addresses.size() == 1) return "it is a parameter: --set " + addresses.front() + "=" + value;
+  return "several parameters are called so; neve params " + word + " lists them, for --set";
 }
 
 }  // namespace
@@ -73,6 +91,9 @@ std::string stray_word_advice(const std::string& word, const std::vector<std::st
   const std::size_t equals = word.find('=');
   if (equals != std::string::npos && equals > 0)
     return as_setting(word.substr(0, equals), word.substr(equals + 1), flags);
+  if (word.ends_with(".toml") && has_flag(flags, "--set"))
+    return "one scene at a time; a loop of the shell takes several: for s in *.toml; do neve ... "
+           "$s; done";
   return has_flag(flags, "--shard")
              ? "values of -p have commas between them and no blanks, as in -p "
                "ADDRESS=A,B"

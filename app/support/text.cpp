@@ -92,7 +92,8 @@ std::string nearest_name(const std::string& wrong, const std::vector<std::string
   std::string nearest;
   // A third of the letters wrong is still a typing error; more is another word.
   std::size_t best = std::max<std::size_t>(1, wrong.size() / 3) + 1;
-  if (wrong.size() > 64) return nearest;
+  // Each letter is as near to any other.
+  if (wrong.size() < 2 || wrong.size() > 64) return nearest;
   const Letters letters = letters_of(wrong);
   for (const std::string& name : names) {
     if (least_distance(letters, wrong.size(), name) >= best) continue;

@@ -174,6 +174,25 @@ SCENES = [
      "files": {"s_1.obj": TETRAHEDRON, "s_2.obj": TETRAHEDRON}},
     {**edit("plane = { point = [0, 0, 0], normal = [0, 1, 0] }", "mesh = { file = \"stairs.obj\" }"),
      "files": {"stairs.obj": TETRAHEDRON.replace("f 1 3 2", "f 1 2 3")}},
+    # A third afternoon: exports in scenes, files that are empty or something else.
+    edit("[output]", "[export]\nformat = \"ply\"\n[output]"),
+    edit("[output]", "[[exports]]\nformat = \"ply\"\n[output]"),
+    edit("[output]", "[[export]]\nformat = \"alembic\"\n[output]"),
+    edit("[output]", "[[export]]\nformat = \"ply\"\nattribute = [\"v\"]\n[output]"),
+    edit("[output]", "[[export]]\nformat = \"ply\"\nattributes = \"v\"\n[output]"),
+    edit("[output]", "[[export]]\nformat = \"ply\"\nattributes = [\"velocity\"]\n[output]"),
+    edit("[output]", "[[export]]\nformat = \"ply\"\nevery = 0\n[output]"),
+    edit("[output]", "[[export]]\nformat = \"bgeo\"\nsurface = true\n[output]"),
+    edit("[output]", "[[export]]\nformat = \"ply\"\n[[export]]\nformat = \"ply\"\n[output]"),
+    edit("[output]", "[[export]]\nformat = \"ply\"\nbodies = [\"floor\"]\n[output]"),
+    edit("[output]", "[[export]]\nformat = \"csv\"\ncarried = [\"brush\"]\n[output]"),
+    edit("[output]", "[[export]]\nformat = \"ply\"\nname = \"shot/a\"\n[output]"),
+    {**edit("plane = { point = [0, 0, 0], normal = [0, 1, 0] }", "mesh = { file = \"stairs.stl\" }"),
+     "files": {"stairs.stl": "solid stairs\nendsolid stairs\n"}},
+    {**edit("plane = { point = [0, 0, 0], normal = [0, 1, 0] }", "mesh = { file = \"stairs.obj\" }"),
+     "files": {"stairs.obj": TETRAHEDRON.replace("f 2 3 4", "f 2 3 9")}},
+    {**edit("plane = { point = [0, 0, 0], normal = [0, 1, 0] }", "mesh = { file = \"stairs.obj\" }"),
+     "files": {"stairs.obj": ""}},
 ]
 
 COMMANDS = [
@@ -290,6 +309,45 @@ COMMANDS = [
     command("export", "scene.toml", "--format", "ply", "--surface", "--surface-cell", "0"),
     command("export", "scene.toml", "--format", "ply", "--at", "0.5", "--quiet"),
     command("export", "out", "--format", "ply"),
+    # A third afternoon.
+    command("render", ""),
+    command("render", "--log", "scene.toml"),
+    command("render", "scene.toml", "other.toml"),
+    command("render", "scene.toml", "--out", "/proc/nowhere", "--quiet"),
+    command("render", "scene.toml", "--out", "scene.txt", "--quiet", files={"scene.txt": "notes\n"}),
+    command("render", "scene.toml", "--movie", "gif", "--no-movie"),
+    command("render", "scene.toml", "--movie"),
+    command("render", "scene.toml", "--passes", "beauty"),
+    command("render", "scene.toml", "--plate", "street.png", "--quiet"),
+    command("render", "scene.toml", "--plate", "street_%s.png", "--quiet"),
+    command("render", "scene.toml", "--from", "99s"),
+    command("render", "nowhere", "--from", "0.1s"),
+    command("render", "scene.toml", "--velocity", "3"),
+    command("render", "scene.toml", "--keep-state"),
+    command("strip", "scene.toml", "--tiles", "0"),
+    command("strip", "scene.toml", "--size", "1280x720"),
+    command("strip", "scene.toml", "--movie", "gif"),
+    command("strip", "scene.toml", "--tiles", "6", "--at", "0.1"),
+    command("strip", "scene.toml", "--out", "strips"),
+    command("strip", "scene.toml", "--view", "top"),
+    command("export", "scene.toml", "--format", "npz", "--attributes", "x,vel"),
+    command("export", "scene.toml", "--format", "npz", "--attributes", "x,pressure"),
+    command("export", "scene.toml", "--format", "ply", "--up", "x"),
+    command("export", "scene.toml", "--format", "ply", "--bodies", "ball"),
+    command("export", "scene.toml", "--format", "csv", "--surface"),
+    command("export", "scene.toml", "--format", "ply", "--surface-cell", "1"),
+    command("export", "scene.toml", "--format", "ply", "--frames", "3", "--at", "0.1"),
+    command("compare", "out/a", "out/b"),
+    command("verify", "nowhere"),
+    command("pick", "scene.toml"),
+    command("pick", "scene.toml", "-p", "hardning=5,20"),
+    command("pick", "scene.toml", "-p", "material.snow.hardening=5..20"),
+    command("pick", "scene.toml", "-p", "material.snow.hardening=5,500"),
+    command("pick", "scene.toml", "-p", "solver.transfer=flip,apic"),
+    command("pick", "scene.toml", "-p", "material.snow.hardening=5,20"),
+    command("pick", "scene.toml", "-p", "material.snow.hardening=5,20", "--web", "--terminal"),
+    command("pick", "scene.toml", "-p", "material.snow.hardening=5,20", "--clicks", "clicks.txt",
+            files={"clicks.txt": "12\n"}),
 ]
 
 SWEEP = '[sweep]\nscene = "scene.toml"\n[axis]\n"material.snow.hardening" = [5, 10]\n'
@@ -298,6 +356,13 @@ SWEEP = '[sweep]\nscene = "scene.toml"\n[axis]\n"material.snow.hardening" = [5, 
 def sweep(old, new):
     assert old in SWEEP, old
     return command("sweep", "sweep.toml", "--dry-run", files={"sweep.toml": SWEEP.replace(old, new)})
+
+
+
+def points(content, name="p.csv"):
+    """A body from a file of points."""
+    scene = '[[body]]\nshape = { points = { file = "%s", spacing = 0.1 } }\n' % name
+    return command("check", "points.toml", files={"points.toml": scene, name: content})
 
 
 OTHERS = [
@@ -363,4 +428,24 @@ OTHERS = [
     command("sweep", "scene.toml", "-p", "seed=1,2", "--samples", "3", "--dry-run"),
     command("sweep", "scene.toml", "-p", "seed=1,2", "--jobs", "many", "--dry-run"),
     command("sweep", "none.toml"),
+    # A third afternoon.
+    command("sweep", "nowhere", "--from", "0.1s", "-p", "material.snow.hardening=5,10"),
+    command("sweep", "scene.toml", "--from", "0.1s", "-p", "material.snow.hardening=5,10"),
+    command("sweep", "scene.toml", "--fork", "99s", "-p", "material.snow.hardening=5,10",
+            "--dry-run"),
+    command("sweep", "scene.toml", "--fork", "-1", "-p", "material.snow.hardening=5,10",
+            "--dry-run"),
+    command("sweep", "scene.toml", "--keep-states=no", "-p", "seed=1,2", "--dry-run"),
+    command("sweep", "scene.toml", "-p", "hardning=5,10", "--dry-run"),
+    command("sweep", "scene.toml", "-p", "seed=1,2", "--out", "/proc/nowhere", "--quiet"),
+    points("x,y,z\n1,5,2,5,3\n"),
+    points("x,y,z\n1,nan,3\n"),
+    points("1,2,3\n2,3,4\n"),
+    points("x y z\n1 2 3\n"),
+    points("x,y,z,vx\n1,2,3,1\n"),
+    points("x,y,z,mass\n1,2,3,-1\n"),
+    points("x,y,z\n1e400,2,3\n"),
+    points("v 1 2 3\nv 2 3 4\n", "p.obj"),
+    points("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+           "property float z\nend_header\n", "p.ply"),
 ]

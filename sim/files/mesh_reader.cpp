@@ -24,7 +24,9 @@ bool is_binary_stl(std::string_view bytes) {
 
 bool is_ascii_stl(std::string_view bytes) {
   const std::string_view start = trimmed(bytes.substr(0, 4096));
-  return start.starts_with("solid") && start.find("facet") != std::string_view::npos;
+  const bool has_lines = start.find("facet") != std::string_view::npos ||
+                         start.find("endsolid") != std::string_view::npos;
+  return start.starts_with("solid") && has_lines;
 }
 
 /// Formats of other programs: no text of theirs is an OBJ.

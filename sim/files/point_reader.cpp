@@ -13,10 +13,12 @@ bool is_ply_file(std::string_view bytes, const std::string& name) {
   // The head line of a table is text, and no markup.
   const std::string_view head = bytes.substr(0, bytes.find('\n'));
   const bool is_binary = head.find('\0') != std::string_view::npos || head.starts_with("PK");
-  if (!is_ply && (is_binary || head.starts_with("<")))
+  const bool is_mesh =
+      name.ends_with(".obj") || head.starts_with("v ") || head.starts_with("#usda");
+  if (!is_ply && (is_binary || is_mesh || head.starts_with("<")))
     refuse_input(name,
                  "it is no table of points; expected PLY or CSV, which neve export writes "
-                 "with --format ply or csv");
+                 "with --format ply or csv, and other programs as PLY");
   return is_ply;
 }
 

@@ -150,7 +150,10 @@ void PointTable::require(std::size_t first, const std::vector<std::string>& colu
     if (!column_[first + axis])
       refuse_input(where, what + " column " + quantity_names[first + axis] + " among " +
                               listed_columns(columns) +
-                              "; expected x, y, z and, if wanted, vx, vy, vz, mass, volume");
+                              "; expected x, y, z and, if wanted, vx, vy, vz, mass, volume" +
+                              (columns.size() == 1 && columns[0].find(' ') != std::string::npos
+                                   ? ", with commas, semicolons or tabs between them"
+                                   : ""));
 }
 
 void PointTable::carry(const std::vector<std::string>& names,

@@ -81,11 +81,16 @@ TEST(TomlText, UnclosedStringsAreBlamedOnTheirQuote) {
 }
 
 TEST(TomlText, BadBytesAreLocated) {
-  EXPECT_EQ(toml_error("t = \"é\xFF\""), "f:1:7: error: invalid UTF-8");
-  EXPECT_EQ(toml_error("# \xC0\x80"), "f:1:3: error: invalid UTF-8") << "overlong";
-  EXPECT_EQ(toml_error("# \xED\xA0\x80"), "f:1:3: error: invalid UTF-8") << "surrogate";
-  EXPECT_EQ(toml_error("# \xF4\x90\x80\x80"), "f:1:3: error: invalid UTF-8") << "beyond U+10FFFF";
-  EXPECT_EQ(toml_error("# \xE2\x82"), "f:1:3: error: invalid UTF-8") << "cut off";
+  const std::string save = "invalid UTF-8; save the file as UTF-8 in your editor";
+  EXPECT_EQ(toml_error("t = \"é\xFF\""), "f:1:7: error: " + save);
+  EXPECT_EQ(toml_error("# \xC0\x80"), "f:1:3: error: " + save) << "overlong";
+  EXPECT_EQ(toml_error("# \xED\xA0\x80"), "f:1:3: error: " + save) << "surrogate";
+  EXPECT_EQ(toml_error("# \xF4\x90\x80\x80"), "f:1:3: error: " + save) << "beyond U+10FFFF";
+  EXPECT_EQ(toml_error("# \xE2\x82"), "f:1:3: error: " + save) << "cut off";
+  EXPECT_EQ(toml_error(std::string_view("\xFF\xFE#\0", 4)),
+            "f:1:1: error: invalid UTF-8; the file is UTF-16; save it as UTF-8");
+  EXPECT_EQ(toml_error(std::string_view("\x90\0\1", 3)),
+            "f:1:1: error: invalid UTF-8; the file is no text; name a scene, which is a text file");
   EXPECT_EQ(toml_error("[\x1b"), "f:1:2: error: control character U+001B");
   EXPECT_EQ(toml_error(std::string_view("a\0", 2)), "f:1:2: error: control character U+0000");
   EXPECT_EQ(toml_error("a = 1\rb = 2"), "f:1:6: error: carriage return without line feed");

@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "app/output/folder_lock.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
@@ -101,6 +102,50 @@ TEST_F(Surroundings, UnitsThatAreWrongAreToldBeforeARunToo) {
   const auto large = neve({"check", "scene.toml", "--set", "body.ball.shape.sphere.radius=15"});
   EXPECT_TRUE(contains(large.output, "lengths in metres make it smaller")) << large.output;
   EXPECT_FALSE(contains(large.output, "--coarsen")) << large.output;
+}
+
+TEST_F(Surroundings, ALogIsNeverWrittenIntoAScene) {
+  const std::string before = read_text(folder.path() / "scene.toml");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"render", "--log", "scene.toml"},
+        {"render", "none.toml", "--log=scene.toml"},
+        {"sweep", "scene.toml", "-p", "seed=1,2", "--log", "scene.toml"}}) {
+    const auto answer = neve(command);
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_TRUE(contains(answer.errors, "\"scene.toml\" is no log")) << answer.errors;
+  }
+  EXPECT_EQ(read_text(folder.path() / "scene.toml"), before);
+}
+
+TEST_F(Surroundings, ARunThatAnotherProcessWritesIsNotToBeResumed) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--frames", "1", "--no-movie"}).exit_code, 0);
+  app::Json run = json_of("out/scene/run.json");
+  run["status"] = "running";
+  folder.write("out/scene/run.json", run.dump());
+  const auto left = neve({"verify", "out/scene"});
+  EXPECT_TRUE(contains(left.output, "with --resume, makes the rest")) << left.output;
+  const app::output::FolderLock lock(folder.path() / "out/scene", "neve render");
+  const auto used = neve({"verify", "out/scene"});
+  EXPECT_EQ(used.exit_code, 9);
+  EXPECT_TRUE(contains(used.output, "in use by neve render, process ")) << used.output;
+  EXPECT_FALSE(contains(used.output, "--resume")) << used.output;
+}
+
+TEST_F(Surroundings, AFolderThatCannotBeWrittenNamesTheWayToAnother) {
+  for (const char* command :
+       {"\"$0\" render scene.toml --out /proc/x", "NEVE_OUT=/proc/x \"$0\" render scene.toml",
+        "\"$0\" sweep scene.toml -p seed=1,2 --out /proc/x"}) {
+    const auto answer = shell(command);
+    EXPECT_EQ(answer.exit_code, 6);
+    EXPECT_TRUE(contains(answer.errors, "choose another folder with --out or NEVE_OUT"))
+        << answer.errors;
+  }
+}
+
+TEST_F(Surroundings, AnEmptyNameIsNotTheExample) {
+  const auto answer = shell("\"$0\" render \"$UNSET\" --dry-run");
+  EXPECT_EQ(answer.exit_code, 2) << answer.output;
+  EXPECT_TRUE(contains(answer.errors, "the name is empty")) << answer.errors;
 }
 
 TEST_F(Surroundings, PointsThatAreDrawnTwiceAreCounted) {

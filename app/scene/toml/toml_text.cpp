@@ -36,6 +36,15 @@ CodePoint decode(std::string_view s) {
   return {value, length};
 }
 
+/// How a file that is no UTF-8 was written.
+const char* encoding_advice(std::string_view text) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    return "the file is UTF-16; save it as UTF-8";
+  if (text.substr(0, 512).find('\0') != std::string_view::npos)
+    return "the file is no text; name a scene, which is a text file";
+  return "save the file as UTF-8 in your editor";
+}
+
 bool is_control(char32_t c) {
   return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
 }
@@ -50,7 +59,7 @@ class Rewriter {
   AsciiToml run() {
     while (at_ < text_.size()) {
       const CodePoint c = decode(text_.substr(at_));
-      if (c.length == 0) fail("invalid UTF-8");
+      if (c.length == 0) fail("invalid UTF-8", encoding_advice(text_));
       if (is_control(c.value)) fail("control character " + code_name(c.value));
       if (c.value == '\r' && !starts("\r\n")) fail("carriage return without line feed");
       if (c.value == '\n') {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "app/run/fork.h"
 #include "app/run/kept_states.h"
@@ -168,6 +169,10 @@ run::RenderJob source_job(const SweepOptions& options) {
   if (options.fork)
     throw scene::toml::UsageError("--fork", "cannot be combined with --from",
                                   "--from forks a run or picture that is there, --fork a scene");
+  std::error_code error;
+  if (!std::filesystem::exists(options.file, error))
+    throw scene::toml::UsageError("--from", options.file + " is not there",
+                                  "expected the folder of a run, or a picture made by neve");
   if (!run::is_folder(options.file) && !run::is_picture(options.file))
     throw scene::toml::UsageError(
         "--from", options.file + " is no folder of a run and no picture made by neve",
