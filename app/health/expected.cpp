@@ -92,9 +92,21 @@ Expectation Expected::force() const {
   return {{0, scatter * stress_limit() * h_ * h_}, "stress on a face of a cell"};
 }
 
+double Expected::steepest_gradient() const {
+  // Near its end a weight is e = (2 - x)^3 / 6 (cubic) or (1.5 - x)^2 / 2 (quadratic) of the
+  // distance x in cells. A node counts from a mass on; its e is least beside one particle of which
+  // it lies at the middle of the two other axes.
+  const bool is_cubic = scene_.solver.kernel == sim::Kernel::cubic;
+  const double middle = is_cubic ? 2.0 / 3 : 3.0 / 4;
+  const double e = std::min(1.0, negligible_mass() / (heaviest_ * middle * middle));
+  return is_cubic ? 3 / std::cbrt(6 * e) : 2 / std::sqrt(2 * e);
+}
+
 Expectation Expected::velocity_change() const {
   const double gravity = scene_.solver.gravity.norm() * dt_;
-  return {{0, gravity + scatter * dt_ * stress_limit() / (lightest_density_ * h_)},
+  // Light nodes beside pressed snow change most: their mass falls faster than the force on them.
+  const double most = std::max(scatter, steepest_gradient());
+  return {{0, gravity + most * dt_ * stress_limit() / (lightest_density_ * h_)},
           "g dt = " + rough_text(gravity) + " m/s in free flight"};
 }
 

@@ -17,22 +17,25 @@ class Expected {
  public:
   Expected(const scene::Scene& scene, const sim::ParticleArrays& state, double dt);
 
-  static double negligible_share();     ///< of rho h^3; lighter nodes have meaningless velocities
-  double negligible_mass() const;       ///< kg, the same for the lightest material in use
-  Expectation node_mass() const;        ///< kg
-  Expectation speed() const;            ///< m/s
-  Expectation momentum() const;         ///< kg m/s, of a node
-  Expectation force() const;            ///< N, of a node
-  Expectation velocity_change() const;  ///< m/s, v_free - v_old
-  Expectation strain_rate() const;      ///< 1/s
-  Expectation stress() const;           ///< Pa, Frobenius norm of tau; unlimited for elastic models
-  Expectation stretch() const;          ///< singular values of F_E
+  static double negligible_share();  ///< of rho h^3; lighter nodes have meaningless velocities
+  double negligible_mass() const;    ///< kg, the same for the lightest material in use
+  Expectation node_mass() const;     ///< kg
+  Expectation speed() const;         ///< m/s
+  Expectation momentum() const;      ///< kg m/s, of a node
+  Expectation force() const;         ///< N, of a node
+  /// m/s, v_free - v_old, of the lightest node that counts
+  Expectation velocity_change() const;
+  Expectation strain_rate() const;  ///< 1/s
+  Expectation stress() const;       ///< Pa, Frobenius norm of tau; unlimited for elastic models
+  Expectation stretch() const;      ///< singular values of F_E
   Expectation J_E() const;
   Expectation J_P() const;
   Expectation volume() const;  ///< m3, V0
 
  private:
   double stress_limit() const;
+  /// 1/h: the largest gradient of a weight over that weight, at a node that counts
+  double steepest_gradient() const;
 
   const scene::Scene& scene_;
   double dt_, h_;

@@ -160,7 +160,7 @@ render::Frame FrameBuilder::build_incident(const scene::View& view, const Snapsh
 void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
                               const std::optional<StageLook>& look, render::Frame& frame) const {
   const scene::ParticleStyle& style = view.particles;
-  const scene::Range range = look ? scene::Range{0, std::max(look->largest, 1e-300)}
+  const scene::Range range = look ? scene::Range{0, look->largest > 0 ? look->largest : 1}
                                   : style.range.value_or(scene::Range{});
   const std::vector<double> values =
       look ? snapshot.stage_change->magnitude : attribute_values(scene_, style.color_by, snapshot);

@@ -45,6 +45,16 @@ TEST_F(Dump, AHealthyStepIsAsExpected) {
   EXPECT_LT(quantity(dump, "mass")["greatest"].get<double>(), 1.5 * full);
 }
 
+/// A ball that has just hit a ball: two light nodes beside the pressed snow were red.
+TEST_F(Dump, LightNodesBesidePressedSnowAreAsExpected) {
+  const auto result = neve({"dump", NEVE_SOURCE_DIR "/scenes/snowball_on_sphere.toml", "--coarsen",
+                            "2", "--at", "0.084", "--stage", "grid_velocities", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const app::Json dump = app::parse_json(std::string_view(result.output));
+  EXPECT_EQ(quantity(dump, "dv")["outside"], 0) << quantity(dump, "dv");
+  EXPECT_GT(quantity(dump, "dv")["greatest"].get<double>(), 1) << "it hits hard";
+}
+
 /// The ball lies on the floor after half a second: the floor carries its weight, on the mean of
 /// some steps to a fifth, because it still quivers.
 TEST_F(Dump, TheForceOnTheFloorIsTheWeightOfTheSnow) {

@@ -104,6 +104,20 @@ TEST(StageChange, ParticlesAreCutAndHaveArrowsAndTheirColoursHaveALegend) {
   EXPECT_EQ(slice.legends.at(0).title, "change of F_E");
 }
 
+/// Explicit steps have no solve: the colour of nothing is that of 0 in the legend.
+TEST(StageChange, AStageThatChangesNothingHasTheColourOfNothing) {
+  const TemporaryFolder folder;
+  view::session::Workbench bench = bench_for(folder, tiny_scene);
+  bench.session().show_stage(Stage::implicit_solve);
+  const auto live =
+      wait_for(bench.session(), [](const LiveFrame& now) { return now.stage.has_value(); });
+  const render::Frame frame = frame_of(bench, *live, "particles");
+  ASSERT_FALSE(frame.points.value.empty());
+  EXPECT_EQ(frame.points.value.front(), 0);
+  EXPECT_EQ(frame.points.range_min, frame.legends.at(0).min);
+  EXPECT_EQ(frame.points.range_max, frame.legends.at(0).max);
+}
+
 /// A picture of a frame says how many steps led to it, one of a stage which step it is.
 TEST(StageChange, TheCaptionIsThatOfTheStepThatIsLookedAt) {
   const TemporaryFolder folder;
