@@ -120,6 +120,28 @@ TEST_F(InputOfPanels, MovesOfABatchShareAFrame) {
   EXPECT_EQ(ImGui::GetIO().MousePos.x, 499);
 }
 
+/// Sixty steps of two fingers that move apart, around a middle that trembles.
+TEST_F(InputOfPanels, APinchSharesAFrameAndEndsWhereItIs) {
+  std::vector<app::view::frontend::InputEvent> pinch;
+  float turned = 0;
+  for (int k = 0; k < 60; ++k) {
+    pinch.push_back(move_to(400 + static_cast<float>(k % 3), 300));
+    pinch.push_back({.kind = app::view::frontend::InputEvent::Kind::wheel, .y = 0.1f});
+  }
+  input.push(std::move(pinch));
+  EXPECT_FALSE(input.feed()) << "nothing is left for the next frame";
+  panels.frame([&] {
+    widgets();
+    turned = ImGui::GetIO().MouseWheel;
+  });
+  EXPECT_NEAR(turned, 6, 1e-4);
+  // A wheel, and a mouse that goes elsewhere: the wheel is for the place where it was turned.
+  play({move_to(400, 300),
+        {.kind = app::view::frontend::InputEvent::Kind::wheel, .y = 1},
+        move_to(600, 300)});
+  EXPECT_EQ(frames, 2);
+}
+
 TEST_F(InputOfPanels, TypedTextArrivesInOrder) {
   focus_field();
   // As keyboards send it: the key, what it prints, and the next key before the first is up.

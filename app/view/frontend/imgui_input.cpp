@@ -111,10 +111,19 @@ struct ImGuiInput::Portion {
   bool has_wheel = false, has_buttons = false, has_text = false, has_command_key = false;
   std::vector<int> keys, buttons;  ///< that changed
   Modifiers held{};
+  ImVec2 place;  ///< of the mouse, when the wheel was turned first
+
+  /// Fingers that pinch turn the wheel and hardly move: a frame for each would take seconds on a
+  /// slow machine, long after the fingers have left.
+  bool is_beside(const InputEvent& event) const {
+    constexpr float near = 8;  // px
+    return std::hypot(event.x - place.x, event.y - place.y) <= near;
+  }
 
   void note(const InputEvent& event) {
     is_empty = false;
     held = held_after(event);
+    if (event.kind == Kind::move && !has_wheel) place = ImVec2(event.x, event.y);
     if (event.kind == Kind::wheel) has_wheel = true;
     if (event.kind == Kind::text) has_text = true;
     if (event.kind == Kind::button) buttons.push_back(event.button);
@@ -203,7 +212,8 @@ bool ImGuiInput::fits(const InputEvent& event, const Portion& portion) {
   if ((is_pointed || is_typed) && !has_same_modifiers) return false;
   switch (event.kind) {
     case Kind::move:
-      return !is_pointed && !is_typed;
+      return !is_typed && portion.buttons.empty() &&
+             (!portion.has_wheel || portion.is_beside(event));
     case Kind::wheel:
       return portion.buttons.empty() && !is_typed;
     case Kind::button:
@@ -224,6 +234,7 @@ bool ImGuiInput::fits(const InputEvent& event, const Portion& portion) {
 bool ImGuiInput::feed() {
   ImGuiIO& io = ImGui::GetIO();
   Portion portion;
+  portion.place = io.MousePos;
   while (!waiting_.empty()) {
     const auto& [event, ends_paste] = waiting_.front();
     if (is_news(waiting_.front())) {
