@@ -239,6 +239,7 @@ void SimBench::add_memory_and_spray(BenchMethod method) {
   memory.value = packed.bytes_per_particle();
   BenchRow time = row(name_for("spray_time", method), threads_, "x packed");
   time.value = time_ratio(spray, packed);
+  time.phases = spray.phases();
   BenchRow bytes = row(name_for("spray_memory", method), threads_, "x packed");
   bytes.value = memory_ratio(spray, packed);
   rows_.insert(rows_.end(), {memory, time, bytes});
