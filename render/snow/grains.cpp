@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "render/frame/point_list.h"
+#include "render/snow/shading.h"
 #include "render/surface/loops.h"
 #include "sim/base/hash.h"
 
