@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A robot picks some of the paper's six kinds of snow on the wedge, by neve pick itself.
+"""A robot picks the paper's six kinds of snow on the wedge, by neve pick itself.
 
     docs/six_snows/pick_kinds.py NEVE SCENE FOLDER [KIND ...]
 
@@ -13,7 +13,8 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "pick"))
 import real_targets
 
-KINDS = ["lower_hardening", "lower_critical_compression", "lower_critical_stretch"]
+KINDS = ["paper", "lower_hardening", "lower_youngs_modulus", "lower_critical_compression", "lower_critical_stretch",
+         "lower_compression_and_stretch"]
 COMMON = ["--coarsen", "1.5", "--frames", "24-24", "--size", "160x90", "-q"]
 
 
