@@ -85,6 +85,10 @@ bool parse_progress(const std::string& text) {
 }
 
 void require_folder_name(const std::string& out, const std::string& example) {
+  if (out == "~" || out.starts_with("~/"))
+    throw scene::toml::UsageError("--out", "\"" + out + "\" would be a folder with the name ~",
+                                  "the shell puts your home folder there in --out " + out +
+                                      ", with a blank and without quotes");
   const std::string suffix = lower_text(std::filesystem::path(out).extension().string());
   std::error_code error;
   for (const char* of_file : {".png", ".exr", ".jpg", ".mp4", ".mov", ".webm", ".gif", ".ply",

@@ -1,5 +1,7 @@
 #include "app/health/forecast.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,6 +10,7 @@
 
 #include "app/scene/coarsen.h"
 #include "app/scene/toml/error.h"
+#include "app/setup/plan.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/clock.h"
 #include "app/support/interrupt.h"
@@ -151,6 +154,7 @@ void check_withheld(const scene::Scene& coarse, const sim::Simulation& copy,
 struct CopyRun {
   Forecast forecast;
   double particle_steps = 0;
+  double work = 0;  ///< particle-steps, where a step of few particles costs as much as a hundred
   int reached = 0;  ///< the last frame that ran
 };
 
@@ -168,19 +172,33 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
   result.spread = spread_of(simulation);
   const auto start = Clock::now();
   FrameForecast frame_forecast = foresee_frame(scene, *coarse, 1, simulation.step_limits(), {}, {});
+  constexpr double least_work_of_step = 100, most_steps_of_frame = 1e15;
   double seconds = 0;
+  bool is_over = false;
   for (int frame = 1; frame <= last; ++frame) {
     // The frame's start and end both count; where time runs out the last frames are as the one
     // before.
-    if (seconds_since(start) < budget.seconds && run.particle_steps < budget.particle_steps &&
+    if (!is_over && seconds_since(start) < budget.seconds && run.work < budget.particle_steps &&
         !is_interrupted()) {
+      const double work_of_step =
+          std::max(least_work_of_step, static_cast<double>(simulation.particle_count()));
       const sim::StepLimits before = simulation.step_limits();
       const auto before_frame = Clock::now();
-      const sim::AdvanceReport report = simulation.advance_to(frame / scene.fps, is_interrupted);
+      // A frame alone may take more steps than there is time for: its beginning then tells them.
+      const auto last_step =
+          simulation.steps() + static_cast<std::size_t>(2 * budget.particle_steps / work_of_step);
+      const double from = simulation.time(), to = frame / scene.fps;
+      sim::AdvanceReport report = simulation.advance_to(to, is_interrupted, last_step);
       seconds += seconds_since(before_frame);
+      run.work += static_cast<double>(report.steps) * work_of_step;
       run.particle_steps +=
           static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());
       if (simulation.divergence()) break;  // a broken state foretells nothing
+      is_over = simulation.steps() >= last_step;
+      if (is_over && simulation.time() > from)
+        report.steps = static_cast<std::size_t>(
+            std::min(most_steps_of_frame,
+                     static_cast<double>(report.steps) * (to - from) / (simulation.time() - from)));
       frame_forecast =
           foresee_frame(scene, *coarse, frame, worst_of(before, simulation.step_limits()), report,
                         rarity_of(*coarse, simulation.particles(), particle_count));

@@ -108,6 +108,10 @@ std::string vector_advice(const toml::Value& value, const std::string& address) 
   } else if (const auto* number = std::get_if<double>(&value.data)) {
     numbers.push_back(*number);
   }
+  // [0, 0,12, 0]
+  const auto* items = std::get_if<toml::Array>(&value.data);
+  if (items && items->size() > 3 && items->size() <= 6)
+    return "decimals have a point, as in 0.12, and commas are between the numbers";
   // One number of a gravity or a velocity is meant along y, and gravity down.
   const bool is_gravity = address == "solver.gravity";
   if (numbers.size() == 1 && (is_gravity || address.ends_with("velocity")))

@@ -75,6 +75,14 @@ std::string address_of_nearest_name(const std::string& word,
     if (nearest.empty() && address.ends_with("." + change.address)) nearest = address;
   }
   if (nearest.empty()) nearest = our_address(change.address, known);
+  // "solver.hardening", "outptu.size", "solver.hardness": the word is right, its table is another.
+  const std::string word = change.address.substr(change.address.rfind('.') + 1);
+  std::vector<std::string> same;
+  for (const std::string& address : known)
+    if (address.ends_with("." + word)) same.push_back(address);
+  if (nearest.empty()) nearest = nearest_name(change.address, same);
+  if (nearest.empty() && !same.empty()) nearest = same.front();
+  if (nearest.empty()) nearest = our_address(word, known);
   if (nearest.empty()) nearest = nearest_name(change.address, known);
   if (nearest.empty() && change.address.find('.') == std::string::npos)
     nearest = address_of_nearest_name(change.address, known);

@@ -154,9 +154,11 @@ View find_view(const Scene& scene, const std::string& name) {
     if (std::find(names.begin(), names.end(), view.name) == names.end()) names.push_back(view.name);
   }
   const std::string nearest = nearest_name(name, names);
+  const bool is_list = name.find(',') != std::string::npos;
   throw toml::UsageError(
       "--view " + name, "the scene has no such view",
-      "expected " + list_of(names) +
+      std::string(is_list ? "each view has a --view of its own; " : "") + "expected " +
+          list_of(names) +
           (nearest.empty() ? "" : "; did you mean " + toml::toml_string(nearest) + "?"));
 }
 

@@ -18,14 +18,24 @@ bool is_of_one_kind_alone(const std::string& address) {
   return address.find(".shape.") != std::string::npos || address.find('[') != std::string::npos;
 }
 
-/// The only parameter of that name in other tables, or the one of the same item.
+/// The first shape of a kind of thing that has such a key: sphere for rotation, mesh for file.
+std::string shape_with(const std::string& kind, const std::string& key) {
+  const std::string start = kind + ".NAME.shape.", end = "." + key;
+  for (const ParamInfo& info : params())
+    if (info.address.starts_with(start) && info.address.ends_with(end))
+      return info.address.substr(start.size(), info.address.size() - start.size() - end.size());
+  return {};
+}
+
+/// The only parameter of that name in other tables, or the one of the same item; material.NAME.x
+/// before material.NAME.variation.x.
 std::string other_address(const std::string& key, const std::string& here) {
   const std::string kind = here.substr(0, here.find('.')) + ".";
   std::vector<std::string> found;
   for (const ParamInfo& info : params()) {
     if (!info.address.ends_with("." + key) || is_of_one_kind_alone(info.address)) continue;
     if (info.address == kind + "NAME." + key) return info.address;
-    found.push_back(info.address);
+    if (info.address.find(".variation.") == std::string::npos) found.push_back(info.address);
   }
   return found.size() == 1 ? found.front() : "";
 }
@@ -89,8 +99,13 @@ std::string Reader::advice(const std::string& key, const std::vector<std::string
   if (contains(known, "shape") && contains(forms_of(kind), key))
     return "write shape = { " + key + " = { ... } }";
   if (contains(known, "shape") && key == "plane") return "only colliders can be planes";
+  if (const std::string shape = shape_with(kind, key); contains(known, "shape") && !shape.empty())
+    return "it belongs into the shape: shape = { " + shape + " = { ..., " + key + " = ... } }";
   const std::string nearest = nearest_name(key, known);
   if (!nearest.empty()) return quoted_question(nearest);
+  for (const char* table : {"sheet", "axis", "set", "link", "run"})
+    if (reading_.is_scene && address_.empty() && key == table)
+      return "[" + key + "] belongs into the file of a sweep; neve params --sweep has its keys";
   if (!reading_.is_scene) return "expected " + list_of(known);
   if (!address_.empty() && is_at_the_top(key))
     return "it belongs at the top of the file, before the first [table]";

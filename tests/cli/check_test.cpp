@@ -95,6 +95,16 @@ TEST_F(Check, CheckNamesEachMistake) {
             Findings{"warning camera"});
 }
 
+/// A frame of it would take 1e13 steps: the forecast is made from the first of them.
+TEST_F(Check, SnowFarSmallerThanACellIsForetoldInSeconds) {
+  const auto check =
+      neve({"check", "scene.toml", "--json", "--set", "body.ball.shape.sphere.radius=1e-9"});
+  ASSERT_EQ(check.exit_code, 0) << check.errors;
+  const app::Json json = app::parse_json(std::string_view(check.output));
+  EXPECT_GT(json["steps"].get<double>(), 1e9);
+  EXPECT_TRUE(contains(check.output, "cells thick")) << check.output;
+}
+
 TEST_F(Check, CheckNamesParametersWithoutEffect) {
   const auto with = [&](const std::string& more) {
     return findings(scene("", floor_plane + more));

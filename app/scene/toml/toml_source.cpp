@@ -89,6 +89,15 @@ bool has_unit(std::string_view value) {
   return !value.empty() && is_digit(value[0]) && end != value.npos && is_letter(value[end]);
 }
 
+/// ".12"
+bool has_bare_point(std::string_view value) {
+  for (std::size_t k = 0; k + 1 < value.size(); ++k) {
+    const bool is_after_digit = k > 0 && (is_digit(value[k - 1]) || is_letter(value[k - 1]));
+    if (value[k] == '.' && is_digit(value[k + 1]) && !is_after_digit) return true;
+  }
+  return false;
+}
+
 /// Advice on the line where the parser gave up.
 std::string advice_on(std::string_view text, int line) {
   for (int k = 1; k < line && text.find('\n') != text.npos; ++k)
@@ -97,14 +106,20 @@ std::string advice_on(std::string_view text, int line) {
   const std::size_t begin = text.find_first_not_of(" \t");
   if (begin == text.npos) return {};
   if (text.substr(begin).starts_with("//")) return "comments begin with #";
-  const std::size_t equals = text.find('=');
-  if (equals == text.npos) return {};
+  const std::size_t equals = text.find('='), colon = text.find(':');
+  if (equals == text.npos)
+    return colon == text.npos ? "" : "keys and values have = between them, as in frames = 4";
   const std::size_t first = std::min(text.find_first_not_of(" \t", equals + 1), text.size());
   const std::string_view value = text.substr(first);
   if (value.empty() || value[0] == '#') return "a value follows the =";
   if (has_decimal_comma(value)) return "decimals have a point, as in 0.04";
   if (has_unit(value)) return "numbers have no unit: metres, kilograms and seconds are meant";
   if (value.find('\\') != value.npos) return "in paths write / between folders, or \\\\";
+  if (value.back() == ';') return "lines end without ;";
+  if (has_bare_point(value)) return "a digit comes before the point, as in 0.12";
+  if (value.find(',') == value.npos && std::count(value.begin(), value.end(), '[') == 1 &&
+      value.find(' ') != value.npos)
+    return "vectors have commas, as in [0, 0, 0]";
   if (value[0] == '(') return "vectors have square brackets, as in [0, 0, 0]";
   if (is_letter(value[0])) return "words have quotes, as in \"snow\"";
   return {};

@@ -198,8 +198,12 @@ class Rewriter {
       return replace(c, escape(c.value));
     }
     const bool in_literal = state_ != State::plain;
+    constexpr char32_t curly_from = 0x2018, curly_to = 0x201F;
+    const bool is_curly = c.value >= curly_from && c.value <= curly_to;
     fail(code_name(c.value) + (in_literal ? " in a literal string" : " outside a string"),
-         "only comments and strings in \"double quotes\" may contain non-ASCII characters");
+         is_curly
+             ? "quotes are straight, as in \"snow\""
+             : "only comments and strings in \"double quotes\" may contain non-ASCII characters");
   }
 
   static std::string escape(char32_t c) {
