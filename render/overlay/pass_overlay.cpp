@@ -12,6 +12,8 @@
 namespace neve::render::overlay {
 namespace {
 
+/// Text keeps to this part of the picture from its top, since the snow is in the middle.
+constexpr float caption_share = 0.36f;
 constexpr ImU32 mark_color = IM_COL32(255, 122, 40, 255);
 constexpr ImU32 label_plate = IM_COL32(18, 21, 26, 150);
 constexpr ImU32 caption_plate = IM_COL32(18, 21, 26, 190);
@@ -101,13 +103,13 @@ void draw_legend(const Legend& legend, const LegendText& text, const ImFont& fon
 
 }  // namespace
 
-float OverlayPass::draw_legends(const Frame& frame) const {
+OverlayPass::Limits OverlayPass::draw_legends(const Frame& frame) const {
   const ImFont& font = *imgui_.text_font();
   const float unit = unit_of(font), size = font.FontSize;
   const float width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
   const float margin = std::round(24 * unit), right = width - margin;
   // A picture too small for a bar, its title and two ticks gets none.
-  if (frame.legends.empty() || height < 7 * size || width < 12 * size) return right;
+  if (frame.legends.empty() || height < 7 * size || width < 12 * size) return {right, right};
   // One above the other: side by side they would reach into the snow. Those without room are left
   // out.
   const float least = 4 * size, room = 0.5f * height;
@@ -134,7 +136,10 @@ float OverlayPass::draw_legends(const Frame& frame) const {
                 {left, std::round(height - margin - below), bar_height,
                  is_narrow ? std::round(right - texts[k].title_width) : title_left});
   }
-  return left - margin;
+  // The caption is beside the title where that reaches into the upper third.
+  const float top = height - margin - static_cast<float>(count) * (bar_height + above);
+  const float beside = top < caption_share * height ? std::min(left, title_left) : left;
+  return {beside - margin, left - margin};
 }
 
 void OverlayPass::draw_footnote(const Frame& frame, float left, float right) const {
@@ -187,8 +192,8 @@ void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
   const float width = has_strip
                           ? static_cast<float>(frame.width) - 2 * margin
                           : std::min(right_limit, 0.66f * static_cast<float>(frame.width)) - margin;
-  // The snow is in the middle: text keeps to the upper third.
-  const float bottom = has_strip ? static_cast<float>(frame.caption_height) : 0.36f * height;
+  const float bottom =
+      has_strip ? static_cast<float>(frame.caption_height) : caption_share * height;
   float y = std::round((has_strip ? 10 : 16) * unit);
   for (std::size_t i = 0; i < frame.caption.size(); ++i) {
     const ImFont& font = i == 0 ? *imgui_.title_font() : *imgui_.text_font();
@@ -277,9 +282,9 @@ void OverlayPass::draw(const Frame& frame, const View& view) {
   imgui_.begin(frame.width, frame.height, font_size, all_texts(frame));
   draw_labels(frame, view);
   draw_marks(frame, view);
-  const float legends = draw_legends(frame);
-  draw_caption(frame, legends);
-  draw_footnote(frame, draw_plots(frame, *imgui_.text_font(), legends), legends);
+  const Limits limits = draw_legends(frame);
+  draw_caption(frame, limits.caption);
+  draw_footnote(frame, draw_plots(frame, *imgui_.text_font(), limits.below), limits.below);
   draw_notes(frame);
   imgui_.end();
 }

@@ -16,8 +16,11 @@ class OverlayPass {
   void draw(const Frame& frame, const View& view);
 
  private:
-  /// @return left edge of the drawing, pixels
-  float draw_legends(const Frame& frame) const;
+  /// Right edges of what is beside legends, pixels.
+  struct Limits {
+    float caption, below;  ///< of text in the upper third; of plots and text at the bottom
+  };
+  Limits draw_legends(const Frame& frame) const;
   void draw_caption(const Frame& frame, float right_limit) const;
   void draw_footnote(const Frame& frame, float left, float right) const;
   void draw_scale_bar(const ScaleBar& bar, float left, float right, float bottom) const;

@@ -38,6 +38,15 @@ std::size_t end_of_line(const std::string& text, std::size_t longest) {
   return text.find_last_not_of(' ', end) + 1;
 }
 
+/// The text is too wide: as many of its words or groups of words as fit, with an ellipsis.
+std::string elide_words(const ImFont& font, const std::string& text, float width) {
+  const std::string ellipsis = "\u2026";
+  const std::size_t end =
+      end_of_line(text, fitting(font, text, width - text_width(font, ellipsis)));
+  const std::size_t last = text.find_last_not_of(", ", end - 1);
+  return text.substr(0, last == std::string::npos ? end : last + 1) + ellipsis;
+}
+
 }  // namespace
 
 float text_width(const ImFont& font, const std::string& text) {
@@ -55,8 +64,12 @@ std::vector<std::string> wrap(const ImFont& font, const std::string& text, float
   std::vector<std::string> lines;
   std::string rest = text;
   while (!rest.empty() && lines.size() < max_lines) {
-    if (lines.size() + 1 == max_lines || text_width(font, rest) <= width) {
-      lines.push_back(elide(font, rest, width));
+    if (text_width(font, rest) <= width) {
+      lines.push_back(rest);
+      break;
+    }
+    if (lines.size() + 1 == max_lines) {
+      lines.push_back(elide_words(font, rest, width));
       break;
     }
     const std::size_t end = end_of_line(rest, fitting(font, rest, width));

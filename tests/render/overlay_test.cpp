@@ -144,6 +144,32 @@ TEST(Legend, InASmallPictureTheBarStandsAtTheEdgeAndTheTitleIsWhole) {
   }
 }
 
+TEST(Legend, InASmallPictureTheCaptionKeepsOffItsTitle) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  for (const int width : {240, 280, 320, 400}) {
+    Frame frame = small_frame(width, width * 9 / 16);
+    const Image nothing = renderer.draw(frame);
+    frame.legends.push_back({.title = "mass density of the grid", .unit = "kg/m3"});
+    const Image legend = renderer.draw(frame);
+    frame.caption = {"frame 3   t = 0.125 s",
+                     "3 380 particles   993 steps, dt 2.47e-04 s (acoustic)"};
+    const Image both = renderer.draw(frame);
+    int over = 0, words = 0;
+    for (int y = 0; y < both.height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const auto differ = [&](const Image& a, const Image& b) {
+          return pixel(a, x, y).brightness() != pixel(b, x, y).brightness();
+        };
+        if (!differ(legend, both)) continue;
+        ++words;
+        over += differ(nothing, legend) ? 1 : 0;
+      }
+    EXPECT_GT(words, 100) << width;
+    EXPECT_EQ(over, 0) << width;
+  }
+}
+
 TEST(Legend, AnyRangeIsDrawn) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
