@@ -130,7 +130,8 @@ fs::path this_program() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error)
-    throw IoError("cannot find the path of the program: " + error.message(), "/proc/self/exe");
+    throw IoError("cannot find the path of the program: " + error.message(), "/proc/self/exe",
+                  "mount /proc, which sweeps, pick and the example need");
   return program;
 }
 
