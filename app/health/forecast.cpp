@@ -10,8 +10,8 @@
 
 #include "app/scene/coarsen.h"
 #include "app/scene/toml/error.h"
-#include "app/setup/plan.h"
 #include "app/setup/seed_scene.h"
+#include "app/setup/snow_pieces.h"
 #include "app/support/clock.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
