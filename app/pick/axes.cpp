@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 
 #include "app/scene/params.h"
 #include "app/scene/toml/error.h"
@@ -70,6 +71,19 @@ std::string PickAxis::text(double u) const {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value(u));
   return scene::toml::number_text(number_of(text).value_or(0));
+}
+
+std::string with_two_ends(const std::string& axis) {
+  const std::size_t equals = axis.find('=');
+  if (equals == std::string::npos) return axis;
+  const std::string values = axis.substr(equals + 1);
+  for (const std::string_view between : {"..", ":", "-"})
+    for (std::size_t at = values.find(between, 1); at != std::string::npos;
+         at = values.find(between, at + 1)) {
+      const std::string low = values.substr(0, at), high = values.substr(at + between.size());
+      if (number_of(low) && number_of(high)) return axis.substr(0, equals + 1) + low + "," + high;
+    }
+  return axis;
 }
 
 std::vector<PickAxis> axes_of(const sweep::read::Sweep& sweep) {

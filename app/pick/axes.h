@@ -30,6 +30,9 @@ struct PickAxis {
 ///         most_axes
 std::vector<PickAxis> axes_of(const sweep::read::Sweep& sweep);
 
+/// "ADDRESS=5,20" for "ADDRESS=5..20", "ADDRESS=5:20" and "ADDRESS=5-20"; anything else as it is.
+std::string with_two_ends(const std::string& axis);
+
 /// Settings of the run at a place.
 std::vector<scene::Override> settings_at(const std::vector<PickAxis>& axes,
                                          const search::Point& place);

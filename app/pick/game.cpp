@@ -15,8 +15,10 @@ namespace neve::app::pick {
 namespace fs = std::filesystem;
 
 Game::Game(const PickOptions& options) : options_(options) {
+  std::vector<std::string> axes;
+  for (const std::string& axis : options.runs.axes) axes.push_back(with_two_ends(axis));
   const sweep::read::Sweep sweep =
-      sweep::read::read_sweep(options.runs.file, {options.runs.axes, options.runs.overrides});
+      sweep::read::read_sweep(options.runs.file, {axes, options.runs.overrides});
   if (!sweep.file.empty())
     throw scene::toml::UsageError("pick", options.runs.file + " is a sweep",
                                   "give its scene, and the axes with -p");

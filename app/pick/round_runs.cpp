@@ -56,6 +56,11 @@ std::string why_not(const RoundRuns& runs, const Click& click) {
   return {};
 }
 
+bool have_all_ended(const RoundRuns& runs) {
+  return !runs.tiles.empty() && std::all_of(runs.tiles.begin(), runs.tiles.end(),
+                                            [](const TileRun& tile) { return tile.has_ended(); });
+}
+
 std::string all_failed_text(const RoundRuns& runs) {
   const bool is_any_usable =
       std::any_of(runs.tiles.begin(), runs.tiles.end(),

@@ -32,6 +32,9 @@ RoundRuns read_round(const std::filesystem::path& folder);
 /// "tile 3 cannot be chosen: its run failed: DIVERGED frame 3", or "" where the click can be used.
 std::string why_not(const RoundRuns& runs, const Click& click);
 
+/// True where all tiles are done or failed.
+bool have_all_ended(const RoundRuns& runs);
+
 /// "all nine runs failed; the first: DIVERGED frame 3", or "" where one did not.
 std::string all_failed_text(const RoundRuns& runs);
 

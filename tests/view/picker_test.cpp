@@ -51,6 +51,22 @@ TEST_F(PickByScript, AnAnswerIsTakenBackWhileTheNextRoundIsMade) {
   EXPECT_EQ(answers("a"), "6\n");
 }
 
+/// Other rounds may be answered before their sheet is made, the last one has it.
+TEST_F(PickByScript, TheLastRoundHasItsSheetAndItsFilm) {
+  const auto result = replay(R"([
+    {"wait_for": "label Round 1 of 2"}, {"click": "tile 3"},
+    {"wait_for": "label Round 2 of 2"}, {"click": "tile 4"}, {"wait_for": "label Picked"},
+    {"key": "q"}])",
+                             "a", {"--rounds", "2"});
+  SKIP_PICK_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto time = [&](const char* file) {
+    return std::filesystem::last_write_time(folder / (std::string("a/") + file));
+  };
+  EXPECT_GT(time("sheet.png"), time("round_2.toml"));
+  EXPECT_GT(time("report.html"), time("round_2.toml"));
+}
+
 /// A closed window writes what there is; the same command goes on from there.
 TEST_F(PickByScript, AClosedScreenLosesNothing) {
   const auto closed = replay(R"([

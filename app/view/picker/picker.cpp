@@ -116,7 +116,10 @@ void Picker::follow_round() {
     return;
   }
   try {
-    if (process_->has_begun() && !state_.is_stopping) look_at_runs();
+    if (!process_->has_begun() || state_.is_stopping) return;
+    look_at_runs();
+    // Its sheet and its film are still being made.
+    if (state_.phase == Phase::making && pick::have_all_ended(state_.runs)) ask();
   } catch (const Error&) {
     settle_ = std::max(settle_, 1);  // it is looked at again
   }
@@ -151,14 +154,21 @@ void Picker::end_round(int code) {
     if (code != exit_ok && code != exit_runs_failed)
       throw Error(code,
                   error.empty() ? "the runs ended with exit code " + std::to_string(code) : error);
+    if (state_.phase != Phase::making) return;
     look_at_runs();
-    game_.write_page(state_.runs);
-    state_.phase = Phase::asking;
-    state_.note = pick::all_failed_text(state_.runs);
-    if (!state_.note.empty()) state_.note += "; None of them makes nine others";
-    if (options_.tell) options_.tell(state_);
+    ask();
   });
   if (state_.phase == Phase::stuck) retry_ = [this] { begin_round(); };
+}
+
+/// All nine runs have ended. @throws Error where the page cannot be written
+void Picker::ask() {
+  game_.write_page(state_.runs);
+  state_.phase = Phase::asking;
+  state_.note = pick::all_failed_text(state_.runs);
+  if (!state_.note.empty()) state_.note += "; None of them makes nine others";
+  settle_ = 3;
+  if (options_.tell) options_.tell(state_);
 }
 
 void Picker::heed() {
@@ -176,7 +186,7 @@ void Picker::heed() {
       if (state_.phase == Phase::stuck)
         is_closed_ = true;
       else
-        after_runs([this] { finish(); });
+        after_runs([this] { finish(); }, state_.phase == Phase::asking);
       break;
     case Wish::Kind::try_again:
       std::exchange(retry_, nullptr)();
@@ -192,19 +202,24 @@ void Picker::heed() {
 }
 
 void Picker::choose(const pick::Click& click) {
-  attempt([this, click] {
-    state_.note = pick::why_not(state_.runs, click);
-    if (!state_.note.empty()) return;
-    game_.answer(click);
-    if (game_.is_over())
-      finish();
-    else
-      begin_round();
-  });
+  state_.note = pick::why_not(state_.runs, click);
+  if (!state_.note.empty()) return;
+  const bool is_last = game_.answered() + 1 >= game_.most_rounds();
+  const auto answer = [this, click] {
+    attempt([this, click] {
+      game_.answer(click);
+      if (game_.is_over())
+        finish();
+      else
+        begin_round();
+    });
+  };
+  after_runs(answer, is_last);
 }
 
 /// At once, or when the runs that are being made have ended.
-void Picker::after_runs(const std::function<void()>& action) {
+/// @param is_sheet_wanted  of the present round, which is the last one
+void Picker::after_runs(const std::function<void()>& action, bool is_sheet_wanted) {
   state_.note.clear();
   if (!process_) {
     action();
@@ -212,7 +227,7 @@ void Picker::after_runs(const std::function<void()>& action) {
   }
   then_ = action;
   state_.is_stopping = true;
-  process_->stop();
+  if (!is_sheet_wanted) process_->stop();
 }
 
 void Picker::download(const std::filesystem::path& file) {

@@ -44,9 +44,10 @@ class Picker {
   void follow_round();
   void look_at_runs();
   void end_round(int code);
+  void ask();
   void heed();
   void choose(const pick::Click& click);
-  void after_runs(const std::function<void()>& action);
+  void after_runs(const std::function<void()>& action, bool is_sheet_wanted = false);
   void undo();
   void download(const std::filesystem::path& file);
   void finish();
