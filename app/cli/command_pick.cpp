@@ -196,12 +196,6 @@ void check_axes(const std::vector<std::string>& axes) {
     throw scene::toml::UsageError("pick", "nothing varies",
                                   "name what to find, and between which two values: -p "
                                   "material.snow.hardening=5,20");
-  for (const std::string& axis : axes) {
-    const std::size_t dots = axis.find(".."), equals = axis.find('=');
-    if (dots == std::string::npos || equals == std::string::npos || dots < equals) continue;
-    throw scene::toml::UsageError("-p " + axis, "has no two values",
-                                  "write -p " + axis.substr(0, dots) + "," + axis.substr(dots + 2));
-  }
 }
 
 }  // namespace

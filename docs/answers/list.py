@@ -364,7 +364,7 @@ COMMANDS = [
     command("verify", "nowhere"),
     command("pick", "scene.toml"),
     command("pick", "scene.toml", "-p", "hardning=5,20"),
-    command("pick", "scene.toml", "-p", "material.snow.hardening=5..20"),
+    command("pick", "scene.toml", "-p", "material.snow.hardening=5"),
     command("pick", "scene.toml", "-p", "material.snow.hardening=5,500"),
     command("pick", "scene.toml", "-p", "solver.transfer=flip,apic"),
     command("pick", "scene.toml", "-p", "material.snow.hardening=5,20"),
