@@ -2,6 +2,7 @@
 /// that is saved.
 
 #include <fstream>
+#include <functional>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -60,6 +61,13 @@ std::string shortened(std::string command) {
   if (command.find(" --from ") != std::string::npos)
     return std::regex_replace(command, std::regex("--from [^ ]+"), "--from 0.03s") +
            (name == "sweep" ? " --dry-run" : " --size 64x36 --no-movie");
+  // Nine tiny runs, and one click; each search has its folder.
+  if (name == "pick")
+    return std::regex_replace(command, std::regex("scenes/[^ ]+|--(coarsen|frames) [^ ]+"), "") +
+           " --clicks clicks.txt scene.toml --out picked_" +
+           std::to_string(std::hash<std::string>()(command));
+  if (command.find(" --plate ") != std::string::npos)
+    command = std::regex_replace(command, std::regex("--size [^ ]+"), "");
   // A test of Slurm submits what the page of farms does.
   if (command.find("--engine slurm") != std::string::npos) return "";
   command =
@@ -78,13 +86,15 @@ std::string shortened(std::string command) {
   const bool is_run = name == "view" || name == "dump" || name == "check" || name == "sweep";
   if (is_run && !is_tiny && !is_collected) add("--coarsen", "3");
   if (name != "render") return command;
-  const bool is_picture = command.find(".png") != std::string::npos;
+  const bool is_picture = std::regex_search(command, std::regex("^render [^ ]+\\.(png|exr)"));
   if (!is_picture) add("--frames", "0");
   if (!is_tiny) add("--coarsen", "3");
   // Another command has left another run there.
-  if (command.find("--resume") != std::string::npos) add("--out", "resumed");
+  std::smatch scene;
+  std::regex_search(command, scene, std::regex("[^ /]+\\.toml"));
+  if (command.find("--resume") != std::string::npos) add("--out", "resumed_" + scene.str());
   add("--size", "64x36");
-  add("--no-movie");
+  if (command.find("--movie ") == std::string::npos) add("--no-movie");
   return command;
 }
 
@@ -102,21 +112,29 @@ class CommandsOfDocs : public Cli {
       fs::create_directory_symlink(fs::path(NEVE_SOURCE_DIR) / name, folder / name);
     folder.write("my_scene.toml", scene_of_tutorial());
     folder.write("wait.json", "[{\"wait\": 1}]");
+    folder.write("clicks.txt", "1\n");
   }
 
   /// Runs that commands start from.
   void make_runs() {
     for (const char* out : {"out/a", "out/b", "out/hard", "out/soft", "out/wedge"})
-      EXPECT_EQ(neve({"render", "scene.toml", "--out", out, "--quiet", "--no-movie"}).exit_code, 0);
+      EXPECT_EQ(neve({"render", "scene.toml", "--out", out, "--quiet", "--no-movie", "--passes",
+                      "all", "--size", "64x36"})
+                    .exit_code,
+                0);
+    fs::create_directory(folder / "street");
+    for (const char* plate : {"street.png", "street/0000.png"})
+      fs::copy_file(folder / "out/a/particles/0000.png", folder / plate);
   }
 
   /// The picture that a command starts from; runs before it may have removed it.
   void make_picture(const std::string& command) {
     std::smatch found;
-    if (!std::regex_search(command, found, std::regex("out/[^ ]+\\.png"))) return;
+    if (!std::regex_search(command, found, std::regex("out/[^ ]+\\.(png|exr)"))) return;
     const fs::path file = folder / found.str();
     fs::create_directories(file.parent_path());
-    fs::copy_file(folder / "out/a/particles/0000.png", file, fs::copy_options::overwrite_existing);
+    fs::copy_file(folder / ("out/a/particles/0000." + found[1].str()), file,
+                  fs::copy_options::overwrite_existing);
   }
 };
 
