@@ -39,13 +39,15 @@ std::size_t end_of_line(const std::string& text, std::size_t longest) {
 }
 
 /// The text is too wide: as many of its words or groups of words as fit, with an ellipsis. A word
-/// that would leave a third of the line empty is cut.
+/// as long as a third of the line is cut.
 std::string elide_words(const ImFont& font, const std::string& text, float width) {
   const std::string ellipsis = "\u2026";
   const std::size_t most = fitting(font, text, width - text_width(font, ellipsis));
   const std::size_t end = end_of_line(text, most);
+  const std::size_t word = std::min(text.find_first_not_of(' ', end), most);
+  const std::size_t word_end = std::min(text.find(' ', word), text.size());
+  if (3 * (word_end - word) > most) return text.substr(0, most) + ellipsis;
   const std::size_t last = text.find_last_not_of(", ", end - 1);
-  if (3 * end < 2 * most) return text.substr(0, most) + ellipsis;
   return text.substr(0, last == std::string::npos ? end : last + 1) + ellipsis;
 }
 

@@ -379,7 +379,7 @@ TEST_F(SweepCli, ABudgetStopsTheSweepResumable) {
   // The first two values are at rest after a moment, the others take a million steps.
   folder.write("long.toml",
                "[sweep]\nscene = \"scene.toml\"\nframes = \"0-2\"\n[axis]\n"
-               "\"solver.max_dt\" = [1e-3, 1e-6, 1.1e-6, 1.2e-6]\n");
+               "\"solver.max_dt\" = [1e-3, 1e-7, 1.1e-7, 1.2e-7]\n");
   const auto result = neve({"sweep", "long.toml", "--budget", "4s", "--jobs", "1", "--json"});
   EXPECT_EQ(result.exit_code, 75) << result.errors;
   const app::Json counts = app::parse_json(std::string_view(result.output));
