@@ -21,12 +21,12 @@ COMMON = ["--coarsen", "1.5", "--frames", "24-24", "--size", "160x90", "-q"]
 def main():
     neve, scene, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
     folder.mkdir(parents=True, exist_ok=True)
-    for seed, kind in enumerate(sys.argv[4:] or KINDS, 1):
+    for kind in sys.argv[4:] or KINDS:
         out = folder / kind
         subprocess.run([neve, "render", scene, "--set", f"material.snow.preset={kind}", *COMMON,
                         "--no-movie", "--out", out], check=True)
         rounds, error = real_targets.play(neve, scene, folder / f"pick_{kind}",
-                                          real_targets.logs_of(out), seed, COMMON)
+                                          real_targets.logs_of(out), 1 + KINDS.index(kind), COMMON)
         picked = (folder / f"pick_{kind}" / "picked.toml").read_text()
         found = {line.split("=")[0].strip(): line.split("=")[1].strip() for line in picked.splitlines()
                  if "=" in line and any(axis.endswith("." + line.split("=")[0].strip())
