@@ -109,7 +109,8 @@ OverlayPass::Limits OverlayPass::draw_legends(const Frame& frame) const {
   const float width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
   const float margin = std::round(24 * unit), right = width - margin;
   // A picture too small for a bar, its title and two ticks gets none.
-  if (frame.legends.empty() || height < 7 * size || width < 12 * size) return {right, right};
+  if (frame.legends.empty() || height < 7 * size || width < 12 * size)
+    return {right, right, height};
   // One above the other: side by side they would reach into the snow. Those without room are left
   // out.
   const float least = 4 * size, room = 0.5f * height;
@@ -139,7 +140,7 @@ OverlayPass::Limits OverlayPass::draw_legends(const Frame& frame) const {
   // The caption is beside the title where that reaches into the upper third.
   const float top = height - margin - static_cast<float>(count) * (bar_height + above);
   const float beside = top < caption_share * height ? std::min(left, title_left) : left;
-  return {beside - margin, left - margin};
+  return {beside - margin, left - margin, top - 0.3f * size};
 }
 
 void OverlayPass::draw_footnote(const Frame& frame, float left, float right) const {
@@ -183,15 +184,15 @@ void OverlayPass::draw_scale_bar(const ScaleBar& bar, float left, float right, f
             soft_text, bar.text);
 }
 
-void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
+void OverlayPass::draw_caption(const Frame& frame, const Limits& limits) const {
   const float unit = unit_of(*imgui_.text_font());
   const float height = static_cast<float>(frame.height);
   const float margin = std::round(20 * unit);
   const bool has_strip = frame.caption_height > 0;
   if (!has_strip && height < 4 * imgui_.text_font()->FontSize) return;  // it would be all text
-  const float width = has_strip
-                          ? static_cast<float>(frame.width) - 2 * margin
-                          : std::min(right_limit, 0.66f * static_cast<float>(frame.width)) - margin;
+  const float whole = static_cast<float>(frame.width) - 2 * margin;
+  const float above = has_strip ? whole : 0.66f * static_cast<float>(frame.width) - margin;
+  const float beside = std::min(above, limits.caption - margin);
   const float bottom =
       has_strip ? static_cast<float>(frame.caption_height) : caption_share * height;
   float y = std::round((has_strip ? 10 : 16) * unit);
@@ -200,6 +201,11 @@ void OverlayPass::draw_caption(const Frame& frame, float right_limit) const {
     const float line_height = std::round(1.25f * font.FontSize);
     const int room = static_cast<int>((bottom - y) / line_height);
     const int max_lines = i == 0 ? (room >= 6 ? 2 : 1) : std::max(room, 0);
+    // Only what reaches down to the legend has to keep beside it.
+    const float one_line = y + line_height;
+    const bool is_above = has_strip || (one_line <= limits.legend_top &&
+                                        text_width(font, frame.caption[i]) <= above);
+    const float width = is_above ? above : beside;
     for (const std::string& line :
          wrap(font, frame.caption[i], width, static_cast<std::size_t>(max_lines))) {
       if (frame.has_caption_plate)
@@ -283,7 +289,7 @@ void OverlayPass::draw(const Frame& frame, const View& view) {
   draw_labels(frame, view);
   draw_marks(frame, view);
   const Limits limits = draw_legends(frame);
-  draw_caption(frame, limits.caption);
+  draw_caption(frame, limits);
   draw_footnote(frame, draw_plots(frame, *imgui_.text_font(), limits.below), limits.below);
   draw_notes(frame);
   imgui_.end();

@@ -16,12 +16,13 @@ class OverlayPass {
   void draw(const Frame& frame, const View& view);
 
  private:
-  /// Right edges of what is beside legends, pixels.
+  /// Where legends leave room, pixels.
   struct Limits {
-    float caption, below;  ///< of text in the upper third; of plots and text at the bottom
+    float caption, below;  ///< right edges: of text in the upper third, of plots and text at the bottom
+    float legend_top;      ///< of the highest title
   };
   Limits draw_legends(const Frame& frame) const;
-  void draw_caption(const Frame& frame, float right_limit) const;
+  void draw_caption(const Frame& frame, const Limits& limits) const;
   void draw_footnote(const Frame& frame, float left, float right) const;
   void draw_scale_bar(const ScaleBar& bar, float left, float right, float bottom) const;
   void draw_labels(const Frame& frame, const View& view) const;

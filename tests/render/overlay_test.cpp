@@ -170,6 +170,26 @@ TEST(Legend, InASmallPictureTheCaptionKeepsOffItsTitle) {
   }
 }
 
+TEST(Caption, InASmallTileTheTimeIsWholeAboveALongLegend) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  for (const int width : {240, 280, 320}) {
+    Frame frame = small_frame(width, width * 9 / 16);
+    const Image nothing = renderer.draw(frame);
+    frame.caption = {"Two snowballs, frame 3, 0.125 s"};
+    const Image alone = renderer.draw(frame);
+    const Changed words = changed(nothing, alone);
+    frame.legends.push_back({.title = "mass density of all nodes of the grid", .unit = "kg/m3"});
+    const Image beside = renderer.draw(frame);
+    int lost = 0;
+    for (int y = words.top; y <= words.bottom; ++y)
+      for (int x = words.left; x <= words.right; ++x)
+        lost += pixel(alone, x, y).brightness() != pixel(beside, x, y).brightness() ? 1 : 0;
+    EXPECT_GT(words.count, 100) << width;
+    EXPECT_EQ(lost, 0) << width;
+  }
+}
+
 TEST(Legend, AnyRangeIsDrawn) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
