@@ -203,8 +203,8 @@ void OverlayPass::draw_caption(const Frame& frame, const Limits& limits) const {
     const int max_lines = i == 0 ? (room >= 6 ? 2 : 1) : std::max(room, 0);
     // Only what reaches down to the legend has to keep beside it.
     const float one_line = y + line_height;
-    const bool is_above = has_strip || (one_line <= limits.legend_top &&
-                                        text_width(font, frame.caption[i]) <= above);
+    const bool is_above =
+        has_strip || (one_line <= limits.legend_top && text_width(font, frame.caption[i]) <= above);
     const float width = is_above ? above : beside;
     for (const std::string& line :
          wrap(font, frame.caption[i], width, static_cast<std::size_t>(max_lines))) {

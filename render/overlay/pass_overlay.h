@@ -18,8 +18,9 @@ class OverlayPass {
  private:
   /// Where legends leave room, pixels.
   struct Limits {
-    float caption, below;  ///< right edges: of text in the upper third, of plots and text at the bottom
-    float legend_top;      ///< of the highest title
+    float caption,
+        below;         ///< right edges: of text in the upper third, of plots and text at the bottom
+    float legend_top;  ///< of the highest title
   };
   Limits draw_legends(const Frame& frame) const;
   void draw_caption(const Frame& frame, const Limits& limits) const;
