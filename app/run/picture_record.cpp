@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "app/output/atomic_file.h"
+#include "app/output/file_hash.h"
 #include "app/output/sequence.h"
 #include "app/run/passes.h"
 #include "app/run/render_job.h"
@@ -179,6 +180,75 @@ Json to_json(const PictureRecord& record) {
   return json;
 }
 
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_content(const fs::path& file, const std::string& hash) {
+  try {
+    return hash_text(output::hash_file(file)) == hash;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+/// Where a file of a picture is now: in the folder of the picture or one above, below as much of
+/// its recorded path as is there. Projects move as a whole. Empty: it is not there with this
+/// content.
+fs::path moved_file(const std::string& recorded, const std::string& hash, const fs::path& picture) {
+  const fs::path path = recorded;
+  const std::vector<fs::path> parts(path.begin(), path.end());
+  std::error_code error;
+  for (fs::path folder = fs::absolute(picture, error).parent_path();;
+       folder = folder.parent_path()) {
+    for (std::size_t first = path.is_absolute() ? 1 : 0; first < parts.size(); ++first) {
+      fs::path file = folder;
+      for (std::size_t k = first; k < parts.size(); ++k) file /= parts[k];
+      error.clear();
+      if (fs::is_regular_file(file, error) && is_content(file, hash))
+        return file.lexically_normal();
+    }
+    if (folder == folder.parent_path()) break;
+  }
+  return {};
+}
+
+/// In texts of TOML: a file, or the pattern of numbered files in its folder, has moved.
+void follow(const std::string& recorded, const std::string& now, std::string& text) {
+  const std::string folder = '"' + recorded.substr(0, recorded.rfind('/') + 1);
+  const std::string name = recorded.substr(recorded.rfind('/') + 1);
+  const std::string new_folder = '"' + now.substr(0, now.rfind('/') + 1);
+  for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos; ++at) {
+    const std::size_t start = at + folder.size(), end = text.find('"', start);
+    const std::string named = text.substr(start, end - start);
+    const bool is_pattern =
+        named.find('%') != std::string::npos && named.find('/') == std::string::npos;
+    if (named == name || is_pattern) text.replace(at, folder.size(), new_folder);
+  }
+}
+
+/// Names the files of the picture where they are now.
+void follow_moved_files(const fs::path& picture, PictureRecord& record) {
+  std::map<std::string, std::string> files;
+  for (const auto& [recorded, hash] : record.files) {
+    // What was changed in its place is told by check_files.
+    std::error_code error;
+    const bool is_there =
+        fs::path(recorded).is_absolute() ? fs::exists(recorded, error) : is_content(recorded, hash);
+    const std::string now = is_there ? "" : moved_file(recorded, hash, picture).string();
+    files[now.empty() ? recorded : now] = hash;
+    if (now.empty()) continue;
+    follow(recorded, now, record.scene);
+    for (std::string& change : record.overrides) follow(recorded, now, change);
+    std::string plate = '"' + record.plate + '"';
+    follow(recorded, now, plate);
+    record.plate = plate.substr(1, plate.size() - 2);
+  }
+  record.files = std::move(files);
+}
+
+}  // namespace
+
 PictureRecord read_picture_record(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = output::read_file(file);
   render::PngText text;
@@ -187,7 +257,9 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
   } catch (const render::ImageError& error) {
     throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string());
   }
-  return picture_record_of(text, file.string());
+  PictureRecord record = picture_record_of(text, file.string());
+  follow_moved_files(file, record);
+  return record;
 }
 
 PictureRecord picture_record_of(const render::PngText& text, const std::string& file) {

@@ -54,6 +54,9 @@ Json to_json(const PictureRecord& record);
 /// @param file  named in errors @throws Error when the texts are no record
 PictureRecord picture_record_of(const render::PngText& text, const std::string& file);
 
+/// Files of its scene that are no longer where they were are looked for in the folder of the
+/// picture and those above, by the end of their path and their content: a project that was moved
+/// draws its pictures again.
 /// @throws Error with exit_invalid_scene when the file is no PNG or OpenEXR file, or holds no or
 /// broken records
 PictureRecord read_picture_record(const std::filesystem::path& file);

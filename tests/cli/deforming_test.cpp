@@ -1,5 +1,7 @@
 /// Scenes whose colliders are numbered files: runs, resumed runs, exports, mistakes.
 
+#include <filesystem>
+
 #include "app/output/atomic_file.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/child.h"
@@ -64,6 +66,19 @@ TEST_F(Deforming, ARunContinuesToTheBitAndOnlyWithItsFiles) {
   const auto refused = neve({"render", "flap.toml", "--out", "parts", "--resume"});
   EXPECT_NE(refused.exit_code, 0);
   EXPECT_TRUE(contains(refused.errors, "is a different run")) << refused.errors;
+}
+
+TEST_F(Deforming, APictureOfAMovedProjectFindsItsNumberedFiles) {
+  namespace fs = std::filesystem;
+  ASSERT_EQ(neve({"render", "flap.toml", "--out", "out", "--frames", "0-2"}).exit_code, 0);
+  fs::create_directory(folder / "moved");
+  for (const char* part :
+       {"flap_0000.obj", "flap_0001.obj", "flap_0002.obj", "flap_0003.obj", "out"})
+    fs::rename(folder / part, folder / "moved" / part);
+  const auto again = neve({"render", "moved/out/particles/0002.png", "--out", "again"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(record("again").at("frames").back().at("state_hash"),
+            record("moved/out").at("frames").back().at("state_hash"));
 }
 
 TEST_F(Deforming, StagesHaveTheMeshAtEveryTime) {

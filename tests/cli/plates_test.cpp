@@ -1,6 +1,7 @@
 /// neve render --shutter and --plate: motion blur, and pictures behind the snow.
 
 #include <algorithm>
+#include <filesystem>
 
 #include "app/output/atomic_file.h"
 #include "render/image/image.h"
@@ -97,6 +98,13 @@ TEST_F(Plates, APlateIsBehindTheSnow) {
   EXPECT_GT(first.pixels.at(3 * (45 * 160 + 80)), 120) << "no snow";
   render({"run/particles/0001.png", "--out", "again"});
   EXPECT_EQ(picture("again/particles/0001.png").pixels, second.pixels);
+  std::filesystem::create_directory(folder / "moved");
+  for (const char* part : {"street", "run"})
+    std::filesystem::rename(folder / part, folder / "moved" / part);
+  render({"moved/run/particles/0001.png", "--out", "moved_again"});
+  EXPECT_EQ(picture("moved_again/particles/0001.png").pixels, second.pixels);
+  for (const char* part : {"street", "run"})
+    std::filesystem::rename(folder / "moved" / part, folder / part);
   app::output::write_file(folder / "street/0001.png", bytes);
   EXPECT_EQ(neve({"render", "run/particles/0001.png", "--out", "other"}).exit_code, 3);
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
 
 #include "tests/cli/run_neve.h"
@@ -102,6 +103,22 @@ TEST_F(PointFiles, PointFilesAreToldApartByTheirBytes) {
   EXPECT_EQ(resumed.exit_code, 2) << resumed.errors;
   EXPECT_TRUE(contains(resumed.errors, "a different run")) << resumed.errors;
   const auto changed = neve({"render", "out/particles/0001.png", "--out", "again"});
+  EXPECT_NE(changed.exit_code, 0);
+  EXPECT_TRUE(contains(changed.errors, "block.csv")) << changed.errors;
+}
+
+TEST_F(PointFiles, APictureOfAMovedProjectFindsItsFiles) {
+  namespace fs = std::filesystem;
+  ASSERT_EQ(render().exit_code, 0);
+  fs::create_directory(folder / "moved");
+  for (const char* part : {"points", "out"}) fs::rename(folder / part, folder / "moved" / part);
+  const auto again = neve({"render", "moved/out/particles/0002.png", "--out", "again"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(json_of("again/run.json")["frames"].back()["state_hash"],
+            json_of("moved/out/run.json")["frames"].back()["state_hash"]);
+  // Its name alone does not make a file the one that the picture used.
+  folder.write("moved/points/block.csv", block_csv(3.3e-3));
+  const auto changed = neve({"render", "moved/out/particles/0002.png", "--out", "changed"});
   EXPECT_NE(changed.exit_code, 0);
   EXPECT_TRUE(contains(changed.errors, "block.csv")) << changed.errors;
 }
