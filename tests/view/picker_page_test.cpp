@@ -3,10 +3,13 @@
 #include <poll.h>
 #include <pty.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "app/support/errors.h"
 #include "app/view/picker/layout.h"
@@ -152,6 +155,43 @@ TEST_F(PickPage, AClickOnATileChoosesItOnDeskAndPhone) {
   browser.touch("touchEnd", {});
   ASSERT_TRUE(wait_until([&] { return answers("a") == "5\n9\n"; })) << answers("a");
   EXPECT_TRUE(wait_until([&] { return exists("a/picked.toml"); }));
+  EXPECT_EQ(browser.exceptions, "");
+}
+
+/// The buttons of the column on the right are drawn, not elements of the page: clicks down the
+/// column press each of them.
+TEST_F(PickPage, TheEndGivesItsFilesToTheBrowser) {
+  if (find_chromium().empty()) SKIP_OR_FAIL(no_chromium);
+  serve("--rounds 1");
+  Chromium browser;
+  const TemporaryFolder there;
+  browser.call("Browser.setDownloadBehavior",
+               {{"behavior", "allow"}, {"downloadPath", there.path().string()}});
+  browser.resize(1280, 800);
+  browser.open(url_);
+  ASSERT_TRUE(wait_until([&] {
+    return contains(read_text(folder / "a/round.html"), "<h1>Round 1 of 1</h1>") &&
+           browser.evaluate("typeof drawn !== 'undefined' && drawn > 1") == true;
+  }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const app::view::picker::Layout layout = app::view::picker::lay_out(1280, 800, 14, 2, 64, 36);
+  browser.click(layout.grid.tile_x(0) + layout.grid.tile_width / 2.0,
+                layout.grid.tile_y(0) + layout.grid.tile_height / 2.0);
+  ASSERT_TRUE(wait_until([&] { return exists("a/picked.toml"); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const std::vector<std::string> files{"picked.toml", "picked_sweep.toml", "clicks.txt"};
+  const auto came = [&](const std::string& file) {
+    return std::filesystem::exists(there.path() / file);
+  };
+  const double x = layout.grid.tile_x(2) + layout.grid.tile_width + 60;
+  for (double y = 60; y < 790 && !std::all_of(files.begin(), files.end(), came); y += 12) {
+    browser.click(x, y);
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  }
+  for (const std::string& file : files) {
+    ASSERT_TRUE(wait_until([&] { return came(file); })) << file;
+    EXPECT_EQ(read_text(there.path() / file), read_text(folder / "a" / file)) << file;
+  }
   EXPECT_EQ(browser.exceptions, "");
 }
 
