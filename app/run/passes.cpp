@@ -148,7 +148,6 @@ std::vector<scene::View> views_for(const PassList& list) {
 
 PassReader::PassReader(const scene::Scene& scene, const setup::SeededScene& seeded, PassList list)
     : scene_(scene),
-      seeded_(seeded),
       list_(std::move(list)),
       origins_(scene, seeded.body_end),
       carried_(scene, seeded.body_end) {}

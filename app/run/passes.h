@@ -56,7 +56,6 @@ class PassReader {
 
  private:
   const scene::Scene& scene_;
-  const setup::SeededScene& seeded_;
   PassList list_;
   exports::Origins origins_;
   exports::Carried carried_;
