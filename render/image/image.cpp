@@ -173,7 +173,10 @@ Image decode_png(std::span<const std::uint8_t> bytes) {
                             &image.height, &image.channels, 0),
       stbi_image_free);
   if (!pixels && has_stb_no_memory) throw std::bad_alloc();
-  if (!pixels) throw ImageError(std::string("PNG is damaged: ") + stbi_failure_reason());
+  if (!pixels) {
+    const char* reason = stbi_failure_reason();  // none for a block of an unknown type
+    throw ImageError(std::string("PNG is damaged: ") + (reason ? reason : "cannot be unpacked"));
+  }
   const std::size_t count = static_cast<std::size_t>(image.width) * image.height * image.channels;
   image.pixels.assign(pixels.get(), pixels.get() + count);
   return image;
