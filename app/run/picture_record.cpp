@@ -18,7 +18,6 @@
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "render/image/exr.h"
-#include "sim/base/hash.h"
 
 namespace neve::app::run {
 
@@ -192,9 +191,9 @@ bool is_content(const fs::path& file, const std::string& hash) {
   }
 }
 
-/// Where a file of a picture is now: in the folder of the picture or one above, below as much of
-/// its recorded path as is there. Projects move as a whole. Empty: it is not there with this
-/// content.
+/// Finds a file of a picture that has moved, as projects move as a whole: in the folder of the
+/// picture or one above, below as much of its recorded path as is there. Empty: no such file has
+/// this content.
 fs::path moved_file(const std::string& recorded, const std::string& hash, const fs::path& picture) {
   const fs::path path = recorded;
   const std::vector<fs::path> parts(path.begin(), path.end());
@@ -231,7 +230,7 @@ void follow(const std::string& recorded, const std::string& now, std::string& te
 void follow_moved_files(const fs::path& picture, PictureRecord& record) {
   std::map<std::string, std::string> files;
   for (const auto& [recorded, hash] : record.files) {
-    // What was changed in its place is told by check_files.
+    // check_files refuses a file that was changed in its place.
     std::error_code error;
     const bool is_there =
         fs::path(recorded).is_absolute() ? fs::exists(recorded, error) : is_content(recorded, hash);
@@ -296,8 +295,7 @@ std::map<std::string, std::string> hash_files(const scene::Scene& scene) {
   std::map<std::string, std::string> files;
   const auto hash = [&](const std::string& file) {
     if (files.contains(file)) return;
-    const std::vector<std::uint8_t> bytes = output::read_file(file);
-    files[file] = hash_text(hash_bytes(bytes.data(), bytes.size()));
+    files[file] = hash_text(output::hash_file(file));
   };
   const auto add = [&](const sim::shapes::Shape& shape) {
     if (const auto* mesh = std::get_if<sim::shapes::Mesh>(&shape.form)) hash(mesh->file);
@@ -314,8 +312,7 @@ std::map<std::string, std::string> hash_files(const scene::Scene& scene) {
 
 void check_files(const PictureRecord& record) {
   for (const auto& [path, hash] : record.files) {
-    const std::vector<std::uint8_t> bytes = output::read_file(path);
-    if (hash_text(hash_bytes(bytes.data(), bytes.size())) != hash)
+    if (hash_text(output::hash_file(path)) != hash)
       throw Error(
           exit_invalid_scene,
           path + ": error: has changed since the picture was made; the picture used " + hash, path,

@@ -16,10 +16,10 @@ class OverlayPass {
   void draw(const Frame& frame, const View& view);
 
  private:
-  /// Where legends leave room, pixels.
+  /// Legends leave this room to what is beside them, pixels.
   struct Limits {
-    float caption,
-        below;         ///< right edges: of text in the upper third, of plots and text at the bottom
+    float caption;     ///< right edge of text in the upper third
+    float below;       ///< right edge of plots and text at the bottom
     float legend_top;  ///< of the highest title
   };
   Limits draw_legends(const Frame& frame) const;

@@ -70,6 +70,22 @@ class PickPage : public PickSearch {
                       "<h1>Round " + std::to_string(round) + " of 8</h1>");
     });
   }
+  /// Opens the page as on a desk. @return whether all of its first round is drawn
+  bool open_first_round(Chromium& browser, int rounds) {
+    browser.resize(1280, 800);
+    browser.open(url_);
+    const std::string title = "<h1>Round 1 of " + std::to_string(rounds) + "</h1>";
+    const bool is_drawn = wait_until([&] {
+      return contains(read_text(folder / "a/round.html"), title) &&
+             browser.evaluate("typeof drawn !== 'undefined' && drawn > 1") == true;
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    return is_drawn;
+  }
+  static std::pair<double, double> middle(const app::view::picker::Layout& layout, int tile) {
+    const app::view::picker::Grid& grid = layout.grid;
+    return {grid.tile_x(tile) + grid.tile_width / 2.0, grid.tile_y(tile) + grid.tile_height / 2.0};
+  }
   /// Waits for the end. @return exit code
   int end() { return wait_for(std::exchange(program_, -1)); }
 
@@ -129,18 +145,7 @@ TEST_F(PickPage, AClickOnATileChoosesItOnDeskAndPhone) {
   if (find_chromium().empty()) SKIP_OR_FAIL(no_chromium);
   serve("--rounds 2");
   Chromium browser;
-  const auto middle = [](const app::view::picker::Layout& layout, int tile) {
-    const app::view::picker::Grid& grid = layout.grid;
-    return std::pair{grid.tile_x(tile) + grid.tile_width / 2.0,
-                     grid.tile_y(tile) + grid.tile_height / 2.0};
-  };
-  browser.resize(1280, 800);
-  browser.open(url_);
-  ASSERT_TRUE(wait_until([&] {
-    return contains(read_text(folder / "a/round.html"), "<h1>Round 1 of 2</h1>") &&
-           browser.evaluate("typeof drawn !== 'undefined' && drawn > 1") == true;
-  }));
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ASSERT_TRUE(open_first_round(browser, 2));
   const auto [x, y] = middle(app::view::picker::lay_out(1280, 800, 14, 2, 64, 36), 4);
   browser.click(x, y);
   ASSERT_TRUE(wait_until([&] { return answers("a") == "5\n"; })) << answers("a");
@@ -167,16 +172,10 @@ TEST_F(PickPage, TheEndGivesItsFilesToTheBrowser) {
   const TemporaryFolder there;
   browser.call("Browser.setDownloadBehavior",
                {{"behavior", "allow"}, {"downloadPath", there.path().string()}});
-  browser.resize(1280, 800);
-  browser.open(url_);
-  ASSERT_TRUE(wait_until([&] {
-    return contains(read_text(folder / "a/round.html"), "<h1>Round 1 of 1</h1>") &&
-           browser.evaluate("typeof drawn !== 'undefined' && drawn > 1") == true;
-  }));
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ASSERT_TRUE(open_first_round(browser, 1));
   const app::view::picker::Layout layout = app::view::picker::lay_out(1280, 800, 14, 2, 64, 36);
-  browser.click(layout.grid.tile_x(0) + layout.grid.tile_width / 2.0,
-                layout.grid.tile_y(0) + layout.grid.tile_height / 2.0);
+  const auto [tile_x, tile_y] = middle(layout, 0);
+  browser.click(tile_x, tile_y);
   ASSERT_TRUE(wait_until([&] { return exists("a/picked.toml"); }));
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   const std::vector<std::string> files{"picked.toml", "picked_sweep.toml", "clicks.txt"};
