@@ -311,8 +311,16 @@ std::map<std::string, std::string> hash_files(const scene::Scene& scene) {
 }
 
 void check_files(const PictureRecord& record) {
+  const auto hash_now = [](const std::string& path) {
+    try {
+      return hash_text(output::hash_file(path));
+    } catch (const IoError& failure) {
+      throw IoError(failure.what(), path,
+                    "the picture was made with this file: put it back, or beside the picture");
+    }
+  };
   for (const auto& [path, hash] : record.files) {
-    if (hash_text(output::hash_file(path)) != hash)
+    if (hash_now(path) != hash)
       throw Error(
           exit_invalid_scene,
           path + ": error: has changed since the picture was made; the picture used " + hash, path,

@@ -121,6 +121,11 @@ TEST_F(PointFiles, APictureOfAMovedProjectFindsItsFiles) {
   const auto changed = neve({"render", "moved/out/particles/0002.png", "--out", "changed"});
   EXPECT_NE(changed.exit_code, 0);
   EXPECT_TRUE(contains(changed.errors, "block.csv")) << changed.errors;
+  fs::rename(folder / "moved/points/block.csv", folder / "moved/other.csv");
+  const auto lost = neve({"render", "moved/out/particles/0002.png", "--out", "lost"});
+  EXPECT_EQ(lost.exit_code, 6);
+  EXPECT_TRUE(contains(lost.errors, "put it back, or beside the picture")) << lost.errors;
+  EXPECT_FALSE(exists("lost"));
 }
 
 TEST_F(PointFiles, MistakesAreToldWithFileAndLine) {
