@@ -26,18 +26,8 @@ NEVE_INLINE V block_value(const float* padded, const BlockRays<V>& rays, V dista
   I i, j, k;
   const V x = place(rays.eye.x, rays.step.x, i), y = place(rays.eye.y, rays.step.y, j),
           z = place(rays.eye.z, rays.step.z, k);
-  const I at = ((k + 1) * padded_side + (j + 1)) * padded_side + (i + 1);
-  const auto row = [&](int offset) NEVE_INLINE_BODY {
-    const V a = gather_lanes<V>(padded, at + offset),
-            b = gather_lanes<V>(padded, at + (offset + 1));
-    return a + (b - a) * x;
-  };
-  const auto slice = [&](int offset) NEVE_INLINE_BODY {
-    const V a = row(offset), b = row(offset + padded_side);
-    return a + (b - a) * y;
-  };
-  const V a = slice(0), b = slice(padded_side * padded_side);
-  return a + (b - a) * z;
+  return value_in_cells(padded, ((k + 1) * padded_side + (j + 1)) * padded_side + (i + 1), x, y, z,
+                        padded_side, padded_side * padded_side);
 }
 
 /// Distances before and behind the level, and the values there.
@@ -50,68 +40,89 @@ struct Bracket {
   }
 };
 
-/// @param lanes    those that enter
-/// @param distance in: where they enter; out: of the level, where `lanes` are left
+/// Some rays on their way through the block. Each step waits for the one before: two searches side
+/// by side take hardly longer than one.
 template <class V>
-NEVE_INLINE void find_level(const BlockJob& job, const BlockRays<V>& rays, V leave, V& distance,
-                            MaskOf<V>& lanes) {
+class LevelSearch {
   using I = MaskOf<V>;
-  const V per_node = 1 / square_root_lanes(square_of(rays.step));
-  V t = distance, value = block_value(job.padded, rays, t);
-  I found = lanes & (value >= all<V>(job.level));
-  Bracket<V> bracket{t, t, value, value};
-  const I at_once = found;
-  I marching = lanes & ~found;
-  while (any_lane(marching)) {
-    // The edge of a body rises by at most 0.4 a node, that of compressed snow by a little more.
-    const V ahead = per_node * larger_lanes(2.0f * (job.level - value), all<V>(0.35f));
-    const V next = smaller_lanes(t + ahead, leave);
-    const V next_value = block_value(job.padded, rays, next);
-    const I crosses = marching & (next_value >= all<V>(job.level));
-    bracket = {crosses ? t : bracket.a, crosses ? next : bracket.b,
-               crosses ? value : bracket.value_a, crosses ? next_value : bracket.value_b};
-    found |= crosses;
-    marching &= ~crosses & (next < leave);
-    t = next;
-    value = next_value;
-  }
-  lanes = found;
-  if (!any_lane(found & ~at_once)) return;
-  for (int n = 0; n < 2; ++n) {
-    const V m = bracket.guess(job.level), v = block_value(job.padded, rays, m);
-    const I is_behind = v >= all<V>(job.level);
-    bracket = {is_behind ? bracket.a : m, is_behind ? m : bracket.b,
-               is_behind ? bracket.value_a : v, is_behind ? v : bracket.value_b};
-  }
-  distance = at_once ? distance : bracket.guess(job.level);
-}
 
-template <class V>
-NEVE_INLINE void block_lanes(const BlockJob& job, int at, const BlockRays<V>& rays,
-                             MaskOf<V> lanes) {
-  const V before = load_lanes<V>(job.hits->distance + at);
-  const MaskOf<V> has_hit = before > V{};
-  lanes &= ~has_hit | (before > all<V>(job.nearest));
-  if (!any_lane(lanes)) return;
-  V enter = all<V>(job.view.near_distance), leave = has_hit ? before : all<V>(1e30f);
-  const auto cut = [&](float eye, V step, float low, float high) NEVE_INLINE_BODY {
-    const V inverse = 1 / (step == V{} ? all<V>(1e-20f) : step);
-    const V a = (low - eye) * inverse, b = (high - eye) * inverse;
-    enter = larger_lanes(enter, smaller_lanes(a, b));
-    leave = smaller_lanes(leave, larger_lanes(a, b));
-  };
-  cut(rays.eye.x, rays.step.x, job.box_low.x, job.box_high.x);
-  cut(rays.eye.y, rays.step.y, job.box_low.y, job.box_high.y);
-  cut(rays.eye.z, rays.step.z, job.box_low.z, job.box_high.z);
-  lanes &= enter < leave;
-  if (!any_lane(lanes)) return;
-  V distance = enter;
-  find_level(job, rays, leave, distance, lanes);
-  if (!any_lane(lanes)) return;
-  store_lanes(lanes ? distance : before, job.hits->distance + at);
-  for (int l = 0; l < lane_count<V>; ++l)
-    if (lanes[l] != 0) job.hits->block[at + l] = job.number;
-}
+ public:
+  /// @param at     first sample in the tile
+  /// @param lanes  those that may see the block
+  NEVE_INLINE LevelSearch(const BlockJob& job, int at, const BlockRays<V>& rays, I lanes)
+      : job_(job), at_(at), rays_(rays), before_(load_lanes<V>(job.hits->distance + at)) {
+    marching_ = lanes & ((before_ == V{}) | (before_ > all<V>(job.nearest)));
+  }
+
+  NEVE_INLINE bool is_marching() const { return any_lane(marching_); }
+
+  /// Leaves out rays that miss the part of the block that has the level, or are hidden there.
+  NEVE_INLINE void clip() {
+    V enter = all<V>(job_.view.near_distance);
+    leave_ = before_ > V{} ? before_ : all<V>(1e30f);
+    const auto cut = [&](float eye, V step, float low, float high) NEVE_INLINE_BODY {
+      const V inverse = 1 / (step == V{} ? all<V>(1e-20f) : step);
+      const V a = (low - eye) * inverse, b = (high - eye) * inverse;
+      enter = larger_lanes(enter, smaller_lanes(a, b));
+      leave_ = smaller_lanes(leave_, larger_lanes(a, b));
+    };
+    cut(rays_.eye.x, rays_.step.x, job_.box_low.x, job_.box_high.x);
+    cut(rays_.eye.y, rays_.step.y, job_.box_low.y, job_.box_high.y);
+    cut(rays_.eye.z, rays_.step.z, job_.box_low.z, job_.box_high.z);
+    marching_ &= enter < leave_;
+    distance_ = enter;
+  }
+
+  /// Looks at the places where the rays enter.
+  NEVE_INLINE void enter() {
+    per_node_ = 1 / square_root_lanes(square_of(rays_.step));
+    value_ = block_value(job_.padded, rays_, distance_);
+    at_once_ = found_ = marching_ & (value_ >= all<V>(job_.level));
+    bracket_ = {distance_, distance_, value_, value_};
+    marching_ &= ~found_;
+    t_ = distance_;
+  }
+
+  NEVE_INLINE void step() {
+    // The edge of a body rises by at most 0.4 a node, that of compressed snow by a little more.
+    const V ahead = per_node_ * larger_lanes(2.0f * (job_.level - value_), all<V>(0.35f));
+    const V next = smaller_lanes(t_ + ahead, leave_);
+    const V next_value = block_value(job_.padded, rays_, next);
+    const I crosses = marching_ & (next_value >= all<V>(job_.level));
+    bracket_ = {crosses ? t_ : bracket_.a, crosses ? next : bracket_.b,
+                crosses ? value_ : bracket_.value_a, crosses ? next_value : bracket_.value_b};
+    found_ |= crosses;
+    marching_ &= ~crosses & (next < leave_);
+    t_ = next;
+    value_ = next_value;
+  }
+
+  NEVE_INLINE bool has_crossed() const { return any_lane(found_ & ~at_once_); }
+
+  NEVE_INLINE void refine() {
+    const V m = bracket_.guess(job_.level), v = block_value(job_.padded, rays_, m);
+    const I is_behind = v >= all<V>(job_.level);
+    bracket_ = {is_behind ? bracket_.a : m, is_behind ? m : bracket_.b,
+                is_behind ? bracket_.value_a : v, is_behind ? v : bracket_.value_b};
+  }
+
+  NEVE_INLINE void store() const {
+    if (!any_lane(found_)) return;
+    const V distance = at_once_ ? distance_ : bracket_.guess(job_.level);
+    store_lanes(found_ ? distance : before_, job_.hits->distance + at_);
+    for (int l = 0; l < lane_count<V>; ++l)
+      if (found_[l] != 0) job_.hits->block[at_ + l] = job_.number;
+  }
+
+ private:
+  const BlockJob& job_;
+  const int at_;
+  const BlockRays<V>& rays_;
+  const V before_;
+  V leave_, distance_, per_node_, t_, value_;
+  I marching_, found_, at_once_;
+  Bracket<V> bracket_;
+};
 
 /// Keeps the nearer of a hit in the block and the one before.
 template <class V>
@@ -121,19 +132,41 @@ NEVE_INLINE void march_block_lanes(const BlockJob& job) {
   const float half_width = 0.5f * static_cast<float>(view.width),
               half_height = 0.5f * static_cast<float>(view.height);
   const int first = (job.x_low - job.x) / lane_count<V> * lane_count<V>;
-  for (int y = job.y_low; y <= job.y_high; ++y) {
-    const float up = (static_cast<float>(y) + 0.5f - half_height) * per_sample;
-    const Vec3f base = view.forward + up * view.up;
+  for (int y = job.y_low; y <= job.y_high; y += 2)
     for (int x = first; x <= job.x_high - job.x; x += lane_count<V>) {
       const V column = sample_centers<V>() + static_cast<float>(job.x + x);
       const MaskOf<V> lanes = (column > all<V>(static_cast<float>(job.x_low))) &
                               (column < all<V>(static_cast<float>(job.x_high + 1)));
-      const Points3<V> ray =
-          all_points<V>(base) + view.right * ((column - half_width) * per_sample);
-      block_lanes(job, (y - job.y) * light::tile_width + x,
-                  BlockRays<V>{job.eye, ray * all<V>(job.per_cell)}, lanes);
+      const auto rays_of = [&](int row) NEVE_INLINE_BODY {
+        const float up = (static_cast<float>(row) + 0.5f - half_height) * per_sample;
+        const Points3<V> ray = all_points<V>(view.forward + up * view.up) +
+                               view.right * ((column - half_width) * per_sample);
+        return BlockRays<V>{job.eye, ray * all<V>(job.per_cell)};
+      };
+      // A row beyond the last one is that row again, without lanes.
+      const int next_y = y < job.y_high ? y + 1 : y;
+      const BlockRays<V> rays = rays_of(y), next_rays = rays_of(next_y);
+      LevelSearch<V> search(job, (y - job.y) * light::tile_width + x, rays, lanes),
+          next(job, (next_y - job.y) * light::tile_width + x, next_rays,
+               next_y > y ? lanes : MaskOf<V>{});
+      if (!search.is_marching() && !next.is_marching()) continue;
+      search.clip();
+      next.clip();
+      if (!search.is_marching() && !next.is_marching()) continue;
+      search.enter();
+      next.enter();
+      while (search.is_marching() || next.is_marching()) {
+        search.step();
+        next.step();
+      }
+      if (search.has_crossed() || next.has_crossed())
+        for (int n = 0; n < 2; ++n) {
+          search.refine();
+          next.refine();
+        }
+      search.store();
+      next.store();
     }
-  }
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 
 #include "render/cpu/block_kernel.h"
 #include "render/cpu/draw_kernels.h"
+#include "render/cpu/exposure_kernel.h"
+#include "render/cpu/grain_look_kernel.h"
 #include "render/cpu/ground_kernel.h"
 #include "render/cpu/near_kernel.h"
+#include "render/cpu/near_light_kernel.h"
 #include "render/cpu/shade_kernel.h"
 #include "render/cpu/smoke_kernel.h"
 #include "render/cpu/snow_light_kernel.h"
@@ -25,6 +28,9 @@ constexpr DrawKernels draw_kernel_table(const char* name) {
           [](const light::SmokeJob& job) { march_rays<V>(job); },
           [](const BlockJob& job) { march_block_lanes<V>(job); },
           [](const NearJob& job) { find_nearest<V>(job); },
+          [](const NearLightJob& job) { light_near<V>(job); },
+          [](const ExposureJob& job) { mix_exposures<V>(job); },
+          [](const GrainLookJob& job) { look_at_grains<V>(job); },
           [](const SnowLightJob& job) { light_snow<V>(job); },
           [](const ShadeJob& job) { shade_tile_lanes<V>(job); }};
 }

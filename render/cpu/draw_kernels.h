@@ -2,7 +2,10 @@
 /// The kernels that draw on the CPU, compiled once for each instruction set.
 
 #include "render/cpu/block_job.h"
+#include "render/cpu/exposure_job.h"
+#include "render/cpu/grain_look_job.h"
 #include "render/cpu/near_job.h"
+#include "render/cpu/near_light_job.h"
 #include "render/cpu/snow_light_job.h"
 #include "render/cpu/splat_job.h"
 #include "render/cpu/surface_job.h"
@@ -22,6 +25,9 @@ struct DrawKernels {
   void (*march)(const light::SmokeJob&);
   void (*march_block)(const BlockJob&);
   void (*find_nearest)(const NearJob&);
+  void (*light_near)(const NearLightJob&);
+  void (*mix_exposures)(const ExposureJob&);
+  void (*look_at_grains)(const GrainLookJob&);
   void (*light_snow)(const SnowLightJob&);
   void (*shade_tile)(const ShadeJob&);
 };

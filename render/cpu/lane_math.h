@@ -45,6 +45,28 @@ NEVE_INLINE Points3<V> choose(MaskOf<V> first, const Points3<V>& a, const Points
   return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
 
+template <class V>
+NEVE_INLINE Points3<V> load_points(const float* const (&from)[3], int at) {
+  return {load_lanes<V>(from[0] + at), load_lanes<V>(from[1] + at), load_lanes<V>(from[2] + at)};
+}
+template <class V>
+NEVE_INLINE V inner(const Points3<V>& a, const Points3<V>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+/// Unit vectors; zero stays zero.
+template <class V>
+NEVE_INLINE Points3<V> normalized_lanes(const Points3<V>& p) {
+  const V size = square_root_lanes(square_of(p));
+  const V by = size > V{} ? size : all<V>(1);
+  return {p.x / by, p.y / by, p.z / by};
+}
+template <class V>
+NEVE_INLINE void store_points(const Points3<V>& p, float* const (&to)[3], int at) {
+  store_lanes(p.x, to[0] + at);
+  store_lanes(p.y, to[1] + at);
+  store_lanes(p.z, to[2] + at);
+}
+
 /// Within [low, high]; NaN becomes low.
 template <class V>
 NEVE_INLINE V clamp_lanes(V x, float low, float high) {
@@ -134,6 +156,73 @@ NEVE_INLINE I gather_lanes(const unsigned* from, I index) {
 template <class V>
 NEVE_INLINE V gather_lanes(const float* from, MaskOf<V> index) {
   return reinterpret_cast<V>(gather_lanes(reinterpret_cast<const unsigned*>(from), index));
+}
+
+/// Two numbers side by side for each lane, from[index] and the next: half as many reads as of
+/// one at a time.
+template <class V>
+NEVE_INLINE void gather_pairs(const float* from, const unsigned (&index)[lane_count<V>], V& first,
+                              V& second) {
+#if defined(__AVX2__)
+  if constexpr (sizeof(V) == 32) {
+    const auto two = [&](int a, int b) NEVE_INLINE_BODY {
+      const __m128d low = _mm_load_sd(reinterpret_cast<const double*>(from + index[a]));
+      return _mm_castpd_ps(_mm_loadh_pd(low, reinterpret_cast<const double*>(from + index[b])));
+    };
+    const __m256 even = _mm256_set_m128(two(4, 5), two(0, 1)),
+                 odd = _mm256_set_m128(two(6, 7), two(2, 3));
+    first = reinterpret_cast<V>(_mm256_shuffle_ps(even, odd, 0x88));
+    second = reinterpret_cast<V>(_mm256_shuffle_ps(even, odd, 0xdd));
+    return;
+  }
+#endif
+  for (int l = 0; l < lane_count<V>; ++l) {
+    first[l] = from[index[l]];
+    second[l] = from[index[l] + 1];
+  }
+}
+
+/// Linear between the eight nodes of the cell of each lane.
+/// @param index  of the first node of the cell @param x, y, z  parts of the way through it
+/// @param row, slice  numbers from one node to the next along y, and along z
+template <class V>
+NEVE_INLINE V value_in_cells(const float* nodes, MaskOf<V> index, V x, V y, V z, int row,
+                             int slice) {
+  alignas(32) unsigned at[lane_count<V>];
+  __builtin_memcpy(at, &index, sizeof at);
+  const auto along_row = [&](int offset) NEVE_INLINE_BODY {
+    V a, b;
+    gather_pairs<V>(nodes + offset, at, a, b);
+    return a + (b - a) * x;
+  };
+  const auto in_slice = [&](int offset) NEVE_INLINE_BODY {
+    const V a = along_row(offset), b = along_row(offset + row);
+    return a + (b - a) * y;
+  };
+  const V a = in_slice(0), b = in_slice(slice);
+  return a + (b - a) * z;
+}
+
+/// The n-th number of each row, one row per lane.
+template <class V>
+NEVE_INLINE void quads_by_number(const float (&rows)[lane_count<V>][4], V (&out)[4]) {
+#if defined(__AVX2__)
+  if constexpr (sizeof(V) == 32) {
+    const auto two = [&](int l) NEVE_INLINE_BODY {
+      return _mm256_set_m128(_mm_load_ps(rows[l + 4]), _mm_load_ps(rows[l]));
+    };
+    const __m256 a = two(0), b = two(1), c = two(2), d = two(3);
+    const __m256 low_ab = _mm256_unpacklo_ps(a, b), high_ab = _mm256_unpackhi_ps(a, b),
+                 low_cd = _mm256_unpacklo_ps(c, d), high_cd = _mm256_unpackhi_ps(c, d);
+    out[0] = reinterpret_cast<V>(_mm256_shuffle_ps(low_ab, low_cd, 0x44));
+    out[1] = reinterpret_cast<V>(_mm256_shuffle_ps(low_ab, low_cd, 0xee));
+    out[2] = reinterpret_cast<V>(_mm256_shuffle_ps(high_ab, high_cd, 0x44));
+    out[3] = reinterpret_cast<V>(_mm256_shuffle_ps(high_ab, high_cd, 0xee));
+    return;
+  }
+#endif
+  for (int n = 0; n < 4; ++n)
+    for (int l = 0; l < lane_count<V>; ++l) out[n][l] = rows[l][n];
 }
 
 /// A byte of each word as a number from 0 to 1.

@@ -9,21 +9,6 @@ namespace neve::render::cpu {
 namespace {
 
 template <class V>
-NEVE_INLINE Points3<V> load_points(const float* const (&from)[3], int at) {
-  return {load_lanes<V>(from[0] + at), load_lanes<V>(from[1] + at), load_lanes<V>(from[2] + at)};
-}
-template <class V>
-NEVE_INLINE V inner(const Points3<V>& a, const Points3<V>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-/// Unit vectors; zero stays zero.
-template <class V>
-NEVE_INLINE Points3<V> normalized_lanes(const Points3<V>& p) {
-  const V size = square_root_lanes(square_of(p));
-  const V by = size > V{} ? size : all<V>(1);
-  return {p.x / by, p.y / by, p.z / by};
-}
-template <class V>
 NEVE_INLINE V smooth_step_lanes(float low, float high, V x) {
   const V t = unit_lanes((x - low) / (high - low));
   return t * t * (3 - 2 * t);
@@ -125,13 +110,6 @@ NEVE_INLINE SnowLightParts<V> snow_light_lanes(const SnowLightJob& job, int at,
   fill(&Points3<V>::y, &Vec3f::y, 0.13f);
   fill(&Points3<V>::z, &Vec3f::z, 0.20f);
   return parts;
-}
-
-template <class V>
-NEVE_INLINE void store_points(const Points3<V>& p, float* const (&to)[3], int at) {
-  store_lanes(p.x, to[0] + at);
-  store_lanes(p.y, to[1] + at);
-  store_lanes(p.z, to[2] + at);
 }
 
 template <class V>

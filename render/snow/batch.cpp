@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/cpu/lane_math.h"
 #include "render/light/shading_constants.h"
+#include "render/snow/grain_noise.h"
 
 namespace neve::render::snow {
 
@@ -17,6 +19,17 @@ unsigned root_word(Vec3f color) {
   return byte(color.x) | byte(color.y) << 8 | byte(color.z) << 16 | 0xff000000u;
 }
 
+/// Part of the look of the second grain: half of it where both are equally near.
+/// @param spacing  m
+template <class V>
+NEVE_INLINE V part_of_second(V first_squared, V second_squared, float spacing) {
+  constexpr float blend = 0.35f;  // spacings over which one grain goes over into the next
+  const V between =
+      (square_root_lanes(second_squared) - square_root_lanes(first_squared)) / spacing;
+  const V t = cpu::unit_lanes(between / blend);
+  return 0.5f * (1 - t * t * (3 - 2 * t));
+}
+
 }  // namespace
 
 Batch::Batch(const Body& body, const SnowLight& light, const cpu::DrawKernels& kernels,
@@ -25,10 +38,22 @@ Batch::Batch(const Body& body, const SnowLight& light, const cpu::DrawKernels& k
 
 void Batch::finish() {
   if (count_ == 0) return;
+  mix_exposures();
   find_grains();
   look_at_grains();
   light_samples();
-  count_ = 0;
+  count_ = cells_ = 0;
+}
+
+void Batch::mix_exposures() {
+  kernels_.mix_exposures(
+      {cells_,
+       corner_,
+       row_,
+       slice_,
+       {part_[0].at, part_[1].at, part_[2].at},
+       of_cell_,
+       {normal_[0].at, normal_[1].at, normal_[2].at, sun_.at, sky_.at, crevice_.at, through_.at}});
 }
 
 void Batch::find_grains() {
@@ -46,56 +71,95 @@ void Batch::find_grains() {
                          second_squared_.at});
 }
 
-/// First a list of all grains that are looked at, then their looks: without a decision in between,
-/// many are on their way at the same time.
+/// Beyond the samples, whole vectors ask for a grain too: the first one.
 void Batch::look_at_grains() {
-  int sample[2 * size], looks = 0;
-  std::uint32_t grain[2 * size];
-  float part[2 * size];
-  for (int n = 0; n < count_; ++n) {
-    const float other =
-        part_of_second(nearest_squared_.at[n], second_squared_.at[n], body_.spacing);
-    const bool has_first = nearest_[n] != surface::no_block,
-               has_second = second_[n] != surface::no_block && other > 0;
-    set(slope_, n, {});
-    set(facet_, n, {});
-    height_.at[n] = 0;
-    sample[looks] = n;
-    grain[looks] = nearest_[n];
-    part[looks] = 1;
-    looks += has_first ? 1 : 0;
-    sample[looks] = n;
-    grain[looks] = second_[n];
-    part[looks] = other;
-    looks += has_second ? 1 : 0;
+  if (body_.grains.grain.empty()) {
+    for (int n = 0; n < count_; ++n) without_grain(n);
+    return;
   }
-  GrainLook look[2 * size];
-  for (int l = 0; l < looks; ++l) {
-    const int n = sample[l];
-    const float pixels = body_.spacing / sample_size_.at[n];
-    look[l] = look_of_grain(body_, {world_[0].at[n], world_[1].at[n], world_[2].at[n]}, pixels,
-                            part[l] == 1 && pixels > least_sparkling, grain[l]);
-  }
-  for (int l = 0; l < looks; ++l) mix_in(look[l], part[l], sample[l]);
+  look_at_nearest();
+  mix_in_second();
 }
 
-/// Goes over from the look of a sample into this one.
-void Batch::mix_in(const GrainLook& look, float part, int n) {
-  const auto go_over = [&](Vectors& of, Vec3f to) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      float& from = of[axis].at[n];
-      from += (to[static_cast<int>(axis)] - from) * part;
-    }
+void Batch::without_grain(int n) {
+  set(slope_, n, {});
+  set(facet_, n, {});
+  height_.at[n] = 0;
+}
+
+cpu::GrainLookJob Batch::look_job(int count, const std::uint32_t* grain, Vectors& world,
+                                  const Numbers& sample_size, Vectors& albedo, Vectors& slope,
+                                  Numbers& height) const {
+  const GrainNoise& noise = grain_noise();
+  return {count,
+          body_.spacing,
+          body_.grains.grain.data(),
+          {noise.texels(0), noise.texels(1), noise.texels(2)},
+          grain,
+          {world[0].at, world[1].at, world[2].at},
+          sample_size.at,
+          0,
+          {albedo[0].at, albedo[1].at, albedo[2].at},
+          {slope[0].at, slope[1].at, slope[2].at},
+          height.at,
+          {}};
+}
+
+void Batch::look_at_nearest() {
+  std::uint32_t grain[size];
+  int without[size], missing = 0;
+  Vec3f albedo[size];
+  for (int n = 0; n < count_; ++n) {
+    const bool has_grain = nearest_[n] != surface::no_block;
+    grain[n] = has_grain ? nearest_[n] : 0;
+    without[missing] = n;
+    albedo[missing] = {albedo_[0].at[n], albedo_[1].at[n], albedo_[2].at[n]};
+    missing += has_grain ? 0 : 1;
+  }
+  std::fill(grain + count_, grain + size, 0u);
+  cpu::GrainLookJob job = look_job(count_, grain, world_, sample_size_, albedo_, slope_, height_);
+  job.wants_facets = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) job.facet[axis] = facet_[axis].at;
+  kernels_.look_at_grains(job);
+  for (int m = 0; m < missing; ++m) {
+    set(albedo_, without[m], albedo[m]);
+    without_grain(without[m]);
+  }
+}
+
+/// Goes over into the look of the second grain, where that is nearly as near.
+void Batch::mix_in_second() {
+  int sample[size], count = 0;
+  std::uint32_t grain[size];
+  float part[size];
+  Vectors world, albedo, slope;
+  Numbers sample_size, height, part_of;
+  using V = Lanes<float, 4>;
+  for (int n = 0; n < count_; n += lane_count<V>)
+    store_lanes(part_of_second(load_lanes<V>(nearest_squared_.at + n),
+                               load_lanes<V>(second_squared_.at + n), body_.spacing),
+                part_of.at + n);
+  for (int n = 0; n < count_; ++n) {
+    const float other = part_of.at[n];
+    sample[count] = n;
+    part[count] = other;
+    grain[count] = second_[n];
+    set(world, count, {world_[0].at[n], world_[1].at[n], world_[2].at[n]});
+    sample_size.at[count] = sample_size_.at[n];
+    count += second_[n] != surface::no_block && other > 0 ? 1 : 0;
+  }
+  std::fill(grain + count, grain + size, 0u);
+  kernels_.look_at_grains(look_job(count, grain, world, sample_size, albedo, slope, height));
+  const auto go_over = [&](Numbers& from, const Numbers& to, int m) {
+    float& x = from.at[sample[m]];
+    x += (to.at[m] - x) * part[m];
   };
-  if (part == 1) {
-    set(albedo_, n, look.albedo);
-    set(slope_, n, look.slope);
-    set(facet_, n, look.facet);
-    height_.at[n] = look.height;
-  } else {
-    go_over(albedo_, look.albedo);
-    go_over(slope_, look.slope);
-    height_.at[n] += (look.height - height_.at[n]) * part;
+  for (int m = 0; m < count; ++m) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      go_over(albedo_[axis], albedo[axis], m);
+      go_over(slope_[axis], slope[axis], m);
+    }
+    go_over(height_, height, m);
   }
 }
 

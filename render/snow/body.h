@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/cpu/block_job.h"
+#include "render/cpu/grain_look_job.h"
 #include "render/cpu/near_job.h"
 #include "render/frame/frame.h"
 #include "render/surface/block_map.h"
@@ -25,11 +26,8 @@ inline constexpr std::size_t grain_margin = 16;
 /// Particles in the order of their cubes.
 struct GrainList {
   std::vector<std::uint32_t> first;  ///< of each cube of each block, and the end
-  std::vector<Vec3f> position;       ///< m, a little off the particle: grain shows no lattice
-  std::array<std::vector<float>, 3> along;  ///< the same by axis, longer by grain_margin
-  std::vector<std::uint32_t> color;         ///< as the G-buffer has it (gbuffer_tile.h)
-  std::vector<std::uint32_t> seed;          ///< a random number that stays with the particle
-  std::vector<PackedTurn> turn;             ///< empty: none has turned
+  std::vector<cpu::Grain> grain;
+  std::array<std::vector<float>, 3> along;  ///< their positions by axis, longer by grain_margin
 };
 
 /// Cells of a block: the first and the last one along each axis.

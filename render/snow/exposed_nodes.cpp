@@ -4,9 +4,9 @@
 #include <atomic>
 #include <bit>
 
-#include "sim/base/lanes.h"
-
+#include "render/cpu/draw_kernels.h"
 #include "render/surface/loops.h"
+#include "sim/base/lanes.h"
 
 namespace neve::render::snow {
 
@@ -39,6 +39,46 @@ Vec3f floats(Vec3i v) {
 
 }  // namespace
 
+/// Nodes of a block that need light, side by side as the kernel wants them.
+struct ExposedNodes::NewNodes {
+  static constexpr std::size_t size = 736;  ///< 9x9x9, and to the end of a vector
+  struct Vectors {
+    float x[size], y[size], z[size];
+    void set(std::size_t n, Vec3f v) {
+      x[n] = v.x;
+      y[n] = v.y;
+      z[n] = v.z;
+    }
+    Vec3f at(std::size_t n) const { return {x[n], y[n], z[n]}; }
+  };
+
+  void add(std::uint32_t node, Vec3f at, Vec3f outward) {
+    number[count] = node;
+    place.set(count, at);
+    normal.set(count++, outward);
+  }
+  void light_near(Vec3f toward) {
+    for (std::size_t n = count; n < count + cpu::most_light_lanes && n < size; ++n) {
+      place.set(n, {});
+      normal.set(n, {});
+    }
+    cpu::chosen_draw_kernels().light_near({static_cast<int>(count),
+                                           near.values(),
+                                           {place.x, place.y, place.z},
+                                           {normal.x, normal.y, normal.z},
+                                           toward,
+                                           before_sun,
+                                           within,
+                                           open_sky});
+  }
+
+  NearField near;
+  std::size_t count;
+  std::uint32_t number[size];  ///< among those of the block
+  Vectors place, normal;       ///< in nodes from the corner of the block; unit, outward
+  float before_sun[size], within[size], open_sky[size];
+};
+
 ExposedNodes::ExposedNodes(const Body& body) {
   std::size_t count = 0;
   blocks_.reserve(body.surface_box.size());
@@ -49,15 +89,6 @@ ExposedNodes::ExposedNodes(const Body& body) {
     count += static_cast<std::size_t>(slice * nodes(box.low.z, box.high.z));
   }
   nodes_ = std::make_unique_for_overwrite<Exposure[]>(count);
-}
-
-Vec3i ExposedNodes::cell_of(const Block& block, Vec3f node) {
-  const auto cell = [](float x, int low, int high) {
-    return std::clamp(static_cast<int>(x), low, high);
-  };
-  const CellBox& box = block.box;
-  return {cell(node.x, box.low.x, box.high.x), cell(node.y, box.low.y, box.high.y),
-          cell(node.z, box.low.z, box.high.z)};
 }
 
 void ExposedNodes::want(std::uint32_t padded, Vec3f node) {
@@ -72,74 +103,82 @@ void ExposedNodes::want(std::uint32_t padded, Vec3f node) {
 void ExposedNodes::expose_wanted(const Body& body, const light::LightVolume& volume,
                                  const SnowLight& light, ThreadPool* pool) {
   surface::for_ranges(pool, blocks_.size(), [&](std::size_t begin, std::size_t end) {
-    const auto near = std::make_unique_for_overwrite<NearField>();
+    const auto nodes = std::make_unique_for_overwrite<NewNodes>();
     for (std::size_t b = begin; b < end; ++b)
       if (blocks_[b].wanted != blocks_[b].exposed)
-        expose_block(static_cast<std::uint32_t>(b), body, volume, light, *near);
+        expose_block(static_cast<std::uint32_t>(b), body, volume, light, *nodes);
   });
 }
 
 void ExposedNodes::expose_block(std::uint32_t padded, const Body& body,
                                 const light::LightVolume& volume, const SnowLight& light,
-                                NearField& near) {
+                                NewNodes& nodes) {
   Block& of = blocks_[padded];
   const float* value = body.padded.data() + std::size_t{padded} * padded_nodes;
   const std::uint32_t block = body.padded_block[padded];
   const float cell = body.field.cell;
   const Vec3f corner = floats(body.field.block[block] * 8);
-  near.take(body.field, block);
-  // Those of cells that are new, and of the cells before them: bit 9 j + i would not fit 64 bits.
-  const auto is_new = [&](Vec3i c) {
-    if (c.x < of.box.low.x || c.y < of.box.low.y || c.z < of.box.low.z || c.x > of.box.high.x ||
-        c.y > of.box.high.y || c.z > of.box.high.z)
-      return false;
-    const auto k = static_cast<std::size_t>(c.z);
-    return ((of.wanted[k] & ~of.exposed[k]) >> (8 * c.y + c.x) & 1) != 0;
+  nodes.near.take(body.field, block);
+  // Bit 8 j + i: cells that are new on either side of a node.
+  const auto new_beside = [&](int k) {
+    const auto new_in = [&](int slice) {
+      const auto n = static_cast<std::size_t>(slice);
+      return slice < 0 || slice > 7 ? std::uint64_t{0} : of.wanted[n] & ~of.exposed[n];
+    };
+    return new_in(k - 1) | new_in(k);
   };
-  const auto is_corner_of_new = [&](Vec3i n) {
-    for (int c = 0; c < 8; ++c)
-      if (is_new(n - Vec3i{c & 1, c >> 1 & 1, c >> 2})) return true;
-    return false;
+  const auto nodes_of_row = [](std::uint64_t cells, int j) {
+    const auto cells_of = [&](int row) {
+      return row < 0 || row > 7 ? 0u : static_cast<unsigned>(cells >> (8 * row)) & 0xff;
+    };
+    const unsigned beside = cells_of(j - 1) | cells_of(j);
+    return beside | beside << 1;
   };
-  std::size_t at = of.first;
-  for (int k = of.box.low.z; k <= of.box.high.z + 1; ++k)
-    for (int j = of.box.low.y; j <= of.box.high.y + 1; ++j)
+  nodes.count = 0;
+  std::uint32_t at = 0;
+  for (int k = of.box.low.z; k <= of.box.high.z + 1; ++k) {
+    const std::uint64_t cells = new_beside(k);
+    for (int j = of.box.low.y; j <= of.box.high.y + 1; ++j) {
+      const unsigned row = nodes_of_row(cells, j);
       for (int i = of.box.low.x; i <= of.box.high.x + 1; ++i, ++at) {
-        if (!is_corner_of_new({i, j, k})) continue;
+        if (!(row >> i & 1)) continue;
         const NodeShare here = share_of(value, {i, j, k});
         const Vec3f normal = normalized(here.fall);
         // Light is that of the surface beside the node, at most a cell away.
         const float away = (here.share - surface_share) / std::max(length(here.fall), 0.1f);
-        SnowPlace place;
-        place.block = block;
-        place.node = floats({i, j, k}) + normal * std::clamp(away, -1.0f, 1.0f);
-        place.world = (corner + place.node) * cell;
-        nodes_[at] = expose(near, volume, light, place,
-                            without_bumps(normal, normalized(near.even_fall({i, j, k}))));
+        nodes.add(at, floats({i, j, k}) + normal * std::clamp(away, -1.0f, 1.0f),
+                  without_bumps(normal, normalized(nodes.near.even_fall({i, j, k}))));
       }
+    }
+  }
+  nodes.light_near(light.toward);
+  SnowPlace place;
+  place.block = block;
+  for (std::size_t n = 0; n < nodes.count; ++n) {
+    place.node = nodes.place.at(n);
+    place.world = (corner + place.node) * cell;
+    nodes_[of.first + nodes.number[n]] =
+        expose(volume, light, place, nodes.normal.at(n),
+               {nodes.before_sun[n], nodes.within[n], nodes.open_sky[n]});
+  }
   of.exposed = of.wanted;
 }
 
 Exposure ExposedNodes::at(std::uint32_t padded, Vec3f node) const {
-  const Block& block = blocks_[padded];
-  const Vec3i cell = cell_of(block, node);
-  const auto part = [](float x, int low) {
-    return std::clamp(x - static_cast<float>(low), 0.0f, 1.0f);
-  };
-  const float x = part(node.x, cell.x), y = part(node.y, cell.y), z = part(node.z, cell.z);
-  const Vec3i from = cell - block.box.low;
-  const Exposure* low =
-      nodes_.get() + block.first + (from.z * block.slice + from.y * block.row + from.x);
-  // Two vectors of four numbers for each corner.
-  std::array<Lanes<float, 4>, 2> sum{};
-  for (int n = 0; n < 8; ++n) {
-    const float w = ((n & 1) ? x : 1 - x) * ((n >> 1 & 1) ? y : 1 - y) * ((n >> 2) ? z : 1 - z);
-    const auto corner = std::bit_cast<std::array<Lanes<float, 4>, 2>>(
-        low[(n >> 2) * block.slice + (n >> 1 & 1) * block.row + (n & 1)]);
-    sum[0] += w * corner[0];
-    sum[1] += w * corner[1];
-  }
-  return std::bit_cast<Exposure>(sum);
+  const ExposedCell cell = cell_at(padded, node);
+  const auto* corner = reinterpret_cast<const float*>(cell.corner);
+  const int row = cell.row * cpu::exposure_numbers, slice = cell.slice * cpu::exposure_numbers,
+            first = 0;
+  Exposure out;
+  cpu::chosen_draw_kernels().mix_exposures({1,
+                                            &corner,
+                                            &row,
+                                            &slice,
+                                            {&cell.part.x, &cell.part.y, &cell.part.z},
+                                            &first,
+                                            {&out.normal.x, &out.normal.y, &out.normal.z, &out.sun,
+                                             &out.sky, &out.crevice, &out.through}});
+  return out;
 }
 
 }  // namespace neve::render::snow

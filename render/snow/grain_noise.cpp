@@ -62,17 +62,17 @@ std::vector<float> heights(int octaves) {
 GrainNoise::GrainNoise() {
   for (int level = 0; level < levels; ++level) {
     const std::vector<float> height = heights(levels - level);
-    std::vector<Texel>& to = levels_[static_cast<std::size_t>(level)];
-    to.resize(height.size());
+    std::vector<float>& to = levels_[static_cast<std::size_t>(level)];
+    to.reserve(4 * height.size());
     constexpr float per_unit = 0.5f * texels_per_unit;
     for (int k = 0; k < side; ++k)
       for (int j = 0; j < side; ++j)
         for (int i = 0; i < side; ++i)
-          to[texel(i, j, k)] =
-              Texel{height[texel(i, j, k)],
-                    per_unit * (height[texel(i + 1, j, k)] - height[texel(i - 1, j, k)]),
-                    per_unit * (height[texel(i, j + 1, k)] - height[texel(i, j - 1, k)]),
-                    per_unit * (height[texel(i, j, k + 1)] - height[texel(i, j, k - 1)])};
+          to.insert(to.end(),
+                    {height[texel(i, j, k)],
+                     per_unit * (height[texel(i + 1, j, k)] - height[texel(i - 1, j, k)]),
+                     per_unit * (height[texel(i, j + 1, k)] - height[texel(i, j - 1, k)]),
+                     per_unit * (height[texel(i, j, k + 1)] - height[texel(i, j, k - 1)])});
   }
 }
 

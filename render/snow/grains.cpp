@@ -73,8 +73,8 @@ NEVE_INLINE FieldPlace place_near(const Body& body, std::size_t b, Vec3f world) 
 /// @param find  FieldPlace of a place in the world
 NEVE_INLINE void place_grain(const Points& points, std::size_t p, Vec3f position,
                              const Field& field, const auto& find, GrainPlaces& places) {
-  if (const FieldPlace at = find(position); at.block != no_block)
-    places.share[p] = share_at(field, at.block, at.node);
+  const FieldPlace at = find(position);
+  places.share[p] = at.block == no_block ? 0 : share_at(field, at.block, at.node);
   if (places.share[p] > buried_share) return;
   const FieldPlace place = find(grain_position(points, p, position));
   if (place.block == no_block) return;
@@ -128,7 +128,9 @@ GrainPlaces place_grains(const Points& points, const surface::GrainField& made, 
                          ThreadPool* pool) {
   const surface::Bins& blocks = made.grains;
   const std::size_t count = points.position.size();
-  GrainPlaces places{std::vector<float>(count), std::vector<std::uint32_t>(count, no_block)};
+  constexpr float not_placed = -1;
+  GrainPlaces places{std::vector<float>(count, not_placed),
+                     std::vector<std::uint32_t>(count, no_block)};
   for_ranges(pool, body.field.block.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const auto find = [&](Vec3f world) NEVE_INLINE_BODY { return place_near(body, b, world); };
@@ -138,12 +140,10 @@ GrainPlaces place_grains(const Points& points, const surface::GrainField& made, 
     }
   });
   // Those that give the field nothing may still lie in it.
-  std::vector<bool> is_placed(count);
-  for (const std::uint32_t p : blocks.grain)
-    if (p < count) is_placed[p] = true;
   const auto find = [&](Vec3f world) { return find_place(body, world); };
   for (std::size_t p = 0; p < count; ++p)
-    if (!is_placed[p]) place_grain(points, p, points.position[p], body.field, find, places);
+    if (places.share[p] == not_placed)
+      place_grain(points, p, points.position[p], body.field, find, places);
   return places;
 }
 
@@ -154,20 +154,19 @@ void list_grains(const Points& points, const GrainPlaces& places, ThreadPool* po
   GrainList& grains = body.grains;
   const std::size_t count = bins.grain.size();
   grains.first = std::move(bins.first);
-  grains.position.resize(count);
+  grains.grain.resize(count);
   for (std::vector<float>& along : grains.along) along.resize(count + grain_margin);
-  grains.color.resize(count);
-  grains.seed.resize(count);
-  if (!points.turn.empty()) grains.turn.resize(count);
   for_ranges(pool, count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t p = bins.grain[k];
-      const Vec3f place = grains.position[k] = grain_position(points, p, points.position[p]);
+      const Vec3f place = grain_position(points, p, points.position[p]);
       for (int axis = 0; axis < 3; ++axis)
         grains.along[static_cast<std::size_t>(axis)][k] = place[axis];
-      grains.color[k] = color.root_albedo(p);
-      grains.seed[k] = static_cast<std::uint32_t>(mix64(id_of(points, p) + 1));
-      if (!points.turn.empty()) grains.turn[k] = points.turn[p];
+      const PackedTurn turn = points.turn.empty() ? no_turn : points.turn[p];
+      grains.grain[k] = {place,
+                         color.root_albedo(p),
+                         static_cast<std::uint32_t>(mix64(id_of(points, p) + 1)),
+                         {turn[0], turn[1], turn[2], turn[3]}};
     }
   });
 }

@@ -114,7 +114,7 @@ void Layer::add_surface(const Sample& sample, int at, light::GBufferTile& tile,
   place.block = body_.padded_block[sample.padded];
   place.node = marcher_->place_of(sample.padded, sample.ray * sample.hit);
   tile.inverse[at] = 1 / sample.hit;
-  batch.add(at, sample.ray, place, nodes_->at(sample.padded, place.node));
+  batch.add(at, sample.ray, place, nodes_->cell_at(sample.padded, place.node));
 }
 
 void Layer::add_grain(const Sample& sample, int at, const light::GBufferTile& tile,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "render/cpu/near_light_job.h"
 #include "render/light/lighting.h"
 #include "render/snow/body.h"
 
@@ -41,42 +42,25 @@ Vec3f normal_at(const surface::Field& field, std::uint32_t block, Vec3f node);
 class NearField {
  public:
   void take(const surface::Field& field, std::uint32_t block);
-  /// As share_at. @param node  -6.5 to 13.5 along each axis
-  float share(Vec3f node) const;
+  const float* values() const { return value_.data(); }
   /// The way shares fall around a node, over a few particle spacings: without the bumps of single
   /// particles. Not a unit.
   Vec3f even_fall(Vec3i node) const;
 
  private:
-  static constexpr int margin = 7, side = surface::block_side + 2 * margin;
-  std::array<float, side * side * side> value_;
+  std::array<float, cpu::near_nodes> value_;
+};
+
+/// What snow within a few nodes leaves of the light; see near_light_job.h.
+struct NearLight {
+  float before_sun, within, open_sky;
 };
 
 /// @param normal  unit, outward
+Exposure expose(const light::LightVolume& volume, const SnowLight& light, const SnowPlace& place,
+                Vec3f normal, const NearLight& near);
+/// The same, with what near snow leaves as the kernel finds it.
 Exposure expose(const Body& body, const light::LightVolume& volume, const SnowLight& light,
                 const SnowPlace& place, Vec3f normal);
-/// The same bits. @param near  of the block of the place
-Exposure expose(const NearField& near, const light::LightVolume& volume, const SnowLight& light,
-                const SnowPlace& place, Vec3f normal);
-
-/// Colour, and relief in the frame of the grain.
-struct GrainLook {
-  Vec3f albedo{1, 1, 1};  ///< linear
-  Vec3f slope;            ///< of the relief, in spacings per spacing
-  float height = 0;       ///< about -1 to 1
-  Vec3f facet;            ///< unit, of a crystal that may mirror the sun; 0: too small to be seen
-};
-
-/// The look of a grain at a place. @param pixels  samples per spacing @param wants_facet  or leaves
-/// it
-GrainLook look_of_grain(const Body& body, Vec3f world, float pixels, bool wants_facet,
-                        std::uint32_t grain);
-
-/// Part of the look of the second grain: half of it where both are equally near.
-/// @param spacing  m
-float part_of_second(float first_squared, float second_squared, float spacing);
-
-/// Samples per spacing below which nothing sparkles; see snow_light_kernel.h.
-inline constexpr float least_sparkling = 2;
 
 }  // namespace neve::render::snow

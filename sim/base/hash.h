@@ -4,15 +4,9 @@
 #include <cstdint>
 #include <cstring>
 
-namespace neve {
+#include "sim/base/mix64.h"
 
-/// Bijective 64-bit mixer. Source: finalizer of SplitMix64 (Steele, Lea, Flood 2014).
-constexpr std::uint64_t mix64(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
+namespace neve {
 
 /// Hash of two numbers, order matters.
 constexpr std::uint64_t mix64(std::uint64_t a, std::uint64_t b) {
