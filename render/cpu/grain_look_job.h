@@ -5,7 +5,7 @@
 
 namespace neve::render::cpu {
 
-/// What a sample reads of a grain: in one piece, since samples ask for grains in no order.
+/// Samples read a grain as one piece, since they ask for grains in no order.
 struct alignas(32) Grain {
   Vec3f position;      ///< m, a little off the particle: grain shows no lattice
   unsigned color = 0;  ///< as the G-buffer has it (gbuffer_tile.h)
@@ -16,7 +16,7 @@ struct alignas(32) Grain {
 /// Texels of the noise that relief is made of, along each axis; it repeats.
 inline constexpr int noise_side = 32, noise_levels = 3, noise_texels_per_unit = noise_side / 4;
 
-/// Lists have `count` numbers, and are long enough for whole vectors of light_lanes.
+/// Lists have `count` numbers, and are long enough for whole vectors of most_light_lanes.
 struct GrainLookJob {
   int count;
   float spacing;                     ///< m, of packed particles
@@ -31,7 +31,7 @@ struct GrainLookJob {
   float* facet[3];                   ///< out: unit; 0: too small to be seen
 };
 
-/// Samples per spacing below which nothing sparkles.
+/// Samples per spacing below which nothing sparkles; see snow_light_kernel.h.
 inline constexpr float least_sparkling = 2;
 
 }  // namespace neve::render::cpu

@@ -134,10 +134,10 @@ Exposure expose(const Body& body, const LightVolume& volume, const SnowLight& li
     return One{share_at(body.field, place.block, {node.x[0], node.y[0], node.z[0]})};
   };
   const auto node = cpu::all_points<One>(place.node), outward = cpu::all_points<One>(normal);
-  return expose(
-      volume, light, place, normal,
-      {cpu::snow_before_sun(share, node, outward, light.toward)[0],
-       cpu::snow_within(share, node, light.toward)[0], cpu::open_sky(share, node, outward)[0]});
+  return expose(volume, light, place, normal,
+                {cpu::snow_before_sun(share, node, outward, light.toward)[0],
+                 faces_sun(normal, light) ? 0 : cpu::snow_within(share, node, light.toward)[0],
+                 cpu::open_sky(share, node, outward)[0]});
 }
 
 }  // namespace neve::render::snow

@@ -51,7 +51,7 @@ class NearField {
   std::array<float, cpu::near_nodes> value_;
 };
 
-/// What snow within a few nodes leaves of the light; see near_light_job.h.
+/// Snow within a few nodes leaves this of the light; see near_light_job.h.
 struct NearLight {
   float before_sun, within, open_sky;
 };
