@@ -7,9 +7,13 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <random>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -34,10 +38,43 @@ std::string plain_host() {
   return host.empty() ? "host" : host;
 }
 
+/// What the system says of a process.
+struct Life {
+  char state = 'Z';
+  /// Ticks from the start of the machine to that of the process: a number is given again, but not
+  /// with the same start.
+  std::uint64_t start = 0;
+};
+
+/// Nothing where the system does not say. Source: proc(5), /proc/PID/stat, fields 3 and 22.
+std::optional<Life> life_of(pid_t process) {
+  std::ifstream in("/proc/" + std::to_string(process) + "/stat");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  // The name of a program may hold anything, a parenthesis too.
+  const std::size_t end_of_name = text.rfind(')');
+  if (end_of_name == std::string::npos) return std::nullopt;
+  std::istringstream fields(text.substr(end_of_name + 1));
+  Life life;
+  fields >> life.state;
+  std::string skipped;
+  for (int field = 4; field < 22; ++field) fields >> skipped;
+  if (!(fields >> life.start)) return std::nullopt;
+  return life;
+}
+
 struct Owner {
   std::string host;
   pid_t process = 0;
+  std::uint64_t start = 0;
 };
+
+/// @return whether all of a text is a number
+template <class Number>
+bool read_whole(std::string_view text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && last == end;
+}
 
 /// Takes the last part of a dotted name off it.
 std::string_view take_part(std::string_view& name) {
@@ -52,24 +89,26 @@ std::string_view take_part(std::string_view& name) {
 std::optional<Owner> owner_of(std::string_view name) {
   if (!name.starts_with('.') || !name.ends_with(suffix)) return std::nullopt;
   name.remove_suffix(suffix.size());
-  const std::string_view random = take_part(name), process = take_part(name),
-                         host = take_part(name);
+  const std::string_view random = take_part(name), start = take_part(name),
+                         process = take_part(name), host = take_part(name);
   const bool is_random = random.size() == random_digits &&
                          random.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-  Owner owner{std::string(host), 0};
-  const auto end = process.data() + process.size();
-  const auto [last, error] = std::from_chars(process.data(), end, owner.process);
-  if (!is_random || host.empty() || error != std::errc() || last != end || owner.process <= 0)
+  Owner owner{std::string(host)};
+  if (!is_random || host.empty() || !read_whole(process, owner.process) ||
+      !read_whole(start, owner.start) || owner.process <= 0)
     return std::nullopt;
   return owner;
 }
 
-bool is_alive(pid_t process) {
-  return ::kill(process, 0) == 0 || errno == EPERM;
+/// A process that was killed keeps its number until its parent asks for it; it writes no more.
+bool is_alive(const Owner& owner) {
+  if (::kill(owner.process, 0) != 0 && errno == ESRCH) return false;
+  const std::optional<Life> life = life_of(owner.process);
+  return !life || (life->state != 'Z' && life->state != 'X' && life->start == owner.start);
 }
 
 bool is_abandoned(const fs::path& file, const Owner& owner) {
-  if (owner.host == plain_host()) return !is_alive(owner.process);
+  if (owner.host == plain_host()) return !is_alive(owner);
   std::error_code error;
   const auto written = fs::last_write_time(file, error);
   return !error && fs::file_time_type::clock::now() - written > abandoned_elsewhere;
@@ -81,8 +120,10 @@ fs::path temporary_name(const fs::path& path) {
   static thread_local std::mt19937_64 random{std::random_device{}()};
   char digits[random_digits + 1];
   std::snprintf(digits, sizeof digits, "%08x", static_cast<unsigned>(random() >> 32));
-  const std::string end =
-      '.' + plain_host() + '.' + std::to_string(::getpid()) + '.' + digits + std::string(suffix);
+  const pid_t process = ::getpid();
+  const std::string end = '.' + plain_host() + '.' + std::to_string(process) + '.' +
+                          std::to_string(life_of(process).value_or(Life{}).start) + '.' + digits +
+                          std::string(suffix);
   const std::string name = path.filename().string().substr(0, longest_name - 1 - end.size());
   return path.parent_path() / ('.' + name + end);
 }

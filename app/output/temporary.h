@@ -1,5 +1,6 @@
 #pragma once
-/// Names of files that are not finished: `.NAME.HOST.PROCESS.RANDOM.tmp`, beside the file itself.
+/// Names of files that are not finished: `.NAME.HOST.PROCESS.START.RANDOM.tmp`, beside the file
+/// itself.
 
 #include <filesystem>
 

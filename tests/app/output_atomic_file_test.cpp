@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <functional>
 #include <thread>
 
@@ -18,12 +19,14 @@
 #include "app/output/named_file.h"
 #include "app/output/temporary.h"
 #include "app/support/machine.h"
+#include "tests/support/child.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
 namespace {
 
 using test::file_count;
+using test::is_gone_soon;
 using test::read_text;
 using test::TemporaryFolder;
 
@@ -106,7 +109,7 @@ TEST(Temporary, TemporaryFilesOfDeadProcessesAreRemovedAndOthersStay) {
   const std::filesystem::path living = app::output::temporary_name(folder / "b.txt");
   folder.write(living.filename().string(), "half");
   for (const char* name :
-       {".a.tmp", ".a.host.x.00000000.tmp", "notes.tmp", ".a.elsewhere.1.0123abcd.tmp"})
+       {".a.tmp", ".a.host.x.00000000.tmp", "notes.tmp", ".a.elsewhere.1.2.0123abcd.tmp"})
     folder.write(name, "x");
   EXPECT_EQ(file_count(folder.path()), 6u);
   app::output::remove_abandoned(folder.path());
@@ -114,10 +117,43 @@ TEST(Temporary, TemporaryFilesOfDeadProcessesAreRemovedAndOthersStay) {
   EXPECT_TRUE(std::filesystem::exists(living));
   // A process of another machine cannot be asked: after a day it is gone.
   std::filesystem::last_write_time(
-      folder / ".a.elsewhere.1.0123abcd.tmp",
+      folder / ".a.elsewhere.1.2.0123abcd.tmp",
       std::filesystem::file_time_type::clock::now() - std::chrono::hours(25));
   app::output::remove_abandoned(folder.path());
   EXPECT_EQ(file_count(folder.path()), 4u);
+}
+
+/// A killed process keeps its number until it is waited for, which the first process of a machine
+/// may be slow to do.
+TEST(Temporary, WhatAProcessLeftThatNobodyHasWaitedForIsRemoved) {
+  const TemporaryFolder folder;
+  const pid_t dead = ::fork();
+  if (dead == 0) {
+    folder.write(app::output::temporary_name(folder / "a.txt").filename().string(), "half");
+    ::_exit(0);
+  }
+  ASSERT_TRUE(is_gone_soon(dead));
+  ASSERT_EQ(::kill(dead, 0), 0);
+  ASSERT_EQ(file_count(folder.path()), 1u);
+  app::output::remove_abandoned(folder.path());
+  EXPECT_EQ(file_count(folder.path()), 0u);
+  ::waitpid(dead, nullptr, 0);
+}
+
+/// Numbers of processes are given again: this one has that of another that began before it.
+TEST(Temporary, WhatAProcessLeftWhoseNumberAnotherHasIsRemoved) {
+  const TemporaryFolder folder;
+  const std::string mine = app::output::temporary_name(folder / "a").filename().string();
+  const std::string process = '.' + std::to_string(::getpid()) + '.';
+  const std::size_t start = mine.find(process) + process.size();
+  ASSERT_NE(mine.find('.', start), std::string::npos);
+  const std::string others = std::string(mine).replace(start, mine.find('.', start) - start, "1");
+  ASSERT_NE(others, mine);
+  folder.write(mine, "half");
+  folder.write(others, "half");
+  app::output::remove_abandoned(folder.path());
+  EXPECT_TRUE(std::filesystem::exists(folder / mine));
+  EXPECT_FALSE(std::filesystem::exists(folder / others));
 }
 
 TEST(Temporary, TemporaryNamesDifferAndFitIntoAFolder) {
