@@ -67,7 +67,7 @@ output::MovieStyle finished_movie(const MovieTexts& texts) {
     style.format = *format;
   }
   if (texts.quality) {
-    const std::optional<int> quality = setup::whole_number(*texts.quality);
+    const std::optional<int> quality = number_of<int>(*texts.quality);
     if (!quality || *quality < 1 || *quality > 100)
       throw scene::toml::UsageError("--movie-quality", "cannot use \"" + *texts.quality + "\"",
                                     "expected a whole number from 1 to 100");

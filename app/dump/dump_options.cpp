@@ -26,7 +26,7 @@ sim::Stage parse_stage(const std::string& text) {
   if (const auto stage = scene::value_named<sim::Stage>(text)) return *stage;
   const std::vector<std::string> names(sim::stage_names.begin(), sim::stage_names.end());
   // Numbers are those of the paper; transfers have two names everywhere.
-  if (const auto number = setup::whole_number(text);
+  if (const auto number = number_of<int>(text);
       number && *number >= 1 && *number <= static_cast<int>(names.size()))
     fail_stage(text, names[static_cast<std::size_t>(*number - 1)], names);
   const std::string word = lower_text(text);
@@ -43,8 +43,7 @@ sim::Stage parse_stage(const std::string& text) {
 }
 
 Probe parse_probe(const std::string& text) {
-  if (const auto id = setup::whole_number(text); id && *id >= 0)
-    return static_cast<std::size_t>(*id);
+  if (const auto id = number_of<int>(text); id && *id >= 0) return static_cast<std::size_t>(*id);
   std::vector<double> numbers;
   std::size_t begin = 0;
   while (begin <= text.size()) {

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -15,6 +14,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/descriptor.h"
 #include "app/output/temporary.h"
+#include "app/support/text.h"
 
 namespace neve::app::output {
 
@@ -36,11 +36,7 @@ struct Target {
 std::optional<int> open_file_named(const fs::path& path) {
   if (path.parent_path() != fs::path("/proc") / std::to_string(::getpid()) / "fd")
     return std::nullopt;
-  const std::string digits = path.filename().string();
-  int fd = -1;
-  const auto end = digits.data() + digits.size();
-  const auto [last, error] = std::from_chars(digits.data(), end, fd);
-  return error == std::errc() && last == end ? std::optional(fd) : std::nullopt;
+  return number_of<int>(path.filename().string());
 }
 
 /// Where the links of a path lead; the file itself need not be there.

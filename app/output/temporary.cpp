@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -19,6 +18,7 @@
 #include <system_error>
 
 #include "app/support/machine.h"
+#include "app/support/text.h"
 
 namespace neve::app::output {
 
@@ -38,9 +38,9 @@ std::string plain_host() {
   return host.empty() ? "host" : host;
 }
 
-/// What the system says of a process.
+/// The state and start that the system says a process has.
 struct Life {
-  char state = 'Z';
+  char state = 0;
   /// Ticks from the start of the machine to that of the process: a number is given again, but not
   /// with the same start.
   std::uint64_t start = 0;
@@ -68,14 +68,6 @@ struct Owner {
   std::uint64_t start = 0;
 };
 
-/// @return whether all of a text is a number
-template <class Number>
-bool read_whole(std::string_view text, Number& number) {
-  const char* const end = text.data() + text.size();
-  const auto [last, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && last == end;
-}
-
 /// Takes the last part of a dotted name off it.
 std::string_view take_part(std::string_view& name) {
   const std::size_t dot = name.rfind('.');
@@ -89,15 +81,14 @@ std::string_view take_part(std::string_view& name) {
 std::optional<Owner> owner_of(std::string_view name) {
   if (!name.starts_with('.') || !name.ends_with(suffix)) return std::nullopt;
   name.remove_suffix(suffix.size());
-  const std::string_view random = take_part(name), start = take_part(name),
-                         process = take_part(name), host = take_part(name);
+  const std::string_view random = take_part(name);
+  const auto start = number_of<std::uint64_t>(take_part(name));
+  const auto process = number_of<pid_t>(take_part(name));
+  const std::string_view host = take_part(name);
   const bool is_random = random.size() == random_digits &&
                          random.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-  Owner owner{std::string(host)};
-  if (!is_random || host.empty() || !read_whole(process, owner.process) ||
-      !read_whole(start, owner.start) || owner.process <= 0)
-    return std::nullopt;
-  return owner;
+  if (!is_random || host.empty() || !process || *process <= 0 || !start) return std::nullopt;
+  return Owner{std::string(host), *process, *start};
 }
 
 /// A process that was killed keeps its number until its parent asks for it; it writes no more.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <fstream>
 #include <functional>
 
@@ -56,12 +55,9 @@ class TextReader {
 
   template <class Number>
   Number number(const char* key) const {
-    const std::string digits = text(key);
-    Number value{};
-    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (result.ec != std::errc() || result.ptr != digits.data() + digits.size())
-      fail(std::string("its text ") + key + " is not a number");
-    return value;
+    const std::optional<Number> value = app::number_of<Number>(text(key));
+    if (!value) fail(std::string("its text ") + key + " is not a number");
+    return *value;
   }
 
   Json json(const char* key) const {

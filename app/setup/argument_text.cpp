@@ -1,7 +1,6 @@
 #include "app/setup/argument_text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <regex>
 #include <utility>
@@ -12,21 +11,9 @@
 
 namespace neve::app::setup {
 
-std::optional<int> whole_number(const std::string& text) {
-  int value = 0;
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (text.empty() || result.ec != std::errc() || result.ptr != end) return std::nullopt;
-  return value;
-}
-
 std::optional<double> finite_number(const std::string& text) {
-  double value = 0;
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (text.empty() || result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+  const std::optional<double> value = number_of(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 namespace {
@@ -62,8 +49,8 @@ std::string range_meant(const std::string& text) {
 FrameRange parse_frames(const std::string& text) {
   constexpr int last_possible = 100'000;
   const std::size_t dash = text.find('-');
-  const auto first = dash == std::string::npos ? 0 : whole_number(text.substr(0, dash));
-  const auto last = whole_number(dash == std::string::npos ? text : text.substr(dash + 1));
+  const auto first = dash == std::string::npos ? 0 : number_of<int>(text.substr(0, dash));
+  const auto last = number_of<int>(dash == std::string::npos ? text : text.substr(dash + 1));
   if (!first || !last || *first < 0 || *last < *first || *last > last_possible)
     throw scene::toml::UsageError(
         "--frames", "cannot use \"" + text + "\"",
@@ -83,9 +70,9 @@ scene::PictureSize parse_size(const std::string& text) {
   constexpr int smallest = 16, largest = 1000000;
   const std::size_t cross = text.find('x');
   const auto width =
-      cross == std::string::npos ? std::nullopt : whole_number(text.substr(0, cross));
+      cross == std::string::npos ? std::nullopt : number_of<int>(text.substr(0, cross));
   const auto height =
-      cross == std::string::npos ? std::nullopt : whole_number(text.substr(cross + 1));
+      cross == std::string::npos ? std::nullopt : number_of<int>(text.substr(cross + 1));
   if (!width || !height || *width < smallest || *height < smallest || *width > largest ||
       *height > largest) {
     const std::string meant = size_meant(text);

@@ -9,9 +9,6 @@
 
 namespace neve::app::setup {
 
-/// An integer that is all of the text.
-std::optional<int> whole_number(const std::string& text);
-
 /// A finite number that is all of the text.
 std::optional<double> finite_number(const std::string& text);
 

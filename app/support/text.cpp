@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -117,14 +116,6 @@ std::string printable_text(const std::string& text) {
     k += is_long_control;
   }
   return printable;
-}
-
-std::optional<double> number_of(std::string_view text) {
-  double x = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (text.empty() || result.ec != std::errc{} || result.ptr != text.data() + text.size())
-    return std::nullopt;
-  return x;
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {

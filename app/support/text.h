@@ -1,10 +1,12 @@
 #pragma once
 /// Numbers as text, the same in every locale, and the nearest of some names.
 
+#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace neve::app {
@@ -21,7 +23,13 @@ std::string bytes_text(std::uint64_t bytes);
 /// terminal. Line feeds and tabs stay.
 std::string printable_text(const std::string& text);
 /// The number that a text is, and nothing else, not even blanks.
-std::optional<double> number_of(std::string_view text);
+template <class Number = double>
+std::optional<Number> number_of(std::string_view text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc{} && last == end ? std::optional(number) : std::nullopt;
+}
 std::string joined(const std::vector<std::string>& words, const std::string& between);
 /// The name closest to a misspelt one, or empty when none is close.
 std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names);

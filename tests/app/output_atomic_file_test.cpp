@@ -20,13 +20,13 @@
 #include "app/output/temporary.h"
 #include "app/support/machine.h"
 #include "tests/support/child.h"
+#include "tests/support/killed.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
 namespace {
 
 using test::file_count;
-using test::is_gone_soon;
 using test::read_text;
 using test::TemporaryFolder;
 
@@ -100,12 +100,7 @@ TEST(AtomicFile, AtomicFileNeverReplacesALinkAFolderOrADevice) {
 
 TEST(Temporary, TemporaryFilesOfDeadProcessesAreRemovedAndOthersStay) {
   const TemporaryFolder folder;
-  const pid_t dead = ::fork();
-  if (dead == 0) {
-    folder.write(app::output::temporary_name(folder / "a.txt").filename().string(), "half");
-    ::_exit(0);
-  }
-  ::waitpid(dead, nullptr, 0);
+  test::leave_unfinished({folder.path()});
   const std::filesystem::path living = app::output::temporary_name(folder / "b.txt");
   folder.write(living.filename().string(), "half");
   for (const char* name :
@@ -127,17 +122,13 @@ TEST(Temporary, TemporaryFilesOfDeadProcessesAreRemovedAndOthersStay) {
 /// may be slow to do.
 TEST(Temporary, WhatAProcessLeftThatNobodyHasWaitedForIsRemoved) {
   const TemporaryFolder folder;
-  const pid_t dead = ::fork();
-  if (dead == 0) {
-    folder.write(app::output::temporary_name(folder / "a.txt").filename().string(), "half");
-    ::_exit(0);
-  }
-  ASSERT_TRUE(is_gone_soon(dead));
+  const pid_t dead = test::end_unfinished({folder.path()});
+  ASSERT_TRUE(test::is_gone_soon(dead));
   ASSERT_EQ(::kill(dead, 0), 0);
   ASSERT_EQ(file_count(folder.path()), 1u);
   app::output::remove_abandoned(folder.path());
   EXPECT_EQ(file_count(folder.path()), 0u);
-  ::waitpid(dead, nullptr, 0);
+  test::wait_for(dead);
 }
 
 /// Numbers of processes are given again: this one has that of another that began before it.

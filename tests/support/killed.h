@@ -54,15 +54,20 @@ inline int kill_after(const std::filesystem::path& folder, const std::string& ar
   return wait_for(child);
 }
 
-/// A file in each folder that a process has begun to write when it ends.
-inline void leave_unfinished(const std::vector<std::filesystem::path>& folders) {
+/// A process that has begun to write a file in each folder when it ends, and is to be waited for.
+inline pid_t end_unfinished(const std::vector<std::filesystem::path>& folders) {
   const pid_t child = ::fork();
   if (child == 0) {
     for (const std::filesystem::path& folder : folders)
       std::ofstream(app::output::temporary_name(folder / "part")) << "a";
     ::_exit(0);
   }
-  wait_for(child);
+  return child;
+}
+
+/// A file in each folder that a process has begun to write when it ends.
+inline void leave_unfinished(const std::vector<std::filesystem::path>& folders) {
+  wait_for(end_unfinished(folders));
 }
 
 /// Nothing that a killed program had not finished is left below a folder.

@@ -2,22 +2,19 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <optional>
 #include <set>
 
 #include "app/scene/toml/error.h"
+#include "app/support/text.h"
 
 namespace neve::app::sweep::plan {
 
 namespace {
 
 std::optional<int> whole(std::string_view text) {
-  int value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_whole =
-      !text.empty() && result.ec == std::errc{} && result.ptr == text.data() + text.size();
-  return is_whole && value >= 0 ? std::optional(value) : std::nullopt;
+  const std::optional<int> value = number_of<int>(text);
+  return value && *value >= 0 ? value : std::nullopt;
 }
 
 }  // namespace
