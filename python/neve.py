@@ -24,7 +24,7 @@ import numpy as np
 
 
 class NeveError(RuntimeError):
-    """The program refused or failed: `code` is its exit code (README, "Exit codes"), `where` and
+    """The program refused or failed: `code` is its exit code (docs/output.md), `where` and
     `hint` are the place and the advice of its message."""
 
     def __init__(self, message, code, where="", hint=""):

@@ -46,9 +46,10 @@ std::vector<Command> commands_of(const fs::path& page) {
 
 std::vector<Command> commands_of_pages() {
   std::vector<Command> all = commands_of(fs::path(NEVE_SOURCE_DIR) / "README.md");
-  for (const auto& entry : fs::directory_iterator(fs::path(NEVE_SOURCE_DIR) / "docs"))
-    if (entry.path().extension() == ".md")
-      for (Command& command : commands_of(entry.path())) all.push_back(std::move(command));
+  for (const char* folder : {"docs", "docs/reports"})
+    for (const auto& entry : fs::directory_iterator(fs::path(NEVE_SOURCE_DIR) / folder))
+      if (entry.path().extension() == ".md")
+        for (Command& command : commands_of(entry.path())) all.push_back(std::move(command));
   return all;
 }
 

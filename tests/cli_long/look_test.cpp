@@ -1,4 +1,4 @@
-/// docs/look/compare.py, which sets pictures of neve beside pictures of VTK.
+/// docs/reports/look/compare.py, which sets pictures of neve beside pictures of VTK.
 
 #include <set>
 
@@ -19,7 +19,7 @@ TEST_F(LookPage, ItsScriptDrawsOneStateInFourWays) {
   if (!app::output::find_program("Xvfb")) SKIP_OR_FAIL("no Xvfb in PATH; install xvfb");
   const auto drawn = app::output::run_process(
       *python,
-      {"-B", NEVE_SOURCE_DIR "/docs/look/compare.py", (folder / "look").string(), "--neve",
+      {"-B", NEVE_SOURCE_DIR "/docs/reports/look/compare.py", (folder / "look").string(), "--neve",
        NEVE_BINARY, "--states", "drop", "--coarsen", "3", "--size", "192x120"},
       folder.path());
   ASSERT_EQ(drawn.exit_code, 0) << drawn.errors;

@@ -17,14 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Every line of the README and of the pages in docs.
+/// Every line of the README, of the changelog, and of the pages in docs and its reports.
 std::vector<SourceLine> lines_of_pages() {
   std::vector<SourceLine> lines = lines_of("README.md");
-  for (const auto& entry : fs::directory_iterator(source_root() / "docs")) {
-    if (entry.path().extension() != ".md") continue;
-    const std::vector<SourceLine> more = lines_of("docs/" + entry.path().filename().string());
+  const auto add = [&](const std::string& file) {
+    const std::vector<SourceLine> more = lines_of(file);
     lines.insert(lines.end(), more.begin(), more.end());
-  }
+  };
+  add("CHANGELOG.md");
+  for (const std::string folder : {"docs", "docs/reports"})
+    for (const auto& entry : fs::directory_iterator(source_root() / folder))
+      if (entry.path().extension() == ".md") add(folder + "/" + entry.path().filename().string());
   return lines;
 }
 
@@ -70,12 +73,12 @@ std::set<std::string> tests_with_suites() {
 TEST(Structure, EveryFindingOfNewcomersHasATest) {
   const std::set<std::string> names = tests_with_suites();
   int findings = 0;
-  for (const SourceLine& line : lines_of("docs/trial.md")) {
+  for (const SourceLine& line : lines_of("docs/reports/trial.md")) {
     if (!line.text.starts_with("| ") || line.text.starts_with("| ---")) continue;
     if (line.text.starts_with("| finding")) continue;
     const std::vector<std::string> tests = found_in(line.text, R"(\| `([A-Za-z0-9.]+)` \|$)");
     ASSERT_EQ(tests.size(), 1u) << line.text;
-    EXPECT_TRUE(names.contains(tests[0])) << "docs/trial.md names no test: " << tests[0];
+    EXPECT_TRUE(names.contains(tests[0])) << "docs/reports/trial.md names no test: " << tests[0];
     ++findings;
   }
   EXPECT_GE(findings, 30);
@@ -91,6 +94,20 @@ TEST(Structure, DocumentsLinkToFilesThatExist) {
           << line.file << ":" << line.number << " links to " << link << ", which does not exist";
     }
   EXPECT_GT(links, 40) << "the pages are not read as they are written";
+}
+
+/// A page that no index names is found by nobody.
+TEST(Structure, TheIndexOfTheDocumentationHasEveryPage) {
+  std::set<std::string> named;
+  for (const SourceLine& line : lines_of("docs/README.md"))
+    for (const std::string& link : found_in(line.text, R"(\]\(([^)#]+)[^)]*\))"))
+      named.insert(link);
+  for (const std::string folder : {"", "reports/"})
+    for (const auto& entry : fs::directory_iterator(source_root() / "docs" / folder)) {
+      const std::string page = folder + entry.path().filename().string();
+      if (page.ends_with(".md") && page != "README.md")
+        EXPECT_TRUE(named.contains(page)) << "docs/README.md does not name " << page;
+    }
 }
 
 TEST(Structure, TheMapForDevelopersHasEveryFolder) {

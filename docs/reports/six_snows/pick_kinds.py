@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A robot picks the paper's six kinds of snow on the wedge, by neve pick itself.
 
-    docs/six_snows/pick_kinds.py NEVE SCENE FOLDER [KIND ...]
+    docs/reports/six_snows/pick_kinds.py NEVE SCENE FOLDER [KIND ...]
 
 The robot of docs/pick/real_targets.py clicks the tile that is nearest to a run of the kind, and is content
 when spread, height and mean J_P are within 5 %.

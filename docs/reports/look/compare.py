@@ -21,10 +21,10 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "tests/python"))
+sys.path.insert(0, str(Path(__file__).parents[3] / "tests/python"))
 from readers import read_ply  # noqa: E402
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 WAYS = ("neve_snow", "neve_particles", "vtk_points", "vtk_surface")
 
 
