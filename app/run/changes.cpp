@@ -39,14 +39,6 @@ std::vector<scene::Override> overrides_of(const std::vector<scene::LiveChange>& 
   return overrides;
 }
 
-scene::Scene read_with(const SceneSource& source, const std::vector<scene::LiveChange>& changes,
-                       std::size_t count) {
-  std::vector<scene::Override> overrides = source.overrides;
-  for (scene::Override& override : overrides_of(changes, count))
-    overrides.push_back(std::move(override));
-  return scene::read_scene_text(source.text, source.name, source.base_dir, overrides);
-}
-
 /// True for the address of a view or mosaic that the scene does not have.
 bool is_drawn_nowhere(const scene::Scene& scene, const std::string& address) {
   const auto has = [&](const auto& items, const std::string& prefix) {
@@ -60,9 +52,10 @@ bool is_drawn_nowhere(const scene::Scene& scene, const std::string& address) {
 
 }  // namespace
 
-scene::Scene with_changes(const SceneSource& source, const std::vector<scene::LiveChange>& changes,
+scene::Scene with_changes(const scene::Scene& start, const std::vector<scene::LiveChange>& changes,
                           std::size_t up_to_step) {
-  return read_with(source, changes, count_until(changes, up_to_step));
+  return scene::apply(start, overrides_of(changes, count_until(changes, up_to_step)),
+                      "the scene of the run");
 }
 
 scene::Scene recorded_scene(const scene::Scene& start, const scene::Scene& now) {
@@ -103,15 +96,15 @@ std::vector<scene::LiveChange> changes_of(const scene::Scene& scene,
 ChangePlayer::ChangePlayer(const scene::Scene& start, std::vector<scene::LiveChange> changes,
                            sim::Simulation& simulation,
                            std::function<void(const scene::Scene&)> after_each)
-    : changes_(changes_of(start, std::move(changes))),
+    : start_(start),
+      changes_(changes_of(start, std::move(changes))),
       simulation_(simulation),
       after_each_(std::move(after_each)),
-      scene_(std::make_shared<scene::Scene>(start)) {
-  if (!changes_.empty()) source_ = {scene::write_scene(start), "the scene of the run", {}, {}};
-}
+      scene_(std::make_shared<scene::Scene>(start)) {}
 
 void ChangePlayer::make(std::size_t end) {
-  auto scene = std::make_shared<scene::Scene>(read_with(source_, changes_, end));
+  auto scene = std::make_shared<scene::Scene>(
+      scene::apply(start_, overrides_of(changes_, end), "the scene of the run"));
   setup::resolve_ranges(*scene, simulation_.particle_count());
   made_ = end;
   apply_scene(*scene, simulation_);

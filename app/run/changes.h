@@ -12,25 +12,15 @@
 #include <vector>
 
 #include "app/scene/live_change.h"
-#include "app/scene/override.h"
 #include "app/scene/scene.h"
 #include "sim/retry.h"
 #include "sim/simulation.h"
 
 namespace neve::app::run {
 
-/// A scene before its changes.
-struct SceneSource {
-  std::string text;      ///< TOML
-  std::string name;      ///< of the file, in messages
-  std::string base_dir;  ///< see read_scene_text
-  std::vector<scene::Override> overrides;
-};
-
-/// The scene as it is after the changes made at steps up to this one, read the one way that scenes
-/// are read. Automatic values ("auto") are not filled in.
-/// @throws SceneError for the text, UsageError for overrides and changes
-scene::Scene with_changes(const SceneSource& source, const std::vector<scene::LiveChange>& changes,
+/// The scene after the changes made at steps up to this one. Automatic values ("auto") are not
+/// filled in. @throws UsageError for a change that no run can have made
+scene::Scene with_changes(const scene::Scene& start, const std::vector<scene::LiveChange>& changes,
                           std::size_t up_to_step = static_cast<std::size_t>(-1));
 
 /// The changes that concern the things of a scene: those of views and mosaics that it lacks, since
@@ -101,7 +91,7 @@ class ChangePlayer {
   sim::AdvanceReport advance(double time, const sim::StepObserver& after_step,
                              std::size_t last_step, std::vector<sim::Retry>& retries);
 
-  SceneSource source_;
+  scene::Scene start_;
   std::vector<scene::LiveChange> changes_;
   std::size_t made_ = 0;  ///< number of them
   sim::Simulation& simulation_;

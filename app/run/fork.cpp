@@ -43,9 +43,8 @@ std::string live_addresses() {
 
 /// The scene with the changes of the run so far and those of the fork.
 scene::Scene forked_scene(const RenderJob& job, std::size_t steps) {
-  const SceneSource source{scene::write_scene(job.scene), job.scene_file, {}, {}};
-  const scene::Scene before = with_changes(source, changes_of(job.scene, job.changes), steps);
-  return scene::read_scene_text(scene::write_scene(before), job.scene_file, {}, job.fork->changes);
+  return scene::apply(with_changes(job.scene, changes_of(job.scene, job.changes), steps),
+                      job.fork->changes, job.scene_file);
 }
 
 /// Takes the frames and steps of a run up to a fork, as the run itself takes them.
@@ -173,9 +172,7 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   if (is_run) fork.past = {options.scene, read_frame_records(options.scene)};
   job.fork = std::move(fork);
   const scene::Scene forked = forked_scene(job, static_cast<std::size_t>(-1));
-  require_live(with_changes({scene::write_scene(job.scene), job.scene_file, {}, {}},
-                            changes_of(job.scene, job.changes)),
-               forked, "--from");
+  require_live(with_changes(job.scene, changes_of(job.scene, job.changes)), forked, "--from");
   const int first = frame_before(job.fork->time, job.scene.fps) + 1;
   const int last = options.frames ? options.frames->last : forked.frames;
   if (last < first)
@@ -200,8 +197,7 @@ scene::Scene scene_before_fork(const RenderJob& job) {
     ++known;
     steps += record.advance.steps;
   }
-  return with_changes({scene::write_scene(job.scene), job.scene_file, {}, {}},
-                      changes_of(job.scene, job.changes),
+  return with_changes(job.scene, changes_of(job.scene, job.changes),
                       known > last ? steps : static_cast<std::size_t>(-1));
 }
 

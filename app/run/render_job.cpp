@@ -88,8 +88,7 @@ void choose_views(const std::vector<std::string>& names, RenderJob& job) {
 /// Checks that the last change of each address can be set.
 void check_changes(const RenderJob& job) {
   try {
-    with_changes({scene::write_scene(job.scene), job.scene_file, {}, {}},
-                 changes_of(job.scene, job.changes));
+    with_changes(job.scene, changes_of(job.scene, job.changes));
   } catch (const scene::toml::UsageError& error) {
     throw Error(exit_invalid_scene, job.scene_file + ": error: " + error.what(), job.scene_file,
                 "its text neve:changes was not written by neve");

@@ -1,6 +1,7 @@
 #include "app/scene/read.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/scene/check.h"
 #include "app/scene/reader.h"
@@ -117,13 +118,10 @@ void add_built_ins(toml::Table& root, const std::vector<Override>& overrides) {
 
 }  // namespace
 
-Scene read_scene_text(std::string_view text, const std::string& name, const std::string& base_dir,
-                      const std::vector<Override>& overrides) {
-  toml::Table root = toml::parse_toml(text, name);
-  if (const toml::Entry* sweep = root.find("sweep"))
-    throw toml::SceneError(name, sweep->where.line, sweep->where.column,
-                           "this is a sweep, not a scene",
-                           "neve sweep " + name + " makes its runs");
+namespace {
+
+Scene scene_of(toml::Table root, const std::string& name, const std::string& base_dir,
+               const std::vector<Override>& overrides) {
   add_built_ins(root, overrides);
   // Presets first: wherever a single number is set beside one, the number counts.
   for (const bool is_turn_of_presets : {true, false})
@@ -137,6 +135,22 @@ Scene read_scene_text(std::string_view text, const std::string& name, const std:
     reading.source.fail(reading.place_of(problem->address), problem->message, problem->hint);
   }
   return scene;
+}
+
+}  // namespace
+
+Scene read_scene_text(std::string_view text, const std::string& name, const std::string& base_dir,
+                      const std::vector<Override>& overrides) {
+  toml::Table root = toml::parse_toml(text, name);
+  if (const toml::Entry* sweep = root.find("sweep"))
+    throw toml::SceneError(name, sweep->where.line, sweep->where.column,
+                           "this is a sweep, not a scene",
+                           "neve sweep " + name + " makes its runs");
+  return scene_of(std::move(root), name, base_dir, overrides);
+}
+
+Scene apply(const Scene& scene, const std::vector<Override>& overrides, const std::string& name) {
+  return scene_of(scene_table(scene), name, {}, overrides);
 }
 
 Scene read_scene_file(const std::string& file, const std::vector<Override>& overrides) {

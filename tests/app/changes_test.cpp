@@ -84,8 +84,7 @@ TEST(LiveChanges, OnlyTheFirstAndLastChangeOfAStepAndAddressAreKept) {
 }
 
 TEST(LiveChanges, ChangesUpToAStepMakeItsScene) {
-  const app::run::SceneSource source{
-      changed_scene, "s.toml", "", {app::scene::parse_override("solver.cfl=0.1")}};
+  const app::scene::Scene source = start("solver.cfl=0.1");
   const std::vector<app::scene::LiveChange> changes{{3, "solver.cfl", "0.2"},
                                                     {5, "solver.cfl", "0.3"},
                                                     {5, "camera.fov", "20"},
@@ -127,8 +126,7 @@ class Session {
 
   void set(const std::string& address, const std::string& value) {
     app::scene::note_change(changes, {simulation.steps(), address, value});
-    scene_ = app::run::with_changes({app::scene::write_scene(scene_), "now", "", {}},
-                                    {{0, address, value}});
+    scene_ = app::run::with_changes(scene_, {{0, address, value}});
     app::run::apply_scene(scene_, simulation);
   }
   void steps(std::size_t count) {
@@ -208,7 +206,7 @@ TEST(ChangePlayer, ChangePlayerPlaysAgainTheChangesThatItMadeBetweenSteps) {
   std::vector<sim::Retry> none;
   const auto set = [&](const std::string& address, const std::string& value) {
     player.make_now(std::make_shared<app::scene::Scene>(app::run::with_changes(
-        {app::scene::write_scene(player.scene()), "now", "", {}}, {{0, address, value}})));
+        player.scene(), {{0, address, value}})));
   };
   const auto hash_after_replay = [&] {
     sim::Simulation again = simulate(scene);

@@ -28,7 +28,7 @@ class Changes : public Cli {
                                app::setup::seed_scene(scene).particles, 1);
     const auto set = [&](const std::string& address, const std::string& value) {
       app::scene::note_change(record.changes, {simulation.steps(), address, value});
-      app::scene::Scene now = app::run::with_changes({record.scene, "now", "", {}}, record.changes);
+      app::scene::Scene now = app::run::with_changes(scene, record.changes);
       app::run::apply_scene(now, simulation);
     };
     simulation.advance_to(1.0 / 24);

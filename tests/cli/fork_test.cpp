@@ -30,7 +30,7 @@ class Fork : public Cli {
     if (steps > 0) simulation.advance_to((frame + 1) / 24.0, nullptr, simulation.steps() + steps);
     changed_at = simulation.steps();
     app::scene::Scene now = app::run::with_changes(
-        {text, "run", "", {}}, {{simulation.steps(), address, value}}, simulation.steps());
+        scene, {{simulation.steps(), address, value}}, simulation.steps());
     app::run::apply_scene(now, simulation);
     for (int k = frame + 1; k <= 4; ++k) simulation.advance_to(k / 24.0);
     return app::run::hash_text(simulation.state_hash());

@@ -153,7 +153,7 @@ TEST(Workbench, ARunContinuedFromAnOlderFrameIsReplayedToTheBit) {
   const auto live = rest_at(work.session(), 4);
   const run::PictureRecord record = work.picture(*live);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
-  const scene::Scene last = run::with_changes({record.scene, "record", "", {}}, record.changes);
+  const scene::Scene last = run::with_changes(scene::read_scene_text(record.scene, "record"), record.changes);
   EXPECT_DOUBLE_EQ(last.materials[0].youngs_modulus, 1.4e5);
   EXPECT_DOUBLE_EQ(last.solver.gravity.x(), 2);
 }

@@ -67,11 +67,12 @@ class SceneMaker {
   /// @param source  whose scene is varied; without one it is that of the sweep's file
   SceneMaker(const SweepOptions& options, const read::Sweep& sweep,
              const std::optional<run::RenderJob>& source)
-      : options_(options),
-        sweep_(sweep),
-        text_(source ? scene::write_scene(run::scene_before_fork(*source))
-                     : scene::read_toml_file(sweep.scene_file)),
-        base_dir_(source ? "" : scene::base_dir_of(sweep.scene_file)) {}
+      : options_(options), sweep_(sweep) {
+    if (source)
+      at_fork_ = run::scene_before_fork(*source);
+    else
+      text_ = scene::read_toml_file(sweep.scene_file);
+  }
 
   /// With the fixed settings, or of a source as it is there.
   scene::Scene make_base() const { return make({}, options_.from ? none_ : sweep_.fixed); }
@@ -85,7 +86,10 @@ class SceneMaker {
                     const std::vector<scene::Override>& fixed) const {
     std::vector<scene::Override> all = fixed;
     all.insert(all.end(), settings.begin(), settings.end());
-    scene::Scene scene = scene::read_scene_text(text_, sweep_.scene_file, base_dir_, all);
+    scene::Scene scene =
+        at_fork_ ? scene::apply(*at_fork_, all, sweep_.scene_file)
+                 : scene::read_scene_text(text_, sweep_.scene_file,
+                                          scene::base_dir_of(sweep_.scene_file), all);
     if (options_.coarsening) scene::coarsen(scene, *options_.coarsening);
     prepare_view(options_, sweep_, scene);
     return scene;
@@ -93,7 +97,8 @@ class SceneMaker {
 
   const SweepOptions& options_;
   const read::Sweep& sweep_;
-  std::string text_, base_dir_;
+  std::string text_;  ///< of the sweep's scene
+  std::optional<scene::Scene> at_fork_;
   std::vector<scene::Override> none_;
 };
 
