@@ -15,7 +15,7 @@
 #include "app/compare/compare_run.h"
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -129,7 +129,7 @@ bool has_only_pixels(const std::string& file) {
   if (fs::is_directory(file, error)) return false;
   require_picture(file, "neve compare");
   try {
-    run::read_picture_record(file);
+    record::read_picture_record(file);
   } catch (const UnreadableError&) {
     throw;
   } catch (const Error&) {

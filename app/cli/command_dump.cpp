@@ -11,9 +11,9 @@
 #include "app/dump/write.h"
 #include "app/health/expected.h"
 #include "app/output/named_file.h"
+#include "app/record/run_json.h"
 #include "app/run/late_times.h"
 #include "app/run/render_job.h"
-#include "app/run/run_json.h"
 #include "app/run/walk.h"
 #include "app/scene/names.h"
 #include "app/scene/toml/error.h"
@@ -26,7 +26,7 @@ namespace neve::app::cli {
 
 namespace {
 
-std::string force_line(const run::ColliderForce& force) {
+std::string force_line(const record::ColliderForce& force) {
   const auto vector = [](const sim::Vec3d& v) {
     return rough_text(v.x()) + " " + rough_text(v.y()) + " " + rough_text(v.z());
   };
@@ -50,8 +50,8 @@ std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOpti
                      " are left out of the summary, lighter than " +
                      rough_text(health::Expected::negligible_share()) + " rho h^3"
                : std::string(" particles")),
-      "state " + run::hash_text(inside.simulation.state_hash())};
-  for (const run::ColliderForce& force : dump::forces_in_step(inside))
+      "state " + record::hash_text(inside.simulation.state_hash())};
+  for (const record::ColliderForce& force : dump::forces_in_step(inside))
     if (force.force != sim::Vec3d::Zero() || force.max_pressure > 0)
       lines.push_back(force_line(force));
   return lines;
@@ -115,11 +115,11 @@ Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
   json["dt"] = inside.dt;
   json["dt_limit"] = sim::name(inside.limit);
   json["stage"] = options.stage ? Json(sim::name(*options.stage)) : Json();
-  json["state_hash"] = run::hash_text(inside.simulation.state_hash());
+  json["state_hash"] = record::hash_text(inside.simulation.state_hash());
   json[listing.is_of_nodes ? "nodes" : "particles"] = listing.place.size();
   json["forces"] = Json::array();
-  for (const run::ColliderForce& force : dump::forces_in_step(inside))
-    json["forces"].push_back(run::to_json(force));
+  for (const record::ColliderForce& force : dump::forces_in_step(inside))
+    json["forces"].push_back(record::to_json(force));
   json["quantities"] = dump::summary_json(listing);
   json["probes"] = Json::array();
   for (const std::size_t row : probed) json["probes"].push_back(dump::probe_json(listing, row));

@@ -11,10 +11,10 @@
 #include "app/output/movie.h"
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
+#include "app/record/picture_record.h"
 #include "app/run/fork.h"
 #include "app/run/passes.h"
 #include "app/run/past_run.h"
-#include "app/run/picture_record.h"
 #include "app/run/plate.h"
 #include "app/run/render_job.h"
 #include "app/run/render_run.h"
@@ -45,9 +45,9 @@ render::Image read_reference(const std::string& file) {
 /// A strip shows many frames: one of them has to be named.
 void refuse_strip(const run::RenderOptions& options) {
   if (options.scene.empty() || options.frames || options.from || run::is_folder(options.scene) ||
-      !run::is_picture(options.scene))
+      !record::is_picture(options.scene))
     return;
-  if (const auto strip = run::read_picture_record(options.scene).strip)
+  if (const auto strip = record::read_picture_record(options.scene).strip)
     throw scene::toml::UsageError(
         options.scene, "is a strip of " + std::to_string(strip->times.size()) + " moments",
         "neve strip " + options.scene + " makes it again; --frames renders frames of its scene");
@@ -150,7 +150,7 @@ int compare_with_reference(const run::RenderOptions& options, const run::RenderJ
 void print_result(const run::RenderJob& job, const run::RenderRun& run,
                   const run::RenderResult& result, int code) {
   Json json;
-  json["status"] = run::name(result.status);
+  json["status"] = record::name(result.status);
   json["exit_code"] = code;
   json["out"] = job.folder.string();
   json["run_json"] = output::run_json_path(job.folder).string();
@@ -159,7 +159,7 @@ void print_result(const run::RenderJob& job, const run::RenderRun& run,
   json["movies"] = Json::array();
   for (const auto& movie : result.movies) json["movies"].push_back(movie.string());
   if (!run.record().frames.empty())
-    json["state_hash"] = run::hash_text(run.record().frames.back().state_hash);
+    json["state_hash"] = record::hash_text(run.record().frames.back().state_hash);
   std::cout << to_text(json) << "\n";
 }
 
@@ -198,13 +198,13 @@ void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t 
 int finish(const run::RenderOptions& options, const run::RenderJob& job, const run::RenderRun& run,
            const run::RenderResult& result, Progress& progress) {
   progress.clear();
-  if (result.status == run::RunStatus::diverged) {
+  if (result.status == record::RunStatus::diverged) {
     Error error(exit_diverged, health::sentence(*run.record().divergence, *result.diagnosis),
                 job.scene_file, "incident.json and diverged_*.png are in " + job.folder.string());
     error.warnings = run.record().warnings;
     throw error;
   }
-  const bool is_interrupted = result.status == run::RunStatus::interrupted;
+  const bool is_interrupted = result.status == record::RunStatus::interrupted;
   const int code = !is_interrupted         ? exit_ok
                    : result.has_checkpoint ? exit_resumable
                                            : exit_interrupted;

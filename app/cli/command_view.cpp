@@ -6,7 +6,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/devices/place.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/run/render_job.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
@@ -80,8 +80,8 @@ int run_view(const view::ViewOptions& given) {
   // A scene that cannot be read is told before a window opens.
   std::optional<view::session::Document> document =
       view::session::open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
-  if (run::is_picture(file))
-    if (const std::size_t changes = run::read_picture_record(file).changes.size(); changes > 0)
+  if (record::is_picture(file))
+    if (const std::size_t changes = record::read_picture_record(file).changes.size(); changes > 0)
       std::cerr
           << "neve: warning: " << changes
           << " changes were made while the run of this picture ran; the view starts without them"

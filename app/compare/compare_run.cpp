@@ -5,7 +5,7 @@
 #include "app/compare/pair_pictures.h"
 #include "app/compare/target.h"
 #include "app/output/atomic_file.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/run/state_source.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"

@@ -13,7 +13,7 @@ namespace neve::app::compare {
 
 namespace {
 
-using run::FrameRecord;
+using record::FrameRecord;
 
 /// A number of a frame that is worth a curve.
 struct PairMetric {
@@ -120,8 +120,8 @@ render::Image draw_panel(const std::vector<PairMoment>& moments, std::size_t met
 
 }  // namespace
 
-PairMoment moment_of(int frame, double fps, const std::vector<run::FrameRecord>& a,
-                     const std::vector<run::FrameRecord>& b) {
+PairMoment moment_of(int frame, double fps, const std::vector<record::FrameRecord>& a,
+                     const std::vector<record::FrameRecord>& b) {
   PairMoment moment;
   moment.frame = frame;
   moment.time = frame / fps;

@@ -6,7 +6,7 @@
 
 #include "app/output/sequence.h"
 #include "app/picture/frame_builder.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/scene/flat.h"
 #include "app/scene/live_change.h"
 #include "app/scene/toml/error.h"
@@ -22,7 +22,7 @@ constexpr std::size_t most_values = 4;
 Side side_of_run(const run::RenderOptions& options) {
   Side side;
   side.job = run::job_from_run(options);
-  side.past = {options.scene, run::read_frame_records(options.scene)};
+  side.past = {options.scene, record::read_frame_records(options.scene)};
   if (side.past.frames.empty())
     throw Error(exit_invalid_scene,
                 options.scene + ": error: the run has no frames, so there is nothing to compare",

@@ -197,11 +197,11 @@ StepInspection inspect_step(const scene::Scene& scene, const sim::Simulation& si
           simulation.particles()};
 }
 
-std::vector<run::ColliderForce> forces_in_step(const StepInspection& inside) {
+std::vector<record::ColliderForce> forces_in_step(const StepInspection& inside) {
   sim::AdvanceReport report;
   report.seconds = inside.dt;
   report.loads = inside.step.loads;
-  return run::forces_of(report, inside.simulation.summary(), inside.scene.colliders);
+  return record::forces_of(report, inside.simulation.summary(), inside.scene.colliders);
 }
 
 Listing list_state(const StepInspection& inside) {

@@ -8,8 +8,8 @@
 #include "app/output/folder_lock.h"
 #include "app/output/picture_writer.h"
 #include "app/output/sequence.h"
+#include "app/record/run_json.h"
 #include "app/run/late_times.h"
-#include "app/run/run_json.h"
 #include "app/run/state_source.h"
 #include "app/scene/check.h"
 #include "app/scene/toml/error.h"
@@ -106,9 +106,10 @@ void warn_of_other_states(const Json& exports, const Kept& kept, Progress& progr
 
 void write_list(const ExportJob& job, const ExportResult& result, const Kept& kept,
                 const std::vector<output::WrittenFile>& written) {
-  FileHashes files;
+  record::FileHashes files;
   for (const output::WrittenFile& file : written)
-    files[file.file.lexically_relative(job.run.folder).generic_string()] = hash_text(file.hash);
+    files[file.file.lexically_relative(job.run.folder).generic_string()] =
+        record::hash_text(file.hash);
   Json json;
   json["version"] = version;
   json["scene_file"] = job.run.scene_file;
@@ -118,7 +119,7 @@ void write_list(const ExportJob& job, const ExportResult& result, const Kept& ke
   for (const Json& one : result.exports) json["exports"].push_back(one);
   json["files"] = kept.files;
   for (const auto& [file, hash] : files) json["files"][file] = hash;
-  output::write_file(output::export_list_path(job.run.folder), with_own_hash(json));
+  output::write_file(output::export_list_path(job.run.folder), record::with_own_hash(json));
 }
 
 }  // namespace
@@ -127,7 +128,7 @@ ExportJob make_export_job(const ExportOptions& options) {
   ExportJob job;
   const bool is_run = is_folder(options.run.scene);
   job.run = is_run ? job_from_run(options.run) : make_job(options.run);
-  if (is_run) job.past = {options.run.scene, read_frame_records(options.run.scene)};
+  if (is_run) job.past = {options.run.scene, record::read_frame_records(options.run.scene)};
   job.lock_folder = job.run.folder;
   if (options.run.out.empty()) job.run.folder /= output::exports_folder;
   job.run.scene.exports = options.exports;

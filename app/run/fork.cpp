@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "app/output/sequence.h"
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 #include "app/scene/flat.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
@@ -169,7 +169,7 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   fork.time = *options.from;
   fork.changes = scene::parse_overrides(options.overrides);
   const bool is_run = is_folder(options.scene);
-  if (is_run) fork.past = {options.scene, read_frame_records(options.scene)};
+  if (is_run) fork.past = {options.scene, record::read_frame_records(options.scene)};
   job.fork = std::move(fork);
   const scene::Scene forked = forked_scene(job, static_cast<std::size_t>(-1));
   require_live(with_changes(job.scene, changes_of(job.scene, job.changes)), forked, "--from");
@@ -192,7 +192,7 @@ scene::Scene scene_before_fork(const RenderJob& job) {
   const int last = frame_before(job.fork->time, job.scene.fps);
   std::size_t steps = 0;
   int known = 0;  // frames, from the first: those that were not drawn are not listed
-  for (const FrameRecord& record : job.fork->past.frames) {
+  for (const record::FrameRecord& record : job.fork->past.frames) {
     if (record.frame > last || record.frame != known) break;
     ++known;
     steps += record.advance.steps;
@@ -218,7 +218,7 @@ ForkPoint go_to_fork(RenderJob& job, sim::Simulation& simulation, Progress& prog
                   {"time", simulation.time()},
                   {"frame", point.run.frame},
                   {"step", simulation.steps()},
-                  {"state_hash", hash_text(simulation.state_hash())}};
+                  {"state_hash", record::hash_text(simulation.state_hash())}};
   scene::Scene next = forked_scene(job, simulation.steps());
   setup::resolve_ranges(next, simulation.particle_count());
   require_live(player.scene(), next, "--from");

@@ -4,7 +4,7 @@
 
 #include "app/output/checkpoint.h"
 #include "app/output/report_json.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
@@ -17,8 +17,8 @@ namespace {
 std::string state_identity(const RenderJob& job, const sim::Simulation& simulation) {
   std::string text = simulation_text(job.scene) + to_text(scene::to_json(job.changes)) + version +
                      build().sources + simulation.simd();
-  for (const auto& [file, hash] : hash_files(job.scene)) text += "\n" + file + " " + hash;
-  return hash_text(hash_bytes(text.data(), text.size()));
+  for (const auto& [file, hash] : record::hash_files(job.scene)) text += "\n" + file + " " + hash;
+  return record::hash_text(hash_bytes(text.data(), text.size()));
 }
 
 }  // namespace
@@ -93,9 +93,10 @@ std::optional<KeptState> KeptStates::find(int frame) {
 }
 
 void KeptStates::write(int frame, const sim::AdvanceReport& advance,
-                       std::span<const picture::PlotSample> history, const RunRecord& record) {
+                       std::span<const picture::PlotSample> history,
+                       const record::RunRecord& record) {
   if (!needs_state(frame)) return;
-  RunRecord brief;
+  record::RunRecord brief;
   brief.retries = record.retries;
   if (!record.frames.empty()) brief.frames = {record.frames.back()};
   output::Checkpoint checkpoint = checkpoint_of(simulation_, frame, identity_);

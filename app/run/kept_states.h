@@ -54,7 +54,7 @@ class KeptStates {
   /// Writes the state of the simulation, where states are kept and this one is not there.
   /// @throws IoError
   void write(int frame, const sim::AdvanceReport& advance,
-             std::span<const picture::PlotSample> history, const RunRecord& record);
+             std::span<const picture::PlotSample> history, const record::RunRecord& record);
 
  private:
   const RenderJob& job_;

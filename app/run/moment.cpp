@@ -28,12 +28,12 @@ Moment moment_of(const RenderJob& job, const ResumedRun& run, const ChangePlayer
 }
 
 void write_moment(const std::filesystem::path& folder, const Moment& moment) {
-  RunRecord record = moment.record;
-  record.status = RunStatus::ok;
+  record::RunRecord record = moment.record;
+  record.status = record::RunStatus::ok;
   record.retries = moment.retries;
   output::Checkpoint checkpoint;
   const std::string text = record.scene + to_text(scene::to_json(record.changes));
-  checkpoint.identity = hash_text(hash_bytes(text.data(), text.size()));
+  checkpoint.identity = record::hash_text(hash_bytes(text.data(), text.size()));
   checkpoint.simd = record.simd;
   checkpoint.sources = build().sources;
   checkpoint.frame = moment.frame;
@@ -43,7 +43,7 @@ void write_moment(const std::filesystem::path& folder, const Moment& moment) {
   output::make_folder(folder);
   output::remove_checkpoints(folder);
   output::write_checkpoint(folder, checkpoint);
-  write_run_json(folder, record);
+  record::write_run_json(folder, record);
 }
 
 }  // namespace neve::app::run

@@ -6,16 +6,16 @@
 #include <filesystem>
 #include <vector>
 
+#include "app/record/run_json.h"
 #include "app/run/changes.h"
 #include "app/run/render_job.h"
 #include "app/run/resumed_run.h"
-#include "app/run/run_json.h"
 
 namespace neve::app::run {
 
 struct Moment {
-  RunRecord record;  ///< without frames; its changes are those made until then
-  int frame = 0;     ///< the last one that was passed
+  record::RunRecord record;  ///< without frames; its changes are those made until then
+  int frame = 0;             ///< the last one that was passed
   std::size_t steps = 0;
   sim::AdvanceReport advance;                ///< since that frame
   std::vector<picture::PlotSample> history;  ///< of all frames, 0 to this one

@@ -203,10 +203,10 @@ render::channels::Request PassReader::request(const picture::MotionSource& sourc
   return request;
 }
 
-render::ExrHeader PassReader::header(const PictureRecord& record,
+render::ExrHeader PassReader::header(const record::PictureRecord& record,
                                      const render::Frame& frame) const {
   render::ExrHeader header = render::channels::camera_header(frame);
-  header.text = to_png_text(record);
+  header.text = record::to_png_text(record);
   header.fps = scene_.fps;
   header.text["neve:time"] = scene::toml::number_text(record.frame / scene_.fps);
   header.text["neve:bodies"] = numbered(scene::snow_sources(scene_));

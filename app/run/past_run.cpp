@@ -67,7 +67,7 @@ std::optional<ResumedRun> state_before(const fs::path& folder, int last, const s
 std::optional<ResumedRun> checkpoint_before(const PastRun& past, double time, double fps,
                                             const sim::Simulation& simulation) {
   if (past.folder.empty()) return std::nullopt;
-  if (read_run_json(past.folder).value("version", "") != version) return std::nullopt;
+  if (record::read_run_json(past.folder).value("version", "") != version) return std::nullopt;
   const double latest = time * (1 + 1e-12);
   int before = static_cast<int>(std::min(std::floor(latest * fps), 1e9)) + 1;
   std::optional<ResumedRun> kept = state_before(past.folder, before - 1, simulation.simd());
@@ -95,7 +95,7 @@ void go_to_checkpoint(const ResumedRun& checkpoint, double fps, ChangePlayer& pl
 }
 
 void compare_with_past(const PastRun& past, int frame, std::uint64_t hash, Progress& progress) {
-  for (const FrameRecord& record : past.frames)
+  for (const record::FrameRecord& record : past.frames)
     if (record.frame == frame && record.state_hash != hash)
       progress.warning("frame " + std::to_string(frame) + " has another state than the run in " +
                        past.folder.string() +

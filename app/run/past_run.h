@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "app/record/run_json.h"
 #include "app/run/changes.h"
 #include "app/run/resumed_run.h"
-#include "app/run/run_json.h"
 #include "app/support/progress.h"
 #include "sim/simulation.h"
 
@@ -19,8 +19,8 @@ struct RenderJob;
 struct RenderOptions;
 
 struct PastRun {
-  std::filesystem::path folder;     ///< empty: there is no such run
-  std::vector<FrameRecord> frames;  ///< that it lists
+  std::filesystem::path folder;             ///< empty: there is no such run
+  std::vector<record::FrameRecord> frames;  ///< that it lists
 };
 
 /// True for the path of a folder that exists.

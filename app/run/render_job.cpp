@@ -4,8 +4,9 @@
 #include <cstdio>
 #include <set>
 
+#include "app/record/picture_record.h"
 #include "app/run/fork.h"
-#include "app/run/picture_record.h"
+#include "app/run/passes.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
@@ -13,6 +14,7 @@
 #include "app/support/machine.h"
 #include "app/support/out_folder.h"
 #include "app/support/text.h"
+#include "app/support/version.h"
 
 namespace neve::app::run {
 
@@ -85,20 +87,24 @@ void choose_views(const std::vector<std::string>& names, RenderJob& job) {
   job.scene.mosaics = mosaics;
 }
 
-/// Checks that the last change of each address can be set.
-void check_changes(const RenderJob& job) {
-  try {
-    with_changes(job.scene, changes_of(job.scene, job.changes));
-  } catch (const scene::toml::UsageError& error) {
-    throw Error(exit_invalid_scene, job.scene_file + ": error: " + error.what(), job.scene_file,
-                "its text neve:changes was not written by neve");
-  }
+/// Checks that the last change of each address can be set, and that its passes are known.
+void check_texts(const RenderJob& job) {
+  const auto check = [&](const char* key, const auto& read) {
+    try {
+      read();
+    } catch (const scene::toml::UsageError& error) {
+      throw Error(exit_invalid_scene, job.scene_file + ": error: " + error.what(), job.scene_file,
+                  std::string("its text ") + key + " was not written by neve");
+    }
+  };
+  check("neve:changes", [&] { with_changes(job.scene, changes_of(job.scene, job.changes)); });
+  check("neve:passes", [&] { pass_list(job.passes); });
 }
 
 /// The frame and view of a picture, from the scene inside it.
 RenderJob job_from_picture(const RenderOptions& options) {
-  const PictureRecord record = read_picture_record(options.scene);
-  check_files(record);
+  const record::PictureRecord record = record::read_picture_record(options.scene);
+  record::check_files(record);
   RenderJob job;
   job.scene_file = options.scene;
   job.overrides = record.overrides;
@@ -120,7 +126,7 @@ RenderJob job_from_picture(const RenderOptions& options) {
   job.coarsening = record.coarsening;
   choose_views({record.view}, job);
   job.scene.exports.clear();
-  check_changes(job);
+  check_texts(job);
   return job;
 }
 
@@ -154,7 +160,7 @@ namespace {
 RenderJob job_of_source(const RenderOptions& options) {
   RenderOptions start = options;
   if (options.from) start.overrides.clear();
-  if (!options.scene.empty() && is_picture(options.scene)) return job_from_picture(start);
+  if (!options.scene.empty() && record::is_picture(options.scene)) return job_from_picture(start);
   return options.from && is_folder(options.scene) ? job_from_run(start) : job_from_scene(start);
 }
 
@@ -179,7 +185,8 @@ RenderJob make_job(const RenderOptions& options) {
   if (options.quality) job.quality = *options.quality;
   if (!options.out.empty()) job.folder = options.out;
   // A picture has its own shutter, unless another quality is asked for.
-  const bool has_own = !options.scene.empty() && is_picture(options.scene) && !options.quality;
+  const bool has_own =
+      !options.scene.empty() && record::is_picture(options.scene) && !options.quality;
   if (options.shutter)
     job.shutter = *options.shutter;
   else if (!has_own)
@@ -203,6 +210,24 @@ RenderJob make_job(const RenderOptions& options) {
   job.movie = options.movie;
   if (options.from) set_fork(options, job);
   return job;
+}
+
+record::PictureRecord record_of_job(const RenderJob& job, const std::string& scene,
+                                    const std::string& simd) {
+  record::PictureRecord picture;
+  picture.scene = scene;
+  picture.build = build_text(simd);
+  picture.overrides = job.overrides;
+  picture.changes = job.changes;
+  picture.coarsening = job.coarsening;
+  picture.seed = job.scene.seed;
+  picture.version = version;
+  picture.quality = setup::name(job.quality);
+  picture.plate = job.plate;
+  picture.shutter = job.shutter;
+  picture.passes = job.passes;
+  picture.files = record::hash_files(job.scene);
+  return picture;
 }
 
 }  // namespace neve::app::run

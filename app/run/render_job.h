@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/health/fast.h"
+#include "app/record/picture_record.h"
 #include "app/run/changes.h"
 #include "app/run/past_run.h"
 #include "app/run/render_options.h"
@@ -47,5 +48,10 @@ struct RenderJob {
 
 /// @throws SceneError, UsageError, IoError, Error
 RenderJob make_job(const RenderOptions& options);
+
+/// The record of all pictures of a job, without their frame, view and state.
+/// @param scene  resolved, TOML @param simd  of the simulation
+record::PictureRecord record_of_job(const RenderJob& job, const std::string& scene,
+                                    const std::string& simd);
 
 }  // namespace neve::app::run

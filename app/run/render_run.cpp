@@ -36,9 +36,9 @@ bool has_alpha(const scene::Scene& scene, const std::string& name) {
 /// Two pools of threads on fewer cores would only take turns.
 constexpr int threads_for_overlap = 4;
 
-RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation,
-                     const render::gl::Context& context) {
-  RunRecord record;
+record::RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation,
+                             const render::gl::Context& context) {
+  record::RunRecord record;
   record.scene = scene::write_scene(job.scene);
   record.scene_file = job.scene_file;
   record.overrides = job.overrides;
@@ -99,7 +99,7 @@ int RenderRun::begin() {
     first = resume(std::move(*found));
   } else {
     first = start();
-    exports::remove_earlier_exports(job_.folder, earlier_exports(job_.folder));
+    exports::remove_earlier_exports(job_.folder, record::earlier_exports(job_.folder));
     output::remove_earlier_run(job_.folder);
     output::remove_checkpoints(job_.folder);
   }
@@ -109,7 +109,7 @@ int RenderRun::begin() {
     output::make_folder(job_.folder / view);
     output::remove_abandoned(job_.folder / view);
   }
-  write_run_json(job_.folder, record_);
+  record::write_run_json(job_.folder, record_);
   return first;
 }
 
@@ -183,14 +183,15 @@ void RenderRun::note_written() {
 }
 
 void RenderRun::note_file(const output::WrittenFile& file) {
-  record_.files[file.file.lexically_relative(job_.folder).generic_string()] = hash_text(file.hash);
+  record_.files[file.file.lexically_relative(job_.folder).generic_string()] =
+      record::hash_text(file.hash);
   unsynced_.insert(file.file);
 }
 
 void RenderRun::bring_to_disk() {
   writer_.finish();
   note_written();
-  write_run_json(job_.folder, record_);
+  record::write_run_json(job_.folder, record_);
   unsynced_.insert(output::run_json_path(job_.folder));
   output::sync_files({unsynced_.begin(), unsynced_.end()});
   unsynced_.clear();
@@ -209,12 +210,12 @@ RenderResult RenderRun::run() {
   } catch (const std::exception& error) {
     is_abandoned_ = true;
     if (next_.valid()) next_.wait();
-    record_.status = RunStatus::failed;
+    record_.status = record::RunStatus::failed;
     record_.error = error.what();
     note_written();
     forget_unwritten_frames();
     try {
-      write_run_json(job_.folder, record_);
+      record::write_run_json(job_.folder, record_);
     } catch (const IoError&) {
       // The first error is the one to report; the disk may be full for this file too.
     }
@@ -233,7 +234,7 @@ void RenderRun::make_frames(int first) {
   for (int frame = first; frame <= last_frame(); ++frame) {
     seconds_sim_ = 0;
     if (frame > 0 && !advance_to_frame(frame)) {
-      if (result_.status == RunStatus::interrupted) write_checkpoint(frame - 1);
+      if (result_.status == record::RunStatus::interrupted) write_checkpoint(frame - 1);
       return;
     }
     summary_ = simulation_.summary();
@@ -248,7 +249,7 @@ void RenderRun::make_frames(int first) {
     progress_.frame(frame, frame / job_.scene.fps);
     // A frame that was begun is picked up first: its steps belong to the checkpoint.
     if (is_interrupted() && frame < last_frame() && !next_.valid()) {
-      result_.status = RunStatus::interrupted;
+      result_.status = record::RunStatus::interrupted;
       write_checkpoint(frame);
       return;
     }
@@ -336,12 +337,12 @@ bool RenderRun::advance_to_frame(int frame) {
   note_warnings();
   if (simulation_.divergence()) {
     record_.divergence = simulation_.divergence();
-    result_.status = RunStatus::diverged;
+    result_.status = record::RunStatus::diverged;
     report_incident();
     return false;
   }
   if (is_interrupted()) {
-    result_.status = RunStatus::interrupted;
+    result_.status = record::RunStatus::interrupted;
     return false;
   }
   return true;
@@ -392,11 +393,11 @@ void RenderRun::draw_frame(int frame) {
                                           [&](const scene::View& view, const render::Frame& tile) {
                                             return draw_tile(view, snapshot, tile);
                                           }));
-  Metrics metrics = measure(snapshot.particles, job_.scene.solver.cell_size);
+  record::Metrics metrics = measure(snapshot.particles, job_.scene.solver.cell_size);
   metrics.max_depth_cells = summary_.max_depth / job_.scene.solver.cell_size;
-  add_frame(record_.frames,
-            {frame, frame / job_.scene.fps, advance_, seconds_sim_, seconds_since(start), summary_,
-             state_hash, metrics, forces_of(advance_, summary_, scene_.colliders)});
+  record::add_frame(record_.frames, {frame, frame / job_.scene.fps, advance_, seconds_sim_,
+                                     seconds_since(start), summary_, state_hash, metrics,
+                                     record::forces_of(advance_, summary_, scene_.colliders)});
   if (const auto slowdown = slowdown_warning(record_.frames); slowdown && !said_slow_) {
     progress_.warning(*slowdown);
     said_slow_ = true;
@@ -404,10 +405,11 @@ void RenderRun::draw_frame(int frame) {
   // Listed first and written then: whenever the process is killed, the next run knows every picture
   // that it has to remove. The hash follows when it is written.
   note_written();
-  for (const std::string& view : record_.views) record_.files.erase(picture_name(view, frame));
+  for (const std::string& view : record_.views)
+    record_.files.erase(record::picture_name(view, frame));
   for (const std::string& view : record_.views_of_passes)
-    record_.files.erase(channels_name(view, frame));
-  write_run_json(job_.folder, record_);
+    record_.files.erase(record::channels_name(view, frame));
+  record::write_run_json(job_.folder, record_);
   for (output::Picture& picture : pictures) writer_.write(std::move(picture));
   for (output::WriteTask& file : pass_work_) writer_.write(std::move(file));
   pass_work_.clear();
@@ -557,7 +559,8 @@ void RenderRun::write_movie(const std::string& view) {
   switch (movie.outcome) {
     case output::MovieOutcome::written:
       result_.movies.push_back(request.file);
-      record_.files[request.file.filename().string()] = hash_text(output::hash_file(request.file));
+      record_.files[request.file.filename().string()] =
+          record::hash_text(output::hash_file(request.file));
       return;
     case output::MovieOutcome::no_ffmpeg:
       if (view == record_.views.front())
@@ -576,7 +579,7 @@ void RenderRun::write_movie(const std::string& view) {
 }
 
 void RenderRun::forget_unwritten_frames() {
-  std::erase_if(record_.frames, [&](const FrameRecord& frame) {
+  std::erase_if(record_.frames, [&](const record::FrameRecord& frame) {
     std::error_code error;
     for (const std::string& view : record_.views)
       if (!std::filesystem::exists(output::frame_path(job_.folder, view, frame.frame), error))
@@ -594,25 +597,25 @@ bool RenderRun::is_drawn(const scene::View& view) const {
 }
 
 void RenderRun::note_state(std::uint64_t state_hash) {
-  picture_record_.state_hash = hash_text(state_hash);
+  picture_record_.state_hash = record::hash_text(state_hash);
   picture_record_.changes = job_.changes;
   std::erase_if(picture_record_.changes,
                 [&](const scene::LiveChange& change) { return change.step > simulation_.steps(); });
 }
 
-PictureRecord RenderRun::record_of(const std::string& view, int frame) const {
-  PictureRecord record = picture_record_;
+record::PictureRecord RenderRun::record_of(const std::string& view, int frame) const {
+  record::PictureRecord record = picture_record_;
   record.view = view;
   record.frame = frame;
   if (!job_.plate.empty()) {
     const std::filesystem::path plate = plate_path(job_.plate, frame);
-    record.files[plate.string()] = hash_text(output::hash_file(plate));
+    record.files[plate.string()] = record::hash_text(output::hash_file(plate));
   }
   return record;
 }
 
 render::PngText RenderRun::png_text(const std::string& view, int frame) const {
-  return to_png_text(record_of(view, frame));
+  return record::to_png_text(record_of(view, frame));
 }
 
 }  // namespace neve::app::run

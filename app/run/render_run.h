@@ -13,14 +13,14 @@
 #include "app/health/diagnosis.h"
 #include "app/output/picture_writer.h"
 #include "app/picture/frame_builder.h"
+#include "app/record/picture_record.h"
+#include "app/record/run_json.h"
 #include "app/run/changes.h"
 #include "app/run/fork.h"
 #include "app/run/kept_states.h"
 #include "app/run/passes.h"
-#include "app/run/picture_record.h"
 #include "app/run/render_job.h"
 #include "app/run/resume.h"
-#include "app/run/run_json.h"
 #include "app/run/validation.h"
 #include "app/support/progress.h"
 #include "render/renderer.h"
@@ -30,7 +30,7 @@ namespace neve::app::run {
 
 struct RenderResult {
   bool has_checkpoint = false;  ///< the run can be resumed
-  RunStatus status = RunStatus::ok;
+  record::RunStatus status = record::RunStatus::ok;
   std::vector<std::filesystem::path> movies;
   std::optional<render::Image> last_picture;   ///< of the first view
   std::optional<health::Diagnosis> diagnosis;  ///< of a run that diverged
@@ -48,7 +48,7 @@ class RenderRun {
   /// says at every moment how far it got, also when this throws.
   RenderResult run();
 
-  const RunRecord& record() const { return record_; }
+  const record::RunRecord& record() const { return record_; }
   /// Findings of --validate; null without the flag.
   const Validation* validation() const { return validation_ ? &*validation_ : nullptr; }
 
@@ -114,7 +114,7 @@ class RenderRun {
   /// Updates the text of pictures about the current simulation.
   void note_state(std::uint64_t state_hash);
   render::PngText png_text(const std::string& view, int frame) const;
-  PictureRecord record_of(const std::string& view, int frame) const;
+  record::PictureRecord record_of(const std::string& view, int frame) const;
 
   const RenderJob& job_;
   const setup::SeededScene* seeded_;
@@ -129,8 +129,8 @@ class RenderRun {
   std::optional<PassReader> passes_;                          ///< of --passes
   std::vector<render::channels::PointNumbers> pass_numbers_;  ///< of the frame being drawn
   std::vector<output::WriteTask> pass_work_;                  ///< likewise
-  RunRecord record_;
-  PictureRecord picture_record_;
+  record::RunRecord record_;
+  record::PictureRecord picture_record_;
   Checkpoints checkpoints_;
   KeptStates states_;
   std::optional<std::size_t> kept_grid_blocks_;  ///< of the kept state that a frame is drawn from

@@ -5,7 +5,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
-#include "app/run/verify.h"
+#include "app/record/verify.h"
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
@@ -18,13 +18,13 @@ namespace neve::app::run {
 namespace {
 
 /// Everything that bits of states and pictures depend on, but the machine.
-std::string identity_of(PictureRecord picture) {
+std::string identity_of(record::PictureRecord picture) {
   picture.frame = 0;
   picture.view.clear();
   picture.state_hash.clear();
   picture.build.clear();
   const std::string text = to_text(to_json(picture));
-  return hash_text(hash_bytes(text.data(), text.size()));
+  return record::hash_text(hash_bytes(text.data(), text.size()));
 }
 
 std::string value_or_none(const std::optional<scene::toml::Value>& value) {
@@ -33,7 +33,7 @@ std::string value_or_none(const std::optional<scene::toml::Value>& value) {
 
 /// First difference between the run of a folder and this one, with both values; values that may
 /// differ where run.json cannot tell.
-std::string other_thing(const std::filesystem::path& folder, const PictureRecord& picture) {
+std::string other_thing(const std::filesystem::path& folder, const record::PictureRecord& picture) {
   try {
     const Json run = parse_json(output::read_file(output::run_json_path(folder)));
     const scene::Scene before =
@@ -69,9 +69,9 @@ std::string other_thing(const std::filesystem::path& folder, const PictureRecord
 void add_listed(const Json& run_json, ResumedRun& run) {
   const bool has_none = run.frames.empty();
   if (has_none && run_json.is_object()) run.exports = run_json.value("exports", Json());
-  for (const FrameRecord& frame : frame_records(run_json))
-    if (has_none || frame.frame > run.frame) add_frame(run.frames, frame);
-  for (const auto& [file, hash] : file_hashes(run_json)) run.files.emplace(file, hash);
+  for (const record::FrameRecord& frame : record::frame_records(run_json))
+    if (has_none || frame.frame > run.frame) record::add_frame(run.frames, frame);
+  for (const auto& [file, hash] : record::file_hashes(run_json)) run.files.emplace(file, hash);
   // Movies are made again at the end: only pictures are in folders.
   std::erase_if(run.files,
                 [](const auto& file) { return file.first.find('/') == std::string::npos; });
@@ -79,7 +79,7 @@ void add_listed(const Json& run_json, ResumedRun& run) {
 
 }  // namespace
 
-Checkpoints::Checkpoints(std::filesystem::path folder, const PictureRecord& picture,
+Checkpoints::Checkpoints(std::filesystem::path folder, const record::PictureRecord& picture,
                          sim::Simulation& simulation, ChangePlayer& player, Progress& progress)
     : folder_(std::move(folder)),
       picture_(picture),
@@ -89,7 +89,8 @@ Checkpoints::Checkpoints(std::filesystem::path folder, const PictureRecord& pict
       progress_(progress) {}
 
 void Checkpoints::write(int frame, const sim::AdvanceReport& advance,
-                        std::span<const picture::PlotSample> history, const RunRecord& record) {
+                        std::span<const picture::PlotSample> history,
+                        const record::RunRecord& record) {
   output::Checkpoint checkpoint = checkpoint_of(simulation_, frame, identity_);
   checkpoint.progress = progress_json(frame, advance, history, record);
   output::write_checkpoint(folder_, checkpoint);
@@ -113,7 +114,8 @@ void Checkpoints::check_identity(const output::Checkpoint& checkpoint) {
                       " if this machine has it");
 }
 
-std::optional<Resumption> Checkpoints::find(const RunRecord& record, setup::FrameRange frames) {
+std::optional<Resumption> Checkpoints::find(const record::RunRecord& record,
+                                            setup::FrameRange frames) {
   const output::FoundCheckpoint found = output::find_checkpoint(folder_);
   for (const std::string& damaged : found.damaged)
     progress_.warning(damaged + "; using an older checkpoint");
@@ -124,13 +126,16 @@ std::optional<Resumption> Checkpoints::find(const RunRecord& record, setup::Fram
   check_identity(*found.checkpoint);
   Resumption resumption{read_resumed_run(*found.checkpoint), {}, {}};
   ResumedRun& run = resumption.run;
-  add_listed(read_run_json(folder_), run);
+  add_listed(record::read_run_json(folder_), run);
   const int last = std::min(run.frame, frames.last);
-  Pictures pictures{record.views, record.views_of_passes, run.frames, run.files};
-  std::erase_if(pictures.frames, [&](const FrameRecord& made) { return made.frame > run.frame; });
-  std::vector<Flaw> flaws = picture_flaws(folder_, pictures, frames.first, last, resumption.flawed);
+  record::Pictures pictures{record.views, record.views_of_passes, run.frames, run.files};
+  std::erase_if(pictures.frames,
+                [&](const record::FrameRecord& made) { return made.frame > run.frame; });
+  std::vector<record::Flaw> flaws =
+      record::picture_flaws(folder_, pictures, frames.first, last, resumption.flawed);
   try {
-    for (Flaw& flaw : export_flaws(folder_, run.exports, run.files, run.frame, resumption.flawed))
+    for (record::Flaw& flaw :
+         record::export_flaws(folder_, run.exports, run.files, run.frame, resumption.flawed))
       flaws.push_back(std::move(flaw));
   } catch (const std::bad_alloc&) {
     throw;
@@ -144,7 +149,8 @@ std::optional<Resumption> Checkpoints::find(const RunRecord& record, setup::Fram
   if (const auto older = output::find_checkpoint(folder_, before).checkpoint;
       older && older->identity == identity_)
     resumption.repair = read_resumed_run(*older);
-  progress_.warning(folder_.string() + ": " + flaw_text(flaws) + "; made again from frame " +
+  progress_.warning(folder_.string() + ": " + record::flaw_text(flaws) +
+                    "; made again from frame " +
                     std::to_string(resumption.repair ? resumption.repair->frame : 0) + " on");
   return resumption;
 }

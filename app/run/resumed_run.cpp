@@ -71,15 +71,15 @@ sim::AdvanceReport advance_of(const Json& json, std::size_t steps) {
   return output::advance_report(json);
 }
 
-std::vector<FrameRecord> frames_of(const Json& list, int last, std::size_t steps) {
-  std::vector<FrameRecord> frames;
+std::vector<record::FrameRecord> frames_of(const Json& list, int last, std::size_t steps) {
+  std::vector<record::FrameRecord> frames;
   int before = -1;
   for (const Json& json : list) {
     const auto number = static_cast<int>(
         count_of(json.at("frame"), "frames frame", static_cast<std::size_t>(last)));
     if (number <= before) refuse_value("frames frame", json.at("frame"), "frames in order");
     count_of(json.at("steps"), "frames steps", steps);
-    frames.push_back(frame_record(json));
+    frames.push_back(record::frame_record(json));
     before = number;
   }
   return frames;
@@ -100,7 +100,7 @@ output::Checkpoint checkpoint_of(const sim::Simulation& simulation, int frame,
 }
 
 Json progress_json(int frame, const sim::AdvanceReport& advance,
-                   std::span<const picture::PlotSample> history, const RunRecord& record) {
+                   std::span<const picture::PlotSample> history, const record::RunRecord& record) {
   Json progress = {{"advance", output::to_json(advance)},
                    {"history", history_json(history)},
                    {"retries", Json::array()},
@@ -109,7 +109,7 @@ Json progress_json(int frame, const sim::AdvanceReport& advance,
                    {"exports", record.exports}};
   for (const sim::Retry& retry : record.retries)
     progress["retries"].push_back(output::to_json(retry));
-  for (const FrameRecord& made : record.frames)
+  for (const record::FrameRecord& made : record.frames)
     if (made.frame <= frame) progress["frames"].push_back(to_json(made));
   return progress;
 }
@@ -129,7 +129,7 @@ ResumedRun read_resumed_run(const output::Checkpoint& checkpoint) {
     // Checkpoints of earlier versions have neither.
     if (!progress.contains("frames")) return run;
     run.frames = frames_of(progress.at("frames"), run.frame, run.steps);
-    run.files = file_hashes(progress);
+    run.files = record::file_hashes(progress);
     run.exports = progress.value("exports", Json());
   } catch (const std::bad_alloc&) {
     throw;

@@ -9,7 +9,7 @@
 
 #include "app/output/checkpoint.h"
 #include "app/picture/plots.h"
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 #include "sim/retry.h"
 #include "sim/simulation.h"
 
@@ -26,8 +26,8 @@ struct ResumedRun {
   std::vector<sim::Retry> retries;           ///< so far
   /// That the run has made, with the hashes of its files. Those up to the checkpoint are from it,
   /// so that a damaged run.json loses none.
-  std::vector<FrameRecord> frames;
-  FileHashes files;
+  std::vector<record::FrameRecord> frames;
+  record::FileHashes files;
   Json exports = Json::array();  ///< as run.json lists them
 };
 
@@ -37,7 +37,7 @@ output::Checkpoint checkpoint_of(const sim::Simulation& simulation, int frame,
 
 /// The part of a checkpoint beside the state of the simulation.
 Json progress_json(int frame, const sim::AdvanceReport& advance,
-                   std::span<const picture::PlotSample> history, const RunRecord& record);
+                   std::span<const picture::PlotSample> history, const record::RunRecord& record);
 
 /// @throws IoError that names the value that no run has written
 ResumedRun read_resumed_run(const output::Checkpoint& checkpoint);

@@ -6,8 +6,8 @@
 #include "app/output/atomic_file.h"
 #include "app/picture/frame_builder.h"
 #include "app/picture/legends.h"
+#include "app/record/picture_record.h"
 #include "app/run/late_times.h"
-#include "app/run/picture_record.h"
 #include "app/run/state_source.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
@@ -25,9 +25,9 @@ constexpr std::array<std::uint8_t, 3> behind_tiles{38, 42, 49};
 constexpr double screen_aspect = 16.0 / 9;
 
 /// The moments of a picture that neve strip made; nothing for any other scene.
-std::optional<StripRecord> strip_of(const std::string& scene) {
-  if (scene.empty() || is_folder(scene) || !is_picture(scene)) return std::nullopt;
-  return read_picture_record(scene).strip;
+std::optional<record::StripRecord> strip_of(const std::string& scene) {
+  if (scene.empty() || is_folder(scene) || !record::is_picture(scene)) return std::nullopt;
+  return record::read_picture_record(scene).strip;
 }
 
 /// Frames spread evenly from the first to the last, each once.
@@ -134,14 +134,14 @@ class Strip {
   std::size_t count() const { return tiles_.size(); }
 
   /// @param scene  resolved, TOML
-  PictureRecord record(const std::string& scene, const std::string& simd) const {
-    PictureRecord record = record_of_job(job_.run, scene, simd);
+  record::PictureRecord record(const std::string& scene, const std::string& simd) const {
+    record::PictureRecord record = record_of_job(job_.run, scene, simd);
     const std::vector<double> drawn(job_.times.begin(),
                                     job_.times.begin() + static_cast<std::ptrdiff_t>(count()));
-    record.strip = StripRecord{drawn, job_.columns, job_.width};
+    record.strip = record::StripRecord{drawn, job_.columns, job_.width};
     record.view = job_.run.scene.views.front().name;
     record.frame = static_cast<int>(std::lround(drawn.back() * job_.run.scene.fps));
-    record.state_hash = hash_text(state_hash_);
+    record.state_hash = record::hash_text(state_hash_);
     return record;
   }
 
@@ -171,9 +171,9 @@ StripJob make_strip_job(const StripOptions& options) {
   RenderOptions run = options.run;
   run.out.clear();
   const bool is_run = is_folder(run.scene);
-  const std::optional<StripRecord> made_again = strip_of(run.scene);
+  const std::optional<record::StripRecord> made_again = strip_of(run.scene);
   job.run = is_run ? job_from_run(run) : make_job(run);
-  if (is_run) job.past = {run.scene, read_frame_records(run.scene)};
+  if (is_run) job.past = {run.scene, record::read_frame_records(run.scene)};
   if (!job.run.scene.mosaics.empty() && !run.views.empty() && job.run.scene.views.size() > 1)
     throw scene::toml::UsageError("--view", "a mosaic has no strip", "give one of its views");
   job.run.scene.mosaics.clear();
@@ -220,9 +220,9 @@ StripResult run_strip(const StripJob& job, const RenderOptions& options, Progres
   StripResult result{strip.count(), source.simulation().divergence()};
   if (result.tiles > 0) {
     if (job.file.has_parent_path()) output::make_folder(job.file.parent_path());
-    const PictureRecord record =
+    const record::PictureRecord record =
         strip.record(scene::write_scene(resolved), source.simulation().simd());
-    output::write_file(job.file, render::encode_png(strip.finish(), to_png_text(record)));
+    output::write_file(job.file, render::encode_png(strip.finish(), record::to_png_text(record)));
   }
   return result;
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/plan.h"
@@ -128,10 +128,10 @@ TEST(Coarsen, CoarseningRefusesStepsOutOfRange) {
 }
 
 TEST(Coarsen, PicturesRecordTheFactorAndOldOnesDoNotNeedIt) {
-  app::run::PictureRecord record;
+  app::record::PictureRecord record;
   record.coarsening = 1.5;
-  EXPECT_EQ(app::run::to_png_text(record).at("neve:coarsen"), "1.5");
-  EXPECT_EQ(app::run::to_json(record)["coarsen"], 1.5);
+  EXPECT_EQ(app::record::to_png_text(record).at("neve:coarsen"), "1.5");
+  EXPECT_EQ(app::record::to_json(record)["coarsen"], 1.5);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include "app/health/findings.h"
 #include "app/picture/frame_builder.h"
-#include "app/run/metrics.h"
+#include "app/record/metrics.h"
 #include "app/scene/override.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
@@ -103,7 +103,7 @@ TEST(SceneFlow, AMomentWithoutParticlesIsDrawnAndMeasured) {
   const app::picture::FrameBuilder builder(scene, seeded, {.quality = app::setup::Quality::draft});
   for (const app::scene::View& view : scene.views)
     EXPECT_TRUE(builder.build(view, snapshot).points.position.empty());
-  EXPECT_EQ(app::run::measure(snapshot.particles, 0.02).fragments, 0u);
+  EXPECT_EQ(app::record::measure(snapshot.particles, 0.02).fragments, 0u);
 }
 
 TEST(SceneFlow, IdsStayWhereParticlesWereRemoved) {

@@ -2,8 +2,8 @@
 
 #include "app/run/changes.h"
 #include "app/output/atomic_file.h"
-#include "app/run/picture_record.h"
-#include "app/run/run_json.h"
+#include "app/record/picture_record.h"
+#include "app/record/run_json.h"
 #include "app/scene/read.h"
 #include "app/setup/command_text.h"
 #include "app/setup/seed_scene.h"
@@ -21,7 +21,7 @@ class Changes : public Cli {
     if (!more.empty()) render.insert(render.end(), {"--set", more});
     ASSERT_EQ(neve(render).exit_code, 0);
     const std::string plain = (folder / "plain/particles/0004.png").string();
-    record = app::run::read_picture_record(plain);
+    record = app::record::read_picture_record(plain);
     plain_hash = record.state_hash;
     const app::scene::Scene scene = app::scene::read_scene_text(record.scene, "plain");
     sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
@@ -42,10 +42,10 @@ class Changes : public Cli {
     set("solver.transfer", "mls");
     simulation.advance_to(4.0 / 24);
     ASSERT_FALSE(simulation.divergence());
-    record.state_hash = app::run::hash_text(simulation.state_hash());
+    record.state_hash = app::record::hash_text(simulation.state_hash());
     app::output::write_file(folder / "session.png",
                             render::encode_png(render::decode_png(app::output::read_file(plain)),
-                                               app::run::to_png_text(record)));
+                                               app::record::to_png_text(record)));
   }
 
   std::vector<std::string> hashes(const std::string& out) {
@@ -56,7 +56,7 @@ class Changes : public Cli {
     return all;
   }
 
-  app::run::PictureRecord record;
+  app::record::PictureRecord record;
   std::string plain_hash;
 };
 
@@ -69,7 +69,7 @@ TEST_F(Changes, APictureOfASessionIsMadeAgainWithTheSameState) {
   const app::Json run = json_of("again/run.json");
   EXPECT_EQ(app::scene::live_changes(run["changes"]), record.changes);
   // The picture made again is one that can be made again.
-  const auto made = app::run::read_picture_record(folder / "again/particles/0004.png");
+  const auto made = app::record::read_picture_record(folder / "again/particles/0004.png");
   EXPECT_EQ(made.changes, record.changes);
   EXPECT_EQ(made.scene, record.scene);
   ASSERT_EQ(neve({"render", "again/particles/0004.png", "--out", "third"}).exit_code, 0);
@@ -83,7 +83,7 @@ TEST_F(Changes, PicturesBeforeAChangeDoNotListIt) {
   std::size_t before = 0;
   for (const char* frame : {"0000", "0001", "0002", "0003", "0004"}) {
     const auto made =
-        app::run::read_picture_record(folder / ("all/particles/" + std::string(frame) + ".png"));
+        app::record::read_picture_record(folder / ("all/particles/" + std::string(frame) + ".png"));
     EXPECT_GE(made.changes.size(), before);
     before = made.changes.size();
     const bool is_first = std::string(frame) < "0002";
@@ -122,7 +122,7 @@ TEST_F(Changes, AResumedRunMakesTheRestOfThem) {
       folder / "session.png",
       render::encode_png(
           render::decode_png(app::output::read_file(folder / "plain/particles/0004.png")),
-          app::run::to_png_text(record)));
+          app::record::to_png_text(record)));
   EXPECT_EQ(render("0-4", "parts", true).exit_code, 2);
 }
 
@@ -147,7 +147,7 @@ TEST_F(Changes, InvalidChangesAreRefused) {
   const auto image =
       render::decode_png(app::output::read_file(folder / "plain/particles/0004.png"));
   const auto render_with = [&](const std::string& changes) {
-    render::PngText text = app::run::to_png_text(record);
+    render::PngText text = app::record::to_png_text(record);
     text["neve:changes"] = changes;
     app::output::write_file(folder / "bad.png", render::encode_png(image, text));
     return neve({"render", "bad.png", "--out", "bad"});

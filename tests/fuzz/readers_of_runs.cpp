@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "app/output/checkpoint.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
+#include "app/record/run_json.h"
 #include "app/run/resumed_run.h"
-#include "app/run/run_json.h"
 #include "app/scene/read.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
@@ -55,13 +55,13 @@ struct SmallRun {
 
   SmallRun() {
     std::vector<picture::PlotSample> history;
-    run::RunRecord record;
+    record::RunRecord record;
     sim::AdvanceReport advance;
     for (int frame = 0; frame <= 1; ++frame) {
       if (frame > 0) advance = simulation.advance_to(frame / scene.fps);
       const sim::Summary summary = simulation.summary();
       history.push_back(picture::plot_sample(frame / scene.fps, 1 / scene.fps, summary, advance));
-      run::add_frame(
+      record::add_frame(
           record.frames,
           {frame, frame / scene.fps, advance, 0, 0, summary, simulation.state_hash(), {}, {}});
     }
@@ -144,9 +144,9 @@ void read_run_json(std::span<const std::uint8_t> bytes) {
   } catch (const nlohmann::json::exception&) {
     return;
   }
-  run::frame_records(json);
-  run::file_hashes(json);
-  run::is_untouched(json);
+  record::frame_records(json);
+  record::file_hashes(json);
+  record::is_untouched(json);
   try {
     scene::live_changes(json.is_object() ? json.value("changes", Json::array()) : json);
   } catch (const std::runtime_error&) {
@@ -165,7 +165,7 @@ void read_manifest(std::span<const std::uint8_t> bytes) {
 void read_picture(std::span<const std::uint8_t> given) {
   const Bytes bytes = with_right_checksums(given);
   try {
-    run::picture_record_of(render::read_png_text(bytes), "picture.png");
+    record::picture_record_of(render::read_png_text(bytes), "picture.png");
   } catch (const render::ImageError&) {
   } catch (const Error&) {
   }
@@ -180,24 +180,24 @@ std::vector<Bytes> checkpoints() {
 }
 
 std::vector<Bytes> run_records() {
-  run::RunRecord record;
+  record::RunRecord record;
   record.scene = small_scene;
   record.views = {"particles"};
   for (const Json& frame : small_run().checkpoint.progress["frames"])
-    record.frames.push_back(run::frame_record(frame));
+    record.frames.push_back(record::frame_record(frame));
   record.files = {{"particles/0000.png", "0123456789abcdef"}};
-  return {bytes_of(run::with_own_hash(run::to_json(record)))};
+  return {bytes_of(record::with_own_hash(record::to_json(record)))};
 }
 
 std::vector<Bytes> pictures() {
-  run::PictureRecord record;
+  record::PictureRecord record;
   record.scene = small_scene;
   record.overrides = {"material.snow.hardening=5"};
   record.view = "particles";
   record.state_hash = "0123456789abcdef";
   record.quality = "preview";
   const render::Image image{2, 2, 3, std::vector<std::uint8_t>(12, 100)};
-  return {render::encode_png(image, run::to_png_text(record)), render::encode_png(image)};
+  return {render::encode_png(image, record::to_png_text(record)), render::encode_png(image)};
 }
 
 }  // namespace neve::test::fuzz

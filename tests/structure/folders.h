@@ -52,6 +52,9 @@ inline constexpr Folder folders[] = {
      "sim/base sim/types sim/shapes sim/seeding sim/kernels render/frame app/support "
      "app/scene/toml"},
     {"app/output", "sim/base sim/types sim sim/checks render/image app/support"},
+    {"app/record",
+     "sim/base sim/types sim sim/checks render/image app/support app/scene/toml app/scene "
+     "app/output"},
     {"app/setup",
      "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health sim/engine sim app/support "
      "app/scene/toml app/scene app/output"},
@@ -65,23 +68,23 @@ inline constexpr Folder folders[] = {
      "sim/base sim/types sim/shapes sim render/frame render/surface app/support app/scene/toml "
      "app/scene app/output app/setup app/picture"},
     {"app/run",
-     "sim/base sim/types sim sim/checks render/image render/frame render/gl render/channels render "
-     "app/support app/scene/toml app/scene app/output app/setup app/health app/picture "
-     "app/exports"},
+     "sim/base sim/types sim sim/checks render/image render/frame render/gl render/channels "
+     "render app/support app/scene/toml app/scene app/output app/record app/setup app/health "
+     "app/picture app/exports"},
     {"app/compare",
-     "sim/base sim/types sim render/image render/frame render/gl render app/support app/scene/toml "
-     "app/scene app/output app/setup app/picture app/run"},
+     "sim/base sim/types sim render/image render/frame render/gl render app/support "
+     "app/scene/toml app/scene app/output app/record app/setup app/picture app/run"},
     {"app/dump",
-     "sim/base sim/types sim/health sim app/support app/scene/toml app/scene app/setup "
-     "app/health app/run"},
+     "sim/base sim/types sim/health sim app/support app/scene/toml app/scene app/record "
+     "app/setup app/health app/run"},
     {"app/sweep", "app/scene app/setup"},
     {"app/sweep/read", "app/support app/scene/toml app/scene app/setup app/sweep"},
     {"app/sweep/plan",
-     "sim/base sim/types sim/engine app/support app/scene/toml app/scene app/output app/setup "
-     "app/health app/run app/sweep app/sweep/read"},
+     "sim/base sim/types sim/engine app/support app/scene/toml app/scene app/output "
+     "app/record app/setup app/health app/run app/sweep app/sweep/read"},
     {"app/sweep/store",
-     "sim/base app/support app/scene/toml app/scene app/output app/setup app/run app/sweep/read "
-     "app/sweep/plan"},
+     "sim/base app/support app/scene/toml app/scene app/output app/record app/setup app/run "
+     "app/sweep/read app/sweep/plan"},
     {"app/sweep/jobs",
      "sim app/support app/output app/setup app/run app/sweep/plan app/sweep/store"},
     {"app/sweep/sheet",
@@ -92,13 +95,13 @@ inline constexpr Folder folders[] = {
      "app/support app/scene/toml app/scene app/output app/sweep app/sweep/read app/sweep/plan "
      "app/sweep/store app/sweep/jobs app/pick/search"},
     {"app/view/session",
-     "sim/types sim app/support app/scene/toml app/scene app/output app/setup app/health "
-     "app/picture app/run app/dump app/sweep/plan app/sweep/jobs app/sweep/store"},
+     "sim/types sim app/support app/scene/toml app/scene app/output app/record app/setup "
+     "app/health app/picture app/run app/dump app/sweep/plan app/sweep/store app/sweep/jobs"},
     {"app/view/frontend", "render/image render"},
     {"app/view/web", "render/image render app/support app/output app/view/frontend"},
     {"app/view/panels",
-     "render/frame render/overlay render app/support app/scene/toml app/scene app/health "
-     "app/picture app/run app/view/session app/view/frontend"},
+     "render/frame render/overlay render app/support app/scene/toml app/scene app/record "
+     "app/health app/picture app/view/session app/view/frontend"},
     {"app/view/replay",
      "render/image render/frame render app/support app/scene/toml app/scene app/output "
      "app/view/frontend app/view/panels"},
@@ -106,20 +109,21 @@ inline constexpr Folder folders[] = {
      "render/image render/frame render app/support app/scene app/output app/setup app/pick/search "
      "app/pick app/view/frontend app/view/panels"},
     {"app/view",
-     "render/image render/frame render app/support app/scene app/output app/setup app/picture "
-     "app/run app/view/session app/view/frontend app/view/panels"},
+     "render/image render/frame render app/support app/scene app/output app/record app/setup "
+     "app/picture app/run app/view/session app/view/frontend app/view/panels"},
     {"app/bench",
-     "sim/base sim/types sim/kernels sim render/image render/frame render/shapes render/surface "
-     "render/gl render/cpu render app/support app/scene/toml app/scene app/output app/setup "
-     "app/picture app/run app/sweep/plan app/sweep/store app/sweep/jobs app/view"},
+     "sim/base sim/types sim/kernels sim render/image render/frame render/shapes "
+     "render/surface render/gl render/cpu render app/support app/scene/toml app/scene "
+     "app/output app/record app/setup app/picture app/sweep/plan app/sweep/store "
+     "app/sweep/jobs app/view"},
     {"app/cli/devices",
      "render/gl app/support app/scene/toml app/scene app/view/frontend app/view/web "
      "app/view/replay app/view"},
     {"app/cli",
-     "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
-     "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports app/run "
-     "app/compare app/dump app/pick app/pick/search "
-     "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet "
+     "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render "
+     "app/support app/scene/toml app/scene app/output app/record app/setup app/health "
+     "app/picture app/exports app/run app/compare app/dump app/sweep/read app/sweep/plan "
+     "app/sweep/store app/sweep/jobs app/sweep/sheet app/pick/search app/pick "
      "app/view/picker app/view app/bench app/cli/devices"},
     {"app", "app/output app/cli", "neve::app"},
 };

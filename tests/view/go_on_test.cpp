@@ -93,7 +93,7 @@ TEST(GoOn, ItsPicturesAreMadeAgainToTheBit) {
   run.bench.go_on_anyway();
   const auto live = wait_for_ignored(run.bench.session());
   ASSERT_FALSE(live->divergence) << live->divergence->sentence;
-  const run::PictureRecord record = run.bench.picture_record(*live, live->scene->views.front());
+  const record::PictureRecord record = run.bench.picture_record(*live, live->scene->views.front());
   const scene::Scene start = scene::read_scene_text(record.scene, "record");
   sim::Simulation simulation(start.solver, start.materials, scene::sim_colliders(start),
                              setup::seed_scene(start).particles);

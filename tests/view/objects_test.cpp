@@ -141,7 +141,7 @@ TEST(Objects, AtTheStartTheyAreThereAtOnceAndLaterTheyWaitForReset) {
   });
   EXPECT_EQ(live->scene->colliders.size(), 2u);
   // A picture of the run has its objects, not those that wait.
-  const run::PictureRecord record =
+  const record::PictureRecord record =
       work.bench.picture_record(*live, work.bench.document().scene()->views.front());
   EXPECT_EQ(scene::read_scene_text(record.scene, "record").colliders.size(), 2u);
   work.bench.reset();

@@ -79,7 +79,7 @@ TEST_F(Study, EveryRunIsTheRunOfTheViewWithItsChangeAtThatFrame) {
   go_to(3);
   go_to(4);
   const auto live = bench->session().latest();
-  EXPECT_EQ(hash_of(0, 4), app::run::hash_text(live->state_hash));
+  EXPECT_EQ(hash_of(0, 4), app::record::hash_text(live->state_hash));
   EXPECT_NE(hash_of(1, 4), hash_of(0, 4));
   // And a whole run from its start, from the picture alone.
   const auto again = app::output::run_process(

@@ -23,7 +23,7 @@ using namespace neve::app;
 using namespace neve::test;
 
 /// The state that neve render gets for a picture.
-std::uint64_t hash_of_replay(const run::PictureRecord& record) {
+std::uint64_t hash_of_replay(const record::PictureRecord& record) {
   const scene::Scene start = scene::read_scene_text(record.scene, "record");
   sim::Simulation simulation(start.solver, start.materials, scene::sim_colliders(start),
                              setup::seed_scene(start).particles);
@@ -45,7 +45,7 @@ struct Working {
     session().next_frame();
     rest_at(session(), frame);
   }
-  run::PictureRecord picture(const view::session::LiveFrame& live) {
+  record::PictureRecord picture(const view::session::LiveFrame& live) {
     return bench.picture_record(live, live.scene->views.front());
   }
 
@@ -127,7 +127,7 @@ TEST(Workbench, ChangesAreReplayedToTheBit) {
   work.bench.set("material.snow.youngs_modulus", "50000");
   work.session().run();
   const auto live = rest_at(work.session(), 4);
-  const run::PictureRecord record = work.picture(*live);
+  const record::PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 3u);
   EXPECT_DOUBLE_EQ(scene::read_scene_text(record.scene, "record").materials[0].youngs_modulus,
                    1.4e5);
@@ -151,9 +151,10 @@ TEST(Workbench, ARunContinuedFromAnOlderFrameIsReplayedToTheBit) {
   work.bench.continue_from_here();
   work.session().run();
   const auto live = rest_at(work.session(), 4);
-  const run::PictureRecord record = work.picture(*live);
+  const record::PictureRecord record = work.picture(*live);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
-  const scene::Scene last = run::with_changes(scene::read_scene_text(record.scene, "record"), record.changes);
+  const scene::Scene last =
+      run::with_changes(scene::read_scene_text(record.scene, "record"), record.changes);
   EXPECT_DOUBLE_EQ(last.materials[0].youngs_modulus, 1.4e5);
   EXPECT_DOUBLE_EQ(last.solver.gravity.x(), 2);
 }
@@ -167,7 +168,7 @@ TEST(Workbench, ChangesOfACoarsenedRunAreReplayedToTheBit) {
   work.bench.undo();
   work.session().run();
   const auto live = rest_at(work.session(), 4);
-  const run::PictureRecord record = work.picture(*live);
+  const record::PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 2u);
   EXPECT_NEAR(std::stod(record.changes[0].value), 3e-4, 1e-15);
   EXPECT_NEAR(std::stod(record.changes[1].value), 1.5e-3, 1e-15);
@@ -184,7 +185,7 @@ TEST(Workbench, APausedChangeBelongsToThePicture) {
   const auto live = wait_for(work.session(), [](const view::session::LiveFrame& now) {
     return now.is_frame_end && now.scene->solver.transfer == sim::Transfer::flip;
   });
-  const run::PictureRecord record = work.picture(*live);
+  const record::PictureRecord record = work.picture(*live);
   EXPECT_EQ(record.changes.size(), 2u);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
 }
@@ -228,7 +229,7 @@ TEST(Workbench, APresetChosenWhileItRunsIsReplayedToTheBit) {
   const auto live = rest_at(work.session(), 4);
   EXPECT_DOUBLE_EQ(live->scene->materials[0].density, 500);
   EXPECT_DOUBLE_EQ(live->scene->materials[0].hardening, 5);
-  const run::PictureRecord record = work.picture(*live);
+  const record::PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 6u);
   EXPECT_EQ(scene::preset_of(scene::read_scene_text(record.scene, "record").materials[0]),
             scene::Preset::wet);

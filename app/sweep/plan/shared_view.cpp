@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "app/output/atomic_file.h"
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
@@ -112,7 +112,7 @@ scene::Scene find_shared_view(const SweepPlan& plan, int cores) {
 std::string mark_of(const SweepPlan& plan) {
   const std::string text = scene::write_scene(plan.base);
   return "# Camera and colour ranges of all runs. Of scene " +
-         run::hash_text(hash_bytes(text.data(), text.size())) + "\n";
+         record::hash_text(hash_bytes(text.data(), text.size())) + "\n";
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/record/picture_record.h"
 #include "app/run/fork.h"
 #include "app/run/kept_states.h"
-#include "app/run/picture_record.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/leaf.h"
 #include "app/scene/read.h"
@@ -86,10 +86,10 @@ class SceneMaker {
                     const std::vector<scene::Override>& fixed) const {
     std::vector<scene::Override> all = fixed;
     all.insert(all.end(), settings.begin(), settings.end());
-    scene::Scene scene =
-        at_fork_ ? scene::apply(*at_fork_, all, sweep_.scene_file)
-                 : scene::read_scene_text(text_, sweep_.scene_file,
-                                          scene::base_dir_of(sweep_.scene_file), all);
+    scene::Scene scene = at_fork_
+                             ? scene::apply(*at_fork_, all, sweep_.scene_file)
+                             : scene::read_scene_text(text_, sweep_.scene_file,
+                                                      scene::base_dir_of(sweep_.scene_file), all);
     if (options_.coarsening) scene::coarsen(scene, *options_.coarsening);
     prepare_view(options_, sweep_, scene);
     return scene;
@@ -178,7 +178,7 @@ run::RenderJob source_job(const SweepOptions& options) {
   if (!std::filesystem::exists(options.file, error))
     throw scene::toml::UsageError("--from", options.file + " is not there",
                                   "expected the folder of a run, or a picture made by neve");
-  if (!run::is_folder(options.file) && !run::is_picture(options.file))
+  if (!run::is_folder(options.file) && !record::is_picture(options.file))
     throw scene::toml::UsageError(
         "--from", options.file + " is no folder of a run and no picture made by neve",
         fmt::format("for a scene or a sweep file, give --fork {}s", *options.from));

@@ -8,9 +8,9 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
+#include "app/record/picture_record.h"
+#include "app/record/run_json.h"
 #include "app/run/kept_states.h"
-#include "app/run/picture_record.h"
-#include "app/run/run_json.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
 #include "app/setup/command_text.h"
@@ -114,13 +114,13 @@ void write_run(const fs::path& folder, const RunFiles& files) {
 }
 
 std::string hash_of_text(const std::string& text) {
-  return run::hash_text(hash_bytes(text.data(), text.size()));
+  return record::hash_text(hash_bytes(text.data(), text.size()));
 }
 
 /// Version, sources, and the files that a scene names.
 std::string surroundings_of(const scene::Scene& scene) {
   std::string text = std::string("\nversion ") + version + "\nsources " + build().sources;
-  for (const auto& [file, hash] : run::hash_files(scene)) text += "\n" + file + " " + hash;
+  for (const auto& [file, hash] : record::hash_files(scene)) text += "\n" + file + " " + hash;
   return text;
 }
 

@@ -6,8 +6,8 @@
 #include "app/health/fast.h"
 #include "app/output/atomic_file.h"
 #include "app/output/named_file.h"
-#include "app/run/picture_record.h"
-#include "app/run/run_json.h"
+#include "app/record/picture_record.h"
+#include "app/record/run_json.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/flat.h"
 #include "app/scene/params.h"
@@ -50,11 +50,11 @@ std::filesystem::file_time_type time_of(const std::string& file) {
 Document open_document(const std::string& file, const std::vector<std::string>& overrides,
                        double coarsening) {
   std::vector<scene::Override> parsed = scene::parse_overrides(overrides);
-  if (!run::is_picture(file))
+  if (!record::is_picture(file))
     return Document(file, scene::read_toml_file(file), std::move(parsed), coarsening);
   // Saved, it lies beside the picture, which holds the scene as it was drawn: coarsened already.
   const std::string beside = std::filesystem::path(file).replace_extension(".toml").string();
-  return Document(beside, run::read_picture_record(file).scene, std::move(parsed), coarsening);
+  return Document(beside, record::read_picture_record(file).scene, std::move(parsed), coarsening);
 }
 
 Workbench::Workbench(Document document, WorkbenchOptions options, std::function<void()> wake)
@@ -378,7 +378,7 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
         moment.steps != live->steps)
       throw scene::toml::UsageError("", "the run is between two frames",
                                     "pause, and go to a frame on the time line");
-    const run::PictureRecord record = picture_record(*live, view);
+    const record::PictureRecord record = picture_record(*live, view);
     moment.record.scene = record.scene;
     moment.record.scene_file = document_.file();
     moment.record.overrides = record.overrides;
@@ -403,7 +403,8 @@ std::string Workbench::command() const {
   return render_command(document_);
 }
 
-run::PictureRecord Workbench::picture_record(const LiveFrame& live, const scene::View& view) const {
+record::PictureRecord Workbench::picture_record(const LiveFrame& live,
+                                                const scene::View& view) const {
   std::vector<scene::Override> edits = at_start_;
   for (const scene::Override& edit : document_.edits())
     if (effect_of(edit.address) == Effect::display && !waits_with_its_object(edit.address))
@@ -411,7 +412,7 @@ run::PictureRecord Workbench::picture_record(const LiveFrame& live, const scene:
   scene::Scene scene = *document_.scene_with(edits);
   scene.views = {view};
   scene.mosaics.clear();
-  run::PictureRecord record;
+  record::PictureRecord record;
   record.scene = scene::write_scene(scene);
   record.overrides = overrides();
   record.coarsening = document_.coarsening();
@@ -421,7 +422,7 @@ run::PictureRecord Workbench::picture_record(const LiveFrame& live, const scene:
   record.frame = live.frame;
   record.view = view.name;
   record.quality = setup::name(options_.quality);
-  record.files = run::hash_files(scene);
+  record.files = record::hash_files(scene);
   record.changes = live.snapshot.changes;
   return record;
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/scene/flat.h"
 #include "app/view/session/document.h"
 #include "app/view/session/edit.h"
@@ -95,7 +95,7 @@ class Workbench {
   Study& study() { return study_; }
   std::string command() const;
   /// Record that a picture of this moment needs to be made again.
-  run::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
+  record::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
 
   void say(Message::Kind kind, std::string text);
   /// Says the error. A script of clicks ends with it.

@@ -1,4 +1,4 @@
-#include "app/run/verify.h"
+#include "app/record/verify.h"
 
 #include <algorithm>
 #include <map>
@@ -10,11 +10,11 @@
 #include "app/output/atomic_file.h"
 #include "app/output/file_hash.h"
 #include "app/output/sequence.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/support/errors.h"
 #include "render/image/exr.h"
 
-namespace neve::app::run {
+namespace neve::app::record {
 
 namespace {
 
@@ -234,4 +234,4 @@ std::string flaw_text(const std::vector<Flaw>& flaws) {
   return text;
 }
 
-}  // namespace neve::app::run
+}  // namespace neve::app::record

@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "app/output/report_json.h"
-#include "app/run/changes.h"
-#include "app/run/metrics.h"
+#include "app/record/metrics.h"
+#include "app/scene/live_change.h"
+#include "app/scene/scene.h"
 #include "app/support/json.h"
 #include "sim/checks/watch.h"
 #include "sim/retry.h"
 #include "sim/simulation.h"
 
-namespace neve::app::run {
+namespace neve::app::record {
 
 enum class RunStatus { running, ok, diverged, interrupted, failed };
 const char* name(RunStatus status);
@@ -128,4 +129,4 @@ Json to_json(const RunRecord& run);
 /// @throws IoError
 void write_run_json(const std::filesystem::path& folder, const RunRecord& run);
 
-}  // namespace neve::app::run
+}  // namespace neve::app::record

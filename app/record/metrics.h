@@ -5,7 +5,7 @@
 
 #include "sim/simulation.h"
 
-namespace neve::app::run {
+namespace neve::app::record {
 
 struct Metrics {
   double spread = 0;    ///< m, horizontal radius about the centre that holds 90 % of the particles
@@ -20,4 +20,4 @@ struct Metrics {
 /// @param cell_size m, of the solver: snow closer than a cell is one piece
 Metrics measure(const sim::ParticleArrays& particles, double cell_size);
 
-}  // namespace neve::app::run
+}  // namespace neve::app::record

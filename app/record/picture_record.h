@@ -8,15 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "app/run/changes.h"
+#include "app/scene/live_change.h"
 #include "app/scene/scene.h"
-#include "app/setup/plan.h"
 #include "app/support/json.h"
 #include "render/image/image.h"
 
-namespace neve::app::run {
-
-struct RenderJob;
+namespace neve::app::record {
 
 /// Moments of a picture made by neve strip.
 struct StripRecord {
@@ -43,11 +40,6 @@ struct PictureRecord {
   std::optional<StripRecord> strip;          ///< frame and state_hash are those of its last moment
 };
 
-/// The record of all pictures of a job, without their frame, view and state.
-/// @param scene  resolved, TOML @param simd  of the simulation
-PictureRecord record_of_job(const RenderJob& job, const std::string& scene,
-                            const std::string& simd);
-
 render::PngText to_png_text(const PictureRecord& record);
 Json to_json(const PictureRecord& record);
 
@@ -70,4 +62,4 @@ void check_files(const PictureRecord& record);
 /// True if the file starts like a PNG or an OpenEXR file.
 bool is_picture(const std::filesystem::path& file);
 
-}  // namespace neve::app::run
+}  // namespace neve::app::record

@@ -1,4 +1,4 @@
-#include "app/run/metrics.h"
+#include "app/record/metrics.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace neve::app::run {
+namespace neve::app::record {
 
 namespace {
 
@@ -129,4 +129,4 @@ Metrics measure(const sim::ParticleArrays& particles, double cell_size) {
   return metrics;
 }
 
-}  // namespace neve::app::run
+}  // namespace neve::app::record

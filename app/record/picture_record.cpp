@@ -1,24 +1,22 @@
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <functional>
+#include <sstream>
 
 #include "app/output/atomic_file.h"
 #include "app/output/file_hash.h"
 #include "app/output/sequence.h"
-#include "app/run/passes.h"
-#include "app/run/render_job.h"
-#include "app/run/run_json.h"
-#include "app/scene/toml/error.h"
+#include "app/record/run_json.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "render/image/exr.h"
 
-namespace neve::app::run {
+namespace neve::app::record {
 
 namespace {
 
@@ -76,12 +74,12 @@ class TextReader {
     }
   }
 
-  std::vector<std::string> passes(const char* key) const {
-    try {
-      return parse_passes(text(key));
-    } catch (const scene::toml::UsageError& error) {
-      fail(error.what());
-    }
+  /// Separated by commas.
+  std::vector<std::string> list(const char* key) const {
+    std::vector<std::string> words;
+    std::istringstream in(text(key));
+    for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+    return words;
   }
 
   StripRecord strip(const char* key) const {
@@ -115,24 +113,6 @@ bool is_exr(std::span<const std::uint8_t> bytes) {
 }
 
 }  // namespace
-
-PictureRecord record_of_job(const RenderJob& job, const std::string& scene,
-                            const std::string& simd) {
-  PictureRecord record;
-  record.scene = scene;
-  record.build = build_text(simd);
-  record.overrides = job.overrides;
-  record.changes = job.changes;
-  record.coarsening = job.coarsening;
-  record.seed = job.scene.seed;
-  record.version = version;
-  record.quality = setup::name(job.quality);
-  record.plate = job.plate;
-  record.shutter = job.shutter;
-  record.passes = job.passes;
-  record.files = hash_files(job.scene);
-  return record;
-}
 
 render::PngText to_png_text(const PictureRecord& record) {
   render::PngText text{{"neve:scene", record.scene},
@@ -277,7 +257,7 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   if (text.contains("neve:plate")) record.plate = reader.text("neve:plate");
   if (text.contains("neve:shutter")) record.shutter = reader.number<double>("neve:shutter");
   if (!(record.shutter >= 0 && record.shutter <= 360)) reader.fail("its shutter is not 0 to 360");
-  if (text.contains("neve:passes")) record.passes = reader.passes("neve:passes");
+  if (text.contains("neve:passes")) record.passes = reader.list("neve:passes");
   if (text.contains("neve:strip")) record.strip = reader.strip("neve:strip");
   const Json files = reader.json("neve:files");
   for (const auto& [path, hash] : files.items())
@@ -334,4 +314,4 @@ bool is_picture(const std::filesystem::path& file) {
   return in && (start == png_start || start == exr_start);
 }
 
-}  // namespace neve::app::run
+}  // namespace neve::app::record

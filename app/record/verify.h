@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 
-namespace neve::app::run {
+namespace neve::app::record {
 
 /// A file that is not as the run wrote it.
 struct Flaw {
@@ -51,4 +51,4 @@ std::optional<Verification> verify_export(const std::filesystem::path& folder,
 /// "particles/0003.png is missing, particles/0004.png is empty and 12 more"
 std::string flaw_text(const std::vector<Flaw>& flaws);
 
-}  // namespace neve::app::run
+}  // namespace neve::app::record

@@ -1,4 +1,4 @@
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -10,7 +10,7 @@
 #include "app/support/version.h"
 #include "sim/base/hash.h"
 
-namespace neve::app::run {
+namespace neve::app::record {
 
 namespace {
 
@@ -286,4 +286,4 @@ void write_run_json(const std::filesystem::path& folder, const RunRecord& run) {
   output::write_file(output::run_json_path(folder), with_own_hash(to_json(run)));
 }
 
-}  // namespace neve::app::run
+}  // namespace neve::app::record
