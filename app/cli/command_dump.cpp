@@ -12,15 +12,14 @@
 #include "app/health/expected.h"
 #include "app/output/named_file.h"
 #include "app/record/run_json.h"
-#include "app/run/late_times.h"
 #include "app/run/render_job.h"
-#include "app/run/walk.h"
 #include "app/scene/names.h"
 #include "app/scene/toml/error.h"
-#include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
+#include "app/timeline/origin.h"
+#include "app/timeline/times.h"
 
 namespace neve::app::cli {
 
@@ -223,24 +222,22 @@ int run_dump(const dump::DumpOptions& options) {
   catch_interrupts();
   Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),
                     options.run.progress);
-  sim::Simulation simulation = setup::make_simulation(
-      job.scene, setup::seed_scene(job.scene).particles, options.run.threads);
-  run::warn_of_late_time("--at " + rough_text(options.at.back()) + " s", options.at.back(),
-                         job.scene, progress);
-  run::ChangePlayer player(job.scene, job.changes, simulation);
-  player.begin();
-  run::Walk walk(job.scene.fps, simulation, player, progress);
-  progress.start(static_cast<int>(std::floor(options.at.back() * job.scene.fps)));
+  timeline::warn_of_late_time("--at " + rough_text(options.at.back()) + " s", options.at.back(),
+                              job.scene, progress);
+  timeline::Timeline timeline = timeline::open(job, options.run.threads, progress);
+  const sim::Simulation& simulation = timeline.simulation();
+  progress.start(timeline::frame_at(options.at.back(), job.scene.fps));
   DumpOutput out(job, options);
   for (const double at : options.at) {
-    walk.go_to(at);
+    timeline.go_to(at);
     progress.clear();
     if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the requested time");
     if (simulation.divergence())
       progress.warning(simulation.divergence()->sentence + "; this is its last state");
-    const double left = walk.frame_end() - simulation.time();
+    const double left = timeline.frame_end() - simulation.time();
+    const scene::Scene& scene = *timeline.here().scene;
     const dump::StepInspection inside =
-        dump::inspect_step(player.scene(), simulation, left > 0 ? left : 1 / job.scene.fps);
+        dump::inspect_step(scene, simulation, left > 0 ? left : 1 / job.scene.fps);
     const dump::Listing listing = listing_of(options, inside);
     warn_of_far_probes(options, inside, listing, progress);
     out.add(inside, listing);

@@ -164,6 +164,14 @@ void add_scene(CLI::App& command, const std::shared_ptr<run::RenderOptions>& opt
   add_caps(command);
 }
 
+void add_origin(CLI::App& command, const std::shared_ptr<run::RenderOptions>& options,
+                const std::shared_ptr<RenderTexts>& texts) {
+  add_scene(command, options, texts);
+  command.get_option("SCENE")->description(
+      "Scene file (TOML), - for standard input, a picture made by neve, or the folder of a run; "
+      "default: a falling snowball");
+}
+
 void add_caps(CLI::App& command) {
   command
       .add_option_function<std::string>(
@@ -213,7 +221,7 @@ void add_check(CLI::App& app, Action& action) {
                          "likely mistakes; takes a few steps and runs a coarse copy");
   const auto options = std::make_shared<run::RenderOptions>();
   const auto texts = std::make_shared<RenderTexts>();
-  add_scene(*command, options, texts);
+  add_origin(*command, options, texts);
   command->add_flag("--json", options->is_json, "Print JSON");
   command->add_flag("--quiet,-q", texts->is_quiet, "Print only errors and warnings");
   command->final_callback([=, &action] {

@@ -38,12 +38,12 @@ void add_dump(CLI::App& app, Action& action) {
   const auto run = std::make_shared<run::RenderOptions>();
   const auto run_texts = std::make_shared<RenderTexts>();
   const auto texts = std::make_shared<DumpTexts>();
-  add_scene(*command, run, run_texts);
+  add_origin(*command, run, run_texts);
   command
       ->add_option(
           "--at", texts->at,
           "Times in seconds, as in 0.1,0.2, all of one simulation; neve shows the step that "
-          "contains each")
+          "contains each. A run is simulated from the nearest moment that it has kept")
       ->type_name("T,T")
       ->capture_default_str();
   command

@@ -53,6 +53,10 @@ run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts
 void add_scene(CLI::App& command, const std::shared_ptr<run::RenderOptions>& options,
                const std::shared_ptr<RenderTexts>& texts);
 
+/// The same, of commands that take the folder of a run, too.
+void add_origin(CLI::App& command, const std::shared_ptr<run::RenderOptions>& options,
+                const std::shared_ptr<RenderTexts>& texts);
+
 void add_sweep(CLI::App& app, Action& action);
 void add_pick(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);

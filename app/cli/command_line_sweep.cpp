@@ -5,7 +5,6 @@
 
 #include "app/cli/command_line_parts.h"
 #include "app/cli/commands.h"
-#include "app/run/past_run.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
@@ -30,7 +29,7 @@ sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
                                   "give a sweep file, or a scene and -p ADDRESS=LIST");
   options.file = scene::path_of_scene(options.file);
   if (texts.from) options.from = setup::parse_time(*texts.from, "--from");
-  if (!texts.from && run::is_folder(options.file))
+  if (!texts.from && timeline::is_folder(options.file))
     throw scene::toml::UsageError("sweep", options.file + " is a folder, not a scene",
                                   "to vary its run from a time on, add --from TIME");
   if (texts.frames) options.frames = setup::parse_frames(*texts.frames);

@@ -8,6 +8,7 @@
 #include "app/cli/devices/screen_flags.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/timeline/origin.h"
 
 namespace neve::app::cli {
 
@@ -15,8 +16,14 @@ namespace {
 
 view::ViewOptions finished_view(view::ViewOptions options, const run::RenderOptions& run,
                                 const RenderTexts& run_texts,
-                                const std::optional<std::string>& listen) {
+                                const std::optional<std::string>& listen,
+                                const std::optional<std::string>& at) {
   options.run = finished(run, run_texts);
+  if (at) options.at = setup::parse_time(*at, "--at");
+  if (options.at && !timeline::is_folder(options.run.scene))
+    throw scene::toml::UsageError(
+        "--at", "shows a moment that a run has kept",
+        "expected the folder of a run, as in neve view out/snowball_drop");
   devices::finish_screen(options.screen, listen);
   if (options.screen.pictures < 0)
     throw scene::toml::UsageError("--frames",
@@ -34,10 +41,17 @@ void add_view(CLI::App& app, Action& action) {
   const auto run = std::make_shared<run::RenderOptions>();
   const auto run_texts = std::make_shared<RenderTexts>();
   const auto listen = std::make_shared<std::optional<std::string>>();
-  add_scene(*command, run, run_texts);
+  const auto at = std::make_shared<std::optional<std::string>>();
+  add_origin(*command, run, run_texts);
   devices::add_place(*command, options->screen, *listen);
   add_repeatable(*command, "--view", run->views, "NAME", "View to show first");
   command->add_flag("--run", options->is_running, "Start simulating at once");
+  command
+      ->add_option(
+          "--at", *at,
+          "Show a run at this time in seconds, as in 0.25s, or at the nearest moment before "
+          "it that the run has kept; default: its last")
+      ->type_name("T");
   command->add_option("--size", run_texts->size, "Size of the window, or initial size of the page")
       ->type_name("WxH");
   command
@@ -56,7 +70,7 @@ void add_view(CLI::App& app, Action& action) {
   command->add_flag("--quiet,-q", run_texts->is_quiet,
                     "Print only errors, warnings and the address");
   command->final_callback([=, &action] {
-    action = [=] { return run_view(finished_view(*options, *run, *run_texts, *listen)); };
+    action = [=] { return run_view(finished_view(*options, *run, *run_texts, *listen, *at)); };
   });
 }
 

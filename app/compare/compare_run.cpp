@@ -6,7 +6,6 @@
 #include "app/compare/target.h"
 #include "app/output/atomic_file.h"
 #include "app/record/picture_record.h"
-#include "app/run/state_source.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "render/gl/context.h"
@@ -30,14 +29,14 @@ void refuse_mode(const PairOptions& options, Mode mode,
 }
 
 std::optional<scene::toml::UsageError> metrics_problem(const Pair& pair) {
-  if (!pair.a.is_picture && !pair.b.is_picture) return std::nullopt;
+  if (!pair.a.job.picture && !pair.b.job.picture) return std::nullopt;
   return scene::toml::UsageError("--mode metrics", "a picture has no metrics over time",
                                  "compare the folders of two runs");
 }
 
 void check_costs(const Side& side, int threads) {
   const setup::Plan plan =
-      setup::make_plan(side.job.scene, side.frames, setup::Quality::draft, threads);
+      setup::make_plan(side.job.scene, side.job.frames, setup::Quality::draft, threads);
   setup::check_limits(side.job.scene, plan, side.job.coarsening);
 }
 
@@ -82,7 +81,7 @@ class PairRun {
 
  private:
   PairMoment moment(int frame) const {
-    return moment_of(frame, pair_.a.job.scene.fps, pair_.a.past.frames, pair_.b.past.frames);
+    return moment_of(frame, pair_.a.job.scene.fps, pair_.a.job.run_frames, pair_.b.job.run_frames);
   }
 
   void list_moments() {
@@ -95,9 +94,8 @@ class PairRun {
     check_costs(pair_.a, options_.threads);
     check_costs(pair_.b, options_.threads);
     const setup::FrameRange frames = drawn_frames(pair_, target_);
-    const double fps = pair_.a.job.scene.fps, first = frames.first / fps;
-    run::StateSource a(pair_.a.job, pair_.a.past, first, options_.threads, progress_);
-    run::StateSource b(pair_.b.job, pair_.b.past, first, options_.threads, progress_);
+    timeline::Timeline a = timeline::open(pair_.a.job, options_.threads, progress_);
+    timeline::Timeline b = timeline::open(pair_.b.job, options_.threads, progress_);
     refuse_mode(options_, Mode::displacement, id_problem(pair_, a.seeded(), b.seeded()), target_,
                 result_);
     PairPainter painter(options_, pair_, renderer);
@@ -116,21 +114,22 @@ class PairRun {
   }
 
   /// @return false where it was interrupted
-  bool advance(run::StateSource& source, const Side& side, int frame) {
-    if (!source.go_to(frame / side.job.scene.fps)) {
-      if (source.simulation().divergence())
-        throw Error(exit_diverged, side.title + ": " + source.simulation().divergence()->sentence,
-                    side.title);
+  bool advance(timeline::Timeline& timeline, const Side& side, int frame) {
+    if (!timeline.go_to(frame / side.job.scene.fps)) {
+      if (timeline.simulation().divergence())
+        throw Error(exit_diverged,
+                    side.job.scene_file + ": " + timeline.simulation().divergence()->sentence,
+                    side.job.scene_file);
       return false;
     }
-    run::compare_with_past(side.past, frame, source.simulation().state_hash(), progress_);
+    timeline::compare_with_run(side.job, frame, timeline.simulation().state_hash(), progress_);
     return true;
   }
 
   void add_metrics(render::Renderer* renderer) {
     std::optional<render::Image> picture;
     const auto named = [](const Side& side) {
-      return side.values.empty() ? side.title : side.title + "   " + side.values;
+      return side.values.empty() ? side.job.scene_file : side.job.scene_file + "   " + side.values;
     };
     if (renderer) picture = draw_series(result_.moments, named(pair_.a), named(pair_.b), *renderer);
     target_.add_metrics(series_csv(result_.moments), picture);

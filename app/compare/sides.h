@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "app/compare/pair_options.h"
-#include "app/run/past_run.h"
 #include "app/run/render_job.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/seed_scene.h"
@@ -15,12 +14,8 @@ namespace neve::app::compare {
 
 /// A run, or the moment that a picture shows.
 struct Side {
-  run::RenderJob job;
-  run::PastRun past;
-  setup::FrameRange frames;  ///< that it has
-  std::string title;         ///< as named by the user
-  std::string values;        ///< of the parameters in which it differs from the other one
-  bool is_picture = false;
+  run::RenderJob job;    ///< its frames are those that there are
+  std::string values{};  ///< of the parameters in which it differs from the other one
 };
 
 struct Pair {

@@ -114,23 +114,17 @@ bool is_exr(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
+/// The same names and values as in JSON, as text.
 render::PngText to_png_text(const PictureRecord& record) {
-  render::PngText text{{"neve:scene", record.scene},
-                       {"neve:overrides", to_text(Json(record.overrides), -1)},
-                       {"neve:coarsen", scene::toml::number_text(record.coarsening)},
-                       {"neve:changes", to_text(scene::to_json(record.changes), -1)},
-                       {"neve:seed", std::to_string(record.seed)},
-                       {"neve:version", record.version},
-                       {"neve:build", record.build},
-                       {"neve:state_hash", record.state_hash},
-                       {"neve:frame", std::to_string(record.frame)},
-                       {"neve:view", record.view},
-                       {"neve:quality", record.quality},
-                       {"neve:files", to_text(Json(record.files), -1)}};
-  if (!record.plate.empty()) text["neve:plate"] = record.plate;
-  if (record.shutter > 0) text["neve:shutter"] = scene::toml::number_text(record.shutter);
-  if (!record.passes.empty()) text["neve:passes"] = joined(record.passes, ",");
-  if (record.strip) text["neve:strip"] = to_text(to_json(*record.strip), -1);
+  const auto text_of = [&](const std::string& key, const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return scene::toml::number_text(value.get<double>());
+    return key == "passes" ? joined(record.passes, ",") : to_text(value, -1);
+  };
+  const Json json = to_json(record);
+  render::PngText text;
+  for (const auto& [key, value] : json.items())
+    text["neve:" + key] = text_of(key, value);
   return text;
 }
 

@@ -20,10 +20,6 @@ sim::DtLimit limit_named(const std::string& text) {
   return sim::DtLimit::max_dt;
 }
 
-std::string hash_of(const std::string& text) {
-  return hash_text(hash_bytes(text.data(), text.size()));
-}
-
 }  // namespace
 
 const char* name(RunStatus status) {
@@ -46,6 +42,10 @@ std::string hash_text(std::uint64_t hash) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   return text;
+}
+
+std::string hash_of(const std::string& text) {
+  return hash_text(hash_bytes(text.data(), text.size()));
 }
 
 Json to_json(const FrameRecord& frame) {

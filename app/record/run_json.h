@@ -85,6 +85,8 @@ struct RunRecord {
 
 /// 16 hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
+/// The same of a text.
+std::string hash_of(const std::string& text);
 
 Json to_json(const FrameRecord& frame);
 /// Reads the output of to_json; the rest of advance and summary has its defaults.

@@ -1,6 +1,6 @@
 /// Changes during a run are repeated from its picture.
 
-#include "app/run/changes.h"
+#include "app/timeline/changes.h"
 #include "app/output/atomic_file.h"
 #include "app/record/picture_record.h"
 #include "app/record/run_json.h"
@@ -28,8 +28,8 @@ class Changes : public Cli {
                                app::setup::seed_scene(scene).particles, 1);
     const auto set = [&](const std::string& address, const std::string& value) {
       app::scene::note_change(record.changes, {simulation.steps(), address, value});
-      app::scene::Scene now = app::run::with_changes(scene, record.changes);
-      app::run::apply_scene(now, simulation);
+      const app::scene::Scene now = app::timeline::with_changes(scene, record.changes);
+      simulation.apply(now.solver, now.materials, app::scene::sim_colliders(now));
     };
     simulation.advance_to(1.0 / 24);
     simulation.advance_to(2.0 / 24, nullptr, simulation.steps() + 3);

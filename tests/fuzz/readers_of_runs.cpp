@@ -7,11 +7,11 @@
 #include "app/output/checkpoint.h"
 #include "app/record/picture_record.h"
 #include "app/record/run_json.h"
-#include "app/run/resumed_run.h"
 #include "app/scene/read.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
 #include "app/sweep/store/manifest.h"
+#include "app/timeline/timeline.h"
 #include "render/image/image.h"
 #include "tests/fuzz/readers.h"
 
@@ -48,30 +48,30 @@ velocity = [0.1, 0, 0]
 
 struct SmallRun {
   scene::Scene scene = scene::read_scene_text(small_scene, "small.toml");
-  setup::SeededScene seeded = setup::seed_scene(scene);
-  sim::Simulation simulation = setup::make_simulation(scene, seeded.particles, 1);
-  Bytes good;
+  timeline::Timeline timeline{
+      scene, {}, std::make_shared<setup::SeededScene>(setup::seed_scene(scene)), 1};
+  timeline::Moment good;
   output::Checkpoint checkpoint;
 
   SmallRun() {
-    std::vector<picture::PlotSample> history;
-    record::RunRecord record;
-    sim::AdvanceReport advance;
+    timeline::Made made;
     for (int frame = 0; frame <= 1; ++frame) {
-      if (frame > 0) advance = simulation.advance_to(frame / scene.fps);
-      const sim::Summary summary = simulation.summary();
-      history.push_back(picture::plot_sample(frame / scene.fps, 1 / scene.fps, summary, advance));
-      record::add_frame(
-          record.frames,
-          {frame, frame / scene.fps, advance, 0, 0, summary, simulation.state_hash(), {}, {}});
+      if (frame > 0) timeline.advance_frame();
+      made.frames.push_back({frame,
+                             frame / scene.fps,
+                             timeline.here().advance,
+                             0,
+                             0,
+                             timeline.summary(),
+                             timeline.simulation().state_hash(),
+                             {},
+                             {}});
     }
-    good = simulation.save();
-    checkpoint.identity = "identity";
-    checkpoint.simd = simulation.simd();
-    checkpoint.frame = 1;
-    checkpoint.steps = simulation.steps();
-    checkpoint.progress = run::progress_json(1, {}, history, record);
-    checkpoint.state = good;
+    good = timeline.moment();
+    timeline::Moment written = good;
+    written.made = made;
+    checkpoint =
+        timeline::to_checkpoint(std::move(written), "identity", timeline.simulation().simd());
   }
 };
 
@@ -107,18 +107,18 @@ Bytes with_right_checksums(std::span<const std::uint8_t> bytes) {
 }
 
 /// A run that is resumed from it takes two steps and tells about its particles.
-void resume(const run::ResumedRun& resumed) {
-  SmallRun& small = small_run();
+void resume(const timeline::Moment& moment) {
+  timeline::Timeline& timeline = small_run().timeline;
   try {
-    run::restore_frame(resumed, small.scene.fps, small.simulation);
-  } catch (const std::runtime_error&) {
+    timeline.restore(moment);
+  } catch (const Error&) {
     return;
   }
-  sim::Simulation& simulation = small.simulation;
-  simulation.advance_to(simulation.time() + 1e-4, {}, simulation.steps() + 2);
-  simulation.particles();
-  simulation.summary();
-  simulation.restore(small.good);
+  timeline.advance_step();
+  timeline.advance_step();
+  timeline.simulation().particles();
+  timeline.summary();
+  timeline.restore(small_run().good);
 }
 
 }  // namespace
@@ -127,11 +127,12 @@ void read_checkpoint(std::span<const std::uint8_t> bytes) {
   output::Checkpoint checkpoint;
   try {
     checkpoint = output::parse_checkpoint(mended(bytes));
+    checkpoint.file = "stranger.ckpt";
   } catch (const std::exception&) {
     return;
   }
   try {
-    resume(run::read_resumed_run(checkpoint));
+    resume(timeline::to_moment(checkpoint));
   } catch (const Error&) {
   }
 }

@@ -67,13 +67,18 @@ inline constexpr Folder folders[] = {
     {"app/exports",
      "sim/base sim/types sim/shapes sim render/frame render/surface app/support app/scene/toml "
      "app/scene app/output app/setup app/picture"},
+    {"app/timeline",
+     "sim/base sim/kernels sim app/support app/scene/toml app/scene app/output app/record "
+     "app/setup "
+     "app/health app/picture"},
     {"app/run",
      "sim/base sim/types sim sim/checks render/image render/frame render/gl render/channels "
      "render app/support app/scene/toml app/scene app/output app/record app/setup app/health "
-     "app/picture app/exports"},
+     "app/picture app/exports app/timeline"},
     {"app/compare",
      "sim/base sim/types sim render/image render/frame render/gl render app/support "
-     "app/scene/toml app/scene app/output app/record app/setup app/picture app/run"},
+     "app/scene/toml app/scene app/output app/record app/setup app/picture app/timeline "
+     "app/run"},
     {"app/dump",
      "sim/base sim/types sim/health sim app/support app/scene/toml app/scene app/record "
      "app/setup app/health app/run"},
@@ -81,7 +86,7 @@ inline constexpr Folder folders[] = {
     {"app/sweep/read", "app/support app/scene/toml app/scene app/setup app/sweep"},
     {"app/sweep/plan",
      "sim/base sim/types sim/engine app/support app/scene/toml app/scene app/output "
-     "app/record app/setup app/health app/run app/sweep app/sweep/read"},
+     "app/record app/setup app/health app/timeline app/run app/sweep app/sweep/read"},
     {"app/sweep/store",
      "sim/base app/support app/scene/toml app/scene app/output app/record app/setup app/run "
      "app/sweep/read app/sweep/plan"},
@@ -96,7 +101,8 @@ inline constexpr Folder folders[] = {
      "app/sweep/store app/sweep/jobs app/pick/search"},
     {"app/view/session",
      "sim/types sim app/support app/scene/toml app/scene app/output app/record app/setup "
-     "app/health app/picture app/run app/dump app/sweep/plan app/sweep/store app/sweep/jobs"},
+     "app/health app/picture app/timeline app/dump app/sweep/plan app/sweep/store "
+     "app/sweep/jobs"},
     {"app/view/frontend", "render/image render"},
     {"app/view/web", "render/image render app/support app/output app/view/frontend"},
     {"app/view/panels",
@@ -122,8 +128,8 @@ inline constexpr Folder folders[] = {
     {"app/cli",
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render "
      "app/support app/scene/toml app/scene app/output app/record app/setup app/health "
-     "app/picture app/exports app/run app/compare app/dump app/sweep/read app/sweep/plan "
-     "app/sweep/store app/sweep/jobs app/sweep/sheet app/pick/search app/pick "
+     "app/picture app/exports app/timeline app/run app/compare app/dump app/sweep/read "
+     "app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet app/pick/search app/pick "
      "app/view/picker app/view app/bench app/cli/devices"},
     {"app", "app/output app/cli", "neve::app"},
 };

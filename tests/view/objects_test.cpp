@@ -195,7 +195,8 @@ TEST(Objects, OverTheWebACopyMayNameTheFilesOfItsOriginal) {
           folder.write("scene.toml",
                        "[solver]\ncell_size = 0.1\n[[body]]\nname = \"c\"\nshape = { points = { "
                        "file = \"points.csv\", spacing = 0.1 } }\n"),
-          {}, 1),
+          {}, 1)
+          .document,
       options, {});
   EXPECT_EQ(bench.copy_object("body.c"), "body.c_2");
   EXPECT_EQ(bench.document().scene()->bodies.size(), 2u);

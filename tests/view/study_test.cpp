@@ -21,7 +21,7 @@ class Study : public testing::Test {
     options.program = NEVE_BINARY;
     std::string text = tiny_scene;
     bench = std::make_unique<session::Workbench>(
-        session::open_document(folder.write("scene.toml", text), {}, 1), options,
+        session::open_document(folder.write("scene.toml", text), {}, 1).document, options,
         std::function<void()>());
   }
 

@@ -4,7 +4,6 @@
 
 #include <array>
 
-#include "app/run/changes.h"
 #include "app/scene/flat.h"
 #include "app/scene/params.h"
 #include "app/scene/presets.h"
@@ -12,6 +11,8 @@
 #include "app/scene/toml/error.h"
 #include "app/setup/seed_scene.h"
 #include "app/sweep/read/read_sweep.h"
+#include "app/timeline/changes.h"
+#include "app/timeline/timeline.h"
 #include "app/view/panels/orbit.h"
 #include "app/view/panels/pick.h"
 #include "tests/view/view_support.h"
@@ -25,14 +26,10 @@ using namespace neve::test;
 /// The state that neve render gets for a picture.
 std::uint64_t hash_of_replay(const record::PictureRecord& record) {
   const scene::Scene start = scene::read_scene_text(record.scene, "record");
-  sim::Simulation simulation(start.solver, start.materials, scene::sim_colliders(start),
-                             setup::seed_scene(start).particles);
-  run::ChangePlayer player(start, record.changes, simulation);
-  std::vector<sim::Retry> retries;
-  player.begin();
-  for (int frame = 1; frame <= record.frame; ++frame)
-    player.advance_to(frame / start.fps, nullptr, retries);
-  return simulation.state_hash();
+  timeline::Timeline timeline(start, record.changes,
+                              std::make_shared<setup::SeededScene>(setup::seed_scene(start)), 0);
+  timeline.go_to(record.frame / start.fps);
+  return timeline.simulation().state_hash();
 }
 
 /// A workbench with the run of a scene on it.
@@ -154,7 +151,7 @@ TEST(Workbench, ARunContinuedFromAnOlderFrameIsReplayedToTheBit) {
   const record::PictureRecord record = work.picture(*live);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
   const scene::Scene last =
-      run::with_changes(scene::read_scene_text(record.scene, "record"), record.changes);
+      timeline::with_changes(scene::read_scene_text(record.scene, "record"), record.changes);
   EXPECT_DOUBLE_EQ(last.materials[0].youngs_modulus, 1.4e5);
   EXPECT_DOUBLE_EQ(last.solver.gravity.x(), 2);
 }
@@ -390,7 +387,7 @@ TEST(Workbench, FromElsewhereNoFileIsNamedAndNoneIsWrittenOutside) {
   options.folder = folder / "out";
   options.is_remote = true;
   view::session::Workbench bench(
-      view::session::open_document(folder.write("scene.toml", text), {}, 1), options, {});
+      view::session::open_document(folder.write("scene.toml", text), {}, 1).document, options, {});
   const auto refused = [&](const std::string& address, const std::string& value) {
     const std::uint64_t before = bench.errors_said();
     bench.set(address, value);

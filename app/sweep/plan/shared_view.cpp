@@ -13,7 +13,6 @@
 #include "app/setup/resolve.h"
 #include "app/support/interrupt.h"
 #include "app/sweep/plan/order.h"
-#include "sim/base/hash.h"
 
 namespace neve::app::sweep::plan {
 
@@ -111,8 +110,7 @@ scene::Scene find_shared_view(const SweepPlan& plan, int cores) {
 /// Names the scene that the camera and ranges belong to. Axes are no part of it: they may grow.
 std::string mark_of(const SweepPlan& plan) {
   const std::string text = scene::write_scene(plan.base);
-  return "# Camera and colour ranges of all runs. Of scene " +
-         record::hash_text(hash_bytes(text.data(), text.size())) + "\n";
+  return "# Camera and colour ranges of all runs. Of scene " + record::hash_of(text) + "\n";
 }
 
 }  // namespace

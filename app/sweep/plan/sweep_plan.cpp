@@ -8,7 +8,7 @@
 
 #include "app/record/picture_record.h"
 #include "app/run/fork.h"
-#include "app/run/kept_states.h"
+#include "app/run/identity.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/leaf.h"
 #include "app/scene/read.h"
@@ -20,6 +20,8 @@
 #include "app/sweep/plan/expand.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/read/read_sweep.h"
+#include "app/timeline/changes.h"
+#include "app/timeline/times.h"
 #include "sim/engine/time_step.h"
 #include "sim/types/material.h"
 
@@ -178,7 +180,7 @@ run::RenderJob source_job(const SweepOptions& options) {
   if (!std::filesystem::exists(options.file, error))
     throw scene::toml::UsageError("--from", options.file + " is not there",
                                   "expected the folder of a run, or a picture made by neve");
-  if (!run::is_folder(options.file) && !record::is_picture(options.file))
+  if (!timeline::is_folder(options.file) && !record::is_picture(options.file))
     throw scene::toml::UsageError(
         "--from", options.file + " is no folder of a run and no picture made by neve",
         fmt::format("for a scene or a sweep file, give --fork {}s", *options.from));
@@ -217,7 +219,7 @@ int axis_called(const read::Sweep& sweep, const char* key, const std::string& wa
 /// Takes the common beginning off the runs. @throws UsageError where they cannot have one
 void share_beginning(double time, SweepPlan& plan) {
   const char* flag = plan.source ? "--from" : "--fork";
-  const int frame = run::frame_before(time, plan.base.fps);
+  const int frame = timeline::frame_at(time, plan.base.fps);
   run::require_whole_frame(plan.base, time, flag);
   plan.fork = time;
   Run beginning;
@@ -226,7 +228,7 @@ void share_beginning(double time, SweepPlan& plan) {
   if (plan.source) beginning.settings = plan.sweep.fixed;
   plan.beginning = planned(std::move(beginning), plan.source ? plan.source->scene : plan.base);
   for (PlannedRun& item : plan.runs) {
-    run::require_live(plan.base, item.scene, flag);
+    timeline::require_live(plan.base, item.scene, flag);
     setup::FrameRange& frames = item.run.frames;
     if (frames.last <= frame)
       throw scene::toml::UsageError(flag,

@@ -74,8 +74,9 @@ std::string last_line(const fs::path& log) {
 
 }  // namespace
 
-void Study::start(const fs::path& folder, const run::Moment& moment, double time,
-                  const StudyRequest& request, const std::vector<std::string>& longer_steps) {
+void Study::start(const fs::path& folder, record::RunRecord run, timeline::Moment moment,
+                  double fps, const StudyRequest& request,
+                  const std::vector<std::string>& longer_steps) {
   if (is_running())
     throw scene::toml::UsageError("", "a study is in progress", "wait for it, or stop it");
   if (request.axes.empty())
@@ -83,7 +84,7 @@ void Study::start(const fs::path& folder, const run::Moment& moment, double time
   const fs::path here = new_folder(folder, moment.frame);
   sweep::plan::SweepOptions options;
   options.file = (here / "start").string();
-  options.from = time;
+  options.from = moment.frame / fps;
   options.axes = axes_of(request);
   if (request.has_longer_steps) options.overrides = longer_steps;
   options.frames = setup::FrameRange{moment.frame + 1, request.last_frame};
@@ -91,7 +92,7 @@ void Study::start(const fs::path& folder, const run::Moment& moment, double time
   std::error_code error;
   int runs = 0;
   try {
-    run::write_moment(options.file, moment);
+    timeline::write_origin(options.file, std::move(run), std::move(moment));
     // A wrong request is refused here, before a process starts.
     runs = static_cast<int>(sweep::plan::plan_sweep(options).runs.size());
     if (runs > most_study_runs)

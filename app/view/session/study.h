@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/run/moment.h"
 #include "app/sweep/jobs/child.h"
 #include "app/sweep/store/manifest.h"
+#include "app/timeline/moment.h"
 
 namespace neve::app::view::session {
 
@@ -43,11 +43,11 @@ class Study {
   explicit Study(std::filesystem::path program) : program_(std::move(program)) {}
 
   /// Writes the moment and starts the study beside it, in a new folder.
-  /// @param folder  of the view @param time  of the moment, s
+  /// @param folder  of the view @param run  of the moment, with its scene and changes
   /// @throws UsageError for parameters or values that cannot be varied there, with those that can;
   ///         IoError
-  void start(const std::filesystem::path& folder, const run::Moment& moment, double time,
-             const StudyRequest& request, const std::vector<std::string>& longer_steps);
+  void start(const std::filesystem::path& folder, record::RunRecord run, timeline::Moment moment,
+             double fps, const StudyRequest& request, const std::vector<std::string>& longer_steps);
 
   /// Looks how far it is, a few times a second. @return whether something is new
   bool poll();

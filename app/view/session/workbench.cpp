@@ -18,6 +18,7 @@
 #include "app/support/machine.h"
 #include "app/support/version.h"
 #include "app/sweep/plan/around.h"
+#include "app/timeline/origin.h"
 #include "app/view/session/export.h"
 
 namespace neve::app::view::session {
@@ -47,19 +48,47 @@ std::filesystem::file_time_type time_of(const std::string& file) {
 
 }  // namespace
 
-Document open_document(const std::string& file, const std::vector<std::string>& overrides,
-                       double coarsening) {
+namespace {
+
+/// A run at its newest moment, as a session has it in which its changes were made.
+Opened open_run(const std::string& folder, const timeline::Edits& edits) {
+  const timeline::Origin origin = timeline::Origin::of(folder, edits);
+  const std::string beside =
+      origin.scene_file.substr(0, folder.find_last_not_of('/') + 1) + ".toml";
+  Opened opened{Document(beside, scene::write_scene(origin.scene), {}, 1), origin.overrides};
+  timeline::Moments moments;
+  moments.add_run(origin.run);
+  Past past{origin.run, origin.changes, origin.run_frames, moments.find_newest(origin.scene.fps)};
+  if (!past.newest) return opened;
+  scene::forget_changes_after(past.changes, past.newest->steps);
+  for (const scene::LiveChange& change : past.changes)
+    opened.document.set(change.address, change.value);
+  opened.past = std::move(past);
+  return opened;
+}
+
+}  // namespace
+
+Opened open_document(const std::string& file, const std::vector<std::string>& overrides,
+                     double coarsening) {
+  if (timeline::is_folder(file)) {
+    timeline::Edits edits{overrides};
+    if (coarsening > 1) edits.coarsening = coarsening;
+    return open_run(file, edits);
+  }
   std::vector<scene::Override> parsed = scene::parse_overrides(overrides);
   if (!record::is_picture(file))
-    return Document(file, scene::read_toml_file(file), std::move(parsed), coarsening);
+    return {Document(file, scene::read_toml_file(file), std::move(parsed), coarsening), overrides};
   // Saved, it lies beside the picture, which holds the scene as it was drawn: coarsened already.
   const std::string beside = std::filesystem::path(file).replace_extension(".toml").string();
-  return Document(beside, record::read_picture_record(file).scene, std::move(parsed), coarsening);
+  return {Document(beside, record::read_picture_record(file).scene, std::move(parsed), coarsening),
+          overrides};
 }
 
 Workbench::Workbench(Document document, WorkbenchOptions options, std::function<void()> wake)
     : document_(std::move(document)),
       options_(std::move(options)),
+      running_(options_.session.past ? document_.edits() : std::vector<scene::Override>{}),
       file_time_(time_of(document_.file())),
       study_(options_.program.empty() ? this_program() : options_.program),
       session_(std::make_unique<Session>(document_.scene(), session_options(), std::move(wake))) {}
@@ -373,21 +402,26 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
   try {
     const std::shared_ptr<const LiveFrame> live = session_->latest();
     for (const StudyAxis& axis : request.axes) require_allowed(axis.address, axis.values);
-    run::Moment moment = session_->moment();
-    if (!live->is_frame_end || live->is_running || moment.frame != live->frame ||
+    timeline::Moment moment = session_->moment();
+    const int frame = moment.frame;
+    if (!live->is_frame_end || live->is_running || frame != live->frame ||
         moment.steps != live->steps)
       throw scene::toml::UsageError("", "the run is between two frames",
                                     "pause, and go to a frame on the time line");
-    const record::PictureRecord record = picture_record(*live, view);
-    moment.record.scene = record.scene;
-    moment.record.scene_file = document_.file();
-    moment.record.overrides = record.overrides;
-    moment.record.coarsening = record.coarsening;
+    const record::PictureRecord picture = picture_record(*live, view);
+    record::RunRecord run;
+    run.scene = picture.scene;
+    run.scene_file = document_.file();
+    run.overrides = picture.overrides;
+    run.changes = picture.changes;
+    run.coarsening = picture.coarsening;
+    run.threads = live->threads;
+    run.simd = live->simd;
     std::vector<std::string> chosen;
     for (const StudyAxis& axis : request.axes) chosen.push_back(axis.address);
-    study_.start(options_.folder, moment, live->frame / live->scene->fps, request,
+    study_.start(options_.folder, std::move(run), std::move(moment), live->scene->fps, request,
                  health::longer_steps(*live->scene, chosen));
-    say(Message::Kind::note, "a study of frame " + std::to_string(moment.frame) + " goes to " +
+    say(Message::Kind::note, "a study of frame " + std::to_string(frame) + " goes to " +
                                  study_.progress().folder.string() + "; " +
                                  study_.progress().command + " makes it again");
     return {};

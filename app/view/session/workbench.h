@@ -130,8 +130,16 @@ class Workbench {
   std::unique_ptr<Session> session_;  ///< last: its thread calls back
 };
 
-/// The scene in a file or in a picture, the views in it, as `neve view` starts with it.
-Document open_document(const std::string& file, const std::vector<std::string>& overrides,
-                       double coarsening);
+/// What `neve view` starts with.
+struct Opened {
+  Document document;                   ///< of a run, with its changes as edits
+  std::vector<std::string> overrides;  ///< as they were given, now or to the run
+  std::optional<Past> past{};          ///< of a run with moments to start from
+};
+
+/// @param file  a scene, a picture or the folder of a run; the views in it
+/// @throws SceneError, UsageError, IoError, Error
+Opened open_document(const std::string& file, const std::vector<std::string>& overrides,
+                     double coarsening);
 
 }  // namespace neve::app::view::session

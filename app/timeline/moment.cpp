@@ -1,15 +1,17 @@
-#include "app/run/resumed_run.h"
+#include "app/timeline/moment.h"
 
 #include <cmath>
 #include <limits>
 #include <new>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "app/output/report_json.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
 
-namespace neve::app::run {
+namespace neve::app::timeline {
 
 namespace {
 
@@ -19,9 +21,9 @@ namespace {
                            expected);
 }
 
-std::size_t count_of(const Json& json, const std::string& name, std::size_t most) {
-  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > most)
-    refuse_value(name, json, "a whole number from 0 to " + std::to_string(most));
+std::size_t count_of(const Json& json, const std::string& name, std::size_t max) {
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > max)
+    refuse_value(name, json, "a whole number from 0 to " + std::to_string(max));
   return json.get<std::size_t>();
 }
 
@@ -85,73 +87,75 @@ std::vector<record::FrameRecord> frames_of(const Json& list, int last, std::size
   return frames;
 }
 
+/// The report of a frame that ended: earlier versions kept the one of its record alone.
+sim::AdvanceReport advance_of_frame(const Json& progress, const Moment& moment) {
+  if (progress.contains("advance_of_frame"))
+    return advance_of(progress.at("advance_of_frame"), moment.steps);
+  const bool is_last =
+      !moment.made.frames.empty() && moment.made.frames.back().frame == moment.frame;
+  return is_last ? moment.made.frames.back().advance : sim::AdvanceReport{};
+}
+
+void read_progress(const Json& progress, Moment& moment) {
+  moment.advance = advance_of(progress.at("advance"), moment.steps);
+  moment.steps_of_frame = moment.steps - moment.advance.steps;
+  moment.history = history_of(progress.at("history"), moment.frame, moment.steps);
+  for (const Json& retry : progress.at("retries"))
+    moment.retries.push_back(output::retry_record(retry));
+  // Checkpoints of earlier versions have neither.
+  if (progress.contains("frames")) {
+    moment.made.frames = frames_of(progress.at("frames"), moment.frame, moment.steps);
+    moment.made.files = record::file_hashes(progress);
+    moment.made.exports = progress.value("exports", Json());
+  }
+  if (moment.is_frame_end()) moment.advance = advance_of_frame(progress, moment);
+}
+
 }  // namespace
 
-output::Checkpoint checkpoint_of(const sim::Simulation& simulation, int frame,
-                                 const std::string& identity) {
-  output::Checkpoint checkpoint;
-  checkpoint.identity = identity;
-  checkpoint.simd = simulation.simd();
-  checkpoint.sources = build().sources;
-  checkpoint.frame = frame;
-  checkpoint.steps = simulation.steps();
-  checkpoint.state = simulation.save();
-  return checkpoint;
-}
-
-Json progress_json(int frame, const sim::AdvanceReport& advance,
-                   std::span<const picture::PlotSample> history, const record::RunRecord& record) {
-  Json progress = {{"advance", output::to_json(advance)},
-                   {"history", history_json(history)},
+output::Checkpoint to_checkpoint(Moment moment, const std::string& identity,
+                                 const std::string& simd) {
+  const sim::AdvanceReport none;
+  Json progress = {{"advance", output::to_json(moment.is_frame_end() ? none : moment.advance)},
+                   {"history", history_json(moment.history)},
                    {"retries", Json::array()},
                    {"frames", Json::array()},
-                   {"files", record.files},
-                   {"exports", record.exports}};
-  for (const sim::Retry& retry : record.retries)
+                   {"files", moment.made.files},
+                   {"exports", moment.made.exports}};
+  if (moment.is_frame_end()) progress["advance_of_frame"] = output::to_json(moment.advance);
+  for (const sim::Retry& retry : moment.retries)
     progress["retries"].push_back(output::to_json(retry));
-  for (const record::FrameRecord& made : record.frames)
-    if (made.frame <= frame) progress["frames"].push_back(to_json(made));
-  return progress;
+  for (const record::FrameRecord& made : moment.made.frames)
+    if (made.frame <= moment.frame) progress["frames"].push_back(to_json(made));
+  return {identity,
+          simd,
+          build().sources,
+          moment.frame,
+          moment.steps,
+          std::move(progress),
+          std::move(moment.state)};
 }
 
-ResumedRun read_resumed_run(const output::Checkpoint& checkpoint) {
-  const Json& progress = checkpoint.progress;
-  ResumedRun run;
-  run.file = checkpoint.file;
-  run.frame = checkpoint.frame;
-  run.steps = checkpoint.steps;
-  run.state = checkpoint.state;
+Moment to_moment(output::Checkpoint checkpoint) {
+  Moment moment;
+  moment.file = checkpoint.file;
+  moment.frame = checkpoint.frame;
+  moment.steps = checkpoint.steps;
+  moment.state = std::move(checkpoint.state);
   try {
-    run.advance = advance_of(progress.at("advance"), run.steps);
-    run.history = history_of(progress.at("history"), run.frame, run.steps);
-    for (const Json& retry : progress.at("retries"))
-      run.retries.push_back(output::retry_record(retry));
-    // Checkpoints of earlier versions have neither.
-    if (!progress.contains("frames")) return run;
-    run.frames = frames_of(progress.at("frames"), run.frame, run.steps);
-    run.files = record::file_hashes(progress);
-    run.exports = progress.value("exports", Json());
+    read_progress(checkpoint.progress, moment);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    refuse_checkpoint(run.file, error);
+    refuse_moment(moment.file, error);
   }
-  return run;
+  return moment;
 }
 
-void restore_frame(const ResumedRun& run, double fps, sim::Simulation& simulation) {
-  simulation.restore_healthy(run.state);
-  const double time = simulation.time(), start = run.frame / fps, end = (run.frame + 1.0) / fps;
-  const double rounding = 1e-9 * (1 + end);
-  if (simulation.steps() != run.steps || !(time >= start - rounding && time <= end + rounding))
-    throw std::runtime_error("the checkpoint of frame " + std::to_string(run.frame) +
-                             " holds another moment");
-}
-
-void refuse_checkpoint(const std::filesystem::path& file, const std::exception& why) {
+void refuse_moment(const std::filesystem::path& file, const std::exception& why) {
   throw IoError(file.string() + ": cannot resume from it: " + why.what(), file.string(),
                 "no run has written this; remove the file to resume from an older checkpoint, or "
                 "remove --resume to start again");
 }
 
-}  // namespace neve::app::run
+}  // namespace neve::app::timeline
