@@ -36,38 +36,34 @@ std::vector<std::string> Drawing::views() const {
   return names;
 }
 
-/// Stress is read only where a view shows it.
-std::vector<scene::View> Drawing::views_to_read() const {
-  std::vector<scene::View> views = scene_.views;
-  if (!passes_) return views;
-  for (scene::View& view : views_for(passes_->list())) views.push_back(std::move(view));
-  return views;
-}
-
-std::uint64_t Drawing::read(const timeline::Timeline& timeline,
-                            const std::vector<scene::View>& views, int frame) {
+picture::Snapshot Drawing::take(const timeline::Timeline& timeline,
+                                const std::vector<scene::View>& views, int frame,
+                                std::uint64_t state_hash) {
+  scene_ = timeline.scene();
   const sim::Simulation& simulation = timeline.simulation();
-  const std::uint64_t state_hash = simulation.state_hash();
-  snapshot_ = picture::take_snapshot(scene_, views, simulation, frame);
+  picture::Snapshot snapshot = picture::take_snapshot(scene_, views, simulation, frame);
   history_ = timeline.here().history;
-  snapshot_.history = history_;
-  snapshot_.advance = timeline.here().advance;
+  snapshot.history = history_;
+  snapshot.advance = timeline.here().advance;
   record_.frame = frame;
   record_.state_hash = record::hash_text(state_hash);
   record_.changes = job_.changes;
   scene::forget_changes_after(record_.changes, simulation.steps());
-  snapshot_.changes = record_.changes;
-  return state_hash;
+  snapshot.changes = record_.changes;
+  return snapshot;
 }
 
-std::uint64_t Drawing::read(const timeline::Timeline& timeline) {
-  scene_ = timeline.scene();
-  const std::uint64_t state_hash = read(timeline, views_to_read(), timeline.here().frame);
-  if (passes_) pass_numbers_ = passes_->read(snapshot_, timeline.simulation());
-  return state_hash;
+/// Stress is read only where a view shows it.
+picture::Snapshot Drawing::read(const timeline::Timeline& timeline, std::uint64_t state_hash) {
+  std::vector<scene::View> views = timeline.here().scene->views;
+  if (passes_)
+    for (scene::View& view : views_for(passes_->list())) views.push_back(std::move(view));
+  picture::Snapshot snapshot = take(timeline, views, timeline.here().frame, state_hash);
+  if (passes_) pass_numbers_ = passes_->read(snapshot, timeline.simulation());
+  return snapshot;
 }
 
-Drawing::Files Drawing::draw() {
+Drawing::Files Drawing::draw(const picture::Snapshot& snapshot) {
   Files files;
   // A GPU draws one view while the next is put together.
   std::vector<std::string> waiting;
@@ -77,9 +73,9 @@ Drawing::Files Drawing::draw() {
   };
   for (const scene::View& view : scene_.views) {
     if (!is_alone(view)) continue;
-    render::Frame drawn = builder_.build(view, snapshot_);
+    render::Frame drawn = builder_.build(view, snapshot);
     if (!job_.plate.empty()) drawn.is_transparent = true;
-    const std::vector<render::Frame> moments = shutter_frames(view, drawn);
+    const std::vector<render::Frame> moments = shutter_frames(view, drawn, snapshot);
     if (moments.empty() && job_.plate.empty()) {
       renderer_.submit(drawn);
       waiting.push_back(view.name);
@@ -87,29 +83,31 @@ Drawing::Files Drawing::draw() {
       fetch_down_to(0);
       std::optional<render::Image> plate;
       if (!job_.plate.empty())
-        plate = read_plate(plate_path(job_.plate, snapshot_.frame), view.name,
+        plate = read_plate(plate_path(job_.plate, snapshot.frame), view.name,
                            {drawn.width, drawn.height});
       files.pictures.push_back(picture_of(view.name, draw_mean(drawn, moments, plate)));
     }
-    if (passes_) files.channels.push_back(draw_channels(view, drawn, moments));
+    if (passes_)
+      files.channels.push_back(draw_channels({scene_, view, seeded_, snapshot}, drawn, moments));
     fetch_down_to(1);
   }
   fetch_down_to(0);
   // With motion blur, and never on a plate.
   const auto draw_tile = [&](const scene::View& view, const render::Frame& tile) {
-    return draw_mean(tile, shutter_frames(view, tile), std::nullopt);
+    return draw_mean(tile, shutter_frames(view, tile, snapshot), std::nullopt);
   };
   for (const scene::Mosaic& mosaic : scene_.mosaics)
-    files.pictures.push_back(picture_of(
-        mosaic.name,
-        picture::draw_mosaic(scene_, mosaic, builder_, snapshot_, renderer_, draw_tile)));
+    files.pictures.push_back(
+        picture_of(mosaic.name,
+                   picture::draw_mosaic(scene_, mosaic, builder_, snapshot, renderer_, draw_tile)));
   return files;
 }
 
 std::vector<render::Frame> Drawing::shutter_frames(const scene::View& view,
-                                                   const render::Frame& frame) const {
+                                                   const render::Frame& frame,
+                                                   const picture::Snapshot& snapshot) const {
   if (!(job_.shutter > 0)) return {};
-  return picture::shutter_moments({scene_, view, seeded_, snapshot_}, frame, job_.shutter);
+  return picture::shutter_moments({scene_, view, seeded_, snapshot}, frame, job_.shutter);
 }
 
 render::Image Drawing::draw_mean(const render::Frame& frame,
@@ -124,31 +122,34 @@ render::Image Drawing::draw_mean(const render::Frame& frame,
   return mean.mean();
 }
 
-output::WriteTask Drawing::draw_channels(const scene::View& view, const render::Frame& frame,
+output::WriteTask Drawing::draw_channels(const picture::MotionSource& source,
+                                         const render::Frame& frame,
                                          const std::vector<render::Frame>& moments) {
-  const picture::MotionSource source{scene_, view, seeded_, snapshot_};
   render::channels::Request request = passes_->request(source, frame, pass_numbers_);
   request.moments = moments;
   auto picture =
       std::make_shared<const render::ExrPicture>(renderer_.draw_channels(frame, request));
-  return [file = output::channels_path(job_.folder, view.name, snapshot_.frame),
-          header = passes_->header(record_of(view.name), frame), picture = std::move(picture)] {
-    return std::vector{output::write_hashed(file, render::encode_exr(*picture, header))};
-  };
+  return
+      [file = output::channels_path(job_.folder, source.view.name, record_.frame),
+       header = passes_->header(record_of(source.view.name), frame), picture = std::move(picture)] {
+        return std::vector{output::write_hashed(file, render::encode_exr(*picture, header))};
+      };
 }
 
 std::vector<output::Picture> Drawing::draw_incident(const timeline::Timeline& timeline,
                                                     const sim::Divergence& divergence,
                                                     const health::Diagnosis& diagnosis) {
-  scene_ = timeline.scene();
-  std::vector<scene::View> views = scene_.views;
+  const scene::Scene scene = timeline.scene();
+  std::vector<scene::View> views = scene.views;
   if (const auto slice =
-          health::culprit_slice(scene_, divergence, timeline.simulation().particles()))
+          health::culprit_slice(scene, divergence, timeline.simulation().particles()))
     views.push_back(*slice);
-  read(timeline, views, static_cast<int>(divergence.time * job_.scene.fps));
-  snapshot_.time = divergence.time;
+  picture::Snapshot snapshot =
+      take(timeline, views, static_cast<int>(divergence.time * job_.scene.fps),
+           timeline.simulation().state_hash());
+  snapshot.time = divergence.time;
   const auto build = [&](const scene::View& view) {
-    return builder_.build_incident(view, snapshot_, divergence, diagnosis);
+    return builder_.build_incident(view, snapshot, divergence, diagnosis);
   };
   std::vector<output::Picture> pictures;
   const auto add = [&](const std::string& name, render::Image image) {
@@ -156,7 +157,7 @@ std::vector<output::Picture> Drawing::draw_incident(const timeline::Timeline& ti
     pictures.back().file = output::diverged_path(job_.folder, name);
   };
   for (const scene::View& view : views) add(view.name, renderer_.draw(build(view)));
-  std::vector<std::string> caption = builder_.caption(snapshot_);
+  std::vector<std::string> caption = builder_.caption(snapshot);
   for (std::string& line : picture::FrameBuilder::incident_lines(divergence, diagnosis))
     caption.push_back(std::move(line));
   for (const scene::Mosaic& mosaic : scene_.mosaics)

@@ -25,20 +25,17 @@ class Drawing {
 
   /// Views that are drawn by themselves.
   std::vector<std::string> views() const;
-  bool has_channels() const { return passes_.has_value(); }
 
   /// Reads the state at the end of a frame: the run may move on while it is drawn.
-  /// @return the hash of the state
-  std::uint64_t read(const timeline::Timeline& timeline);
-  const picture::Snapshot& snapshot() const { return snapshot_; }
+  picture::Snapshot read(const timeline::Timeline& timeline, std::uint64_t state_hash);
+  /// That was read.
   const scene::Scene& scene() const { return scene_; }
 
   struct Files {
     std::vector<output::Picture> pictures;  ///< of views, then of mosaics
     std::vector<output::WriteTask> channels;
   };
-  /// What was read.
-  Files draw();
+  Files draw(const picture::Snapshot& snapshot);
 
   /// The state that broke a rule, with the culprits marked, and the slice through them; pictures,
   /// but no frames.
@@ -47,17 +44,17 @@ class Drawing {
                                              const health::Diagnosis& diagnosis);
 
  private:
-  std::uint64_t read(const timeline::Timeline& timeline, const std::vector<scene::View>& views,
-                     int frame);
+  picture::Snapshot take(const timeline::Timeline& timeline, const std::vector<scene::View>& views,
+                         int frame, std::uint64_t state_hash);
   std::vector<scene::View> views_to_read() const;
   bool is_alone(const scene::View& view) const;
   /// Frames while the shutter is open; none without motion blur.
-  std::vector<render::Frame> shutter_frames(const scene::View& view,
-                                            const render::Frame& frame) const;
+  std::vector<render::Frame> shutter_frames(const scene::View& view, const render::Frame& frame,
+                                            const picture::Snapshot& snapshot) const;
   /// The mean of the moments, or the frame where there are none.
   render::Image draw_mean(const render::Frame& frame, const std::vector<render::Frame>& moments,
                           const std::optional<render::Image>& plate);
-  output::WriteTask draw_channels(const scene::View& view, const render::Frame& frame,
+  output::WriteTask draw_channels(const picture::MotionSource& source, const render::Frame& frame,
                                   const std::vector<render::Frame>& moments);
   record::PictureRecord record_of(const std::string& view) const;
   output::Picture picture_of(const std::string& view, render::Image image) const;
@@ -68,9 +65,8 @@ class Drawing {
   record::PictureRecord record_;
   scene::Scene scene_;  ///< the job's with the changes made so far
   picture::FrameBuilder builder_;
-  std::optional<PassReader> passes_;  ///< of --passes
-  picture::Snapshot snapshot_;
-  std::vector<picture::PlotSample> history_;  ///< of the snapshot
+  std::optional<PassReader> passes_;          ///< of --passes
+  std::vector<picture::PlotSample> history_;  ///< of the snapshot that was read
   std::vector<render::channels::PointNumbers> pass_numbers_;
 };
 

@@ -226,16 +226,17 @@ bool RenderRun::go_to_frame(int frame) {
 
 void RenderRun::draw_frame(int frame) {
   const auto start = Clock::now();
-  const std::uint64_t state_hash = drawing_.read(timeline_);
+  const std::uint64_t state_hash = timeline_.simulation().state_hash();
+  const picture::Snapshot snapshot = drawing_.read(timeline_, state_hash);
   const sim::AdvanceReport advance = timeline_.here().advance;
   sim::Summary summary = timeline_.summary();
   if (kept_blocks_) summary.grid_blocks = *kept_blocks_;
   std::vector<exports::Exporter::Work> exports = ledger_.read_exports(timeline_);
   begin_next(frame);
-  Drawing::Files drawn = drawing_.draw();
+  Drawing::Files drawn = drawing_.draw(snapshot);
   if (!drawn.pictures.empty()) result_.last_picture = drawn.pictures.front().image;
   const double h = job_.scene.solver.cell_size;
-  record::Metrics metrics = record::measure(drawing_.snapshot().particles, h);
+  record::Metrics metrics = record::measure(snapshot.particles, h);
   metrics.max_depth_cells = summary.max_depth / h;
   ledger_.add(
       {frame, frame / job_.scene.fps, advance, seconds_, seconds_since(start), summary, state_hash,

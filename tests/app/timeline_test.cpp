@@ -242,19 +242,19 @@ TEST(Timeline, ChangesInsideARetriedFrameWaitForItsEnd) {
                                                {14, "material.snow.youngs_modulus", "2e5"}};
   std::size_t went_back = 0;
   const auto run = [&](bool resumes) {
-    auto run = std::make_unique<Counted>(scene, changes);
+    auto counted = std::make_unique<Counted>(scene, changes);
     for (int frame = 1; frame <= 3; ++frame) {
-      run->timeline.advance_frame();
-      EXPECT_FALSE(run->simulation().divergence());
-      EXPECT_EQ(run->timeline.here().scene->materials[0].youngs_modulus,
-                run->simulation().steps() < 14 ? 3e6 : 2e5);
+      counted->timeline.advance_frame();
+      EXPECT_FALSE(counted->simulation().divergence());
+      EXPECT_EQ(counted->timeline.here().scene->materials[0].youngs_modulus,
+                counted->simulation().steps() < 14 ? 3e6 : 2e5);
       if (!resumes) continue;
       auto next = std::make_unique<Counted>(scene, changes);
-      next->timeline.restore(through_a_file(run->timeline));
-      run = std::move(next);
+      next->timeline.restore(through_a_file(counted->timeline));
+      counted = std::move(next);
     }
-    went_back += run->timeline.here().retries.size();
-    return run->simulation().state_hash();
+    went_back += counted->timeline.here().retries.size();
+    return counted->simulation().state_hash();
   };
   EXPECT_EQ(run(false), run(true));
   EXPECT_GT(went_back, 0u) << "nothing broke: the test looks at nothing";
@@ -262,8 +262,8 @@ TEST(Timeline, ChangesInsideARetriedFrameWaitForItsEnd) {
 
 TEST(Timeline, PassesOverChangesOfViewsThatAreNotDrawn) {
   const Counted run(played(), {{0, "view.smoke.smoke.density_scale", "2"},
-                              {0, "mosaic.all.columns", "2"},
-                              {0, "solver.cfl", "0.2"}});
+                               {0, "mosaic.all.columns", "2"},
+                               {0, "solver.cfl", "0.2"}});
   EXPECT_EQ(run.timeline.here().scene->views.size(), 1u);
   EXPECT_EQ(run.timeline.here().scene->solver.cfl, 0.2);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/scene/read.h"
+#include "app/support/errors.h"
 #include "app/timeline/timeline.h"
 #include "tests/view/view_support.h"
 
@@ -156,6 +157,13 @@ TEST_F(PastRun, AScriptGoesBackInTimeAndSavesThePictureOfTheRun) {
   ASSERT_TRUE(exists(picture));
   const auto info = neve({"info", picture, "--json"});
   EXPECT_EQ(parse_json(std::string_view(info.output))["state_hash"], hashes("a")[3]);
+  // A time names the moment that is shown first.
+  folder.write("at.json", R"([{"wait_for": "simulation frame 2"}, {"wait": 3}])");
+  EXPECT_EQ(neve({"view", "a", "--at", "0.09s", "--replay", "at.json", "--out", "out"}).exit_code,
+            0);
+  const auto refused = neve({"view", "scene.toml", "--at", "0.09s", "--replay", "at.json"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.errors, "shows a moment that a run has kept")) << refused.errors;
 }
 
 }  // namespace
