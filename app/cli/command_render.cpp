@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -194,11 +195,12 @@ std::string text_of_laws(const sim::checks::Watch& laws) {
 
 /// Errors become the one that the run ends with.
 void report_laws(const sim::checks::Watch& laws, Progress& progress) {
-  const std::string text = text_of_laws(laws);
-  if (text.ends_with("all held"))
-    progress.note(text);
+  const bool have_held = std::ranges::all_of(
+      laws.records(), [](const sim::checks::WatchRecord& record) { return record.times == 0; });
+  if (have_held)
+    progress.note(text_of_laws(laws));
   else if (!laws.has_errors())
-    progress.warning(text);
+    progress.warning(text_of_laws(laws));
 }
 
 void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t particles,

@@ -86,7 +86,7 @@ int run_view(const view::ViewOptions& given) {
       view::session::open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
   if (timeline::is_folder(file) && !opened->past)
     std::cerr << "neve: warning: " << file
-              << " has no checkpoint that this program goes on from: the view starts at frame 0"
+              << " has no checkpoint that this program can continue: the view starts at frame 0"
               << std::endl;
   if (record::is_picture(file))
     if (const std::size_t changes = record::read_picture_record(file).changes.size(); changes > 0)

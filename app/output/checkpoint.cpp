@@ -13,6 +13,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
+#include "app/support/text.h"
 
 namespace neve::app::output {
 
@@ -190,12 +191,14 @@ std::vector<int> kept_states(const fs::path& folder) {
   return frames;
 }
 
-std::vector<int> checkpoint_frames(const fs::path& folder) {
-  std::vector<int> frames;
-  for (const fs::path& file : list(folder))
-    if (const int frame = frame_of(file); frame >= 0) frames.push_back(frame);
-  std::sort(frames.begin(), frames.end());
-  return frames;
+std::map<int, std::size_t> checkpoint_steps(const fs::path& folder) {
+  std::map<int, std::size_t> steps;
+  for (const fs::path& file : list(folder)) {
+    const std::string name = file.stem().string();
+    const auto count = number_of<std::size_t>(std::string_view(name).substr(name.find('-') + 1));
+    if (const int frame = frame_of(file); frame >= 0 && count) steps.emplace(frame, *count);
+  }
+  return steps;
 }
 
 FoundCheckpoint read_state(const fs::path& folder, int frame) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -40,8 +41,8 @@ Checkpoint parse_checkpoint(std::span<const std::uint8_t> bytes);
 /// returns. @throws IoError
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
-/// Frames of the checkpoints in a folder, in order, by their names.
-std::vector<int> checkpoint_frames(const std::filesystem::path& folder);
+/// Frames of the checkpoints in a folder with their steps, by their names.
+std::map<int, std::size_t> checkpoint_steps(const std::filesystem::path& folder);
 
 struct FoundCheckpoint {
   std::optional<Checkpoint> checkpoint;  ///< the newest whole one

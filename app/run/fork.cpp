@@ -74,22 +74,16 @@ scene::Scene scene_before_fork(const RenderJob& job) {
 
 void walk_to_fork(const RenderJob& job, timeline::Timeline& timeline, Progress& progress) {
   const double time = job.fork->time;
-  const int frame = timeline::frame_at(time, timeline.fps());
-  const auto go_to = [&](double wanted) {
-    if (timeline.go_to(wanted)) return;
-    const std::optional<sim::Divergence>& divergence = timeline.simulation().divergence();
-    if (divergence)
-      throw Error(exit_diverged,
-                  fmt::format("{} diverges before {} s: {}", job.scene_file, rough_text(time),
-                              divergence->sentence),
-                  job.scene_file, "fork it at an earlier time");
-    throw Error(exit_interrupted, "interrupted before the first frame");
-  };
-  progress.start(frame);
-  go_to(frame / timeline.fps());
-  require_whole_frame(*timeline.here().scene, time, "--from");
-  go_to(time);
+  require_whole_frame(scene_before_fork(job), time, "--from");
+  progress.start(timeline::frame_at(time, timeline.fps()));
+  const bool is_reached = timeline.go_to(time);
   progress.clear();
+  if (const std::optional<sim::Divergence>& divergence = timeline.simulation().divergence())
+    throw Error(exit_diverged,
+                fmt::format("{} diverges before {} s: {}", job.scene_file, rough_text(time),
+                            divergence->sentence),
+                job.scene_file, "fork it at an earlier time");
+  if (!is_reached) throw Error(exit_interrupted, "interrupted before the first frame");
   timeline.fork();
 }
 

@@ -102,7 +102,7 @@ std::vector<int> RenderRun::begin() {
       timeline::Moments({job_.folder, identity_of_states(job_, simd), identity_of(picture_), simd,
                          !job_.options.validate, job_.options.keeps_states},
                         progress_);
-  goes_on_ = found || job_.fork;
+  is_continued_ = found || job_.fork;
   if (found) {
     ledger_.take(found->moment);
     result_.has_checkpoint = true;
@@ -140,7 +140,7 @@ bool RenderRun::mend(const std::vector<int>& frames) {
 
 void RenderRun::make_frames() {
   const double fps = timeline_.fps();
-  int first = goes_on_ ? timeline_.here().frame + 1 : 0;
+  int first = is_continued_ ? timeline_.here().frame + 1 : 0;
   if (const auto kept = timeline_.moments().find(job_.frames.first / fps, fps, first))
     first = kept->frame;
   for (int frame = first; frame <= job_.frames.last; ++frame) {
@@ -193,8 +193,9 @@ void RenderRun::begin_next(int frame) {
 }
 
 bool RenderRun::take_kept(int frame) {
-  const auto kept = timeline_.moments().find(frame / timeline_.fps(), timeline_.fps(), frame - 1);
-  if (!kept) return false;
+  if (!timeline_.moments().has(frame)) return false;
+  const auto kept = timeline_.moments().find(frame / timeline_.fps(), timeline_.fps());
+  if (!kept || kept->frame != frame) return false;
   timeline_.restore(*kept);
   const bool is_listed = !kept->made.frames.empty() && kept->made.frames.back().frame == frame;
   seconds_ = is_listed ? kept->made.frames.back().seconds_sim : 0;
@@ -218,10 +219,10 @@ bool RenderRun::go_to_frame(int frame) {
   if (timeline_.simulation().divergence()) {
     result_.status = record::RunStatus::diverged;
     report_incident();
-  } else if (!advanced.is_there) {
+  } else if (!advanced.is_reached) {
     result_.status = record::RunStatus::interrupted;
   }
-  return advanced.is_there;
+  return advanced.is_reached;
 }
 
 void RenderRun::draw_frame(int frame) {

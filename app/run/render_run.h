@@ -47,7 +47,8 @@ class RenderRun {
   /// Starts, or resumes. @return frames before with pictures that are missing or damaged
   std::vector<int> begin();
   void continue_from(const timeline::Moment& moment);
-  /// Makes these frames again, then goes back to the newest checkpoint. @return whether to go on
+  /// Makes these frames again, then goes back to the newest checkpoint. @return whether the run
+  /// continues
   bool mend(const std::vector<int>& frames);
   void make_frames();
   void watch_laws();
@@ -56,7 +57,7 @@ class RenderRun {
   bool go_to_frame(int frame);
   bool take_kept(int frame);
   struct Advanced {
-    bool is_there = false;
+    bool is_reached = false;
     double seconds = 0;  ///< that it took
   };
   Advanced simulate_to(int frame);
@@ -78,7 +79,7 @@ class RenderRun {
   RenderResult result_;
   double seconds_ = 0;                      ///< that the simulation of the frame took
   std::optional<std::size_t> kept_blocks_;  ///< of the grid, of a frame whose state was kept
-  bool goes_on_ = false;                    ///< from a checkpoint or a fork
+  bool is_continued_ = false;               ///< from a checkpoint or a fork
   bool is_mending_ = false;
   bool said_slow_ = false;
   std::atomic<bool> is_abandoned_ = false;  ///< nobody waits for the frame being simulated

@@ -4,6 +4,7 @@
 #include <limits>
 #include <new>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "app/support/version.h"
@@ -30,36 +31,31 @@ Moments::Moments(StatesFolder states, Progress& progress)
   if (is_other)
     output::remove_states(states_.folder);
   else if (states_.are_read)
-    on_disk_ = {frames.begin(), frames.end()};
-  for (const int frame : output::checkpoint_frames(states_.folder)) on_disk_.insert(frame);
+    for (const int frame : frames) on_disk_[frame] = 0;
+  for (const auto& [frame, steps] : output::checkpoint_steps(states_.folder))
+    on_disk_[frame] = steps;
   states_.are_wanted = states_.are_wanted || (!is_other && !frames.empty());
 }
 
 void Moments::add_run(const std::filesystem::path& folder) {
   if (record::read_run_json(folder).value("version", "") != version) return;
   run_ = folder;
-  for (const int frame : output::kept_states(folder)) on_disk_.insert(frame);
-  for (const int frame : output::checkpoint_frames(folder)) on_disk_.insert(frame);
+  for (const int frame : output::kept_states(folder)) on_disk_[frame] = 0;
+  for (const auto& [frame, steps] : output::checkpoint_steps(folder)) on_disk_[frame] = steps;
 }
 
-/// From DIR/states, or else from DIR/checkpoint.
-std::shared_ptr<const Moment> Moments::read(int frame) {
+/// One from a file that this program may continue. @param identity  that it has to have
+std::shared_ptr<const Moment> Moments::use(output::FoundCheckpoint found, int frame,
+                                           const std::string& identity) {
   const bool is_of_run = !run_.empty();
-  const std::filesystem::path& folder = is_of_run ? run_ : states_.folder;
-  const auto is_ours = [&](const output::FoundCheckpoint& found, const std::string& identity) {
-    const std::optional<output::Checkpoint>& file = found.checkpoint;
-    return file && file->frame == frame &&
-           (is_of_run ? file->simd == sim::kernels::name(sim::kernels::chosen_simd_level())
-                      : file->identity == identity);
-  };
-  output::FoundCheckpoint found = output::read_state(folder, frame);
+  std::optional<output::Checkpoint>& file = found.checkpoint;
   std::string damage = found.damaged.empty() ? "" : found.damaged.front();
-  if (!is_ours(found, states_.identity)) {
-    found = output::find_checkpoint(folder, frame + 1);
-    if (!is_ours(found, states_.checkpoints)) found.checkpoint.reset();
-  }
-  if (found.checkpoint) try {
-      return std::make_shared<const Moment>(to_moment(*std::move(found.checkpoint)));
+  const bool is_ours =
+      file && file->frame == frame &&
+      (is_of_run ? file->simd == sim::kernels::name(sim::kernels::chosen_simd_level())
+                 : file->identity == identity);
+  if (is_ours) try {
+      return std::make_shared<const Moment>(to_moment(*std::move(file)));
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
@@ -70,20 +66,35 @@ std::shared_ptr<const Moment> Moments::read(int frame) {
   return nullptr;
 }
 
-std::shared_ptr<const Moment> Moments::find(double time, double fps, int after) {
+/// From DIR/checkpoint, or else from DIR/states. A frame without either is forgotten.
+std::shared_ptr<const Moment> Moments::read(int frame, double time, double fps) {
+  const std::filesystem::path& folder = run_.empty() ? states_.folder : run_;
+  std::shared_ptr<const Moment> moment;
+  if (on_disk_.at(frame) > 0)
+    moment = use(output::find_checkpoint(folder, frame + 1), frame, states_.checkpoints);
+  // One of an interrupted run may hold steps beyond its frame.
+  if (moment && is_not_after(moment->time(fps), time)) return moment;
+  const bool is_later = moment != nullptr;
+  moment = use(output::read_state(folder, frame), frame, states_.identity);
+  if (!moment && !is_later) on_disk_.erase(frame);
+  return moment;
+}
+
+std::shared_ptr<const Moment> Moments::find(double time, double fps, int after, std::size_t steps) {
   std::shared_ptr<const Moment> best;
   const int last = frame_at(time, fps);
   if (const auto later = in_memory_.upper_bound(last); later != in_memory_.begin())
     if (const auto& newest = std::prev(later)->second; newest->frame > after) {
       best = newest;
       after = newest->frame;
+      steps = newest->steps;
     }
-  for (auto frame = on_disk_.upper_bound(last); frame != on_disk_.begin();) {
-    if (*--frame <= after) break;
-    const auto moment = read(*frame);
-    // One of an interrupted run may hold steps beyond its frame.
-    if (moment && is_not_after(moment->time(fps), time)) return moment;
-    if (!moment) frame = on_disk_.erase(frame);
+  for (auto place = on_disk_.upper_bound(last); place != on_disk_.begin();) {
+    const auto [frame, steps_there] = *--place;
+    if (frame < after || (frame == after && steps_there <= steps)) break;
+    const auto moment = read(frame, time, fps);
+    if (moment && (frame > after || moment->steps > steps)) return moment;
+    place = on_disk_.lower_bound(frame);
   }
   return best;
 }
@@ -115,7 +126,8 @@ void Moments::forget_after(int frame) {
 }
 
 std::vector<int> Moments::frames() const {
-  std::set<int> all = on_disk_;
+  std::set<int> all;
+  for (const auto& [frame, steps] : on_disk_) all.insert(frame);
   for (const auto& [frame, moment] : in_memory_) all.insert(frame);
   return {all.begin(), all.end()};
 }

@@ -1,11 +1,10 @@
 #pragma once
-/// Moments of a run that are kept: to go on from them, or to look at them without simulating.
+/// Moments of a run that are kept: to continue from them, or to look at them without simulating.
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -29,8 +28,8 @@ class Moments {
  public:
   /// None.
   Moments() = default;
-  /// In memory. @param budget  bytes of all together; the first and the last are kept whatever they
-  /// take, those between more and more thinly
+  /// In memory. @param budget  bytes of all together; the first and the last are always kept,
+  /// those between more and more thinly
   explicit Moments(std::uint64_t budget) : budget_(budget) {}
   /// @param progress  outlives it: told of damaged states
   Moments(StatesFolder states, Progress& progress);
@@ -40,9 +39,10 @@ class Moments {
   void add_run(const std::filesystem::path& folder);
 
   /// The newest one that is not later than a time; null without one. Damaged files are passed over.
-  /// @param after  frame that the moment is to be after
+  /// @param after, steps  frame and steps that the moment is to be after
   /// @throws IoError for a file of a run with numbers that no run has written
-  std::shared_ptr<const Moment> find(double time, double fps, int after = -1);
+  std::shared_ptr<const Moment> find(double time, double fps, int after = -1,
+                                     std::size_t steps = 0);
   std::shared_ptr<const Moment> find_newest(double fps);
 
   /// True where the end of a frame is worth keeping. The start is made again faster than it is read
@@ -51,7 +51,7 @@ class Moments {
   /// Keeps the end of a frame, in the place of the one with its number. @throws IoError
   void keep(Moment moment);
 
-  /// Those of later frames count no more; files stay.
+  /// Forgets those of later frames; files stay.
   void forget_after(int frame);
 
   bool has(int frame) const { return on_disk_.contains(frame) || in_memory_.contains(frame); }
@@ -62,14 +62,16 @@ class Moments {
 
  private:
   void thin();
-  std::shared_ptr<const Moment> read(int frame);
+  std::shared_ptr<const Moment> read(int frame, double time, double fps);
+  std::shared_ptr<const Moment> use(output::FoundCheckpoint found, int frame,
+                                    const std::string& identity);
 
   std::uint64_t budget_ = 0, bytes_ = 0;
   std::map<int, std::shared_ptr<const Moment>> in_memory_;
-  std::set<int> on_disk_;         ///< frames
-  std::filesystem::path run_;     ///< that they are read from; empty: none
-  StatesFolder states_;           ///< that they are written to; empty: none
-  Progress* progress_ = nullptr;  ///< of these
+  std::map<int, std::size_t> on_disk_;  ///< frames; steps of a checkpoint, 0 of a state alone
+  std::filesystem::path run_;           ///< that they are read from; empty: none
+  StatesFolder states_;                 ///< that they are written to; empty: none
+  Progress* progress_ = nullptr;        ///< of these
 };
 
 }  // namespace neve::app::timeline

@@ -171,7 +171,7 @@ bool Timeline::go_to(double time) {
       simulation_ = setup::make_simulation(start_, seeded_->particles, threads_);
       begin();
     }
-  } else if (const auto kept = moments_.find(time, fps(), here_.frame)) {
+  } else if (const auto kept = moments_.find(time, fps(), here_.frame, here_.steps)) {
     restore(*kept);
     if (watch_.after_jump) watch_.after_jump(here_.frame);
   }

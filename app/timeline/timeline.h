@@ -1,5 +1,5 @@
 #pragma once
-/// A run in time: where it is, how it gets elsewhere, and how it takes another way.
+/// A run in time: its present moment, how it gets to another one, and how it takes another way.
 
 #include <cstddef>
 #include <functional>
@@ -84,7 +84,7 @@ class Timeline {
   /// Makes the changes that lead from the scene here to this one, and lists them; the run takes
   /// another way then. Throws like sim::Simulation::apply; nothing has changed then.
   void change(std::shared_ptr<const scene::Scene> scene);
-  /// Takes another way from here: later changes and later moments count no more.
+  /// Takes another way from here: forgets later changes and later moments.
   void fork();
 
  private:

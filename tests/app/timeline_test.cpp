@@ -10,8 +10,10 @@
 #include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/timeline/changes.h"
+#include "app/timeline/origin.h"
 #include "app/timeline/timeline.h"
 #include "app/timeline/times.h"
+#include "tests/support/temporary_folder.h"
 
 namespace neve::app {
 namespace {
@@ -308,6 +310,40 @@ TEST(Timeline, TakesNoStepToAMomentThatIsKept) {
   // A run that takes another way has none of the moments after it.
   run.timeline.fork();
   EXPECT_EQ(run.timeline.moments().frames(), (std::vector<int>{0, 1, 2}));
+}
+
+TEST(Timeline, TakesNoStepToAMomentInAFolder) {
+  const scene::Scene scene = played();
+  Counted run(scene);
+  ASSERT_TRUE(run.timeline.go_to(2.5 / 24));
+  ASSERT_FALSE(run.timeline.here().is_frame_end());
+  const test::TemporaryFolder folder;
+  record::RunRecord record;
+  record.scene = scene::write_scene(scene);
+  record.simd = run.simulation().simd();
+  timeline::write_origin(folder.path(), record, run.timeline.moment());
+  EXPECT_EQ(scene::write_scene(timeline::Origin::of(folder.path().string(), {}).scene),
+            record.scene);
+  const auto opened = [&] {
+    Moments moments;
+    moments.add_run(folder.path());
+    return std::make_unique<Counted>(scene, std::vector<scene::LiveChange>{}, std::move(moments));
+  };
+  auto again = opened();
+  ASSERT_TRUE(again->timeline.go_to(2.5 / 24));
+  EXPECT_EQ(again->steps, 0u);
+  EXPECT_EQ(again->simulation().save(), run.simulation().save());
+  EXPECT_EQ(again->timeline.here().advance.steps, run.timeline.here().advance.steps);
+  ASSERT_TRUE(again->timeline.go_to(3 / 24.0));
+  EXPECT_GT(again->steps, 0u);
+  // It is later than the end of its frame, which is simulated.
+  auto earlier = opened();
+  ASSERT_TRUE(earlier->timeline.go_to(2 / 24.0));
+  EXPECT_GT(earlier->steps, 0u);
+  const std::size_t before = earlier->steps;
+  ASSERT_TRUE(earlier->timeline.go_to(2.5 / 24));
+  EXPECT_EQ(earlier->steps, before) << "the moment is ahead in the same frame";
+  EXPECT_EQ(earlier->simulation().save(), run.simulation().save());
 }
 
 TEST(Timeline, AMomentAfterADivergenceIsLeft) {

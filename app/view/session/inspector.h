@@ -23,8 +23,7 @@ class Inspector {
   /// Goes on to the next stage. @return false after the last one
   bool next_stage();
 
-  /// Adds the stage and the probe to a frame. While a run goes on, a probe is read four times a
-  /// second.
+  /// Adds the stage and the probe to a frame. A running simulation is probed four times a second.
   void inspect(const timeline::Timeline& timeline, bool is_running, LiveFrame& live);
 
  private:

@@ -16,7 +16,7 @@
 
 namespace neve::app::view::session {
 
-/// A run that exists, to go on from its newest moment and to look at those it kept.
+/// A run that exists: the session continues it, and shows the moments that it kept.
 struct Past {
   std::filesystem::path run;                         ///< its folder
   std::vector<scene::LiveChange> changes;            ///< until that moment

@@ -1,4 +1,4 @@
-/// The part of a session that moves its run, and publishes where it is.
+/// The part of a session that moves its run and publishes it.
 
 #include <stdexcept>
 
