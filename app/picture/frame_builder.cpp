@@ -82,6 +82,22 @@ std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& chan
   return override_lines(texts);
 }
 
+/// Particles on their way into a frame.
+struct PointLists {
+  std::vector<Vec3f> position;
+  std::vector<std::uint32_t> id;
+  std::vector<float> value, volume;
+  std::vector<render::PackedTurn> turn;
+
+  void move_to(auto& to) {
+    to.position = std::move(position);
+    to.id = std::move(id);
+    to.value = std::move(value);
+    to.volume = std::move(volume);
+    to.turn = std::move(turn);
+  }
+};
+
 }  // namespace
 
 FrameBuilder::FrameBuilder(const scene::Scene& scene, const setup::SeededScene& seeded,
@@ -170,14 +186,15 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
   points.colormap = look ? render::ColorMap::viridis : style.colormap;
   points.range_min = static_cast<float>(range.min);
   points.range_max = static_cast<float>(range.max);
-  points.position.reserve(snapshot.particles.x.size());
-  points.id.reserve(snapshot.particles.x.size());
-  points.value.reserve(values.size());
   // Hidden particles cast no shadow either: the cut is lit like a surface, so its colours are
   // readable.
   const Cut cut(view.clip, snapshot.particles.x);
   const bool is_surface = scene::has_layer(view, scene::Layer::snow);
-  const auto take = [&](std::size_t p, auto& list) {
+  PointLists shown, cut_away;
+  shown.position.reserve(snapshot.particles.x.size());
+  shown.id.reserve(snapshot.particles.x.size());
+  shown.value.reserve(values.size());
+  const auto take = [&](std::size_t p, PointLists& list) {
     list.position.push_back(to_float(snapshot.particles.x[p]));
     list.id.push_back(snapshot.particles.id_of(p));
     if (is_surface) {
@@ -187,19 +204,22 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
     if (!values.empty())
       list.value.push_back(static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
   };
-  if (is_surface && view.clip)
-    points.cut = {
-        to_float(cut.point()), to_float(sim::Vec3d(cut.normal().normalized())), {}, {}, {}, {}, {}};
   for (std::size_t p = 0; p < snapshot.particles.x.size(); ++p) {
     // A diverged state is drawn too, as far as it can be.
     const sim::Vec3d& x = snapshot.particles.x[p];
     if (!x.allFinite()) continue;
     if (cut.removes(x)) {
-      if (points.cut && cut.distance(x) < reach_beyond_cut * seeded_.spacing) take(p, *points.cut);
+      if (is_surface && cut.distance(x) < reach_beyond_cut * seeded_.spacing) take(p, cut_away);
     } else if (!look || !look->cut.removes(x)) {
-      take(p, points);
+      take(p, shown);
     }
   }
+  shown.move_to(points);
+  if (!is_surface || !view.clip) return;
+  points.cut.emplace();
+  points.cut->point = to_float(cut.point());
+  points.cut->normal = to_float(sim::Vec3d(cut.normal().normalized()));
+  cut_away.move_to(*points.cut);
 }
 
 void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,

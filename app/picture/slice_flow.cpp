@@ -129,8 +129,8 @@ int add_arrows(const SliceMoment& slice, render::Frame& frame) {
       if (!stencil || stencil->cover < least_cover) continue;
       const Vec3f value = FieldSampler::mean(*stencil, values);
       if (!(length(value) > least_shown * largest)) continue;
-      arrows.position.push_back(to_float(x));
-      arrows.vector.push_back(value);
+      arrows.position.edit().push_back(to_float(x));
+      arrows.vector.edit().push_back(value);
     }
   frame.arrows.push_back(std::move(arrows));
   return every;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "render/surface/cell_table.h"
 #include "render/surface/loops.h"
@@ -157,7 +158,13 @@ void place_vertex(const Field& field, std::size_t b, Vec3i node, int axis, Vec3f
   normal = steepness > 1e-12f ? fall / steepness : along_edge;
 }
 
-void write_vertices(const Field& field, const CutBlock& cut, TriangleMesh& mesh) {
+/// A mesh while it is made.
+struct MeshArrays {
+  std::vector<Vec3f> position, normal;
+  std::vector<std::uint32_t> index;
+};
+
+void write_vertices(const Field& field, const CutBlock& cut, MeshArrays& mesh) {
   std::size_t to = cut.first_vertex;
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (int k = 0; k < block_side; ++k)
@@ -198,7 +205,7 @@ class VertexNumbers {
 };
 
 void write_triangles(const Cells& cells, const CutBlock& cut, const VertexNumbers& numbers,
-                     TriangleMesh& mesh) {
+                     MeshArrays& mesh) {
   const std::array<CellCase, 256>& table = cell_table();
   std::size_t to = 3 * cut.first_triangle;
   for (int k = 0; k < block_side; ++k) {
@@ -240,10 +247,8 @@ TriangleMesh triangles_of(const Field& field, const std::vector<InsideBits>& ins
     vertices += cut.vertices;
     triangles += cut.triangles;
   }
-  TriangleMesh mesh;
-  mesh.position.resize(vertices);
-  mesh.normal.resize(vertices);
-  mesh.index.resize(3 * triangles);
+  MeshArrays mesh{std::vector<Vec3f>(vertices), std::vector<Vec3f>(vertices),
+                  std::vector<std::uint32_t>(3 * triangles)};
   const VertexNumbers numbers(field, cuts);
   for_ranges(pool, cuts.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
@@ -251,7 +256,7 @@ TriangleMesh triangles_of(const Field& field, const std::vector<InsideBits>& ins
       write_triangles(Cells(field, inside, cuts[c].block), cuts[c], numbers, mesh);
     }
   });
-  return mesh;
+  return {std::move(mesh.position), std::move(mesh.normal), std::move(mesh.index)};
 }
 
 }  // namespace neve::render::surface
