@@ -77,7 +77,7 @@ void Game::write_page(const RoundRuns& runs) const {
   page.has_favourite = lesson().has_favourite();
   if (page.has_favourite) {
     page.learned = lesson().lines;
-    page.map = map_svg(scene_.axes, map());
+    page.map = map_svg(map());
   }
   output::write_file(folder_ / "round.html", page_html(page));
 }
@@ -126,8 +126,8 @@ const Lesson& Game::lesson() const {
   return *lesson_;
 }
 
-TasteMap Game::map() const {
-  return taste_map(lesson().taste, rounds_, lesson().tastes, lesson().favourite);
+render::Plot Game::map() const {
+  return taste_map(scene_.axes, lesson().taste, rounds_, lesson().tastes, lesson().favourite);
 }
 
 search::Point Game::result() const {
@@ -143,7 +143,7 @@ std::optional<std::vector<scene::Override>> Game::write_pick() const {
   output::write_file(folder_ / "picked_sweep.toml",
                      picked_sweep(scene_, "picked.toml", place, order));
   output::write_file(folder_ / "learned.txt", fmt::format("{}\n", fmt::join(lesson().lines, "\n")));
-  output::write_file(folder_ / "map.svg", map_svg(scene_.axes, map()));
+  output::write_file(folder_ / "map.svg", map_svg(map()));
   return settings(place);
 }
 

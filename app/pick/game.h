@@ -56,7 +56,7 @@ class Game {
   void undo();
 
   const Lesson& lesson() const;
-  TasteMap map() const;  ///< of a lesson with a favourite
+  render::Plot map() const;  ///< of a lesson with a favourite
 
   /// The place of the pick; an empty one before the first choice.
   search::Point result() const;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "render/frame/ticks.h"
 #include "render/frame/turn.h"
 #include "render/frame/values.h"
 #include "sim/base/vec.h"
@@ -147,22 +148,31 @@ struct Legend {
   float min = 0, max = 1;
 };
 
-/// One curve of a plot, or with `bar_width` bars that end at each time.
+/// One series of a plot: a curve, with `bar_width` bars that end at each x, or with `dot_radius` a
+/// dot for each value.
 struct PlotSeries {
   std::string name;
   std::array<std::uint8_t, 3> color{255, 255, 255};  ///< sRGB
-  std::vector<float> time;                           ///< s, increasing
-  std::vector<float> value;                          ///< one per time; not-a-number: a gap
-  float bar_width = 0;                               ///< s
+  std::vector<float> x;                              ///< of a curve increasing
+  std::vector<float> value;                          ///< one per x; not-a-number: a gap
+  float bar_width = 0;
+  float dot_radius = 0;                 ///< px where a line of text has 16
+  bool has_rings = false;               ///< instead of filled dots
+  std::vector<std::string> notes = {};  ///< empty, or one per dot, for a mouse that points at it
 };
 
-/// A panel of curves over the time of the whole scene; values later than `now` are not drawn.
+/// A panel of series over the time of the whole scene, or over another x.
 struct Plot {
-  std::string title;            ///< "energy"
-  std::string unit;             ///< "J", may be empty
-  float time_end = 1, now = 0;  ///< s
-  float min = 0, max = 1;       ///< of the values, the same in every frame
+  std::string title;              ///< "energy"
+  std::string unit;               ///< "J", may be empty
+  float x_end = 1;                ///< x starts at 0
+  std::optional<float> now = {};  ///< x of a line; values later than it are not drawn
+  float min = 0, max = 1;         ///< of the values, the same in every frame
   std::vector<PlotSeries> series;
+  std::string x_title = {}, x_unit = "s";
+  std::vector<Tick> ticks = {}, x_ticks = {};  ///< empty: round numbers
+  int cell_columns = 0;                        ///< of a ground of coloured cells; 0: there is none
+  std::vector<std::array<std::uint8_t, 3>> cells = {};  ///< sRGB, rows from the top
 };
 
 /// A filled rectangle on the finished picture, below all text; pixels from the upper left corner.

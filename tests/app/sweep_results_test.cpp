@@ -361,22 +361,21 @@ TEST(SweepReport, SweepReportKeepsParametersAsTheyWereWritten) {
 
 TEST(MetricPlots, PlotsHaveAPointForEachRunWithTheMetric) {
   const app::sweep::store::Manifest m = manifest_of({4});
-  const std::string svg = app::sweep::sheet::metric_plots_svg(m, results_of(m), true);
+  const std::string svg = app::sweep::sheet::metric_plots_svg(m, results_of(m));
   const auto count = [&](const std::string& what) {
     std::size_t found = 0;
     for (std::size_t at = 0; (at = svg.find(what, at)) != std::string::npos; ++at) ++found;
     return found;
   };
   EXPECT_EQ(count("<circle"), 3 * app::sweep::store::metric_infos().size());
-  EXPECT_EQ(count("class=\"run failed\""), app::sweep::store::metric_infos().size());
+  EXPECT_EQ(count("fill=\"none\""), app::sweep::store::metric_infos().size()) << "rings";
   EXPECT_EQ(
       app::sweep::sheet::metric_plots_svg(
           m,
           std::vector<app::sweep::store::RunResult>(
               4, {{},
                   {},
-                  std::vector<std::optional<double>>(app::sweep::store::metric_infos().size())}),
-          true),
+                  std::vector<std::optional<double>>(app::sweep::store::metric_infos().size())})),
       "");
 }
 
@@ -429,17 +428,17 @@ TEST(RunWarnings, WarningsNameFiveRunsAndCountTheOthers) {
 TEST(MetricPlots, DivergedRunsDoNotScaleTheAxes) {
   const app::sweep::store::Manifest m = manifest_of({4});
   std::vector<app::sweep::store::RunResult> results = results_of(m);
-  const std::string svg = app::sweep::sheet::metric_plots_svg(m, results, true);
+  const std::string svg = app::sweep::sheet::metric_plots_svg(m, results);
   // The second run diverged: wherever above the others it was, its ring is at the edge.
   for (std::optional<double>& value : results[1].metrics) value = 1e6;
-  const std::string far = app::sweep::sheet::metric_plots_svg(m, results, true);
+  const std::string far = app::sweep::sheet::metric_plots_svg(m, results);
   for (std::optional<double>& value : results[1].metrics) value = 1e9;
   const auto without_tooltips = [](std::string text) {
     for (std::size_t at; (at = text.find("<title>")) != std::string::npos;)
       text.erase(at, text.find("</title>", at) + 8 - at);
     return text;
   };
-  EXPECT_EQ(without_tooltips(app::sweep::sheet::metric_plots_svg(m, results, true)),
+  EXPECT_EQ(without_tooltips(app::sweep::sheet::metric_plots_svg(m, results)),
             without_tooltips(far));
   EXPECT_NE(without_tooltips(svg), without_tooltips(far));
 }

@@ -89,8 +89,8 @@ inline constexpr Folder folders[] = {
      "app/setup app/picture app/sweep/plan app/sweep/store app/sweep/jobs"},
     {"app/pick/search", "sim/base app/sweep/plan"},
     {"app/pick",
-     "app/support app/scene/toml app/scene app/output app/sweep app/sweep/read app/sweep/plan "
-     "app/sweep/store app/sweep/jobs app/pick/search"},
+     "render/frame render/overlay app/support app/scene/toml app/scene app/output app/sweep "
+     "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/pick/search"},
     {"app/view/session",
      "sim/types sim app/support app/scene/toml app/scene app/output app/setup app/health "
      "app/picture app/run app/dump app/sweep/plan app/sweep/jobs app/sweep/store"},
@@ -103,8 +103,8 @@ inline constexpr Folder folders[] = {
      "render/image render/frame render app/support app/scene/toml app/scene app/output "
      "app/view/frontend app/view/panels"},
     {"app/view/picker",
-     "render/image render/frame render app/support app/scene app/output app/setup app/pick/search "
-     "app/pick app/view/frontend app/view/panels"},
+     "render/image render/frame render/overlay render app/support app/scene app/output app/setup "
+     "app/pick/search app/pick app/view/frontend app/view/panels"},
     {"app/view",
      "render/image render/frame render app/support app/scene app/output app/setup app/picture "
      "app/run app/view/session app/view/frontend app/view/panels"},

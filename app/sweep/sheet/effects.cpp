@@ -8,11 +8,13 @@
 
 #include "app/support/text.h"
 #include "app/sweep/plan/designs.h"
-#include "app/sweep/sheet/svg_text.h"
+#include "render/overlay/svg.h"
 
 namespace neve::app::sweep::sheet {
 
 namespace {
+
+using render::overlay::svg_number, render::overlay::svg_text;
 
 /// The axis and the signed share of its range of the step between two runs; axis -1: there is none.
 struct Step {
@@ -234,12 +236,8 @@ std::string effects_svg(const store::Manifest& manifest,
   }
   body += bar_legend(y + 14);
   const double width = std::max(left + static_cast<double>(columns.size()) * column_width, 940.0);
-  const std::string head_line = is_document ? "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" : "";
-  return head_line + "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + svg_number(width) +
-         "\" height=\"" + svg_number(y + foot) + "\" viewBox=\"0 0 " + svg_number(width) + " " +
-         svg_number(y + foot) + "\">\n" + bar_style +
-         (is_document ? "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" : "") + body +
-         "</svg>\n";
+  return render::overlay::svg_drawing(width, y + foot, is_document ? "#ffffff" : "",
+                                      bar_style + body, is_document);
 }
 
 std::vector<std::string> effect_lines(const store::Manifest& manifest,

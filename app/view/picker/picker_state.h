@@ -48,7 +48,7 @@ struct PickerState {
   bool is_stopping = false;               ///< runs are being ended
   std::vector<scene::Override> values{};  ///< of the pick, in Phase::over
   bool is_scrolling = false;              ///< a finger moves the words
-  std::optional<pick::TasteMap> map{};    ///< of what was learned
+  std::optional<render::Plot> map{};      ///< of what was learned
   Layout layout{};
   Wish wish{};
   std::function<void(const std::string&)> copy{};

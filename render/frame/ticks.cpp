@@ -1,10 +1,10 @@
-#include "render/overlay/ticks.h"
+#include "render/frame/ticks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-namespace neve::render::overlay {
+namespace neve::render {
 namespace {
 
 /// Smallest round step that makes no more than count intervals.
@@ -59,4 +59,4 @@ std::vector<Tick> nice_ticks(double min, double max, int count) {
   return ticks;
 }
 
-}  // namespace neve::render::overlay
+}  // namespace neve::render

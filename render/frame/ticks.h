@@ -1,10 +1,10 @@
 #pragma once
-/// Round numbers along a colour bar.
+/// Round numbers along an axis or a colour bar.
 
 #include <string>
 #include <vector>
 
-namespace neve::render::overlay {
+namespace neve::render {
 
 struct Tick {
   double value = 0;
@@ -15,4 +15,4 @@ struct Tick {
 /// the range has no width, none where it is not finite.
 std::vector<Tick> nice_ticks(double min, double max, int count);
 
-}  // namespace neve::render::overlay
+}  // namespace neve::render
