@@ -6,6 +6,7 @@
 #include <iostream>
 #include <optional>
 
+#include "app/advice/suggest.h"
 #include "app/cli/command_line_parts.h"
 #include "app/cli/commands.h"
 #include "app/cli/manual.h"
@@ -35,17 +36,8 @@ void check_threads(int threads) {
 void check_backend(const std::string& name) {
   const auto& backends = render::gl::backend_names();
   if (std::find(backends.begin(), backends.end(), name) != backends.end()) return;
-  const std::string word = lower_text(name);
-  const bool is_gpu = word == "gpu" || word == "cuda" || word == "opengl" || word == "vulkan" ||
-                      word == "hip" || word == "metal" || word == "nvidia";
-  const bool is_cpu = word == "cpu" || word == "software" || word == "llvmpipe" || word == "mesa";
-  throw scene::toml::UsageError(
-      "--backend", "unknown backend \"" + name + "\"",
-      is_gpu ? "egl draws with OpenGL on a GPU where there is one; expected one of " +
-                   joined(backends, ", ")
-      : is_cpu ? "osmesa draws without a GPU, and egl where Mesa is its driver; expected one of " +
-                     joined(backends, ", ")
-               : names_advice(name, backends));
+  throw scene::toml::UsageError("--backend", "unknown backend \"" + name + "\"",
+                                advice::suggest_one_of(name, {"backend", backends}));
 }
 
 CLI::Option* add_repeatable(CLI::App& command, const char* flag, std::vector<std::string>& values,
@@ -80,7 +72,7 @@ void add_progress(CLI::App& command, std::optional<std::string>& progress,
 bool parse_progress(const std::string& text) {
   if (text != "text" && text != "json")
     throw scene::toml::UsageError("--progress", "cannot use \"" + text + "\"",
-                                  names_advice(text, {"text", "json"}));
+                                  advice::suggest_one_of(text, {"", {"text", "json"}}));
   return text == "json";
 }
 

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <type_traits>
 
+#include "app/advice/suggest.h"
 #include "app/cli/command_line_parts.h"
 #include "app/scene/describe.h"
-#include "app/scene/export_advice.h"
 #include "app/scene/leaf.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
@@ -78,10 +78,9 @@ const ExportKey& piece_key() {
 template <scene::Choice E>
 E choice_of(const char* flag, const std::string& word) {
   if (const std::optional<E> value = scene::value_named<E>(word)) return *value;
-  std::string hint;
-  if constexpr (std::is_same_v<E, scene::ExportFormat>) hint = scene::export_format_advice(word);
+  const char* context = std::is_same_v<E, scene::ExportFormat> ? "format of an export" : "";
   throw scene::toml::UsageError(flag, "there is no \"" + word + "\"",
-                                hint.empty() ? names_advice(word, scene::choices<E>()) : hint);
+                                advice::suggest_one_of(word, {context, scene::choices<E>()}));
 }
 
 /// "a,b": each at most once, at least one.

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "app/advice/suggest.h"
 #include "app/cli/command_line_parts.h"
 #include "app/output/atomic_file.h"
 #include "app/scene/first_scene.h"
@@ -75,7 +76,7 @@ int run_new(const std::string& name, bool is_json) {
 int run_schema(const std::string& kind) {
   if (kind != "scene" && kind != "sweep")
     throw scene::toml::UsageError("schema", "there is no schema of \"" + kind + "\"",
-                                  names_advice(kind, {"scene", "sweep"}));
+                                  advice::suggest_one_of(kind, {"", {"scene", "sweep"}}));
   const bool is_scene = kind == "scene";
   std::cout << to_text(is_scene ? scene::scene_schema() : sweep::read::sweep_schema()) << "\n";
   return exit_ok;

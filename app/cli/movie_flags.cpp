@@ -1,8 +1,8 @@
 #include "app/cli/movie_flags.h"
 
-#include <map>
 #include <vector>
 
+#include "app/advice/suggest.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
 #include "app/support/text.h"
@@ -21,16 +21,10 @@ std::vector<std::string> format_names() {
 
 /// Advice on a word that names no format.
 std::string format_advice(const std::string& word) {
-  static const std::map<std::string, std::string> elsewhere{
-      {"hevc", "h265"}, {"x264", "h264"},        {"x265", "h265"},
-      {"avc", "h264"},  {"quicktime", "prores"}, {"av1", "vp9"}};
   if (word == "avi" || word == "mkv")
     return "no " + word + " is written; expected " + joined(format_names(), ", ") +
            ", or the suffix of the file: mp4, webm, mov; most programs read mp4";
-  const auto found = elsewhere.find(word);
-  return (found != elsewhere.end()
-              ? "did you mean " + found->second + "? expected " + joined(format_names(), ", ")
-              : names_advice(word, format_names())) +
+  return advice::suggest_one_of(word, {"format of a movie", format_names()}) +
          ", or the suffix of the file: mp4, webm, mov";
 }
 

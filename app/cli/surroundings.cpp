@@ -7,6 +7,7 @@
 #include <cctype>
 #include <iostream>
 
+#include "app/advice/suggest.h"
 #include "app/support/machine.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
@@ -60,11 +61,11 @@ std::vector<std::string> misnamed_variables(const std::vector<std::string>& envi
     const std::string name = variable.substr(0, variable.find('='));
     if (!name.starts_with("NEVE_") || std::find(known.begin(), known.end(), name) != known.end())
       continue;
-    const std::string nearest = nearest_name(name, known), flag = flag_like(name);
+    const std::string question = advice::suggest(name, {"", known}), flag = flag_like(name);
     if (std::find(flags.begin(), flags.end(), flag) != flags.end())
       sentences.push_back(name + " in the environment is not read; use " + flag);
-    else if (!nearest.empty())
-      sentences.push_back(name + " in the environment is not read; did you mean " + nearest + "?");
+    else if (!question.empty())
+      sentences.push_back(name + " in the environment is not read; " + question);
   }
   return sentences;
 }

@@ -1,5 +1,6 @@
 #include "app/compare/pair_options.h"
 
+#include "app/advice/suggest.h"
 #include "app/scene/toml/error.h"
 #include "app/support/text.h"
 
@@ -34,7 +35,7 @@ Mode mode_named(const std::string& text) {
     names.emplace_back(name(mode));
   }
   throw scene::toml::UsageError("--mode", "there is no \"" + text + "\"",
-                                names_advice(text, names));
+                                advice::suggest_one_of(text, {"", names}));
 }
 
 }  // namespace neve::app::compare

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "app/advice/suggest.h"
 #include "app/health/expected.h"
-#include "app/scene/search.h"
 #include "app/scene/toml/error.h"
 #include "sim/health/diagnostics.h"
 
@@ -255,23 +255,6 @@ Listing list_stage(const StepInspection& inside, sim::Stage stage) {
   return listing;
 }
 
-namespace {
-
-/// Names the stage whose listing has a quantity that this one lacks.
-std::string stage_advice(const std::string& name) {
-  using enum sim::Stage;
-  constexpr std::pair<const char*, sim::Stage> first_shown[] = {
-      {"momentum", rasterize},          {"v_old", rasterize},        {"force", elastic_forces},
-      {"v_free", grid_velocities},      {"v_star", grid_collisions}, {"v_new", implicit_solve},
-      {"grad_v", deformation},          {"F_E_trial", deformation},  {"moved", advection},
-      {"v_before", particle_velocities}};
-  for (const auto& [quantity, stage] : first_shown)
-    if (name == quantity) return std::string("--stage ") + sim::name(stage) + " has it; ";
-  return {};
-}
-
-}  // namespace
-
 void keep_only(Listing& listing, const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::vector<std::string> known;
@@ -279,9 +262,12 @@ void keep_only(Listing& listing, const std::vector<std::string>& names) {
   std::vector<Quantity> kept;
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
-    if (found == known.end())
+    if (found == known.end()) {
+      const advice::Entry* later = advice::entry_of("quantity of another stage", name);
       throw scene::toml::UsageError("--field", "there is no \"" + name + "\" here",
-                                    stage_advice(name) + scene::attribute_advice(name, known));
+                                    (later ? later->sentence + "; " : "") +
+                                        advice::suggest_one_of(name, {"attribute", known}));
+    }
     kept.push_back(listing.quantities[static_cast<std::size_t>(found - known.begin())]);
   }
   listing.quantities = std::move(kept);

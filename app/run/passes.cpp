@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
+#include "app/advice/suggest.h"
 #include "app/exports/columns.h"
 #include "app/picture/attributes.h"
 #include "app/scene/names.h"
@@ -96,20 +96,6 @@ std::vector<std::string> parse_passes(const std::string& text) {
   return names;
 }
 
-/// Names that other programs give to passes of neve.
-std::string advice_on_pass(const std::string& name) {
-  static const std::map<std::string, std::string> elsewhere{
-      {"z", "depth"},          {"Z", "depth"},       {"n", "normal"},       {"N", "normal"},
-      {"normals", "normal"},   {"P", "position"},    {"diffuse", "albedo"}, {"color", "albedo"},
-      {"velocity", "motion"},  {"vector", "motion"}, {"mv", "motion"},      {"shadows", "shadow"},
-      {"cryptomatte", "body"}, {"object", "body"},   {"mask", "body"}};
-  const auto found = elsewhere.find(name);
-  if (name == "beauty") return "every file has it as R, G, B and A; leave it away";
-  return found == elsewhere.end()
-             ? names_advice(name, known_names())
-             : "did you mean " + found->second + "? expected " + joined(known_names(), ", ");
-}
-
 PassList pass_list(const std::vector<std::string>& names) {
   PassList list;
   for (const std::string& name : names) {
@@ -121,7 +107,9 @@ PassList pass_list(const std::vector<std::string>& names) {
       list.attributes.push_back(*attribute);
     else
       throw scene::toml::UsageError("--passes", "unknown pass \"" + name + "\"",
-                                    advice_on_pass(name));
+                                    name == "beauty"
+                                        ? "omit it: every file already holds it as R, G, B, A"
+                                        : advice::suggest_one_of(name, {"pass", known_names()}));
   }
   return list;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/advice/suggest.h"
 #include "app/scene/check.h"
 #include "app/scene/reader.h"
 #include "app/scene/scene_file.h"
@@ -153,13 +154,12 @@ View find_view(const Scene& scene, const std::string& name) {
     if (view.name == name) return view;
     if (std::find(names.begin(), names.end(), view.name) == names.end()) names.push_back(view.name);
   }
-  const std::string nearest = nearest_name(name, names);
+  const std::string question = advice::suggest(name, {"", names, true});
   const bool is_list = name.find(',') != std::string::npos;
-  throw toml::UsageError(
-      "--view " + name, "the scene has no such view",
-      std::string(is_list ? "each view has a --view of its own; " : "") + "expected " +
-          list_of(names) +
-          (nearest.empty() ? "" : "; did you mean " + toml::toml_string(nearest) + "?"));
+  throw toml::UsageError("--view " + name, "the scene has no such view",
+                         std::string(is_list ? "each view has a --view of its own; " : "") +
+                             "expected " + list_of(names) +
+                             (question.empty() ? "" : "; " + question));
 }
 
 }  // namespace neve::app::scene

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <regex>
-#include <utility>
 
+#include "app/advice/suggest.h"
 #include "app/scene/toml/error.h"
-#include "app/support/lower_text.h"
 #include "app/support/text.h"
 
 namespace neve::app::setup {
@@ -28,20 +27,24 @@ std::vector<std::string> two_numbers(const std::string& text) {
 
 /// "1920x1080" of "1920*1080", "hd" and the like; empty: nothing known.
 std::string size_meant(const std::string& text) {
-  constexpr std::pair<const char*, const char*> names[] = {
-      {"hd", "1280x720"},   {"720p", "1280x720"},   {"fullhd", "1920x1080"}, {"1080p", "1920x1080"},
-      {"2k", "1920x1080"},  {"1440p", "2560x1440"}, {"4k", "3840x2160"},     {"2160p", "3840x2160"},
-      {"uhd", "3840x2160"}, {"vga", "640x480"}};
-  for (const auto& [name, size] : names)
-    if (lower_text(text) == name) return size;
+  if (const advice::Entry* entry = advice::entry_of("size of a picture", text))
+    return entry->names.front();
   const std::vector<std::string> numbers = two_numbers(text);
   return numbers.empty() ? "" : numbers[0] + "x" + numbers[1];
 }
 
-/// "did you mean 1-24? " of "1..24".
+/// "1-24" of "1..24".
 std::string range_meant(const std::string& text) {
   const std::vector<std::string> numbers = two_numbers(text);
-  return numbers.empty() ? "" : "did you mean " + numbers[0] + "-" + numbers[1] + "? ";
+  return numbers.empty() ? "" : numbers[0] + "-" + numbers[1];
+}
+
+/// A value that cannot be used. @param meant  empty: nothing known
+[[noreturn]] void fail_value(const char* flag, const std::string& text, const std::string& meant,
+                             const char* expected) {
+  const std::string question = advice::did_you_mean(meant);
+  throw scene::toml::UsageError(flag, "cannot use \"" + text + "\"",
+                                question + (question.empty() ? "" : " ") + expected);
 }
 
 }  // namespace
@@ -52,17 +55,15 @@ FrameRange parse_frames(const std::string& text) {
   const auto first = dash == std::string::npos ? 0 : number_of<int>(text.substr(0, dash));
   const auto last = number_of<int>(dash == std::string::npos ? text : text.substr(dash + 1));
   if (!first || !last || *first < 0 || *last < *first || *last > last_possible)
-    throw scene::toml::UsageError(
-        "--frames", "cannot use \"" + text + "\"",
-        range_meant(text) + "expected A-B with 0 <= A <= B <= 100000, or N for 0-N");
+    fail_value("--frames", text, range_meant(text),
+               "expected A-B with 0 <= A <= B <= 100000, or N for 0-N");
   return {*first, *last};
 }
 
 double parse_coarsening(const std::string& text) {
   const auto value = finite_number(text);
   if (!value)
-    throw scene::toml::UsageError("--coarsen", "cannot use \"" + text + "\"",
-                                  "expected a number of at least 1, as in --coarsen 2");
+    fail_value("--coarsen", text, "", "expected a number of at least 1, as in --coarsen 2");
   return *value;
 }
 
@@ -74,12 +75,9 @@ scene::PictureSize parse_size(const std::string& text) {
   const auto height =
       cross == std::string::npos ? std::nullopt : number_of<int>(text.substr(cross + 1));
   if (!width || !height || *width < smallest || *height < smallest || *width > largest ||
-      *height > largest) {
-    const std::string meant = size_meant(text);
-    throw scene::toml::UsageError("--size", "cannot use \"" + text + "\"",
-                                  (meant.empty() ? "" : "did you mean " + meant + "? ") +
-                                      "expected WIDTHxHEIGHT, each 16 to 1000000, as in 1280x720");
-  }
+      *height > largest)
+    fail_value("--size", text, size_meant(text),
+               "expected WIDTHxHEIGHT, each 16 to 1000000, as in 1280x720");
   return {*width, *height};
 }
 

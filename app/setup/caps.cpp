@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/advice/suggest.h"
 #include "app/scene/leaf.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
@@ -24,7 +25,7 @@ double memory_of(const std::string& text, const std::string& where) {
   constexpr double least = 1e6;
   if (bytes && *bytes > 0 && *bytes < least)
     throw scene::toml::UsageError(where, "\"" + text + "\" is less than a run needs: bytes",
-                                  "did you mean " + rough_text(*bytes) + "GiB?");
+                                  advice::did_you_mean(rough_text(*bytes) + "GiB"));
   if (!bytes || !(*bytes >= 1))
     throw scene::toml::UsageError(where, "cannot use \"" + text + "\"",
                                   "expected bytes, or a size such as 8GiB or 500MB");

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers as text, the same in every locale, and the nearest of some names.
+/// Numbers as text, the same in every locale.
 
 #include <charconv>
 #include <cstdint>
@@ -31,9 +31,5 @@ std::optional<Number> number_of(std::string_view text) {
   return error == std::errc{} && last == end ? std::optional(number) : std::nullopt;
 }
 std::string joined(const std::vector<std::string>& words, const std::string& between);
-/// The name closest to a misspelt one, or empty when none is close.
-std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names);
-/// "did you mean a? expected a, b, c": advice for an unknown name.
-std::string names_advice(const std::string& wrong, const std::vector<std::string>& names);
 
 }  // namespace neve::app

@@ -1,5 +1,6 @@
 /// Progress lines, and the small texts around them.
 
+#include "app/advice/suggest.h"
 #include "app/support/progress.h"
 
 #include <gtest/gtest.h>
@@ -90,14 +91,14 @@ TEST(Caption, CaptionNamesOverridesOfTheSnowShortly) {
 }
 
 TEST(NearestName, NearestNameIsFoundForTypingErrorsOnly) {
-  EXPECT_EQ(nearest_name("rendr", {"render", "doctor"}), "render");
-  EXPECT_EQ(nearest_name("banana", {"render", "doctor"}), "");
-  EXPECT_EQ(nearest_name("hardneing", {"hardness", "hardening", "density"}), "hardening");
-  EXPECT_EQ(nearest_name("ab", {"b", "ba", "abcd"}), "b");
-  EXPECT_EQ(nearest_name("velocty", {"velocity_of_all", "velocity"}), "velocity");
-  EXPECT_EQ(nearest_name("", {"a", "ab"}), "") << "nothing typed resembles nothing";
-  EXPECT_EQ(nearest_name("Z", {"y", "z"}), "z");
-  EXPECT_EQ(nearest_name("VELOCITY", {"v", "velocity"}), "velocity");
+  EXPECT_EQ(advice::nearest_name("rendr", {"render", "doctor"}), "render");
+  EXPECT_EQ(advice::nearest_name("banana", {"render", "doctor"}), "");
+  EXPECT_EQ(advice::nearest_name("hardneing", {"hardness", "hardening", "density"}), "hardening");
+  EXPECT_EQ(advice::nearest_name("ab", {"b", "ba", "abcd"}), "b");
+  EXPECT_EQ(advice::nearest_name("velocty", {"velocity_of_all", "velocity"}), "velocity");
+  EXPECT_EQ(advice::nearest_name("", {"a", "ab"}), "") << "nothing typed resembles nothing";
+  EXPECT_EQ(advice::nearest_name("Z", {"y", "z"}), "z");
+  EXPECT_EQ(advice::nearest_name("VELOCITY", {"v", "velocity"}), "velocity");
 }
 
 }  // namespace

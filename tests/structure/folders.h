@@ -48,13 +48,14 @@ inline constexpr Folder folders[] = {
 
     {"app/support", "", "neve::app"},
     {"app/scene/toml", "app/support"},
+    {"app/advice", "app/support app/scene/toml"},
     {"app/scene",
      "sim/base sim/types sim/shapes sim/seeding sim/kernels render/frame app/support "
-     "app/scene/toml"},
+     "app/scene/toml app/advice"},
     {"app/output", "sim/base sim/types sim sim/checks render/image app/support"},
     {"app/setup",
      "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health sim/engine sim app/support "
-     "app/scene/toml app/scene app/output"},
+     "app/scene/toml app/advice app/scene app/output"},
     {"app/health",
      "sim/base sim/types sim/shapes sim/seeding sim/health sim/engine sim app/support "
      "app/scene/toml app/scene app/output app/setup"},
@@ -66,16 +67,17 @@ inline constexpr Folder folders[] = {
      "app/scene app/output app/setup app/picture"},
     {"app/run",
      "sim/base sim/types sim sim/checks render/image render/frame render/gl render/channels render "
-     "app/support app/scene/toml app/scene app/output app/setup app/health app/picture "
+     "app/support app/scene/toml app/advice app/scene app/output app/setup app/health app/picture "
      "app/exports"},
     {"app/compare",
      "sim/base sim/types sim render/image render/frame render/gl render app/support app/scene/toml "
+     "app/advice "
      "app/scene app/output app/setup app/picture app/run"},
     {"app/dump",
-     "sim/base sim/types sim/health sim app/support app/scene/toml app/scene app/setup "
+     "sim/base sim/types sim/health sim app/support app/scene/toml app/advice app/scene app/setup "
      "app/health app/run"},
     {"app/sweep", "app/scene app/setup"},
-    {"app/sweep/read", "app/support app/scene/toml app/scene app/setup app/sweep"},
+    {"app/sweep/read", "app/support app/scene/toml app/advice app/scene app/setup app/sweep"},
     {"app/sweep/plan",
      "sim/base sim/types sim/engine app/support app/scene/toml app/scene app/output app/setup "
      "app/health app/run app/sweep app/sweep/read"},
@@ -100,7 +102,7 @@ inline constexpr Folder folders[] = {
      "render/frame render/overlay render app/support app/scene/toml app/scene app/health "
      "app/picture app/run app/view/session app/view/frontend"},
     {"app/view/replay",
-     "render/image render/frame render app/support app/scene/toml app/scene app/output "
+     "render/image render/frame render app/support app/scene/toml app/advice app/scene app/output "
      "app/view/frontend app/view/panels"},
     {"app/view/picker",
      "render/image render/frame render/overlay render app/support app/scene app/output app/setup "
@@ -117,7 +119,8 @@ inline constexpr Folder folders[] = {
      "app/view/replay app/view"},
     {"app/cli",
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
-     "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports app/run "
+     "app/scene/toml app/advice app/scene app/output app/setup app/health app/picture app/exports "
+     "app/run "
      "app/compare app/dump app/pick app/pick/search "
      "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet "
      "app/view/picker app/view app/bench app/cli/devices"},

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "app/advice/suggest.h"
 #include "app/support/text.h"
 
 namespace neve::app::sweep::read {
@@ -55,10 +56,9 @@ std::string complaint(const std::string& name, const Sweep& sweep) {
         names_of(sweep).empty() ? "hardening" : names_of(sweep).front());
   if (name.find_first_not_of(letters) != std::string::npos || number_of(name.substr(0, 1)))
     return fmt::format("\"{}\" is neither an axis nor a number times one; {}", name, form);
-  const std::string nearest = nearest_name(name, all_names_of(sweep));
+  const std::string question = advice::suggest(name, {"", all_names_of(sweep)});
   return fmt::format("\"{}\" is no axis of the sweep; {}expected {}", name,
-                     nearest.empty() ? "" : "did you mean " + nearest + "? ",
-                     joined(names_of(sweep), ", "));
+                     question.empty() ? "" : question + " ", joined(names_of(sweep), ", "));
 }
 
 /// The address of an axis by address, label, or the end of an address that no other has.

@@ -1,62 +1,23 @@
-#include "app/scene/number_advice.h"
+#include "app/advice/number_advice.h"
 
 #include <charconv>
 #include <cmath>
 #include <sstream>
 #include <vector>
 
+#include "app/advice/words.h"
 #include "app/support/text.h"
 
-namespace neve::app::scene {
+namespace neve::app::advice {
 
 namespace {
 
-/// A unit that people write behind a number.
-struct Unit {
-  std::string_view name, base;  ///< the base is one of describe.h
-  double size;                  ///< in the base
-};
-
-constexpr Unit units[] = {{"Pa", "Pa", 1},
-                          {"kPa", "Pa", 1e3},
-                          {"MPa", "Pa", 1e6},
-                          {"GPa", "Pa", 1e9},
-                          {"bar", "Pa", 1e5},
-                          {"N/m2", "Pa", 1},
-                          {"N/m^2", "Pa", 1},
-                          {"kN/m2", "Pa", 1e3},
-                          {"kN/m^2", "Pa", 1e3},
-                          {"m", "m", 1},
-                          {"km", "m", 1e3},
-                          {"dm", "m", 0.1},
-                          {"cm", "m", 0.01},
-                          {"mm", "m", 1e-3},
-                          {"in", "m", 0.0254},
-                          {"ft", "m", 0.3048},
-                          {"s", "s", 1},
-                          {"ms", "s", 1e-3},
-                          {"us", "s", 1e-6},
-                          {"min", "s", 60},
-                          {"m/s", "m/s", 1},
-                          {"km/h", "m/s", 1 / 3.6},
-                          {"cm/s", "m/s", 0.01},
-                          {"kg/m3", "kg/m3", 1},
-                          {"kg/m^3", "kg/m3", 1},
-                          {"g/cm3", "kg/m3", 1e3},
-                          {"g/cm^3", "kg/m3", 1e3},
-                          {"kg/l", "kg/m3", 1e3},
-                          {"deg", "degrees", 1},
-                          {"degrees", "degrees", 1},
-                          {"rad", "degrees", 57.29577951308232},
-                          {"rad/s", "rad/s", 1},
-                          {"deg/s", "rad/s", 0.017453292519943295},
-                          {"rpm", "rad/s", 0.10471975511965977}};
-
 std::string advice_on_unit(double value, std::string_view written, std::string_view unit) {
   const std::string no_unit = "numbers have no unit";
-  for (const Unit& known : units)
-    if (known.name == written && known.base == unit)
-      return no_unit + ": in " + std::string(unit) + " it is " + rough_text(value * known.size);
+  for (const Entry& known : entries_of(std::string(unit)))
+    if (known.has(written))
+      return no_unit + ": in " + std::string(unit) + " it is " +
+             rough_text(value * number_of(known.names.front()).value());
   return unit.empty() ? no_unit : no_unit + "; " + std::string(unit) + " is meant";
 }
 
@@ -94,7 +55,7 @@ std::string number_advice(std::string_view text, std::string_view unit) {
   return is_word && !written.empty() ? advice_on_unit(value, written, unit) : std::string();
 }
 
-std::string vector_advice(const toml::Value& value, const std::string& address) {
+std::string vector_advice(const scene::toml::Value& value, const std::string& address) {
   std::vector<double> numbers;
   if (const auto* text = std::get_if<std::string>(&value.data)) {
     std::string rest = *text;
@@ -109,7 +70,7 @@ std::string vector_advice(const toml::Value& value, const std::string& address) 
     numbers.push_back(*number);
   }
   // [0, 0,12, 0]
-  const auto* items = std::get_if<toml::Array>(&value.data);
+  const auto* items = std::get_if<scene::toml::Array>(&value.data);
   if (items && items->size() > 3 && items->size() <= 6)
     return "decimals have a point, as in 0.12, and commas are between the numbers";
   // One number of a gravity or a velocity is meant along y, and gravity down.
@@ -117,8 +78,8 @@ std::string vector_advice(const toml::Value& value, const std::string& address) 
   if (numbers.size() == 1 && (is_gravity || address.ends_with("velocity")))
     numbers = {0, is_gravity ? -std::abs(numbers[0]) : numbers[0], 0};
   if (numbers.size() != 3) return {};
-  return "write [" + toml::number_text(numbers[0]) + ", " + toml::number_text(numbers[1]) + ", " +
-         toml::number_text(numbers[2]) + "]";
+  return "write [" + scene::toml::number_text(numbers[0]) + ", " + scene::toml::number_text(numbers[1]) + ", " +
+         scene::toml::number_text(numbers[2]) + "]";
 }
 
-}  // namespace neve::app::scene
+}  // namespace neve::app::advice

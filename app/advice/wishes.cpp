@@ -1,13 +1,13 @@
-#include "app/scene/wishes.h"
+#include "app/advice/wishes.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
-#include "app/scene/search.h"
+#include "app/advice/words.h"
 #include "app/support/json.h"
 
-namespace neve::app::scene {
+namespace neve::app::advice {
 
 namespace {
 
@@ -96,42 +96,6 @@ const std::vector<Wish>& wishes() {
   return all;
 }
 
-const std::vector<EverydayName>& everyday_names() {
-  static const std::vector<EverydayName> all{
-      {"time step, timestep, step size, substeps, dt",
-       {"solver.dt", "solver.max_dt", "solver.time_step"}},
-      {"explode, explodes, explosion, blow up, blows up, diverge, unstable, instability, burst",
-       {"solver.time_step", "solver.dt", "solver.max_dt", "solver.acoustic_cfl", "solver.cfl",
-        "solver.strain_limit", "solver.on_divergence"}},
-      {"resolution, detail, voxel size, grid size, cell, quality",
-       {"solver.cell_size", "body.NAME.particles_per_cell", "output.size"}},
-      {"slow motion, length, duration, end, seconds", {"frames", "fps"}},
-      {"slippery, slide, sliding, rough, grip",
-       {"collider.NAME.friction", "collider.NAME.contact"}},
-      {"damping, viscosity, viscous, noise, noisy, jitter",
-       {"solver.flip_ratio", "solver.flip_reference_dt", "solver.transfer", "solver.beta"}},
-      {"elastic, bounce, bouncy, rubber, jelly",
-       {"material.NAME.model", "material.NAME.poisson_ratio"}},
-      {"uneven, random, natural, lumps",
-       {"material.NAME.variation.thresholds", "material.NAME.variation.youngs_modulus",
-        "material.NAME.variation.size", "seed"}},
-      {"transparent, alpha, background", {"output.background", "view.NAME.background"}},
-      {"zoom, lens, angle of view", {"camera.fov"}},
-      {"sun, shadow, brightness", {"light.direction", "light.intensity", "light.ambient"}},
-      {"E, young", {"material.NAME.youngs_modulus"}},
-      {"nu, poisson", {"material.NAME.poisson_ratio"}},
-      {"xi", {"material.NAME.hardening"}},
-      {"theta_c", {"material.NAME.critical_compression"}},
-      {"theta_s", {"material.NAME.critical_stretch"}},
-      {"rho", {"material.NAME.density"}},
-      {"alpha, pic, flip", {"solver.flip_ratio", "solver.transfer"}},
-      {"spin, tumble, tumbling, rotation, rotate, turning", {"solver.transfer"}},
-      {"implicit", {"solver.beta"}},
-      {"memory, RAM, limit", {"limits.memory", "limits.particles", "limits.pixels"}},
-  };
-  return all;
-}
-
 std::vector<const Wish*> wishes_for(const std::string& text) {
   const std::vector<std::string> wanted = words_in(text);
   std::vector<const Wish*> found;
@@ -201,4 +165,4 @@ std::string wishes_json(const std::vector<const Wish*>& wishes) {
   return to_text(list) + "\n";
 }
 
-}  // namespace neve::app::scene
+}  // namespace neve::app::advice

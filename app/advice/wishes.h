@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace neve::app::scene {
+namespace neve::app::advice {
 
 /// A parameter that serves a wish.
 struct WishChange {
@@ -25,14 +25,7 @@ struct Wish {
 
 const std::vector<Wish>& wishes();
 
-/// Words that no address has, for parameters that they mean.
-struct EverydayName {
-  const char* words;  ///< apart by commas: "time step, step size"
-  std::vector<const char*> addresses;
-};
-const std::vector<EverydayName>& everyday_names();
-
-/// Wishes and names in which a text is found: "sticky" finds stickier.
+/// Wishes in which a text is found: "sticky" finds stickier.
 std::vector<const Wish*> wishes_for(const std::string& text);
 
 std::string wishes_table(const std::vector<const Wish*>& wishes);
@@ -41,4 +34,4 @@ std::string wishes_markdown(const std::vector<const Wish*>& wishes);
 /// A list of objects: wish, words, changes.
 std::string wishes_json(const std::vector<const Wish*>& wishes);
 
-}  // namespace neve::app::scene
+}  // namespace neve::app::advice
