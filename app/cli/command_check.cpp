@@ -33,19 +33,19 @@ std::string seconds_text(double seconds) {
   return seconds < 0.95 ? fixed_text(seconds, 2) + " s" : duration_text(seconds);
 }
 
-const health::FrameForecast& busiest(const health::Checkup& checkup) {
-  return *std::max_element(checkup.forecast.begin(), checkup.forecast.end(),
-                           [](const health::FrameForecast& a, const health::FrameForecast& b) {
+const forecast::FrameForecast& busiest(const std::vector<forecast::FrameForecast>& frames) {
+  return *std::max_element(frames.begin(), frames.end(),
+                           [](const forecast::FrameForecast& a, const forecast::FrameForecast& b) {
                              return a.steps * a.cost < b.steps * b.cost;
                            });
 }
 
-Json range_json(const scene::Range& range) {
-  return {range.min, range.max};
+Json range_json(const forecast::Cost& cost) {
+  return {cost.least, cost.most};
 }
 
 Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job,
-                  const health::FastLook& look) {
+                  const forecast::FastLook& look) {
   Json json = setup::to_json(checkup.plan);
   json["cells"] = count_json(std::round(checkup.cells));
   json["cell_size"] = job.scene.solver.cell_size;
@@ -60,21 +60,22 @@ Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job,
         std::isfinite(dt) && dt > 0)
       json["dt_limits"][sim::name(static_cast<sim::DtLimit>(k))] = dt;
   json["frames"] = Json::array();
-  for (const health::FrameForecast& frame : checkup.forecast)
+  for (const forecast::FrameForecast& frame : checkup.foreseen.frames)
     json["frames"].push_back({{"frame", frame.frame},
                               {"dt", frame.dt},
                               {"steps", count_json(frame.steps)},
                               {"limit", sim::name(frame.limit)}});
-  json["steps"] = count_json(checkup.steps());
-  json["steps_range"] = range_json(checkup.steps_range());
-  const double frames = std::max<double>(1, static_cast<double>(checkup.forecast.size()));
-  json["steps_per_frame"] = checkup.steps() / frames;
-  json["seconds_per_frame"] = checkup.seconds() / frames;
+  const forecast::Cost steps = checkup.foreseen.steps(), seconds = checkup.seconds();
+  json["steps"] = count_json(steps.expected);
+  json["steps_range"] = range_json(steps);
+  const double frames = std::max<double>(1, static_cast<double>(checkup.foreseen.frames.size()));
+  json["steps_per_frame"] = steps.expected / frames;
+  json["seconds_per_frame"] = seconds.expected / frames;
   json["seconds_per_step"] = checkup.seconds_per_step;
   json["solve_iterations"] =
       job.scene.solver.is_implicit() ? Json(checkup.solve.iterations) : Json();
-  json["seconds"] = checkup.seconds();
-  json["seconds_range"] = range_json(checkup.seconds_range());
+  json["seconds"] = seconds.expected;
+  json["seconds_range"] = range_json(seconds);
   json["fast"] = {
       {"is_set", job.fast.has_value()},
       {"overrides", look.overrides},
@@ -106,30 +107,32 @@ void print_limits(const health::Checkup& checkup) {
 }
 
 void print_forecast(const health::Checkup& checkup) {
-  if (checkup.forecast.empty()) return;
-  const health::FrameForecast& worst = busiest(checkup);
-  const scene::Range steps = checkup.steps_range(), seconds = checkup.seconds_range();
-  std::cout << "steps      about " << about_count_text(checkup.steps()) << " ("
-            << about_count_text(steps.min) << " to " << about_count_text(steps.max) << ") in "
-            << checkup.forecast.size() << " frames: ";
-  if (worst.frame != 1)
-    std::cout << about_count_text(checkup.forecast.front().steps) << " in frame 1, ";
+  const std::vector<forecast::FrameForecast>& frames = checkup.foreseen.frames;
+  if (frames.empty()) return;
+  const forecast::FrameForecast& worst = busiest(frames);
+  const forecast::Cost steps = checkup.foreseen.steps(), seconds = checkup.seconds();
+  std::cout << "steps      about " << about_count_text(steps.expected) << " ("
+            << about_count_text(steps.least) << " to " << about_count_text(steps.most) << ") in "
+            << frames.size() << " frames: ";
+  if (worst.frame != 1) std::cout << about_count_text(frames.front().steps) << " in frame 1, ";
   std::cout << about_count_text(worst.steps)
             << (worst.frame == 1 ? ", the most, in frame " : " in frame ") << worst.frame << " ("
             << sim::name(worst.limit) << ")";
-  if (checkup.coarse_particles >= 1)
-    std::cout << ", from a copy of " << about_count_text(checkup.coarse_particles) << " particles";
+  if (checkup.foreseen.particles >= 1)
+    std::cout << ", from a copy of " << about_count_text(checkup.foreseen.particles)
+              << " particles";
   std::cout << "\n";
   if (checkup.seconds_per_step <= 0) return;
-  std::cout << "time       about " << seconds_text(checkup.seconds()) << " ("
-            << seconds_text(seconds.min) << " to " << seconds_text(seconds.max)
-            << ") of simulation, " << seconds_text(checkup.seconds_of(worst))
+  std::cout << "time       about " << seconds_text(seconds.expected) << " ("
+            << seconds_text(seconds.least) << " to " << seconds_text(seconds.most)
+            << ") of simulation, "
+            << seconds_text(worst.steps * worst.cost * checkup.seconds_per_step)
             << " for the busiest frame; " << rough_text(1000 * checkup.seconds_per_step)
             << " ms a step, measured now on this machine\n";
 }
 
 void print_checkup(const health::Checkup& checkup, const run::RenderJob& job,
-                   const health::FastLook& look) {
+                   const forecast::FastLook& look) {
   const double h = job.scene.solver.cell_size;
   std::cout << "scene      " << job.scene_file
             << (job.coarsening > 1 ? ", coarsened " + scene::coarsening_text(job.coarsening) : "")
@@ -153,10 +156,10 @@ void print_findings(const health::Checkup& checkup, bool has_notes) {
 }
 
 /// The gain of --fast, for who has not asked for it.
-health::FastLook possible_look(const run::RenderOptions& options, const run::RenderJob& job) {
+forecast::FastLook possible_look(const run::RenderOptions& options, const run::RenderJob& job) {
   if (job.fast) return *job.fast;
-  return health::fast_look(job.scene, job.frames.last,
-                           scene::addresses_of(scene::parse_overrides(options.overrides)));
+  return forecast::fast_look(job.scene, job.frames.last,
+                             scene::addresses_of(scene::parse_overrides(options.overrides)));
 }
 
 }  // namespace
@@ -166,7 +169,7 @@ int run_check(const run::RenderOptions& options) {
   const setup::Plan plan = setup::make_plan(job.scene, job.frames, job.quality, options.threads);
   catch_interrupts();
   const health::Checkup checkup = health::examine(job.scene, plan, options.threads, job.coarsening);
-  const health::FastLook look = possible_look(options, job);
+  const forecast::FastLook look = possible_look(options, job);
   // A forecast that was cut short is another one.
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the end of the forecast");
   const bool is_quiet = options.verbosity == Verbosity::quiet;

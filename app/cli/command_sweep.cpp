@@ -264,13 +264,13 @@ double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan:
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     manifest.runs[k].work = forecast.cost(k);
     cost += forecast.cost(k);
-    seconds += forecast.seconds(k);
+    seconds += forecast.seconds(k).expected;
   }
   if (forecast.seconds_per_work > 0) manifest.seconds_per_work = seconds / cost;
   sweep::store::write_manifest(plan.folder, manifest);
   if (forecast.seconds_per_work > 0)
     progress.note(sweep::plan::forecast_text(plan, runs, forecast, cores, options.budget));
-  return forecast.seconds_of_all(runs, cores);
+  return forecast.seconds_of_all(runs, cores).expected;
 }
 
 }  // namespace

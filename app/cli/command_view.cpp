@@ -70,7 +70,7 @@ int run_view(const view::ViewOptions& given) {
   catch_interrupts();
   view::ViewOptions options = given;
   if (options.run.is_fast) {
-    const health::FastLook look = *run::make_job(options.run).fast;
+    const forecast::FastLook look = *run::make_job(options.run).fast;
     if (options.run.verbosity != Verbosity::quiet)
       std::cerr << "neve: " << look.sentence() << std::endl;
     options.run.overrides.insert(options.run.overrides.end(), look.overrides.begin(),

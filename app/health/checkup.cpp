@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/forecast/step_cost.h"
 #include "app/health/findings.h"
-#include "app/health/step_time.h"
 #include "app/setup/auto_ranges.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
@@ -18,28 +18,20 @@ namespace {
 
 /// Two copies of about a second each. The time matters only where a machine is busy or snow is
 /// spread out, so that a forecast is the same every time.
-constexpr ForecastBudget coarse_budget{8, 3e7, 1500, 3e7};
+constexpr forecast::ForecastBudget coarse_budget{8, 3e7, 1500, 3e7};
 /// Above this many particles seeding alone takes too long for a look.
 constexpr double max_seeded = 3e6;
 
-/// Steps of the shipped scenes over those that are foretold with the particles of the copy, and
-/// with unlucky ones, lie within: docs/performance.md has them.
-constexpr double least_of_steps = 0.5, most_of_steps = 2;
-/// Time of a step over that at the start, beyond the copy's spread: 0.7 to 2.0 on seven scenes.
-/// Torn snow fills more of the grid and of the caches.
-constexpr double dearest_step = 2;
-
 /// Step of the first emitted snow, for a scene that starts empty.
 sim::DtChoice first_emission(const scene::Scene& scene, sim::StepLimits& start) {
-  sim::engine::StateLimits limits;
+  sim::StateLimits limits;
   for (const setup::SnowPiece& piece : setup::snow_places(scene)) {
     limits.max_speed = std::max(limits.max_speed, piece.velocity.norm());
     limits.max_sound_speed = std::max(limits.max_sound_speed, sim::sound_speed(*piece.material));
-    sim::engine::include_hardening(*piece.material, limits);
+    sim::include_hardening(*piece.material, limits);
   }
-  start = {sim::engine::limits_on_dt(scene.solver, limits), limits.max_speed,
-           limits.max_sound_speed, 0};
-  return sim::engine::choose_dt(scene.solver, limits, 1 / scene.fps);
+  start = {sim::limits_on_dt(scene.solver, limits), limits.max_speed, limits.max_sound_speed, 0};
+  return sim::choose_dt(scene.solver, limits, 1 / scene.fps);
 }
 
 /// A collider that moves towards another squeezes the snow between them: a single particle of a
@@ -77,69 +69,39 @@ void check_crushing(const scene::Scene& scene, Checkup& checkup) {
   const sim::Material* hardest = nullptr;
   double most = 1;
   for (const sim::Material& m : scene.materials) {
-    const double hardening = crushed_hardening(m);
+    const double hardening = forecast::crushed_hardening(m);
     if (hardening <= most) continue;
     most = hardening;
     hardest = &m;
   }
   const double c = checkup.start.max_sound_speed * std::sqrt(most);
   const double steps = scene.frames / scene.fps * c / (solver.acoustic_cfl * solver.cell_size);
-  if (!hardest || steps <= most_of_steps * checkup.steps()) return;
-  checkup.crushed_steps = steps;
+  constexpr double worth_a_word = 2;  // times the steps without it
+  if (!hardest || steps <= worth_a_word * checkup.foreseen.steps().expected) return;
+  checkup.foreseen.crushed_steps = steps;
   checkup.findings.push_back(
       {Severity::note, "material." + hardest->name + ".max_hardening",
        fmt::format("{} rules the steps of all: up to {} steps", text, about_count_text(steps)),
        "20 bounds that, as --fast does"});
 }
 
-/// @return s per step and particle, on one thread
-double foresee_frames(const scene::Scene& scene, Checkup& checkup) {
-  Forecast forecast = foresee(scene, checkup.plan.particles, scene.frames, coarse_budget);
-  forecast.include_spread(checkup.spread);
-  checkup.coarse_particles = forecast.particles;
-  checkup.forecast = forecast.frames;
-  checkup.findings.insert(checkup.findings.end(), forecast.findings.begin(),
-                          forecast.findings.end());
-  if (!forecast.divergence.empty())
-    checkup.findings.push_back({Severity::warning, "", forecast.divergence,
-                                "run the scene itself to see if it diverges too"});
-  return forecast.seconds_per_particle_step;
+void check_copy(const forecast::Forecast& foreseen, std::vector<Finding>& findings) {
+  for (const forecast::Withheld& withheld : foreseen.withheld)
+    findings.push_back(
+        {Severity::warning, "emitter." + withheld.emitter + ".rate",
+         fmt::format("in a coarse copy {} % of its snow finds no room until {} s, because snow "
+                     "fills the emitter",
+                     rough_text(100 * withheld.share), rough_text(withheld.time)),
+         "make rate lower, velocity higher or the way out wider; run.json counts it as withheld"});
+  if (!foreseen.divergence.empty())
+    findings.push_back({Severity::warning, "", foreseen.divergence,
+                        "run the scene itself to see if it diverges too"});
 }
 
 }  // namespace
 
-double Checkup::steps() const {
-  double sum = 0;
-  for (const FrameForecast& frame : forecast) sum += frame.steps;
-  return sum;
-}
-
-double Checkup::seconds_of(const FrameForecast& frame) const {
-  return frame.steps * frame.cost * seconds_per_step;
-}
-
-double Checkup::seconds() const {
-  double sum = 0;
-  for (const FrameForecast& frame : forecast) sum += seconds_of(frame);
-  return sum;
-}
-
-scene::Range Checkup::steps_range() const {
-  double least = 0, most = 0;
-  for (const FrameForecast& frame : forecast) {
-    least += frame.least_steps;
-    most += frame.most_steps;
-  }
-  return {least_of_steps * least, std::max(most_of_steps * most, crushed_steps)};
-}
-
-scene::Range Checkup::seconds_range() const {
-  double high = 0;
-  for (const FrameForecast& frame : forecast) high += frame.steps * frame.max_cost;
-  const scene::Range share =
-      steps() > 0 ? scene::Range{steps_range().min / steps(), steps_range().max / steps()}
-                  : scene::Range{least_of_steps, most_of_steps};
-  return {share.min * seconds(), dearest_step * share.max * high * seconds_per_step};
+forecast::Cost Checkup::seconds() const {
+  return foreseen.steps_of_start() * seconds_per_step;
 }
 
 Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
@@ -150,6 +112,7 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
   checkup.cells = plan.volume / std::pow(scene.solver.cell_size, 3);
   checkup.impact_speed = setup::impact_speed(scene);
   int used_threads = 1;
+  forecast::Spread spread;
   check_units(scene, checkup.findings, coarsening);
   check_gravity(scene, checkup.findings);
   check_resolution(scene, checkup.findings, coarsening);
@@ -169,8 +132,8 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
     if (particles.x.empty()) choice = first_emission(scene, checkup.start);
     checkup.dt_start = choice.dt;
     checkup.limit_start = choice.limit;
-    checkup.spread = spread_of(simulation);
-    const StepTime step = measure_steps(simulation, 1 / scene.fps);
+    spread = forecast::spread_of(simulation);
+    const forecast::StepTime step = forecast::measure_steps(simulation, 1 / scene.fps);
     checkup.seconds_per_step = step.seconds;
     checkup.solve = step.solve;
     check_steps(scene, checkup, checkup.findings);
@@ -184,12 +147,14 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
              : "try neve check with --coarsen " +
                    fixed_text(std::ceil(std::cbrt(plan.particles / max_seeded)), 0)});
   }
-  const double particle_step = foresee_frames(scene, checkup);
+  checkup.foreseen = forecast::foresee(scene, checkup.plan.particles, scene.frames, coarse_budget);
+  checkup.foreseen.include_spread(spread);
+  check_copy(checkup.foreseen, checkup.findings);
   check_crushing(scene, checkup);
   // Emitted particles cannot be timed at the start: count half of them, as in the coarse copy.
   if (plan.emitted > 0 && checkup.seconds_per_step > 0)
-    checkup.seconds_per_step =
-        particle_step / used_threads * (checkup.plan.particles - 0.5 * plan.emitted);
+    checkup.seconds_per_step = checkup.foreseen.seconds_per_particle_step / used_threads *
+                               (checkup.plan.particles - 0.5 * plan.emitted);
   check_cameras(scene, setup::coarse_run(scene), checkup.findings);
   std::stable_sort(checkup.findings.begin(), checkup.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/health/forecast.h"
+#include "app/forecast/forecast.h"
+#include "app/health/finding.h"
 #include "app/setup/plan.h"
 
 namespace neve::app::health {
@@ -16,23 +17,13 @@ struct Checkup {
   sim::StepLimits start;    ///< of the initial state
   double dt_start = 0;      ///< s, of the first step
   sim::DtLimit limit_start = sim::DtLimit::max_dt;
-  std::vector<FrameForecast> forecast;  ///< frames that a coarse run reached; may be empty
-  double coarse_particles = 0;          ///< of the run behind the forecast
-  Spread spread{};                      ///< at the start
-  double seconds_per_step = 0;          ///< measured on this machine; 0: not measured
-  /// Steps of the run if its impact crushes a single particle that flies on to the end; 0: none is
-  /// to be expected.
-  double crushed_steps = 0;
-  sim::SolveReport solve;  ///< of these steps; zero where they are explicit
-  double coarsening = 1;   ///< of --coarsen, for advice
+  forecast::Forecast foreseen;  ///< by a coarse run
+  double seconds_per_step = 0;  ///< measured on this machine; 0: not measured
+  sim::SolveReport solve;       ///< of these steps; zero where they are explicit
+  double coarsening = 1;        ///< of --coarsen, for advice
   std::vector<Finding> findings;
 
-  double steps() const;    ///< forecast for the whole run
-  double seconds() const;  ///< forecast of the simulation
-  double seconds_of(const FrameForecast& frame) const;
-  /// The truth lies between on every shipped scene.
-  scene::Range steps_range() const;
-  scene::Range seconds_range() const;
+  forecast::Cost seconds() const;  ///< of the simulation
 };
 
 /// Seeds the scene, takes some steps, and runs coarse copies: about four seconds.

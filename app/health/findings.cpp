@@ -13,9 +13,9 @@
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
-#include "sim/engine/time_step.h"
 #include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/solid.h"
+#include "sim/types/time_step.h"
 
 namespace neve::app::health {
 
@@ -160,7 +160,7 @@ void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
                        std::vector<Finding>& findings) {
   const double h = s.cell_size;
   // As an explicit step would feel it.
-  const double sound_speed = checkup.start.max_sound_speed / sim::engine::acoustic_stretch(s);
+  const double sound_speed = checkup.start.max_sound_speed / sim::acoustic_stretch(s);
   // One step that keeps both limits: the advice of either finding is enough.
   const double holds = std::min(line(Law::acoustic_cfl) * h / std::max(1e-9, sound_speed),
                                 s.cfl * h / std::max(1e-9, checkup.impact_speed));

@@ -9,7 +9,7 @@
 #include "app/health/findings.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
-#include "sim/engine/time_step.h"
+#include "sim/types/time_step.h"
 
 namespace neve::app::health {
 
@@ -24,7 +24,7 @@ bool has_flip_ratio(sim::Transfer transfer) {
 /// Share of the motion of a cell or less that a frame leaves.
 double kept_after(double seconds, const sim::SolverSettings& s, const Checkup& checkup) {
   const double steps = std::max(1.0, seconds / std::max(checkup.dt_start, 1e-12));
-  return std::pow(sim::engine::flip_share(s, seconds / steps), steps);
+  return std::pow(sim::flip_share(s, seconds / steps), steps);
 }
 
 void check_damping(const scene::Scene& scene, const Checkup& checkup,

@@ -5,7 +5,7 @@
 
 #include "app/setup/auto_ranges.h"
 #include "app/support/round_number.h"
-#include "sim/engine/time_step.h"
+#include "sim/types/time_step.h"
 
 namespace neve::app::picture {
 

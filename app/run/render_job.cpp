@@ -34,7 +34,7 @@ void read_scene(const RenderOptions& options, const Read& read, RenderJob& job) 
   scene::Scene coarse = job.scene;
   if (options.coarsening) scene::coarsen(coarse, *options.coarsening);
   const int last = options.frames ? options.frames->last : job.scene.frames;
-  job.fast = health::fast_look(coarse, last, scene::addresses_of(changes));
+  job.fast = forecast::fast_look(coarse, last, scene::addresses_of(changes));
   for (const std::string& change : job.fast->overrides) {
     changes.push_back(scene::parse_override(change));
     job.overrides.push_back(change);

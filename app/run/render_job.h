@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/health/fast.h"
+#include "app/forecast/fast.h"
 #include "app/run/changes.h"
 #include "app/run/past_run.h"
 #include "app/run/render_options.h"
@@ -28,7 +28,7 @@ struct RenderJob {
   setup::FrameRange frames;
   setup::Quality quality = setup::Quality::preview;
   std::vector<std::string> overrides;      ///< for the caption; those of a picture come first
-  std::optional<health::FastLook> fast;    ///< of --fast; its overrides are among those above
+  std::optional<forecast::FastLook> fast;  ///< of --fast; its overrides are among those above
   std::vector<scene::LiveChange> changes;  ///< to be made while it runs, as they were in a picture
   std::vector<std::string> only_tiles;  ///< views that are drawn in a mosaic and not by themselves
   std::string plate;                    ///< picture behind, see plate.h; empty: none

@@ -15,7 +15,7 @@ struct RenderOptions {
   std::string scene;  ///< a scene file or a picture; empty: the default scene
   std::vector<std::string> overrides;
   std::optional<double> coarsening;
-  bool is_fast = false;        ///< with the settings of health::fast_look
+  bool is_fast = false;        ///< with the settings of forecast::fast_look
   std::optional<double> from;  ///< s: a fork of the scene's run there, the overrides are changes
   std::optional<setup::FrameRange> frames;
   std::vector<std::string> views;

@@ -11,7 +11,7 @@
 #include "app/scene/toml/error.h"
 #include "app/setup/plan.h"
 #include "app/setup/seed_scene.h"
-#include "sim/engine/time_step.h"
+#include "sim/types/time_step.h"
 
 namespace neve::app {
 namespace {
@@ -75,7 +75,7 @@ TEST(Coarsen, CoarseningLeavesAnEighthOfTheParticlesAndAllOfTheMass) {
 
 /// Share of a difference to the grid's velocity that FLIP keeps over the same time.
 double kept(const sim::SolverSettings& s, double dt, int steps) {
-  return std::pow(sim::engine::flip_share(s, dt), steps);
+  return std::pow(sim::flip_share(s, dt), steps);
 }
 
 TEST(Coarsen, CoarseningKeepsTheDampingPerSecond) {

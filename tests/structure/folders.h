@@ -27,7 +27,7 @@ inline constexpr Folder folders[] = {
     {"sim/health", "sim/base sim/types sim/kernels"},
     {"sim/engine", "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health"},
     {"sim", "sim/base sim/types sim/shapes sim/seeding sim/engine", "neve::sim"},
-    {"sim/checks", "sim/base sim/types sim/shapes sim/seeding sim/health sim/engine sim"},
+    {"sim/checks", "sim/base sim/types sim/shapes sim/seeding sim/health sim"},
 
     {"render/image", "sim/base", "neve::render"},
     {"render/frame", "sim/base render/image", "neve::render"},
@@ -54,20 +54,24 @@ inline constexpr Folder folders[] = {
      "app/scene/toml app/advice"},
     {"app/output", "sim/base sim/types sim sim/checks render/image app/support"},
     {"app/setup",
-     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health sim/engine sim app/support "
+     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health sim app/support "
      "app/scene/toml app/advice app/scene app/output"},
+    {"app/forecast",
+     "sim/base sim/types sim/seeding sim/health sim app/support app/scene/toml "
+     "app/scene app/setup"},
     {"app/health",
-     "sim/base sim/types sim/shapes sim/seeding sim/health sim/engine sim app/support "
-     "app/scene/toml app/scene app/output app/setup"},
+     "sim/base sim/types sim/shapes sim/seeding sim/health sim app/support "
+     "app/scene/toml app/scene app/output app/setup app/forecast"},
     {"app/picture",
-     "sim/base sim/types sim/shapes sim/health sim/engine sim render/frame render/shapes "
+     "sim/base sim/types sim/shapes sim/health sim render/frame render/shapes "
      "render/channels render app/support app/scene/toml app/scene app/setup app/health"},
     {"app/exports",
      "sim/base sim/types sim/shapes sim render/frame render/surface app/support app/scene/toml "
      "app/scene app/output app/setup app/picture"},
     {"app/run",
      "sim/base sim/types sim sim/checks render/image render/frame render/gl render/channels render "
-     "app/support app/scene/toml app/advice app/scene app/output app/setup app/health app/picture "
+     "app/support app/scene/toml app/advice app/scene app/output app/setup app/forecast app/health "
+     "app/picture "
      "app/exports"},
     {"app/compare",
      "sim/base sim/types sim render/image render/frame render/gl render app/support app/scene/toml "
@@ -79,7 +83,8 @@ inline constexpr Folder folders[] = {
     {"app/sweep", "app/scene app/setup"},
     {"app/sweep/read", "app/support app/scene/toml app/advice app/scene app/setup app/sweep"},
     {"app/sweep/plan",
-     "sim/base sim/types sim/engine app/support app/scene/toml app/scene app/output app/setup "
+     "sim/base sim/types app/support app/scene/toml app/scene app/output app/setup "
+     "app/forecast "
      "app/health app/run app/sweep app/sweep/read"},
     {"app/sweep/store",
      "sim/base app/support app/scene/toml app/scene app/output app/setup app/run app/sweep/read "
@@ -94,7 +99,8 @@ inline constexpr Folder folders[] = {
      "render/frame render/overlay app/support app/scene/toml app/scene app/output app/sweep "
      "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/pick/search"},
     {"app/view/session",
-     "sim/types sim app/support app/scene/toml app/scene app/output app/setup app/health "
+     "sim/types sim app/support app/scene/toml app/scene app/output app/setup app/forecast "
+     "app/health "
      "app/picture app/run app/dump app/sweep/plan app/sweep/jobs app/sweep/store"},
     {"app/view/frontend", "render/image render"},
     {"app/view/web", "render/image render app/support app/output app/view/frontend"},
@@ -119,7 +125,8 @@ inline constexpr Folder folders[] = {
      "app/view/replay app/view"},
     {"app/cli",
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
-     "app/scene/toml app/advice app/scene app/output app/setup app/health app/picture app/exports "
+     "app/scene/toml app/advice app/scene app/output app/setup app/forecast app/health app/picture "
+     "app/exports "
      "app/run "
      "app/compare app/dump app/pick app/pick/search "
      "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet "

@@ -22,7 +22,7 @@ struct SweepOptions {
   bool keeps_states = false;               ///< of drawn frames, to draw them again
   std::optional<scene::PictureSize> size;  ///< of a tile
   std::optional<double> coarsening;
-  bool is_fast = false;  ///< with the settings of health::fast_look
+  bool is_fast = false;  ///< with the settings of forecast::fast_look
   std::string out;
   int threads = 0;  ///< cores in all; 0: as many as there are
   int jobs = 0;     ///< runs side by side; 0: as many as keep the cores busy

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/forecast/forecast.h"
 #include "app/run/fork.h"
 #include "app/run/kept_states.h"
 #include "app/run/picture_record.h"
@@ -15,13 +16,10 @@
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
-#include "app/setup/auto_ranges.h"
 #include "app/support/out_folder.h"
 #include "app/sweep/plan/expand.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/read/read_sweep.h"
-#include "sim/engine/time_step.h"
-#include "sim/types/material.h"
 
 namespace neve::app::sweep::plan {
 
@@ -128,16 +126,16 @@ void refuse_two_frames(const SweepOptions& options, const read::Sweep& sweep) {
 }
 
 /// The settings of --fast for all runs; what the sweep sets or varies stays.
-health::FastLook take_fast_look(const SweepOptions& options, const scene::Scene& base,
-                                read::Sweep& sweep) {
+forecast::FastLook take_fast_look(const SweepOptions& options, const scene::Scene& base,
+                                  read::Sweep& sweep) {
   std::vector<std::string> chosen = scene::addresses_of(sweep.fixed);
   for (const read::Axis& axis : sweep.axes)
     for (const read::Axis::Parameter& parameter : axis.parameters)
       chosen.push_back(parameter.address);
   for (const Run& row : sweep.rows)
     for (const scene::Override& setting : row.settings) chosen.push_back(setting.address);
-  const health::FastLook look =
-      health::fast_look(base, frames_of(options, sweep, base).last, chosen);
+  const forecast::FastLook look =
+      forecast::fast_look(base, frames_of(options, sweep, base).last, chosen);
   for (const std::string& change : look.overrides)
     sweep.fixed.push_back(scene::parse_override(change));
   return look;
@@ -160,7 +158,7 @@ PlannedRun planned(Run run, scene::Scene scene) {
   const setup::Plan needs = setup::make_plan(scene, run.frames, setup::Quality::preview, 1);
   run.particles = needs.particles;
   run.memory = static_cast<double>(needs.memory + program_memory);
-  run.work = foreseen_work(scene, needs);
+  run.work = forecast::work_at_rest(scene, needs);
   return {std::move(run), std::move(scene), needs};
 }
 
@@ -277,26 +275,6 @@ double bytes_of_states(const SweepPlan& plan) {
   for (const PlannedRun& item : plan.runs)
     bytes += run::state_bytes_per_particle * item.run.particles * item.run.frames.count();
   return bytes;
-}
-
-double foreseen_work(const scene::Scene& scene, const setup::Plan& plan) {
-  const sim::SolverSettings& s = scene.solver;
-  const double duration = plan.frames.last / scene.fps;
-  double dt = s.time_step == sim::TimeStep::fixed ? s.dt : s.max_dt;
-  if (s.time_step == sim::TimeStep::adaptive) {
-    // Snow that is packed conducts sound about three times as fast as at rest.
-    constexpr double packed = 3;
-    for (const sim::Material& material : scene.materials)
-      dt = std::min(dt, sim::engine::acoustic_stretch(s) * s.acoustic_cfl * s.cell_size /
-                            (packed * sim::sound_speed(material)));
-    const double speed = setup::impact_speed(scene);
-    if (speed > 0) dt = std::min(dt, s.cfl * s.cell_size / speed);
-  }
-  // The start of a run costs as much as some steps of few particles.
-  constexpr double start = 1e5;
-  // A solve takes about as long as some explicit steps.
-  const double step = s.is_implicit() ? 8 : 1;
-  return start + step * plan.particles * std::ceil(duration / dt);
 }
 
 }  // namespace neve::app::sweep::plan

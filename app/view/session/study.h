@@ -20,7 +20,7 @@ struct StudyAxis {
 struct StudyRequest {
   std::vector<StudyAxis> axes;
   int last_frame = 0;
-  bool has_longer_steps = false;  ///< of health::longer_steps, for a quick look
+  bool has_longer_steps = false;  ///< of forecast::longer_steps, for a quick look
 };
 
 /// State of a study, and its files.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "app/health/fast.h"
+#include "app/forecast/fast.h"
 #include "app/output/atomic_file.h"
 #include "app/output/named_file.h"
 #include "app/run/picture_record.h"
@@ -386,7 +386,7 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
     std::vector<std::string> chosen;
     for (const StudyAxis& axis : request.axes) chosen.push_back(axis.address);
     study_.start(options_.folder, moment, live->frame / live->scene->fps, request,
-                 health::longer_steps(*live->scene, chosen));
+                 forecast::longer_steps(*live->scene, chosen));
     say(Message::Kind::note, "a study of frame " + std::to_string(moment.frame) + " goes to " +
                                  study_.progress().folder.string() + "; " +
                                  study_.progress().command + " makes it again");

@@ -1,10 +1,10 @@
-#include "sim/engine/time_step.h"
+#include "sim/types/time_step.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace neve::sim::engine {
+namespace neve::sim {
 
 namespace {
 
@@ -102,4 +102,4 @@ double flip_share(const SolverSettings& s, double dt) {
   return std::pow(s.flip_ratio, dt / s.flip_reference_dt);
 }
 
-}  // namespace neve::sim::engine
+}  // namespace neve::sim

@@ -8,7 +8,7 @@
 #include "sim/types/reports.h"
 #include "sim/types/settings.h"
 
-namespace neve::sim::engine {
+namespace neve::sim {
 
 /// Extremes of a state that limit the next step.
 struct StateLimits {
@@ -50,4 +50,4 @@ double acoustic_stretch(const SolverSettings& settings);
 /// alpha of a step of dt: flip_ratio^(dt / flip_reference_dt), or flip_ratio itself.
 double flip_share(const SolverSettings& settings, double dt);
 
-}  // namespace neve::sim::engine
+}  // namespace neve::sim

@@ -4,16 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "app/health/finding.h"
-#include "app/health/spread.h"
+#include "app/forecast/cost.h"
+#include "app/forecast/step_cost.h"
 #include "app/scene/scene.h"
-#include "sim/engine/time_step.h"
+#include "app/setup/plan.h"
+#include "sim/types/time_step.h"
 
-namespace neve::app::health {
-
-/// Time of an iteration of the solve over that of an explicit step: measured 0.21 to 0.22, in
-/// snowball_drop and in press at --coarsen 2.
-inline constexpr double work_of_iteration = 0.25;
+namespace neve::app::forecast {
 
 /// Forecast of the steps of one frame.
 struct FrameForecast {
@@ -31,6 +28,16 @@ struct FrameForecast {
   double cost = 1, max_cost = 1;
 };
 
+/// Snow of an emitter that finds no room, because snow fills the emitter.
+struct Withheld {
+  std::string emitter;
+  double share = 0;  ///< of all its snow
+  double time = 0;   ///< s, until when the copy ran
+};
+
+/// Explicit steps that take as long as a semi-implicit step of so many iterations.
+double explicit_steps(double iterations);
+
 /// The steps of a run, foretold by a coarse copy of it, or by the finer one of two.
 struct Forecast {
   std::vector<FrameForecast> frames;     ///< that the copy reached; those after are as the last
@@ -38,12 +45,16 @@ struct Forecast {
   double seconds_per_particle_step = 0;  ///< of the copy, on one thread
   Spread spread{};                       ///< of the copy at the start
   std::string divergence;                ///< of the copy, a sentence; empty if it holds
-  std::vector<Finding> findings;         ///< about the scene, from the copy
+  std::vector<Withheld> withheld;        ///< by the copy's emitters
+  /// Steps of the run if a single particle is crushed and rules them to the end; 0: none is to be
+  /// expected.
+  double crushed_steps = 0;
 
-  double steps_until(int frame) const;
-  /// Counts in explicit steps of the start; an iteration of a semi-implicit step costs a quarter of
-  /// one.
-  double work_until(int frame) const;
+  Cost steps() const;  ///< of its frames
+  /// Steps of its frames as those of the start: multiplied by the time of one they are seconds.
+  Cost steps_of_start() const;
+  /// The work of the frames after one, to the last, in explicit steps of the start.
+  Cost work(int after, int last) const;
   /// Fills in the cost of a step in each frame. @param start  of the scene itself at its start
   void include_spread(const Spread& start);
 };
@@ -64,7 +75,10 @@ struct ForecastBudget {
 Forecast foresee(const scene::Scene& scene, double particles, int last,
                  const ForecastBudget& budget);
 
+/// Particles times steps that the limits on dt allow snow at rest that then meets the ground.
+double work_at_rest(const scene::Scene& scene, const setup::Plan& plan);
+
 /// Factor on lambda and mu in a particle that an impact has crushed to about half of its volume.
 double crushed_hardening(const sim::Material& material);
 
-}  // namespace neve::app::health
+}  // namespace neve::app::forecast

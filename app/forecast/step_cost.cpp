@@ -1,11 +1,15 @@
-#include "app/health/spread.h"
+#include "app/forecast/step_cost.h"
 
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 #include <vector>
 
-namespace neve::app::health {
+#include "app/support/clock.h"
+#include "app/support/interrupt.h"
+
+namespace neve::app::forecast {
 
 namespace {
 
@@ -42,4 +46,27 @@ double cost_of_step(const Spread& spread) {
   return 1 + spread.blocks * (cost_on_grid + spread.alone * (cost_alone - cost_on_grid));
 }
 
-}  // namespace neve::app::health
+StepTime measure_steps(sim::Simulation& simulation, double frame, const StepTiming& timing) {
+  StepTime time;
+  std::vector<double> seconds;
+  const auto start = Clock::now();
+  for (int k = 0; k < timing.steps && seconds_since(start) < timing.seconds; ++k) {
+    const auto before = Clock::now();
+    simulation.step(simulation.choose_dt(frame).dt);
+    time.solve.add(simulation.last_solve());
+    ++time.steps;
+    if (k >= 2) seconds.push_back(seconds_since(before));
+    if (simulation.divergence() || is_interrupted()) break;
+  }
+  time.seconds = median_of(std::move(seconds));
+  return time;
+}
+
+double median_of(std::vector<double> list) {
+  if (list.empty()) return 0;
+  const auto middle = list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
+  std::nth_element(list.begin(), middle, list.end());
+  return *middle;
+}
+
+}  // namespace neve::app::forecast

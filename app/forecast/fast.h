@@ -7,7 +7,7 @@
 
 #include "app/scene/scene.h"
 
-namespace neve::app::health {
+namespace neve::app::forecast {
 
 /// Changes of parameters that shorten a run.
 struct FastLook {
@@ -31,4 +31,4 @@ FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::s
 std::vector<std::string> longer_steps(const scene::Scene& scene,
                                       const std::vector<std::string>& chosen);
 
-}  // namespace neve::app::health
+}  // namespace neve::app::forecast

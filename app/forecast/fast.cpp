@@ -1,16 +1,16 @@
-#include "app/health/fast.h"
+#include "app/forecast/fast.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <future>
 
-#include "app/health/forecast.h"
+#include "app/forecast/forecast.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/coarse_run.h"
 #include "app/support/text.h"
 
-namespace neve::app::health {
+namespace neve::app::forecast {
 
 namespace {
 
@@ -79,7 +79,7 @@ class Candidate {
     const Forecast forecast =
         foresee(scene_, setup::planned_particles(scene_), last, forecast_budget);
     if (!forecast.divergence.empty() || forecast.frames.empty()) return std::nullopt;
-    return forecast.work_until(last);
+    return forecast.work(0, last).expected;
   }
 
   bool is_implicit() const { return scene_.solver.is_implicit(); }
@@ -147,4 +147,4 @@ std::string FastLook::sentence() const {
                      rough_text(100 * *work / std::max(*work_before, 1.0)));
 }
 
-}  // namespace neve::app::health
+}  // namespace neve::app::forecast
