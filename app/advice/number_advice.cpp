@@ -14,10 +14,10 @@ namespace {
 
 std::string advice_on_unit(double value, std::string_view written, std::string_view unit) {
   const std::string no_unit = "numbers have no unit";
-  for (const Entry& known : entries_of(std::string(unit)))
-    if (known.has(written))
-      return no_unit + ": in " + std::string(unit) + " it is " +
-             rough_text(value * number_of(known.names.front()).value());
+  for (const Entry& known : entries_of("unit"))
+    if (known.has(written) && known.names[0] == unit)
+      return no_unit + ": in " + known.names[0] + " it is " +
+             rough_text(value * number_of(known.names[1]).value());
   return unit.empty() ? no_unit : no_unit + "; " + std::string(unit) + " is meant";
 }
 
@@ -78,8 +78,8 @@ std::string vector_advice(const scene::toml::Value& value, const std::string& ad
   if (numbers.size() == 1 && (is_gravity || address.ends_with("velocity")))
     numbers = {0, is_gravity ? -std::abs(numbers[0]) : numbers[0], 0};
   if (numbers.size() != 3) return {};
-  return "write [" + scene::toml::number_text(numbers[0]) + ", " + scene::toml::number_text(numbers[1]) + ", " +
-         scene::toml::number_text(numbers[2]) + "]";
+  return "write [" + scene::toml::number_text(numbers[0]) + ", " +
+         scene::toml::number_text(numbers[1]) + ", " + scene::toml::number_text(numbers[2]) + "]";
 }
 
 }  // namespace neve::app::advice

@@ -16,7 +16,7 @@ namespace {
 std::size_t edit_distance(const std::string& a, const std::string& b, std::size_t most) {
   std::vector<std::size_t> row(b.size() + 1), above(row.size()), above2(row.size());
   std::iota(row.begin(), row.end(), std::size_t{0});
-  std::size_t least_above = 0;
+  std::size_t min_above = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     above2.swap(above);
     above.swap(row);
@@ -31,8 +31,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b, std::size_
       least = std::min(least, distance);
     }
     // Rows to come are made from these two.
-    if (std::min(least, least_above) >= most) return most;
-    least_above = least;
+    if (std::min(least, min_above) >= most) return most;
+    min_above = least;
   }
   return std::min(row[b.size()], most);
 }
@@ -46,7 +46,7 @@ Letters letters_of(const std::string& text) {
 }
 
 /// Letters that only one of two words has: no fewer changes make one of the other.
-std::size_t least_distance(Letters letters, std::size_t size, const std::string& other) {
+std::size_t min_distance(Letters letters, std::size_t size, const std::string& other) {
   std::size_t more = 0;
   for (const char c : other) more += --letters[static_cast<unsigned char>(c)] < 0;
   return std::max(more, size - (other.size() - more));
@@ -67,7 +67,7 @@ std::string nearest_name(const std::string& wrong, const std::vector<std::string
   if (wrong.size() < 2 || wrong.size() > 64) return nearest;
   const Letters letters = letters_of(wrong);
   for (const std::string& name : names) {
-    if (least_distance(letters, wrong.size(), name) >= best) continue;
+    if (min_distance(letters, wrong.size(), name) >= best) continue;
     const std::size_t distance = edit_distance(wrong, name, best);
     if (distance < best) best = distance, nearest = name;
   }
@@ -105,8 +105,7 @@ std::string expected_one_of(const std::vector<std::string>& known, const std::st
 
 std::string suggest_one_of(const std::string& word, const Context& context) {
   const Entry* entry = context.name.empty() ? nullptr : entry_of(context.name, word);
-  if (entry && !entry->sentence.empty())
-    return entry->sentence + "; expected one of " + joined(context.known, ", ");
+  if (entry && !entry->sentence.empty()) return entry->sentence;
   return expected_one_of(context.known, meant_name(word, context));
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "app/advice/words.h"
 #include "app/support/json.h"
 
@@ -101,12 +99,7 @@ std::vector<const Wish*> wishes_for(const std::string& text) {
   std::vector<const Wish*> found;
   for (const Wish& wish : wishes()) {
     const std::vector<std::string> words = words_in(std::string(wish.name) + " " + wish.words);
-    const bool is_meant = std::all_of(wanted.begin(), wanted.end(), [&](const std::string& start) {
-      return start.size() >= 3 &&
-             std::any_of(words.begin(), words.end(),
-                         [&](const std::string& word) { return word.starts_with(start); });
-    });
-    if (is_meant && !wanted.empty()) found.push_back(&wish);
+    if (!wanted.empty() && has_all(words, wanted)) found.push_back(&wish);
   }
   return found;
 }

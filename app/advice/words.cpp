@@ -60,7 +60,19 @@ Table read_table() {
   return table;
 }
 
+/// A word, or from three letters on its beginning.
+bool has_word(const std::vector<std::string>& words, const std::string& start) {
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    return word == start || (start.size() >= 3 && word.starts_with(start));
+  });
+}
+
 }  // namespace
+
+bool has_all(const std::vector<std::string>& words, const std::vector<std::string>& wanted) {
+  return std::all_of(wanted.begin(), wanted.end(),
+                     [&](const std::string& word) { return has_word(words, word); });
+}
 
 bool Entry::has(std::string_view word) const {
   return std::find(words.begin(), words.end(), word) != words.end();

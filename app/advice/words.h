@@ -20,6 +20,9 @@ struct Entry {
 /// Lower-case words of a text: "Longest time_step." has longest, time and step.
 std::vector<std::string> words_in(std::string_view text);
 
+/// True if each is one of the words, or from three letters on begins one.
+bool has_all(const std::vector<std::string>& words, const std::vector<std::string>& wanted);
+
 /// Lines of a context; none of an unknown one.
 const std::vector<Entry>& entries_of(const std::string& context);
 

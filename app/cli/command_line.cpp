@@ -36,8 +36,11 @@ void check_threads(int threads) {
 void check_backend(const std::string& name) {
   const auto& backends = render::gl::backend_names();
   if (std::find(backends.begin(), backends.end(), name) != backends.end()) return;
-  throw scene::toml::UsageError("--backend", "unknown backend \"" + name + "\"",
-                                advice::suggest_one_of(name, {"backend", backends}));
+  const advice::Entry* other = advice::entry_of("backend", name);
+  throw scene::toml::UsageError(
+      "--backend", "unknown backend \"" + name + "\"",
+      other ? other->sentence + "; expected one of " + joined(backends, ", ")
+            : advice::suggest_one_of(name, {"", backends}));
 }
 
 CLI::Option* add_repeatable(CLI::App& command, const char* flag, std::vector<std::string>& values,

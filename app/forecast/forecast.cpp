@@ -99,9 +99,9 @@ FrameForecast foresee_frame(const scene::Scene& scene, const scene::Scene& coars
   if (ran.solve && ran.steps > 0)
     forecast.iterations = static_cast<double>(ran.solve->all_iterations) /
                           static_cast<double>(ran.steps) * cell / scene.solver.cell_size;
-  forecast.least_steps = forecast.steps * own.dt / allowed(scene, worst, cell).dt;
-  forecast.most_steps = forecast.steps * own.dt /
-                        allowed(scene, stiffer(worst, rarity.most, rarity.fastest), cell).dt;
+  forecast.min_steps = forecast.steps * own.dt / allowed(scene, worst, cell).dt;
+  forecast.max_steps = forecast.steps * own.dt /
+                       allowed(scene, stiffer(worst, rarity.most, rarity.fastest), cell).dt;
   if (forecast.steps == 1) forecast.limit = sim::DtLimit::frame_end;
   return forecast;
 }
@@ -169,7 +169,7 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
   result.spread = spread_of(simulation);
   const auto start = Clock::now();
   FrameForecast frame_forecast = foresee_frame(scene, *coarse, 1, simulation.step_limits(), {}, {});
-  constexpr double least_work_of_step = 100, most_steps_of_frame = 1e15;
+  constexpr double min_work_of_step = 100, max_steps_of_frame = 1e15;
   double seconds = 0;
   bool is_over = false;
   for (int frame = 1; frame <= last; ++frame) {
@@ -178,7 +178,7 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
     if (!is_over && seconds_since(start) < budget.seconds && run.work < budget.particle_steps &&
         !is_interrupted()) {
       const double work_of_step =
-          std::max(least_work_of_step, static_cast<double>(simulation.particle_count()));
+          std::max(min_work_of_step, static_cast<double>(simulation.particle_count()));
       const sim::StepLimits before = simulation.step_limits();
       const auto before_frame = Clock::now();
       // A frame alone may take more steps than there is time for: its beginning then tells them.
@@ -194,7 +194,7 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
       is_over = simulation.steps() >= last_step;
       if (is_over && simulation.time() > from)
         report.steps = static_cast<std::size_t>(
-            std::min(most_steps_of_frame,
+            std::min(max_steps_of_frame,
                      static_cast<double>(report.steps) * (to - from) / (simulation.time() - from)));
       frame_forecast =
           foresee_frame(scene, *coarse, frame, worst_of(before, simulation.step_limits()), report,
@@ -226,8 +226,8 @@ void extend(Forecast& fine, int reached, const Forecast& first) {
     FrameForecast& frame = fine.frames[k];
     const double duration = frame.dt * frame.steps, before = frame.steps;
     frame.steps = std::ceil(first.frames[k].steps * own / others);
-    frame.least_steps *= frame.steps / before;
-    frame.most_steps *= frame.steps / before;
+    frame.min_steps *= frame.steps / before;
+    frame.max_steps *= frame.steps / before;
     frame.dt = duration / frame.steps;
   }
 }
@@ -266,7 +266,7 @@ namespace {
 
 /// Steps of the shipped scenes over those that are foretold with the particles of the copy, and
 /// with unlucky ones, lie within: docs/performance.md has them.
-constexpr double least_of_steps = 0.5, most_of_steps = 2;
+constexpr double min_of_steps = 0.5, max_of_steps = 2;
 /// Time of a step over that at the start, beyond the copy's spread: 0.7 to 2.0 on seven scenes.
 /// Torn snow fills more of the grid and of the caches.
 constexpr double dearest_step = 2;
@@ -295,7 +295,7 @@ Cost weighed(const Forecast& forecast, int after, int last, const Weight& weight
       return frame.steps * weight(frame) * frame.*cost;
     });
   };
-  const double expected = sum(&FrameForecast::cost), least = least_of_steps, most = most_of_steps;
+  const double expected = sum(&FrameForecast::cost), least = min_of_steps, most = max_of_steps;
   const bool has_steps = steps.expected > 0;
   return {expected, (has_steps ? steps.least / steps.expected : least) * expected,
           dearest_step * (has_steps ? steps.most / steps.expected : most) *
@@ -316,8 +316,8 @@ Cost Forecast::steps() const {
     return sum_of(frames, 0, last_of(frames),
                   [&](const FrameForecast& frame) { return frame.*number; });
   };
-  return {sum(&FrameForecast::steps), least_of_steps * sum(&FrameForecast::least_steps),
-          std::max(most_of_steps * sum(&FrameForecast::most_steps), crushed_steps)};
+  return {sum(&FrameForecast::steps), min_of_steps * sum(&FrameForecast::min_steps),
+          std::max(max_of_steps * sum(&FrameForecast::max_steps), crushed_steps)};
 }
 
 Cost Forecast::steps_of_start() const {

@@ -4,13 +4,24 @@
 #include <string>
 #include <vector>
 
-#include "app/forecast/cost.h"
 #include "app/forecast/step_cost.h"
 #include "app/scene/scene.h"
 #include "app/setup/plan.h"
 #include "sim/types/time_step.h"
 
 namespace neve::app::forecast {
+
+/// Steps, seconds or work, of a run or of many. The truth lies within the range on every shipped
+/// scene.
+struct Cost {
+  double expected = 0, least = 0, most = 0;
+};
+inline Cost operator+(const Cost& a, const Cost& b) {
+  return {a.expected + b.expected, a.least + b.least, a.most + b.most};
+}
+inline Cost operator*(double factor, const Cost& cost) {
+  return {factor * cost.expected, factor * cost.least, factor * cost.most};
+}
 
 /// Forecast of the steps of one frame.
 struct FrameForecast {
@@ -19,7 +30,7 @@ struct FrameForecast {
   double steps = 0;  ///< in this frame
   /// The same if the stiffest particle is as that of the copy, and if it is one that is rarer than
   /// in 19 runs of 20.
-  double least_steps = 0, most_steps = 0;
+  double min_steps = 0, max_steps = 0;
   sim::DtLimit limit = sim::DtLimit::max_dt;
   double iterations = 0;  ///< of the solve of a semi-implicit step, the mean; 0: explicit
   Spread spread{};        ///< of the copy at the frame's end

@@ -82,22 +82,6 @@ std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& chan
   return override_lines(texts);
 }
 
-/// Particles on their way into a frame.
-struct PointLists {
-  std::vector<Vec3f> position;
-  std::vector<std::uint32_t> id;
-  std::vector<float> value, volume;
-  std::vector<render::PackedTurn> turn;
-
-  void move_to(auto& to) {
-    to.position = std::move(position);
-    to.id = std::move(id);
-    to.value = std::move(value);
-    to.volume = std::move(volume);
-    to.turn = std::move(turn);
-  }
-};
-
 }  // namespace
 
 FrameBuilder::FrameBuilder(const scene::Scene& scene, const setup::SeededScene& seeded,
@@ -190,36 +174,33 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
   // readable.
   const Cut cut(view.clip, snapshot.particles.x);
   const bool is_surface = scene::has_layer(view, scene::Layer::snow);
-  PointLists shown, cut_away;
-  shown.position.reserve(snapshot.particles.x.size());
-  shown.id.reserve(snapshot.particles.x.size());
-  shown.value.reserve(values.size());
-  const auto take = [&](std::size_t p, PointLists& list) {
-    list.position.push_back(to_float(snapshot.particles.x[p]));
-    list.id.push_back(snapshot.particles.id_of(p));
+  points.position.edit().reserve(snapshot.particles.x.size());
+  points.id.edit().reserve(snapshot.particles.x.size());
+  points.value.edit().reserve(values.size());
+  const auto take = [&](std::size_t p, auto& list) {
+    list.position.edit().push_back(to_float(snapshot.particles.x[p]));
+    list.id.edit().push_back(snapshot.particles.id_of(p));
     if (is_surface) {
-      list.volume.push_back(static_cast<float>(snow_volume(scene_, snapshot.particles, p)));
-      list.turn.push_back(turn_of(snapshot.particles.F_E[p]));
+      list.volume.edit().push_back(static_cast<float>(snow_volume(scene_, snapshot.particles, p)));
+      list.turn.edit().push_back(turn_of(snapshot.particles.F_E[p]));
     }
     if (!values.empty())
-      list.value.push_back(static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
+      list.value.edit().push_back(
+          static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
   };
+  if (is_surface && view.clip)
+    points.cut = {
+        to_float(cut.point()), to_float(sim::Vec3d(cut.normal().normalized())), {}, {}, {}, {}, {}};
   for (std::size_t p = 0; p < snapshot.particles.x.size(); ++p) {
     // A diverged state is drawn too, as far as it can be.
     const sim::Vec3d& x = snapshot.particles.x[p];
     if (!x.allFinite()) continue;
     if (cut.removes(x)) {
-      if (is_surface && cut.distance(x) < reach_beyond_cut * seeded_.spacing) take(p, cut_away);
+      if (points.cut && cut.distance(x) < reach_beyond_cut * seeded_.spacing) take(p, *points.cut);
     } else if (!look || !look->cut.removes(x)) {
-      take(p, shown);
+      take(p, points);
     }
   }
-  shown.move_to(points);
-  if (!is_surface || !view.clip) return;
-  points.cut.emplace();
-  points.cut->point = to_float(cut.point());
-  points.cut->normal = to_float(sim::Vec3d(cut.normal().normalized()));
-  cut_away.move_to(*points.cut);
 }
 
 void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,

@@ -11,16 +11,6 @@ namespace neve::app::picture {
 
 namespace {
 
-render::PlotSeries curve(const char* name, Rgb color, std::span<const PlotSample> history,
-                         auto value) {
-  render::PlotSeries series{.name = name, .color = color, .x = {}, .value = {}};
-  for (const PlotSample& sample : history) {
-    series.x.push_back(static_cast<float>(sample.time));
-    series.value.push_back(static_cast<float>(value(sample)));
-  }
-  return series;
-}
-
 render::Plot plot_of(const char* title, const char* unit, const std::optional<scene::Range>& range,
                      double now, double duration) {
   const scene::Range axis = range.value_or(scene::Range{});

@@ -34,6 +34,16 @@ inline constexpr LimitStyle limit_styles[] = {
     {sim::DtLimit::collider, "collider", vermillion}};
 static_assert(std::size(limit_styles) == sim::dt_limit_count);
 
+/// @param samples  each with a time, s
+render::PlotSeries curve(const char* name, Rgb color, const auto& samples, auto value) {
+  render::PlotSeries series{.name = name, .color = color, .x = {}, .value = {}};
+  for (const auto& sample : samples) {
+    series.x.push_back(static_cast<float>(sample.time));
+    series.value.push_back(static_cast<float>(value(sample)));
+  }
+  return series;
+}
+
 /// Data of one frame for the plots.
 struct PlotSample {
   double time = 0;                                ///< s

@@ -107,9 +107,7 @@ PassList pass_list(const std::vector<std::string>& names) {
       list.attributes.push_back(*attribute);
     else
       throw scene::toml::UsageError("--passes", "unknown pass \"" + name + "\"",
-                                    name == "beauty"
-                                        ? "omit it: every file already holds it as R, G, B, A"
-                                        : advice::suggest_one_of(name, {"pass", known_names()}));
+                                    advice::suggest_one_of(name, {"pass", known_names()}));
   }
   return list;
 }

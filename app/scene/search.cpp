@@ -15,19 +15,6 @@ namespace {
 /// Shorter parts of words are in too many of them.
 constexpr std::size_t shortest_part = 4;
 
-/// A word, or from three letters on its beginning.
-bool has_word(const std::vector<std::string>& words, const std::string& start) {
-  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
-    return word == start || (start.size() >= 3 && word.starts_with(start));
-  });
-}
-
-/// True if each word begins one of these.
-bool has_all(const std::vector<std::string>& words, const std::vector<std::string>& wanted) {
-  return std::all_of(wanted.begin(), wanted.end(),
-                     [&](const std::string& word) { return has_word(words, word); });
-}
-
 /// Up to the next dot, which is taken away with it.
 std::string_view next_word(std::string_view& address) {
   const auto dot = std::min(address.find('.'), address.size());
@@ -51,7 +38,7 @@ Search::Search(const std::string& text) : text_(lower_text(text)), words_(advice
   for (const advice::Wish* wish : advice::wishes_for(text))
     for (const advice::WishChange& change : wish->changes) meant_.emplace_back(change.address);
   for (const advice::Entry& entry : advice::entries_of("parameter"))
-    if (has_all(advice::words_in(joined(entry.words, " ")), words_))
+    if (advice::has_all(advice::words_in(joined(entry.words, " ")), words_))
       meant_.insert(meant_.end(), entry.names.begin(), entry.names.end());
 }
 
@@ -60,7 +47,7 @@ bool Search::names(const std::string& address) const {
   // An address, or the beginning of one, as it is written.
   const std::string written = lower_text(address);
   if (text_.find('.') != std::string::npos) return written.find(text_) != std::string::npos;
-  if (has_all(advice::words_in(address), words_)) return true;
+  if (advice::has_all(advice::words_in(address), words_)) return true;
   if (text_.size() >= shortest_part && written.find(text_) != std::string::npos) return true;
   return std::any_of(meant_.begin(), meant_.end(),
                      [&](const std::string& meant) { return same_parameter(meant, address); });
@@ -71,7 +58,7 @@ bool Search::finds(const std::string& address, std::string_view help) const {
   if (text_.find('.') != std::string::npos) return false;
   std::vector<std::string> words = advice::words_in(address);
   for (std::string& word : advice::words_in(help)) words.push_back(std::move(word));
-  return has_all(words, words_);
+  return advice::has_all(words, words_);
 }
 
 std::vector<std::string> parameters_named(const std::string& word) {

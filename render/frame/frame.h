@@ -146,6 +146,7 @@ struct Legend {
   std::string unit;   ///< "m/s", may be empty
   ColorMap colormap = ColorMap::viridis;
   float min = 0, max = 1;
+  bool operator==(const Legend&) const = default;
 };
 
 /// One series of a plot: a curve, with `bar_width` bars that end at each x, or with `dot_radius` a

@@ -24,7 +24,7 @@ int tick_count(float length, float per_tick, int most) {
 class PlotDrawing {
  public:
   PlotDrawing(const Plot& plot, const PlotPanel& panel, PlotCanvas& canvas)
-      : plot_(plot), panel_(panel), canvas_(canvas), size_(canvas.font_size()), unit_(size_ / 16) {
+      : plot_(plot), panel_(panel), canvas_(canvas), size_(canvas.text_size), unit_(size_ / 16) {
     if (plot.x_end > 0 && std::isfinite(plot.x_end)) x_end_ = static_cast<double>(plot.x_end);
     if (!std::isfinite(plot.min) || !std::isfinite(plot.max)) return;
     min_ = static_cast<double>(plot.min);
@@ -173,18 +173,14 @@ class PlotDrawing {
       run.clear();
     }
     draw_run();
-    if (!run.empty()) canvas_.disc(run.back(), 1.7f * width, color_of(series), "");
+    if (!run.empty()) canvas_.circle(run.back(), 1.7f * width, color_of(series), 0, "");
   }
 
   void draw_dots(const PlotSeries& series) {
-    const float radius = series.dot_radius * unit_;
-    for (std::size_t k = 0; k < series.x.size(); ++k) {
-      const std::string note = k < series.notes.size() ? series.notes[k] : std::string();
-      if (series.has_rings)
-        canvas_.ring(at(series, k), radius, color_of(series), 2 * unit_, note);
-      else
-        canvas_.disc(at(series, k), radius, color_of(series), note);
-    }
+    for (std::size_t k = 0; k < series.x.size(); ++k)
+      canvas_.circle(at(series, k), series.dot_radius * unit_, color_of(series),
+                     series.has_rings ? 2 * unit_ : 0,
+                     k < series.notes.size() ? series.notes[k] : std::string());
   }
 
   void draw_x_words() {

@@ -18,20 +18,21 @@ using Rgba = std::array<std::uint8_t, 4>;  ///< sRGB and opacity
 /// Draws plots.
 class PlotCanvas {
  public:
+  explicit PlotCanvas(float height_of_text) : text_size(height_of_text) {}
   virtual ~PlotCanvas() = default;
-  /// Height of a line of text, px; all distances are in proportion to it.
-  virtual float font_size() const = 0;
+
+  const float text_size;  ///< px, height of a line; all distances are in proportion to it
   virtual float text_width(const std::string& text) const = 0;
   /// The text, or as much of its beginning as fits with an ellipsis.
-  virtual std::string fitting(const std::string& text, float width) const = 0;
+  virtual std::string fitting(const std::string& text, float) const { return text; }
   /// @param at  upper edge of the text, and its left end, middle or right end
   virtual void text(Place at, Note::Anchor anchor, Rgba color, const std::string& text) = 0;
   virtual void rectangle(Place low, Place high, Rgba color) = 0;
   virtual void curve(std::span<const Place> points, Rgba color, float width) = 0;
-  /// @param note  shown where a mouse points at the disc, if the canvas can
-  virtual void disc(Place center, float radius, Rgba color, const std::string& note) = 0;
-  virtual void ring(Place center, float radius, Rgba color, float width,
-                    const std::string& note) = 0;
+  /// @param line  its width; 0: a filled circle
+  /// @param note  shown where a mouse points at it, if the canvas can
+  virtual void circle(Place center, float radius, Rgba color, float line,
+                      const std::string& note) = 0;
   /// What is drawn between these two shows inside the rectangle only.
   virtual void clip(Place low, Place high) = 0;
   virtual void unclip() = 0;

@@ -45,12 +45,11 @@ void ImGuiCanvas::curve(std::span<const Place> points, Rgba color, float width) 
   list_.AddPolyline(line.data(), static_cast<int>(line.size()), packed(color), 0, width);
 }
 
-void ImGuiCanvas::disc(Place center, float radius, Rgba color, const std::string&) {
-  list_.AddCircleFilled(vector_of(center), radius, packed(color), 16);
-}
-
-void ImGuiCanvas::ring(Place center, float radius, Rgba color, float width, const std::string&) {
-  list_.AddCircle(vector_of(center), radius, packed(color), 0, width);
+void ImGuiCanvas::circle(Place center, float radius, Rgba color, float line, const std::string&) {
+  if (line > 0)
+    list_.AddCircle(vector_of(center), radius, packed(color), 0, line);
+  else
+    list_.AddCircleFilled(vector_of(center), radius, packed(color), 16);
 }
 
 void ImGuiCanvas::clip(Place low, Place high) {

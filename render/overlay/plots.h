@@ -10,16 +10,15 @@ namespace neve::render::overlay {
 
 class ImGuiCanvas : public PlotCanvas {
  public:
-  ImGuiCanvas(const ImFont& font, ImDrawList& list) : font_(font), list_(list) {}
+  ImGuiCanvas(const ImFont& font, ImDrawList& list)
+      : PlotCanvas(font.FontSize), font_(font), list_(list) {}
 
-  float font_size() const override { return font_.FontSize; }
   float text_width(const std::string& text) const override;
   std::string fitting(const std::string& text, float width) const override;
   void text(Place at, Note::Anchor anchor, Rgba color, const std::string& text) override;
   void rectangle(Place low, Place high, Rgba color) override;
   void curve(std::span<const Place> points, Rgba color, float width) override;
-  void disc(Place center, float radius, Rgba color, const std::string& note) override;
-  void ring(Place center, float radius, Rgba color, float width, const std::string& note) override;
+  void circle(Place center, float radius, Rgba color, float line, const std::string&) override;
   void clip(Place low, Place high) override;
   void unclip() override { list_.PopClipRect(); }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <utility>
 
 #include "render/shapes/mesh_shapes.h"
 
@@ -36,18 +35,17 @@ TriangleMesh creased_mesh(const std::vector<Vec3f>& position,
   std::vector<Vec3f> normal(index.size() / 3);
   for (std::size_t t = 0; t < normal.size(); ++t)
     normal[t] = face_normal(position, index.data() + 3 * t);
-  std::vector<Vec3f> place_of, normal_of;
-  std::vector<std::uint32_t> corner;
+  TriangleMesh mesh;
   for (std::size_t k = 0; k < index.size(); ++k) {
     const Vec3f own = normalized(normal[k / 3]);
     Vec3f sum;
     for (const std::uint32_t t : around[index[k]])
       if (dot(own, normalized(normal[t])) > cos_crease) sum = sum + normal[t];
-    place_of.push_back(position[index[k]]);
-    normal_of.push_back(length(sum) > 0 ? normalized(sum) : own);
-    corner.push_back(static_cast<std::uint32_t>(k));
+    mesh.position.edit().push_back(position[index[k]]);
+    mesh.normal.edit().push_back(length(sum) > 0 ? normalized(sum) : own);
+    mesh.index.edit().push_back(static_cast<std::uint32_t>(k));
   }
-  return {std::move(place_of), std::move(normal_of), std::move(corner)};
+  return mesh;
 }
 
 Lines mesh_lines(const std::vector<Vec3f>& position, const std::vector<std::uint32_t>& index) {

@@ -71,8 +71,8 @@ TEST(Advice, NamesInTheTableExist) {
 }
 
 TEST(Advice, AWordIsOnceInItsContext) {
-  for (const char* context : {"key", "attribute", "pass", "format of an export", "command", "Pa",
-                              "m", "s", "size of a picture", "solver.transfer"}) {
+  for (const char* context : {"key", "attribute", "pass", "format of an export", "command", "unit",
+                              "size of a picture", "solver.transfer"}) {
     std::set<std::string> words;
     for (const Entry& entry : advice::entries_of(context))
       for (const std::string& word : entry.words)

@@ -83,10 +83,10 @@ TEST(SceneFlow, CamerasAndRangesKnowWhereSnowWillBe) {
   app::scene::Scene scene = flow_scene(spout + "[[collider]]\nshape = { plane = {} }\n");
   // Falls 1 m from 2 m/s.
   EXPECT_NEAR(app::setup::impact_speed(scene), std::sqrt(4 + 2 * 9.81), 1e-6);
-  const std::vector<app::setup::Moment> moments = app::setup::coarse_run(scene);
+  const std::vector<app::setup::CoarseMoment> moments = app::setup::coarse_run(scene);
   ASSERT_FALSE(moments.empty());
   double lowest = 1;
-  for (const app::setup::Moment& moment : moments)
+  for (const app::setup::CoarseMoment& moment : moments)
     for (const sim::Vec3d& x : moment.x) lowest = std::min(lowest, x.y());
   EXPECT_LT(lowest, 0.2) << "the coarse copy's snow reaches the floor";
   app::setup::resolve(scene, 1000);

@@ -77,23 +77,24 @@ std::vector<std::vector<int>> coordinates_of(const SweepPlan& plan) {
   return places;
 }
 
-std::vector<setup::Moment> moments_of_corners(const SweepPlan& plan, int cores) {
+std::vector<setup::CoarseMoment> moments_of_corners(const SweepPlan& plan, int cores) {
   std::vector<const scene::Scene*> scenes;
   for (const std::size_t k : coarse_first(coordinates_of(plan), axis_sizes(plan)))
     if (scenes.size() < max_dry_runs && setup::needs_framing(plan.runs[k].scene))
       scenes.push_back(&plan.runs[k].scene);
-  std::vector<setup::Moment> moments;
+  std::vector<setup::CoarseMoment> moments;
   const auto together = static_cast<std::size_t>(std::max(1, cores));
   for (std::size_t first = 0; first < scenes.size(); first += together) {
-    std::vector<std::future<std::vector<setup::Moment>>> runs;
+    std::vector<std::future<std::vector<setup::CoarseMoment>>> runs;
     for (std::size_t k = first; k < std::min(first + together, scenes.size()); ++k)
       runs.push_back(std::async(std::launch::async,
                                 [scene = scenes[k]] { return setup::coarse_run(*scene); }));
     for (auto& run : runs)
-      for (setup::Moment& moment : run.get()) moments.push_back(std::move(moment));
+      for (setup::CoarseMoment& moment : run.get()) moments.push_back(std::move(moment));
   }
-  std::stable_sort(moments.begin(), moments.end(),
-                   [](const setup::Moment& a, const setup::Moment& b) { return a.time < b.time; });
+  std::stable_sort(
+      moments.begin(), moments.end(),
+      [](const setup::CoarseMoment& a, const setup::CoarseMoment& b) { return a.time < b.time; });
   return moments;
 }
 

@@ -9,7 +9,6 @@
 #include <numeric>
 #include <optional>
 
-#include "app/forecast/forecast.h"
 #include "app/forecast/step_cost.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/interrupt.h"
@@ -26,10 +25,10 @@ namespace {
 constexpr double usual_seconds = 5e-8;
 constexpr double start_seconds = 0.1, tile_seconds = 0.02;
 
-constexpr double most_copied = 1500, least_copied = 200;  // particles of a copy
-constexpr double longest_copy = 2;                        // s
+constexpr double max_copied = 1500, min_copied = 200;  // particles of a copy
+constexpr double longest_copy = 2;                     // s
 /// Above this many particles, seeding the scene itself takes too long.
-constexpr double most_timed = 3e5;
+constexpr double max_timed = 3e5;
 
 /// A copy of N of P particles has cells (P / N)^(1/3) times as large, and takes as many times fewer
 /// steps.
@@ -63,7 +62,7 @@ std::vector<Copy> choose_copies(const SweepPlan& plan, const std::vector<std::si
     if (!is_possible(item) || !(item.plan.particles > 0)) continue;
     Copy copy;
     copy.run = chosen[place];
-    copy.budget.particles = std::clamp(fineness * item.plan.particles, least_copied, most_copied);
+    copy.budget.particles = std::clamp(fineness * item.plan.particles, min_copied, max_copied);
     const double share = std::min(1.0, copy.budget.particles / item.plan.particles);
     const double own = steps_at_rest(item) * std::pow(share, cost_exponent);
     if (cost + own > effort.particle_steps) break;
@@ -96,7 +95,7 @@ struct Timing {
 
 /// Takes some steps of a run on one thread.
 Timing time_run(const PlannedRun& item) {
-  if (item.plan.particles > most_timed) return {};
+  if (item.plan.particles > max_timed) return {};
   const setup::SeededScene seeded = setup::seed_scene(item.scene);
   if (seeded.particles.x.empty()) return {};
   sim::Simulation simulation = setup::make_simulation(item.scene, seeded.particles, 1);
@@ -133,16 +132,16 @@ double median_seconds(const std::vector<Copy>& copies) {
 forecast::Cost own_work(const SweepPlan& plan, const PlannedRun& item,
                         const forecast::Forecast& foreseen) {
   const int fork = plan.beginning ? plan.beginning->run.frames.last : 0;
-  return foreseen.work(fork, item.run.frames.last) * item.plan.particles;
+  return item.plan.particles * foreseen.work(fork, item.run.frames.last);
 }
 
 forecast::Cost beginning_work(const SweepPlan& plan, const ForecastEffort& effort) {
   if (!plan.beginning || plan.source) return {};
   const PlannedRun& item = *plan.beginning;
   const int last = item.run.frames.last;
-  forecast::ForecastBudget budget{longest_copy, effort.particle_steps, most_copied};
-  return forecast::foresee(item.scene, item.plan.particles, last, budget).work(0, last) *
-         item.plan.particles;
+  forecast::ForecastBudget budget{longest_copy, effort.particle_steps, max_copied};
+  return item.plan.particles *
+         forecast::foresee(item.scene, item.plan.particles, last, budget).work(0, last);
 }
 
 }  // namespace
@@ -159,17 +158,17 @@ ForecastEffort whole_effort(int cores) {
 
 ForecastEffort small_effort(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                             int cores) {
-  constexpr double share = 0.03, least = 4e6, most_seconds = 15;
+  constexpr double share = 0.03, least = 4e6, max_seconds = 15;
   double all = 0;
   for (const std::size_t k : chosen) all += plan.runs[k].run.work;
-  return {std::clamp(share * all, least, most_seconds / usual_seconds * cores)};
+  return {std::clamp(share * all, least, max_seconds / usual_seconds * cores)};
 }
 
 StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                             const ForecastEffort& effort, int cores) {
   StudyForecast result;
   for (const PlannedRun& item : plan.runs) {
-    result.work.push_back(forecast::rough_cost(item.run.work));
+    result.work.push_back({item.run.work, item.run.work, item.run.work});
     result.drawing.push_back(start_seconds + tile_seconds * item.run.frames.count());
   }
   const std::optional<std::size_t> costliest = costliest_of(plan, chosen);
@@ -201,15 +200,13 @@ StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t
     if (std::find(result.own.begin(), result.own.end(), k) != result.own.end()) continue;
     const std::size_t near = places.nearest(k, result.own);
     const double more = plan.runs[k].run.work / std::max(1.0, plan.runs[near].run.work);
-    result.work[k] = result.work[near] * more;
+    result.work[k] = more * result.work[near];
   }
   return result;
 }
 
 forecast::Cost StudyForecast::seconds(std::size_t run) const {
-  forecast::Cost cost = work[run] * seconds_per_work;
-  cost += {drawing[run], drawing[run], drawing[run]};
-  return cost;
+  return seconds_per_work * work[run] + forecast::Cost{drawing[run], drawing[run], drawing[run]};
 }
 
 double StudyForecast::cost(std::size_t run) const {
@@ -218,14 +215,14 @@ double StudyForecast::cost(std::size_t run) const {
 
 forecast::Cost StudyForecast::seconds_of_all(const std::vector<std::size_t>& chosen,
                                              int cores) const {
-  forecast::Cost sum, last;
+  forecast::Cost sum, longest;
   for (const std::size_t k : chosen) {
-    sum += seconds(k);
-    last = longest(last, seconds(k));
+    sum = sum + seconds(k);
+    if (seconds(k).expected > longest.expected) longest = seconds(k);
   }
-  forecast::Cost all = longest(last, sum * (1.0 / cores));
-  all += beginning * (seconds_per_work / cores);
-  return all;
+  const forecast::Cost side_by_side = 1.0 / cores * sum;
+  return seconds_per_work / cores * beginning +
+         (longest.expected > side_by_side.expected ? longest : side_by_side);
 }
 
 std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/forecast/cost.h"
+#include "app/forecast/forecast.h"
 #include "app/sweep/plan/sweep_plan.h"
 
 namespace neve::app::sweep::plan {

@@ -219,12 +219,12 @@ std::string effects_svg(const store::Manifest& manifest,
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const double x = left + static_cast<double>(c) * column_width;
     const store::MetricInfo& info = store::metric_infos()[columns[c].metric];
-    body += svg_text(x, head - 30, "start", "head", info.title);
+    body += svg_text(x, head - 30, "start", " class=\"head\"", info.title);
     if (info.unit[0]) body += svg_text(x, head - 16, "start", "", info.unit);
   }
   double y = head;
   for (const std::size_t a : strongest_first(columns, axes)) {
-    body += svg_text(12, y + bar_height - 3, "start", "name", manifest.screened[a].name);
+    body += svg_text(12, y + bar_height - 3, "start", " class=\"name\"", manifest.screened[a].name);
     const bool is_of_numbers = is_ordered(manifest, manifest.screened[a]);
     for (std::size_t c = 0; c < columns.size(); ++c)
       body += bar({columns[c].effects[a], is_of_numbers}, columns[c].strongest,

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <string>
 
@@ -24,23 +23,12 @@ using session::RunSample;
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
-render::PlotSeries series_of(const char* name, picture::Rgb color,
-                             const std::vector<RunSample>& samples,
-                             const std::function<double(const RunSample&)>& value) {
-  render::PlotSeries series{.name = name, .color = color, .x = {}, .value = {}};
-  for (const RunSample& sample : samples) {
-    series.x.push_back(static_cast<float>(sample.time));
-    series.value.push_back(static_cast<float>(value(sample)));
-  }
-  return series;
-}
-
 /// A curve for each limit, where it set dt.
 std::vector<render::PlotSeries> dt_series(const std::vector<RunSample>& samples) {
   std::vector<render::PlotSeries> list;
   for (const picture::LimitStyle& style : picture::limit_styles) {
-    render::PlotSeries series =
-        series_of(style.name, style.color, samples, [](const RunSample& s) { return 1000 * s.dt; });
+    render::PlotSeries series = picture::curve(style.name, style.color, samples,
+                                               [](const RunSample& s) { return 1000 * s.dt; });
     bool is_used = false;
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const bool is_next = k + 1 < samples.size() && samples[k + 1].limit == style.limit;
@@ -118,9 +106,8 @@ void draw_phases(const session::LiveFrame& live) {
 
 void draw_plots_panel(ViewerState& state) {
   const std::vector<RunSample>& samples = *state.live->samples;
-  const auto curve = [&](const char* name, picture::Rgb color,
-                         const std::function<double(const RunSample&)>& value) {
-    return series_of(name, color, samples, value);
+  const auto curve = [&](const char* name, picture::Rgb color, auto value) {
+    return picture::curve(name, color, samples, value);
   };
   constexpr picture::Rgb blue{110, 190, 255}, orange{255, 175, 80}, pink{240, 110, 150};
   draw(state, "energy", "J",

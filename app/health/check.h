@@ -10,7 +10,7 @@
 
 namespace neve::app::health {
 
-struct Checkup {
+struct Check {
   setup::Plan plan;
   double cells = 0;         ///< that the bodies fill
   double impact_speed = 0;  ///< m/s, see auto_ranges
@@ -29,7 +29,7 @@ struct Checkup {
 /// Seeds the scene, takes some steps, and runs coarse copies: about four seconds.
 /// @param scene resolved is not needed
 /// @param coarsening  factor of --coarsen
-Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
-                double coarsening = 1);
+Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
+              double coarsening = 1);
 
 }  // namespace neve::app::health

@@ -9,7 +9,7 @@
 
 namespace neve::app::bench {
 
-struct Window {
+struct TimedRun {
   double seconds = 0;        ///< wall, of all steps
   sim::PhaseSeconds phases;  ///< of all steps
   double particle_steps = 0;
@@ -22,22 +22,22 @@ struct Window {
 /// Times bench_steps steps of a fresh simulation, again and again until 0.1 s have passed. Making
 /// it is not timed; sorting and finding the limits of dt is.
 /// @param name in the error of a case that diverges
-Window time_window(const BenchCase& bench_case, int threads, const std::string& name);
+TimedRun time_run(const BenchCase& bench_case, int threads, const std::string& name);
 
 /// The rounds of one measurement.
 class Samples {
  public:
-  void add(const Window& window) { windows_.push_back(window); }
-  const std::vector<Window>& windows() const { return windows_; }
+  void add(const TimedRun& run) { runs_.push_back(run); }
+  const std::vector<TimedRun>& runs() const { return runs_; }
 
   Statistics throughput() const;
   Statistics bytes_per_particle() const;
   sim::PhaseSeconds phases() const;  ///< per particle and step, of all rounds
-  /// A row with the figures that windows contain.
+  /// A row with the figures that runs contain.
   BenchRow throughput_row(const std::string& name) const;
 
  private:
-  std::vector<Window> windows_;
+  std::vector<TimedRun> runs_;
 };
 
 /// Time per particle and step of `a` over `b`, round by round.

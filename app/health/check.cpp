@@ -1,4 +1,4 @@
-#include "app/health/checkup.h"
+#include "app/health/check.h"
 
 #include <fmt/core.h>
 
@@ -45,8 +45,8 @@ bool squeezes_snow(const scene::Scene& scene) {
          std::any_of(scene.colliders.begin(), scene.colliders.end(), is_moving);
 }
 
-std::string crushing_text(const scene::Scene& scene, const Checkup& checkup) {
-  const double share = checkup.impact_speed / checkup.start.max_sound_speed;
+std::string crushing_text(const scene::Scene& scene, const Check& check) {
+  const double share = check.impact_speed / check.start.max_sound_speed;
   // Which particles an impact crushes is chance, and no copy tells it: a ball of dry snow that hits
   // a post at 0.39 takes 61 000 steps with one seed and 8000 with another.
   constexpr double crushing_speed = 0.3;
@@ -54,17 +54,17 @@ std::string crushing_text(const scene::Scene& scene, const Checkup& checkup) {
     return fmt::format(
         "the impact at {} m/s is {} of the speed of sound in the snow and may crush "
         "single particles; one that flies on",
-        rough_text(checkup.impact_speed), rough_text(share));
+        rough_text(check.impact_speed), rough_text(share));
   if (squeezes_snow(scene))
     return "snow that is squeezed between colliders may crush single particles; one that lives on";
   return {};
 }
 
 /// Hardened, a particle rules the steps of all for as long as it flies.
-void check_crushing(const scene::Scene& scene, Checkup& checkup) {
+void check_crushing(const scene::Scene& scene, Check& check) {
   const sim::SolverSettings& solver = scene.solver;
   if (solver.time_step == sim::TimeStep::fixed || solver.is_implicit()) return;
-  const std::string text = crushing_text(scene, checkup);
+  const std::string text = crushing_text(scene, check);
   if (text.empty()) return;
   const sim::Material* hardest = nullptr;
   double most = 1;
@@ -74,12 +74,12 @@ void check_crushing(const scene::Scene& scene, Checkup& checkup) {
     most = hardening;
     hardest = &m;
   }
-  const double c = checkup.start.max_sound_speed * std::sqrt(most);
+  const double c = check.start.max_sound_speed * std::sqrt(most);
   const double steps = scene.frames / scene.fps * c / (solver.acoustic_cfl * solver.cell_size);
   constexpr double worth_a_word = 2;  // times the steps without it
-  if (!hardest || steps <= worth_a_word * checkup.foreseen.steps().expected) return;
-  checkup.foreseen.crushed_steps = steps;
-  checkup.findings.push_back(
+  if (!hardest || steps <= worth_a_word * check.foreseen.steps().expected) return;
+  check.foreseen.crushed_steps = steps;
+  check.findings.push_back(
       {Severity::note, "material." + hardest->name + ".max_hardening",
        fmt::format("{} rules the steps of all: up to {} steps", text, about_count_text(steps)),
        "20 bounds that, as --fast does"});
@@ -100,46 +100,45 @@ void check_copy(const forecast::Forecast& foreseen, std::vector<Finding>& findin
 
 }  // namespace
 
-forecast::Cost Checkup::seconds() const {
-  return foreseen.steps_of_start() * seconds_per_step;
+forecast::Cost Check::seconds() const {
+  return seconds_per_step * foreseen.steps_of_start();
 }
 
-Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
-                double coarsening) {
-  Checkup checkup;
-  checkup.plan = plan;
-  checkup.coarsening = coarsening;
-  checkup.cells = plan.volume / std::pow(scene.solver.cell_size, 3);
-  checkup.impact_speed = setup::impact_speed(scene);
+Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads, double coarsening) {
+  Check check;
+  check.plan = plan;
+  check.coarsening = coarsening;
+  check.cells = plan.volume / std::pow(scene.solver.cell_size, 3);
+  check.impact_speed = setup::impact_speed(scene);
   int used_threads = 1;
   forecast::Spread spread;
-  check_units(scene, checkup.findings, coarsening);
-  check_gravity(scene, checkup.findings);
-  check_resolution(scene, checkup.findings, coarsening);
-  check_emitters(scene, checkup.findings, coarsening);
-  check_sinks(scene, checkup.impact_speed, checkup.findings);
-  check_unused(scene, coarsening, checkup.findings);
+  check_units(scene, check.findings, coarsening);
+  check_gravity(scene, check.findings);
+  check_resolution(scene, check.findings, coarsening);
+  check_emitters(scene, check.findings, coarsening);
+  check_sinks(scene, check.impact_speed, check.findings);
+  check_unused(scene, coarsening, check.findings);
   if (plan.particles <= max_seeded && plan.memory <= plan.memory_limit) {
     const setup::SeededScene seeded = setup::seed_scene(scene);
     const sim::ParticleArrays& particles = seeded.particles;
-    checkup.plan.particles = static_cast<double>(particles.x.size()) + plan.emitted;
-    check_overlaps(scene, seeded, checkup.findings);
-    check_meetings(scene, seeded, checkup.findings);
+    check.plan.particles = static_cast<double>(particles.x.size()) + plan.emitted;
+    check_overlaps(scene, seeded, check.findings);
+    check_meetings(scene, seeded, check.findings);
     sim::Simulation simulation = setup::make_simulation(scene, particles, threads);
     used_threads = simulation.threads();
-    checkup.start = simulation.step_limits();
+    check.start = simulation.step_limits();
     sim::DtChoice choice = simulation.choose_dt(1 / scene.fps);
-    if (particles.x.empty()) choice = first_emission(scene, checkup.start);
-    checkup.dt_start = choice.dt;
-    checkup.limit_start = choice.limit;
+    if (particles.x.empty()) choice = first_emission(scene, check.start);
+    check.dt_start = choice.dt;
+    check.limit_start = choice.limit;
     spread = forecast::spread_of(simulation);
     const forecast::StepTime step = forecast::measure_steps(simulation, 1 / scene.fps);
-    checkup.seconds_per_step = step.seconds;
-    checkup.solve = step.solve;
-    check_steps(scene, checkup, checkup.findings);
-    check_motion(scene, checkup, checkup.findings);
+    check.seconds_per_step = step.seconds;
+    check.solve = step.solve;
+    check_steps(scene, check, check.findings);
+    check_motion(scene, check, check.findings);
   } else {
-    checkup.findings.push_back(
+    check.findings.push_back(
         {Severity::note, "",
          "too large for a check of its particles: overlaps, dt and time per step are not known",
          is_too_large(scene)
@@ -147,18 +146,18 @@ Checkup examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
              : "try neve check with --coarsen " +
                    fixed_text(std::ceil(std::cbrt(plan.particles / max_seeded)), 0)});
   }
-  checkup.foreseen = forecast::foresee(scene, checkup.plan.particles, scene.frames, coarse_budget);
-  checkup.foreseen.include_spread(spread);
-  check_copy(checkup.foreseen, checkup.findings);
-  check_crushing(scene, checkup);
+  check.foreseen = forecast::foresee(scene, check.plan.particles, scene.frames, coarse_budget);
+  check.foreseen.include_spread(spread);
+  check_copy(check.foreseen, check.findings);
+  check_crushing(scene, check);
   // Emitted particles cannot be timed at the start: count half of them, as in the coarse copy.
-  if (plan.emitted > 0 && checkup.seconds_per_step > 0)
-    checkup.seconds_per_step = checkup.foreseen.seconds_per_particle_step / used_threads *
-                               (checkup.plan.particles - 0.5 * plan.emitted);
-  check_cameras(scene, setup::coarse_run(scene), checkup.findings);
-  std::stable_sort(checkup.findings.begin(), checkup.findings.end(),
+  if (plan.emitted > 0 && check.seconds_per_step > 0)
+    check.seconds_per_step = check.foreseen.seconds_per_particle_step / used_threads *
+                             (check.plan.particles - 0.5 * plan.emitted);
+  check_cameras(scene, setup::coarse_run(scene), check.findings);
+  std::stable_sort(check.findings.begin(), check.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
-  return checkup;
+  return check;
 }
 
 }  // namespace neve::app::health
